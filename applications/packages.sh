@@ -1,0 +1,49 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+# SPDX-License-Identifier: MIT
+#
+# Installs every Debian 12 package that the build, the tests and the demo need, if one is missing.
+set -eu
+
+packages="
+  ca-certificates cmake g++ ninja-build pkg-config
+  libopenscenegraph-dev openscenegraph libglm-dev
+  libgdal-dev gdal-bin libcli11-dev
+  libgtest-dev librapidcheck-dev libboost-dev
+  xvfb xauth libgl1-mesa-dri
+  ferret-datasets libncarg-data
+"
+
+missing=""
+for package in $packages; do
+    status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+    [ "$status" = installed ] || missing="$missing $package"
+done
+if [ -z "$missing" ]; then
+    echo "packages: all installed"
+    exit 0
+fi
+
+as_root=""
+if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null 2>&1 || {
+        echo "packages: missing$missing; run as root or install sudo" >&2
+        exit 1
+    }
+    as_root="sudo"
+fi
+
+echo "packages: installing$missing"
+export DEBIAN_FRONTEND=noninteractive
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+run() {
+    $as_root env DEBIAN_FRONTEND=noninteractive "$@" >"$log" 2>&1 || {
+        cat "$log" >&2
+        echo "packages: \"$*\" failed" >&2
+        exit 1
+    }
+}
+run apt-get update
+# shellcheck disable=SC2086
+run apt-get install -y --no-install-recommends $missing

@@ -1,0 +1,39 @@
+# SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+# SPDX-License-Identifier: MIT
+#
+# Build layout and compiler settings shared by every target of the project.
+
+include(GNUInstallDirs)
+
+set(OSGANALYTICBIN_OSG_PLUGIN_DIR "osgPlugins-3.6.5"
+    CACHE STRING "Folder, below the library folder, in which OpenSceneGraph looks for plugins")
+
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
+set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+# Every target calls this once: C++17 and private warnings. Contraction of a*b+c into fused operations is
+# switched off because it would let verdicts differ between machines.
+function(osganalyticbin_defaults target)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET hidden
+                                             VISIBILITY_INLINES_HIDDEN ON)
+  target_compile_options(
+    ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -ffp-contract=off
+                      $<$<BOOL:${OSGANALYTICBIN_WERROR}>:-Werror>)
+  if(OSGANALYTICBIN_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=address,undefined)
+  endif()
+endfunction()
+
+# A module that OpenSceneGraph loads by name: no "lib" prefix, in the plugin folder.
+function(osganalyticbin_osg_module target)
+  osganalyticbin_defaults(${target})
+  set_target_properties(
+    ${target} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY
+                                   "${PROJECT_BINARY_DIR}/lib/${OSGANALYTICBIN_OSG_PLUGIN_DIR}"
+                         INSTALL_RPATH "$ORIGIN/..")
+  install(TARGETS ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/${OSGANALYTICBIN_OSG_PLUGIN_DIR}")
+endfunction()
