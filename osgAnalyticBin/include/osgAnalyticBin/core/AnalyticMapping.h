@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+namespace osgAnalyticBin::core {
+
+/// A box in the three parameters of a mapping.
+struct ParameterBox {
+    glm::dvec3 center{0.0};
+    glm::dvec3 halfSize{0.0};
+};
+
+/// The second partial derivatives of a mapping, a vector each; u, v, w are its three parameters.
+struct Hessians {
+    glm::dvec3 uu{0.0}, vv{0.0}, ww{0.0}, uv{0.0}, uw{0.0}, vw{0.0};
+};
+
+/// A three times differentiable mapping of a parameter box into space: what a bin is a box *of*.
+/// Source: [JJ] eq. (1).
+class AnalyticMapping {
+public:
+    virtual ~AnalyticMapping() = default;
+
+    [[nodiscard]] virtual glm::dvec3 value(const glm::dvec3& parameters) const noexcept = 0;
+
+    /// Column i is the derivative by parameter i.
+    [[nodiscard]] virtual glm::dmat3 jacobian(const glm::dvec3& parameters) const noexcept = 0;
+
+    [[nodiscard]] virtual Hessians hessians(const glm::dvec3& parameters) const noexcept = 0;
+
+    /// An upper bound of the length of the third differential D3f(x)[e, e, e] over all x in the box and all steps e
+    /// with |e_i| <= halfSize_i. The error of the second-order model over the box is at most a sixth of it.
+    /// Source: doc/derivation.md, section 3.
+    [[nodiscard]] virtual double thirdDerivativeBound(const ParameterBox& box) const noexcept = 0;
+
+protected:
+    AnalyticMapping() = default;
+    AnalyticMapping(const AnalyticMapping&) = default;
+    AnalyticMapping& operator=(const AnalyticMapping&) = default;
+};
+
+}  // namespace osgAnalyticBin::core

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <glm/vec3.hpp>
+
+namespace osgAnalyticBin::core {
+
+/// A position as latitude and longitude in radians and altitude in metres above the ellipsoid.
+struct Geodetic {
+    double latitude = 0.0;
+    double longitude = 0.0;
+    double altitude = 0.0;
+};
+
+/// An ellipsoid of revolution about the z axis, oblate, prolate or a sphere, in earth-centred earth-fixed
+/// (ECEF) coordinates.
+/// Requires: both radii finite and positive (asserted).
+class Ellipsoid final {
+public:
+    Ellipsoid(double equatorialRadius, double polarRadius) noexcept;
+
+    [[nodiscard]] double equatorialRadius() const noexcept { return _a; }
+    [[nodiscard]] double polarRadius() const noexcept { return _b; }
+
+    /// e2 = 1 - b2/a2: zero for a sphere, negative for a prolate ellipsoid.
+    [[nodiscard]] double eccentricitySquared() const noexcept { return _e2; }
+
+    /// N, the radius of curvature across the meridian, at the latitude with the given sine.
+    [[nodiscard]] double primeVerticalRadius(double sinLatitude) const noexcept;
+
+    /// M, the radius of curvature along the meridian, at the latitude with the given sine.
+    [[nodiscard]] double meridionalRadius(double sinLatitude) const noexcept;
+
+    /// Converts to ECEF metres.
+    /// Source: [DMA] geodetic to rectangular; doc/derivation.md, section 1.
+    [[nodiscard]] glm::dvec3 toEcef(const Geodetic& position) const noexcept;
+
+    /// Converts from ECEF metres; longitude in [-pi, pi], on the axis 0.
+    /// Source: [B85], iterated; doc/derivation.md, section 1.
+    /// Guarantee: toEcef(result) within 1e-8 m of the input for altitudes -5000 km .. 1e8 m on earth-like
+    /// ellipsoids (|e2| < 0.01); tests: Ellipsoid.ReturnsToTheSamePoint.
+    [[nodiscard]] Geodetic toGeodetic(const glm::dvec3& ecef) const noexcept;
+
+    /// The largest value of n.x over the solid ellipsoid: sqrt(a2 (nx2 + ny2) + b2 nz2).
+    [[nodiscard]] double support(const glm::dvec3& direction) const noexcept;
+
+    [[nodiscard]] bool operator==(const Ellipsoid& other) const noexcept { return _a == other._a && _b == other._b; }
+    [[nodiscard]] bool operator!=(const Ellipsoid& other) const noexcept { return !(*this == other); }
+
+private:
+    double _a;
+    double _b;
+    double _e2;
+};
+
+}  // namespace osgAnalyticBin::core

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <array>
+
+#include <osgAnalyticBin/core/Ellipsoid.h>
+
+namespace osgAnalyticBin::core {
+
+/// A closed interval; empty when lower > upper.
+struct Interval {
+    double lower = 0.0;
+    double upper = 0.0;
+
+    [[nodiscard]] double width() const noexcept { return upper - lower; }
+    [[nodiscard]] double middle() const noexcept { return 0.5 * (lower + upper); }
+    [[nodiscard]] bool contains(double value) const noexcept { return lower <= value && value <= upper; }
+    [[nodiscard]] bool contains(const Interval& other) const noexcept {
+        return lower <= other.lower && other.upper <= upper;
+    }
+    [[nodiscard]] bool operator==(const Interval& other) const noexcept {
+        return lower == other.lower && upper == other.upper;
+    }
+};
+
+/// A box in latitude, longitude (radians) and altitude (metres above the ellipsoid): the analytic bin of a tile.
+/// Latitudes lie in [-pi/2, pi/2]. A longitude interval runs eastward from its lower to its upper end; it may pass
+/// the date line by running past pi, and is the whole circle from a width of 2 pi on. Empty, whole-globe,
+/// pole-touching and date-line-crossing bins are ordinary values.
+/// Source: [JJ] section 2.
+class GeodeticBin final {
+public:
+    /// The empty bin.
+    GeodeticBin() noexcept;
+
+    /// Latitudes are clamped to the poles, a longitude width to 2 pi. An interval with NaN, with infinite bounds, or
+    /// with lower > upper makes the bin empty.
+    GeodeticBin(Interval latitude, Interval longitude, Interval altitude) noexcept;
+
+    /// Angles in degrees, altitude in metres. The conversion is monotone: bins that share an edge in degrees share
+    /// it in radians, bit for bit.
+    [[nodiscard]] static GeodeticBin fromDegrees(Interval latitudeDeg, Interval longitudeDeg,
+                                                 Interval altitude) noexcept;
+
+    /// Every latitude and longitude, with the given altitudes.
+    [[nodiscard]] static GeodeticBin wholeGlobe(Interval altitude) noexcept;
+
+    [[nodiscard]] const Interval& latitude() const noexcept { return _latitude; }
+    [[nodiscard]] const Interval& longitude() const noexcept { return _longitude; }
+    [[nodiscard]] const Interval& altitude() const noexcept { return _altitude; }
+
+    [[nodiscard]] bool empty() const noexcept { return !(_latitude.lower <= _latitude.upper); }
+    [[nodiscard]] bool isFullCircle() const noexcept;
+
+    /// The position in the middle of the three intervals. Requires: not empty.
+    [[nodiscard]] Geodetic center() const noexcept;
+
+    /// Guarantee: true for every position of the bin; longitudes are compared modulo 2 pi with a tolerance of 1e-15
+    /// (6 nanometres on earth).
+    [[nodiscard]] bool contains(const Geodetic& position) const noexcept;
+
+    /// True when every position of the other bin lies in this one; every bin contains the empty one.
+    [[nodiscard]] bool contains(const GeodeticBin& other) const noexcept;
+
+    /// The smallest bin that holds both; of the two ways round the globe the shorter one.
+    [[nodiscard]] GeodeticBin united(const GeodeticBin& other) const noexcept;
+
+    /// Grows to hold the position or the other bin.
+    void expandBy(const Geodetic& position) noexcept;
+    void expandBy(const GeodeticBin& other) noexcept { *this = united(other); }
+
+    /// The same latitudes and longitudes with other altitudes.
+    [[nodiscard]] GeodeticBin withAltitude(Interval altitude) const noexcept;
+
+    /// The four quarters in latitude and longitude: south-west, south-east, north-west, north-east.
+    /// Guarantee: neighbours share their edges and the outer edges are this bin's, bit for bit;
+    /// tests: GeodeticBin.QuartersNestExactly.
+    [[nodiscard]] std::array<GeodeticBin, 4> quarters() const noexcept;
+
+    [[nodiscard]] bool operator==(const GeodeticBin& other) const noexcept;
+    [[nodiscard]] bool operator!=(const GeodeticBin& other) const noexcept { return !(*this == other); }
+
+private:
+    Interval _latitude;
+    Interval _longitude;
+    Interval _altitude;
+};
+
+}  // namespace osgAnalyticBin::core

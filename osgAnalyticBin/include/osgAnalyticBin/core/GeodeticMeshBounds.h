@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/core/GeodeticBin.h>
+
+namespace osgAnalyticBin::core {
+
+/// Finds the bin of a triangle mesh in ECEF, with what the triangles do between their vertices: chords sag below the
+/// ellipsoid, and a chord between two posts of one parallel runs poleward of it.
+/// Guarantee: bin() holds every point of every triangle added, up to 1e-7 m;
+/// tests: GeodeticMeshBounds.HoldsEveryPointOfEveryTriangle.
+/// A mesh that crosses the meridian opposite the reference longitude, or the axis, gets the full circle.
+/// Source: doc/derivation.md, section 5.
+class GeodeticMeshBounds final {
+public:
+    /// Longitudes are measured from the reference, which should be near the middle of the mesh.
+    /// Vertices closer to the axis than `axisTolerance` (metres) have no longitude of their own and are taken at that of
+    /// the others; the caller's margin has to cover the tolerance.
+    GeodeticMeshBounds(const Ellipsoid& ellipsoid, double referenceLongitude, double axisTolerance = 0.0) noexcept;
+
+    /// Every vertex of the mesh has to be added, each once.
+    void expandByVertex(const glm::dvec3& ecef) noexcept;
+
+    /// Every triangle has to be added, after its vertices.
+    void expandByTriangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) noexcept;
+
+    /// Empty before the first vertex.
+    [[nodiscard]] GeodeticBin bin() const noexcept;
+
+private:
+    // The cone of all positions at one latitude, in the half of its own sign: what lies below it needs no closer look.
+    struct LatitudeCone {
+        LatitudeCone(const Ellipsoid& ellipsoid, double latitude) noexcept;
+        [[nodiscard]] bool holds(double axisDistance, double absZ) const noexcept;
+        double sinLatitude, cosLatitude, offset;
+    };
+
+    void noteCrossing(const glm::dvec3 (&corners)[3]) noexcept;
+    void raiseNorth(double latitude) noexcept;
+    void lowerSouth(double latitude) noexcept;
+
+    Ellipsoid _ellipsoid;
+    double _referenceLongitude;
+    glm::dvec3 _reference;
+    double _axisTolerance;
+    Interval _latitude;
+    Interval _relativeLongitude;
+    Interval _altitude;
+    LatitudeCone _northCone;
+    LatitudeCone _southCone;
+    bool _fullCircle = false;
+};
+
+}  // namespace osgAnalyticBin::core

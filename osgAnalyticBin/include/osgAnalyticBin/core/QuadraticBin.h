@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <array>
+
+#include <osgAnalyticBin/core/AnalyticMapping.h>
+#include <osgAnalyticBin/core/Plane.h>
+#include <osgAnalyticBin/core/QuadraticRange.h>
+
+namespace osgAnalyticBin::core {
+
+/// The second-order Taylor model of a mapping over a parameter box, with a proven bound of what it leaves out: the
+/// quadratic bin. The signed distance of the mapped box to a plane is a quadratic polynomial over the box, give or
+/// take the remainder.
+/// Source: [JJ] eq. (2), (3); remainder and range: doc/derivation.md, sections 3 and 4.
+class QuadraticBin final {
+public:
+    /// `margin` (metres) is added on all sides: what is drawn may leave the mapped box by that much.
+    /// Cost: one evaluation of the mapping and its derivatives.
+    QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& box, double margin = 0.0) noexcept;
+
+    /// Guarantee: Outside only if distance(f(x)) < 0, Inside only if >= 0, for every x in the box and every point
+    /// within the margin of f(x); tests: QuadraticBin.NeverContradictsASample, QuadraticSoundness.*.
+    /// Requires: plane.normal of unit length to 1e-9. A plane with NaN is Straddling.
+    /// Cost: about 60 multiplications for most planes (interval bound), some 300 when the exact range is needed.
+    [[nodiscard]] Side classify(const Plane& plane) const noexcept;
+
+    /// An interval that holds the signed distance of every point of the mapped box, margin included.
+    [[nodiscard]] Interval distanceRange(const Plane& plane) const noexcept;
+
+    /// The model's signed distance to the plane as a polynomial over the unit box, without remainder and margin.
+    [[nodiscard]] Quadratic distanceModel(const Plane& plane) const noexcept;
+
+    /// Upper bound of |f(x) - model(x)| over the box, plus the margin, in metres.
+    [[nodiscard]] double remainder() const noexcept { return _remainder; }
+
+    /// How far the model leaves the convex hull of its eight corners at most, in metres.
+    [[nodiscard]] double bulge() const noexcept;
+
+    /// The model's point at a position of the unit box.
+    [[nodiscard]] glm::dvec3 modelPoint(const glm::dvec3& unit) const noexcept;
+
+private:
+    /// What the exact evaluation may be off by: remainder, margin and rounding.
+    [[nodiscard]] double uncertainty(const Plane& plane) const noexcept;
+
+    glm::dvec3 _value;
+    std::array<glm::dvec3, 3> _first;   // derivatives times half sizes
+    std::array<glm::dvec3, 6> _second;  // uu, vv, ww, uv, uw, vw, times half sizes
+    double _remainder;
+    double _magnitude;  // sum of the lengths of all coefficients: the scale of rounding errors
+};
+
+}  // namespace osgAnalyticBin::core

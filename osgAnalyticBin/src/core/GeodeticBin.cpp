@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include <osgAnalyticBin/core/GeodeticBin.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace osgAnalyticBin::core {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kTwoPi = 2.0 * kPi;
+constexpr double kHalfPi = 0.5 * kPi;
+constexpr double kRadiansPerDegree = kPi / 180.0;
+// A few units in the last place of an angle near 2 pi: what adding or taking away a turn may lose.
+constexpr double kAngleTolerance = 1e-15;
+
+constexpr Interval kEmptyInterval{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+bool isProper(const Interval& interval) {
+    return std::isfinite(interval.lower) && std::isfinite(interval.upper) && interval.lower <= interval.upper;
+}
+
+// The offset of an angle east of a start, in [0, 2 pi).
+double eastwardOffset(double from, double to) {
+    const double offset = std::fmod(to - from, kTwoPi);
+    return offset < 0.0 ? offset + kTwoPi : offset;
+}
+
+// `interval` moved by whole turns so that it starts in [from, from + 2 pi); rounded outward when it moves.
+Interval turnedToStartAfter(const Interval& interval, double from) {
+    const double turns = std::floor((interval.lower - from) / kTwoPi);
+    if (turns == 0.0) return interval;
+    const double shift = turns * kTwoPi;
+    return {interval.lower - shift - kAngleTolerance, interval.upper - shift + kAngleTolerance};
+}
+
+bool holdsLongitude(const Interval& interval, double longitude) {
+    if (interval.contains(longitude)) return true;
+    const double offset = eastwardOffset(interval.lower, longitude);
+    return offset <= interval.width() + kAngleTolerance || offset >= kTwoPi - kAngleTolerance;
+}
+
+bool holdsLongitudes(const Interval& outer, const Interval& inner) {
+    if (outer.width() >= kTwoPi || outer.contains(inner)) return true;
+    double offset = eastwardOffset(outer.lower, inner.lower);
+    if (offset >= kTwoPi - kAngleTolerance) offset = 0.0;
+    return offset + inner.width() <= outer.width() + kAngleTolerance;
+}
+
+Interval hullOf(const Interval& a, const Interval& b) {
+    return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
+}
+
+Interval longitudeHull(const Interval& a, const Interval& b) {
+    if (a.contains(b)) return a;
+    if (b.contains(a)) return b;
+    const Interval bAfterA = hullOf(a, turnedToStartAfter(b, a.lower));
+    const Interval aAfterB = hullOf(b, turnedToStartAfter(a, b.lower));
+    const Interval& shorter = bAfterA.width() <= aAfterB.width() ? bAfterA : aAfterB;
+    return shorter.width() >= kTwoPi ? Interval{-kPi, kPi} : shorter;
+}
+
+}  // namespace
+
+GeodeticBin::GeodeticBin() noexcept
+    : _latitude(kEmptyInterval), _longitude(kEmptyInterval), _altitude(kEmptyInterval) {}
+
+GeodeticBin::GeodeticBin(Interval latitude, Interval longitude, Interval altitude) noexcept : GeodeticBin() {
+    if (!isProper(latitude) || !isProper(longitude) || !isProper(altitude)) return;
+    _latitude = {std::clamp(latitude.lower, -kHalfPi, kHalfPi), std::clamp(latitude.upper, -kHalfPi, kHalfPi)};
+    _longitude = longitude.width() >= kTwoPi ? Interval{-kPi, kPi} : longitude;
+    _altitude = altitude;
+}
+
+GeodeticBin GeodeticBin::fromDegrees(Interval latitudeDeg, Interval longitudeDeg, Interval altitude) noexcept {
+    return GeodeticBin({latitudeDeg.lower * kRadiansPerDegree, latitudeDeg.upper * kRadiansPerDegree},
+                       {longitudeDeg.lower * kRadiansPerDegree, longitudeDeg.upper * kRadiansPerDegree}, altitude);
+}
+
+GeodeticBin GeodeticBin::wholeGlobe(Interval altitude) noexcept {
+    return GeodeticBin({-kHalfPi, kHalfPi}, {-kPi, kPi}, altitude);
+}
+
+bool GeodeticBin::isFullCircle() const noexcept { return _longitude.width() >= kTwoPi; }
+
+Geodetic GeodeticBin::center() const noexcept {
+    return {_latitude.middle(), _longitude.middle(), _altitude.middle()};
+}
+
+bool GeodeticBin::contains(const Geodetic& position) const noexcept {
+    if (empty()) return false;
+    return _latitude.contains(position.latitude) && _altitude.contains(position.altitude) &&
+           holdsLongitude(_longitude, position.longitude);
+}
+
+bool GeodeticBin::contains(const GeodeticBin& other) const noexcept {
+    if (other.empty()) return true;
+    if (empty()) return false;
+    return _latitude.contains(other._latitude) && _altitude.contains(other._altitude) &&
+           holdsLongitudes(_longitude, other._longitude);
+}
+
+GeodeticBin GeodeticBin::united(const GeodeticBin& other) const noexcept {
+    if (other.empty()) return *this;
+    if (empty()) return other;
+    GeodeticBin result;
+    result._latitude = hullOf(_latitude, other._latitude);
+    result._longitude = longitudeHull(_longitude, other._longitude);
+    result._altitude = hullOf(_altitude, other._altitude);
+    return result;
+}
+
+void GeodeticBin::expandBy(const Geodetic& position) noexcept {
+    expandBy(GeodeticBin({position.latitude, position.latitude}, {position.longitude, position.longitude},
+                         {position.altitude, position.altitude}));
+}
+
+GeodeticBin GeodeticBin::withAltitude(Interval altitude) const noexcept {
+    return GeodeticBin(_latitude, _longitude, altitude);
+}
+
+std::array<GeodeticBin, 4> GeodeticBin::quarters() const noexcept {
+    const Interval south{_latitude.lower, _latitude.middle()};
+    const Interval north{_latitude.middle(), _latitude.upper};
+    const Interval west{_longitude.lower, _longitude.middle()};
+    const Interval east{_longitude.middle(), _longitude.upper};
+    return {GeodeticBin(south, west, _altitude), GeodeticBin(south, east, _altitude),
+            GeodeticBin(north, west, _altitude), GeodeticBin(north, east, _altitude)};
+}
+
+bool GeodeticBin::operator==(const GeodeticBin& other) const noexcept {
+    return _latitude == other._latitude && _longitude == other._longitude && _altitude == other._altitude;
+}
+
+}  // namespace osgAnalyticBin::core
