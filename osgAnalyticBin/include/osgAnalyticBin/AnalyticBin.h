@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <string>
+
+#include <osg/BoundingSphere>
+#include <osg/Vec3d>
+
+#include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/core/GeodeticBin.h>
+
+namespace osg {
+class EllipsoidModel;
+class Node;
+}  // namespace osg
+
+namespace osgAnalyticBin {
+
+/// The bounding volume of a terrain tile, in the manner of osg::BoundingBox: a box in latitude, longitude and
+/// altitude, and a margin in metres by which drawn geometry may leave it (the rounding of float vertices).
+/// Units: radians and metres; degrees only in text. A default-constructed bin is empty, that is, not valid().
+class OSGANALYTICBIN_EXPORT AnalyticBin {
+public:
+    AnalyticBin() = default;
+    explicit AnalyticBin(const core::GeodeticBin& bin, double margin = 0.0) : _bin(bin), _margin(margin) {}
+
+    /// Makes the bin empty.
+    void init() { *this = AnalyticBin(); }
+
+    [[nodiscard]] bool valid() const { return !_bin.empty(); }
+
+    [[nodiscard]] const core::GeodeticBin& bin() const { return _bin; }
+    void setBin(const core::GeodeticBin& bin) { _bin = bin; }
+
+    /// Metres, default 0.
+    [[nodiscard]] double margin() const { return _margin; }
+    void setMargin(double margin) { _margin = margin; }
+
+    void expandBy(const core::Geodetic& position) { _bin.expandBy(position); }
+    void expandBy(const AnalyticBin& other);
+
+    [[nodiscard]] bool contains(const core::Geodetic& position) const { return _bin.contains(position); }
+    [[nodiscard]] bool contains(const AnalyticBin& other) const;
+
+    [[nodiscard]] bool operator==(const AnalyticBin& other) const {
+        return _bin == other._bin && _margin == other._margin;
+    }
+    [[nodiscard]] bool operator!=(const AnalyticBin& other) const { return !(*this == other); }
+
+    /// The middle of the bin in ECEF metres. Requires: valid().
+    [[nodiscard]] osg::Vec3d center(const osg::EllipsoidModel& ellipsoid) const;
+
+    /// A sphere, rounded outward to float, that holds the mapped bin with its margin; invalid when the bin is.
+    [[nodiscard]] osg::BoundingSphere boundingSphere(const osg::EllipsoidModel& ellipsoid) const;
+
+    /// "south west low north east high margin": degrees and metres, parted by blanks, so that files show what they say.
+    /// Guarantee: fromText(toText()) holds this bin, and equals it bit for bit when it was made from degrees;
+    /// tests: AnalyticBin.TextRoundTrip*.
+    [[nodiscard]] std::string toText() const;
+
+    /// Returns: an invalid bin when the text is not seven finite numbers in order and range.
+    [[nodiscard]] static AnalyticBin fromText(const std::string& text);
+
+private:
+    core::GeodeticBin _bin;
+    double _margin = 0.0;
+};
+
+/// Stores a bin with a node as the string user value "osgAnalyticBin", a type of OSG's own: OSG without this library
+/// reads such files in silence.
+OSGANALYTICBIN_EXPORT void setStoredBin(osg::Node& node, const AnalyticBin& bin);
+
+/// Returns: the stored bin; an invalid one, after a warning, when the stored text is broken; an invalid one when there
+/// is none.
+[[nodiscard]] OSGANALYTICBIN_EXPORT AnalyticBin storedBin(const osg::Node& node);
+
+/// Returns: whether the node has a stored bin, be it valid or broken.
+[[nodiscard]] OSGANALYTICBIN_EXPORT bool hasStoredBin(const osg::Node& node);
+
+}  // namespace osgAnalyticBin

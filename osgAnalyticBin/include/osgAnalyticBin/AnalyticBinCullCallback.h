@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Matrixd>
+#include <osg/NodeCallback>
+
+#include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/Export.h>
+
+namespace osg {
+class CullStack;
+}
+
+namespace osgAnalyticBin {
+
+/// The cull callback of a tile: tests the tile's bin against the frustum planes that are still undecided, and culls
+/// the tile when the bin is outside one of them. It stands in place of OSG's sphere test (BinInstaller switches that
+/// off on the nodes it treats): planes with the bin proven inside are not tested again in the subgraph, and
+/// small-feature and shadow-occluder culling are kept. Nested callbacks run when the tile is not culled.
+/// Frame: the bin is in ECEF; the frame in which the node's children stand is ECEF too unless setLocalToEcef() says
+/// otherwise. Transforms above the globe need nothing: OSG's planes follow them.
+/// Guarantee (Method::Quadratic): a tile is never culled if a point of its bin is inside all planes;
+/// tests: AnalyticBinCullCallback.*. An invalid bin is never culled.
+/// Threads: run() changes nothing in the callback; any number of cull traversals may run it at once. Setters must not
+/// be called while a cull traversal runs.
+/// Cost: no allocation, no trigonometry.
+class OSGANALYTICBIN_EXPORT AnalyticBinCullCallback : public osg::NodeCallback {
+public:
+    AnalyticBinCullCallback();
+    AnalyticBinCullCallback(const AnalyticBin& bin, const osg::EllipsoidModel& ellipsoid,
+                            const CullOptions& options = {});
+    AnalyticBinCullCallback(const AnalyticBinCullCallback& other,
+                            const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
+
+    META_Object(osgAnalyticBin, AnalyticBinCullCallback)
+
+    void setBin(const AnalyticBin& bin);
+    [[nodiscard]] const AnalyticBin& bin() const { return _bin; }
+
+    void setCullOptions(const CullOptions& options);
+    [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
+
+    /// Metres; default: those of a default osg::EllipsoidModel.
+    void setRadii(double equatorial, double polar);
+
+    /// From the frame of the node's children to ECEF; default identity. Has to be rigid or a uniform scale for
+    /// small-feature culling to mean what it says; the frustum test is right under any invertible affine matrix.
+    void setLocalToEcef(const osg::Matrixd& matrix);
+    [[nodiscard]] const osg::Matrixd& localToEcef() const { return _localToEcef; }
+
+    /// The same properties as text, exact in every file format; what the serializer stores.
+    void setBinText(const std::string& text);
+    [[nodiscard]] std::string getBinText() const;
+    void setOptionsText(const std::string& text);
+    [[nodiscard]] std::string getOptionsText() const;
+    void setRadiiText(const std::string& text);
+    [[nodiscard]] std::string getRadiiText() const;
+    void setLocalToEcefText(const std::string& text);
+    [[nodiscard]] std::string getLocalToEcefText() const;
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
+
+protected:
+    ~AnalyticBinCullCallback() override;
+
+private:
+    struct Prepared;
+
+    void prepare();
+    [[nodiscard]] bool isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
+
+    AnalyticBin _bin;
+    CullOptions _options;
+    osg::ref_ptr<osg::EllipsoidModel> _ellipsoid;
+    osg::Matrixd _localToEcef;
+    osg::Matrixd _ecefToLocal;
+    bool _hasLocalFrame = false;
+    std::shared_ptr<const Prepared> _prepared;
+};
+
+}  // namespace osgAnalyticBin

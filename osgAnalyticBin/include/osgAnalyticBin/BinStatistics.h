@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include <osg/Object>
+
+#include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/core/Plane.h>
+
+namespace osg {
+class NodeVisitor;
+}
+
+namespace osgAnalyticBin {
+
+/// What the bins decided in one cull traversal.
+struct BinCounts {
+    std::uint32_t tested = 0;
+    std::uint32_t outside = 0;
+    std::uint32_t inside = 0;
+    std::uint32_t straddling = 0;
+    /// Frame number of the traversal.
+    unsigned int frame = 0;
+};
+
+/// The counters of one cull visitor. They live in the visitor's user data container, so that cull threads share
+/// nothing: each visitor is used by one thread at a time. A new frame number starts from zero.
+class OSGANALYTICBIN_EXPORT BinStatistics : public osg::Object {
+public:
+    BinStatistics() = default;
+    BinStatistics(const BinStatistics& other, const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
+
+    META_Object(osgAnalyticBin, BinStatistics)
+
+    /// The counters of the visitor, made at the first call.
+    [[nodiscard]] static BinStatistics& of(osg::NodeVisitor& visitor);
+
+    /// Returns: nullptr when the visitor has met no bin yet.
+    [[nodiscard]] static const BinStatistics* find(const osg::NodeVisitor& visitor);
+
+    /// Counts one tested tile.
+    void count(core::Side side, unsigned int frame) noexcept;
+
+    /// Starts from zero, for a visitor that traverses more than once in a frame.
+    void reset() noexcept;
+
+    /// The counts of the traversal last begun; safe to call from another thread, exact once the traversal is over.
+    [[nodiscard]] BinCounts counts() const noexcept;
+
+protected:
+    ~BinStatistics() override = default;
+
+private:
+    std::atomic<std::uint32_t> _outside{0};
+    std::atomic<std::uint32_t> _inside{0};
+    std::atomic<std::uint32_t> _straddling{0};
+    std::atomic<unsigned int> _frame{0};
+    const osg::NodeVisitor* _owner = nullptr;
+};
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/core/ComparisonBins.h>
+
+namespace osgAnalyticBin {
+
+/// How the tiles of a database are culled.
+enum class Method {
+    Quadratic,  ///< the quadratic bin: sound; the default
+    Paper,      ///< the published nine-point rule: unsound, for comparison
+    Corners,    ///< the eight corners of the bin: unsound, for comparison
+    Sphere,     ///< OpenSceneGraph's own bounding spheres, untouched
+    None        ///< no culling at all: every tile is drawn
+};
+
+/// The name that files, options and command lines use: "quadratic", "paper", "corners", "sphere", "none".
+[[nodiscard]] OSGANALYTICBIN_EXPORT const char* methodName(Method method) noexcept;
+
+/// Returns: nullopt for an unknown name.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<Method> methodFromName(const std::string& name) noexcept;
+
+/// What an installer, a plugin option string or a stored database says about culling.
+struct CullOptions {
+    Method method = Method::Quadratic;
+    /// Factor by which Method::Paper enlarges its box; at least 1.
+    double growth = core::PaperBin::kDefaultGrowth;
+};
+
+/// Parses "method=paper,growth=1.1"; commas or blanks part the items; an empty text is the default.
+/// Returns: nullopt when an item is unknown or malformed, with one line in `error` that names it and what is allowed.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<CullOptions> cullOptionsFromText(const std::string& text,
+                                                                                  std::string& error);
+
+/// The text that cullOptionsFromText() reads back to the same options.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::string toText(const CullOptions& options);
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <string>
+
+#include <osg/NodeCallback>
+
+#include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/Export.h>
+
+namespace osgAnalyticBin {
+
+/// The update callback of a database whose tiles carry stored bins: runs a BinInstaller over the node at the first
+/// update traversal. It is the only object of this library in such a database; OSG without the library warns about
+/// it once, and draws the database with its own spheres.
+class OSGANALYTICBIN_EXPORT InstallBinsCallback : public osg::NodeCallback {
+public:
+    explicit InstallBinsCallback(const CullOptions& options = {}) : _options(options) {}
+    InstallBinsCallback(const InstallBinsCallback& other, const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
+
+    META_Object(osgAnalyticBin, InstallBinsCallback)
+
+    void setCullOptions(const CullOptions& options) { _options = options; }
+    [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
+
+    /// The options as text; what the serializer stores.
+    void setOptionsText(const std::string& text);
+    [[nodiscard]] std::string getOptionsText() const;
+
+    /// Tells the callback that bins are installed already: it does nothing from then on.
+    void setDone() { _done = true; }
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
+
+protected:
+    ~InstallBinsCallback() override = default;
+
+private:
+    CullOptions _options;
+    bool _done = false;
+};
+
+}  // namespace osgAnalyticBin

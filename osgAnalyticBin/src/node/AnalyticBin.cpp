@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/core/GeodeticMapping.h>
+#include <osgAnalyticBin/core/QuadraticBin.h>
+
+#include "GlmBridge.h"
+#include "Text.h"
+
+#include <osg/Node>
+#include <osg/Notify>
+#include <osg/ValueObject>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+constexpr const char* kUserValueName = "osgAnalyticBin";
+constexpr double kDegreesPerRadian = 57.29577951308232087680;
+// float(x) is off by at most half a unit of 2^-23 relative; the sphere's radius takes up three such coordinates.
+constexpr double kFloatRounding = 1.2e-7;
+
+double radians(double degrees) {
+    return core::GeodeticBin::fromDegrees({0.0, 0.0}, {degrees, degrees}, {0.0, 0.0}).longitude().lower;
+}
+
+// A number of degrees that reads back as `angle` where one exists, else as the next angle in `direction` (+1, -1).
+double degreesTowards(double angle, double direction) {
+    const double nearest = angle * kDegreesPerRadian;
+    double degrees = nearest;
+    for (const double candidate : {nearest, std::nextafter(nearest, 1e9), std::nextafter(nearest, -1e9)}) {
+        if (radians(candidate) == angle) {
+            // dyadic fractions of a degree, as quadtrees have them, survive bit for bit
+            const double dyadic = std::round(candidate * 4194304.0) / 4194304.0;
+            return radians(dyadic) == angle ? dyadic : candidate;
+        }
+    }
+    while ((radians(degrees) - angle) * direction < 0.0) degrees = std::nextafter(degrees, direction * 1e9);
+    return degrees;
+}
+
+bool areOrderedAndInRange(const std::vector<double>& v) {
+    const bool ordered = v[0] <= v[3] && v[1] <= v[4] && v[2] <= v[5] && v[6] >= 0.0;
+    return ordered && v[0] >= -90.0 && v[3] <= 90.0 && std::abs(v[1]) <= 720.0 && std::abs(v[4]) <= 720.0;
+}
+
+}  // namespace
+
+void AnalyticBin::expandBy(const AnalyticBin& other) {
+    if (!other.valid()) return;
+    _bin.expandBy(other._bin);
+    _margin = std::max(_margin, other._margin);
+}
+
+bool AnalyticBin::contains(const AnalyticBin& other) const {
+    return !other.valid() || (_bin.contains(other._bin) && other._margin <= _margin);
+}
+
+osg::Vec3d AnalyticBin::center(const osg::EllipsoidModel& ellipsoid) const {
+    return toOsg(toCore(ellipsoid).toEcef(_bin.center()));
+}
+
+osg::BoundingSphere AnalyticBin::boundingSphere(const osg::EllipsoidModel& ellipsoid) const {
+    if (!valid()) return {};
+    const core::Ellipsoid earth = toCore(ellipsoid);
+    const core::ParameterBox box = core::parameterBox(_bin);
+    const core::QuadraticBin model(core::GeodeticMapping(earth), box, _margin);
+    const glm::dvec3 center = model.modelPoint(glm::dvec3(0.0));
+    double reach = 0.0;
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 corner(i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0);
+        reach = std::max(reach, glm::distance(center, model.modelPoint(corner)));
+    }
+    reach += model.bulge() + model.remainder();
+    const double largest = earth.equatorialRadius() + std::max(std::abs(_bin.altitude().lower), std::abs(_bin.altitude().upper));
+    const double wholeGlobe = 2.0 * largest + _margin;
+    const double radius = std::min(reach, wholeGlobe) + kFloatRounding * (glm::length(center) + reach);
+    return osg::BoundingSphere(osg::Vec3(toOsg(center)),
+                               std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::infinity()));
+}
+
+std::string AnalyticBin::toText() const {
+    if (!valid()) return {};
+    return numbersToText({std::max(degreesTowards(_bin.latitude().lower, -1.0), -90.0),
+                          degreesTowards(_bin.longitude().lower, -1.0), _bin.altitude().lower,
+                          std::min(degreesTowards(_bin.latitude().upper, 1.0), 90.0),
+                          degreesTowards(_bin.longitude().upper, 1.0), _bin.altitude().upper, _margin});
+}
+
+AnalyticBin AnalyticBin::fromText(const std::string& text) {
+    const auto v = numbersFromText(text, 7);
+    if (!v || !areOrderedAndInRange(*v)) return {};
+    const auto& n = *v;
+    return AnalyticBin(core::GeodeticBin::fromDegrees({n[0], n[3]}, {n[1], n[4]}, {n[2], n[5]}), n[6]);
+}
+
+void setStoredBin(osg::Node& node, const AnalyticBin& bin) { node.setUserValue(kUserValueName, bin.toText()); }
+
+AnalyticBin storedBin(const osg::Node& node) {
+    std::string text;
+    if (!node.getUserValue(kUserValueName, text)) return {};
+    const AnalyticBin bin = AnalyticBin::fromText(text);
+    if (!bin.valid()) {
+        OSG_WARN << "osgAnalyticBin: the stored bin \"" << text.substr(0, 80)
+                 << "\" is not seven numbers in order; the tile is never culled." << std::endl;
+    }
+    return bin;
+}
+
+bool hasStoredBin(const osg::Node& node) {
+    std::string text;
+    return node.getUserValue(kUserValueName, text);
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/CullOptions.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Matrixd>
+#include <osgDB/ReadFile>
+
+namespace osgAnalyticBin {
+
+/// Installs bins on what the DatabasePager reads, in the thread that reads it. Reading itself is left to the callback
+/// that was there before, if any, else to the Registry's, else to OSG.
+class BinReadFileCallback : public osgDB::ReadFileCallback {
+public:
+    BinReadFileCallback(const CullOptions& options, const osg::EllipsoidModel* ellipsoid,
+                        const osg::Matrixd& localToEcef, osgDB::ReadFileCallback* previous);
+
+    osgDB::ReaderWriter::ReadResult readNode(const std::string& fileName, const osgDB::Options* options) override;
+
+    [[nodiscard]] osgDB::ReadFileCallback* previous() { return _previous.get(); }
+
+protected:
+    ~BinReadFileCallback() override;
+
+private:
+    [[nodiscard]] osgDB::ReaderWriter::ReadResult readUntreated(const std::string& fileName,
+                                                                const osgDB::Options* options);
+
+    const CullOptions _options;
+    const osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;
+    const osg::Matrixd _localToEcef;
+    const osg::ref_ptr<osgDB::ReadFileCallback> _previous;
+};
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include <osgAnalyticBin/BinStatistics.h>
+
+#include <osg/NodeVisitor>
+#include <osg/UserDataContainer>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// One writer: a plain load and store is enough, and costs no locked instruction.
+template <class Counter>
+void increment(Counter& counter) {
+    counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+BinStatistics::BinStatistics(const BinStatistics& other, const osg::CopyOp& copyop) : osg::Object(other, copyop) {}
+
+BinStatistics& BinStatistics::of(osg::NodeVisitor& visitor) {
+    if (const BinStatistics* known = find(visitor)) return const_cast<BinStatistics&>(*known);
+    osg::ref_ptr<BinStatistics> made = new BinStatistics;
+    made->_owner = &visitor;
+    visitor.getOrCreateUserDataContainer()->addUserObject(made.get());
+    return *made;
+}
+
+const BinStatistics* BinStatistics::find(const osg::NodeVisitor& visitor) {
+    const osg::UserDataContainer* container = visitor.getUserDataContainer();
+    if (!container) return nullptr;
+    for (unsigned int i = 0; i < container->getNumUserObjects(); ++i) {
+        // A cloned visitor shares the container of its original: the owner tells whose counters these are.
+        const auto* statistics = dynamic_cast<const BinStatistics*>(container->getUserObject(i));
+        if (statistics && statistics->_owner == &visitor) return statistics;
+    }
+    return nullptr;
+}
+
+void BinStatistics::count(core::Side side, unsigned int frame) noexcept {
+    if (_frame.load(std::memory_order_relaxed) != frame) {
+        reset();
+        _frame.store(frame, std::memory_order_relaxed);
+    }
+    switch (side) {
+        case core::Side::Outside: increment(_outside); break;
+        case core::Side::Inside: increment(_inside); break;
+        case core::Side::Straddling: increment(_straddling); break;
+    }
+}
+
+void BinStatistics::reset() noexcept {
+    _outside.store(0, std::memory_order_relaxed);
+    _inside.store(0, std::memory_order_relaxed);
+    _straddling.store(0, std::memory_order_relaxed);
+}
+
+BinCounts BinStatistics::counts() const noexcept {
+    BinCounts counts;
+    counts.outside = _outside.load(std::memory_order_relaxed);
+    counts.inside = _inside.load(std::memory_order_relaxed);
+    counts.straddling = _straddling.load(std::memory_order_relaxed);
+    counts.tested = counts.outside + counts.inside + counts.straddling;
+    counts.frame = _frame.load(std::memory_order_relaxed);
+    return counts;
+}
+
+}  // namespace osgAnalyticBin
