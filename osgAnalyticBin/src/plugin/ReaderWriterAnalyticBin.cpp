@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/CullOptions.h>
+
+#include <osg/Notify>
+#include <osgDB/FileNameUtils>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+namespace {
+
+constexpr const char* kExtension = "analyticbin";
+
+// "earth.osgb.(method=paper,growth=1.1)" parted into "earth.osgb" and "method=paper,growth=1.1".
+struct NameAndParameters {
+    std::string name;
+    std::string parameters;
+};
+
+NameAndParameters parted(const std::string& text) {
+    if (text.empty() || text.back() != ')') return {text, {}};
+    const std::size_t open = text.rfind(".(");
+    if (open == std::string::npos) return {text, {}};
+    return {text.substr(0, open), text.substr(open + 2, text.size() - open - 3)};
+}
+
+// Of a plugin option string only items that are ours: other plugins read the same string.
+std::string ownItems(const std::string& optionString) {
+    std::string items;
+    std::size_t begin = 0;
+    while (begin < optionString.size()) {
+        const std::size_t end = std::min(optionString.find_first_of(" ,;", begin), optionString.size());
+        const std::string item = optionString.substr(begin, end - begin);
+        if (item.rfind("method=", 0) == 0 || item.rfind("growth=", 0) == 0) items += item + ' ';
+        begin = end + 1;
+    }
+    return items;
+}
+
+}  // namespace
+
+/// The pseudo-loader `database.analyticbin`: reads the database and installs analytic bins on it and on every tile that
+/// is paged in later. Parameters: `database.(method=NAME,growth=FACTOR).analyticbin`, or the plugin option string; the
+/// file name wins.
+class ReaderWriterAnalyticBin : public osgDB::ReaderWriter {
+public:
+    ReaderWriterAnalyticBin() {
+        supportsExtension(kExtension, "Culls the tiles of a terrain database by their analytic bins (pseudo-loader)");
+        supportsOption("method=quadratic|paper|corners|sphere|none",
+                       "How tiles are culled. quadratic (default) is sound and tight; paper and corners cull visible tiles "
+                       "and are there for comparison; sphere leaves OSG's culling alone; none culls nothing.");
+        supportsOption("growth=FACTOR", "How much method=paper enlarges its boxes: 1 .. 10, default 1.1.");
+    }
+
+    const char* className() const override { return "analytic bin pseudo-loader"; }
+
+    ReadResult readObject(const std::string& fileName, const osgDB::Options* options) const override {
+        return readNode(fileName, options);
+    }
+
+    ReadResult readNode(const std::string& fileName, const osgDB::Options* options) const override {
+        if (!acceptsExtension(osgDB::getLowerCaseFileExtension(fileName))) return ReadResult::FILE_NOT_HANDLED;
+        const NameAndParameters request = parted(osgDB::getNameLessExtension(fileName));
+        if (request.name.empty()) return ReadResult::FILE_NOT_HANDLED;
+
+        std::string error;
+        const std::string text = (options ? ownItems(options->getOptionString()) : std::string()) + request.parameters;
+        const std::optional<osgAnalyticBin::CullOptions> cullOptions = osgAnalyticBin::cullOptionsFromText(text, error);
+        if (!cullOptions) {
+            OSG_WARN << "analyticbin: " << error << std::endl;
+            return ReadResult("analyticbin: " + error);
+        }
+        const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(request.name, options);
+        if (!node) {
+            OSG_WARN << "analyticbin: \"" << request.name << "\" could not be loaded" << std::endl;
+            return ReadResult::FILE_NOT_FOUND;
+        }
+        report(osgAnalyticBin::installBins(*node, *cullOptions), *cullOptions, request.name);
+        return node.get();
+    }
+
+private:
+    static void report(std::size_t installed, const osgAnalyticBin::CullOptions& options, const std::string& name) {
+        using osgAnalyticBin::Method;
+        const bool wantsBins = options.method != Method::Sphere && options.method != Method::None;
+        if (wantsBins && installed == 0) {
+            OSG_WARN << "analyticbin: no tile found in \"" << name << "\"; OSG's own culling stays in charge there."
+                     << std::endl;
+        }
+    }
+};
+
+REGISTER_OSGPLUGIN(analyticbin, ReaderWriterAnalyticBin)

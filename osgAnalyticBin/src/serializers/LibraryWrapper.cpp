@@ -1,0 +1,9 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include <osgDB/Registry>
+
+USE_SERIALIZER_WRAPPER(osgAnalyticBin_AnalyticBinCullCallback)
+USE_SERIALIZER_WRAPPER(osgAnalyticBin_InstallBinsCallback)
+
+extern "C" __attribute__((visibility("default"))) void wrapper_serializer_library_osgAnalyticBin(void) {}
