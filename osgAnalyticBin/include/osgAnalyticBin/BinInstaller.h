@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Matrixd>
@@ -43,6 +44,9 @@ public:
     void apply(osg::Drawable& drawable) override;
 
 private:
+    // The options that PagedLODs came with (null: none), and those that they get for it.
+    using PagingOptions = std::map<osg::ref_ptr<osgDB::Options>, osg::ref_ptr<osgDB::Options>>;
+
     void treatTile(osg::Node& node, const AnalyticBin& bin);
     void treatOther(osg::Node& node);
     void traverseChildren(osg::Node& node);
@@ -52,8 +56,8 @@ private:
     CullOptions _options;
     osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;  // null outside of any CoordinateSystemNode
     osg::Matrixd _localToEcef;
-    osg::ref_ptr<osgDB::Options> _pagingOptions;  // shared by the PagedLODs that have no options of their own
-    bool _insideTile = false;
+    PagingOptions _pagingOptions;
+    bool _insideTile = false;  // below a tile that has, or had, a callback
     std::size_t _installed = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace osgAnalyticBin::core {
 
@@ -52,7 +53,8 @@ LatitudeBounds latitudeBounds(const Ellipsoid& ellipsoid, const ParameterBox& bo
 
     LatitudeBounds bounds{};
     bounds.sinLat = std::sqrt(sin2.upper);
-    bounds.cosLat = std::sqrt(1.0 - sin2.lower);
+    // not from 1 - sin2, which loses the small cosines beside the poles
+    bounds.cosLat = south <= 0.0 && north >= 0.0 ? 1.0 : std::max(std::cos(south), std::cos(north));
     bounds.primeVertical = a / rootW;
     bounds.meridional = a * (1.0 - e2) / (wMin * rootW);
     const double sinCos = std::min(0.5, bounds.sinLat * bounds.cosLat);
@@ -116,8 +118,10 @@ double GeodeticMapping::thirdDerivativeBound(const ParameterBox& box) const noex
 ParameterBox parameterBox(const GeodeticBin& bin) noexcept {
     assert(!bin.empty());
     const Geodetic center = bin.center();
+    // The factor covers the rounding of the differences, which a given middle leaves within half an epsilon.
     const auto reach = [](const Interval& interval, double middle) {
-        return std::max(interval.upper - middle, middle - interval.lower);
+        constexpr double kOutward = 1.0 + 2.0 * std::numeric_limits<double>::epsilon();
+        return std::max(interval.upper - middle, middle - interval.lower) * kOutward;
     };
     return {{center.latitude, center.longitude, center.altitude},
             {reach(bin.latitude(), center.latitude), reach(bin.longitude(), center.longitude),

@@ -79,10 +79,11 @@ void GeodeticMeshBounds::noteCrossing(const glm::dvec3 (&corners)[3]) noexcept {
     bool left = false;
     bool right = false;
     for (const glm::dvec3& corner : corners) {
+        if (std::hypot(corner.x, corner.y) <= _axisTolerance) continue;  // no longitude of its own
         behind |= corner.x * _reference.x + corner.y * _reference.y < 0.0;
         const double side = corner.y * _reference.x - corner.x * _reference.y;
-        left |= side > 0.0;
-        right |= side < 0.0;
+        left |= side >= 0.0;
+        right |= side <= 0.0;
     }
     if (behind && left && right) _fullCircle = true;
 }

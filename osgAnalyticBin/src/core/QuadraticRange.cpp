@@ -54,14 +54,30 @@ bool acceptOntoBox(double& x) {
     return true;
 }
 
+// One step of elimination keeps what is left of a definite matrix definite: pivots of one sign are the test.
+bool sameSign(double a, double b) { return a > 0.0 ? b > 0.0 : a < 0.0 && b < 0.0; }
+
+// The stationary point of b.x + 1/2 x'Cx when C is definite: any other is no extremum, or one that the boundary has too.
+// Elimination with the larger diagonal element as the pivot is stable for definite matrices; Cramer's rule is not, and
+// loses half of the digits of the extremum when C is nearly singular.
+bool definiteStationary(double cuu, double cvv, double cuv, double bu, double bv, double& u, double& v) {
+    if (std::abs(cuu) < std::abs(cvv)) return definiteStationary(cvv, cuu, cuv, bv, bu, v, u);
+    if (cuu == 0.0) return false;
+    const double factor = cuv / cuu;
+    const double pivot = cvv - factor * cuv;
+    if (!sameSign(cuu, pivot)) return false;
+    v = -(bv - factor * bu) / pivot;
+    u = -(bu + cuv * v) / cuu;
+    return true;
+}
+
 Interval rangeOf(const Quadratic2& q) {
     Interval range =
         hullOf(hullOf(rangeOf(q.atU(-1.0)), rangeOf(q.atU(1.0))), hullOf(rangeOf(q.atV(-1.0)), rangeOf(q.atV(1.0))));
-    const double determinant = q.cuu * q.cvv - q.cuv * q.cuv;
-    if (determinant > 0.0) {  // a saddle's stationary value is never an extremum
-        double u = (q.cuv * q.bv - q.cvv * q.bu) / determinant;
-        double v = (q.cuv * q.bu - q.cuu * q.bv) / determinant;
-        if (acceptOntoBox(u) && acceptOntoBox(v)) include(range, q(u, v));
+    double u = 0.0;
+    double v = 0.0;
+    if (definiteStationary(q.cuu, q.cvv, q.cuv, q.bu, q.bv, u, v) && acceptOntoBox(u) && acceptOntoBox(v)) {
+        include(range, q(u, v));
     }
     return range;
 }
@@ -84,21 +100,34 @@ Quadratic2 atW(const Quadratic& q, double w) {
     return {q.value + g[2] * w + 0.5 * h[kWW] * w * w, g[0] + h[kUW] * w, g[1] + h[kVW] * w, h[kUU], h[kVV], h[kUV]};
 }
 
-// The stationary point of the whole cube, by Cramer's rule; it need not exist.
-void includeInterior(const Quadratic& q, Interval& range) {
+// q with its parameters renamed so that the largest square comes first: the pivot of the elimination.
+Quadratic largestSquareFirst(const Quadratic& q) {
     const auto& g = q.gradient;
     const auto& h = q.hessian;
-    const double cu = h[kVV] * h[kWW] - h[kVW] * h[kVW];
-    const double cv = h[kUV] * h[kWW] - h[kVW] * h[kUW];
-    const double cw = h[kUV] * h[kVW] - h[kVV] * h[kUW];
-    const double determinant = h[kUU] * cu - h[kUV] * cv + h[kUW] * cw;
-    if (determinant == 0.0) return;
-    const double vv = h[kUU] * h[kWW] - h[kUW] * h[kUW];
-    const double vw = h[kUU] * h[kVW] - h[kUV] * h[kUW];
-    const double ww = h[kUU] * h[kVV] - h[kUV] * h[kUV];
-    double u = -(cu * g[0] - cv * g[1] + cw * g[2]) / determinant;
-    double v = -(-cv * g[0] + vv * g[1] - vw * g[2]) / determinant;
-    double w = -(cw * g[0] - vw * g[1] + ww * g[2]) / determinant;
+    const double uu = std::abs(h[kUU]);
+    const double vv = std::abs(h[kVV]);
+    const double ww = std::abs(h[kWW]);
+    if (uu >= vv && uu >= ww) return q;
+    if (vv >= ww) return {q.value, {g[1], g[0], g[2]}, {h[kVV], h[kUU], h[kWW], h[kUV], h[kVW], h[kUW]}};
+    return {q.value, {g[2], g[1], g[0]}, {h[kWW], h[kVV], h[kUU], h[kVW], h[kUW], h[kUV]}};
+}
+
+// The stationary point of the whole cube, when it is an extremum.
+void includeInterior(const Quadratic& given, Interval& range) {
+    const Quadratic q = largestSquareFirst(given);
+    const auto& g = q.gradient;
+    const auto& h = q.hessian;
+    if (h[kUU] == 0.0) return;
+    const double fv = h[kUV] / h[kUU];
+    const double fw = h[kUW] / h[kUU];
+    const double cvv = h[kVV] - fv * h[kUV];
+    const double cww = h[kWW] - fw * h[kUW];
+    const double cvw = h[kVW] - fv * h[kUW];
+    if (!sameSign(h[kUU], cvv) || !sameSign(h[kUU], cww)) return;
+    double v = 0.0;
+    double w = 0.0;
+    if (!definiteStationary(cvv, cww, cvw, g[1] - fv * g[0], g[2] - fw * g[0], v, w)) return;
+    double u = -(g[0] + h[kUV] * v + h[kUW] * w) / h[kUU];
     if (acceptOntoBox(u) && acceptOntoBox(v) && acceptOntoBox(w)) include(range, q(u, v, w));
 }
 

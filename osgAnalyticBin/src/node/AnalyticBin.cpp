@@ -6,8 +6,10 @@
 #include <osgAnalyticBin/core/QuadraticBin.h>
 
 #include "GlmBridge.h"
+#include "Spheres.h"
 #include "Text.h"
 
+#include <glm/common.hpp>
 #include <osg/Node>
 #include <osg/Notify>
 #include <osg/ValueObject>
@@ -22,8 +24,42 @@ namespace {
 
 constexpr const char* kUserValueName = "osgAnalyticBin";
 constexpr double kDegreesPerRadian = 57.29577951308232087680;
-// float(x) is off by at most half a unit of 2^-23 relative; the sphere's radius takes up three such coordinates.
-constexpr double kFloatRounding = 1.2e-7;
+// The model of the bin is split so often that it hardly leaves its corners.
+constexpr int kSphereSplits = 3;
+constexpr double kSphereLooseness = 0.01;
+
+// The middle of the axis-aligned box about a grid of points.
+glm::dvec3 middleOf(const core::GeodeticMapping& mapping, const core::ParameterBox& box) {
+    glm::dvec3 lowest(std::numeric_limits<double>::infinity());
+    glm::dvec3 highest(-lowest);
+    for (int i = 0; i < 27; ++i) {
+        const glm::dvec3 unit(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+        const glm::dvec3 point = mapping.value(box.center + unit * box.halfSize);
+        lowest = glm::min(lowest, point);
+        highest = glm::max(highest, point);
+    }
+    return 0.5 * (lowest + highest);
+}
+
+// An upper bound of the distance of the mapped box from a point, tight to a percent where splits are left.
+double reachOf(const core::GeodeticMapping& mapping, const core::ParameterBox& box, const glm::dvec3& from, int splits) {
+    const core::QuadraticBin model(mapping, box);
+    double reach = 0.0;
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 corner(i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0);
+        reach = std::max(reach, glm::distance(from, model.modelPoint(corner)));
+    }
+    const double loose = model.bulge() + model.remainder();
+    if (splits == 0 || loose <= kSphereLooseness * reach) return reach + loose;
+    reach = 0.0;
+    const glm::dvec3 half(0.5 * box.halfSize.x, 0.5 * box.halfSize.y, box.halfSize.z);
+    for (int i = 0; i < 4; ++i) {
+        const glm::dvec3 center = box.center + glm::dvec3(i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, 0.0);
+        // outward by more than the rounding of the halves
+        reach = std::max(reach, reachOf(mapping, {center, half * (1.0 + 1e-12)}, from, splits - 1));
+    }
+    return reach;
+}
 
 double radians(double degrees) {
     return core::GeodeticBin::fromDegrees({0.0, 0.0}, {degrees, degrees}, {0.0, 0.0}).longitude().lower;
@@ -67,21 +103,11 @@ osg::Vec3d AnalyticBin::center(const osg::EllipsoidModel& ellipsoid) const {
 
 osg::BoundingSphere AnalyticBin::boundingSphere(const osg::EllipsoidModel& ellipsoid) const {
     if (!valid()) return {};
-    const core::Ellipsoid earth = toCore(ellipsoid);
+    const core::GeodeticMapping mapping(toCore(ellipsoid));
     const core::ParameterBox box = core::parameterBox(_bin);
-    const core::QuadraticBin model(core::GeodeticMapping(earth), box, _margin);
-    const glm::dvec3 center = model.modelPoint(glm::dvec3(0.0));
-    double reach = 0.0;
-    for (int i = 0; i < 8; ++i) {
-        const glm::dvec3 corner(i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0);
-        reach = std::max(reach, glm::distance(center, model.modelPoint(corner)));
-    }
-    reach += model.bulge() + model.remainder();
-    const double largest = earth.equatorialRadius() + std::max(std::abs(_bin.altitude().lower), std::abs(_bin.altitude().upper));
-    const double wholeGlobe = 2.0 * largest + _margin;
-    const double radius = std::min(reach, wholeGlobe) + kFloatRounding * (glm::length(center) + reach);
-    return osg::BoundingSphere(osg::Vec3(toOsg(center)),
-                               std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::infinity()));
+    const glm::dvec3 center = middleOf(mapping, box);
+    const double reach = reachOf(mapping, box, center, kSphereSplits) + _margin;
+    return roundedOutward(toOsg(center), reach);
 }
 
 std::string AnalyticBin::toText() const {

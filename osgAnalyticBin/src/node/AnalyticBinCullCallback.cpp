@@ -8,6 +8,8 @@
 #include <osgAnalyticBin/core/QuadraticBin.h>
 
 #include "GlmBridge.h"
+#include "Occluders.h"
+#include "Spheres.h"
 #include "Text.h"
 
 #include <osg/CullStack>
@@ -41,22 +43,11 @@ PreparedBin preparedBin(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid
     return core::QuadraticBin(mapping, box, bin.margin());
 }
 
-osg::BoundingSphere movedSphere(const osg::BoundingSphere& sphere, const osg::Matrixd& matrix) {
-    const osg::Vec3d center = osg::Vec3d(sphere.center()) * matrix;
-    const osg::Vec3d scale = matrix.getScale();
-    const double largest = std::max({scale.x(), scale.y(), scale.z()});
-    constexpr double kFloatRounding = 1.2e-7;
-    return osg::BoundingSphere(osg::Vec3(center), static_cast<float>(sphere.radius() * largest * (1.0 + kFloatRounding) +
-                                                                     kFloatRounding * center.length()));
-}
-
-// OSG's own small-feature and shadow-occluder tests, on the bin's sphere.
-bool isSmallOrOccluded(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere) {
+// OSG's own test: CullingSet::isCulled(BoundingSphere) with nothing but small features switched on.
+bool isSmall(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere) {
     const osg::CullingSet::Mask mask = cullingSet.getCullingMask();
-    constexpr osg::CullingSet::Mask kOther =
-        osg::CullingSet::SMALL_FEATURE_CULLING | osg::CullingSet::SHADOW_OCCLUSION_CULLING;
-    if (!(mask & kOther) || !sphere.valid()) return false;
-    cullingSet.setCullingMask(mask & kOther);
+    if (!(mask & osg::CullingSet::SMALL_FEATURE_CULLING)) return false;
+    cullingSet.setCullingMask(osg::CullingSet::SMALL_FEATURE_CULLING);
     const bool culled = cullingSet.isCulled(sphere);
     cullingSet.setCullingMask(mask);
     return culled;
@@ -135,7 +126,12 @@ void AnalyticBinCullCallback::setLocalToEcef(const osg::Matrixd& matrix) {
 
 void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     osg::CullStack* cullStack = nv->asCullStack();
-    if (cullStack && isCulled(*cullStack, *nv)) return;
+    if (!cullStack) {
+        traverse(node, nv);
+        return;
+    }
+    if (isCulled(*cullStack, *nv)) return;
+    const OccluderScope occluders(*cullStack);
     traverse(node, nv);
 }
 
@@ -157,7 +153,8 @@ bool AnalyticBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisit
         // OSG pops this mask after the subgraph: a plane cleared here stays cleared just there.
         frustum.getCurrentMask() = undecided;
     }
-    const bool culled = side == core::Side::Outside || isSmallOrOccluded(cullingSet, _prepared->sphere);
+    const bool culled = side == core::Side::Outside || isSmall(cullingSet, _prepared->sphere) ||
+                        isOccluded(cullStack, nv.getNodePath(), _prepared->sphere);
     if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR) {
         BinStatistics::of(nv).count(culled ? core::Side::Outside : side, nv.getTraversalNumber());
     }

@@ -44,11 +44,15 @@ AnalyticBinCullCallback* installedCallback(osg::Node& node) {
     return nullptr;
 }
 
-void uninstall(osg::Node& node) {
-    while (osg::ref_ptr<AnalyticBinCullCallback> ours = installedCallback(node)) {
+// Returns: whether there was anything to take away.
+bool uninstall(osg::Node& node) {
+    bool found = false;
+    while (const osg::ref_ptr<AnalyticBinCullCallback> ours = installedCallback(node)) {
         node.removeCullCallback(ours.get());
         node.setCullingActive(true);
+        found = true;
     }
+    return found;
 }
 
 // From here on the installer has spoken: a database's own request to install bins is settled.
@@ -108,7 +112,7 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
         node.getEllipsoidModel() ? node.getEllipsoidModel() : new osg::EllipsoidModel;
     const Scoped ellipsoid(_ellipsoid, own);
     const Scoped frame(_localToEcef, osg::Matrixd());
-    const Scoped options(_pagingOptions, osg::ref_ptr<osgDB::Options>());
+    const Scoped options(_pagingOptions, PagingOptions());
     apply(static_cast<osg::Node&>(node));
 }
 
@@ -119,7 +123,7 @@ void BinInstaller::apply(osg::Transform& node) {
     if (!isFixed(node)) return;
     node.computeLocalToWorldMatrix(frame, this);
     const Scoped scope(_localToEcef, frame);
-    const Scoped options(_pagingOptions, osg::ref_ptr<osgDB::Options>());
+    const Scoped options(_pagingOptions, PagingOptions());
     apply(static_cast<osg::Node&>(node));
 }
 
@@ -139,8 +143,11 @@ void BinInstaller::apply(osg::Drawable& drawable) {
 }
 
 void BinInstaller::treatTile(osg::Node& node, const AnalyticBin& bin) {
-    uninstall(node);
-    if (_options.method == Method::Sphere || _options.method == Method::None) return treatOther(node);
+    const bool wasInstalled = uninstall(node);
+    if (_options.method == Method::Sphere || _options.method == Method::None) {
+        const Scoped inside(_insideTile, _insideTile || wasInstalled);
+        return treatOther(node);
+    }
     const osg::ref_ptr<const osg::EllipsoidModel> ellipsoid = _ellipsoid ? _ellipsoid : new osg::EllipsoidModel;
     osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(bin, *ellipsoid, _options);
     if (!_localToEcef.isIdentity()) callback->setLocalToEcef(_localToEcef);
@@ -157,7 +164,9 @@ void BinInstaller::treatTile(osg::Node& node, const AnalyticBin& bin) {
 void BinInstaller::treatOther(osg::Node& node) {
     switch (_options.method) {
         case Method::None: node.setCullingActive(false); break;
-        case Method::Sphere: break;
+        case Method::Sphere:
+            if (_insideTile) node.setCullingActive(true);
+            break;
         default:
             if (_insideTile) node.setCullingActive(false);
     }
@@ -180,18 +189,15 @@ AnalyticBin BinInstaller::boundsOfOwnGeometry(osg::PagedLOD& node) const {
 }
 
 void BinInstaller::followPaging(osg::PagedLOD& node) {
-    auto* own = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
-    const bool isShared = !own || own == _pagingOptions;
-    if (isShared && _pagingOptions) {
-        node.setDatabaseOptions(_pagingOptions.get());
-        return;
+    const osg::ref_ptr<osgDB::Options> own = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
+    osg::ref_ptr<osgDB::Options>& treated = _pagingOptions[own];
+    if (!treated) {
+        const osgDB::Options* base = own ? own.get() : osgDB::Registry::instance()->getOptions();
+        treated = base ? base->cloneOptions() : new osgDB::Options;
+        treated->setReadFileCallback(
+            new BinReadFileCallback(_options, _ellipsoid.get(), _localToEcef, previousCallback(*treated)));
     }
-    const osgDB::Options* base = own ? own : osgDB::Registry::instance()->getOptions();
-    osg::ref_ptr<osgDB::Options> options = base ? base->cloneOptions() : new osgDB::Options;
-    options->setReadFileCallback(
-        new BinReadFileCallback(_options, _ellipsoid.get(), _localToEcef, previousCallback(*options)));
-    node.setDatabaseOptions(options.get());
-    if (!own) _pagingOptions = options;
+    node.setDatabaseOptions(treated.get());
 }
 
 std::size_t installBins(osg::Node& node, const CullOptions& options) {

@@ -3,14 +3,27 @@
 
 #include "BinReadFileCallback.h"
 
+#include "TileFile.h"
+
 #include <osgAnalyticBin/BinInstaller.h>
 
 #include <osg/Notify>
 #include <osgDB/Registry>
 
 #include <exception>
+#include <ios>
 
 namespace osgAnalyticBin {
+
+namespace {
+
+osgDB::ReaderWriter::ReadResult unreadable(const std::string& fileName, const char* why) {
+    OSG_WARN << "osgAnalyticBin: \"" << fileName << "\" could not be read: " << why << "; its parent tile stays visible."
+             << std::endl;
+    return osgDB::ReaderWriter::ReadResult(osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE);
+}
+
+}  // namespace
 
 BinReadFileCallback::BinReadFileCallback(const CullOptions& options, const osg::EllipsoidModel* ellipsoid,
                                          const osg::Matrixd& localToEcef, osgDB::ReadFileCallback* previous)
@@ -21,9 +34,8 @@ BinReadFileCallback::~BinReadFileCallback() = default;
 osgDB::ReaderWriter::ReadResult BinReadFileCallback::readUntreated(const std::string& fileName,
                                                                    const osgDB::Options* options) {
     if (_previous) return _previous->readNode(fileName, options);
-    osgDB::Registry* registry = osgDB::Registry::instance();
-    if (osgDB::ReadFileCallback* callback = registry->getReadFileCallback()) return callback->readNode(fileName, options);
-    return registry->readNodeImplementation(fileName, options);
+    osgDB::ReadFileCallback* global = osgDB::Registry::instance()->getReadFileCallback();
+    return global ? global->readNode(fileName, options) : readTileFile(fileName, options);
 }
 
 osgDB::ReaderWriter::ReadResult BinReadFileCallback::readNode(const std::string& fileName,
@@ -36,11 +48,11 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readNode(const std::string&
             node->accept(installer);
         }
         return result;
+    } catch (const std::ios_base::failure&) {
+        return unreadable(fileName, "it ends too early");
     } catch (const std::exception& error) {
         // A corrupt file may ask for absurd amounts of memory; the pager's thread must outlive that.
-        OSG_WARN << "osgAnalyticBin: \"" << fileName << "\" could not be read (" << error.what()
-                 << "); its parent tile stays visible." << std::endl;
-        return osgDB::ReaderWriter::ReadResult(osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE);
+        return unreadable(fileName, error.what());
     }
 }
 

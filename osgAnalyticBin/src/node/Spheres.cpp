@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Spheres.h"
+
+#include <cmath>
+#include <limits>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// float(x) is off by at most half a unit of 2^-23 relative; the radius takes up three such coordinates.
+constexpr double kFloatRounding = 1.2e-7;
+
+// An upper bound of what the linear part of a matrix stretches lengths by: the Frobenius norm, or exactly the scale
+// where the rows are of one length and at right angles.
+double stretchOf(const osg::Matrixd& m) {
+    double squares = 0.0;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) squares += m(row, column) * m(row, column);
+    }
+    const double uniform = squares / 3.0;
+    constexpr double kTolerance = 1e-9;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j <= i; ++j) {
+            const double dot = m(i, 0) * m(j, 0) + m(i, 1) * m(j, 1) + m(i, 2) * m(j, 2);
+            if (std::abs(dot - (i == j ? uniform : 0.0)) > kTolerance * uniform) return std::sqrt(squares);
+        }
+    }
+    return std::sqrt(uniform) * (1.0 + 2.0 * kTolerance);
+}
+
+}  // namespace
+
+osg::BoundingSphere roundedOutward(const osg::Vec3d& center, double radius) {
+    const double outward = radius + kFloatRounding * (center.length() + radius);
+    return osg::BoundingSphere(osg::Vec3(center),
+                               std::nextafter(static_cast<float>(outward), std::numeric_limits<float>::infinity()));
+}
+
+osg::BoundingSphere movedSphere(const osg::BoundingSphere& sphere, const osg::Matrixd& matrix) {
+    return roundedOutward(osg::Vec3d(sphere.center()) * matrix, double(sphere.radius()) * stretchOf(matrix));
+}
+
+}  // namespace osgAnalyticBin

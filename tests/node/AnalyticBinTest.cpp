@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Oracles: exact comparison of what is written with what is read back; dense samples of the bin for the sphere.
+// The interval arithmetic behind expandBy and contains is tested in core/GeodeticBinTest.cpp.
+
+#include "CullFixture.h"
+
+#include <osgAnalyticBin/AnalyticBin.h>
+
+#include <gtest/gtest.h>
+#include <osg/Group>
+
+#include <cmath>
+#include <support/Random.h>
+
+namespace osgAnalyticBin {
+namespace {
+
+using core::GeodeticBin;
+
+TEST(AnalyticBin, IsInvalidUntilSomethingIsPutIn) {
+    AnalyticBin bin;
+    EXPECT_FALSE(bin.valid());
+    bin.expandBy(core::Geodetic{0.1, 0.2, 30.0});
+    EXPECT_TRUE(bin.valid());
+    EXPECT_TRUE(bin.contains(core::Geodetic{0.1, 0.2, 30.0}));
+    bin.init();
+    EXPECT_FALSE(bin.valid());
+}
+
+TEST(AnalyticBin, ExpandingByABinTakesTheLargerMargin) {
+    AnalyticBin bin(GeodeticBin::fromDegrees({0, 1}, {0, 1}, {0, 1}), 0.5);
+    bin.expandBy(AnalyticBin(GeodeticBin::fromDegrees({2, 3}, {2, 3}, {-5, 7}), 2.0));
+    EXPECT_EQ(bin.margin(), 2.0);
+    EXPECT_EQ(bin.bin(), GeodeticBin::fromDegrees({0, 3}, {0, 3}, {-5, 7}));
+    bin.expandBy(AnalyticBin());
+    EXPECT_EQ(bin.margin(), 2.0);
+}
+
+TEST(AnalyticBin, TextRoundTripIsExactForQuadtreeCells) {
+    for (int level = 0; level < 12; ++level) {
+        const double width = 22.5 / (1 << level);
+        for (int i = 0; i < 50; ++i) {
+            const double south = -90.0 + width * (i * 7 % (8 << level));
+            const double west = -180.0 + width * (i * 13 % (16 << level));
+            const AnalyticBin bin(
+                GeodeticBin::fromDegrees({south, south + width}, {west, west + width}, {-412.25, 8848.9}), 0.125);
+            EXPECT_EQ(AnalyticBin::fromText(bin.toText()), bin) << bin.toText();
+        }
+    }
+}
+
+TEST(AnalyticBin, TextRoundTripOfAnyAnglesContainsTheBin) {
+    test::Random random(1);
+
+
+    for (int i = 0; i < 20000; ++i) {
+        const double a = random.uniform(-1.57, 1.57);
+        const double b = random.uniform(-1.57, 1.57);
+        const double west = random.uniform(-3.14, 3.14);
+        const AnalyticBin bin(GeodeticBin({std::min(a, b), std::max(a, b)}, {west, west + 0.3}, {-1.0 / 3.0, 1e5 / 7.0}));
+        const AnalyticBin back = AnalyticBin::fromText(bin.toText());
+        ASSERT_TRUE(back.contains(bin)) << bin.toText();
+        ASSERT_LE(back.bin().latitude().upper - bin.bin().latitude().upper, 1e-15);
+        ASSERT_LE(bin.bin().longitude().lower - back.bin().longitude().lower, 1e-15);
+    }
+}
+
+TEST(AnalyticBin, TextIsDegreesAndMetresAsAPersonWouldWriteThem) {
+    const AnalyticBin bin(GeodeticBin::fromDegrees({-22.5, 0}, {157.5, 180}, {-10376, 12.5}), 1.0);
+    EXPECT_EQ(bin.toText(), "-22.5 157.5 -10376 0 180 12.5 1");
+}
+
+TEST(AnalyticBin, BrokenTextIsAnInvalidBin) {
+    for (const char* text :
+         {"", "1 2 3", "1 2 3 4 5 6", "1 2 3 4 5 6 7 8", "a b c d e f g", "4 2 3 1 5 6 0", "0 0 nan 1 1 1 0",
+          "0 0 0 1 1 inf 0", "-91 0 0 1 1 1 0", "0 0 0 91 1 1 0", "0 0 5 1 1 1 0", "0 0 0 1 1 1 -1", "0,0,0,1,1,1,0",
+          "0 0 0 1 1 1e999 0", "0 -1e300 0 1 1 1 0"}) {
+        EXPECT_FALSE(AnalyticBin::fromText(text).valid()) << text;
+    }
+}
+
+TEST(AnalyticBin, IsStoredWithANodeAsATypeOfOsgsOwn) {
+    const osg::ref_ptr<osg::Group> node = new osg::Group;
+    EXPECT_FALSE(hasStoredBin(*node));
+    EXPECT_FALSE(storedBin(*node).valid());
+    const AnalyticBin bin(GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-10, 20}), 0.5);
+    setStoredBin(*node, bin);
+    EXPECT_TRUE(hasStoredBin(*node));
+    EXPECT_EQ(storedBin(*node), bin);
+    const osg::Object* value = node->getUserDataContainer()->getUserObject(0);
+    EXPECT_STREQ(value->libraryName(), "osg");
+    EXPECT_STREQ(value->className(), "StringValueObject");
+}
+
+TEST(AnalyticBin, SphereHoldsTheBinAndIsNotMuchLargerThanNeeded) {
+    const osg::EllipsoidModel wgs84;
+    for (const double width : {22.5, 5.625, 0.1}) {
+        for (double south = -90.0; south + width <= 90.0; south += 22.5) {
+            const AnalyticBin bin(
+                GeodeticBin::fromDegrees({south, south + width}, {170.0, 170.0 + width}, {-400.0, 8800.0}));
+            const osg::BoundingSphere sphere = bin.boundingSphere(wgs84);
+            double reach = 0.0;
+            for (const osg::Vec3d& p : test::samples(bin, 9)) {
+                reach = std::max(reach, (p - osg::Vec3d(sphere.center())).length());
+            }
+            EXPECT_LE(reach, sphere.radius());
+            EXPECT_LE(sphere.radius(), 1.15 * reach + 2.0) << width << " at " << south;
+        }
+    }
+    EXPECT_FALSE(AnalyticBin().boundingSphere(wgs84).valid());
+}
+
+TEST(AnalyticBin, SphereOfTheWholeGlobeHoldsTheGlobe) {
+    const AnalyticBin globe(GeodeticBin::wholeGlobe({-11000.0, 9000.0}));
+    const osg::BoundingSphere sphere = globe.boundingSphere(osg::EllipsoidModel());
+    for (const osg::Vec3d& p : test::samples(globe, 15)) {
+        EXPECT_LE((p - osg::Vec3d(sphere.center())).length(), sphere.radius());
+    }
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin

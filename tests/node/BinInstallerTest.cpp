@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// What the installer does to a scene graph. That the tiles it treats are culled rightly is tested in
+// AnalyticBinCullCallbackTest.cpp; what it does to paged files in PagingTest.cpp.
+
+#include "CullFixture.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBinsCallback.h>
+
+#include <gtest/gtest.h>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+#include <osg/ValueObject>
+#include <osgUtil/UpdateVisitor>
+
+#include <cmath>
+
+namespace osgAnalyticBin {
+namespace {
+
+using core::GeodeticBin;
+
+const AnalyticBin kBin(GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100, 5000}));
+
+AnalyticBinCullCallback* callbackOf(osg::Node& node) {
+    return dynamic_cast<AnalyticBinCullCallback*>(node.getCullCallback());
+}
+
+// A triangle somewhere near (lat 0, lon 0), in ECEF.
+osg::ref_ptr<osg::Geometry> makeTriangle() {
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    const osg::EllipsoidModel wgs84;
+    for (const auto& [latitude, longitude] : {std::pair{0.1, 0.0}, std::pair{-0.1, -0.1}, std::pair{-0.1, 0.1}}) {
+        double x = 0, y = 0, z = 0;
+        wgs84.convertLatLongHeightToXYZ(latitude, longitude, 100.0, x, y, z);
+        vertices->push_back(osg::Vec3d(x, y, z));
+    }
+    geometry->setVertexArray(vertices);
+    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 3));
+    return geometry;
+}
+
+struct Database {
+    Database() {
+        root->addChild(tile);
+        tile->addChild(mesh);
+        mesh->addChild(drawable);
+        root->addChild(sibling);
+        setStoredBin(*tile, kBin);
+        above->addChild(root);
+    }
+    osg::ref_ptr<osg::Group> above = new osg::Group;
+    osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+    osg::ref_ptr<osg::Group> tile = new osg::Group;
+    osg::ref_ptr<osg::MatrixTransform> mesh = new osg::MatrixTransform;
+    osg::ref_ptr<osg::Geometry> drawable = makeTriangle();
+    osg::ref_ptr<osg::Group> sibling = new osg::Group;
+};
+
+TEST(BinInstaller, TreatsTilesAndLeavesTheirSiblingsAlone) {
+    Database db;
+    EXPECT_EQ(installBins(*db.above), 1u);
+    ASSERT_NE(callbackOf(*db.tile), nullptr);
+    EXPECT_EQ(callbackOf(*db.tile)->bin(), kBin);
+    EXPECT_FALSE(db.tile->getCullingActive());
+    EXPECT_FALSE(db.mesh->getCullingActive());
+    EXPECT_TRUE(db.drawable->getCullingActive());
+    EXPECT_TRUE(db.sibling->getCullingActive());
+    EXPECT_EQ(db.sibling->getCullCallback(), nullptr);
+    EXPECT_TRUE(db.above->getCullingActive());
+    EXPECT_FALSE(db.above->isCullingActive());  // OSG: no sphere above a node that has none
+}
+
+TEST(BinInstaller, TakesTheRadiiOfTheCoordinateSystemNode) {
+    Database db;
+    db.root->setEllipsoidModel(new osg::EllipsoidModel(3396190.0, 3376200.0));
+    installBins(*db.root);
+    EXPECT_EQ(callbackOf(*db.tile)->getRadiiText(), "3396190 3376200");
+}
+
+TEST(BinInstaller, KeepsCallbacksThatWereThereAndRunsThem) {
+    Database db;
+    std::set<std::string> visited;
+    const osg::ref_ptr<test::VisitRecorder> user = new test::VisitRecorder("user", visited);
+    db.tile->setCullCallback(user.get());
+    installBins(*db.root);
+    ASSERT_NE(callbackOf(*db.tile), nullptr);
+    EXPECT_EQ(callbackOf(*db.tile)->getNestedCallback(), user.get());
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    test::cull(*db.root, test::View::lookAt({1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0), *visitor);
+    EXPECT_EQ(visited.size(), 1u);
+}
+
+TEST(BinInstaller, RunningItAgainReplacesAndRunningItWithSpheresUndoes) {
+    Database db;
+    std::set<std::string> visited;
+    const osg::ref_ptr<test::VisitRecorder> user = new test::VisitRecorder("user", visited);
+    db.tile->setCullCallback(user.get());
+    installBins(*db.root);
+    CullOptions paper;
+    paper.method = Method::Paper;
+    EXPECT_EQ(installBins(*db.root, paper), 1u);
+    ASSERT_NE(callbackOf(*db.tile), nullptr);
+    EXPECT_EQ(callbackOf(*db.tile)->cullOptions().method, Method::Paper);
+    EXPECT_EQ(callbackOf(*db.tile)->getNestedCallback(), user.get());
+    EXPECT_EQ(user->getNestedCallback(), nullptr);
+
+    CullOptions sphere;
+    sphere.method = Method::Sphere;
+    EXPECT_EQ(installBins(*db.root, sphere), 0u);
+    EXPECT_EQ(db.tile->getCullCallback(), user.get());
+    EXPECT_TRUE(db.tile->getCullingActive());
+    EXPECT_TRUE(db.mesh->getCullingActive());
+}
+
+TEST(BinInstaller, MethodNoneSwitchesAllCullingOff) {
+    Database db;
+    CullOptions none;
+    none.method = Method::None;
+    installBins(*db.root, none);
+    EXPECT_FALSE(db.root->getCullingActive());
+    EXPECT_FALSE(db.tile->getCullingActive());
+    EXPECT_FALSE(db.drawable->getCullingActive());
+    EXPECT_FALSE(db.sibling->getCullingActive());
+}
+
+TEST(BinInstaller, FollowsFixedTransformsBelowTheCoordinateSystem) {
+    Database db;
+    const osg::ref_ptr<osg::MatrixTransform> shift = new osg::MatrixTransform(osg::Matrixd::translate(1, 2, 3));
+    const osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform(osg::Matrixd::rotate(1.0, 0, 0, 1));
+    setStoredBin(*tile, kBin);
+    shift->addChild(tile);
+    db.root->addChild(shift);
+    const osg::ref_ptr<osg::MatrixTransform> globeMover = new osg::MatrixTransform(osg::Matrixd::translate(9, 9, 9));
+    globeMover->addChild(db.root);
+    EXPECT_EQ(installBins(*globeMover), 2u);
+    EXPECT_EQ(callbackOf(*tile)->localToEcef(), osg::Matrixd::rotate(1.0, 0, 0, 1) * osg::Matrixd::translate(1, 2, 3));
+    EXPECT_TRUE(callbackOf(*db.tile)->localToEcef().isIdentity());
+}
+
+TEST(BinInstaller, LeavesTilesUnderMovingTransformsAlone) {
+    Database db;
+    const osg::ref_ptr<osg::MatrixTransform> moving = new osg::MatrixTransform;
+    moving->setDataVariance(osg::Object::DYNAMIC);
+    const osg::ref_ptr<osg::Group> tile = new osg::Group;
+    setStoredBin(*tile, kBin);
+    moving->addChild(tile);
+    db.root->addChild(moving);
+    EXPECT_EQ(installBins(*db.root), 1u);
+    EXPECT_EQ(tile->getCullCallback(), nullptr);
+    EXPECT_TRUE(tile->getCullingActive());
+}
+
+TEST(BinInstaller, WithoutACoordinateSystemATilesOwnFrameIsEcef) {
+    const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform(osg::Matrixd::translate(5, 5, 5));
+    mover->setDataVariance(osg::Object::DYNAMIC);
+    const osg::ref_ptr<osg::Group> tile = new osg::Group;
+    setStoredBin(*tile, kBin);
+    mover->addChild(tile);
+    EXPECT_EQ(installBins(*mover), 1u);
+    EXPECT_TRUE(callbackOf(*tile)->localToEcef().isIdentity());
+}
+
+TEST(BinInstaller, ABrokenStoredBinMeansVisible) {
+    Database db;
+    db.tile->setUserValue("osgAnalyticBin", std::string("0 0 0 1 1"));
+    EXPECT_EQ(installBins(*db.root), 1u);
+    EXPECT_FALSE(callbackOf(*db.tile)->bin().valid());
+    std::set<std::string> visited;
+    callbackOf(*db.tile)->setNestedCallback(new test::VisitRecorder("tile", visited));
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    test::cull(*db.root, test::View::lookAt({-1e7, 0, 0}, {-2e7, 0, 0}, {0, 0, 1}, 10.0), *visitor);
+    EXPECT_EQ(visited.size(), 1u);
+}
+
+TEST(BinInstaller, FindsTheBinOfAPagedLodFromItsGeometryAndKnowsNoHeightsBelow) {
+    Database db;
+    const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
+    paged->addChild(makeTriangle(), 1e6f, 1e10f);
+    paged->setFileName(1, "children.osgb");
+    paged->setRange(1, 0.0f, 1e6f);
+    db.root->addChild(paged);
+    EXPECT_EQ(installBins(*db.root), 2u);
+    const AnalyticBin& bin = callbackOf(*paged)->bin();
+    EXPECT_TRUE(bin.contains(AnalyticBin(GeodeticBin({-0.0999, 0.0999}, {-0.0999, 0.0999}, {-11034, 8849}))));
+    EXPECT_LT(bin.bin().latitude().upper, 0.1005);
+    EXPECT_LT(bin.bin().longitude().upper, 0.1005);
+}
+
+TEST(BinInstaller, LeavesGeometryThatIsNoTerrainAlone) {
+    Database db;
+    const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
+    osg::ref_ptr<osg::Geometry> satellite = makeTriangle();
+    for (osg::Vec3& v : *static_cast<osg::Vec3Array*>(satellite->getVertexArray())) v *= 1.5f;
+    paged->addChild(satellite, 0.0f, 1e10f);
+    db.root->addChild(paged);
+    EXPECT_EQ(installBins(*db.root), 1u);
+    EXPECT_EQ(paged->getCullCallback(), nullptr);
+    EXPECT_TRUE(paged->getCullingActive());
+}
+
+TEST(InstallBinsCallback, InstallsAtTheFirstUpdateAndOnlyThen) {
+    Database db;
+    db.root->setUpdateCallback(new InstallBinsCallback);
+    osgUtil::UpdateVisitor update;
+    db.above->accept(update);
+    ASSERT_NE(callbackOf(*db.tile), nullptr);
+    db.tile->setCullCallback(nullptr);
+    db.above->accept(update);
+    EXPECT_EQ(db.tile->getCullCallback(), nullptr);
+}
+
+TEST(InstallBinsCallback, AnExplicitInstallationWins) {
+    Database db;
+    const osg::ref_ptr<InstallBinsCallback> request = new InstallBinsCallback;
+    db.root->setUpdateCallback(request.get());
+    CullOptions sphere;
+    sphere.method = Method::Sphere;
+    installBins(*db.above, sphere);
+    osgUtil::UpdateVisitor update;
+    db.above->accept(update);
+    EXPECT_EQ(db.tile->getCullCallback(), nullptr);
+    EXPECT_EQ(request->cullOptions().method, Method::Sphere);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "CullFixture.h"
+
+#include <osg/FrameStamp>
+#include <osg/Geometry>
+#include <osg/Viewport>
+#include <osgUtil/RenderStage>
+#include <osgUtil/StateGraph>
+
+#include <osg/CollectOccludersVisitor>
+
+#include <iterator>
+
+namespace osgAnalyticBin::test {
+
+View View::lookAt(const osg::Vec3d& eye, const osg::Vec3d& center, const osg::Vec3d& up, double fovDeg) {
+    View view;
+    view.modelView = osg::Matrixd::lookAt(eye, center, up);
+    view.projection = osg::Matrixd::perspective(fovDeg, 1.0, 1.0, 1e8);
+    return view;
+}
+
+std::vector<osg::Plane> View::sidePlanes() const {
+    osg::Polytope frustum;
+    frustum.setToUnitFrustum(false, false);
+    frustum.transformProvidingInverse(modelView * projection);
+    return frustum.getPlaneList();
+}
+
+namespace {
+
+void collectOccluders(osg::Node& scene, const View& view, osg::Viewport* viewport, osgUtil::CullVisitor& visitor) {
+    osg::ref_ptr<osg::CollectOccludersVisitor> collector = new osg::CollectOccludersVisitor;
+    collector->setCullingMode(view.cullingMode);
+    collector->pushViewport(viewport);
+    collector->pushProjectionMatrix(new osg::RefMatrix(view.projection));
+    collector->pushModelViewMatrix(new osg::RefMatrix(view.modelView), osg::Transform::ABSOLUTE_RF);
+    scene.accept(*collector);
+    collector->popModelViewMatrix();
+    collector->popProjectionMatrix();
+    collector->popViewport();
+    collector->removeOccludedOccluders();
+    visitor.getOccluderList().clear();
+    std::copy(collector->getCollectedOccluderSet().begin(), collector->getCollectedOccluderSet().end(),
+              std::back_inserter(visitor.getOccluderList()));
+}
+
+}  // namespace
+
+void cull(osg::Node& scene, const View& view, osgUtil::CullVisitor& visitor, unsigned int frame) {
+    const osg::ref_ptr<osg::Viewport> viewport = new osg::Viewport(0, 0, 512, 512);
+    const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+    stamp->setFrameNumber(frame);
+    const osg::ref_ptr<osgUtil::StateGraph> stateGraph = new osgUtil::StateGraph;
+    const osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
+    stage->setViewport(viewport.get());
+
+    visitor.reset();
+    visitor.setFrameStamp(stamp.get());
+    visitor.setTraversalNumber(frame);
+    visitor.setCullingMode(view.cullingMode);
+    visitor.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    visitor.setStateGraph(stateGraph.get());
+    visitor.setRenderStage(stage.get());
+    if (view.cullingMode & osg::CullSettings::SHADOW_OCCLUSION_CULLING) {
+        collectOccluders(scene, view, viewport.get(), visitor);
+    }
+    visitor.pushViewport(viewport.get());
+    visitor.pushProjectionMatrix(new osg::RefMatrix(view.projection));
+    visitor.pushModelViewMatrix(new osg::RefMatrix(view.modelView), osg::Transform::ABSOLUTE_RF);
+    scene.accept(visitor);
+    visitor.popModelViewMatrix();
+    visitor.popProjectionMatrix();
+    visitor.popViewport();
+}
+
+void VisitRecorder::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    if (nv->getVisitorType() == osg::NodeVisitor::CULL_VISITOR) _visited.insert(_name);
+    traverse(node, nv);
+}
+
+osg::ref_ptr<osg::Group> makeTile(const std::string& name, const AnalyticBin& bin, std::set<std::string>& visited,
+                                  const CullOptions& options, const osg::EllipsoidModel& ellipsoid) {
+    osg::ref_ptr<osg::Group> tile = new osg::Group;
+    tile->setName(name);
+    osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(bin, ellipsoid, options);
+    callback->setNestedCallback(new VisitRecorder(name, visited));
+    tile->setCullCallback(callback.get());
+    tile->setCullingActive(false);
+    return tile;
+}
+
+std::vector<AnalyticBin> startTiles() {
+    std::vector<AnalyticBin> tiles;
+    for (int y = 0; y < 8; ++y) {
+        for (int x = 0; x < 16; ++x) {
+            const double south = -90.0 + 22.5 * y;
+            const double west = -180.0 + 22.5 * x;
+            tiles.emplace_back(
+                core::GeodeticBin::fromDegrees({south, south + 22.5}, {west, west + 22.5}, {-500.0, 9000.0}));
+        }
+    }
+    return tiles;
+}
+
+std::vector<osg::Vec3d> samples(const AnalyticBin& bin, int n, const osg::EllipsoidModel& ellipsoid) {
+    std::vector<osg::Vec3d> points;
+    const auto at = [](const core::Interval& interval, int i, int count) {
+        return interval.lower + interval.width() * i / (count - 1);
+    };
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            for (int k = 0; k < 3; ++k) {
+                osg::Vec3d p;
+                ellipsoid.convertLatLongHeightToXYZ(at(bin.bin().latitude(), i, n), at(bin.bin().longitude(), j, n),
+                                                    at(bin.bin().altitude(), k, 3), p.x(), p.y(), p.z());
+                points.push_back(p);
+            }
+        }
+    }
+    return points;
+}
+
+}  // namespace osgAnalyticBin::test

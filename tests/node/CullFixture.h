@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// A real cull traversal without a window, and small scenes of tiles that record which of them it reaches.
+
+#pragma once
+
+#include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Group>
+#include <osg/Matrixd>
+#include <osg/NodeCallback>
+#include <osgUtil/CullVisitor>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+
+/// A camera: what osgViewer hands to its cull visitor.
+struct View {
+    osg::Matrixd modelView;
+    osg::Matrixd projection;
+    osg::CullSettings::CullingMode cullingMode = osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING;
+
+    /// Perspective with the given vertical field of view, aspect 1.
+    static View lookAt(const osg::Vec3d& eye, const osg::Vec3d& center, const osg::Vec3d& up, double fovDeg);
+
+    [[nodiscard]] std::vector<osg::Plane> sidePlanes() const;
+};
+
+/// Runs one cull traversal, as osgUtil::SceneView does; occluders in the scene take part.
+void cull(osg::Node& scene, const View& view, osgUtil::CullVisitor& visitor, unsigned int frame = 1);
+
+/// A callback that notes that the cull traversal reached it; put behind a bin's callback as a nested one.
+class VisitRecorder : public osg::NodeCallback {
+public:
+    VisitRecorder(std::string name, std::set<std::string>& visited) : _name(std::move(name)), _visited(visited) {}
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
+
+private:
+    std::string _name;
+    std::set<std::string>& _visited;
+};
+
+/// A named tile with a bin, its sphere culling off, that records visits.
+osg::ref_ptr<osg::Group> makeTile(const std::string& name, const AnalyticBin& bin, std::set<std::string>& visited,
+                                  const CullOptions& options = {},
+                                  const osg::EllipsoidModel& ellipsoid = osg::EllipsoidModel());
+
+/// The 128 start tiles, 22.5 degrees wide, with altitudes -500 .. 9000 m.
+std::vector<AnalyticBin> startTiles();
+
+/// Points of the bin on a grid of n x n x 3, in ECEF.
+std::vector<osg::Vec3d> samples(const AnalyticBin& bin, int n,
+                                const osg::EllipsoidModel& ellipsoid = osg::EllipsoidModel());
+
+}  // namespace osgAnalyticBin::test

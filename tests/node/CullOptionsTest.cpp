@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include <osgAnalyticBin/CullOptions.h>
+
+#include <gtest/gtest.h>
+
+namespace osgAnalyticBin {
+namespace {
+
+TEST(CullOptions, EmptyTextIsTheDefault) {
+    std::string error;
+    const auto options = cullOptionsFromText("", error);
+    ASSERT_TRUE(options);
+    EXPECT_EQ(options->method, Method::Quadratic);
+    EXPECT_EQ(options->growth, 1.1);
+}
+
+TEST(CullOptions, EveryMethodReadsBack) {
+    for (const Method method : {Method::Quadratic, Method::Paper, Method::Corners, Method::Sphere, Method::None}) {
+        EXPECT_EQ(methodFromName(methodName(method)), method);
+        CullOptions options;
+        options.method = method;
+        options.growth = 1.0 + 1.0 / 3.0;
+        std::string error;
+        const auto back = cullOptionsFromText(toText(options), error);
+        ASSERT_TRUE(back) << error;
+        EXPECT_EQ(back->method, method);
+        EXPECT_EQ(back->growth, options.growth);
+    }
+}
+
+TEST(CullOptions, LaterItemsWin) {
+    std::string error;
+    const auto options = cullOptionsFromText("method=paper growth=1.5,method=corners", error);
+    ASSERT_TRUE(options);
+    EXPECT_EQ(options->method, Method::Corners);
+    EXPECT_EQ(options->growth, 1.5);
+}
+
+TEST(CullOptions, WhatIsWrongIsNamed) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"method=cube", "cube"},   {"method", "unknown method"}, {"growth=big", "big"},    {"growth=0.5", "0.5"},
+        {"growth=nan", "nan"},     {"growth=11", "11"},          {"colour=red", "colour"}, {"growth=1.1x", "1.1x"},
+        {"Method=paper", "Method"}};
+    for (const auto& [text, named] : cases) {
+        std::string error;
+        EXPECT_FALSE(cullOptionsFromText(text, error)) << text;
+        EXPECT_NE(error.find(named), std::string::npos) << error;
+    }
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin

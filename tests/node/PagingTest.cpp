@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Tiles that are read later, as the DatabasePager reads them: through the options of their PagedLOD.
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/BinInstaller.h>
+
+#include <gtest/gtest.h>
+#include <osg/CoordinateSystemNode>
+#include <osg/Geometry>
+#include <osg/PagedLOD>
+#include <unistd.h>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+#include <osgDB/WriteFile>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace osgAnalyticBin {
+namespace {
+
+namespace fs = std::filesystem;
+using core::GeodeticBin;
+
+const AnalyticBin kBin(GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100, 5000}));
+
+osg::ref_ptr<osg::PagedLOD> makePagedTile(const std::string& fileName) {
+    osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(new osg::Vec3Array(300));
+    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 300));
+    paged->addChild(geometry, 1e6f, 1e10f);
+    paged->setFileName(1, fileName);
+    paged->setRange(1, 0.0f, 1e6f);
+    setStoredBin(*paged, kBin);
+    return paged;
+}
+
+osgDB::Options* optionsOf(osg::PagedLOD& paged) { return dynamic_cast<osgDB::Options*>(paged.getDatabaseOptions()); }
+
+class Paging : public ::testing::Test {
+protected:
+    void SetUp() override {
+        _folder = fs::temp_directory_path() / ("osganalyticbin_paging_" + std::to_string(::getpid()));
+        fs::create_directories(_folder);
+        osg::ref_ptr<osg::Group> children = new osg::Group;
+        children->addChild(makePagedTile("grandchildren.osgb"));
+        ASSERT_TRUE(osgDB::writeNodeFile(*children, file("children.osgb")));
+        _root->addChild(_paged);
+    }
+    void TearDown() override { fs::remove_all(_folder); }
+
+    [[nodiscard]] std::string file(const std::string& name) const { return (_folder / name).string(); }
+
+    osg::ref_ptr<osg::Node> readChildren() {
+        return osgDB::readRefNodeFile(file("children.osgb"), optionsOf(*_paged));
+    }
+
+    fs::path _folder;
+    osg::ref_ptr<osg::CoordinateSystemNode> _root = new osg::CoordinateSystemNode;
+    osg::ref_ptr<osg::PagedLOD> _paged = makePagedTile("children.osgb");
+};
+
+TEST_F(Paging, TilesReadLaterGetBinsAndPassThemOn) {
+    _root->setEllipsoidModel(new osg::EllipsoidModel(3396190.0, 3376200.0));
+    CullOptions paper;
+    paper.method = Method::Paper;
+    installBins(*_root, paper);
+    const osg::ref_ptr<osg::Node> children = readChildren();
+    ASSERT_TRUE(children);
+    auto* tile = dynamic_cast<osg::PagedLOD*>(children->asGroup()->getChild(0));
+    ASSERT_NE(tile, nullptr);
+    auto* callback = dynamic_cast<AnalyticBinCullCallback*>(tile->getCullCallback());
+    ASSERT_NE(callback, nullptr);
+    EXPECT_EQ(callback->bin(), kBin);
+    EXPECT_EQ(callback->cullOptions().method, Method::Paper);
+    EXPECT_EQ(callback->getRadiiText(), "3396190 3376200");
+    EXPECT_FALSE(tile->getCullingActive());
+    ASSERT_NE(optionsOf(*tile), nullptr);
+    EXPECT_NE(optionsOf(*tile)->getReadFileCallback(), nullptr);
+}
+
+class CountingReader : public osgDB::ReadFileCallback {
+public:
+    osgDB::ReaderWriter::ReadResult readNode(const std::string& name, const osgDB::Options* options) override {
+        ++count;
+        return osgDB::Registry::instance()->readNodeImplementation(name, options);
+    }
+    int count = 0;
+};
+
+TEST_F(Paging, AUsersReadFileCallbackAndOptionsStillWork) {
+    const osg::ref_ptr<CountingReader> reader = new CountingReader;
+    const osg::ref_ptr<osgDB::Options> users = new osgDB::Options("their own=option");
+    users->setReadFileCallback(reader.get());
+    _paged->setDatabaseOptions(users.get());
+    installBins(*_root);
+    installBins(*_root);  // twice must not chain twice
+    EXPECT_EQ(optionsOf(*_paged)->getOptionString(), "their own=option");
+    EXPECT_EQ(users->getReadFileCallback(), reader.get());  // theirs is not changed
+    ASSERT_TRUE(readChildren());
+    EXPECT_EQ(reader->count, 1);
+}
+
+TEST_F(Paging, TheRegistrysReadFileCallbackStillWorks) {
+    const osg::ref_ptr<CountingReader> reader = new CountingReader;
+    osgDB::Registry::instance()->setReadFileCallback(reader.get());
+    installBins(*_root);
+    const osg::ref_ptr<osg::Node> children = readChildren();
+    osgDB::Registry::instance()->setReadFileCallback(nullptr);
+    ASSERT_TRUE(children);
+    EXPECT_EQ(reader->count, 1);
+}
+
+TEST_F(Paging, PagedLodsWithoutOptionsShareOneOptionsObject) {
+    const osg::ref_ptr<osg::PagedLOD> other = makePagedTile("other.osgb");
+    _root->addChild(other);
+    installBins(*_root);
+    EXPECT_EQ(_paged->getDatabaseOptions(), other->getDatabaseOptions());
+    installBins(*_root);
+    EXPECT_EQ(_paged->getDatabaseOptions(), other->getDatabaseOptions());
+}
+
+TEST_F(Paging, MissingAndTruncatedFilesAreErrorsAndNothingElse) {
+    installBins(*_root);
+    std::ifstream whole(file("children.osgb"), std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(whole)), std::istreambuf_iterator<char>());
+    ASSERT_GT(bytes.size(), 500u);
+    EXPECT_FALSE(osgDB::readRefNodeFile(file("absent.osgb"), optionsOf(*_paged)));
+    for (std::size_t length = 0; length + 1 < bytes.size(); length += 1 + bytes.size() / 97) {
+        std::ofstream(file("cut.osgb"), std::ios::binary | std::ios::trunc)
+            .write(bytes.data(), static_cast<std::streamsize>(length));
+        const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file("cut.osgb"), optionsOf(*_paged));
+        EXPECT_FALSE(node) << "cut after " << length << " of " << bytes.size() << " bytes";
+    }
+}
+
+TEST_F(Paging, AnExceptionWhileReadingBecomesAnError) {
+    class Thrower : public osgDB::ReadFileCallback {
+        osgDB::ReaderWriter::ReadResult readNode(const std::string&, const osgDB::Options*) override {
+            throw std::bad_alloc();
+        }
+    };
+    const osg::ref_ptr<osgDB::Options> users = new osgDB::Options;
+    users->setReadFileCallback(new Thrower);
+    _paged->setDatabaseOptions(users.get());
+    installBins(*_root);
+    EXPECT_FALSE(readChildren());
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin
