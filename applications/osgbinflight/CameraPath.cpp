@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "CameraPath.h"
+
+#include "CsvTable.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <set>
+
+namespace osgAnalyticBin::flight {
+
+namespace {
+
+constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
+// Far beyond the moon, and far from where a double stops to resolve metres.
+constexpr double kLargestDistance = 1e12;
+constexpr double kLowestAltitude = -6.3e6;
+
+struct NumberColumn {
+    const char* name;
+    double lowest;
+    double highest;
+};
+
+enum Number { EyeLat, EyeLon, EyeAlt, LookLat, LookLon, LookAlt, Fov, Near, Far, NumberCount };
+
+constexpr std::array<NumberColumn, NumberCount> kNumbers{{{"eyeLatDeg", -90.0, 90.0},
+                                                          {"eyeLonDeg", -360.0, 360.0},
+                                                          {"eyeAlt", kLowestAltitude, kLargestDistance},
+                                                          {"lookLatDeg", -90.0, 90.0},
+                                                          {"lookLonDeg", -360.0, 360.0},
+                                                          {"lookAlt", kLowestAltitude, kLargestDistance},
+                                                          {"fovDeg", 0.001, 179.0},
+                                                          {"near", 1e-6, kLargestDistance},
+                                                          {"far", 1e-6, kLargestDistance}}};
+constexpr const char* kNameColumn = "name";
+
+struct Columns {
+    std::size_t name = 0;
+    std::array<std::size_t, NumberCount> numbers{};
+};
+
+std::optional<Columns> columnsOf(const CsvTable& table, std::string& error) {
+    const auto require = [&](const char* name) {
+        const auto column = table.column(name);
+        if (!column) error = table.fileName + ": column \"" + name + "\" is missing";
+        return column;
+    };
+    Columns columns;
+    const auto name = require(kNameColumn);
+    if (!name) return std::nullopt;
+    columns.name = *name;
+    for (std::size_t i = 0; i < kNumbers.size(); ++i) {
+        const auto column = require(kNumbers[i].name);
+        if (!column) return std::nullopt;
+        columns.numbers[i] = *column;
+    }
+    const auto unknown = std::find_if(table.columns.begin(), table.columns.end(), [](const std::string& column) {
+        return column != kNameColumn && std::none_of(kNumbers.begin(), kNumbers.end(),
+                                                     [&](const NumberColumn& known) { return column == known.name; });
+    });
+    if (unknown == table.columns.end()) return columns;
+    error = table.fileName + ": unknown column \"" + *unknown + "\"";
+    return std::nullopt;
+}
+
+bool isFileName(const std::string& name) {
+    const auto allowed = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    };
+    return !name.empty() && std::all_of(name.begin(), name.end(), allowed);
+}
+
+core::Geodetic fromDegrees(double latitudeDeg, double longitudeDeg, double altitude) {
+    return {latitudeDeg * kRadiansPerDegree, longitudeDeg * kRadiansPerDegree, altitude};
+}
+
+// What is wrong with the numbers together; empty when nothing is.
+std::string contradiction(const std::array<double, NumberCount>& n) {
+    if (!(n[Near] < n[Far])) return "near has to be smaller than far";
+    if (n[EyeLat] == n[LookLat] && n[EyeLon] == n[LookLon] && n[EyeAlt] == n[LookAlt])
+        return "eye and look are the same point";
+    return {};
+}
+
+std::optional<CameraPose> poseOf(const CsvTable& table, const CsvTable::Row& row, const Columns& columns,
+                                 std::string& error) {
+    std::array<double, NumberCount> n{};
+    for (std::size_t i = 0; i < n.size(); ++i) {
+        const std::string& cell = row.cells[columns.numbers[i]];
+        const auto number = numberFrom(cell);
+        if (!number || *number < kNumbers[i].lowest || *number > kNumbers[i].highest) {
+            error = atLine(table, row,
+                           std::string(kNumbers[i].name) + " is \"" + cell + "\", not a number from " +
+                               textFrom(kNumbers[i].lowest) + " to " + textFrom(kNumbers[i].highest));
+            return std::nullopt;
+        }
+        n[i] = *number;
+    }
+    const std::string& name = row.cells[columns.name];
+    std::string problem = contradiction(n);
+    if (!isFileName(name)) problem = "name \"" + name + "\" may hold letters, digits, _ and - only";
+    if (!problem.empty()) {
+        error = atLine(table, row, problem);
+        return std::nullopt;
+    }
+    return CameraPose{name,
+                      fromDegrees(n[EyeLat], n[EyeLon], n[EyeAlt]),
+                      fromDegrees(n[LookLat], n[LookLon], n[LookAlt]),
+                      n[Fov] * kRadiansPerDegree,
+                      n[Near],
+                      n[Far]};
+}
+
+}  // namespace
+
+std::optional<std::vector<CameraPose>> readCameraPath(std::istream& input, const std::string& fileName,
+                                                      std::string& error) {
+    const auto table = readCsv(input, fileName, error);
+    if (!table) return std::nullopt;
+    const auto columns = columnsOf(*table, error);
+    if (!columns) return std::nullopt;
+    std::vector<CameraPose> path;
+    std::set<std::string> names;
+    for (const CsvTable::Row& row : table->rows) {
+        auto pose = poseOf(*table, row, *columns, error);
+        if (!pose) return std::nullopt;
+        if (!names.insert(pose->name).second) {
+            error = atLine(*table, row, "name \"" + pose->name + "\" is used twice");
+            return std::nullopt;
+        }
+        path.push_back(std::move(*pose));
+    }
+    if (!path.empty()) return path;
+    error = fileName + ": no pose";
+    return std::nullopt;
+}
+
+std::optional<std::vector<CameraPose>> readCameraPathFile(const std::string& fileName, std::string& error) {
+    std::ifstream input(fileName);
+    if (input) return readCameraPath(input, fileName, error);
+    error = fileName + ": cannot be opened";
+    return std::nullopt;
+}
+
+}  // namespace osgAnalyticBin::flight

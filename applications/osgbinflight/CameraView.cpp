@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "CameraView.h"
+
+#include <osg/NodeVisitor>
+#include <osg/Transform>
+
+#include <cmath>
+
+namespace osgAnalyticBin::flight {
+
+namespace {
+
+// Sine of the angle to the vertical below which the horizon has no "up": 0.006 degrees.
+constexpr double kStraight = 1e-4;
+
+class GlobeFinder : public osg::NodeVisitor {
+public:
+    explicit GlobeFinder(Globe& globe) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _globe(globe) {}
+
+    using osg::NodeVisitor::apply;
+    void apply(osg::CoordinateSystemNode& node) override {
+        if (_globe.ellipsoid || !node.getEllipsoidModel()) return;
+        _globe.ellipsoid = node.getEllipsoidModel();
+        _globe.localToWorld = osg::computeLocalToWorld(getNodePath());
+    }
+    void apply(osg::Node& node) override {
+        if (!_globe.ellipsoid) traverse(node);
+    }
+
+private:
+    Globe& _globe;
+};
+
+osg::Vec3d toWorld(const core::Geodetic& position, const Globe& globe) {
+    osg::Vec3d ecef;
+    globe.ellipsoid->convertLatLongHeightToXYZ(position.latitude, position.longitude, position.altitude, ecef.x(),
+                                               ecef.y(), ecef.z());
+    return ecef * globe.localToWorld;
+}
+
+osg::Vec3d verticalAt(const core::Geodetic& p) {
+    return {std::cos(p.latitude) * std::cos(p.longitude), std::cos(p.latitude) * std::sin(p.longitude),
+            std::sin(p.latitude)};
+}
+
+osg::Vec3d northAt(const core::Geodetic& p) {
+    return {-std::sin(p.latitude) * std::cos(p.longitude), -std::sin(p.latitude) * std::sin(p.longitude),
+            std::cos(p.latitude)};
+}
+
+osg::Vec3d directionToWorld(const osg::Vec3d& direction, const Globe& globe) {
+    osg::Vec3d world = osg::Matrixd::transform3x3(direction, globe.localToWorld);
+    world.normalize();
+    return world;
+}
+
+}  // namespace
+
+Globe globeOf(osg::Node& scene) {
+    Globe globe;
+    GlobeFinder finder(globe);
+    scene.accept(finder);
+    if (!globe.ellipsoid) globe.ellipsoid = new osg::EllipsoidModel;
+    return globe;
+}
+
+osg::Matrixd viewMatrixOf(const CameraPose& pose, const Globe& globe) {
+    const osg::Vec3d eye = toWorld(pose.eye, globe);
+    const osg::Vec3d look = toWorld(pose.look, globe);
+    osg::Vec3d direction = look - eye;
+    direction.normalize();
+    const osg::Vec3d vertical = directionToWorld(verticalAt(pose.eye), globe);
+    const bool straight = (direction ^ vertical).length() < kStraight;
+    return osg::Matrixd::lookAt(eye, look, straight ? directionToWorld(northAt(pose.eye), globe) : vertical);
+}
+
+osg::Matrixd projectionMatrixOf(const CameraPose& pose, double aspect) {
+    return osg::Matrixd::perspective(osg::RadiansToDegrees(pose.verticalFov), aspect, pose.nearPlane, pose.farPlane);
+}
+
+}  // namespace osgAnalyticBin::flight

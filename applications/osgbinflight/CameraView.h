@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "CameraPath.h"
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Matrixd>
+
+namespace osgAnalyticBin::flight {
+
+/// The globe of a scene: its ellipsoid, and where it stands in the world.
+struct Globe {
+    osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;
+    osg::Matrixd localToWorld;
+};
+
+/// The globe of the scene's first CoordinateSystemNode with an ellipsoid; without one OSG's default ellipsoid, in
+/// place.
+[[nodiscard]] Globe globeOf(osg::Node& scene);
+
+/// From the world to the eye. Up is the local vertical at the eye, or north where the view goes straight up or down.
+[[nodiscard]] osg::Matrixd viewMatrixOf(const CameraPose& pose, const Globe& globe);
+
+/// Perspective with the pose's vertical field of view, near and far plane. `aspect` is width / height.
+[[nodiscard]] osg::Matrixd projectionMatrixOf(const CameraPose& pose, double aspect);
+
+}  // namespace osgAnalyticBin::flight

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "CsvTable.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <istream>
+#include <set>
+
+namespace osgAnalyticBin::flight {
+
+namespace {
+
+std::vector<std::string> cellsOf(const std::string& line) {
+    std::vector<std::string> cells;
+    std::size_t start = 0;
+    for (;;) {
+        const std::size_t comma = line.find(',', start);
+        cells.push_back(trimmed(line.substr(start, comma == std::string::npos ? comma : comma - start)));
+        if (comma == std::string::npos) return cells;
+        start = comma + 1;
+    }
+}
+
+// The next line that says something; false at the end of the file.
+bool nextLine(std::istream& input, std::string& line, std::size_t& number) {
+    while (std::getline(input, line)) {
+        ++number;
+        line = trimmed(line);
+        if (!line.empty() && line.front() != '#') return true;
+    }
+    return false;
+}
+
+std::string repeatedName(const std::vector<std::string>& names) {
+    std::set<std::string> seen;
+    const auto found =
+        std::find_if(names.begin(), names.end(), [&seen](const auto& name) { return !seen.insert(name).second; });
+    return found == names.end() ? std::string() : *found;
+}
+
+}  // namespace
+
+std::optional<std::size_t> CsvTable::column(const std::string& name) const {
+    const auto found = std::find(columns.begin(), columns.end(), name);
+    if (found == columns.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - columns.begin());
+}
+
+std::optional<CsvTable> readCsv(std::istream& input, const std::string& fileName, std::string& error) {
+    CsvTable table;
+    table.fileName = fileName;
+    std::string line;
+    std::size_t number = 0;
+    if (!nextLine(input, line, number)) {
+        error = fileName + ": no line that names the columns";
+        return std::nullopt;
+    }
+    table.columns = cellsOf(line);
+    if (const std::string repeated = repeatedName(table.columns); !repeated.empty()) {
+        error = fileName + ":" + std::to_string(number) + ": column \"" + repeated + "\" stands twice";
+        return std::nullopt;
+    }
+    while (nextLine(input, line, number)) {
+        CsvTable::Row row{number, cellsOf(line)};
+        if (row.cells.size() != table.columns.size()) {
+            error = atLine(table, row,
+                           std::to_string(row.cells.size()) + " cells, but the header names " +
+                               std::to_string(table.columns.size()) + " columns");
+            return std::nullopt;
+        }
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+std::string atLine(const CsvTable& table, const CsvTable::Row& row, const std::string& text) {
+    return table.fileName + ":" + std::to_string(row.line) + ": " + text;
+}
+
+std::optional<double> numberFrom(const std::string& text) {
+    double number = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, problem] = std::from_chars(text.data(), end, number);
+    if (problem != std::errc() || stop != end || !std::isfinite(number)) return std::nullopt;
+    return number;
+}
+
+std::string textFrom(double number) {
+    std::array<char, 32> text{};
+    const auto [stop, problem] = std::to_chars(text.data(), text.data() + text.size(), number);
+    return problem == std::errc() ? std::string(text.data(), stop) : std::string("nan");
+}
+
+std::string trimmed(const std::string& text) {
+    constexpr const char* kBlanks = " \t\r";
+    const std::size_t first = text.find_first_not_of(kBlanks);
+    if (first == std::string::npos) return {};
+    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+}  // namespace osgAnalyticBin::flight

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstddef>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin::flight {
+
+/// A file of comma-separated values whose first line names the columns. Lines that start with `#` and empty lines are
+/// skipped; blanks around a cell are dropped; there are no quotes.
+struct CsvTable {
+    struct Row {
+        std::size_t line = 0;  ///< line number in the file, from 1
+        std::vector<std::string> cells;
+    };
+
+    std::string fileName;
+    std::vector<std::string> columns;
+    std::vector<Row> rows;
+
+    /// Returns: nullopt when there is no such column.
+    [[nodiscard]] std::optional<std::size_t> column(const std::string& name) const;
+};
+
+/// Reads a table; the file name only serves the messages.
+/// Returns: nullopt, with one line in `error` that names the file and the line, when the header is missing or names a
+/// column twice, or when a row has more or fewer cells than the header.
+[[nodiscard]] std::optional<CsvTable> readCsv(std::istream& input, const std::string& fileName, std::string& error);
+
+/// Returns: "file:line: text", the form in which every broken line is reported.
+[[nodiscard]] std::string atLine(const CsvTable& table, const CsvTable::Row& row, const std::string& text);
+
+/// Returns: nullopt unless the whole text is one finite number, written with a decimal point whatever the locale.
+[[nodiscard]] std::optional<double> numberFrom(const std::string& text);
+
+/// The shortest text that reads back to the same number.
+[[nodiscard]] std::string textFrom(double number);
+
+/// `text` without leading and trailing blanks.
+[[nodiscard]] std::string trimmed(const std::string& text);
+
+}  // namespace osgAnalyticBin::flight

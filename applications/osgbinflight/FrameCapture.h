@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osg/Camera>
+#include <osg/Image>
+
+#include <mutex>
+
+namespace osgAnalyticBin::flight {
+
+/// A final draw callback that reads the picture of one frame back, right before the buffers are swapped.
+/// Threads: the camera draws in a thread of its own, perhaps while the next frame is prepared; therefore a picture is
+/// asked for by frame number, and fetched in a later frame.
+class FrameCapture : public osg::Camera::DrawCallback {
+public:
+    /// Asks for the picture of the given frame.
+    void request(unsigned int frameNumber);
+
+    /// Returns: the picture asked for; nullptr as long as it is not drawn.
+    [[nodiscard]] osg::ref_ptr<osg::Image> take();
+
+    void operator()(osg::RenderInfo& renderInfo) const override;
+
+protected:
+    ~FrameCapture() override = default;
+
+private:
+    mutable std::mutex _mutex;
+    mutable bool _requested = false;
+    mutable osg::ref_ptr<osg::Image> _picture;
+    unsigned int _frameNumber = 0;
+};
+
+}  // namespace osgAnalyticBin::flight

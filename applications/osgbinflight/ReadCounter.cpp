@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "ReadCounter.h"
+
+#include <osgDB/Registry>
+
+namespace osgAnalyticBin::flight {
+
+osg::ref_ptr<ReadCounter> ReadCounter::install() {
+    const osg::ref_ptr<ReadCounter> counter = new ReadCounter;
+    osgDB::Registry& registry = *osgDB::Registry::instance();
+    // A plain callback does what the Registry does by itself.
+    counter->_next = registry.getReadFileCallback();
+    if (!counter->_next) counter->_next = new osgDB::ReadFileCallback;
+    registry.setReadFileCallback(counter);
+    return counter;
+}
+
+void ReadCounter::uninstall() {
+    osgDB::Registry& registry = *osgDB::Registry::instance();
+    if (registry.getReadFileCallback() == this) registry.setReadFileCallback(_next);
+}
+
+ReadCounter::Result ReadCounter::openArchive(const std::string& fileName, osgDB::ReaderWriter::ArchiveStatus status,
+                                             unsigned int indexBlockSizeHint, const osgDB::Options* options) {
+    return _next->openArchive(fileName, status, indexBlockSizeHint, options);
+}
+
+ReadCounter::Result ReadCounter::readObject(const std::string& fileName, const osgDB::Options* options) {
+    return _next->readObject(fileName, options);
+}
+
+ReadCounter::Result ReadCounter::readImage(const std::string& fileName, const osgDB::Options* options) {
+    return _next->readImage(fileName, options);
+}
+
+ReadCounter::Result ReadCounter::readHeightField(const std::string& fileName, const osgDB::Options* options) {
+    return _next->readHeightField(fileName, options);
+}
+
+ReadCounter::Result ReadCounter::readNode(const std::string& fileName, const osgDB::Options* options) {
+    ++_nodeFiles;
+    return _next->readNode(fileName, options);
+}
+
+ReadCounter::Result ReadCounter::readShader(const std::string& fileName, const osgDB::Options* options) {
+    return _next->readShader(fileName, options);
+}
+
+ReadCounter::Result ReadCounter::readScript(const std::string& fileName, const osgDB::Options* options) {
+    return _next->readScript(fileName, options);
+}
+
+}  // namespace osgAnalyticBin::flight

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TextTable.h"
+
+#include <algorithm>
+#include <ostream>
+
+namespace osgAnalyticBin::report {
+
+namespace {
+
+std::vector<std::size_t> widthsOf(const std::vector<std::vector<std::string>>& lines) {
+    std::vector<std::size_t> widths;
+    for (const auto& line : lines) {
+        widths.resize(std::max(widths.size(), line.size()));
+        for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+    }
+    return widths;
+}
+
+}  // namespace
+
+void TextTable::print(std::ostream& output) const {
+    const std::vector<std::size_t> widths = widthsOf(_lines);
+    for (const auto& line : _lines) {
+        std::string text;
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            const std::string padding(widths[i] - line[i].size(), ' ');
+            if (i > 0) text += "  ";
+            text += i < _leftColumns ? line[i] + padding : padding + line[i];
+        }
+        text.erase(text.find_last_not_of(' ') + 1);
+        output << text << '\n';
+    }
+}
+
+}  // namespace osgAnalyticBin::report

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Camera paths as text. Oracle: values worked out by hand. The table format itself is tested here too.
+
+#include "CameraPath.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+#include <string>
+
+namespace osgAnalyticBin::flight {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+const std::string kHeader = "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg,near,far\n";
+
+std::string errorOf(const std::string& text) {
+    std::istringstream input(text);
+    std::string error;
+    EXPECT_FALSE(readCameraPath(input, "path.csv", error).has_value()) << text;
+    EXPECT_EQ(error.find('\n'), std::string::npos);
+    return error;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+TEST(CameraPath, ConvertsDegreesToRadiansAndKeepsMetres) {
+    std::istringstream input("# a remark\n\n" + kHeader + " a_1 , 90,-180,1000,45.5,180,-20.5,60,1.5,2e6\n");
+    std::string error;
+    const auto path = readCameraPath(input, "path.csv", error);
+    ASSERT_TRUE(path.has_value()) << error;
+    ASSERT_EQ(path->size(), 1u);
+    const CameraPose& pose = path->front();
+    EXPECT_EQ(pose.name, "a_1");
+    EXPECT_DOUBLE_EQ(pose.eye.latitude, kPi / 2);
+    EXPECT_DOUBLE_EQ(pose.eye.longitude, -kPi);
+    EXPECT_EQ(pose.eye.altitude, 1000.0);
+    EXPECT_DOUBLE_EQ(pose.look.latitude, 45.5 * kPi / 180.0);
+    EXPECT_DOUBLE_EQ(pose.look.longitude, kPi);
+    EXPECT_EQ(pose.look.altitude, -20.5);
+    EXPECT_DOUBLE_EQ(pose.verticalFov, kPi / 3);
+    EXPECT_EQ(pose.nearPlane, 1.5);
+    EXPECT_EQ(pose.farPlane, 2e6);
+}
+
+TEST(CameraPath, TakesColumnsInAnyOrder) {
+    std::istringstream input(
+        "far,name,near,fovDeg,lookAlt,lookLonDeg,lookLatDeg,eyeAlt,eyeLonDeg,eyeLatDeg\n9,p,8,7,6,5,4,3,2,1\n");
+    std::string error;
+    const auto path = readCameraPath(input, "path.csv", error);
+    ASSERT_TRUE(path.has_value()) << error;
+    EXPECT_EQ(path->front().farPlane, 9.0);
+    EXPECT_EQ(path->front().eye.altitude, 3.0);
+    EXPECT_DOUBLE_EQ(path->front().eye.latitude, kPi / 180.0);
+}
+
+TEST(CameraPath, NamesFileAndLineOfABrokenLine) {
+    const std::string good = "a,0,0,1000,0,0,0,60,1,2\n";
+    EXPECT_TRUE(contains(errorOf(kHeader + good + "b,0,0,1000,0,zero,0,60,1,2\n"), "path.csv:3: lookLonDeg"));
+    EXPECT_TRUE(contains(errorOf("# x\n" + kHeader + "b,91,0,1000,0,0,0,60,1,2\n"), "path.csv:3: eyeLatDeg"));
+    EXPECT_TRUE(contains(errorOf(kHeader + "b,0,0,nan,0,0,0,60,1,2\n"), "path.csv:2: eyeAlt"));
+    EXPECT_TRUE(contains(errorOf(kHeader + "b,0,0,1000m,0,0,0,60,1,2\n"), "path.csv:2: eyeAlt"));
+    EXPECT_TRUE(contains(errorOf(kHeader + "b,0,0,1000,0,0,0,180,1,2\n"), "path.csv:2: fovDeg"));
+    EXPECT_TRUE(contains(errorOf(kHeader + "b,0,0,1000,0,0,0,60,0,2\n"), "path.csv:2: near"));
+    EXPECT_TRUE(contains(errorOf(kHeader + "b,0,0,1000,0,0,0,60,2,2\n"), "path.csv:2: near"));
+    EXPECT_TRUE(contains(errorOf(kHeader + "b,0,0,1000,0,0,1000,60,1,2\n"), "path.csv:2: eye and look"));
+    EXPECT_TRUE(contains(errorOf(kHeader + "b,0,0,1000,0,0,0,60,1\n"), "path.csv:2: 9 cells"));
+    EXPECT_TRUE(contains(errorOf(kHeader + "a/b,0,0,1000,0,0,0,60,1,2\n"), "path.csv:2: name"));
+    EXPECT_TRUE(contains(errorOf(kHeader + good + good), "path.csv:3: name \"a\" is used twice"));
+}
+
+TEST(CameraPath, RejectsAnUnsuitableHeader) {
+    EXPECT_TRUE(contains(errorOf(""), "no line that names the columns"));
+    EXPECT_TRUE(contains(errorOf(kHeader), "no pose"));
+    EXPECT_TRUE(contains(errorOf("name,eyeLatDeg\na,1\n"), "\"eyeLonDeg\" is missing"));
+    EXPECT_TRUE(contains(errorOf("name,name\na,1\n"), "path.csv:1: column \"name\" stands twice"));
+    const std::string header = kHeader.substr(0, kHeader.size() - 1);
+    EXPECT_TRUE(contains(errorOf(header + ",roll\na,0,0,1000,0,0,0,60,1,2,0\n"), "unknown column \"roll\""));
+}
+
+TEST(CameraPath, NamesAMissingFile) {
+    std::string error;
+    EXPECT_FALSE(readCameraPathFile("/nowhere/path.csv", error).has_value());
+    EXPECT_TRUE(contains(error, "/nowhere/path.csv"));
+}
+
+TEST(CameraPath, TheDemosPathIsGood) {
+    std::string error;
+    const auto path = readCameraPathFile(DEMO_PATH_FILE, error);
+    ASSERT_TRUE(path.has_value()) << error;
+    EXPECT_GE(path->size(), 14u);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::flight

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Matrices of a pose. Oracle: where known points of the globe come to lie in the eye's frame (x right, y up, -z ahead).
+
+#include "CameraView.h"
+
+#include <gtest/gtest.h>
+#include <osg/CoordinateSystemNode>
+#include <osg/MatrixTransform>
+
+namespace osgAnalyticBin::flight {
+namespace {
+
+constexpr double kRadius = 6378137.0;
+constexpr double kMetre = 1e-3;
+
+Globe earth() {
+    return {new osg::EllipsoidModel, osg::Matrixd()};
+}
+
+CameraPose poseOf(const core::Geodetic& eye, const core::Geodetic& look) {
+    return {"pose", eye, look, osg::DegreesToRadians(60.0), 10.0, 1000.0};
+}
+
+TEST(CameraView, PutsTheEyeAtItsGeodeticPosition) {
+    const osg::Matrixd view = viewMatrixOf(poseOf({0.0, 0.0, 1000.0}, {0.0, 0.01, 1000.0}), earth());
+    EXPECT_LT((osg::Vec3d(kRadius + 1000.0, 0.0, 0.0) * view).length(), kMetre);
+}
+
+TEST(CameraView, LooksAheadWithTheLocalVerticalUp) {
+    const osg::Matrixd view = viewMatrixOf(poseOf({0.0, 0.0, 1000.0}, {0.0, 0.001, 1000.0}), earth());
+    const osg::Vec3d above = osg::Vec3d(kRadius + 2000.0, 0.0, 0.0) * view;
+    EXPECT_NEAR(above.x(), 0.0, kMetre);
+    EXPECT_GT(above.y(), 999.0);
+    const osg::Vec3d east = osg::Vec3d(kRadius + 1000.0, 500.0, 0.0) * view;
+    EXPECT_LT(east.z(), -499.0);
+}
+
+TEST(CameraView, TakesNorthForUpWhenLookingStraightDown) {
+    const osg::Matrixd view = viewMatrixOf(poseOf({0.0, 0.0, 1000.0}, {0.0, 0.0, 0.0}), earth());
+    const osg::Vec3d north = osg::Vec3d(kRadius, 0.0, 500.0) * view;
+    EXPECT_NEAR(north.x(), 0.0, kMetre);
+    EXPECT_NEAR(north.y(), 500.0, kMetre);
+    EXPECT_NEAR(north.z(), -1000.0, kMetre);
+}
+
+TEST(CameraView, IsDefinedAboveAPole) {
+    const osg::Matrixd view = viewMatrixOf(poseOf({osg::PI_2, 0.0, 1e6}, {osg::PI_2, 0.0, 0.0}), earth());
+    EXPECT_TRUE(view.valid());
+    EXPECT_LT((osg::Vec3d(0.0, 0.0, 6356752.3142 + 1e6) * view).length(), 1.0);
+}
+
+TEST(CameraView, FollowsATransformAboveTheGlobe) {
+    const osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform(osg::Matrixd::translate(0.0, 0.0, 5e6));
+    const osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
+    globe->setEllipsoidModel(new osg::EllipsoidModel(1000.0, 1000.0));
+    moved->addChild(globe);
+    const osg::Matrixd view = viewMatrixOf(poseOf({0.0, 0.0, 100.0}, {0.0, 0.0, 0.0}), globeOf(*moved));
+    EXPECT_LT((osg::Vec3d(1100.0, 0.0, 5e6) * view).length(), kMetre);
+}
+
+TEST(CameraView, ProjectsWithTheVerticalFieldOfView) {
+    double fovy = 0.0, aspect = 0.0, nearPlane = 0.0, farPlane = 0.0;
+    const CameraPose pose = poseOf({0.0, 0.0, 1.0}, {});
+    ASSERT_TRUE(projectionMatrixOf(pose, 1.5).getPerspective(fovy, aspect, nearPlane, farPlane));
+    EXPECT_NEAR(fovy, 60.0, 1e-9);
+    EXPECT_NEAR(aspect, 1.5, 1e-9);
+    EXPECT_NEAR(nearPlane, 10.0, 1e-9);
+    EXPECT_NEAR(farPlane, 1000.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::flight

@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// osgbinreport over made-up flights: the parts here, the program's exit codes at the end.
+
+#include "PictureDifference.h"
+#include "Report.h"
+#include "support/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+#include <osg/Image>
+#include <osgDB/ReadFile>
+#include <osgDB/WriteFile>
+
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <sys/wait.h>
+
+namespace osgAnalyticBin::report {
+namespace {
+
+using test::TemporaryFolder;
+
+constexpr int kWidth = 8;
+constexpr int kHeight = 4;
+
+osg::ref_ptr<osg::Image> greyPicture(int width = kWidth) {
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(width, kHeight, 1, GL_RGB, GL_UNSIGNED_BYTE, 1);
+    std::fill_n(image->data(), image->getTotalSizeInBytes(), static_cast<unsigned char>(90));
+    return image;
+}
+
+// A flight of two poses that drew `drawn` tiles at each; its second picture is the one given.
+std::string makeRun(const TemporaryFolder& folder, const std::string& name, std::uint64_t drawn,
+                    const osg::Image& second) {
+    const std::string run = folder.makeFolder(name);
+    std::vector<flight::PoseRecord> poses(2);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        poses[i].name = "far_" + std::to_string(i + 1);
+        poses[i].picture = poses[i].name + ".png";
+        poses[i].tiles.tested = poses[i].tiles.kept = poses[i].tiles.drawn = drawn;
+        poses[i].cullMs = 1.5;
+        EXPECT_TRUE(osgDB::writeImageFile(i == 0 ? *greyPicture() : second, run + "/" + poses[i].picture));
+    }
+    std::string error;
+    EXPECT_TRUE(flight::writePoseTable(run, poses, "", error)) << error;
+    return run;
+}
+
+osg::ref_ptr<osg::Image> pictureWithOneOtherPixel() {
+    osg::ref_ptr<osg::Image> image = greyPicture();
+    ++image->data(3, 2)[1];
+    return image;
+}
+
+int exitCodeOf(const std::string& arguments) {
+    const int status = std::system(("'" REPORT_FILE "' " + arguments + " >/dev/null 2>&1").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(PictureDifference, FindsASingleChangedChannel) {
+    std::string error;
+    const auto difference = compare(*greyPicture(), *pictureWithOneOtherPixel(), error);
+    ASSERT_TRUE(difference.has_value()) << error;
+    EXPECT_EQ(difference->pixels, 1u);
+    EXPECT_EQ(difference->picture->data(3, 2)[0], 255);
+    EXPECT_EQ(difference->picture->data(2, 2)[0], 30);
+}
+
+TEST(PictureDifference, FindsNothingInEqualPictures) {
+    std::string error;
+    const auto difference = compare(*greyPicture(), *greyPicture(), error);
+    ASSERT_TRUE(difference.has_value()) << error;
+    EXPECT_EQ(difference->pixels, 0u);
+}
+
+TEST(PictureDifference, RefusesPicturesOfDifferentSizes) {
+    std::string error;
+    EXPECT_FALSE(compare(*greyPicture(), *greyPicture(kWidth + 1), error).has_value());
+    EXPECT_NE(error.find("8x4 and 9x4"), std::string::npos) << error;
+}
+
+TEST(Report, EqualPicturesAreNoMismatch) {
+    const TemporaryFolder folder;
+    std::string error;
+    const auto report = Report::of(
+        {makeRun(folder, "none", 10, *greyPicture()), makeRun(folder, "sphere", 4, *greyPicture())}, {}, "", error);
+    ASSERT_TRUE(report.has_value()) << error;
+    EXPECT_TRUE(report->mismatches().empty());
+    EXPECT_EQ(report->runs().back().label, "sphere");
+}
+
+TEST(Report, NamesThePoseThatDiffersAndPaintsIt) {
+    const TemporaryFolder folder;
+    std::string error;
+    const auto report =
+        Report::of({makeRun(folder, "a", 10, *greyPicture()), makeRun(folder, "b", 4, *pictureWithOneOtherPixel())},
+                   {"none", "quadratic"}, folder / "differences", error);
+    ASSERT_TRUE(report.has_value()) << error;
+    ASSERT_EQ(report->mismatches().size(), 1u);
+    EXPECT_EQ(report->mismatches().front().pose, "far_2");
+    EXPECT_EQ(report->mismatches().front().label, "quadratic");
+    EXPECT_EQ(report->mismatches().front().pixels, 1u);
+    EXPECT_TRUE(std::filesystem::exists(folder / "differences/quadratic_far_2.png"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "differences/quadratic_far_1.png"));
+}
+
+TEST(Report, ForgivesTheUnsoundMethods) {
+    const TemporaryFolder folder;
+    std::string error;
+    const auto report = Report::of(
+        {makeRun(folder, "none", 10, *greyPicture()), makeRun(folder, "paper", 4, *pictureWithOneOtherPixel())}, {}, "",
+        error);
+    ASSERT_TRUE(report.has_value()) << error;
+    EXPECT_TRUE(report->mismatches().empty());
+    EXPECT_EQ(report->runs().back().differingPixels.back(), 1u);
+}
+
+TEST(Report, PrintsSumsOfGroupsAndRatiosToSphere) {
+    const TemporaryFolder folder;
+    std::string error;
+    const auto report =
+        Report::of({makeRun(folder, "none", 10, *greyPicture()), makeRun(folder, "sphere", 4, *greyPicture()),
+                    makeRun(folder, "quadratic", 1, *greyPicture())},
+                   {}, "", error);
+    ASSERT_TRUE(report.has_value()) << error;
+    std::ostringstream text;
+    report->print(text);
+    EXPECT_NE(text.str().find("sum of far_*"), std::string::npos) << text.str();
+    EXPECT_NE(text.str().find("sum of all poses"), std::string::npos) << text.str();
+    EXPECT_NE(text.str().find("quadratic / sphere   0.250  0.250  0.250"), std::string::npos) << text.str();
+}
+
+TEST(Report, NamesAMissingRun) {
+    const TemporaryFolder folder;
+    std::string error;
+    EXPECT_FALSE(Report::of({makeRun(folder, "none", 1, *greyPicture()), folder / "gone"}, {}, "", error).has_value());
+    EXPECT_NE(error.find("gone"), std::string::npos) << error;
+}
+
+TEST(Report, NamesAMissingPicture) {
+    const TemporaryFolder folder;
+    const std::string none = makeRun(folder, "none", 1, *greyPicture());
+    const std::string sphere = makeRun(folder, "sphere", 1, *greyPicture());
+    std::filesystem::remove(sphere + "/far_2.png");
+    std::string error;
+    EXPECT_FALSE(Report::of({none, sphere}, {}, "", error).has_value());
+    EXPECT_NE(error.find("sphere/far_2.png"), std::string::npos) << error;
+}
+
+TEST(Report, RefusesFlightsAlongDifferentPaths) {
+    const TemporaryFolder folder;
+    const std::string none = makeRun(folder, "none", 1, *greyPicture());
+    const std::string sphere = makeRun(folder, "sphere", 1, *greyPicture());
+    std::string error;
+    auto poses = flight::readPoseTable(sphere, error);
+    ASSERT_TRUE(poses.has_value()) << error;
+    poses->pop_back();
+    ASSERT_TRUE(flight::writePoseTable(sphere, *poses, "", error)) << error;
+    EXPECT_FALSE(Report::of({none, sphere}, {}, "", error).has_value());
+    EXPECT_NE(error.find("poses"), std::string::npos) << error;
+}
+
+TEST(ReportProgram, SaysByItsExitCodeWhatItFound) {
+    const TemporaryFolder folder;
+    const std::string none = makeRun(folder, "none", 1, *greyPicture());
+    const std::string same = makeRun(folder, "sphere", 1, *greyPicture());
+    const std::string other = makeRun(folder, "quadratic", 1, *pictureWithOneOtherPixel());
+    EXPECT_EQ(exitCodeOf(none + " " + same), 0);
+    EXPECT_EQ(exitCodeOf(none + " " + same + " " + other), 1);
+    EXPECT_EQ(exitCodeOf(none + " " + other + " --labels none,paper"), 0);
+    EXPECT_EQ(exitCodeOf(none + " " + (folder / "gone")), 2);
+    EXPECT_EQ(exitCodeOf(none + " " + same + " --labels one"), 2);
+    EXPECT_EQ(exitCodeOf("--help"), 0);
+    EXPECT_NE(exitCodeOf(""), 0);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::report

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "support/TemporaryFolder.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace osgAnalyticBin::test {
+
+TemporaryFolder::TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "osgbinflight-XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("cannot make " + name);
+    _path = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(_path, ignored);
+}
+
+std::string TemporaryFolder::makeFolder(const std::string& name) const {
+    std::filesystem::create_directories(*this / name);
+    return *this / name;
+}
+
+std::string TemporaryFolder::write(const std::string& name, const std::string& text) const {
+    std::ofstream(*this / name) << text;
+    return *this / name;
+}
+
+std::string textOfFile(const std::string& file) {
+    std::ifstream input(file);
+    std::ostringstream text;
+    text << input.rdbuf();
+    return text.str();
+}
+
+}  // namespace osgAnalyticBin::test
