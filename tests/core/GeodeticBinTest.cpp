@@ -1,0 +1,295 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Oracles: the definition of the set, point by point; set algebra on random bins (RapidCheck shrinks its
+// counter-examples). What a bin looks like in space is tested with the mapping.
+
+#include <osgAnalyticBin/core/GeodeticBin.h>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <support/RandomBins.h>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::Geodetic;
+using core::GeodeticBin;
+using core::Interval;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTwoPi = 2.0 * kPi;
+constexpr double kAngleTolerance = 1e-15;  // promised by GeodeticBin::contains
+constexpr Interval kGround{0.0, 100.0};
+
+// Bins on a grid of ten degrees shrink to readable counter-examples.
+GeodeticBin gridBin(int south, int height, int west, int width) {
+    return GeodeticBin::fromDegrees({-90.0 + south * 10.0, -90.0 + std::min(south + height, 18) * 10.0},
+                                    {-180.0 + west * 10.0, -180.0 + (west + width) * 10.0}, kGround);
+}
+
+rc::Gen<GeodeticBin> anyGridBin() {
+    return rc::gen::map(rc::gen::tuple(rc::gen::inRange(0, 19), rc::gen::inRange(0, 19), rc::gen::inRange(-36, 36),
+                                       rc::gen::inRange(0, 37)),
+                        [](const std::tuple<int, int, int, int>& t) {
+                            return gridBin(std::get<0>(t), std::get<1>(t), std::get<2>(t), std::get<3>(t));
+                        });
+}
+
+TEST(GeodeticBin, IsEmptyByDefault) {
+    const GeodeticBin bin;
+    EXPECT_TRUE(bin.empty());
+    EXPECT_FALSE(bin.contains(Geodetic{}));
+    EXPECT_TRUE(bin.contains(GeodeticBin{}));
+    EXPECT_TRUE(bin == GeodeticBin{});
+}
+
+TEST(GeodeticBin, ImproperIntervalsMakeItEmpty) {
+    const Interval fine{0.0, 1.0};
+    for (const Interval& bad : {Interval{1.0, 0.0}, Interval{kNaN, 1.0}, Interval{0.0, kNaN}, Interval{kNaN, kNaN},
+                                Interval{-kInfinity, 1.0}, Interval{0.0, kInfinity}}) {
+        EXPECT_TRUE(GeodeticBin(bad, fine, fine).empty());
+        EXPECT_TRUE(GeodeticBin(fine, bad, fine).empty());
+        EXPECT_TRUE(GeodeticBin(fine, fine, bad).empty());
+        EXPECT_TRUE(GeodeticBin(fine, fine, fine).withAltitude(bad).empty());
+        EXPECT_TRUE(GeodeticBin::wholeGlobe(bad).empty());
+    }
+}
+
+TEST(GeodeticBin, ZeroSizeIsNotEmpty) {
+    const GeodeticBin bin({0.5, 0.5}, {1.0, 1.0}, {3.0, 3.0});
+    EXPECT_FALSE(bin.empty());
+    EXPECT_TRUE(bin.contains(Geodetic{0.5, 1.0, 3.0}));
+    EXPECT_FALSE(bin.contains(Geodetic{std::nextafter(0.5, 1.0), 1.0, 3.0}));
+    EXPECT_FALSE(bin.contains(Geodetic{0.5, 1.0 + 1e-14, 3.0}));
+    EXPECT_FALSE(bin.contains(Geodetic{0.5, 1.0, std::nextafter(3.0, 4.0)}));
+}
+
+TEST(GeodeticBin, ClampsLatitudesToThePoles) {
+    const GeodeticBin bin({-2.0, 2.0}, {0.0, 1.0}, kGround);
+    EXPECT_EQ(bin.latitude(), (Interval{-kHalfPi, kHalfPi}));
+}
+
+TEST(GeodeticBin, FullCircleHoldsEveryLongitude) {
+    for (const GeodeticBin& bin :
+         {GeodeticBin::wholeGlobe(kGround), GeodeticBin::fromDegrees({-90.0, 90.0}, {-180.0, 180.0}, kGround),
+          GeodeticBin::fromDegrees({-90.0, 90.0}, {0.0, 360.0}, kGround),
+          GeodeticBin::fromDegrees({-90.0, 90.0}, {17.0, 500.0}, kGround)}) {
+        EXPECT_TRUE(bin.isFullCircle());
+        EXPECT_EQ(bin.longitude().width(), kTwoPi);
+        for (const double longitude : {0.0, kPi, -kPi, 3.0, -3.0, 7.0, 100.0}) {
+            EXPECT_TRUE(bin.contains(Geodetic{kHalfPi, longitude, 1.0})) << longitude;
+            EXPECT_TRUE(bin.contains(Geodetic{-kHalfPi, longitude, 1.0})) << longitude;
+        }
+        EXPECT_TRUE(bin.contains(GeodeticBin::wholeGlobe(kGround)));
+    }
+    EXPECT_FALSE(GeodeticBin({0.0, 1.0}, {0.0, 6.28}, kGround).isFullCircle());
+}
+
+TEST(GeodeticBin, DegreesAtThePolesAreThePoles) {
+    const GeodeticBin bin = GeodeticBin::fromDegrees({-90.0, 90.0}, {-180.0, 180.0}, kGround);
+    EXPECT_EQ(bin.latitude(), (Interval{-kHalfPi, kHalfPi}));
+    EXPECT_EQ(bin.longitude(), (Interval{-kPi, kPi}));
+}
+
+TEST(GeodeticBin, DegreesThatShareAnEdgeShareItInRadians) {
+    Random random(30);
+    for (int trial = 0; trial < 10000; ++trial) {
+        const double edge = random.uniform(-90.0, 90.0);
+        const GeodeticBin a = GeodeticBin::fromDegrees({-90.0, edge}, {-100.0, edge}, kGround);
+        const GeodeticBin b = GeodeticBin::fromDegrees({edge, 90.0}, {edge, 100.0}, kGround);
+        ASSERT_EQ(a.latitude().upper, b.latitude().lower);
+        ASSERT_EQ(a.longitude().upper, b.longitude().lower);
+        const GeodeticBin c = GeodeticBin::fromDegrees({std::nextafter(edge, 91.0), 90.0}, {edge, 100.0}, kGround);
+        ASSERT_LE(b.latitude().lower, c.latitude().lower) << "the conversion is monotone";
+    }
+}
+
+TEST(GeodeticBin, HoldsItsOwnPositionsAfterATurn) {
+    Random random(31);
+    for (int trial = 0; trial < 100000; ++trial) {
+        const GeodeticBin bin = randomBin(random);
+        Geodetic position = randomPosition(random, bin);
+        ASSERT_TRUE(bin.contains(position));
+        // A turn costs the position up to half a unit in its last place, and its distance from the bin's edge as much:
+        // within the tolerance while both are below 8.
+        position.longitude += position.longitude > 0.0 ? -kTwoPi : kTwoPi;
+        if (std::abs(position.longitude - bin.longitude().lower) > 8.0) continue;
+        ASSERT_TRUE(bin.contains(position)) << position.longitude;
+    }
+}
+
+TEST(GeodeticBin, RejectsPositionsBesideIt) {
+    Random random(32);
+    for (int trial = 0; trial < 100000; ++trial) {
+        const GeodeticBin bin = randomBin(random);
+        const Geodetic inside = randomPosition(random, bin);
+        const double step = random.logUniform(1e-14, 0.1);
+        Geodetic outside = inside;
+        outside.latitude = bin.latitude().upper + step;
+        ASSERT_FALSE(bin.contains(outside));
+        outside.latitude = bin.latitude().lower - step;
+        ASSERT_FALSE(bin.contains(outside));
+        outside = inside;
+        outside.altitude = bin.altitude().upper + 1e6 * step;
+        ASSERT_FALSE(bin.contains(outside));
+        outside = inside;
+        outside.longitude = bin.longitude().upper + step;
+        if (bin.longitude().width() + step < kTwoPi - 1e-14) {
+            ASSERT_FALSE(bin.contains(outside));
+        }
+        outside.longitude = bin.longitude().lower - step;
+        if (bin.longitude().width() + step < kTwoPi - 1e-14) {
+            ASSERT_FALSE(bin.contains(outside));
+        }
+    }
+}
+
+TEST(GeodeticBin, NothingHoldsAPositionWithoutNumbers) {
+    const GeodeticBin globe = GeodeticBin::wholeGlobe(kGround);
+    EXPECT_FALSE(globe.contains(Geodetic{kNaN, 0.0, 1.0}));
+    EXPECT_FALSE(globe.contains(Geodetic{0.0, kNaN, 1.0}));
+    EXPECT_FALSE(globe.contains(Geodetic{0.0, 0.0, kNaN}));
+    EXPECT_FALSE(globe.contains(Geodetic{0.0, kInfinity, 1.0}));
+    GeodeticBin bin({0.0, 1.0}, {0.0, 1.0}, kGround);
+    const GeodeticBin before = bin;
+    bin.expandBy(Geodetic{kNaN, 0.0, 0.0});
+    EXPECT_TRUE(bin == before);
+}
+
+TEST(GeodeticBin, CrossesTheDateLine) {
+    const GeodeticBin bin = GeodeticBin::fromDegrees({0.0, 10.0}, {170.0, 190.0}, kGround);
+    const auto at = [](double longitudeDeg) { return Geodetic{0.1, longitudeDeg * kRadiansPerDegree, 1.0}; };
+    EXPECT_TRUE(bin.contains(at(175.0)));
+    EXPECT_TRUE(bin.contains(at(-175.0)));
+    EXPECT_TRUE(bin.contains(at(180.0)));
+    EXPECT_TRUE(bin.contains(at(-180.0)));
+    EXPECT_FALSE(bin.contains(at(165.0)));
+    EXPECT_FALSE(bin.contains(at(-165.0)));
+    EXPECT_FALSE(bin.contains(at(0.0)));
+    EXPECT_TRUE(bin.contains(GeodeticBin::fromDegrees({1.0, 2.0}, {-185.0, -175.0}, kGround)));
+    EXPECT_FALSE(bin.contains(GeodeticBin::fromDegrees({1.0, 2.0}, {-175.0, -165.0}, kGround)));
+}
+
+TEST(GeodeticBin, UnitesTheShorterWayRound) {
+    const auto span = [](double west, double east) {
+        return GeodeticBin::fromDegrees({0.0, 10.0}, {west, east}, kGround);
+    };
+    const GeodeticBin overDateLine = span(160.0, 170.0).united(span(-170.0, -160.0));
+    EXPECT_NEAR(overDateLine.longitude().width(), 40.0 * kRadiansPerDegree, 1e-14);
+    EXPECT_TRUE(overDateLine.contains(Geodetic{0.1, kPi, 1.0}));
+    EXPECT_FALSE(overDateLine.contains(Geodetic{0.1, 0.0, 1.0}));
+    const GeodeticBin overGreenwich = span(-20.0, -10.0).united(span(5.0, 15.0));
+    EXPECT_NEAR(overGreenwich.longitude().width(), 35.0 * kRadiansPerDegree, 1e-14);
+    EXPECT_TRUE(overGreenwich.contains(Geodetic{0.1, 0.0, 1.0}));
+    const GeodeticBin reversed = span(-170.0, -160.0).united(span(160.0, 170.0));
+    EXPECT_NEAR(reversed.longitude().width(), 40.0 * kRadiansPerDegree, 1e-14);
+    EXPECT_TRUE(span(-180.0, 0.0).united(span(0.0, 180.0)).isFullCircle());
+    EXPECT_TRUE(span(0.0, 200.0).united(span(180.0, 370.0)).isFullCircle());
+}
+
+TEST(GeodeticBin, UnitesLatitudesAndAltitudes) {
+    const GeodeticBin a({0.1, 0.2}, {0.0, 1.0}, {-5.0, 10.0});
+    const GeodeticBin b({-0.3, 0.1}, {0.0, 1.0}, {7.0, 20.0});
+    EXPECT_TRUE(a.united(b) == GeodeticBin({-0.3, 0.2}, {0.0, 1.0}, {-5.0, 20.0}));
+    EXPECT_TRUE(a.united(GeodeticBin{}) == a);
+    EXPECT_TRUE(GeodeticBin{}.united(a) == a);
+}
+
+TEST(GeodeticBin, UnionHoldsEveryPositionOfBoth) {
+    Random random(33);
+    for (int trial = 0; trial < 50000; ++trial) {
+        const GeodeticBin a = randomBin(random);
+        const GeodeticBin b = randomBin(random);
+        const GeodeticBin both = a.united(b);
+        ASSERT_TRUE(both.contains(a));
+        ASSERT_TRUE(both.contains(b));
+        ASSERT_TRUE(both.contains(randomPosition(random, a)));
+        ASSERT_TRUE(both.contains(randomPosition(random, b)));
+    }
+}
+
+RC_GTEST_PROP(GeodeticBin, UnionIsTheSmallestOfTheTwoWaysRound, ()) {
+    const GeodeticBin a = *anyGridBin();
+    const GeodeticBin b = *anyGridBin();
+    const GeodeticBin both = a.united(b);
+    RC_ASSERT(both.contains(a) && both.contains(b));
+    // The brute-force width: the circle less the widest gap, found on the grid's cells.
+    int covered[36] = {};
+    for (const GeodeticBin& bin : {a, b}) {
+        const int west = static_cast<int>(std::lround(bin.longitude().lower / kRadiansPerDegree / 10.0)) + 72;
+        const int width = static_cast<int>(std::lround(bin.longitude().width() / kRadiansPerDegree / 10.0));
+        for (int i = 0; i < width; ++i) covered[(west + i) % 36] = 1;
+    }
+    RC_PRE(a.longitude().width() > 0.01 && b.longitude().width() > 0.01);
+    int widestGap = 0;
+    for (int start = 0; start < 36; ++start) {
+        int gap = 0;
+        while (gap < 36 && covered[(start + gap) % 36] == 0) ++gap;
+        widestGap = std::max(widestGap, gap);
+    }
+    const double smallest = (36 - widestGap) * 10.0 * kRadiansPerDegree;
+    RC_ASSERT(std::abs(both.longitude().width() - smallest) < 1e-12);
+    RC_ASSERT(both.latitude().lower == std::min(a.latitude().lower, b.latitude().lower));
+    RC_ASSERT(both.latitude().upper == std::max(a.latitude().upper, b.latitude().upper));
+}
+
+RC_GTEST_PROP(GeodeticBin, ContainmentIsThatOfTheCorners, ()) {
+    const GeodeticBin a = *anyGridBin();
+    const GeodeticBin b = *anyGridBin();
+    const Geodetic southWest{b.latitude().lower, b.longitude().lower, 1.0};
+    const Geodetic northEast{b.latitude().upper, b.longitude().upper, 1.0};
+    if (a.contains(b)) RC_ASSERT(a.contains(southWest) && a.contains(northEast) && a.contains(b.center()));
+    if (a.contains(b) && b.contains(a)) {
+        RC_ASSERT(std::abs(a.longitude().width() - b.longitude().width()) < 1e-12);
+    }
+    RC_ASSERT(a.contains(a));
+}
+
+TEST(GeodeticBin, QuartersNestExactly) {
+    Random random(34);
+    for (int trial = 0; trial < 20000; ++trial) {
+        GeodeticBin bin = randomBin(random);
+        for (int depth = 0; depth < 4; ++depth) {
+            const auto [southWest, southEast, northWest, northEast] = bin.quarters();
+            ASSERT_EQ(southWest.latitude().lower, bin.latitude().lower);
+            ASSERT_EQ(southWest.longitude().lower, bin.longitude().lower);
+            ASSERT_EQ(northEast.latitude().upper, bin.latitude().upper);
+            ASSERT_EQ(northEast.longitude().upper, bin.longitude().upper);
+            ASSERT_EQ(southWest.latitude(), southEast.latitude());
+            ASSERT_EQ(northWest.latitude(), northEast.latitude());
+            ASSERT_EQ(southWest.longitude(), northWest.longitude());
+            ASSERT_EQ(southEast.longitude(), northEast.longitude());
+            ASSERT_EQ(southWest.latitude().upper, northWest.latitude().lower);
+            ASSERT_EQ(southWest.longitude().upper, southEast.longitude().lower);
+            for (const GeodeticBin& quarter : bin.quarters()) {
+                ASSERT_FALSE(quarter.empty());
+                ASSERT_TRUE(bin.contains(quarter));
+                ASSERT_EQ(quarter.altitude(), bin.altitude());
+            }
+            bin = bin.quarters()[static_cast<std::size_t>(random.integer(0, 3))];
+        }
+    }
+}
+
+TEST(GeodeticBin, ManySmallExpansionsDoNotDrift) {
+    Random random(35);
+    const GeodeticBin whole = GeodeticBin::fromDegrees({-10.0, 10.0}, {170.0, 195.0}, kGround);
+    GeodeticBin grown;
+    for (int trial = 0; trial < 10000; ++trial) {
+        Geodetic position = randomPosition(random, whole);
+        if (position.longitude > kPi) position.longitude -= kTwoPi;
+        grown.expandBy(position);
+        ASSERT_TRUE(grown.contains(position));
+    }
+    EXPECT_LE(grown.longitude().width(), whole.longitude().width() + 4.0 * kAngleTolerance);
+    EXPECT_GE(grown.longitude().width(), whole.longitude().width() - 4.0 * kAngleTolerance);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test

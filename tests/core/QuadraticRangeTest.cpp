@@ -1,0 +1,363 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Oracles: dense sampling with climbing; all 27 vertices, edges, faces and interior solved in long double by
+// elimination with pivoting.
+
+#include <osgAnalyticBin/core/QuadraticRange.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <support/Random.h>
+#include <utility>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::exactRange;
+using core::Interval;
+using core::intervalBound;
+using core::Quadratic;
+
+using Real = long double;
+using Vector = std::array<Real, 3>;
+using Matrix = std::array<Vector, 3>;
+
+constexpr double kPromised = 64.0 * std::numeric_limits<double>::epsilon();  // by exactRange
+// What the samples leave at most, relative to the magnitude: a grid point is within 0.1 of the extremum in every
+// coordinate in which it is stationary, and on the boundary in the others. Climbing mostly does far better.
+constexpr double kGridError = 0.01;
+constexpr int kMostSteps = 400;
+
+Matrix matrixOf(const Quadratic& q) {
+    const auto& h = q.hessian;
+    return {{{h[0], h[3], h[4]}, {h[3], h[1], h[5]}, {h[4], h[5], h[2]}}};
+}
+
+Real valueAt(const Quadratic& q, const Vector& x) {
+    const Matrix h = matrixOf(q);
+    Real value = q.value;
+    for (std::size_t i = 0; i < 3; ++i) {
+        value += q.gradient[i] * x[i];
+        for (std::size_t j = 0; j < 3; ++j) value += h[i][j] * x[i] * x[j] / 2;
+    }
+    return value;
+}
+
+double magnitudeOf(const Quadratic& q) {
+    double sum = std::abs(q.value);
+    for (const double g : q.gradient) sum += std::abs(g);
+    for (const double h : q.hessian) sum += std::abs(h);
+    return sum;
+}
+
+// Solves for the free coordinates of a stationary point, the others being fixed. False when singular.
+bool stationary(const Quadratic& q, const std::array<bool, 3>& isFree, Vector& x) {
+    const Matrix h = matrixOf(q);
+    std::array<std::array<Real, 4>, 3> rows{};
+    std::array<std::size_t, 3> unknown{};
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (isFree[i]) unknown[n++] = i;
+    }
+    for (std::size_t r = 0; r < n; ++r) {
+        for (std::size_t c = 0; c < n; ++c) rows[r][c] = h[unknown[r]][unknown[c]];
+        rows[r][n] = -static_cast<Real>(q.gradient[unknown[r]]);
+        for (std::size_t j = 0; j < 3; ++j) {
+            if (!isFree[j]) rows[r][n] -= h[unknown[r]][j] * x[j];
+        }
+    }
+    for (std::size_t c = 0; c < n; ++c) {
+        std::size_t pivot = c;
+        for (std::size_t r = c + 1; r < n; ++r) {
+            if (std::abs(rows[r][c]) > std::abs(rows[pivot][c])) pivot = r;
+        }
+        if (rows[pivot][c] == 0) return false;
+        std::swap(rows[c], rows[pivot]);
+        for (std::size_t r = 0; r < n; ++r) {
+            if (r == c) continue;
+            const Real factor = rows[r][c] / rows[c][c];
+            for (std::size_t k = c; k <= n; ++k) rows[r][k] -= factor * rows[c][k];
+        }
+    }
+    for (std::size_t r = 0; r < n; ++r) {
+        x[unknown[r]] = rows[r][n] / rows[r][r];
+        if (!(std::abs(x[unknown[r]]) <= 1 + 1e-6L)) return false;
+        x[unknown[r]] = std::clamp<Real>(x[unknown[r]], -1, 1);
+    }
+    return true;
+}
+
+std::pair<Real, Real> solvedRange(const Quadratic& q) {
+    Real lower = std::numeric_limits<Real>::infinity();
+    Real upper = -lower;
+    for (int code = 0; code < 27; ++code) {
+        const std::array<int, 3> digit{code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1};
+        Vector x{};
+        std::array<bool, 3> isFree{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            isFree[i] = digit[i] == 0;
+            x[i] = static_cast<Real>(digit[i]);
+        }
+        if (!stationary(q, isFree, x)) continue;
+        const Real value = valueAt(q, x);
+        lower = std::min(lower, value);
+        upper = std::max(upper, value);
+    }
+    return {lower, upper};
+}
+
+Real climbed(const Quadratic& q, Real sign, Vector at, Real step) {
+    Real best = sign * valueAt(q, at);
+    for (int steps = 0, halvings = 0; halvings < 24 && steps < kMostSteps; ++steps) {
+        const Vector from = at;
+        for (int code = 0; code < 27; ++code) {
+            Vector x = from;
+            x[0] += static_cast<Real>(code % 3 - 1) * step;
+            x[1] += static_cast<Real>(code / 3 % 3 - 1) * step;
+            x[2] += static_cast<Real>(code / 9 - 1) * step;
+            for (Real& c : x) c = std::clamp<Real>(c, -1, 1);
+            const Real value = sign * valueAt(q, x);
+            if (value > best) {
+                best = value;
+                at = x;
+            }
+        }
+        if (at != from) continue;
+        ++halvings;
+        step /= 2;
+    }
+    return sign * best;
+}
+
+std::pair<Real, Real> sampledRange(const Quadratic& q) {
+    constexpr int kSteps = 10;
+    Vector lowest{};
+    Vector highest{};
+    for (int code = 0; code < (kSteps + 1) * (kSteps + 1) * (kSteps + 1); ++code) {
+        const auto coordinate = [](int i) { return -1 + 2 * static_cast<Real>(i) / kSteps; };
+        const Vector x{coordinate(code % (kSteps + 1)), coordinate(code / (kSteps + 1) % (kSteps + 1)),
+                       coordinate(code / (kSteps + 1) / (kSteps + 1))};
+        if (valueAt(q, x) < valueAt(q, lowest)) lowest = x;
+        if (valueAt(q, x) > valueAt(q, highest)) highest = x;
+    }
+    return {climbed(q, -1, lowest, Real{2} / kSteps), climbed(q, 1, highest, Real{2} / kSteps)};
+}
+
+enum class Shape {
+    General,
+    Definite,
+    NoSquareOfW,
+    RankOne,
+    RankTwo,
+    NearlySingular,
+    NearlySingularFace,
+    Linear,
+    Constant,
+    Scaled
+};
+
+constexpr std::array<Shape, 10> kShapes{
+    Shape::General, Shape::Definite,       Shape::NoSquareOfW,        Shape::RankOne, Shape::RankTwo,
+    Shape::Scaled,  Shape::NearlySingular, Shape::NearlySingularFace, Shape::Linear,  Shape::Constant};
+
+// H = sum of w v v', random v.
+std::array<double, 6> hessianOf(Random& random, const std::array<double, 3>& weights) {
+    std::array<double, 6> h{};
+    for (const double weight : weights) {
+        const glm::dvec3 v = random.direction();
+        h[0] += weight * v.x * v.x;
+        h[1] += weight * v.y * v.y;
+        h[2] += weight * v.z * v.z;
+        h[3] += weight * v.x * v.y;
+        h[4] += weight * v.x * v.z;
+        h[5] += weight * v.y * v.z;
+    }
+    return h;
+}
+
+std::array<double, 6> hessianOf(Random& random, Shape shape) {
+    const double sign = random.sign();
+    const auto weight = [&] { return random.logUniform(1e-3, 10.0); };
+    switch (shape) {
+        case Shape::Definite:
+            return hessianOf(random, {sign * weight(), sign * weight(), sign * weight()});
+        case Shape::RankOne:
+            return hessianOf(random, {sign * weight(), 0.0, 0.0});
+        case Shape::RankTwo:
+            return hessianOf(random, {sign * weight(), random.sign() * weight(), 0.0});
+        case Shape::NearlySingular:
+            return hessianOf(random, {sign * weight(), sign * random.logUniform(1e-18, 1e-3),
+                                      sign * random.logUniform(1e-18, 1e-3)});
+        case Shape::NearlySingularFace: {
+            std::array<double, 6> h = hessianOf(random, {sign * weight(), sign * random.logUniform(1e-18, 1e-3), 0.0});
+            h[2] = h[4] = h[5] = 0.0;
+            return h;
+        }
+        case Shape::Linear:
+        case Shape::Constant:
+            return {};
+        default:
+            break;
+    }
+    std::array<double, 6> h{};
+    for (double& x : h) x = random.uniform(-1.0, 1.0);
+    if (random.chance(0.2)) h[static_cast<std::size_t>(random.integer(0, 5))] = 0.0;
+    if (shape == Shape::NoSquareOfW) h[2] = 0.0;
+    if (shape == Shape::Scaled) {
+        for (double& x : h) x *= random.logUniform(1e-12, 1e6);
+    }
+    return h;
+}
+
+// Half of the polynomials have their stationary point at a chosen place: inside, on, or just beside the box.
+Quadratic randomQuadratic(Random& random, Shape shape) {
+    Quadratic q;
+    q.value = random.uniform(-1.0, 1.0);
+    q.hessian = hessianOf(random, shape);
+    if (shape == Shape::Constant) return q;
+    if (random.chance(0.5)) {
+        for (double& g : q.gradient) g = random.uniform(-1.0, 1.0) * random.logUniform(1e-3, 3.0);
+        return q;
+    }
+    Vector x{};
+    for (Real& c : x) {
+        c = random.chance(0.3) ? random.sign() * (1.0 + random.sign() * random.logUniform(1e-17, 1e-3))
+                               : random.uniform(-1.2, 1.2);
+    }
+    const Matrix h = matrixOf(q);
+    for (std::size_t i = 0; i < 3; ++i) {
+        q.gradient[i] = -static_cast<double>(h[i][0] * x[0] + h[i][1] * x[1] + h[i][2] * x[2]);
+    }
+    return q;
+}
+
+TEST(QuadraticRange, MatchesDenseSampling) {
+    Random random(50);
+    for (int trial = 0; trial < 1000; ++trial) {
+        const Quadratic q = randomQuadratic(random, random.pick(kShapes));
+        const Interval range = exactRange(q);
+        const auto [lower, upper] = sampledRange(q);
+        const double magnitude = magnitudeOf(q);
+        ASSERT_LE(range.lower, lower + kPromised * magnitude);
+        ASSERT_GE(range.upper, upper - kPromised * magnitude);
+        ASSERT_GE(range.lower, lower - kGridError * magnitude);
+        ASSERT_LE(range.upper, upper + kGridError * magnitude);
+    }
+}
+
+TEST(QuadraticRange, MatchesAllStationaryPointsInLongDouble) {
+    Random random(51);
+    Real worst = 0;
+    for (int trial = 0; trial < 500000; ++trial) {
+        const Quadratic q = randomQuadratic(random, random.pick(kShapes));
+        const Interval range = exactRange(q);
+        const auto [lower, upper] = solvedRange(q);
+        const Real error = std::max(std::abs(range.lower - lower), std::abs(range.upper - upper));
+        worst = std::max(worst, error / magnitudeOf(q));
+        ASSERT_LE(error, kPromised * magnitudeOf(q))
+            << "hessian " << q.hessian[0] << ' ' << q.hessian[1] << ' ' << q.hessian[2] << ' ' << q.hessian[3] << ' '
+            << q.hessian[4] << ' ' << q.hessian[5];
+    }
+    std::printf("exact range: off by at most %.2f epsilon times the magnitude (promised 64)\n",
+                static_cast<double>(worst) / std::numeric_limits<double>::epsilon());
+}
+
+// Nearly singular Hessians with the extremum in the middle of a face or of the box: Cramer's rule lost up to half of
+// the digits of the extremum there.
+TEST(QuadraticRange, KeepsItsDigitsWhenNearlySingular) {
+    Random random(55);
+    double worst = 0.0;
+    for (int trial = 0; trial < 500000; ++trial) {
+        Quadratic q = randomQuadratic(random, random.chance(0.5) ? Shape::NearlySingular : Shape::NearlySingularFace);
+        const Vector x{random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9)};
+        const Matrix h = matrixOf(q);
+        for (std::size_t i = 0; i < 3; ++i) {
+            q.gradient[i] = -static_cast<double>(h[i][0] * x[0] + h[i][1] * x[1] + h[i][2] * x[2]);
+        }
+        const Interval range = exactRange(q);
+        const auto [lower, upper] = solvedRange(q);
+        const Real error = std::max(std::abs(range.lower - lower), std::abs(range.upper - upper));
+        worst = std::max(worst, static_cast<double>(error) / magnitudeOf(q));
+    }
+    const double epsilons = worst / std::numeric_limits<double>::epsilon();
+    std::printf("exact range, nearly singular: off by at most %.2f epsilon times the magnitude (promised 64)\n",
+                epsilons);
+    EXPECT_LE(worst, kPromised);
+}
+
+TEST(QuadraticRange, FindsExtremaOfEveryKind) {
+    const auto range = [](double value, std::array<double, 3> gradient, std::array<double, 6> hessian) {
+        return exactRange(Quadratic{value, gradient, hessian});
+    };
+    EXPECT_EQ(range(3.0, {}, {}), (Interval{3.0, 3.0}));
+    EXPECT_EQ(range(0.0, {1.0, 2.0, 4.0}, {}), (Interval{-7.0, 7.0}));
+    EXPECT_EQ(range(0.0, {}, {2.0, 2.0, 2.0, 0.0, 0.0, 0.0}), (Interval{0.0, 3.0})) << "interior minimum";
+    EXPECT_EQ(range(0.0, {}, {-2.0, -2.0, -2.0, 0.0, 0.0, 0.0}), (Interval{-3.0, 0.0})) << "interior maximum";
+    EXPECT_EQ(range(0.0, {0.0, 0.0, 1.0}, {-2.0, -2.0, 0.0, 0.0, 0.0, 0.0}), (Interval{-3.0, 1.0})) << "on a face";
+    EXPECT_EQ(range(0.0, {0.0, 5.0, 1.0}, {-2.0, 0.0, 0.0, 0.0, 0.0, 0.0}), (Interval{-7.0, 6.0})) << "on an edge";
+    EXPECT_EQ(range(0.0, {}, {0.0, 0.0, 0.0, 1.0, 0.0, 0.0}), (Interval{-1.0, 1.0})) << "a saddle, at its corners";
+    EXPECT_EQ(range(0.0, {}, {2.0, -2.0, 0.0, 0.0, 0.0, 0.0}), (Interval{-1.0, 1.0})) << "a saddle, on its edges";
+    EXPECT_EQ(range(0.0, {}, {0.0, 0.0, 2.0, 0.0, 0.0, 0.0}), (Interval{0.0, 1.0})) << "a trough along u and v";
+    EXPECT_EQ(range(0.0, {0.0, 0.0, 1.0}, {0.0, 0.0, -2.0, 0.0, 0.0, 0.0}), (Interval{-2.0, 0.25}));
+}
+
+TEST(QuadraticRange, NinePointsAreNotEnough) {
+    // -u2 + v: highest in the middle of the edge v = 1; the corners say 0, and there is no stationary point.
+    const Quadratic q{0.0, {0.0, 1.0, 0.0}, {-2.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
+    EXPECT_EQ(exactRange(q).upper, 1.0);
+    EXPECT_EQ(std::max({q(1, 1, 1), q(-1, 1, 1), q(1, -1, 1), q(-1, -1, 1)}), 0.0);
+}
+
+TEST(QuadraticRange, IntervalBoundHoldsTheRange) {
+    Random random(52);
+    for (int trial = 0; trial < 200000; ++trial) {
+        const Quadratic q = randomQuadratic(random, random.pick(kShapes));
+        const Interval range = exactRange(q);
+        const Interval bound = intervalBound(q);
+        const double rounding = kPromised * magnitudeOf(q);
+        ASSERT_LE(bound.lower, range.lower + rounding);
+        ASSERT_GE(bound.upper, range.upper - rounding);
+        ASSERT_GE(bound.lower, q.value - magnitudeOf(q));
+        ASSERT_LE(bound.upper, q.value + magnitudeOf(q));
+    }
+}
+
+TEST(QuadraticRange, IntervalBoundIsExactWithoutMixedTerms) {
+    const Quadratic linear{1.0, {1.0, -2.0, 3.0}, {}};
+    EXPECT_EQ(intervalBound(linear), exactRange(linear));
+    const Quadratic squares{1.0, {}, {2.0, -4.0, 6.0, 0.0, 0.0, 0.0}};
+    EXPECT_EQ(intervalBound(squares), exactRange(squares));
+}
+
+TEST(QuadraticRange, EvaluatesThePolynomial) {
+    Random random(53);
+    for (int trial = 0; trial < 10000; ++trial) {
+        const Quadratic q = randomQuadratic(random, Shape::General);
+        const glm::dvec3 x(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+        ASSERT_NEAR(q(x.x, x.y, x.z), static_cast<double>(valueAt(q, {x.x, x.y, x.z})), kPromised * magnitudeOf(q));
+    }
+}
+
+TEST(QuadraticRange, TurnsOverWithThePolynomial) {
+    Random random(54);
+    for (int trial = 0; trial < 100000; ++trial) {
+        const Quadratic q = randomQuadratic(random, random.pick(kShapes));
+        Quadratic negative = q;
+        negative.value = -q.value;
+        for (double& g : negative.gradient) g = -g;
+        for (double& h : negative.hessian) h = -h;
+        const Interval range = exactRange(q);
+        const Interval turned = exactRange(negative);
+        ASSERT_EQ(turned.lower, -range.upper);
+        ASSERT_EQ(turned.upper, -range.lower);
+    }
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test

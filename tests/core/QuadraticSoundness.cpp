@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Counts wrong verdicts of every method over millions of random pairs of bin and plane, a third of them nearly
+// tangent. The truth is the closed form in long double, which the core does not know. Fails when the quadratic bin
+// has a single wrong verdict, or a distance range that does not hold the true one.
+
+#include <osgAnalyticBin/core/ComparisonBins.h>
+#include <osgAnalyticBin/core/GeodeticMapping.h>
+#include <osgAnalyticBin/core/QuadraticBin.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cinttypes>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <support/RandomBins.h>
+#include <thread>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::CornersBin;
+using core::Ellipsoid;
+using core::GeodeticBin;
+using core::GeodeticMapping;
+using core::Interval;
+using core::PaperBin;
+using core::ParameterBox;
+using core::Plane;
+using core::QuadraticBin;
+using core::Side;
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t kTrialsPerChunk = 20000;
+constexpr std::size_t kPlanesPerBin = 4;
+// The comparison rules are blamed for more than rounding only, in metres.
+constexpr Real kComparisonTolerance = 1e-6L;
+constexpr auto kQuietTime = std::chrono::seconds(2);
+
+struct Options {
+    std::uint64_t trials = 10000000;
+    std::uint64_t seedValue = seed();
+    unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+};
+
+struct Verdicts {
+    std::uint64_t falseOutside = 0;
+    std::uint64_t falseInside = 0;
+    std::uint64_t undecided = 0;  // straddling, though the bin is on one side
+
+    // Outside claims that all distances are negative, Inside that none is; the truth is known to `tolerance`.
+    void note(Side side, const RealRange& truth, Real tolerance) {
+        if (side == Side::Outside && truth.upper >= tolerance) ++falseOutside;
+        if (side == Side::Inside && truth.lower < -tolerance) ++falseInside;
+        if (side == Side::Straddling && (truth.upper < -tolerance || truth.lower > tolerance)) ++undecided;
+    }
+
+    void add(const Verdicts& other) {
+        falseOutside += other.falseOutside;
+        falseInside += other.falseInside;
+        undecided += other.undecided;
+    }
+};
+
+// One row of the table: a level of the quadtree, or a kind of bin.
+struct Row {
+    std::uint64_t trials = 0;
+    std::uint64_t decided = 0;     // planes that the bin truly does not cross
+    std::uint64_t openRanges = 0;  // distance ranges of `quadratic` that do not hold the true range
+    Real smallestSlack = std::numeric_limits<Real>::infinity();  // by which they do, in metres
+    Verdicts quadratic, paper, corners;
+
+    void add(const Row& other) {
+        trials += other.trials;
+        decided += other.decided;
+        openRanges += other.openRanges;
+        smallestSlack = std::min(smallestSlack, other.smallestSlack);
+        quadratic.add(other.quadratic);
+        paper.add(other.paper);
+        corners.add(other.corners);
+    }
+};
+
+// Levels first, then the kinds of bin that are no tiles.
+constexpr std::size_t kLevels = kDeepestLevel + 1;
+constexpr std::size_t kRows = kLevels + kBinKinds.size() - 1;
+using Table = std::array<Row, kRows>;
+
+std::string nameOfRow(std::size_t row) {
+    if (row >= kLevels) return nameOf(kBinKinds[row - kLevels + 1]);
+    char text[32];
+    std::snprintf(text, sizeof text, "level %2zu %8.4f", row, std::ldexp(kRootTileDeg, -static_cast<int>(row)));
+    return text;
+}
+
+GeodeticBin binOfRow(Random& random, std::size_t row) {
+    if (row >= kLevels) return randomBin(random, kBinKinds[row - kLevels + 1]);
+    return randomTile(random, static_cast<int>(row), randomAltitude(random));
+}
+
+void report(const char* what, const BinOracle& oracle, const Plane& plane) {
+    const GeodeticBin& bin = oracle.bin();
+    std::printf(
+        "%s: a %.17g b %.17g lat %.17g %.17g lon %.17g %.17g alt %.17g %.17g normal %.17g %.17g %.17g offset %.17g\n",
+        what, oracle.ellipsoid().equatorialRadius(), oracle.ellipsoid().polarRadius(), bin.latitude().lower,
+        bin.latitude().upper, bin.longitude().lower, bin.longitude().upper, bin.altitude().lower, bin.altitude().upper,
+        plane.normal.x, plane.normal.y, plane.normal.z, plane.offset);
+}
+
+void tryOneBin(Random& random, std::size_t rowIndex, Row& row) {
+    const BinOracle oracle(randomEllipsoid(random), binOfRow(random, rowIndex));
+    const GeodeticMapping mapping(oracle.ellipsoid());
+    const ParameterBox box = core::parameterBox(oracle.bin());
+    const QuadraticBin quadratic(mapping, box);
+    const PaperBin paper(mapping, box);
+    const CornersBin corners(mapping, box);
+    for (std::size_t i = 0; i < kPlanesPerBin; ++i) {
+        const Plane plane = randomPlane(random, oracle, random.pick(kPlaneKinds));
+        const RealRange truth = oracle.distanceRange(plane);
+        const Real rounding = oracle.rounding(plane);
+        const Verdicts before = row.quadratic;
+        row.quadratic.note(quadratic.classify(plane), truth, rounding);
+        row.paper.note(paper.classify(plane), truth, kComparisonTolerance);
+        row.corners.note(corners.classify(plane), truth, kComparisonTolerance);
+        const Interval range = quadratic.distanceRange(plane);
+        const Real slack = std::min(truth.lower - range.lower, range.upper - truth.upper);
+        const bool open = slack < -rounding;
+        if (open || row.quadratic.falseOutside != before.falseOutside ||
+            row.quadratic.falseInside != before.falseInside) {
+            report(nameOfRow(rowIndex).c_str(), oracle, plane);
+        }
+        ++row.trials;
+        row.decided += truth.upper < 0 || truth.lower >= 0 ? 1 : 0;
+        row.openRanges += open ? 1 : 0;
+        row.smallestSlack = std::min(row.smallestSlack, slack);
+    }
+}
+
+// Chunks have streams of their own: the table does not depend on the number of threads.
+void work(const Options& options, std::atomic<std::uint64_t>& nextChunk, Table& table) {
+    const std::uint64_t chunks = (options.trials + kTrialsPerChunk - 1) / kTrialsPerChunk;
+    for (std::uint64_t chunk = nextChunk++; chunk < chunks; chunk = nextChunk++) {
+        Random random(chunk + 1, options.seedValue);
+        const std::uint64_t trials = std::min(kTrialsPerChunk, options.trials - chunk * kTrialsPerChunk);
+        for (std::uint64_t i = 0; i < trials; i += kPlanesPerBin) {
+            const std::size_t row = (i / kPlanesPerBin) % kRows;
+            tryOneBin(random, row, table[row]);
+        }
+    }
+}
+
+void showProgress(const Options& options, const std::atomic<std::uint64_t>& nextChunk,
+                  const std::atomic<unsigned>& running) {
+    Clock::time_point next = Clock::now() + kQuietTime;
+    bool shown = false;
+    while (running.load() != 0) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        if (Clock::now() < next) continue;
+        next = Clock::now() + std::chrono::seconds(1);
+        const std::uint64_t done = std::min(options.trials, nextChunk.load() * kTrialsPerChunk);
+        std::fprintf(stderr, "\r%3.0f %% of %" PRIu64 " trials",
+                     100.0 * static_cast<double>(done) / static_cast<double>(options.trials), options.trials);
+        std::fflush(stderr);
+        shown = true;
+    }
+    if (shown) std::fputc('\n', stderr);
+}
+
+Table runAll(const Options& options) {
+    std::vector<Table> tables(options.threads);
+    std::atomic<std::uint64_t> nextChunk{0};
+    std::atomic<unsigned> running{options.threads};
+    std::vector<std::thread> threads;
+    for (Table& table : tables) {
+        threads.emplace_back([&] {
+            work(options, nextChunk, table);
+            --running;
+        });
+    }
+    showProgress(options, nextChunk, running);
+    for (std::thread& thread : threads) thread.join();
+    Table total;
+    for (const Table& table : tables) {
+        for (std::size_t row = 0; row < kRows; ++row) total[row].add(table[row]);
+    }
+    return total;
+}
+
+void printRow(const std::string& name, const Row& row) {
+    const auto undecidedPercent = [&](const Verdicts& v) {
+        return row.decided == 0 ? 0.0 : 100.0 * static_cast<double>(v.undecided) / static_cast<double>(row.decided);
+    };
+    std::printf("%-18s %10" PRIu64 " | %6" PRIu64 " %6" PRIu64 " %6.2f %9.2Lg | %8" PRIu64 " %8" PRIu64 " | %8" PRIu64
+                " %8" PRIu64 "\n",
+                name.c_str(), row.trials, row.quadratic.falseOutside, row.quadratic.falseInside,
+                undecidedPercent(row.quadratic), row.smallestSlack, row.paper.falseOutside, row.paper.falseInside,
+                row.corners.falseOutside, row.corners.falseInside);
+}
+
+bool printTable(const Table& table) {
+    std::printf("%-18s %10s | %31s | %17s | %17s\n", "", "", "quadratic", "paper", "corners");
+    std::printf("%-18s %10s | %6s %6s %6s %9s | %8s %8s | %8s %8s\n", "tile", "trials", "out", "in", "loose%",
+                "slack m", "out", "in", "out", "in");
+    Row total;
+    for (std::size_t row = 0; row < kRows; ++row) {
+        printRow(nameOfRow(row), table[row]);
+        total.add(table[row]);
+    }
+    printRow("all", total);
+    std::printf(
+        "out, in: false verdicts. loose: undecided planes among those that miss the bin. slack: the least by which\n"
+        "the distance range holds the true one.\n");
+    const bool sound = total.quadratic.falseOutside == 0 && total.quadratic.falseInside == 0 && total.openRanges == 0;
+    std::printf("quadratic: %s; distance ranges that do not hold the truth: %" PRIu64 "\n", sound ? "sound" : "UNSOUND",
+                total.openRanges);
+    return sound;
+}
+
+int usage(int status) {
+    std::printf("osganalyticbin_soundness [--trials N] [--seed S] [--threads T]\n");
+    return status;
+}
+
+int run(int argc, char** argv) {
+    Options options;
+    for (int i = 1; i < argc; ++i) {
+        if (std::strcmp(argv[i], "--help") == 0) return usage(EXIT_SUCCESS);
+        if (i + 1 == argc) return usage(EXIT_FAILURE);
+        const std::string name = argv[i];
+        const std::uint64_t value = std::strtoull(argv[++i], nullptr, 0);
+        if (name == "--trials" && value > 0) {
+            options.trials = value;
+        } else if (name == "--seed") {
+            options.seedValue = value;
+        } else if (name == "--threads" && value > 0 && value <= 1024) {
+            options.threads = static_cast<unsigned>(value);
+        } else {
+            return usage(EXIT_FAILURE);
+        }
+    }
+    const Clock::time_point start = Clock::now();
+    const Table table = runAll(options);
+    const std::chrono::duration<double> seconds = Clock::now() - start;
+    const bool sound = printTable(table);
+    std::printf("%" PRIu64 " trials, seed %" PRIu64 ", %u threads, %.1f s\n", options.trials, options.seedValue,
+                options.threads, seconds.count());
+    return sound ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
+
+int main(int argc, char** argv) {
+    return osgAnalyticBin::test::run(argc, argv);
+}
