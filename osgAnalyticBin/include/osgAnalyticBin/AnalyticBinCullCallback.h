@@ -3,8 +3,9 @@
 
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <string>
+#include <variant>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Matrixd>
@@ -13,6 +14,8 @@
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/core/ComparisonBins.h>
+#include <osgAnalyticBin/core/QuadraticBin.h>
 
 namespace osg {
 class CullStack;
@@ -71,18 +74,22 @@ protected:
     ~AnalyticBinCullCallback() override;
 
 private:
-    struct Prepared;
+    // What a cull traversal reads, made once per bin.
+    struct Prepared {
+        std::variant<core::QuadraticBin, core::PaperBin, core::CornersBin> bin;
+        osg::BoundingSphere sphere;  // in the frame of the node's children
+    };
 
     void prepare();
     [[nodiscard]] bool isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
 
-    AnalyticBin _bin;
-    CullOptions _options;
-    osg::ref_ptr<osg::EllipsoidModel> _ellipsoid;
-    osg::Matrixd _localToEcef;
-    osg::Matrixd _ecefToLocal;
+    std::optional<Prepared> _prepared;
     bool _hasLocalFrame = false;
-    std::shared_ptr<const Prepared> _prepared;
+    CullOptions _options;
+    osg::Matrixd _ecefToLocal;
+    osg::Matrixd _localToEcef;
+    AnalyticBin _bin;
+    osg::ref_ptr<osg::EllipsoidModel> _ellipsoid;
 };
 
 }  // namespace osgAnalyticBin

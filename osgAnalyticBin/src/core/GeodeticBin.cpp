@@ -16,7 +16,7 @@ constexpr double kTwoPi = 2.0 * kPi;
 constexpr double kHalfPi = 0.5 * kPi;
 constexpr double kRadiansPerDegree = kPi / 180.0;
 // A few units in the last place of an angle near 2 pi: what adding or taking away a turn may lose.
-constexpr double kAngleTolerance = 1e-15;
+constexpr double kAngleTolerance = 2e-15;
 
 constexpr Interval kEmptyInterval{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 

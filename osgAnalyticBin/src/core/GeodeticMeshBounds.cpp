@@ -49,7 +49,10 @@ void GeodeticMeshBounds::expandByTriangle(const glm::dvec3& a, const glm::dvec3&
     // Altitude is the distance to a convex body: at most the vertices', at least that to a supporting plane.
     const double a2 = _ellipsoid.equatorialRadius() * _ellipsoid.equatorialRadius();
     const double b2 = _ellipsoid.polarRadius() * _ellipsoid.polarRadius();
-    const glm::dvec3 normal = glm::normalize(glm::dvec3(sum.x / a2, sum.y / a2, sum.z / b2));
+    const glm::dvec3 gradient(sum.x / a2, sum.y / a2, sum.z / b2);
+    const double length = glm::length(gradient);
+    // A triangle about the earth's centre has no outward side; any normal gives a bound.
+    const glm::dvec3 normal = length > 0.0 ? gradient / length : glm::dvec3(0.0, 0.0, 1.0);
     const double support = _ellipsoid.support(normal);
     for (const glm::dvec3& corner : corners) _altitude.lower = std::min(_altitude.lower, glm::dot(normal, corner) - support);
 

@@ -20,12 +20,6 @@
 
 namespace osgAnalyticBin {
 
-/// What a cull traversal reads: made once per bin, never changed.
-struct AnalyticBinCullCallback::Prepared {
-    std::variant<core::QuadraticBin, core::PaperBin, core::CornersBin> bin;
-    osg::BoundingSphere sphere;  // in the frame of the node's children
-};
-
 namespace {
 
 using PreparedBin = std::variant<core::QuadraticBin, core::PaperBin, core::CornersBin>;
@@ -79,15 +73,15 @@ AnalyticBinCullCallback::AnalyticBinCullCallback() : _ellipsoid(new osg::Ellipso
 
 AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBin& bin, const osg::EllipsoidModel& ellipsoid,
                                                  const CullOptions& options)
-    : _bin(bin), _options(options),
+    : _options(options), _bin(bin),
       _ellipsoid(new osg::EllipsoidModel(ellipsoid.getRadiusEquator(), ellipsoid.getRadiusPolar())) {
     prepare();
 }
 
 AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop), _bin(other._bin),
-      _options(other._options), _ellipsoid(other._ellipsoid), _localToEcef(other._localToEcef),
-      _ecefToLocal(other._ecefToLocal), _hasLocalFrame(other._hasLocalFrame), _prepared(other._prepared) {}
+    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop), _prepared(other._prepared),
+      _hasLocalFrame(other._hasLocalFrame), _options(other._options), _ecefToLocal(other._ecefToLocal),
+      _localToEcef(other._localToEcef), _bin(other._bin), _ellipsoid(other._ellipsoid) {}
 
 AnalyticBinCullCallback::~AnalyticBinCullCallback() = default;
 
@@ -96,7 +90,7 @@ void AnalyticBinCullCallback::prepare() {
     if (!_bin.valid() || _options.method == Method::None || _options.method == Method::Sphere) return;
     osg::BoundingSphere sphere = _bin.boundingSphere(*_ellipsoid);
     if (_hasLocalFrame) sphere = movedSphere(sphere, _ecefToLocal);
-    _prepared = std::make_shared<const Prepared>(Prepared{preparedBin(_bin, toCore(*_ellipsoid), _options), sphere});
+    _prepared = Prepared{preparedBin(_bin, toCore(*_ellipsoid), _options), sphere};
 }
 
 void AnalyticBinCullCallback::setBin(const AnalyticBin& bin) {

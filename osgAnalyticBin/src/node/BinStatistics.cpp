@@ -6,6 +6,8 @@
 #include <osg/NodeVisitor>
 #include <osg/UserDataContainer>
 
+#include <typeinfo>
+
 namespace osgAnalyticBin {
 
 namespace {
@@ -33,8 +35,10 @@ const BinStatistics* BinStatistics::find(const osg::NodeVisitor& visitor) {
     if (!container) return nullptr;
     for (unsigned int i = 0; i < container->getNumUserObjects(); ++i) {
         // A cloned visitor shares the container of its original: the owner tells whose counters these are.
-        const auto* statistics = dynamic_cast<const BinStatistics*>(container->getUserObject(i));
-        if (statistics && statistics->_owner == &visitor) return statistics;
+        const osg::Object* object = container->getUserObject(i);
+        if (!object || typeid(*object) != typeid(BinStatistics)) continue;
+        const auto* statistics = static_cast<const BinStatistics*>(object);
+        if (statistics->_owner == &visitor) return statistics;
     }
     return nullptr;
 }

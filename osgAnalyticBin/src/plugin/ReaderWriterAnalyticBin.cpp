@@ -6,7 +6,6 @@
 
 #include <osg/Notify>
 #include <osgDB/FileNameUtils>
-#include <osgDB/ReadFile>
 #include <osgDB/Registry>
 
 #include <algorithm>
@@ -72,15 +71,11 @@ public:
         std::string error;
         const std::string text = (options ? ownItems(options->getOptionString()) : std::string()) + request.parameters;
         const std::optional<osgAnalyticBin::CullOptions> cullOptions = osgAnalyticBin::cullOptionsFromText(text, error);
-        if (!cullOptions) {
-            OSG_WARN << "analyticbin: " << error << std::endl;
-            return ReadResult("analyticbin: " + error);
-        }
-        const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(request.name, options);
-        if (!node) {
-            OSG_WARN << "analyticbin: \"" << request.name << "\" could not be loaded" << std::endl;
-            return ReadResult::FILE_NOT_FOUND;
-        }
+        // OSG prints the message of a failed read; a second line would say no more.
+        if (!cullOptions) return ReadResult("analyticbin: " + error);
+        const ReadResult result = osgDB::Registry::instance()->readNode(request.name, options);
+        const osg::ref_ptr<osg::Node> node = result.getNode();
+        if (!node) return result;
         report(osgAnalyticBin::installBins(*node, *cullOptions), *cullOptions, request.name);
         return node.get();
     }

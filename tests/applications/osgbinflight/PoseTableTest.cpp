@@ -4,7 +4,7 @@
 // poses.csv: what is written is read back; broken files are named.
 
 #include "PoseTable.h"
-#include "support/TemporaryFolder.h"
+#include <support/TemporaryFolder.h>
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include "PictureDifference.h"
 #include "Report.h"
-#include "support/TemporaryFolder.h"
+#include <support/TemporaryFolder.h>
 
 #include <gtest/gtest.h>
 #include <osg/Image>

@@ -6,17 +6,15 @@
 
 #include "PoseTable.h"
 #include "Report.h"
-#include "support/SyntheticDatabase.h"
-#include "support/TemporaryFolder.h"
+#include <support/StockPrograms.h>
+#include <support/SyntheticDatabase.h>
+#include <support/TemporaryFolder.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
-#include <unistd.h>
-
 namespace osgAnalyticBin {
 namespace {
 
@@ -33,27 +31,6 @@ constexpr const char* kPath =
     "narrow,5,5,100000,6,8,0,10,10000,4000000\n";
 constexpr std::size_t kPoses = 4;
 
-bool canRunViewer() {
-    return std::filesystem::exists(XVFB_RUN_FILE) && std::filesystem::exists(VIEWER_FILE);
-}
-
-std::string quoted(const std::string& text) {
-    return "'" + text + "'";
-}
-
-// The sanitizers, if our modules are built with them, have to come first in the viewer; its leaks are not ours.
-std::string environmentOfViewer() {
-    const std::string preload = VIEWER_PRELOAD;
-    return "env OSG_LIBRARY_PATH=" + quoted(VIEWER_LIBRARY_PATH) +
-           " OSG_WINDOW='0 0 320 240' LIBGL_ALWAYS_SOFTWARE=1 OSG_NOTIFY_LEVEL=NOTICE " +
-           (preload.empty() ? "" : "ASAN_OPTIONS=detect_leaks=0 LD_PRELOAD=" + quoted(preload) + " ");
-}
-
-// Display numbers by process, so that tests may run side by side.
-std::string virtualDisplay() {
-    return quoted(XVFB_RUN_FILE) + " -a -n " + std::to_string(100 + getpid() % 5000) + " -s '-screen 0 640x480x24' ";
-}
-
 struct Flights {
     TemporaryFolder folder;
     std::string database;
@@ -65,13 +42,12 @@ struct Flights {
     [[nodiscard]] std::string fly(const std::string& method, const std::string& threading,
                                   const std::string& parameters = "frames=3") const {
         const std::string out = folder / (method + "-" + threading);
-        const std::string log = out + ".log";
-        const std::string command = virtualDisplay() + environmentOfViewer() + quoted(VIEWER_FILE) + " --" + threading +
-                                    " " + quoted(database + ".(method=" + method + ").analyticbin") + " " +
-                                    quoted(path + ".(out=" + out + "," + parameters + ").binflight") + " >" + log +
-                                    " 2>&1";
-        EXPECT_EQ(std::system(command.c_str()), 0) << command << '\n' << test::textOfFile(log);
-        lastLog = test::textOfFile(log);
+        const test::Outcome outcome = test::runViewer(
+            "--" + threading + ' ' + test::quoted(database + ".(method=" + method + ").analyticbin") + ' ' +
+                test::quoted(path + ".(out=" + out + "," + parameters + ").binflight"),
+            test::Modules::Present, "OSG_NOTIFY_LEVEL=NOTICE");
+        EXPECT_EQ(outcome.code, 0) << outcome.text;
+        lastLog = outcome.text;
         return out;
     }
 
@@ -107,7 +83,7 @@ std::uint64_t filesOf(const Flight& run) {
 }
 
 TEST(ViewerFlight, EveryMethodDrawsTheSamePictures) {
-    if (!canRunViewer()) GTEST_SKIP() << "needs osgviewer and xvfb-run";
+    if (!test::canRunViewer()) GTEST_SKIP() << "needs osgviewer and xvfb-run";
     const Flights flights;
     ASSERT_FALSE(flights.database.empty());
     std::string error;
@@ -133,7 +109,7 @@ TEST(ViewerFlight, EveryMethodDrawsTheSamePictures) {
 }
 
 TEST(ViewerFlight, EveryThreadingModelDrawsTheSamePictures) {
-    if (!canRunViewer()) GTEST_SKIP() << "needs osgviewer and xvfb-run";
+    if (!test::canRunViewer()) GTEST_SKIP() << "needs osgviewer and xvfb-run";
     const Flights flights;
     ASSERT_FALSE(flights.database.empty());
     const std::vector<std::string> models{"SingleThreaded", "CullDrawThreadPerContext", "DrawThreadPerContext",
@@ -155,7 +131,7 @@ TEST(ViewerFlight, EveryThreadingModelDrawsTheSamePictures) {
 }
 
 TEST(ViewerFlight, AFileThatIsMissingIsAnErrorWithoutATable) {
-    if (!canRunViewer()) GTEST_SKIP() << "needs osgviewer and xvfb-run";
+    if (!test::canRunViewer()) GTEST_SKIP() << "needs osgviewer and xvfb-run";
     const Flights flights;
     for (const auto& file : std::filesystem::directory_iterator(flights.folder.path()))
         if (file.path().filename().string().rfind("tiles_", 0) == 0) std::filesystem::remove(file);

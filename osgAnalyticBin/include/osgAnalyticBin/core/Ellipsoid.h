@@ -39,8 +39,9 @@ public:
 
     /// Converts from ECEF metres; longitude in [-pi, pi], on the axis 0.
     /// Source: [B85], iterated; doc/derivation.md, section 1.
-    /// Guarantee: toEcef(result) within 1e-8 m of the input for altitudes -5000 km .. 1e8 m on earth-like
-    /// ellipsoids (|e2| < 0.01); tests: Ellipsoid.ReturnsToTheSamePoint.
+    /// Guarantee: toEcef(result) within 1e-8 m of the input up to 7000 km from the centre, within 3 epsilon of the
+    /// distance beyond, for altitudes -5000 km .. 1e8 m on earth-like ellipsoids (|e2| < 0.01);
+    /// tests: Ellipsoid.ReturnsToTheSamePoint.
     [[nodiscard]] Geodetic toGeodetic(const glm::dvec3& ecef) const noexcept;
 
     /// The largest value of n.x over the solid ellipsoid: sqrt(a2 (nx2 + ny2) + b2 nz2).

@@ -57,8 +57,8 @@ public:
     /// The position in the middle of the three intervals. Requires: not empty.
     [[nodiscard]] Geodetic center() const noexcept;
 
-    /// Guarantee: true for every position of the bin; longitudes are compared modulo 2 pi with a tolerance of 1e-15
-    /// (6 nanometres on earth).
+    /// Guarantee: true for every position of the bin; longitudes are compared modulo 2 pi with a tolerance of 2e-15
+    /// (13 nanometres on earth).
     [[nodiscard]] bool contains(const Geodetic& position) const noexcept;
 
     /// True when every position of the other bin lies in this one; every bin contains the empty one.

@@ -22,9 +22,10 @@ public:
     QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& box, double margin = 0.0) noexcept;
 
     /// Guarantee: Outside only if distance(f(x)) < 0, Inside only if >= 0, for every x in the box and every point
-    /// within the margin of f(x); tests: QuadraticBin.NeverContradictsASample, QuadraticSoundness.*.
+    /// within the margin of f(x); tests: QuadraticBin.NeverContradictsASample, QuadraticSoundness.HasNoFalseVerdict.
     /// Requires: plane.normal of unit length to 1e-9. A plane with NaN is Straddling.
-    /// Cost: about 60 multiplications for most planes (interval bound), some 300 when the exact range is needed.
+    /// Cost: four multiplications for most planes (a sphere), about 60 beside the bin (intervals), some 300 where only
+    /// the exact range tells.
     [[nodiscard]] Side classify(const Plane& plane) const noexcept;
 
     /// An interval that holds the signed distance of every point of the mapped box, margin included.
@@ -33,7 +34,7 @@ public:
     /// The model's signed distance to the plane as a polynomial over the unit box, without remainder and margin.
     [[nodiscard]] Quadratic distanceModel(const Plane& plane) const noexcept;
 
-    /// Upper bound of |f(x) - model(x)| over the box, plus the margin, in metres.
+    /// Upper bound of |f(x) - model(x)| over the box, plus the margin and the rounding of both, in metres.
     [[nodiscard]] double remainder() const noexcept { return _remainder; }
 
     /// How far the model leaves the convex hull of its eight corners at most, in metres.
@@ -45,12 +46,14 @@ public:
 private:
     /// What the exact evaluation may be off by: remainder, margin and rounding.
     [[nodiscard]] double uncertainty(const Plane& plane) const noexcept;
+    [[nodiscard]] double farthestCorner() const noexcept;
 
+    // What the first test needs stands together, in one cache line.
     glm::dvec3 _value;
+    double _reach;      // no point of the bin is farther from _value
+    double _remainder;  // Taylor remainder, margin, and the rounding that does not depend on the plane
     std::array<glm::dvec3, 3> _first;   // derivatives times half sizes
     std::array<glm::dvec3, 6> _second;  // uu, vv, ww, uv, uw, vw, times half sizes
-    double _remainder;
-    double _magnitude;  // sum of the lengths of all coefficients: the scale of rounding errors
 };
 
 }  // namespace osgAnalyticBin::core

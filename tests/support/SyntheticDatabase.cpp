@@ -1,15 +1,17 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "support/SyntheticDatabase.h"
+#include <support/SyntheticDatabase.h>
 
 #include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Geode>
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
+#include <osgDB/Registry>
 #include <osgDB/WriteFile>
 
 #include <cfloat>
@@ -50,7 +52,11 @@ AnalyticBin binOf(const Address& tile) {
     const double south = southDegOf(tile);
     const double west = westDegOf(tile);
     const double width = widthDegOf(tile);
-    return AnalyticBin(core::GeodeticBin::fromDegrees({south, south + width}, {west, west + width}, {kLowest, kHill}),
+    // the chord between two posts of a parallel runs poleward of it by up to 0.25 t2 for posts t radians apart
+    const double step = width / (kPosts - 1);
+    const double bulge = 0.25 * step * step * kRadiansPerDegree;
+    return AnalyticBin(core::GeodeticBin::fromDegrees({south - bulge, south + width + bulge}, {west, west + width},
+                                                      {kLowest, kHill}),
                        1.0);
 }
 
@@ -157,6 +163,9 @@ std::string writeSyntheticDatabase(const std::string& folder) {
     const osg::ref_ptr<osg::EllipsoidModel> ellipsoid = new osg::EllipsoidModel;
     const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
     root->setEllipsoidModel(ellipsoid);
+    root->setUpdateCallback(new InstallBinsCallback);
+    // writing the request needs our serializer
+    osgDB::Registry::instance()->getLibraryFilePathList().push_front(LIBRARY_FOLDER);
     for (int row = 0; row < kRows; ++row)
         for (int column = 0; column < kColumns; ++column) root->addChild(nodeOf({0, row, column}, *ellipsoid));
     const std::string file = folder + "/globe.osgb";

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "support/TemporaryFolder.h"
+#include <support/TemporaryFolder.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -12,7 +12,7 @@
 namespace osgAnalyticBin::test {
 
 TemporaryFolder::TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "osgbinflight-XXXXXX").string();
+    std::string name = (std::filesystem::temp_directory_path() / "osganalyticbin-test-XXXXXX").string();
     if (!mkdtemp(name.data())) throw std::runtime_error("cannot make " + name);
     _path = name;
 }

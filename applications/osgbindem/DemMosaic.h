@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "DemSource.h"
+#include "Settings.h"
+
+#include <memory>
+#include <vector>
+
+namespace osgbindem {
+
+/// All elevation rasters as one: at each position the finest raster that has data there, and 0 m where none has.
+/// Of equally fine rasters the one named first counts. Not for use by several threads: each has its own.
+class DemMosaic final {
+public:
+    /// Throws Failure.
+    explicit DemMosaic(const Settings& settings);
+
+    /// Metres above the ellipsoid; the same number for the same position, whatever was read before.
+    [[nodiscard]] double height(const PositionDeg& position);
+
+    /// Heights of every post, of every raster used in the rectangle, that has part in it.
+    [[nodiscard]] HeightRange range(const RectDeg& rect);
+
+    /// Whether a raster finer than the spacing has data in the rectangle.
+    [[nodiscard]] bool hasFinerData(const RectDeg& rect, double spacingDeg);
+
+    void prefetch(const RectDeg& rect);
+
+    /// Throws Failure when a raster is empty; reads, so it is done once and not in each thread.
+    void requireData();
+
+    /// The finest distance between posts.
+    [[nodiscard]] double finestDeg() const noexcept;
+
+    /// The finest distance between posts among the rasters that go round the globe; without one, finestDeg().
+    [[nodiscard]] double finestGlobalDeg() const noexcept;
+
+    /// About how many posts there are within the rectangle, of all rasters.
+    [[nodiscard]] double posts(const RectDeg& rect) const noexcept;
+
+private:
+    std::vector<std::unique_ptr<DemSource>> _sources;
+};
+
+}  // namespace osgbindem

@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "DemSource.h"
+
+#include "Failure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace osgbindem {
+
+namespace {
+
+constexpr double kPrefetchPixels = 3e6;
+constexpr double kChunkPixels = 1e6;
+constexpr int kBlock = 256;
+
+// No terrain is this high: a number beyond is a mark for missing data that the file does not declare.
+constexpr double kHighest = 1e5;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+void HeightRange::include(double height) noexcept {
+    lower = std::min(lower, height);
+    upper = std::max(upper, height);
+}
+
+void HeightRange::include(const HeightRange& other) noexcept {
+    lower = std::min(lower, other.lower);
+    upper = std::max(upper, other.upper);
+}
+
+void DemSource::Decoder::apply(std::vector<double>& values) const noexcept {
+    for (double& value : values) {
+        const bool missing =
+            nodata && (value == *nodata || (isSingle && static_cast<float>(value) == static_cast<float>(*nodata)));
+        const double metres = value * scale + offset;
+        value = missing || !(std::abs(metres) <= kHighest) ? kNaN : metres;
+    }
+}
+
+DemSource::Decoder DemSource::decoderOf(GDALRasterBand& band, const DemOptions& options) {
+    Decoder decoder;
+    int hasNodata = 0;
+    const double nodata = band.GetNoDataValue(&hasNodata);
+    if (hasNodata != 0) decoder.nodata = nodata;
+    if (options.raster.nodata) decoder.nodata = options.raster.nodata;
+    decoder.isSingle = band.GetRasterDataType() == GDT_Float32;
+    decoder.scale = band.GetScale() * options.metresPerUnit;
+    decoder.offset = band.GetOffset() * options.metresPerUnit;
+    return decoder;
+}
+
+DemSource::DemSource(const DemOptions& options)
+    : _raster(options.raster), _decoder(decoderOf(*_raster.dataset().GetRasterBand(1), options)) {
+    if (_raster.warpSource() != nullptr) {
+        _sourceDecoder = decoderOf(*_raster.warpSource()->GetRasterBand(1), options);
+        _decoder.scale = _sourceDecoder.scale;
+        _decoder.offset = _sourceDecoder.offset;
+    }
+    _blockColumns = (_raster.width() + kBlock - 1) / kBlock;
+    const int blockRows = (_raster.height() + kBlock - 1) / kBlock;
+    _blocks.resize(static_cast<std::size_t>(_blockColumns) * static_cast<std::size_t>(blockRows), BlockState::Unknown);
+}
+
+void DemSource::read(GDALDataset& dataset, const Decoder& decoder, const PixelWindow& window,
+                     std::vector<double>& heights) {
+    heights.resize(static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height));
+    if (const Page* page = &dataset == &_raster.dataset() ? pageWith(window) : nullptr) {
+        auto target = heights.begin();
+        for (int row = window.row; row < window.row + window.height; ++row) {
+            const auto from = page->heights.begin() + page->offset(window.column, row);
+            target = std::copy(from, from + window.width, target);
+        }
+        return;
+    }
+    const CPLErr error =
+        dataset.GetRasterBand(1)->RasterIO(GF_Read, window.column, window.row, window.width, window.height,
+                                           heights.data(), window.width, window.height, GDT_Float64, 0, 0, nullptr);
+    if (error != CE_None) throw Failure("cannot read \"" + path() + "\": " + gdalMessage());
+    decoder.apply(heights);
+}
+
+const DemSource::Page* DemSource::pageWith(const PixelWindow& window) const noexcept {
+    for (const Page& page : _pages) {
+        if (page.window.contains(window)) return &page;
+    }
+    return nullptr;
+}
+
+double DemSource::post(int column, int row) {
+    if (const Page* page = pageWith({column, row, 1, 1})) {
+        return page->heights[static_cast<std::size_t>(page->offset(column, row))];
+    }
+    read(_raster.dataset(), _decoder, {column, row, 1, 1}, _scratch);
+    return _scratch.front();
+}
+
+std::optional<double> DemSource::height(const PositionDeg& position) {
+    const auto cell = grid().locate(position);
+    if (!cell) return std::nullopt;
+    const double u = cell->eastWeight;
+    const double v = cell->secondWeight;
+    const double first = u > 0.0 ? (1.0 - u) * post(cell->west, cell->first) + u * post(cell->east, cell->first)
+                                 : post(cell->west, cell->first);
+    double height = first;
+    if (v > 0.0) {
+        const double second = u > 0.0 ? (1.0 - u) * post(cell->west, cell->second) + u * post(cell->east, cell->second)
+                                      : post(cell->west, cell->second);
+        height = (1.0 - v) * first + v * second;
+    }
+    if (std::isnan(height)) return std::nullopt;
+    return height;
+}
+
+void DemSource::prefetch(const RectDeg& rect) {
+    const std::vector<PixelWindow> windows = grid().touching(rect);
+    double pixels = 0.0;
+    bool isThere = true;
+    for (const PixelWindow& window : windows) {
+        pixels += window.area();
+        isThere = isThere && pageWith(window) != nullptr;
+    }
+    if (isThere || pixels > kPrefetchPixels) return;
+    _pages.clear();
+    std::vector<Page> pages;
+    for (const PixelWindow& window : windows) {
+        pages.push_back({window, {}});
+        read(_raster.dataset(), _decoder, window, pages.back().heights);
+    }
+    _pages = std::move(pages);
+}
+
+bool DemSource::addRange(GDALDataset& dataset, const Decoder& decoder, const PixelWindow& window, HeightRange& range) {
+    bool isComplete = true;
+    const int rows = std::max(1, static_cast<int>(kChunkPixels / window.width));
+    for (int row = window.row; row < window.row + window.height; row += rows) {
+        throwIfStopRequested();
+        const int count = std::min(rows, window.row + window.height - row);
+        read(dataset, decoder, {window.column, row, window.width, count}, _scratch);
+        for (const double height : _scratch) {
+            if (std::isnan(height)) {
+                isComplete = false;
+            } else {
+                range.include(height);
+            }
+        }
+    }
+    return isComplete;
+}
+
+bool DemSource::addRange(const RectDeg& rect, HeightRange& range) {
+    bool isComplete = grid().covers(rect);
+    for (const PixelWindow& window : grid().touching(rect)) {
+        isComplete = addRange(_raster.dataset(), _decoder, window, range) && isComplete;
+        if (_raster.warpSource() == nullptr) continue;
+        // The warped posts are averages; the file has the peaks.
+        for (const PixelWindow& source : _raster.sourceWindows(window)) {
+            addRange(*_raster.warpSource(), _sourceDecoder, source, range);
+        }
+    }
+    return isComplete;
+}
+
+bool DemSource::windowHasData(const PixelWindow& window) {
+    read(_raster.dataset(), _decoder, window, _scratch);
+    return std::any_of(_scratch.begin(), _scratch.end(), [](double height) { return !std::isnan(height); });
+}
+
+bool DemSource::blockHasData(int blockColumn, int blockRow) {
+    BlockState& state = _blocks[static_cast<std::size_t>(blockRow * _blockColumns + blockColumn)];
+    if (state == BlockState::Unknown) {
+        throwIfStopRequested();
+        const int column = blockColumn * kBlock;
+        const int row = blockRow * kBlock;
+        const PixelWindow window{column, row, std::min(kBlock, _raster.width() - column),
+                                 std::min(kBlock, _raster.height() - row)};
+        state = windowHasData(window) ? BlockState::HasData : BlockState::Empty;
+    }
+    return state == BlockState::HasData;
+}
+
+bool DemSource::hasData(const PixelWindow& window) {
+    const int endColumn = window.column + window.width;
+    const int endRow = window.row + window.height;
+    for (int blockRow = window.row / kBlock; blockRow * kBlock < endRow; ++blockRow) {
+        for (int blockColumn = window.column / kBlock; blockColumn * kBlock < endColumn; ++blockColumn) {
+            if (!blockHasData(blockColumn, blockRow)) continue;
+            const int column = std::max(window.column, blockColumn * kBlock);
+            const int row = std::max(window.row, blockRow * kBlock);
+            const PixelWindow part{column, row, std::min(endColumn, (blockColumn + 1) * kBlock) - column,
+                                   std::min(endRow, (blockRow + 1) * kBlock) - row};
+            if (windowHasData(part)) return true;
+        }
+    }
+    return false;
+}
+
+bool DemSource::hasData(const RectDeg& rect) {
+    for (const PixelWindow& window : grid().inside(rect)) {
+        if (hasData(window)) return true;
+    }
+    return false;
+}
+
+bool DemSource::hasAnyData() {
+    // A look at every n-th post finds most data at once; only an almost empty raster is read as a whole.
+    constexpr int kLook = 256;
+    const int width = std::min(kLook, _raster.width());
+    const int height = std::min(kLook, _raster.height());
+    _scratch.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    const CPLErr error = _raster.dataset().GetRasterBand(1)->RasterIO(
+        GF_Read, 0, 0, _raster.width(), _raster.height(), _scratch.data(), width, height, GDT_Float64, 0, 0, nullptr);
+    if (error != CE_None) throw Failure("cannot read \"" + path() + "\": " + gdalMessage());
+    _decoder.apply(_scratch);
+    if (std::any_of(_scratch.begin(), _scratch.end(), [](double h) { return !std::isnan(h); })) return true;
+    return hasData(PixelWindow{0, 0, _raster.width(), _raster.height()});
+}
+
+}  // namespace osgbindem

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "GdalRaster.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace osgbindem {
+
+/// The heights found in an area, in metres; empty when lower > upper.
+struct HeightRange {
+    double lower = std::numeric_limits<double>::infinity();
+    double upper = -std::numeric_limits<double>::infinity();
+
+    [[nodiscard]] bool empty() const noexcept { return lower > upper; }
+    void include(double height) noexcept;
+    void include(const HeightRange& other) noexcept;
+};
+
+struct DemOptions {
+    RasterOptions raster;
+    double metresPerUnit = 1.0;
+};
+
+/// One elevation raster. Reads windows only; keeps the last window that was prefetched.
+/// Not for use by several threads: each has its own.
+class DemSource final {
+public:
+    /// Throws Failure.
+    explicit DemSource(const DemOptions& options);
+
+    [[nodiscard]] const std::string& path() const noexcept { return _raster.path(); }
+    [[nodiscard]] const RasterGrid& grid() const noexcept { return _raster.grid(); }
+
+    /// Metres at a position, bilinear between posts. Returns: nullopt where there is no data.
+    [[nodiscard]] std::optional<double> height(const PositionDeg& position);
+
+    /// Whether any post within the rectangle has data.
+    [[nodiscard]] bool hasData(const RectDeg& rect);
+
+    /// Adds the heights of all posts that have part in the rectangle, at the full resolution of the file.
+    /// Returns: whether the raster has data everywhere in the rectangle.
+    bool addRange(const RectDeg& rect, HeightRange& range);
+
+    /// Reads what touches the rectangle into memory, if it is not there and is not too much.
+    void prefetch(const RectDeg& rect);
+
+    /// Whether the raster has any data at all.
+    [[nodiscard]] bool hasAnyData();
+
+private:
+    /// How the numbers of a band become metres.
+    struct Decoder {
+        std::optional<double> nodata;
+        bool isSingle = false;
+        double scale = 1.0;
+        double offset = 0.0;
+
+        void apply(std::vector<double>& values) const noexcept;
+    };
+    struct Page {
+        PixelWindow window;
+        std::vector<double> heights;
+
+        [[nodiscard]] std::ptrdiff_t offset(int column, int row) const noexcept {
+            return static_cast<std::ptrdiff_t>(row - window.row) * window.width + (column - window.column);
+        }
+    };
+    enum class BlockState : std::uint8_t { Unknown, Empty, HasData };
+
+    [[nodiscard]] static Decoder decoderOf(GDALRasterBand& band, const DemOptions& options);
+    void read(GDALDataset& dataset, const Decoder& decoder, const PixelWindow& window, std::vector<double>& heights);
+    bool addRange(GDALDataset& dataset, const Decoder& decoder, const PixelWindow& window, HeightRange& range);
+    [[nodiscard]] bool hasData(const PixelWindow& window);
+    [[nodiscard]] bool windowHasData(const PixelWindow& window);
+    [[nodiscard]] bool blockHasData(int blockColumn, int blockRow);
+    [[nodiscard]] double post(int column, int row);
+    [[nodiscard]] const Page* pageWith(const PixelWindow& window) const noexcept;
+
+    GdalRaster _raster;
+    Decoder _decoder;
+    Decoder _sourceDecoder;
+    std::vector<Page> _pages;
+    std::vector<double> _scratch;
+    std::vector<BlockState> _blocks;
+    int _blockColumns = 0;
+};
+
+}  // namespace osgbindem

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "EdgeDepths.h"
+
+#include <algorithm>
+
+namespace osgbindem {
+
+namespace {
+
+// Enough for the neighbourhood of the tiles at work; the answers can be found again.
+constexpr std::size_t kMostKnown = 100000;
+
+Edge opposite(Edge edge) {
+    switch (edge) {
+        case Edge::South:
+            return Edge::North;
+        case Edge::North:
+            return Edge::South;
+        case Edge::West:
+            return Edge::East;
+        case Edge::East:
+            break;
+    }
+    return Edge::West;
+}
+
+std::array<TileId, 2> childrenAlong(const TileId& tile, Edge edge) {
+    const std::array<TileId, 4> all = tile.children();
+    switch (edge) {
+        case Edge::South:
+            return {all[0], all[1]};
+        case Edge::North:
+            return {all[2], all[3]};
+        case Edge::West:
+            return {all[0], all[2]};
+        case Edge::East:
+            break;
+    }
+    return {all[1], all[3]};
+}
+
+}  // namespace
+
+bool EdgeDepths::hasChildren(const TileId& tile) {
+    if (tile.level >= _layout.deepestLevel()) return false;
+    const auto known = _known.find(tile);
+    if (known != _known.end()) return known->second;
+    const bool result = _mosaic.hasFinerData(tile.rect(), _layout.spacingDeg(tile.level));
+    if (_known.size() >= kMostKnown) _known.clear();
+    _known.emplace(tile, result);
+    return result;
+}
+
+int EdgeDepths::deepestWithin(const TileId& tile, Edge edge) {
+    if (!hasChildren(tile)) return tile.level;
+    const std::array<TileId, 2> children = childrenAlong(tile, edge);
+    return std::max(deepestWithin(children[0], edge), deepestWithin(children[1], edge));
+}
+
+int EdgeDepths::deepestAlong(const TileId& tile, Edge edge) {
+    const int own = deepestWithin(tile, edge);
+    const auto neighbour = tile.neighbour(edge);
+    if (!neighbour || coarsestAcross(tile, edge) < tile.level) return own;
+    return std::max(own, deepestWithin(*neighbour, opposite(edge)));
+}
+
+int EdgeDepths::coarsestAcross(const TileId& tile, Edge edge) {
+    const auto neighbour = tile.neighbour(edge);
+    if (!neighbour) return tile.level;
+    int level = 0;
+    while (level < tile.level && hasChildren(neighbour->ancestor(level))) ++level;
+    return level;
+}
+
+}  // namespace osgbindem

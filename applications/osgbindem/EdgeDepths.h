@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "DemMosaic.h"
+#include "TileLayout.h"
+
+#include <map>
+
+namespace osgbindem {
+
+/// Knows which tiles have children, and so how deep the tree is on either side of an edge.
+/// A tile has children when a raster finer than its posts has data in it.
+class EdgeDepths final {
+public:
+    EdgeDepths(DemMosaic& mosaic, const TileLayout& layout) : _mosaic(mosaic), _layout(layout) {}
+
+    [[nodiscard]] bool hasChildren(const TileId& tile);
+
+    /// The deepest level of a tile along an edge of the given tile, on either side of it.
+    [[nodiscard]] int deepestAlong(const TileId& tile, Edge edge);
+
+    /// The level of the tile without children that lies across the edge, or the given tile's level if that is less.
+    [[nodiscard]] int coarsestAcross(const TileId& tile, Edge edge);
+
+private:
+    [[nodiscard]] int deepestWithin(const TileId& tile, Edge edge);
+
+    DemMosaic& _mosaic;
+    const TileLayout& _layout;
+    std::map<TileId, bool> _known;
+};
+
+}  // namespace osgbindem

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "GdalRaster.h"
+
+#include "Failure.h"
+
+#include <gdal_alg.h>
+#include <gdal_utils.h>
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace osgbindem {
+
+namespace {
+
+using GeoTransform = std::array<double, 6>;
+
+GdalDataset open(const std::string& path) {
+    GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+    if (!dataset) throw Failure("cannot open \"" + path + "\": " + gdalMessage());
+    if (dataset->GetRasterCount() == 0) {
+        throw Failure("no raster band in \"" + path + "\"; name one of its subdatasets as gdalinfo lists them");
+    }
+    return dataset;
+}
+
+// Without a reference system, degrees are recognised by their range.
+bool looksLikeDegrees(const GeoTransform& t, int width, int height) {
+    const double east = t[0] + width * t[1];
+    const double other = t[3] + height * t[5];
+    return t[1] > 0.0 && t[0] >= -361.0 && east <= 721.0 && east - t[0] <= 361.0 &&
+           std::abs(t[3]) <= 90.0 + std::abs(t[5]) && std::abs(other) <= 90.0 + std::abs(t[5]);
+}
+
+bool isPlain(const GeoTransform& t) {
+    return t[2] == 0.0 && t[4] == 0.0 && t[1] > 0.0 && t[5] != 0.0;
+}
+
+bool needsWarp(GDALDataset& dataset, const std::string& path) {
+    GeoTransform transform{};
+    const bool hasTransform = dataset.GetGeoTransform(transform.data()) == CE_None;
+    const OGRSpatialReference* reference = dataset.GetSpatialRef();
+    const bool hasControlPoints = dataset.GetGCPCount() > 0 && dataset.GetGCPSpatialRef() != nullptr;
+    if (!hasTransform && !hasControlPoints) {
+        throw Failure("no georeferencing in \"" + path + "\"; add it, for example with gdal_edit.py -a_srs -a_ullr");
+    }
+    if (!hasTransform) return true;
+    if (reference != nullptr && !reference->IsGeographic()) return true;
+    if (!isPlain(transform) && reference != nullptr) return true;
+    if (reference == nullptr &&
+        (!isPlain(transform) || !looksLikeDegrees(transform, dataset.GetRasterXSize(), dataset.GetRasterYSize()))) {
+        throw Failure("no reference system in \"" + path +
+                      "\", and its coordinates are not degrees; add one, for example with gdal_edit.py -a_srs");
+    }
+    return false;
+}
+
+std::string targetReference(GDALDataset& source, bool isWgs84) {
+    if (isWgs84) return "EPSG:4326";
+    const OGRSpatialReference* reference = source.GetSpatialRef();
+    if (reference == nullptr) reference = source.GetGCPSpatialRef();
+    const std::unique_ptr<OGRSpatialReference> geographic(reference->CloneGeogCS());
+    char* text = nullptr;
+    geographic->exportToWkt(&text);
+    std::string result(text);
+    CPLFree(text);
+    return result;
+}
+
+/// The words as GDAL's utilities take them. Requires: the words outlive the result.
+std::vector<char*> argumentsOf(std::vector<std::string>& words) {
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    return arguments;
+}
+
+RasterGrid gridOf(GDALDataset& dataset, const std::string& path) {
+    GeoTransform transform{};
+    dataset.GetGeoTransform(transform.data());
+    const RasterGrid grid(transform, dataset.GetRasterXSize(), dataset.GetRasterYSize());
+    const RectDeg extent = grid.extent();
+    if (!(extent.south < 90.0 && extent.north > -90.0)) {
+        throw Failure("no part of \"" + path + "\" lies between latitudes -90 and 90; correct its georeferencing");
+    }
+    return grid;
+}
+
+}  // namespace
+
+std::string gdalMessage() {
+    std::string text = CPLGetLastErrorMsg();
+    if (text.empty()) text = "not a raster that GDAL reads";
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+void GdalRaster::TransformerFree::operator()(void* transformer) const {
+    GDALDestroyGenImgProjTransformer(transformer);
+}
+
+GdalRaster::GdalRaster(const RasterOptions& options)
+    : _path(options.path), _source(open(options.path)), _grid({0.0, 1.0, 0.0, 0.0, 0.0, -1.0}, 1, 1) {
+    if (!options.isElevation) expandPalette();
+    if (needsWarp(*_source, _path)) warp(options);
+    _grid = gridOf(dataset(), _path);
+}
+
+void GdalRaster::expandPalette() {
+    if (_source->GetRasterBand(1)->GetColorTable() == nullptr) return;
+    std::vector<std::string> words{"-of", "VRT", "-expand", "rgb"};
+    std::vector<char*> arguments = argumentsOf(words);
+    GDALTranslateOptions* options = GDALTranslateOptionsNew(arguments.data(), nullptr);
+    int usageError = 0;
+    GDALDatasetH expanded = GDALTranslate("", GDALDataset::ToHandle(_source.get()), options, &usageError);
+    GDALTranslateOptionsFree(options);
+    if (expanded == nullptr) throw Failure("cannot read the colours of \"" + _path + "\": " + gdalMessage());
+    _file = std::move(_source);
+    _source.reset(GDALDataset::FromHandle(expanded));
+}
+
+void GdalRaster::warp(const RasterOptions& options) {
+    const std::string target = targetReference(*_source, options.isWgs84);
+    std::vector<std::string> words{"-of", "VRT", "-t_srs", target, "-r", "bilinear"};
+    if (options.isElevation) words.insert(words.end(), {"-ot", "Float64", "-dstnodata", "nan"});
+    if (options.isElevation && options.nodata)
+        words.insert(words.end(), {"-srcnodata", CPLSPrintf("%.17g", *options.nodata)});
+    if (!options.isElevation) words.push_back("-dstalpha");
+    std::vector<char*> arguments = argumentsOf(words);
+
+    GDALWarpAppOptions* warpOptions = GDALWarpAppOptionsNew(arguments.data(), nullptr);
+    GDALDatasetH source = GDALDataset::ToHandle(_source.get());
+    int usageError = 0;
+    GDALDatasetH warped = GDALWarp("", nullptr, 1, &source, warpOptions, &usageError);
+    GDALWarpAppOptionsFree(warpOptions);
+    _warped.reset(GDALDataset::FromHandle(warped));
+    if (_warped) _toSource.reset(GDALCreateGenImgProjTransformer2(source, warped, nullptr));
+    if (!_warped || !_toSource) {
+        throw Failure("cannot bring \"" + _path + "\" to latitude and longitude: " + gdalMessage());
+    }
+}
+
+std::vector<PixelWindow> GdalRaster::sourceWindows(const PixelWindow& window) const {
+    // Small blocks keep the rectangles around turned footprints tight.
+    constexpr int kBlock = 64;
+    std::vector<PixelWindow> result;
+    for (int row = window.row; row < window.row + window.height; row += kBlock) {
+        for (int column = window.column; column < window.column + window.width; column += kBlock) {
+            const auto source = sourceWindow({column, row, std::min(kBlock, window.column + window.width - column),
+                                              std::min(kBlock, window.row + window.height - row)});
+            if (source) result.push_back(*source);
+        }
+    }
+    return result;
+}
+
+std::optional<PixelWindow> GdalRaster::sourceWindow(const PixelWindow& window) const {
+    constexpr int kSteps = 5;
+    constexpr double kPadding = 2.0;  // pixels: the kernel's reach, and the bend between the probed points
+    std::array<double, kSteps * kSteps> x{};
+    std::array<double, kSteps * kSteps> y{};
+    std::array<double, kSteps * kSteps> z{};
+    std::array<int, kSteps * kSteps> success{};
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        x[i] = window.column + window.width * static_cast<double>(i % kSteps) / (kSteps - 1);
+        y[i] = window.row + window.height * static_cast<double>(i / kSteps) / (kSteps - 1);
+    }
+    GDALGenImgProjTransform(_toSource.get(), TRUE, static_cast<int>(x.size()), x.data(), y.data(), z.data(),
+                            success.data());
+    double west = HUGE_VAL, north = HUGE_VAL, east = -HUGE_VAL, south = -HUGE_VAL;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (success[i] == 0) continue;
+        west = std::min(west, x[i]);
+        east = std::max(east, x[i]);
+        north = std::min(north, y[i]);
+        south = std::max(south, y[i]);
+    }
+    const double width = _source->GetRasterXSize();
+    const double height = _source->GetRasterYSize();
+    const int firstColumn = static_cast<int>(std::clamp(std::floor(west - kPadding), 0.0, width));
+    const int firstRow = static_cast<int>(std::clamp(std::floor(north - kPadding), 0.0, height));
+    const int endColumn = static_cast<int>(std::clamp(std::ceil(east + kPadding), 0.0, width));
+    const int endRow = static_cast<int>(std::clamp(std::ceil(south + kPadding), 0.0, height));
+    if (firstColumn >= endColumn || firstRow >= endRow) return std::nullopt;
+    return PixelWindow{firstColumn, firstRow, endColumn - firstColumn, endRow - firstRow};
+}
+
+}  // namespace osgbindem

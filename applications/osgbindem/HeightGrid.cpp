@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "HeightGrid.h"
+
+namespace osgbindem {
+
+HeightGrid::HeightGrid(const TileId& tile, const TileLayout& layout)
+    : _tile(tile),
+      _cells(layout.cells()),
+      _heights(static_cast<std::size_t>((layout.cells() + 3) * (layout.cells() + 3)), 0.0) {}
+
+void HeightGrid::samplePost(DemMosaic& mosaic, const TileLayout& layout, int column, int row) {
+    PostId post = layout.firstPost(_tile, _tile.level);
+    post.column += column;
+    post.row += row;
+    _heights[index(column, row)] = mosaic.height(layout.position(post));
+}
+
+void HeightGrid::sample(DemMosaic& mosaic, const TileLayout& layout) {
+    for (int row = 0; row <= _cells; ++row) {
+        for (int column = 0; column <= _cells; ++column) samplePost(mosaic, layout, column, row);
+    }
+}
+
+void HeightGrid::takeFrom(const HeightGrid& child) {
+    const int half = _cells / 2;
+    const int firstColumn = child._tile.x % 2 == 0 ? 0 : half;
+    const int firstRow = child._tile.y % 2 == 0 ? 0 : half;
+    for (int row = 0; row <= half; ++row) {
+        for (int column = 0; column <= half; ++column) {
+            _heights[index(firstColumn + column, firstRow + row)] = child.at(2 * column, 2 * row);
+        }
+    }
+}
+
+void HeightGrid::sampleRing(DemMosaic& mosaic, const TileLayout& layout) {
+    for (int i = -1; i <= _cells + 1; ++i) {
+        samplePost(mosaic, layout, i, -1);
+        samplePost(mosaic, layout, i, _cells + 1);
+        samplePost(mosaic, layout, -1, i);
+        samplePost(mosaic, layout, _cells + 1, i);
+    }
+}
+
+HeightRange HeightGrid::range() const noexcept {
+    HeightRange range;
+    for (int row = 0; row <= _cells; ++row) {
+        for (int column = 0; column <= _cells; ++column) range.include(at(column, row));
+    }
+    return range;
+}
+
+}  // namespace osgbindem

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace osgbindem {
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+/// The colour of a height: blues below 0 m, greens to browns to white above.
+[[nodiscard]] Rgb hypsometricColour(double height) noexcept;
+
+}  // namespace osgbindem

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "NodeFile.h"
+
+#include "Failure.h"
+
+#include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/InstallBinsCallback.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Geometry>
+#include <osg/Material>
+#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+#include <osg/Texture2D>
+#include <osgDB/ObjectWrapper>
+#include <osgDB/Registry>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sstream>
+#include <unistd.h>
+
+namespace osgbindem {
+
+namespace {
+
+/// The library's own modules stand in a folder beside the library; OpenSceneGraph has to be told, unless they are
+/// installed where it looks.
+void addModuleFolder() {
+    Dl_info info{};
+    if (dladdr(reinterpret_cast<const void*>(&osgAnalyticBin::methodName), &info) == 0 || info.dli_fname == nullptr)
+        return;
+    const std::string library = info.dli_fname;
+    const auto slash = library.rfind('/');
+    if (slash == std::string::npos) return;
+    osgDB::Registry::instance()->getLibraryFilePathList().push_back(library.substr(0, slash));
+}
+
+osgDB::ReaderWriter& writer() {
+    osgDB::ReaderWriter* found = osgDB::Registry::instance()->getReaderWriterForExtension("osgb");
+    if (found == nullptr)
+        throw Failure("OpenSceneGraph's plugin for .osgb is missing; install it or set OSG_LIBRARY_PATH");
+    return *found;
+}
+
+/// A file that is open for writing, removed again unless it is kept.
+class OpenFile {
+public:
+    explicit OpenFile(std::string path)
+        : _path(std::move(path)), _handle(::open(_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+        if (_handle < 0) fail();
+    }
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+    ~OpenFile() {
+        if (_handle >= 0) ::close(_handle);
+        if (!_path.empty()) ::unlink(_path.c_str());
+    }
+
+    void write(const std::string& bytes) {
+        for (std::size_t done = 0; done < bytes.size();) {
+            const ssize_t count = ::write(_handle, bytes.data() + done, bytes.size() - done);
+            if (count < 0 && errno == EINTR) continue;
+            if (count <= 0) fail();
+            done += static_cast<std::size_t>(count);
+        }
+    }
+
+    void keepAs(const std::string& path) {
+        const int handle = _handle;
+        _handle = -1;
+        if (::close(handle) != 0 || std::rename(_path.c_str(), path.c_str()) != 0) fail();
+        _path.clear();
+    }
+
+private:
+    [[noreturn]] void fail() const {
+        const int error = errno;
+        throw Failure("cannot write \"" + _path + "\": " + std::strerror(error) +
+                      "; make room or choose another folder");
+    }
+
+    std::string _path;
+    int _handle;
+};
+
+}  // namespace
+
+void prepareNodeFiles() {
+    addModuleFolder();
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+    root->setEllipsoidModel(new osg::EllipsoidModel);
+    root->setUpdateCallback(new osgAnalyticBin::InstallBinsCallback);
+    const char* className = "osgAnalyticBin::InstallBinsCallback";
+    if (osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper(className) == nullptr) {
+        throw Failure(std::string("OpenSceneGraph finds no serializer for ") + className +
+                      "; install this library's modules or set OSG_LIBRARY_PATH");
+    }
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(new osg::Vec3Array(3));
+    geometry->setNormalArray(new osg::Vec3Array(osg::Array::BIND_PER_VERTEX, 3));
+    geometry->setColorArray(new osg::Vec4ubArray(osg::Array::BIND_OVERALL, 1));
+    geometry->setTexCoordArray(0, new osg::Vec2Array(osg::Array::BIND_PER_VERTEX, 3));
+    geometry->addPrimitiveSet(new osg::DrawElementsUShort(GL_TRIANGLES, 3));
+    const osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(1, 1, 1, GL_RGB, GL_UNSIGNED_BYTE);
+    geometry->getOrCreateStateSet()->setTextureAttributeAndModes(0, new osg::Texture2D(image));
+    geometry->getOrCreateStateSet()->setAttributeAndModes(new osg::Material);
+    const osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform;
+    transform->addChild(geometry);
+    const osg::ref_ptr<osg::PagedLOD> lod = new osg::PagedLOD;
+    lod->addChild(transform, 0.0F, 1.0F);
+    osgAnalyticBin::setStoredBin(*lod, osgAnalyticBin::AnalyticBin());
+    root->addChild(lod);
+    (void)nodeFileBytes(*root, true);
+}
+
+std::string nodeFileBytes(const osg::Node& node, bool compress) {
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    options->setPluginStringData("fileType", "Binary");
+    options->setPluginStringData("WriteImageHint", "IncludeData");
+    if (compress) options->setPluginStringData("Compressor", "zlib");
+    std::ostringstream stream(std::ios::out | std::ios::binary);
+    const osgDB::ReaderWriter::WriteResult result = writer().writeNode(node, stream, options);
+    if (!result.success() || !stream) throw Failure("OpenSceneGraph cannot store a tile: " + result.message());
+    return stream.str();
+}
+
+void writeFile(const std::string& path, const std::string& bytes) {
+    OpenFile file(path + ".tmp");
+    file.write(bytes);
+    file.keepAs(path);
+}
+
+}  // namespace osgbindem

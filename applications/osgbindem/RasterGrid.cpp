@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "RasterGrid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgbindem {
+
+namespace {
+
+// Positions closer than this to a post, in pixels, are on it: geotransforms carry about nine digits.
+constexpr double kSnap = 1e-6;
+
+int floorOf(double value) {
+    return static_cast<int>(std::floor(value));
+}
+int ceilOf(double value) {
+    return static_cast<int>(std::ceil(value));
+}
+
+double snapped(double value) {
+    const double nearest = std::nearbyint(value);
+    return std::abs(value - nearest) < kSnap ? nearest : value;
+}
+
+}  // namespace
+
+RectDeg RectDeg::grownBy(double borderDeg) const noexcept {
+    return {west - borderDeg, std::max(south - borderDeg, -90.0), east + borderDeg, std::min(north + borderDeg, 90.0)};
+}
+
+RasterGrid::RasterGrid(const std::array<double, 6>& geoTransform, int width, int height) noexcept
+    : _width(width),
+      _height(height),
+      _dx(geoTransform[1]),
+      _dy(geoTransform[5]),
+      _firstLongitude(geoTransform[0] + 0.5 * geoTransform[1]),
+      _firstLatitude(geoTransform[3] + 0.5 * geoTransform[5]) {
+    // Printed pixel sizes are slightly off. A raster with as many columns as fit round the globe is global, and so is
+    // one that repeats its first column at the end, which is then left out.
+    const double fitting = std::nearbyint(360.0 / _dx);
+    if (fitting == _width || fitting == _width - 1) {
+        _isGlobal = true;
+        _width = static_cast<int>(fitting);
+        _dx = 360.0 / fitting;
+    }
+}
+
+double RasterGrid::resolutionDeg() const noexcept {
+    return std::min(_dx, std::abs(_dy));
+}
+
+RectDeg RasterGrid::extent() const noexcept {
+    const double west = _firstLongitude - 0.5 * _dx;
+    const double a = _firstLatitude - 0.5 * _dy;
+    const double b = a + _height * _dy;
+    return {west, std::min(a, b), west + _width * _dx, std::max(a, b)};
+}
+
+double RasterGrid::overlap(const RectDeg& rect) const noexcept {
+    const RectDeg own = extent();
+    const double height = std::min(own.north, rect.north) - std::max(own.south, rect.south);
+    double width = 0.0;
+    for (int turn = -2; turn <= 2; ++turn) {
+        const double shift = 360.0 * turn;
+        width += std::max(0.0, std::min(own.east + shift, rect.east) - std::max(own.west + shift, rect.west));
+    }
+    return width * std::max(0.0, height);
+}
+
+bool RasterGrid::covers(const RectDeg& rect) const noexcept {
+    const double half = 0.5 + kSnap;
+    const auto [low, high] = std::minmax({rowOf(rect.south), rowOf(rect.north)});
+    if (low < -half || high > _height - 1 + half) return false;
+    if (_isGlobal) return true;
+    const double turn = 360.0 / _dx;
+    const double west = columnOf(rect.west) + half;
+    const double start = west - std::floor(west / turn) * turn - half;
+    return start + (rect.east - rect.west) / _dx <= _width - 1 + half;
+}
+
+std::optional<PostCell> RasterGrid::locate(const PositionDeg& position) const noexcept {
+    const double half = 0.5 + kSnap;
+    double row = rowOf(position.latitudeDeg);
+    if (!(row >= -half && row <= _height - 1 + half)) return std::nullopt;
+    row = std::clamp(snapped(row), 0.0, _height - 1.0);
+
+    const double turn = _isGlobal ? _width : 360.0 / _dx;
+    double column = columnOf(position.longitudeDeg) + half;
+    column = snapped(column - std::floor(column / turn) * turn - half);
+    if (_isGlobal) {
+        if (column < 0.0) column += turn;
+    } else {
+        if (column > _width - 1 + half) return std::nullopt;
+        column = std::clamp(column, 0.0, _width - 1.0);
+    }
+
+    PostCell cell;
+    cell.west = floorOf(column);
+    cell.eastWeight = column - cell.west;
+    cell.west %= _width;
+    cell.east = cell.eastWeight > 0.0 ? (cell.west + 1) % _width : cell.west;
+    cell.first = floorOf(row);
+    cell.secondWeight = row - cell.first;
+    cell.second = cell.secondWeight > 0.0 ? cell.first + 1 : cell.first;
+    return cell;
+}
+
+std::vector<RasterGrid::Span> RasterGrid::columns(int first, int last) const {
+    std::vector<Span> spans;
+    if (last < first) return spans;
+    if (_isGlobal) {
+        const int count = last - first + 1;
+        if (count >= _width) return {{0, _width}};
+        const int start = ((first % _width) + _width) % _width;
+        const int direct = std::min(count, _width - start);
+        spans.push_back({start, direct});
+        if (count > direct) spans.push_back({0, count - direct});
+        return spans;
+    }
+    const double turn = 360.0 / _dx;
+    for (int k = -2; k <= 2; ++k) {
+        const int a = std::max(0, floorOf(first + k * turn));
+        const int b = std::min(_width - 1, ceilOf(last + k * turn));
+        if (a <= b) spans.push_back({a, b - a + 1});
+    }
+    return spans;
+}
+
+std::vector<PixelWindow> RasterGrid::windows(int firstColumn, int lastColumn, int firstRow, int lastRow) const {
+    std::vector<PixelWindow> result;
+    firstRow = std::max(firstRow, 0);
+    lastRow = std::min(lastRow, _height - 1);
+    if (firstRow > lastRow) return result;
+    for (const Span& span : columns(firstColumn, lastColumn)) {
+        result.push_back({span.first, firstRow, span.count, lastRow - firstRow + 1});
+    }
+    return result;
+}
+
+std::vector<PixelWindow> RasterGrid::touching(const RectDeg& rect) const {
+    const auto [low, high] = std::minmax({rowOf(rect.south), rowOf(rect.north)});
+    return windows(floorOf(columnOf(rect.west) - kSnap), ceilOf(columnOf(rect.east) + kSnap), floorOf(low - kSnap),
+                   ceilOf(high + kSnap));
+}
+
+std::vector<PixelWindow> RasterGrid::inside(const RectDeg& rect) const {
+    const auto [low, high] = std::minmax({rowOf(rect.south), rowOf(rect.north)});
+    return windows(floorOf(columnOf(rect.west) + kSnap) + 1, ceilOf(columnOf(rect.east) - kSnap) - 1,
+                   floorOf(low + kSnap) + 1, ceilOf(high - kSnap) - 1);
+}
+
+}  // namespace osgbindem

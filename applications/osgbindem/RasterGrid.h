@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace osgbindem {
+
+struct PositionDeg {
+    double latitudeDeg = 0.0;
+    double longitudeDeg = 0.0;
+};
+
+struct RectDeg {
+    double west = 0.0;
+    double south = 0.0;
+    double east = 0.0;
+    double north = 0.0;
+
+    /// The same rectangle with a border on all sides, cut at the poles.
+    [[nodiscard]] RectDeg grownBy(double borderDeg) const noexcept;
+};
+
+/// A rectangle of pixels.
+struct PixelWindow {
+    int column = 0;
+    int row = 0;
+    int width = 0;
+    int height = 0;
+
+    [[nodiscard]] double area() const noexcept { return static_cast<double>(width) * height; }
+    [[nodiscard]] bool contains(int c, int r) const noexcept {
+        return c >= column && c < column + width && r >= row && r < row + height;
+    }
+    [[nodiscard]] bool contains(const PixelWindow& other) const noexcept {
+        return contains(other.column, other.row) &&
+               contains(other.column + other.width - 1, other.row + other.height - 1);
+    }
+};
+
+/// A position between posts: the four posts around it and the weights of the second column and the second row.
+struct PostCell {
+    int west = 0;
+    int east = 0;
+    int first = 0;
+    int second = 0;
+    double eastWeight = 0.0;
+    double secondWeight = 0.0;
+};
+
+/// Where the posts (pixel centres) of a raster in geographic coordinates stand. Longitudes count modulo 360; a raster
+/// that goes round the globe has no seam.
+class RasterGrid final {
+public:
+    /// The geotransform in GDAL's order, without rotation and with columns running eastward; rows may run either way.
+    RasterGrid(const std::array<double, 6>& geoTransform, int width, int height) noexcept;
+
+    /// True when the raster goes round the globe.
+    [[nodiscard]] bool isGlobal() const noexcept { return _isGlobal; }
+
+    /// The smaller of the two distances between posts.
+    [[nodiscard]] double resolutionDeg() const noexcept;
+
+    /// The area of the pixels; may pass +-90 by half a pixel.
+    [[nodiscard]] RectDeg extent() const noexcept;
+
+    /// The part of the rectangle's area that the raster covers, in square degrees.
+    [[nodiscard]] double overlap(const RectDeg& rect) const noexcept;
+
+    [[nodiscard]] bool covers(const RectDeg& rect) const noexcept;
+
+    /// Returns: nullopt outside the raster. In the outer half of the border pixels the border posts count on.
+    [[nodiscard]] std::optional<PostCell> locate(const PositionDeg& position) const noexcept;
+
+    /// All posts whose bilinear footprint touches the rectangle, as at most three windows.
+    [[nodiscard]] std::vector<PixelWindow> touching(const RectDeg& rect) const;
+
+    /// The posts that lie within the rectangle and not on its edge.
+    [[nodiscard]] std::vector<PixelWindow> inside(const RectDeg& rect) const;
+
+    [[nodiscard]] double columnOf(double longitudeDeg) const noexcept { return (longitudeDeg - _firstLongitude) / _dx; }
+    [[nodiscard]] double rowOf(double latitudeDeg) const noexcept { return (latitudeDeg - _firstLatitude) / _dy; }
+
+private:
+    struct Span {
+        int first = 0;
+        int count = 0;
+    };
+    [[nodiscard]] std::vector<Span> columns(int first, int last) const;
+    [[nodiscard]] std::vector<PixelWindow> windows(int firstColumn, int lastColumn, int firstRow, int lastRow) const;
+
+    int _width;
+    int _height;
+    double _dx;
+    double _dy;
+    double _firstLongitude;
+    double _firstLatitude;
+    bool _isGlobal = false;
+};
+
+}  // namespace osgbindem

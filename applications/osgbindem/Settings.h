@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/Ellipsoid.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgbindem {
+
+/// One elevation raster as named on the command line.
+struct DemInput {
+    std::string path;
+    /// Metres per unit of the raster's heights.
+    double metresPerUnit = 1.0;
+};
+
+/// Everything the command line says.
+struct Settings {
+    std::vector<DemInput> dems;
+    std::optional<double> nodata;
+    std::string image;
+    std::string output;
+    osgAnalyticBin::core::Ellipsoid ellipsoid{1.0, 1.0};
+    /// Whether the radii are those of a default osg::EllipsoidModel.
+    bool isWgs84 = true;
+    /// Levels below the start tiles.
+    std::optional<int> levels;
+    /// Cells along a tile's edge.
+    std::optional<int> cells;
+    double lodFactor = 4.0;
+    int threads = 1;
+    bool compress = false;
+    bool quiet = false;
+};
+
+}  // namespace osgbindem

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "SkirtMeasure.h"
+
+#include "TileFrame.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgbindem {
+
+/// One edge of a tile as its posts in space.
+struct SkirtMeasure::Line {
+    Edge edge;
+    TileId tile;
+    /// The edge's first post, in the grid of the tile's level.
+    PostId first;
+    std::vector<glm::dvec3> points;
+    std::vector<double> heights;
+
+    [[nodiscard]] bool isParallel() const { return edge == Edge::South || edge == Edge::North; }
+    /// The post at a distance along the edge, counted in posts of its level.
+    [[nodiscard]] PostId post(int level, std::int64_t along, std::int64_t across) const {
+        return isParallel() ? PostId{level, along, across} : PostId{level, across, along};
+    }
+    [[nodiscard]] std::int64_t along() const { return isParallel() ? first.column : first.row; }
+    [[nodiscard]] std::int64_t across() const { return isParallel() ? first.row : first.column; }
+};
+
+namespace {
+
+// A drop that is no small part of the relief between two posts: there the skirt ends level at the lowest point of the
+// finer edges instead of hanging down by the drop from both posts, which would be far below the ground at the lower
+// one.
+constexpr double kCliff = 0.25;
+
+void raise(double& value, double candidate) {
+    value = std::max(value, candidate);
+}
+
+glm::dvec3 between(const glm::dvec3& a, const glm::dvec3& b, double share) {
+    return a + share * (b - a);
+}
+
+/// How far a point of the own polyline is above the other one, and how far it falls short of it outward.
+struct Gap {
+    double drop;
+    double reach;
+};
+
+Gap gapBetween(const glm::dvec3& own, const glm::dvec3& other, const TileFrame& frame, Edge edge) {
+    const double sign = edge == Edge::North ? 1.0 : -1.0;
+    const bool isParallel = edge == Edge::South || edge == Edge::North;
+    const glm::dvec3 way = other - own;
+    return {-glm::dot(way, frame.up), isParallel ? sign * glm::dot(way, frame.north) : 0.0};
+}
+
+PostId firstPostOf(const TileId& tile, const TileLayout& layout, Edge edge) {
+    PostId post = layout.firstPost(tile, tile.level);
+    if (edge == Edge::North) post.row += layout.cells();
+    if (edge == Edge::East) post.column += layout.cells();
+    return post;
+}
+
+}  // namespace
+
+glm::dvec3 SkirtMeasure::ecef(const PostId& post) {
+    return _layout.ellipsoid().toEcef(_layout.geodetic(post, _mosaic.height(_layout.position(post))));
+}
+
+Skirt SkirtMeasure::measure(const HeightGrid& heights) {
+    Skirt skirt;
+    for (const Edge edge : kEdges) skirt[static_cast<std::size_t>(edge)] = measureEdge(heights, edge);
+    return skirt;
+}
+
+EdgeSkirt SkirtMeasure::measureEdge(const HeightGrid& heights, Edge edge) {
+    const TileId& tile = heights.tile();
+    const std::size_t count = static_cast<std::size_t>(_layout.posts());
+    EdgeSkirt skirt{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
+    if (!tile.neighbour(edge)) return skirt;  // a pole: the edge is one point
+
+    Line own{edge, tile, firstPostOf(tile, _layout, edge), {}, {}};
+    for (int i = 0; i < _layout.posts(); ++i) {
+        const int column = own.isParallel() ? i : (edge == Edge::East ? _layout.cells() : 0);
+        const int row = own.isParallel() ? (edge == Edge::North ? _layout.cells() : 0) : i;
+        const PostId post = own.post(tile.level, own.along() + i, own.across());
+        own.heights.push_back(heights.at(column, row));
+        own.points.push_back(_layout.ellipsoid().toEcef(_layout.geodetic(post, own.heights.back())));
+    }
+    const int deepest = _depths.deepestAlong(tile, edge);
+    for (int level = tile.level + 1; level <= deepest; ++level) compareWithFiner(own, level, skirt);
+    const int coarsest = std::max(0, std::min(tile.level - 1, _depths.coarsestAcross(tile, edge)));
+    for (int level = tile.level - 1; level >= coarsest; --level) compareWithCoarser(own, level, skirt);
+
+    // Vertices are rounded to the quantum of their level, the coarsest most; the factor covers the bend between
+    // compared points.
+    constexpr double kFactor = 1.05;
+    const double safety = 2.0 * _layout.quantum(coarsest);
+    for (double& depth : skirt.depth) depth = kFactor * depth + safety;
+    for (double& lean : skirt.lean) lean *= kFactor;
+    return skirt;
+}
+
+void SkirtMeasure::compareWithFiner(const Line& own, int level, EdgeSkirt& skirt) {
+    const int shift = level - own.tile.level;
+    const std::int64_t parts = std::int64_t{1} << shift;
+    for (std::size_t segment = 0; segment + 1 < own.points.size(); ++segment) {
+        double drop = 0.0;
+        double lean = 0.0;
+        double lowest = std::min(own.heights[segment], own.heights[segment + 1]);
+        // Even posts belong to the levels between, which were compared before.
+        for (std::int64_t part = 1; part < parts; part += 2) {
+            const std::int64_t along = ((own.along() + static_cast<std::int64_t>(segment)) << shift) + part;
+            const PostId post = own.post(level, along, own.across() << shift);
+            const double share = static_cast<double>(part) / static_cast<double>(parts);
+            const double height = _mosaic.height(_layout.position(post));
+            const Gap gap = gapBetween(between(own.points[segment], own.points[segment + 1], share),
+                                       _layout.ellipsoid().toEcef(_layout.geodetic(post, height)),
+                                       TileFrame(_layout.geodetic(post, 0.0)), own.edge);
+            raise(drop, gap.drop);
+            raise(lean, gap.reach);
+            lowest = std::min(lowest, height);
+        }
+        const std::array<double, 2> ends{own.heights[segment], own.heights[segment + 1]};
+        const bool isCliff = drop > kCliff * std::abs(ends[1] - ends[0]) && lowest > std::min(ends[0], ends[1]) - drop;
+        for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+            raise(skirt.depth[segment + i], isCliff ? ends[i] - lowest : drop);
+            raise(skirt.lean[segment + i], lean);
+        }
+    }
+}
+
+void SkirtMeasure::compareWithCoarser(const Line& own, int level, EdgeSkirt& skirt) {
+    const int shift = own.tile.level - level;
+    const std::int64_t parts = std::int64_t{1} << shift;
+    for (std::size_t i = 0; i < own.points.size(); ++i) {
+        const std::int64_t along = own.along() + static_cast<std::int64_t>(i);
+        const std::int64_t part = along % parts;
+        if (part == 0) continue;
+        const glm::dvec3 a = ecef(own.post(level, along >> shift, own.across() >> shift));
+        const glm::dvec3 b = ecef(own.post(level, (along >> shift) + 1, own.across() >> shift));
+        const PostId post = own.post(own.tile.level, along, own.across());
+        const Gap gap = gapBetween(own.points[i], between(a, b, static_cast<double>(part) / static_cast<double>(parts)),
+                                   TileFrame(_layout.geodetic(post, 0.0)), own.edge);
+        raise(skirt.depth[i], gap.drop);
+        raise(skirt.lean[i], gap.reach);
+    }
+}
+
+}  // namespace osgbindem

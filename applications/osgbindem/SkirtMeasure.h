@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "EdgeDepths.h"
+#include "HeightGrid.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <vector>
+
+namespace osgbindem {
+
+/// What hangs from one edge of a tile: metres per post, south to north or west to east.
+struct EdgeSkirt {
+    std::vector<double> depth;
+    /// How far the lower end leans outward.
+    std::vector<double> lean;
+};
+
+/// One skirt per edge, in the order of kEdges.
+using Skirt = std::array<EdgeSkirt, 4>;
+
+/// Measures how deep a tile's skirt has to be.
+///
+/// Where tiles of two levels meet, their edges are two polylines through the same terrain, and the crack between them
+/// is filled by the skirt of the one that is higher. Tiles of one level share their edge posts and need no skirt.
+/// Next to a tile there can stand, across its edge, (1) a tile of the parent's level: levels of tiles in view differ by
+/// one when the switching distance is at least three half diagonals, because then the ring of one level is wider than
+/// two tiles; (2) a coarser tile that has no children, whatever the difference; (3) tiles below the neighbour, down to
+/// the deepest. So the skirt covers what the own polyline is above that of every such level, measured between points
+/// in space, which has the sag of the chords in it. At a post, the skirt is as deep as the deepest crack on either side
+/// of it, or reaches down to the lowest point there, and a small safety beyond: relief and sag along the edge bound it.
+///
+/// A chord between posts of one parallel also runs poleward of it. Seen from above that opens a narrow strip, which no
+/// vertical wall closes; the skirt leans outward by as much.
+class SkirtMeasure final {
+public:
+    SkirtMeasure(DemMosaic& mosaic, const TileLayout& layout, EdgeDepths& depths)
+        : _mosaic(mosaic), _layout(layout), _depths(depths) {}
+
+    [[nodiscard]] Skirt measure(const HeightGrid& heights);
+
+private:
+    struct Line;
+
+    [[nodiscard]] EdgeSkirt measureEdge(const HeightGrid& heights, Edge edge);
+    void compareWithFiner(const Line& own, int level, EdgeSkirt& skirt);
+    void compareWithCoarser(const Line& own, int level, EdgeSkirt& skirt);
+    [[nodiscard]] glm::dvec3 ecef(const PostId& post);
+
+    DemMosaic& _mosaic;
+    const TileLayout& _layout;
+    EdgeDepths& _depths;
+};
+
+}  // namespace osgbindem

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "RasterGrid.h"
+
+#include <osgAnalyticBin/core/Ellipsoid.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace osgbindem {
+
+/// The edges of a tile, in the order in which everything that has four of them keeps them.
+enum class Edge : std::size_t { South, North, West, East };
+inline constexpr std::array<Edge, 4> kEdges{Edge::South, Edge::North, Edge::West, Edge::East};
+
+/// Name of a tile: x counts eastward from -180 degrees, y northward from -90.
+struct TileId {
+    int level = 0;
+    int x = 0;
+    int y = 0;
+
+    static constexpr int kStartColumns = 16;
+    static constexpr int kStartRows = 8;
+
+    [[nodiscard]] int columns() const noexcept { return kStartColumns << level; }
+    [[nodiscard]] int rows() const noexcept { return kStartRows << level; }
+
+    /// South-west, south-east, north-west, north-east.
+    [[nodiscard]] std::array<TileId, 4> children() const noexcept;
+
+    /// Requires: 0 <= ancestorLevel <= level.
+    [[nodiscard]] TileId ancestor(int ancestorLevel) const noexcept;
+
+    /// The tile across the edge, round the globe. Returns: nullopt at a pole.
+    [[nodiscard]] std::optional<TileId> neighbour(Edge edge) const noexcept;
+
+    [[nodiscard]] bool touchesPole() const noexcept { return y == 0 || y == rows() - 1; }
+    [[nodiscard]] RectDeg rect() const noexcept;
+
+    [[nodiscard]] bool operator==(const TileId& other) const noexcept {
+        return level == other.level && x == other.x && y == other.y;
+    }
+    [[nodiscard]] bool operator<(const TileId& other) const noexcept;
+};
+
+/// A post of the grid of one level, counted from the south-west corner of the globe.
+struct PostId {
+    int level = 0;
+    std::int64_t column = 0;
+    std::int64_t row = 0;
+};
+
+/// The grid of posts that all tiles share.
+class TileLayout final {
+public:
+    static constexpr int kDeepest = 20;
+    static constexpr double kStartTileDeg = 22.5;
+
+    /// Whether a raster has more to show than posts with this spacing; one that is only just too wide is not worth
+    /// another level.
+    [[nodiscard]] static bool isFiner(double resolutionDeg, double spacingDeg) noexcept;
+
+    /// Chooses the cells per tile edge, an even number in 24 .. 46, so that at some level the distance between posts
+    /// is just at or below the resolution.
+    [[nodiscard]] static int cellsFor(double resolutionDeg) noexcept;
+
+    /// The first level than whose posts the raster is not finer; at most kDeepest.
+    [[nodiscard]] static int levelFor(double resolutionDeg, int cells) noexcept;
+
+    TileLayout(int cells, int deepestLevel, const osgAnalyticBin::core::Ellipsoid& ellipsoid) noexcept;
+
+    /// Even, so that every other post of a tile is a post of its parent.
+    [[nodiscard]] int cells() const noexcept { return _cells; }
+    [[nodiscard]] int posts() const noexcept { return _cells + 1; }
+    [[nodiscard]] int deepestLevel() const noexcept { return _deepestLevel; }
+    [[nodiscard]] const osgAnalyticBin::core::Ellipsoid& ellipsoid() const noexcept { return _ellipsoid; }
+    [[nodiscard]] double spacingDeg(int level) const noexcept;
+
+    /// The post's position, with the same bits at every level that has the post. Columns count round the globe;
+    /// rows beyond a pole stop there; all posts at a pole are one, at longitude -180.
+    [[nodiscard]] PositionDeg position(PostId post) const noexcept;
+
+    /// The same position without going round the globe: -180 and 180 are two longitudes.
+    [[nodiscard]] osgAnalyticBin::core::Geodetic geodetic(PostId post, double altitude) const noexcept;
+
+    /// The south-west post of a tile, in the grid of a level at or below the tile's.
+    [[nodiscard]] PostId firstPost(const TileId& tile, int level) const noexcept;
+
+    /// The grid, in metres, to which vertices of a level are rounded in ECEF. Offsets of a tile's vertices from its
+    /// origin are whole multiples of it that fit the 24 bits of a float: so they are stored without rounding, and
+    /// tiles that share a post of a level draw it at the very same point.
+    [[nodiscard]] double quantum(int level) const noexcept;
+
+private:
+    int _cells;
+    int _deepestLevel;
+    osgAnalyticBin::core::Ellipsoid _ellipsoid;
+};
+
+}  // namespace osgbindem

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TileNode.h"
+
+#include "Hypsometry.h"
+
+#include <glm/geometric.hpp>
+#include <osg/CoordinateSystemNode>
+#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+#include <osg/Texture2D>
+
+#include <algorithm>
+
+namespace osgbindem {
+
+namespace {
+
+osg::Vec3f toOsg(const glm::vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+osg::ref_ptr<osg::Vec4ubArray> vertexColours(const HeightGrid& heights) {
+    const osg::ref_ptr<osg::Vec4ubArray> colours = new osg::Vec4ubArray(osg::Array::BIND_PER_VERTEX);
+    colours->setNormalize(true);
+    const int posts = heights.cells() + 1;
+    for (const std::size_t surface : surfaceVertices(heights.cells())) {
+        const int place = static_cast<int>(surface);
+        const Rgb colour = hypsometricColour(heights.at(place % posts, place / posts));
+        colours->push_back(osg::Vec4ub(colour[0], colour[1], colour[2], 255));
+    }
+    return colours;
+}
+
+void drape(osg::Geometry& geometry, osg::Image& image) {
+    const osg::ref_ptr<osg::Vec4ubArray> white = new osg::Vec4ubArray(osg::Array::BIND_OVERALL);
+    white->setNormalize(true);
+    white->push_back(osg::Vec4ub(255, 255, 255, 255));
+    geometry.setColorArray(white);
+    const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(&image);
+    texture->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_EDGE);
+    texture->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_EDGE);
+    geometry.getOrCreateStateSet()->setTextureAttributeAndModes(0, texture);
+}
+
+/// Half the diagonal of the tile at sea level, in metres.
+double halfDiagonal(const TileId& tile, const TileLayout& layout) {
+    const auto point = [&](int column, int row) {
+        PostId post = layout.firstPost(tile, tile.level);
+        post.column += column;
+        post.row += row;
+        return layout.ellipsoid().toEcef(layout.geodetic(post, 0.0));
+    };
+    const int end = layout.cells();
+    const glm::dvec3 middle = point(end / 2, end / 2);
+    return std::max(glm::distance(middle, point(0, 0)), glm::distance(middle, point(0, end)));
+}
+
+}  // namespace
+
+osg::ref_ptr<osg::Geometry> makeGeometry(const TileMesh& mesh, const HeightGrid& heights, osg::Image* image) {
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    const osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
+    for (const glm::dvec3& vertex : mesh.verticesEcef) vertices->push_back(toOsg(glm::vec3(vertex - mesh.originEcef)));
+    for (const glm::vec3& normal : mesh.normals) normals->push_back(toOsg(normal));
+    geometry->setVertexArray(vertices);
+    geometry->setNormalArray(normals);
+    if (image != nullptr) {
+        drape(*geometry, *image);
+    } else {
+        geometry->setColorArray(vertexColours(heights));
+    }
+    return geometry;
+}
+
+osg::ref_ptr<osg::Node> makePlaced(osg::Geometry& geometry, const glm::dvec3& originEcef) {
+    const osg::ref_ptr<osg::MatrixTransform> transform =
+        new osg::MatrixTransform(osg::Matrixd::translate(originEcef.x, originEcef.y, originEcef.z));
+    transform->setDataVariance(osg::Object::STATIC);
+    transform->addChild(&geometry);
+    return transform;
+}
+
+osg::ref_ptr<osg::Node> makeTileNode(const TileId& tile, osg::Node& placed, const TileFacts& facts) {
+    osg::ref_ptr<osg::Group> node;
+    if (facts.childrenFile.empty()) {
+        node = new osg::Group;
+        node->addChild(&placed);
+    } else {
+        constexpr float kFarthest = 1e10F;
+        const auto& ellipsoid = facts.layout.ellipsoid();
+        const osg::ref_ptr<osg::EllipsoidModel> model =
+            new osg::EllipsoidModel(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+        const osg::BoundingSphere sphere = facts.bin.boundingSphere(*model);
+        const osg::ref_ptr<osg::PagedLOD> lod = new osg::PagedLOD;
+        const float range = static_cast<float>(facts.lodFactor * halfDiagonal(tile, facts.layout));
+        lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+        lod->setCenter(sphere.center());
+        lod->setRadius(sphere.radius());
+        lod->addChild(&placed, range, kFarthest);
+        lod->setFileName(1, facts.childrenFile);
+        lod->setRange(1, 0.0F, range);
+        node = lod;
+    }
+    osgAnalyticBin::setStoredBin(*node, facts.bin);
+    return node;
+}
+
+SharedParts::SharedParts(const std::vector<std::uint16_t>& triangles, int cells, int textureSize)
+    : _triangles(new osg::DrawElementsUShort(GL_TRIANGLES, triangles.begin(), triangles.end())) {
+    if (textureSize == 0) return;
+    _texCoords = new osg::Vec2Array(osg::Array::BIND_PER_VERTEX);
+    const int posts = cells + 1;
+    for (const std::size_t surface : surfaceVertices(cells)) {
+        // The middles of the outer texels lie on the tile's edges.
+        const auto coordinate = [&](int along) {
+            const float share = static_cast<float>(along) / static_cast<float>(cells);
+            return (0.5F + share * static_cast<float>(textureSize - 1)) / static_cast<float>(textureSize);
+        };
+        const int place = static_cast<int>(surface);
+        _texCoords->push_back(osg::Vec2(coordinate(place % posts), coordinate(place / posts)));
+    }
+}
+
+void SharedParts::addTo(osg::Geometry& geometry) const {
+    geometry.addPrimitiveSet(_triangles);
+    if (_texCoords) geometry.setTexCoordArray(0, _texCoords);
+    geometry.setUseDisplayList(false);
+    geometry.setUseVertexBufferObjects(true);
+}
+
+}  // namespace osgbindem

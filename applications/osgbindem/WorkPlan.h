@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "DemMosaic.h"
+#include "EdgeDepths.h"
+
+#include <vector>
+
+namespace osgbindem {
+
+/// A subtree that one thread builds by itself.
+struct Task {
+    TileId tile;
+    /// About the number of tiles without children in it.
+    double weight = 0.0;
+};
+
+/// Divides the tree into subtrees of similar weight, enough to keep the threads busy to the end; neighbours follow each
+/// other. What lies above the subtrees is left for afterwards.
+[[nodiscard]] std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout, int threads);
+
+}  // namespace osgbindem

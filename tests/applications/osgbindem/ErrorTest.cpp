@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Every bad input: an exit code, one line on stderr that says what is wrong, and nothing left behind.
+
+#include "DatabaseWalk.h"
+#include "Program.h"
+#include "TestRaster.h"
+
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Error : public testing::Test {
+protected:
+    void SetUp() override {
+        TestRaster::globe(1.0, hills).write(good());
+        fs::create_directory(_folder.file("out"));
+    }
+
+    [[nodiscard]] std::string good() const { return _folder.file("good.tif"); }
+    [[nodiscard]] std::string file(const std::string& name) const { return _folder.file(name); }
+    [[nodiscard]] std::string output() const { return _folder.file("out/earth.osgb"); }
+
+    void expectError(const std::vector<std::string>& arguments, const std::string& what, unsigned long sizeLimit = 0) {
+        const Outcome outcome = run(arguments, sizeLimit);
+        EXPECT_GT(outcome.exitCode, 0);
+        EXPECT_EQ(outcome.errors.rfind("osgbindem: ", 0), 0U) << outcome.errors;
+        EXPECT_NE(outcome.errors.find(what), std::string::npos) << outcome.errors;
+        EXPECT_EQ(outcome.errors.find('\n'), outcome.errors.size() - 1) << outcome.errors;
+        EXPECT_TRUE(fs::is_empty(_folder.file("out")));
+    }
+
+    void expectBadDem(const std::string& dem, const std::string& what) { expectError({dem, "-o", output()}, what); }
+
+private:
+    TempFolder _folder;
+};
+
+}  // namespace
+
+TEST_F(Error, MissingRaster) {
+    expectBadDem(file("absent.tif"), "absent.tif");
+}
+
+TEST_F(Error, UnreadableRaster) {
+    std::ofstream(file("text.tif")) << "no raster";
+    expectBadDem(file("text.tif"), "text.tif");
+}
+
+TEST_F(Error, TruncatedRaster) {
+    fs::copy_file(good(), file("short.tif"));
+    fs::resize_file(file("short.tif"), fs::file_size(good()) / 2);
+    expectBadDem(file("short.tif"), "short.tif");
+}
+
+TEST_F(Error, RasterWithoutGeoreferencing) {
+    GDALAllRegister();
+    GDALClose(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(file("plain.tif").c_str(), 10, 10, 1,
+                                                                       GDT_Float32, nullptr));
+    expectBadDem(file("plain.tif"), "no georeferencing");
+}
+
+TEST_F(Error, CoordinatesThatAreNoDegrees) {
+    TestRaster raster(400000.0, 5600000.0, 500.0, 500.0, 20, 20, hills);
+    raster.setReference("");
+    raster.write(file("metres.tif"));
+    expectBadDem(file("metres.tif"), "no reference system");
+}
+
+TEST_F(Error, RasterBeyondThePoles) {
+    TestRaster(0.0, 200.0, 1.0, 1.0, 20, 20, hills).write(file("beyond.tif"));
+    expectBadDem(file("beyond.tif"), "latitudes -90 and 90");
+}
+
+TEST_F(Error, RasterWithoutAnyData) {
+    TestRaster raster(0.0, 20.0, 1.0, 1.0, 20, 20, [](double, double) { return std::nan(""); });
+    raster.setNodata(-9999.0);
+    raster.write(file("empty.tif"));
+    expectBadDem(file("empty.tif"), "only missing data");
+}
+
+TEST_F(Error, MissingImage) {
+    expectError({good(), "--image", file("absent.png"), "-o", output()}, "absent.png");
+}
+
+TEST_F(Error, Levels) {
+    expectError({good(), "--levels", "40", "-o", output()}, "--levels 40");
+    expectError({good(), "--levels", "-1", "-o", output()}, "--levels -1");
+    expectError({good(), "--levels", "two", "-o", output()}, "two");
+}
+
+TEST_F(Error, OtherNumbers) {
+    expectError({good(), "--cells", "7", "-o", output()}, "--cells 7");
+    expectError({good(), "--cells", "900", "-o", output()}, "--cells 900");
+    expectError({good(), "--threads", "0", "-o", output()}, "--threads 0");
+    expectError({good(), "--lod-factor", "-2", "-o", output()}, "--lod-factor");
+    expectError({good(), "--radii", "0", "1", "-o", output()}, "--radii");
+    expectError({good(), "--radii", "1", "-o", output()}, "--radii");
+}
+
+TEST_F(Error, Scales) {
+    expectError({good(), "--scale", "miles", "-o", output()}, "unknown unit \"miles\"");
+    expectError({good(), "--scale", "0", "-o", output()}, "unknown unit \"0\"");
+    expectError({good(), "--scale", "m", "ft", "-o", output()}, "2 units");
+}
+
+TEST_F(Error, CommandLine) {
+    expectError({}, "--output");
+    expectError({"-o", output()}, "no elevation raster");
+    expectError({good(), "-o", output(), "--frobnicate"}, "--frobnicate");
+    expectError({good(), "-o", file("out/earth.ive")}, ".osgb");
+}
+
+TEST_F(Error, Folders) {
+    expectError({good(), "-o", file("absent/earth.osgb")}, "absent");
+    expectError({good(), "-o", good() + "/earth.osgb"}, "good.tif");
+    expectError({good(), "-o", "/proc/earth.osgb"}, "/proc/earth.osgb");
+}
+
+TEST_F(Error, SomebodyElsesFolderIsNotReplaced) {
+    fs::create_directory(file("earth_tiles"));
+    std::ofstream(file("earth_tiles/diary.txt")) << "mine";
+    expectError({good(), "-o", file("earth.osgb")}, "move it away");
+    EXPECT_TRUE(fs::exists(file("earth_tiles/diary.txt")));
+}
+
+TEST_F(Error, AFullDiskIsNoticedAndTheRerunCompletes) {
+    // A limit on the size of files stands in for the full disk.
+    expectError({good(), "--levels", "2", "--cells", "4", "-o", output()}, "cannot write", 4000);
+    expectError({good(), "--levels", "2", "--cells", "4", "-o", output()}, "cannot write", 30000);  // the root file
+    build({good(), "--levels", "2", "--cells", "4", "-o", output()});
+    // The old database survives a failing run.
+    const Outcome outcome = run({good(), "--levels", "1", "--cells", "4", "-o", output()}, 30000);
+    EXPECT_NE(outcome.exitCode, 0);
+    EXPECT_EQ(loadDatabase(output()).deepestLevel(), 2);
+    build({good(), "--levels", "1", "--cells", "4", "-o", output()});
+    EXPECT_EQ(loadDatabase(output()).deepestLevel(), 1);
+}
+
+TEST_F(Error, InterruptedRunsLeaveNothingAndASecondRunIsRefused) {
+    TestRaster::globe(0.5, hills).write(file("fine.tif"));
+    Program program({file("fine.tif"), "--cells", "4", "-o", output()});
+    while (program.isRunning() && !fs::exists(file("out/earth_tiles.partial/X00_Y0"))) {
+    }
+    const Outcome second = run({good(), "-o", output()});
+    EXPECT_NE(second.exitCode, 0);
+    EXPECT_NE(second.errors.find("another osgbindem"), std::string::npos) << second.errors;
+    ASSERT_TRUE(program.isRunning());
+    program.interrupt();
+    const Outcome outcome = program.wait();
+    EXPECT_EQ(outcome.exitCode, 130);
+    EXPECT_NE(outcome.errors.find("interrupted"), std::string::npos);
+    EXPECT_TRUE(fs::is_empty(file("out")));
+}
+
+TEST_F(Error, WhatAKilledRunLeftIsClearedAway) {
+    fs::create_directories(file("out/earth_tiles.partial/X00_Y0"));
+    std::ofstream(file("out/earth_tiles.partial/X00_Y0/L01_X0_Y0.osgb.tmp")) << "half";
+    std::ofstream(file("out/earth_tiles.lock"));
+    build({good(), "--levels", "1", "--cells", "4", "-o", output()});
+    EXPECT_FALSE(fs::exists(file("out/earth_tiles.partial")));
+    EXPECT_FALSE(fs::exists(file("out/earth_tiles.lock")));
+    EXPECT_EQ(loadDatabase(output()).deepestLevel(), 1);
+}
+
+TEST(Help, NamesUnitsAndAnExample) {
+    const Outcome outcome = run({"--help"});
+    EXPECT_EQ(outcome.exitCode, 0);
+    for (const char* word : {"--scale", "--levels", "--lod-factor", "metres", "degrees", "Example"}) {
+        EXPECT_NE(outcome.output.find(word), std::string::npos) << word;
+    }
+}
+
+TEST(Progress, IsShownUnlessQuiet) {
+    const TempFolder folder;
+    TestRaster::globe(5.0, hills).write(folder.file("globe.tif"));
+    const Outcome outcome = run({folder.file("globe.tif"), "--cells", "4", "-o", folder.file("earth.osgb")});
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_EQ(outcome.output, "0...10...20...30...40...50...60...70...80...90...100 - done.\n");
+}

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Real elevation data, where it is installed: known places, and the same checks as for synthetic rasters.
+
+#include "DatabaseCheck.h"
+#include "Program.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace {
+
+constexpr const char* kEtopo5 = "/usr/share/ferret-vis/data/etopo5.cdf";
+constexpr const char* kRockies = "/usr/share/ncarg/data/cdf/trinidad.nc";
+
+std::string shared(const std::string& name) {
+    const char* folder = std::getenv("OSGANALYTICBIN_SHARED_DATA");
+    return std::string(folder != nullptr ? folder : OSGBINDEM_SHARED_DATA) + "/dem/" + name;
+}
+
+bool isThere(const std::string& path) {
+    return std::filesystem::exists(path);
+}
+
+}  // namespace
+
+TEST(RealData, Etopo5) {
+    if (!isThere(kEtopo5)) GTEST_SKIP() << "package ferret-datasets is not installed";
+    const TempFolder folder;
+    build({kEtopo5, "--levels", "1", "--cells", "18", "-o", folder.file("earth.osgb")});
+    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    const TestRaster raster(kEtopo5);
+    checkDatabase(database, [&raster](const Rect& rect) { return raster.range(rect); });
+    EXPECT_NEAR(database.altitudeAt(-90.0, 0.0), 2810.0, 0.3);
+    // The Challenger Deep, in the tile at 135 .. 157.5 E, 0 .. 22.5 N, and all above it.
+    EXPECT_LE(database.leafAt(11.3, 142.2).bin.bin().altitude().lower, -10376.0);
+    EXPECT_LE(database.tiles[4 * 16 + 14].bin.bin().altitude().lower, -10376.0);
+}
+
+TEST(RealData, RockiesInFeet) {
+    if (!isThere(kRockies)) GTEST_SKIP() << "package libncarg-data is not installed";
+    const TempFolder folder;
+    build({kRockies, "--scale", "ft", "--levels", "6", "-o", folder.file("earth.osgb")});
+    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    checkSharedPosts(database);
+    EXPECT_EQ(database.deepestLevel(), 6);
+    TestRaster rockies(kRockies);
+    rockies.scale(0.3048);
+    database.forEach([&](const LoadedTile& tile) {
+        const Range range = rockies.range(tile.rect());
+        if (range.lower > range.upper) return;
+        EXPECT_LE(tile.bin.bin().altitude().lower, range.lower);
+        EXPECT_GE(tile.bin.bin().altitude().upper, range.upper);
+    });
+    // Blanca Peak is 4374 m; the data have 4322.
+    const double highest = database.leafAt(37.58, -105.49).bin.bin().altitude().upper;
+    EXPECT_GT(highest, 4300.0);
+    EXPECT_LT(highest, 4400.0);
+}
+
+TEST(RealData, EverestWithVoids) {
+    const std::string path = shared("everest_srtm3_N27E086.tif");
+    if (!isThere(path)) GTEST_SKIP() << "no shared sample data";
+    const TempFolder folder;
+    build({path, "--levels", "8", "-o", folder.file("earth.osgb")});
+    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    checkSharedPosts(database);
+    const TestRaster raster(path);
+    database.forEach([&](const LoadedTile& tile) {
+        const Range range = raster.range(tile.rect());
+        if (range.lower > range.upper) return;
+        EXPECT_GE(tile.bin.bin().altitude().upper, range.upper);
+        EXPECT_GT(tile.bin.bin().altitude().lower, -3000.0) << "a void is no height";
+    });
+    EXPECT_GE(database.leafAt(27.988, 86.925).bin.bin().altitude().upper, 8642.0);
+    EXPECT_LT(database.leafAt(27.988, 86.925).bin.bin().altitude().upper, 8650.0);
+}
+
+TEST(RealData, AleutiansPastTheDateLine) {
+    const std::string path = shared("aleutians_etopo1_5min_antimeridian.tif");
+    if (!isThere(path)) GTEST_SKIP() << "no shared sample data";
+    const TempFolder folder;
+    build({path, "--levels", "2", "-o", folder.file("earth.osgb")});
+    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    const TestRaster raster(path);
+    checkSharedPosts(database);
+    checkNodes(database);
+    checkBins(database, [&raster](const Rect& rect) {
+        Range range = raster.range(rect);
+        if (rect.west < 165.0 && rect.east > -145.0) range.include(0.0);
+        if (rect.south < 50.0 || rect.north > 65.0) range.include(0.0);
+        return range;
+    });
+    EXPECT_NEAR(database.altitudeAt(56.25, 180.0), raster.height(56.25, 180.0), 0.3);
+}
+
+TEST(RealData, Gtopo30WithSeaMissing) {
+    const std::string path = shared("gtopo30_w020n90_cut_3E9E_50N54N.tif");
+    if (!isThere(path)) GTEST_SKIP() << "no shared sample data";
+    const TempFolder folder;
+    build({path, "--levels", "5", "-o", folder.file("earth.osgb")});
+    const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
+    // Kahler Asten; the sea is at 0.
+    EXPECT_GE(database.leafAt(51.18, 8.49).bin.bin().altitude().upper, 817.0);
+    EXPECT_NEAR(database.altitudeAt(53.9, 3.5), 0.0, 0.3);
+    EXPECT_GT(database.leafAt(53.9, 3.5).bin.bin().altitude().lower, -200.0);
+}

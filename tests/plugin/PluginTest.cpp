@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// The pseudo-loader, called as an application calls it: by a file name. Needs OSG_LIBRARY_PATH.
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+
+#include <gtest/gtest.h>
+#include <osg/CoordinateSystemNode>
+#include <osg/NodeVisitor>
+#include <osg/PagedLOD>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+#include <support/SyntheticDatabase.h>
+#include <support/TemporaryFolder.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace osgAnalyticBin {
+namespace {
+
+// Counts the callbacks below a node, and notes the options of the last.
+class CallbackCounter : public osg::NodeVisitor {
+public:
+    CallbackCounter() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::Node& node) override {
+        if (const auto* callback = dynamic_cast<AnalyticBinCullCallback*>(node.getCullCallback())) {
+            ++count;
+            options = callback->cullOptions();
+            radii = callback->getRadiiText();
+        }
+        if (!node.getCullingActive()) ++withoutSpheres;
+        // terrain tiles of osgTerrain must not be traversed before they have their Terrain
+        if (std::string(node.libraryName()) != "osgTerrain" || std::string(node.className()) != "TerrainTile") {
+            traverse(node);
+        }
+    }
+    int count = 0;
+    int withoutSpheres = 0;
+    CullOptions options;
+    std::string radii;
+};
+
+CallbackCounter counted(osg::Node& node) {
+    CallbackCounter counter;
+    node.accept(counter);
+    return counter;
+}
+
+class Plugin : public ::testing::Test {
+protected:
+    void SetUp() override {
+        _database = test::writeSyntheticDatabase(_folder.path());
+        ASSERT_FALSE(_database.empty());
+    }
+    osg::ref_ptr<osg::Node> read(const std::string& suffix, const std::string& optionString = {}) {
+        const osg::ref_ptr<osgDB::Options> options = new osgDB::Options(optionString);
+        return osgDB::readRefNodeFile(_database + suffix, options.get());
+    }
+    test::TemporaryFolder _folder;
+    std::string _database;
+};
+
+TEST_F(Plugin, InstallsTheQuadraticByDefault) {
+    const osg::ref_ptr<osg::Node> node = read(".analyticbin");
+    ASSERT_TRUE(node);
+    const CallbackCounter counter = counted(*node);
+    EXPECT_EQ(counter.count, 32);
+    EXPECT_EQ(counter.options.method, Method::Quadratic);
+}
+
+TEST_F(Plugin, TakesParametersInThePseudoLoadersManner) {
+    const osg::ref_ptr<osg::Node> node = read(".(method=paper,growth=1.25).analyticbin");
+    ASSERT_TRUE(node);
+    const CallbackCounter counter = counted(*node);
+    EXPECT_EQ(counter.options.method, Method::Paper);
+    EXPECT_EQ(counter.options.growth, 1.25);
+}
+
+TEST_F(Plugin, TakesTheSameThroughTheOptionStringAndTheFileNameWins) {
+    EXPECT_EQ(counted(*read(".analyticbin", "other=1 method=corners")).options.method, Method::Corners);
+    EXPECT_EQ(counted(*read(".(method=paper).analyticbin", "method=corners")).options.method, Method::Paper);
+}
+
+TEST_F(Plugin, SphereInstallsNothingAndNoneSwitchesCullingOff) {
+    const CallbackCounter sphere = counted(*read(".(method=sphere).analyticbin"));
+    EXPECT_EQ(sphere.count, 0);
+    EXPECT_EQ(sphere.withoutSpheres, 0);
+    const CallbackCounter none = counted(*read(".(method=none).analyticbin"));
+    EXPECT_EQ(none.count, 0);
+    EXPECT_GT(none.withoutSpheres, 32);
+}
+
+TEST_F(Plugin, RefusesWhatItDoesNotKnow) {
+    for (const char* suffix : {".(method=cube).analyticbin", ".(growth=-1).analyticbin", ".(speed=9).analyticbin",
+                               ".(method).analyticbin"}) {
+        EXPECT_FALSE(read(suffix)) << suffix;
+    }
+    EXPECT_FALSE(read(".analyticbin", "method=cube"));
+    EXPECT_FALSE(osgDB::readRefNodeFile(_folder / "absent.osgb.analyticbin"));
+    EXPECT_FALSE(osgDB::readRefNodeFile(".analyticbin"));
+}
+
+TEST_F(Plugin, IsKnownToOsgByNameWithItsOptions) {
+    osgDB::ReaderWriter* reader = osgDB::Registry::instance()->getReaderWriterForExtension("analyticbin");
+    ASSERT_NE(reader, nullptr);
+    EXPECT_EQ(reader->supportedOptions().size(), 2u);
+    EXPECT_TRUE(reader->acceptsExtension("analyticbin"));
+}
+
+// Databases that others built; they are not part of the project.
+class ForeignDatabase : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(ForeignDatabase, OpensAndGetsBinsWhereItsGeometryIsKnown) {
+    const char* named = std::getenv("OSGANALYTICBIN_SHARED_DATA");
+    const std::string folder = named ? named : SHARED_DATA_FOLDER;
+    const std::string file = folder + "/vpb/" + GetParam() + "/earth.osgb";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+    const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file + ".analyticbin");
+    ASSERT_TRUE(node);
+    if (std::string(GetParam()) == "polygonal") {
+        EXPECT_EQ(counted(*node).count, 1);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, ForeignDatabase, ::testing::Values("terrain", "polygonal"),
+                         [](const auto& suite) { return std::string(suite.param); });
+
+}  // namespace
+}  // namespace osgAnalyticBin

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// The classes that OSG loads by name, through .osgt and .osgb files and the serializer module.
+// Needs OSG_LIBRARY_PATH to name the folder above osgPlugins-3.6.5.
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/InstallBinsCallback.h>
+
+#include <gtest/gtest.h>
+#include <osg/Group>
+#include <osg/MatrixTransform>
+#include <osgDB/ReadFile>
+#include <osgDB/WriteFile>
+#include <support/TemporaryFolder.h>
+
+namespace osgAnalyticBin {
+namespace {
+
+using core::GeodeticBin;
+
+class Serializer : public ::testing::TestWithParam<const char*> {
+protected:
+    osg::ref_ptr<osg::Node> roundTrip(const osg::Node& node) {
+        const std::string file = _folder / (std::string("node.") + GetParam());
+        if (!osgDB::writeNodeFile(node, file)) return nullptr;
+        return osgDB::readRefNodeFile(file);
+    }
+    test::TemporaryFolder _folder;
+};
+
+AnalyticBin awkwardBin() {
+    return AnalyticBin(GeodeticBin({0.1234567890123456, 0.2345678901234567}, {3.0, 3.3}, {-10376.123456789, 1.0 / 3.0}),
+                       0.0625);
+}
+
+TEST_P(Serializer, TheCullCallbackReadsBackExactly) {
+    CullOptions options;
+    options.method = Method::Paper;
+    options.growth = 1.0 + 1.0 / 3.0;
+    const osg::Matrixd frame = osg::Matrixd::rotate(1.0, 1, 2, 3) * osg::Matrixd::translate(1e6 / 3.0, 2e6 / 7.0, -5e6);
+    const osg::ref_ptr<AnalyticBinCullCallback> written =
+        new AnalyticBinCullCallback(AnalyticBin(GeodeticBin::fromDegrees({0, 11.25}, {168.75, 180}, {-7.25, 8848.86}), 1.0),
+                                    osg::EllipsoidModel(3396190.125, 3376200.0 + 1.0 / 3.0), options);
+    written->setLocalToEcef(frame);
+    const osg::ref_ptr<osg::Group> node = new osg::Group;
+    node->setCullCallback(written.get());
+
+    const osg::ref_ptr<osg::Node> back = roundTrip(*node);
+    ASSERT_TRUE(back);
+    auto* read = dynamic_cast<AnalyticBinCullCallback*>(back->getCullCallback());
+    ASSERT_NE(read, nullptr);
+    EXPECT_EQ(read->bin(), written->bin());
+    EXPECT_EQ(read->cullOptions().method, Method::Paper);
+    EXPECT_EQ(read->cullOptions().growth, options.growth);
+    EXPECT_EQ(read->getRadiiText(), written->getRadiiText());
+    EXPECT_EQ(read->localToEcef(), frame);
+}
+
+TEST_P(Serializer, ABinThatIsNoQuadtreeCellReadsBackHoldingIt) {
+    const osg::ref_ptr<osg::Group> node = new osg::Group;
+    node->setCullCallback(new AnalyticBinCullCallback(awkwardBin(), osg::EllipsoidModel()));
+    const osg::ref_ptr<osg::Node> back = roundTrip(*node);
+    ASSERT_TRUE(back);
+    EXPECT_TRUE(dynamic_cast<AnalyticBinCullCallback&>(*back->getCullCallback()).bin().contains(awkwardBin()));
+}
+
+TEST_P(Serializer, DefaultsReadBackAsDefaults) {
+    const osg::ref_ptr<osg::Group> node = new osg::Group;
+    node->setCullCallback(new AnalyticBinCullCallback);
+    node->setUpdateCallback(new InstallBinsCallback);
+    const osg::ref_ptr<osg::Node> back = roundTrip(*node);
+    ASSERT_TRUE(back);
+    const auto& read = dynamic_cast<AnalyticBinCullCallback&>(*back->getCullCallback());
+    EXPECT_FALSE(read.bin().valid());
+    EXPECT_EQ(read.cullOptions().method, Method::Quadratic);
+    EXPECT_EQ(read.getRadiiText(), osg::ref_ptr<AnalyticBinCullCallback>(new AnalyticBinCullCallback)->getRadiiText());
+    EXPECT_TRUE(read.localToEcef().isIdentity());
+    EXPECT_EQ(dynamic_cast<InstallBinsCallback&>(*back->getUpdateCallback()).cullOptions().method, Method::Quadratic);
+}
+
+TEST_P(Serializer, NestedCallbacksAndOptionsOfTheRequestReadBack) {
+    CullOptions corners;
+    corners.method = Method::Corners;
+    const osg::ref_ptr<osg::Group> node = new osg::Group;
+    node->setUpdateCallback(new InstallBinsCallback(corners));
+    const osg::ref_ptr<AnalyticBinCullCallback> outer = new AnalyticBinCullCallback(awkwardBin(), osg::EllipsoidModel());
+    outer->setNestedCallback(new AnalyticBinCullCallback);
+    node->setCullCallback(outer.get());
+    const osg::ref_ptr<osg::Node> back = roundTrip(*node);
+    ASSERT_TRUE(back);
+    EXPECT_EQ(dynamic_cast<InstallBinsCallback&>(*back->getUpdateCallback()).cullOptions().method, Method::Corners);
+    EXPECT_NE(back->getCullCallback()->getNestedCallback(), nullptr);
+}
+
+TEST_P(Serializer, AStoredBinReadsBackExactly) {
+    const osg::ref_ptr<osg::Group> node = new osg::Group;
+    const AnalyticBin bin(GeodeticBin::fromDegrees({-11.25, 0}, {0, 11.25}, {-412.0, 1.0 / 3.0}), 0.1);
+    setStoredBin(*node, bin);
+    const osg::ref_ptr<osg::Node> back = roundTrip(*node);
+    ASSERT_TRUE(back);
+    EXPECT_EQ(storedBin(*back), bin);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, Serializer, ::testing::Values("osgt", "osgb", "osgx"),
+                         [](const auto& suite) { return std::string(suite.param); });
+
+}  // namespace
+}  // namespace osgAnalyticBin

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// The stock osgviewer and osgconv, with and without the modules on OSG's plugin path. Pictures are compared in
+// applications/osgbinflight/; here it is what the programs say, and how they end.
+
+#include <gtest/gtest.h>
+#include <support/StockPrograms.h>
+#include <support/SyntheticDatabase.h>
+#include <support/TemporaryFolder.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+namespace osgAnalyticBin {
+namespace {
+
+namespace fs = std::filesystem;
+
+using test::Modules;
+using test::Outcome;
+
+class StockTools : public ::testing::Test {
+protected:
+    void SetUp() override {
+        _database = test::writeSyntheticDatabase(_folder.path());
+        ASSERT_FALSE(_database.empty());
+    }
+
+    // A hundred frames of the stock viewer.
+    static Outcome view(const std::string& arguments, Modules modules = Modules::Present) {
+        return test::runViewer(arguments, modules, "OSG_RUN_FRAME_COUNT=100");
+    }
+
+    test::TemporaryFolder _folder;
+    std::string _database;
+};
+
+TEST_F(StockTools, WithoutTheModulesADatabaseOpensWithOneWarning) {
+    const std::string copy = _folder / "copy.osgt";
+    const Outcome outcome = test::runOsgconv(test::quoted(_database) + ' ' + test::quoted(copy), Modules::Absent);
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    EXPECT_EQ(outcome.linesWith("Unsupported wrapper class"), 1) << outcome.text;
+    const std::string text = test::textOfFile(copy);
+    EXPECT_NE(text.find("osg::PagedLOD"), std::string::npos);
+    EXPECT_EQ(text.find("CullingActive"), std::string::npos);  // nothing stored switches culling off
+}
+
+TEST_F(StockTools, WithTheModulesADatabaseSurvivesOsgconv) {
+    const std::string copy = _folder / "copy.osgt";
+    const Outcome outcome = test::runOsgconv(test::quoted(_database) + ' ' + test::quoted(copy), Modules::Present);
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    EXPECT_EQ(outcome.linesWith("Unsupported"), 0) << outcome.text;
+    const std::string text = test::textOfFile(copy);
+    EXPECT_NE(text.find("osgAnalyticBin::InstallBinsCallback"), std::string::npos);
+    EXPECT_EQ(text.find("CullingActive"), std::string::npos);
+}
+
+TEST_F(StockTools, OsgconvListsThePluginsOptions) {
+    const Outcome outcome = test::runOsgconv("--format analyticbin", Modules::Present);
+    EXPECT_EQ(outcome.linesWith("method=quadratic|paper|corners|sphere|none"), 1) << outcome.text;
+    EXPECT_EQ(outcome.linesWith("growth=FACTOR"), 1) << outcome.text;
+}
+
+TEST_F(StockTools, AWrongParameterIsOneClearLineAndAFailure) {
+    const std::string copy = _folder / "copy.osgb";
+    const Outcome outcome = test::runOsgconv(test::quoted(_database + ".(method=cube).analyticbin") + ' ' +
+                                    test::quoted(copy), Modules::Present);
+    EXPECT_NE(outcome.code, 0);
+    EXPECT_EQ(outcome.linesWith("unknown method \"cube\" (use quadratic, paper, corners, sphere or none)"), 1)
+        << outcome.text;
+    EXPECT_FALSE(fs::exists(copy));
+}
+
+TEST_F(StockTools, TheViewerRunsUnderEveryThreadingModel) {
+    if (!test::canRunViewer()) GTEST_SKIP() << "xvfb-run or osgviewer is not there";
+    for (const char* model : {"--SingleThreaded", "--CullDrawThreadPerContext", "--DrawThreadPerContext",
+                              "--CullThreadPerCameraDrawThreadPerContext"}) {
+        for (const std::string& name : {_database, _database + ".analyticbin"}) {
+            const Outcome outcome = view(model + (' ' + test::quoted(name)));
+            EXPECT_EQ(outcome.code, 0) << model << ' ' << name << '\n' << outcome.text;
+            EXPECT_EQ(outcome.linesWith("osgAnalyticBin"), 0) << outcome.text;
+        }
+    }
+}
+
+TEST_F(StockTools, TheViewerOpensADatabaseWithoutTheModules) {
+    if (!test::canRunViewer()) GTEST_SKIP() << "xvfb-run or osgviewer is not there";
+    const Outcome outcome = view(test::quoted(_database), Modules::Absent);
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    EXPECT_EQ(outcome.linesWith("osgAnalyticBin"), 1) << outcome.text;
+}
+
+TEST_F(StockTools, TheViewerGoesOnWhenTilesAreTruncatedCorruptOrMissing) {
+    if (!test::canRunViewer()) GTEST_SKIP() << "xvfb-run or osgviewer is not there";
+    // every paged file is damaged in one of three ways
+    int damaged = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(_folder.path())) {
+        if (entry.path().extension() != ".osgb" || entry.path() == fs::path(_database)) continue;
+        switch (damaged++ % 3) {
+            case 0: fs::resize_file(entry.path(), entry.file_size() / 2); break;
+            case 1: {
+                FILE* file = std::fopen(entry.path().c_str(), "r+b");
+                ASSERT_NE(file, nullptr);
+                std::fseek(file, 60, SEEK_SET);
+                for (int i = 0; i < 400; ++i) std::fputc(0xff, file);
+                std::fclose(file);
+                break;
+            }
+            default: fs::remove(entry.path());
+        }
+    }
+    ASSERT_GT(damaged, 3);
+    const Outcome outcome = view(test::quoted(_database + ".analyticbin"));
+    EXPECT_EQ(outcome.code, 0) << outcome.text.substr(0, 4000);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin

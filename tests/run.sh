@@ -1,0 +1,48 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+# SPDX-License-Identifier: MIT
+#
+# Installs what is missing, builds, and runs all tests: release, dev (assertions and sanitizers), scalar, and a project
+# that uses the installed package. `sh tests/run.sh quick` runs the release build alone.
+set -eu
+
+cd "$(dirname "$0")/.."
+root=$(pwd)
+jobs=$(nproc 2>/dev/null || echo 2)
+
+step() { echo "== $*"; }
+
+build() { # preset
+    step "build $1"
+    cmake --preset "$1" >"build/$1.configure.log" 2>&1 || { cat "build/$1.configure.log" >&2; exit 1; }
+    cmake --build --preset "$1" -- -j "$jobs" >"build/$1.build.log" 2>&1 || { tail -n 60 "build/$1.build.log" >&2; exit 1; }
+}
+
+test_preset() { # preset, then more arguments of ctest
+    preset=$1
+    shift
+    step "test $preset"
+    ctest --preset "$preset" -j "$jobs" --timeout 600 --no-tests=error --progress "$@"
+}
+
+sh applications/packages.sh
+mkdir -p build
+
+build release
+test_preset release
+[ "${1:-}" != quick ] || exit 0
+
+step "consumer: a project that finds the installed package"
+prefix="$root/build/consumer/prefix"
+rm -rf build/consumer
+cmake --install build/release --prefix "$prefix" >build/consumer.log 2>&1 || { cat build/consumer.log >&2; exit 1; }
+cmake -S tests/consumer -B build/consumer/build -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >>build/consumer.log 2>&1 &&
+    cmake --build build/consumer/build >>build/consumer.log 2>&1 || { cat build/consumer.log >&2; exit 1; }
+ctest --test-dir build/consumer/build --output-on-failure --no-tests=error
+
+build dev
+test_preset dev -LE soundness
+build scalar
+test_preset scalar -L core
+
+step "all tests passed"
