@@ -73,7 +73,7 @@ public:
         const std::optional<osgAnalyticBin::CullOptions> cullOptions = osgAnalyticBin::cullOptionsFromText(text, error);
         // OSG prints the message of a failed read; a second line would say no more.
         if (!cullOptions) return ReadResult("analyticbin: " + error);
-        const ReadResult result = osgDB::Registry::instance()->readNode(request.name, options);
+        ReadResult result = osgDB::Registry::instance()->readNode(request.name, options);
         const osg::ref_ptr<osg::Node> node = result.getNode();
         if (!node) return result;
         report(osgAnalyticBin::installBins(*node, *cullOptions), *cullOptions, request.name);
