@@ -15,11 +15,11 @@
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
 #include <osg/OccluderNode>
-#include <support/Random.h>
 
 #include <algorithm>
-#include <cmath>
 #include <atomic>
+#include <cmath>
+#include <support/Random.h>
 #include <thread>
 
 namespace osgAnalyticBin {
@@ -63,7 +63,8 @@ struct Globe {
 
 bool anyInside(const std::vector<osg::Vec3d>& points, const std::vector<osg::Plane>& planes) {
     return std::any_of(points.begin(), points.end(), [&](const osg::Vec3d& p) {
-        return std::all_of(planes.begin(), planes.end(), [&](const osg::Plane& plane) { return plane.distance(p) >= 0.0; });
+        return std::all_of(planes.begin(), planes.end(),
+                           [&](const osg::Plane& plane) { return plane.distance(p) >= 0.0; });
     });
 }
 
@@ -183,10 +184,10 @@ TEST(AnalyticBinCullCallback, ClearsDecidedPlanesForTheSubgraphOnly) {
     const View view = View::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     test::cull(*root, view, *visitor);
-    EXPECT_EQ(below[0]->mask, 0u);                     // inside all planes
-    EXPECT_EQ(below[1]->mask & 0x3u, 0x3u);            // across left and right
-    EXPECT_EQ(below[1]->mask & 0xcu, 0u);              // between bottom and top
-    EXPECT_EQ(beside->mask, 0xfu);                     // what follows is untouched
+    EXPECT_EQ(below[0]->mask, 0u);           // inside all planes
+    EXPECT_EQ(below[1]->mask & 0x3u, 0x3u);  // across left and right
+    EXPECT_EQ(below[1]->mask & 0xcu, 0u);    // between bottom and top
+    EXPECT_EQ(beside->mask, 0xfu);           // what follows is untouched
 }
 
 TEST(AnalyticBinCullCallback, TheSameTilesAreReachedWithMasksOnAndOff) {
@@ -223,7 +224,8 @@ TEST(AnalyticBinCullCallback, TheSameTilesAreReachedWithMasksOnAndOff) {
 TEST(AnalyticBinCullCallback, KeepsSmallFeatureCulling) {
     std::set<std::string> visited;
     const osg::ref_ptr<osg::Group> root = new osg::Group;
-    root->addChild(test::makeTile("small", AnalyticBin(GeodeticBin::fromDegrees({0, 0.001}, {0, 0.001}, {0, 10})), visited));
+    root->addChild(
+        test::makeTile("small", AnalyticBin(GeodeticBin::fromDegrees({0, 0.001}, {0, 0.001}, {0, 10})), visited));
     root->addChild(test::makeTile("large", AnalyticBin(GeodeticBin::fromDegrees({0, 5}, {0, 5}, {0, 10})), visited));
     View view = View::lookAt({kEarthRadius + 5e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
@@ -252,7 +254,8 @@ TEST(AnalyticBinCullCallback, KeepsShadowOccluderCulling) {
     const osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(wall(kEarthRadius + 5e5, 4e5));
     root->addChild(test::makeTile("behind", AnalyticBin(GeodeticBin::fromDegrees({-1, 1}, {-1, 1}, {0, 10})), visited));
-    root->addChild(test::makeTile("beside", AnalyticBin(GeodeticBin::fromDegrees({10, 12}, {-1, 1}, {0, 10})), visited));
+    root->addChild(
+        test::makeTile("beside", AnalyticBin(GeodeticBin::fromDegrees({10, 12}, {-1, 1}, {0, 10})), visited));
     View view = View::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 120.0);
     // OSG drops occluders whose volume in clip space is small: near and far as close as the scene allows
     view.projection = osg::Matrixd::perspective(120.0, 1.0, 4e5, 2e6);

@@ -54,12 +54,12 @@ TEST(AnalyticBin, TextRoundTripIsExactForQuadtreeCells) {
 TEST(AnalyticBin, TextRoundTripOfAnyAnglesContainsTheBin) {
     test::Random random(1);
 
-
     for (int i = 0; i < 20000; ++i) {
         const double a = random.uniform(-1.57, 1.57);
         const double b = random.uniform(-1.57, 1.57);
         const double west = random.uniform(-3.14, 3.14);
-        const AnalyticBin bin(GeodeticBin({std::min(a, b), std::max(a, b)}, {west, west + 0.3}, {-1.0 / 3.0, 1e5 / 7.0}));
+        const AnalyticBin bin(
+            GeodeticBin({std::min(a, b), std::max(a, b)}, {west, west + 0.3}, {-1.0 / 3.0, 1e5 / 7.0}));
         const AnalyticBin back = AnalyticBin::fromText(bin.toText());
         ASSERT_TRUE(back.contains(bin)) << bin.toText();
         ASSERT_LE(back.bin().latitude().upper - bin.bin().latitude().upper, 1e-15);
@@ -73,10 +73,9 @@ TEST(AnalyticBin, TextIsDegreesAndMetresAsAPersonWouldWriteThem) {
 }
 
 TEST(AnalyticBin, BrokenTextIsAnInvalidBin) {
-    for (const char* text :
-         {"", "1 2 3", "1 2 3 4 5 6", "1 2 3 4 5 6 7 8", "a b c d e f g", "4 2 3 1 5 6 0", "0 0 nan 1 1 1 0",
-          "0 0 0 1 1 inf 0", "-91 0 0 1 1 1 0", "0 0 0 91 1 1 0", "0 0 5 1 1 1 0", "0 0 0 1 1 1 -1", "0,0,0,1,1,1,0",
-          "0 0 0 1 1 1e999 0", "0 -1e300 0 1 1 1 0"}) {
+    for (const char* text : {"", "1 2 3", "1 2 3 4 5 6", "1 2 3 4 5 6 7 8", "a b c d e f g", "4 2 3 1 5 6 0",
+                             "0 0 nan 1 1 1 0", "0 0 0 1 1 inf 0", "-91 0 0 1 1 1 0", "0 0 0 91 1 1 0", "0 0 5 1 1 1 0",
+                             "0 0 0 1 1 1 -1", "0,0,0,1,1,1,0", "0 0 0 1 1 1e999 0", "0 -1e300 0 1 1 1 0"}) {
         EXPECT_FALSE(AnalyticBin::fromText(text).valid()) << text;
     }
 }

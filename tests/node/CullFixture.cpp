@@ -3,13 +3,12 @@
 
 #include "CullFixture.h"
 
+#include <osg/CollectOccludersVisitor>
 #include <osg/FrameStamp>
 #include <osg/Geometry>
 #include <osg/Viewport>
 #include <osgUtil/RenderStage>
 #include <osgUtil/StateGraph>
-
-#include <osg/CollectOccludersVisitor>
 
 #include <iterator>
 

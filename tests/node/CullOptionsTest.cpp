@@ -40,9 +40,9 @@ TEST(CullOptions, LaterItemsWin) {
 
 TEST(CullOptions, WhatIsWrongIsNamed) {
     const std::pair<const char*, const char*> cases[] = {
-        {"method=cube", "cube"},   {"method", "unknown method"}, {"growth=big", "big"},    {"growth=0.5", "0.5"},
-        {"growth=nan", "nan"},     {"growth=11", "11"},          {"colour=red", "colour"}, {"growth=1.1x", "1.1x"},
-        {"Method=paper", "Method"}};
+        {"method=cube", "cube"},  {"method", "unknown method"}, {"growth=big", "big"},
+        {"growth=0.5", "0.5"},    {"growth=nan", "nan"},        {"growth=11", "11"},
+        {"colour=red", "colour"}, {"growth=1.1x", "1.1x"},      {"Method=paper", "Method"}};
     for (const auto& [text, named] : cases) {
         std::string error;
         EXPECT_FALSE(cullOptionsFromText(text, error)) << text;

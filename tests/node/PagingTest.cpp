@@ -10,7 +10,6 @@
 #include <osg/CoordinateSystemNode>
 #include <osg/Geometry>
 #include <osg/PagedLOD>
-#include <unistd.h>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 #include <osgDB/WriteFile>
@@ -18,6 +17,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <unistd.h>
 
 namespace osgAnalyticBin {
 namespace {
@@ -39,7 +39,9 @@ osg::ref_ptr<osg::PagedLOD> makePagedTile(const std::string& fileName) {
     return paged;
 }
 
-osgDB::Options* optionsOf(osg::PagedLOD& paged) { return dynamic_cast<osgDB::Options*>(paged.getDatabaseOptions()); }
+osgDB::Options* optionsOf(osg::PagedLOD& paged) {
+    return dynamic_cast<osgDB::Options*>(paged.getDatabaseOptions());
+}
 
 class Paging : public ::testing::Test {
 protected:
@@ -55,9 +57,7 @@ protected:
 
     [[nodiscard]] std::string file(const std::string& name) const { return (_folder / name).string(); }
 
-    osg::ref_ptr<osg::Node> readChildren() {
-        return osgDB::readRefNodeFile(file("children.osgb"), optionsOf(*_paged));
-    }
+    osg::ref_ptr<osg::Node> readChildren() { return osgDB::readRefNodeFile(file("children.osgb"), optionsOf(*_paged)); }
 
     fs::path _folder;
     osg::ref_ptr<osg::CoordinateSystemNode> _root = new osg::CoordinateSystemNode;

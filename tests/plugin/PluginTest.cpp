@@ -11,11 +11,11 @@
 #include <osg/PagedLOD>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
-#include <support/SyntheticDatabase.h>
-#include <support/TemporaryFolder.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <support/SyntheticDatabase.h>
+#include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin {
 namespace {

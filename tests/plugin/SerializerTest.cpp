@@ -12,6 +12,7 @@
 #include <osg/MatrixTransform>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
+
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin {
@@ -39,9 +40,9 @@ TEST_P(Serializer, TheCullCallbackReadsBackExactly) {
     options.method = Method::Paper;
     options.growth = 1.0 + 1.0 / 3.0;
     const osg::Matrixd frame = osg::Matrixd::rotate(1.0, 1, 2, 3) * osg::Matrixd::translate(1e6 / 3.0, 2e6 / 7.0, -5e6);
-    const osg::ref_ptr<AnalyticBinCullCallback> written =
-        new AnalyticBinCullCallback(AnalyticBin(GeodeticBin::fromDegrees({0, 11.25}, {168.75, 180}, {-7.25, 8848.86}), 1.0),
-                                    osg::EllipsoidModel(3396190.125, 3376200.0 + 1.0 / 3.0), options);
+    const osg::ref_ptr<AnalyticBinCullCallback> written = new AnalyticBinCullCallback(
+        AnalyticBin(GeodeticBin::fromDegrees({0, 11.25}, {168.75, 180}, {-7.25, 8848.86}), 1.0),
+        osg::EllipsoidModel(3396190.125, 3376200.0 + 1.0 / 3.0), options);
     written->setLocalToEcef(frame);
     const osg::ref_ptr<osg::Group> node = new osg::Group;
     node->setCullCallback(written.get());
@@ -84,7 +85,8 @@ TEST_P(Serializer, NestedCallbacksAndOptionsOfTheRequestReadBack) {
     corners.method = Method::Corners;
     const osg::ref_ptr<osg::Group> node = new osg::Group;
     node->setUpdateCallback(new InstallBinsCallback(corners));
-    const osg::ref_ptr<AnalyticBinCullCallback> outer = new AnalyticBinCullCallback(awkwardBin(), osg::EllipsoidModel());
+    const osg::ref_ptr<AnalyticBinCullCallback> outer =
+        new AnalyticBinCullCallback(awkwardBin(), osg::EllipsoidModel());
     outer->setNestedCallback(new AnalyticBinCullCallback);
     node->setCullCallback(outer.get());
     const osg::ref_ptr<osg::Node> back = roundTrip(*node);

@@ -5,13 +5,13 @@
 // applications/osgbinflight/; here it is what the programs say, and how they end.
 
 #include <gtest/gtest.h>
-#include <support/StockPrograms.h>
-#include <support/SyntheticDatabase.h>
-#include <support/TemporaryFolder.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <support/StockPrograms.h>
+#include <support/SyntheticDatabase.h>
+#include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin {
 namespace {
@@ -65,8 +65,8 @@ TEST_F(StockTools, OsgconvListsThePluginsOptions) {
 
 TEST_F(StockTools, AWrongParameterIsOneClearLineAndAFailure) {
     const std::string copy = _folder / "copy.osgb";
-    const Outcome outcome = test::runOsgconv(test::quoted(_database + ".(method=cube).analyticbin") + ' ' +
-                                    test::quoted(copy), Modules::Present);
+    const Outcome outcome = test::runOsgconv(
+        test::quoted(_database + ".(method=cube).analyticbin") + ' ' + test::quoted(copy), Modules::Present);
     EXPECT_NE(outcome.code, 0);
     EXPECT_EQ(outcome.linesWith("unknown method \"cube\" (use quadratic, paper, corners, sphere or none)"), 1)
         << outcome.text;
@@ -99,7 +99,9 @@ TEST_F(StockTools, TheViewerGoesOnWhenTilesAreTruncatedCorruptOrMissing) {
     for (const auto& entry : fs::recursive_directory_iterator(_folder.path())) {
         if (entry.path().extension() != ".osgb" || entry.path() == fs::path(_database)) continue;
         switch (damaged++ % 3) {
-            case 0: fs::resize_file(entry.path(), entry.file_size() / 2); break;
+            case 0:
+                fs::resize_file(entry.path(), entry.file_size() / 2);
+                break;
             case 1: {
                 FILE* file = std::fopen(entry.path().c_str(), "r+b");
                 ASSERT_NE(file, nullptr);
@@ -108,7 +110,8 @@ TEST_F(StockTools, TheViewerGoesOnWhenTilesAreTruncatedCorruptOrMissing) {
                 std::fclose(file);
                 break;
             }
-            default: fs::remove(entry.path());
+            default:
+                fs::remove(entry.path());
         }
     }
     ASSERT_GT(damaged, 3);

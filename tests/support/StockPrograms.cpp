@@ -1,14 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <support/StockPrograms.h>
-
-#include <support/TemporaryFolder.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
-
+#include <support/StockPrograms.h>
+#include <support/TemporaryFolder.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,13 +18,16 @@ int Outcome::linesWith(const std::string& part) const {
     return count;
 }
 
-std::string quoted(const std::string& text) { return "'" + text + "'"; }
+std::string quoted(const std::string& text) {
+    return "'" + text + "'";
+}
 
 Outcome runStock(const std::string& command, Modules modules, const std::string& environment) {
     std::string line = "env -u OSG_LIBRARY_PATH -u LD_LIBRARY_PATH " + environment;
     if (modules == Modules::Present) {
         line += " OSG_LIBRARY_PATH=" + quoted(LIBRARY_FOLDER);
-        // The sanitizers, if our modules are built with them, have to come first; the stock program's leaks are not ours.
+        // The sanitizers, if our modules are built with them, have to come first; the stock program's leaks are not
+        // ours.
         if (*PRELOAD_FILE) line += " ASAN_OPTIONS=detect_leaks=0 LD_PRELOAD=" + quoted(PRELOAD_FILE);
     }
     const TemporaryFolder folder;
@@ -36,7 +36,9 @@ Outcome runStock(const std::string& command, Modules modules, const std::string&
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOfFile(log)};
 }
 
-bool canRunViewer() { return std::filesystem::exists(XVFB_RUN_FILE) && std::filesystem::exists(OSGVIEWER_FILE); }
+bool canRunViewer() {
+    return std::filesystem::exists(XVFB_RUN_FILE) && std::filesystem::exists(OSGVIEWER_FILE);
+}
 
 Outcome runViewer(const std::string& arguments, Modules modules, const std::string& environment) {
     // display numbers by process, so that tests may run side by side; the preload is not for the display
@@ -44,8 +46,10 @@ Outcome runViewer(const std::string& arguments, Modules modules, const std::stri
                                 " -s '-screen 0 640x480x24' timeout 120 env ";
     const std::string preload =
         modules == Modules::Present && *PRELOAD_FILE ? "LD_PRELOAD=" + quoted(PRELOAD_FILE) + ' ' : std::string();
-    const std::string own = "OSG_WINDOW='0 0 320 240' LIBGL_ALWAYS_SOFTWARE=1 ASAN_OPTIONS=detect_leaks=0 " + environment;
-    const std::string path = modules == Modules::Present ? " OSG_LIBRARY_PATH=" + quoted(LIBRARY_FOLDER) : std::string();
+    const std::string own =
+        "OSG_WINDOW='0 0 320 240' LIBGL_ALWAYS_SOFTWARE=1 ASAN_OPTIONS=detect_leaks=0 " + environment;
+    const std::string path =
+        modules == Modules::Present ? " OSG_LIBRARY_PATH=" + quoted(LIBRARY_FOLDER) : std::string();
     return runStock(display + preload + quoted(OSGVIEWER_FILE) + ' ' + arguments, Modules::Absent, own + path);
 }
 

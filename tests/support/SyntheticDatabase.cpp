@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <support/SyntheticDatabase.h>
-
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
@@ -16,6 +14,7 @@
 
 #include <cfloat>
 #include <cmath>
+#include <support/SyntheticDatabase.h>
 
 namespace osgAnalyticBin::test {
 
@@ -55,9 +54,9 @@ AnalyticBin binOf(const Address& tile) {
     // the chord between two posts of a parallel runs poleward of it by up to 0.25 t2 for posts t radians apart
     const double step = width / (kPosts - 1);
     const double bulge = 0.25 * step * step * kRadiansPerDegree;
-    return AnalyticBin(core::GeodeticBin::fromDegrees({south - bulge, south + width + bulge}, {west, west + width},
-                                                      {kLowest, kHill}),
-                       1.0);
+    return AnalyticBin(
+        core::GeodeticBin::fromDegrees({south - bulge, south + width + bulge}, {west, west + width}, {kLowest, kHill}),
+        1.0);
 }
 
 double altitudeAt(double latitude, double longitude) {

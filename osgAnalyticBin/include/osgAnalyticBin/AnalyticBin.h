@@ -3,13 +3,13 @@
 
 #pragma once
 
-#include <string>
+#include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/core/GeodeticBin.h>
 
 #include <osg/BoundingSphere>
 #include <osg/Vec3d>
 
-#include <osgAnalyticBin/Export.h>
-#include <osgAnalyticBin/core/GeodeticBin.h>
+#include <string>
 
 namespace osg {
 class EllipsoidModel;

@@ -3,19 +3,19 @@
 
 #pragma once
 
-#include <optional>
-#include <string>
-#include <variant>
-
-#include <osg/CoordinateSystemNode>
-#include <osg/Matrixd>
-#include <osg/NodeCallback>
-
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Export.h>
 #include <osgAnalyticBin/core/ComparisonBins.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Matrixd>
+#include <osg/NodeCallback>
+
+#include <optional>
+#include <string>
+#include <variant>
 
 namespace osg {
 class CullStack;
@@ -44,7 +44,7 @@ public:
 
     META_Object(osgAnalyticBin, AnalyticBinCullCallback)
 
-    void setBin(const AnalyticBin& bin);
+        void setBin(const AnalyticBin& bin);
     [[nodiscard]] const AnalyticBin& bin() const { return _bin; }
 
     void setCullOptions(const CullOptions& options);

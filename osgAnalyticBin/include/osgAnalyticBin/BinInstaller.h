@@ -3,27 +3,27 @@
 
 #pragma once
 
-#include <cstddef>
-#include <map>
+#include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/Export.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Matrixd>
 #include <osg/NodeVisitor>
 #include <osgDB/Options>
 
-#include <osgAnalyticBin/AnalyticBin.h>
-#include <osgAnalyticBin/CullOptions.h>
-#include <osgAnalyticBin/Export.h>
+#include <cstddef>
+#include <map>
 
 namespace osgAnalyticBin {
 
 /// Puts AnalyticBinCullCallbacks on the tiles of a geocentric database, switches OSG's sphere test off on them and
 /// below (drawables keep their boxes), and arranges that tiles that the DatabasePager loads later are treated in the
-/// pager's thread. A tile is a node with a stored bin; where a PagedLOD has none, its bin is found from its own geometry
-/// and a range of altitudes that terrain on earth does not leave. Everything else is left as it is.
-/// Transforms between the CoordinateSystemNode (or, without one, the start) and a tile are followed; below one that
-/// is declared DYNAMIC or has an update callback nothing is installed.
-/// Method::Sphere installs nothing. Running it again replaces what it installed before.
+/// pager's thread. A tile is a node with a stored bin; where a PagedLOD has none, its bin is found from its own
+/// geometry and a range of altitudes that terrain on earth does not leave. Everything else is left as it is. Transforms
+/// between the CoordinateSystemNode (or, without one, the start) and a tile are followed; below one that is declared
+/// DYNAMIC or has an update callback nothing is installed. Method::Sphere installs nothing. Running it again replaces
+/// what it installed before.
 class OSGANALYTICBIN_EXPORT BinInstaller : public osg::NodeVisitor {
 public:
     explicit BinInstaller(const CullOptions& options = {});
@@ -31,8 +31,8 @@ public:
 
     META_NodeVisitor(osgAnalyticBin, BinInstaller)
 
-    /// For a subgraph that stands in a known frame: the tiles of a file that the pager has read.
-    void setFrame(const osg::EllipsoidModel* ellipsoid, const osg::Matrixd& localToEcef);
+        /// For a subgraph that stands in a known frame: the tiles of a file that the pager has read.
+        void setFrame(const osg::EllipsoidModel* ellipsoid, const osg::Matrixd& localToEcef);
 
     /// Number of callbacks installed so far.
     [[nodiscard]] std::size_t installed() const { return _installed; }

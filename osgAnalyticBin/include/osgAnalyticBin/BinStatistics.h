@@ -3,13 +3,13 @@
 
 #pragma once
 
-#include <atomic>
-#include <cstdint>
+#include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/core/Plane.h>
 
 #include <osg/Object>
 
-#include <osgAnalyticBin/Export.h>
-#include <osgAnalyticBin/core/Plane.h>
+#include <atomic>
+#include <cstdint>
 
 namespace osg {
 class NodeVisitor;
@@ -36,8 +36,8 @@ public:
 
     META_Object(osgAnalyticBin, BinStatistics)
 
-    /// The counters of the visitor, made at the first call.
-    [[nodiscard]] static BinStatistics& of(osg::NodeVisitor& visitor);
+        /// The counters of the visitor, made at the first call.
+        [[nodiscard]] static BinStatistics& of(osg::NodeVisitor& visitor);
 
     /// Returns: nullptr when the visitor has met no bin yet.
     [[nodiscard]] static const BinStatistics* find(const osg::NodeVisitor& visitor);

@@ -3,11 +3,11 @@
 
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include <osgAnalyticBin/Export.h>
 #include <osgAnalyticBin/core/ComparisonBins.h>
+
+#include <optional>
+#include <string>
 
 namespace osgAnalyticBin {
 
@@ -36,7 +36,7 @@ struct CullOptions {
 /// Parses "method=paper,growth=1.1"; commas or blanks part the items; an empty text is the default.
 /// Returns: nullopt when an item is unknown or malformed, with one line in `error` that names it and what is allowed.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<CullOptions> cullOptionsFromText(const std::string& text,
-                                                                                  std::string& error);
+                                                                                   std::string& error);
 
 /// The text that cullOptionsFromText() reads back to the same options.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::string toText(const CullOptions& options);

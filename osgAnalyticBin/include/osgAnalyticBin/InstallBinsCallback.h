@@ -3,12 +3,12 @@
 
 #pragma once
 
-#include <string>
+#include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/Export.h>
 
 #include <osg/NodeCallback>
 
-#include <osgAnalyticBin/CullOptions.h>
-#include <osgAnalyticBin/Export.h>
+#include <string>
 
 namespace osgAnalyticBin {
 
@@ -22,7 +22,9 @@ public:
 
     META_Object(osgAnalyticBin, InstallBinsCallback)
 
-    void setCullOptions(const CullOptions& options) { _options = options; }
+        void setCullOptions(const CullOptions& options) {
+        _options = options;
+    }
     [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
 
     /// The options as text; what the serializer stores.

@@ -11,7 +11,9 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-ParameterBox grown(const ParameterBox& box, double factor) { return {box.center, box.halfSize * factor}; }
+ParameterBox grown(const ParameterBox& box, double factor) {
+    return {box.center, box.halfSize * factor};
+}
 
 Side sideOf(double lowest, double highest) {
     if (highest < 0.0) return Side::Outside;
@@ -20,7 +22,9 @@ Side sideOf(double lowest, double highest) {
 }
 
 // Corner i of the unit cube: bit k of i chooses the sign of coordinate k.
-glm::dvec3 unitCorner(std::size_t i) { return {i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0}; }
+glm::dvec3 unitCorner(std::size_t i) {
+    return {i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0};
+}
 
 // Where the gradient of q vanishes; NaN where it has no such point.
 glm::dvec3 stationaryPoint(const Quadratic& q) {
@@ -29,7 +33,9 @@ glm::dvec3 stationaryPoint(const Quadratic& q) {
     return -(glm::inverse(matrix) * glm::dvec3(q.gradient[0], q.gradient[1], q.gradient[2]));
 }
 
-bool inUnitBox(const glm::dvec3& x) { return std::abs(x.x) <= 1.0 && std::abs(x.y) <= 1.0 && std::abs(x.z) <= 1.0; }
+bool inUnitBox(const glm::dvec3& x) {
+    return std::abs(x.x) <= 1.0 && std::abs(x.y) <= 1.0 && std::abs(x.z) <= 1.0;
+}
 
 }  // namespace
 

@@ -18,7 +18,9 @@ constexpr int kMaxLatitudeSteps = 12;
 }  // namespace
 
 Ellipsoid::Ellipsoid(double equatorialRadius, double polarRadius) noexcept
-    : _a(equatorialRadius), _b(polarRadius), _e2(1.0 - (polarRadius / equatorialRadius) * (polarRadius / equatorialRadius)) {
+    : _a(equatorialRadius),
+      _b(polarRadius),
+      _e2(1.0 - (polarRadius / equatorialRadius) * (polarRadius / equatorialRadius)) {
     assert(std::isfinite(equatorialRadius) && equatorialRadius > 0.0);
     assert(std::isfinite(polarRadius) && polarRadius > 0.0);
 }
@@ -57,8 +59,7 @@ Geodetic Ellipsoid::toGeodetic(const glm::dvec3& ecef) const noexcept {
         beta = std::atan2(_b * std::sin(latitude), _a * std::cos(latitude));
     }
     const double sinLat = std::sin(latitude);
-    const double altitude =
-        rho * std::cos(latitude) + ecef.z * sinLat - _a * std::sqrt(1.0 - _e2 * sinLat * sinLat);
+    const double altitude = rho * std::cos(latitude) + ecef.z * sinLat - _a * std::sqrt(1.0 - _e2 * sinLat * sinLat);
     const double longitude = rho > 0.0 ? std::atan2(ecef.y, ecef.x) : 0.0;
     return {latitude, longitude, altitude};
 }

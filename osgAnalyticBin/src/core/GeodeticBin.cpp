@@ -85,7 +85,9 @@ GeodeticBin GeodeticBin::wholeGlobe(Interval altitude) noexcept {
     return GeodeticBin({-kHalfPi, kHalfPi}, {-kPi, kPi}, altitude);
 }
 
-bool GeodeticBin::isFullCircle() const noexcept { return _longitude.width() >= kTwoPi; }
+bool GeodeticBin::isFullCircle() const noexcept {
+    return _longitude.width() >= kTwoPi;
+}
 
 Geodetic GeodeticBin::center() const noexcept {
     return {_latitude.middle(), _longitude.middle(), _altitude.middle()};

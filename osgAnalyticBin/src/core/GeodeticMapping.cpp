@@ -19,8 +19,11 @@ constexpr double kRoundUp = 1.0 + 1e-13;
 // Sine, cosine and the unit vectors of doc/derivation.md, section 2, at a latitude and longitude.
 struct LocalFrame {
     LocalFrame(double latitude, double longitude)
-        : sinLat(std::sin(latitude)), cosLat(std::cos(latitude)), radial(std::cos(longitude), std::sin(longitude), 0.0),
-          east(-radial.y, radial.x, 0.0), north(-sinLat * radial.x, -sinLat * radial.y, cosLat),
+        : sinLat(std::sin(latitude)),
+          cosLat(std::cos(latitude)),
+          radial(std::cos(longitude), std::sin(longitude), 0.0),
+          east(-radial.y, radial.x, 0.0),
+          north(-sinLat * radial.x, -sinLat * radial.y, cosLat),
           up(cosLat * radial.x, cosLat * radial.y, sinLat) {}
 
     double sinLat, cosLat;
@@ -77,9 +80,9 @@ glm::dmat3 GeodeticMapping::jacobian(const glm::dvec3& parameters) const noexcep
     const double h = parameters.z;
     const double m = _ellipsoid.meridionalRadius(frame.sinLat);
     const double n = _ellipsoid.primeVerticalRadius(frame.sinLat);
-    return glm::dmat3((m + h) * frame.north,                 // f_p
-                      (n + h) * frame.cosLat * frame.east,   // f_l
-                      frame.up);                             // f_h
+    return glm::dmat3((m + h) * frame.north,                // f_p
+                      (n + h) * frame.cosLat * frame.east,  // f_l
+                      frame.up);                            // f_h
 }
 
 Hessians GeodeticMapping::hessians(const glm::dvec3& parameters) const noexcept {

@@ -17,7 +17,9 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kHalfPi = 0.5 * kPi;
 constexpr Interval kEmptyInterval{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
-double wrapped(double angle) { return std::remainder(angle, 2.0 * kPi); }
+double wrapped(double angle) {
+    return std::remainder(angle, 2.0 * kPi);
+}
 
 void include(Interval& range, double value) {
     range.lower = std::min(range.lower, value);
@@ -28,10 +30,15 @@ void include(Interval& range, double value) {
 
 GeodeticMeshBounds::GeodeticMeshBounds(const Ellipsoid& ellipsoid, double referenceLongitude,
                                        double axisTolerance) noexcept
-    : _ellipsoid(ellipsoid), _referenceLongitude(referenceLongitude),
-      _reference(std::cos(referenceLongitude), std::sin(referenceLongitude), 0.0), _axisTolerance(axisTolerance),
-      _latitude(kEmptyInterval), _relativeLongitude(kEmptyInterval), _altitude(kEmptyInterval),
-      _northCone(ellipsoid, 0.0), _southCone(ellipsoid, 0.0) {}
+    : _ellipsoid(ellipsoid),
+      _referenceLongitude(referenceLongitude),
+      _reference(std::cos(referenceLongitude), std::sin(referenceLongitude), 0.0),
+      _axisTolerance(axisTolerance),
+      _latitude(kEmptyInterval),
+      _relativeLongitude(kEmptyInterval),
+      _altitude(kEmptyInterval),
+      _northCone(ellipsoid, 0.0),
+      _southCone(ellipsoid, 0.0) {}
 
 void GeodeticMeshBounds::expandByVertex(const glm::dvec3& ecef) noexcept {
     const Geodetic position = _ellipsoid.toGeodetic(ecef);
@@ -54,7 +61,8 @@ void GeodeticMeshBounds::expandByTriangle(const glm::dvec3& a, const glm::dvec3&
     // A triangle about the earth's centre has no outward side; any normal gives a bound.
     const glm::dvec3 normal = length > 0.0 ? gradient / length : glm::dvec3(0.0, 0.0, 1.0);
     const double support = _ellipsoid.support(normal);
-    for (const glm::dvec3& corner : corners) _altitude.lower = std::min(_altitude.lower, glm::dot(normal, corner) - support);
+    for (const glm::dvec3& corner : corners)
+        _altitude.lower = std::min(_altitude.lower, glm::dot(normal, corner) - support);
 
     noteCrossing(corners);
 
@@ -92,8 +100,10 @@ void GeodeticMeshBounds::noteCrossing(const glm::dvec3 (&corners)[3]) noexcept {
 }
 
 GeodeticMeshBounds::LatitudeCone::LatitudeCone(const Ellipsoid& ellipsoid, double latitude) noexcept
-    : sinLatitude(std::sin(latitude)), cosLatitude(std::cos(latitude)),
-      offset(ellipsoid.eccentricitySquared() * ellipsoid.primeVerticalRadius(sinLatitude) * sinLatitude * cosLatitude) {}
+    : sinLatitude(std::sin(latitude)),
+      cosLatitude(std::cos(latitude)),
+      offset(ellipsoid.eccentricitySquared() * ellipsoid.primeVerticalRadius(sinLatitude) * sinLatitude * cosLatitude) {
+}
 
 bool GeodeticMeshBounds::LatitudeCone::holds(double axisDistance, double absZ) const noexcept {
     return absZ * cosLatitude - axisDistance * sinLatitude + offset <= 0.0;

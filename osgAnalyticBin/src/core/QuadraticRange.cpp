@@ -55,11 +55,13 @@ bool acceptOntoBox(double& x) {
 }
 
 // One step of elimination keeps what is left of a definite matrix definite: pivots of one sign are the test.
-bool sameSign(double a, double b) { return a > 0.0 ? b > 0.0 : a < 0.0 && b < 0.0; }
+bool sameSign(double a, double b) {
+    return a > 0.0 ? b > 0.0 : a < 0.0 && b < 0.0;
+}
 
-// The stationary point of b.x + 1/2 x'Cx when C is definite: any other is no extremum, or one that the boundary has too.
-// Elimination with the larger diagonal element as the pivot is stable for definite matrices; Cramer's rule is not, and
-// loses half of the digits of the extremum when C is nearly singular.
+// The stationary point of b.x + 1/2 x'Cx when C is definite: any other is no extremum, or one that the boundary has
+// too. Elimination with the larger diagonal element as the pivot is stable for definite matrices; Cramer's rule is not,
+// and loses half of the digits of the extremum when C is nearly singular.
 bool definiteStationary(double cuu, double cvv, double cuv, double bu, double bv, double& u, double& v) {
     if (std::abs(cuu) < std::abs(cvv)) return definiteStationary(cvv, cuu, cuv, bv, bu, v, u);
     if (cuu == 0.0) return false;
@@ -142,8 +144,8 @@ double Quadratic::operator()(double u, double v, double w) const noexcept {
 Interval intervalBound(const Quadratic& q) noexcept {
     const auto& g = q.gradient;
     const auto& h = q.hessian;
-    const double spread = std::abs(g[0]) + std::abs(g[1]) + std::abs(g[2]) + std::abs(h[kUV]) + std::abs(h[kUW]) +
-                          std::abs(h[kVW]);
+    const double spread =
+        std::abs(g[0]) + std::abs(g[1]) + std::abs(g[2]) + std::abs(h[kUV]) + std::abs(h[kUW]) + std::abs(h[kVW]);
     // a square lies in [0, 1]: half its coefficient counts on one side only
     const auto below = [](double x) { return 0.5 * std::min(x, 0.0); };
     const auto above = [](double x) { return 0.5 * std::max(x, 0.0); };

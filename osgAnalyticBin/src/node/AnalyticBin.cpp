@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <osgAnalyticBin/AnalyticBin.h>
-#include <osgAnalyticBin/core/GeodeticMapping.h>
-#include <osgAnalyticBin/core/QuadraticBin.h>
-
 #include "GlmBridge.h"
 #include "Spheres.h"
 #include "Text.h"
+
+#include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/core/GeodeticMapping.h>
+#include <osgAnalyticBin/core/QuadraticBin.h>
 
 #include <glm/common.hpp>
 #include <osg/Node>
@@ -42,7 +42,8 @@ glm::dvec3 middleOf(const core::GeodeticMapping& mapping, const core::ParameterB
 }
 
 // An upper bound of the distance of the mapped box from a point, tight to a percent where splits are left.
-double reachOf(const core::GeodeticMapping& mapping, const core::ParameterBox& box, const glm::dvec3& from, int splits) {
+double reachOf(const core::GeodeticMapping& mapping, const core::ParameterBox& box, const glm::dvec3& from,
+               int splits) {
     const core::QuadraticBin model(mapping, box);
     double reach = 0.0;
     for (int i = 0; i < 8; ++i) {
@@ -125,7 +126,9 @@ AnalyticBin AnalyticBin::fromText(const std::string& text) {
     return AnalyticBin(core::GeodeticBin::fromDegrees({n[0], n[3]}, {n[1], n[4]}, {n[2], n[5]}), n[6]);
 }
 
-void setStoredBin(osg::Node& node, const AnalyticBin& bin) { node.setUserValue(kUserValueName, bin.toText()); }
+void setStoredBin(osg::Node& node, const AnalyticBin& bin) {
+    node.setUserValue(kUserValueName, bin.toText());
+}
 
 AnalyticBin storedBin(const osg::Node& node) {
     std::string text;

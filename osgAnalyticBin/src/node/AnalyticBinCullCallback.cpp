@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "GlmBridge.h"
+#include "Occluders.h"
+#include "Spheres.h"
+#include "Text.h"
+
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/core/ComparisonBins.h>
 #include <osgAnalyticBin/core/GeodeticMapping.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
-
-#include "GlmBridge.h"
-#include "Occluders.h"
-#include "Spheres.h"
-#include "Text.h"
 
 #include <osg/CullStack>
 #include <osg/Notify>
@@ -28,11 +28,14 @@ PreparedBin preparedBin(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid
     const core::GeodeticMapping mapping(ellipsoid);
     const core::ParameterBox box = core::parameterBox(bin.bin());
     switch (options.method) {
-        case Method::Paper: return core::PaperBin(mapping, box, options.growth);
-        case Method::Corners: return core::CornersBin(mapping, box);
+        case Method::Paper:
+            return core::PaperBin(mapping, box, options.growth);
+        case Method::Corners:
+            return core::CornersBin(mapping, box);
         case Method::Quadratic:
         case Method::Sphere:
-        case Method::None: break;
+        case Method::None:
+            break;
     }
     return core::QuadraticBin(mapping, box, bin.margin());
 }
@@ -73,15 +76,23 @@ AnalyticBinCullCallback::AnalyticBinCullCallback() : _ellipsoid(new osg::Ellipso
 
 AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBin& bin, const osg::EllipsoidModel& ellipsoid,
                                                  const CullOptions& options)
-    : _options(options), _bin(bin),
+    : _options(options),
+      _bin(bin),
       _ellipsoid(new osg::EllipsoidModel(ellipsoid.getRadiusEquator(), ellipsoid.getRadiusPolar())) {
     prepare();
 }
 
 AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop), _prepared(other._prepared),
-      _hasLocalFrame(other._hasLocalFrame), _options(other._options), _ecefToLocal(other._ecefToLocal),
-      _localToEcef(other._localToEcef), _bin(other._bin), _ellipsoid(other._ellipsoid) {}
+    : osg::Object(other, copyop),
+      osg::Callback(other, copyop),
+      osg::NodeCallback(other, copyop),
+      _prepared(other._prepared),
+      _hasLocalFrame(other._hasLocalFrame),
+      _options(other._options),
+      _ecefToLocal(other._ecefToLocal),
+      _localToEcef(other._localToEcef),
+      _bin(other._bin),
+      _ellipsoid(other._ellipsoid) {}
 
 AnalyticBinCullCallback::~AnalyticBinCullCallback() = default;
 
@@ -112,7 +123,8 @@ void AnalyticBinCullCallback::setLocalToEcef(const osg::Matrixd& matrix) {
     _localToEcef = matrix;
     _hasLocalFrame = !matrix.isIdentity();
     if (_hasLocalFrame && !_ecefToLocal.invert(matrix)) {
-        OSG_WARN << "AnalyticBinCullCallback: the matrix to ECEF has no inverse; the tile is never culled." << std::endl;
+        OSG_WARN << "AnalyticBinCullCallback: the matrix to ECEF has no inverse; the tile is never culled."
+                 << std::endl;
         _bin.init();
     }
     prepare();
@@ -155,9 +167,13 @@ bool AnalyticBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisit
     return culled;
 }
 
-void AnalyticBinCullCallback::setBinText(const std::string& text) { setBin(AnalyticBin::fromText(text)); }
+void AnalyticBinCullCallback::setBinText(const std::string& text) {
+    setBin(AnalyticBin::fromText(text));
+}
 
-std::string AnalyticBinCullCallback::getBinText() const { return _bin.toText(); }
+std::string AnalyticBinCullCallback::getBinText() const {
+    return _bin.toText();
+}
 
 void AnalyticBinCullCallback::setOptionsText(const std::string& text) {
     std::string error;
@@ -168,7 +184,9 @@ void AnalyticBinCullCallback::setOptionsText(const std::string& text) {
     }
 }
 
-std::string AnalyticBinCullCallback::getOptionsText() const { return toText(_options); }
+std::string AnalyticBinCullCallback::getOptionsText() const {
+    return toText(_options);
+}
 
 void AnalyticBinCullCallback::setRadiiText(const std::string& text) {
     const auto radii = numbersFromText(text, 2);

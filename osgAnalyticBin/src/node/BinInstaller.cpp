@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "BinReadFileCallback.h"
+#include "TerrainBounds.h"
+
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
-
-#include "BinReadFileCallback.h"
-#include "TerrainBounds.h"
 
 #include <osg/Drawable>
 #include <osg/MatrixTransform>
@@ -163,7 +163,9 @@ void BinInstaller::treatTile(osg::Node& node, const AnalyticBin& bin) {
 
 void BinInstaller::treatOther(osg::Node& node) {
     switch (_options.method) {
-        case Method::None: node.setCullingActive(false); break;
+        case Method::None:
+            node.setCullingActive(false);
+            break;
         case Method::Sphere:
             if (_insideTile) node.setCullingActive(true);
             break;

@@ -18,8 +18,8 @@ namespace osgAnalyticBin {
 namespace {
 
 osgDB::ReaderWriter::ReadResult unreadable(const std::string& fileName, const char* why) {
-    OSG_WARN << "osgAnalyticBin: \"" << fileName << "\" could not be read: " << why << "; its parent tile stays visible."
-             << std::endl;
+    OSG_WARN << "osgAnalyticBin: \"" << fileName << "\" could not be read: " << why
+             << "; its parent tile stays visible." << std::endl;
     return osgDB::ReaderWriter::ReadResult(osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE);
 }
 

@@ -49,9 +49,15 @@ void BinStatistics::count(core::Side side, unsigned int frame) noexcept {
         _frame.store(frame, std::memory_order_relaxed);
     }
     switch (side) {
-        case core::Side::Outside: increment(_outside); break;
-        case core::Side::Inside: increment(_inside); break;
-        case core::Side::Straddling: increment(_straddling); break;
+        case core::Side::Outside:
+            increment(_outside);
+            break;
+        case core::Side::Inside:
+            increment(_inside);
+            break;
+        case core::Side::Straddling:
+            increment(_straddling);
+            break;
     }
 }
 

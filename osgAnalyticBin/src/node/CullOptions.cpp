@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <osgAnalyticBin/CullOptions.h>
-
 #include "Text.h"
+
+#include <osgAnalyticBin/CullOptions.h>
 
 #include <array>
 #include <sstream>

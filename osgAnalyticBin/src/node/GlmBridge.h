@@ -12,9 +12,13 @@
 
 namespace osgAnalyticBin {
 
-[[nodiscard]] inline glm::dvec3 toGlm(const osg::Vec3d& v) { return {v.x(), v.y(), v.z()}; }
+[[nodiscard]] inline glm::dvec3 toGlm(const osg::Vec3d& v) {
+    return {v.x(), v.y(), v.z()};
+}
 
-[[nodiscard]] inline osg::Vec3d toOsg(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+[[nodiscard]] inline osg::Vec3d toOsg(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
 
 [[nodiscard]] inline core::Plane toCore(const osg::Plane& plane) {
     return {{plane[0], plane[1], plane[2]}, plane[3]};

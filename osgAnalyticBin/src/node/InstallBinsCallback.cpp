@@ -10,7 +10,9 @@
 namespace osgAnalyticBin {
 
 InstallBinsCallback::InstallBinsCallback(const InstallBinsCallback& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop),
+    : osg::Object(other, copyop),
+      osg::Callback(other, copyop),
+      osg::NodeCallback(other, copyop),
       _options(other._options) {}
 
 void InstallBinsCallback::setOptionsText(const std::string& text) {
@@ -22,7 +24,9 @@ void InstallBinsCallback::setOptionsText(const std::string& text) {
     }
 }
 
-std::string InstallBinsCallback::getOptionsText() const { return toText(_options); }
+std::string InstallBinsCallback::getOptionsText() const {
+    return toText(_options);
+}
 
 void InstallBinsCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     if (!_done) {

@@ -41,8 +41,8 @@ bool isOccluded(osg::CullStack& cullStack, const osg::NodePath& path, const osg:
     // The stack's own list is in eye coordinates and has never been masked.
     const osg::BoundingSphere inEyeFrame = movedSphere(sphere, *cullStack.getModelViewMatrix());
     for (osg::ShadowVolumeOccluder& occluder : cullStack.getOccluderList()) {
-        if (!occluder.matchProjectionMatrix(*cullStack.getProjectionMatrix()) || isBelow(path, occluder.getNodePath()) ||
-            !isInside(occluder.getOccluder(), inEyeFrame)) {
+        if (!occluder.matchProjectionMatrix(*cullStack.getProjectionMatrix()) ||
+            isBelow(path, occluder.getNodePath()) || !isInside(occluder.getOccluder(), inEyeFrame)) {
             continue;
         }
         const auto& holes = occluder.getHoleList();

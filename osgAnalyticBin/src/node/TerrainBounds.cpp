@@ -3,9 +3,9 @@
 
 #include "TerrainBounds.h"
 
-#include <osgAnalyticBin/core/GeodeticMeshBounds.h>
-
 #include "GlmBridge.h"
+
+#include <osgAnalyticBin/core/GeodeticMeshBounds.h>
 
 #include <osg/Drawable>
 #include <osg/Transform>
@@ -86,8 +86,7 @@ AnalyticBin terrainBounds(osg::Node& node, const osg::EllipsoidModel& ellipsoid,
         bounds.expandByTriangle(t.a, t.b, t.c);
     }
     const core::GeodeticBin bin = bounds.bin();
-    const bool isTerrain =
-        !bin.empty() && bin.altitude().lower > kLowestMesh && bin.altitude().upper < kHighestMesh;
+    const bool isTerrain = !bin.empty() && bin.altitude().lower > kLowestMesh && bin.altitude().upper < kHighestMesh;
     return isTerrain ? AnalyticBin(bin, kAxisTolerance) : AnalyticBin();
 }
 

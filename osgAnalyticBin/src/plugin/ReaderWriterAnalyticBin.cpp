@@ -51,9 +51,10 @@ class ReaderWriterAnalyticBin : public osgDB::ReaderWriter {
 public:
     ReaderWriterAnalyticBin() {
         supportsExtension(kExtension, "Culls the tiles of a terrain database by their analytic bins (pseudo-loader)");
-        supportsOption("method=quadratic|paper|corners|sphere|none",
-                       "How tiles are culled. quadratic (default) is sound and tight; paper and corners cull visible tiles "
-                       "and are there for comparison; sphere leaves OSG's culling alone; none culls nothing.");
+        supportsOption(
+            "method=quadratic|paper|corners|sphere|none",
+            "How tiles are culled. quadratic (default) is sound and tight; paper and corners cull visible tiles "
+            "and are there for comparison; sphere leaves OSG's culling alone; none culls nothing.");
         supportsOption("growth=FACTOR", "How much method=paper enlarges its boxes: 1 .. 10, default 1.1.");
     }
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
-
 #include "TextProperty.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
 
 using osgAnalyticBin::AnalyticBinCullCallback;
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <osgAnalyticBin/InstallBinsCallback.h>
-
 #include "TextProperty.h"
+
+#include <osgAnalyticBin/InstallBinsCallback.h>
 
 using osgAnalyticBin::InstallBinsCallback;
 

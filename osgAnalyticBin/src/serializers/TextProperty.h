@@ -16,16 +16,18 @@
 /// Defines the three functions that ADD_USER_SERIALIZER(name) asks for, over the get<name>Text() / set<name>Text() pair
 /// of a class. Everything is stored as text: OSG writes doubles with six digits into .osgt, which would move a bin by
 /// hundreds of metres.
-#define OSGANALYTICBIN_TEXT_PROPERTY(type, name)                                               \
-    static bool check##name(const type& object) { return !object.get##name##Text().empty(); } \
-    static bool read##name(osgDB::InputStream& is, type& object) {                             \
-        std::string text;                                                                      \
-        is.readWrappedString(text);                                                            \
-        object.set##name##Text(text);                                                          \
-        return true;                                                                           \
-    }                                                                                          \
-    static bool write##name(osgDB::OutputStream& os, const type& object) {                     \
-        os.writeWrappedString(object.get##name##Text());                                       \
-        os << std::endl;                                                                       \
-        return true;                                                                           \
+#define OSGANALYTICBIN_TEXT_PROPERTY(type, name)                           \
+    static bool check##name(const type& object) {                          \
+        return !object.get##name##Text().empty();                          \
+    }                                                                      \
+    static bool read##name(osgDB::InputStream& is, type& object) {         \
+        std::string text;                                                  \
+        is.readWrappedString(text);                                        \
+        object.set##name##Text(text);                                      \
+        return true;                                                       \
+    }                                                                      \
+    static bool write##name(osgDB::OutputStream& os, const type& object) { \
+        os.writeWrappedString(object.get##name##Text());                   \
+        os << std::endl;                                                   \
+        return true;                                                       \
     }

@@ -4,11 +4,11 @@
 // poses.csv: what is written is read back; broken files are named.
 
 #include "PoseTable.h"
-#include <support/TemporaryFolder.h>
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::flight {
 namespace {

@@ -5,7 +5,6 @@
 
 #include "PictureDifference.h"
 #include "Report.h"
-#include <support/TemporaryFolder.h>
 
 #include <gtest/gtest.h>
 #include <osg/Image>
@@ -15,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <support/TemporaryFolder.h>
 #include <sys/wait.h>
 
 namespace osgAnalyticBin::report {

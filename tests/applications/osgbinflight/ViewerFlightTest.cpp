@@ -6,15 +6,15 @@
 
 #include "PoseTable.h"
 #include "Report.h"
-#include <support/StockPrograms.h>
-#include <support/SyntheticDatabase.h>
-#include <support/TemporaryFolder.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <support/StockPrograms.h>
+#include <support/SyntheticDatabase.h>
+#include <support/TemporaryFolder.h>
 namespace osgAnalyticBin {
 namespace {
 
@@ -42,10 +42,10 @@ struct Flights {
     [[nodiscard]] std::string fly(const std::string& method, const std::string& threading,
                                   const std::string& parameters = "frames=3") const {
         const std::string out = folder / (method + "-" + threading);
-        const test::Outcome outcome = test::runViewer(
-            "--" + threading + ' ' + test::quoted(database + ".(method=" + method + ").analyticbin") + ' ' +
-                test::quoted(path + ".(out=" + out + "," + parameters + ").binflight"),
-            test::Modules::Present, "OSG_NOTIFY_LEVEL=NOTICE");
+        const test::Outcome outcome =
+            test::runViewer("--" + threading + ' ' + test::quoted(database + ".(method=" + method + ").analyticbin") +
+                                ' ' + test::quoted(path + ".(out=" + out + "," + parameters + ").binflight"),
+                            test::Modules::Present, "OSG_NOTIFY_LEVEL=NOTICE");
         EXPECT_EQ(outcome.code, 0) << outcome.text;
         lastLog = outcome.text;
         return out;

@@ -3,11 +3,11 @@
 
 #pragma once
 
-#include <array>
-
 #include <osgAnalyticBin/core/AnalyticMapping.h>
 #include <osgAnalyticBin/core/Plane.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
+
+#include <array>
 
 namespace osgAnalyticBin::core {
 

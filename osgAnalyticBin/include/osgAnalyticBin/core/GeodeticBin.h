@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include <array>
-
 #include <osgAnalyticBin/core/Ellipsoid.h>
+
+#include <array>
 
 namespace osgAnalyticBin::core {
 

@@ -17,8 +17,8 @@ namespace osgAnalyticBin::core {
 class GeodeticMeshBounds final {
 public:
     /// Longitudes are measured from the reference, which should be near the middle of the mesh.
-    /// Vertices closer to the axis than `axisTolerance` (metres) have no longitude of their own and are taken at that of
-    /// the others; the caller's margin has to cover the tolerance.
+    /// Vertices closer to the axis than `axisTolerance` (metres) have no longitude of their own and are taken at that
+    /// of the others; the caller's margin has to cover the tolerance.
     GeodeticMeshBounds(const Ellipsoid& ellipsoid, double referenceLongitude, double axisTolerance = 0.0) noexcept;
 
     /// Every vertex of the mesh has to be added, each once.

@@ -3,11 +3,11 @@
 
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
 
 namespace osgAnalyticBin::core {
 

@@ -3,11 +3,11 @@
 
 #pragma once
 
-#include <array>
-
 #include <osgAnalyticBin/core/AnalyticMapping.h>
 #include <osgAnalyticBin/core/Plane.h>
 #include <osgAnalyticBin/core/QuadraticRange.h>
+
+#include <array>
 
 namespace osgAnalyticBin::core {
 
@@ -50,8 +50,8 @@ private:
 
     // What the first test needs stands together, in one cache line.
     glm::dvec3 _value;
-    double _reach;      // no point of the bin is farther from _value
-    double _remainder;  // Taylor remainder, margin, and the rounding that does not depend on the plane
+    double _reach;                      // no point of the bin is farther from _value
+    double _remainder;                  // Taylor remainder, margin, and the rounding that does not depend on the plane
     std::array<glm::dvec3, 3> _first;   // derivatives times half sizes
     std::array<glm::dvec3, 6> _second;  // uu, vv, ww, uv, uw, vw, times half sizes
 };
