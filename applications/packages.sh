@@ -6,7 +6,7 @@
 set -eu
 
 packages="
-  ca-certificates cmake g++ ninja-build pkg-config
+  ca-certificates clang-format cmake g++ git ninja-build pkg-config
   libopenscenegraph-dev openscenegraph libglm-dev
   libgdal-dev gdal-bin libcli11-dev
   libgtest-dev librapidcheck-dev libboost-dev

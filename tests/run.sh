@@ -12,10 +12,13 @@ jobs=$(nproc 2>/dev/null || echo 2)
 
 step() { echo "== $*"; }
 
-build() { # preset
-    step "build $1"
-    cmake --preset "$1" >"build/$1.configure.log" 2>&1 || { cat "build/$1.configure.log" >&2; exit 1; }
-    cmake --build --preset "$1" -- -j "$jobs" >"build/$1.build.log" 2>&1 || { tail -n 60 "build/$1.build.log" >&2; exit 1; }
+build() { # preset, then more arguments of cmake --build
+    preset=$1
+    shift
+    step "build $preset"
+    cmake --preset "$preset" >"build/$preset.configure.log" 2>&1 || { cat "build/$preset.configure.log" >&2; exit 1; }
+    cmake --build --preset "$preset" "$@" -- -j "$jobs" >"build/$preset.build.log" 2>&1 ||
+        { tail -n 60 "build/$preset.build.log" >&2; exit 1; }
 }
 
 test_preset() { # preset, then more arguments of ctest
@@ -27,6 +30,9 @@ test_preset() { # preset, then more arguments of ctest
 
 sh applications/packages.sh
 mkdir -p build
+
+step "format"
+git ls-files '*.cpp' '*.h' 2>/dev/null | xargs -r clang-format --dry-run --Werror
 
 build release
 test_preset release
@@ -42,7 +48,7 @@ ctest --test-dir build/consumer/build --output-on-failure --no-tests=error
 
 build dev
 test_preset dev -LE soundness
-build scalar
+build scalar --target osganalyticbin_core_tests
 test_preset scalar -L core
 
 step "all tests passed"
