@@ -41,10 +41,16 @@ struct Flights {
     // Returns: the folder of the pictures.
     [[nodiscard]] std::string fly(const std::string& method, const std::string& threading,
                                   const std::string& parameters = "frames=3") const {
-        const std::string out = folder / (method + "-" + threading);
+        return flyOver(database + ".(method=" + method + ").analyticbin", method + "-" + threading, threading,
+                       parameters);
+    }
+
+    [[nodiscard]] std::string flyOver(const std::string& scene, const std::string& name, const std::string& threading,
+                                      const std::string& parameters) const {
+        const std::string out = folder / name;
         const test::Outcome outcome =
-            test::runViewer("--" + threading + ' ' + test::quoted(database + ".(method=" + method + ").analyticbin") +
-                                ' ' + test::quoted(path + ".(out=" + out + "," + parameters + ").binflight"),
+            test::runViewer("--" + threading + ' ' + test::quoted(scene) + ' ' +
+                                test::quoted(path + ".(out=" + out + "," + parameters + ").binflight"),
                             test::Modules::Present, "OSG_NOTIFY_LEVEL=NOTICE");
         EXPECT_EQ(outcome.code, 0) << outcome.text;
         lastLog = outcome.text;
@@ -106,6 +112,20 @@ TEST(ViewerFlight, EveryMethodDrawsTheSamePictures) {
     EXPECT_GT(filesOf(quadratic), 0u);
     EXPECT_EQ(sumOf(quadratic, &flight::TileCounts::binsTested), sumOf(quadratic, &flight::TileCounts::tested));
     EXPECT_EQ(sumOf(sphere, &flight::TileCounts::binsTested), 0u);
+}
+
+TEST(ViewerFlight, AStoredDatabaseNeedsNothingButTheModules) {
+    if (!test::canRunViewer()) GTEST_SKIP() << "needs osgviewer and xvfb-run";
+    const Flights flights;
+    ASSERT_FALSE(flights.database.empty());
+    const std::string plain = flights.flyOver(flights.database, "plain", "SingleThreaded", "frames=1");
+    std::string error;
+    const auto report = Report::of({flights.fly("none", "SingleThreaded"), plain}, {"none", "plain"}, "", error);
+    ASSERT_TRUE(report.has_value()) << error << '\n' << flights.lastLog;
+    expectEqualPictures(*report);
+    const Flight& run = report->runs()[1];
+    EXPECT_EQ(sumOf(run, &flight::TileCounts::binsTested), sumOf(run, &flight::TileCounts::tested));
+    EXPECT_LT(sumOf(run, &flight::TileCounts::kept), sumOf(report->runs()[0], &flight::TileCounts::kept));
 }
 
 TEST(ViewerFlight, EveryThreadingModelDrawsTheSamePictures) {
