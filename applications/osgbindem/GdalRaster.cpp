@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 
 namespace osgbindem {
 
@@ -21,7 +22,12 @@ using GeoTransform = std::array<double, 6>;
 
 GdalDataset open(const std::string& path) {
     GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-    if (!dataset) throw Failure("cannot open \"" + path + "\": " + gdalMessage());
+    if (!dataset) {
+        // GDAL has names that are no files, so the file system is asked only afterwards.
+        const bool absent = !std::filesystem::exists(path);
+        throw Failure("cannot open \"" + path +
+                      "\": " + (absent ? "no such file; check the name" : gdalMessage() + "; give a raster file"));
+    }
     if (dataset->GetRasterCount() == 0) {
         throw Failure("no raster band in \"" + path + "\"; name one of its subdatasets as gdalinfo lists them");
     }
