@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <glm/vec3.hpp>
+
+namespace osgAnalyticBin::core {
+
+/// Where a shape stands: an origin and three axes of unit length, at right angles to each other.
+struct Frame {
+    glm::dvec3 origin{0.0};
+    glm::dvec3 x{1.0, 0.0, 0.0};
+    glm::dvec3 y{0.0, 1.0, 0.0};
+    glm::dvec3 z{0.0, 0.0, 1.0};
+
+    /// The right-handed frame whose z points along `axis`, and x as nearly as possible along `zeroDirection`.
+    /// Requires: neither is zero, nor are they parallel.
+    [[nodiscard]] static Frame aboutAxis(const glm::dvec3& origin, const glm::dvec3& axis,
+                                         const glm::dvec3& zeroDirection) noexcept;
+
+    /// Moves and turns by another frame: origin and axes are given in its coordinates.
+    [[nodiscard]] Frame placedIn(const Frame& outer) const noexcept;
+
+    [[nodiscard]] glm::dvec3 toOuter(const glm::dvec3& local) const noexcept {
+        return origin + local.x * x + local.y * y + local.z * z;
+    }
+};
+
+}  // namespace osgAnalyticBin::core

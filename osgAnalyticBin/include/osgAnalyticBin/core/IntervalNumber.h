@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+namespace osgAnalyticBin::core {
+
+/// A number known to lie between two doubles. Arithmetic and functions return an interval that holds every result for
+/// arguments within the given ones, rounding included. Where a result has no finite bounds (division by an interval
+/// with zero, the logarithm of a negative number, overflow) it is undefined, and so is all that is computed from it.
+/// Source: doc/mappings.md, section 2.
+/// Guarantee: holds with a C library whose elementary functions are right to 4 ulps (glibc states at most 2);
+/// tests: IntervalNumber.*.
+class IntervalNumber final {
+public:
+    /// A point; undefined unless finite. Implicit, so that formulas may mix numbers.
+    IntervalNumber(double value = 0.0) noexcept : IntervalNumber(value, value) {}
+
+    /// Undefined unless lower <= upper and both are finite.
+    IntervalNumber(double lower, double upper) noexcept;
+
+    [[nodiscard]] static IntervalNumber undefined() noexcept;
+
+    [[nodiscard]] double lower() const noexcept { return _lower; }
+    [[nodiscard]] double upper() const noexcept { return _upper; }
+    [[nodiscard]] bool isDefined() const noexcept { return _lower <= _upper; }
+    [[nodiscard]] bool isZero() const noexcept { return _lower == 0.0 && _upper == 0.0; }
+
+    /// The largest absolute value; NaN when undefined.
+    [[nodiscard]] double magnitude() const noexcept;
+
+    IntervalNumber operator-() const noexcept;
+
+    friend IntervalNumber operator+(const IntervalNumber& a, const IntervalNumber& b) noexcept;
+    friend IntervalNumber operator-(const IntervalNumber& a, const IntervalNumber& b) noexcept { return a + -b; }
+    friend IntervalNumber operator*(const IntervalNumber& a, const IntervalNumber& b) noexcept;
+    friend IntervalNumber operator/(const IntervalNumber& a, const IntervalNumber& b) noexcept;
+
+    friend IntervalNumber sqrt(const IntervalNumber& x) noexcept;
+    friend IntervalNumber exp(const IntervalNumber& x) noexcept;
+    friend IntervalNumber log(const IntervalNumber& x) noexcept;
+    friend IntervalNumber sin(const IntervalNumber& x) noexcept;
+    friend IntervalNumber cos(const IntervalNumber& x) noexcept;
+    friend IntervalNumber tan(const IntervalNumber& x) noexcept;
+    friend IntervalNumber atan(const IntervalNumber& x) noexcept;
+    friend IntervalNumber pow(const IntervalNumber& x, int exponent) noexcept;
+
+private:
+    double _lower;
+    double _upper;
+};
+
+}  // namespace osgAnalyticBin::core

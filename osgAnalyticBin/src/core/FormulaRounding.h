@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <limits>
+
+namespace osgAnalyticBin::core {
+
+/// A third-derivative bound that covers the rounding of a shipped formula's value and derivatives too. `size` bounds
+/// the sum of the magnitudes of all terms that enter them, derivatives times half sizes; the frame's axes are
+/// orthonormal to a few roundings. Source: doc/mappings.md, section 7.
+[[nodiscard]] inline double withRounding(double differential, double size) noexcept {
+    constexpr double kRoundUp = 1.0 + 1e-13;
+    constexpr double kRoundings = 64.0 * std::numeric_limits<double>::epsilon();
+    return differential * kRoundUp + 6.0 * kRoundings * size;
+}
+
+}  // namespace osgAnalyticBin::core
