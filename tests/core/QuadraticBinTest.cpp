@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // Oracles: the closed form of the bin's range (tested itself in GeodeticOracleTest), samples of the bin, relations.
-// Ten million more pairs of bin and plane: QuadraticSoundness.cpp. The range of the polynomial: QuadraticRangeTest.
+// Ten million more pairs of bin and plane: Soundness.cpp. The range of the polynomial: QuadraticRangeTest.
 
 #include <osgAnalyticBin/core/GeodeticMapping.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
+
+#include "kernels/ScalarKernels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,73 +19,87 @@ constexpr double kRounding = 128.0 * std::numeric_limits<double>::epsilon();
 // Normals are of unit length to 1e-9 only; the remainder is meant for exactly one.
 constexpr double kNormalTolerance = 1.0 + 1e-9;
 
-// Written so that NaN is Straddling.
-Side sideOf(const Interval& range, double slack) {
-    if (range.upper + slack < 0.0) return Side::Outside;
-    if (range.lower - slack >= 0.0) return Side::Inside;
-    return Side::Straddling;
-}
-
-// Two values of q: when a plane passes between them, the exact range could not say anything else.
-Interval attainedRange(const Quadratic& q) {
-    const double u = std::copysign(1.0, q.gradient[0]);
-    const double v = std::copysign(1.0, q.gradient[1]);
-    const double w = std::copysign(1.0, q.gradient[2]);
-    return {q(-u, -v, -w), q(u, v, w)};
+void assign(double (&to)[3], const glm::dvec3& from) {
+    to[0] = from.x;
+    to[1] = from.y;
+    to[2] = from.z;
 }
 
 }  // namespace
 
 QuadraticBin::QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& box, double margin) noexcept
-    : _value(mapping.value(box.center)) {
+    : _data() {
+    assign(_data.value, mapping.value(box.center));
     const glm::dmat3 jacobian = mapping.jacobian(box.center);
     const Hessians hessians = mapping.hessians(box.center);
     const glm::dvec3& e = box.halfSize;
-    _first = {jacobian[0] * e.x, jacobian[1] * e.y, jacobian[2] * e.z};
-    _second = {hessians.uu * (e.x * e.x), hessians.vv * (e.y * e.y), hessians.ww * (e.z * e.z),
-               hessians.uv * (e.x * e.y), hessians.uw * (e.x * e.z), hessians.vw * (e.y * e.z)};
-    double magnitude = glm::length(_value);
-    for (const glm::dvec3& v : _first) magnitude += glm::length(v);
-    for (const glm::dvec3& v : _second) magnitude += glm::length(v);
+    assign(_data.first[0], jacobian[0] * e.x);
+    assign(_data.first[1], jacobian[1] * e.y);
+    assign(_data.first[2], jacobian[2] * e.z);
+    assign(_data.second[0], hessians.uu * (e.x * e.x));
+    assign(_data.second[1], hessians.vv * (e.y * e.y));
+    assign(_data.second[2], hessians.ww * (e.z * e.z));
+    assign(_data.second[3], hessians.uv * (e.x * e.y));
+    assign(_data.second[4], hessians.uw * (e.x * e.z));
+    assign(_data.second[5], hessians.vw * (e.y * e.z));
+    double magnitude = glm::length(value());
+    for (std::size_t i = 0; i < 3; ++i) magnitude += glm::length(first(i));
+    for (std::size_t i = 0; i < 6; ++i) magnitude += glm::length(second(i));
     // Taylor's theorem with the Lagrange remainder, doc/derivation.md, section 3; rounding, section 7
-    _remainder = (mapping.thirdDerivativeBound(box) / 6.0 + margin) * kNormalTolerance + kRounding * magnitude;
-    _reach = (farthestCorner() + bulge()) * kNormalTolerance + _remainder;
+    _data.remainder =
+        (mapping.thirdDerivativeBound(box) / 6.0 + margin) * kNormalTolerance + kRounding * magnitude;
+    _data.reach = (farthestCorner() + bulge()) * kNormalTolerance + _data.remainder;
+}
+
+glm::dvec3 QuadraticBin::first(std::size_t i) const noexcept {
+    return {_data.first[i][0], _data.first[i][1], _data.first[i][2]};
+}
+
+glm::dvec3 QuadraticBin::second(std::size_t i) const noexcept {
+    return {_data.second[i][0], _data.second[i][1], _data.second[i][2]};
 }
 
 double QuadraticBin::farthestCorner() const noexcept {
     double farthest = 0.0;
     for (int i = 0; i < 8; ++i) {
         const glm::dvec3 corner(i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0);
-        farthest = std::max(farthest, glm::distance(_value, modelPoint(corner)));
+        farthest = std::max(farthest, glm::distance(value(), modelPoint(corner)));
     }
     return farthest;
 }
 
 double QuadraticBin::uncertainty(const Plane& plane) const noexcept {
-    return _remainder + kRounding * std::abs(plane.offset);
+    return _data.remainder + roundingOf(plane);
 }
 
 Quadratic QuadraticBin::distanceModel(const Plane& plane) const noexcept {
     // [JJ] eq. (3)
     Quadratic q;
-    q.value = plane.distance(_value);
-    for (std::size_t i = 0; i < 3; ++i) q.gradient[i] = glm::dot(plane.normal, _first[i]);
-    for (std::size_t i = 0; i < 6; ++i) q.hessian[i] = glm::dot(plane.normal, _second[i]);
+    q.value = plane.distance(value());
+    for (std::size_t i = 0; i < 3; ++i) q.gradient[i] = glm::dot(plane.normal, first(i));
+    for (std::size_t i = 0; i < 6; ++i) q.hessian[i] = glm::dot(plane.normal, second(i));
     return q;
 }
 
 Side QuadraticBin::classify(const Plane& plane) const noexcept {
-    // First the sphere about the model: all that most planes need.
-    const double distance = plane.distance(_value);
-    const double rounding = kRounding * std::abs(plane.offset);
-    if (distance - rounding >= _reach) return Side::Inside;
-    if (distance + rounding < -_reach) return Side::Outside;
+    const kernels::Lane lane{plane.normal.x, plane.normal.y, plane.normal.z, plane.offset, roundingOf(plane)};
+    kernels::LaneSide side = kernels::sphereSide(_data.value, _data.reach, lane);
+    if (side == kernels::LaneSide::Straddling) side = kernels::quadraticSide(_data, lane);
+    switch (side) {
+        case kernels::LaneSide::Outside: return Side::Outside;
+        case kernels::LaneSide::Inside: return Side::Inside;
+        case kernels::LaneSide::Straddling: return Side::Straddling;
+        case kernels::LaneSide::Open: break;
+    }
+    return classifyByExactRange(plane);
+}
 
-    const Quadratic q = distanceModel(plane);
-    const double slack = _remainder + rounding;
-    const Side cheap = sideOf(intervalBound(q), slack);
-    if (cheap != Side::Straddling || sideOf(attainedRange(q), slack) == Side::Straddling) return cheap;
-    return sideOf(exactRange(q), slack);
+Side QuadraticBin::classifyByExactRange(const Plane& plane) const noexcept {
+    // Written so that NaN is Straddling.
+    const Interval range = distanceRange(plane);
+    if (range.upper < 0.0) return Side::Outside;
+    if (range.lower >= 0.0) return Side::Inside;
+    return Side::Straddling;
 }
 
 Interval QuadraticBin::distanceRange(const Plane& plane) const noexcept {
@@ -93,16 +110,16 @@ Interval QuadraticBin::distanceRange(const Plane& plane) const noexcept {
 
 double QuadraticBin::bulge() const noexcept {
     // The model less the trilinear interpolant of its corners is the sum of 1/2 H_ii (x_i^2 - 1).
-    return 0.5 * (glm::length(_second[0]) + glm::length(_second[1]) + glm::length(_second[2]));
+    return 0.5 * (glm::length(second(0)) + glm::length(second(1)) + glm::length(second(2)));
 }
 
 glm::dvec3 QuadraticBin::modelPoint(const glm::dvec3& unit) const noexcept {
     const double u = unit.x;
     const double v = unit.y;
     const double w = unit.z;
-    return _value + _first[0] * u + _first[1] * v + _first[2] * w +
-           0.5 * (_second[0] * (u * u) + _second[1] * (v * v) + _second[2] * (w * w)) + _second[3] * (u * v) +
-           _second[4] * (u * w) + _second[5] * (v * w);
+    return value() + first(0) * u + first(1) * v + first(2) * w +
+           0.5 * (second(0) * (u * u) + second(1) * (v * v) + second(2) * (w * w)) + second(3) * (u * v) +
+           second(4) * (u * w) + second(5) * (v * w);
 }
 
 }  // namespace osgAnalyticBin::core

@@ -3,7 +3,10 @@
 
 #pragma once
 
+#include <cstddef>
+
 #include <osgAnalyticBin/core/AnalyticMapping.h>
+#include <osgAnalyticBin/core/KernelData.h>
 #include <osgAnalyticBin/core/Plane.h>
 #include <osgAnalyticBin/core/QuadraticRange.h>
 
@@ -22,7 +25,7 @@ public:
     QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& box, double margin = 0.0) noexcept;
 
     /// Guarantee: Outside only if distance(f(x)) < 0, Inside only if >= 0, for every x in the box and every point
-    /// within the margin of f(x); tests: QuadraticBin.NeverContradictsASample, QuadraticSoundness.HasNoFalseVerdict.
+    /// within the margin of f(x); tests: QuadraticBin.NeverContradictsASample, Soundness.HasNoFalseVerdict.
     /// Requires: plane.normal of unit length to 1e-9. A plane with NaN is Straddling.
     /// Cost: four multiplications for most planes (a sphere), about 60 beside the bin (intervals), some 300 where only
     /// the exact range tells.
@@ -35,7 +38,7 @@ public:
     [[nodiscard]] Quadratic distanceModel(const Plane& plane) const noexcept;
 
     /// Upper bound of |f(x) - model(x)| over the box, plus the margin and the rounding of both, in metres.
-    [[nodiscard]] double remainder() const noexcept { return _remainder; }
+    [[nodiscard]] double remainder() const noexcept { return _data.remainder; }
 
     /// How far the model leaves the convex hull of its eight corners at most, in metres.
     [[nodiscard]] double bulge() const noexcept;
@@ -43,17 +46,23 @@ public:
     /// The model's point at a position of the unit box.
     [[nodiscard]] glm::dvec3 modelPoint(const glm::dvec3& unit) const noexcept;
 
+    /// What the kernels read.
+    [[nodiscard]] const QuadraticBinData& data() const noexcept { return _data; }
+
+    /// What classify() leaves to the exact range, which decides every plane.
+    [[nodiscard]] Side classifyByExactRange(const Plane& plane) const noexcept;
+
 private:
+    [[nodiscard]] glm::dvec3 value() const noexcept { return {_data.value[0], _data.value[1], _data.value[2]}; }
+    [[nodiscard]] glm::dvec3 first(std::size_t i) const noexcept;
+    [[nodiscard]] glm::dvec3 second(std::size_t i) const noexcept;
     /// What the exact evaluation may be off by: remainder, margin and rounding.
     [[nodiscard]] double uncertainty(const Plane& plane) const noexcept;
     [[nodiscard]] double farthestCorner() const noexcept;
 
-    // What the first test needs stands together, in one cache line.
-    glm::dvec3 _value;
-    double _reach;                      // no point of the bin is farther from _value
-    double _remainder;                  // Taylor remainder, margin, and the rounding that does not depend on the plane
-    std::array<glm::dvec3, 3> _first;   // derivatives times half sizes
-    std::array<glm::dvec3, 6> _second;  // uu, vv, ww, uv, uw, vw, times half sizes
+    QuadraticBinData _data;
 };
+
+static_assert(sizeof(QuadraticBin) <= 256, "a database holds one for every tile");
 
 }  // namespace osgAnalyticBin::core

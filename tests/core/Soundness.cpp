@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 
 // Counts wrong verdicts of every method over millions of random pairs of bin and plane, a third of them nearly
-// tangent. The truth is the closed form in long double, which the core does not know. Fails when the quadratic bin
-// has a single wrong verdict, or a distance range that does not hold the true one.
+// tangent. The truth is the closed form in long double, which shares no code with the core. Fails when the quadratic or
+// the exact bin has a single wrong verdict, or a distance range that does not hold the true one.
 
 #include <osgAnalyticBin/core/ComparisonBins.h>
+#include <osgAnalyticBin/core/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/GeodeticMapping.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
 
@@ -29,6 +30,7 @@ namespace {
 
 using core::CornersBin;
 using core::Ellipsoid;
+using core::ExactGeodeticBin;
 using core::GeodeticBin;
 using core::GeodeticMapping;
 using core::Interval;
@@ -64,6 +66,8 @@ struct Verdicts {
         if (side == Side::Straddling && (truth.upper < -tolerance || truth.lower > tolerance)) ++undecided;
     }
 
+    [[nodiscard]] std::uint64_t wrong() const { return falseOutside + falseInside; }
+
     void add(const Verdicts& other) {
         falseOutside += other.falseOutside;
         falseInside += other.falseInside;
@@ -71,20 +75,44 @@ struct Verdicts {
     }
 };
 
+// A method whose verdicts are proofs.
+struct SoundMethod {
+    Verdicts verdicts;
+    std::uint64_t openRanges = 0;                                // distance ranges that do not hold the true range
+    Real smallestSlack = std::numeric_limits<Real>::infinity();  // by which they do, in metres
+
+    // Returns: false when something is wrong.
+    bool note(Side side, const Interval& range, const RealRange& truth, Real rounding) {
+        const std::uint64_t before = verdicts.wrong();
+        verdicts.note(side, truth, rounding);
+        const Real slack = std::min(truth.lower - range.lower, range.upper - truth.upper);
+        const bool open = slack < -rounding;
+        openRanges += open ? 1 : 0;
+        smallestSlack = std::min(smallestSlack, slack);
+        return !open && verdicts.wrong() == before;
+    }
+
+    void add(const SoundMethod& other) {
+        verdicts.add(other.verdicts);
+        openRanges += other.openRanges;
+        smallestSlack = std::min(smallestSlack, other.smallestSlack);
+    }
+
+    [[nodiscard]] bool isSound() const { return verdicts.wrong() == 0 && openRanges == 0; }
+};
+
 // One row of the table: a level of the quadtree, or a kind of bin.
 struct Row {
     std::uint64_t trials = 0;
-    std::uint64_t decided = 0;     // planes that the bin truly does not cross
-    std::uint64_t openRanges = 0;  // distance ranges of `quadratic` that do not hold the true range
-    Real smallestSlack = std::numeric_limits<Real>::infinity();  // by which they do, in metres
-    Verdicts quadratic, paper, corners;
+    std::uint64_t decided = 0;  // planes that the bin truly does not cross
+    SoundMethod quadratic, exact;
+    Verdicts paper, corners;
 
     void add(const Row& other) {
         trials += other.trials;
         decided += other.decided;
-        openRanges += other.openRanges;
-        smallestSlack = std::min(smallestSlack, other.smallestSlack);
         quadratic.add(other.quadratic);
+        exact.add(other.exact);
         paper.add(other.paper);
         corners.add(other.corners);
     }
@@ -121,27 +149,22 @@ void tryOneBin(Random& random, std::size_t rowIndex, Row& row) {
     const GeodeticMapping mapping(oracle.ellipsoid());
     const ParameterBox box = core::parameterBox(oracle.bin());
     const QuadraticBin quadratic(mapping, box);
+    const ExactGeodeticBin exact(oracle.ellipsoid(), oracle.bin());
     const PaperBin paper(mapping, box);
     const CornersBin corners(mapping, box);
     for (std::size_t i = 0; i < kPlanesPerBin; ++i) {
         const Plane plane = randomPlane(random, oracle, random.pick(kPlaneKinds));
         const RealRange truth = oracle.distanceRange(plane);
         const Real rounding = oracle.rounding(plane);
-        const Verdicts before = row.quadratic;
-        row.quadratic.note(quadratic.classify(plane), truth, rounding);
+        const bool quadraticHolds =
+            row.quadratic.note(quadratic.classify(plane), quadratic.distanceRange(plane), truth, rounding);
+        const bool exactHolds = row.exact.note(exact.classify(plane), exact.distanceRange(plane), truth, rounding);
+        if (!quadraticHolds) report(("quadratic, " + nameOfRow(rowIndex)).c_str(), oracle, plane);
+        if (!exactHolds) report(("exact, " + nameOfRow(rowIndex)).c_str(), oracle, plane);
         row.paper.note(paper.classify(plane), truth, kComparisonTolerance);
         row.corners.note(corners.classify(plane), truth, kComparisonTolerance);
-        const Interval range = quadratic.distanceRange(plane);
-        const Real slack = std::min(truth.lower - range.lower, range.upper - truth.upper);
-        const bool open = slack < -rounding;
-        if (open || row.quadratic.falseOutside != before.falseOutside ||
-            row.quadratic.falseInside != before.falseInside) {
-            report(nameOfRow(rowIndex).c_str(), oracle, plane);
-        }
         ++row.trials;
         row.decided += truth.upper < 0 || truth.lower >= 0 ? 1 : 0;
-        row.openRanges += open ? 1 : 0;
-        row.smallestSlack = std::min(row.smallestSlack, slack);
     }
 }
 
@@ -195,21 +218,32 @@ Table runAll(const Options& options) {
     return total;
 }
 
+void printSound(const Row& row, const SoundMethod& method) {
+    const double loose =
+        row.decided == 0 ? 0.0
+                         : 100.0 * static_cast<double>(method.verdicts.undecided) / static_cast<double>(row.decided);
+    std::printf(" | %5" PRIu64 " %5" PRIu64 " %6.2f %9.2Lg", method.verdicts.falseOutside, method.verdicts.falseInside,
+                loose, method.smallestSlack);
+}
+
 void printRow(const std::string& name, const Row& row) {
-    const auto undecidedPercent = [&](const Verdicts& v) {
-        return row.decided == 0 ? 0.0 : 100.0 * static_cast<double>(v.undecided) / static_cast<double>(row.decided);
-    };
-    std::printf("%-18s %10" PRIu64 " | %6" PRIu64 " %6" PRIu64 " %6.2f %9.2Lg | %8" PRIu64 " %8" PRIu64 " | %8" PRIu64
-                " %8" PRIu64 "\n",
-                name.c_str(), row.trials, row.quadratic.falseOutside, row.quadratic.falseInside,
-                undecidedPercent(row.quadratic), row.smallestSlack, row.paper.falseOutside, row.paper.falseInside,
-                row.corners.falseOutside, row.corners.falseInside);
+    std::printf("%-18s %10" PRIu64, name.c_str(), row.trials);
+    printSound(row, row.quadratic);
+    printSound(row, row.exact);
+    std::printf(" | %8" PRIu64 " %8" PRIu64 " | %8" PRIu64 " %8" PRIu64 "\n", row.paper.falseOutside,
+                row.paper.falseInside, row.corners.falseOutside, row.corners.falseInside);
+}
+
+bool printVerdict(const char* name, const SoundMethod& method) {
+    std::printf("%s: %s; distance ranges that do not hold the truth: %" PRIu64 "\n", name,
+                method.isSound() ? "sound" : "UNSOUND", method.openRanges);
+    return method.isSound();
 }
 
 bool printTable(const Table& table) {
-    std::printf("%-18s %10s | %31s | %17s | %17s\n", "", "", "quadratic", "paper", "corners");
-    std::printf("%-18s %10s | %6s %6s %6s %9s | %8s %8s | %8s %8s\n", "tile", "trials", "out", "in", "loose%",
-                "slack m", "out", "in", "out", "in");
+    std::printf("%-18s %10s | %28s | %28s | %17s | %17s\n", "", "", "quadratic", "exact", "paper", "corners");
+    std::printf("%-18s %10s | %5s %5s %6s %9s | %5s %5s %6s %9s | %8s %8s | %8s %8s\n", "tile", "trials", "out", "in",
+                "loose%", "slack m", "out", "in", "loose%", "slack m", "out", "in", "out", "in");
     Row total;
     for (std::size_t row = 0; row < kRows; ++row) {
         printRow(nameOfRow(row), table[row]);
@@ -219,10 +253,8 @@ bool printTable(const Table& table) {
     std::printf(
         "out, in: false verdicts. loose: undecided planes among those that miss the bin. slack: the least by which\n"
         "the distance range holds the true one.\n");
-    const bool sound = total.quadratic.falseOutside == 0 && total.quadratic.falseInside == 0 && total.openRanges == 0;
-    std::printf("quadratic: %s; distance ranges that do not hold the truth: %" PRIu64 "\n", sound ? "sound" : "UNSOUND",
-                total.openRanges);
-    return sound;
+    const bool quadraticSound = printVerdict("quadratic", total.quadratic);
+    return printVerdict("exact", total.exact) && quadraticSound;
 }
 
 int usage(int status) {

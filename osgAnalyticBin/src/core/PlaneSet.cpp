@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "kernels/PlaneKernels.h"
+
+#include <osgAnalyticBin/core/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
+#include <osgAnalyticBin/core/QuadraticBin.h>
+
+namespace osgAnalyticBin::core {
+
+namespace {
+
+Side sideOf(const kernels::Verdict& verdict, PlaneMask& undecided) noexcept {
+    undecided &= ~verdict.inside;
+    if (verdict.outside != 0) return Side::Outside;
+    return undecided == 0 ? Side::Inside : Side::Straddling;
+}
+
+// One plane in a thousand.
+void closeByExactRange(const QuadraticBin& bin, const PlaneSet& planes, kernels::Verdict& verdict) noexcept {
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const PlaneMask bit = PlaneMask{1} << i;
+        if (!(verdict.open & bit)) continue;
+        const Side side = bin.classifyByExactRange(planes[i]);
+        if (side == Side::Outside) verdict.outside |= bit;
+        if (side == Side::Inside) verdict.inside |= bit;
+    }
+}
+
+}  // namespace
+
+Side classify(const ExactGeodeticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept {
+    return sideOf(kernels::activeKernels.exact(bin.data(), planes.blocks(), undecided & planes.all()), undecided);
+}
+
+Side classify(const QuadraticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept {
+    kernels::Verdict verdict = kernels::activeKernels.quadratic(bin.data(), planes.blocks(), undecided & planes.all());
+    if (verdict.open != 0 && verdict.outside == 0) closeByExactRange(bin, planes, verdict);
+    return sideOf(verdict, undecided);
+}
+
+}  // namespace osgAnalyticBin::core

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/KernelData.h>
+
+#include <cstdint>
+
+/// One bin against all undecided planes. The scalar form is the definition; the vector form does the same operations in
+/// the same order, with the planes in its lanes.
+namespace osgAnalyticBin::core::kernels {
+
+/// One bit a plane; the masks do not overlap.
+struct Verdict {
+    std::uint32_t outside;
+    std::uint32_t inside;
+    std::uint32_t open;  // quadratic bins only: what the exact range of the polynomial has to decide
+};
+
+/// A function for each kind of bin; it takes the mask of the planes to test. Tests run in two stages over all planes:
+/// when the first finds a plane outside, the second is left out.
+struct PlaneKernels {
+    Verdict (*exact)(const ExactBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
+    Verdict (*quadratic)(const QuadraticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
+};
+
+[[nodiscard]] Verdict exactScalar(const ExactBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
+[[nodiscard]] Verdict quadraticScalar(const QuadraticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
+
+/// The scalar form until static initialisation has chosen the widest that this machine runs: they agree bit for bit.
+extern PlaneKernels activeKernels;
+
+/// Chooses again, after a test has changed Highway's supported targets. Not while another thread classifies.
+void chooseKernels() noexcept;
+
+}  // namespace osgAnalyticBin::core::kernels

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Oracles: the tests of one bin against one plane (tested in ExactGeodeticBinTest and QuadraticBinTest), and the scalar
+// kernels bit for bit.
+
+#include <osgAnalyticBin/core/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/GeodeticMapping.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
+#include <osgAnalyticBin/core/QuadraticBin.h>
+
+#include <gtest/gtest.h>
+
+#include <core/kernels/PlaneKernels.h>
+#ifdef OSGANALYTICBIN_SIMD
+#include <hwy/highway.h>
+#endif
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <support/RandomBins.h>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::ExactGeodeticBin;
+using core::Plane;
+using core::PlaneMask;
+using core::PlaneSet;
+using core::QuadraticBin;
+using core::Side;
+using core::kernels::Verdict;
+
+constexpr std::array<double, 4> kNoNumbers{
+    std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+    -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::max()};
+
+// A bin and some planes about it: any number, of any kind, now and then with what is no number.
+struct Case {
+    explicit Case(Random& random)
+        : oracle(randomEllipsoid(random), randomBin(random)),
+          exact(oracle.ellipsoid(), oracle.bin()),
+          quadratic(core::GeodeticMapping(oracle.ellipsoid()), core::parameterBox(oracle.bin())) {
+        const int count =
+            random.chance(0.5) ? random.integer(4, 6) : random.integer(0, static_cast<int>(core::kMaxPlanes));
+        const bool allInside = random.chance(0.3);
+        for (int i = 0; i < count; ++i) {
+            Plane plane = randomPlane(random, oracle, random.pick(kPlaneKinds));
+            if (allInside) plane.offset += random.uniform(0.0, 2.0) * sizeOf(oracle.ellipsoid(), oracle.bin());
+            if (random.chance(0.01)) {
+                double& number = random.chance(0.5) ? plane.offset : plane.normal[random.integer(0, 2)];
+                number = random.pick(kNoNumbers);
+            }
+            planes.push_back(plane);
+        }
+        undecided = random.chance(0.5) ? planes.all() : static_cast<PlaneMask>(random.bits());
+    }
+
+    BinOracle oracle;
+    ExactGeodeticBin exact;
+    QuadraticBin quadratic;
+    PlaneSet planes;
+    PlaneMask undecided = 0;
+};
+
+template <class Bin>
+void expectVerdictsOfSinglePlanes(const Bin& bin, const PlaneSet& planes, PlaneMask undecided) {
+    PlaneMask left = undecided;
+    const Side side = core::classify(bin, planes, left);
+    PlaneMask expectedLeft = undecided;
+    const Side expected = core::classify<Bin, PlaneSet>(bin, planes, planes.size(), expectedLeft);
+    ASSERT_EQ(side, expected);
+    if (side != Side::Outside) {
+        ASSERT_EQ(left, expectedLeft);
+    }
+    // What is cleared is inside, whatever the result.
+    ASSERT_EQ(left & ~undecided, 0u);
+    for (std::size_t i = 0; i < core::kMaxPlanes; ++i) {
+        const PlaneMask bit = PlaneMask{1} << i;
+        if ((undecided & ~left & bit) == 0) continue;
+        ASSERT_LT(i, planes.size());
+        ASSERT_EQ(bin.classify(planes[i]), Side::Inside);
+    }
+}
+
+TEST(PlaneSet, GivesTheVerdictsOfSinglePlanes) {
+    Random random(120);
+    std::array<int, 3> verdicts{};
+    for (int trial = 0; trial < 100000; ++trial) {
+        const Case c(random);
+        expectVerdictsOfSinglePlanes(c.exact, c.planes, c.undecided);
+        expectVerdictsOfSinglePlanes(c.quadratic, c.planes, c.undecided);
+        PlaneMask left = c.undecided;
+        ++verdicts[static_cast<std::size_t>(core::classify(c.exact, c.planes, left))];
+    }
+    for (const int count : verdicts) EXPECT_GT(count, 1000);
+}
+
+TEST(PlaneSet, ReturnsItsPlanes) {
+    Random random(121);
+    PlaneSet set;
+    std::vector<Plane> planes;
+    EXPECT_EQ(set.all(), 0u);
+    while (planes.size() < core::kMaxPlanes) {
+        planes.push_back({random.direction(), random.uniform(-1e7, 1e7)});
+        set.push_back(planes.back());
+        EXPECT_EQ(set.size(), planes.size());
+        for (std::size_t i = 0; i < planes.size(); ++i) {
+            EXPECT_EQ(set[i].normal, planes[i].normal);
+            EXPECT_EQ(set[i].offset, planes[i].offset);
+        }
+    }
+    EXPECT_EQ(set.all(), ~PlaneMask{0});
+}
+
+TEST(PlaneSet, PlanesThatAreNotThereStayUndecided) {
+    const ExactGeodeticBin bin(wgs84(), core::GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0}));
+    PlaneSet planes;
+    planes.push_back({{1.0, 0.0, 0.0}, 1e9});
+    PlaneMask undecided = 0b101;
+    EXPECT_EQ(core::classify(bin, planes, undecided), Side::Straddling);
+    EXPECT_EQ(undecided, PlaneMask{0b100});
+    undecided = 0;
+    EXPECT_EQ(core::classify(bin, planes, undecided), Side::Inside);
+}
+
+#ifdef OSGANALYTICBIN_SIMD
+
+bool same(const Verdict& a, const Verdict& b) {
+    return a.outside == b.outside && a.inside == b.inside && a.open == b.open;
+}
+
+TEST(PlaneKernels, EveryTargetAgreesWithTheScalarForm) {
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        hwy::SetSupportedTargetsForTest(target);
+        core::kernels::chooseKernels();
+        Random random(122);
+        std::uint64_t open = 0;
+        for (int trial = 0; trial < 200000; ++trial) {
+            const Case c(random);
+            const PlaneMask mask = c.undecided & c.planes.all();
+            const core::PlaneBlock* blocks = c.planes.blocks();
+            ASSERT_TRUE(same(core::kernels::activeKernels.exact(c.exact.data(), blocks, mask),
+                             core::kernels::exactScalar(c.exact.data(), blocks, mask)))
+                << hwy::TargetName(target) << " exact, trial " << trial;
+            const Verdict quadratic = core::kernels::quadraticScalar(c.quadratic.data(), blocks, mask);
+            ASSERT_TRUE(same(core::kernels::activeKernels.quadratic(c.quadratic.data(), blocks, mask), quadratic))
+                << hwy::TargetName(target) << " quadratic, trial " << trial;
+            open += quadratic.open != 0 ? 1 : 0;
+        }
+        EXPECT_GT(open, 1000u);
+        std::printf("%s: the same\n", hwy::TargetName(target));
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    core::kernels::chooseKernels();
+}
+
+#endif
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
