@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "BinCulling.h"
 #include "GlmBridge.h"
 #include "Occluders.h"
 #include "Spheres.h"
 #include "Text.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/core/ComparisonBins.h>
 #include <osgAnalyticBin/core/GeodeticMapping.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
@@ -15,7 +15,6 @@
 #include <osg/CullStack>
 #include <osg/Notify>
 
-#include <algorithm>
 #include <variant>
 
 namespace osgAnalyticBin {
@@ -38,16 +37,6 @@ PreparedBin preparedBin(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid
             break;
     }
     return core::QuadraticBin(mapping, box, bin.margin());
-}
-
-// OSG's own test: CullingSet::isCulled(BoundingSphere) with nothing but small features switched on.
-bool isSmall(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere) {
-    const osg::CullingSet::Mask mask = cullingSet.getCullingMask();
-    if (!(mask & osg::CullingSet::SMALL_FEATURE_CULLING)) return false;
-    cullingSet.setCullingMask(osg::CullingSet::SMALL_FEATURE_CULLING);
-    const bool culled = cullingSet.isCulled(sphere);
-    cullingSet.setCullingMask(mask);
-    return culled;
 }
 
 // The planes of a frustum, moved to ECEF as they are asked for.
@@ -142,29 +131,17 @@ void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) 
 }
 
 bool AnalyticBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
-    osg::CullingSet& cullingSet = cullStack.getCurrentCullingSet();
-    osg::Polytope& frustum = cullingSet.getFrustum();
     if (_options.method == Method::None) {
-        frustum.getCurrentMask() = 0;
+        cullStack.getCurrentCullingSet().getFrustum().getCurrentMask() = 0;
         return false;
     }
     if (!_prepared) return false;
-
-    core::Side side = core::Side::Straddling;
-    if (cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING) {
-        const EcefPlanes planes(frustum, _hasLocalFrame ? &_ecefToLocal : nullptr);
-        core::PlaneMask undecided = frustum.getCurrentMask();
-        side = std::visit([&](const auto& bin) { return core::classify(bin, planes, planes.size(), undecided); },
-                          _prepared->bin);
-        // OSG pops this mask after the subgraph: a plane cleared here stays cleared just there.
-        frustum.getCurrentMask() = undecided;
-    }
-    const bool culled = side == core::Side::Outside || isSmall(cullingSet, _prepared->sphere) ||
-                        isOccluded(cullStack, nv.getNodePath(), _prepared->sphere);
-    if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR) {
-        BinStatistics::of(nv).count(culled ? core::Side::Outside : side, nv.getTraversalNumber());
-    }
-    return culled;
+    return isCulledByBin(
+        cullStack, nv, _prepared->sphere, [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
+            const EcefPlanes planes(frustum, _hasLocalFrame ? &_ecefToLocal : nullptr);
+            return std::visit([&](const auto& bin) { return core::classify(bin, planes, planes.size(), undecided); },
+                              _prepared->bin);
+        });
 }
 
 void AnalyticBinCullCallback::setBinText(const std::string& text) {

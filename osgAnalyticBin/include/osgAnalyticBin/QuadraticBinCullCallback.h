@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/core/QuadraticBin.h>
+
+#include <osg/BoundingSphere>
+#include <osg/NodeCallback>
+
+#include <optional>
+
+namespace osg {
+class CullStack;
+}
+
+namespace osgAnalyticBin {
+
+/// The cull callback of a node that holds any mapped box: the piece of a pipe, a curved panel, a map tile. It culls as
+/// AnalyticBinCullCallback does. On a node with culling active OSG's own sphere test comes first, and the bin is asked
+/// about what is left; with setCullingActive(false) the bin decides alone. It is not stored in files: make it again.
+/// Frame: the bin is in the frame of the node's children; transforms above the node need nothing.
+/// Guarantee: a node is never culled by its bin if a point of the bin is inside all planes;
+/// tests: QuadraticBinCullCallback.*.
+/// Threads: run() changes nothing in the callback.
+/// Cost: no allocation, no trigonometry.
+class OSGANALYTICBIN_EXPORT QuadraticBinCullCallback : public osg::NodeCallback {
+public:
+    /// Without a bin: never culls.
+    QuadraticBinCullCallback() = default;
+
+    /// The sphere is for small-feature and occluder culling, and has to hold what the node draws; an invalid one
+    /// leaves these out.
+    explicit QuadraticBinCullCallback(const core::QuadraticBin& bin,
+                                      const osg::BoundingSphere& sphere = osg::BoundingSphere());
+    QuadraticBinCullCallback(const QuadraticBinCullCallback& other,
+                             const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
+
+    META_Object(osgAnalyticBin, QuadraticBinCullCallback)
+
+        [[nodiscard]] const std::optional<core::QuadraticBin>& bin() const {
+        return _bin;
+    }
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
+
+protected:
+    ~QuadraticBinCullCallback() override;
+
+private:
+    [[nodiscard]] bool isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
+
+    std::optional<core::QuadraticBin> _bin;
+    osg::BoundingSphere _sphere;
+};
+
+}  // namespace osgAnalyticBin
