@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/core/GeodeticBin.h>
+
+#include <glm/vec3.hpp>
+
+#include <optional>
+
+namespace osgAnalyticBin::core {
+
+/// What the horizon test has to know of a bin; prepared once, for every eye and every depth of the occluder.
+/// Directions and radii are those of unit space: ECEF divided by the ellipsoid's radii.
+/// Source: doc/horizon.md, section 2.
+class HorizonBin final {
+public:
+    /// `margin` (metres) is added on all sides: what is drawn may leave the bin by that much.
+    /// Bins of any width are taken. One that is empty, or reaches below half the smallest radius of curvature, is never
+    /// hidden.
+    /// Cost: the sines and cosines of the bin's edges.
+    HorizonBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin = 0.0) noexcept;
+
+private:
+    friend class HorizonEye;
+
+    void setLongitude(const GeodeticBin& bin) noexcept;
+    void setLatitude(const Ellipsoid& ellipsoid, const GeodeticBin& bin) noexcept;
+    void setRadius(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept;
+
+    // Longitudes within `half` of `middle`, scaled latitudes from south to north.
+    double _cosMiddle = 1.0, _sinMiddle = 0.0, _cosHalf = -1.0, _sinHalf = 0.0;
+    double _cosSouth = 0.0, _sinSouth = -1.0, _cosNorth = 0.0, _sinNorth = 1.0;
+    double _inverseRadius = 0.0;                // of the farthest point, rounded down; zero: never hidden
+    double _cosMargin = 1.0, _sinMargin = 0.0;  // the angle that the margin turns a direction by at most
+};
+
+/// An eye, or the viewing direction of an orthographic camera, together with the body that hides: the ellipsoid scaled
+/// about its centre so that it lies `depth` or more below the surface. Prepared once per camera and frame.
+/// Frame: the ellipsoid's own; a globe that is moved, turned or scaled uniformly needs its eye brought there.
+/// Source: doc/horizon.md, sections 1, 3 and 4.
+class HorizonEye final {
+public:
+    /// `depth` (metres, positive down) is that of the lowest surface that can be drawn: terrain and sag of its meshes.
+    /// Returns: nullopt when nothing can be said to be hidden: eye inside the occluder, a depth of more than half of
+    /// the smaller radius, values that are not finite.
+    [[nodiscard]] static std::optional<HorizonEye> fromEye(const Ellipsoid& ellipsoid, double depth,
+                                                           const glm::dvec3& eyeEcef) noexcept;
+
+    /// For orthographic cameras. `viewDirection` points from the camera to the scene, of any length but zero; what lies
+    /// before `nearPointEcef`, a point of the near plane, is cut away and hides nothing.
+    /// Returns: nullopt as above, and when the near plane is not wholly before the occluder.
+    [[nodiscard]] static std::optional<HorizonEye> fromDirection(const Ellipsoid& ellipsoid, double depth,
+                                                                 const glm::dvec3& viewDirection,
+                                                                 const glm::dvec3& nearPointEcef) noexcept;
+
+    /// Guarantee: true only if the segment from every point of the bin, margin included, to the eye (the half line
+    /// against the viewing direction) meets the occluder;
+    /// tests: Horizon.HidesNoVisiblePoint, HullSoundness.HasNoFalseVerdict.
+    /// Requires: a bin prepared for the same ellipsoid.
+    /// Cost: about 35 multiplications and two or three square roots; no trigonometry.
+    [[nodiscard]] bool hides(const HorizonBin& bin) const noexcept;
+
+private:
+    HorizonEye(const glm::dvec3& direction, double cosDip, double sinDip, double scale) noexcept
+        : _direction(direction), _cosDip(cosDip), _sinDip(sinDip), _scale(scale) {}
+
+    [[nodiscard]] double largestCosine(const HorizonBin& bin) const noexcept;
+
+    glm::dvec3 _direction;    // to the eye, unit length in unit space
+    double _cosDip, _sinDip;  // the angle at the centre between the eye and its horizon
+    double _scale;            // of the occluder
+};
+
+/// The third stage by itself: see HorizonEye::hides.
+[[nodiscard]] inline bool isHidden(const HorizonBin& bin, const HorizonEye& eye) noexcept {
+    return eye.hides(bin);
+}
+
+}  // namespace osgAnalyticBin::core

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include <osgAnalyticBin/core/Horizon.h>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace osgAnalyticBin::core {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+// Outward rounding of products and quotients of a few factors; doc/horizon.md, section 5.
+constexpr double kUp = 1.0 + 16.0 * kEpsilon;
+constexpr double kDown = 1.0 - 16.0 * kEpsilon;
+// Of one cosine that is compared; doc/horizon.md, section 5.
+constexpr double kCosineSlack = 64.0 * kEpsilon;
+// Deeper, the geometry of altitudes is no longer one to one, and there is no use in it.
+constexpr double kDeepest = 0.5;
+
+glm::dvec3 toUnitSpace(const Ellipsoid& ellipsoid, const glm::dvec3& v) {
+    const double a = ellipsoid.equatorialRadius();
+    return {v.x / a, v.y / a, v.z / ellipsoid.polarRadius()};
+}
+
+double smallerRadius(const Ellipsoid& e) {
+    return std::min(e.equatorialRadius(), e.polarRadius());
+}
+double largerRadius(const Ellipsoid& e) {
+    return std::max(e.equatorialRadius(), e.polarRadius());
+}
+
+bool isFinite(const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// The factor of the occluder, rounded down: doc/horizon.md, section 1. Zero when there is none.
+double occluderScale(const Ellipsoid& ellipsoid, double depth) {
+    if (!(std::abs(depth) <= kDeepest * smallerRadius(ellipsoid))) return 0.0;
+    const double radius = depth >= 0.0 ? smallerRadius(ellipsoid) : largerRadius(ellipsoid);
+    return (1.0 - depth / radius) * kDown;
+}
+
+// The squares of the sine of the latitude that occur in the bin.
+Interval squaredSines(const Interval& latitude) {
+    const double south = std::sin(latitude.lower) * std::sin(latitude.lower);
+    const double north = std::sin(latitude.upper) * std::sin(latitude.upper);
+    const bool crossesEquator = latitude.lower <= 0.0 && latitude.upper >= 0.0;
+    return {crossesEquator ? 0.0 : std::min(south, north), std::max(south, north)};
+}
+
+// Squared radii in unit space of the positions at one altitude, 1 + 2 h N / a2 + h2 (cp2 / a2 + sp2 / b2): both terms
+// are monotonous in sp2.
+Interval squaredRadii(const Ellipsoid& ellipsoid, const Interval& sin2, double h) {
+    const double a2 = ellipsoid.equatorialRadius() * ellipsoid.equatorialRadius();
+    const double b2 = ellipsoid.polarRadius() * ellipsoid.polarRadius();
+    const auto linear = [&](double s2) { return 2.0 * h * ellipsoid.primeVerticalRadius(std::sqrt(s2)) / a2; };
+    const auto square = [&](double s2) { return h * h * ((1.0 - s2) / a2 + s2 / b2); };
+    const auto [low1, high1] = std::minmax({linear(sin2.lower), linear(sin2.upper)});
+    const auto [low2, high2] = std::minmax({square(sin2.lower), square(sin2.upper)});
+    return {(1.0 + low1 + low2) * kDown, (1.0 + high1 + high2) * kUp};
+}
+
+}  // namespace
+
+HorizonBin::HorizonBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept {
+    if (bin.empty()) return;
+    const double smallestCurvature = smallerRadius(ellipsoid) * (smallerRadius(ellipsoid) / largerRadius(ellipsoid));
+    if (!(bin.altitude().lower - margin >= -kDeepest * smallestCurvature)) return;
+    setLongitude(bin);
+    setLatitude(ellipsoid, bin);
+    setRadius(ellipsoid, bin, margin);
+}
+
+void HorizonBin::setLongitude(const GeodeticBin& bin) noexcept {
+    const double middle = bin.longitude().middle();
+    const double half = std::max(bin.longitude().upper - middle, middle - bin.longitude().lower) * kUp;
+    if (bin.isFullCircle() || half >= kPi) return;
+    _cosMiddle = std::cos(middle);
+    _sinMiddle = std::sin(middle);
+    _cosHalf = std::cos(half);
+    _sinHalf = std::sin(half);
+}
+
+void HorizonBin::setLatitude(const Ellipsoid& ellipsoid, const GeodeticBin& bin) noexcept {
+    // tan(psi) = (N (1-e2) + h) sp a / ((N + h) cp b); it is monotonous in the latitude and in the altitude.
+    const auto direction = [&](double latitude, double h) {
+        const double sine = std::sin(latitude);
+        const double n = ellipsoid.primeVerticalRadius(sine);
+        const double r = (n + h) * std::max(0.0, std::cos(latitude)) / ellipsoid.equatorialRadius();
+        const double z = (n * (1.0 - ellipsoid.eccentricitySquared()) + h) * sine / ellipsoid.polarRadius();
+        const double length = std::sqrt(r * r + z * z);
+        return glm::dvec2(r / length, z / length);
+    };
+    const auto isNorthOf = [](const glm::dvec2& p, const glm::dvec2& q) { return q.x * p.y - q.y * p.x > 0.0; };
+    const glm::dvec2 southLow = direction(bin.latitude().lower, bin.altitude().lower);
+    const glm::dvec2 southHigh = direction(bin.latitude().lower, bin.altitude().upper);
+    const glm::dvec2 northLow = direction(bin.latitude().upper, bin.altitude().lower);
+    const glm::dvec2 northHigh = direction(bin.latitude().upper, bin.altitude().upper);
+    const glm::dvec2 south = isNorthOf(southLow, southHigh) ? southHigh : southLow;
+    const glm::dvec2 north = isNorthOf(northLow, northHigh) ? northLow : northHigh;
+    _cosSouth = south.x;
+    _sinSouth = south.y;
+    _cosNorth = north.x;
+    _sinNorth = north.y;
+}
+
+void HorizonBin::setRadius(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept {
+    const Interval sin2 = squaredSines(bin.latitude());
+    const double highest = std::sqrt(squaredRadii(ellipsoid, sin2, bin.altitude().upper).upper);
+    const double lowest = std::sqrt(squaredRadii(ellipsoid, sin2, bin.altitude().lower).lower);
+    const double step = margin / smallerRadius(ellipsoid) * kUp;
+    _sinMargin = step / lowest * kUp;
+    if (!(_sinMargin < 1.0)) return;  // the margin holds the centre
+    _cosMargin = std::sqrt(1.0 - _sinMargin * _sinMargin);
+    _inverseRadius = kDown / (highest + step);
+}
+
+std::optional<HorizonEye> HorizonEye::fromEye(const Ellipsoid& ellipsoid, double depth,
+                                              const glm::dvec3& eyeEcef) noexcept {
+    const double scale = occluderScale(ellipsoid, depth);
+    if (!(scale > 0.0) || !isFinite(eyeEcef)) return std::nullopt;
+    const glm::dvec3 eye = toUnitSpace(ellipsoid, eyeEcef);
+    const double length2 = glm::dot(eye, eye);
+    if (!(length2 > scale * scale) || !std::isfinite(length2)) return std::nullopt;
+    // The eye a little farther out: the dip, and with it what is seen, grows.
+    const double ratio = length2 / (scale * scale) * kUp;
+    return HorizonEye(eye / std::sqrt(length2), std::sqrt(1.0 / ratio), std::sqrt((ratio - 1.0) / ratio), scale);
+}
+
+std::optional<HorizonEye> HorizonEye::fromDirection(const Ellipsoid& ellipsoid, double depth,
+                                                    const glm::dvec3& viewDirection,
+                                                    const glm::dvec3& nearPointEcef) noexcept {
+    const double scale = occluderScale(ellipsoid, depth);
+    if (!(scale > 0.0) || !isFinite(viewDirection) || !isFinite(nearPointEcef)) return std::nullopt;
+    const double length = glm::length(viewDirection);
+    if (!(length > 0.0) || !std::isfinite(length)) return std::nullopt;
+    const glm::dvec3 view = viewDirection / length;
+    // The occluder reaches from -support to support along the view.
+    const double reach = scale * ellipsoid.support(view);
+    const double rounding = 16.0 * kEpsilon * (glm::length(nearPointEcef) + reach);
+    if (!(glm::dot(view, nearPointEcef) + rounding < -reach)) return std::nullopt;
+    // An eye at infinity: its horizon is a right angle away.
+    return HorizonEye(glm::normalize(-toUnitSpace(ellipsoid, view)), 0.0, 1.0, scale);
+}
+
+// The largest cosine between the eye's direction and the bin's: section 8 of doc/derivation.md on the unit sphere.
+double HorizonEye::largestCosine(const HorizonBin& bin) const noexcept {
+    const double along = _direction.x * bin._cosMiddle + _direction.y * bin._sinMiddle;
+    const double across = std::abs(_direction.y * bin._cosMiddle - _direction.x * bin._sinMiddle);
+    // The eye's longitude differs from the middle by an angle of [0, pi]; is it at most the half width?
+    const bool holdsLongitude = along * bin._sinHalf - across * bin._cosHalf >= 0.0;
+    const double c = holdsLongitude ? std::sqrt(_direction.x * _direction.x + _direction.y * _direction.y)
+                                    : along * bin._cosHalf + across * bin._sinHalf;
+    const double z = _direction.z;
+    const double rise = bin._cosSouth * z - bin._sinSouth * c;
+    const double fall = bin._cosNorth * z - bin._sinNorth * c;
+    if (rise > 0.0 && fall < 0.0) return std::sqrt(c * c + z * z);
+    return std::max(c * bin._cosSouth + z * bin._sinSouth, c * bin._cosNorth + z * bin._sinNorth);
+}
+
+bool HorizonEye::hides(const HorizonBin& bin) const noexcept {
+    // B, the angle at the centre between the bin's farthest point and its horizon
+    const double cosB = std::min(1.0, _scale * bin._inverseRadius * kDown);
+    const double sinB = std::sqrt(1.0 - cosB * cosB + 4.0 * kEpsilon);
+    const double cosC = cosB * bin._cosMargin - sinB * bin._sinMargin;
+    const double sinC = sinB * bin._cosMargin + cosB * bin._sinMargin;
+    if (!(cosC > 0.0)) return false;  // so that dip + C stays below half a turn
+    const double limit = _cosDip * cosC - _sinDip * sinC - kCosineSlack;
+    return largestCosine(bin) < limit;
+}
+
+}  // namespace osgAnalyticBin::core

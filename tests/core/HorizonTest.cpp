@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Oracles: the exact intersection of a line of sight with the occluder in long double, at sampled points of the bin and
+// at points made so that the line of sight just misses; relations. Ten million more trials: HullSoundness.cpp. Views as
+// in flight: Tightness.cpp.
+
+#include <osgAnalyticBin/core/Horizon.h>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <support/RandomBins.h>
+#include <support/RandomViews.h>
+#include <support/View.h>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::Ellipsoid;
+using core::Geodetic;
+using core::GeodeticBin;
+using core::HorizonBin;
+using core::HorizonEye;
+using core::Interval;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Lowest terrain on earth.
+constexpr double kDepth = 11000.0;
+
+glm::dvec3 onWgs84(double latitudeDeg, double longitudeDeg, double altitude) {
+    return wgs84().toEcef({latitudeDeg * kRadiansPerDegree, longitudeDeg * kRadiansPerDegree, altitude});
+}
+
+bool hides(const glm::dvec3& eye, const GeodeticBin& bin, double depth = kDepth, double margin = 0.0) {
+    const auto prepared = HorizonEye::fromEye(wgs84(), depth, eye);
+    return prepared && isHidden(HorizonBin(wgs84(), bin, margin), *prepared);
+}
+
+GeodeticBin square(double southDeg, double westDeg, double sizeDeg, Interval altitude = {0.0, 1000.0}) {
+    return GeodeticBin::fromDegrees({southDeg, southDeg + sizeDeg}, {westDeg, westDeg + sizeDeg}, altitude);
+}
+
+TEST(Horizon, HidesNoVisiblePoint) {
+    Random random(300);
+    int hidden = 0;
+    for (int trial = 0; trial < 60000; ++trial) {
+        const Ellipsoid ellipsoid = randomEllipsoid(random);
+        const GeodeticBin bin = randomBin(random);
+        const double depth = randomDepth(random);
+        const glm::dvec3 eye = randomEye(random, ellipsoid, depth);
+        const auto prepared = HorizonEye::fromEye(ellipsoid, depth, eye);
+        if (!prepared || !isHidden(HorizonBin(ellipsoid, bin), *prepared)) continue;
+        ++hidden;
+        for (int i = 0; i < 40; ++i) {
+            const RealVector point = geodeticToEcef(ellipsoid, randomPosition(random, bin));
+            ASSERT_FALSE(segmentMissesOccluder(ellipsoid, depth, point, real(eye))) << "trial " << trial;
+        }
+    }
+    EXPECT_GT(hidden, 10000) << "nothing is tested";
+}
+
+TEST(Horizon, SeesEveryPointWhoseLineOfSightJustMisses) {
+    Random random(301);
+    int seen = 0;
+    for (int trial = 0; trial < 300000; ++trial) {
+        const LineOfSight line = randomLineOfSight(random);
+        if (!segmentMissesOccluder(line.ellipsoid, line.depth, line.target, real(line.eye))) continue;
+        ++seen;
+        const auto prepared = HorizonEye::fromEye(line.ellipsoid, line.depth, line.eye);
+        if (!prepared) continue;
+        ASSERT_FALSE(isHidden(HorizonBin(line.ellipsoid, line.bin, line.margin), *prepared)) << "trial " << trial;
+    }
+    EXPECT_GT(seen, 100000) << "nothing is tested";
+}
+
+TEST(Horizon, SeesEveryPointThatAParallelRayReaches) {
+    Random random(302);
+    int seen = 0;
+    int active = 0;
+    for (int trial = 0; trial < 200000; ++trial) {
+        const LineOfSight line = randomLineOfSight(random);
+        const glm::dvec3 direction = glm::normalize(rounded(line.target) - line.eye);
+        if (!halfLineMissesOccluder(line.ellipsoid, line.depth, line.target, real(-direction))) continue;
+        ++seen;
+        const glm::dvec3 nearPoint = line.eye - 4e7 * direction;
+        const auto prepared = HorizonEye::fromDirection(line.ellipsoid, line.depth, direction, nearPoint);
+        if (!prepared) continue;
+        ++active;
+        ASSERT_FALSE(isHidden(HorizonBin(line.ellipsoid, line.bin, line.margin), *prepared)) << "trial " << trial;
+    }
+    EXPECT_GT(seen, 50000);
+    EXPECT_GT(active, 50000);
+}
+
+// The share of truly hidden tiles that are found; truth by dense sampling, which calls too many hidden, if anything.
+struct Found {
+    int hidden = 0, found = 0;
+    [[nodiscard]] double percent() const { return 100.0 * found / hidden; }
+};
+
+template <class IsVisible, class IsHidden>
+Found foundHidden(Random& random, int level, const IsVisible& isVisible, const IsHidden& isHiddenByTest) {
+    constexpr int kSteps = 16;
+    Found result;
+    for (int trial = 0; trial < 1000; ++trial) {
+        const GeodeticBin bin = randomTile(random, level, {-500.0, 3000.0});
+        bool visible = false;
+        for (int i = 0; i <= kSteps && !visible; ++i) {
+            for (int j = 0; j <= kSteps && !visible; ++j) {
+                const Geodetic position{bin.latitude().lower + bin.latitude().width() * i / kSteps,
+                                        bin.longitude().lower + bin.longitude().width() * j / kSteps,
+                                        bin.altitude().upper};
+                visible = isVisible(geodeticToEcef(wgs84(), position));
+            }
+        }
+        if (visible) continue;
+        ++result.hidden;
+        if (isHiddenByTest(HorizonBin(wgs84(), bin))) ++result.found;
+    }
+    return result;
+}
+
+TEST(Horizon, FindsNearlyAllHiddenTiles) {
+    constexpr double kBar = 99.5;
+    Random random(303);
+    for (const int level : {0, 1, 2, 3, 4}) {
+        for (const double altitude : {100.0, 1e4, 1e6, 1e9}) {
+            const glm::dvec3 eye = onWgs84(random.uniform(-90.0, 90.0), random.uniform(-180.0, 180.0), altitude);
+            const auto prepared = HorizonEye::fromEye(wgs84(), kDepth, eye);
+            ASSERT_TRUE(prepared);
+            const Found found = foundHidden(
+                random, level,
+                [&](const RealVector& p) { return segmentMissesOccluder(wgs84(), kDepth, p, real(eye)); },
+                [&](const HorizonBin& bin) { return isHidden(bin, *prepared); });
+            EXPECT_GE(found.percent(), kBar) << "level " << level << " altitude " << altitude;
+        }
+    }
+}
+
+TEST(Horizon, FindsNearlyAllTilesHiddenFromAnOrthographicCamera) {
+    constexpr double kBar = 99.5;
+    Random random(304);
+    for (int trial = 0; trial < 8; ++trial) {
+        const glm::dvec3 direction = random.direction();
+        const auto prepared = HorizonEye::fromDirection(wgs84(), kDepth, direction, -1e7 * direction);
+        ASSERT_TRUE(prepared);
+        const Found found = foundHidden(
+            random, trial % 4,
+            [&](const RealVector& p) { return halfLineMissesOccluder(wgs84(), kDepth, p, real(-direction)); },
+            [&](const HorizonBin& bin) { return isHidden(bin, *prepared); });
+        EXPECT_GE(found.percent(), kBar);
+    }
+}
+
+// The lemma of the occluder: every point of it lies `depth` or more below the ellipsoid.
+TEST(Horizon, OccluderLiesBelowTheParallelSurface) {
+    Random random(305);
+    for (int trial = 0; trial < 20000; ++trial) {
+        const Ellipsoid ellipsoid = randomEllipsoid(random);
+        const double depth = random.uniform(-9000.0, 60000.0);
+        const double smaller = std::min(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+        const double larger = std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+        const Real scale = 1 - static_cast<Real>(depth) / (depth >= 0.0 ? smaller : larger);
+        const RealVector surface =
+            geodeticToEcef(ellipsoid, random.uniform(-kHalfPi, kHalfPi), random.uniform(-kPi, kPi), 0);
+        const RealGeodetic position = ecefToGeodetic(ellipsoid, scale * surface);
+        ASSERT_LE(position.altitude, -depth + 1e-6) << depth;
+        // and it is no smaller than it has to be
+        ASSERT_GE(position.altitude, -depth * (depth > 0.0 ? larger / smaller : smaller / larger) - 1e-6);
+    }
+}
+
+TEST(Horizon, HidesTheOtherSideOfTheEarth) {
+    const glm::dvec3 eye = onWgs84(10.0, 20.0, 1000.0);
+    EXPECT_TRUE(hides(eye, square(-10.0, -165.0, 5.0)));
+    EXPECT_TRUE(hides(eye, square(40.0, 20.0, 5.0)));
+    EXPECT_FALSE(hides(eye, square(10.0, 20.0, 5.0)));
+    EXPECT_FALSE(hides(eye, square(5.0, 22.0, 5.0)));
+    EXPECT_TRUE(hides(eye, square(10.0, 100.0, 5.0)));
+    EXPECT_FALSE(hides(eye, square(10.0, 100.0, 5.0, {0.0, 1e8}))) << "above the shadow";
+}
+
+TEST(Horizon, TakesBinsAtPolesAndDateLineAndWideOnes) {
+    const glm::dvec3 overNorth = onWgs84(89.9, 0.0, 1000.0);
+    EXPECT_TRUE(hides(overNorth, GeodeticBin::fromDegrees({-90.0, 45.0}, {-180.0, 180.0}, {0.0, 1000.0})));
+    EXPECT_FALSE(hides(overNorth, GeodeticBin::fromDegrees({89.0, 90.0}, {100.0, 110.0}, {0.0, 1000.0})));
+    const glm::dvec3 atDateLine = onWgs84(0.0, 180.0, 1000.0);
+    EXPECT_FALSE(hides(atDateLine, square(-1.0, 179.0, 2.0)));
+    EXPECT_TRUE(hides(atDateLine, GeodeticBin::fromDegrees({-10.0, 10.0}, {-150.0, 150.0}, {0.0, 1000.0})));
+    EXPECT_FALSE(hides(atDateLine, GeodeticBin::fromDegrees({-10.0, 10.0}, {-190.0, 150.0}, {0.0, 1000.0})));
+    EXPECT_FALSE(hides(atDateLine, GeodeticBin::wholeGlobe({0.0, 1000.0})));
+}
+
+TEST(Horizon, MissingInformationIsVisible) {
+    const auto fromEye = [](double depth, const glm::dvec3& eye) {
+        return HorizonEye::fromEye(wgs84(), depth, eye).has_value();
+    };
+    const glm::dvec3 eye(1e7, 0.0, 0.0);
+    EXPECT_TRUE(fromEye(kDepth, eye));
+    EXPECT_TRUE(fromEye(-100.0, eye)) << "all terrain above the ellipsoid";
+    EXPECT_FALSE(fromEye(kNaN, eye));
+    EXPECT_FALSE(fromEye(kInfinity, eye));
+    EXPECT_FALSE(fromEye(6e6, eye));
+    EXPECT_FALSE(fromEye(kDepth, {kNaN, 0.0, 0.0}));
+    EXPECT_FALSE(fromEye(kDepth, {kInfinity, 0.0, 0.0}));
+    EXPECT_FALSE(fromEye(kDepth, glm::dvec3(0.0)));
+    EXPECT_FALSE(fromEye(kDepth, onWgs84(10.0, 20.0, -kDepth - 100.0))) << "inside the occluder";
+    EXPECT_TRUE(fromEye(kDepth, onWgs84(10.0, 20.0, -kDepth + 1.0)));
+    EXPECT_FALSE(hides(eye, GeodeticBin())) << "an empty bin";
+    EXPECT_FALSE(hides(eye, square(0.0, 179.0, 1.0), kDepth, kNaN));
+    EXPECT_FALSE(hides(eye, square(0.0, 179.0, 1.0, {-4e6, 0.0}))) << "nearer the centre than altitudes go";
+    EXPECT_TRUE(hides(eye, square(0.0, 179.0, 1.0)));
+}
+
+TEST(Horizon, NearPlaneBehindTheFrontOfTheOccluderHidesNothing) {
+    const glm::dvec3 view(0.0, 0.0, -1.0);
+    const auto active = [&](double z) {
+        return HorizonEye::fromDirection(wgs84(), kDepth, view, {0.0, 0.0, z}).has_value();
+    };
+    EXPECT_TRUE(active(6.4e6));
+    EXPECT_FALSE(active(6.3e6));
+    EXPECT_FALSE(active(-1e7));
+    EXPECT_FALSE(HorizonEye::fromDirection(wgs84(), kDepth, glm::dvec3(0.0), {0.0, 0.0, 1e7}));
+    EXPECT_FALSE(HorizonEye::fromDirection(wgs84(), kDepth, {0.0, kNaN, 1.0}, {0.0, 0.0, 1e7}));
+}
+
+TEST(Horizon, MarginHidesLess) {
+    Random random(306);
+    int changed = 0;
+    for (int trial = 0; trial < 100000; ++trial) {
+        const GeodeticBin bin = randomTile(random, random.integer(0, 6), {-500.0, 3000.0});
+        const glm::dvec3 eye = onWgs84(random.uniform(-90.0, 90.0), random.uniform(-180.0, 180.0), 1e5);
+        const double margin = random.logUniform(1e-3, 1e5);
+        const bool bare = hides(eye, bin);
+        const bool grown = hides(eye, bin, kDepth, margin);
+        ASSERT_TRUE(bare || !grown);
+        changed += bare != grown ? 1 : 0;
+    }
+    EXPECT_GT(changed, 100);
+}
+
+TEST(Horizon, DoesNotChangeUnderMirroringAndTurning) {
+    Random random(307);
+    int differences = 0;
+    for (int trial = 0; trial < 100000; ++trial) {
+        const GeodeticBin bin = randomTile(random, random.integer(0, 6), {-500.0, 3000.0});
+        const Geodetic eye{random.uniform(-1.5, 1.5), random.uniform(-3.0, 3.0), random.logUniform(1.0, 1e8)};
+        const GeodeticBin mirrored({-bin.latitude().upper, -bin.latitude().lower},
+                                   {bin.longitude().lower + 0.5, bin.longitude().upper + 0.5}, bin.altitude());
+        const Geodetic mirroredEye{-eye.latitude, eye.longitude + 0.5, eye.altitude};
+        differences += hides(wgs84().toEcef(eye), bin) != hides(wgs84().toEcef(mirroredEye), mirrored) ? 1 : 0;
+    }
+    EXPECT_EQ(differences, 0);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
