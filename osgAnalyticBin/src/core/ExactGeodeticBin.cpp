@@ -6,6 +6,8 @@
 #include <osgAnalyticBin/core/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
 
+#include <glm/vec2.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -34,6 +36,24 @@ struct CurvatureBounds {
     double smallestRadius, largestRadius, slope;
 };
 
+// The cosine and sine of the longitude of the bin at which nx cos + ny sin is largest.
+glm::dvec2 farthestAlongParallel(const ExactBinData& data, double nx, double ny) {
+    const double length = std::sqrt(nx * nx + ny * ny);
+    const glm::dvec2 within = length > 0.0 ? glm::dvec2(nx, ny) / length : glm::dvec2(data.cosMiddle, data.sinMiddle);
+    if (data.longitudes == ExactBinData::FullCircle) return within;
+    const auto slope = [&](double cosine, double sine) { return ny * cosine - nx * sine; };
+    const double west = slope(data.cosWest, data.sinWest);
+    const double middle = slope(data.cosMiddle, data.sinMiddle);
+    const double east = slope(data.cosEast, data.sinEast);
+    // The maximum lies within an arc of at most half a turn when the value rises at its start and falls at its end.
+    if ((west > 0.0 && middle < 0.0) || (middle > 0.0 && east < 0.0)) return within;
+    glm::dvec2 best(data.cosMiddle, data.sinMiddle);
+    for (const glm::dvec2& end : {glm::dvec2(data.cosWest, data.sinWest), glm::dvec2(data.cosEast, data.sinEast)}) {
+        if (nx * end.x + ny * end.y > nx * best.x + ny * best.y) best = end;
+    }
+    return best;
+}
+
 double farthestAltitude(const Interval& altitude) {
     return std::max(std::abs(altitude.lower), std::abs(altitude.upper));
 }
@@ -45,7 +65,7 @@ bool ExactGeodeticBin::holds(const Ellipsoid& ellipsoid, const GeodeticBin& bin)
 }
 
 ExactGeodeticBin::ExactGeodeticBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept
-    : _data() {
+    : _data(), _farthest(0.0) {
     assert(holds(ellipsoid, bin));
     const double a = ellipsoid.equatorialRadius();
     const double b = ellipsoid.polarRadius();
@@ -53,6 +73,7 @@ ExactGeodeticBin::ExactGeodeticBin(const Ellipsoid& ellipsoid, const GeodeticBin
     _data.squaredPolarRadius = b * b;
     _data.topAltitude = bin.altitude().upper;
     _data.slack = margin * kNormalTolerance + kRounding * (std::max(a, b) + farthestAltitude(bin.altitude()));
+    _farthest = (std::max(a, b) + farthestAltitude(bin.altitude()) + margin) * kNormalTolerance;
     setMeridian(ellipsoid, bin);
     setParallel(bin);
     setSphere(ellipsoid, bin);
@@ -119,6 +140,34 @@ void ExactGeodeticBin::setSphere(const Ellipsoid& ellipsoid, const GeodeticBin& 
     _data.center[1] = center.y;
     _data.center[2] = center.z;
     _data.reach = (convex ? farthest : farthest + sag) * kNormalTolerance + 4.0 * _data.slack;
+}
+
+double ExactGeodeticBin::support(const glm::dvec3& direction) const noexcept {
+    return kernels::supportRange(_data, direction.x, direction.y, direction.z).upper;
+}
+
+glm::dvec3 ExactGeodeticBin::supportPoint(const glm::dvec3& direction) const noexcept {
+    const glm::dvec2 radial = farthestAlongParallel(_data, direction.x, direction.y);
+    const double c = direction.x * radial.x + direction.y * radial.y;
+    const double nz = direction.z;
+    const auto placed = [&](double axisDistance, double z) {
+        return glm::dvec3(axisDistance * radial.x, axisDistance * radial.y, z);
+    };
+    const double rise = _data.cosSouth * nz - _data.sinSouth * c;
+    const double fall = _data.cosNorth * nz - _data.sinNorth * c;
+    if (rise > 0.0 && fall < 0.0) {
+        // The normal of the surface there is the direction.
+        const double a2 = _data.squaredEquatorialRadius;
+        const double b2 = _data.squaredPolarRadius;
+        const double surface = std::sqrt(a2 * c * c + b2 * nz * nz);
+        const double up = _data.topAltitude / std::sqrt(c * c + nz * nz);
+        return placed(c * (a2 / surface + up), nz * (b2 / surface + up));
+    }
+    const MeridianPoint* best = &_data.topSouth;
+    for (const MeridianPoint* end : {&_data.bottomSouth, &_data.topNorth, &_data.bottomNorth}) {
+        if (c * end->axisDistance + nz * end->z > c * best->axisDistance + nz * best->z) best = end;
+    }
+    return placed(best->axisDistance, best->z);
 }
 
 Side ExactGeodeticBin::classify(const Plane& plane) const noexcept {

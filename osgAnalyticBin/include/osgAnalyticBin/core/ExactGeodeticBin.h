@@ -35,6 +35,15 @@ public:
     /// tests: ExactGeodeticBin.IsTightToRounding.
     [[nodiscard]] Interval distanceRange(const Plane& plane) const noexcept;
 
+    /// The largest n.x over the bin, without margin, to 64 epsilon times the distance from the earth's centre.
+    [[nodiscard]] double support(const glm::dvec3& direction) const noexcept;
+
+    /// A point of the bin, without margin, where n.x is largest, to rounding: where a search goes on, no proof.
+    [[nodiscard]] glm::dvec3 supportPoint(const glm::dvec3& direction) const noexcept;
+
+    /// No point of the bin, margin included, is farther from the earth's centre.
+    [[nodiscard]] double reach() const noexcept { return _farthest; }
+
     /// What the kernels read.
     [[nodiscard]] const ExactBinData& data() const noexcept { return _data; }
 
@@ -44,6 +53,7 @@ private:
     void setSphere(const Ellipsoid& ellipsoid, const GeodeticBin& bin) noexcept;
 
     ExactBinData _data;
+    double _farthest;
 };
 
 static_assert(sizeof(ExactGeodeticBin) <= 256, "a database holds one for every tile");

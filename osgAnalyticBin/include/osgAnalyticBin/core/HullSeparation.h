@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/Plane.h>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+
+namespace osgAnalyticBin::core {
+
+/// Looks for a plane that parts a bin from the wedge inside two planes: a mixture of the two with weights >= 0.
+/// Whatever the weights, the wedge lies on the inner side of the mixture, so that a bin outside of it is outside the
+/// wedge: the search may be as rough as it likes, and needs no corner of the frustum. Source: doc/horizon.md,
+/// section 7.
+class WedgeSearch final {
+public:
+    /// `reach`: no point of the bin is farther from the origin.
+    WedgeSearch(const Plane& first, const Plane& second, double reach) noexcept;
+
+    /// The present mixture, of unit length, moved inward by its own rounding. NaN when the planes cancel out.
+    [[nodiscard]] Plane candidate() const noexcept;
+
+    /// Learns a point of the bin that is farthest inside the candidate. Returns: false when the search is over, since
+    /// the hulls meet.
+    [[nodiscard]] bool learn(const glm::dvec3& point) noexcept;
+
+private:
+    std::array<Plane, 2> _planes;
+    double _rounding;
+    glm::dvec2 _weights{1.0, 1.0};
+    // Distances to the two planes, of the last point inside the first plane, and of the last inside the second.
+    std::array<glm::dvec2, 2> _points{};
+    std::array<bool, 2> _known{};
+};
+
+/// Points that a search asks for at most; the last ones find next to nothing: doc/horizon.md, section 7.
+inline constexpr int kSeparationSteps = 6;
+
+/// Bins that straddle more planes are large beside the frustum, and seldom apart from it.
+inline constexpr std::size_t kSeparationPlanes = 2;
+
+/// Tries to prove that a bin which no single plane proves outside is outside all the same, beyond the edge between two
+/// planes. `bin` is anything with `classify`, `supportPoint` and `reach`, such as ExactGeodeticBin; `undecided` names
+/// the planes that it straddles; when these are more than `mostPlanes`, the answer is false at once. Guarantee: true
+/// only if no point of the bin, margin included, is inside all these planes; tests:
+/// HullSeparation.NeverPartsABinFromAPointOfIt, HullSoundness.HasNoFalseVerdict. Cost: one to `kSeparationSteps`
+/// support points for each pair of planes, and a classification when it ends with true; no allocation, no trigonometry.
+template <class Bin, class Planes>
+[[nodiscard]] bool isSeparated(const Bin& bin, const Planes& planes, std::size_t count, PlaneMask undecided,
+                               std::size_t mostPlanes = kSeparationPlanes) noexcept {
+    std::array<std::size_t, kMaxPlanes> straddled{};
+    std::size_t number = 0;
+    for (std::size_t i = 0; i < count && i < kMaxPlanes; ++i) {
+        if (undecided & (PlaneMask{1} << i)) straddled[number++] = i;
+    }
+    if (number > mostPlanes) return false;
+    for (std::size_t i = 0; i < number; ++i) {
+        for (std::size_t j = i + 1; j < number; ++j) {
+            WedgeSearch search(planes[straddled[i]], planes[straddled[j]], bin.reach());
+            for (int step = 0; step < kSeparationSteps; ++step) {
+                const Plane plane = search.candidate();
+                const glm::dvec3 point = bin.supportPoint(plane.normal);
+                if (plane.distance(point) < 0.0 && bin.classify(plane) == Side::Outside) return true;
+                if (!search.learn(point)) break;
+            }
+        }
+    }
+    return false;
+}
+
+}  // namespace osgAnalyticBin::core

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// The reverse test and the search for a parting plane. Oracles: bins with a point known to be inside the frustum, by
+// long double; hulls that libccd says meet or not. Ten million more trials: HullSoundness.cpp. Views as in flight:
+// Tightness.cpp.
+
+#include <osgAnalyticBin/core/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/FrustumHull.h>
+#include <osgAnalyticBin/core/HullSeparation.h>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <support/RandomBins.h>
+#include <support/RandomViews.h>
+#include <support/View.h>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::Ellipsoid;
+using core::ExactGeodeticBin;
+using core::FrustumHull;
+using core::GeodeticBin;
+using core::Plane;
+using core::PlaneMask;
+using core::ReverseBin;
+using core::Side;
+
+constexpr std::size_t kMostPlanes = 6;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+PlaneMask allOf(const std::vector<Plane>& planes) {
+    return (PlaneMask{1} << planes.size()) - 1;
+}
+
+// A bin and a frustum that holds a point of it, by as little as 1e-9 m.
+struct MeetingPair {
+    explicit MeetingPair(Random& random)
+        : ellipsoid(randomEllipsoid(random)),
+          bin(randomBin(random)),
+          margin(random.chance(0.7) ? 0.0 : random.logUniform(1e-3, 1e4)),
+          planes(randomView(random, ellipsoid, bin).planes()),
+          exact(ellipsoid, bin, margin) {
+        point = randomPointWithin(random, ellipsoid, bin, margin);
+        moveToHold(random, point, sizeOf(ellipsoid, bin), planes);
+    }
+
+    Ellipsoid ellipsoid;
+    GeodeticBin bin;
+    double margin;
+    std::vector<Plane> planes;
+    ExactGeodeticBin exact;
+    RealVector point;
+};
+
+TEST(FrustumHull, PartsNoBinFromAPointOfIt) {
+    Random random(320);
+    for (int trial = 0; trial < 100000; ++trial) {
+        const MeetingPair pair(random);
+        const FrustumHull hull(pair.planes, pair.planes.size());
+        ASSERT_FALSE(isSeparated(ReverseBin(pair.exact, pair.bin), hull)) << "trial " << trial;
+    }
+}
+
+TEST(HullSeparation, NeverPartsABinFromAPointOfIt) {
+    Random random(321);
+    for (int trial = 0; trial < 100000; ++trial) {
+        const MeetingPair pair(random);
+        ASSERT_FALSE(isSeparated(pair.exact, pair.planes, pair.planes.size(), allOf(pair.planes), kMostPlanes))
+            << "trial " << trial;
+    }
+}
+
+TEST(FrustumHull, FindsTheCorners) {
+    Random random(322);
+    for (int trial = 0; trial < 1000; ++trial) {
+        View view;
+        view.eye = 1e7 * random.direction();
+        view.lookAlong(random.direction(), random);
+        view.halfWidth = random.logUniform(0.05, 2.0);
+        const auto sides = view.planes();
+        const FrustumHull apex(sides, sides.size());
+        ASSERT_EQ(apex.cornerCount(), 4u) << "the apex, for every three of its planes";
+        EXPECT_LT(glm::distance(apex.corner(0), view.eye), 1e-5);
+        view.nearDistance = 10.0;
+        view.farDistance = 1e6;
+        const auto all = view.planes();
+        const FrustumHull box(all, all.size());
+        ASSERT_EQ(box.cornerCount(), 8u);
+        for (std::size_t i = 0; i < 8; ++i) {
+            const glm::dvec3 local = box.corner(i) - view.eye;
+            const double depth = glm::dot(local, view.forward);
+            EXPECT_LT(std::min(std::abs(depth - 10.0), std::abs(depth - 1e6)), 1e-4);
+            EXPECT_NEAR(std::abs(glm::dot(local, view.right)), depth * view.halfWidth, 1e-4);
+            EXPECT_NEAR(std::abs(glm::dot(local, view.up)), depth * view.halfWidth, 1e-4);
+        }
+    }
+}
+
+TEST(FrustumHull, AnOrthographicFrustumHasCornersOnlyWithNearOrFar) {
+    View view;
+    view.orthographic = true;
+    EXPECT_EQ(FrustumHull(view.planes(), 4).cornerCount(), 0u);
+    view.nearDistance = 1.0;
+    EXPECT_EQ(FrustumHull(view.planes(), 5).cornerCount(), 4u);
+    view.farDistance = 2.0;
+    EXPECT_EQ(FrustumHull(view.planes(), 6).cornerCount(), 8u);
+}
+
+// A camera in space that looks away, upward: beyond the top of every bin below it, and beyond no single plane of a wide
+// view.
+TEST(FrustumHull, SeesThatAFrustumLiesBeyondTheTop) {
+    const GeodeticBin bin = GeodeticBin::fromDegrees({-20.0, 20.0}, {-20.0, 20.0}, {0.0, 1000.0});
+    View view;
+    view.eye = {6.4e6, 0.0, 0.0};
+    view.halfWidth = 3.0;
+    Random random(323);
+    view.lookAlong({1.0, 0.0, 0.0}, random);
+    const auto planes = view.planes();
+    const ExactGeodeticBin exact(wgs84(), bin);
+    EXPECT_TRUE(isSeparated(ReverseBin(exact, bin), FrustumHull(planes, 4)));
+    EXPECT_TRUE(isSeparated(exact, planes, 4, allOf(planes), kMostPlanes));
+    view.eye.x = 6.37e6;  // below the top
+    const auto lower = view.planes();
+    EXPECT_FALSE(isSeparated(ReverseBin(exact, bin), FrustumHull(lower, 4)));
+    EXPECT_FALSE(isSeparated(exact, lower, 4, allOf(lower), kMostPlanes));
+}
+
+// Of bins that straddle two planes, whose hull libccd finds apart from the frustum.
+TEST(HullSeparation, FindsNearlyAllPartedHulls) {
+    constexpr double kBar = 99.0;
+    Random random(324);
+    int apart = 0;
+    int found = 0;
+    int contradictions = 0;
+    for (int trial = 0; trial < 100000; ++trial) {
+        const GeodeticBin bin = randomTile(random, random.integer(0, 8), kTerrainAltitudes);
+        View view = randomView(random, wgs84(), bin);
+        const auto planes = view.planes();
+        const ExactGeodeticBin exact(wgs84(), bin);
+        PlaneMask undecided = allOf(planes);
+        if (core::classify(exact, planes, planes.size(), undecided) != Side::Straddling) continue;
+        if (std::bitset<32>(undecided).count() != 2) continue;
+        const bool meet = hullsMeet(wgs84(), bin, view);
+        const bool separated = isSeparated(exact, planes, planes.size(), undecided);
+        contradictions += meet && separated ? 1 : 0;
+        apart += meet ? 0 : 1;
+        found += separated && !meet ? 1 : 0;
+    }
+    EXPECT_GT(apart, 200);
+    EXPECT_GE(100.0 * found / apart, kBar) << found << " of " << apart;
+    // libccd errs by its own tolerance when hulls nearly touch; what is proved is tested above.
+    EXPECT_LE(contradictions, 1);
+}
+
+TEST(HullSeparation, NeedsTwoPlanesAndNumbers) {
+    const GeodeticBin bin = GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0});
+    const ExactGeodeticBin exact(wgs84(), bin);
+    const Plane away{{1.0, 0.0, 0.0}, -1e8};
+    const std::vector<Plane> planes{away, away, {{kNaN, 0.0, 0.0}, 0.0}, {{0.0, 1.0, 0.0}, kNaN}};
+    EXPECT_FALSE(isSeparated(exact, planes, 4, 0u));
+    EXPECT_FALSE(isSeparated(exact, planes, 4, 1u)) << "classify tells that by itself";
+    EXPECT_TRUE(isSeparated(exact, planes, 4, 3u));
+    EXPECT_FALSE(isSeparated(exact, planes, 4, 4u + 8u));
+    EXPECT_FALSE(isSeparated(exact, planes, 4, 7u)) << "more planes than asked for";
+    EXPECT_TRUE(isSeparated(exact, planes, 4, 7u, 3)) << "by the first pair";
+    EXPECT_FALSE(isSeparated(ReverseBin(exact, bin), FrustumHull(planes, 4)));
+    // two planes that face each other: their mixture has no direction
+    const std::vector<Plane> slab{{{1.0, 0.0, 0.0}, -6.377e6}, {{-1.0, 0.0, 0.0}, 6.377e6}};
+    EXPECT_FALSE(isSeparated(exact, slab, 2, 3u));
+}
+
+TEST(ReverseBin, FacesHoldTheBin) {
+    Random random(325);
+    for (int trial = 0; trial < 20000; ++trial) {
+        const Ellipsoid ellipsoid = randomEllipsoid(random);
+        const GeodeticBin bin = randomBin(random);
+        const double margin = random.chance(0.5) ? 0.0 : random.logUniform(1e-3, 1e4);
+        const ReverseBin reverse(ExactGeodeticBin(ellipsoid, bin, margin), bin);
+        ASSERT_EQ(reverse.faceCount(), bin.longitude().width() < kPi ? 5u : 3u);
+        for (int i = 0; i < 20; ++i) {
+            const RealVector point = randomPointWithin(random, ellipsoid, bin, margin);
+            ASSERT_LE(length(point), reverse.reach());
+            for (std::size_t f = 0; f < reverse.faceCount(); ++f) ASSERT_GE(exactDistance(reverse.face(f), point), 0);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
