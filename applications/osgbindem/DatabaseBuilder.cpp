@@ -9,6 +9,7 @@
 #include "TileBuilder.h"
 #include "WorkPlan.h"
 
+#include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <cpl_progress.h>
@@ -136,12 +137,24 @@ osg::ref_ptr<osg::CoordinateSystemNode> makeRoot(const Settings& settings) {
         root->setFormat("WKT");
         root->setCoordinateSystem(wgs84Text());
     }
-    root->setUpdateCallback(new osgAnalyticBin::InstallBinsCallback);
     // Lit, with the vertices' own colours.
     const osg::ref_ptr<osg::Material> material = new osg::Material;
     material->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
     root->getOrCreateStateSet()->setAttributeAndModes(material);
     return root;
+}
+
+/// Declares below what nothing is drawn: the globe is whole, so that what lies behind it is hidden.
+void declareHorizon(osg::Group& root) {
+    double lowest = 0.0;
+    for (unsigned int i = 0; i < root.getNumChildren(); ++i) {
+        const osgAnalyticBin::AnalyticBin bin = osgAnalyticBin::storedBin(*root.getChild(i));
+        lowest = std::min(lowest, bin.bin().altitude().lower - bin.margin());
+    }
+    osgAnalyticBin::CullOptions options;
+    options.horizonUse = osgAnalyticBin::HorizonUse::Given;
+    options.horizon = std::floor(lowest);
+    root.setUpdateCallback(new osgAnalyticBin::InstallBinsCallback(options));
 }
 
 /// Builds what the tasks have left above them, and the root file.
@@ -156,6 +169,7 @@ std::string finishRoot(const Settings& settings, TileBuilder& builder, BuiltTile
         }
     }
     builder.finishFile(geometries, 0);
+    declareHorizon(*root);
     return nodeFileBytes(*root, settings.compress);
 }
 

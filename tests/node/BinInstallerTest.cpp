@@ -224,7 +224,6 @@ TEST(InstallBinsCallback, AnExplicitInstallationWins) {
     osgUtil::UpdateVisitor update;
     db.above->accept(update);
     EXPECT_EQ(db.tile->getCullCallback(), nullptr);
-    EXPECT_EQ(request->cullOptions().method, Method::Sphere);
 }
 
 }  // namespace

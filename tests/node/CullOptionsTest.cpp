@@ -17,7 +17,8 @@ TEST(CullOptions, EmptyTextIsTheDefault) {
 }
 
 TEST(CullOptions, EveryMethodReadsBack) {
-    for (const Method method : {Method::Quadratic, Method::Paper, Method::Corners, Method::Sphere, Method::None}) {
+    for (const Method method :
+         {Method::Quadratic, Method::Exact, Method::Paper, Method::Corners, Method::Sphere, Method::None}) {
         EXPECT_EQ(methodFromName(methodName(method)), method);
         CullOptions options;
         options.method = method;
@@ -27,7 +28,23 @@ TEST(CullOptions, EveryMethodReadsBack) {
         ASSERT_TRUE(back) << error;
         EXPECT_EQ(back->method, method);
         EXPECT_EQ(back->growth, options.growth);
+        EXPECT_EQ(back->horizonUse, HorizonUse::Declared);
+        EXPECT_TRUE(back->reverse);
     }
+}
+
+TEST(CullOptions, HorizonAndReverseReadBack) {
+    std::string error;
+    for (const char* text : {"horizon=-500.25 reverse=off", "horizon=off", "horizon=declared,reverse=on"}) {
+        const auto options = cullOptionsFromText(text, error);
+        ASSERT_TRUE(options) << error;
+        const auto back = cullOptionsFromText(toText(*options), error);
+        ASSERT_TRUE(back) << error;
+        EXPECT_EQ(back->horizonUse, options->horizonUse);
+        EXPECT_EQ(back->horizon, options->horizon);
+        EXPECT_EQ(back->reverse, options->reverse);
+    }
+    EXPECT_EQ(cullOptionsFromText("horizon=-500", error)->horizon, -500.0);
 }
 
 TEST(CullOptions, LaterItemsWin) {
@@ -40,9 +57,9 @@ TEST(CullOptions, LaterItemsWin) {
 
 TEST(CullOptions, WhatIsWrongIsNamed) {
     const std::pair<const char*, const char*> cases[] = {
-        {"method=cube", "cube"},  {"method", "unknown method"}, {"growth=big", "big"},
-        {"growth=0.5", "0.5"},    {"growth=nan", "nan"},        {"growth=11", "11"},
-        {"colour=red", "colour"}, {"growth=1.1x", "1.1x"},      {"Method=paper", "Method"}};
+        {"method=cube", "cube"},    {"method", "unknown method"}, {"growth=big", "big"},    {"growth=0.5", "0.5"},
+        {"growth=nan", "nan"},      {"growth=11", "11"},          {"colour=red", "colour"}, {"growth=1.1x", "1.1x"},
+        {"Method=paper", "Method"}, {"horizon=low", "low"},       {"horizon=1e9", "1e9"},   {"reverse=maybe", "maybe"}};
     for (const auto& [text, named] : cases) {
         std::string error;
         EXPECT_FALSE(cullOptionsFromText(text, error)) << text;

@@ -105,7 +105,7 @@ TEST_F(Plugin, RefusesWhatItDoesNotKnow) {
 TEST_F(Plugin, IsKnownToOsgByNameWithItsOptions) {
     osgDB::ReaderWriter* reader = osgDB::Registry::instance()->getReaderWriterForExtension("analyticbin");
     ASSERT_NE(reader, nullptr);
-    EXPECT_EQ(reader->supportedOptions().size(), 2u);
+    EXPECT_EQ(reader->supportedOptions().size(), 5u);
     EXPECT_TRUE(reader->acceptsExtension("analyticbin"));
 }
 

@@ -7,6 +7,8 @@
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Export.h>
 #include <osgAnalyticBin/core/ComparisonBins.h>
+#include <osgAnalyticBin/core/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/Horizon.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
 
 #include <osg/CoordinateSystemNode>
@@ -23,14 +25,19 @@ class CullStack;
 
 namespace osgAnalyticBin {
 
+namespace core {
+class PlaneSet;
+}
+struct Verdict;
+
 /// The cull callback of a tile: tests the tile's bin against the frustum planes that are still undecided, and culls
 /// the tile when the bin is outside one of them. It stands in place of OSG's sphere test (BinInstaller switches that
 /// off on the nodes it treats): planes with the bin proven inside are not tested again in the subgraph, and
 /// small-feature and shadow-occluder culling are kept. Nested callbacks run when the tile is not culled.
 /// Frame: the bin is in ECEF; the frame in which the node's children stand is ECEF too unless setLocalToEcef() says
 /// otherwise. Transforms above the globe need nothing: OSG's planes follow them.
-/// Guarantee (Method::Quadratic): a tile is never culled if a point of its bin is inside all planes;
-/// tests: AnalyticBinCullCallback.*. An invalid bin is never culled.
+/// Guarantee (Method::Quadratic, Method::Exact): a tile is never culled if a point of its bin is inside all planes and
+/// not behind the horizon; tests: AnalyticBinCullCallback.*. An invalid bin is never culled.
 /// Threads: run() changes nothing in the callback; any number of cull traversals may run it at once. Setters must not
 /// be called while a cull traversal runs.
 /// Cost: no allocation, no trigonometry.
@@ -76,12 +83,17 @@ protected:
 private:
     // What a cull traversal reads, made once per bin.
     struct Prepared {
-        std::variant<core::QuadraticBin, core::PaperBin, core::CornersBin> bin;
+        std::variant<core::QuadraticBin, core::ExactGeodeticBin, core::PaperBin, core::CornersBin> bin;
+        std::optional<core::ExactGeodeticBin> separable;  // for the test against edges, when `bin` is not exact itself
+        std::optional<core::HorizonBin> horizon;
         osg::BoundingSphere sphere;  // in the frame of the node's children
     };
 
     void prepare();
     [[nodiscard]] bool isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
+    [[nodiscard]] Verdict classify(osg::CullStack& cullStack, osg::NodeVisitor& nv, const core::PlaneSet& planes,
+                                   core::PlaneMask& undecided) const;
+    [[nodiscard]] bool isBeyondAnEdge(const core::PlaneSet& planes, core::PlaneMask undecided) const;
 
     std::optional<Prepared> _prepared;
     bool _hasLocalFrame = false;

@@ -23,6 +23,10 @@ struct BinCounts {
     std::uint32_t outside = 0;
     std::uint32_t inside = 0;
     std::uint32_t straddling = 0;
+    /// Of those outside: behind the horizon.
+    std::uint32_t hidden = 0;
+    /// Of those outside: beyond an edge of the frustum, though outside no single plane.
+    std::uint32_t separated = 0;
     /// Frame number of the traversal.
     unsigned int frame = 0;
 };
@@ -45,6 +49,10 @@ public:
     /// Counts one tested tile.
     void count(core::Side side, unsigned int frame) noexcept;
 
+    /// Says of the tile counted last why it was outside.
+    void countHidden() noexcept;
+    void countSeparated() noexcept;
+
     /// Starts from zero, for a visitor that traverses more than once in a frame.
     void reset() noexcept;
 
@@ -58,6 +66,8 @@ private:
     std::atomic<std::uint32_t> _outside{0};
     std::atomic<std::uint32_t> _inside{0};
     std::atomic<std::uint32_t> _straddling{0};
+    std::atomic<std::uint32_t> _hidden{0};
+    std::atomic<std::uint32_t> _separated{0};
     std::atomic<unsigned int> _frame{0};
     const osg::NodeVisitor* _owner = nullptr;
 };

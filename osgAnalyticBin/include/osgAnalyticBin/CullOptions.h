@@ -14,27 +14,46 @@ namespace osgAnalyticBin {
 /// How the tiles of a database are culled.
 enum class Method {
     Quadratic,  ///< the quadratic bin: sound; the default
+    Exact,      ///< the closed form of the geodetic bin: sound, and tight to rounding
     Paper,      ///< the published nine-point rule: unsound, for comparison
     Corners,    ///< the eight corners of the bin: unsound, for comparison
     Sphere,     ///< OpenSceneGraph's own bounding spheres, untouched
     None        ///< no culling at all: every tile is drawn
 };
 
-/// The name that files, options and command lines use: "quadratic", "paper", "corners", "sphere", "none".
+/// The name that files, options and command lines use: "quadratic", "exact", "paper", "corners", "sphere", "none".
 [[nodiscard]] OSGANALYTICBIN_EXPORT const char* methodName(Method method) noexcept;
 
 /// Returns: nullopt for an unknown name.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<Method> methodFromName(const std::string& name) noexcept;
+
+/// Whether tiles behind the horizon are culled; with Method::Quadratic and Method::Exact only.
+enum class HorizonUse {
+    Declared,  ///< where the database declares its lowest surface; the default
+    Off,       ///< never
+    Given      ///< against the altitude in CullOptions::horizon
+};
 
 /// What an installer, a plugin option string or a stored database says about culling.
 struct CullOptions {
     Method method = Method::Quadratic;
     /// Factor by which Method::Paper enlarges its box; at least 1.
     double growth = core::PaperBin::kDefaultGrowth;
+    HorizonUse horizonUse = HorizonUse::Declared;
+    /// Altitude in metres below which nothing is drawn anywhere in the database, meshes between their posts included;
+    /// the database covers the whole globe. Read with HorizonUse::Given.
+    double horizon = 0.0;
+    /// Whether cameras that inherit a view point, such as those of shadow passes, use the horizon too: what casts a
+    /// shadow may lie behind it.
+    bool inheritViewpoint = false;
+    /// Whether tiles across an edge of the frustum are tested against the edge too; with Method::Quadratic and
+    /// Method::Exact only.
+    bool reverse = true;
 };
 
-/// Parses "method=paper,growth=1.1"; commas or blanks part the items; an empty text is the default.
-/// Returns: nullopt when an item is unknown or malformed, with one line in `error` that names it and what is allowed.
+/// Parses "method=paper,growth=1.1", "horizon=-500", "horizon=off", "inheritviewpoint=on", "reverse=off"; commas or
+/// blanks part the items; an empty text is the default. Returns: nullopt when an item is unknown or malformed, with one
+/// line in `error` that names it and what is allowed.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<CullOptions> cullOptionsFromText(const std::string& text,
                                                                                    std::string& error);
 

@@ -55,14 +55,21 @@ bool uninstall(osg::Node& node) {
     return found;
 }
 
-// From here on the installer has spoken: a database's own request to install bins is settled.
-void settleStoredRequest(osg::Node& node, const CullOptions& options) {
+// A database's own request to install bins is settled by the installer; what it declares counts where the installer was
+// told nothing else. Returns: the options for the node and what is below it.
+CullOptions settled(osg::Node& node, const CullOptions& options) {
+    CullOptions effective = options;
     for (osg::Callback* callback = node.getUpdateCallback(); callback; callback = callback->getNestedCallback()) {
-        if (auto* request = dynamic_cast<InstallBinsCallback*>(callback)) {
-            request->setCullOptions(options);
-            request->setDone();
+        auto* request = dynamic_cast<InstallBinsCallback*>(callback);
+        if (!request) continue;
+        const CullOptions declared = request->cullOptions();
+        if (effective.horizonUse == HorizonUse::Declared && declared.horizonUse == HorizonUse::Given) {
+            effective.horizonUse = HorizonUse::Given;
+            effective.horizon = declared.horizon;
         }
+        request->setDone();
     }
+    return effective;
 }
 
 osgDB::ReadFileCallback* previousCallback(const osgDB::Options& options) {
@@ -99,7 +106,7 @@ void BinInstaller::setFrame(const osg::EllipsoidModel* ellipsoid, const osg::Mat
 }
 
 void BinInstaller::apply(osg::Node& node) {
-    settleStoredRequest(node, _options);
+    const Scoped options(_options, settled(node, _options));
     if (hasStoredBin(node)) {
         treatTile(node, storedBin(node));
     } else {
@@ -128,8 +135,8 @@ void BinInstaller::apply(osg::Transform& node) {
 }
 
 void BinInstaller::apply(osg::PagedLOD& node) {
+    const Scoped options(_options, settled(node, _options));
     followPaging(node);
-    settleStoredRequest(node, _options);
     const AnalyticBin bin = hasStoredBin(node) ? storedBin(node) : boundsOfOwnGeometry(node);
     if (bin.valid() || hasStoredBin(node)) {
         treatTile(node, bin);

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "CullTraversal.h"
+
 #include <osgAnalyticBin/BinStatistics.h>
 
 #include <osg/NodeVisitor>
@@ -24,7 +26,7 @@ BinStatistics::BinStatistics(const BinStatistics& other, const osg::CopyOp& copy
 
 BinStatistics& BinStatistics::of(osg::NodeVisitor& visitor) {
     if (const BinStatistics* known = find(visitor)) return const_cast<BinStatistics&>(*known);
-    osg::ref_ptr<BinStatistics> made = new BinStatistics;
+    osg::ref_ptr<BinStatistics> made = new CullTraversal;
     made->_owner = &visitor;
     visitor.getOrCreateUserDataContainer()->addUserObject(made.get());
     return *made;
@@ -36,7 +38,7 @@ const BinStatistics* BinStatistics::find(const osg::NodeVisitor& visitor) {
     for (unsigned int i = 0; i < container->getNumUserObjects(); ++i) {
         // A cloned visitor shares the container of its original: the owner tells whose counters these are.
         const osg::Object* object = container->getUserObject(i);
-        if (!object || typeid(*object) != typeid(BinStatistics)) continue;
+        if (!object || typeid(*object) != typeid(CullTraversal)) continue;
         const auto* statistics = static_cast<const BinStatistics*>(object);
         if (statistics->_owner == &visitor) return statistics;
     }
@@ -61,7 +63,17 @@ void BinStatistics::count(core::Side side, unsigned int frame) noexcept {
     }
 }
 
+void BinStatistics::countHidden() noexcept {
+    increment(_hidden);
+}
+
+void BinStatistics::countSeparated() noexcept {
+    increment(_separated);
+}
+
 void BinStatistics::reset() noexcept {
+    _hidden.store(0, std::memory_order_relaxed);
+    _separated.store(0, std::memory_order_relaxed);
     _outside.store(0, std::memory_order_relaxed);
     _inside.store(0, std::memory_order_relaxed);
     _straddling.store(0, std::memory_order_relaxed);
@@ -72,6 +84,8 @@ BinCounts BinStatistics::counts() const noexcept {
     counts.outside = _outside.load(std::memory_order_relaxed);
     counts.inside = _inside.load(std::memory_order_relaxed);
     counts.straddling = _straddling.load(std::memory_order_relaxed);
+    counts.hidden = _hidden.load(std::memory_order_relaxed);
+    counts.separated = _separated.load(std::memory_order_relaxed);
     counts.tested = counts.outside + counts.inside + counts.straddling;
     counts.frame = _frame.load(std::memory_order_relaxed);
     return counts;

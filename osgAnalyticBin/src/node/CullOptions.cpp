@@ -13,7 +13,8 @@ namespace osgAnalyticBin {
 
 namespace {
 
-constexpr std::array<std::pair<Method, const char*>, 5> kMethodNames{{{Method::Quadratic, "quadratic"},
+constexpr std::array<std::pair<Method, const char*>, 6> kMethodNames{{{Method::Quadratic, "quadratic"},
+                                                                      {Method::Exact, "exact"},
                                                                       {Method::Paper, "paper"},
                                                                       {Method::Corners, "corners"},
                                                                       {Method::Sphere, "sphere"},
@@ -21,26 +22,59 @@ constexpr std::array<std::pair<Method, const char*>, 5> kMethodNames{{{Method::Q
 
 constexpr double kMaxGrowth = 10.0;
 
+// Deeper than any sea, shallower than half of the smallest radius of a planet that is flown over.
+constexpr double kDeepestHorizon = -1e6;
+
+bool applyMethod(const std::string& value, CullOptions& options, std::string& error) {
+    const std::optional<Method> method = methodFromName(value);
+    if (method) options.method = *method;
+    if (!method) error = "unknown method \"" + value + "\" (use quadratic, exact, paper, corners, sphere or none)";
+    return method.has_value();
+}
+
+bool applyGrowth(const std::string& value, CullOptions& options, std::string& error) {
+    const auto number = numbersFromText(value, 1);
+    if (!number || (*number)[0] < 1.0 || (*number)[0] > kMaxGrowth) {
+        error = "bad growth \"" + value + "\" (use a factor from 1 to 10, e.g. growth=1.1)";
+        return false;
+    }
+    options.growth = (*number)[0];
+    return true;
+}
+
+bool applyHorizon(const std::string& value, CullOptions& options, std::string& error) {
+    if (value == "declared" || value == "off") {
+        options.horizonUse = value == "off" ? HorizonUse::Off : HorizonUse::Declared;
+        return true;
+    }
+    const auto number = numbersFromText(value, 1);
+    if (!number || (*number)[0] < kDeepestHorizon || (*number)[0] > -kDeepestHorizon) {
+        error = "bad horizon \"" + value + "\" (use an altitude in metres, e.g. horizon=-500, or declared or off)";
+        return false;
+    }
+    options.horizonUse = HorizonUse::Given;
+    options.horizon = (*number)[0];
+    return true;
+}
+
+bool applySwitch(const std::string& key, const std::string& value, bool& option, std::string& error) {
+    if (value != "on" && value != "off") {
+        error = "bad " + key + " \"" + value + "\" (use on or off)";
+        return false;
+    }
+    option = value == "on";
+    return true;
+}
+
 bool applyItem(const std::string& key, const std::string& value, CullOptions& options, std::string& error) {
-    if (key == "method") {
-        const std::optional<Method> method = methodFromName(value);
-        if (!method) {
-            error = "unknown method \"" + value + "\" (use quadratic, paper, corners, sphere or none)";
-            return false;
-        }
-        options.method = *method;
-        return true;
-    }
-    if (key == "growth") {
-        const auto number = numbersFromText(value, 1);
-        if (!number || (*number)[0] < 1.0 || (*number)[0] > kMaxGrowth) {
-            error = "bad growth \"" + value + "\" (use a factor from 1 to 10, e.g. growth=1.1)";
-            return false;
-        }
-        options.growth = (*number)[0];
-        return true;
-    }
-    error = "unknown parameter \"" + key + "\" (use method=NAME or growth=FACTOR)";
+    if (key == "method") return applyMethod(value, options, error);
+    if (key == "growth") return applyGrowth(value, options, error);
+    if (key == "horizon") return applyHorizon(value, options, error);
+    if (key == "reverse") return applySwitch(key, value, options.reverse, error);
+    if (key == "inheritviewpoint") return applySwitch(key, value, options.inheritViewpoint, error);
+    error = "unknown parameter \"" + key +
+            "\" (use method=NAME, growth=FACTOR, horizon=METRES|declared|off, inheritviewpoint=on|off or "
+            "reverse=on|off)";
     return false;
 }
 
@@ -76,7 +110,12 @@ std::optional<CullOptions> cullOptionsFromText(const std::string& text, std::str
 }
 
 std::string toText(const CullOptions& options) {
-    return std::string("method=") + methodName(options.method) + ",growth=" + numberToText(options.growth);
+    std::string text = std::string("method=") + methodName(options.method) + ",growth=" + numberToText(options.growth);
+    if (options.horizonUse == HorizonUse::Off) text += ",horizon=off";
+    if (options.horizonUse == HorizonUse::Given) text += ",horizon=" + numberToText(options.horizon);
+    if (options.inheritViewpoint) text += ",inheritviewpoint=on";
+    if (!options.reverse) text += ",reverse=off";
+    return text;
 }
 
 }  // namespace osgAnalyticBin

@@ -2,22 +2,10 @@
 // SPDX-License-Identifier: MIT
 
 #include "BinCulling.h"
-#include "GlmBridge.h"
 
 #include <osgAnalyticBin/QuadraticBinCullCallback.h>
 
 namespace osgAnalyticBin {
-
-namespace {
-
-// The planes of a frustum, converted as they are asked for.
-struct LocalPlanes {
-    const osg::Polytope::PlaneList& planes;
-
-    [[nodiscard]] core::Plane operator[](std::size_t i) const { return toCore(planes[i]); }
-};
-
-}  // namespace
 
 QuadraticBinCullCallback::QuadraticBinCullCallback(const core::QuadraticBin& bin, const osg::BoundingSphere& sphere)
     : _bin(bin), _sphere(sphere) {}
@@ -44,10 +32,11 @@ void QuadraticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv)
 
 bool QuadraticBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
     if (!_bin) return false;
-    return isCulledByBin(cullStack, nv, _sphere, [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
-        const LocalPlanes planes{frustum.getPlaneList()};
-        return core::classify(*_bin, planes, planes.planes.size(), undecided);
-    });
+    return isCulledByBin(cullStack, nv, _sphere,
+                         [&](CullTraversal& traversal, const osg::Polytope& frustum, core::PlaneMask& undecided) {
+                             const core::PlaneSet& planes = traversal.planes(frustum);
+                             return Verdict{core::classify(*_bin, planes, undecided), Verdict::Plane};
+                         });
 }
 
 }  // namespace osgAnalyticBin

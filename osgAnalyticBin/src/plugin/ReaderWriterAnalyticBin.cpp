@@ -36,7 +36,9 @@ std::string ownItems(const std::string& optionString) {
     while (begin < optionString.size()) {
         const std::size_t end = std::min(optionString.find_first_of(" ,;", begin), optionString.size());
         const std::string item = optionString.substr(begin, end - begin);
-        if (item.rfind("method=", 0) == 0 || item.rfind("growth=", 0) == 0) items += item + ' ';
+        for (const char* own : {"method=", "growth=", "horizon=", "inheritviewpoint=", "reverse="}) {
+            if (item.rfind(own, 0) == 0) items += item + ' ';
+        }
         begin = end + 1;
     }
     return items;
@@ -51,10 +53,16 @@ class ReaderWriterAnalyticBin : public osgDB::ReaderWriter {
 public:
     ReaderWriterAnalyticBin() {
         supportsExtension(kExtension, "Culls the tiles of a terrain database by their analytic bins (pseudo-loader)");
-        supportsOption(
-            "method=quadratic|paper|corners|sphere|none",
-            "How tiles are culled. quadratic (default) is sound and tight; paper and corners cull visible tiles "
-            "and are there for comparison; sphere leaves OSG's culling alone; none culls nothing.");
+        supportsOption("method=quadratic|exact|paper|corners|sphere|none",
+                       "How tiles are culled. quadratic (default) and exact are sound and tight; paper and corners "
+                       "cull visible tiles "
+                       "and are there for comparison; sphere leaves OSG's culling alone; none culls nothing.");
+        supportsOption("horizon=METRES|declared|off",
+                       "Culls tiles behind the horizon, against a globe of which nothing is drawn below this altitude; "
+                       "default: where the database declares it.");
+        supportsOption("inheritviewpoint=on|off",
+                       "The horizon also for cameras that inherit a view point (shadow passes); default off.");
+        supportsOption("reverse=on|off", "Tests tiles across an edge of the frustum against the edge too; default on.");
         supportsOption("growth=FACTOR", "How much method=paper enlarges its boxes: 1 .. 10, default 1.1.");
     }
 

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/core/Horizon.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
+
+#include <osg/CullStack>
+#include <osg/NodeVisitor>
+#include <osg/Polytope>
+
+#include <array>
+#include <optional>
+
+namespace osgAnalyticBin {
+
+/// Where an occluder lies: the ellipsoid, its depth below it, and whether cameras that inherit a view point use it.
+struct Occluder {
+    core::Ellipsoid ellipsoid;
+    double depth;
+    bool forInheritedViewpoints;
+};
+
+/// What one cull visitor knows of the frustum that it is in: prepared once per frustum, read by every tile. Lives in
+/// the visitor's user data container with the counters, so that cull threads share nothing.
+class CullTraversal final : public BinStatistics {
+public:
+    CullTraversal() = default;
+
+    /// That of the visitor, made at the first call.
+    [[nodiscard]] static CullTraversal& of(osg::NodeVisitor& visitor);
+
+    /// The planes of the frustum, all of them: OSG's masks may name any.
+    [[nodiscard]] const core::PlaneSet& planes(const osg::Polytope& frustum);
+
+    /// The eye in the frame of the planes last asked for. Returns: nullptr when nothing can be hidden from it.
+    [[nodiscard]] const core::HorizonEye* horizonEye(osg::CullStack& cullStack, osg::NodeVisitor& visitor,
+                                                     const Occluder& occluder);
+
+protected:
+    ~CullTraversal() override = default;
+
+private:
+    static constexpr std::size_t kCachedPlanes = 6;
+    using Coefficients = std::array<double, 4 * kCachedPlanes>;
+
+    [[nodiscard]] bool holds(const osg::Polytope::PlaneList& list) const;
+
+    core::PlaneSet _planes;
+    Coefficients _coefficients{};
+    std::size_t _planeCount = 0;
+
+    // The eye, and what it was prepared for.
+    std::optional<core::HorizonEye> _eye;
+    const osg::RefMatrix* _modelView = nullptr;
+    unsigned int _eyeFrame = 0;
+    double _eyeDepth = 0.0;
+    double _eyeEquatorialRadius = 0.0;
+    bool _eyeKnown = false;
+};
+
+}  // namespace osgAnalyticBin
