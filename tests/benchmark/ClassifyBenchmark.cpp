@@ -10,7 +10,7 @@
 #include <osgAnalyticBin/core/ComparisonBins.h>
 #include <osgAnalyticBin/core/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/GeodeticMapping.h>
-#include <osgAnalyticBin/core/QuadraticBin.h>
+#include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
 
 #include <benchmark/benchmark.h>
 #include <glm/geometric.hpp>
@@ -34,7 +34,6 @@ using core::ExactGeodeticBin;
 using core::GeodeticBin;
 using core::Interval;
 using core::PlaneMask;
-using core::QuadraticBin;
 using core::Side;
 
 // What a float coordinate near the earth's surface, and OSG's distance in float, may be off by.
@@ -141,9 +140,7 @@ public:
         const auto paper = [&](const BinOracle& tile) {
             return core::PaperBin(mapping, core::parameterBox(tile.bin()));
         };
-        const auto quadratic = [&](const BinOracle& tile) {
-            return QuadraticBin(mapping, core::parameterBox(tile.bin()));
-        };
+        const auto quadratic = [&](const BinOracle& tile) { return core::quadraticOrExact(wgs84(), tile.bin()); };
         const auto exact = [&](const BinOracle& tile) { return ExactGeodeticBin(wgs84(), tile.bin()); };
         const auto box = [&](const BinOracle& tile) { return OrientedBox(tile); };
         const Real never = std::numeric_limits<Real>::infinity();

@@ -130,7 +130,7 @@ TEST(PlaneSet, PlanesThatAreNotThereStayUndecided) {
 #ifdef OSGANALYTICBIN_SIMD
 
 bool same(const Verdict& a, const Verdict& b) {
-    return a.outside == b.outside && a.inside == b.inside && a.open == b.open;
+    return a.sides == b.sides && a.open == b.open;
 }
 
 TEST(PlaneKernels, EveryTargetAgreesWithTheScalarForm) {

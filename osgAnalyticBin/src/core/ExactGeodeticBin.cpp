@@ -116,9 +116,11 @@ void ExactGeodeticBin::setSphere(const Ellipsoid& ellipsoid, const GeodeticBin& 
     const double spread = _data.longitudes == ExactBinData::FullCircle
                               ? 0.0
                               : std::max(0.0, _data.cosEast * _data.cosMiddle + _data.sinEast * _data.sinMiddle);
+    double largestAxisDistance = 0.0;
     double axisDistance = 0.0;
     double z = 0.0;
     for (const MeridianPoint& end : ends) {
+        largestAxisDistance = std::max(largestAxisDistance, end.axisDistance);
         axisDistance += 0.25 * spread * end.axisDistance;
         z += 0.25 * end.z;
     }
@@ -140,6 +142,10 @@ void ExactGeodeticBin::setSphere(const Ellipsoid& ellipsoid, const GeodeticBin& 
     _data.center[1] = center.y;
     _data.center[2] = center.z;
     _data.reach = (convex ? farthest : farthest + sag) * kNormalTolerance + 4.0 * _data.slack;
+    // A parallel leaves its chord by r (1 - cos(width / 2)).
+    const double parallelSag = (largestAxisDistance + sag) * (1.0 - spread);
+    _data.bulge = _data.longitudes == ExactBinData::Narrow ? (sag + parallelSag) * kNormalTolerance + _data.slack
+                                                           : std::numeric_limits<double>::infinity();
 }
 
 double ExactGeodeticBin::support(const glm::dvec3& direction) const noexcept {
@@ -173,7 +179,8 @@ glm::dvec3 ExactGeodeticBin::supportPoint(const glm::dvec3& direction) const noe
 Side ExactGeodeticBin::classify(const Plane& plane) const noexcept {
     const kernels::Lane lane{plane.normal.x, plane.normal.y, plane.normal.z, plane.offset, roundingOf(plane)};
     kernels::LaneSide side = kernels::sphereSide(_data.center, _data.reach, lane);
-    if (side == kernels::LaneSide::Straddling) side = kernels::exactSide(_data, lane);
+    if (side == kernels::LaneSide::Open) side = kernels::hullSide(_data, lane);
+    if (side == kernels::LaneSide::Open) side = kernels::fullSide(_data, lane);
     if (side == kernels::LaneSide::Outside) return Side::Outside;
     if (side == kernels::LaneSide::Inside) return Side::Inside;
     return Side::Straddling;

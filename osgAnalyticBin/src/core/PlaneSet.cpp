@@ -12,20 +12,24 @@ namespace osgAnalyticBin::core {
 namespace {
 
 Side sideOf(const kernels::Verdict& verdict, PlaneMask& undecided) noexcept {
-    undecided &= ~verdict.inside;
-    if (verdict.outside != 0) return Side::Outside;
+    undecided &= ~verdict.inside();
+    if (verdict.outside() != 0) return Side::Outside;
     return undecided == 0 ? Side::Inside : Side::Straddling;
 }
 
 // One plane in a thousand.
-void closeByExactRange(const QuadraticBin& bin, const PlaneSet& planes, kernels::Verdict& verdict) noexcept {
+kernels::Verdict closedByExactRange(const QuadraticBin& bin, const PlaneSet& planes,
+                                    const kernels::Verdict& verdict) noexcept {
+    PlaneMask outside = verdict.outside();
+    PlaneMask inside = verdict.inside();
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const PlaneMask bit = PlaneMask{1} << i;
         if (!(verdict.open & bit)) continue;
         const Side side = bin.classifyByExactRange(planes[i]);
-        if (side == Side::Outside) verdict.outside |= bit;
-        if (side == Side::Inside) verdict.inside |= bit;
+        if (side == Side::Outside) outside |= bit;
+        if (side == Side::Inside) inside |= bit;
     }
+    return kernels::Verdict::of(outside, inside);
 }
 
 }  // namespace
@@ -36,7 +40,7 @@ Side classify(const ExactGeodeticBin& bin, const PlaneSet& planes, PlaneMask& un
 
 Side classify(const QuadraticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept {
     kernels::Verdict verdict = kernels::activeKernels.quadratic(bin.data(), planes.blocks(), undecided & planes.all());
-    if (verdict.open != 0 && verdict.outside == 0) closeByExactRange(bin, planes, verdict);
+    if (verdict.open != 0) verdict = closedByExactRange(bin, planes, verdict);
     return sideOf(verdict, undecided);
 }
 

@@ -19,6 +19,10 @@ constexpr double kRounding = 128.0 * std::numeric_limits<double>::epsilon();
 // Normals are of unit length to 1e-9 only; the remainder is meant for exactly one.
 constexpr double kNormalTolerance = 1.0 + 1e-9;
 
+float roundedUp(double value) {
+    return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
+}
+
 void assign(double (&to)[3], const glm::dvec3& from) {
     to[0] = from.x;
     to[1] = from.y;
@@ -48,7 +52,9 @@ QuadraticBin::QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& b
     // Taylor's theorem with the Lagrange remainder, doc/derivation.md, section 3; rounding, section 7
     _data.remainder =
         (mapping.thirdDerivativeBound(box) / 6.0 + margin) * kNormalTolerance + kRounding * magnitude;
-    _data.reach = (farthestCorner() + bulge()) * kNormalTolerance + _data.remainder;
+    _data.reach = roundedUp((farthestCorner() + bulge()) * kNormalTolerance + _data.remainder);
+    const double mixed = glm::length(second(3)) + glm::length(second(4)) + glm::length(second(5));
+    _data.curvature = roundedUp((bulge() + mixed) * kNormalTolerance);
 }
 
 glm::dvec3 QuadraticBin::first(std::size_t i) const noexcept {
@@ -83,8 +89,9 @@ Quadratic QuadraticBin::distanceModel(const Plane& plane) const noexcept {
 
 Side QuadraticBin::classify(const Plane& plane) const noexcept {
     const kernels::Lane lane{plane.normal.x, plane.normal.y, plane.normal.z, plane.offset, roundingOf(plane)};
-    kernels::LaneSide side = kernels::sphereSide(_data.value, _data.reach, lane);
-    if (side == kernels::LaneSide::Straddling) side = kernels::quadraticSide(_data, lane);
+    kernels::LaneSide side = kernels::sphereSide(_data.value, static_cast<double>(_data.reach), lane);
+    if (side == kernels::LaneSide::Open) side = kernels::hullSide(_data, lane);
+    if (side == kernels::LaneSide::Open) side = kernels::fullSide(_data, lane);
     switch (side) {
         case kernels::LaneSide::Outside: return Side::Outside;
         case kernels::LaneSide::Inside: return Side::Inside;

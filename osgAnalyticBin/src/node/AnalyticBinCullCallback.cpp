@@ -10,6 +10,7 @@
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/core/ComparisonBins.h>
 #include <osgAnalyticBin/core/GeodeticMapping.h>
+#include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
 #include <osgAnalyticBin/core/HullSeparation.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
 
@@ -24,17 +25,9 @@ namespace {
 
 using PreparedBin = std::variant<core::QuadraticBin, core::ExactGeodeticBin, core::PaperBin, core::CornersBin>;
 
-// Where the quadratic leaves out more than this share of the bin's size, the closed form takes over: tiles of 22.5
-// degrees lose some 3 % of their size to the remainder, those of 11.25 degrees 0.7 %, finer ones next to nothing.
-constexpr double kLargestRemainder = 0.01;
-
-PreparedBin preparedQuadratic(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid, const core::ParameterBox& box) {
-    const core::QuadraticBin quadratic(core::GeodeticMapping(ellipsoid), box, bin.margin());
-    const bool isLoose = quadratic.remainder() - bin.margin() > kLargestRemainder * quadratic.reach();
-    if (isLoose && core::ExactGeodeticBin::holds(ellipsoid, bin.bin())) {
-        return core::ExactGeodeticBin(ellipsoid, bin.bin(), bin.margin());
-    }
-    return quadratic;
+PreparedBin preparedQuadratic(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid) {
+    return std::visit([](const auto& prepared) { return PreparedBin(prepared); },
+                      core::quadraticOrExact(ellipsoid, bin.bin(), bin.margin()));
 }
 
 PreparedBin preparedBin(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid, const CullOptions& options) {
@@ -54,7 +47,7 @@ PreparedBin preparedBin(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid
         case Method::None:
             break;
     }
-    return preparedQuadratic(bin, ellipsoid, box);
+    return preparedQuadratic(bin, ellipsoid);
 }
 
 bool isSound(Method method) {

@@ -18,7 +18,7 @@ struct PlaneBlock {
     alignas(32) double normalY[kLanes];
     alignas(32) double normalZ[kLanes];
     alignas(32) double offset[kLanes];
-    alignas(32) double rounding[kLanes];  // 128 epsilon |offset|; NaN if the normal is not finite
+    alignas(32) double rounding[kLanes];  // 128 epsilon |offset|; NaN if the plane is not finite
 };
 
 /// A point of a meridian plane.
@@ -38,6 +38,7 @@ struct ExactBinData {
     double center[3];
     double reach;  // no point of the bin, margin included, is farther from the centre
     double slack;  // margin, and the rounding that does not depend on the plane
+    double bulge;  // no point of the bin is farther from the hull of its corners; infinite if it is not narrow
     Longitudes longitudes;
     double cosWest, sinWest, cosEast, sinEast;
     double cosSouth, sinSouth, cosNorth, sinNorth;
@@ -51,7 +52,8 @@ struct ExactBinData {
 struct QuadraticBinData {
     // What the first test needs stands together, in one cache line.
     double value[3];
-    double reach;         // no point of the bin, margin included, is farther from the value
+    float reach;          // no point of the bin, margin included, is farther from the value
+    float curvature;      // by so much at most the terms of second order change the distance to any plane
     double remainder;     // Taylor remainder, margin, and the rounding that does not depend on the plane
     double first[3][3];   // by u, v, w
     double second[6][3];  // by uu, vv, ww, uv, uw, vw

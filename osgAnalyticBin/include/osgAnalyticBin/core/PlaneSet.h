@@ -17,7 +17,7 @@ class ExactGeodeticBin;
 class QuadraticBin;
 
 /// What the signed distance to the plane may be off by because of its offset; doc/derivation.md, section 7.
-/// Returns: NaN when the normal is not finite.
+/// Returns: NaN when a number of the plane is not finite.
 [[nodiscard]] double roundingOf(const Plane& plane) noexcept;
 
 /// The planes of a frustum, laid out so that one bin is tested against four of them at once.
@@ -61,8 +61,8 @@ template <class Bin>
 
 inline double roundingOf(const Plane& plane) noexcept {
     constexpr double kRounding = 128.0 * std::numeric_limits<double>::epsilon();
-    // Zero for a finite normal; NaN, which decides nothing, for any other.
-    const double finite = 0.0 * (plane.normal.x + plane.normal.y + plane.normal.z);
+    // Zero for a finite plane; NaN, which decides nothing, for any other.
+    const double finite = 0.0 * (plane.normal.x + plane.normal.y + plane.normal.z + plane.offset);
     return kRounding * std::abs(plane.offset) + finite;
 }
 

@@ -11,15 +11,22 @@
 /// the same order, with the planes in its lanes.
 namespace osgAnalyticBin::core::kernels {
 
-/// One bit a plane; the masks do not overlap.
+/// One bit a plane; the masks do not overlap. Two registers: masks of 32 bits that are stored one by one and read
+/// together cost more than the whole first test.
 struct Verdict {
-    std::uint32_t outside;
-    std::uint32_t inside;
-    std::uint32_t open;  // quadratic bins only: what the exact range of the polynomial has to decide
+    std::uint64_t sides;  // outside in the lower half, inside in the upper
+    std::uint64_t open;   // quadratic bins only: what the exact range of the polynomial has to decide
+
+    [[nodiscard]] static constexpr Verdict of(std::uint32_t outside, std::uint32_t inside,
+                                              std::uint32_t open = 0) noexcept {
+        return {outside | std::uint64_t{inside} << 32, open};
+    }
+    [[nodiscard]] constexpr std::uint32_t outside() const noexcept { return static_cast<std::uint32_t>(sides); }
+    [[nodiscard]] constexpr std::uint32_t inside() const noexcept { return static_cast<std::uint32_t>(sides >> 32); }
 };
 
-/// A function for each kind of bin; it takes the mask of the planes to test. Tests run in two stages over all planes:
-/// when the first finds a plane outside, the second is left out.
+/// A function for each kind of bin; it takes the mask of the planes to test. Tests run in stages over all planes: the
+/// sphere, the hull, the full form. When one finds a plane outside, or leaves none open, the next is left out.
 struct PlaneKernels {
     Verdict (*exact)(const ExactBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
     Verdict (*quadratic)(const QuadraticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);

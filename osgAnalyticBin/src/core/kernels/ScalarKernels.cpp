@@ -62,20 +62,26 @@ double surfaceSupport(const ExactBinData& bin, double c, double nz) noexcept {
            bin.topAltitude * std::sqrt(cc + zz);
 }
 
+double largestCorner(const ExactBinData& bin, double c, double nz) noexcept {
+    return larger(larger(alongPoint(bin.topSouth, c, nz), alongPoint(bin.bottomSouth, c, nz)),
+                  larger(alongPoint(bin.topNorth, c, nz), alongPoint(bin.bottomNorth, c, nz)));
+}
+
+double smallestCorner(const ExactBinData& bin, double c, double nz) noexcept {
+    return smaller(smaller(alongPoint(bin.topSouth, c, nz), alongPoint(bin.bottomSouth, c, nz)),
+                   smaller(alongPoint(bin.topNorth, c, nz), alongPoint(bin.bottomNorth, c, nz)));
+}
+
 double largestAlongMeridian(const ExactBinData& bin, double c, double nz) noexcept {
     const double rise = bin.cosSouth * nz - bin.sinSouth * c;
     const double fall = bin.cosNorth * nz - bin.sinNorth * c;
-    if (rise > 0.0 && fall < 0.0) return surfaceSupport(bin, c, nz);
-    return larger(larger(alongPoint(bin.topSouth, c, nz), alongPoint(bin.bottomSouth, c, nz)),
-                  larger(alongPoint(bin.topNorth, c, nz), alongPoint(bin.bottomNorth, c, nz)));
+    return rise > 0.0 && fall < 0.0 ? surfaceSupport(bin, c, nz) : largestCorner(bin, c, nz);
 }
 
 double smallestAlongMeridian(const ExactBinData& bin, double c, double nz) noexcept {
     const double rise = bin.cosSouth * nz - bin.sinSouth * c;
     const double fall = bin.cosNorth * nz - bin.sinNorth * c;
-    if (rise < 0.0 && fall > 0.0) return -surfaceSupport(bin, c, nz);
-    return smaller(smaller(alongPoint(bin.topSouth, c, nz), alongPoint(bin.bottomSouth, c, nz)),
-                   smaller(alongPoint(bin.topNorth, c, nz), alongPoint(bin.bottomNorth, c, nz)));
+    return rise < 0.0 && fall > 0.0 ? -surfaceSupport(bin, c, nz) : smallestCorner(bin, c, nz);
 }
 
 // Written so that NaN is Straddling.
@@ -85,13 +91,26 @@ LaneSide sideOf(double lower, double upper, double slack) noexcept {
     return LaneSide::Straddling;
 }
 
+// The same for bounds that are attained and may be exceeded by the bulge. The tests are those of the vector form:
+// neither outside nor inside by the bulging bounds, and by the attained ones neither.
+LaneSide hullSideOf(double lower, double upper, double bulge, double slack) noexcept {
+    const LaneSide bounded = sideOf(lower - bulge, upper + bulge, slack);
+    if (bounded != LaneSide::Straddling) return bounded;
+    return sideOf(lower, upper, slack) == LaneSide::Straddling ? LaneSide::Straddling : LaneSide::Open;
+}
+
 double dot(const Lane& plane, const double (&v)[3]) noexcept {
     return plane.nx * v[0] + plane.ny * v[1] + plane.nz * v[2];
 }
 
+// Summed as a tree: the first test's result is waited for.
+double distanceTo(const Lane& plane, const double (&v)[3]) noexcept {
+    return (plane.nx * v[0] + plane.ny * v[1]) + (plane.nz * v[2] + plane.offset);
+}
+
 void note(Verdict& verdict, LaneSide side, std::uint32_t bit) noexcept {
-    if (side == LaneSide::Outside) verdict.outside |= bit;
-    if (side == LaneSide::Inside) verdict.inside |= bit;
+    if (side == LaneSide::Outside) verdict.sides |= bit;
+    if (side == LaneSide::Inside) verdict.sides |= std::uint64_t{bit} << 32;
     if (side == LaneSide::Open) verdict.open |= bit;
 }
 
@@ -105,14 +124,20 @@ Verdict forEachPlane(const PlaneBlock* blocks, std::uint32_t mask, const Test& t
     return verdict;
 }
 
-// The sphere over all planes, then the finer test over those it left.
-template <class SphereTest, class FineTest>
-Verdict inStages(const PlaneBlock* blocks, std::uint32_t undecided, const SphereTest& sphere,
-                 const FineTest& fine) noexcept {
-    const Verdict coarse = forEachPlane(blocks, undecided, sphere);
-    if (coarse.outside != 0) return coarse;
-    Verdict verdict = forEachPlane(blocks, undecided & ~coarse.inside, fine);
-    verdict.inside |= coarse.inside;
+template <class Bin>
+Verdict inStages(const Bin& bin, const double (&center)[3], double reach, const PlaneBlock* blocks,
+                 std::uint32_t undecided) noexcept {
+    Verdict verdict =
+        forEachPlane(blocks, undecided, [&](const Lane& plane) { return sphereSide(center, reach, plane); });
+    const auto next = [&](LaneSide (*test)(const Bin&, const Lane&) noexcept) {
+        if (verdict.outside() != 0 || verdict.open == 0) return;
+        const auto open = static_cast<std::uint32_t>(verdict.open);
+        const Verdict finer = forEachPlane(blocks, open, [&](const Lane& plane) { return test(bin, plane); });
+        verdict = {verdict.sides | finer.sides, finer.open};
+    };
+    next(hullSide);
+    next(fullSide);
+    if (verdict.outside() != 0) verdict.open = 0;
     return verdict;
 }
 
@@ -129,53 +154,69 @@ double slackOf(const ExactBinData& bin, const Lane& plane) noexcept {
 }
 
 LaneSide sphereSide(const double (&center)[3], double reach, const Lane& plane) noexcept {
-    const double distance = dot(plane, center) + plane.offset;
-    if (distance - plane.rounding >= reach) return LaneSide::Inside;
-    if (distance + plane.rounding < -reach) return LaneSide::Outside;
-    return LaneSide::Straddling;
+    const double distance = distanceTo(plane, center);
+    const double threshold = reach + plane.rounding;
+    if (distance >= threshold) return LaneSide::Inside;
+    if (distance < -threshold) return LaneSide::Outside;
+    return LaneSide::Open;
 }
 
-LaneSide exactSide(const ExactBinData& bin, const Lane& plane) noexcept {
+LaneSide hullSide(const ExactBinData& bin, const Lane& plane) noexcept {
+    // The longitudes' ends, then the corners.
+    const double west = plane.nx * bin.cosWest + plane.ny * bin.sinWest;
+    const double east = plane.nx * bin.cosEast + plane.ny * bin.sinEast;
+    const Range c{smaller(west, east), larger(west, east)};
+    const Range along{smallestCorner(bin, c.lower, plane.nz), largestCorner(bin, c.upper, plane.nz)};
+    return hullSideOf(plane.offset + along.lower, plane.offset + along.upper, bin.bulge, slackOf(bin, plane));
+}
+
+LaneSide fullSide(const ExactBinData& bin, const Lane& plane) noexcept {
     const Range along = supportRange(bin, plane.nx, plane.ny, plane.nz);
     return sideOf(plane.offset + along.lower, plane.offset + along.upper, slackOf(bin, plane));
 }
 
-LaneSide quadraticSide(const QuadraticBinData& bin, const Lane& plane) noexcept {
+LaneSide hullSide(const QuadraticBinData& bin, const Lane& plane) noexcept {
+    // Value and gradient of the polynomial, [JJ] eq. (3).
+    const double value = distanceTo(plane, bin.value);
+    const double slope =
+        std::abs(dot(plane, bin.first[0])) + std::abs(dot(plane, bin.first[1])) + std::abs(dot(plane, bin.first[2]));
+    const double slack = bin.remainder + plane.rounding;
+    // The corners along and against the gradient are attained to the curvature, and exceeded by no more.
+    const auto curvature = static_cast<double>(bin.curvature);
+    const LaneSide bounded = sideOf((value - slope) - curvature, (value + slope) + curvature, slack);
+    if (bounded != LaneSide::Straddling) return bounded;
+    const LaneSide attained = sideOf((value - slope) + curvature, (value + slope) - curvature, slack);
+    return attained == LaneSide::Straddling ? LaneSide::Straddling : LaneSide::Open;
+}
+
+LaneSide fullSide(const QuadraticBinData& bin, const Lane& plane) noexcept {
     enum : std::size_t { kUU, kVV, kWW, kUV, kUW, kVW };
     // The polynomial, [JJ] eq. (3).
-    const double value = dot(plane, bin.value) + plane.offset;
-    const double g[3] = {dot(plane, bin.first[0]), dot(plane, bin.first[1]), dot(plane, bin.first[2])};
+    const double value = distanceTo(plane, bin.value);
+    const double slope =
+        std::abs(dot(plane, bin.first[0])) + std::abs(dot(plane, bin.first[1])) + std::abs(dot(plane, bin.first[2]));
     double h[6];
     for (std::size_t i = 0; i < 6; ++i) h[i] = dot(plane, bin.second[i]);
     const double slack = bin.remainder + plane.rounding;
     // Every term by itself; a square lies in [0, 1].
-    const double spread =
-        std::abs(g[0]) + std::abs(g[1]) + std::abs(g[2]) + std::abs(h[kUV]) + std::abs(h[kUW]) + std::abs(h[kVW]);
-    const double below = 0.5 * smaller(h[kUU], 0.0) + 0.5 * smaller(h[kVV], 0.0) + 0.5 * smaller(h[kWW], 0.0);
-    const double above = 0.5 * larger(h[kUU], 0.0) + 0.5 * larger(h[kVV], 0.0) + 0.5 * larger(h[kWW], 0.0);
-    const LaneSide bounded = sideOf(value - spread + below, value + spread + above, slack);
+    const double mixed = std::abs(h[kUV]) + std::abs(h[kUW]) + std::abs(h[kVW]);
+    const double below = 0.5 * (smaller(h[kUU], 0.0) + smaller(h[kVV], 0.0) + smaller(h[kWW], 0.0));
+    const double above = 0.5 * (larger(h[kUU], 0.0) + larger(h[kVV], 0.0) + larger(h[kWW], 0.0));
+    const LaneSide bounded = sideOf(value - slope - mixed + below, value + slope + mixed + above, slack);
     if (bounded != LaneSide::Straddling) return bounded;
-    // The corners along and against the gradient: values that are attained. When the plane passes between them, the
-    // exact range could not say anything else.
-    const double u = std::copysign(1.0, g[0]);
-    const double v = std::copysign(1.0, g[1]);
-    const double w = std::copysign(1.0, g[2]);
-    const double slope = std::abs(g[0]) + std::abs(g[1]) + std::abs(g[2]);
-    const double even = 0.5 * (h[kUU] + h[kVV] + h[kWW]) + (h[kUV] * (u * v) + h[kUW] * (u * w) + h[kVW] * (v * w));
-    const LaneSide attained = sideOf(value - slope + even, value + slope + even, slack);
+    // The corners along and against the gradient are attained to the mixed terms. When the plane passes between them,
+    // the exact range could not say anything else.
+    const double squares = 0.5 * (h[kUU] + h[kVV] + h[kWW]);
+    const LaneSide attained = sideOf(value - slope + mixed + squares, value + slope - mixed + squares, slack);
     return attained == LaneSide::Straddling ? LaneSide::Straddling : LaneSide::Open;
 }
 
 Verdict exactScalar(const ExactBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided) {
-    return inStages(
-        blocks, undecided, [&](const Lane& plane) { return sphereSide(bin.center, bin.reach, plane); },
-        [&](const Lane& plane) { return exactSide(bin, plane); });
+    return inStages(bin, bin.center, bin.reach, blocks, undecided);
 }
 
 Verdict quadraticScalar(const QuadraticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided) {
-    return inStages(
-        blocks, undecided, [&](const Lane& plane) { return sphereSide(bin.value, bin.reach, plane); },
-        [&](const Lane& plane) { return quadraticSide(bin, plane); });
+    return inStages(bin, bin.value, static_cast<double>(bin.reach), blocks, undecided);
 }
 
 #ifndef OSGANALYTICBIN_SIMD

@@ -24,6 +24,7 @@ struct Range {
     double lower, upper;
 };
 
+/// Open: this test cannot tell.
 enum class LaneSide : std::uint8_t { Outside, Straddling, Inside, Open };
 
 /// The range of n.x over the bin, without margin.
@@ -35,10 +36,14 @@ enum class LaneSide : std::uint8_t { Outside, Straddling, Inside, Open };
 /// The sphere about the bin: decides most planes.
 [[nodiscard]] LaneSide sphereSide(const double (&center)[3], double reach, const Lane& plane) noexcept;
 
-/// What follows for the planes that the sphere leaves.
-[[nodiscard]] LaneSide exactSide(const ExactBinData& bin, const Lane& plane) noexcept;
+/// The corners, or the model's linear part, give or take what the bin leaves them by: decides most planes that cross
+/// the bin, and most of those beside it.
+[[nodiscard]] LaneSide hullSide(const ExactBinData& bin, const Lane& plane) noexcept;
+[[nodiscard]] LaneSide hullSide(const QuadraticBinData& bin, const Lane& plane) noexcept;
 
-/// Interval bound, then two values that are attained; Open where only the exact range tells.
-[[nodiscard]] LaneSide quadraticSide(const QuadraticBinData& bin, const Lane& plane) noexcept;
+/// What is left: the closed form, which is never open; or the model's terms each by itself, after which only the exact
+/// range of the polynomial tells.
+[[nodiscard]] LaneSide fullSide(const ExactBinData& bin, const Lane& plane) noexcept;
+[[nodiscard]] LaneSide fullSide(const QuadraticBinData& bin, const Lane& plane) noexcept;
 
 }  // namespace osgAnalyticBin::core::kernels

@@ -66,6 +66,12 @@ HWY_INLINE V dot(const Lanes& plane, const double (&v)[3]) {
                    hn::Mul(plane.nz, each(v[2])));
 }
 
+// Summed as a tree: the first test's result is waited for.
+HWY_INLINE V distanceTo(const Lanes& plane, const double (&v)[3]) {
+    return hn::Add(hn::Add(hn::Mul(plane.nx, each(v[0])), hn::Mul(plane.ny, each(v[1]))),
+                   hn::Add(hn::Mul(plane.nz, each(v[2])), plane.offset));
+}
+
 HWY_INLINE V alongPoint(const MeridianPoint& point, V c, V nz) {
     return hn::Add(hn::Mul(each(point.axisDistance), c), hn::Mul(each(point.z), nz));
 }
@@ -97,12 +103,10 @@ HWY_INLINE VRange rangeAlongParallel(const ExactBinData& bin, V nx, V ny) {
         hasPeak = hn::Eq(each(0.0), each(0.0));
         hasDip = hasPeak;
     }
-    // The extremum of the whole circle.
-    if (anyOf(hn::Or(hasPeak, hasDip))) {
-        const V length = hn::Sqrt(hn::Add(hn::Mul(nx, nx), hn::Mul(ny, ny)));
-        range.upper = hn::IfThenElse(hasPeak, length, range.upper);
-        range.lower = hn::IfThenElse(hasDip, hn::Neg(length), range.lower);
-    }
+    // The extremum of the whole circle. The root is ready before the masks are: a branch would not save it.
+    const V length = hn::Sqrt(hn::Add(hn::Mul(nx, nx), hn::Mul(ny, ny)));
+    range.upper = hn::IfThenElse(hasPeak, length, range.upper);
+    range.lower = hn::IfThenElse(hasDip, hn::Neg(length), range.lower);
     return range;
 }
 
@@ -115,22 +119,27 @@ HWY_INLINE V surfaceSupport(const ExactBinData& bin, V c, V nz) {
         hn::Mul(each(bin.topAltitude), hn::Sqrt(hn::Add(cc, zz))));
 }
 
-HWY_INLINE V largestAlongMeridian(const ExactBinData& bin, V c, V nz) {
-    const V rise = hn::Sub(hn::Mul(each(bin.cosSouth), nz), hn::Mul(each(bin.sinSouth), c));
-    const V fall = hn::Sub(hn::Mul(each(bin.cosNorth), nz), hn::Mul(each(bin.sinNorth), c));
-    const V atEnds = hn::Max(hn::Max(alongPoint(bin.topSouth, c, nz), alongPoint(bin.bottomSouth, c, nz)),
-                             hn::Max(alongPoint(bin.topNorth, c, nz), alongPoint(bin.bottomNorth, c, nz)));
-    const M within = hn::And(positive(rise), negative(fall));
-    return anyOf(within) ? hn::IfThenElse(within, surfaceSupport(bin, c, nz), atEnds) : atEnds;
+HWY_INLINE VRange rangeOfCorners(const ExactBinData& bin, const VRange& c, V nz) {
+    return {hn::Min(hn::Min(alongPoint(bin.topSouth, c.lower, nz), alongPoint(bin.bottomSouth, c.lower, nz)),
+                    hn::Min(alongPoint(bin.topNorth, c.lower, nz), alongPoint(bin.bottomNorth, c.lower, nz))),
+            hn::Max(hn::Max(alongPoint(bin.topSouth, c.upper, nz), alongPoint(bin.bottomSouth, c.upper, nz)),
+                    hn::Max(alongPoint(bin.topNorth, c.upper, nz), alongPoint(bin.bottomNorth, c.upper, nz)))};
 }
 
-HWY_INLINE V smallestAlongMeridian(const ExactBinData& bin, V c, V nz) {
-    const V rise = hn::Sub(hn::Mul(each(bin.cosSouth), nz), hn::Mul(each(bin.sinSouth), c));
-    const V fall = hn::Sub(hn::Mul(each(bin.cosNorth), nz), hn::Mul(each(bin.sinNorth), c));
-    const V atEnds = hn::Min(hn::Min(alongPoint(bin.topSouth, c, nz), alongPoint(bin.bottomSouth, c, nz)),
-                             hn::Min(alongPoint(bin.topNorth, c, nz), alongPoint(bin.bottomNorth, c, nz)));
-    const M within = hn::And(negative(rise), positive(fall));
-    return anyOf(within) ? hn::IfThenElse(within, hn::Neg(surfaceSupport(bin, c, nz)), atEnds) : atEnds;
+// The largest value for c.upper and the smallest for c.lower along the meridian.
+HWY_INLINE VRange rangeAlongMeridian(const ExactBinData& bin, const VRange& c, V nz) {
+    const auto slopeAt = [&](double cosine, double sine, V along)
+                             HWY_ATTR { return hn::Sub(hn::Mul(each(cosine), nz), hn::Mul(each(sine), along)); };
+    const M peak = hn::And(positive(slopeAt(bin.cosSouth, bin.sinSouth, c.upper)),
+                           negative(slopeAt(bin.cosNorth, bin.sinNorth, c.upper)));
+    const M dip = hn::And(negative(slopeAt(bin.cosSouth, bin.sinSouth, c.lower)),
+                          positive(slopeAt(bin.cosNorth, bin.sinNorth, c.lower)));
+    VRange range = rangeOfCorners(bin, c, nz);
+    if (anyOf(hn::Or(peak, dip))) {
+        range.upper = hn::IfThenElse(peak, surfaceSupport(bin, c.upper, nz), range.upper);
+        range.lower = hn::IfThenElse(dip, hn::Neg(surfaceSupport(bin, c.lower, nz)), range.lower);
+    }
+    return range;
 }
 
 struct Sides {
@@ -143,26 +152,69 @@ HWY_INLINE Sides sidesOf(V lower, V upper, V slack) {
 }
 
 HWY_INLINE Sides sphereSides(const double (&center)[3], double reach, const Lanes& plane) {
-    const V distance = hn::Add(dot(plane, center), plane.offset);
-    return {hn::Lt(hn::Add(distance, plane.rounding), each(-reach)),
-            hn::Ge(hn::Sub(distance, plane.rounding), each(reach))};
+    const V distance = distanceTo(plane, center);
+    const V threshold = hn::Add(each(reach), plane.rounding);
+    return {hn::Lt(distance, hn::Neg(threshold)), hn::Ge(distance, threshold)};
 }
 
-HWY_INLINE Sides exactSides(const ExactBinData& bin, const Lanes& plane) {
+// Neither outside nor inside by the outer bounds, and one of both by the attained ones: a finer test has to tell.
+HWY_INLINE M openOf(const Sides& bounded, const Sides& attained) {
+    return hn::AndNot(hn::Or(bounded.outside, bounded.inside), hn::Or(attained.outside, attained.inside));
+}
+
+struct SidesAndOpen {
+    Sides sides;
+    M open;
+};
+
+HWY_INLINE V slackOf(const ExactBinData& bin, const Lanes& plane) {
+    return hn::Add(each(bin.slack), hn::Mul(each(0.25), plane.rounding));
+}
+
+HWY_INLINE SidesAndOpen hullSides(const ExactBinData& bin, const Lanes& plane) {
+    // The longitudes' ends, then the corners.
+    const V west = hn::Add(hn::Mul(plane.nx, each(bin.cosWest)), hn::Mul(plane.ny, each(bin.sinWest)));
+    const V east = hn::Add(hn::Mul(plane.nx, each(bin.cosEast)), hn::Mul(plane.ny, each(bin.sinEast)));
+    const VRange along = rangeOfCorners(bin, {hn::Min(west, east), hn::Max(west, east)}, plane.nz);
+    const V lower = hn::Add(plane.offset, along.lower);
+    const V upper = hn::Add(plane.offset, along.upper);
+    const V slack = slackOf(bin, plane);
+    const V bulge = each(bin.bulge);
+    const Sides bounded = sidesOf(hn::Sub(lower, bulge), hn::Add(upper, bulge), slack);
+    return {bounded, openOf(bounded, sidesOf(lower, upper, slack))};
+}
+
+HWY_INLINE SidesAndOpen fullSides(const ExactBinData& bin, const Lanes& plane) {
     const VRange c = rangeAlongParallel(bin, plane.nx, plane.ny);
-    const V lower = smallestAlongMeridian(bin, c.lower, plane.nz);
-    const V upper = largestAlongMeridian(bin, c.upper, plane.nz);
-    const V slack = hn::Add(each(bin.slack), hn::Mul(each(0.25), plane.rounding));
-    return sidesOf(hn::Add(plane.offset, lower), hn::Add(plane.offset, upper), slack);
+    const VRange along = rangeAlongMeridian(bin, c, plane.nz);
+    const Sides sides =
+        sidesOf(hn::Add(plane.offset, along.lower), hn::Add(plane.offset, along.upper), slackOf(bin, plane));
+    return {sides, hn::Lt(each(0.0), each(0.0))};
 }
 
-// The third mask: planes that only the exact range decides.
-HWY_INLINE Sides quadraticSides(const QuadraticBinData& bin, const Lanes& plane, M& open) {
+HWY_INLINE V slopeOf(const QuadraticBinData& bin, const Lanes& plane) {
+    return hn::Add(hn::Add(hn::Abs(dot(plane, bin.first[0])), hn::Abs(dot(plane, bin.first[1]))),
+                   hn::Abs(dot(plane, bin.first[2])));
+}
+
+HWY_INLINE SidesAndOpen hullSides(const QuadraticBinData& bin, const Lanes& plane) {
+    // Value and gradient of the polynomial, [JJ] eq. (3).
+    const V value = distanceTo(plane, bin.value);
+    const V slope = slopeOf(bin, plane);
+    const V slack = hn::Add(each(bin.remainder), plane.rounding);
+    // The corners along and against the gradient are attained to the curvature, and exceeded by no more.
+    const V curvature = each(static_cast<double>(bin.curvature));
+    const V lower = hn::Sub(value, slope);
+    const V upper = hn::Add(value, slope);
+    const Sides bounded = sidesOf(hn::Sub(lower, curvature), hn::Add(upper, curvature), slack);
+    const Sides attained = sidesOf(hn::Add(lower, curvature), hn::Sub(upper, curvature), slack);
+    return {bounded, openOf(bounded, attained)};
+}
+
+HWY_INLINE SidesAndOpen fullSides(const QuadraticBinData& bin, const Lanes& plane) {
     // The polynomial, [JJ] eq. (3).
-    const V value = hn::Add(dot(plane, bin.value), plane.offset);
-    const V gu = dot(plane, bin.first[0]);
-    const V gv = dot(plane, bin.first[1]);
-    const V gw = dot(plane, bin.first[2]);
+    const V value = distanceTo(plane, bin.value);
+    const V slope = slopeOf(bin, plane);
     const V uu = dot(plane, bin.second[0]);
     const V vv = dot(plane, bin.second[1]);
     const V ww = dot(plane, bin.second[2]);
@@ -173,77 +225,129 @@ HWY_INLINE Sides quadraticSides(const QuadraticBinData& bin, const Lanes& plane,
     // Every term by itself; a square lies in [0, 1].
     const V zero = hn::Zero(Tag());
     const V half = each(0.5);
-    const V slope = hn::Add(hn::Add(hn::Abs(gu), hn::Abs(gv)), hn::Abs(gw));
-    const V spread = hn::Add(hn::Add(hn::Add(slope, hn::Abs(uv)), hn::Abs(uw)), hn::Abs(vw));
-    const V below = hn::Add(hn::Add(hn::Mul(half, hn::Min(uu, zero)), hn::Mul(half, hn::Min(vv, zero))),
-                            hn::Mul(half, hn::Min(ww, zero)));
-    const V above = hn::Add(hn::Add(hn::Mul(half, hn::Max(uu, zero)), hn::Mul(half, hn::Max(vv, zero))),
-                            hn::Mul(half, hn::Max(ww, zero)));
-    const Sides bounded =
-        sidesOf(hn::Add(hn::Sub(value, spread), below), hn::Add(hn::Add(value, spread), above), slack);
-    // The corners along and against the gradient: values that are attained. When the plane passes between them, the
-    // exact range could not say anything else.
-    const V u = hn::CopySign(each(1.0), gu);
-    const V v = hn::CopySign(each(1.0), gv);
-    const V w = hn::CopySign(each(1.0), gw);
+    const V mixed = hn::Add(hn::Add(hn::Abs(uv), hn::Abs(uw)), hn::Abs(vw));
+    const V below = hn::Mul(half, hn::Add(hn::Add(hn::Min(uu, zero), hn::Min(vv, zero)), hn::Min(ww, zero)));
+    const V above = hn::Mul(half, hn::Add(hn::Add(hn::Max(uu, zero), hn::Max(vv, zero)), hn::Max(ww, zero)));
+    const V lower = hn::Sub(value, slope);
+    const V upper = hn::Add(value, slope);
+    const Sides bounded = sidesOf(hn::Add(hn::Sub(lower, mixed), below), hn::Add(hn::Add(upper, mixed), above), slack);
+    // The corners along and against the gradient are attained to the mixed terms. When the plane passes between them,
+    // the exact range could not say anything else.
     const V squares = hn::Mul(half, hn::Add(hn::Add(uu, vv), ww));
-    const V products =
-        hn::Add(hn::Add(hn::Mul(uv, hn::Mul(u, v)), hn::Mul(uw, hn::Mul(u, w))), hn::Mul(vw, hn::Mul(v, w)));
-    const V even = hn::Add(squares, products);
-    const Sides attained = sidesOf(hn::Add(hn::Sub(value, slope), even), hn::Add(hn::Add(value, slope), even), slack);
-    open = hn::AndNot(hn::Or(bounded.outside, bounded.inside), hn::Or(attained.outside, attained.inside));
-    return bounded;
+    const Sides attained =
+        sidesOf(hn::Add(hn::Add(lower, mixed), squares), hn::Add(hn::Sub(upper, mixed), squares), slack);
+    return {bounded, openOf(bounded, attained)};
 }
 
-// Blocks that a mask reaches, and in each as many steps as the vectors need.
-template <class Test>
-HWY_INLINE void forEachBlock(const PlaneBlock* blocks, std::uint32_t mask, const Test& test) {
+// The masks of one block, gathered over as many vectors as it takes.
+struct BlockBits {
+    std::uint32_t outside = 0, inside = 0, open = 0;
+};
+
+HWY_INLINE BlockBits sphereBits(const double (&center)[3], double reach, const PlaneBlock& block) {
+    BlockBits bits;
     const std::size_t lanes = hn::Lanes(Tag());
+    for (std::size_t i = 0; i < PlaneBlock::kLanes; i += lanes) {
+        const Sides sides = sphereSides(center, reach, Lanes(block, i));
+        bits.outside |= bitsOf(sides.outside) << i;
+        bits.inside |= bitsOf(sides.inside) << i;
+    }
+    return bits;
+}
+
+template <class Bin>
+HWY_INLINE BlockBits hullBits(const Bin& bin, const PlaneBlock& block) {
+    BlockBits bits;
+    const std::size_t lanes = hn::Lanes(Tag());
+    for (std::size_t i = 0; i < PlaneBlock::kLanes; i += lanes) {
+        const SidesAndOpen result = hullSides(bin, Lanes(block, i));
+        bits.outside |= bitsOf(result.sides.outside) << i;
+        bits.inside |= bitsOf(result.sides.inside) << i;
+        bits.open |= bitsOf(result.open) << i;
+    }
+    return bits;
+}
+
+template <class Bin>
+HWY_INLINE BlockBits fullBits(const Bin& bin, const PlaneBlock& block) {
+    BlockBits bits;
+    const std::size_t lanes = hn::Lanes(Tag());
+    for (std::size_t i = 0; i < PlaneBlock::kLanes; i += lanes) {
+        const SidesAndOpen result = fullSides(bin, Lanes(block, i));
+        bits.outside |= bitsOf(result.sides.outside) << i;
+        bits.inside |= bitsOf(result.sides.inside) << i;
+        bits.open |= bitsOf(result.open) << i;
+    }
+    return bits;
+}
+
+// `mask` if no bit of `outside` is set, else nothing: one branch on the result is mispredicted less often than two.
+HWY_INLINE std::uint32_t unlessAny(std::uint32_t outside, std::uint32_t mask) {
+    return mask & (((outside | (0u - outside)) >> 31) - 1u);
+}
+
+// The usual case by itself: the side planes of a camera.
+template <class Bin>
+HWY_INLINE Verdict overOneBlock(const Bin& bin, const double (&center)[3], double reach, const PlaneBlock& block,
+                                std::uint32_t undecided) {
+    const BlockBits coarse = sphereBits(center, reach, block);
+    std::uint32_t outside = coarse.outside & undecided;
+    std::uint32_t inside = coarse.inside & undecided;
+    const std::uint32_t left = unlessAny(outside, undecided & ~inside);
+    if (left == 0) return Verdict::of(outside, inside);
+    const BlockBits hull = hullBits(bin, block);
+    outside = hull.outside & left;
+    inside |= hull.inside & left;
+    const std::uint32_t open = unlessAny(outside, hull.open & left);
+    if (open == 0) return Verdict::of(outside, inside);
+    const BlockBits full = fullBits(bin, block);
+    outside = full.outside & open;
+    return Verdict::of(outside, inside | (full.inside & open), unlessAny(outside, full.open & open));
+}
+
+// Adds what a test says of the planes of a mask, block by block.
+template <class Test>
+HWY_INLINE BlockBits overBlocks(const PlaneBlock* blocks, std::uint32_t mask, const Test& test) {
+    BlockBits all;
     for (std::uint32_t first = 0; first < 32 && (mask >> first) != 0; first += PlaneBlock::kLanes) {
         if (((mask >> first) & kBlockBits) == 0) continue;
-        for (std::size_t i = 0; i < PlaneBlock::kLanes; i += lanes) {
-            test(Lanes(blocks[first / PlaneBlock::kLanes], i), first + static_cast<std::uint32_t>(i));
-        }
+        const BlockBits bits = test(blocks[first / PlaneBlock::kLanes]);
+        all.outside |= (bits.outside << first) & mask;
+        all.inside |= (bits.inside << first) & mask;
+        all.open |= (bits.open << first) & mask;
     }
+    return all;
 }
 
-// The sphere over all planes, then the finer test over those it left.
-template <class FineTest>
-HWY_INLINE Verdict inStages(const double (&center)[3], double reach, const PlaneBlock* blocks, std::uint32_t undecided,
-                            const FineTest& fine) {
-    Verdict coarse{};
-    forEachBlock(blocks, undecided, [&](const Lanes& plane, std::uint32_t shift) HWY_ATTR {
-        const Sides sides = sphereSides(center, reach, plane);
-        coarse.outside |= bitsOf(sides.outside) << shift;
-        coarse.inside |= bitsOf(sides.inside) << shift;
-    });
-    coarse.outside &= undecided;
-    coarse.inside &= undecided;
-    const std::uint32_t left = undecided & ~coarse.inside;
-    if (coarse.outside != 0 || left == 0) return coarse;
-    Verdict verdict{};
-    forEachBlock(blocks, left, [&](const Lanes& plane, std::uint32_t shift) HWY_ATTR { fine(plane, shift, verdict); });
-    return {verdict.outside & left, (verdict.inside & left) | coarse.inside, verdict.open & left};
+template <class Bin>
+HWY_NOINLINE Verdict overManyBlocks(const Bin& bin, const double (&center)[3], double reach, const PlaneBlock* blocks,
+                                    std::uint32_t undecided) {
+    const BlockBits coarse = overBlocks(
+        blocks, undecided, [&](const PlaneBlock& block) HWY_ATTR { return sphereBits(center, reach, block); });
+    const std::uint32_t left = unlessAny(coarse.outside, undecided & ~coarse.inside);
+    if (left == 0) return Verdict::of(coarse.outside, coarse.inside);
+    const BlockBits hull =
+        overBlocks(blocks, left, [&](const PlaneBlock& block) HWY_ATTR { return hullBits(bin, block); });
+    const std::uint32_t open = unlessAny(hull.outside, hull.open);
+    if (open == 0) return Verdict::of(hull.outside, coarse.inside | hull.inside);
+    const BlockBits full =
+        overBlocks(blocks, open, [&](const PlaneBlock& block) HWY_ATTR { return fullBits(bin, block); });
+    return Verdict::of(full.outside, coarse.inside | hull.inside | full.inside, unlessAny(full.outside, full.open));
+}
+
+template <class Bin>
+HWY_INLINE Verdict inStages(const Bin& bin, const double (&center)[3], double reach, const PlaneBlock* blocks,
+                            std::uint32_t undecided) {
+    if (undecided - 1 < kBlockBits) return overOneBlock(bin, center, reach, blocks[0], undecided);
+    return overManyBlocks(bin, center, reach, blocks, undecided);
 }
 
 Verdict exactVector(const ExactBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided) {
-    return inStages(bin.center, bin.reach, blocks, undecided,
-                    [&](const Lanes& plane, std::uint32_t shift, Verdict& verdict) HWY_ATTR {
-                        const Sides sides = exactSides(bin, plane);
-                        verdict.outside |= bitsOf(sides.outside) << shift;
-                        verdict.inside |= bitsOf(sides.inside) << shift;
-                    });
+    return inStages(bin, bin.center, bin.reach, blocks, undecided);
 }
 
 Verdict quadraticVector(const QuadraticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided) {
-    return inStages(bin.value, bin.reach, blocks, undecided,
-                    [&](const Lanes& plane, std::uint32_t shift, Verdict& verdict) HWY_ATTR {
-                        M open;
-                        const Sides sides = quadraticSides(bin, plane, open);
-                        verdict.outside |= bitsOf(sides.outside) << shift;
-                        verdict.inside |= bitsOf(sides.inside) << shift;
-                        verdict.open |= bitsOf(open) << shift;
-                    });
+    return inStages(bin, bin.value, static_cast<double>(bin.reach), blocks, undecided);
 }
 
 }  // namespace HWY_NAMESPACE
