@@ -114,6 +114,16 @@ TEST(BezierSolid, ConvexHullBoundIsTighterThanIntervals) {
     }
 }
 
+TEST(BezierSolid, MeshesStayWithinTheSag) {
+    Random random(348);
+    double largest = 0.0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        largest =
+            std::max(largest, expectSagHolds(AutodiffMapping(randomSolid(random, 10.0)), randomPart(random), random));
+    }
+    EXPECT_GE(largest, 0.3);
+}
+
 TEST(BezierSolid, NeverContradictsASample) {
     Random random(344);
     for (int trial = 0; trial < 60; ++trial) {

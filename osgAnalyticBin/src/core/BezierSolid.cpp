@@ -68,6 +68,12 @@ ControlNet between(const ControlNet& a, const ControlNet& b, double t) {
     return net;
 }
 
+ControlNet difference(const ControlNet& a, const ControlNet& b, double factor) {
+    ControlNet net = a;
+    for (std::size_t i = 0; i < net.points.size(); ++i) net.points[i] = factor * (a.points[i] - b.points[i]);
+    return net;
+}
+
 // The net of the derivative by u or v: degree times the differences.
 ControlNet derivative(const ControlNet& net, int axis) {
     const std::size_t du = axis == 0 ? 1 : 0;
@@ -101,8 +107,7 @@ double largest(const ControlNet& net) {
 double differentialBound(const ControlNet& bottom, const ControlNet& top) {
     constexpr std::array<double, 4> kFace{1.0, 3.0, 3.0, 1.0};  // uuu, uuv, uvv, vvv
     constexpr std::array<double, 3> kThickness{3.0, 6.0, 3.0};  // uuw, uvw, vvw
-    ControlNet thickness = top;
-    for (std::size_t i = 0; i < top.points.size(); ++i) thickness.points[i] = 0.5 * (top.points[i] - bottom.points[i]);
+    const ControlNet thickness = difference(top, bottom, 0.5);
     double sum = 0.0;
     for (int v = 0; v <= 3; ++v) {
         const double face = std::max(largest(derivative(bottom, 3 - v, v)), largest(derivative(top, 3 - v, v)));
@@ -136,10 +141,32 @@ double BezierSolid::thirdDerivativeBound(const ParameterBox& box) const noexcept
             differential = std::max(differential, differentialBound(bottom, top));
         }
     }
+    return withRounding(differential, roundingSize());
+}
+
+double BezierSolid::triangleSagBound(const ParameterBox& box, const glm::dvec3& cell) const noexcept {
+    if (!isWithinUnitCube(box)) return std::numeric_limits<double>::infinity();
+    const ControlNet bottom = cutNet(between(_inner, _outer, box.center.z - box.halfSize.z), box);
+    const ControlNet top = cutNet(between(_inner, _outer, box.center.z + box.halfSize.z), box);
+    const ControlNet thickness = difference(top, bottom, 1.0);
+    // A cell's share of the box, in each parameter
+    glm::dvec3 share(0.0);
+    for (glm::length_t i = 0; i < 3; ++i) share[i] = box.halfSize[i] > 0.0 ? 0.5 * cell[i] / box.halfSize[i] : 0.0;
+    const auto face = [&](int byU, int byV) {
+        return std::max(largest(derivative(bottom, byU, byV)), largest(derivative(top, byU, byV)));
+    };
+    // doc/mappings.md, section 9
+    const double sum =
+        face(2, 0) * share.x * share.x + face(0, 2) * share.y * share.y +
+        2.0 * (face(1, 1) * share.x * share.y + largest(derivative(thickness, 1, 0)) * share.x * share.z +
+               largest(derivative(thickness, 0, 1)) * share.y * share.z);
+    return withRounding(sum / 8.0, roundingSize());
+}
+
+double BezierSolid::roundingSize() const noexcept {
     // The cuts' rounding is multiplied by the cube of the degree, and by 8 of the differences.
     const auto degree = static_cast<double>(std::max(_inner.degreeU, _inner.degreeV) + 1);
-    const double size = 32.0 * degree * degree * degree * degree * std::max(largest(_inner), largest(_outer));
-    return withRounding(differential, size);
+    return 32.0 * degree * degree * degree * degree * std::max(largest(_inner), largest(_outer));
 }
 
 }  // namespace osgAnalyticBin::core

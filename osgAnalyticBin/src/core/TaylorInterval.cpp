@@ -184,6 +184,17 @@ double thirdDifferentialBound(const Vec3<TaylorInterval>& f) noexcept {
     return 6.0 * std::min(coordinatewise, monomials) * kRoundUp;
 }
 
+double triangleSagBound(const Vec3<TaylorInterval>& f) noexcept {
+    double sum = 0.0;
+    for (std::size_t i = TaylorInterval::kFirstOfDegree2; i < TaylorInterval::kFirstOfDegree3; ++i) {
+        const double x = f.x.coefficient(i).magnitude();
+        const double y = f.y.coefficient(i).magnitude();
+        const double z = f.z.coefficient(i).magnitude();
+        sum += std::sqrt(x * x + y * y + z * z);
+    }
+    return infinityUnlessNumber(0.25 * sum * kRoundUp);
+}
+
 double modelRounding(const Vec3<TaylorInterval>& atCenter, const glm::dvec3& value, const glm::dmat3& jacobian,
                      const Hessians& hessians, const glm::dvec3& halfSize) noexcept {
     const glm::dvec3& e = halfSize;

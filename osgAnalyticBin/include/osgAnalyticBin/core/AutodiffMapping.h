@@ -26,6 +26,15 @@ struct HasThirdDerivativeBound<
     F, std::void_t<decltype(std::declval<const F&>().thirdDerivativeBound(std::declval<const ParameterBox&>()))>>
     : std::true_type {};
 
+/// True for a formula that brings its own bound of how far meshes leave it:
+/// `double triangleSagBound(const ParameterBox&, const glm::dvec3& cell) const`.
+template <class F, class = void>
+struct HasTriangleSagBound : std::false_type {};
+template <class F>
+struct HasTriangleSagBound<F, std::void_t<decltype(std::declval<const F&>().triangleSagBound(
+                                  std::declval<const ParameterBox&>(), std::declval<const glm::dvec3&>()))>>
+    : std::true_type {};
+
 /// A mapping from its formula alone. F is copyable and has
 ///
 ///     template <class T> Vec3<T> operator()(T u, T v, T w) const
@@ -73,6 +82,17 @@ public:
         }
     }
 
+    /// How far a triangle mesh leaves the mapped box at most, when its vertices are the mapping of positions in the box
+    /// and no triangle is wider than `cell` in any parameter: the margin that a bin of such a mesh needs.
+    /// Source: doc/mappings.md, section 9.  Guarantee: tests: AutodiffMapping.MeshesStayWithinTheSag.
+    [[nodiscard]] double triangleSagBound(const ParameterBox& box, const glm::dvec3& cell) const noexcept {
+        if constexpr (HasTriangleSagBound<F>::value) {
+            return _formula.triangleSagBound(box, cell);
+        } else {
+            return largestOverPieces(box, cell, [](const auto& f) { return core::triangleSagBound(f); });
+        }
+    }
+
 private:
     // The formula on variables that carry their derivatives up to an order in each of the three.
     template <std::size_t order>
@@ -91,25 +111,30 @@ private:
     }
 
     [[nodiscard]] double enclosedBound(const ParameterBox& box) const noexcept {
-        const auto n = static_cast<std::size_t>(_pieces);
-        double bound = 0.0;
-        for (std::size_t i = 0; i < n * n * n; ++i) {
-            bound = std::max(bound,
-                             thirdDifferentialBound(enclosed(
-                                 box, {piece(box, 0, i % n), piece(box, 1, i / n % n), piece(box, 2, i / (n * n))})));
-        }
+        const double bound =
+            largestOverPieces(box, box.halfSize, [](const auto& f) { return thirdDifferentialBound(f); });
         const glm::dvec3& c = box.center;
         const double rounding =
-            modelRounding(enclosed(box, {IntervalNumber(c.x), IntervalNumber(c.y), IntervalNumber(c.z)}), value(c),
-                          jacobian(c), hessians(c), box.halfSize);
+            modelRounding(enclosed(box.halfSize, {c.x, c.y, c.z}), value(c), jacobian(c), hessians(c), box.halfSize);
         // The error of the model is a sixth of the bound, and the rounding.
         return bound + 6.0 * rounding;
     }
 
-    [[nodiscard]] Vec3<TaylorInterval> enclosed(const ParameterBox& box, const Vec3<IntervalNumber>& ranges) const {
-        return _formula(TaylorInterval::variable(0, ranges.x, box.halfSize.x),
-                        TaylorInterval::variable(1, ranges.y, box.halfSize.y),
-                        TaylorInterval::variable(2, ranges.z, box.halfSize.z));
+    template <class Bound>
+    [[nodiscard]] double largestOverPieces(const ParameterBox& box, const glm::dvec3& step, const Bound& bound) const {
+        const auto n = static_cast<std::size_t>(_pieces);
+        double largest = 0.0;
+        for (std::size_t i = 0; i < n * n * n; ++i) {
+            const Vec3<IntervalNumber> ranges{piece(box, 0, i % n), piece(box, 1, i / n % n),
+                                              piece(box, 2, i / (n * n))};
+            largest = std::max(largest, bound(enclosed(step, ranges)));
+        }
+        return largest;
+    }
+
+    [[nodiscard]] Vec3<TaylorInterval> enclosed(const glm::dvec3& step, const Vec3<IntervalNumber>& ranges) const {
+        return _formula(TaylorInterval::variable(0, ranges.x, step.x), TaylorInterval::variable(1, ranges.y, step.y),
+                        TaylorInterval::variable(2, ranges.z, step.z));
     }
 
     // One of the pieces of the box along an axis; neighbours overlap by rounding, none leaves a gap.

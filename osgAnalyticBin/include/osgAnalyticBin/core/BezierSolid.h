@@ -44,7 +44,12 @@ public:
     /// See AnalyticMapping.
     [[nodiscard]] double thirdDerivativeBound(const ParameterBox& box) const noexcept;
 
+    /// See AutodiffMapping. By the convex-hull property too, which is far tighter than intervals.
+    [[nodiscard]] double triangleSagBound(const ParameterBox& box, const glm::dvec3& cell) const noexcept;
+
 private:
+    [[nodiscard]] double roundingSize() const noexcept;
+
     template <class T>
     [[nodiscard]] static Vec3<T> mixed(const Vec3<T>& a, const Vec3<T>& b, const T& t) {
         return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t};
