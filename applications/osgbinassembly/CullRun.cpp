@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "CullRun.h"
+
+#include <osgAnalyticBin/QuadraticBinCullCallback.h>
+
+#include <osg/FrameStamp>
+#include <osg/Viewport>
+#include <osgUtil/CullVisitor>
+#include <osgUtil/RenderStage>
+#include <osgUtil/StateGraph>
+
+#include <algorithm>
+#include <chrono>
+#include <unordered_set>
+
+namespace osgAnalyticBin::assembly {
+
+namespace {
+
+// Notes that the cull traversal entered a part.
+class Recorder : public osg::NodeCallback {
+public:
+    explicit Recorder(char& reached) : _reached(reached) {}
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        _reached = 1;
+        traverse(node, nv);
+    }
+
+private:
+    char& _reached;
+};
+
+void install(const Part& part, Culling culling, char& reached) {
+    const osg::ref_ptr<Recorder> recorder = new Recorder(reached);
+    part.geode->setCullingActive(culling != Culling::Bins);
+    if (culling == Culling::Spheres) {
+        part.geode->setCullCallback(recorder.get());
+        return;
+    }
+    const osg::ref_ptr<QuadraticBinCullCallback> callback =
+        new QuadraticBinCullCallback(part.bin, part.geode->getBound());
+    callback->setNestedCallback(recorder.get());
+    part.geode->setCullCallback(callback.get());
+}
+
+void collectDrawables(const osgUtil::StateGraph& graph, std::unordered_set<const osg::Drawable*>& drawables) {
+    for (const auto& leaf : graph._leaves) drawables.insert(leaf->getDrawable());
+    for (const auto& child : graph._children) collectDrawables(*child.second, drawables);
+}
+
+// One cull traversal as osgUtil::SceneView does it.
+class Traversal {
+public:
+    Traversal() : _visitor(new osgUtil::CullVisitor), _viewport(new osg::Viewport(0, 0, 1600, 900)) {}
+
+    // Returns: milliseconds.
+    double run(osg::Node& scene, const Camera& camera) {
+        _graph = new osgUtil::StateGraph;
+        const osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
+        stage->setViewport(_viewport.get());
+        const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+        stamp->setFrameNumber(++_frame);
+        _visitor->reset();
+        _visitor->setFrameStamp(stamp.get());
+        _visitor->setTraversalNumber(_frame);
+        _visitor->setCullingMode(osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING);
+        _visitor->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+        _visitor->setStateGraph(_graph.get());
+        _visitor->setRenderStage(stage.get());
+        _visitor->pushViewport(_viewport.get());
+        _visitor->pushProjectionMatrix(new osg::RefMatrix(camera.projection));
+        _visitor->pushModelViewMatrix(new osg::RefMatrix(camera.modelView), osg::Transform::ABSOLUTE_RF);
+        const auto before = std::chrono::steady_clock::now();
+        scene.accept(*_visitor);
+        const auto after = std::chrono::steady_clock::now();
+        _visitor->popModelViewMatrix();
+        _visitor->popProjectionMatrix();
+        _visitor->popViewport();
+        return std::chrono::duration<double, std::milli>(after - before).count();
+    }
+
+    [[nodiscard]] std::unordered_set<const osg::Drawable*> drawables() const {
+        std::unordered_set<const osg::Drawable*> result;
+        collectDrawables(*_graph, result);
+        return result;
+    }
+
+private:
+    osg::ref_ptr<osgUtil::CullVisitor> _visitor;
+    osg::ref_ptr<osg::Viewport> _viewport;
+    osg::ref_ptr<osgUtil::StateGraph> _graph;
+    unsigned int _frame = 0;
+};
+
+bool isInView(const osg::Vec3& sample, const std::vector<osg::Plane>& planes) {
+    return std::all_of(planes.begin(), planes.end(),
+                       [&](const osg::Plane& plane) { return plane.distance(osg::Vec3d(sample)) >= 0.0; });
+}
+
+}  // namespace
+
+Visibility visibleParts(const Assembly& assembly, const std::vector<Camera>& cameras) {
+    Visibility result(cameras.size());
+    std::vector<std::vector<osg::Plane>> planes;
+    for (const Camera& camera : cameras) planes.push_back(camera.sidePlanes());
+    for (const Part& part : assembly.parts) {
+        const std::vector<osg::Vec3> samples = part.samples();
+        for (std::size_t c = 0; c < cameras.size(); ++c) {
+            result[c].push_back(std::any_of(samples.begin(), samples.end(),
+                                            [&](const osg::Vec3& sample) { return isInView(sample, planes[c]); }));
+        }
+    }
+    return result;
+}
+
+CullFigures cullAssembly(const Assembly& assembly, const std::vector<Camera>& cameras, const Visibility& visible,
+                         Culling culling) {
+    std::vector<char> reached(assembly.parts.size());
+    for (std::size_t i = 0; i < reached.size(); ++i) install(assembly.parts[i], culling, reached[i]);
+    Traversal traversal;
+    CullFigures figures;
+    if (!cameras.empty()) traversal.run(*assembly.scene, cameras.front());  // bounds are computed here, not below
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+        std::fill(reached.begin(), reached.end(), char{0});
+        figures.milliseconds += traversal.run(*assembly.scene, cameras[c]) / static_cast<double>(cameras.size());
+        const std::unordered_set<const osg::Drawable*> drawables = traversal.drawables();
+        figures.drawn += drawables.size();
+        for (std::size_t i = 0; i < reached.size(); ++i) {
+            figures.kept += reached[i] != 0;
+            figures.falselyCulled += visible[c][i] && drawables.count(assembly.parts[i].geode->getDrawable(0)) == 0;
+        }
+    }
+    for (const Part& part : assembly.parts) {
+        part.geode->setCullCallback(nullptr);
+        part.geode->setCullingActive(true);
+    }
+    return figures;
+}
+
+}  // namespace osgAnalyticBin::assembly
