@@ -54,24 +54,16 @@ bool isSound(Method method) {
     return method == Method::Quadratic || method == Method::Exact;
 }
 
-// The planes of a frustum, moved to ECEF as they are asked for.
-class EcefPlanes {
-public:
-    EcefPlanes(const osg::Polytope& frustum, const osg::Matrixd& ecefToLocal)
-        : _planes(frustum.getPlaneList()), _ecefToLocal(ecefToLocal) {}
-
-    [[nodiscard]] std::size_t size() const { return _planes.size(); }
-
-    [[nodiscard]] core::Plane operator[](std::size_t i) const {
-        osg::Plane plane = _planes[i];
-        plane.transformProvidingInverse(_ecefToLocal);
-        return toCore(plane);
+// The planes of a frustum, moved to ECEF.
+core::PlaneSet ecefPlanes(const osg::Polytope& frustum, const osg::Matrixd& ecefToLocal) {
+    core::PlaneSet planes;
+    for (osg::Plane plane : frustum.getPlaneList()) {
+        if (planes.size() == core::kMaxPlanes) break;
+        plane.transformProvidingInverse(ecefToLocal);
+        planes.push_back(toCore(plane));
     }
-
-private:
-    const osg::Polytope::PlaneList& _planes;
-    const osg::Matrixd& _ecefToLocal;
-};
+    return planes;
+}
 
 }  // namespace
 
@@ -106,13 +98,14 @@ void AnalyticBinCullCallback::prepare() {
     if (_hasLocalFrame) sphere = movedSphere(sphere, _ecefToLocal);
     const core::Ellipsoid ellipsoid = toCore(*_ellipsoid);
     _prepared = Prepared{preparedBin(_bin, ellipsoid, _options), std::nullopt, std::nullopt, sphere};
-    // A frame of its own would have to be prepared for every tile: planes alone there.
-    if (!isSound(_options.method) || _hasLocalFrame) return;
+    if (!isSound(_options.method)) return;
     const bool isExact = std::holds_alternative<core::ExactGeodeticBin>(_prepared->bin);
     if (_options.reverse && !isExact && core::ExactGeodeticBin::holds(ellipsoid, _bin.bin())) {
         _prepared->separable.emplace(ellipsoid, _bin.bin(), _bin.margin());
     }
-    if (_options.horizonUse == HorizonUse::Given) _prepared->horizon.emplace(ellipsoid, _bin.bin(), _bin.margin());
+    // In a frame of its own the eye would have to be prepared anew for every tile.
+    if (_options.horizonUse == HorizonUse::Given && !_hasLocalFrame)
+        _prepared->horizon.emplace(ellipsoid, _bin.bin(), _bin.margin());
 }
 
 void AnalyticBinCullCallback::setBin(const AnalyticBin& bin) {
@@ -161,11 +154,7 @@ bool AnalyticBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisit
     return isCulledByBin(cullStack, nv, _prepared->sphere,
                          [&](CullTraversal& traversal, const osg::Polytope& frustum, core::PlaneMask& undecided) {
                              if (!_hasLocalFrame) return classify(cullStack, nv, traversal.planes(frustum), undecided);
-                             const EcefPlanes planes(frustum, _ecefToLocal);
-                             const auto side = [&](const auto& bin) {
-                                 return core::classify(bin, planes, planes.size(), undecided);
-                             };
-                             return Verdict{std::visit(side, _prepared->bin), Verdict::Plane};
+                             return classify(cullStack, nv, ecefPlanes(frustum, _ecefToLocal), undecided);
                          });
 }
 
