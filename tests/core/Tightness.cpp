@@ -5,7 +5,8 @@
 // the frustum (libccd) and of which a dense sample of points sees the eye past the occluder. A quadtree of 16 x 8 tiles
 // of 22.5 degrees is refined by distance; a method that culls a tile culls its leaves. Heights are made up, or real
 // from a raster of least and greatest heights:
-//   gdal_translate -of ENVI -ot Int16 minmax.tif heights.raw     (two bands, band sequential, globe, north up)
+//   gdal_translate -of ENVI -co INTERLEAVE=BSQ -ot Int16 minmax.tif heights.raw
+// Such a raster has 576 x 288 cells from 180 W and 90 N on, first all least heights, then all greatest.
 // Fails when a bar is missed.
 
 #include <osgAnalyticBin/core/ComparisonBins.h>
@@ -25,6 +26,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <support/RandomBins.h>
 #include <support/View.h>
@@ -291,13 +293,12 @@ public:
 private:
     void visit(const Tile& tile, MethodMask alive) {
         const GeodeticBin bin = tile.bin();
-        if (!isTrulyInFrustum(bin)) {
-            alive = kept(bin, alive);
-            if (alive == 0) return;
-        } else {
-            noteHidden(bin);
-            alive = kept(bin, alive);
-        }
+        const bool inFrustum = isTrulyInFrustum(bin);
+        const bool hidden = inFrustum && isTrulyHidden(bin);
+        if (hidden) noteHidden(bin);
+        alive = kept(bin, alive);
+        // Nothing below is kept, nor seen.
+        if (alive == 0 && (!inFrustum || hidden)) return;
         if (tile.level < kDeepestTile && distanceTo(bin) < kRefineWithin * tile.width()) {
             for (int i = 0; i < 4; ++i) {
                 const int row = 2 * tile.row + i / 2;
@@ -306,7 +307,7 @@ private:
             }
             return;
         }
-        const bool seen = isTrulyInFrustum(bin) && !isTrulyHidden(bin);
+        const bool seen = inFrustum && !hidden;
         _counts.truth += seen ? 1 : 0;
         for (std::size_t m = 0; m < kMethods; ++m) {
             const bool keeps = (alive >> m) & 1;
@@ -335,7 +336,6 @@ private:
     }
 
     void noteHidden(const GeodeticBin& bin) {
-        if (!isTrulyHidden(bin)) return;
         ++_counts.hidden;
         if (_horizon->hides(HorizonBin(wgs84(), bin))) ++_counts.hiddenFound;
     }
