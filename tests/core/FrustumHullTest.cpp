@@ -47,18 +47,18 @@ struct MeetingPair {
         : ellipsoid(randomEllipsoid(random)),
           bin(randomBin(random)),
           margin(random.chance(0.7) ? 0.0 : random.logUniform(1e-3, 1e4)),
-          planes(randomView(random, ellipsoid, bin).planes()),
+          point(randomPointWithin(random, ellipsoid, bin, margin)),
+          planes(randomView(random, ellipsoid, bin, point).planes()),
           exact(ellipsoid, bin, margin) {
-        point = randomPointWithin(random, ellipsoid, bin, margin);
         moveToHold(random, point, sizeOf(ellipsoid, bin), planes);
     }
 
     Ellipsoid ellipsoid;
     GeodeticBin bin;
     double margin;
+    RealVector point;
     std::vector<Plane> planes;
     ExactGeodeticBin exact;
-    RealVector point;
 };
 
 TEST(FrustumHull, PartsNoBinFromAPointOfIt) {
@@ -141,9 +141,9 @@ TEST(HullSeparation, FindsNearlyAllPartedHulls) {
     int apart = 0;
     int found = 0;
     int contradictions = 0;
-    for (int trial = 0; trial < 100000; ++trial) {
+    for (int trial = 0; trial < 200000; ++trial) {
         const GeodeticBin bin = randomTile(random, random.integer(0, 8), kTerrainAltitudes);
-        View view = randomView(random, wgs84(), bin);
+        const View view = randomView(random, wgs84(), bin, randomPointWithin(random, wgs84(), bin, 0.0));
         const auto planes = view.planes();
         const ExactGeodeticBin exact(wgs84(), bin);
         PlaneMask undecided = allOf(planes);

@@ -85,8 +85,9 @@ void tryFrustum(Random& random, Counts& counts) {
     const double margin = random.chance(0.7) ? 0.0 : random.logUniform(1e-3, 1e4);
     const ExactGeodeticBin exact(ellipsoid, bin, margin);
     const core::QuadraticBin quadratic(core::GeodeticMapping(ellipsoid), core::parameterBox(bin), margin);
-    std::vector<Plane> planes = randomView(random, ellipsoid, bin).planes();
-    moveToHold(random, randomPointWithin(random, ellipsoid, bin, margin), sizeOf(ellipsoid, bin), planes);
+    const RealVector point = randomPointWithin(random, ellipsoid, bin, margin);
+    std::vector<Plane> planes = randomView(random, ellipsoid, bin, point).planes();
+    moveToHold(random, point, sizeOf(ellipsoid, bin), planes);
     const PlaneMask all = (PlaneMask{1} << planes.size()) - 1;
     PlaneMask mask = all;
     counts.note(kExactPlanes, core::classify(exact, planes, planes.size(), mask) == Side::Outside);

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <support/RandomViews.h>
 
@@ -23,6 +24,14 @@ glm::dvec3 radiiOf(const Ellipsoid& ellipsoid) {
 double scaleOf(const Ellipsoid& ellipsoid, double depth) {
     const glm::dvec3 radii = radiiOf(ellipsoid);
     return 1.0 - depth / (depth >= 0.0 ? std::min(radii.x, radii.z) : std::max(radii.x, radii.z));
+}
+
+// Up, east, west, north or south, more or less.
+glm::dvec3 awayFromAFace(Random& random, const glm::dvec3& position) {
+    const glm::dvec3 up = glm::normalize(position);
+    const glm::dvec3 east = glm::normalize(glm::dvec3(-up.y, up.x, 0.0) + 1e-9 * random.direction());
+    const std::array<glm::dvec3, 5> faces{up, east, -east, glm::cross(up, east), glm::cross(east, up)};
+    return random.pick(faces) + random.uniform(0.0, 0.5) * random.direction();
 }
 
 double randomMargin(Random& random) {
@@ -90,14 +99,19 @@ LineOfSight randomLineOfSight(Random& random) noexcept {
     return {ellipsoid, bin, margin, depth, target, (from + beyond * (lifted - from)) * radii};
 }
 
-View randomView(Random& random, const Ellipsoid& ellipsoid, const GeodeticBin& bin) noexcept {
+View randomView(Random& random, const Ellipsoid& ellipsoid, const GeodeticBin& bin,
+                const RealVector& targetPoint) noexcept {
     const double size = sizeOf(ellipsoid, bin);
-    const glm::dvec3 target = rounded(randomPointWithin(random, ellipsoid, bin, 0.0));
+    const glm::dvec3 target = rounded(targetPoint);
     View view;
     view.eye = target + random.logUniform(0.01, 10.0) * size * random.direction();
     if (random.chance(0.3)) view.eye = randomEye(random, ellipsoid, 0.0);
     const glm::dvec3 toTarget = target - view.eye;
     view.lookAlong(toTarget + random.uniform(0.0, 1.0) * glm::length(toTarget) * random.direction(), random);
+    if (random.chance(0.25)) {
+        view.eye = target;
+        view.lookAlong(awayFromAFace(random, target), random);
+    }
     view.orthographic = random.chance(0.25);
     view.halfWidth = view.orthographic ? random.logUniform(0.01, 1.0) * size : random.logUniform(0.005, 2.0);
     if (random.chance(0.5)) view.nearDistance = random.logUniform(1e-3, 1.0) * glm::length(toTarget);
@@ -108,10 +122,11 @@ View randomView(Random& random, const Ellipsoid& ellipsoid, const GeodeticBin& b
 }
 
 void moveToHold(Random& random, const RealVector& point, double size, std::vector<Plane>& planes) noexcept {
+    const double most = random.chance(0.5) ? size : std::min(size, 1e-6);
     for (Plane& plane : planes) {
         const Real distance = exactDistance(plane, point);
         if (distance >= 0 && random.chance(0.5)) continue;
-        plane.offset = static_cast<double>(plane.offset - distance) + random.logUniform(1e-9, size);
+        plane.offset = static_cast<double>(plane.offset - distance) + random.logUniform(1e-9, most);
         // The offset itself is rounded; one unit in its last place more makes the point a point of the frustum.
         while (exactDistance(plane, point) < 0) plane.offset += std::abs(plane.offset) * 1e-15;
     }

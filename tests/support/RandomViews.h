@@ -34,9 +34,10 @@ struct LineOfSight {
 };
 [[nodiscard]] LineOfSight randomLineOfSight(Random& random) noexcept;
 
-/// Perspective or orthographic, wide or narrow, with or without near and far planes, at the bin, beside it, or
-/// anywhere.
-[[nodiscard]] View randomView(Random& random, const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin) noexcept;
+/// Perspective or orthographic, wide or narrow, with or without near and far planes, at the target, beside it, or
+/// anywhere; one in four stands in the target, a point of the bin, and looks away from one of the bin's faces.
+[[nodiscard]] View randomView(Random& random, const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin,
+                              const RealVector& target) noexcept;
 
 /// The planes moved inward or outward so that the point is inside each, of some by as little as 1e-9 m.
 void moveToHold(Random& random, const RealVector& point, double size, std::vector<core::Plane>& planes) noexcept;
