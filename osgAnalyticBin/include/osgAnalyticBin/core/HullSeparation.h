@@ -15,8 +15,8 @@ namespace osgAnalyticBin::core {
 
 /// Looks for a plane that parts a bin from the wedge inside two planes: a mixture of the two with weights >= 0.
 /// Whatever the weights, the wedge lies on the inner side of the mixture, so that a bin outside of it is outside the
-/// wedge: the search may be as rough as it likes, and needs no corner of the frustum. Source: doc/horizon.md,
-/// section 7.
+/// wedge: the search may be as rough as it likes, and needs no corner.
+/// Source: doc/horizon.md, section 7.
 class WedgeSearch final {
 public:
     /// `reach`: no point of the bin is farther from the origin.
@@ -25,8 +25,8 @@ public:
     /// The present mixture, of unit length, moved inward by its own rounding. NaN when the planes cancel out.
     [[nodiscard]] Plane candidate() const noexcept;
 
-    /// Learns a point of the bin that is farthest inside the candidate. Returns: false when the search is over, since
-    /// the hulls meet.
+    /// Learns a point of the bin that is farthest inside the candidate.
+    /// Returns: false when the search is over, since the hulls meet.
     [[nodiscard]] bool learn(const glm::dvec3& point) noexcept;
 
 private:
@@ -46,22 +46,23 @@ inline constexpr std::size_t kSeparationPlanes = 2;
 
 /// Tries to prove that a bin which no single plane proves outside is outside all the same, beyond the edge between two
 /// planes. `bin` is anything with `classify`, `supportPoint` and `reach`, such as ExactGeodeticBin; `undecided` names
-/// the planes that it straddles; when these are more than `mostPlanes`, the answer is false at once. Guarantee: true
-/// only if no point of the bin, margin included, is inside all these planes; tests:
-/// HullSeparation.NeverPartsABinFromAPointOfIt, HullSoundness.HasNoFalseVerdict. Cost: one to `kSeparationSteps`
-/// support points for each pair of planes, and a classification when it ends with true; no allocation, no trigonometry.
+/// the planes that it straddles; when these are more than `mostPlanes`, the answer is false at once.
+/// Guarantee: true only if no point of the bin, margin included, is inside all these planes;
+/// tests: HullSeparation.NeverPartsABinFromAPointOfIt, HullSoundness.HasNoFalseVerdict.
+/// Cost: one to `kSeparationSteps` support points for each pair of planes, and a classification when it ends with
+/// true; no allocation, no trigonometry.
 template <class Bin, class Planes>
 [[nodiscard]] bool isSeparated(const Bin& bin, const Planes& planes, std::size_t count, PlaneMask undecided,
                                std::size_t mostPlanes = kSeparationPlanes) noexcept {
-    std::array<std::size_t, kMaxPlanes> straddled{};
+    const std::size_t end = count < kMaxPlanes ? count : kMaxPlanes;
+    const auto isUndecided = [&](std::size_t i) { return (undecided & (PlaneMask{1} << i)) != 0; };
     std::size_t number = 0;
-    for (std::size_t i = 0; i < count && i < kMaxPlanes; ++i) {
-        if (undecided & (PlaneMask{1} << i)) straddled[number++] = i;
-    }
+    for (std::size_t i = 0; i < end; ++i) number += isUndecided(i) ? 1U : 0U;
     if (number > mostPlanes) return false;
-    for (std::size_t i = 0; i < number; ++i) {
-        for (std::size_t j = i + 1; j < number; ++j) {
-            WedgeSearch search(planes[straddled[i]], planes[straddled[j]], bin.reach());
+    for (std::size_t i = 0; i < end; ++i) {
+        for (std::size_t j = i + 1; isUndecided(i) && j < end; ++j) {
+            if (!isUndecided(j)) continue;
+            WedgeSearch search(planes[i], planes[j], bin.reach());
             for (int step = 0; step < kSeparationSteps; ++step) {
                 const Plane plane = search.candidate();
                 const glm::dvec3 point = bin.supportPoint(plane.normal);
