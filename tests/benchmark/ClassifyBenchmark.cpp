@@ -140,7 +140,7 @@ public:
         const auto paper = [&](const BinOracle& tile) {
             return core::PaperBin(mapping, core::parameterBox(tile.bin()));
         };
-        const auto quadratic = [&](const BinOracle& tile) { return core::quadraticOrExact(wgs84(), tile.bin()); };
+        const auto quadratic = [&](const BinOracle& tile) { return core::GeodeticQuadraticBin(wgs84(), tile.bin()); };
         const auto exact = [&](const BinOracle& tile) { return ExactGeodeticBin(wgs84(), tile.bin()); };
         const auto box = [&](const BinOracle& tile) { return OrientedBox(tile); };
         const Real never = std::numeric_limits<Real>::infinity();

@@ -6,6 +6,7 @@
 
 #include <osgAnalyticBin/core/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/GeodeticMapping.h>
+#include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
 
@@ -43,7 +44,8 @@ struct Case {
     explicit Case(Random& random)
         : oracle(randomEllipsoid(random), randomBin(random)),
           exact(oracle.ellipsoid(), oracle.bin()),
-          quadratic(core::GeodeticMapping(oracle.ellipsoid()), core::parameterBox(oracle.bin())) {
+          quadratic(core::GeodeticMapping(oracle.ellipsoid()), core::parameterBox(oracle.bin())),
+          either(oracle.ellipsoid(), oracle.bin()) {
         const int count =
             random.chance(0.5) ? random.integer(4, 6) : random.integer(0, static_cast<int>(core::kMaxPlanes));
         const bool allInside = random.chance(0.3);
@@ -62,6 +64,7 @@ struct Case {
     BinOracle oracle;
     ExactGeodeticBin exact;
     QuadraticBin quadratic;
+    core::GeodeticQuadraticBin either;
     PlaneSet planes;
     PlaneMask undecided = 0;
 };
@@ -93,6 +96,7 @@ TEST(PlaneSet, GivesTheVerdictsOfSinglePlanes) {
         const Case c(random);
         expectVerdictsOfSinglePlanes(c.exact, c.planes, c.undecided);
         expectVerdictsOfSinglePlanes(c.quadratic, c.planes, c.undecided);
+        expectVerdictsOfSinglePlanes(c.either, c.planes, c.undecided);
         PlaneMask left = c.undecided;
         ++verdicts[static_cast<std::size_t>(core::classify(c.exact, c.planes, left))];
     }
@@ -149,6 +153,9 @@ TEST(PlaneKernels, EveryTargetAgreesWithTheScalarForm) {
             const Verdict quadratic = core::kernels::quadraticScalar(c.quadratic.data(), blocks, mask);
             ASSERT_TRUE(same(core::kernels::activeKernels.quadratic(c.quadratic.data(), blocks, mask), quadratic))
                 << hwy::TargetName(target) << " quadratic, trial " << trial;
+            ASSERT_TRUE(same(core::kernels::activeKernels.geodetic(c.either.data(), blocks, mask),
+                             core::kernels::geodeticScalar(c.either.data(), blocks, mask)))
+                << hwy::TargetName(target) << " either, trial " << trial;
             open += quadratic.open != 0 ? 1 : 0;
         }
         EXPECT_GT(open, 1000u);

@@ -8,8 +8,8 @@
 #include <osgAnalyticBin/Export.h>
 #include <osgAnalyticBin/core/ComparisonBins.h>
 #include <osgAnalyticBin/core/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
 #include <osgAnalyticBin/core/Horizon.h>
-#include <osgAnalyticBin/core/QuadraticBin.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Matrixd>
@@ -83,8 +83,9 @@ protected:
 private:
     // What a cull traversal reads, made once per bin.
     struct Prepared {
-        std::variant<core::QuadraticBin, core::ExactGeodeticBin, core::PaperBin, core::CornersBin> bin;
-        std::optional<core::ExactGeodeticBin> separable;  // for the test against edges, when `bin` is not exact itself
+        std::variant<core::GeodeticQuadraticBin, core::ExactGeodeticBin, core::PaperBin, core::CornersBin> bin;
+        std::optional<core::ExactGeodeticBin>
+            separable;  // for the test against edges, where `bin` is not the exact one
         std::optional<core::HorizonBin> horizon;
         osg::BoundingSphere sphere;  // in the frame of the node's children
     };

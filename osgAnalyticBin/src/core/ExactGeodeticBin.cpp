@@ -138,10 +138,12 @@ void ExactGeodeticBin::setSphere(const Ellipsoid& ellipsoid, const GeodeticBin& 
     const double sag = 0.125 * width * width * bend;
     const double tangent = bounds.smallestRadius + bin.altitude().lower;
     const bool convex = (farthest + sag) * bend * kNormalTolerance < tangent * tangent;
-    _data.center[0] = center.x;
-    _data.center[1] = center.y;
-    _data.center[2] = center.z;
-    _data.reach = (convex ? farthest : farthest + sag) * kNormalTolerance + 4.0 * _data.slack;
+    _data.sphere.center[0] = center.x;
+    _data.sphere.center[1] = center.y;
+    _data.sphere.center[2] = center.z;
+    const double reach = (convex ? farthest : farthest + sag) * kNormalTolerance + 4.0 * _data.slack;
+    _data.sphere.reach = std::nextafter(static_cast<float>(reach), std::numeric_limits<float>::infinity());
+    _data.sphere.curvature = SphereData::kExactForm;
     // A parallel leaves its chord by r (1 - cos(width / 2)).
     const double parallelSag = (largestAxisDistance + sag) * (1.0 - spread);
     _data.bulge = _data.longitudes == ExactBinData::Narrow ? (sag + parallelSag) * kNormalTolerance + _data.slack
@@ -178,7 +180,7 @@ glm::dvec3 ExactGeodeticBin::supportPoint(const glm::dvec3& direction) const noe
 
 Side ExactGeodeticBin::classify(const Plane& plane) const noexcept {
     const kernels::Lane lane{plane.normal.x, plane.normal.y, plane.normal.z, plane.offset, roundingOf(plane)};
-    kernels::LaneSide side = kernels::sphereSide(_data.center, _data.reach, lane);
+    kernels::LaneSide side = kernels::sphereSide(_data.sphere, lane);
     if (side == kernels::LaneSide::Open) side = kernels::hullSide(_data, lane);
     if (side == kernels::LaneSide::Open) side = kernels::fullSide(_data, lane);
     if (side == kernels::LaneSide::Outside) return Side::Outside;

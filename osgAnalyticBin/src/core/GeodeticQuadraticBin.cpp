@@ -21,13 +21,26 @@ double largestExtent(const GeodeticMapping& mapping, const ParameterBox& box) {
 
 }  // namespace
 
-GeodeticQuadraticBin quadraticOrExact(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept {
+GeodeticQuadraticBin::GeodeticQuadraticBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept
+    : _data() {
     const GeodeticMapping mapping(ellipsoid);
     const ParameterBox box = parameterBox(bin);
     const double remainder = mapping.thirdDerivativeBound(box) / 6.0;
     const bool isTight = remainder <= kLargestRelativeRemainder * largestExtent(mapping, box);
-    if (!isTight && ExactGeodeticBin::holds(ellipsoid, bin)) return ExactGeodeticBin(ellipsoid, bin, margin);
-    return QuadraticBin(mapping, box, margin);
+    if (!isTight && ExactGeodeticBin::holds(ellipsoid, bin)) {
+        _data.exact = ExactGeodeticBin(ellipsoid, bin, margin).data();
+    } else {
+        _data.quadratic = QuadraticBin(mapping, box, margin).data();
+    }
+}
+
+Side GeodeticQuadraticBin::classify(const Plane& plane) const noexcept {
+    return isExact() ? ExactGeodeticBin(_data.exact).classify(plane) : QuadraticBin(_data.quadratic).classify(plane);
+}
+
+Interval GeodeticQuadraticBin::distanceRange(const Plane& plane) const noexcept {
+    return isExact() ? ExactGeodeticBin(_data.exact).distanceRange(plane)
+                     : QuadraticBin(_data.quadratic).distanceRange(plane);
 }
 
 }  // namespace osgAnalyticBin::core

@@ -4,6 +4,7 @@
 #include "kernels/PlaneKernels.h"
 
 #include <osgAnalyticBin/core/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
 
@@ -17,8 +18,8 @@ Side sideOf(const kernels::Verdict& verdict, PlaneMask& undecided) noexcept {
     return undecided == 0 ? Side::Inside : Side::Straddling;
 }
 
-// One plane in a thousand.
-kernels::Verdict closedByExactRange(const QuadraticBin& bin, const PlaneSet& planes,
+// One plane in a thousand: kept out of line, so that the others do not save registers for it.
+[[gnu::noinline]] kernels::Verdict closedByExactRange(const QuadraticBin& bin, const PlaneSet& planes,
                                     const kernels::Verdict& verdict) noexcept {
     PlaneMask outside = verdict.outside();
     PlaneMask inside = verdict.inside();
@@ -41,6 +42,12 @@ Side classify(const ExactGeodeticBin& bin, const PlaneSet& planes, PlaneMask& un
 Side classify(const QuadraticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept {
     kernels::Verdict verdict = kernels::activeKernels.quadratic(bin.data(), planes.blocks(), undecided & planes.all());
     if (verdict.open != 0) verdict = closedByExactRange(bin, planes, verdict);
+    return sideOf(verdict, undecided);
+}
+
+Side classify(const GeodeticQuadraticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept {
+    kernels::Verdict verdict = kernels::activeKernels.geodetic(bin.data(), planes.blocks(), undecided & planes.all());
+    if (verdict.open != 0) verdict = closedByExactRange(QuadraticBin(bin.data().quadratic), planes, verdict);
     return sideOf(verdict, undecided);
 }
 

@@ -33,7 +33,7 @@ void assign(double (&to)[3], const glm::dvec3& from) {
 
 QuadraticBin::QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& box, double margin) noexcept
     : _data() {
-    assign(_data.value, mapping.value(box.center));
+    assign(_data.sphere.center, mapping.value(box.center));
     const glm::dmat3 jacobian = mapping.jacobian(box.center);
     const Hessians hessians = mapping.hessians(box.center);
     const glm::dvec3& e = box.halfSize;
@@ -52,9 +52,9 @@ QuadraticBin::QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& b
     // Taylor's theorem with the Lagrange remainder, doc/derivation.md, section 3; rounding, section 7
     _data.remainder =
         (mapping.thirdDerivativeBound(box) / 6.0 + margin) * kNormalTolerance + kRounding * magnitude;
-    _data.reach = roundedUp((farthestCorner() + bulge()) * kNormalTolerance + _data.remainder);
+    _data.sphere.reach = roundedUp((farthestCorner() + bulge()) * kNormalTolerance + _data.remainder);
     const double mixed = glm::length(second(3)) + glm::length(second(4)) + glm::length(second(5));
-    _data.curvature = roundedUp((bulge() + mixed) * kNormalTolerance);
+    _data.sphere.curvature = roundedUp((bulge() + mixed) * kNormalTolerance);
 }
 
 glm::dvec3 QuadraticBin::first(std::size_t i) const noexcept {
@@ -89,7 +89,7 @@ Quadratic QuadraticBin::distanceModel(const Plane& plane) const noexcept {
 
 Side QuadraticBin::classify(const Plane& plane) const noexcept {
     const kernels::Lane lane{plane.normal.x, plane.normal.y, plane.normal.z, plane.offset, roundingOf(plane)};
-    kernels::LaneSide side = kernels::sphereSide(_data.value, static_cast<double>(_data.reach), lane);
+    kernels::LaneSide side = kernels::sphereSide(_data.sphere, lane);
     if (side == kernels::LaneSide::Open) side = kernels::hullSide(_data, lane);
     if (side == kernels::LaneSide::Open) side = kernels::fullSide(_data, lane);
     switch (side) {

@@ -23,12 +23,7 @@ namespace osgAnalyticBin {
 
 namespace {
 
-using PreparedBin = std::variant<core::QuadraticBin, core::ExactGeodeticBin, core::PaperBin, core::CornersBin>;
-
-PreparedBin preparedQuadratic(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid) {
-    return std::visit([](const auto& prepared) { return PreparedBin(prepared); },
-                      core::quadraticOrExact(ellipsoid, bin.bin(), bin.margin()));
-}
+using PreparedBin = std::variant<core::GeodeticQuadraticBin, core::ExactGeodeticBin, core::PaperBin, core::CornersBin>;
 
 PreparedBin preparedBin(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid, const CullOptions& options) {
     const core::ParameterBox box = core::parameterBox(bin.bin());
@@ -47,7 +42,7 @@ PreparedBin preparedBin(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid
         case Method::None:
             break;
     }
-    return preparedQuadratic(bin, ellipsoid);
+    return core::GeodeticQuadraticBin(ellipsoid, bin.bin(), bin.margin());
 }
 
 bool isSound(Method method) {

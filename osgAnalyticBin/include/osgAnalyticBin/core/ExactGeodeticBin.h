@@ -23,6 +23,9 @@ public:
     /// Cost: the sines and cosines of five angles.
     ExactGeodeticBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin = 0.0) noexcept;
 
+    /// The bin that these are the data of.
+    explicit ExactGeodeticBin(const ExactBinData& data) noexcept : _data(data) {}
+
     /// Guarantee: Outside only if distance(x) < 0, Inside only if >= 0, for every x in the bin and every point within
     /// the margin of it; tests: ExactGeodeticBin.NeverContradictsASample, Soundness.HasNoFalseVerdict. Requires:
     /// plane.normal of unit length to 1e-9. A plane with NaN is Straddling. Cost: four multiplications for most planes

@@ -26,6 +26,16 @@ struct MeridianPoint {
     double axisDistance, z;
 };
 
+/// What the first test needs, and how to go on. In half a cache line, at the start of every bin.
+struct SphereData {
+    static constexpr float kExactForm = -1.0F;
+
+    double center[3];
+    float reach;      // no point of the bin, margin included, is farther from the centre
+    float curvature;  // by so much at most a model's terms of second order change the distance to any plane; or
+                      // kExactForm
+};
+
 /// What a test of the exact geodetic bin reads. Lengths in metres, ECEF.
 struct ExactBinData {
     enum Longitudes : std::int32_t {
@@ -34,9 +44,7 @@ struct ExactBinData {
         FullCircle,
     };
 
-    // What the first test needs stands together, in one cache line.
-    double center[3];
-    double reach;  // no point of the bin, margin included, is farther from the centre
+    SphereData sphere;
     double slack;  // margin, and the rounding that does not depend on the plane
     double bulge;  // no point of the bin is farther from the hull of its corners; infinite if it is not narrow
     Longitudes longitudes;
@@ -50,13 +58,20 @@ struct ExactBinData {
 
 /// What a test of the quadratic bin reads: the value at the centre, and derivatives times half sizes.
 struct QuadraticBinData {
-    // What the first test needs stands together, in one cache line.
-    double value[3];
-    float reach;          // no point of the bin, margin included, is farther from the value
-    float curvature;      // by so much at most the terms of second order change the distance to any plane
+    SphereData sphere;    // about the value
     double remainder;     // Taylor remainder, margin, and the rounding that does not depend on the plane
     double first[3][3];   // by u, v, w
     double second[6][3];  // by uu, vv, ww, uv, uw, vw
+};
+
+/// Either of the two: a geodetic bin in the form that suits its width. Both begin with the sphere, which tells them
+/// apart.
+union GeodeticBinData {
+    QuadraticBinData quadratic;
+    ExactBinData exact;
+
+    [[nodiscard]] const SphereData& sphere() const noexcept { return quadratic.sphere; }
+    [[nodiscard]] bool isExact() const noexcept { return sphere().curvature < 0.0F; }
 };
 
 }  // namespace osgAnalyticBin::core

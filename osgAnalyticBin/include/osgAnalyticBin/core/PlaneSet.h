@@ -14,6 +14,7 @@
 namespace osgAnalyticBin::core {
 
 class ExactGeodeticBin;
+class GeodeticQuadraticBin;
 class QuadraticBin;
 
 /// What the signed distance to the plane may be off by because of its offset; doc/derivation.md, section 7.
@@ -52,6 +53,7 @@ private:
 /// Cost: for most bins one sphere test of all planes together; no allocation, no trigonometry.
 [[nodiscard]] Side classify(const ExactGeodeticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept;
 [[nodiscard]] Side classify(const QuadraticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept;
+[[nodiscard]] Side classify(const GeodeticQuadraticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept;
 
 /// Every other bin, plane by plane.
 template <class Bin>

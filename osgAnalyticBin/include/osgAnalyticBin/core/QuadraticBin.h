@@ -23,6 +23,9 @@ public:
     /// Cost: one evaluation of the mapping and its derivatives.
     QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& box, double margin = 0.0) noexcept;
 
+    /// The bin that these are the data of.
+    explicit QuadraticBin(const QuadraticBinData& data) noexcept : _data(data) {}
+
     /// Guarantee: Outside only if distance(f(x)) < 0, Inside only if >= 0, for every x in the box and every point
     /// within the margin of f(x); tests: QuadraticBin.NeverContradictsASample, Soundness.HasNoFalseVerdict.
     /// Requires: plane.normal of unit length to 1e-9. A plane with NaN is Straddling.
@@ -55,7 +58,7 @@ public:
     [[nodiscard]] Side classifyByExactRange(const Plane& plane) const noexcept;
 
 private:
-    [[nodiscard]] glm::dvec3 value() const noexcept { return {_data.value[0], _data.value[1], _data.value[2]}; }
+    [[nodiscard]] glm::dvec3 value() const noexcept { return {_data.sphere.center[0], _data.sphere.center[1], _data.sphere.center[2]}; }
     [[nodiscard]] glm::dvec3 first(std::size_t i) const noexcept;
     [[nodiscard]] glm::dvec3 second(std::size_t i) const noexcept;
     /// What the exact evaluation may be off by: remainder, margin and rounding.

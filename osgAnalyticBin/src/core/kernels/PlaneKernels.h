@@ -30,10 +30,12 @@ struct Verdict {
 struct PlaneKernels {
     Verdict (*exact)(const ExactBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
     Verdict (*quadratic)(const QuadraticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
+    Verdict (*geodetic)(const GeodeticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
 };
 
 [[nodiscard]] Verdict exactScalar(const ExactBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
 [[nodiscard]] Verdict quadraticScalar(const QuadraticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
+[[nodiscard]] Verdict geodeticScalar(const GeodeticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
 
 /// The scalar form until static initialisation has chosen the widest that this machine runs: they agree bit for bit.
 extern PlaneKernels activeKernels;

@@ -125,10 +125,8 @@ Verdict forEachPlane(const PlaneBlock* blocks, std::uint32_t mask, const Test& t
 }
 
 template <class Bin>
-Verdict inStages(const Bin& bin, const double (&center)[3], double reach, const PlaneBlock* blocks,
-                 std::uint32_t undecided) noexcept {
-    Verdict verdict =
-        forEachPlane(blocks, undecided, [&](const Lane& plane) { return sphereSide(center, reach, plane); });
+Verdict inStages(const Bin& bin, const SphereData& sphere, const PlaneBlock* blocks, std::uint32_t undecided) noexcept {
+    Verdict verdict = forEachPlane(blocks, undecided, [&](const Lane& plane) { return sphereSide(sphere, plane); });
     const auto next = [&](LaneSide (*test)(const Bin&, const Lane&) noexcept) {
         if (verdict.outside() != 0 || verdict.open == 0) return;
         const auto open = static_cast<std::uint32_t>(verdict.open);
@@ -153,9 +151,9 @@ double slackOf(const ExactBinData& bin, const Lane& plane) noexcept {
     return bin.slack + 0.25 * plane.rounding;
 }
 
-LaneSide sphereSide(const double (&center)[3], double reach, const Lane& plane) noexcept {
-    const double distance = distanceTo(plane, center);
-    const double threshold = reach + plane.rounding;
+LaneSide sphereSide(const SphereData& sphere, const Lane& plane) noexcept {
+    const double distance = distanceTo(plane, sphere.center);
+    const double threshold = static_cast<double>(sphere.reach) + plane.rounding;
     if (distance >= threshold) return LaneSide::Inside;
     if (distance < -threshold) return LaneSide::Outside;
     return LaneSide::Open;
@@ -177,12 +175,12 @@ LaneSide fullSide(const ExactBinData& bin, const Lane& plane) noexcept {
 
 LaneSide hullSide(const QuadraticBinData& bin, const Lane& plane) noexcept {
     // Value and gradient of the polynomial, [JJ] eq. (3).
-    const double value = distanceTo(plane, bin.value);
+    const double value = distanceTo(plane, bin.sphere.center);
     const double slope =
         std::abs(dot(plane, bin.first[0])) + std::abs(dot(plane, bin.first[1])) + std::abs(dot(plane, bin.first[2]));
     const double slack = bin.remainder + plane.rounding;
     // The corners along and against the gradient are attained to the curvature, and exceeded by no more.
-    const auto curvature = static_cast<double>(bin.curvature);
+    const auto curvature = static_cast<double>(bin.sphere.curvature);
     const LaneSide bounded = sideOf((value - slope) - curvature, (value + slope) + curvature, slack);
     if (bounded != LaneSide::Straddling) return bounded;
     const LaneSide attained = sideOf((value - slope) + curvature, (value + slope) - curvature, slack);
@@ -192,7 +190,7 @@ LaneSide hullSide(const QuadraticBinData& bin, const Lane& plane) noexcept {
 LaneSide fullSide(const QuadraticBinData& bin, const Lane& plane) noexcept {
     enum : std::size_t { kUU, kVV, kWW, kUV, kUW, kVW };
     // The polynomial, [JJ] eq. (3).
-    const double value = distanceTo(plane, bin.value);
+    const double value = distanceTo(plane, bin.sphere.center);
     const double slope =
         std::abs(dot(plane, bin.first[0])) + std::abs(dot(plane, bin.first[1])) + std::abs(dot(plane, bin.first[2]));
     double h[6];
@@ -211,16 +209,28 @@ LaneSide fullSide(const QuadraticBinData& bin, const Lane& plane) noexcept {
     return attained == LaneSide::Straddling ? LaneSide::Straddling : LaneSide::Open;
 }
 
+LaneSide hullSide(const GeodeticBinData& bin, const Lane& plane) noexcept {
+    return bin.isExact() ? hullSide(bin.exact, plane) : hullSide(bin.quadratic, plane);
+}
+
+LaneSide fullSide(const GeodeticBinData& bin, const Lane& plane) noexcept {
+    return bin.isExact() ? fullSide(bin.exact, plane) : fullSide(bin.quadratic, plane);
+}
+
 Verdict exactScalar(const ExactBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided) {
-    return inStages(bin, bin.center, bin.reach, blocks, undecided);
+    return inStages(bin, bin.sphere, blocks, undecided);
 }
 
 Verdict quadraticScalar(const QuadraticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided) {
-    return inStages(bin, bin.value, static_cast<double>(bin.reach), blocks, undecided);
+    return inStages(bin, bin.sphere, blocks, undecided);
+}
+
+Verdict geodeticScalar(const GeodeticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided) {
+    return inStages(bin, bin.sphere(), blocks, undecided);
 }
 
 #ifndef OSGANALYTICBIN_SIMD
-PlaneKernels activeKernels{exactScalar, quadraticScalar};
+PlaneKernels activeKernels{exactScalar, quadraticScalar, geodeticScalar};
 
 void chooseKernels() noexcept {}
 #endif

@@ -34,16 +34,18 @@ enum class LaneSide : std::uint8_t { Outside, Straddling, Inside, Open };
 [[nodiscard]] double slackOf(const ExactBinData& bin, const Lane& plane) noexcept;
 
 /// The sphere about the bin: decides most planes.
-[[nodiscard]] LaneSide sphereSide(const double (&center)[3], double reach, const Lane& plane) noexcept;
+[[nodiscard]] LaneSide sphereSide(const SphereData& sphere, const Lane& plane) noexcept;
 
 /// The corners, or the model's linear part, give or take what the bin leaves them by: decides most planes that cross
 /// the bin, and most of those beside it.
 [[nodiscard]] LaneSide hullSide(const ExactBinData& bin, const Lane& plane) noexcept;
 [[nodiscard]] LaneSide hullSide(const QuadraticBinData& bin, const Lane& plane) noexcept;
+[[nodiscard]] LaneSide hullSide(const GeodeticBinData& bin, const Lane& plane) noexcept;
 
 /// What is left: the closed form, which is never open; or the model's terms each by itself, after which only the exact
 /// range of the polynomial tells.
 [[nodiscard]] LaneSide fullSide(const ExactBinData& bin, const Lane& plane) noexcept;
 [[nodiscard]] LaneSide fullSide(const QuadraticBinData& bin, const Lane& plane) noexcept;
+[[nodiscard]] LaneSide fullSide(const GeodeticBinData& bin, const Lane& plane) noexcept;
 
 }  // namespace osgAnalyticBin::core::kernels

@@ -151,9 +151,9 @@ HWY_INLINE Sides sidesOf(V lower, V upper, V slack) {
     return {negative(hn::Add(upper, slack)), hn::Ge(hn::Sub(lower, slack), hn::Zero(Tag()))};
 }
 
-HWY_INLINE Sides sphereSides(const double (&center)[3], double reach, const Lanes& plane) {
-    const V distance = distanceTo(plane, center);
-    const V threshold = hn::Add(each(reach), plane.rounding);
+HWY_INLINE Sides sphereSides(const SphereData& sphere, const Lanes& plane) {
+    const V distance = distanceTo(plane, sphere.center);
+    const V threshold = hn::Add(each(static_cast<double>(sphere.reach)), plane.rounding);
     return {hn::Lt(distance, hn::Neg(threshold)), hn::Ge(distance, threshold)};
 }
 
@@ -199,11 +199,11 @@ HWY_INLINE V slopeOf(const QuadraticBinData& bin, const Lanes& plane) {
 
 HWY_INLINE SidesAndOpen hullSides(const QuadraticBinData& bin, const Lanes& plane) {
     // Value and gradient of the polynomial, [JJ] eq. (3).
-    const V value = distanceTo(plane, bin.value);
+    const V value = distanceTo(plane, bin.sphere.center);
     const V slope = slopeOf(bin, plane);
     const V slack = hn::Add(each(bin.remainder), plane.rounding);
     // The corners along and against the gradient are attained to the curvature, and exceeded by no more.
-    const V curvature = each(static_cast<double>(bin.curvature));
+    const V curvature = each(static_cast<double>(bin.sphere.curvature));
     const V lower = hn::Sub(value, slope);
     const V upper = hn::Add(value, slope);
     const Sides bounded = sidesOf(hn::Sub(lower, curvature), hn::Add(upper, curvature), slack);
@@ -213,7 +213,7 @@ HWY_INLINE SidesAndOpen hullSides(const QuadraticBinData& bin, const Lanes& plan
 
 HWY_INLINE SidesAndOpen fullSides(const QuadraticBinData& bin, const Lanes& plane) {
     // The polynomial, [JJ] eq. (3).
-    const V value = distanceTo(plane, bin.value);
+    const V value = distanceTo(plane, bin.sphere.center);
     const V slope = slopeOf(bin, plane);
     const V uu = dot(plane, bin.second[0]);
     const V vv = dot(plane, bin.second[1]);
@@ -244,11 +244,11 @@ struct BlockBits {
     std::uint32_t outside = 0, inside = 0, open = 0;
 };
 
-HWY_INLINE BlockBits sphereBits(const double (&center)[3], double reach, const PlaneBlock& block) {
+HWY_INLINE BlockBits sphereBits(const SphereData& sphere, const PlaneBlock& block) {
     BlockBits bits;
     const std::size_t lanes = hn::Lanes(Tag());
     for (std::size_t i = 0; i < PlaneBlock::kLanes; i += lanes) {
-        const Sides sides = sphereSides(center, reach, Lanes(block, i));
+        const Sides sides = sphereSides(sphere, Lanes(block, i));
         bits.outside |= bitsOf(sides.outside) << i;
         bits.inside |= bitsOf(sides.inside) << i;
     }
@@ -268,8 +268,9 @@ HWY_INLINE BlockBits hullBits(const Bin& bin, const PlaneBlock& block) {
     return bits;
 }
 
+// One bin in thirty to fifty: kept out of line, so that the others do not save registers for it.
 template <class Bin>
-HWY_INLINE BlockBits fullBits(const Bin& bin, const PlaneBlock& block) {
+HWY_NOINLINE BlockBits fullBits(const Bin& bin, const PlaneBlock& block) {
     BlockBits bits;
     const std::size_t lanes = hn::Lanes(Tag());
     for (std::size_t i = 0; i < PlaneBlock::kLanes; i += lanes) {
@@ -281,6 +282,15 @@ HWY_INLINE BlockBits fullBits(const Bin& bin, const PlaneBlock& block) {
     return bits;
 }
 
+// Either form: the branch is taken only for bins that the sphere leaves.
+HWY_INLINE BlockBits hullBits(const GeodeticBinData& bin, const PlaneBlock& block) {
+    return bin.isExact() ? hullBits(bin.exact, block) : hullBits(bin.quadratic, block);
+}
+
+HWY_INLINE BlockBits fullBits(const GeodeticBinData& bin, const PlaneBlock& block) {
+    return bin.isExact() ? fullBits(bin.exact, block) : fullBits(bin.quadratic, block);
+}
+
 // `mask` if no bit of `outside` is set, else nothing: one branch on the result is mispredicted less often than two.
 HWY_INLINE std::uint32_t unlessAny(std::uint32_t outside, std::uint32_t mask) {
     return mask & (((outside | (0u - outside)) >> 31) - 1u);
@@ -288,9 +298,9 @@ HWY_INLINE std::uint32_t unlessAny(std::uint32_t outside, std::uint32_t mask) {
 
 // The usual case by itself: the side planes of a camera.
 template <class Bin>
-HWY_INLINE Verdict overOneBlock(const Bin& bin, const double (&center)[3], double reach, const PlaneBlock& block,
+HWY_INLINE Verdict overOneBlock(const Bin& bin, const SphereData& sphere, const PlaneBlock& block,
                                 std::uint32_t undecided) {
-    const BlockBits coarse = sphereBits(center, reach, block);
+    const BlockBits coarse = sphereBits(sphere, block);
     std::uint32_t outside = coarse.outside & undecided;
     std::uint32_t inside = coarse.inside & undecided;
     const std::uint32_t left = unlessAny(outside, undecided & ~inside);
@@ -320,10 +330,10 @@ HWY_INLINE BlockBits overBlocks(const PlaneBlock* blocks, std::uint32_t mask, co
 }
 
 template <class Bin>
-HWY_NOINLINE Verdict overManyBlocks(const Bin& bin, const double (&center)[3], double reach, const PlaneBlock* blocks,
+HWY_NOINLINE Verdict overManyBlocks(const Bin& bin, const SphereData& sphere, const PlaneBlock* blocks,
                                     std::uint32_t undecided) {
-    const BlockBits coarse = overBlocks(
-        blocks, undecided, [&](const PlaneBlock& block) HWY_ATTR { return sphereBits(center, reach, block); });
+    const BlockBits coarse =
+        overBlocks(blocks, undecided, [&](const PlaneBlock& block) HWY_ATTR { return sphereBits(sphere, block); });
     const std::uint32_t left = unlessAny(coarse.outside, undecided & ~coarse.inside);
     if (left == 0) return Verdict::of(coarse.outside, coarse.inside);
     const BlockBits hull =
@@ -336,18 +346,22 @@ HWY_NOINLINE Verdict overManyBlocks(const Bin& bin, const double (&center)[3], d
 }
 
 template <class Bin>
-HWY_INLINE Verdict inStages(const Bin& bin, const double (&center)[3], double reach, const PlaneBlock* blocks,
+HWY_INLINE Verdict inStages(const Bin& bin, const SphereData& sphere, const PlaneBlock* blocks,
                             std::uint32_t undecided) {
-    if (undecided - 1 < kBlockBits) return overOneBlock(bin, center, reach, blocks[0], undecided);
-    return overManyBlocks(bin, center, reach, blocks, undecided);
+    if (undecided - 1 < kBlockBits) return overOneBlock(bin, sphere, blocks[0], undecided);
+    return overManyBlocks(bin, sphere, blocks, undecided);
 }
 
 Verdict exactVector(const ExactBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided) {
-    return inStages(bin, bin.center, bin.reach, blocks, undecided);
+    return inStages(bin, bin.sphere, blocks, undecided);
 }
 
 Verdict quadraticVector(const QuadraticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided) {
-    return inStages(bin, bin.value, static_cast<double>(bin.reach), blocks, undecided);
+    return inStages(bin, bin.sphere, blocks, undecided);
+}
+
+Verdict geodeticVector(const GeodeticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided) {
+    return inStages(bin, bin.sphere(), blocks, undecided);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -359,6 +373,7 @@ namespace osgAnalyticBin::core::kernels {
 
 HWY_EXPORT(exactVector);
 HWY_EXPORT(quadraticVector);
+HWY_EXPORT(geodeticVector);
 
 namespace {
 
@@ -369,12 +384,13 @@ struct ChooseAtStart {
 }  // namespace
 
 // Constant initialisation first: whoever classifies before this file's turn gets the scalar form.
-PlaneKernels activeKernels{exactScalar, quadraticScalar};
+PlaneKernels activeKernels{exactScalar, quadraticScalar, geodeticScalar};
 const ChooseAtStart kChooseAtStart;
 
 void chooseKernels() noexcept {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    activeKernels = {&HWY_DYNAMIC_DISPATCH(exactVector), &HWY_DYNAMIC_DISPATCH(quadraticVector)};
+    activeKernels = {&HWY_DYNAMIC_DISPATCH(exactVector), &HWY_DYNAMIC_DISPATCH(quadraticVector),
+                     &HWY_DYNAMIC_DISPATCH(geodeticVector)};
 }
 
 }  // namespace osgAnalyticBin::core::kernels
