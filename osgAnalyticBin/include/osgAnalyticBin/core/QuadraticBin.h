@@ -42,9 +42,6 @@ public:
     /// Upper bound of |f(x) - model(x)| over the box, plus the margin and the rounding of both, in metres.
     [[nodiscard]] double remainder() const noexcept { return _data.remainder; }
 
-    /// No point of the bin, margin included, is farther from the model's centre.
-    [[nodiscard]] double reach() const noexcept { return _data.reach; }
-
     /// How far the model leaves the convex hull of its eight corners at most, in metres.
     [[nodiscard]] double bulge() const noexcept;
 
