@@ -11,6 +11,8 @@
 #include <osgAnalyticBin/core/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/GeodeticMapping.h>
 #include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
+#include <osgAnalyticBin/core/Horizon.h>
+#include <osgAnalyticBin/core/HullSeparation.h>
 
 #include <benchmark/benchmark.h>
 #include <glm/geometric.hpp>
@@ -112,6 +114,29 @@ struct PlaneByPlaneTest {
     }
 };
 
+// All that the kit does to a tile of a globe.
+struct FullBin {
+    ExactGeodeticBin exact;
+    core::HorizonBin horizon;
+};
+
+struct FullTest {
+    [[nodiscard]] bool operator()(const Frustum& frustum, const FullBin& bin) const {
+        PlaneMask undecided = frustum.set.all();
+        const Side side = core::classify(bin.exact, frustum.set, undecided);
+        if (side == Side::Outside || (frustum.horizon && frustum.horizon->hides(bin.horizon))) return false;
+        return side == Side::Inside || !core::isSeparated(bin.exact, frustum.set, frustum.set.size(), undecided);
+    }
+};
+
+// What must be kept: whatever no plane has outside by more than a tolerance.
+struct ReachesIn {
+    Real tolerance;
+    [[nodiscard]] bool operator()(const Frustum& frustum, const BinOracle& tile) const {
+        return reachInto(frustum, tile) >= tolerance;
+    }
+};
+
 template <class Make>
 [[nodiscard]] auto madeOf(const std::vector<BinOracle>& tiles, const Make& make) {
     std::vector<decltype(make(tiles[0]))> bins;
@@ -144,13 +169,18 @@ public:
         const auto exact = [&](const BinOracle& tile) { return ExactGeodeticBin(wgs84(), tile.bin()); };
         const auto box = [&](const BinOracle& tile) { return OrientedBox(tile); };
         const Real never = std::numeric_limits<Real>::infinity();
-        bool right = addMethod("osgSphere", madeOf(_scene.tiles, sphere), OsgTest(), kFloatTolerance);
-        right &= addMethod("osgBox", madeOf(_scene.tiles, axisAlignedBox), OsgTest(), kFloatTolerance);
-        right &= addMethod("orientedBox", madeOf(_scene.tiles, box), PlaneByPlaneTest(), 0);
-        right &= addMethod("corners", madeOf(_scene.tiles, corners), PlaneByPlaneTest(), never);
-        right &= addMethod("paper", madeOf(_scene.tiles, paper), PlaneByPlaneTest(), never);
-        right &= addMethod("quadratic", madeOf(_scene.tiles, quadratic), SetTest(), 0);
-        right &= addMethod("exact", madeOf(_scene.tiles, exact), SetTest(), 0);
+        bool right = addMethod("osgSphere", madeOf(_scene.tiles, sphere), OsgTest(), ReachesIn{kFloatTolerance});
+        right &= addMethod("osgBox", madeOf(_scene.tiles, axisAlignedBox), OsgTest(), ReachesIn{kFloatTolerance});
+        right &= addMethod("orientedBox", madeOf(_scene.tiles, box), PlaneByPlaneTest(), ReachesIn{0});
+        right &= addMethod("corners", madeOf(_scene.tiles, corners), PlaneByPlaneTest(), ReachesIn{never});
+        right &= addMethod("paper", madeOf(_scene.tiles, paper), PlaneByPlaneTest(), ReachesIn{never});
+        right &= addMethod("quadratic", madeOf(_scene.tiles, quadratic), SetTest(), ReachesIn{0});
+        right &= addMethod("exact", madeOf(_scene.tiles, exact), SetTest(), ReachesIn{0});
+        const auto full = [&](const BinOracle& tile) {
+            return FullBin{ExactGeodeticBin(wgs84(), tile.bin()), core::HorizonBin(wgs84(), tile.bin())};
+        };
+        right &= addMethod("exactHorizonReverse", madeOf(_scene.tiles, full), FullTest(), seesASample);
+        addPreparation("BM_PrepareBin/exactHorizonReverse", full);
         addPreparation("BM_PrepareBin/quadratic", quadratic);
         addPreparation("BM_PrepareBin/exact", exact);
         addFrustumPreparation();
@@ -158,10 +188,10 @@ public:
     }
 
 private:
-    template <class Bin, class Test>
-    [[nodiscard]] bool addMethod(const std::string& name, std::vector<Bin> bins, Test test, Real tolerance) {
+    template <class Bin, class Test, class MustKeep>
+    [[nodiscard]] bool addMethod(const std::string& name, std::vector<Bin> bins, Test test, const MustKeep& mustKeep) {
         const bool right =
-            check(name, _mostlyOutside, bins, test, tolerance) && check(name, _halfOutside, bins, test, tolerance);
+            check(name, _mostlyOutside, bins, test, mustKeep) && check(name, _halfOutside, bins, test, mustKeep);
         const auto shared = std::make_shared<std::vector<Bin>>(std::move(bins));
         for (const auto& [prefix, mix] :
              {std::pair("BM_Classify/", &_mostlyOutside), std::pair("BM_ClassifyHalf/", &_halfOutside)}) {
@@ -172,19 +202,18 @@ private:
         return right;
     }
 
-    template <class Bin, class Test>
+    template <class Bin, class Test, class MustKeep>
     [[nodiscard]] bool check(const std::string& name, const TileMix& mix, const std::vector<Bin>& bins,
-                             const Test& test, Real tolerance) {
+                             const Test& test, const MustKeep& mustKeep) {
         std::size_t kept = 0;
         std::size_t truth = 0;
         std::size_t wrong = 0;
         for (std::size_t f = 0; f < _scene.frusta.size(); ++f) {
             for (const std::uint32_t tile : mix.tilesOfFrustum[f]) {
-                const Real reach = reachInto(_scene.frusta[f], _scene.tiles[tile]);
                 const bool keeps = test(_scene.frusta[f], bins[tile]);
                 kept += keeps ? 1 : 0;
-                truth += reach >= 0 ? 1 : 0;
-                wrong += !keeps && reach >= tolerance ? 1 : 0;
+                truth += reachInto(_scene.frusta[f], _scene.tiles[tile]) >= 0 ? 1u : 0u;
+                wrong += !keeps && mustKeep(_scene.frusta[f], _scene.tiles[tile]) ? 1u : 0u;
             }
         }
         const std::size_t pairs = mix.tilesOfFrustum.size() * TileMix::kTilesPerFrustum;

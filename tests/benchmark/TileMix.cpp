@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <support/View.h>
 
 namespace osgAnalyticBin::test {
 
@@ -56,6 +57,8 @@ Frustum frustumAt(Random& random, const glm::dvec3& eye, const glm::dvec3& targe
         frustum.polytope.add(osg::Plane(p.normal.x, p.normal.y, p.normal.z, p.offset));
     }
     frustum.polytope.setupMask();
+    frustum.eye = eye;
+    frustum.horizon = core::HorizonEye::fromEye(wgs84(), kOccluderDepth, eye);
     return frustum;
 }
 
@@ -93,6 +96,23 @@ TileMix::TileMix(Random& random, const Scene& scene, double outsideShare) {
             chosen.push_back(from[static_cast<std::size_t>(random.integer(0, static_cast<int>(from.size()) - 1))]);
         }
     }
+}
+
+bool seesASample(const Frustum& frustum, const BinOracle& tile) {
+    const core::GeodeticBin& bin = tile.bin();
+    const auto at = [](const core::Interval& interval, int k, int last) {
+        return interval.lower + interval.width() * k / last;
+    };
+    for (int i = 0; i < 50; ++i) {
+        const glm::dvec3 point = wgs84().toEcef(
+            {at(bin.latitude(), i % 5, 4), at(bin.longitude(), i / 5 % 5, 4), at(bin.altitude(), i / 25, 1)});
+        const bool inside = std::all_of(frustum.planes.begin(), frustum.planes.end(),
+                                        [&](const core::Plane& plane) { return plane.distance(point) > 1e-6; });
+        if (inside && segmentMissesOccluder(wgs84(), kOccluderDepth, real(point), real(frustum.eye))) {
+            return true;
+        }
+    }
+    return false;
 }
 
 Real reachInto(const Frustum& frustum, const BinOracle& tile) {

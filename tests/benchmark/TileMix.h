@@ -3,12 +3,14 @@
 
 #pragma once
 
+#include <osgAnalyticBin/core/Horizon.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
 
 #include <osg/Polytope>
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <support/RandomBins.h>
 #include <vector>
 
@@ -19,6 +21,8 @@ struct Frustum {
     std::array<core::Plane, 4> planes;
     core::PlaneSet set;
     osg::Polytope polytope;
+    glm::dvec3 eye{0.0};
+    std::optional<core::HorizonEye> horizon;
 };
 
 /// Tiles of all levels about a few places, and cameras there. As many tiles as the second-level cache of a common
@@ -42,6 +46,12 @@ struct TileMix {
 
     std::vector<std::vector<std::uint32_t>> tilesOfFrustum;
 };
+
+/// The occluder of the horizon test: below all terrain, metres.
+inline constexpr double kOccluderDepth = 12000.0;
+
+/// Whether a point of the bin, of a grid of 2 x 5 x 5, is in the frustum and sees the eye past the occluder.
+[[nodiscard]] bool seesASample(const Frustum& frustum, const BinOracle& tile);
 
 /// By how much the bin reaches into the half space of the plane that it reaches into least; negative: it is outside.
 [[nodiscard]] Real reachInto(const Frustum& frustum, const BinOracle& tile);

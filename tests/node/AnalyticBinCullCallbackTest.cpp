@@ -26,7 +26,7 @@ namespace osgAnalyticBin {
 namespace {
 
 using core::GeodeticBin;
-using test::View;
+using test::CullView;
 
 constexpr double kEarthRadius = 6378137.0;
 
@@ -35,11 +35,11 @@ osg::Vec3d randomEye(test::Random& random, double altitude) {
     return osg::Vec3d(d.x, d.y, d.z) * (kEarthRadius + altitude);
 }
 
-View randomView(test::Random& random) {
+CullView randomView(test::Random& random) {
     const osg::Vec3d eye = randomEye(random, random.logUniform(2e4, 2e7));
     const osg::Vec3d target = randomEye(random, 0.0);
     const glm::dvec3 up = random.direction();
-    return View::lookAt(eye, target, osg::Vec3d(up.x, up.y, up.z), random.uniform(2.0, 90.0));
+    return CullView::lookAt(eye, target, osg::Vec3d(up.x, up.y, up.z), random.uniform(2.0, 90.0));
 }
 
 struct Globe {
@@ -49,7 +49,7 @@ struct Globe {
         }
     }
 
-    std::set<std::string> reached(osg::Node& scene, const View& view) {
+    std::set<std::string> reached(osg::Node& scene, const CullView& view) {
         visited.clear();
         const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
         test::cull(scene, view, *visitor);
@@ -75,7 +75,7 @@ TEST(AnalyticBinCullCallback, NeverCullsATileWithAVisibleSample) {
     test::Random random(10);
     int culled = 0;
     for (int i = 0; i < 300; ++i) {
-        const View view = randomView(random);
+        const CullView view = randomView(random);
         const std::set<std::string> reached = globe.reached(*globe.root, view);
         const std::vector<osg::Plane> planes = view.sidePlanes();
         for (std::size_t t = 0; t < points.size(); ++t) {
@@ -94,7 +94,7 @@ TEST(AnalyticBinCullCallback, CullsWhatTheSphereKeeps) {
     int byBins = 0;
     int bySpheres = 0;
     for (int i = 0; i < 200; ++i) {
-        const View view = randomView(random);
+        const CullView view = randomView(random);
         byBins += static_cast<int>(globe.reached(*globe.root, view).size());
         osg::Polytope frustum(view.sidePlanes());
         for (const AnalyticBin& bin : globe.bins) bySpheres += frustum.contains(bin.boundingSphere(wgs84)) ? 1 : 0;
@@ -109,7 +109,7 @@ TEST(AnalyticBinCullCallback, AGlobeUnderATransformIsCulledLikeAGlobeAtRest) {
     mover->addChild(globe.root);
     test::Random random(12);
     for (int i = 0; i < 60; ++i) {
-        View view = randomView(random);
+        CullView view = randomView(random);
         const std::set<std::string> atRest = globe.reached(*globe.root, view);
         const osg::Matrixd motion = osg::Matrixd::rotate(random.uniform(0, 6), 0.3, 0.5, -0.8) *
                                     osg::Matrixd::scale(0.5, 0.5, 0.5) * osg::Matrixd::translate(1e7, -3e6, 5e5);
@@ -139,7 +139,7 @@ TEST(AnalyticBinCullCallback, ATileInALocalFrameIsCulledLikeOneInEcef) {
     }
     test::Random random(13);
     for (int i = 0; i < 60; ++i) {
-        const View view = randomView(random);
+        const CullView view = randomView(random);
         const std::set<std::string> inEcef = globe.reached(*globe.root, view);
         visited.clear();
         const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
@@ -181,7 +181,7 @@ TEST(AnalyticBinCullCallback, ClearsDecidedPlanesForTheSubgraphOnly) {
         makeRecordedChild(*tile, below[i++]);
     }
     makeRecordedChild(*root, beside);
-    const View view = View::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
+    const CullView view = CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     test::cull(*root, view, *visitor);
     EXPECT_EQ(below[0]->mask, 0u);           // inside all planes
@@ -207,7 +207,7 @@ TEST(AnalyticBinCullCallback, TheSameTilesAreReachedWithMasksOnAndOff) {
     }
     test::Random random(14);
     for (int i = 0; i < 100; ++i) {
-        const View view = randomView(random);
+        const CullView view = randomView(random);
         std::set<std::string> sets[2];
         int k = 0;
         for (const auto& scene : {nested, flat}) {
@@ -227,7 +227,7 @@ TEST(AnalyticBinCullCallback, KeepsSmallFeatureCulling) {
     root->addChild(
         test::makeTile("small", AnalyticBin(GeodeticBin::fromDegrees({0, 0.001}, {0, 0.001}, {0, 10})), visited));
     root->addChild(test::makeTile("large", AnalyticBin(GeodeticBin::fromDegrees({0, 5}, {0, 5}, {0, 10})), visited));
-    View view = View::lookAt({kEarthRadius + 5e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
+    CullView view = CullView::lookAt({kEarthRadius + 5e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     test::cull(*root, view, *visitor);
     EXPECT_EQ(visited, (std::set<std::string>{"large", "small"}));
@@ -256,7 +256,7 @@ TEST(AnalyticBinCullCallback, KeepsShadowOccluderCulling) {
     root->addChild(test::makeTile("behind", AnalyticBin(GeodeticBin::fromDegrees({-1, 1}, {-1, 1}, {0, 10})), visited));
     root->addChild(
         test::makeTile("beside", AnalyticBin(GeodeticBin::fromDegrees({10, 12}, {-1, 1}, {0, 10})), visited));
-    View view = View::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 120.0);
+    CullView view = CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 120.0);
     // OSG drops occluders whose volume in clip space is small: near and far as close as the scene allows
     view.projection = osg::Matrixd::perspective(120.0, 1.0, 4e5, 2e6);
     view.cullingMode |= osg::CullSettings::SHADOW_OCCLUSION_CULLING;
@@ -267,7 +267,7 @@ TEST(AnalyticBinCullCallback, KeepsShadowOccluderCulling) {
 
 TEST(AnalyticBinCullCallback, HonoursTheCullingModeWithoutFrustumCulling) {
     Globe globe;
-    View view = View::lookAt({kEarthRadius + 1e5, 0, 0}, {0, 0, 0}, {0, 0, 1}, 10.0);
+    CullView view = CullView::lookAt({kEarthRadius + 1e5, 0, 0}, {0, 0, 0}, {0, 0, 1}, 10.0);
     EXPECT_LT(globe.reached(*globe.root, view).size(), 10u);
     view.cullingMode = osg::CullSettings::NO_CULLING;
     EXPECT_EQ(globe.reached(*globe.root, view).size(), 128u);
@@ -275,7 +275,7 @@ TEST(AnalyticBinCullCallback, HonoursTheCullingModeWithoutFrustumCulling) {
 
 TEST(AnalyticBinCullCallback, HonoursNearAndFarPlanes) {
     Globe globe;
-    View view = View::lookAt({kEarthRadius + 1e5, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
+    CullView view = CullView::lookAt({kEarthRadius + 1e5, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
     view.projection = osg::Matrixd::perspective(60.0, 1.0, 1.0, 3e6);  // ends inside the earth
     const std::size_t sides = globe.reached(*globe.root, view).size();
     view.cullingMode = osg::CullSettings::VIEW_FRUSTUM_CULLING;
@@ -283,7 +283,7 @@ TEST(AnalyticBinCullCallback, HonoursNearAndFarPlanes) {
 }
 
 TEST(AnalyticBinCullCallback, DoubtIsVisible) {
-    const View away = View::lookAt({kEarthRadius + 1e6, 0, 0}, {1e9, 0, 0}, {0, 0, 1}, 40.0);
+    const CullView away = CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {1e9, 0, 0}, {0, 0, 1}, 40.0);
     std::set<std::string> visited;
     const osg::ref_ptr<osg::Group> root = new osg::Group;
     CullOptions none;
@@ -308,7 +308,7 @@ TEST(AnalyticBinCullCallback, TheEllipsoidIsTheScenesOwn) {
     root->addChild(test::makeTile("moon", bin, visited, {}, moon));
     root->addChild(test::makeTile("earth", bin, visited));
     // From within the earth past the moon's surface: the earth's tile is behind the eye.
-    const View view = View::lookAt({3e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 30.0);
+    const CullView view = CullView::lookAt({3e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 30.0);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     test::cull(*root, view, *visitor);
     EXPECT_EQ(visited, std::set<std::string>{"moon"});
@@ -316,7 +316,7 @@ TEST(AnalyticBinCullCallback, TheEllipsoidIsTheScenesOwn) {
 
 TEST(BinStatistics, CountsEachTraversalOnce) {
     Globe globe;
-    const View view = View::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
+    const CullView view = CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     EXPECT_EQ(BinStatistics::find(*visitor), nullptr);
     for (unsigned int frame = 1; frame <= 3; ++frame) {
@@ -335,11 +335,11 @@ TEST(BinStatistics, CountsEachTraversalOnce) {
 TEST(BinStatistics, VisitorsShareNothingNotEvenClones) {
     Globe globe;
     const osg::ref_ptr<osgUtil::CullVisitor> a = new osgUtil::CullVisitor;
-    test::cull(*globe.root, View::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0), *a);
+    test::cull(*globe.root, CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0), *a);
     const BinCounts before = BinStatistics::find(*a)->counts();
     const osg::ref_ptr<osgUtil::CullVisitor> b = a->clone();
     EXPECT_EQ(BinStatistics::find(*b), nullptr);
-    test::cull(*globe.root, View::lookAt({kEarthRadius + 1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0), *b);
+    test::cull(*globe.root, CullView::lookAt({kEarthRadius + 1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0), *b);
     EXPECT_EQ(BinStatistics::find(*a)->counts().inside, before.inside);
     EXPECT_NE(BinStatistics::find(*b)->counts().inside, before.inside);
 }
@@ -371,7 +371,8 @@ TEST(AnalyticBinCullCallback, SeveralCullTraversalsMayRunAtOnce) {
     std::vector<std::thread> threads;
     for (std::size_t t = 0; t < counts.size(); ++t) {
         threads.emplace_back([&, t] {
-            const View view = View::lookAt({kEarthRadius + 1e6 * double(t + 1), 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
+            const CullView view =
+                CullView::lookAt({kEarthRadius + 1e6 * double(t + 1), 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
             const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
             for (unsigned int frame = 1; frame <= kFrames; ++frame) test::cull(*root, view, *visitor, frame);
             counts[t] = BinStatistics::find(*visitor)->counts();

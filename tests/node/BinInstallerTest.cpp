@@ -91,7 +91,7 @@ TEST(BinInstaller, KeepsCallbacksThatWereThereAndRunsThem) {
     ASSERT_NE(callbackOf(*db.tile), nullptr);
     EXPECT_EQ(callbackOf(*db.tile)->getNestedCallback(), user.get());
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    test::cull(*db.root, test::View::lookAt({1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0), *visitor);
+    test::cull(*db.root, test::CullView::lookAt({1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0), *visitor);
     EXPECT_EQ(visited.size(), 1u);
 }
 
@@ -173,7 +173,7 @@ TEST(BinInstaller, ABrokenStoredBinMeansVisible) {
     std::set<std::string> visited;
     callbackOf(*db.tile)->setNestedCallback(new test::VisitRecorder("tile", visited));
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    test::cull(*db.root, test::View::lookAt({-1e7, 0, 0}, {-2e7, 0, 0}, {0, 0, 1}, 10.0), *visitor);
+    test::cull(*db.root, test::CullView::lookAt({-1e7, 0, 0}, {-2e7, 0, 0}, {0, 0, 1}, 10.0), *visitor);
     EXPECT_EQ(visited.size(), 1u);
 }
 

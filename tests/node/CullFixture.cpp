@@ -14,14 +14,14 @@
 
 namespace osgAnalyticBin::test {
 
-View View::lookAt(const osg::Vec3d& eye, const osg::Vec3d& center, const osg::Vec3d& up, double fovDeg) {
-    View view;
+CullView CullView::lookAt(const osg::Vec3d& eye, const osg::Vec3d& center, const osg::Vec3d& up, double fovDeg) {
+    CullView view;
     view.modelView = osg::Matrixd::lookAt(eye, center, up);
     view.projection = osg::Matrixd::perspective(fovDeg, 1.0, 1.0, 1e8);
     return view;
 }
 
-std::vector<osg::Plane> View::sidePlanes() const {
+std::vector<osg::Plane> CullView::sidePlanes() const {
     osg::Polytope frustum;
     frustum.setToUnitFrustum(false, false);
     frustum.transformProvidingInverse(modelView * projection);
@@ -30,7 +30,7 @@ std::vector<osg::Plane> View::sidePlanes() const {
 
 namespace {
 
-void collectOccluders(osg::Node& scene, const View& view, osg::Viewport* viewport, osgUtil::CullVisitor& visitor) {
+void collectOccluders(osg::Node& scene, const CullView& view, osg::Viewport* viewport, osgUtil::CullVisitor& visitor) {
     osg::ref_ptr<osg::CollectOccludersVisitor> collector = new osg::CollectOccludersVisitor;
     collector->setCullingMode(view.cullingMode);
     collector->pushViewport(viewport);
@@ -48,13 +48,14 @@ void collectOccluders(osg::Node& scene, const View& view, osg::Viewport* viewpor
 
 }  // namespace
 
-void cull(osg::Node& scene, const View& view, osgUtil::CullVisitor& visitor, unsigned int frame) {
+void cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& visitor, unsigned int frame) {
     const osg::ref_ptr<osg::Viewport> viewport = new osg::Viewport(0, 0, 512, 512);
     const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
     stamp->setFrameNumber(frame);
     const osg::ref_ptr<osgUtil::StateGraph> stateGraph = new osgUtil::StateGraph;
     const osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
     stage->setViewport(viewport.get());
+    stage->setCamera(view.camera.get());
 
     visitor.reset();
     visitor.setFrameStamp(stamp.get());

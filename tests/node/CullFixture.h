@@ -8,6 +8,7 @@
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 
+#include <osg/Camera>
 #include <osg/CoordinateSystemNode>
 #include <osg/Group>
 #include <osg/Matrixd>
@@ -21,19 +22,20 @@
 namespace osgAnalyticBin::test {
 
 /// A camera: what osgViewer hands to its cull visitor.
-struct View {
+struct CullView {
     osg::Matrixd modelView;
     osg::Matrixd projection;
+    osg::ref_ptr<osg::Camera> camera;  // what the render stage says it draws for; may be null
     osg::CullSettings::CullingMode cullingMode = osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING;
 
     /// Perspective with the given vertical field of view, aspect 1.
-    static View lookAt(const osg::Vec3d& eye, const osg::Vec3d& center, const osg::Vec3d& up, double fovDeg);
+    static CullView lookAt(const osg::Vec3d& eye, const osg::Vec3d& center, const osg::Vec3d& up, double fovDeg);
 
     [[nodiscard]] std::vector<osg::Plane> sidePlanes() const;
 };
 
 /// Runs one cull traversal, as osgUtil::SceneView does; occluders in the scene take part.
-void cull(osg::Node& scene, const View& view, osgUtil::CullVisitor& visitor, unsigned int frame = 1);
+void cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& visitor, unsigned int frame = 1);
 
 /// A callback that notes that the cull traversal reached it; put behind a bin's callback as a nested one.
 class VisitRecorder : public osg::NodeCallback {

@@ -21,7 +21,7 @@
 namespace osgAnalyticBin {
 namespace {
 
-using test::View;
+using test::CullView;
 
 osg::Vec3d vec(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
@@ -52,7 +52,7 @@ struct Pipes {
         root->addChild(part.get());
     }
 
-    std::set<std::string> reached(osg::Node& scene, const View& view) {
+    std::set<std::string> reached(osg::Node& scene, const CullView& view) {
         visited.clear();
         const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
         test::cull(scene, view, *visitor);
@@ -64,10 +64,10 @@ struct Pipes {
     std::vector<std::vector<osg::Vec3d>> points;
 };
 
-View randomView(test::Random& random) {
-    return View::lookAt(vec(random.direction() * random.uniform(1.0, 200.0)),
-                        vec(random.direction() * random.uniform(1.0, 50.0)), vec(random.direction()),
-                        random.uniform(5.0, 80.0));
+CullView randomView(test::Random& random) {
+    return CullView::lookAt(vec(random.direction() * random.uniform(1.0, 200.0)),
+                            vec(random.direction() * random.uniform(1.0, 50.0)), vec(random.direction()),
+                            random.uniform(5.0, 80.0));
 }
 
 bool isVisible(const osg::Vec3d& point, const std::vector<osg::Plane>& planes) {
@@ -80,7 +80,7 @@ TEST(QuadraticBinCullCallback, NeverCullsAVisibleSampleAndCullsMostOfTheRest) {
     std::size_t visible = 0;
     std::size_t kept = 0;
     for (int trial = 0; trial < 200; ++trial) {
-        const View view = randomView(random);
+        const CullView view = randomView(random);
         const std::vector<osg::Plane> planes = view.sidePlanes();
         const std::set<std::string> reached = pipes.reached(*pipes.root, view);
         kept += reached.size();
@@ -104,8 +104,8 @@ TEST(QuadraticBinCullCallback, FollowsTransforms) {
     const osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(moved);
     transform->addChild(pipes.root);
     for (int trial = 0; trial < 50; ++trial) {
-        const View view = randomView(random);
-        View movedView = view;
+        const CullView view = randomView(random);
+        CullView movedView = view;
         movedView.modelView = osg::Matrixd::inverse(moved) * view.modelView;
         EXPECT_EQ(pipes.reached(*transform, movedView), pipes.reached(*pipes.root, view));
     }
@@ -119,14 +119,14 @@ TEST(QuadraticBinCullCallback, WithoutABinNothingIsCulled) {
     node->setCullCallback(callback.get());
     node->setCullingActive(false);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    test::cull(*node, View::lookAt({0, 0, 10}, {0, 0, 20}, {0, 1, 0}, 10.0), *visitor);
+    test::cull(*node, CullView::lookAt({0, 0, 10}, {0, 0, 20}, {0, 1, 0}, 10.0), *visitor);
     EXPECT_EQ(visited.size(), 1u);
 }
 
 TEST(QuadraticBinCullCallback, KeepsSmallFeatureCulling) {
     const core::AutodiffMapping mapping{core::CylinderSegment(core::Frame())};
     const core::QuadraticBin bin(mapping, {{0.0, 0.001, 0.0}, {0.1, 0.0001, 0.001}});
-    View view = View::lookAt({1000, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
+    CullView view = CullView::lookAt({1000, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
     for (const bool hasSphere : {true, false}) {
         std::set<std::string> visited;
         const osg::ref_ptr<osg::Group> node = new osg::Group;

@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// The horizon and the frustum's edges in a real cull traversal. Oracle: samples of each bin that are inside all planes
+// and whose line of sight misses the occluder, exactly. The tests of a bin themselves are tested in core/.
+
+#include "CullFixture.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/InstallBinsCallback.h>
+
+#include <gtest/gtest.h>
+#include <osg/MatrixTransform>
+
+#include <algorithm>
+#include <support/Random.h>
+#include <support/View.h>
+
+namespace osgAnalyticBin {
+namespace {
+
+using core::GeodeticBin;
+using test::CullView;
+
+constexpr double kEarthRadius = 6378137.0;
+constexpr double kDepth = 1000.0;
+
+CullOptions withHorizon(Method method = Method::Quadratic) {
+    CullOptions options;
+    options.method = method;
+    options.horizonUse = HorizonUse::Given;
+    options.horizon = -kDepth;
+    return options;
+}
+
+struct Globe {
+    explicit Globe(const CullOptions& options) : bins(test::startTiles()) {
+        for (std::size_t i = 0; i < bins.size(); ++i) {
+            root->addChild(test::makeTile(std::to_string(i), bins[i], visited, options));
+        }
+    }
+
+    std::set<std::string> reached(osg::Node& scene, const CullView& view) {
+        visited.clear();
+        const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+        test::cull(scene, view, *visitor);
+        const BinStatistics* statistics = BinStatistics::find(*visitor);
+        counts = statistics ? statistics->counts() : BinCounts();
+        return visited;
+    }
+
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    std::vector<AnalyticBin> bins;
+    std::set<std::string> visited;
+    BinCounts counts;
+};
+
+test::RealVector real(const osg::Vec3d& v) {
+    return {test::Real{v.x()}, test::Real{v.y()}, test::Real{v.z()}};
+}
+
+bool isSeen(const AnalyticBin& bin, const CullView& view, const osg::Vec3d& eye) {
+    const std::vector<osg::Plane> planes = view.sidePlanes();
+    const core::Ellipsoid earth(kEarthRadius, 6356752.3142);
+    const std::vector<osg::Vec3d> points = test::samples(bin, 9);
+    return std::any_of(points.begin(), points.end(), [&](const osg::Vec3d& point) {
+        const bool inside = std::all_of(planes.begin(), planes.end(),
+                                        [&](const osg::Plane& plane) { return plane.distance(point) >= 0.0; });
+        return inside && test::segmentMissesOccluder(earth, kDepth, real(point), real(eye));
+    });
+}
+
+CullView randomView(test::Random& random, osg::Vec3d& eye) {
+    const glm::dvec3 from = random.direction() * (kEarthRadius + random.logUniform(1e3, 2e7));
+    const glm::dvec3 to = random.direction() * kEarthRadius;
+    const glm::dvec3 up = random.direction();
+    eye.set(from.x, from.y, from.z);
+    return CullView::lookAt(eye, {to.x, to.y, to.z}, {up.x, up.y, up.z}, random.uniform(5.0, 90.0));
+}
+
+TEST(HorizonCulling, NeverCullsATileWithASampleInSight) {
+    for (const Method method : {Method::Quadratic, Method::Exact}) {
+        Globe globe(withHorizon(method));
+        test::Random random(30);
+        unsigned int hidden = 0;
+        for (int i = 0; i < 150; ++i) {
+            osg::Vec3d eye;
+            const CullView view = randomView(random, eye);
+            const std::set<std::string> reached = globe.reached(*globe.root, view);
+            hidden += globe.counts.hidden;
+            for (std::size_t t = 0; t < globe.bins.size(); ++t) {
+                if (reached.count(std::to_string(t))) continue;
+                ASSERT_FALSE(isSeen(globe.bins[t], view, eye)) << "view " << i << ", tile " << t;
+            }
+        }
+        EXPECT_GT(hidden, 150u * 5u);
+    }
+}
+
+TEST(HorizonCulling, HoldsForAGlobeThatATransformMovesTurnsAndScales) {
+    Globe globe(withHorizon());
+    const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
+    mover->setCullingActive(false);
+    mover->addChild(globe.root);
+    test::Random random(31);
+    for (int i = 0; i < 60; ++i) {
+        osg::Vec3d eye;
+        CullView view = randomView(random, eye);
+        const std::set<std::string> atRest = globe.reached(*globe.root, view);
+        // A line of sight stays a line under any affine map: unequal scales do no harm.
+        const osg::Vec3d scale = i % 2 ? osg::Vec3d(0.5, 0.5, 0.5) : osg::Vec3d(0.5, 2.0, 1.25);
+        const osg::Matrixd motion = osg::Matrixd::rotate(random.uniform(0, 6), 0.3, 0.5, -0.8) *
+                                    osg::Matrixd::scale(scale) * osg::Matrixd::translate(1e7, -3e6, 5e5);
+        mover->setMatrix(motion);
+        view.modelView = osg::Matrixd::inverse(motion) * view.modelView;
+        EXPECT_EQ(globe.reached(*mover, view), atRest) << "view " << i;
+    }
+}
+
+TEST(HorizonCulling, ServesOrthographicCameras) {
+    Globe globe(withHorizon());
+    CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
+    view.projection = osg::Matrixd::ortho(-8e6, 8e6, -8e6, 8e6, 1e6, 6e7);
+    const std::set<std::string> reached = globe.reached(*globe.root, view);
+    EXPECT_GT(globe.counts.hidden, 30u);
+    for (std::size_t t = 0; t < globe.bins.size(); ++t) {
+        // the half that faces the camera is seen
+        const double longitude = globe.bins[t].bin().center().longitude;
+        if (std::abs(longitude) < 1.5) {
+            EXPECT_TRUE(reached.count(std::to_string(t))) << t;
+        }
+    }
+}
+
+TEST(HorizonCulling, IsOffForCamerasThatInheritAViewpointUnlessAsked) {
+    CullOptions asked = withHorizon();
+    asked.inheritViewpoint = true;
+    Globe plain(withHorizon());
+    Globe forShadows(asked);
+    CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
+    view.camera = new osg::Camera;
+    view.camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF_INHERIT_VIEWPOINT);
+    EXPECT_EQ(plain.reached(*plain.root, view).size(), 128u);
+    EXPECT_LT(forShadows.reached(*forShadows.root, view).size(), 100u);
+    view.camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+    EXPECT_LT(plain.reached(*plain.root, view).size(), 100u);
+}
+
+TEST(HorizonCulling, IsOffWhereItIsNotAskedForAndForTheUnsoundMethods) {
+    const CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
+    for (const CullOptions& options : {CullOptions(), withHorizon(Method::Paper), withHorizon(Method::Corners)}) {
+        Globe globe(options);
+        globe.reached(*globe.root, view);
+        EXPECT_EQ(globe.counts.hidden, 0u);
+    }
+}
+
+TEST(HorizonCulling, ADatabaseDeclaresItAndTheUserHasTheLastWord) {
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+    const osg::ref_ptr<osg::Group> tile = new osg::Group;
+    setStoredBin(*tile, AnalyticBin(GeodeticBin::fromDegrees({0, 1}, {0, 1}, {0, 100})));
+    root->addChild(tile);
+    root->setUpdateCallback(new InstallBinsCallback(withHorizon()));
+    const auto installed = [&](const CullOptions& options) {
+        installBins(*root, options);
+        return dynamic_cast<AnalyticBinCullCallback&>(*tile->getCullCallback()).cullOptions();
+    };
+    EXPECT_EQ(installed({}).horizonUse, HorizonUse::Given);
+    EXPECT_EQ(installed({}).horizon, -kDepth);
+    CullOptions off;
+    off.horizonUse = HorizonUse::Off;
+    EXPECT_EQ(installed(off).horizonUse, HorizonUse::Off);
+    CullOptions other = withHorizon();
+    other.horizon = -9.0;
+    EXPECT_EQ(installed(other).horizon, -9.0);
+}
+
+TEST(EdgeCulling, CullsTilesBeyondTheEdgesOfANarrowFrustumAndNoneInSight) {
+    CullOptions off;
+    off.reverse = false;
+    Globe with({});
+    Globe without(off);
+    test::Random random(32);
+    unsigned int separated = 0;
+    for (int i = 0; i < 200; ++i) {
+        osg::Vec3d eye;
+        const CullView view = randomView(random, eye);
+        const std::set<std::string> reached = with.reached(*with.root, view);
+        separated += with.counts.separated;
+        const std::set<std::string> more = without.reached(*without.root, view);
+        EXPECT_EQ(without.counts.separated, 0u);
+        EXPECT_EQ(reached.size() + with.counts.separated, more.size());
+    }
+    EXPECT_GT(separated, 20u);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin
