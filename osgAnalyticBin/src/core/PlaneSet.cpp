@@ -20,7 +20,7 @@ Side sideOf(const kernels::Verdict& verdict, PlaneMask& undecided) noexcept {
 
 // One plane in a thousand: kept out of line, so that the others do not save registers for it.
 [[gnu::noinline]] kernels::Verdict closedByExactRange(const QuadraticBin& bin, const PlaneSet& planes,
-                                    const kernels::Verdict& verdict) noexcept {
+                                                      const kernels::Verdict& verdict) noexcept {
     PlaneMask outside = verdict.outside();
     PlaneMask inside = verdict.inside();
     for (std::size_t i = 0; i < planes.size(); ++i) {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "kernels/ScalarKernels.h"
+
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
-
-#include "kernels/ScalarKernels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,8 +31,7 @@ void assign(double (&to)[3], const glm::dvec3& from) {
 
 }  // namespace
 
-QuadraticBin::QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& box, double margin) noexcept
-    : _data() {
+QuadraticBin::QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& box, double margin) noexcept : _data() {
     assign(_data.sphere.center, mapping.value(box.center));
     const glm::dmat3 jacobian = mapping.jacobian(box.center);
     const Hessians hessians = mapping.hessians(box.center);
@@ -50,8 +49,7 @@ QuadraticBin::QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& b
     for (std::size_t i = 0; i < 3; ++i) magnitude += glm::length(first(i));
     for (std::size_t i = 0; i < 6; ++i) magnitude += glm::length(second(i));
     // Taylor's theorem with the Lagrange remainder, doc/derivation.md, section 3; rounding, section 7
-    _data.remainder =
-        (mapping.thirdDerivativeBound(box) / 6.0 + margin) * kNormalTolerance + kRounding * magnitude;
+    _data.remainder = (mapping.thirdDerivativeBound(box) / 6.0 + margin) * kNormalTolerance + kRounding * magnitude;
     _data.sphere.reach = roundedUp((farthestCorner() + bulge()) * kNormalTolerance + _data.remainder);
     const double mixed = glm::length(second(3)) + glm::length(second(4)) + glm::length(second(5));
     _data.sphere.curvature = roundedUp((bulge() + mixed) * kNormalTolerance);
@@ -93,10 +91,14 @@ Side QuadraticBin::classify(const Plane& plane) const noexcept {
     if (side == kernels::LaneSide::Open) side = kernels::hullSide(_data, lane);
     if (side == kernels::LaneSide::Open) side = kernels::fullSide(_data, lane);
     switch (side) {
-        case kernels::LaneSide::Outside: return Side::Outside;
-        case kernels::LaneSide::Inside: return Side::Inside;
-        case kernels::LaneSide::Straddling: return Side::Straddling;
-        case kernels::LaneSide::Open: break;
+        case kernels::LaneSide::Outside:
+            return Side::Outside;
+        case kernels::LaneSide::Inside:
+            return Side::Inside;
+        case kernels::LaneSide::Straddling:
+            return Side::Straddling;
+        case kernels::LaneSide::Open:
+            break;
     }
     return classifyByExactRange(plane);
 }

@@ -55,7 +55,9 @@ public:
     [[nodiscard]] Side classifyByExactRange(const Plane& plane) const noexcept;
 
 private:
-    [[nodiscard]] glm::dvec3 value() const noexcept { return {_data.sphere.center[0], _data.sphere.center[1], _data.sphere.center[2]}; }
+    [[nodiscard]] glm::dvec3 value() const noexcept {
+        return {_data.sphere.center[0], _data.sphere.center[1], _data.sphere.center[2]};
+    }
     [[nodiscard]] glm::dvec3 first(std::size_t i) const noexcept;
     [[nodiscard]] glm::dvec3 second(std::size_t i) const noexcept;
     /// What the exact evaluation may be off by: remainder, margin and rounding.
