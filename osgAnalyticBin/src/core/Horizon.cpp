@@ -166,6 +166,11 @@ double HorizonEye::largestCosine(const HorizonBin& bin) const noexcept {
 }
 
 bool HorizonEye::hides(const HorizonBin& bin) const noexcept {
+    // A direction of the bin before the horizon is seen: most tiles that are in view end here.
+    const double toward = bin._cosMiddle * _direction.x + bin._sinMiddle * _direction.y;
+    const double south = bin._cosSouth * toward + bin._sinSouth * _direction.z;
+    const double north = bin._cosNorth * toward + bin._sinNorth * _direction.z;
+    if (south >= _cosDip || north >= _cosDip) return false;
     // B, the angle at the centre between the bin's farthest point and its horizon
     const double cosB = std::min(1.0, _scale * bin._inverseRadius * kDown);
     const double sinB = std::sqrt(1.0 - cosB * cosB + 4.0 * kEpsilon);
