@@ -82,23 +82,21 @@ const core::PlaneSet& CullTraversal::planes(const osg::Polytope& frustum) {
     for (std::size_t i = 0; i < std::min(_planeCount, kCachedPlanes); ++i) {
         for (unsigned int k = 0; k < 4; ++k) _coefficients[4 * i + k] = list[i][k];
     }
-    _eyeKnown = false;
+    _eyeEllipsoid.reset();
     return _planes;
 }
 
 const core::HorizonEye* CullTraversal::horizonEye(osg::CullStack& cullStack, osg::NodeVisitor& visitor,
                                                   const Occluder& occluder) {
     const osg::RefMatrix* modelView = cullStack.getModelViewMatrix();
-    const double radius = occluder.ellipsoid.equatorialRadius();
-    const bool same = _eyeKnown && modelView == _modelView && visitor.getTraversalNumber() == _eyeFrame &&
-                      occluder.depth == _eyeDepth && radius == _eyeEquatorialRadius;
+    const bool same = _eyeEllipsoid == occluder.ellipsoid && modelView == _modelView &&
+                      visitor.getTraversalNumber() == _eyeFrame && occluder.depth == _eyeDepth;
     if (!same) {
         _eye = eyeOf(cullStack, visitor, occluder);
         _modelView = modelView;
         _eyeFrame = visitor.getTraversalNumber();
         _eyeDepth = occluder.depth;
-        _eyeEquatorialRadius = radius;
-        _eyeKnown = true;
+        _eyeEllipsoid = occluder.ellipsoid;
     }
     return _eye ? &*_eye : nullptr;
 }

@@ -57,8 +57,7 @@ private:
     const osg::RefMatrix* _modelView = nullptr;
     unsigned int _eyeFrame = 0;
     double _eyeDepth = 0.0;
-    double _eyeEquatorialRadius = 0.0;
-    bool _eyeKnown = false;
+    std::optional<core::Ellipsoid> _eyeEllipsoid;  // none: not prepared yet
 };
 
 }  // namespace osgAnalyticBin
