@@ -130,14 +130,8 @@ void AnalyticBinCullCallback::setLocalToEcef(const osg::Matrixd& matrix) {
 }
 
 void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
-    osg::CullStack* cullStack = nv->asCullStack();
-    if (!cullStack) {
-        traverse(node, nv);
-        return;
-    }
-    if (isCulled(*cullStack, *nv)) return;
-    const OccluderScope occluders(*cullStack);
-    traverse(node, nv);
+    cullOrTraverse(
+        *nv, [&](osg::CullStack& cullStack) { return isCulled(cullStack, *nv); }, [&] { traverse(node, nv); });
 }
 
 bool AnalyticBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const {

@@ -53,4 +53,17 @@ template <class Classify>
     return culled;
 }
 
+/// The body of such a callback: `isCulled(osg::CullStack&)` decides in a cull traversal, `traverse()` goes on.
+template <class IsCulled, class Traverse>
+void cullOrTraverse(osg::NodeVisitor& nv, const IsCulled& isCulled, const Traverse& traverse) {
+    osg::CullStack* cullStack = nv.asCullStack();
+    if (!cullStack) {
+        traverse();
+        return;
+    }
+    if (isCulled(*cullStack)) return;
+    const OccluderScope occluders(*cullStack);
+    traverse();
+}
+
 }  // namespace osgAnalyticBin

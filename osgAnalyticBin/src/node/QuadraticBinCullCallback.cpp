@@ -20,14 +20,8 @@ QuadraticBinCullCallback::QuadraticBinCullCallback(const QuadraticBinCullCallbac
 QuadraticBinCullCallback::~QuadraticBinCullCallback() = default;
 
 void QuadraticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
-    osg::CullStack* cullStack = nv->asCullStack();
-    if (!cullStack) {
-        traverse(node, nv);
-        return;
-    }
-    if (isCulled(*cullStack, *nv)) return;
-    const OccluderScope occluders(*cullStack);
-    traverse(node, nv);
+    cullOrTraverse(
+        *nv, [&](osg::CullStack& cullStack) { return isCulled(cullStack, *nv); }, [&] { traverse(node, nv); });
 }
 
 bool QuadraticBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
