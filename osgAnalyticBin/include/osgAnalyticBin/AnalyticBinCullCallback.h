@@ -28,6 +28,7 @@ namespace osgAnalyticBin {
 namespace core {
 class PlaneSet;
 }
+class CullTraversal;
 struct Verdict;
 
 /// The cull callback of a tile: tests the tile's bin against the frustum planes that are still undecided, and culls
@@ -87,13 +88,14 @@ private:
         std::optional<core::ExactGeodeticBin>
             separable;  // for the test against edges, where `bin` is not the exact one
         std::optional<core::HorizonBin> horizon;
+        core::Ellipsoid ellipsoid;
         osg::BoundingSphere sphere;  // in the frame of the node's children
     };
 
     void prepare();
     [[nodiscard]] bool isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
-    [[nodiscard]] Verdict classify(osg::CullStack& cullStack, osg::NodeVisitor& nv, const core::PlaneSet& planes,
-                                   core::PlaneMask& undecided) const;
+    [[nodiscard]] Verdict classify(osg::CullStack& cullStack, osg::NodeVisitor& nv, CullTraversal& traversal,
+                                   const core::PlaneSet& planes, core::PlaneMask& undecided) const;
     [[nodiscard]] bool isBeyondAnEdge(const core::PlaneSet& planes, core::PlaneMask undecided) const;
 
     std::optional<Prepared> _prepared;

@@ -92,7 +92,7 @@ void AnalyticBinCullCallback::prepare() {
     osg::BoundingSphere sphere = _bin.boundingSphere(*_ellipsoid);
     if (_hasLocalFrame) sphere = movedSphere(sphere, _ecefToLocal);
     const core::Ellipsoid ellipsoid = toCore(*_ellipsoid);
-    _prepared = Prepared{preparedBin(_bin, ellipsoid, _options), std::nullopt, std::nullopt, sphere};
+    _prepared = Prepared{preparedBin(_bin, ellipsoid, _options), std::nullopt, std::nullopt, ellipsoid, sphere};
     if (!isSound(_options.method)) return;
     const bool isExact = std::holds_alternative<core::ExactGeodeticBin>(_prepared->bin);
     if (_options.reverse && !isExact && core::ExactGeodeticBin::holds(ellipsoid, _bin.bin())) {
@@ -142,19 +142,21 @@ bool AnalyticBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisit
     if (!_prepared) return false;
     return isCulledByBin(cullStack, nv, _prepared->sphere,
                          [&](CullTraversal& traversal, const osg::Polytope& frustum, core::PlaneMask& undecided) {
-                             if (!_hasLocalFrame) return classify(cullStack, nv, traversal.planes(frustum), undecided);
-                             return classify(cullStack, nv, ecefPlanes(frustum, _ecefToLocal), undecided);
+                             if (!_hasLocalFrame) {
+                                 return classify(cullStack, nv, traversal, traversal.planes(frustum), undecided);
+                             }
+                             return classify(cullStack, nv, traversal, ecefPlanes(frustum, _ecefToLocal), undecided);
                          });
 }
 
-Verdict AnalyticBinCullCallback::classify(osg::CullStack& cullStack, osg::NodeVisitor& nv, const core::PlaneSet& planes,
-                                          core::PlaneMask& undecided) const {
+Verdict AnalyticBinCullCallback::classify(osg::CullStack& cullStack, osg::NodeVisitor& nv, CullTraversal& traversal,
+                                          const core::PlaneSet& planes, core::PlaneMask& undecided) const {
     const core::Side side =
         std::visit([&](const auto& bin) { return core::classify(bin, planes, undecided); }, _prepared->bin);
     if (side == core::Side::Outside) return {side, Verdict::Plane};
     if (_prepared->horizon) {
-        const Occluder occluder{toCore(*_ellipsoid), std::max(0.0, -_options.horizon), _options.inheritViewpoint};
-        const core::HorizonEye* eye = CullTraversal::of(nv).horizonEye(cullStack, nv, occluder);
+        const Occluder occluder{_prepared->ellipsoid, std::max(0.0, -_options.horizon), _options.inheritViewpoint};
+        const core::HorizonEye* eye = traversal.horizonEye(cullStack, nv, occluder);
         if (eye && eye->hides(*_prepared->horizon)) return {core::Side::Outside, Verdict::Horizon};
     }
     if (side == core::Side::Straddling && isBeyondAnEdge(planes, undecided)) {
