@@ -13,6 +13,8 @@
 
 #include <cmath>
 #include <support/Random.h>
+#include <utility>
+#include <vector>
 
 namespace osgAnalyticBin {
 namespace {
@@ -73,11 +75,45 @@ TEST(AnalyticBin, TextIsDegreesAndMetresAsAPersonWouldWriteThem) {
 }
 
 TEST(AnalyticBin, BrokenTextIsAnInvalidBin) {
-    for (const char* text : {"", "1 2 3", "1 2 3 4 5 6", "1 2 3 4 5 6 7 8", "a b c d e f g", "4 2 3 1 5 6 0",
-                             "0 0 nan 1 1 1 0", "0 0 0 1 1 inf 0", "-91 0 0 1 1 1 0", "0 0 0 91 1 1 0", "0 0 5 1 1 1 0",
-                             "0 0 0 1 1 1 -1", "0,0,0,1,1,1,0", "0 0 0 1 1 1e999 0", "0 -1e300 0 1 1 1 0"}) {
+    for (const char* text :
+         {"", "1 2 3", "1 2 3 4 5 6", "1 2 3 4 5 6 7 8 9", "0 0 0 1 1 1 0 -1", "a b c d e f g", "4 2 3 1 5 6 0",
+          "0 0 nan 1 1 1 0", "0 0 0 1 1 inf 0", "-91 0 0 1 1 1 0", "0 0 0 91 1 1 0", "0 0 5 1 1 1 0", "0 0 0 1 1 1 -1",
+          "0,0,0,1,1,1,0", "0 0 0 1 1 1e999 0", "0 -1e300 0 1 1 1 0"}) {
         EXPECT_FALSE(AnalyticBin::fromText(text).valid()) << text;
     }
+}
+
+TEST(AnalyticBin, TextRoundTripKeepsTheSag) {
+    AnalyticBin bin(GeodeticBin::fromDegrees({-22.5, 0}, {157.5, 180}, {-10376, 12.5}), 1.0);
+    bin.setSag(2500.0);
+    EXPECT_EQ(bin.toText(), "-22.5 157.5 -10376 0 180 12.5 1 2500");
+    EXPECT_EQ(AnalyticBin::fromText(bin.toText()), bin);
+}
+
+// Terrain is taken as pairs of a post's height and the dip of the chords beside it.
+TEST(AnalyticBin, ExaggerationHoldsScaledPostsAndTheirUnscaledDips) {
+    test::Random random(7);
+    for (int trial = 0; trial < 2000; ++trial) {
+        AnalyticBin bin;
+        std::vector<std::pair<double, double>> posts;
+        for (int part = 0; part < 3; ++part) {
+            const double dip = random.uniform(0.0, 3000.0);
+            const double post = random.uniform(-11000.0, 9000.0);
+            posts.emplace_back(post, dip);
+            AnalyticBin own(GeodeticBin::fromDegrees({0, 1}, {0, 1}, {post - dip, post}));
+            own.setSag(dip);
+            bin.expandBy(own);
+        }
+        for (const double scale : {-2.0, -0.5, 0.0, 0.25, 1.0, 3.0, 20.0}) {
+            const core::Interval scaled = bin.exaggerated(scale).bin().altitude();
+            for (const auto& [post, dip] : posts) {
+                ASSERT_LE(scaled.lower, scale * post - dip + 1e-9) << scale;
+                ASSERT_GE(scaled.upper, scale * post - 1e-9) << scale;
+            }
+        }
+        ASSERT_EQ(bin.exaggerated(1.0), bin);
+    }
+    EXPECT_FALSE(AnalyticBin(GeodeticBin::wholeGlobe({0, 1})).exaggerated(std::nan("")).valid());
 }
 
 TEST(AnalyticBin, IsStoredWithANodeAsATypeOfOsgsOwn) {

@@ -19,7 +19,8 @@ class Node;
 namespace osgAnalyticBin {
 
 /// The bounding volume of a terrain tile, in the manner of osg::BoundingBox: a box in latitude, longitude and
-/// altitude, and a margin in metres by which drawn geometry may leave it (the rounding of float vertices).
+/// altitude, a margin in metres by which drawn geometry may leave it (the rounding of float vertices), and the sag in
+/// metres by which meshes dip below their posts, which the box holds already and which exaggeration must not shrink.
 /// Units: radians and metres; degrees only in text. A default-constructed bin is empty, that is, not valid().
 class OSGANALYTICBIN_EXPORT AnalyticBin {
 public:
@@ -38,6 +39,10 @@ public:
     [[nodiscard]] double margin() const { return _margin; }
     void setMargin(double margin) { _margin = margin; }
 
+    /// Metres, default 0: of the box's depth, how much may be chords between posts and not heights.
+    [[nodiscard]] double sag() const { return _sag; }
+    void setSag(double sag) { _sag = sag; }
+
     void expandBy(const core::Geodetic& position) { _bin.expandBy(position); }
     void expandBy(const AnalyticBin& other);
 
@@ -45,9 +50,15 @@ public:
     [[nodiscard]] bool contains(const AnalyticBin& other) const;
 
     [[nodiscard]] bool operator==(const AnalyticBin& other) const {
-        return _bin == other._bin && _margin == other._margin;
+        return _bin == other._bin && _margin == other._margin && _sag == other._sag;
     }
     [[nodiscard]] bool operator!=(const AnalyticBin& other) const { return !(*this == other); }
+
+    /// The bin of the same terrain with all heights multiplied, as osgTerrain::Terrain::setVerticalScale() does.
+    /// Any scale is allowed; not valid() when it is not finite.
+    /// Guarantee: holds every mesh of the scaled posts that the bin holds unscaled; tests: AnalyticBin.Exaggeration*.
+    /// Source: doc/databases.md, section 3.
+    [[nodiscard]] AnalyticBin exaggerated(double verticalScale) const;
 
     /// The middle of the bin in ECEF metres. Requires: valid().
     [[nodiscard]] osg::Vec3d center(const osg::EllipsoidModel& ellipsoid) const;
@@ -55,17 +66,19 @@ public:
     /// A sphere, rounded outward to float, that holds the mapped bin with its margin; invalid when the bin is.
     [[nodiscard]] osg::BoundingSphere boundingSphere(const osg::EllipsoidModel& ellipsoid) const;
 
-    /// "south west low north east high margin": degrees and metres, parted by blanks, so that files show what they say.
+    /// "south west low north east high margin": degrees and metres, parted by blanks, so that files show what they say;
+    /// an eighth number is the sag, left out when it is 0.
     /// Guarantee: fromText(toText()) holds this bin, and equals it bit for bit when it was made from degrees;
     /// tests: AnalyticBin.TextRoundTrip*.
     [[nodiscard]] std::string toText() const;
 
-    /// Returns: an invalid bin when the text is not seven finite numbers in order and range.
+    /// Returns: an invalid bin when the text is not seven or eight finite numbers in order and range.
     [[nodiscard]] static AnalyticBin fromText(const std::string& text);
 
 private:
     core::GeodeticBin _bin;
     double _margin = 0.0;
+    double _sag = 0.0;
 };
 
 /// Stores a bin with a node as the string user value "osgAnalyticBin", a type of OSG's own: OSG without this library

@@ -82,7 +82,7 @@ double degreesTowards(double angle, double direction) {
 }
 
 bool areOrderedAndInRange(const std::vector<double>& v) {
-    const bool ordered = v[0] <= v[3] && v[1] <= v[4] && v[2] <= v[5] && v[6] >= 0.0;
+    const bool ordered = v[0] <= v[3] && v[1] <= v[4] && v[2] <= v[5] && v[6] >= 0.0 && v[7] >= 0.0;
     return ordered && v[0] >= -90.0 && v[3] <= 90.0 && std::abs(v[1]) <= 720.0 && std::abs(v[4]) <= 720.0;
 }
 
@@ -92,10 +92,26 @@ void AnalyticBin::expandBy(const AnalyticBin& other) {
     if (!other.valid()) return;
     _bin.expandBy(other._bin);
     _margin = std::max(_margin, other._margin);
+    _sag = std::max(_sag, other._sag);
 }
 
 bool AnalyticBin::contains(const AnalyticBin& other) const {
-    return !other.valid() || (_bin.contains(other._bin) && other._margin <= _margin);
+    return !other.valid() || (_bin.contains(other._bin) && other._margin <= _margin && other._sag <= _sag);
+}
+
+AnalyticBin AnalyticBin::exaggerated(double verticalScale) const {
+    if (!valid() || !std::isfinite(verticalScale)) return {};
+    if (verticalScale == 1.0) return *this;
+    const core::Interval& h = _bin.altitude();
+    AnalyticBin result = *this;
+    if (verticalScale >= 0.0) {
+        // chords of a flattened mesh sag as far as before
+        const double unscaledSag = std::max(0.0, 1.0 - verticalScale) * _sag;
+        result._bin = _bin.withAltitude({verticalScale * h.lower - unscaledSag, verticalScale * h.upper});
+    } else {
+        result._bin = _bin.withAltitude({verticalScale * h.upper - _sag, verticalScale * h.lower});
+    }
+    return result;
 }
 
 osg::Vec3d AnalyticBin::center(const osg::EllipsoidModel& ellipsoid) const {
@@ -113,17 +129,28 @@ osg::BoundingSphere AnalyticBin::boundingSphere(const osg::EllipsoidModel& ellip
 
 std::string AnalyticBin::toText() const {
     if (!valid()) return {};
-    return numbersToText({std::max(degreesTowards(_bin.latitude().lower, -1.0), -90.0),
-                          degreesTowards(_bin.longitude().lower, -1.0), _bin.altitude().lower,
-                          std::min(degreesTowards(_bin.latitude().upper, 1.0), 90.0),
-                          degreesTowards(_bin.longitude().upper, 1.0), _bin.altitude().upper, _margin});
+    std::vector<double> numbers{std::max(degreesTowards(_bin.latitude().lower, -1.0), -90.0),
+                                degreesTowards(_bin.longitude().lower, -1.0),
+                                _bin.altitude().lower,
+                                std::min(degreesTowards(_bin.latitude().upper, 1.0), 90.0),
+                                degreesTowards(_bin.longitude().upper, 1.0),
+                                _bin.altitude().upper,
+                                _margin};
+    if (_sag != 0.0) numbers.push_back(_sag);
+    return numbersToText(numbers);
 }
 
 AnalyticBin AnalyticBin::fromText(const std::string& text) {
-    const auto v = numbersFromText(text, 7);
+    auto v = numbersFromText(text, 8);
+    if (!v) {
+        v = numbersFromText(text, 7);
+        if (v) v->push_back(0.0);
+    }
     if (!v || !areOrderedAndInRange(*v)) return {};
     const auto& n = *v;
-    return AnalyticBin(core::GeodeticBin::fromDegrees({n[0], n[3]}, {n[1], n[4]}, {n[2], n[5]}), n[6]);
+    AnalyticBin bin(core::GeodeticBin::fromDegrees({n[0], n[3]}, {n[1], n[4]}, {n[2], n[5]}), n[6]);
+    bin.setSag(n[7]);
+    return bin;
 }
 
 void setStoredBin(osg::Node& node, const AnalyticBin& bin) {
@@ -136,7 +163,7 @@ AnalyticBin storedBin(const osg::Node& node) {
     const AnalyticBin bin = AnalyticBin::fromText(text);
     if (!bin.valid()) {
         OSG_WARN << "osgAnalyticBin: the stored bin \"" << text.substr(0, 80)
-                 << "\" is not seven numbers in order; the tile is never culled." << std::endl;
+                 << "\" is not seven or eight numbers in order; the tile is never culled." << std::endl;
     }
     return bin;
 }
