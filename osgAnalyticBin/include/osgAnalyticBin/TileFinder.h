@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/Export.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Matrixd>
+#include <osg/NodeVisitor>
+#include <osg/PagedLOD>
+#include <osg/Transform>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+/// Where the content of a file stands, and whose it is.
+struct TileFrame {
+    osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;  ///< null: not below a geocentric CoordinateSystemNode
+    osg::Matrixd localToEcef;
+    /// The file that the content was read from: its path relative to the folder of the database's root file, "" for the
+    /// root file itself.
+    std::string file;
+    bool isBelowTile = false;  ///< Whether the file is paged below a tile: then plain meshes in it are leaf tiles.
+};
+
+/// A tile: a node with a stored bin, a PagedLOD with a mesh of its own, an osgTerrain tile, or a mesh beside them.
+struct FoundTile {
+    osg::ref_ptr<osg::Node> node;                 ///< the node that is culled
+    std::vector<osg::ref_ptr<osg::Node>> meshes;  ///< what it draws itself: children that are not paged, or the node
+    TileFrame frame;                              ///< the frame of `node`; its file is the one that `node` is in
+    std::size_t ordinal = 0;                      ///< number of tiles before it in that file
+    /// The files that are paged below it, as paths relative to the folder of the root file.
+    std::vector<std::string> pagedFiles;
+};
+
+/// "a/b.osgb" and "../c/d.osgb" make "c/d.osgb": the path of a file as its referring file names it. A path that
+/// leaves the folder starts with ".."; one that has a server address or is absolute stays as it is.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::string pagedFilePath(const std::string& referringFile,
+                                                              const std::string& name);
+
+/// The frame of a transform's children, where the transform stands in `frame`.
+[[nodiscard]] OSGANALYTICBIN_EXPORT osg::Matrixd frameInside(const osg::Transform& node, const TileFrame& frame);
+
+/// Walks a scene graph from tile to tile, in the same order every time: before its own children, in the order of the
+/// children. Nothing is changed, and no osgTerrain tile is traversed. Transforms that may move end the walk.
+class OSGANALYTICBIN_EXPORT TileFinder : public osg::NodeVisitor {
+public:
+    explicit TileFinder(const TileFrame& frame = {});
+
+    void apply(osg::Node& node) override;
+    void apply(osg::CoordinateSystemNode& node) override;
+    void apply(osg::Transform& node) override;
+    void apply(osg::PagedLOD& node) override;
+
+protected:
+    /// A tile was met. The default walks on below it.
+    virtual void visitTile(FoundTile& tile) { traverseBelow(*tile.node); }
+
+    /// Another node was met. The default walks on below it.
+    virtual void visitOther(osg::Node& node) { traverseBelow(node); }
+
+    /// Goes on with the children, those that are paged as content of their own files.
+    void traverseBelow(osg::Node& node);
+
+    [[nodiscard]] const TileFrame& frame() const { return _frame; }
+    void setFrame(const TileFrame& frame) { _frame = frame; }
+
+private:
+    void visit(osg::Node& node, bool isTile);
+    void traversePaged(osg::PagedLOD& node);
+    [[nodiscard]] bool isTile(osg::Node& node) const;
+
+    TileFrame _frame;
+    std::size_t _ordinal = 0;
+    const osg::Node* _tile = nullptr;  // the tile being visited
+};
+
+/// The tiles below a node.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::vector<FoundTile> findTiles(osg::Node& node, const TileFrame& frame = {});
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Scoped.h"
+
+#include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/TileFinder.h>
+
+#include <osg/Drawable>
+#include <osg/MatrixTransform>
+#include <osg/PositionAttitudeTransform>
+#include <osgDB/FileNameUtils>
+#include <osgTerrain/TerrainTile>
+
+#include <algorithm>
+#include <typeinfo>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+bool isTerrainTile(osg::Node& node) {
+    return dynamic_cast<osgTerrain::TerrainTile*>(&node) != nullptr;
+}
+
+bool isPagedChild(const osg::PagedLOD& node, unsigned int i) {
+    return i < node.getNumFileNames() && !node.getFileName(i).empty();
+}
+
+// Transforms that stay as they are once loaded; others have no fixed place on the globe.
+bool isFixed(osg::Transform& node) {
+    const bool known = node.asMatrixTransform() || node.asPositionAttitudeTransform();
+    return known && node.getReferenceFrame() == osg::Transform::RELATIVE_RF && !node.getUpdateCallback() &&
+           node.getDataVariance() != osg::Object::DYNAMIC;
+}
+
+// Whether a subgraph is geometry that stays where it is, without tiles in it.
+class IsFixedMesh : public osg::NodeVisitor {
+public:
+    IsFixedMesh() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+
+    void apply(osg::Node& node) override {
+        const bool isTile = isTerrainTile(node) || hasStoredBin(node);
+        osg::Transform* transform = node.asTransform();
+        if (isTile || node.getUpdateCallback() || (transform && !isFixed(*transform))) result = false;
+        hasDrawable = hasDrawable || node.asDrawable();
+        if (result) traverse(node);
+    }
+    void apply(osg::PagedLOD&) override { result = false; }
+
+    bool result = true;
+    bool hasDrawable = false;
+};
+
+bool isFixedMesh(osg::Node& node) {
+    IsFixedMesh check;
+    node.accept(check);
+    return check.result && check.hasDrawable;
+}
+
+std::vector<osg::ref_ptr<osg::Node>> ownMeshes(osg::Node& node) {
+    auto* paged = dynamic_cast<osg::PagedLOD*>(&node);
+    if (!paged) return {&node};
+    std::vector<osg::ref_ptr<osg::Node>> meshes;
+    for (unsigned int i = 0; i < paged->getNumChildren(); ++i) {
+        if (!isPagedChild(*paged, i)) meshes.emplace_back(paged->getChild(i));
+    }
+    return meshes;
+}
+
+std::vector<std::string> filesBelow(const osg::Node& node, const std::string& file) {
+    std::vector<std::string> files;
+    if (const auto* paged = dynamic_cast<const osg::PagedLOD*>(&node)) {
+        for (unsigned int i = 0; i < paged->getNumFileNames(); ++i) {
+            if (isPagedChild(*paged, i)) files.push_back(pagedFilePath(file, paged->getFileName(i)));
+        }
+    }
+    return files;
+}
+
+// Whether a coordinate system says of itself that its coordinates are those of a map.
+bool isPlanar(const osg::CoordinateSystemNode& node) {
+    return node.getCoordinateSystem().rfind("PROJCS", 0) == 0 && !node.getEllipsoidModel();
+}
+
+}  // namespace
+
+std::string pagedFilePath(const std::string& referringFile, const std::string& name) {
+    if (osgDB::isAbsolutePath(name) || osgDB::containsServerAddress(name)) return name;
+    std::vector<std::string> parts;
+    const auto append = [&](const std::string& path) {
+        for (std::size_t begin = 0; begin <= path.size();) {
+            const std::size_t end = std::min(path.find_first_of("/\\", begin), path.size());
+            const std::string part = path.substr(begin, end - begin);
+            if (part == ".." && !parts.empty() && parts.back() != "..") {
+                parts.pop_back();
+            } else if (!part.empty() && part != ".") {
+                parts.push_back(part);
+            }
+            begin = end + 1;
+        }
+    };
+    append(osgDB::getFilePath(referringFile));
+    append(name);
+    std::string path;
+    for (const std::string& part : parts) path += (path.empty() ? "" : "/") + part;
+    return path;
+}
+
+osg::Matrixd frameInside(const osg::Transform& node, const TileFrame& frame) {
+    osg::Matrixd inside;
+    // Without a CoordinateSystemNode above, a tile's own frame is ECEF, whatever moves the globe.
+    if (!frame.ellipsoid) return inside;
+    node.computeLocalToWorldMatrix(inside, nullptr);
+    return inside * frame.localToEcef;
+}
+
+TileFinder::TileFinder(const TileFrame& frame) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _frame(frame) {
+    setNodeMaskOverride(~0u);
+}
+
+void TileFinder::apply(osg::Node& node) {
+    visit(node, isTile(node));
+}
+
+void TileFinder::apply(osg::CoordinateSystemNode& node) {
+    TileFrame inside = _frame;
+    inside.localToEcef.makeIdentity();
+    inside.ellipsoid = node.getEllipsoidModel();
+    if (!inside.ellipsoid && !isPlanar(node)) inside.ellipsoid = new osg::EllipsoidModel;
+    const Scoped scope(_frame, inside);
+    visit(node, hasStoredBin(node));
+}
+
+void TileFinder::apply(osg::Transform& node) {
+    const bool hasFrame = _frame.ellipsoid || hasStoredBin(node);
+    if (hasFrame && !isFixed(node)) return;
+    visit(node, isTile(node));
+}
+
+void TileFinder::apply(osg::PagedLOD& node) {
+    visit(node, isTile(node));
+}
+
+bool TileFinder::isTile(osg::Node& node) const {
+    if (hasStoredBin(node)) return true;
+    if (!_frame.ellipsoid) return false;
+    if (isTerrainTile(node)) return true;
+    if (dynamic_cast<osg::PagedLOD*>(&node)) {
+        const auto meshes = ownMeshes(node);
+        for (const auto& mesh : meshes) {
+            if (!isTerrainTile(*mesh) && !isFixedMesh(*mesh)) return false;
+        }
+        return !meshes.empty();
+    }
+    const bool isPlainGroup = typeid(node) == typeid(osg::Group);
+    return _frame.isBelowTile && !isPlainGroup && !node.asDrawable() && isFixedMesh(node);
+}
+
+void TileFinder::visit(osg::Node& node, bool isTile) {
+    if (!isTile) return visitOther(node);
+    FoundTile tile{&node, ownMeshes(node), _frame, _ordinal++, filesBelow(node, _frame.file)};
+    const Scoped scope(_tile, static_cast<const osg::Node*>(&node));
+    visitTile(tile);
+}
+
+void TileFinder::traverseBelow(osg::Node& node) {
+    // A terrain tile that is traversed before it has its Terrain never finds it afterwards.
+    if (isTerrainTile(node)) return;
+    if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) return traversePaged(*paged);
+    TileFrame inside = _frame;
+    if (node.asTransform()) inside.localToEcef = frameInside(*node.asTransform(), _frame);
+    // parts of a leaf are no leaves
+    if (_tile == &node) inside.isBelowTile = false;
+    const Scoped scope(_frame, inside);
+    traverse(node);
+}
+
+void TileFinder::traversePaged(osg::PagedLOD& node) {
+    const bool isTile = _tile == &node;
+    for (unsigned int i = 0; i < node.getNumChildren(); ++i) {
+        if (!isPagedChild(node, i)) {
+            // a tile's own mesh is no tile beside it
+            if (!isTile) node.getChild(i)->accept(*this);
+            continue;
+        }
+        TileFrame inside = _frame;
+        inside.file = pagedFilePath(_frame.file, node.getFileName(i));
+        inside.isBelowTile = _frame.isBelowTile || isTile;
+        const Scoped frame(_frame, inside);
+        const Scoped<std::size_t> ordinal(_ordinal, 0);
+        node.getChild(i)->accept(*this);
+    }
+}
+
+std::vector<FoundTile> findTiles(osg::Node& node, const TileFrame& frame) {
+    class Collector : public TileFinder {
+    public:
+        using TileFinder::TileFinder;
+        std::vector<FoundTile> tiles;
+
+    protected:
+        void visitTile(FoundTile& tile) override {
+            tiles.push_back(tile);
+            traverseBelow(*tile.node);
+        }
+    };
+    Collector collector(frame);
+    node.accept(collector);
+    return collector.tiles;
+}
+
+}  // namespace osgAnalyticBin
