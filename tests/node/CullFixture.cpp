@@ -48,10 +48,11 @@ void collectOccluders(osg::Node& scene, const CullView& view, osg::Viewport* vie
 
 }  // namespace
 
-void cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& visitor, unsigned int frame) {
+void cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& visitor, unsigned int frame, double time) {
     const osg::ref_ptr<osg::Viewport> viewport = new osg::Viewport(0, 0, 512, 512);
     const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
     stamp->setFrameNumber(frame);
+    stamp->setReferenceTime(time);
     const osg::ref_ptr<osgUtil::StateGraph> stateGraph = new osgUtil::StateGraph;
     const osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
     stage->setViewport(viewport.get());

@@ -34,8 +34,10 @@ struct CullView {
     [[nodiscard]] std::vector<osg::Plane> sidePlanes() const;
 };
 
-/// Runs one cull traversal, as osgUtil::SceneView does; occluders in the scene take part.
-void cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& visitor, unsigned int frame = 1);
+/// Runs one cull traversal, as osgUtil::SceneView does; occluders in the scene take part. `time`: of the frame, in
+/// seconds.
+void cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& visitor, unsigned int frame = 1,
+          double time = 0.0);
 
 /// A callback that notes that the cull traversal reached it; put behind a bin's callback as a nested one.
 class VisitRecorder : public osg::NodeCallback {

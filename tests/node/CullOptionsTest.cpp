@@ -14,6 +14,23 @@ TEST(CullOptions, EmptyTextIsTheDefault) {
     ASSERT_TRUE(options);
     EXPECT_EQ(options->method, Method::Quadratic);
     EXPECT_EQ(options->growth, 1.1);
+    EXPECT_EQ(options->expiry, 3.0);
+}
+
+TEST(CullOptions, ExpiryReadsBack) {
+    std::string error;
+    for (const double seconds : {0.0, 0.1, 3.0, 86400.0}) {
+        CullOptions options;
+        options.expiry = seconds;
+        const auto back = cullOptionsFromText(toText(options), error);
+        ASSERT_TRUE(back) << error;
+        EXPECT_EQ(back->expiry, seconds);
+    }
+    EXPECT_EQ(cullOptionsFromText("method=exact,expiry=7.5", error)->expiry, 7.5);
+    for (const char* text : {"expiry=-1", "expiry=long", "expiry=nan", "expiry=86401", "expiry"}) {
+        EXPECT_FALSE(cullOptionsFromText(text, error)) << text;
+        EXPECT_NE(error.find("expiry"), std::string::npos) << error;
+    }
 }
 
 TEST(CullOptions, EveryMethodReadsBack) {

@@ -49,11 +49,17 @@ struct CullOptions {
     /// Whether tiles across an edge of the frustum are tested against the edge too; with Method::Quadratic and
     /// Method::Exact only.
     bool reverse = true;
+    /// Seconds for which the DatabasePager keeps a tile's finer children after they were last seen, when it has more
+    /// PagedLODs than its target; 0 leaves OSG's own rule alone. Bins cull what spheres keep by chance: without this,
+    /// turning the head and back reads the same files again.
+    double expiry = kDefaultExpiry;
+
+    static constexpr double kDefaultExpiry = 3.0;
 };
 
-/// Parses "method=paper,growth=1.1", "horizon=-500", "horizon=off", "inheritviewpoint=on", "reverse=off"; commas or
-/// blanks part the items; an empty text is the default. Returns: nullopt when an item is unknown or malformed, with one
-/// line in `error` that names it and what is allowed.
+/// Parses "method=paper,growth=1.1", "horizon=-500", "horizon=off", "inheritviewpoint=on", "reverse=off", "expiry=3";
+/// commas or blanks part the items; an empty text is the default. Returns: nullopt when an item is unknown or
+/// malformed, with one line in `error` that names it and what is allowed.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<CullOptions> cullOptionsFromText(const std::string& text,
                                                                                    std::string& error);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "BinReadFileCallback.h"
+#include "PagingExpiry.h"
 #include "TerrainBounds.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -137,12 +138,14 @@ void BinInstaller::apply(osg::Transform& node) {
 void BinInstaller::apply(osg::PagedLOD& node) {
     const Scoped options(_options, settled(node, _options));
     followPaging(node);
+    if (const auto* before = installedCallback(node)) restoreExpiry(node, before->cullOptions().expiry);
     const AnalyticBin bin = hasStoredBin(node) ? storedBin(node) : boundsOfOwnGeometry(node);
     if (bin.valid() || hasStoredBin(node)) {
         treatTile(node, bin);
     } else {
         treatOther(node);
     }
+    if (installedCallback(node)) raiseExpiry(node, _options.expiry);
 }
 
 void BinInstaller::apply(osg::Drawable& drawable) {

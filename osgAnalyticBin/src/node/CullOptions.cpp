@@ -25,6 +25,9 @@ constexpr double kMaxGrowth = 10.0;
 // Deeper than any sea, shallower than half of the smallest radius of a planet that is flown over.
 constexpr double kDeepestHorizon = -1e6;
 
+// A day: longer means that nothing expires, and memory fills up.
+constexpr double kLongestExpiry = 86400.0;
+
 bool applyMethod(const std::string& value, CullOptions& options, std::string& error) {
     const std::optional<Method> method = methodFromName(value);
     if (method) options.method = *method;
@@ -57,6 +60,16 @@ bool applyHorizon(const std::string& value, CullOptions& options, std::string& e
     return true;
 }
 
+bool applyExpiry(const std::string& value, CullOptions& options, std::string& error) {
+    const auto number = numbersFromText(value, 1);
+    if (!number || (*number)[0] < 0.0 || (*number)[0] > kLongestExpiry) {
+        error = "bad expiry \"" + value + "\" (use seconds from 0 to 86400, e.g. expiry=3)";
+        return false;
+    }
+    options.expiry = (*number)[0];
+    return true;
+}
+
 bool applySwitch(const std::string& key, const std::string& value, bool& option, std::string& error) {
     if (value != "on" && value != "off") {
         error = "bad " + key + " \"" + value + "\" (use on or off)";
@@ -70,11 +83,12 @@ bool applyItem(const std::string& key, const std::string& value, CullOptions& op
     if (key == "method") return applyMethod(value, options, error);
     if (key == "growth") return applyGrowth(value, options, error);
     if (key == "horizon") return applyHorizon(value, options, error);
+    if (key == "expiry") return applyExpiry(value, options, error);
     if (key == "reverse") return applySwitch(key, value, options.reverse, error);
     if (key == "inheritviewpoint") return applySwitch(key, value, options.inheritViewpoint, error);
     error = "unknown parameter \"" + key +
-            "\" (use method=NAME, growth=FACTOR, horizon=METRES|declared|off, inheritviewpoint=on|off or "
-            "reverse=on|off)";
+            "\" (use method=NAME, growth=FACTOR, horizon=METRES|declared|off, inheritviewpoint=on|off, "
+            "reverse=on|off or expiry=SECONDS)";
     return false;
 }
 
@@ -115,6 +129,7 @@ std::string toText(const CullOptions& options) {
     if (options.horizonUse == HorizonUse::Given) text += ",horizon=" + numberToText(options.horizon);
     if (options.inheritViewpoint) text += ",inheritviewpoint=on";
     if (!options.reverse) text += ",reverse=off";
+    if (options.expiry != CullOptions::kDefaultExpiry) text += ",expiry=" + numberToText(options.expiry);
     return text;
 }
 

@@ -36,7 +36,7 @@ std::string ownItems(const std::string& optionString) {
     while (begin < optionString.size()) {
         const std::size_t end = std::min(optionString.find_first_of(" ,;", begin), optionString.size());
         const std::string item = optionString.substr(begin, end - begin);
-        for (const char* own : {"method=", "growth=", "horizon=", "inheritviewpoint=", "reverse="}) {
+        for (const char* own : {"method=", "growth=", "horizon=", "inheritviewpoint=", "reverse=", "expiry="}) {
             if (item.rfind(own, 0) == 0) items += item + ' ';
         }
         begin = end + 1;
@@ -63,6 +63,9 @@ public:
         supportsOption("inheritviewpoint=on|off",
                        "The horizon also for cameras that inherit a view point (shadow passes); default off.");
         supportsOption("reverse=on|off", "Tests tiles across an edge of the frustum against the edge too; default on.");
+        supportsOption("expiry=SECONDS",
+                       "How long finer tiles out of view are kept when the DatabasePager has more than its target; "
+                       "default 3, 0 leaves OSG's own rule alone.");
         supportsOption("growth=FACTOR", "How much method=paper enlarges its boxes: 1 .. 10, default 1.1.");
     }
 
