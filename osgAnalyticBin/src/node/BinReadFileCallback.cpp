@@ -3,6 +3,8 @@
 
 #include "BinReadFileCallback.h"
 
+#include "SharedTiles.h"
+#include "Text.h"
 #include "TileFile.h"
 
 #include <osgAnalyticBin/BinInstaller.h>
@@ -12,6 +14,7 @@
 
 #include <exception>
 #include <ios>
+#include <vector>
 
 namespace osgAnalyticBin {
 
@@ -23,11 +26,21 @@ osgDB::ReaderWriter::ReadResult unreadable(const std::string& fileName, const ch
     return osgDB::ReaderWriter::ReadResult(osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE);
 }
 
+std::string placeText(const osg::EllipsoidModel* ellipsoid, const osg::Matrixd& localToEcef) {
+    std::vector<double> numbers(localToEcef.ptr(), localToEcef.ptr() + 16);
+    if (ellipsoid) numbers.insert(numbers.end(), {ellipsoid->getRadiusEquator(), ellipsoid->getRadiusPolar()});
+    return numbersToText(numbers);
+}
+
 }  // namespace
 
 BinReadFileCallback::BinReadFileCallback(const CullOptions& options, const osg::EllipsoidModel* ellipsoid,
                                          const osg::Matrixd& localToEcef, osgDB::ReadFileCallback* previous)
-    : _options(options), _ellipsoid(ellipsoid), _localToEcef(localToEcef), _previous(previous) {}
+    : _options(options),
+      _ellipsoid(ellipsoid),
+      _localToEcef(localToEcef),
+      _place(placeText(ellipsoid, localToEcef)),
+      _previous(previous) {}
 
 BinReadFileCallback::~BinReadFileCallback() = default;
 
@@ -41,19 +54,56 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readUntreated(const std::st
 osgDB::ReaderWriter::ReadResult BinReadFileCallback::readNode(const std::string& fileName,
                                                               const osgDB::Options* options) {
     try {
-        osgDB::ReaderWriter::ReadResult result = readUntreated(fileName, options);
-        if (osg::Node* node = result.getNode()) {
-            BinInstaller installer(_options);
-            installer.setFrame(_ellipsoid.get(), _localToEcef);
-            node->accept(installer);
-        }
-        return result;
+        const bool cached = options && (options->getObjectCacheHint() & osgDB::Options::CACHE_NODES);
+        return cached ? readThroughCache(fileName, *options) : readTreated(fileName, options);
     } catch (const std::ios_base::failure&) {
         return unreadable(fileName, "it ends too early");
     } catch (const std::exception& error) {
         // A corrupt file may ask for absurd amounts of memory; the pager's thread must outlive that.
         return unreadable(fileName, error.what());
     }
+}
+
+// A tile gets into the cache only when its bins are installed, so that nobody ever finds it half treated.
+osgDB::ReaderWriter::ReadResult BinReadFileCallback::readThroughCache(const std::string& fileName,
+                                                                      const osgDB::Options& options) {
+    // The pager's own cache is merged into the Registry's when the tile is merged into the scene.
+    osgDB::ObjectCache* const registrys = osgDB::Registry::instance()->getObjectCache();
+    osgDB::ObjectCache* const own = options.getObjectCache() ? options.getObjectCache() : registrys;
+    // The cache tells options apart by their text alone.
+    const osg::ref_ptr<osgDB::Options> key =
+        new osgDB::Options(options.getOptionString() + " osgAnalyticBin " + toText(_options) + ' ' + _place);
+    for (osgDB::ObjectCache* cache : {own, registrys}) {
+        if (!cache) continue;
+        const osg::ref_ptr<osg::Object> found = cache->getRefFromObjectCache(fileName, key.get());
+        if (found) return ReadResult(found.get(), ReadResult::FILE_LOADED_FROM_CACHE);
+    }
+    const osg::ref_ptr<osgDB::Options> uncached = options.cloneOptions();
+    uncached->setObjectCacheHint(
+        static_cast<osgDB::Options::CacheHintOptions>(options.getObjectCacheHint() & ~osgDB::Options::CACHE_NODES));
+    ReadResult result = readTreated(fileName, uncached.get());
+    if (own && result.validNode()) own->addEntryToObjectCache(fileName, result.getNode(), 0.0, key.get());
+    return result;
+}
+
+osgDB::ReaderWriter::ReadResult BinReadFileCallback::readTreated(const std::string& fileName,
+                                                                 const osgDB::Options* options) {
+    ReadResult result = readUntreated(fileName, options);
+    osg::Node* const node = result.getNode();
+    if (!node) return result;
+    if (node->referenceCount() == 1) {
+        treat(*node);
+        return result;
+    }
+    const auto outcome = SharedTiles::instance().treatOnce(*node, _place, [&] { treat(*node); });
+    if (outcome == SharedTiles::Outcome::Usable) return result;
+    return unreadable(fileName, "a read callback shares one copy between two places");
+}
+
+void BinReadFileCallback::treat(osg::Node& node) const {
+    BinInstaller installer(_options);
+    installer.setFrame(_ellipsoid.get(), _localToEcef);
+    node.accept(installer);
 }
 
 }  // namespace osgAnalyticBin

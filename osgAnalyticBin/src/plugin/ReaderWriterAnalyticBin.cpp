@@ -44,6 +44,17 @@ std::string ownItems(const std::string& optionString) {
     return items;
 }
 
+// The database under its own name stays as it is in OSG's object cache: without bins. With them it is kept there by OSG
+// under the name that ends in .analyticbin.
+osg::ref_ptr<osgDB::Options> withoutNodeCache(const osgDB::Options* options) {
+    osg::ref_ptr<osgDB::Options> uncached = options ? options->cloneOptions() : nullptr;
+    if (uncached) {
+        uncached->setObjectCacheHint(static_cast<osgDB::Options::CacheHintOptions>(options->getObjectCacheHint() &
+                                                                                   ~osgDB::Options::CACHE_NODES));
+    }
+    return uncached;
+}
+
 }  // namespace
 
 /// The pseudo-loader `database.analyticbin`: reads the database and installs analytic bins on it and on every tile that
@@ -85,7 +96,8 @@ public:
         const std::optional<osgAnalyticBin::CullOptions> cullOptions = osgAnalyticBin::cullOptionsFromText(text, error);
         // OSG prints the message of a failed read; a second line would say no more.
         if (!cullOptions) return ReadResult("analyticbin: " + error);
-        ReadResult result = osgDB::Registry::instance()->readNode(request.name, options);
+        const osg::ref_ptr<osgDB::Options> uncached = withoutNodeCache(options);
+        ReadResult result = osgDB::Registry::instance()->readNode(request.name, uncached.get());
         const osg::ref_ptr<osg::Node> node = result.getNode();
         if (!node) return result;
         report(osgAnalyticBin::installBins(*node, *cullOptions), *cullOptions, request.name);

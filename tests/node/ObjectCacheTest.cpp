@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Tiles that are shared: by osgDB's object cache (Options::CACHE_NODES), and by read callbacks that keep what they have
+// read. A node may then be in a scene already, or be handed to several threads at once.
+
+#include "InstallerProbe.h"
+#include "PagedFlight.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+
+#include <gtest/gtest.h>
+#include <osg/CoordinateSystemNode>
+#include <osg/PagedLOD>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+#include <osgDB/WriteFile>
+
+#include <set>
+#include <support/SyntheticDatabase.h>
+#include <support/TemporaryFolder.h>
+#include <thread>
+
+namespace osgAnalyticBin {
+namespace {
+
+using test::CullView;
+using test::PagedFlight;
+
+const AnalyticBin kBin(core::GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100, 5000}));
+constexpr int kThreads = 8;
+constexpr int kReads = 25;
+
+osg::ref_ptr<osg::PagedLOD> makePagedTile(const std::string& fileName) {
+    osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
+    paged->addChild(new osg::Group, 1e6f, 1e10f);
+    paged->setFileName(1, fileName);
+    paged->setRange(1, 0.0f, 1e6f);
+    setStoredBin(*paged, kBin);
+    return paged;
+}
+
+// The callback of the tile in what was read from "children.osgb", under any number of groups.
+AnalyticBinCullCallback* callbackIn(osg::Node* node) {
+    while (node && !dynamic_cast<osg::PagedLOD*>(node)) node = node->asGroup()->getChild(0);
+    return node ? dynamic_cast<AnalyticBinCullCallback*>(node->getCullCallback()) : nullptr;
+}
+
+class ObjectCache : public ::testing::Test {
+protected:
+    void SetUp() override {
+        const osg::ref_ptr<osg::Group> children = new osg::Group;
+        children->addChild(makePagedTile("grandchildren.osgb"));
+        ASSERT_TRUE(osgDB::writeNodeFile(*children, _file));
+    }
+    void TearDown() override { osgDB::Registry::instance()->clearObjectCache(); }
+
+    // Options of a tile below a globe whose read callback is `reader`.
+    osg::ref_ptr<osgDB::Options> pagingOptions(osgDB::Options::CacheHintOptions hint,
+                                               const osg::EllipsoidModel& ellipsoid = osg::EllipsoidModel(),
+                                               const CullOptions& cullOptions = {}) {
+        const osg::ref_ptr<osgDB::Options> own = new osgDB::Options;
+        own->setObjectCacheHint(hint);
+        own->setReadFileCallback(_reader);
+        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+        root->setEllipsoidModel(new osg::EllipsoidModel(ellipsoid));
+        const osg::ref_ptr<osg::PagedLOD> tile = makePagedTile("children.osgb");
+        tile->setDatabaseOptions(own);
+        root->addChild(tile);
+        installBins(*root, cullOptions);
+        return dynamic_cast<osgDB::Options*>(tile->getDatabaseOptions());
+    }
+
+    // Reads the file in many threads at once.
+    void readInThreads(const osgDB::Options& options) const {
+        std::vector<std::thread> threads;
+        for (int i = 0; i < kThreads; ++i) {
+            threads.emplace_back([this, &options] {
+                for (int k = 0; k < kReads; ++k) {
+                    const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(_file, &options);
+                    EXPECT_NE(callbackIn(node), nullptr);  // never handed out half treated
+                }
+            });
+        }
+        for (std::thread& thread : threads) thread.join();
+    }
+
+    void expectOneVisitEach() const {
+        for (const auto& [node, threads] : _reader->visits.threads()) EXPECT_EQ(threads.size(), 1u);
+    }
+
+    test::TemporaryFolder _folder;
+    const std::string _file = _folder / "children.osgb";
+    osg::ref_ptr<test::ProbingReader> _reader = new test::ProbingReader;
+};
+
+TEST_F(ObjectCache, ThreadsThatReadOneFileGetTilesThatWereTreatedOnce) {
+    const auto options = pagingOptions(osgDB::Options::CACHE_ALL);
+    const osg::ref_ptr<osg::Node> inScene = osgDB::readRefNodeFile(_file, options);
+    readInThreads(*options);
+    expectOneVisitEach();
+    EXPECT_EQ(_reader->files.size(), 1u);
+    EXPECT_EQ(osgDB::readRefNodeFile(_file, options), inScene);
+}
+
+TEST_F(ObjectCache, ThreadsThatFindTheCacheEmptyTreatEachItsOwn) {
+    const auto options = pagingOptions(osgDB::Options::CACHE_ALL);
+    readInThreads(*options);
+    expectOneVisitEach();
+    EXPECT_LE(_reader->files.size(), static_cast<std::size_t>(kThreads));
+}
+
+TEST_F(ObjectCache, WithoutTheHintEveryReadIsFresh) {
+    const auto options = pagingOptions(osgDB::Options::CACHE_NONE);
+    readInThreads(*options);
+    expectOneVisitEach();
+    EXPECT_EQ(_reader->files.size(), static_cast<std::size_t>(kThreads * kReads));
+}
+
+TEST_F(ObjectCache, ThoseWhoReadWithoutBinsShareNothingWithUs) {
+    const osg::ref_ptr<osgDB::Options> plain = new osgDB::Options;
+    plain->setObjectCacheHint(osgDB::Options::CACHE_ALL);
+    const osg::ref_ptr<osg::Node> before = osgDB::readRefNodeFile(_file, plain);
+    const osg::ref_ptr<osg::Node> ours = osgDB::readRefNodeFile(_file, pagingOptions(osgDB::Options::CACHE_ALL));
+    EXPECT_NE(callbackIn(ours), nullptr);
+    EXPECT_EQ(callbackIn(before), nullptr);
+    EXPECT_EQ(osgDB::readRefNodeFile(_file, plain), before);
+}
+
+TEST_F(ObjectCache, GlobesAndMethodsShareNothing) {
+    CullOptions exact;
+    exact.method = Method::Exact;
+    const osg::EllipsoidModel wgs84;
+    const osg::EllipsoidModel mars(3396190.0, 3376200.0);
+    const auto earth = osgDB::readRefNodeFile(_file, pagingOptions(osgDB::Options::CACHE_ALL));
+    const auto planet = osgDB::readRefNodeFile(_file, pagingOptions(osgDB::Options::CACHE_ALL, mars));
+    const auto other = osgDB::readRefNodeFile(_file, pagingOptions(osgDB::Options::CACHE_ALL, wgs84, exact));
+    const auto again = osgDB::readRefNodeFile(_file, pagingOptions(osgDB::Options::CACHE_ALL, mars));
+    ASSERT_TRUE(earth && planet && other);
+    EXPECT_NE(callbackIn(earth)->getRadiiText(), "3396190 3376200");
+    EXPECT_EQ(callbackIn(planet)->getRadiiText(), "3396190 3376200");
+    EXPECT_EQ(callbackIn(earth)->cullOptions().method, Method::Quadratic);
+    EXPECT_EQ(callbackIn(other)->cullOptions().method, Method::Exact);
+    EXPECT_EQ(again, planet);
+}
+
+TEST_F(ObjectCache, ANodeThatAUsersCallbackKeepsIsTreatedOnce) {
+    _reader->keepsOne = true;
+    for (const auto hint : {osgDB::Options::CACHE_NONE, osgDB::Options::CACHE_ALL}) {
+        readInThreads(*pagingOptions(hint));
+        EXPECT_EQ(_reader->visits.threads().size(), 1u);
+        expectOneVisitEach();
+    }
+}
+
+TEST_F(ObjectCache, ANodeThatAUsersCallbackKeepsIsNoTileOfAnotherGlobe) {
+    _reader->keepsOne = true;
+    const auto earth = pagingOptions(osgDB::Options::CACHE_NONE);
+    const auto planet = pagingOptions(osgDB::Options::CACHE_NONE, osg::EllipsoidModel(3396190.0, 3376200.0));
+    EXPECT_TRUE(osgDB::readRefNodeFile(_file, earth));
+    EXPECT_FALSE(osgDB::readRefNodeFile(_file, planet));
+    expectOneVisitEach();
+}
+
+TEST_F(ObjectCache, ANodeThatIsInASceneWithoutBinsIsLeftAlone) {
+    _reader->keepsOne = true;
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(_reader->readNode(_file, nullptr).getNode());
+    const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(_file, pagingOptions(osgDB::Options::CACHE_NONE));
+    EXPECT_EQ(node, scene->getChild(0));
+    EXPECT_TRUE(_reader->visits.threads().empty());
+}
+
+TEST_F(ObjectCache, ThePagerBringsTilesBackFromTheCache) {
+    const std::string file = test::writeSyntheticDatabase(_folder.path());
+    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(file);
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    options->setObjectCacheHint(osgDB::Options::CACHE_ALL);
+    osgDB::Registry::instance()->setOptions(options);
+    osgDB::Registry::instance()->setReadFileCallback(_reader);
+    CullOptions forgetful;
+    forgetful.expiry = 0.0;
+    installBins(*scene, forgetful);
+    const osg::Vec3d eye(6378137.0 + 300e3, 0.0, 0.0);
+    const CullView east = CullView::lookAt(eye, eye + osg::Vec3d(-1, +1, 0), osg::Vec3d(1, 0, 0), 40.0);
+    const CullView west = CullView::lookAt(eye, eye + osg::Vec3d(-1, -1, 0), osg::Vec3d(1, 0, 0), 40.0);
+    {
+        PagedFlight flight(*scene, 10);
+        EXPECT_TRUE(flight.load(east));
+        const std::multiset<std::string> drawn = flight.drawn();
+        EXPECT_TRUE(flight.load(west));
+        flight.frames(west, 30);
+        flight.frame(east);
+        EXPECT_FALSE(flight.wanted().empty());  // tiles have expired
+        const std::size_t files = _reader->files.size();
+        EXPECT_TRUE(flight.load(east));
+        EXPECT_EQ(flight.drawn(), drawn);
+        EXPECT_EQ(_reader->files.size(), files);
+    }
+    osgDB::Registry::instance()->setReadFileCallback(nullptr);
+    osgDB::Registry::instance()->setOptions(nullptr);
+    EXPECT_GT(_reader->visits.threads().size(), 2u);
+    expectOneVisitEach();
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin
