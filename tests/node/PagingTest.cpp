@@ -131,9 +131,10 @@ TEST_F(Paging, MissingAndTruncatedFilesAreErrorsAndNothingElse) {
     ASSERT_GT(bytes.size(), 500u);
     EXPECT_FALSE(osgDB::readRefNodeFile(file("absent.osgb"), optionsOf(*_paged)));
     for (std::size_t length = 0; length + 1 < bytes.size(); length += 1 + bytes.size() / 97) {
-        std::ofstream(file("cut.osgb"), std::ios::binary | std::ios::trunc)
-            .write(bytes.data(), static_cast<std::streamsize>(length));
-        const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file("cut.osgb"), optionsOf(*_paged));
+        // a new name each time: a file that failed is left alone for a while
+        const std::string cut = file("cut_" + std::to_string(length) + ".osgb");
+        std::ofstream(cut, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(length));
+        const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(cut, optionsOf(*_paged));
         EXPECT_FALSE(node) << "cut after " << length << " of " << bytes.size() << " bytes";
     }
 }

@@ -53,6 +53,15 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readUntreated(const std::st
 
 osgDB::ReaderWriter::ReadResult BinReadFileCallback::readNode(const std::string& fileName,
                                                               const osgDB::Options* options) {
+    // No node and no error: the pager says nothing, and asks again in the next frame.
+    if (!_failures.mayRead(fileName, FailedReads::Clock::now())) return ReadResult::FILE_LOADED;
+    ReadResult result = readOrFail(fileName, options);
+    _failures.note(fileName, result.validNode(), FailedReads::Clock::now());
+    return result;
+}
+
+osgDB::ReaderWriter::ReadResult BinReadFileCallback::readOrFail(const std::string& fileName,
+                                                                const osgDB::Options* options) {
     try {
         const bool cached = options && (options->getObjectCacheHint() & osgDB::Options::CACHE_NODES);
         return cached ? readThroughCache(fileName, *options) : readTreated(fileName, options);

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace osgAnalyticBin {
+
+/// Files that could not be read, and when each may be tried again: after a second, then after waits that double up to
+/// ten seconds. The DatabasePager itself asks again in every frame, which floods a server in trouble and the log.
+/// Threads: any number at once.
+class FailedReads {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    static constexpr std::chrono::seconds kFirstWait{1};
+    static constexpr std::chrono::seconds kLongestWait{10};
+
+    [[nodiscard]] bool mayRead(const std::string& fileName, Clock::time_point now) const;
+
+    /// Says how reading the file went; success forgets earlier failures.
+    void note(const std::string& fileName, bool success, Clock::time_point now);
+
+private:
+    struct Failure {
+        Clock::time_point next;
+        std::chrono::seconds wait{0};
+    };
+
+    mutable std::mutex _mutex;
+    std::map<std::string, Failure> _failures;
+};
+
+}  // namespace osgAnalyticBin
