@@ -4,6 +4,7 @@
 // The pseudo-loader, called as an application calls it: by a file name. Needs OSG_LIBRARY_PATH.
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/BinIndex.h>
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
@@ -14,6 +15,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 
@@ -107,6 +109,28 @@ TEST_F(Plugin, IsKnownToOsgByNameWithItsOptions) {
     ASSERT_NE(reader, nullptr);
     EXPECT_EQ(reader->supportedOptions().size(), 5u);
     EXPECT_TRUE(reader->acceptsExtension("analyticbin"));
+}
+
+TEST_F(Plugin, ReadsIndexesOfBinsByNameAndFromStreams) {
+    const osg::ref_ptr<BinIndex> index = new BinIndex;
+    index->setSource({"globe.osgb", 1, 2});
+    index->setTiles("", {{AnalyticBin(core::GeodeticBin::fromDegrees({1, 2}, {3, 4}, {5, 6})), 5.0, 77}});
+    std::string error;
+    ASSERT_TRUE(index->write(_folder / "globe.osgb.bins", error)) << error;
+    const osg::ref_ptr<BinIndex> read =
+        dynamic_cast<BinIndex*>(osgDB::readRefObjectFile(_folder / "globe.osgb.bins").get());
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->find("", 0)->fingerprint, 77u);
+    EXPECT_FALSE(osgDB::readRefNodeFile(_folder / "globe.osgb.bins"));
+
+    // as osgdb_curl and archives do
+    std::stringstream stream;
+    ASSERT_TRUE(index->write(stream));
+    osgDB::ReaderWriter* reader = osgDB::Registry::instance()->getReaderWriterForExtension("bins");
+    ASSERT_NE(reader, nullptr);
+    EXPECT_TRUE(dynamic_cast<BinIndex*>(reader->readObject(stream).getObject()));
+    std::istringstream broken("no index");
+    EXPECT_TRUE(reader->readObject(broken).error());
 }
 
 // Databases that others built; they are not part of the project.

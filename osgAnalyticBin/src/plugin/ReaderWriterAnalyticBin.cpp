@@ -1,20 +1,24 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/CullOptions.h>
 
 #include <osg/Notify>
 #include <osgDB/FileNameUtils>
+#include <osgDB/FileUtils>
 #include <osgDB/Registry>
 
 #include <algorithm>
+#include <fstream>
 #include <optional>
 #include <string>
 
 namespace {
 
 constexpr const char* kExtension = "analyticbin";
+constexpr const char* kIndexExtension = "bins";
 
 // "earth.osgb.(method=paper,growth=1.1)" parted into "earth.osgb" and "method=paper,growth=1.1".
 struct NameAndParameters {
@@ -59,11 +63,12 @@ osg::ref_ptr<osgDB::Options> withoutNodeCache(const osgDB::Options* options) {
 
 /// The pseudo-loader `database.analyticbin`: reads the database and installs analytic bins on it and on every tile that
 /// is paged in later. Parameters: `database.(method=NAME,growth=FACTOR).analyticbin`, or the plugin option string; the
-/// file name wins.
+/// file name wins. Reads indexes of bins too, "database.bins".
 class ReaderWriterAnalyticBin : public osgDB::ReaderWriter {
 public:
     ReaderWriterAnalyticBin() {
         supportsExtension(kExtension, "Culls the tiles of a terrain database by their analytic bins (pseudo-loader)");
+        supportsExtension(kIndexExtension, "The bins of a whole terrain database, made by osgbinconv --index");
         supportsOption("method=quadratic|exact|paper|corners|sphere|none",
                        "How tiles are culled. quadratic (default) and exact are sound and tight; paper and corners "
                        "cull visible tiles "
@@ -83,11 +88,22 @@ public:
     const char* className() const override { return "analytic bin pseudo-loader"; }
 
     ReadResult readObject(const std::string& fileName, const osgDB::Options* options) const override {
-        return readNode(fileName, options);
+        if (!isIndex(fileName)) return readNode(fileName, options);
+        const std::string path = osgDB::findDataFile(fileName, options);
+        if (path.empty()) return ReadResult::FILE_NOT_FOUND;
+        std::ifstream in(path, std::ios::binary);
+        return in ? readObject(in, options) : ReadResult(ReadResult::ERROR_IN_READING_FILE);
+    }
+
+    /// An index of bins, from an archive, a server, or anywhere else.
+    ReadResult readObject(std::istream& in, const osgDB::Options*) const override {
+        std::string error;
+        const osg::ref_ptr<osgAnalyticBin::BinIndex> index = osgAnalyticBin::BinIndex::read(in, error);
+        return index ? ReadResult(index.get()) : ReadResult(error);
     }
 
     ReadResult readNode(const std::string& fileName, const osgDB::Options* options) const override {
-        if (!acceptsExtension(osgDB::getLowerCaseFileExtension(fileName))) return ReadResult::FILE_NOT_HANDLED;
+        if (osgDB::getLowerCaseFileExtension(fileName) != kExtension) return ReadResult::FILE_NOT_HANDLED;
         const NameAndParameters request = parted(osgDB::getNameLessExtension(fileName));
         if (request.name.empty()) return ReadResult::FILE_NOT_HANDLED;
 
@@ -105,6 +121,10 @@ public:
     }
 
 private:
+    static bool isIndex(const std::string& fileName) {
+        return osgDB::getLowerCaseFileExtension(fileName) == kIndexExtension;
+    }
+
     static void report(std::size_t installed, const osgAnalyticBin::CullOptions& options, const std::string& name) {
         using osgAnalyticBin::Method;
         const bool wantsBins = options.method != Method::Sphere && options.method != Method::None;

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/Export.h>
+
+#include <osg/Object>
+#include <osg/ref_ptr>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <iosfwd>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace osgDB {
+class Options;
+}
+
+namespace osgAnalyticBin {
+
+/// The bins of a whole database, made once by `osgbinconv --index` and kept in one file beside it:
+/// "earth.ive" -> "earth.ive.bins". The database itself is not touched.
+/// Threads: reading members are const and may be called by any number of threads at once.
+class OSGANALYTICBIN_EXPORT BinIndex : public osg::Object {
+public:
+    struct Entry {
+        /// What the tile is culled by: itself, all its descendants, and what cracks beside it can show. Not valid: the
+        /// tile is never culled.
+        AnalyticBin bin;
+        /// Lowest altitude of the tile's own surface, chords between posts included, metres.
+        double ownLow = 0.0;
+        /// surfaceFingerprint() of the tile's own mesh; 0: unknown.
+        std::uint64_t fingerprint = 0;
+    };
+
+    /// The database that the index was made from, as far as its root file tells.
+    struct Source {
+        /// Name of the root file, without its folder.
+        std::string name;
+        /// Bytes of the root file.
+        std::uint64_t size = 0;
+        /// When the root file was changed last, in seconds since 1970; a hint only, since copies often lose it.
+        std::int64_t time = 0;
+    };
+
+    BinIndex() = default;
+    BinIndex(const BinIndex& other, const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
+
+    META_Object(osgAnalyticBin, BinIndex)
+
+        /// The entry of a tile. `file`: path relative to the root file's folder, as by pagedFilePath(), "" for the
+        /// root file itself; `ordinal`: the tile's position among the tiles of the file, in preorder.
+        /// Returns: nullptr for a tile that the index does not know.
+        /// Cost: one search in a sorted map of the files.
+        [[nodiscard]] const Entry* find(const std::string& file, std::size_t ordinal) const;
+
+    /// All entries of a file, by ordinal. Returns: nullptr for a file that the index does not know.
+    [[nodiscard]] const std::vector<Entry>* tilesOf(const std::string& file) const;
+
+    /// Sets the entries of a file. What a file of the index cannot hold to the last bit is rounded outward at once, so
+    /// that reading back what was written gives the same entries.
+    void setTiles(const std::string& file, std::vector<Entry> tiles);
+
+    void forEachFile(const std::function<void(const std::string& file, const std::vector<Entry>& tiles)>& visit) const;
+
+    [[nodiscard]] std::size_t fileCount() const { return _files.size(); }
+    [[nodiscard]] std::size_t tileCount() const;
+
+    [[nodiscard]] const Source& source() const { return _source; }
+    void setSource(const Source& source) { _source = source; }
+
+    /// Reads to the end of the stream. Memory is taken only for what the stream has delivered.
+    /// Returns: null, with one line in `error`, for what is broken, truncated, foreign or of a newer version.
+    [[nodiscard]] static osg::ref_ptr<BinIndex> read(std::istream& in, std::string& error);
+    [[nodiscard]] static osg::ref_ptr<BinIndex> read(const std::string& path, std::string& error);
+
+    /// The same index gives the same bytes, on every machine. Returns: false when the stream fails.
+    bool write(std::ostream& out) const;
+
+    /// Writes under a temporary name, which is renamed when everything is there.
+    /// Returns: false, with one line in `error`, when that fails.
+    bool write(const std::string& path, std::string& error) const;
+
+protected:
+    ~BinIndex() override;
+
+private:
+    Source _source;
+    std::map<std::string, std::vector<Entry>> _files;
+};
+
+/// Name of a database's index: "earth.ive" -> "earth.ive.bins".
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::string binIndexName(const std::string& databaseFileName);
+
+/// Reads the index beside a database: a local file, or whatever OSG reads of that name from archives and servers.
+/// Returns: null when there is none, with an empty `error`; null with one line in `error` when it cannot be used,
+/// be it that it is broken or that the local root file has another size than that of which it was made.
+[[nodiscard]] OSGANALYTICBIN_EXPORT osg::ref_ptr<BinIndex> readBinIndex(const std::string& databaseFileName,
+                                                                        const osgDB::Options* options,
+                                                                        std::string& error);
+
+}  // namespace osgAnalyticBin
