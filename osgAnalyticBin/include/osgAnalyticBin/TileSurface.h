@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/Export.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Matrixd>
+#include <osg/Node>
+
+#include <array>
+#include <cstdint>
+
+namespace osgAnalyticBin {
+
+/// What one tile draws by itself: without what is paged below it, and without its skirts.
+struct TileSurface {
+    /// Extents, and altitudes at vertical scale 1, chords between posts included; sag() says how much of the depth is
+    /// chords. margin() is the rounding of float vertices. Not valid(): no geocentric terrain, or one that cannot be
+    /// told from here.
+    AnalyticBin bin;
+    /// Metres: an altitude that the surface nowhere goes below along its south, east, north and west edge, chords
+    /// included.
+    std::array<double, 4> edgeLow{};
+    /// Metres that skirts hang below the surface at most, whatever the vertical scale; 0: none, or none that can be
+    /// told from the surface, which `bin` holds then.
+    double skirt = 0.0;
+    /// An osgTerrain tile, whose heights follow osgTerrain::Terrain's vertical scale.
+    bool isScalable = false;
+};
+
+/// The surface of a tile's own mesh: an osgTerrain::TerrainTile (read, neither traversed nor changed) as
+/// osgTerrain::GeometryTechnique draws it, or any subgraph of fixed transforms and geometry. Children of LODs and
+/// switches all count, whatever is chosen. Below a paged or moving node nothing is known: not valid().
+/// `node` stands in a frame that `localToEcef` takes to ECEF. `sampleRatio` is osgTerrain::Terrain's.
+/// Skirts are told by the texture coordinates and the depth that VirtualPlanetBuilder gives them; any doubt and they
+/// count as surface.
+/// Guarantee: the bin holds every point of every triangle that is drawn, skirts left out, and of terrain tiles at any
+/// vertical scale from -10 to 10 once exaggerated(); tests: TileSurface.*. Terrain whose boundaries are equalised
+/// (Terrain::setEqualizeBoundaries(), off by default) takes heights of its neighbours at its edges: the bins of both
+/// hold these together.
+/// Cost: one pass over heights or vertices and triangles.
+[[nodiscard]] OSGANALYTICBIN_EXPORT TileSurface tileSurface(osg::Node& node, const osg::EllipsoidModel& ellipsoid,
+                                                            const osg::Matrixd& localToEcef, double sampleRatio = 1.0);
+
+/// 64 bits of everything that tileSurface() reads, to tell whether a tile is the one that an index was made from.
+/// Guarantee: the same on every platform and in every run, whatever the addresses and the byte order; never 0; not made
+/// to withstand forgery; tests: SurfaceFingerprint.*.
+/// Cost: one pass, some 2 microseconds for 48 KB.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::uint64_t surfaceFingerprint(osg::Node& node, const osg::Matrixd& localToEcef);
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/core/GeodeticBin.h>
+
+#include <array>
+#include <cstddef>
+
+namespace osgAnalyticBin::core {
+
+/// A mesh whose posts are evenly spaced in latitude and longitude, the first and last on the edges of the rectangle;
+/// between them stand triangles with the diagonal either way.
+/// Requires: at least two columns and rows, cells of at most 60 by 60 degrees, latitudes within the poles (asserted).
+struct GeodeticGrid {
+    Interval latitude;
+    Interval longitude;
+    std::size_t columns = 2;
+    std::size_t rows = 2;
+};
+
+/// Bounds of what the triangles of a grid do between their posts, in closed form and for any heights: chords sag below
+/// the posts, and a chord between two posts of one parallel runs poleward of it.
+/// Guarantee: for posts at altitudes within +-`reach`, every point of every triangle, and the rounded posts themselves
+/// up to 1e-7 m, has a latitude in latitude(), a longitude in the grid's, and an altitude between the lowest post's
+/// less sag() and the highest post's; tests: GeodeticGridBounds.*.
+/// Cost: some ten trigonometric functions.
+/// Source: doc/derivation.md, section 10.
+class GeodeticGridBounds final {
+public:
+    /// `reach`: metres, the largest altitude of a post either way. Requires: reach below a tenth of the radii and |e2|
+    /// below 0.1 (asserted).
+    GeodeticGridBounds(const Ellipsoid& ellipsoid, const GeodeticGrid& grid, double reach) noexcept;
+
+    [[nodiscard]] const Interval& latitude() const noexcept { return _latitude; }
+
+    /// Metres, of any triangle of the grid.
+    [[nodiscard]] double sag() const noexcept { return _sag; }
+
+    /// Metres, of the chords along the south, east, north and west edge.
+    [[nodiscard]] const std::array<double, 4>& edgeSag() const noexcept { return _edgeSag; }
+
+private:
+    Interval _latitude;
+    double _sag = 0.0;
+    std::array<double, 4> _edgeSag{};
+};
+
+}  // namespace osgAnalyticBin::core

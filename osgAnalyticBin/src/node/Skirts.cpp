@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Skirts.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+constexpr float kBorder = 1e-6f;  // of texture coordinates
+// Skirts of one tile are equally deep to this part of their depth and this many metres (float vertices of large tiles).
+constexpr double kDepthTolerance = 0.02;
+constexpr double kDepthRounding = 4.0;
+constexpr double kShallowest = 1.0;  // metres
+// How far from straight down a skirt may hang: the geocentric vertical is 0.2 degrees off.
+constexpr double kPlumbCosine = 0.999;
+
+std::uint8_t edgesAt(const osg::Vec2& texCoord) {
+    std::uint8_t edges = 0;
+    if (texCoord.y() <= kBorder) edges |= kSouthEdge;
+    if (texCoord.x() >= 1.0f - kBorder) edges |= kEastEdge;
+    if (texCoord.y() >= 1.0f - kBorder) edges |= kNorthEdge;
+    if (texCoord.x() <= kBorder) edges |= kWestEdge;
+    return edges;
+}
+
+bool isInUnitSquare(const osg::Vec2& t) {
+    return t.x() >= -kBorder && t.x() <= 1.0f + kBorder && t.y() >= -kBorder && t.y() <= 1.0f + kBorder;
+}
+
+// Finds the vertex with the same texture coordinates, by open addressing.
+class PlaceTable {
+public:
+    explicit PlaceTable(std::size_t places) {
+        std::size_t capacity = 16;
+        while (capacity < 2 * places) capacity *= 2;
+        _slots.assign(capacity, kFree);
+    }
+
+    // Returns: the vertex that was added at the same place before, or kFree.
+    std::uint32_t add(std::uint32_t vertex, const osg::Vec2* texCoords) {
+        const osg::Vec2& t = texCoords[vertex];
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, t.ptr(), sizeof(bits));
+        bits *= 0x9e3779b97f4a7c15u;
+        const std::size_t mask = _slots.size() - 1;
+        for (std::size_t i = (bits >> 32) & mask;; i = (i + 1) & mask) {
+            if (_slots[i] == kFree) {
+                _slots[i] = vertex;
+                return kFree;
+            }
+            if (texCoords[_slots[i]] == t) return _slots[i];
+        }
+    }
+
+    static constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
+
+private:
+    std::vector<std::uint32_t> _slots;
+};
+
+struct Pair {
+    std::uint32_t upper;
+    std::uint32_t lower;
+};
+
+glm::dvec3 outward(const glm::dvec3& ecef, const core::Ellipsoid& ellipsoid) {
+    const double a2 = ellipsoid.equatorialRadius() * ellipsoid.equatorialRadius();
+    const double b2 = ellipsoid.polarRadius() * ellipsoid.polarRadius();
+    return glm::normalize(glm::dvec3(ecef.x / a2, ecef.y / a2, ecef.z / b2));
+}
+
+// Metres that the second vertex is straight below the first; NaN when it is not.
+double depthOf(const glm::dvec3& upper, const glm::dvec3& lower, const core::Ellipsoid& ellipsoid) {
+    const glm::dvec3 hanging = upper - lower;
+    const double length = glm::length(hanging);
+    const bool plumb = glm::dot(hanging, outward(upper, ellipsoid)) >= kPlumbCosine * length;
+    return plumb && length >= kShallowest ? length : std::numeric_limits<double>::quiet_NaN();
+}
+
+// Returns: no pairs unless every border vertex has exactly one partner.
+std::vector<Pair> pairsOf(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& marks) {
+    const auto count = static_cast<std::size_t>(std::count_if(marks.begin(), marks.end(), [](auto m) { return m; }));
+    PlaceTable places(count);
+    std::vector<Pair> pairs;
+    std::vector<bool> paired(mesh.size(), false);
+    for (std::uint32_t i = 0; i < mesh.size(); ++i) {
+        if (!marks[i]) continue;
+        const std::uint32_t other = places.add(i, mesh.texCoords);
+        if (other == PlaceTable::kFree) continue;
+        if (paired[other]) return {};
+        paired[other] = paired[i] = true;
+        const bool otherIsUpper =
+            glm::dot(mesh.vertex(other), mesh.vertex(other)) > glm::dot(mesh.vertex(i), mesh.vertex(i));
+        pairs.push_back(otherIsUpper ? Pair{other, i} : Pair{i, other});
+    }
+    if (2 * pairs.size() != count) return {};
+    return pairs;
+}
+
+// Whether lower vertices are joined to border vertices only.
+bool hangFromBorder(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& marks) {
+    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+        const std::uint8_t a = marks[mesh.triangles[i]];
+        const std::uint8_t b = marks[mesh.triangles[i + 1]];
+        const std::uint8_t c = marks[mesh.triangles[i + 2]];
+        if (((a | b | c) & kSkirtVertex) && !(a && b && c)) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+MeshSkirts findSkirts(const SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
+    if (!mesh.texCoords) return {};
+    MeshSkirts skirts;
+    skirts.marks.resize(mesh.size());
+    for (std::size_t i = 0; i < mesh.size(); ++i) {
+        if (!isInUnitSquare(mesh.texCoords[i])) return {};
+        skirts.marks[i] = edgesAt(mesh.texCoords[i]);
+    }
+    const std::vector<Pair> pairs = pairsOf(mesh, skirts.marks);
+    if (pairs.empty()) return {};
+
+    double shallowest = std::numeric_limits<double>::infinity();
+    for (const Pair& pair : pairs) {
+        const double depth = depthOf(mesh.vertex(pair.upper), mesh.vertex(pair.lower), ellipsoid);
+        if (!std::isfinite(depth)) return {};
+        shallowest = std::min(shallowest, depth);
+        skirts.depth = std::max(skirts.depth, depth);
+        skirts.marks[pair.lower] |= kSkirtVertex;
+    }
+    const bool equal = skirts.depth <= shallowest * (1.0 + kDepthTolerance) + kDepthRounding;
+    return equal && hangFromBorder(mesh, skirts.marks) ? skirts : MeshSkirts{};
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "SurfaceMesh.h"
+
+#include <osg/TriangleFunctor>
+#include <osg/TriangleIndexFunctor>
+
+#include <algorithm>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+struct IndexSink {
+    std::vector<std::uint32_t>* triangles = nullptr;
+
+    void operator()(unsigned int a, unsigned int b, unsigned int c) const {
+        triangles->insert(triangles->end(), {a, b, c});
+    }
+};
+
+struct TriangleSink {
+    SurfaceMesh* mesh = nullptr;
+    const osg::Matrixd* toEcef = nullptr;
+
+    void operator()(const osg::Vec3& a, const osg::Vec3& b, const osg::Vec3& c, bool = false) const {
+        for (const osg::Vec3& local : {a, b, c}) {
+            const osg::Vec3d v = osg::Vec3d(local) * *toEcef;
+            mesh->triangles.push_back(static_cast<std::uint32_t>(mesh->size()));
+            mesh->x.push_back(v.x());
+            mesh->y.push_back(v.y());
+            mesh->z.push_back(v.z());
+        }
+    }
+};
+
+// Numbers of one vertex, and its own type, by the array's type.
+template <class Vertices>
+void place(const Vertices& vertices, const osg::Matrixd& m, SurfaceMesh& mesh) {
+    const std::size_t count = vertices.size();
+    mesh.x.resize(count);
+    mesh.y.resize(count);
+    mesh.z.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double x = static_cast<double>(vertices[i].x());
+        const double y = static_cast<double>(vertices[i].y());
+        const double z = static_cast<double>(vertices[i].z());
+        mesh.x[i] = x * m(0, 0) + y * m(1, 0) + z * m(2, 0) + m(3, 0);
+        mesh.y[i] = x * m(0, 1) + y * m(1, 1) + z * m(2, 1) + m(3, 1);
+        mesh.z[i] = x * m(0, 2) + y * m(1, 2) + z * m(2, 2) + m(3, 2);
+    }
+}
+
+bool readVertices(const osg::Array& array, const osg::Matrixd& localToEcef, SurfaceMesh& mesh) {
+    if (const auto* floats = dynamic_cast<const osg::Vec3Array*>(&array)) {
+        place(*floats, localToEcef, mesh);
+        return true;
+    }
+    if (const auto* doubles = dynamic_cast<const osg::Vec3dArray*>(&array)) {
+        place(*doubles, localToEcef, mesh);
+        return true;
+    }
+    return false;
+}
+
+template <class Elements>
+void addElements(const Elements& elements, std::vector<std::uint32_t>& triangles) {
+    const std::size_t whole = elements.size() / 3 * 3;
+    triangles.insert(triangles.end(), elements.begin(), elements.begin() + static_cast<std::ptrdiff_t>(whole));
+}
+
+// Lines and points, as pairs and single vertices.
+void addPoints(const osg::PrimitiveSet& primitives, std::vector<std::uint32_t>& triangles) {
+    const unsigned int count = primitives.getNumIndices();
+    for (unsigned int i = 0; i < count; ++i) {
+        const unsigned int next = i + 1 < count ? i + 1 : 0;
+        triangles.insert(triangles.end(), {primitives.index(i), primitives.index(next), primitives.index(i)});
+    }
+}
+
+bool isOfPointsOrLines(GLenum mode) {
+    return mode == GL_POINTS || mode == GL_LINES || mode == GL_LINE_STRIP || mode == GL_LINE_LOOP;
+}
+
+bool isOfTriangles(GLenum mode) {
+    return mode == GL_TRIANGLES || mode == GL_TRIANGLE_STRIP || mode == GL_TRIANGLE_FAN || mode == GL_QUADS ||
+           mode == GL_QUAD_STRIP || mode == GL_POLYGON;
+}
+
+bool readPrimitives(const osg::PrimitiveSet& primitives, std::vector<std::uint32_t>& triangles) {
+    if (primitives.getNumInstances() > 0) return false;
+    const GLenum mode = primitives.getMode();
+    if (isOfPointsOrLines(mode)) {
+        addPoints(primitives, triangles);
+        return true;
+    }
+    if (!isOfTriangles(mode)) return false;
+    if (mode == GL_TRIANGLES) {
+        if (const auto* shorts = dynamic_cast<const osg::DrawElementsUShort*>(&primitives)) {
+            addElements(*shorts, triangles);
+            return true;
+        }
+        if (const auto* ints = dynamic_cast<const osg::DrawElementsUInt*>(&primitives)) {
+            addElements(*ints, triangles);
+            return true;
+        }
+    }
+    osg::TriangleIndexFunctor<IndexSink> functor;
+    functor.triangles = &triangles;
+    primitives.accept(functor);
+    return true;
+}
+
+bool readGeometry(const osg::Geometry& geometry, const osg::Matrixd& localToEcef, SurfaceMesh& mesh) {
+    for (const auto& primitives : geometry.getPrimitiveSetList())
+        if (primitives && !readPrimitives(*primitives, mesh.triangles)) return false;
+    if (mesh.triangles.empty()) return true;
+    if (!geometry.getVertexArray() || !readVertices(*geometry.getVertexArray(), localToEcef, mesh)) return false;
+    const auto* texCoords = dynamic_cast<const osg::Vec2Array*>(geometry.getTexCoordArray(0));
+    if (texCoords && texCoords->size() == mesh.size()) mesh.texCoords = texCoords->asVector().data();
+    return *std::max_element(mesh.triangles.begin(), mesh.triangles.end()) < mesh.size();
+}
+
+}  // namespace
+
+bool readMesh(const osg::Drawable& drawable, const osg::Matrixd& localToEcef, SurfaceMesh& mesh) {
+    mesh = {};
+    if (const osg::Geometry* geometry = drawable.asGeometry()) return readGeometry(*geometry, localToEcef, mesh);
+    osg::TriangleFunctor<TriangleSink> functor;
+    if (!drawable.supports(functor)) return false;
+    functor.mesh = &mesh;
+    functor.toEcef = &localToEcef;
+    drawable.accept(functor);
+    return true;
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osg/Matrixd>
+#include <osg/NodeVisitor>
+#include <osgTerrain/TerrainTile>
+
+namespace osgAnalyticBin {
+
+/// Visits what one tile draws: terrain tiles, which are not traversed, and drawables, with the frame in which they
+/// stand. Masks, ranges and switches are passed over.
+class SurfaceWalk : public osg::NodeVisitor {
+public:
+    explicit SurfaceWalk(const osg::Matrixd& localToEcef);
+
+    void apply(osg::Node& node) override;
+    void apply(osg::Billboard& node) override;
+    void apply(osg::ProxyNode& node) override;
+    void apply(osg::PagedLOD& node) override;
+    void apply(osg::Transform& node) override;
+    void apply(osg::Drawable& drawable) override;
+
+protected:
+    virtual void visit(osgTerrain::TerrainTile& tile) = 0;
+    virtual void visit(osg::Drawable& drawable) = 0;
+
+    [[nodiscard]] const osg::Matrixd& localToEcef() const { return _localToEcef; }
+
+    /// What the tile draws cannot be told: the walk goes no further.
+    void giveUp() { _isKnown = false; }
+    [[nodiscard]] bool isKnown() const { return _isKnown; }
+
+private:
+    osg::Matrixd _localToEcef;
+    bool _isKnown = true;
+};
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,459 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Oracle: samples of the triangles that osgTerrain::GeometryTechnique itself makes of a tile, or of the mesh's own,
+// taken back to latitude, longitude and altitude.
+
+#include "TileFixture.h"
+
+#include <osgAnalyticBin/TileSurface.h>
+
+#include <gtest/gtest.h>
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+#include <osg/ShapeDrawable>
+#include <osgTerrain/Layer>
+#include <osgTerrain/ValidDataOperator>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <support/Random.h>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::GeodeticBin;
+
+const osg::ref_ptr<osg::EllipsoidModel> kModel = new osg::EllipsoidModel;
+const core::Ellipsoid kEllipsoid(kModel->getRadiusEquator(), kModel->getRadiusPolar());
+
+TileSurface surfaceOf(osg::Node& node, double sampleRatio = 1.0) {
+    return tileSurface(node, *kModel, osg::Matrixd(), sampleRatio);
+}
+
+core::Interval altitudesOf(const std::vector<glm::dvec3>& points) {
+    core::Interval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const glm::dvec3& point : points) {
+        const double altitude = kEllipsoid.toGeodetic(point).altitude;
+        range = {std::min(range.lower, altitude), std::max(range.upper, altitude)};
+    }
+    return range;
+}
+
+struct TileCase {
+    const char* name;
+    GeodeticBin extents;
+    unsigned int columns, rows;
+};
+
+// From the whole globe down to a tile of 20 metres between posts.
+std::vector<TileCase> tileCases() {
+    const auto rect = [](double south, double west, double north, double east) {
+        return GeodeticBin::fromDegrees({south, north}, {west, east}, {0, 0});
+    };
+    return {{"globe", rect(-90, -180, 90, 180), 64, 64},      {"coarse globe", rect(-90, -180, 90, 180), 16, 9},
+            {"hemisphere", rect(-90, -180, 90, 0), 64, 64},   {"north pole", rect(45, 0, 90, 90), 64, 64},
+            {"south pole", rect(-90, -45, -67.5, 0), 16, 16}, {"date line", rect(40, 170, 50, 190), 33, 17},
+            {"flat", rect(-22.5, 90, 0, 112.5), 8, 8},        {"across the equator", rect(-10, 10, 20, 30), 20, 30},
+            {"south", rect(-60, 10, -45, 40), 20, 20},        {"small", rect(47, 10, 47.01, 10.02), 64, 64}};
+}
+
+osg::ref_ptr<osgTerrain::TerrainTile> randomTile(const TileCase& c, Random& random) {
+    const double low = random.uniform(-11000.0, 8000.0);
+    const double high = random.uniform(low, 8800.0);
+    return makeTerrainTile(c.extents, c.columns, c.rows, [&](unsigned int, unsigned int) {
+        return static_cast<float>(random.chance(0.2) ? low : random.uniform(low, high));
+    });
+}
+
+osg::HeightField& heightsOf(osgTerrain::TerrainTile& tile) {
+    return *static_cast<osgTerrain::HeightFieldLayer*>(tile.getElevationLayer())->getHeightField();
+}
+
+TEST(TileSurface, HoldsEveryTriangleOfATerrainTile) {
+    Random random(1);
+    for (const TileCase& c : tileCases()) {
+        for (const float scale : {1.0f, 3.0f, 0.25f, 10.0f, -2.0f}) {
+            const auto tile = randomTile(c, random);
+            const TileSurface surface = surfaceOf(*tile);
+            ASSERT_TRUE(surface.bin.valid()) << c.name;
+            EXPECT_TRUE(surface.isScalable);
+            EXPECT_EQ(surface.skirt, 0.0);
+            const auto samples = samplesOf(drawnTriangles(*tile, scale).surface, 4);
+            ASSERT_FALSE(samples.empty());
+            const AnalyticBin bin = surface.bin.exaggerated(static_cast<double>(scale));
+            EXPECT_LE(metresOutside(bin, samples, kEllipsoid), bin.margin()) << c.name << " scale " << scale;
+        }
+    }
+}
+
+TEST(TileSurface, IsTightAroundATerrainTile) {
+    Random random(2);
+    for (const TileCase& c : tileCases()) {
+        const auto tile = randomTile(c, random);
+        const TileSurface surface = surfaceOf(*tile);
+        const core::Interval seen = altitudesOf(samplesOf(drawnTriangles(*tile, 1.0f).surface));
+        const double margin = surface.bin.margin();
+        EXPECT_LE(surface.bin.bin().altitude().upper, seen.upper + margin) << c.name;
+        // the lowest post need not stand where chords sag most
+        EXPECT_LE(seen.lower - surface.bin.bin().altitude().lower, surface.bin.sag() + margin) << c.name;
+        EXPECT_EQ(surface.bin.bin().longitude(), c.extents.longitude()) << c.name;
+        // half a column about its middle, squared, over four: the poleward run at 45 degrees
+        const double column = c.extents.longitude().width() / (c.columns - 1);
+        EXPECT_LE(surface.bin.bin().latitude().upper - c.extents.latitude().upper, 0.07 * column * column + 1e-12);
+        EXPECT_LE(c.extents.latitude().lower - surface.bin.bin().latitude().lower, 0.07 * column * column + 1e-12);
+        EXPECT_LE(margin, 2.0);
+    }
+}
+
+TEST(TileSurface, KnowsHowLowEveryEdgeIs) {
+    Random random(3);
+    for (const TileCase& c : tileCases()) {
+        const auto tile = randomTile(c, random);
+        const TileSurface surface = surfaceOf(*tile);
+        std::array<double, 4> seen;
+        seen.fill(std::numeric_limits<double>::infinity());
+        const core::Interval latitude = c.extents.latitude();
+        const core::Interval longitude = c.extents.longitude();
+        const double row = latitude.width() / (c.rows - 1);
+        const double column = longitude.width() / (c.columns - 1);
+        const auto altitude = [&](unsigned int i, unsigned int j) {
+            return static_cast<double>(heightsOf(*tile).getHeight(i, j));
+        };
+        const auto chord = [&](double& low, unsigned int i, unsigned int j, unsigned int di, unsigned int dj) {
+            const glm::dvec3 a =
+                kEllipsoid.toEcef({latitude.lower + j * row, longitude.lower + i * column, altitude(i, j)});
+            const glm::dvec3 b = kEllipsoid.toEcef(
+                {latitude.lower + (j + dj) * row, longitude.lower + (i + di) * column, altitude(i + di, j + dj)});
+            for (int k = 0; k <= 8; ++k) low = std::min(low, kEllipsoid.toGeodetic(a + k / 8.0 * (b - a)).altitude);
+        };
+        for (unsigned int i = 0; i + 1 < c.columns; ++i) {
+            chord(seen[0], i, 0, 1, 0);
+            chord(seen[2], i, c.rows - 1, 1, 0);
+        }
+        for (unsigned int j = 0; j + 1 < c.rows; ++j) {
+            chord(seen[1], c.columns - 1, j, 0, 1);
+            chord(seen[3], 0, j, 0, 1);
+        }
+        for (std::size_t edge = 0; edge < 4; ++edge) {
+            EXPECT_LE(surface.edgeLow[edge], seen[edge] + 1e-3) << c.name << " edge " << edge;
+            EXPECT_LE(seen[edge] - surface.edgeLow[edge], 1.1 * surface.bin.sag()) << c.name << " edge " << edge;
+        }
+    }
+}
+
+TEST(TileSurface, FollowsTheSampleRatio) {
+    Random random(4);
+    const TileCase c = tileCases().front();
+    const auto tile = randomTile(c, random);
+    for (const double ratio : {0.0, 0.1, 0.5, 2.0}) {
+        const TileSurface surface = surfaceOf(*tile, ratio);
+        const auto samples = samplesOf(drawnTriangles(*tile, 1.0f, static_cast<float>(ratio)).surface);
+        EXPECT_LE(metresOutside(surface.bin, samples, kEllipsoid), surface.bin.margin()) << ratio;
+    }
+    EXPECT_GT(surfaceOf(*tile, 0.1).bin.sag(), 4.0 * surfaceOf(*tile).bin.sag());
+}
+
+TEST(TileSurface, PassesOverPostsWithoutData) {
+    Random random(5);
+    const TileCase c = tileCases()[5];
+    const auto tile = randomTile(c, random);
+    for (const unsigned int i : {0u, 5u, 17u, 200u, 300u}) heightsOf(*tile).getHeightList()[i] = -99999.0f;
+    EXPECT_FALSE(surfaceOf(*tile).bin.valid()) << "no terrain is that deep";
+    tile->getElevationLayer()->setValidDataOperator(new osgTerrain::NoDataValue(-99999.0f));
+    const TileSurface surface = surfaceOf(*tile);
+    ASSERT_TRUE(surface.bin.valid());
+    EXPECT_GT(surface.bin.bin().altitude().lower, -20000.0);
+    const auto samples = samplesOf(drawnTriangles(*tile, 1.0f).surface);
+    EXPECT_LE(metresOutside(surface.bin, samples, kEllipsoid), surface.bin.margin());
+    for (const double low : surface.edgeLow) EXPECT_LE(low, altitudesOf(samples).lower + surface.bin.sag());
+}
+
+TEST(TileSurface, KnowsATileWithoutHeights) {
+    const auto tile = makeTerrainTile(GeodeticBin::fromDegrees({0, 45}, {0, 90}, {0, 0}), 8, 8,
+                                      [](unsigned int, unsigned int) { return 0.0f; });
+    const osg::ref_ptr<osgTerrain::ImageLayer> image = new osgTerrain::ImageLayer;
+    image->setLocator(tile->getElevationLayer()->getLocator());
+    tile->setElevationLayer(nullptr);
+    EXPECT_FALSE(surfaceOf(*tile).bin.valid());
+    tile->setColorLayer(0, image);
+    const TileSurface surface = surfaceOf(*tile);
+    ASSERT_TRUE(surface.bin.valid());
+    const auto samples = samplesOf(drawnTriangles(*tile, 5.0f).surface);
+    EXPECT_LE(metresOutside(surface.bin.exaggerated(5.0), samples, kEllipsoid), surface.bin.margin());
+}
+
+TEST(TileSurface, LeavesSkirtsOfTerrainTilesOut) {
+    Random random(6);
+    for (const TileCase& c : tileCases()) {
+        const auto tile = randomTile(c, random);
+        heightsOf(*tile).setSkirtHeight(4000.0f);
+        const TileSurface surface = surfaceOf(*tile);
+        EXPECT_EQ(surface.skirt, 4000.0);
+        const DrawnTriangles drawn = drawnTriangles(*tile, 2.0f);
+        ASSERT_FALSE(drawn.skirts.empty());
+        const AnalyticBin bin = surface.bin.exaggerated(2.0);
+        EXPECT_LE(metresOutside(bin, samplesOf(drawn.surface, 3), kEllipsoid), bin.margin()) << c.name;
+        const core::Interval h = bin.bin().altitude();
+        const AnalyticBin hung(bin.bin().withAltitude({h.lower - surface.skirt, h.upper}));
+        EXPECT_LE(metresOutside(hung, samplesOf(drawn.skirts, 3), kEllipsoid), bin.margin()) << c.name;
+    }
+}
+
+TEST(TileSurface, IsUnknownWhereTheTileIsBroken) {
+    const auto fresh = [] {
+        return makeTerrainTile(GeodeticBin::fromDegrees({0, 45}, {0, 90}, {0, 0}), 8, 8,
+                               [](unsigned int, unsigned int) { return 100.0f; });
+    };
+    ASSERT_TRUE(surfaceOf(*fresh()).bin.valid());
+    auto tile = fresh();
+    heightsOf(*tile).setHeight(3, 3, std::numeric_limits<float>::quiet_NaN());
+    EXPECT_FALSE(surfaceOf(*tile).bin.valid());
+    tile = fresh();
+    heightsOf(*tile).setHeight(3, 3, std::numeric_limits<float>::infinity());
+    EXPECT_FALSE(surfaceOf(*tile).bin.valid());
+    tile = fresh();
+    heightsOf(*tile).getHeightList().resize(63);
+    EXPECT_FALSE(surfaceOf(*tile).bin.valid());
+    tile = fresh();
+    tile->getElevationLayer()->getLocator()->setCoordinateSystemType(osgTerrain::Locator::GEOGRAPHIC);
+    EXPECT_FALSE(surfaceOf(*tile).bin.valid());
+    tile = fresh();
+    tile->getElevationLayer()->getLocator()->setTransform(osg::Matrixd::rotate(0.5, 0, 0, 1));
+    EXPECT_FALSE(surfaceOf(*tile).bin.valid());
+    tile = fresh();
+    tile->getElevationLayer()->getLocator()->setTransformAsExtents(0, 0, 90, 45);
+    EXPECT_FALSE(surfaceOf(*tile).bin.valid()) << "degrees";
+    tile = fresh();
+    EXPECT_FALSE(tileSurface(*tile, *kModel, osg::Matrixd::translate(1, 0, 0)).bin.valid());
+    const osg::ref_ptr<osg::EllipsoidModel> moon = new osg::EllipsoidModel(1737400.0, 1736000.0);
+    EXPECT_FALSE(tileSurface(*tile, *moon, osg::Matrixd()).bin.valid());
+}
+
+TEST(TileSurface, NeitherTraversesNorChangesATerrainTile) {
+    const osg::ref_ptr<osgTerrain::Terrain> terrain = new osgTerrain::Terrain;
+    const auto tile = makeTerrainTile(GeodeticBin::fromDegrees({0, 45}, {0, 90}, {0, 0}), 8, 8,
+                                      [](unsigned int, unsigned int) { return 100.0f; });
+    ASSERT_TRUE(surfaceOf(*tile).bin.valid());
+    EXPECT_NE(surfaceFingerprint(*tile, osg::Matrixd()), 0u);
+    EXPECT_EQ(tile->getTerrainTechnique(), nullptr);
+    terrain->addChild(tile);
+    (void)drawnTriangles(*terrain);
+    EXPECT_EQ(tile->getTerrain(), terrain.get());
+}
+
+// A mesh as VirtualPlanetBuilder makes it: texture coordinates over the tile, skirts of one depth, in the frame of
+// its centre.
+struct VpbMesh {
+    GeodeticBin extents;
+    unsigned int posts = 17;
+    double skirt = 5000.0;
+    double low = -500.0, high = 3000.0;
+};
+
+osg::ref_ptr<osg::MatrixTransform> makeVpbTile(const VpbMesh& c, Random& random) {
+    const core::Geodetic center{c.extents.latitude().middle(), c.extents.longitude().middle(), 0.0};
+    osg::Matrixd frame;
+    kModel->computeLocalToWorldTransformFromLatLongHeight(center.latitude, center.longitude, 0.0, frame);
+    const osg::Matrixd toLocal = osg::Matrixd::inverse(frame);
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    const osg::ref_ptr<osg::Vec2Array> texCoords = new osg::Vec2Array;
+    const osg::ref_ptr<osg::DrawElementsUShort> triangles = new osg::DrawElementsUShort(GL_TRIANGLES);
+    const unsigned int n = c.posts;
+    const auto add = [&](unsigned int i, unsigned int j, double altitude) {
+        const double u = static_cast<double>(i) / (n - 1);
+        const double v = static_cast<double>(j) / (n - 1);
+        const glm::dvec3 ecef =
+            kEllipsoid.toEcef({c.extents.latitude().lower + v * c.extents.latitude().width(),
+                               c.extents.longitude().lower + u * c.extents.longitude().width(), altitude});
+        vertices->push_back(osg::Vec3(osg::Vec3d(ecef.x, ecef.y, ecef.z) * toLocal));
+        texCoords->push_back(osg::Vec2(static_cast<float>(u), static_cast<float>(v)));
+        return static_cast<GLushort>(vertices->size() - 1);
+    };
+    const auto addTriangles = [&](GLushort a, GLushort b, GLushort d, GLushort e) {
+        for (const GLushort i : {a, b, e, a, e, d}) triangles->push_back(i);
+    };
+    std::vector<double> altitudes;
+    std::vector<GLushort> top;
+    for (unsigned int j = 0; j < n; ++j) {
+        for (unsigned int i = 0; i < n; ++i) {
+            altitudes.push_back(random.uniform(c.low, c.high));
+            top.push_back(add(i, j, altitudes.back()));
+        }
+    }
+    for (unsigned int j = 0; j + 1 < n; ++j)
+        for (unsigned int i = 0; i + 1 < n; ++i)
+            addTriangles(top[j * n + i], top[j * n + i + 1], top[(j + 1) * n + i], top[(j + 1) * n + i + 1]);
+    std::vector<unsigned int> border;
+    for (unsigned int i = 0; i + 1 < n; ++i) border.push_back(i);
+    for (unsigned int j = 0; j + 1 < n; ++j) border.push_back(j * n + n - 1);
+    for (unsigned int i = n - 1; i > 0; --i) border.push_back((n - 1) * n + i);
+    for (unsigned int j = n - 1; j > 0; --j) border.push_back(j * n);
+    std::vector<GLushort> bottom;
+    for (const unsigned int p : border)
+        if (c.skirt > 0.0) bottom.push_back(add(p % n, p / n, altitudes[p] - c.skirt));
+    for (std::size_t k = 0; k < bottom.size(); ++k) {
+        const std::size_t next = (k + 1) % border.size();
+        addTriangles(bottom[k], bottom[next], top[border[k]], top[border[next]]);
+    }
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(vertices);
+    geometry->setTexCoordArray(0, texCoords);
+    geometry->addPrimitiveSet(triangles);
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->addDrawable(geometry);
+    osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform(frame);
+    tile->addChild(geode);
+    return tile;
+}
+
+osg::Geometry& geometryOf(osg::MatrixTransform& tile) {
+    return *tile.getChild(0)->asGeode()->getDrawable(0)->asGeometry();
+}
+
+// The triangles with the skirts left out, by the order in which makeVpbTile() adds them.
+std::vector<EcefTriangle> surfaceTriangles(osg::MatrixTransform& tile, unsigned int posts) {
+    std::vector<EcefTriangle> triangles = drawnTriangles(tile).surface;
+    triangles.resize(2 * (posts - 1) * (posts - 1));
+    return triangles;
+}
+
+TEST(TileSurface, TellsSkirtsOfMeshesFromTheirSurface) {
+    Random random(7);
+    for (const TileCase& c : tileCases()) {
+        VpbMesh mesh;
+        mesh.extents = c.extents;
+        mesh.skirt = 50.0 + 40000.0 * c.extents.latitude().width();
+        const auto tile = makeVpbTile(mesh, random);
+        const TileSurface surface = surfaceOf(*tile);
+        ASSERT_TRUE(surface.bin.valid()) << c.name;
+        EXPECT_FALSE(surface.isScalable);
+        EXPECT_NEAR(surface.skirt, mesh.skirt, 4.0) << c.name;
+        const auto samples = samplesOf(surfaceTriangles(*tile, mesh.posts));
+        EXPECT_LE(metresOutside(surface.bin, samples, kEllipsoid), surface.bin.margin()) << c.name;
+        const core::Interval seen = altitudesOf(samples);
+        const double width = std::max(c.extents.latitude().width(), c.extents.longitude().width());
+        const double sag = 6.4e6 * 0.28 * width * width / 256.0;
+        EXPECT_LE(surface.bin.bin().altitude().upper, seen.upper + 35.0) << c.name;
+        EXPECT_GE(surface.bin.bin().altitude().lower, seen.lower - 1.2 * sag - 35.0) << c.name;
+        for (const double low : surface.edgeLow) EXPECT_GE(low, surface.bin.bin().altitude().lower) << c.name;
+    }
+}
+
+TEST(TileSurface, KnowsHowLowTheEdgesOfMeshesAre) {
+    Random random(8);
+    VpbMesh mesh;
+    mesh.extents = GeodeticBin::fromDegrees({30, 35}, {60, 65}, {0, 0});
+    mesh.low = mesh.high = 1000.0;
+    const auto tile = makeVpbTile(mesh, random);
+    auto& vertices = static_cast<osg::Vec3Array&>(*geometryOf(*tile).getVertexArray());
+    const TileSurface flat = surfaceOf(*tile);
+    vertices[16 * 17 + 8].z() -= 300.0f;  // in the middle of the northern edge
+    vertices[8 * 17 + 8].z() -= 5000.0f;  // in the middle of the tile
+    const TileSurface dented = surfaceOf(*tile);
+    EXPECT_EQ(dented.skirt, 0.0) << "skirts of unequal depth are no skirts";
+    vertices[17 * 17 + 32 + 8].z() -= 300.0f;  // the skirt below
+    const TileSurface surface = surfaceOf(*tile);
+    EXPECT_NEAR(surface.skirt, mesh.skirt, 1.0);
+    EXPECT_NEAR(surface.edgeLow[2], flat.edgeLow[2] - 300.0, 2.0);
+    for (const std::size_t edge : {0u, 1u, 3u}) EXPECT_NEAR(surface.edgeLow[edge], 1000.0, 110.0);
+    EXPECT_LT(surface.bin.bin().altitude().lower, -3900.0);
+}
+
+TEST(TileSurface, HoldsAllWhereSkirtsCannotBeTold) {
+    Random random(9);
+    VpbMesh mesh;
+    mesh.extents = GeodeticBin::fromDegrees({30, 35}, {60, 65}, {0, 0});
+    const auto holdsAll = [](osg::MatrixTransform& tile) {
+        const TileSurface surface = surfaceOf(tile);
+        EXPECT_EQ(surface.skirt, 0.0);
+        EXPECT_LE(surface.bin.bin().altitude().lower, -5000.0 + 10.0);
+        EXPECT_LE(metresOutside(surface.bin, samplesOf(drawnTriangles(tile).surface), kEllipsoid),
+                  surface.bin.margin());
+        for (const double low : surface.edgeLow) EXPECT_LE(low, surface.bin.bin().altitude().lower);
+    };
+    mesh.low = mesh.high = 0.0;
+    auto tile = makeVpbTile(mesh, random);
+    ASSERT_NEAR(surfaceOf(*tile).skirt, mesh.skirt, 4.0);
+
+    geometryOf(*tile).setTexCoordArray(0, nullptr);
+    holdsAll(*tile);
+    // one skirt vertex moved sideways
+    tile = makeVpbTile(mesh, random);
+    static_cast<osg::Vec3Array&>(*geometryOf(*tile).getVertexArray()).back().x() += 2000.0f;
+    holdsAll(*tile);
+    // a border vertex without a partner
+    tile = makeVpbTile(mesh, random);
+    static_cast<osg::Vec2Array&>(*geometryOf(*tile).getTexCoordArray(0)).back().y() = 0.513f;
+    holdsAll(*tile);
+    // texture coordinates beyond the tile
+    tile = makeVpbTile(mesh, random);
+    static_cast<osg::Vec2Array&>(*geometryOf(*tile).getTexCoordArray(0))[20].x() = 3.0f;
+    holdsAll(*tile);
+    // a triangle from a skirt to the middle of the tile
+    tile = makeVpbTile(mesh, random);
+    auto& triangles = static_cast<osg::DrawElementsUShort&>(*geometryOf(*tile).getPrimitiveSet(0));
+    for (const GLushort i : {GLushort{0}, GLushort{150}, static_cast<GLushort>(17 * 17 + 3)}) triangles.push_back(i);
+    holdsAll(*tile);
+}
+
+TEST(TileSurface, FollowsFixedTransformsOnly) {
+    Random random(10);
+    VpbMesh mesh;
+    mesh.extents = GeodeticBin::fromDegrees({30, 35}, {60, 65}, {0, 0});
+    const auto tile = makeVpbTile(mesh, random);
+    const TileSurface expected = surfaceOf(*tile);
+    const osg::Matrixd frame = tile->getMatrix();
+    tile->setMatrix(osg::Matrixd::rotate(0.7, 1, 2, 3));
+    const osg::ref_ptr<osg::MatrixTransform> above = new osg::MatrixTransform(osg::Matrixd::inverse(tile->getMatrix()));
+    above->addChild(tile);
+    const TileSurface moved = tileSurface(*above, *kModel, frame);
+    ASSERT_TRUE(moved.bin.valid());
+    EXPECT_NEAR(moved.bin.bin().altitude().lower, expected.bin.bin().altitude().lower, 1e-3);
+    EXPECT_NEAR(moved.bin.bin().longitude().upper, expected.bin.bin().longitude().upper, 1e-9);
+
+    above->setDataVariance(osg::Object::DYNAMIC);
+    EXPECT_FALSE(tileSurface(*above, *kModel, frame).bin.valid());
+    above->setDataVariance(osg::Object::STATIC);
+    above->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+    EXPECT_FALSE(tileSurface(*above, *kModel, frame).bin.valid());
+    above->setReferenceFrame(osg::Transform::RELATIVE_RF);
+    const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
+    above->addChild(paged);
+    EXPECT_FALSE(tileSurface(*above, *kModel, frame).bin.valid());
+}
+
+TEST(TileSurface, HoldsLinesPointsAndShapes) {
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    const osg::ref_ptr<osg::Geometry> road = new osg::Geometry;
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    vertices->push_back(osg::Vec3(6378137.0f, 0.0f, 0.0f));
+    vertices->push_back(osg::Vec3(6378137.0f, 100000.0f, 0.0f));
+    vertices->push_back(osg::Vec3(6379137.0f, 0.0f, 1000.0f));
+    road->setVertexArray(vertices);
+    geode->addDrawable(road);
+    EXPECT_FALSE(surfaceOf(*geode).bin.valid());
+    road->addPrimitiveSet(new osg::DrawArrays(GL_LINE_STRIP, 0, 2));
+    EXPECT_NEAR(surfaceOf(*geode).bin.bin().altitude().upper, 784.0, 2.0);
+    road->addPrimitiveSet(new osg::DrawArrays(GL_POINTS, 2, 1));
+    EXPECT_NEAR(surfaceOf(*geode).bin.bin().altitude().upper, 1000.0, 2.0);
+    geode->addDrawable(new osg::ShapeDrawable(new osg::Box(osg::Vec3(6378137.0f, 0.0f, 0.0f), 8000.0f)));
+    EXPECT_NEAR(surfaceOf(*geode).bin.bin().altitude().upper, 4000.0, 10.0);
+
+    road->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 1, 3));
+    EXPECT_FALSE(surfaceOf(*geode).bin.valid()) << "an index beyond the vertices";
+}
+
+TEST(TileSurface, IsUnknownWhereThereIsNoTerrain) {
+    const osg::ref_ptr<osg::Group> empty = new osg::Group;
+    EXPECT_FALSE(surfaceOf(*empty).bin.valid());
+    const osg::ref_ptr<osg::Geode> planar = new osg::Geode;
+    planar->addDrawable(new osg::ShapeDrawable(new osg::Box(osg::Vec3(500.0f, 0.0f, 0.0f), 1000.0f)));
+    EXPECT_FALSE(surfaceOf(*planar).bin.valid());
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Surfaces of all tiles of two databases of VirtualPlanetBuilder, where these are at hand.
+
+#include "TileFixture.h"
+
+#include <osgAnalyticBin/TileSurface.h>
+
+#include <gtest/gtest.h>
+#include <osg/CoordinateSystemNode>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+#include <osgDB/FileNameUtils>
+#include <osgDB/FileUtils>
+#include <osgDB/ReadFile>
+#include <osgTerrain/Layer>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+const osg::ref_ptr<osg::EllipsoidModel> kModel = new osg::EllipsoidModel;
+const core::Ellipsoid kEllipsoid(kModel->getRadiusEquator(), kModel->getRadiusPolar());
+
+// The meshes of a file: terrain tiles and the transforms above geometry.
+class MeshFinder : public osg::NodeVisitor {
+public:
+    MeshFinder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Node& node) override {
+        if (dynamic_cast<osgTerrain::TerrainTile*>(&node)) {
+            meshes.push_back(&node);
+        } else {
+            traverse(node);
+        }
+    }
+    void apply(osg::MatrixTransform& node) override { meshes.push_back(&node); }
+
+    std::vector<osg::ref_ptr<osg::Node>> meshes;
+};
+
+std::vector<osg::ref_ptr<osg::Node>> meshesOf(const std::string& database) {
+    const std::string folder = std::string(SHARED_DATA_FOLDER) + "/vpb/" + database;
+    std::vector<std::string> files{folder + "/earth.osgb"};
+    const std::string below = folder + "/earth_root_L0_X0_Y0";
+    for (const std::string& name : osgDB::getDirectoryContents(below))
+        if (osgDB::getFileExtension(name) == "osgb") files.push_back(osgDB::concatPaths(below, name));
+    std::vector<osg::ref_ptr<osg::Node>> meshes;
+    for (const std::string& file : files) {
+        const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file);
+        if (!node) continue;
+        MeshFinder finder;
+        node->accept(finder);
+        meshes.insert(meshes.end(), finder.meshes.begin(), finder.meshes.end());
+    }
+    return meshes;
+}
+
+TEST(VpbSurface, HoldsEveryTerrainTile) {
+    const auto meshes = meshesOf("terrain");
+    if (meshes.empty()) GTEST_SKIP() << "no sample database";
+    for (const auto& mesh : meshes) {
+        const auto& tile = static_cast<osgTerrain::TerrainTile&>(*mesh);
+        const TileSurface surface = tileSurface(*mesh, *kModel, osg::Matrixd());
+        ASSERT_TRUE(surface.bin.valid());
+        const auto samples = samplesOf(drawnTriangles(tile, 1.0f).surface, 2);
+        EXPECT_LE(metresOutside(surface.bin, samples, kEllipsoid), surface.bin.margin());
+        const auto& layer = static_cast<const osgTerrain::HeightFieldLayer&>(*tile.getElevationLayer());
+        EXPECT_EQ(surface.skirt, static_cast<double>(layer.getHeightField()->getSkirtHeight()));
+        EXPECT_GT(surface.skirt, 0.0);
+    }
+}
+
+// The triangles of a mesh sorted by what VirtualPlanetBuilder's skirts are: the lower ones of vertices with the same
+// texture coordinates, and what is joined to them.
+struct SortedMesh {
+    std::vector<EcefTriangle> surface;
+    std::vector<EcefTriangle> skirts;
+    core::Interval depths{std::numeric_limits<double>::infinity(), 0.0};
+    double lean = 0.0;  // metres that skirts reach beyond the extents of the surface's vertices
+};
+
+SortedMesh sorted(osg::MatrixTransform& node) {
+    auto& geometry = *node.getChild(0)->asGeode()->getDrawable(0)->asGeometry();
+    const auto& vertices = static_cast<const osg::Vec3Array&>(*geometry.getVertexArray());
+    const auto& texCoords = static_cast<const osg::Vec2Array&>(*geometry.getTexCoordArray(0));
+    std::vector<glm::dvec3> ecef;
+    for (const osg::Vec3& v : vertices) {
+        const osg::Vec3d w = osg::Vec3d(v) * node.getMatrix();
+        ecef.emplace_back(w.x(), w.y(), w.z());
+    }
+    std::map<std::pair<float, float>, std::vector<std::size_t>> places;
+    for (std::size_t i = 0; i < ecef.size(); ++i) places[{texCoords[i].x(), texCoords[i].y()}].push_back(i);
+    SortedMesh result;
+    std::vector<bool> isSkirt(ecef.size(), false);
+    for (const auto& [place, same] : places) {
+        if (same.size() < 2) continue;
+        const double first = kEllipsoid.toGeodetic(ecef[same[0]]).altitude;
+        const double second = kEllipsoid.toGeodetic(ecef[same[1]]).altitude;
+        isSkirt[first < second ? same[0] : same[1]] = true;
+        result.depths.lower = std::min(result.depths.lower, std::abs(first - second));
+        result.depths.upper = std::max(result.depths.upper, std::abs(first - second));
+    }
+    AnalyticBin footprint;
+    for (std::size_t i = 0; i < ecef.size(); ++i) {
+        if (isSkirt[i]) continue;
+        core::Geodetic position = kEllipsoid.toGeodetic(ecef[i]);
+        position.altitude = 0.0;
+        if (std::hypot(ecef[i].x, ecef[i].y) > 1.0) footprint.expandBy(position);
+    }
+    for (std::size_t i = 0; i < ecef.size(); ++i) {
+        if (!isSkirt[i]) continue;
+        const AnalyticBin anyAltitude(footprint.bin().withAltitude({-1e7, 1e7}));
+        if (std::hypot(ecef[i].x, ecef[i].y) > 1.0)
+            result.lean = std::max(result.lean, metresOutside(anyAltitude, ecef[i], kEllipsoid));
+    }
+    const osg::PrimitiveSet& triangles = *geometry.getPrimitiveSet(0);
+    for (unsigned int i = 0; i + 2 < triangles.getNumIndices(); i += 3) {
+        const unsigned int a = triangles.index(i), b = triangles.index(i + 1), c = triangles.index(i + 2);
+        auto& kind = isSkirt[a] || isSkirt[b] || isSkirt[c] ? result.skirts : result.surface;
+        kind.push_back({ecef[a], ecef[b], ecef[c]});
+    }
+    return result;
+}
+
+TEST(VpbSurface, HoldsEveryPolygonalTileWithoutItsSkirts) {
+    const auto meshes = meshesOf("polygonal");
+    if (meshes.empty()) GTEST_SKIP() << "no sample database";
+    double farthestLean = 0.0;
+    for (const auto& mesh : meshes) {
+        auto& node = static_cast<osg::MatrixTransform&>(*mesh);
+        const TileSurface surface = tileSurface(node, *kModel, osg::Matrixd());
+        ASSERT_TRUE(surface.bin.valid());
+        const SortedMesh parts = sorted(node);
+        const auto samples = samplesOf(parts.surface);
+        EXPECT_LE(metresOutside(surface.bin, samples, kEllipsoid), surface.bin.margin());
+        EXPECT_NEAR(surface.skirt, parts.depths.upper, 0.01 * surface.skirt);
+        core::Interval seen{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+        for (const glm::dvec3& point : samples) {
+            const double altitude = kEllipsoid.toGeodetic(point).altitude;
+            seen = {std::min(seen.lower, altitude), std::max(seen.upper, altitude)};
+        }
+        if (std::getenv("PRINT")) {
+            const auto& b = surface.bin.bin();
+            std::printf(
+                "lat %.3f..%.3f lon %.3f..%.3f low %.0f seen %.0f high %.0f seen %.0f skirt %.0f (%.0f..%.0f) lean "
+                "%.1f edges %.0f %.0f %.0f %.0f\n",
+                b.latitude().lower * 57.29578, b.latitude().upper * 57.29578, b.longitude().lower * 57.29578,
+                b.longitude().upper * 57.29578, b.altitude().lower, seen.lower, b.altitude().upper, seen.upper,
+                surface.skirt, parts.depths.lower, parts.depths.upper, parts.lean, surface.edgeLow[0],
+                surface.edgeLow[1], surface.edgeLow[2], surface.edgeLow[3]);
+        }
+        farthestLean = std::max(farthestLean, parts.lean);
+    }
+    RecordProperty("metresOfLean", std::to_string(farthestLean));
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
