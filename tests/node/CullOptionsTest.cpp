@@ -64,6 +64,19 @@ TEST(CullOptions, HorizonAndReverseReadBack) {
     EXPECT_EQ(cullOptionsFromText("horizon=-500", error)->horizon, -500.0);
 }
 
+TEST(CullOptions, WhatConcernsForeignDatabasesReadsBack) {
+    std::string error;
+    const auto options = cullOptionsFromText("skirts=all,cluster=keep,heights=-500.5..9000,index=off", error);
+    ASSERT_TRUE(options) << error;
+    const auto back = cullOptionsFromText(toText(*options), error);
+    ASSERT_TRUE(back) << error;
+    EXPECT_EQ(back->skirts, SkirtUse::All);
+    EXPECT_EQ(back->cluster, ClusterUse::Keep);
+    EXPECT_EQ(back->heights, (core::Interval{-500.5, 9000.0}));
+    EXPECT_FALSE(back->index);
+    EXPECT_EQ(toText(*cullOptionsFromText("skirts=cracks,cluster=replace,index=on", error)), toText(CullOptions()));
+}
+
 TEST(CullOptions, LaterItemsWin) {
     std::string error;
     const auto options = cullOptionsFromText("method=paper growth=1.5,method=corners", error);
@@ -74,9 +87,12 @@ TEST(CullOptions, LaterItemsWin) {
 
 TEST(CullOptions, WhatIsWrongIsNamed) {
     const std::pair<const char*, const char*> cases[] = {
-        {"method=cube", "cube"},    {"method", "unknown method"}, {"growth=big", "big"},    {"growth=0.5", "0.5"},
-        {"growth=nan", "nan"},      {"growth=11", "11"},          {"colour=red", "colour"}, {"growth=1.1x", "1.1x"},
-        {"Method=paper", "Method"}, {"horizon=low", "low"},       {"horizon=1e9", "1e9"},   {"reverse=maybe", "maybe"}};
+        {"method=cube", "cube"},  {"method", "unknown method"}, {"growth=big", "big"},
+        {"growth=0.5", "0.5"},    {"growth=nan", "nan"},        {"growth=11", "11"},
+        {"colour=red", "colour"}, {"growth=1.1x", "1.1x"},      {"Method=paper", "Method"},
+        {"horizon=low", "low"},   {"horizon=1e9", "1e9"},       {"reverse=maybe", "maybe"},
+        {"skirts=none", "none"},  {"cluster=off", "off"},       {"heights=9", "9"},
+        {"heights=3..1", "3..1"}, {"heights=a..b", "a..b"},     {"index=x", "x"}};
     for (const auto& [text, named] : cases) {
         std::string error;
         EXPECT_FALSE(cullOptionsFromText(text, error)) << text;

@@ -31,6 +31,16 @@ class PlaneSet;
 class CullTraversal;
 struct Verdict;
 
+/// What osgTerrain::Terrain says about the meshes of its tiles while they are shown.
+struct TerrainShape {
+    double verticalScale = 1.0;
+    double sampleRatio = 1.0;
+
+    [[nodiscard]] bool operator==(const TerrainShape& other) const {
+        return verticalScale == other.verticalScale && sampleRatio == other.sampleRatio;
+    }
+};
+
 /// The cull callback of a tile: tests the tile's bin against the frustum planes that are still undecided, and culls
 /// the tile when the bin is outside one of them. It stands in place of OSG's sphere test (BinInstaller switches that
 /// off on the nodes it treats): planes with the bin proven inside are not tested again in the subgraph, and
@@ -66,6 +76,31 @@ public:
     void setLocalToEcef(const osg::Matrixd& matrix);
     [[nodiscard]] const osg::Matrixd& localToEcef() const { return _localToEcef; }
 
+    /// For an osgTerrain tile: the shape that its bin is to be for; the bin set is that at vertical scale 1. While its
+    /// database is shown in another shape the tile is never culled. nullopt: a mesh that no Terrain shapes.
+    void setTerrainShape(const std::optional<TerrainShape>& shape);
+    [[nodiscard]] const std::optional<TerrainShape>& terrainShape() const { return _shape; }
+
+    /// Metres by which skirts hang below the bin; they count as a part of it.
+    void setSkirt(double metres);
+    [[nodiscard]] double skirt() const { return _skirt; }
+
+    /// What the tile draws by itself, without descendants, at vertical scale 1: how deep an eye may see where it is
+    /// shown. Invalid: not known, and no horizon is used where it is shown.
+    void setSurface(const AnalyticBin& surface);
+    [[nodiscard]] const AnalyticBin& surface() const { return _surface; }
+
+    /// Altitude in metres below which the tile draws nothing by itself, in its present shape; minus infinity when not
+    /// known. For eyes that are to be looked past the tile.
+    [[nodiscard]] double surfaceLow() const { return _surfaceLow; }
+
+    /// Altitude in metres below which neither the tile nor a descendant of it draws anything, skirts left out unless
+    /// they count; minus infinity when not known.
+    [[nodiscard]] double binLow() const { return _binLow; }
+
+    /// Whether the eye sees nothing of the bin for the horizon. Requires: an eye on the bin's ellipsoid.
+    [[nodiscard]] bool isHiddenFrom(const core::HorizonEye& eye) const;
+
     /// The same properties as text, exact in every file format; what the serializer stores.
     void setBinText(const std::string& text);
     [[nodiscard]] std::string getBinText() const;
@@ -93,6 +128,9 @@ private:
     };
 
     void prepare();
+    [[nodiscard]] AnalyticBin shownBin() const;
+    [[nodiscard]] const core::HorizonEye* eyeOn(osg::CullStack& cullStack, osg::NodeVisitor& nv,
+                                                CullTraversal& traversal) const;
     [[nodiscard]] bool isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
     [[nodiscard]] Verdict classify(osg::CullStack& cullStack, osg::NodeVisitor& nv, CullTraversal& traversal,
                                    const core::PlaneSet& planes, core::PlaneMask& undecided) const;
@@ -104,6 +142,11 @@ private:
     osg::Matrixd _ecefToLocal;
     osg::Matrixd _localToEcef;
     AnalyticBin _bin;
+    AnalyticBin _surface;
+    double _surfaceLow;
+    double _binLow;
+    std::optional<TerrainShape> _shape;
+    double _skirt = 0.0;
     osg::ref_ptr<osg::EllipsoidModel> _ellipsoid;
 };
 

@@ -4,35 +4,39 @@
 #pragma once
 
 #include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/TileFinder.h>
 
-#include <osg/CoordinateSystemNode>
-#include <osg/Matrixd>
-#include <osg/NodeVisitor>
 #include <osgDB/Options>
 
 #include <cstddef>
 #include <map>
+#include <string>
 
 namespace osgAnalyticBin {
 
+class BinReadFileCallback;
+class Database;
+struct ParentTile;
+
 /// Puts AnalyticBinCullCallbacks on the tiles of a geocentric database, switches OSG's sphere test off on them and
 /// below (drawables keep their boxes), and arranges that tiles that the DatabasePager loads later are treated in the
-/// pager's thread. A tile is a node with a stored bin; where a PagedLOD has none, its bin is found from its own
-/// geometry and a range of altitudes that terrain on earth does not leave. Everything else is left as it is. Transforms
-/// between the CoordinateSystemNode (or, without one, the start) and a tile are followed; below one that is declared
-/// DYNAMIC or has an update callback nothing is installed. Method::Sphere installs nothing. Running it again replaces
-/// what it installed before.
-class OSGANALYTICBIN_EXPORT BinInstaller : public osg::NodeVisitor {
+/// pager's thread. Which nodes are tiles is TileFinder's matter; their bins come from what is stored with them, from
+/// the database's index, or from their own surface and the heights that the options declare. Everything else is left as
+/// it is. Method::Sphere installs nothing. Running it again replaces what it installed before.
+class OSGANALYTICBIN_EXPORT BinInstaller : public TileFinder {
 public:
     explicit BinInstaller(const CullOptions& options = {});
     ~BinInstaller() override;
 
     META_NodeVisitor(osgAnalyticBin, BinInstaller)
 
-        /// For a subgraph that stands in a known frame: the tiles of a file that the pager has read.
-        void setFrame(const osg::EllipsoidModel* ellipsoid, const osg::Matrixd& localToEcef);
+        /// The index of the database that is visited; null: none.
+        void setIndex(const BinIndex* index) {
+        _index = index;
+    }
 
     /// Number of callbacks installed so far.
     [[nodiscard]] std::size_t installed() const { return _installed; }
@@ -41,27 +45,54 @@ public:
     void apply(osg::CoordinateSystemNode& node) override;
     void apply(osg::Transform& node) override;
     void apply(osg::PagedLOD& node) override;
-    void apply(osg::Drawable& drawable) override;
+
+protected:
+    void visitTile(FoundTile& tile) override;
+    void visitOther(osg::Node& node) override;
 
 private:
-    // The options that PagedLODs came with (null: none), and those that they get for it.
-    using PagingOptions = std::map<osg::ref_ptr<osgDB::Options>, osg::ref_ptr<osgDB::Options>>;
+    friend class BinReadFileCallback;
+    friend class DatabaseUpdateCallback;
 
-    void treatTile(osg::Node& node, const AnalyticBin& bin);
-    void treatOther(osg::Node& node);
-    void traverseChildren(osg::Node& node);
-    void followPaging(osg::PagedLOD& node);
-    [[nodiscard]] AnalyticBin boundsOfOwnGeometry(osg::PagedLOD& node) const;
+    // What PagedLODs get for the options that they came with (null: none).
+    struct Paging {
+        osg::ref_ptr<osgDB::Options> options;
+        BinReadFileCallback* callback = nullptr;  // the options keep it
+    };
+    using PagingByOptions = std::map<osg::ref_ptr<osgDB::Options>, Paging>;
+
+    // Goes on in a file that is paged below a tile of the database (null: below none).
+    void continueBelow(Database* database, const TileFrame& frame, const ParentTile* parent);
+    // Fits the loaded tiles of an installed database anew.
+    void refit(osg::Node& node, Database& database);
+    // Looks whether the tiles of each file cover what they are paged below.
+    void finish();
+
+    [[nodiscard]] bool installsBins() const;
+    [[nodiscard]] Database& database();
+    void install(FoundTile& tile);
+    void uninstall(FoundTile& tile);
+    void followPaging(osg::PagedLOD& node, const ParentTile* tile);
 
     CullOptions _options;
-    osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;  // null outside of any CoordinateSystemNode
-    osg::Matrixd _localToEcef;
-    PagingOptions _pagingOptions;
-    bool _insideTile = false;  // below a tile that has, or had, a callback
+    osg::ref_ptr<const BinIndex> _index;
+    osg::ref_ptr<Database> _database;        // that is visited
+    osg::ref_ptr<Database> _refitted;        // that is about to be visited again
+    osg::ref_ptr<const ParentTile> _parent;  // below which the visited node is
+    PagingByOptions _paging;
+    // Square radians that the tiles of a file cover, and those of the tile that the file is paged below.
+    std::map<std::string, double> _covered;
+    std::map<std::string, double> _toBeCovered;
     std::size_t _installed = 0;
 };
 
 /// Installs bins below the node. Returns: the number of callbacks installed.
 OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions& options = {});
+
+/// The same for the root of a database that was read from a file: its index, where there is one beside it and the
+/// options allow it, tells the heights of what is not loaded yet. An index that cannot be used gives one warning.
+OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions& options,
+                                              const std::string& databaseFileName,
+                                              const osgDB::Options* readOptions = nullptr);
 
 }  // namespace osgAnalyticBin

@@ -29,9 +29,21 @@ enum class Method {
 
 /// Whether tiles behind the horizon are culled; with Method::Quadratic and Method::Exact only.
 enum class HorizonUse {
-    Declared,  ///< where the database declares its lowest surface; the default
+    Declared,  ///< against the lowest surface that the database declares, else the lowest one shown; the default
     Off,       ///< never
     Given      ///< against the altitude in CullOptions::horizon
+};
+
+/// What of the skirts that hang from the edges of tiles a bin holds.
+enum class SkirtUse {
+    Cracks,  ///< what an eye above the terrain can see through cracks between tiles; the default
+    All      ///< all of them, for cameras below the terrain
+};
+
+/// What becomes of the osg::ClusterCullingCallbacks of a database, whose culls are not sound on an ellipsoid.
+enum class ClusterUse {
+    Replace,  ///< taken off; the horizon does their work; the default
+    Keep      ///< left in charge beside the bins
 };
 
 /// What an installer, a plugin option string or a stored database says about culling.
@@ -54,12 +66,22 @@ struct CullOptions {
     /// turning the head and back reads the same files again.
     double expiry = kDefaultExpiry;
 
+    SkirtUse skirts = SkirtUse::Cracks;
+    ClusterUse cluster = ClusterUse::Replace;
+    /// Altitudes in metres that no terrain of the database leaves, at any level of detail: for tiles whose descendants
+    /// are known neither from a stored bin nor from an index. The default holds all terrain on earth.
+    core::Interval heights = kTerrainOnEarth;
+    /// Whether an index beside the database is used.
+    bool index = true;
+
     static constexpr double kDefaultExpiry = 3.0;
+    static constexpr core::Interval kTerrainOnEarth{-11500.0, 9000.0};
 };
 
-/// Parses "method=paper,growth=1.1", "horizon=-500", "horizon=off", "inheritviewpoint=on", "reverse=off", "expiry=3";
-/// commas or blanks part the items; an empty text is the default. Returns: nullopt when an item is unknown or
-/// malformed, with one line in `error` that names it and what is allowed.
+/// Parses "method=paper,growth=1.1", "horizon=-500", "horizon=off", "inheritviewpoint=on", "reverse=off", "expiry=3",
+/// "skirts=all", "cluster=keep", "heights=-500..9000", "index=off"; commas or blanks part the items; an empty text is
+/// the default. Returns: nullopt when an item is unknown or malformed, with one line in `error` that names it and what
+/// is allowed.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<CullOptions> cullOptionsFromText(const std::string& text,
                                                                                    std::string& error);
 

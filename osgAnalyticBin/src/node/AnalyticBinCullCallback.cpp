@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "BinCulling.h"
+#include "Database.h"
 #include "GlmBridge.h"
 #include "Occluders.h"
 #include "Spheres.h"
@@ -17,11 +18,14 @@
 #include <osg/CullStack>
 #include <osg/Notify>
 
+#include <limits>
 #include <variant>
 
 namespace osgAnalyticBin {
 
 namespace {
+
+constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
 using PreparedBin = std::variant<core::GeodeticQuadraticBin, core::ExactGeodeticBin, core::PaperBin, core::CornersBin>;
 
@@ -62,12 +66,15 @@ core::PlaneSet ecefPlanes(const osg::Polytope& frustum, const osg::Matrixd& ecef
 
 }  // namespace
 
-AnalyticBinCullCallback::AnalyticBinCullCallback() : _ellipsoid(new osg::EllipsoidModel) {}
+AnalyticBinCullCallback::AnalyticBinCullCallback()
+    : _surfaceLow(kUnknown), _binLow(kUnknown), _ellipsoid(new osg::EllipsoidModel) {}
 
 AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBin& bin, const osg::EllipsoidModel& ellipsoid,
                                                  const CullOptions& options)
     : _options(options),
       _bin(bin),
+      _surfaceLow(kUnknown),
+      _binLow(kUnknown),
       _ellipsoid(new osg::EllipsoidModel(ellipsoid.getRadiusEquator(), ellipsoid.getRadiusPolar())) {
     prepare();
 }
@@ -82,30 +89,63 @@ AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& 
       _ecefToLocal(other._ecefToLocal),
       _localToEcef(other._localToEcef),
       _bin(other._bin),
+      _surface(other._surface),
+      _surfaceLow(other._surfaceLow),
+      _binLow(other._binLow),
+      _shape(other._shape),
+      _skirt(other._skirt),
       _ellipsoid(other._ellipsoid) {}
 
 AnalyticBinCullCallback::~AnalyticBinCullCallback() = default;
 
+AnalyticBin AnalyticBinCullCallback::shownBin() const {
+    AnalyticBin bin = _shape ? _bin.exaggerated(_shape->verticalScale) : _bin;
+    const core::Interval& altitude = bin.bin().altitude();
+    if (bin.valid()) bin.setBin(bin.bin().withAltitude({altitude.lower - _skirt, altitude.upper}));
+    return bin;
+}
+
 void AnalyticBinCullCallback::prepare() {
     _prepared.reset();
-    if (!_bin.valid() || _options.method == Method::None || _options.method == Method::Sphere) return;
-    osg::BoundingSphere sphere = _bin.boundingSphere(*_ellipsoid);
+    const AnalyticBin shown = shownBin();
+    _binLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
+    if (!shown.valid() || _options.method == Method::None || _options.method == Method::Sphere) return;
+    osg::BoundingSphere sphere = shown.boundingSphere(*_ellipsoid);
     if (_hasLocalFrame) sphere = movedSphere(sphere, _ecefToLocal);
     const core::Ellipsoid ellipsoid = toCore(*_ellipsoid);
-    _prepared = Prepared{preparedBin(_bin, ellipsoid, _options), std::nullopt, std::nullopt, ellipsoid, sphere};
+    _prepared = Prepared{preparedBin(shown, ellipsoid, _options), std::nullopt, std::nullopt, ellipsoid, sphere};
     if (!isSound(_options.method)) return;
     const bool isExact = std::holds_alternative<core::ExactGeodeticBin>(_prepared->bin);
-    if (_options.reverse && !isExact && core::ExactGeodeticBin::holds(ellipsoid, _bin.bin())) {
-        _prepared->separable.emplace(ellipsoid, _bin.bin(), _bin.margin());
+    if (_options.reverse && !isExact && core::ExactGeodeticBin::holds(ellipsoid, shown.bin())) {
+        _prepared->separable.emplace(ellipsoid, shown.bin(), shown.margin());
     }
-    // In a frame of its own the eye would have to be prepared anew for every tile.
-    if (_options.horizonUse == HorizonUse::Given && !_hasLocalFrame)
-        _prepared->horizon.emplace(ellipsoid, _bin.bin(), _bin.margin());
+    if (_options.horizonUse != HorizonUse::Off) _prepared->horizon.emplace(ellipsoid, shown.bin(), shown.margin());
 }
 
 void AnalyticBinCullCallback::setBin(const AnalyticBin& bin) {
     _bin = bin;
     prepare();
+}
+
+void AnalyticBinCullCallback::setTerrainShape(const std::optional<TerrainShape>& shape) {
+    _shape = shape;
+    setSurface(_surface);
+    prepare();
+}
+
+void AnalyticBinCullCallback::setSkirt(double metres) {
+    _skirt = metres;
+    prepare();
+}
+
+void AnalyticBinCullCallback::setSurface(const AnalyticBin& surface) {
+    _surface = surface;
+    const AnalyticBin shown = _shape ? surface.exaggerated(_shape->verticalScale) : surface;
+    _surfaceLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
+}
+
+bool AnalyticBinCullCallback::isHiddenFrom(const core::HorizonEye& eye) const {
+    return _prepared && _prepared->horizon && eye.hides(*_prepared->horizon);
 }
 
 void AnalyticBinCullCallback::setCullOptions(const CullOptions& options) {
@@ -140,13 +180,30 @@ bool AnalyticBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisit
         return false;
     }
     if (!_prepared) return false;
-    return isCulledByBin(cullStack, nv, _prepared->sphere,
-                         [&](CullTraversal& traversal, const osg::Polytope& frustum, core::PlaneMask& undecided) {
+    CullTraversal& traversal = CullTraversal::of(nv);
+    const DatabaseView* database = traversal.databaseView();
+    if (_shape && database && !(database->shape == *_shape)) {
+        database->database->requestRefit();
+        return false;
+    }
+    return isCulledByBin(cullStack, nv, traversal, _prepared->sphere,
+                         [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
                              if (!_hasLocalFrame) {
                                  return classify(cullStack, nv, traversal, traversal.planes(frustum), undecided);
                              }
                              return classify(cullStack, nv, traversal, ecefPlanes(frustum, _ecefToLocal), undecided);
                          });
+}
+
+const core::HorizonEye* AnalyticBinCullCallback::eyeOn(osg::CullStack& cullStack, osg::NodeVisitor& nv,
+                                                       CullTraversal& traversal) const {
+    if (const DatabaseView* database = traversal.databaseView()) {
+        return database->ellipsoid == _prepared->ellipsoid ? database->eye : nullptr;
+    }
+    // In a frame of its own the eye would have to be prepared anew for every tile.
+    if (_options.horizonUse != HorizonUse::Given || _hasLocalFrame) return nullptr;
+    const Occluder occluder{_prepared->ellipsoid, std::max(0.0, -_options.horizon), _options.inheritViewpoint};
+    return traversal.horizonEye(cullStack, nv, occluder);
 }
 
 Verdict AnalyticBinCullCallback::classify(osg::CullStack& cullStack, osg::NodeVisitor& nv, CullTraversal& traversal,
@@ -155,8 +212,7 @@ Verdict AnalyticBinCullCallback::classify(osg::CullStack& cullStack, osg::NodeVi
         std::visit([&](const auto& bin) { return core::classify(bin, planes, undecided); }, _prepared->bin);
     if (side == core::Side::Outside) return {side, Verdict::Plane};
     if (_prepared->horizon) {
-        const Occluder occluder{_prepared->ellipsoid, std::max(0.0, -_options.horizon), _options.inheritViewpoint};
-        const core::HorizonEye* eye = traversal.horizonEye(cullStack, nv, occluder);
+        const core::HorizonEye* eye = eyeOn(cullStack, nv, traversal);
         if (eye && eye->hides(*_prepared->horizon)) return {core::Side::Outside, Verdict::Horizon};
     }
     if (side == core::Side::Straddling && isBeyondAnEdge(planes, undecided)) {

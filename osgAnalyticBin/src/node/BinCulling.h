@@ -29,17 +29,16 @@ struct Verdict {
 
 /// Whether a node is culled: by its bin against the undecided planes, as a small feature, or behind an occluder. Planes
 /// that have the bin inside are cleared from the frustum's mask, and the verdict is counted.
-/// `classify(CullTraversal&, const osg::Polytope& frustum, core::PlaneMask& undecided)` tests the bin.
+/// `classify(const osg::Polytope& frustum, core::PlaneMask& undecided)` tests the bin.
 template <class Classify>
-[[nodiscard]] bool isCulledByBin(osg::CullStack& cullStack, osg::NodeVisitor& nv, const osg::BoundingSphere& sphere,
-                                 const Classify& classify) {
+[[nodiscard]] bool isCulledByBin(osg::CullStack& cullStack, osg::NodeVisitor& nv, CullTraversal& traversal,
+                                 const osg::BoundingSphere& sphere, const Classify& classify) {
     osg::CullingSet& cullingSet = cullStack.getCurrentCullingSet();
     osg::Polytope& frustum = cullingSet.getFrustum();
-    CullTraversal& traversal = CullTraversal::of(nv);
     Verdict verdict{core::Side::Straddling, Verdict::Plane};
     if (cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING) {
         core::PlaneMask undecided = frustum.getCurrentMask();
-        verdict = classify(traversal, frustum, undecided);
+        verdict = classify(frustum, undecided);
         // OSG pops this mask after the subgraph: a plane cleared here stays cleared just there.
         frustum.getCurrentMask() = undecided;
     }

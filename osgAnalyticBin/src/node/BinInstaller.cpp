@@ -2,58 +2,33 @@
 // SPDX-License-Identifier: MIT
 
 #include "BinReadFileCallback.h"
+#include "Database.h"
+#include "DatabaseCallbacks.h"
+#include "MeshCulling.h"
 #include "PagingExpiry.h"
-#include "TerrainBounds.h"
+#include "Scoped.h"
+#include "TileFit.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
-#include <osg/Drawable>
-#include <osg/MatrixTransform>
 #include <osg/Notify>
 #include <osg/PagedLOD>
-#include <osg/PositionAttitudeTransform>
 #include <osgDB/Registry>
-
-#include <cstring>
+#include <osgTerrain/Terrain>
 
 namespace osgAnalyticBin {
 
 namespace {
 
-// What no terrain on earth leaves, the Challenger Deep and Everest included: for tiles whose descendants' heights are
-// not known.
-constexpr core::Interval kTerrainAltitudes{-11500.0, 9000.0};
-
-// A terrain tile that is traversed before it has its Terrain never finds it afterwards.
-bool mustNotBeTraversed(const osg::Node& node) {
-    return std::strcmp(node.libraryName(), "osgTerrain") == 0 && std::strcmp(node.className(), "TerrainTile") == 0;
-}
-
-// Transforms that stay as they are once loaded; others have no fixed place on the globe.
-bool isFixed(osg::Transform& node) {
-    const bool known = node.asMatrixTransform() || node.asPositionAttitudeTransform();
-    return known && node.getReferenceFrame() == osg::Transform::RELATIVE_RF && !node.getUpdateCallback() &&
-           node.getDataVariance() != osg::Object::DYNAMIC;
-}
+constexpr double kPi = 3.14159265358979323846;
 
 AnalyticBinCullCallback* installedCallback(osg::Node& node) {
     for (osg::Callback* callback = node.getCullCallback(); callback; callback = callback->getNestedCallback()) {
         if (auto* ours = dynamic_cast<AnalyticBinCullCallback*>(callback)) return ours;
     }
     return nullptr;
-}
-
-// Returns: whether there was anything to take away.
-bool uninstall(osg::Node& node) {
-    bool found = false;
-    while (const osg::ref_ptr<AnalyticBinCullCallback> ours = installedCallback(node)) {
-        node.removeCullCallback(ours.get());
-        node.setCullingActive(true);
-        found = true;
-    }
-    return found;
 }
 
 // A database's own request to install bins is settled by the installer; what it declares counts where the installer was
@@ -79,141 +54,200 @@ osgDB::ReadFileCallback* previousCallback(const osgDB::Options& options) {
     return ours ? ours->previous() : callback;
 }
 
-// Sets a member for the length of a scope.
-template <class T>
-class Scoped {
-public:
-    Scoped(T& member, const T& value) : _member(member), _outer(member) { _member = value; }
-    ~Scoped() { _member = _outer; }
-    Scoped(const Scoped&) = delete;
-    Scoped& operator=(const Scoped&) = delete;
-
-private:
-    T& _member;
-    const T _outer;
-};
+// Square radians.
+double areaOf(const core::GeodeticBin& extents) {
+    return extents.empty() ? 0.0 : extents.latitude().width() * extents.longitude().width();
+}
 
 }  // namespace
 
-BinInstaller::BinInstaller(const CullOptions& options) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _options(options) {
-    setNodeMaskOverride(~0u);
-}
+BinInstaller::BinInstaller(const CullOptions& options) : _options(options) {}
 
 BinInstaller::~BinInstaller() = default;
 
-void BinInstaller::setFrame(const osg::EllipsoidModel* ellipsoid, const osg::Matrixd& localToEcef) {
-    _ellipsoid = ellipsoid;
-    _localToEcef = localToEcef;
+void BinInstaller::continueBelow(Database* database, const TileFrame& frame, const ParentTile* parent) {
+    setFrame(frame);
+    _database = database;
+    _index = database->index();
+    _parent = parent;
+    if (!parent) return;
+    _covered[frame.file] = 0.0;
+    _toBeCovered[frame.file] = areaOf(parent->extents);
+}
+
+void BinInstaller::refit(osg::Node& node, Database& database) {
+    _refitted = &database;
+    _index = database.index();
+    node.accept(*this);
+    _refitted = nullptr;
+}
+
+void BinInstaller::finish() {
+    // tiles run a little over their lines
+    constexpr double kWhole = 0.98;
+    for (const auto& [file, area] : _covered) {
+        const auto expected = _toBeCovered.find(file);
+        if (expected != _toBeCovered.end() && area < kWhole * expected->second) database().noteGap(file);
+    }
+    _covered.clear();
+    _toBeCovered.clear();
+}
+
+bool BinInstaller::installsBins() const {
+    return _options.method != Method::Sphere && _options.method != Method::None;
+}
+
+Database& BinInstaller::database() {
+    if (!_database) _database = new Database(_options, new osg::EllipsoidModel, nullptr, _index.get());
+    return *_database;
 }
 
 void BinInstaller::apply(osg::Node& node) {
     const Scoped options(_options, settled(node, _options));
-    if (hasStoredBin(node)) {
-        treatTile(node, storedBin(node));
-    } else {
-        treatOther(node);
-    }
-}
-
-void BinInstaller::apply(osg::CoordinateSystemNode& node) {
-    const osg::ref_ptr<const osg::EllipsoidModel> own =
-        node.getEllipsoidModel() ? node.getEllipsoidModel() : new osg::EllipsoidModel;
-    const Scoped ellipsoid(_ellipsoid, own);
-    const Scoped frame(_localToEcef, osg::Matrixd());
-    const Scoped options(_pagingOptions, PagingOptions());
-    apply(static_cast<osg::Node&>(node));
+    TileFinder::apply(node);
 }
 
 void BinInstaller::apply(osg::Transform& node) {
-    // Without a CoordinateSystemNode above, a tile's own frame is ECEF, whatever moves the globe.
-    osg::Matrixd frame = _ellipsoid ? _localToEcef : osg::Matrixd();
-    if (!_ellipsoid && !hasStoredBin(node)) return apply(static_cast<osg::Node&>(node));
-    if (!isFixed(node)) return;
-    node.computeLocalToWorldMatrix(frame, this);
-    const Scoped scope(_localToEcef, frame);
-    const Scoped options(_pagingOptions, PagingOptions());
-    apply(static_cast<osg::Node&>(node));
+    const Scoped options(_options, settled(node, _options));
+    TileFinder::apply(node);
 }
 
 void BinInstaller::apply(osg::PagedLOD& node) {
     const Scoped options(_options, settled(node, _options));
-    followPaging(node);
-    if (const auto* before = installedCallback(node)) restoreExpiry(node, before->cullOptions().expiry);
-    const AnalyticBin bin = hasStoredBin(node) ? storedBin(node) : boundsOfOwnGeometry(node);
-    if (bin.valid() || hasStoredBin(node)) {
-        treatTile(node, bin);
-    } else {
-        treatOther(node);
-    }
-    if (installedCallback(node)) raiseExpiry(node, _options.expiry);
+    TileFinder::apply(node);
 }
 
-void BinInstaller::apply(osg::Drawable& drawable) {
-    if (_options.method == Method::None) drawable.setCullingActive(false);
+void BinInstaller::apply(osg::CoordinateSystemNode& node) {
+    const Scoped options(_options, settled(node, _options));
+    const bool isRefit = _refitted.valid();
+    osg::ref_ptr<Database> own = _refitted;
+    _refitted = nullptr;
+    if (!isRefit) {
+        detachDatabase(node);
+        const osg::ref_ptr<osg::EllipsoidModel> ellipsoid =
+            node.getEllipsoidModel() ? node.getEllipsoidModel() : new osg::EllipsoidModel;
+        own = new Database(_options, ellipsoid.get(), dynamic_cast<osgTerrain::Terrain*>(&node), _index.get());
+    }
+    const Scoped database(_database, own);
+    const Scoped paging(_paging, PagingByOptions());
+    _covered[frame().file] = 0.0;
+    _toBeCovered[frame().file] = 2.0 * kPi * kPi;
+    const std::size_t before = _installed;
+    TileFinder::apply(node);
+    finish();
+    if (!isRefit && installsBins() && (_installed > before || !_paging.empty())) attachDatabase(node, *own);
 }
 
-void BinInstaller::treatTile(osg::Node& node, const AnalyticBin& bin) {
-    const bool wasInstalled = uninstall(node);
-    if (_options.method == Method::Sphere || _options.method == Method::None) {
-        const Scoped inside(_insideTile, _insideTile || wasInstalled);
-        return treatOther(node);
+void BinInstaller::visitTile(FoundTile& tile) {
+    uninstall(tile);
+    if (installsBins()) return install(tile);
+    if (_options.method == Method::None) {
+        for (const auto& mesh : tile.meshes) {
+            switchAllCullingOff(*mesh);
+            suspendClusterCulling(*mesh);
+        }
     }
-    const osg::ref_ptr<const osg::EllipsoidModel> ellipsoid = _ellipsoid ? _ellipsoid : new osg::EllipsoidModel;
-    osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(bin, *ellipsoid, _options);
-    if (!_localToEcef.isIdentity()) callback->setLocalToEcef(_localToEcef);
+    visitOther(*tile.node);
+}
+
+void BinInstaller::visitOther(osg::Node& node) {
+    if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) followPaging(*paged, nullptr);
+    if (_options.method == Method::None) {
+        node.setCullingActive(false);
+        suspendClusterCullingOf(node);
+    }
+    traverseBelow(node);
+}
+
+void BinInstaller::install(FoundTile& tile) {
+    osg::Node& node = *tile.node;
+    const osg::ref_ptr<ParentTile> link = new ParentTile;
+    link->parent = _parent;
+    link->file = tile.frame.file;
+    link->ordinal = tile.ordinal;
+    const TileFit fit = fitTile(tile, database(), *link);
+    if (!fit.isTerrain) return visitOther(node);
+
+    const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database().ellipsoid();
+    const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);
+    const osg::Matrixd localToEcef =
+        node.asTransform() ? frameInside(*node.asTransform(), tile.frame) : tile.frame.localToEcef;
+    if (!localToEcef.isIdentity()) callback->setLocalToEcef(localToEcef);
+    if (fit.isScalable) callback->setTerrainShape(database().shape());
+    if (fit.skirt > 0.0) callback->setSkirt(fit.skirt);
+    callback->setSurface(fit.surface);
     // In front: what is nested runs when the tile is kept.
     callback->setNestedCallback(node.getCullCallback());
     node.setCullCallback(callback.get());
     node.setCullingActive(false);
+    for (const auto& mesh : tile.meshes) setSphereCulling(*mesh, false);
+    if (_options.cluster == ClusterUse::Replace) {
+        suspendClusterCullingOf(node);
+        for (const auto& mesh : tile.meshes) suspendClusterCulling(*mesh);
+    }
+    link->callback = callback.get();
     ++_installed;
+    _covered[tile.frame.file] += areaOf(link->extents);
+    for (const std::string& file : tile.pagedFiles) _toBeCovered[file] = areaOf(link->extents);
 
-    const Scoped inside(_insideTile, true);
-    traverseChildren(node);
-}
-
-void BinInstaller::treatOther(osg::Node& node) {
-    switch (_options.method) {
-        case Method::None:
-            node.setCullingActive(false);
-            break;
-        case Method::Sphere:
-            if (_insideTile) node.setCullingActive(true);
-            break;
-        default:
-            if (_insideTile) node.setCullingActive(false);
+    if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) {
+        raiseExpiry(*paged, _options.expiry);
+        followPaging(*paged, link.get());
     }
-    traverseChildren(node);
+    const Scoped below(_parent, osg::ref_ptr<const ParentTile>(link));
+    traverseBelow(node);
 }
 
-void BinInstaller::traverseChildren(osg::Node& node) {
-    if (!mustNotBeTraversed(node)) traverse(node);
-}
-
-AnalyticBin BinInstaller::boundsOfOwnGeometry(osg::PagedLOD& node) const {
-    if (!_ellipsoid) return {};
-    AnalyticBin bin;
-    for (unsigned int i = 0; i < node.getNumChildren(); ++i) {
-        const bool isPaged = i < node.getNumFileNames() && !node.getFileName(i).empty();
-        if (!isPaged) bin.expandBy(terrainBounds(*node.getChild(i), *_ellipsoid, _localToEcef));
+void BinInstaller::uninstall(FoundTile& tile) {
+    osg::Node& node = *tile.node;
+    bool wasInstalled = false;
+    while (const osg::ref_ptr<AnalyticBinCullCallback> ours = installedCallback(node)) {
+        if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) restoreExpiry(*paged, ours->cullOptions().expiry);
+        node.removeCullCallback(ours.get());
+        wasInstalled = true;
     }
-    if (bin.valid()) bin.expandBy(AnalyticBin(bin.bin().withAltitude(kTerrainAltitudes)));
-    return bin;
+    if (!wasInstalled) return;
+    node.setCullingActive(true);
+    resumeClusterCullingOf(node);
+    for (const auto& mesh : tile.meshes) {
+        setSphereCulling(*mesh, true);
+        resumeClusterCulling(*mesh);
+    }
 }
 
-void BinInstaller::followPaging(osg::PagedLOD& node) {
+void BinInstaller::followPaging(osg::PagedLOD& node, const ParentTile* tile) {
     const osg::ref_ptr<osgDB::Options> own = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
-    osg::ref_ptr<osgDB::Options>& treated = _pagingOptions[own];
-    if (!treated) {
+    Paging& paging = _paging[own];
+    if (!paging.callback) {
         const osgDB::Options* base = own ? own.get() : osgDB::Registry::instance()->getOptions();
-        treated = base ? base->cloneOptions() : new osgDB::Options;
-        treated->setReadFileCallback(
-            new BinReadFileCallback(_options, _ellipsoid.get(), _localToEcef, previousCallback(*treated)));
+        paging.options = base ? base->cloneOptions() : new osgDB::Options;
+        paging.callback = new BinReadFileCallback(_options, &database(), frame(), previousCallback(*paging.options));
+        paging.options->setReadFileCallback(paging.callback);
     }
-    node.setDatabaseOptions(treated.get());
+    for (unsigned int i = 0; i < node.getNumFileNames(); ++i) {
+        if (node.getFileName(i).empty()) continue;
+        TileFrame inside = frame();
+        inside.file = pagedFilePath(frame().file, node.getFileName(i));
+        inside.isBelowTile = inside.isBelowTile || tile;
+        paging.callback->expect(node.getDatabasePath() + node.getFileName(i), inside, tile);
+    }
+    node.setDatabaseOptions(paging.options.get());
 }
 
 std::size_t installBins(osg::Node& node, const CullOptions& options) {
+    return installBins(node, options, {});
+}
+
+std::size_t installBins(osg::Node& node, const CullOptions& options, const std::string& databaseFileName,
+                        const osgDB::Options* readOptions) {
     BinInstaller installer(options);
+    osg::ref_ptr<BinIndex> index;
+    if (options.index && !databaseFileName.empty()) {
+        std::string error;
+        index = readBinIndex(databaseFileName, readOptions, error);
+        if (!error.empty()) OSG_WARN << "osgAnalyticBin: " << error << std::endl;
+        installer.setIndex(index.get());
+    }
     node.accept(installer);
     OSG_INFO << "osgAnalyticBin: " << installer.installed() << " tiles with " << toText(options) << std::endl;
     return installer.installed();

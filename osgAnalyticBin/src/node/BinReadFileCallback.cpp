@@ -26,23 +26,30 @@ osgDB::ReaderWriter::ReadResult unreadable(const std::string& fileName, const ch
     return osgDB::ReaderWriter::ReadResult(osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE);
 }
 
-std::string placeText(const osg::EllipsoidModel* ellipsoid, const osg::Matrixd& localToEcef) {
-    std::vector<double> numbers(localToEcef.ptr(), localToEcef.ptr() + 16);
+// Which globe, and where on it.
+std::string placeText(const TileFrame& frame) {
+    std::vector<double> numbers(frame.localToEcef.ptr(), frame.localToEcef.ptr() + 16);
+    const osg::EllipsoidModel* ellipsoid = frame.ellipsoid.get();
     if (ellipsoid) numbers.insert(numbers.end(), {ellipsoid->getRadiusEquator(), ellipsoid->getRadiusPolar()});
     return numbersToText(numbers);
 }
 
 }  // namespace
 
-BinReadFileCallback::BinReadFileCallback(const CullOptions& options, const osg::EllipsoidModel* ellipsoid,
-                                         const osg::Matrixd& localToEcef, osgDB::ReadFileCallback* previous)
-    : _options(options),
-      _ellipsoid(ellipsoid),
-      _localToEcef(localToEcef),
-      _place(placeText(ellipsoid, localToEcef)),
-      _previous(previous) {}
+BinReadFileCallback::BinReadFileCallback(const CullOptions& options, Database* database, const TileFrame& frame,
+                                         osgDB::ReadFileCallback* previous)
+    : _options(options), _database(database), _unexpected{frame, nullptr}, _previous(previous) {}
 
 BinReadFileCallback::~BinReadFileCallback() = default;
+
+void BinReadFileCallback::expect(const std::string& fileName, const TileFrame& frame, const ParentTile* parent) {
+    _expected[fileName] = {frame, parent};
+}
+
+const BinReadFileCallback::Expected& BinReadFileCallback::expected(const std::string& fileName) const {
+    const auto found = _expected.find(fileName);
+    return found == _expected.end() ? _unexpected : found->second;
+}
 
 osgDB::ReaderWriter::ReadResult BinReadFileCallback::readUntreated(const std::string& fileName,
                                                                    const osgDB::Options* options) {
@@ -80,8 +87,8 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readThroughCache(const std:
     osgDB::ObjectCache* const registrys = osgDB::Registry::instance()->getObjectCache();
     osgDB::ObjectCache* const own = options.getObjectCache() ? options.getObjectCache() : registrys;
     // The cache tells options apart by their text alone.
-    const osg::ref_ptr<osgDB::Options> key =
-        new osgDB::Options(options.getOptionString() + " osgAnalyticBin " + toText(_options) + ' ' + _place);
+    const osg::ref_ptr<osgDB::Options> key = new osgDB::Options(
+        options.getOptionString() + " osgAnalyticBin " + toText(_options) + ' ' + placeText(expected(fileName).frame));
     for (osgDB::ObjectCache* cache : {own, registrys}) {
         if (!cache) continue;
         const osg::ref_ptr<osg::Object> found = cache->getRefFromObjectCache(fileName, key.get());
@@ -100,19 +107,21 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readTreated(const std::stri
     ReadResult result = readUntreated(fileName, options);
     osg::Node* const node = result.getNode();
     if (!node) return result;
+    const Expected& known = expected(fileName);
     if (node->referenceCount() == 1) {
-        treat(*node);
+        treat(*node, known);
         return result;
     }
-    const auto outcome = SharedTiles::instance().treatOnce(*node, _place, [&] { treat(*node); });
+    const auto outcome = SharedTiles::instance().treatOnce(*node, placeText(known.frame), [&] { treat(*node, known); });
     if (outcome == SharedTiles::Outcome::Usable) return result;
     return unreadable(fileName, "a read callback shares one copy between two places");
 }
 
-void BinReadFileCallback::treat(osg::Node& node) const {
+void BinReadFileCallback::treat(osg::Node& node, const Expected& expected) const {
     BinInstaller installer(_options);
-    installer.setFrame(_ellipsoid.get(), _localToEcef);
+    installer.continueBelow(_database.get(), expected.frame, expected.parent.get());
     node.accept(installer);
+    installer.finish();
 }
 
 }  // namespace osgAnalyticBin

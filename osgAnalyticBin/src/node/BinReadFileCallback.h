@@ -3,14 +3,15 @@
 
 #pragma once
 
+#include "Database.h"
 #include "FailedReads.h"
 
 #include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/TileFinder.h>
 
-#include <osg/CoordinateSystemNode>
-#include <osg/Matrixd>
 #include <osgDB/ReadFile>
 
+#include <map>
 #include <string>
 
 namespace osgAnalyticBin {
@@ -22,8 +23,13 @@ namespace osgAnalyticBin {
 /// without bins, or for another globe, place or method, never share them.
 class BinReadFileCallback : public osgDB::ReadFileCallback {
 public:
-    BinReadFileCallback(const CullOptions& options, const osg::EllipsoidModel* ellipsoid,
-                        const osg::Matrixd& localToEcef, osgDB::ReadFileCallback* previous);
+    /// `frame` is that of files of which expect() says nothing.
+    BinReadFileCallback(const CullOptions& options, Database* database, const TileFrame& frame,
+                        osgDB::ReadFileCallback* previous);
+
+    /// Says what a file will be asked for as, in which frame its content stands, and which tile it is paged below
+    /// (null: none). Not to be called once the pager may read.
+    void expect(const std::string& fileName, const TileFrame& frame, const ParentTile* parent);
 
     osgDB::ReaderWriter::ReadResult readNode(const std::string& fileName, const osgDB::Options* options) override;
 
@@ -38,14 +44,20 @@ private:
     [[nodiscard]] ReadResult readOrFail(const std::string& fileName, const osgDB::Options* options);
     [[nodiscard]] ReadResult readThroughCache(const std::string& fileName, const osgDB::Options& options);
     [[nodiscard]] ReadResult readTreated(const std::string& fileName, const osgDB::Options* options);
-    void treat(osg::Node& node) const;
+    struct Expected {
+        TileFrame frame;
+        osg::ref_ptr<const ParentTile> parent;
+    };
+
+    [[nodiscard]] const Expected& expected(const std::string& fileName) const;
+    void treat(osg::Node& node, const Expected& expected) const;
     [[nodiscard]] osgDB::ReaderWriter::ReadResult readUntreated(const std::string& fileName,
                                                                 const osgDB::Options* options);
 
     const CullOptions _options;
-    const osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;
-    const osg::Matrixd _localToEcef;
-    const std::string _place;  // which globe, and where on it
+    const osg::ref_ptr<Database> _database;
+    const Expected _unexpected;
+    std::map<std::string, Expected> _expected;
     const osg::ref_ptr<osgDB::ReadFileCallback> _previous;
     FailedReads _failures;
 };

@@ -70,12 +70,45 @@ bool applyExpiry(const std::string& value, CullOptions& options, std::string& er
     return true;
 }
 
-bool applySwitch(const std::string& key, const std::string& value, bool& option, std::string& error) {
-    if (value != "on" && value != "off") {
-        error = "bad " + key + " \"" + value + "\" (use on or off)";
+bool applyHeights(const std::string& value, CullOptions& options, std::string& error) {
+    const std::size_t dots = value.find("..");
+    const auto low = numbersFromText(value.substr(0, dots), 1);
+    const auto high = dots == std::string::npos ? std::nullopt : numbersFromText(value.substr(dots + 2), 1);
+    if (!low || !high || (*low)[0] > (*high)[0] || (*low)[0] < kDeepestHorizon || (*high)[0] > -kDeepestHorizon) {
+        error = "bad heights \"" + value + "\" (use two altitudes in metres, low to high, e.g. heights=-500..9000)";
         return false;
     }
-    option = value == "on";
+    options.heights = {(*low)[0], (*high)[0]};
+    return true;
+}
+
+// One of two words.
+bool applyChoice(const std::string& key, const std::string& value, const char* first, const char* second, bool& isFirst,
+                 std::string& error) {
+    isFirst = value == first;
+    if (isFirst || value == second) return true;
+    error = "bad " + key + " \"" + value + "\" (use " + first + " or " + second + ")";
+    return false;
+}
+
+bool applySwitch(const std::string& key, const std::string& value, bool& option, std::string& error) {
+    bool isOn = false;
+    if (!applyChoice(key, value, "on", "off", isOn, error)) return false;
+    option = isOn;
+    return true;
+}
+
+bool applySkirts(const std::string& value, CullOptions& options, std::string& error) {
+    bool all = false;
+    if (!applyChoice("skirts", value, "all", "cracks", all, error)) return false;
+    options.skirts = all ? SkirtUse::All : SkirtUse::Cracks;
+    return true;
+}
+
+bool applyCluster(const std::string& value, CullOptions& options, std::string& error) {
+    bool keep = false;
+    if (!applyChoice("cluster", value, "keep", "replace", keep, error)) return false;
+    options.cluster = keep ? ClusterUse::Keep : ClusterUse::Replace;
     return true;
 }
 
@@ -85,10 +118,15 @@ bool applyItem(const std::string& key, const std::string& value, CullOptions& op
     if (key == "horizon") return applyHorizon(value, options, error);
     if (key == "expiry") return applyExpiry(value, options, error);
     if (key == "reverse") return applySwitch(key, value, options.reverse, error);
+    if (key == "index") return applySwitch(key, value, options.index, error);
+    if (key == "skirts") return applySkirts(value, options, error);
+    if (key == "cluster") return applyCluster(value, options, error);
+    if (key == "heights") return applyHeights(value, options, error);
     if (key == "inheritviewpoint") return applySwitch(key, value, options.inheritViewpoint, error);
     error = "unknown parameter \"" + key +
             "\" (use method=NAME, growth=FACTOR, horizon=METRES|declared|off, inheritviewpoint=on|off, "
-            "reverse=on|off or expiry=SECONDS)";
+            "reverse=on|off, expiry=SECONDS, skirts=cracks|all, cluster=replace|keep, heights=LOW..HIGH or "
+            "index=on|off)";
     return false;
 }
 
@@ -130,6 +168,12 @@ std::string toText(const CullOptions& options) {
     if (options.inheritViewpoint) text += ",inheritviewpoint=on";
     if (!options.reverse) text += ",reverse=off";
     if (options.expiry != CullOptions::kDefaultExpiry) text += ",expiry=" + numberToText(options.expiry);
+    if (options.skirts == SkirtUse::All) text += ",skirts=all";
+    if (options.cluster == ClusterUse::Keep) text += ",cluster=keep";
+    if (!(options.heights == CullOptions::kTerrainOnEarth)) {
+        text += ",heights=" + numberToText(options.heights.lower) + ".." + numberToText(options.heights.upper);
+    }
+    if (!options.index) text += ",index=off";
     return text;
 }
 

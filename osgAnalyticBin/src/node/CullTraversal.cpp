@@ -4,59 +4,11 @@
 #include "CullTraversal.h"
 
 #include "GlmBridge.h"
-
-#include <osg/Camera>
-#include <osg/UserDataContainer>
-#include <osgUtil/CullVisitor>
+#include "Viewpoint.h"
 
 #include <algorithm>
 
 namespace osgAnalyticBin {
-
-namespace {
-
-bool inheritsViewpoint(osg::NodeVisitor& visitor) {
-    osgUtil::CullVisitor* cullVisitor = visitor.asCullVisitor();
-    const osg::Camera* camera =
-        cullVisitor && cullVisitor->getRenderStage() ? cullVisitor->getCurrentCamera() : nullptr;
-    return camera && camera->getReferenceFrame() == osg::Transform::ABSOLUTE_RF_INHERIT_VIEWPOINT;
-}
-
-// Projections whose lines of sight meet in the origin of eye space.
-bool isPerspective(const osg::Matrixd& p) {
-    return p(2, 3) != 0.0 && p(0, 3) == 0.0 && p(1, 3) == 0.0 && p(3, 3) == 0.0 && p(3, 0) == 0.0 && p(3, 1) == 0.0;
-}
-
-// Projections whose lines of sight are parallel.
-bool isOrthographic(const osg::Matrixd& p) {
-    return p(0, 3) == 0.0 && p(1, 3) == 0.0 && p(2, 3) == 0.0 && p(3, 3) != 0.0;
-}
-
-std::optional<core::HorizonEye> orthographicEye(const osg::Matrixd& projection, const osg::Matrixd& eyeToEcef,
-                                                const Occluder& occluder) {
-    osg::Matrixd unproject;
-    if (!unproject.invert(projection)) return std::nullopt;
-    const osg::Vec3d nearPoint = osg::Vec3d(0.0, 0.0, -1.0) * unproject;
-    const osg::Vec3d direction = osg::Vec3d(0.0, 0.0, 1.0) * unproject - nearPoint;
-    return core::HorizonEye::fromDirection(occluder.ellipsoid, occluder.depth,
-                                           toGlm(osg::Matrixd::transform3x3(direction, eyeToEcef)),
-                                           toGlm(nearPoint * eyeToEcef));
-}
-
-std::optional<core::HorizonEye> eyeOf(osg::CullStack& cullStack, osg::NodeVisitor& visitor, const Occluder& occluder) {
-    if (!occluder.forInheritedViewpoints && inheritsViewpoint(visitor)) return std::nullopt;
-    osg::Matrixd eyeToEcef;
-    if (!eyeToEcef.invert(*cullStack.getModelViewMatrix())) return std::nullopt;
-    const osg::Matrixd& projection = *cullStack.getProjectionMatrix();
-    if (isPerspective(projection)) {
-        // in double precision; the cull stack's own eye point is float
-        const osg::Vec3d eye = osg::Vec3d() * eyeToEcef;
-        return core::HorizonEye::fromEye(occluder.ellipsoid, occluder.depth, toGlm(eye));
-    }
-    return isOrthographic(projection) ? orthographicEye(projection, eyeToEcef, occluder) : std::nullopt;
-}
-
-}  // namespace
 
 CullTraversal& CullTraversal::of(osg::NodeVisitor& visitor) {
     // Statistics of a visitor are never anything else.
@@ -92,13 +44,23 @@ const core::HorizonEye* CullTraversal::horizonEye(osg::CullStack& cullStack, osg
     const bool same = _eyeEllipsoid == occluder.ellipsoid && modelView == _modelView &&
                       visitor.getTraversalNumber() == _eyeFrame && occluder.depth == _eyeDepth;
     if (!same) {
-        _eye = eyeOf(cullStack, visitor, occluder);
+        const auto viewpoint = Viewpoint::of(cullStack, visitor, occluder.forInheritedViewpoints);
+        _eye = viewpoint ? viewpoint->above(occluder.ellipsoid, occluder.depth) : std::nullopt;
         _modelView = modelView;
         _eyeFrame = visitor.getTraversalNumber();
         _eyeDepth = occluder.depth;
         _eyeEllipsoid = occluder.ellipsoid;
     }
     return _eye ? &*_eye : nullptr;
+}
+
+double& CullTraversal::lastDepth(const Database& database) {
+    for (auto& [known, depth] : _lastDepths) {
+        if (known == &database) return depth;
+    }
+    constexpr std::size_t kMostDatabases = 64;
+    if (_lastDepths.size() >= kMostDatabases) _lastDepths.clear();
+    return _lastDepths.emplace_back(&database, 0.0).second;
 }
 
 }  // namespace osgAnalyticBin

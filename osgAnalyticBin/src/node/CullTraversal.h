@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/core/Horizon.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
@@ -13,6 +14,8 @@
 
 #include <array>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace osgAnalyticBin {
 
@@ -21,6 +24,16 @@ struct Occluder {
     core::Ellipsoid ellipsoid;
     double depth;
     bool forInheritedViewpoints;
+};
+
+class Database;
+
+/// What a database says to its tiles for the length of its traversal.
+struct DatabaseView {
+    const Database* database;
+    core::Ellipsoid ellipsoid;
+    TerrainShape shape;
+    const core::HorizonEye* eye;  // in ECEF, whatever transforms are below; nullptr: nothing is hidden
 };
 
 /// What one cull visitor knows of the frustum that it is in: prepared once per frustum, read by every tile. Lives in
@@ -39,6 +52,13 @@ public:
     [[nodiscard]] const core::HorizonEye* horizonEye(osg::CullStack& cullStack, osg::NodeVisitor& visitor,
                                                      const Occluder& occluder);
 
+    /// The database that is being traversed; nullptr: none that says so.
+    [[nodiscard]] const DatabaseView* databaseView() const { return _databaseView; }
+    void setDatabaseView(const DatabaseView* view) { _databaseView = view; }
+
+    /// The depth of the lowest surface that this visitor last found a database to show: where it looks next time.
+    [[nodiscard]] double& lastDepth(const Database& database);
+
 protected:
     ~CullTraversal() override = default;
 
@@ -47,6 +67,9 @@ private:
     using Coefficients = std::array<double, 4 * kCachedPlanes>;
 
     [[nodiscard]] bool holds(const osg::Polytope::PlaneList& list) const;
+
+    const DatabaseView* _databaseView = nullptr;
+    std::vector<std::pair<const Database*, double>> _lastDepths;
 
     core::PlaneSet _planes;
     Coefficients _coefficients{};

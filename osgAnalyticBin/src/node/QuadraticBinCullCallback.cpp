@@ -26,8 +26,9 @@ void QuadraticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv)
 
 bool QuadraticBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
     if (!_bin) return false;
-    return isCulledByBin(cullStack, nv, _sphere,
-                         [&](CullTraversal& traversal, const osg::Polytope& frustum, core::PlaneMask& undecided) {
+    CullTraversal& traversal = CullTraversal::of(nv);
+    return isCulledByBin(cullStack, nv, traversal, _sphere,
+                         [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
                              const core::PlaneSet& planes = traversal.planes(frustum);
                              return Verdict{core::classify(*_bin, planes, undecided), Verdict::Plane};
                          });

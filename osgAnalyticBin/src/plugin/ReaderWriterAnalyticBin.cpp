@@ -40,7 +40,8 @@ std::string ownItems(const std::string& optionString) {
     while (begin < optionString.size()) {
         const std::size_t end = std::min(optionString.find_first_of(" ,;", begin), optionString.size());
         const std::string item = optionString.substr(begin, end - begin);
-        for (const char* own : {"method=", "growth=", "horizon=", "inheritviewpoint=", "reverse=", "expiry="}) {
+        for (const char* own : {"method=", "growth=", "horizon=", "inheritviewpoint=", "reverse=", "expiry=", "skirts=",
+                                "cluster=", "heights=", "index="}) {
             if (item.rfind(own, 0) == 0) items += item + ' ';
         }
         begin = end + 1;
@@ -82,6 +83,15 @@ public:
         supportsOption("expiry=SECONDS",
                        "How long finer tiles out of view are kept when the DatabasePager has more than its target; "
                        "default 3, 0 leaves OSG's own rule alone.");
+        supportsOption("heights=LOW..HIGH",
+                       "Altitudes in metres that no terrain of the database leaves, for tiles that no index knows; "
+                       "default -11500..9000.");
+        supportsOption("index=on|off", "Whether an index beside the database (DATABASE.bins) is used; default on.");
+        supportsOption("skirts=cracks|all",
+                       "What bins hold of skirts: what an eye above the terrain can see (default), or all, for cameras "
+                       "below it.");
+        supportsOption("cluster=replace|keep",
+                       "Whether the database's ClusterCullingCallbacks are taken off (default) or left in charge.");
         supportsOption("growth=FACTOR", "How much method=paper enlarges its boxes: 1 .. 10, default 1.1.");
     }
 
@@ -116,7 +126,7 @@ public:
         ReadResult result = osgDB::Registry::instance()->readNode(request.name, uncached.get());
         const osg::ref_ptr<osg::Node> node = result.getNode();
         if (!node) return result;
-        report(osgAnalyticBin::installBins(*node, *cullOptions), *cullOptions, request.name);
+        report(osgAnalyticBin::installBins(*node, *cullOptions, request.name, options), *cullOptions, request.name);
         return node.get();
     }
 

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/core/GeodeticBin.h>
+
+#include <array>
+
+namespace osgAnalyticBin::core {
+
+/// The four edges of a tile in a quadtree of tiles: how wide, in radians, the largest tile is whose edge runs along
+/// the same line. A neighbour beyond that line can be that coarse.
+/// Source: doc/databases.md, section 4.
+struct TileEdges {
+    double south = 0.0, east = 0.0, north = 0.0, west = 0.0;
+
+    /// The edges of a tile, `parent` being those of the tile that it is a part of (null: a root).
+    [[nodiscard]] static TileEdges of(const GeodeticBin& tile, const GeodeticBin* parentTile,
+                                      const TileEdges* parentEdges) noexcept;
+};
+
+/// The fewest cells that a mesh has along an edge of its tile: for databases of which nothing else is known.
+/// VirtualPlanetBuilder's flat tiles have as few.
+constexpr int kFewestCells = 7;
+
+/// Metres by which the chord of an arc of `angle` radians sags below the ellipsoid at most.
+[[nodiscard]] double sagOfArc(const Ellipsoid& ellipsoid, double angle) noexcept;
+
+/// How far below the posts of its edges a coarser neighbour's edge can dip, metres: to that depth an eye above the
+/// terrain can see a tile's skirts.
+/// Assumes: neighbours have kFewestCells cells along an edge or more.
+[[nodiscard]] double crackDepth(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const TileEdges& edges) noexcept;
+
+/// The tile's bin, widened poleward by the gap that opens between it and the chords of a coarser neighbour's posts on
+/// their common parallel: through that gap its skirts are seen to any depth.
+/// Assumes: as crackDepth().
+[[nodiscard]] GeodeticBin withGaps(const GeodeticBin& tile, const TileEdges& edges) noexcept;
+
+/// How far below its posts a mesh on a part of the tile, half as wide, can dip, metres: one triangle may cover it all,
+/// or, where meshes are grids, a cell.
+/// Assumes: grids have kFewestCells cells along an edge or more.
+[[nodiscard]] double sagOfFinerMeshes(const Ellipsoid& ellipsoid, const GeodeticBin& tile, bool areGrids) noexcept;
+
+}  // namespace osgAnalyticBin::core

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/BinIndex.h>
+#include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/core/CrackBounds.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Referenced>
+#include <osg/observer_ptr>
+#include <osgTerrain/Terrain>
+
+#include <atomic>
+#include <cstddef>
+#include <map>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+/// A tile as those that are paged below it see it.
+struct ParentTile : public osg::Referenced {
+    osg::ref_ptr<const ParentTile> parent;  // null: a tile of the root file
+    osg::observer_ptr<AnalyticBinCullCallback> callback;
+    std::string file;
+    std::size_t ordinal = 0;
+    core::GeodeticBin extents;
+    core::TileEdges edges;
+
+protected:
+    ~ParentTile() override = default;
+};
+
+/// What the tiles of one installed database share: those that are loaded, and those that the DatabasePager will load.
+/// Threads: everything may be called from the pager's threads and from cull threads but update().
+class Database : public osg::Referenced {
+public:
+    /// `terrain` and `index` may be null.
+    Database(const CullOptions& options, const osg::EllipsoidModel* ellipsoid, osgTerrain::Terrain* terrain,
+             const BinIndex* index)
+        : _options(options), _ellipsoid(ellipsoid), _terrain(terrain), _index(index), _fittedShape(shape()) {}
+
+    [[nodiscard]] const CullOptions& options() const { return _options; }
+    [[nodiscard]] const osg::EllipsoidModel* ellipsoid() const { return _ellipsoid.get(); }
+    [[nodiscard]] const BinIndex* index() const { return _index.get(); }
+
+    /// The shape that the Terrain, if any, gives its tiles at present.
+    [[nodiscard]] TerrainShape shape() const;
+
+    /// Says that tiles were met that are not fitted to the present shape.
+    void requestRefit() const { _isRefitWanted.store(true, std::memory_order_relaxed); }
+
+    /// In the update traversal: whether the loaded tiles have to be fitted anew, told once.
+    [[nodiscard]] bool takeShapeChange();
+
+    /// Says that something of the globe may not be covered by tiles of known depth: no horizon then, unless given.
+    void noteGap(const std::string& where);
+    [[nodiscard]] bool hasGap() const { return _hasGap.load(std::memory_order_relaxed); }
+
+    /// Says that a tile does not fit the index: warns once, and widens the tile's ancestors at the next update.
+    void reportMisfit(const ParentTile& tile, const AnalyticBin& bin);
+
+    /// What reportMisfit() said of a tile or its descendants; invalid: nothing.
+    [[nodiscard]] AnalyticBin correction(const std::string& file, std::size_t ordinal) const;
+
+    /// In the update traversal: widens the loaded tiles that reportMisfit() named.
+    void update();
+
+protected:
+    ~Database() override = default;
+
+private:
+    using TileKey = std::pair<std::string, std::size_t>;
+
+    const CullOptions _options;
+    const osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;
+    const osg::observer_ptr<osgTerrain::Terrain> _terrain;
+    const osg::ref_ptr<const BinIndex> _index;
+    mutable std::atomic<bool> _isRefitWanted{false};
+    std::atomic<bool> _hasGap{false};
+    TerrainShape _fittedShape;
+    mutable std::mutex _mutex;  // guards what follows
+    bool _hasWarned = false;
+    std::map<TileKey, AnalyticBin> _corrections;
+    std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, AnalyticBin>> _toWiden;
+};
+
+}  // namespace osgAnalyticBin

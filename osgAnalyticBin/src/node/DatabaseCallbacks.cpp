@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "DatabaseCallbacks.h"
+
+#include "CullTraversal.h"
+#include "GlmBridge.h"
+#include "ShownDepth.h"
+#include "Viewpoint.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+
+#include <osg/CullStack>
+
+#include <algorithm>
+#include <optional>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack,
+                                        Database& database, const DatabaseView& view) {
+    const CullOptions& options = database.options();
+    if (options.horizonUse == HorizonUse::Off) return std::nullopt;
+    const auto viewpoint = Viewpoint::of(cullStack, nv, options.inheritViewpoint);
+    if (!viewpoint) return std::nullopt;
+    if (options.horizonUse == HorizonUse::Given) {
+        return viewpoint->above(view.ellipsoid, std::max(0.0, -options.horizon));
+    }
+    if (database.hasGap()) return std::nullopt;
+    return eyeAboveWhatIsShown(node, nv, *viewpoint, view.ellipsoid, view.shape,
+                               CullTraversal::of(nv).lastDepth(database));
+}
+
+template <class Callback>
+Callback* findCallback(osg::Callback* first) {
+    for (osg::Callback* callback = first; callback; callback = callback->getNestedCallback()) {
+        if (auto* found = dynamic_cast<Callback*>(callback)) return found;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    osg::CullStack* cullStack = nv->asCullStack();
+    osg::Group* group = node->asGroup();
+    if (!cullStack || !group) {
+        traverse(node, nv);
+        return;
+    }
+    CullTraversal& traversal = CullTraversal::of(*nv);
+    DatabaseView view{_database.get(), toCore(*_database->ellipsoid()), _database->shape(), nullptr};
+    const auto eye = eyeOver(*group, *nv, *cullStack, *_database, view);
+    if (eye) view.eye = &*eye;
+    const DatabaseView* outer = traversal.databaseView();
+    traversal.setDatabaseView(&view);
+    traverse(node, nv);
+    traversal.setDatabaseView(outer);
+}
+
+void DatabaseUpdateCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    _database->update();
+    if (_database->takeShapeChange()) {
+        BinInstaller installer(_database->options());
+        installer.refit(*node, *_database);
+    }
+    traverse(node, nv);
+}
+
+void attachDatabase(osg::Node& node, Database& database) {
+    detachDatabase(node);
+    // in front: what is nested runs in the scope of the database
+    const osg::ref_ptr<DatabaseCullCallback> cull = new DatabaseCullCallback(&database);
+    cull->setNestedCallback(node.getCullCallback());
+    node.setCullCallback(cull);
+    const osg::ref_ptr<DatabaseUpdateCallback> update = new DatabaseUpdateCallback(&database);
+    node.addUpdateCallback(update);
+}
+
+void detachDatabase(osg::Node& node) {
+    if (const osg::ref_ptr<osg::Callback> cull = findCallback<DatabaseCullCallback>(node.getCullCallback())) {
+        node.removeCullCallback(cull.get());
+    }
+    if (const osg::ref_ptr<osg::Callback> update = findCallback<DatabaseUpdateCallback>(node.getUpdateCallback())) {
+        node.removeUpdateCallback(update.get());
+    }
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// What stands on the CoordinateSystemNode of an installed database. Both say of themselves that they are plain
+// osg::NodeCallbacks: a scene that is saved holds nothing of them.
+
+#pragma once
+
+#include "Database.h"
+
+#include <osg/Node>
+#include <osg/NodeCallback>
+
+namespace osgAnalyticBin {
+
+/// Tells the tiles below, for the length of a cull traversal, how the terrain is shaped and what its horizon is.
+class DatabaseCullCallback : public osg::NodeCallback {
+public:
+    explicit DatabaseCullCallback(Database* database) : _database(database) {}
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
+
+protected:
+    ~DatabaseCullCallback() override = default;
+
+private:
+    const osg::ref_ptr<Database> _database;
+};
+
+/// Brings the loaded tiles up to date: when the Terrain's shape has changed, and when a tile did not fit the index.
+class DatabaseUpdateCallback : public osg::NodeCallback {
+public:
+    explicit DatabaseUpdateCallback(Database* database) : _database(database) {}
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
+
+protected:
+    ~DatabaseUpdateCallback() override = default;
+
+private:
+    const osg::ref_ptr<Database> _database;
+};
+
+/// Puts both on the node, in place of those that are there.
+void attachDatabase(osg::Node& node, Database& database);
+
+/// Takes both off the node.
+void detachDatabase(osg::Node& node);
+
+}  // namespace osgAnalyticBin

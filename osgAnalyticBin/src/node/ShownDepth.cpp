@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "ShownDepth.h"
+
+#include "Scoped.h"
+
+#include <osg/CoordinateSystemNode>
+#include <osg/PagedLOD>
+
+#include <algorithm>
+#include <limits>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
+
+const AnalyticBinCullCallback* binCallback(const osg::Node& node) {
+    return dynamic_cast<const AnalyticBinCullCallback*>(node.getCullCallback());
+}
+
+// Looks for the lowest surface among the tiles that an eye sees over its horizon.
+class LowestShown {
+public:
+    LowestShown(osg::NodeVisitor& visitor, const core::HorizonEye& eye, const TerrainShape& shape)
+        : _visitor(visitor), _eye(eye), _shape(shape) {}
+
+    void search(osg::Group& group) {
+        for (unsigned int i = 0; i < group.getNumChildren(); ++i) searchNode(*group.getChild(i));
+    }
+
+    [[nodiscard]] double depth() const { return _depth; }
+
+private:
+    void searchNode(osg::Node& node) {
+        const AnalyticBinCullCallback* tile = binCallback(node);
+        if (tile && (tile->isHiddenFrom(_eye) || isAbove(*tile))) return;
+        auto* paged = dynamic_cast<osg::PagedLOD*>(&node);
+        if (tile && paged) return searchPaged(*paged, *tile);
+        if (tile) return show(*tile);
+        // another database is on a globe of its own
+        if (dynamic_cast<osg::CoordinateSystemNode*>(&node)) return;
+        const Scoped moved(_isMoved, _isMoved || node.asTransform());
+        if (osg::Group* group = node.asGroup()) search(*group);
+    }
+
+    [[nodiscard]] bool isFitted(const AnalyticBinCullCallback& tile) const {
+        return !tile.terrainShape() || *tile.terrainShape() == _shape;
+    }
+
+    // Whether the tile and its descendants cannot change the result.
+    [[nodiscard]] bool isAbove(const AnalyticBinCullCallback& tile) const {
+        return isFitted(tile) && tile.binLow() >= -_depth;
+    }
+
+    void show(const AnalyticBinCullCallback& tile) {
+        _depth = std::max(_depth, isFitted(tile) ? -tile.surfaceLow() : kUnknown);
+    }
+
+    // As osg::PagedLOD chooses; where that is not certain all that it may show counts.
+    void searchPaged(osg::PagedLOD& node, const AnalyticBinCullCallback& tile) {
+        const bool byDistance = node.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT && !_isMoved;
+        const float range = byDistance ? _visitor.getDistanceToViewPoint(node.getCenter(), true) : 0.0f;
+        const unsigned int children = node.getNumChildren();
+        bool isOneAwaited = !byDistance;
+        for (unsigned int i = 0; i < node.getNumRanges(); ++i) {
+            if (byDistance && (range < node.getMinRange(i) || range >= node.getMaxRange(i))) continue;
+            if (i < children) searchChild(node, i, tile);
+            isOneAwaited = isOneAwaited || i >= children;
+        }
+        // the last child stands in for one that is awaited
+        if (isOneAwaited && children > 0) searchChild(node, children - 1, tile);
+    }
+
+    void searchChild(osg::PagedLOD& node, unsigned int i, const AnalyticBinCullCallback& tile) {
+        const bool isPaged = i < node.getNumFileNames() && !node.getFileName(i).empty();
+        if (!isPaged) return show(tile);
+        searchNode(*node.getChild(i));
+    }
+
+    osg::NodeVisitor& _visitor;
+    const core::HorizonEye& _eye;
+    const TerrainShape _shape;
+    bool _isMoved = false;  // below a transform, where OSG measures distances in another frame
+    double _depth = -kUnknown;
+};
+
+}  // namespace
+
+std::optional<core::HorizonEye> eyeAboveWhatIsShown(osg::Group& database, osg::NodeVisitor& visitor,
+                                                    const Viewpoint& viewpoint, const core::Ellipsoid& ellipsoid,
+                                                    const TerrainShape& shape, double& depth) {
+    // A deeper occluder has a wider horizon, over which more may be seen that is deeper still.
+    constexpr int kMostRounds = 8;
+    constexpr double kRoom = 1.05;
+    constexpr double kStep = 500.0;
+    depth = std::max(depth, 0.0);
+    for (int round = 0; round < kMostRounds; ++round) {
+        const auto eye = viewpoint.above(ellipsoid, depth);
+        if (!eye) {
+            // the eye may stand in a valley below the ellipsoid
+            depth = 2.0 * depth + kStep;
+            continue;
+        }
+        LowestShown lowest(visitor, *eye, shape);
+        lowest.search(database);
+        if (lowest.depth() <= depth) {
+            depth = std::max(lowest.depth(), 0.0);
+            return eye;
+        }
+        if (lowest.depth() > 0.25 * ellipsoid.polarRadius()) break;
+        depth = kRoom * lowest.depth();
+    }
+    depth = 0.0;
+    return std::nullopt;
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "Viewpoint.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/core/Horizon.h>
+
+#include <osg/Group>
+#include <osg/NodeVisitor>
+
+#include <optional>
+
+namespace osgAnalyticBin {
+
+/// The eye over a database that declares no lowest surface: the occluder lies just below the lowest surface that the
+/// cull traversal about to begin shows, by levels of detail and by what is loaded, between the eye and its horizon.
+/// `shape` is the one that the database is shown in. Coarse meshes elsewhere, which dip far below the ellipsoid, do not
+/// count. `depth` (metres) is where the search starts, best that of the last frame; it returns the depth found.
+/// Requires: tiles that cover the globe without gaps.
+/// Returns: nullopt when something of unknown depth is shown, or when nothing can be hidden.
+/// Cost: one short test for every tile shown on the near side of the horizon.
+/// Source: doc/horizon.md, section 7.
+[[nodiscard]] std::optional<core::HorizonEye> eyeAboveWhatIsShown(osg::Group& database, osg::NodeVisitor& visitor,
+                                                                  const Viewpoint& viewpoint,
+                                                                  const core::Ellipsoid& ellipsoid,
+                                                                  const TerrainShape& shape, double& depth);
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TileFit.h"
+
+#include "GlmBridge.h"
+
+#include <osgAnalyticBin/TileSurface.h>
+
+#include <osgTerrain/TerrainTile>
+
+#include <algorithm>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+bool hasTerrainTile(const FoundTile& tile) {
+    return std::any_of(tile.meshes.begin(), tile.meshes.end(), [](const osg::ref_ptr<osg::Node>& mesh) {
+        return dynamic_cast<osgTerrain::TerrainTile*>(mesh.get()) != nullptr;
+    });
+}
+
+// Meshes of one tile are its levels of detail: any of them may be shown.
+TileSurface surfaceOf(const FoundTile& tile, double sampleRatio) {
+    TileSurface surface;
+    for (const osg::ref_ptr<osg::Node>& mesh : tile.meshes) {
+        const TileSurface own = tileSurface(*mesh, *tile.frame.ellipsoid, tile.frame.localToEcef, sampleRatio);
+        if (!own.bin.valid()) return {};
+        surface.bin.expandBy(own.bin);
+        surface.skirt = std::max(surface.skirt, own.skirt);
+        surface.isScalable = surface.isScalable || own.isScalable;
+    }
+    return surface;
+}
+
+std::uint64_t fingerprintOf(const FoundTile& tile) {
+    std::uint64_t fingerprint = 0;
+    for (const osg::ref_ptr<osg::Node>& mesh : tile.meshes) {
+        fingerprint = fingerprint * 31 + surfaceFingerprint(*mesh, tile.frame.localToEcef);
+    }
+    return fingerprint;
+}
+
+void linkTo(const core::GeodeticBin& extents, ParentTile& link) {
+    link.extents = extents;
+    const ParentTile* parent = link.parent.get();
+    link.edges = core::TileEdges::of(extents, parent ? &parent->extents : nullptr, parent ? &parent->edges : nullptr);
+}
+
+AnalyticBin withAltitude(const AnalyticBin& bin, core::Interval altitude, double sag) {
+    AnalyticBin result = bin;
+    result.setBin(bin.bin().withAltitude(altitude));
+    result.setSag(std::max(sag, bin.sag()));
+    return result;
+}
+
+// The bin of a tile of which no more is known than its surface and the declared heights.
+AnalyticBin rangedBin(const TileSurface& surface, bool hasDescendants, const Database& database,
+                      const ParentTile& link) {
+    const core::Ellipsoid ellipsoid = toCore(*database.ellipsoid());
+    const core::GeodeticBin& extents = surface.bin.bin();
+    const core::Interval heights = database.options().heights;
+    double sag = core::crackDepth(ellipsoid, extents, link.edges);
+    core::Interval altitude = extents.altitude();
+    if (hasDescendants) {
+        sag = std::max(sag, core::sagOfFinerMeshes(ellipsoid, extents, surface.isScalable));
+        altitude.upper = std::max(altitude.upper, heights.upper);
+    }
+    altitude.lower = std::min(altitude.lower, heights.lower - sag);
+    return withAltitude(surface.bin, altitude, sag);
+}
+
+void fitSurface(const FoundTile& tile, Database& database, ParentTile& link, TileFit& fit) {
+    const TileSurface surface = surfaceOf(tile, database.shape().sampleRatio);
+    fit.isTerrain = surface.bin.valid();
+    if (!fit.isTerrain) return;
+    linkTo(surface.bin.bin(), link);
+    fit.surface = surface.bin;
+    fit.bin = rangedBin(surface, !tile.pagedFiles.empty(), database, link);
+    fit.isScalable = surface.isScalable;
+    if (database.options().skirts == SkirtUse::All) fit.skirt = surface.skirt;
+}
+
+// Returns: whether the index knows the tile as it is.
+bool fitIndexed(const FoundTile& tile, const Database& database, ParentTile& link, TileFit& fit) {
+    const BinIndex::Entry* entry = database.index() ? database.index()->find(tile.frame.file, tile.ordinal) : nullptr;
+    const bool isAsKnown = entry && entry->fingerprint == fingerprintOf(tile);
+    if (!isAsKnown) return false;
+    fit.isTerrain = true;
+    fit.bin = entry->bin;
+    fit.isScalable = hasTerrainTile(tile);
+    if (!fit.bin.valid()) return true;
+    linkTo(fit.bin.bin(), link);
+    const double high = std::max(entry->ownLow, fit.bin.bin().altitude().upper);
+    fit.surface = withAltitude(fit.bin, {entry->ownLow, high}, 0.0);
+    return true;
+}
+
+}  // namespace
+
+TileFit fitTile(const FoundTile& tile, Database& database, ParentTile& link) {
+    TileFit fit;
+    if (hasStoredBin(*tile.node)) {
+        fit.bin = storedBin(*tile.node);
+        fit.isScalable = hasTerrainTile(tile);
+        fit.isTerrain = true;
+        if (fit.bin.valid()) linkTo(fit.bin.bin(), link);
+        return fit;
+    }
+    // an index does not know how far skirts hang, nor meshes of other sample ratios
+    const bool isIndexFit = database.options().skirts == SkirtUse::Cracks && database.shape().sampleRatio == 1.0;
+    if (!isIndexFit || !fitIndexed(tile, database, link, fit)) {
+        fitSurface(tile, database, link, fit);
+        if (isIndexFit && database.index() && fit.isTerrain) database.reportMisfit(link, fit.bin);
+    }
+    if (!fit.bin.valid()) return fit;
+    fit.bin.setBin(core::withGaps(fit.bin.bin(), link.edges));
+    fit.bin.expandBy(database.correction(tile.frame.file, tile.ordinal));
+    return fit;
+}
+
+}  // namespace osgAnalyticBin

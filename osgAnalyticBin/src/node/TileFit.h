@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "Database.h"
+
+#include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/TileFinder.h>
+
+namespace osgAnalyticBin {
+
+/// What a tile is culled by, at vertical scale 1.
+struct TileFit {
+    AnalyticBin bin;      ///< with all descendants; not valid: see isTerrain
+    AnalyticBin surface;  ///< what it draws by itself; not valid: not known
+    double skirt = 0.0;   ///< metres that skirts hang below the bin, where they are to count
+    bool isScalable = false;
+    /// False: the node is not terrain, and left as it is. True with a bin that is not valid: never culled.
+    bool isTerrain = false;
+};
+
+/// From, in this order: the bin stored with it; the database's index; its surface and the range of heights that the
+/// options declare. A tile that is not as the index knows it is reported to the database.
+/// `link.parent`, `link.file` and `link.ordinal` have to be set; its extents and edges are set here.
+/// Source: doc/databases.md, sections 2 and 4.
+[[nodiscard]] TileFit fitTile(const FoundTile& tile, Database& database, ParentTile& link);
+
+}  // namespace osgAnalyticBin

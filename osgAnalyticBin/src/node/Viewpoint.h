@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/Horizon.h>
+
+#include <osg/CullStack>
+#include <osg/NodeVisitor>
+
+#include <optional>
+
+namespace osgAnalyticBin {
+
+/// Where a cull visitor looks from, in the frame of its current planes: what horizons are made for.
+class Viewpoint final {
+public:
+    /// Returns: nullopt for projections that have no horizon, and, unless `evenInherited`, for cameras that inherit
+    /// their view point: what casts a shadow may lie behind it.
+    [[nodiscard]] static std::optional<Viewpoint> of(osg::CullStack& cullStack, osg::NodeVisitor& visitor,
+                                                     bool evenInherited);
+
+    /// See core::HorizonEye; depth in metres below the ellipsoid.
+    [[nodiscard]] std::optional<core::HorizonEye> above(const core::Ellipsoid& ellipsoid, double depth) const noexcept;
+
+private:
+    bool _isDirection = false;
+    glm::dvec3 _point{0.0};      // the eye, or a point of the near plane
+    glm::dvec3 _direction{0.0};  // of an orthographic camera
+};
+
+}  // namespace osgAnalyticBin
