@@ -8,7 +8,7 @@ set -eu
 packages="
   ca-certificates clang-format cmake g++ git ninja-build pkg-config
   libopenscenegraph-dev openscenegraph libglm-dev
-  libgdal-dev gdal-bin libcli11-dev
+  libgdal-dev gdal-bin libcli11-dev nlohmann-json3-dev
   libgtest-dev librapidcheck-dev libboost-dev libhwy-dev libbenchmark-dev libccd-dev
   xvfb xauth libgl1-mesa-dri
   ferret-datasets libncarg-data

@@ -3,9 +3,23 @@
 
 #include "ReadCounter.h"
 
+#include <osgDB/FileUtils>
 #include <osgDB/Registry>
 
+#include <filesystem>
+
 namespace osgAnalyticBin::flight {
+
+namespace {
+
+std::uint64_t bytesOf(const std::string& fileName, const osgDB::Options* options) {
+    const std::string path = osgDB::findDataFile(fileName, options);
+    std::error_code problem;
+    const std::uintmax_t bytes = path.empty() ? 0 : std::filesystem::file_size(path, problem);
+    return problem ? 0 : bytes;
+}
+
+}  // namespace
 
 osg::ref_ptr<ReadCounter> ReadCounter::install() {
     const osg::ref_ptr<ReadCounter> counter = new ReadCounter;
@@ -41,6 +55,7 @@ ReadCounter::Result ReadCounter::readHeightField(const std::string& fileName, co
 
 ReadCounter::Result ReadCounter::readNode(const std::string& fileName, const osgDB::Options* options) {
     ++_nodeFiles;
+    _nodeBytes += bytesOf(fileName, options);
     return _next->readNode(fileName, options);
 }
 

@@ -27,6 +27,9 @@ public:
     /// Node files read so far.
     [[nodiscard]] std::uint64_t nodeFiles() const { return _nodeFiles; }
 
+    /// Bytes of these files on the disk; what is not found there, such as pseudo-loaders' names, counts nothing.
+    [[nodiscard]] std::uint64_t nodeBytes() const { return _nodeBytes; }
+
     Result openArchive(const std::string& fileName, osgDB::ReaderWriter::ArchiveStatus status,
                        unsigned int indexBlockSizeHint, const osgDB::Options* options) override;
     Result readObject(const std::string& fileName, const osgDB::Options* options) override;
@@ -44,6 +47,7 @@ private:
 
     osg::ref_ptr<osgDB::ReadFileCallback> _next;
     std::atomic<std::uint64_t> _nodeFiles{0};
+    std::atomic<std::uint64_t> _nodeBytes{0};
 };
 
 }  // namespace osgAnalyticBin::flight

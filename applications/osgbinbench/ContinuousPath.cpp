@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "ContinuousPath.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgAnalyticBin::bench {
+
+namespace {
+
+using core::Geodetic;
+using flight::CameraPose;
+
+double mixed(double a, double b, double share) {
+    const double ratio = a > 0.0 && b > 0.0 ? b / a : 0.0;
+    return ratio > 0.0 ? a * std::pow(ratio, share) : a + (b - a) * share;
+}
+
+glm::dvec3 verticalAt(const Geodetic& p) {
+    return {std::cos(p.latitude) * std::cos(p.longitude), std::cos(p.latitude) * std::sin(p.longitude),
+            std::sin(p.latitude)};
+}
+
+Geodetic mixed(const Geodetic& a, const Geodetic& b, double share) {
+    const glm::dvec3 from = verticalAt(a);
+    const glm::dvec3 to = verticalAt(b);
+    const double angle = std::atan2(glm::length(glm::cross(from, to)), glm::dot(from, to));
+    const double sine = std::sin(angle);
+    // Where the two ends coincide, or stand opposite each other, there is no one circle to follow.
+    const glm::dvec3 v = sine > 1e-9 ? (std::sin((1.0 - share) * angle) * from + std::sin(share * angle) * to) / sine
+                                     : (share < 0.5 ? from : to);
+    return {std::asin(std::clamp(v.z, -1.0, 1.0)), std::atan2(v.y, v.x), mixed(a.altitude, b.altitude, share)};
+}
+
+CameraPose mixed(const CameraPose& a, const CameraPose& b, double share) {
+    return {{},
+            mixed(a.eye, b.eye, share),
+            mixed(a.look, b.look, share),
+            mixed(a.verticalFov, b.verticalFov, share),
+            mixed(a.nearPlane, b.nearPlane, share),
+            mixed(a.farPlane, b.farPlane, share)};
+}
+
+}  // namespace
+
+std::vector<CameraPose> continuousPath(const std::vector<CameraPose>& path, int frames) {
+    std::vector<CameraPose> poses;
+    const double lastPose = static_cast<double>(path.size() - 1);
+    for (int frame = 0; frame < frames; ++frame) {
+        const double place = frames > 1 ? lastPose * frame / (frames - 1) : 0.0;
+        const auto from = static_cast<std::size_t>(place);
+        poses.push_back(
+            mixed(path[from], path[std::min(from + 1, path.size() - 1)], place - static_cast<double>(from)));
+    }
+    return poses;
+}
+
+}  // namespace osgAnalyticBin::bench

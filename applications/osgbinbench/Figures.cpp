@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Figures.h"
+
+namespace osgAnalyticBin::bench {
+
+Figures& Figures::operator+=(const Figures& other) {
+    for (const CountColumn& column : kCountColumns) this->*column.count += other.*column.count;
+    cullMs += other.cullMs;
+    cullSpreadMs += other.cullSpreadMs;
+    return *this;
+}
+
+Figures MethodFigures::sum() const {
+    Figures sum;
+    for (const Figures& pose : poses) sum += pose;
+    return sum;
+}
+
+}  // namespace osgAnalyticBin::bench

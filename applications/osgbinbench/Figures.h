@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin::bench {
+
+/// What was measured of one method at one pose, or summed over poses.
+struct Figures {
+    std::uint64_t truthTiles = 0;
+    std::uint64_t visibleTiles = 0;
+    std::uint64_t nodes = 0;
+    std::uint64_t testedTiles = 0;
+    std::uint64_t keptTiles = 0;
+    std::uint64_t drawnTiles = 0;
+    std::uint64_t drawables = 0;
+    std::uint64_t triangles = 0;
+    std::uint64_t pagedLods = 0;
+    std::uint64_t filesRequested = 0;
+    std::uint64_t bytes = 0;
+    std::uint64_t falseCulls = 0;
+    std::uint64_t falseCullPixels = 0;
+    std::uint64_t falseKeeps = 0;
+    std::uint64_t differingPixels = 0;
+    double cullMs = 0.0;
+    double cullSpreadMs = 0.0;
+
+    Figures& operator+=(const Figures& other);
+};
+
+/// A column of whole numbers: its name in files, and what it says.
+struct CountColumn {
+    const char* name;
+    std::uint64_t Figures::*count;
+    const char* meaning;
+};
+
+inline constexpr std::array<CountColumn, 15> kCountColumns{{
+    {"truth_tiles", &Figures::truthTiles,
+     "tiles needed: the hull of the surface meets the frustum, not behind the globe"},
+    {"visible_tiles", &Figures::visibleTiles, "tiles with a pixel of their own, skirts included"},
+    {"nodes", &Figures::nodes, "nodes and drawables that the cull traversal reached"},
+    {"tested_tiles", &Figures::testedTiles, "tiles that it reached"},
+    {"kept_tiles", &Figures::keptTiles, "tiles that it went into"},
+    {"drawn_tiles", &Figures::drawnTiles, "tiles with a mesh of their own drawn"},
+    {"drawables", &Figures::drawables, "drawables drawn"},
+    {"triangles", &Figures::triangles, "triangles of these"},
+    {"paged_lods", &Figures::pagedLods, "PagedLODs among the tiles kept"},
+    {"files_requested", &Figures::filesRequested, "files read from the root file's on, until the pager was idle"},
+    {"bytes", &Figures::bytes, "bytes of these files"},
+    {"false_culls", &Figures::falseCulls, "visible tiles that were not drawn"},
+    {"false_cull_pixels", &Figures::falseCullPixels, "pixels of these"},
+    {"false_keeps", &Figures::falseKeeps, "tiles drawn that are not needed"},
+    {"differing_pixels", &Figures::differingPixels, "pixels that differ from the picture without culling"},
+}};
+
+inline constexpr const char* kCullColumn = "cull_ms";
+inline constexpr const char* kCullSpreadColumn = "cull_spread_ms";
+
+/// One method's figures, pose by pose.
+struct MethodFigures {
+    std::string method;
+    std::vector<Figures> poses;
+
+    [[nodiscard]] Figures sum() const;
+};
+
+/// The same for a continuous flight.
+struct FlightFigures {
+    std::string method;
+    std::uint64_t frames = 0;
+    std::uint64_t filesRequested = 0;
+    std::uint64_t bytes = 0;
+    double cullMs = 0.0;
+};
+
+}  // namespace osgAnalyticBin::bench

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Output.h"
+
+#include "CsvTable.h"
+#include "Failure.h"
+#include "TextTable.h"
+
+#include <osg/Version>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace osgAnalyticBin::bench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using report::TextTable;
+
+constexpr std::array<const char*, 2> kComparedWith{"sphere", "cluster"};
+
+std::string withDecimals(double value, int decimals) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+    return text;
+}
+
+std::string ratio(double value, double reference) {
+    return reference > 0.0 ? withDecimals(value / reference, 3) : "-";
+}
+
+Json headOf(const Settings& settings, const char* mode) {
+    Json json;
+    json["mode"] = mode;
+    json["database"] = settings.database;
+    json["path"] = settings.path;
+    json["options"] = settings.binOptions;
+    json["vertical_scale"] = settings.verticalScale;
+    json["width"] = settings.width;
+    json["height"] = settings.height;
+    json["threading"] = threadingName(settings.threading);
+    json["osg"] = osgGetVersion();
+    return json;
+}
+
+template <class Method>
+const Method* find(const std::vector<Method>& methods, const std::string& name) {
+    const auto found = std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.method == name; });
+    return found == methods.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> headLine(const std::string& first) {
+    std::vector<std::string> cells{first};
+    for (const CountColumn& column : kCountColumns) cells.emplace_back(column.name);
+    cells.emplace_back(kCullColumn);
+    return cells;
+}
+
+std::vector<std::string> ratioLine(const MethodFigures& method, const Figures& reference) {
+    const Figures sum = method.sum();
+    std::vector<std::string> cells{method.method};
+    for (const CountColumn& column : kCountColumns)
+        cells.push_back(ratio(static_cast<double>(sum.*column.count), static_cast<double>(reference.*column.count)));
+    cells.push_back(ratio(sum.cullMs, reference.cullMs));
+    return cells;
+}
+
+// The longer a table's lines, the harder they are to read: columns become lines.
+TextTable turned(const std::vector<std::vector<std::string>>& lines) {
+    TextTable table(1);
+    for (std::size_t column = 0; column < lines.front().size(); ++column) {
+        std::vector<std::string> cells;
+        for (const auto& line : lines) cells.push_back(line[column]);
+        table.add(std::move(cells));
+    }
+    return table;
+}
+
+}  // namespace
+
+void writeFile(const std::string& file, const std::string& text) {
+    const std::string unfinished = file + ".tmp";
+    std::ofstream output(unfinished, std::ios::binary);
+    output << text;
+    output.close();
+    std::error_code problem;
+    if (output) std::filesystem::rename(unfinished, file, problem);
+    if (output && !problem) return;
+    std::filesystem::remove(unfinished, problem);
+    throw Failure(file + ": cannot be written; check that its folder is there and not full");
+}
+
+std::string csvOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods) {
+    std::string text = "pose,method";
+    for (const CountColumn& column : kCountColumns) text += std::string(",") + column.name;
+    text += std::string(",") + kCullColumn + "," + kCullSpreadColumn + "\n";
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        for (const MethodFigures& method : methods) {
+            const Figures& figures = method.poses[i];
+            text += poses[i] + "," + method.method;
+            for (const CountColumn& column : kCountColumns) text += "," + std::to_string(figures.*column.count);
+            text += "," + flight::textFrom(figures.cullMs) + "," + flight::textFrom(figures.cullSpreadMs) + "\n";
+        }
+    }
+    return text;
+}
+
+std::string csvOf(const std::vector<FlightFigures>& methods) {
+    std::string text = "method,frames,files_requested,bytes,cull_ms\n";
+    for (const FlightFigures& method : methods)
+        text += method.method + "," + std::to_string(method.frames) + "," + std::to_string(method.filesRequested) +
+                "," + std::to_string(method.bytes) + "," + flight::textFrom(method.cullMs) + "\n";
+    return text;
+}
+
+std::string jsonOf(const Settings& settings, const std::vector<std::string>& poses,
+                   const std::vector<MethodFigures>& methods) {
+    Json json = headOf(settings, "poses");
+    json["poses"] = poses.size();
+    for (const MethodFigures& method : methods) {
+        const Figures sum = method.sum();
+        Json& sums = json["methods"][method.method];
+        for (const CountColumn& column : kCountColumns) sums[column.name] = sum.*column.count;
+        sums[kCullColumn] = sum.cullMs;
+        sums[kCullSpreadColumn] = sum.cullSpreadMs;
+    }
+    return json.dump(2) + "\n";
+}
+
+std::string jsonOf(const Settings& settings, const std::vector<FlightFigures>& methods) {
+    Json json = headOf(settings, "flight");
+    for (const FlightFigures& method : methods)
+        json["methods"][method.method] = {{"frames", method.frames},
+                                          {"files_requested", method.filesRequested},
+                                          {"bytes", method.bytes},
+                                          {kCullColumn, method.cullMs}};
+    return json.dump(2) + "\n";
+}
+
+void printTable(std::ostream& output, const std::vector<MethodFigures>& methods) {
+    std::vector<std::vector<std::string>> lines{headLine("sums over poses")};
+    for (const MethodFigures& method : methods) {
+        const Figures sum = method.sum();
+        lines.push_back({method.method});
+        for (const CountColumn& column : kCountColumns) lines.back().push_back(std::to_string(sum.*column.count));
+        lines.back().push_back(withDecimals(sum.cullMs, 3));
+    }
+    turned(lines).print(output);
+    for (const char* const name : kComparedWith) {
+        const MethodFigures* const reference = find(methods, name);
+        if (!reference) continue;
+        lines = {headLine(std::string("ratio to ") + name)};
+        for (const MethodFigures& method : methods) lines.push_back(ratioLine(method, reference->sum()));
+        output << '\n';
+        turned(lines).print(output);
+    }
+}
+
+void printTable(std::ostream& output, const std::vector<FlightFigures>& methods) {
+    std::vector<std::vector<std::string>> lines{{"one flight", "frames", "files_requested", "bytes", kCullColumn}};
+    for (const FlightFigures& m : methods)
+        lines.push_back({m.method, std::to_string(m.frames), std::to_string(m.filesRequested), std::to_string(m.bytes),
+                         withDecimals(m.cullMs, 3)});
+    turned(lines).print(output);
+    for (const char* const name : kComparedWith) {
+        const FlightFigures* const reference = find(methods, name);
+        if (!reference) continue;
+        lines = {{std::string("ratio to ") + name, "files_requested", "bytes", kCullColumn}};
+        for (const FlightFigures& m : methods)
+            lines.push_back(
+                {m.method, ratio(static_cast<double>(m.filesRequested), static_cast<double>(reference->filesRequested)),
+                 ratio(static_cast<double>(m.bytes), static_cast<double>(reference->bytes)),
+                 ratio(m.cullMs, reference->cullMs)});
+        output << '\n';
+        turned(lines).print(output);
+    }
+}
+
+}  // namespace osgAnalyticBin::bench

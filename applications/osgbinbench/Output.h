@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "Figures.h"
+#include "Settings.h"
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin::bench {
+
+/// Throws: Failure when a file cannot be written; what is there under its name stays as it was then.
+void writeFile(const std::string& file, const std::string& text);
+
+/// One line for each pose and method, after a line of column names.
+[[nodiscard]] std::string csvOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods);
+[[nodiscard]] std::string csvOf(const std::vector<FlightFigures>& methods);
+
+/// An object: how it was measured, and "methods", by name, with sums over the poses or the flight.
+[[nodiscard]] std::string jsonOf(const Settings& settings, const std::vector<std::string>& poses,
+                                 const std::vector<MethodFigures>& methods);
+[[nodiscard]] std::string jsonOf(const Settings& settings, const std::vector<FlightFigures>& methods);
+
+/// Sums for people, then their ratios to "sphere" and "cluster" where these were flown.
+void printTable(std::ostream& output, const std::vector<MethodFigures>& methods);
+void printTable(std::ostream& output, const std::vector<FlightFigures>& methods);
+
+}  // namespace osgAnalyticBin::bench

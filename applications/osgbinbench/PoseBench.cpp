@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "PoseBench.h"
+
+#include "CullTimer.h"
+#include "Failure.h"
+#include "PictureDifference.h"
+
+#include <osgDB/WriteFile>
+
+#include <filesystem>
+#include <iostream>
+
+namespace osgAnalyticBin::bench {
+
+namespace {
+
+std::uint64_t differingPixels(const osg::Image& first, const osg::Image& second) {
+    std::string error;
+    const auto difference = report::compare(first, second, error);
+    if (!difference) throw Failure("the pictures cannot be compared: " + error);
+    return difference->pixels;
+}
+
+void countFalseVerdicts(Figures& figures, const Census& census, const std::set<std::string>& needed,
+                        const std::map<std::string, std::uint64_t>& visible) {
+    const std::set<std::string> drawn = census.keys();
+    for (const auto& [key, pixels] : visible) {
+        if (drawn.count(key) != 0) continue;
+        ++figures.falseCulls;
+        figures.falseCullPixels += pixels;
+    }
+    for (const std::string& key : drawn) figures.falseKeeps += needed.count(key) == 0 ? 1U : 0U;
+}
+
+Figures figuresOf(const Census& census) {
+    Figures figures;
+    figures.nodes = census.nodes;
+    figures.testedTiles = census.tested;
+    figures.keptTiles = census.kept;
+    figures.drawnTiles = census.tiles.size();
+    figures.drawables = census.drawables;
+    figures.triangles = census.triangles;
+    figures.pagedLods = census.pagedLods;
+    return figures;
+}
+
+}  // namespace
+
+PoseBench::PoseBench(const Settings& settings, const std::vector<CullMethod>& methods)
+    : _settings(settings), _painter(settings.width, settings.height) {
+    for (const CullMethod& method : methods)
+        _viewers.push_back(std::make_unique<MethodViewer>(method, settings, _watch));
+}
+
+std::vector<MethodFigures> PoseBench::run(const std::vector<flight::CameraPose>& path) {
+    std::vector<MethodFigures> methods;
+    for (const auto& viewer : _viewers) methods.push_back({viewer->method().name, {}});
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        std::cerr << "osgbinbench: pose " << i + 1 << " of " << path.size() << ", " << path[i].name << std::endl;
+        const std::vector<Figures> figures = measure(path[i]);
+        for (std::size_t m = 0; m < methods.size(); ++m) methods[m].poses.push_back(figures[m]);
+    }
+    return methods;
+}
+
+PoseBench::Visit PoseBench::visit(MethodViewer& viewer, const flight::CameraPose& pose) {
+    viewer.load();
+    Visit visit;
+    const std::uint64_t files = _watch.reads->nodeFiles();
+    const std::uint64_t bytes = _watch.reads->nodeBytes();
+    viewer.settle(pose);
+    visit.files = _watch.reads->nodeFiles() - files;
+    visit.bytes = _watch.reads->nodeBytes() - bytes;
+    visit.picture = viewer.picture();
+    viewer.rest();
+    visit.census = viewer.census();
+    if (!_settings.pictures.empty()) savePicture(*visit.picture, viewer.method().name, pose.name);
+    return visit;
+}
+
+std::vector<Figures> PoseBench::measure(const flight::CameraPose& pose) {
+    std::vector<Visit> visits;
+    for (const auto& viewer : _viewers) visits.push_back(visit(*viewer, pose));
+    const Visit& reference = visits.front();
+    MethodViewer& view = *_viewers.front();
+    const auto needed = _truth.neededTiles(reference.census.tiles, view.camera(), view.globe());
+    const auto visible = _painter.visiblePixels(reference.census.tiles, view.camera());
+    const std::vector<CullTime> times = cullTimes(_viewers, _settings.repeats);
+
+    std::vector<Figures> figures;
+    for (std::size_t i = 0; i < visits.size(); ++i) {
+        Figures& f = figures.emplace_back(figuresOf(visits[i].census));
+        f.truthTiles = needed.size();
+        f.visibleTiles = visible.size();
+        f.filesRequested = visits[i].files;
+        f.bytes = visits[i].bytes;
+        f.cullMs = times[i].median;
+        f.cullSpreadMs = times[i].spread;
+        f.differingPixels = differingPixels(*reference.picture, *visits[i].picture);
+        countFalseVerdicts(f, visits[i].census, needed, visible);
+    }
+    return figures;
+}
+
+void PoseBench::savePicture(const osg::Image& picture, const std::string& method, const std::string& pose) const {
+    const std::filesystem::path folder = std::filesystem::path(_settings.pictures) / method;
+    const std::string file = (folder / (pose + ".png")).string();
+    std::error_code problem;
+    std::filesystem::create_directories(folder, problem);
+    if (problem || !osgDB::writeImageFile(picture, file)) throw Failure(file + ": the picture cannot be saved");
+}
+
+}  // namespace osgAnalyticBin::bench

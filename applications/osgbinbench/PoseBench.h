@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "CameraPath.h"
+#include "CullMethod.h"
+#include "Figures.h"
+#include "MethodViewer.h"
+#include "Settings.h"
+#include "TilePainter.h"
+#include "TileTruth.h"
+
+#include <memory>
+#include <vector>
+
+namespace osgAnalyticBin::bench {
+
+/// Measures all methods at every pose of a path. At each pose every method starts from the root file alone, so that
+/// its figures do not depend on the poses before; when all have loaded what they want, they are compared.
+class PoseBench {
+public:
+    /// `methods`: the reference first, as cullMethodsFromNames() gives them.
+    /// Throws: Failure when there is nothing to draw on.
+    PoseBench(const Settings& settings, const std::vector<CullMethod>& methods);
+
+    /// Throws: Failure when the database cannot be read, a pose takes longer than the timeout, or a picture cannot be
+    /// saved. Progress goes to stderr.
+    [[nodiscard]] std::vector<MethodFigures> run(const std::vector<flight::CameraPose>& path);
+
+private:
+    /// What one method did at the present pose.
+    struct Visit {
+        Census census;
+        osg::ref_ptr<osg::Image> picture;
+        std::uint64_t files = 0;
+        std::uint64_t bytes = 0;
+    };
+
+    [[nodiscard]] Visit visit(MethodViewer& viewer, const flight::CameraPose& pose);
+    [[nodiscard]] std::vector<Figures> measure(const flight::CameraPose& pose);
+    void savePicture(const osg::Image& picture, const std::string& method, const std::string& pose) const;
+
+    const Settings& _settings;
+    FileWatch _watch;
+    std::vector<std::unique_ptr<MethodViewer>> _viewers;
+    TilePainter _painter;
+    TileTruth _truth;
+};
+
+}  // namespace osgAnalyticBin::bench

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Settings.h"
+
+#include "CullMethod.h"
+#include "Failure.h"
+#include "Figures.h"
+
+#include <osgAnalyticBin/CullOptions.h>
+
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <utility>
+
+namespace osgAnalyticBin::bench {
+
+namespace {
+
+using Model = osgViewer::ViewerBase::ThreadingModel;
+
+constexpr int kLargestPicture = 8192;
+
+constexpr std::array<std::pair<Model, const char*>, 4> kThreadingNames{
+    {{osgViewer::ViewerBase::SingleThreaded, "SingleThreaded"},
+     {osgViewer::ViewerBase::CullDrawThreadPerContext, "CullDrawThreadPerContext"},
+     {osgViewer::ViewerBase::DrawThreadPerContext, "DrawThreadPerContext"},
+     {osgViewer::ViewerBase::CullThreadPerCameraDrawThreadPerContext, "CullThreadPerCameraDrawThreadPerContext"}}};
+
+Model threadingFromName(const std::string& name) {
+    std::string allowed;
+    for (const auto& [model, known] : kThreadingNames) {
+        if (name == known) return model;
+        allowed += (allowed.empty() ? "" : ", ") + std::string(known);
+    }
+    throw Failure("--threading: unknown model \"" + name + "\"; use one of " + allowed);
+}
+
+void takeSize(const std::string& text, Settings& settings) {
+    int width = 0;
+    int height = 0;
+    char rest = 0;
+    const bool read = std::sscanf(text.c_str(), "%5dx%5d%c", &width, &height, &rest) == 2;
+    if (!read || width < 1 || height < 1 || width > kLargestPicture || height > kLargestPicture)
+        throw Failure("--size: \"" + text + "\" is no size; give pixels from 1 to " + std::to_string(kLargestPicture) +
+                      ", for example 1280x720");
+    settings.width = width;
+    settings.height = height;
+}
+
+// What would only be found out at the end of a long flight is looked at before.
+void requireFolder(const char* option, const std::string& file) {
+    if (file.empty()) return;
+    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+    if (!std::filesystem::is_directory(folder))
+        throw Failure(std::string(option) + ": there is no folder " + folder.string() + "; make it first");
+}
+
+std::string footer() {
+    std::string text =
+        "At every pose every method starts from the root file alone and loads what it wants; then it is measured.\n"
+        "Methods: none = no culling, always flown, as all others are judged by it; sphere = OSG's spheres and boxes,\n"
+        "the database's ClusterCullingCallbacks taken away; cluster = OSG as it comes, with these callbacks;\n"
+        "quadratic, exact, paper, corners = analytic bins.\n"
+        "With --frames the path is flown continuously instead, every method once, while files are being loaded;\n"
+        "then only files_requested, bytes and cull_ms are measured.\n\n"
+        "Columns of --csv, one line for each pose and method, and keys of --json, sums over the poses:\n";
+    for (const CountColumn& column : kCountColumns) {
+        std::string name = std::string("  ") + column.name;
+        name.resize(21, ' ');
+        text += name + column.meaning + "\n";
+    }
+    return text +
+           "  cull_ms            milliseconds of a cull traversal and its sorting, median\n"
+           "  cull_spread_ms     from the first quartile of these times to the third\n\n"
+           "Needs a display. Exit code: 0; 1 when something failed: one line says what, and no table is written.\n\n"
+           "Example:\n"
+           "  xvfb-run -a osgbinbench earth.osgb --path data/paths/vpb_sample.csv --csv poses.csv --json sums.json";
+}
+
+struct Words {
+    std::string size = "1280x720";
+    std::string threading = "SingleThreaded";
+};
+
+void declare(CLI::App& app, Settings& settings, Words& words) {
+    app.footer(footer());
+    app.add_option("DATABASE", settings.database, "root file of a paged globe that OSG reads")->required();
+    app.add_option("--path", settings.path, "camera path, CSV: degrees and metres, as data/paths/demo.csv")->required();
+    app.add_option(
+           "--methods", settings.methods,
+           "comma-separated: none, sphere, cluster, quadratic, exact,\npaper, corners (default: the first five)")
+        ->delimiter(',');
+    app.add_option("--options", settings.binOptions,
+                   "more options for the bins, comma-separated, such as\nhorizon=-500 (metres) or reverse=off");
+    app.add_option("--csv", settings.csv, "file for the figures of every pose");
+    app.add_option("--json", settings.json, "file for the sums");
+    app.add_option("--pictures", settings.pictures, "folder for pictures, METHOD/POSE.png");
+    app.add_option("--vertical-scale", settings.verticalScale,
+                   "factor for the heights of an osgTerrain database (default 1)")
+        ->check(CLI::Range(0.001, 1000.0));
+    app.add_option("--size", words.size, "pixels of a picture, WIDTHxHEIGHT (default 1280x720)");
+    app.add_option("--threading", words.threading,
+                   "SingleThreaded (default), CullDrawThreadPerContext,\nDrawThreadPerContext or "
+                   "CullThreadPerCameraDrawThreadPerContext");
+    app.add_option("--repeats", settings.repeats, "rounds of three timed cull traversals each, 1 to 10000 (default 15)")
+        ->check(CLI::Range(1, 10000));
+    app.add_option("--frames", settings.frames, "fly continuously, that many frames, 1 to 1000000")
+        ->check(CLI::Range(1, 1000000));
+    app.add_option("--timeout", settings.timeout, "seconds that one pose may take to load, to 86400 (default 120)")
+        ->check(CLI::Range(0.001, 86400.0));
+}
+
+void check(const Settings& settings) {
+    (void)cullMethodsFromNames(settings.methods);
+    std::string error;
+    if (settings.binOptions.find("method=") != std::string::npos)
+        throw Failure("--options: name methods in --methods instead of \"" + settings.binOptions + "\"");
+    if (!cullOptionsFromText(settings.binOptions, error)) throw Failure("--options: " + error);
+    if (settings.frames > 0 && !settings.pictures.empty())
+        throw Failure("--pictures: a continuous flight takes none; leave --frames out");
+    requireFolder("--csv", settings.csv);
+    requireFolder("--json", settings.json);
+    requireFolder("--pictures", settings.pictures);
+}
+
+}  // namespace
+
+std::string threadingName(Model model) {
+    for (const auto& [known, name] : kThreadingNames)
+        if (known == model) return name;
+    return "another threading model";
+}
+
+bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {
+    CLI::App app{"Measures the culling of a paged globe, method by method, along a camera path.", "osgbinbench"};
+    Words words;
+    declare(app, settings, words);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() != 0) throw Failure(std::string(error.what()) + "; see osgbinbench --help");
+        (void)app.exit(error);
+        return false;
+    }
+    takeSize(words.size, settings);
+    settings.threading = threadingFromName(words.threading);
+    check(settings);
+    return true;
+}
+
+}  // namespace osgAnalyticBin::bench

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgViewer/Viewer>
+
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin::bench {
+
+/// What the command line asks for.
+struct Settings {
+    std::string database;
+    std::string path;
+    std::vector<std::string> methods{"none", "sphere", "cluster", "quadratic", "exact"};
+    std::string binOptions;
+    std::string csv;
+    std::string json;
+    std::string pictures;
+    double verticalScale = 1.0;
+    int width = 1280;
+    int height = 720;
+    osgViewer::ViewerBase::ThreadingModel threading = osgViewer::ViewerBase::SingleThreaded;
+    int repeats = 15;        ///< rounds in which every method's culling is timed
+    int frames = 0;          ///< of the continuous flight; 0: stop at every pose instead
+    double timeout = 120.0;  ///< seconds that one pose may take to load and draw
+};
+
+/// The name of osgViewer's enumerator. Requires: one of the four models that draw.
+[[nodiscard]] std::string threadingName(osgViewer::ViewerBase::ThreadingModel model);
+
+/// Reads the command line; --help is answered at once.
+/// Returns: whether there is something to measure.
+/// Throws: Failure when an option is unknown, malformed or out of range.
+[[nodiscard]] bool settingsFromCommandLine(int argc, char** argv, Settings& settings);
+
+}  // namespace osgAnalyticBin::bench

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "CullWatcher.h"
+
+#include <osg/Drawable>
+#include <osg/Matrixd>
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin::bench {
+
+/// A drawable in the render bins, and where it stands in the world.
+struct DrawnMesh {
+    osg::ref_ptr<osg::Drawable> drawable;
+    osg::Matrixd localToWorld;
+};
+
+/// A tile whose own mesh is drawn.
+struct DrawnTile {
+    /// Which child of which child it is, from the camera on, such as "0/0/1/2": the same for every culling method.
+    std::string key;
+    std::vector<DrawnMesh> meshes;
+};
+
+/// What one cull traversal of a scene does.
+struct Census {
+    std::uint64_t nodes = 0;      ///< nodes and drawables that the traversal reached
+    std::uint64_t tested = 0;     ///< tiles that it reached
+    std::uint64_t kept = 0;       ///< tiles whose children it reached
+    std::uint64_t pagedLods = 0;  ///< of these, PagedLODs
+    std::uint64_t drawables = 0;
+    std::uint64_t triangles = 0;
+    std::uint64_t wanted = 0;  ///< files asked for: not loaded yet
+    std::vector<DrawnTile> tiles;
+
+    [[nodiscard]] std::set<std::string> keys() const;
+};
+
+/// Takes the census of a camera's scene. Tiles are nodes with a stored bin, PagedLODs, and what a page brings that is
+/// no PagedLOD, as the leaves of VirtualPlanetBuilder are; the mesh of a PagedLOD is the child that needs no file.
+/// Requires: a camera with a viewport, and no update traversal meanwhile.
+class TileCensus final : public flight::CullWatcher {
+public:
+    [[nodiscard]] static Census take(osg::Camera& camera, osg::FrameStamp& frameStamp);
+
+private:
+    struct OpenTile {
+        const osg::Node* node = nullptr;
+        bool kept = false;
+        DrawnTile drawn;
+    };
+
+    void enter(osg::Node& node) override;
+    void leave(osg::Node& node) override;
+    void draw(osg::Drawable& drawable) override;
+
+    [[nodiscard]] bool isTile(const osg::Node& node) const;
+    [[nodiscard]] bool isOnPage() const;
+    [[nodiscard]] std::string keyOfPath() const;
+
+    std::vector<OpenTile> _openTiles;
+    Census _census;
+};
+
+}  // namespace osgAnalyticBin::bench

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TileTruth.h"
+
+#include "GlmBridge.h"
+#include "SurfaceBin.h"
+
+#include <osgAnalyticBin/core/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/FrustumHull.h>
+#include <osgAnalyticBin/core/Horizon.h>
+#include <osgAnalyticBin/core/HullSeparation.h>
+
+#include <osg/Polytope>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace osgAnalyticBin::bench {
+
+namespace {
+
+std::vector<core::Plane> frustumPlanes(const osg::Camera& view, const osg::Matrixd& ecefToWorld) {
+    osg::Polytope frustum;
+    frustum.setToUnitFrustum();
+    frustum.transformProvidingInverse(ecefToWorld * view.getViewMatrix() * view.getProjectionMatrix());
+    std::vector<core::Plane> planes;
+    for (osg::Plane plane : frustum.getPlaneList()) {
+        plane.makeUnitLength();
+        planes.push_back(toCore(plane));
+    }
+    return planes;
+}
+
+class View {
+public:
+    View(const osg::Camera& camera, const flight::Globe& globe, const core::Ellipsoid& ellipsoid)
+        : _ellipsoid(ellipsoid),
+          _eye(toGlm(osg::Vec3d(0.0, 0.0, 0.0) * osg::Matrixd::inverse(camera.getViewMatrix()) *
+                     osg::Matrixd::inverse(globe.localToWorld))),
+          _planes(frustumPlanes(camera, globe.localToWorld)),
+          _hull(_planes, _planes.size()) {}
+
+    void setOccluder(double depth) { _horizon = core::HorizonEye::fromEye(_ellipsoid, depth, _eye); }
+
+    [[nodiscard]] bool needs(const core::GeodeticBin& bin) const {
+        return meets(bin) && !(_horizon && _horizon->hides(core::HorizonBin(_ellipsoid, bin, kSurfaceMargin)));
+    }
+
+    [[nodiscard]] const glm::dvec3& eye() const { return _eye; }
+
+private:
+    [[nodiscard]] bool meets(const core::GeodeticBin& bin) const {
+        const core::ExactGeodeticBin exact(_ellipsoid, bin, kSurfaceMargin);
+        core::PlaneMask undecided = (core::PlaneMask{1} << _planes.size()) - 1;
+        if (core::classify(exact, _planes, _planes.size(), undecided) == core::Side::Outside) return false;
+        return !core::isSeparated(core::ReverseBin(exact, bin), _hull) &&
+               !core::isSeparated(exact, _planes, _planes.size(), undecided, _planes.size());
+    }
+
+    core::Ellipsoid _ellipsoid;
+    glm::dvec3 _eye;
+    std::vector<core::Plane> _planes;
+    core::FrustumHull _hull;
+    std::optional<core::HorizonEye> _horizon;
+};
+
+// How far the surface of a sphere of the smaller radius, lowered by a depth, can be seen from an eye above it.
+double horizonDistance(const core::Ellipsoid& ellipsoid, double depth, const glm::dvec3& eye) {
+    const double radius = std::min(ellipsoid.equatorialRadius(), ellipsoid.polarRadius()) - depth;
+    return std::sqrt(std::max(0.0, glm::dot(eye, eye) - radius * radius));
+}
+
+// A lower bound of the distance from the eye to the hull of the bin: that to a plane which supports the bin.
+double leastDistance(const core::GeodeticBin& bin, const core::Ellipsoid& ellipsoid, const glm::dvec3& eye) {
+    const core::ExactGeodeticBin exact(ellipsoid, bin);
+    const glm::dvec3 middle = ellipsoid.toEcef(bin.center());
+    const double toMiddle = glm::distance(eye, middle);
+    if (!(toMiddle > 0.0)) return 0.0;
+    glm::dvec3 direction = (eye - middle) / toMiddle;
+    double least = std::max(0.0, glm::dot(direction, eye) - exact.support(direction));
+    // Each step turns the plane towards the eye, seen from the point of the bin that it touches.
+    for (int step = 0; step < 8; ++step) {
+        const glm::dvec3 toEye = eye - exact.supportPoint(direction);
+        const double length = glm::length(toEye);
+        if (!(length > 0.0)) return 0.0;
+        direction = glm::normalize(direction + toEye / length);
+        least = std::max(least, glm::dot(direction, eye) - exact.support(direction));
+    }
+    return least;
+}
+
+}  // namespace
+
+double occluderDepth(const std::vector<core::GeodeticBin>& bins, const core::Ellipsoid& ellipsoid,
+                     const glm::dvec3& eye) {
+    struct Surface {
+        double distance, depth;
+    };
+    std::vector<Surface> surfaces;
+    for (const core::GeodeticBin& bin : bins)
+        if (!bin.empty()) surfaces.push_back({leastDistance(bin, ellipsoid, eye), -bin.altitude().lower});
+    double depth = 0.0;
+    for (bool grows = true; grows;) {
+        const double horizon = horizonDistance(ellipsoid, depth, eye);
+        grows = false;
+        for (const Surface& surface : surfaces) {
+            if (surface.depth <= depth || surface.distance > horizon) continue;
+            depth = surface.depth;
+            grows = true;
+        }
+    }
+    return depth;
+}
+
+const core::GeodeticBin& TileTruth::binOf(const DrawnTile& tile, const core::Ellipsoid& ellipsoid,
+                                          const osg::Matrixd& worldToEcef) {
+    const auto found = _bins.find(tile.key);
+    if (found != _bins.end()) return found->second;
+    return _bins.emplace(tile.key, surfaceBin(tile, ellipsoid, worldToEcef)).first->second;
+}
+
+std::set<std::string> TileTruth::neededTiles(const std::vector<DrawnTile>& tiles, const osg::Camera& view,
+                                             const flight::Globe& globe) {
+    const core::Ellipsoid ellipsoid = toCore(*globe.ellipsoid);
+    const osg::Matrixd worldToEcef = osg::Matrixd::inverse(globe.localToWorld);
+    std::vector<core::GeodeticBin> bins;
+    for (const DrawnTile& tile : tiles) bins.push_back(binOf(tile, ellipsoid, worldToEcef));
+    View seen(view, globe, ellipsoid);
+    seen.setOccluder(occluderDepth(bins, ellipsoid, seen.eye()));
+    std::set<std::string> needed;
+    for (std::size_t i = 0; i < tiles.size(); ++i)
+        if (bins[i].empty() || seen.needs(bins[i])) needed.insert(tiles[i].key);
+    return needed;
+}
+
+}  // namespace osgAnalyticBin::bench

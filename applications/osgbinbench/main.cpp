@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "ContinuousPath.h"
+#include "Failure.h"
+#include "FlightBench.h"
+#include "Output.h"
+#include "PoseBench.h"
+
+#include <osgAnalyticBin/CullOptions.h>
+
+#include <osgDB/Registry>
+
+#include <cstdlib>
+#include <dlfcn.h>
+#include <exception>
+#include <iostream>
+
+namespace {
+
+using namespace osgAnalyticBin::bench;
+using osgAnalyticBin::flight::CameraPose;
+
+// The kit's modules stand in a folder beside its library; OpenSceneGraph has to be told, unless they are installed
+// where it looks.
+void addModuleFolder() {
+    Dl_info info{};
+    if (dladdr(reinterpret_cast<const void*>(&osgAnalyticBin::methodName), &info) == 0 || !info.dli_fname) return;
+    const std::string library = info.dli_fname;
+    const auto slash = library.rfind('/');
+    if (slash != std::string::npos)
+        osgDB::Registry::instance()->getLibraryFilePathList().push_back(library.substr(0, slash));
+}
+
+std::vector<std::string> namesOf(const std::vector<CameraPose>& path) {
+    std::vector<std::string> names;
+    for (const CameraPose& pose : path) names.push_back(pose.name);
+    return names;
+}
+
+void write(const Settings& settings, const std::string& csv, const std::string& json) {
+    if (!settings.csv.empty()) writeFile(settings.csv, csv);
+    if (!settings.json.empty()) writeFile(settings.json, json);
+}
+
+void measure(const Settings& settings) {
+    std::string error;
+    const auto path = osgAnalyticBin::flight::readCameraPathFile(settings.path, error);
+    if (!path) throw Failure(error);
+    const std::vector<CullMethod> methods = cullMethodsFromNames(settings.methods);
+    if (settings.frames > 0) {
+        const auto figures = flyContinuously(settings, methods, continuousPath(*path, settings.frames));
+        write(settings, csvOf(figures), jsonOf(settings, figures));
+        return printTable(std::cout, figures);
+    }
+    const auto figures = PoseBench(settings, methods).run(*path);
+    write(settings, csvOf(namesOf(*path), figures), jsonOf(settings, namesOf(*path), figures));
+    printTable(std::cout, figures);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        Settings settings;
+        if (!settingsFromCommandLine(argc, argv, settings)) return EXIT_SUCCESS;
+        addModuleFolder();
+        measure(settings);
+        return EXIT_SUCCESS;
+    } catch (const std::exception& error) {
+        std::cerr << "osgbinbench: " << error.what() << std::endl;
+        return EXIT_FAILURE;
+    }
+}
