@@ -17,8 +17,8 @@ constexpr int kTimedPerTurn = 3;
 /// What osgUtil::SceneView keeps from frame to frame for its cull stage.
 class CullStage {
 public:
-    explicit CullStage(MethodViewer& viewer)
-        : _viewer(viewer),
+    explicit CullStage(MethodScene& scene)
+        : _scene(scene),
           _visitor(new osgUtil::CullVisitor),
           _stateGraph(new osgUtil::StateGraph),
           _stage(new osgUtil::RenderStage) {
@@ -31,7 +31,7 @@ public:
         _stateGraph->clean();
         _stage->reset();
         const auto begin = std::chrono::steady_clock::now();
-        flight::cullScene(*_visitor, _viewer.camera(), _viewer.frameStamp(), *_stateGraph, *_stage);
+        flight::cullScene(*_visitor, _scene.camera(), _scene.frameStamp(), *_stateGraph, *_stage);
         _stage->sort();
         _stateGraph->prune();
         return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
@@ -50,7 +50,7 @@ public:
     }
 
 private:
-    MethodViewer& _viewer;
+    MethodScene& _scene;
     osg::ref_ptr<osgUtil::CullVisitor> _visitor;
     osg::ref_ptr<osgUtil::StateGraph> _stateGraph;
     osg::ref_ptr<osgUtil::RenderStage> _stage;
@@ -59,9 +59,9 @@ private:
 
 }  // namespace
 
-std::vector<CullTime> cullTimes(const std::vector<std::unique_ptr<MethodViewer>>& viewers, int rounds) {
+std::vector<CullTime> cullTimes(const std::vector<std::unique_ptr<MethodScene>>& scenes, int rounds) {
     std::vector<CullStage> stages;
-    for (const auto& viewer : viewers) stages.emplace_back(*viewer);
+    for (const auto& scene : scenes) stages.emplace_back(*scene);
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t i = 0; i < stages.size(); ++i)
             stages[(i + static_cast<std::size_t>(round)) % stages.size()].takeTurn();

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "MethodViewer.h"
+#include "MethodScene.h"
 
 #include <memory>
 #include <vector>
@@ -16,10 +16,10 @@ struct CullTime {
     double spread = 0.0;  ///< from the first quartile to the third
 };
 
-/// Times osgUtil's cull traversal and the sorting of what it finds, of every viewer's scene at its present pose. The
-/// viewers take turns, starting with another one each round, so that what slows the machine down slows all of them;
+/// Times osgUtil's cull traversal and the sorting of what it finds, of every scene at its present pose. The
+/// scenes take turns, starting with another one each round, so that what slows the machine down slows all of them;
 /// every turn begins with a traversal that is not timed.
-/// Requires: viewers at rest. Returns: one time for each viewer.
-[[nodiscard]] std::vector<CullTime> cullTimes(const std::vector<std::unique_ptr<MethodViewer>>& viewers, int rounds);
+/// Requires: a viewer at rest. Returns: one time for each scene.
+[[nodiscard]] std::vector<CullTime> cullTimes(const std::vector<std::unique_ptr<MethodScene>>& scenes, int rounds);
 
 }  // namespace osgAnalyticBin::bench

@@ -49,14 +49,14 @@ Figures figuresOf(const Census& census) {
 }  // namespace
 
 PoseBench::PoseBench(const Settings& settings, const std::vector<CullMethod>& methods)
-    : _settings(settings), _painter(settings.width, settings.height) {
+    : _settings(settings), _viewer(settings.width, settings.height, settings.threading), _painter(_viewer) {
     for (const CullMethod& method : methods)
-        _viewers.push_back(std::make_unique<MethodViewer>(method, settings, _watch));
+        _scenes.push_back(std::make_unique<MethodScene>(method, settings, _watch, _viewer));
 }
 
 std::vector<MethodFigures> PoseBench::run(const std::vector<flight::CameraPose>& path) {
     std::vector<MethodFigures> methods;
-    for (const auto& viewer : _viewers) methods.push_back({viewer->method().name, {}});
+    for (const auto& scene : _scenes) methods.push_back({scene->method().name, {}});
     for (std::size_t i = 0; i < path.size(); ++i) {
         std::cerr << "osgbinbench: pose " << i + 1 << " of " << path.size() << ", " << path[i].name << std::endl;
         const std::vector<Figures> figures = measure(path[i]);
@@ -65,29 +65,29 @@ std::vector<MethodFigures> PoseBench::run(const std::vector<flight::CameraPose>&
     return methods;
 }
 
-PoseBench::Visit PoseBench::visit(MethodViewer& viewer, const flight::CameraPose& pose) {
-    viewer.load();
+PoseBench::Visit PoseBench::visit(MethodScene& scene, const flight::CameraPose& pose) {
+    scene.load();
     Visit visit;
     const std::uint64_t files = _watch.reads->nodeFiles();
     const std::uint64_t bytes = _watch.reads->nodeBytes();
-    viewer.settle(pose);
+    scene.settle(pose);
     visit.files = _watch.reads->nodeFiles() - files;
     visit.bytes = _watch.reads->nodeBytes() - bytes;
-    visit.picture = viewer.picture();
-    viewer.rest();
-    visit.census = viewer.census();
-    if (!_settings.pictures.empty()) savePicture(*visit.picture, viewer.method().name, pose.name);
+    visit.picture = _viewer.picture();
+    _viewer.rest();
+    visit.census = scene.census();
+    if (!_settings.pictures.empty()) savePicture(*visit.picture, scene.method().name, pose.name);
     return visit;
 }
 
 std::vector<Figures> PoseBench::measure(const flight::CameraPose& pose) {
     std::vector<Visit> visits;
-    for (const auto& viewer : _viewers) visits.push_back(visit(*viewer, pose));
+    for (const auto& scene : _scenes) visits.push_back(visit(*scene, pose));
     const Visit& reference = visits.front();
-    MethodViewer& view = *_viewers.front();
+    MethodScene& view = *_scenes.front();
     const auto needed = _truth.neededTiles(reference.census.tiles, view.camera(), view.globe());
     const auto visible = _painter.visiblePixels(reference.census.tiles, view.camera());
-    const std::vector<CullTime> times = cullTimes(_viewers, _settings.repeats);
+    const std::vector<CullTime> times = cullTimes(_scenes, _settings.repeats);
 
     std::vector<Figures> figures;
     for (std::size_t i = 0; i < visits.size(); ++i) {

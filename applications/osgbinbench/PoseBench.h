@@ -6,7 +6,7 @@
 #include "CameraPath.h"
 #include "CullMethod.h"
 #include "Figures.h"
-#include "MethodViewer.h"
+#include "MethodScene.h"
 #include "Settings.h"
 #include "TilePainter.h"
 #include "TileTruth.h"
@@ -37,13 +37,14 @@ private:
         std::uint64_t bytes = 0;
     };
 
-    [[nodiscard]] Visit visit(MethodViewer& viewer, const flight::CameraPose& pose);
+    [[nodiscard]] Visit visit(MethodScene& scene, const flight::CameraPose& pose);
     [[nodiscard]] std::vector<Figures> measure(const flight::CameraPose& pose);
     void savePicture(const osg::Image& picture, const std::string& method, const std::string& pose) const;
 
     const Settings& _settings;
     FileWatch _watch;
-    std::vector<std::unique_ptr<MethodViewer>> _viewers;
+    BenchViewer _viewer;
+    std::vector<std::unique_ptr<MethodScene>> _scenes;
     TilePainter _painter;
     TileTruth _truth;
 };

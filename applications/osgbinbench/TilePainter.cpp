@@ -3,9 +3,7 @@
 
 #include "TilePainter.h"
 
-#include "DrawingSurface.h"
-#include "Failure.h"
-
+#include <osg/ClearNode>
 #include <osg/MatrixTransform>
 
 namespace osgAnalyticBin::bench {
@@ -30,29 +28,18 @@ std::uint32_t numberOf(const unsigned char* colour) {
 
 }  // namespace
 
-TilePainter::TilePainter(int width, int height) : _capture(new flight::FrameCapture), _flat(new osg::Program) {
+TilePainter::TilePainter(BenchViewer& viewer) : _viewer(viewer), _flat(new osg::Program) {
     _flat->addShader(new osg::Shader(osg::Shader::VERTEX, kVertexShader));
     _flat->addShader(new osg::Shader(osg::Shader::FRAGMENT, kFragmentShader));
-    _viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
-    prepareViewer(_viewer, width, height);
-    osg::Camera& camera = *_viewer.getCamera();
-    camera.setCullingMode(osg::CullSettings::NO_CULLING);
-    camera.setClearColor(osg::Vec4(0.0F, 0.0F, 0.0F, 0.0F));
-    camera.addFinalDrawCallback(_capture);
-    _viewer.setSceneData(new osg::Group);
-    _viewer.realize();
 }
-
-TilePainter::~TilePainter() = default;
 
 std::map<std::string, std::uint64_t> TilePainter::visiblePixels(const std::vector<DrawnTile>& tiles,
                                                                 const osg::Camera& view) {
-    _viewer.setSceneData(paintedScene(tiles));
-    _viewer.getCamera()->setViewMatrix(view.getViewMatrix());
-    _viewer.getCamera()->setProjectionMatrix(view.getProjectionMatrix());
-    const osg::ref_ptr<osg::Image> picture = drawPicture(_viewer, *_capture);
-    _viewer.setSceneData(new osg::Group);
-    if (!picture) throw Failure("the picture of the tiles' own colours was never drawn");
+    const osg::ref_ptr<osg::Group> scene = paintedScene(tiles);
+    _viewer.show(*scene, osg::CullSettings::NO_CULLING);
+    _viewer.setView(view.getViewMatrix(), view.getProjectionMatrix());
+    const osg::ref_ptr<osg::Image> picture = _viewer.picture();
+    _viewer.rest();
     std::map<std::string, std::uint64_t> pixels;
     for (int row = 0; row < picture->t(); ++row) {
         for (int column = 0; column < picture->s(); ++column) {
@@ -65,7 +52,9 @@ std::map<std::string, std::uint64_t> TilePainter::visiblePixels(const std::vecto
 }
 
 osg::ref_ptr<osg::Group> TilePainter::paintedScene(const std::vector<DrawnTile>& tiles) const {
-    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    // A node of its own, because the viewer's background is blue.
+    osg::ref_ptr<osg::ClearNode> scene = new osg::ClearNode;
+    scene->setClearColor(osg::Vec4(0.0F, 0.0F, 0.0F, 0.0F));
     scene->getOrCreateStateSet()->setAttributeAndModes(_flat, kOverride);
     scene->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
     std::uint32_t number = 0;

@@ -3,12 +3,11 @@
 
 #pragma once
 
-#include "FrameCapture.h"
+#include "BenchViewer.h"
 #include "TileCensus.h"
 
 #include <osg/Camera>
 #include <osg/Program>
-#include <osgViewer/Viewer>
 
 #include <cstdint>
 #include <map>
@@ -21,23 +20,16 @@ namespace osgAnalyticBin::bench {
 /// smaller than a pixel may be missed.
 class TilePainter {
 public:
-    /// Throws: Failure when there is nothing to draw on.
-    TilePainter(int width, int height);
-    ~TilePainter();
+    explicit TilePainter(BenchViewer& viewer);
 
-    TilePainter(const TilePainter&) = delete;
-    TilePainter& operator=(const TilePainter&) = delete;
-
-    /// Returns: the pixels of every tile that has one, by key. The meshes are only borrowed; nobody else may draw them
-    /// meanwhile. Throws: Failure when the picture does not come.
+    /// Returns: the pixels of every tile that has one, by key. Throws: Failure when the picture does not come.
     [[nodiscard]] std::map<std::string, std::uint64_t> visiblePixels(const std::vector<DrawnTile>& tiles,
                                                                      const osg::Camera& view);
 
 private:
     [[nodiscard]] osg::ref_ptr<osg::Group> paintedScene(const std::vector<DrawnTile>& tiles) const;
 
-    osgViewer::Viewer _viewer;
-    osg::ref_ptr<flight::FrameCapture> _capture;
+    BenchViewer& _viewer;
     osg::ref_ptr<osg::Program> _flat;
 };
 

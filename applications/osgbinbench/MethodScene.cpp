@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "MethodViewer.h"
+#include "MethodScene.h"
 
-#include "DrawingSurface.h"
+#include "CsvTable.h"
 #include "Failure.h"
 
 #include <osgDB/DatabasePager>
@@ -48,23 +48,33 @@ void scaleVertically(osg::Node& scene, double scale, const std::string& database
         throw Failure("--vertical-scale: " + database + " has no osgTerrain::Terrain; leave the option out");
 }
 
+osg::CullSettings::CullingMode cullingOf(const CullMethod& method) {
+    return method.cullsNothing ? static_cast<osg::CullSettings::CullingMode>(osg::CullSettings::NO_CULLING)
+                               : kDefaultCulling;
+}
+
 }  // namespace
 
-MethodViewer::MethodViewer(const CullMethod& method, const Settings& settings, FileWatch& watch)
-    : _method(method), _settings(settings), _watch(watch), _capture(new flight::FrameCapture) {
-    _viewer.setThreadingModel(settings.threading);
-    prepareViewer(_viewer, settings.width, settings.height);
-    if (_method.cullsNothing) camera().setCullingMode(osg::CullSettings::NO_CULLING);
-    camera().addFinalDrawCallback(_capture);
-    camera().getStats()->collectStats("rendering", true);
+MethodScene::MethodScene(const CullMethod& method, const Settings& settings, FileWatch& watch, BenchViewer& viewer)
+    : _method(method), _settings(settings), _watch(watch), _viewer(viewer), _camera(new osg::Camera) {
+    _camera->setViewport(new osg::Viewport(viewer.viewport()));
+    _camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    _camera->setCullingMode(cullingOf(method));
+    _camera->setLODScale(1.0F);
 }
 
-MethodViewer::~MethodViewer() {
-    rest();
-    if (osgDB::DatabasePager* const pager = _viewer.getDatabasePager()) pager->cancel();
+MethodScene::~MethodScene() {
+    _viewer.rest();
+    forget();
 }
 
-osg::ref_ptr<osg::Node> MethodViewer::read() const {
+void MethodScene::forget() {
+    if (_scene && _scene->getDatabasePager()) _scene->getDatabasePager()->cancel();
+    _scene = nullptr;
+    _camera->removeChildren(0, _camera->getNumChildren());
+}
+
+osg::ref_ptr<osg::Node> MethodScene::read() const {
     const std::string name = _method.sceneName(_settings.database, _settings.binOptions);
     osgDB::ReaderWriter::ReadResult result = osgDB::Registry::instance()->readNode(name, nullptr);
     if (result.validNode()) return result.getNode();
@@ -73,79 +83,53 @@ osg::ref_ptr<osg::Node> MethodViewer::read() const {
     throw Failure(_settings.database + ": cannot be read with method " + _method.name + ": " + reason);
 }
 
-void MethodViewer::load() {
-    rest();
+void MethodScene::load() {
+    _viewer.rest();
+    forget();
     _watch.remover->setEnabled(_method.removesClusters);
-    const osg::ref_ptr<osg::Node> scene = read();
-    if (!scene->getBound().valid()) throw Failure(_settings.database + ": there is nothing to fly over");
-    if (_settings.verticalScale != 1.0) scaleVertically(*scene, _settings.verticalScale, _settings.database);
-    _globe = flight::globeOf(*scene);
-    _viewer.setSceneData(scene);
-    if (!_viewer.isRealized()) {
-        _viewer.realize();
-    } else {
-        wake();
-    }
+    const osg::ref_ptr<osg::Node> root = read();
+    if (!root->getBound().valid()) throw Failure(_settings.database + ": there is nothing to fly over");
+    if (_settings.verticalScale != 1.0) scaleVertically(*root, _settings.verticalScale, _settings.database);
+    _globe = flight::globeOf(*root);
+    _viewer.show(*root, cullingOf(_method));
+    _scene = _viewer.scene();
+    _camera->addChild(root);
     _filesLastFrame = _watch.reads->nodeFiles();
 }
 
-void MethodViewer::settle(const flight::CameraPose& pose) {
+void MethodScene::settle(const flight::CameraPose& pose) {
     // What a pose is charged with must not depend on what the pager threw away.
-    _viewer.getDatabasePager()->setTargetMaximumNumberOfPageLOD(std::numeric_limits<unsigned int>::max());
+    _scene->getDatabasePager()->setTargetMaximumNumberOfPageLOD(std::numeric_limits<unsigned int>::max());
     const osg::Timer_t begin = osg::Timer::instance()->tick();
     do {
         drawUntilIdle(pose, begin);
-        rest();
+        _viewer.rest();
     } while (census().wanted > 0);
-    wake();
 }
 
-void MethodViewer::drawUntilIdle(const flight::CameraPose& pose, osg::Timer_t begin) {
-    wake();
+void MethodScene::drawUntilIdle(const flight::CameraPose& pose, osg::Timer_t begin) {
     for (int idleFrames = 0; idleFrames < kIdleFrames;) {
         drawFrame(pose);
         idleFrames = isPagerIdle() ? idleFrames + 1 : 0;
         if (osg::Timer::instance()->delta_s(begin, osg::Timer::instance()->tick()) > _settings.timeout)
             throw Failure("pose " + pose.name + ", method " + _method.name + ": files are still missing after " +
-                          std::to_string(_settings.timeout) + " s; raise --timeout, or look for missing files");
+                          flight::textFrom(_settings.timeout) + " s; raise --timeout, or look for missing files");
     }
 }
 
-bool MethodViewer::isPagerIdle() {
+bool MethodScene::isPagerIdle() {
     const std::uint64_t files = _watch.reads->nodeFiles();
     const bool quiet = files == _filesLastFrame;
     _filesLastFrame = files;
-    const osgDB::DatabasePager& pager = *_viewer.getDatabasePager();
+    const osgDB::DatabasePager& pager = *_scene->getDatabasePager();
     return quiet && !pager.getRequestsInProgress() && !pager.requiresUpdateSceneGraph();
 }
 
-void MethodViewer::setPose(const flight::CameraPose& pose) {
-    camera().setViewMatrix(flight::viewMatrixOf(pose, _globe));
-    camera().setProjectionMatrix(flight::projectionMatrixOf(pose, camera().getViewport()->aspectRatio()));
-}
-
-void MethodViewer::drawFrame(const flight::CameraPose& pose) {
-    setPose(pose);
-    _viewer.frame();
-}
-
-osg::ref_ptr<osg::Image> MethodViewer::picture() {
-    wake();
-    osg::ref_ptr<osg::Image> image = drawPicture(_viewer, *_capture);
-    if (!image) throw Failure("method " + _method.name + ": the picture was never drawn");
-    return image;
-}
-
-void MethodViewer::wake() {
-    if (_viewer.getThreadingModel() != osgViewer::ViewerBase::SingleThreaded) _viewer.startThreading();
-}
-
-void MethodViewer::rest() {
-    if (_viewer.areThreadsRunning()) _viewer.stopThreading();
-}
-
-Census MethodViewer::census() {
-    return TileCensus::take(camera(), frameStamp());
+void MethodScene::drawFrame(const flight::CameraPose& pose) {
+    _camera->setViewMatrix(flight::viewMatrixOf(pose, _globe));
+    _camera->setProjectionMatrix(flight::projectionMatrixOf(pose, _camera->getViewport()->aspectRatio()));
+    _viewer.setView(_camera->getViewMatrix(), _camera->getProjectionMatrix());
+    _viewer.drawFrame();
 }
 
 }  // namespace osgAnalyticBin::bench

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "BenchViewer.h"
+
+#include "Failure.h"
+
+#include <osg/GLExtensions>
+
+namespace osgAnalyticBin::bench {
+
+namespace {
+
+constexpr int kMostPictureFrames = 20;
+constexpr double kMillisecondsPerSecond = 1000.0;
+constexpr const char* kCullTime = "Cull traversal time taken";
+
+osg::ref_ptr<osg::GraphicsContext> makeDrawingSurface(int width, int height) {
+    const osg::ref_ptr<osg::GraphicsContext::Traits> traits =
+        new osg::GraphicsContext::Traits(osg::DisplaySettings::instance());
+    traits->readDISPLAY();
+    traits->setUndefinedScreenDetailsToDefaultScreen();
+    traits->width = width;
+    traits->height = height;
+    traits->pbuffer = true;
+    traits->doubleBuffer = true;
+    traits->depth = 24;
+    traits->samples = 0;
+    traits->sampleBuffers = 0;
+    traits->vsync = false;
+    osg::ref_ptr<osg::GraphicsContext> surface = osg::GraphicsContext::createGraphicsContext(traits);
+    if (!surface) throw Failure("no display to draw on; set DISPLAY or run under \"xvfb-run -a\"");
+    return surface;
+}
+
+// Mesa's software renderer (22.3) never comes back from filtering the terrain's textures anisotropically where they are
+// seen at a grazing angle.
+class WithoutAnisotropy : public osg::Operation {
+public:
+    WithoutAnisotropy() : osg::Operation("without anisotropic filtering", false) {}
+
+    void operator()(osg::Object* object) override {
+        const auto* const surface = dynamic_cast<osg::GraphicsContext*>(object);
+        if (surface && surface->getState())
+            osg::GLExtensions::Get(surface->getState()->getContextID(), true)->isTextureFilterAnisotropicSupported =
+                false;
+    }
+};
+
+void prepareCamera(osg::Camera& camera, osg::GraphicsContext& surface) {
+    camera.setGraphicsContext(&surface);
+    camera.setViewport(new osg::Viewport(0, 0, surface.getTraits()->width, surface.getTraits()->height));
+    const GLenum buffer = surface.getTraits()->doubleBuffer ? GL_BACK : GL_FRONT;
+    camera.setDrawBuffer(buffer);
+    camera.setReadBuffer(buffer);
+    camera.setProjectionResizePolicy(osg::Camera::FIXED);
+    camera.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    camera.setLODScale(1.0F);
+    camera.getStats()->collectStats("rendering", true);
+    osg::StateSet& state = *camera.getOrCreateStateSet();
+    state.setMode(GL_MULTISAMPLE_ARB, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
+    state.setMode(GL_DITHER, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
+    state.setRenderBinDetails(0, "TraversalOrderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
+}
+
+}  // namespace
+
+BenchViewer::BenchViewer(int width, int height, osgViewer::ViewerBase::ThreadingModel threading)
+    : _capture(new flight::FrameCapture) {
+    _viewer.setThreadingModel(threading);
+    prepareCamera(*_viewer.getCamera(), *makeDrawingSurface(width, height));
+    _viewer.getCamera()->addFinalDrawCallback(_capture);
+    _viewer.setRealizeOperation(new WithoutAnisotropy);
+    _viewer.setKeyEventSetsDone(0);
+    _viewer.setQuitEventSetsDone(false);
+}
+
+BenchViewer::~BenchViewer() {
+    rest();
+}
+
+void BenchViewer::show(osg::Node& root, osg::CullSettings::CullingMode culling) {
+    rest();
+    _viewer.getCamera()->setCullingMode(culling);
+    _viewer.setSceneData(&root);
+    if (!_viewer.isRealized()) _viewer.realize();
+}
+
+void BenchViewer::setView(const osg::Matrixd& view, const osg::Matrixd& projection) {
+    _viewer.getCamera()->setViewMatrix(view);
+    _viewer.getCamera()->setProjectionMatrix(projection);
+}
+
+void BenchViewer::drawFrame() {
+    const bool threaded = _viewer.getThreadingModel() != osgViewer::ViewerBase::SingleThreaded;
+    if (threaded && !_viewer.areThreadsRunning()) _viewer.startThreading();
+    _viewer.frame();
+}
+
+osg::ref_ptr<osg::Image> BenchViewer::picture() {
+    _capture->request(frameStamp().getFrameNumber() + 1);
+    for (int i = 0; i < kMostPictureFrames; ++i) {
+        drawFrame();
+        if (osg::ref_ptr<osg::Image> picture = _capture->take()) return picture;
+    }
+    throw Failure("a picture was never drawn; try --threading SingleThreaded");
+}
+
+void BenchViewer::rest() {
+    if (_viewer.areThreadsRunning()) _viewer.stopThreading();
+}
+
+double BenchViewer::cullMs(unsigned int frameNumber) const {
+    double seconds = 0.0;
+    (void)_viewer.getCamera()->getStats()->getAttribute(frameNumber, kCullTime, seconds);
+    return seconds * kMillisecondsPerSecond;
+}
+
+}  // namespace osgAnalyticBin::bench
