@@ -23,6 +23,9 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
                                         Database& database, const DatabaseView& view) {
     const CullOptions& options = database.options();
     if (options.horizonUse == HorizonUse::Off) return std::nullopt;
+    // an eye below the terrain looks through the backs of the faces that would hide
+    const bool isAboveTerrain = options.skirts == SkirtUse::Cracks;
+    if (options.horizonUse == HorizonUse::Declared && !isAboveTerrain) return std::nullopt;
     const auto viewpoint = Viewpoint::of(cullStack, nv, options.inheritViewpoint);
     if (!viewpoint) return std::nullopt;
     if (options.horizonUse == HorizonUse::Given) {
