@@ -10,7 +10,8 @@
 
 namespace osgAnalyticBin {
 
-/// The surface of one drawable's mesh. Requires: at least one triangle, indices within the vertices.
-[[nodiscard]] TileSurface meshSurface(const SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid);
+/// The surface of one drawable's mesh, from which skirts are taken out. Requires: at least one triangle, indices
+/// within the vertices.
+[[nodiscard]] TileSurface meshSurface(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid);
 
 }  // namespace osgAnalyticBin

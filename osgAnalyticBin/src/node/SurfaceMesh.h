@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <osgAnalyticBin/core/QuickMeshBounds.h>
+
 #include <glm/vec3.hpp>
 #include <osg/Geometry>
 #include <osg/Matrixd>
@@ -15,14 +17,9 @@
 namespace osgAnalyticBin {
 
 /// The triangles of one drawable in ECEF; lines and points are triangles without area.
-struct SurfaceMesh {
-    std::vector<double> x, y, z;
-    std::vector<std::uint32_t> triangles;
+struct SurfaceMesh : core::EcefMesh {
     /// One for each vertex, or null.
     const osg::Vec2* texCoords = nullptr;
-
-    [[nodiscard]] std::size_t size() const { return x.size(); }
-    [[nodiscard]] glm::dvec3 vertex(std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
 /// Reads a drawable, whose frame `localToEcef` takes to ECEF, in place of what the mesh held.

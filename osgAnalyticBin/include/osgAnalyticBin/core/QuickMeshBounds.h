@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/core/GeodeticBin.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace osgAnalyticBin::core {
+
+/// A triangle mesh in ECEF metres; each coordinate has its array. Every vertex counts, whether triangles use it or not.
+struct EcefMesh {
+    std::vector<double> x, y, z;
+    std::vector<std::uint32_t> triangles;
+
+    [[nodiscard]] std::size_t size() const noexcept { return x.size(); }
+    [[nodiscard]] glm::dvec3 vertex(std::size_t i) const noexcept { return {x[i], y[i], z[i]}; }
+};
+
+/// The bin that GeodeticMeshBounds finds, some 0.5 m deeper and higher and 1e-7 radians wider, in a small part of the
+/// time: no iteration, and no trigonometry but for the whole mesh.
+/// Guarantee: bin() holds every point of every triangle; vertices within 1 m of the axis may leave it by that much;
+/// tests: QuickMeshBounds.*.
+/// Source: doc/derivation.md, section 11.
+class QuickMeshBounds final {
+public:
+    /// Requires: indices within the vertices.
+    QuickMeshBounds(const Ellipsoid& ellipsoid, const EcefMesh& mesh);
+
+    /// False: the mesh is too large, reaches altitudes that terrain does not have, or the ellipsoid is not like the
+    /// earth's; bin() is empty then, and GeodeticMeshBounds is to be asked.
+    [[nodiscard]] bool isKnown() const noexcept { return !_bin.empty(); }
+
+    [[nodiscard]] const GeodeticBin& bin() const noexcept { return _bin; }
+
+    /// Some vertex lies within 1 m of the axis.
+    [[nodiscard]] bool touchesAxis() const noexcept { return _touchesAxis; }
+
+    /// Metres, of each vertex, up to altitudeError().
+    [[nodiscard]] const std::vector<double>& altitudes() const noexcept { return _altitudes; }
+    [[nodiscard]] std::vector<double> takeAltitudes() noexcept { return std::move(_altitudes); }
+    [[nodiscard]] double altitudeError() const noexcept { return _altitudeError; }
+
+    /// Metres that chords may sag below the lowest corner of their triangle at most.
+    [[nodiscard]] double sag() const noexcept { return _sag; }
+
+private:
+    GeodeticBin _bin;
+    std::vector<double> _altitudes;
+    double _altitudeError = 0.0;
+    double _sag = 0.0;
+    bool _touchesAxis = false;
+};
+
+}  // namespace osgAnalyticBin::core

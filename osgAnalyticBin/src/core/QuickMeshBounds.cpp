@@ -1,0 +1,300 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include <osgAnalyticBin/core/QuickMeshBounds.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace osgAnalyticBin::core {
+
+namespace {
+
+constexpr double kHalfPi = 1.57079632679489661923;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Where the closed forms of altitude hold, as derived: |a2/b2 - 1|, metres above or below the ellipsoid.
+constexpr double kMostFlattened = 0.01;
+constexpr double kFarthest = 1.0e5;
+// Vertices so near to the axis have no longitude of their own; a mesh nearer than the second is taken to end at the
+// pole.
+constexpr double kAxisTolerance = 1.0;
+constexpr double kPolarCap = 1000.0;
+// Tangent of half the width in longitude that a mesh may have.
+constexpr double kWidest = 20.0;
+// Metres: chords so long sag no deeper than that below their ends.
+constexpr double kLongestChord = 1.5e6;
+constexpr double kDeepestChord = 7.0e4;
+constexpr double kRunSlack = 1.001;  // for the ellipsoid's not being a sphere
+constexpr double kAngleRounding = 1e-14;
+constexpr double kLengthRounding = 1e-6;
+constexpr std::size_t kLanes = 16;
+
+// Largest and smallest of several numbers, in lanes for the compiler to make vectors of. NaN is passed over.
+struct Extremes {
+    double low[kLanes];
+    double high[kLanes];
+
+    Extremes() {
+        std::fill(low, low + kLanes, kInfinity);
+        std::fill(high, high + kLanes, -kInfinity);
+    }
+    void add(std::size_t lane, double value) {
+        low[lane] = value < low[lane] ? value : low[lane];
+        high[lane] = value > high[lane] ? value : high[lane];
+    }
+    [[nodiscard]] Interval range() const {
+        return {*std::min_element(low, low + kLanes), *std::max_element(high, high + kLanes)};
+    }
+};
+
+// What one pass over the vertices finds.
+struct VertexRanges {
+    Interval altitude;      // metres
+    Interval slope;         // z over the distance from the axis
+    Interval tangent;       // of the longitude from the reference
+    Interval axisDistance;  // metres
+    bool isInFront = true;  // of the plane through the axis across the reference, but for those without a longitude
+};
+
+struct EllipsoidTerms {
+    double a, b, inverseA2, inverseB2, flattening;
+
+    explicit EllipsoidTerms(const Ellipsoid& e)
+        : a(e.equatorialRadius()),
+          b(e.polarRadius()),
+          inverseA2(1.0 / (a * a)),
+          inverseB2(1.0 / (b * b)),
+          flattening(a * a / (b * b) - 1.0) {}
+
+    // Radius of curvature of the ellipsoid, smallest and largest.
+    [[nodiscard]] Interval radius() const {
+        const auto [least, most] = std::minmax({a, b, b * b / a, a * a / b});
+        return {least, most};
+    }
+};
+
+class VertexPass {
+public:
+    VertexPass(const EllipsoidTerms& terms, const EcefMesh& mesh, double reference)
+        : _terms(terms), _mesh(mesh), _cos(std::cos(reference)), _sin(std::sin(reference)) {}
+
+    VertexRanges run(std::vector<double>& altitudes, std::vector<double>& axisDistances) {
+        const std::size_t count = _mesh.size();
+        altitudes.resize(count);
+        axisDistances.resize(count);
+        for (std::size_t i = 0; i < count; i += kLanes) {
+            // the last block overlaps the one before; a mesh of fewer vertices is padded with its first
+            const std::size_t start = count < kLanes ? 0 : std::min(i, count - kLanes);
+            const std::size_t size = std::min(count, kLanes);
+            load(start, size);
+            work();
+            std::copy(_altitude, _altitude + size, altitudes.begin() + static_cast<std::ptrdiff_t>(start));
+            std::copy(_rho, _rho + size, axisDistances.begin() + static_cast<std::ptrdiff_t>(start));
+        }
+        return {_altitudes.range(), _slopes.range(), _tangents.range(), _rhos.range(), isInFront()};
+    }
+
+private:
+    void load(std::size_t start, std::size_t size) {
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const std::size_t i = start + (lane < size ? lane : 0);
+            _x[lane] = _mesh.x[i];
+            _y[lane] = _mesh.y[i];
+            _z[lane] = _mesh.z[i];
+        }
+    }
+
+    void work() {
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const double rho2 = _x[lane] * _x[lane] + _y[lane] * _y[lane];
+            const double polar2 = _z[lane] * _z[lane] * _terms.inverseB2;
+            const double scaled = std::sqrt(rho2 * _terms.inverseA2 + polar2);
+            _rho[lane] = std::sqrt(rho2);
+            _altitude[lane] = (scaled - 1.0) * (_terms.a - 0.5 * _terms.a * _terms.flattening * polar2);
+        }
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const double front = _x[lane] * _cos + _y[lane] * _sin;
+            const double side = _y[lane] * _cos - _x[lane] * _sin;
+            const bool hasLongitude = _rho[lane] > kAxisTolerance;
+            const double tangent = side / front;
+            _tangents.add(lane, hasLongitude ? tangent : 0.0);
+            _fronts[lane] = hasLongitude && front < _fronts[lane] ? front : _fronts[lane];
+            _slopes.add(lane, _z[lane] / _rho[lane]);
+            _altitudes.add(lane, _altitude[lane]);
+            _rhos.add(lane, _rho[lane]);
+        }
+    }
+
+    [[nodiscard]] bool isInFront() const {
+        return std::all_of(_fronts, _fronts + kLanes, [](double front) { return front > 0.0; });
+    }
+
+    const EllipsoidTerms& _terms;
+    const EcefMesh& _mesh;
+    double _cos, _sin;
+    double _x[kLanes], _y[kLanes], _z[kLanes], _rho[kLanes], _altitude[kLanes];
+    double _fronts[kLanes] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+    Extremes _altitudes, _slopes, _tangents, _rhos;
+};
+
+// The cone of all positions at a latitude, and how far beyond it, polewards on the side of its sign, vertices are.
+class Cone {
+public:
+    Cone(const Ellipsoid& ellipsoid, double latitude, double pole)
+        : _pole(pole), _sin(std::sin(latitude) * pole), _cos(std::cos(latitude)) {
+        const double e2 = ellipsoid.eccentricitySquared();
+        _offset = e2 * ellipsoid.primeVerticalRadius(_sin) * _sin * _cos;
+    }
+
+    // Metres polewards, negative within.
+    [[nodiscard]] double excess(double axisDistance, double z) const {
+        return _pole * z * _cos - axisDistance * _sin + _offset;
+    }
+
+private:
+    double _pole, _sin, _cos, _offset;
+};
+
+// One end of the latitudes: +1 the northern, -1 the southern.
+struct PolewardEnd {
+    double pole;
+    double guess;   // radians, of the extreme vertex
+    double excess;  // metres that vertices are beyond the guess at most
+    double chords;  // the same of the chords between them
+    bool atPole = false;
+};
+
+double largestExcess(const Cone& cone, const EcefMesh& mesh, const std::vector<double>& axisDistances) {
+    double lanes[kLanes];
+    std::fill(lanes, lanes + kLanes, -kInfinity);
+    const std::size_t count = mesh.size();
+    for (std::size_t i = 0; i < count; i += kLanes) {
+        const std::size_t size = std::min(kLanes, count - i);
+        for (std::size_t lane = 0; lane < size; ++lane) {
+            const double excess = cone.excess(axisDistances[i + lane], mesh.z[i + lane]);
+            lanes[lane] = excess > lanes[lane] ? excess : lanes[lane];
+        }
+    }
+    return *std::max_element(lanes, lanes + kLanes);
+}
+
+double referenceLongitude(const EcefMesh& mesh) {
+    constexpr std::size_t kSamples = 16;
+    double x = 0.0;
+    double y = 0.0;
+    for (std::size_t i = 0; i < kSamples; ++i) {
+        const std::size_t sample = (mesh.size() - 1) * i / (kSamples - 1);
+        x += mesh.x[sample];
+        y += mesh.y[sample];
+    }
+    return std::atan2(y, x);
+}
+
+double squaredDistance(const EcefMesh& mesh, std::uint32_t i, std::uint32_t j) {
+    const double x = mesh.x[i] - mesh.x[j];
+    const double y = mesh.y[i] - mesh.y[j];
+    const double z = mesh.z[i] - mesh.z[j];
+    return x * x + y * y + z * z;
+}
+
+// Metres that the corners of a triangle are beyond a cone when seen in the meridian plane of its middle.
+double projectedExcess(const Cone& cone, const EcefMesh& mesh, const std::uint32_t* t) {
+    const double x = mesh.x[t[0]] + mesh.x[t[1]] + mesh.x[t[2]];
+    const double y = mesh.y[t[0]] + mesh.y[t[1]] + mesh.y[t[2]];
+    const double length = std::sqrt(x * x + y * y);
+    double most = -kInfinity;
+    for (int corner = 0; corner < 3; ++corner) {
+        const double projected = (mesh.x[t[corner]] * x + mesh.y[t[corner]] * y) / length;
+        most = std::max(most, cone.excess(projected, mesh.z[t[corner]]));
+    }
+    return most;
+}
+
+}  // namespace
+
+QuickMeshBounds::QuickMeshBounds(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
+    const EllipsoidTerms terms(ellipsoid);
+    if (mesh.size() == 0 || !(std::abs(terms.flattening) <= kMostFlattened)) return;
+
+    const double reference = referenceLongitude(mesh);
+    std::vector<double> axisDistances;
+    const VertexRanges ranges = VertexPass(terms, mesh, reference).run(_altitudes, axisDistances);
+    const double farthest = std::max(std::abs(ranges.altitude.lower), std::abs(ranges.altitude.upper));
+    const double widest = std::max(std::abs(ranges.tangent.lower), std::abs(ranges.tangent.upper));
+    if (!(farthest <= kFarthest) || !(widest <= kWidest) || !ranges.isInFront) return;
+    _touchesAxis = ranges.axisDistance.lower <= kAxisTolerance;
+    const double flattening = std::abs(terms.flattening);
+    _altitudeError = farthest * flattening * (0.5 * flattening + 1.05 * farthest / terms.b) + kLengthRounding;
+
+    // Cones at the latitudes that the steepest vertices would have on the ellipsoid.
+    const bool nearAxis = ranges.axisDistance.lower < kPolarCap;
+    const double e2 = ellipsoid.eccentricitySquared();
+    PolewardEnd ends[2] = {{1.0, std::atan(ranges.slope.upper / (1.0 - e2)), -kInfinity, -kInfinity, false},
+                           {-1.0, std::atan(ranges.slope.lower / (1.0 - e2)), -kInfinity, -kInfinity, false}};
+    ends[0].atPole = nearAxis && ranges.slope.upper > 0.0;
+    ends[1].atPole = nearAxis && ranges.slope.lower < 0.0;
+    const Cone cones[2] = {Cone(ellipsoid, ends[0].guess, 1.0), Cone(ellipsoid, ends[1].guess, -1.0)};
+    bool runs[2];
+    for (int side = 0; side < 2; ++side) {
+        PolewardEnd& end = ends[side];
+        if (end.atPole) {
+            runs[side] = false;
+            continue;
+        }
+        end.excess = end.chords = largestExcess(cones[side], mesh, axisDistances);
+        // chords run polewards; towards the equator they stay within their ends
+        runs[side] = end.guess * end.pole > 0.0;
+    }
+
+    double largestCircle = 0.0;  // squared radius, times 12
+    double low = kInfinity;
+    const Interval radius = terms.radius();
+    const double smallest = radius.lower + std::min(0.0, ranges.altitude.lower) - kDeepestChord;
+    const double perCircle = 1.0 / (24.0 * smallest);
+    double longest = 0.0;
+    const double nearest = std::max(ranges.axisDistance.lower, kPolarCap);
+    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+        const std::uint32_t* t = &mesh.triangles[i];
+        const double ab = squaredDistance(mesh, t[0], t[1]);
+        const double bc = squaredDistance(mesh, t[1], t[2]);
+        const double ca = squaredDistance(mesh, t[2], t[0]);
+        const double most = std::max(ab, std::max(bc, ca));
+        const double circle = std::max(3.0 * most, most + ab + bc + ca);
+        longest = std::max(longest, most);
+        largestCircle = std::max(largestCircle, circle);
+        low = std::min(low,
+                       std::min(_altitudes[t[0]], std::min(_altitudes[t[1]], _altitudes[t[2]])) - circle * perCircle);
+        for (int side = 0; side < 2; ++side) {
+            if (!runs[side]) continue;
+            const Cone& cone = cones[side];
+            double excess = -kInfinity;
+            for (int corner = 0; corner < 3; ++corner)
+                excess = std::max(excess, cone.excess(axisDistances[t[corner]], mesh.z[t[corner]]));
+            if (excess + 2.0 * most / nearest <= ends[side].chords) continue;
+            ends[side].chords = std::max(ends[side].chords, projectedExcess(cone, mesh, t));
+        }
+    }
+    if (!(longest <= kLongestChord * kLongestChord)) return;
+    _sag = largestCircle * perCircle;
+    low = std::min(low, ranges.altitude.lower);
+
+    // An excess of so many metres is so much latitude at least, and at most.
+    const Interval metres{smallest, radius.upper + farthest};
+    double limits[2];
+    for (int side = 0; side < 2; ++side) {
+        const PolewardEnd& end = ends[side];
+        const double excess = std::max(end.excess, end.chords) + kLengthRounding;
+        const double beyond =
+            excess >= 0.0 ? kRunSlack * std::asin(std::min(1.0, excess / metres.lower)) : excess / metres.upper;
+        const double latitude = end.guess * end.pole + beyond + kAngleRounding;
+        limits[side] = end.atPole ? kHalfPi : std::min(kHalfPi, latitude);
+    }
+    _bin = GeodeticBin({-limits[1], limits[0]},
+                       {reference + std::atan(ranges.tangent.lower) - kAngleRounding,
+                        reference + std::atan(ranges.tangent.upper) + kAngleRounding},
+                       {low - _altitudeError, ranges.altitude.upper + _altitudeError});
+}
+
+}  // namespace osgAnalyticBin::core
