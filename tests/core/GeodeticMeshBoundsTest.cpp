@@ -3,6 +3,8 @@
 
 // Oracle: points of the triangles, taken back to latitude, longitude and altitude in long double.
 
+#include "TriangleSamples.h"
+
 #include <osgAnalyticBin/core/GeodeticMeshBounds.h>
 
 #include <glm/geometric.hpp>
@@ -25,10 +27,6 @@ using core::GeodeticMeshBounds;
 using core::Interval;
 
 constexpr double kPromised = 1e-7;  // metres, by GeodeticMeshBounds
-
-struct Triangle {
-    glm::dvec3 a, b, c;
-};
 
 struct Mesh {
     std::vector<glm::dvec3> vertices;
@@ -65,33 +63,6 @@ GeodeticBin boundsOf(const Ellipsoid& ellipsoid, const Mesh& mesh, double refere
     for (const glm::dvec3& vertex : mesh.vertices) bounds.expandByVertex(vertex);
     for (const Triangle& t : mesh.triangles) bounds.expandByTriangle(t.a, t.b, t.c);
     return bounds.bin();
-}
-
-RealVector randomPointOf(Random& random, const Triangle& triangle) {
-    Real u = random.uniform();
-    Real v = random.uniform();
-    if (u + v > 1) {
-        u = 1 - u;
-        v = 1 - v;
-    }
-    if (random.chance(0.3)) u = 0;
-    if (random.chance(0.3)) v = random.chance(0.5) ? 0 : 1 - u;
-    return (1 - u - v) * real(triangle.a) + u * real(triangle.b) + v * real(triangle.c);
-}
-
-// How far a point is outside of the bin, in metres along the coordinate where it is worst.
-Real distanceOutside(const Ellipsoid& ellipsoid, const GeodeticBin& bin, const RealVector& point) {
-    const RealGeodetic at = ecefToGeodetic(ellipsoid, point);
-    const Real radius = ellipsoid.equatorialRadius();
-    const Real north = std::max(at.latitude - bin.latitude().upper, bin.latitude().lower - at.latitude) * radius;
-    const Real above = std::max(at.altitude - bin.altitude().upper, bin.altitude().lower - at.altitude);
-    Real east = 0;
-    if (!bin.isFullCircle()) {
-        const Real fromMiddle = std::remainder(at.longitude - bin.longitude().middle(), 2 * 3.14159265358979323846L);
-        const Real rho = std::hypot(point.x, point.y);
-        east = (std::abs(fromMiddle) - static_cast<Real>(bin.longitude().width()) / 2) * rho;
-    }
-    return std::max({north, east, above});
 }
 
 void expectHolds(Random& random, const Ellipsoid& ellipsoid, const Mesh& mesh, const GeodeticBin& bin, double allowance,

@@ -56,6 +56,7 @@ struct VertexRanges {
     Interval tangent;       // of the longitude from the reference
     Interval axisDistance;  // metres
     bool isInFront = true;  // of the plane through the axis across the reference, but for those without a longitude
+    bool isFinite = true;
 };
 
 struct EllipsoidTerms {
@@ -93,7 +94,7 @@ public:
             std::copy(_altitude, _altitude + size, altitudes.begin() + static_cast<std::ptrdiff_t>(start));
             std::copy(_rho, _rho + size, axisDistances.begin() + static_cast<std::ptrdiff_t>(start));
         }
-        return {_altitudes.range(), _slopes.range(), _tangents.range(), _rhos.range(), isInFront()};
+        return {_altitudes.range(), _slopes.range(), _tangents.range(), _rhos.range(), isInFront(), isFinite()};
     }
 
 private:
@@ -123,6 +124,7 @@ private:
             _fronts[lane] = hasLongitude && front < _fronts[lane] ? front : _fronts[lane];
             _slopes.add(lane, _z[lane] / _rho[lane]);
             _altitudes.add(lane, _altitude[lane]);
+            _poison[lane] += _altitude[lane] - _altitude[lane];  // 0 for finite numbers only
             _rhos.add(lane, _rho[lane]);
         }
     }
@@ -131,10 +133,15 @@ private:
         return std::all_of(_fronts, _fronts + kLanes, [](double front) { return front > 0.0; });
     }
 
+    [[nodiscard]] bool isFinite() const {
+        return std::all_of(_poison, _poison + kLanes, [](double poison) { return poison == 0.0; });
+    }
+
     const EllipsoidTerms& _terms;
     const EcefMesh& _mesh;
     double _cos, _sin;
     double _x[kLanes], _y[kLanes], _z[kLanes], _rho[kLanes], _altitude[kLanes];
+    double _poison[kLanes] = {};
     double _fronts[kLanes] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
     Extremes _altitudes, _slopes, _tangents, _rhos;
 };
@@ -223,7 +230,7 @@ QuickMeshBounds::QuickMeshBounds(const Ellipsoid& ellipsoid, const EcefMesh& mes
     const VertexRanges ranges = VertexPass(terms, mesh, reference).run(_altitudes, axisDistances);
     const double farthest = std::max(std::abs(ranges.altitude.lower), std::abs(ranges.altitude.upper));
     const double widest = std::max(std::abs(ranges.tangent.lower), std::abs(ranges.tangent.upper));
-    if (!(farthest <= kFarthest) || !(widest <= kWidest) || !ranges.isInFront) return;
+    if (!(farthest <= kFarthest) || !(widest <= kWidest) || !ranges.isInFront || !ranges.isFinite) return;
     _touchesAxis = ranges.axisDistance.lower <= kAxisTolerance;
     const double flattening = std::abs(terms.flattening);
     _altitudeError = farthest * flattening * (0.5 * flattening + 1.05 * farthest / terms.b) + kLengthRounding;

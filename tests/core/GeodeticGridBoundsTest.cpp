@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Oracle: points of the triangles of random cells of a grid, diagonals either way, taken back to latitude, longitude
+// and altitude in long double.
+
+#include "TriangleSamples.h"
+
+#include <osgAnalyticBin/core/GeodeticGridBounds.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::Ellipsoid;
+using core::Geodetic;
+using core::GeodeticBin;
+using core::GeodeticGrid;
+using core::GeodeticGridBounds;
+using core::Interval;
+
+constexpr double kPromised = 1e-7;  // metres
+
+GeodeticGrid randomGrid(Random& random) {
+    GeodeticGrid grid;
+    grid.columns = static_cast<std::size_t>(random.integer(8, 65));
+    grid.rows = static_cast<std::size_t>(random.integer(5, 65));
+    const double height = random.chance(0.1) ? kPi : random.logUniform(1e-5, 1.5);
+    const double south = height == kPi ? -kHalfPi : random.uniform(-kHalfPi, kHalfPi - height);
+    const bool toPole = random.chance(0.2);
+    grid.latitude = {south, toPole ? kHalfPi : std::min(kHalfPi, south + height)};
+    const double west = random.uniform(-kPi, kPi);
+    grid.longitude = {west, west + (random.chance(0.1) ? 2.0 * kPi : random.logUniform(1e-5, 3.0))};
+    return grid;
+}
+
+double at(const Interval& interval, int i, std::size_t posts) {
+    return interval.lower + interval.width() * i / static_cast<double>(posts - 1);
+}
+
+struct Cell {
+    std::array<glm::dvec3, 4> corners;  // south-west, south-east, north-west, north-east
+};
+
+// Cells by the edges of the grid come often.
+Cell randomCell(Random& random, const Ellipsoid& ellipsoid, const GeodeticGrid& grid, const Interval& altitude) {
+    const auto pick = [&random](std::size_t posts) {
+        const int last = static_cast<int>(posts) - 2;
+        return random.chance(0.3) ? 0 : random.chance(0.4) ? last : random.integer(0, last);
+    };
+    const int column = pick(grid.columns);
+    const int row = pick(grid.rows);
+    Cell cell;
+    for (int i = 0; i < 4; ++i) {
+        const double height = random.chance(0.3)   ? altitude.lower
+                              : random.chance(0.3) ? altitude.upper
+                                                   : random.uniform(altitude.lower, altitude.upper);
+        cell.corners[static_cast<std::size_t>(i)] = ellipsoid.toEcef(
+            {at(grid.latitude, row + i / 2, grid.rows), at(grid.longitude, column + i % 2, grid.columns), height});
+    }
+    return cell;
+}
+
+std::array<Triangle, 4> trianglesOf(const Cell& cell) {
+    const auto& c = cell.corners;
+    return {Triangle{c[0], c[1], c[2]}, Triangle{c[1], c[2], c[3]}, Triangle{c[0], c[1], c[3]},
+            Triangle{c[0], c[2], c[3]}};
+}
+
+TEST(GeodeticGridBounds, HoldsEveryPointOfEveryTriangle) {
+    Random random(180);
+    for (int trial = 0; trial < 1000; ++trial) {
+        const Ellipsoid ellipsoid =
+            random.chance(0.5) ? wgs84() : Ellipsoid(6.4e6, 6.4e6 * std::sqrt(random.uniform(0.92, 1.08)));
+        const GeodeticGrid grid = randomGrid(random);
+        const double reach = random.chance(0.2) ? 0.0 : random.logUniform(1.0, 110000.0);
+        const GeodeticGridBounds bounds(ellipsoid, grid, reach);
+        // a tile's heights, anywhere within the reach
+        const double low = random.uniform(-reach, reach);
+        const Interval altitude{low, random.uniform(low, reach)};
+        const GeodeticBin bin(bounds.latitude(), grid.longitude, {altitude.lower - bounds.sag(), altitude.upper});
+        for (int i = 0; i < 20; ++i) {
+            for (const Triangle& triangle : trianglesOf(randomCell(random, ellipsoid, grid, altitude))) {
+                for (int k = 0; k < 5; ++k) {
+                    const RealVector point = randomPointOf(random, triangle);
+                    ASSERT_LE(distanceOutside(ellipsoid, bin, point), kPromised) << trial;
+                }
+            }
+        }
+    }
+}
+
+TEST(GeodeticGridBounds, HoldsTheChordsOfEveryEdge) {
+    Random random(181);
+    for (int trial = 0; trial < 1000; ++trial) {
+        const GeodeticGrid grid = randomGrid(random);
+        const GeodeticGridBounds bounds(wgs84(), grid, 9000.0);
+        const int east = static_cast<int>(grid.columns) - 1;
+        const int north = static_cast<int>(grid.rows) - 1;
+        const int column = random.integer(0, east - 1);
+        const int row = random.integer(0, north - 1);
+        const std::array<std::array<int, 4>, 4> chords{{{column, 0, column + 1, 0},
+                                                        {east, row, east, row + 1},
+                                                        {column, north, column + 1, north},
+                                                        {0, row, 0, row + 1}}};
+        for (std::size_t edge = 0; edge < 4; ++edge) {
+            const double lower = random.uniform(-9000.0, 9000.0);
+            const double upper = random.uniform(lower, 9000.0);
+            const auto [i, j, k, l] = chords[edge];
+            const glm::dvec3 a =
+                wgs84().toEcef({at(grid.latitude, j, grid.rows), at(grid.longitude, i, grid.columns), lower});
+            const glm::dvec3 b =
+                wgs84().toEcef({at(grid.latitude, l, grid.rows), at(grid.longitude, k, grid.columns), upper});
+            for (int step = 0; step <= 8; ++step) {
+                const Real t = step / Real(8);
+                const RealVector point = (1 - t) * real(a) + t * real(b);
+                ASSERT_GE(ecefToGeodetic(wgs84(), point).altitude + kPromised, lower - bounds.edgeSag()[edge]);
+            }
+            EXPECT_LE(bounds.edgeSag()[edge], bounds.sag() + kPromised);
+        }
+    }
+}
+
+TEST(GeodeticGridBounds, IsTight) {
+    // one tile about 45 degrees north: what the corners and the middle of a cell do, and no more than a few percent
+    const Ellipsoid earth = wgs84();
+    GeodeticGrid grid;
+    grid.latitude = {0.70, 0.80};
+    grid.longitude = {0.0, 0.1};
+    grid.columns = grid.rows = 11;
+    const GeodeticGridBounds bounds(earth, grid, 0.0);
+    const Real half = 0.5L;
+    const glm::dvec3 southWest = earth.toEcef({0.70, 0.0, 0.0});
+    const glm::dvec3 northEast = earth.toEcef({0.71, 0.01, 0.0});
+    const Real diagonal = -ecefToGeodetic(earth, half * (real(southWest) + real(northEast))).altitude;
+    EXPECT_LE(bounds.sag(), 1.03 * static_cast<double>(diagonal));
+    const glm::dvec3 northWest = earth.toEcef({0.80, 0.0, 0.0});
+    const glm::dvec3 next = earth.toEcef({0.80, 0.01, 0.0});
+    const RealGeodetic middle = ecefToGeodetic(earth, half * (real(northWest) + real(next)));
+    EXPECT_LE(bounds.latitude().upper - 0.80, 1.03 * (static_cast<double>(middle.latitude) - 0.80));
+    EXPECT_LE(bounds.edgeSag()[2], 1.03 * static_cast<double>(-middle.altitude));
+    EXPECT_EQ(bounds.latitude().lower, 0.70);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test

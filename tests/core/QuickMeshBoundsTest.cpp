@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Oracles: points of the triangles, taken back to latitude, longitude and altitude in long double; and
+// GeodeticMeshBounds.
+
+#include "TriangleSamples.h"
+
+#include <osgAnalyticBin/core/GeodeticMeshBounds.h>
+#include <osgAnalyticBin/core/QuickMeshBounds.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::EcefMesh;
+using core::Ellipsoid;
+using core::GeodeticBin;
+using core::GeodeticMeshBounds;
+using core::Interval;
+using core::QuickMeshBounds;
+
+constexpr double kPromised = 1e-7;  // metres
+constexpr double kAxisTolerance = 1.0;
+
+void addVertex(EcefMesh& mesh, const glm::dvec3& v) {
+    mesh.x.push_back(v.x);
+    mesh.y.push_back(v.y);
+    mesh.z.push_back(v.z);
+}
+
+// Posts on a grid over the bin, each with its own altitude; diagonals by chance.
+EcefMesh gridMesh(Random& random, const Ellipsoid& ellipsoid, const GeodeticBin& bin, std::uint32_t rows,
+                  std::uint32_t columns) {
+    EcefMesh mesh;
+    for (std::uint32_t row = 0; row <= rows; ++row) {
+        for (std::uint32_t column = 0; column <= columns; ++column) {
+            addVertex(mesh, ellipsoid.toEcef({bin.latitude().lower + bin.latitude().width() * row / rows,
+                                              bin.longitude().lower + bin.longitude().width() * column / columns,
+                                              random.uniform(bin.altitude().lower, bin.altitude().upper)}));
+        }
+    }
+    for (std::uint32_t row = 0; row < rows; ++row) {
+        for (std::uint32_t column = 0; column < columns; ++column) {
+            const std::uint32_t a = row * (columns + 1) + column, b = a + 1, c = a + columns + 1, d = c + 1;
+            if (random.chance(0.5)) {
+                mesh.triangles.insert(mesh.triangles.end(), {a, b, c, c, b, d});
+            } else {
+                mesh.triangles.insert(mesh.triangles.end(), {a, b, d, a, d, c});
+            }
+        }
+    }
+    return mesh;
+}
+
+GeodeticBin oracle(const Ellipsoid& ellipsoid, const EcefMesh& mesh, double reference) {
+    GeodeticMeshBounds bounds(ellipsoid, reference, kAxisTolerance);
+    for (std::size_t i = 0; i < mesh.size(); ++i) bounds.expandByVertex(mesh.vertex(i));
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+        bounds.expandByTriangle(mesh.vertex(mesh.triangles[i]), mesh.vertex(mesh.triangles[i + 1]),
+                                mesh.vertex(mesh.triangles[i + 2]));
+    }
+    return bounds.bin();
+}
+
+void expectHolds(Random& random, const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& bin,
+                 double allowance) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+        const Triangle triangle{mesh.vertex(mesh.triangles[i]), mesh.vertex(mesh.triangles[i + 1]),
+                                mesh.vertex(mesh.triangles[i + 2])};
+        for (int k = 0; k < 10; ++k)
+            ASSERT_LE(distanceOutside(ellipsoid, bin, randomPointOf(random, triangle)), allowance);
+    }
+}
+
+GeodeticBin randomExtents(Random& random) {
+    const double size = random.logUniform(1e-5, 0.8);
+    const double south = random.chance(0.1)   ? -kHalfPi
+                         : random.chance(0.1) ? kHalfPi - size
+                                              : random.uniform(-kHalfPi, kHalfPi - size);
+    const double west = random.uniform(-kPi, kPi);
+    const double low = random.uniform(-11000.0, 8000.0);
+    return GeodeticBin({south, south + size}, {west, west + size * random.uniform(0.5, 2.0)},
+                       {low, random.chance(0.3) ? low : random.uniform(low, 9000.0)});
+}
+
+TEST(QuickMeshBounds, HoldsEveryPointOfEveryTriangle) {
+    Random random(190);
+    int known = 0;
+    for (int trial = 0; trial < 1000; ++trial) {
+        const Ellipsoid ellipsoid =
+            random.chance(0.7) ? wgs84() : Ellipsoid(6.4e6, 6.4e6 * std::sqrt(random.uniform(0.9905, 1.0095)));
+        const auto cells = static_cast<std::uint32_t>(random.integer(1, 9));
+        const EcefMesh mesh = gridMesh(random, ellipsoid, randomExtents(random), cells, cells);
+        const QuickMeshBounds bounds(ellipsoid, mesh);
+        known += bounds.isKnown();
+        if (!bounds.isKnown()) continue;
+        expectHolds(random, ellipsoid, mesh, bounds.bin(), bounds.touchesAxis() ? kAxisTolerance : kPromised);
+    }
+    EXPECT_GT(known, 900);
+}
+
+TEST(QuickMeshBounds, HoldsLooseTriangles) {
+    Random random(191);
+    for (int trial = 0; trial < 20000; ++trial) {
+        const double south = random.uniform(-kHalfPi, 1.4);
+        const GeodeticBin bin({south, std::min(south + random.uniform(0.0, 0.2), kHalfPi)},
+                              {2.0, 2.0 + random.uniform(0.0, 0.5)}, {-90000.0, 90000.0});
+        EcefMesh mesh;
+        for (int i = 0; i < 3; ++i) addVertex(mesh, wgs84().toEcef(randomPosition(random, bin)));
+        mesh.triangles = {0, 1, 2};
+        const QuickMeshBounds bounds(wgs84(), mesh);
+        if (bounds.isKnown()) expectHolds(random, wgs84(), mesh, bounds.bin(), kPromised);
+    }
+}
+
+TEST(QuickMeshBounds, IsHardlyLooserThanTheThoroughBounds) {
+    Random random(192);
+    for (int trial = 0; trial < 1000; ++trial) {
+        const GeodeticBin anyExtents = randomExtents(random);
+        const auto cells = static_cast<std::uint32_t>(random.integer(8, 16));
+        const double step = anyExtents.latitude().width() * 2.0 / cells;
+        // no steeper than terrain is: a chord that climbs is taken for one along the ground
+        const double low = anyExtents.altitude().lower;
+        const GeodeticBin extents = anyExtents.withAltitude({low, low + std::min(5000.0, 3e5 * step)});
+        const EcefMesh mesh = gridMesh(random, wgs84(), extents, cells, cells);
+        const QuickMeshBounds quick(wgs84(), mesh);
+        if (!quick.isKnown()) continue;
+        const GeodeticBin thorough = oracle(wgs84(), mesh, extents.longitude().middle());
+        const double sag = 6.4e6 * 0.5 * step * step;
+        EXPECT_LE(quick.bin().altitude().upper - thorough.altitude().upper, 0.6);
+        EXPECT_LE(thorough.altitude().lower - quick.bin().altitude().lower, 0.6 + 0.2 * sag);
+        EXPECT_LE(quick.sag(), 2.0 * sag + 0.1);
+        const auto isSameAngle = [](double a, double b) { return std::abs(std::remainder(a - b, 2.0 * kPi)) < 1e-12; };
+        EXPECT_TRUE(isSameAngle(quick.bin().longitude().lower, thorough.longitude().lower));
+        EXPECT_TRUE(isSameAngle(quick.bin().longitude().upper, thorough.longitude().upper));
+        const bool polar =
+            std::abs(extents.latitude().lower) > kHalfPi - 1e-3 || extents.latitude().upper > kHalfPi - 1e-3;
+        if (polar) continue;
+        EXPECT_LE(quick.bin().latitude().upper - thorough.latitude().upper, 1e-6 + 0.05 * step * step);
+        EXPECT_LE(thorough.latitude().lower - quick.bin().latitude().lower, 1e-6 + 0.05 * step * step);
+    }
+}
+
+TEST(QuickMeshBounds, KnowsTheAltitudeOfEveryVertex) {
+    Random random(193);
+    for (int trial = 0; trial < 300; ++trial) {
+        const EcefMesh mesh = gridMesh(random, wgs84(), randomExtents(random), 5, 5);
+        const QuickMeshBounds bounds(wgs84(), mesh);
+        if (!bounds.isKnown()) continue;
+        ASSERT_EQ(bounds.altitudes().size(), mesh.size());
+        EXPECT_LE(bounds.altitudeError(), 0.5);
+        for (std::size_t i = 0; i < mesh.size(); ++i) {
+            const double truth = static_cast<double>(ecefToGeodetic(wgs84(), real(mesh.vertex(i))).altitude);
+            EXPECT_NEAR(bounds.altitudes()[i], truth, bounds.altitudeError());
+        }
+    }
+}
+
+TEST(QuickMeshBounds, LeavesTheRestToOthers) {
+    Random random(194);
+    const auto isKnown = [&](const Ellipsoid& ellipsoid, const GeodeticBin& extents) {
+        return QuickMeshBounds(ellipsoid, gridMesh(random, ellipsoid, extents, 8, 8)).isKnown();
+    };
+    const GeodeticBin tile({0.1, 0.2}, {0.1, 0.2}, {0.0, 1000.0});
+    EXPECT_TRUE(isKnown(wgs84(), tile));
+    EXPECT_FALSE(QuickMeshBounds(wgs84(), EcefMesh()).isKnown());
+    EXPECT_FALSE(isKnown(Ellipsoid(6.4e6, 6.0e6), tile));
+    EXPECT_FALSE(isKnown(wgs84(), tile.withAltitude({-300000.0, 0.0})));
+    EXPECT_FALSE(isKnown(wgs84(), GeodeticBin::wholeGlobe({0.0, 0.0})));
+    EcefMesh broken = gridMesh(random, wgs84(), tile, 8, 8);
+    broken.y[40] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(QuickMeshBounds(wgs84(), broken).isKnown());
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
