@@ -173,17 +173,19 @@ struct PolewardEnd {
     bool atPole = false;
 };
 
-double largestExcess(const Cone& cone, const EcefMesh& mesh, const std::vector<double>& axisDistances) {
+// Of every vertex, and the largest.
+double excesses(const Cone& cone, const EcefMesh& mesh, const std::vector<double>& axisDistances,
+                std::vector<double>& excess) {
+    const std::size_t count = mesh.size();
+    excess.resize(count);
+    for (std::size_t i = 0; i < count; ++i) excess[i] = cone.excess(axisDistances[i], mesh.z[i]);
     double lanes[kLanes];
     std::fill(lanes, lanes + kLanes, -kInfinity);
-    const std::size_t count = mesh.size();
-    for (std::size_t i = 0; i < count; i += kLanes) {
-        const std::size_t size = std::min(kLanes, count - i);
-        for (std::size_t lane = 0; lane < size; ++lane) {
-            const double excess = cone.excess(axisDistances[i + lane], mesh.z[i + lane]);
-            lanes[lane] = excess > lanes[lane] ? excess : lanes[lane];
-        }
-    }
+    const std::size_t whole = count / kLanes * kLanes;
+    for (std::size_t i = 0; i < whole; i += kLanes)
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+            lanes[lane] = excess[i + lane] > lanes[lane] ? excess[i + lane] : lanes[lane];
+    for (std::size_t i = whole; i < count; ++i) lanes[0] = std::max(lanes[0], excess[i]);
     return *std::max_element(lanes, lanes + kLanes);
 }
 
@@ -244,13 +246,14 @@ QuickMeshBounds::QuickMeshBounds(const Ellipsoid& ellipsoid, const EcefMesh& mes
     ends[1].atPole = nearAxis && ranges.slope.lower < 0.0;
     const Cone cones[2] = {Cone(ellipsoid, ends[0].guess, 1.0), Cone(ellipsoid, ends[1].guess, -1.0)};
     bool runs[2];
+    std::vector<double> vertexExcess[2];
     for (int side = 0; side < 2; ++side) {
         PolewardEnd& end = ends[side];
         if (end.atPole) {
             runs[side] = false;
             continue;
         }
-        end.excess = end.chords = largestExcess(cones[side], mesh, axisDistances);
+        end.excess = end.chords = excesses(cones[side], mesh, axisDistances, vertexExcess[side]);
         // chords run polewards; towards the equator they stay within their ends
         runs[side] = end.guess * end.pole > 0.0;
     }
@@ -275,12 +278,10 @@ QuickMeshBounds::QuickMeshBounds(const Ellipsoid& ellipsoid, const EcefMesh& mes
                        std::min(_altitudes[t[0]], std::min(_altitudes[t[1]], _altitudes[t[2]])) - circle * perCircle);
         for (int side = 0; side < 2; ++side) {
             if (!runs[side]) continue;
-            const Cone& cone = cones[side];
-            double excess = -kInfinity;
-            for (int corner = 0; corner < 3; ++corner)
-                excess = std::max(excess, cone.excess(axisDistances[t[corner]], mesh.z[t[corner]]));
+            const double* corner = vertexExcess[side].data();
+            const double excess = std::max(corner[t[0]], std::max(corner[t[1]], corner[t[2]]));
             if (excess + 2.0 * most / nearest <= ends[side].chords) continue;
-            ends[side].chords = std::max(ends[side].chords, projectedExcess(cone, mesh, t));
+            ends[side].chords = std::max(ends[side].chords, projectedExcess(cones[side], mesh, t));
         }
     }
     if (!(longest <= kLongestChord * kLongestChord)) return;

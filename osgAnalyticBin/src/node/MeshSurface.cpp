@@ -26,39 +26,53 @@ constexpr double kLowestMesh = -1.0e6;
 constexpr double kHighestMesh = 5.0e4;
 constexpr std::size_t kEdges = 4;
 
-// Takes the skirts out of a mesh: their triangles, and, in place of their vertices and of those that no triangle uses,
-// any vertex of the surface. Returns: the length in metres of the longest chord of the border.
-double keepSurface(SurfaceMesh& mesh, const MeshSkirts& skirts) {
-    std::vector<std::uint8_t> isUsed(mesh.size(), 0);
+// The longest chord of the border, squared metres: skirts hang from it.
+double longestBorderChord2(const SurfaceMesh& mesh, const MeshSkirts& skirts,
+                           const std::vector<std::uint32_t>& skirtTriangles, std::size_t count) {
     double longest2 = 0.0;
-    std::uint32_t* kept = mesh.triangles.data();
-    const std::uint32_t* const end = kept + mesh.triangles.size() / 3 * 3;
-    const std::uint8_t* marks = skirts.marks.empty() ? nullptr : skirts.marks.data();
-    const auto noteChord = [&](std::uint32_t i, std::uint32_t j) {
-        if ((marks[i] | marks[j]) & kSkirtVertex) return;
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::uint32_t i = skirtTriangles[k];
+        const std::uint32_t j = skirtTriangles[k % 3 == 2 ? k - 2 : k + 1];
         const glm::dvec3 chord = mesh.vertex(i) - mesh.vertex(j);
-        longest2 = std::max(longest2, glm::dot(chord, chord));
-    };
-    for (const std::uint32_t* t = kept; t != end; t += 3) {
-        if (marks && ((marks[t[0]] | marks[t[1]] | marks[t[2]]) & kSkirtVertex)) {
-            noteChord(t[0], t[1]);
-            noteChord(t[1], t[2]);
-            noteChord(t[2], t[0]);
-            continue;
-        }
-        isUsed[t[0]] = isUsed[t[1]] = isUsed[t[2]] = 1;
-        for (int corner = 0; corner < 3; ++corner) *kept++ = t[corner];
+        const bool hangs = ((skirts.marks[i] | skirts.marks[j]) & kSkirtVertex) != 0;
+        longest2 = std::max(longest2, hangs ? 0.0 : glm::dot(chord, chord));
     }
-    mesh.triangles.resize(static_cast<std::size_t>(kept - mesh.triangles.data()));
-    if (mesh.triangles.empty()) return 0.0;
+    return longest2;
+}
+
+// Moves the triangles of skirts out of a mesh. Returns: how many indices these have in `skirtTriangles`.
+std::size_t partTriangles(SurfaceMesh& mesh, const MeshSkirts& skirts, std::vector<std::uint32_t>& skirtTriangles) {
+    const std::size_t count = mesh.triangles.size() / 3 * 3;
+    mesh.triangles.resize(count);
+    if (skirts.marks.empty()) return 0;
+    skirtTriangles.resize(count);
+    std::uint32_t* surface = mesh.triangles.data();
+    std::uint32_t* skirt = skirtTriangles.data();
+    const std::uint8_t* marks = skirts.marks.data();
+    // written to both sides, without branches, which would be foretold wrongly
+    for (std::size_t i = 0; i < count; i += 3) {
+        const std::uint32_t a = mesh.triangles[i], b = mesh.triangles[i + 1], c = mesh.triangles[i + 2];
+        const bool isSkirt = ((marks[a] | marks[b] | marks[c]) & kSkirtVertex) != 0;
+        surface[0] = skirt[0] = a;
+        surface[1] = skirt[1] = b;
+        surface[2] = skirt[2] = c;
+        surface += isSkirt ? 0 : 3;
+        skirt += isSkirt ? 3 : 0;
+    }
+    mesh.triangles.resize(static_cast<std::size_t>(surface - mesh.triangles.data()));
+    return static_cast<std::size_t>(skirt - skirtTriangles.data());
+}
+
+// Puts any vertex of the surface in place of those that no triangle uses.
+void dropUnusedVertices(SurfaceMesh& mesh) {
+    std::vector<std::uint8_t> isUsed(mesh.size(), 0);
+    for (const std::uint32_t i : mesh.triangles) isUsed[i] = 1;
     const glm::dvec3 any = mesh.vertex(mesh.triangles.front());
     for (std::size_t i = 0; i < mesh.size(); ++i) {
-        if (isUsed[i]) continue;
-        mesh.x[i] = any.x;
-        mesh.y[i] = any.y;
-        mesh.z[i] = any.z;
+        mesh.x[i] = isUsed[i] ? mesh.x[i] : any.x;
+        mesh.y[i] = isUsed[i] ? mesh.y[i] : any.y;
+        mesh.z[i] = isUsed[i] ? mesh.z[i] : any.z;
     }
-    return std::sqrt(longest2);
 }
 
 // What has to be known of a mesh, whichever way it was found.
@@ -99,12 +113,12 @@ MeshBounds boundsOf(const SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
     return result;
 }
 
-// Metres that a chord of this length sags at most below its lower end.
-double chordSag(double length, const core::Ellipsoid& ellipsoid) {
+// Metres that a chord of this length, squared, sags at most below its lower end.
+double chordSag(double length2, const core::Ellipsoid& ellipsoid) {
     const double a = ellipsoid.equatorialRadius();
     const double b = ellipsoid.polarRadius();
     const double smallestRadius = std::min(a * a / b, b * b / a) + kLowestMesh;
-    return length * length / (8.0 * smallestRadius);
+    return length2 / (8.0 * smallestRadius);
 }
 
 std::array<double, kEdges> edgeLows(const MeshBounds& bounds, const MeshSkirts& skirts, double borderSag) {
@@ -125,8 +139,11 @@ std::array<double, kEdges> edgeLows(const MeshBounds& bounds, const MeshSkirts& 
 
 TileSurface meshSurface(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
     const MeshSkirts skirts = findSkirts(mesh, ellipsoid);
-    const double borderChord = keepSurface(mesh, skirts);
+    std::vector<std::uint32_t> skirtTriangles;
+    const std::size_t skirtIndices = partTriangles(mesh, skirts, skirtTriangles);
     if (mesh.triangles.empty()) return {};
+    const double borderChord2 = longestBorderChord2(mesh, skirts, skirtTriangles, skirtIndices);
+    dropUnusedVertices(mesh);
     const MeshBounds bounds = boundsOf(mesh, ellipsoid);
     const core::Interval& altitude = bounds.bin.altitude();
     if (bounds.bin.empty() || altitude.lower <= kLowestMesh || altitude.upper >= kHighestMesh) return {};
@@ -134,7 +151,7 @@ TileSurface meshSurface(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
     TileSurface result;
     result.bin = AnalyticBin(bounds.bin, kDrawing + (bounds.touchesAxis ? kAxisTolerance : 0.0));
     result.bin.setSag(bounds.sag);
-    result.edgeLow = edgeLows(bounds, skirts, chordSag(borderChord, ellipsoid));
+    result.edgeLow = edgeLows(bounds, skirts, chordSag(borderChord2, ellipsoid));
     result.skirt = skirts.depth;
     return result;
 }

@@ -22,17 +22,19 @@ constexpr double kShallowest = 1.0;  // metres
 // How far from straight down a skirt may hang: the geocentric vertical is 0.2 degrees off.
 constexpr double kPlumbCosine = 0.999;
 
-std::uint8_t edgesAt(const osg::Vec2& texCoord) {
-    std::uint8_t edges = 0;
-    if (texCoord.y() <= kBorder) edges |= kSouthEdge;
-    if (texCoord.x() >= 1.0f - kBorder) edges |= kEastEdge;
-    if (texCoord.y() >= 1.0f - kBorder) edges |= kNorthEdge;
-    if (texCoord.x() <= kBorder) edges |= kWestEdge;
-    return edges;
+std::uint8_t edgesAt(const osg::Vec2& t) {
+    const unsigned int south = unsigned{t.y() <= kBorder} * kSouthEdge;
+    const unsigned int east = unsigned{t.x() >= 1.0f - kBorder} * kEastEdge;
+    const unsigned int north = unsigned{t.y() >= 1.0f - kBorder} * kNorthEdge;
+    const unsigned int west = unsigned{t.x() <= kBorder} * kWestEdge;
+    return static_cast<std::uint8_t>(south | east | north | west);
 }
 
 bool isInUnitSquare(const osg::Vec2& t) {
-    return t.x() >= -kBorder && t.x() <= 1.0f + kBorder && t.y() >= -kBorder && t.y() <= 1.0f + kBorder;
+    constexpr float kLow = -kBorder;
+    constexpr float kHigh = 1.0f + kBorder;
+    return static_cast<int>(t.x() >= kLow) & static_cast<int>(t.x() <= kHigh) & static_cast<int>(t.y() >= kLow) &
+           static_cast<int>(t.y() <= kHigh);
 }
 
 // Finds the vertex with the same texture coordinates, by open addressing.
@@ -87,19 +89,26 @@ double depthOf(const glm::dvec3& upper, const glm::dvec3& lower, const core::Ell
 
 // Returns: no pairs unless every border vertex has exactly one partner.
 std::vector<Pair> pairsOf(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& marks) {
-    const auto count = static_cast<std::size_t>(std::count_if(marks.begin(), marks.end(), [](auto m) { return m; }));
+    std::vector<std::uint32_t> border(mesh.size());
+    std::size_t count = 0;
+    for (std::uint32_t i = 0; i < mesh.size(); ++i) {
+        border[count] = i;
+        count += marks[i] != 0;
+    }
     PlaceTable places(count);
     std::vector<Pair> pairs;
-    std::vector<bool> paired(mesh.size(), false);
-    for (std::uint32_t i = 0; i < mesh.size(); ++i) {
-        if (!marks[i]) continue;
+    pairs.reserve(count / 2);
+    std::vector<std::uint8_t> paired(mesh.size(), 0);
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::uint32_t i = border[k];
         const std::uint32_t other = places.add(i, mesh.texCoords);
         if (other == PlaceTable::kFree) continue;
         if (paired[other]) return {};
-        paired[other] = paired[i] = true;
-        const bool otherIsUpper =
-            glm::dot(mesh.vertex(other), mesh.vertex(other)) > glm::dot(mesh.vertex(i), mesh.vertex(i));
-        pairs.push_back(otherIsUpper ? Pair{other, i} : Pair{i, other});
+        paired[other] = 1;
+        const glm::dvec3 a = mesh.vertex(other);
+        const glm::dvec3 b = mesh.vertex(i);
+        const bool otherIsUpper = glm::dot(a, a) > glm::dot(b, b);
+        pairs.push_back({otherIsUpper ? other : i, otherIsUpper ? i : other});
     }
     if (2 * pairs.size() != count) return {};
     return pairs;
@@ -107,13 +116,15 @@ std::vector<Pair> pairsOf(const SurfaceMesh& mesh, const std::vector<std::uint8_
 
 // Whether lower vertices are joined to border vertices only.
 bool hangFromBorder(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& marks) {
+    unsigned int bad = 0;  // without branches, which would be foretold wrongly
     for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
-        const std::uint8_t a = marks[mesh.triangles[i]];
-        const std::uint8_t b = marks[mesh.triangles[i + 1]];
-        const std::uint8_t c = marks[mesh.triangles[i + 2]];
-        if (((a | b | c) & kSkirtVertex) && !(a && b && c)) return false;
+        const unsigned int a = marks[mesh.triangles[i]];
+        const unsigned int b = marks[mesh.triangles[i + 1]];
+        const unsigned int c = marks[mesh.triangles[i + 2]];
+        const unsigned int inner = unsigned{a == 0} | unsigned{b == 0} | unsigned{c == 0};
+        bad |= ((a | b | c) & kSkirtVertex) * inner;
     }
-    return true;
+    return bad == 0;
 }
 
 }  // namespace
@@ -122,10 +133,12 @@ MeshSkirts findSkirts(const SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid)
     if (!mesh.texCoords) return {};
     MeshSkirts skirts;
     skirts.marks.resize(mesh.size());
+    bool inUnitSquare = true;
     for (std::size_t i = 0; i < mesh.size(); ++i) {
-        if (!isInUnitSquare(mesh.texCoords[i])) return {};
+        inUnitSquare &= isInUnitSquare(mesh.texCoords[i]);
         skirts.marks[i] = edgesAt(mesh.texCoords[i]);
     }
+    if (!inUnitSquare) return {};
     const std::vector<Pair> pairs = pairsOf(mesh, skirts.marks);
     if (pairs.empty()) return {};
 
