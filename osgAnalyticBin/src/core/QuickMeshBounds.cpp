@@ -27,6 +27,10 @@ constexpr double kWidest = 20.0;
 constexpr double kLongestChord = 1.5e6;
 constexpr double kDeepestChord = 7.0e4;
 constexpr double kRunSlack = 1.001;  // for the ellipsoid's not being a sphere
+// Chords come that much nearer to the axis than vertices.
+constexpr double kNearerChords = 0.9;
+// A function with this much of second derivative leaves its chords by that of 12 squared radii.
+constexpr double kPerCircle = 1.0 / 24.0;
 constexpr double kAngleRounding = 1e-14;
 constexpr double kLengthRounding = 1e-6;
 constexpr std::size_t kLanes = 16;
@@ -169,7 +173,6 @@ struct PolewardEnd {
     double pole;
     double guess;   // radians, of the extreme vertex
     double excess;  // metres that vertices are beyond the guess at most
-    double chords;  // the same of the chords between them
     bool atPole = false;
 };
 
@@ -208,17 +211,45 @@ double squaredDistance(const EcefMesh& mesh, std::uint32_t i, std::uint32_t j) {
     return x * x + y * y + z * z;
 }
 
-// Metres that the corners of a triangle are beyond a cone when seen in the meridian plane of its middle.
-double projectedExcess(const Cone& cone, const EcefMesh& mesh, const std::uint32_t* t) {
-    const double x = mesh.x[t[0]] + mesh.x[t[1]] + mesh.x[t[2]];
-    const double y = mesh.y[t[0]] + mesh.y[t[1]] + mesh.y[t[2]];
-    const double length = std::sqrt(x * x + y * y);
-    double most = -kInfinity;
-    for (int corner = 0; corner < 3; ++corner) {
-        const double projected = (mesh.x[t[corner]] * x + mesh.y[t[corner]] * y) / length;
-        most = std::max(most, cone.excess(projected, mesh.z[t[corner]]));
+// What one pass over the triangles finds.
+struct TriangleRanges {
+    double low;           // metres, the lowest altitude of any chord
+    double excess[2];     // metres, of chords beyond the two cones
+    double longest2;      // square metres, of a side
+    double widestCircle;  // square metres, 12 times the squared radius of the circle about a triangle
+};
+
+// Of so much curvature, per 12 squared radii: of altitude, and of the excesses; no excess is asked for when it is 0.
+struct Curvatures {
+    double altitude;
+    double excess[2];
+};
+
+TriangleRanges trianglePass(const EcefMesh& mesh, const std::vector<double>& altitudes,
+                            const std::vector<double> (&vertexExcess)[2], const Curvatures& curvatures) {
+    TriangleRanges ranges{kInfinity, {-kInfinity, -kInfinity}, 0.0, 0.0};
+    const double* const altitude = altitudes.data();
+    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+        const std::uint32_t a = mesh.triangles[i];
+        const std::uint32_t b = mesh.triangles[i + 1];
+        const std::uint32_t c = mesh.triangles[i + 2];
+        const double ab = squaredDistance(mesh, a, b);
+        const double bc = squaredDistance(mesh, b, c);
+        const double ca = squaredDistance(mesh, c, a);
+        const double longest = std::max(ab, std::max(bc, ca));
+        const double circle = std::max(3.0 * longest, longest + ab + bc + ca);
+        ranges.longest2 = std::max(ranges.longest2, longest);
+        ranges.widestCircle = std::max(ranges.widestCircle, circle);
+        const double lowest = std::min(altitude[a], std::min(altitude[b], altitude[c]));
+        ranges.low = std::min(ranges.low, lowest - circle * curvatures.altitude);
+        for (int side = 0; side < 2; ++side) {
+            if (curvatures.excess[side] == 0.0) continue;
+            const double* const excess = vertexExcess[side].data();
+            const double most = std::max(excess[a], std::max(excess[b], excess[c]));
+            ranges.excess[side] = std::max(ranges.excess[side], most + circle * curvatures.excess[side]);
+        }
     }
-    return most;
+    return ranges;
 }
 
 }  // namespace
@@ -240,8 +271,8 @@ QuickMeshBounds::QuickMeshBounds(const Ellipsoid& ellipsoid, const EcefMesh& mes
     // Cones at the latitudes that the steepest vertices would have on the ellipsoid.
     const bool nearAxis = ranges.axisDistance.lower < kPolarCap;
     const double e2 = ellipsoid.eccentricitySquared();
-    PolewardEnd ends[2] = {{1.0, std::atan(ranges.slope.upper / (1.0 - e2)), -kInfinity, -kInfinity, false},
-                           {-1.0, std::atan(ranges.slope.lower / (1.0 - e2)), -kInfinity, -kInfinity, false}};
+    PolewardEnd ends[2] = {{1.0, std::atan(ranges.slope.upper / (1.0 - e2)), -kInfinity, false},
+                           {-1.0, std::atan(ranges.slope.lower / (1.0 - e2)), -kInfinity, false}};
     ends[0].atPole = nearAxis && ranges.slope.upper > 0.0;
     ends[1].atPole = nearAxis && ranges.slope.lower < 0.0;
     const Cone cones[2] = {Cone(ellipsoid, ends[0].guess, 1.0), Cone(ellipsoid, ends[1].guess, -1.0)};
@@ -253,47 +284,30 @@ QuickMeshBounds::QuickMeshBounds(const Ellipsoid& ellipsoid, const EcefMesh& mes
             runs[side] = false;
             continue;
         }
-        end.excess = end.chords = excesses(cones[side], mesh, axisDistances, vertexExcess[side]);
+        end.excess = excesses(cones[side], mesh, axisDistances, vertexExcess[side]);
         // chords run polewards; towards the equator they stay within their ends
         runs[side] = end.guess * end.pole > 0.0;
     }
 
-    double largestCircle = 0.0;  // squared radius, times 12
-    double low = kInfinity;
     const Interval radius = terms.radius();
     const double smallest = radius.lower + std::min(0.0, ranges.altitude.lower) - kDeepestChord;
-    const double perCircle = 1.0 / (24.0 * smallest);
-    double longest = 0.0;
-    const double nearest = std::max(ranges.axisDistance.lower, kPolarCap);
-    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
-        const std::uint32_t* t = &mesh.triangles[i];
-        const double ab = squaredDistance(mesh, t[0], t[1]);
-        const double bc = squaredDistance(mesh, t[1], t[2]);
-        const double ca = squaredDistance(mesh, t[2], t[0]);
-        const double most = std::max(ab, std::max(bc, ca));
-        const double circle = std::max(3.0 * most, most + ab + bc + ca);
-        longest = std::max(longest, most);
-        largestCircle = std::max(largestCircle, circle);
-        low = std::min(low,
-                       std::min(_altitudes[t[0]], std::min(_altitudes[t[1]], _altitudes[t[2]])) - circle * perCircle);
-        for (int side = 0; side < 2; ++side) {
-            if (!runs[side]) continue;
-            const double* corner = vertexExcess[side].data();
-            const double excess = std::max(corner[t[0]], std::max(corner[t[1]], corner[t[2]]));
-            if (excess + 2.0 * most / nearest <= ends[side].chords) continue;
-            ends[side].chords = std::max(ends[side].chords, projectedExcess(cones[side], mesh, t));
-        }
-    }
-    if (!(longest <= kLongestChord * kLongestChord)) return;
-    _sag = largestCircle * perCircle;
-    low = std::min(low, ranges.altitude.lower);
+    const double nearest = kNearerChords * ranges.axisDistance.lower;
+    Curvatures curvatures{kPerCircle / smallest, {0.0, 0.0}};
+    for (int side = 0; side < 2; ++side)
+        if (runs[side]) curvatures.excess[side] = kPerCircle * std::sin(std::abs(ends[side].guess)) / nearest;
+    const TriangleRanges chords = trianglePass(mesh, _altitudes, vertexExcess, curvatures);
+    const bool areShort = chords.longest2 <= kLongestChord * kLongestChord;
+    const bool areFarFromAxis = !(runs[0] || runs[1]) || chords.longest2 <= 0.5 * nearest * nearest;
+    if (!areShort || !areFarFromAxis) return;
+    _sag = chords.widestCircle * curvatures.altitude;
+    const double low = std::min(chords.low, ranges.altitude.lower);
 
     // An excess of so many metres is so much latitude at least, and at most.
     const Interval metres{smallest, radius.upper + farthest};
     double limits[2];
     for (int side = 0; side < 2; ++side) {
         const PolewardEnd& end = ends[side];
-        const double excess = std::max(end.excess, end.chords) + kLengthRounding;
+        const double excess = std::max(end.excess, chords.excess[side]) + kLengthRounding;
         const double beyond =
             excess >= 0.0 ? kRunSlack * std::asin(std::min(1.0, excess / metres.lower)) : excess / metres.upper;
         const double latitude = end.guess * end.pole + beyond + kAngleRounding;

@@ -26,44 +26,7 @@ constexpr double kLowestMesh = -1.0e6;
 constexpr double kHighestMesh = 5.0e4;
 constexpr std::size_t kEdges = 4;
 
-// The longest chord of the border, squared metres: skirts hang from it.
-double longestBorderChord2(const SurfaceMesh& mesh, const MeshSkirts& skirts,
-                           const std::vector<std::uint32_t>& skirtTriangles, std::size_t count) {
-    double longest2 = 0.0;
-    for (std::size_t k = 0; k < count; ++k) {
-        const std::uint32_t i = skirtTriangles[k];
-        const std::uint32_t j = skirtTriangles[k % 3 == 2 ? k - 2 : k + 1];
-        const glm::dvec3 chord = mesh.vertex(i) - mesh.vertex(j);
-        const bool hangs = ((skirts.marks[i] | skirts.marks[j]) & kSkirtVertex) != 0;
-        longest2 = std::max(longest2, hangs ? 0.0 : glm::dot(chord, chord));
-    }
-    return longest2;
-}
-
-// Moves the triangles of skirts out of a mesh. Returns: how many indices these have in `skirtTriangles`.
-std::size_t partTriangles(SurfaceMesh& mesh, const MeshSkirts& skirts, std::vector<std::uint32_t>& skirtTriangles) {
-    const std::size_t count = mesh.triangles.size() / 3 * 3;
-    mesh.triangles.resize(count);
-    if (skirts.marks.empty()) return 0;
-    skirtTriangles.resize(count);
-    std::uint32_t* surface = mesh.triangles.data();
-    std::uint32_t* skirt = skirtTriangles.data();
-    const std::uint8_t* marks = skirts.marks.data();
-    // written to both sides, without branches, which would be foretold wrongly
-    for (std::size_t i = 0; i < count; i += 3) {
-        const std::uint32_t a = mesh.triangles[i], b = mesh.triangles[i + 1], c = mesh.triangles[i + 2];
-        const bool isSkirt = ((marks[a] | marks[b] | marks[c]) & kSkirtVertex) != 0;
-        surface[0] = skirt[0] = a;
-        surface[1] = skirt[1] = b;
-        surface[2] = skirt[2] = c;
-        surface += isSkirt ? 0 : 3;
-        skirt += isSkirt ? 3 : 0;
-    }
-    mesh.triangles.resize(static_cast<std::size_t>(surface - mesh.triangles.data()));
-    return static_cast<std::size_t>(skirt - skirtTriangles.data());
-}
-
-// Puts any vertex of the surface in place of those that no triangle uses.
+// Puts any other vertex in place of those that no triangle uses.
 void dropUnusedVertices(SurfaceMesh& mesh) {
     std::vector<std::uint8_t> isUsed(mesh.size(), 0);
     for (const std::uint32_t i : mesh.triangles) isUsed[i] = 1;
@@ -127,7 +90,7 @@ std::array<double, kEdges> edgeLows(const MeshBounds& bounds, const MeshSkirts& 
     lows.fill(skirts.marks.empty() ? low : std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < skirts.marks.size(); ++i) {
         const unsigned int marks = skirts.marks[i];
-        if (marks == 0 || (marks & kSkirtVertex)) continue;
+        if (marks == 0) continue;
         for (std::size_t edge = 0; edge < kEdges; ++edge)
             if ((marks >> edge) & 1u) lows[edge] = std::min(lows[edge], bounds.altitudes[i]);
     }
@@ -138,11 +101,7 @@ std::array<double, kEdges> edgeLows(const MeshBounds& bounds, const MeshSkirts& 
 }  // namespace
 
 TileSurface meshSurface(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
-    const MeshSkirts skirts = findSkirts(mesh, ellipsoid);
-    std::vector<std::uint32_t> skirtTriangles;
-    const std::size_t skirtIndices = partTriangles(mesh, skirts, skirtTriangles);
-    if (mesh.triangles.empty()) return {};
-    const double borderChord2 = longestBorderChord2(mesh, skirts, skirtTriangles, skirtIndices);
+    const MeshSkirts skirts = foldSkirts(mesh, ellipsoid);
     dropUnusedVertices(mesh);
     const MeshBounds bounds = boundsOf(mesh, ellipsoid);
     const core::Interval& altitude = bounds.bin.altitude();
@@ -151,7 +110,7 @@ TileSurface meshSurface(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
     TileSurface result;
     result.bin = AnalyticBin(bounds.bin, kDrawing + (bounds.touchesAxis ? kAxisTolerance : 0.0));
     result.bin.setSag(bounds.sag);
-    result.edgeLow = edgeLows(bounds, skirts, chordSag(borderChord2, ellipsoid));
+    result.edgeLow = edgeLows(bounds, skirts, chordSag(skirts.borderChord2, ellipsoid));
     result.skirt = skirts.depth;
     return result;
 }

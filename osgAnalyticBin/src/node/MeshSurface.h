@@ -10,7 +10,7 @@
 
 namespace osgAnalyticBin {
 
-/// The surface of one drawable's mesh, from which skirts are taken out. Requires: at least one triangle, indices
+/// The surface of one drawable's mesh, whose skirts are folded up. Requires: at least one triangle, indices
 /// within the vertices.
 [[nodiscard]] TileSurface meshSurface(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid);
 

@@ -114,22 +114,55 @@ std::vector<Pair> pairsOf(const SurfaceMesh& mesh, const std::vector<std::uint8_
     return pairs;
 }
 
-// Whether lower vertices are joined to border vertices only.
-bool hangFromBorder(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& marks) {
-    unsigned int bad = 0;  // without branches, which would be foretold wrongly
+// The triangles with a lower vertex, by their first index; `areSkirts` is false when one has a vertex off the border.
+struct HangingTriangles {
+    std::vector<std::uint32_t> first;
+    bool areSkirts = true;
+};
+
+HangingTriangles hangingTriangles(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& marks) {
+    HangingTriangles hanging;
+    hanging.first.resize(mesh.triangles.size() / 3 + 1);
+    std::size_t count = 0;
+    unsigned int bad = 0;
+    // without branches, which would be foretold wrongly
     for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
         const unsigned int a = marks[mesh.triangles[i]];
         const unsigned int b = marks[mesh.triangles[i + 1]];
         const unsigned int c = marks[mesh.triangles[i + 2]];
-        const unsigned int inner = unsigned{a == 0} | unsigned{b == 0} | unsigned{c == 0};
-        bad |= ((a | b | c) & kSkirtVertex) * inner;
+        const unsigned int hangs = ((a | b | c) & kSkirtVertex) / kSkirtVertex;
+        bad |= hangs & (unsigned{a == 0} | unsigned{b == 0} | unsigned{c == 0});
+        hanging.first[count] = static_cast<std::uint32_t>(i);
+        count += hangs;
     }
-    return bad == 0;
+    hanging.first.resize(count);
+    hanging.areSkirts = bad == 0;
+    return hanging;
+}
+
+void fold(const std::vector<Pair>& pairs, SurfaceMesh& mesh) {
+    for (const Pair& pair : pairs) {
+        mesh.x[pair.lower] = mesh.x[pair.upper];
+        mesh.y[pair.lower] = mesh.y[pair.upper];
+        mesh.z[pair.lower] = mesh.z[pair.upper];
+    }
+}
+
+// Two sides of a folded triangle are chords of the border, or all are points.
+double longestChord2(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& folded) {
+    double longest2 = 0.0;
+    for (const std::uint32_t i : folded) {
+        const glm::dvec3 middle = mesh.vertex(mesh.triangles[i + 1]);
+        const glm::dvec3 before = mesh.vertex(mesh.triangles[i]) - middle;
+        const glm::dvec3 after = mesh.vertex(mesh.triangles[i + 2]) - middle;
+        longest2 = std::max(longest2, std::max(glm::dot(before, before), glm::dot(after, after)));
+    }
+    return longest2;
 }
 
 }  // namespace
 
-MeshSkirts findSkirts(const SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
+MeshSkirts foldSkirts(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
     if (!mesh.texCoords) return {};
     MeshSkirts skirts;
     skirts.marks.resize(mesh.size());
@@ -143,15 +176,21 @@ MeshSkirts findSkirts(const SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid)
     if (pairs.empty()) return {};
 
     double shallowest = std::numeric_limits<double>::infinity();
+    bool plumb = true;
     for (const Pair& pair : pairs) {
         const double depth = depthOf(mesh.vertex(pair.upper), mesh.vertex(pair.lower), ellipsoid);
-        if (!std::isfinite(depth)) return {};
+        plumb &= std::isfinite(depth);
         shallowest = std::min(shallowest, depth);
         skirts.depth = std::max(skirts.depth, depth);
         skirts.marks[pair.lower] |= kSkirtVertex;
     }
     const bool equal = skirts.depth <= shallowest * (1.0 + kDepthTolerance) + kDepthRounding;
-    return equal && hangFromBorder(mesh, skirts.marks) ? skirts : MeshSkirts{};
+    if (!plumb || !equal) return {};
+    const HangingTriangles hanging = hangingTriangles(mesh, skirts.marks);
+    if (!hanging.areSkirts) return {};
+    fold(pairs, mesh);
+    skirts.borderChord2 = longestChord2(mesh, hanging.first);
+    return skirts;
 }
 
 }  // namespace osgAnalyticBin

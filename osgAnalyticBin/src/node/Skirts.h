@@ -21,12 +21,15 @@ struct MeshSkirts {
     std::vector<std::uint8_t> marks;
     /// Metres, of the deepest.
     double depth = 0.0;
+    /// Square metres, of the longest chord of the border that a skirt hangs from.
+    double borderChord2 = 0.0;
 };
 
 /// Finds skirts as VirtualPlanetBuilder makes them: texture coordinates that run from 0 to 1 over the tile, and at
 /// every vertex on its border a second one straight below, all equally deep, which only border vertices are joined to.
-/// Returns: no marks when the mesh differs from that in anything: its skirts, if it has any, are then not told from
-/// its surface.
-[[nodiscard]] MeshSkirts findSkirts(const SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid);
+/// Folds them up: the lower vertices go to the upper ones, and with them all of the skirts to the border.
+/// Returns: no marks, the mesh as it was, when it differs from that in anything: its skirts, if it has any, are then
+/// not told from its surface.
+[[nodiscard]] MeshSkirts foldSkirts(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid);
 
 }  // namespace osgAnalyticBin
