@@ -73,19 +73,25 @@ struct Pair {
     std::uint32_t lower;
 };
 
-glm::dvec3 outward(const glm::dvec3& ecef, const core::Ellipsoid& ellipsoid) {
-    const double a2 = ellipsoid.equatorialRadius() * ellipsoid.equatorialRadius();
-    const double b2 = ellipsoid.polarRadius() * ellipsoid.polarRadius();
-    return glm::normalize(glm::dvec3(ecef.x / a2, ecef.y / a2, ecef.z / b2));
-}
+// Square metres: the distance of two vertices, one straight below the other; NaN when it is not.
+class DepthMeasure {
+public:
+    explicit DepthMeasure(const core::Ellipsoid& ellipsoid)
+        : _equatorial(1.0 / (ellipsoid.equatorialRadius() * ellipsoid.equatorialRadius())),
+          _polar(1.0 / (ellipsoid.polarRadius() * ellipsoid.polarRadius())) {}
 
-// Metres that the second vertex is straight below the first; NaN when it is not.
-double depthOf(const glm::dvec3& upper, const glm::dvec3& lower, const core::Ellipsoid& ellipsoid) {
-    const glm::dvec3 hanging = upper - lower;
-    const double length = glm::length(hanging);
-    const bool plumb = glm::dot(hanging, outward(upper, ellipsoid)) >= kPlumbCosine * length;
-    return plumb && length >= kShallowest ? length : std::numeric_limits<double>::quiet_NaN();
-}
+    [[nodiscard]] double depth2(const glm::dvec3& upper, const glm::dvec3& lower) const {
+        const glm::dvec3 hanging = upper - lower;
+        const glm::dvec3 up(upper.x * _equatorial, upper.y * _equatorial, upper.z * _polar);
+        const double depth2 = glm::dot(hanging, hanging);
+        const double along = glm::dot(hanging, up);
+        const bool plumb = along > 0.0 && along * along >= kPlumbCosine * kPlumbCosine * depth2 * glm::dot(up, up);
+        return plumb && depth2 >= kShallowest * kShallowest ? depth2 : std::numeric_limits<double>::quiet_NaN();
+    }
+
+private:
+    double _equatorial, _polar;
+};
 
 // Returns: no pairs unless every border vertex has exactly one partner.
 std::vector<Pair> pairsOf(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& marks) {
@@ -175,16 +181,19 @@ MeshSkirts foldSkirts(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
     const std::vector<Pair> pairs = pairsOf(mesh, skirts.marks);
     if (pairs.empty()) return {};
 
-    double shallowest = std::numeric_limits<double>::infinity();
+    const DepthMeasure measure(ellipsoid);
+    double shallowest2 = std::numeric_limits<double>::infinity();
+    double deepest2 = 0.0;
     bool plumb = true;
     for (const Pair& pair : pairs) {
-        const double depth = depthOf(mesh.vertex(pair.upper), mesh.vertex(pair.lower), ellipsoid);
-        plumb &= std::isfinite(depth);
-        shallowest = std::min(shallowest, depth);
-        skirts.depth = std::max(skirts.depth, depth);
+        const double depth2 = measure.depth2(mesh.vertex(pair.upper), mesh.vertex(pair.lower));
+        plumb &= depth2 > 0.0;
+        shallowest2 = std::min(shallowest2, depth2);
+        deepest2 = std::max(deepest2, depth2);
         skirts.marks[pair.lower] |= kSkirtVertex;
     }
-    const bool equal = skirts.depth <= shallowest * (1.0 + kDepthTolerance) + kDepthRounding;
+    skirts.depth = std::sqrt(deepest2);
+    const bool equal = skirts.depth <= std::sqrt(shallowest2) * (1.0 + kDepthTolerance) + kDepthRounding;
     if (!plumb || !equal) return {};
     const HangingTriangles hanging = hangingTriangles(mesh, skirts.marks);
     if (!hanging.areSkirts) return {};
