@@ -98,6 +98,11 @@ public:
     /// they count; minus infinity when not known.
     [[nodiscard]] double binLow() const { return _binLow; }
 
+    /// A sphere in ECEF that holds the bin, for a first look. Returns: nullptr when there is none at hand.
+    [[nodiscard]] const osg::BoundingSphere* ecefSphere() const {
+        return _prepared && !_hasLocalFrame ? &_prepared->sphere : nullptr;
+    }
+
     /// Whether the eye sees nothing of the bin for the horizon. Requires: an eye on the bin's ellipsoid.
     [[nodiscard]] bool isHiddenFrom(const core::HorizonEye& eye) const;
 

@@ -18,6 +18,8 @@
 #include <osgDB/Registry>
 #include <osgTerrain/Terrain>
 
+#include <typeinfo>
+
 namespace osgAnalyticBin {
 
 namespace {
@@ -29,6 +31,32 @@ AnalyticBinCullCallback* installedCallback(osg::Node& node) {
         if (auto* ours = dynamic_cast<AnalyticBinCullCallback*>(callback)) return ours;
     }
     return nullptr;
+}
+
+// Whether a group stands for its only child.
+bool isCarrier(const osg::Group& group) {
+    return typeid(group) == typeid(osg::Group) && group.getNumChildren() == 1 && !hasStoredBin(group);
+}
+
+// The node that is culled for a tile. OSG enters the frame of a transform before it asks the transform's callbacks,
+// which costs more than the bin's test: in files of tiles a transform gets a group above it.
+osg::Node& culledNode(const FoundTile& tile) {
+    osg::Node& node = *tile.node;
+    if (!node.asTransform() || !tile.frame.isBelowTile || node.getNumParents() != 1) return node;
+    osg::Group& parent = *node.getParent(0);
+    if (isCarrier(parent)) return parent;
+    const osg::ref_ptr<osg::Group> carrier = new osg::Group;
+    carrier->addChild(&node);
+    parent.replaceChild(&node, carrier);
+    return *carrier;
+}
+
+// The node that carries a tile's callback: it, or the group that was put above it.
+osg::Node* installedNode(osg::Node& node) {
+    if (installedCallback(node)) return &node;
+    if (!node.asTransform() || node.getNumParents() != 1) return nullptr;
+    osg::Group& parent = *node.getParent(0);
+    return isCarrier(parent) && installedCallback(parent) ? &parent : nullptr;
 }
 
 // A database's own request to install bins is settled by the installer; what it declares counts where the installer was
@@ -170,15 +198,17 @@ void BinInstaller::install(FoundTile& tile) {
 
     const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database().ellipsoid();
     const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);
-    const osg::Matrixd localToEcef =
-        node.asTransform() ? frameInside(*node.asTransform(), tile.frame) : tile.frame.localToEcef;
+    osg::Node& culled = culledNode(tile);
+    osg::Transform* transform = culled.asTransform();
+    const osg::Matrixd localToEcef = transform ? frameInside(*transform, tile.frame) : tile.frame.localToEcef;
     if (!localToEcef.isIdentity()) callback->setLocalToEcef(localToEcef);
     if (fit.isScalable) callback->setTerrainShape(database().shape());
     if (fit.skirt > 0.0) callback->setSkirt(fit.skirt);
     callback->setSurface(fit.surface);
     // In front: what is nested runs when the tile is kept.
-    callback->setNestedCallback(node.getCullCallback());
-    node.setCullCallback(callback.get());
+    callback->setNestedCallback(culled.getCullCallback());
+    culled.setCullCallback(callback.get());
+    culled.setCullingActive(false);
     node.setCullingActive(false);
     for (const auto& mesh : tile.meshes) setSphereCulling(*mesh, false);
     if (_options.cluster == ClusterUse::Replace) {
@@ -201,9 +231,11 @@ void BinInstaller::install(FoundTile& tile) {
 void BinInstaller::uninstall(FoundTile& tile) {
     osg::Node& node = *tile.node;
     bool wasInstalled = false;
-    while (const osg::ref_ptr<AnalyticBinCullCallback> ours = installedCallback(node)) {
+    while (osg::Node* culled = installedNode(node)) {
+        const osg::ref_ptr<AnalyticBinCullCallback> ours = installedCallback(*culled);
         if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) restoreExpiry(*paged, ours->cullOptions().expiry);
-        node.removeCullCallback(ours.get());
+        culled->removeCullCallback(ours.get());
+        culled->setCullingActive(true);
         wasInstalled = true;
     }
     if (!wasInstalled) return;

@@ -26,6 +26,12 @@ osgDB::ReaderWriter::ReadResult unreadable(const std::string& fileName, const ch
     return osgDB::ReaderWriter::ReadResult(osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE);
 }
 
+osg::ref_ptr<osg::Node> groupAbove(osg::Node& node) {
+    const osg::ref_ptr<osg::Group> group = new osg::Group;
+    group->addChild(&node);
+    return group;
+}
+
 // Which globe, and where on it.
 std::string placeText(const TileFrame& frame) {
     std::vector<double> numbers(frame.localToEcef.ptr(), frame.localToEcef.ptr() + 16);
@@ -109,8 +115,10 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readTreated(const std::stri
     if (!node) return result;
     const Expected& known = expected(fileName);
     if (node->referenceCount() == 1) {
-        treat(*node, known);
-        return result;
+        // a tile that is a transform gets a group above it
+        const osg::ref_ptr<osg::Node> root = node->asTransform() ? groupAbove(*node) : osg::ref_ptr<osg::Node>(node);
+        treat(*root, known);
+        return ReadResult(root.get(), result.status());
     }
     const auto outcome = SharedTiles::instance().treatOnce(*node, placeText(known.frame), [&] { treat(*node, known); });
     if (outcome == SharedTiles::Outcome::Usable) return result;

@@ -32,7 +32,7 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
         return viewpoint->above(view.ellipsoid, std::max(0.0, -options.horizon));
     }
     if (database.hasGap()) return std::nullopt;
-    return eyeAboveWhatIsShown(node, nv, *viewpoint, view.ellipsoid, view.shape,
+    return eyeAboveWhatIsShown(node, nv, cullStack, *viewpoint, view.ellipsoid, view.shape,
                                CullTraversal::of(nv).lastDepth(database));
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <typeinfo>
 
 namespace osgAnalyticBin {
 
@@ -17,15 +18,29 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
+// The installer puts its callback first. A dynamic_cast across OSG's virtual bases would be most of the search's cost.
 const AnalyticBinCullCallback* binCallback(const osg::Node& node) {
-    return dynamic_cast<const AnalyticBinCullCallback*>(node.getCullCallback());
+    const osg::Callback* first = node.getCullCallback();
+    const osg::NodeCallback* callback = first ? first->asNodeCallback() : nullptr;
+    const bool isBin = callback && typeid(*callback) == typeid(AnalyticBinCullCallback);
+    return isBin ? static_cast<const AnalyticBinCullCallback*>(callback) : nullptr;
+}
+
+osg::PagedLOD* pagedLod(osg::Node& node) {
+    if (typeid(node) == typeid(osg::PagedLOD)) return static_cast<osg::PagedLOD*>(&node);
+    return dynamic_cast<osg::PagedLOD*>(&node);
 }
 
 // Looks for the lowest surface among the tiles that an eye sees over its horizon.
 class LowestShown {
 public:
-    LowestShown(osg::NodeVisitor& visitor, const core::HorizonEye& eye, const TerrainShape& shape)
-        : _visitor(visitor), _eye(eye), _shape(shape) {}
+    LowestShown(osg::NodeVisitor& visitor, const osg::CullStack& cullStack, const core::HorizonEye& eye,
+                const TerrainShape& shape)
+        : _visitor(visitor), _eye(eye), _shape(shape) {
+        const osg::CullingSet& cullingSet = cullStack.getCurrentCullingSet();
+        if (!(cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING)) return;
+        _planes = cullingSet.getFrustum().getPlaneList();
+    }
 
     void search(osg::Group& group) {
         for (unsigned int i = 0; i < group.getNumChildren(); ++i) searchNode(*group.getChild(i));
@@ -36,9 +51,9 @@ public:
 private:
     void searchNode(osg::Node& node) {
         const AnalyticBinCullCallback* tile = binCallback(node);
-        if (tile && (tile->isHiddenFrom(_eye) || isAbove(*tile))) return;
-        auto* paged = dynamic_cast<osg::PagedLOD*>(&node);
-        if (tile && paged) return searchPaged(*paged, *tile);
+        if (tile && (isAbove(*tile) || isBesideFrustum(*tile) || tile->isHiddenFrom(_eye))) return;
+        osg::PagedLOD* paged = tile ? pagedLod(node) : nullptr;
+        if (paged) return searchPaged(*paged, *tile);
         if (tile) return show(*tile);
         // another database is on a globe of its own
         if (dynamic_cast<osg::CoordinateSystemNode*>(&node)) return;
@@ -53,6 +68,16 @@ private:
     // Whether the tile and its descendants cannot change the result.
     [[nodiscard]] bool isAbove(const AnalyticBinCullCallback& tile) const {
         return isFitted(tile) && tile.binLow() >= -_depth;
+    }
+
+    // Rays that are seen meet nothing there.
+    [[nodiscard]] bool isBesideFrustum(const AnalyticBinCullCallback& tile) const {
+        const osg::BoundingSphere* sphere = tile.ecefSphere();
+        if (!sphere || !isFitted(tile)) return false;
+        const osg::Vec3d center = sphere->center();
+        return std::any_of(_planes.begin(), _planes.end(), [&](const osg::Plane& plane) {
+            return plane.distance(center) < -static_cast<double>(sphere->radius());
+        });
     }
 
     void show(const AnalyticBinCullCallback& tile) {
@@ -83,6 +108,7 @@ private:
     osg::NodeVisitor& _visitor;
     const core::HorizonEye& _eye;
     const TerrainShape _shape;
+    osg::Polytope::PlaneList _planes;
     bool _isMoved = false;  // below a transform, where OSG measures distances in another frame
     double _depth = -kUnknown;
 };
@@ -90,8 +116,9 @@ private:
 }  // namespace
 
 std::optional<core::HorizonEye> eyeAboveWhatIsShown(osg::Group& database, osg::NodeVisitor& visitor,
-                                                    const Viewpoint& viewpoint, const core::Ellipsoid& ellipsoid,
-                                                    const TerrainShape& shape, double& depth) {
+                                                    const osg::CullStack& cullStack, const Viewpoint& viewpoint,
+                                                    const core::Ellipsoid& ellipsoid, const TerrainShape& shape,
+                                                    double& depth) {
     // A deeper occluder has a wider horizon, over which more may be seen that is deeper still.
     constexpr int kMostRounds = 8;
     constexpr double kRoom = 1.05;
@@ -104,7 +131,7 @@ std::optional<core::HorizonEye> eyeAboveWhatIsShown(osg::Group& database, osg::N
             depth = 2.0 * depth + kStep;
             continue;
         }
-        LowestShown lowest(visitor, *eye, shape);
+        LowestShown lowest(visitor, cullStack, *eye, shape);
         lowest.search(database);
         if (lowest.depth() <= depth) {
             depth = std::max(lowest.depth(), 0.0);

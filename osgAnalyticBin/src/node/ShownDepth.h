@@ -8,6 +8,7 @@
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/core/Horizon.h>
 
+#include <osg/CullStack>
 #include <osg/Group>
 #include <osg/NodeVisitor>
 
@@ -16,7 +17,8 @@
 namespace osgAnalyticBin {
 
 /// The eye over a database that declares no lowest surface: the occluder lies just below the lowest surface that the
-/// cull traversal about to begin shows, by levels of detail and by what is loaded, between the eye and its horizon.
+/// cull traversal about to begin shows, by levels of detail and by what is loaded, in the frustum, between the eye
+/// and its horizon.
 /// `shape` is the one that the database is shown in. Coarse meshes elsewhere, which dip far below the ellipsoid, do not
 /// count. `depth` (metres) is where the search starts, best that of the last frame; it returns the depth found.
 /// Requires: tiles that cover the globe without gaps.
@@ -24,6 +26,7 @@ namespace osgAnalyticBin {
 /// Cost: one short test for every tile shown on the near side of the horizon.
 /// Source: doc/horizon.md, section 7.
 [[nodiscard]] std::optional<core::HorizonEye> eyeAboveWhatIsShown(osg::Group& database, osg::NodeVisitor& visitor,
+                                                                  const osg::CullStack& cullStack,
                                                                   const Viewpoint& viewpoint,
                                                                   const core::Ellipsoid& ellipsoid,
                                                                   const TerrainShape& shape, double& depth);
