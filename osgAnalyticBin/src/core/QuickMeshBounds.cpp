@@ -254,13 +254,13 @@ TriangleRanges trianglePass(const EcefMesh& mesh, const std::vector<double>& alt
 
 }  // namespace
 
-QuickMeshBounds::QuickMeshBounds(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
+void QuickMeshBounds::find(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
+    _bin = GeodeticBin();
     const EllipsoidTerms terms(ellipsoid);
     if (mesh.size() == 0 || !(std::abs(terms.flattening) <= kMostFlattened)) return;
 
     const double reference = referenceLongitude(mesh);
-    std::vector<double> axisDistances;
-    const VertexRanges ranges = VertexPass(terms, mesh, reference).run(_altitudes, axisDistances);
+    const VertexRanges ranges = VertexPass(terms, mesh, reference).run(_altitudes, _axisDistances);
     const double farthest = std::max(std::abs(ranges.altitude.lower), std::abs(ranges.altitude.upper));
     const double widest = std::max(std::abs(ranges.tangent.lower), std::abs(ranges.tangent.upper));
     if (!(farthest <= kFarthest) || !(widest <= kWidest) || !ranges.isInFront || !ranges.isFinite) return;
@@ -277,14 +277,13 @@ QuickMeshBounds::QuickMeshBounds(const Ellipsoid& ellipsoid, const EcefMesh& mes
     ends[1].atPole = nearAxis && ranges.slope.lower < 0.0;
     const Cone cones[2] = {Cone(ellipsoid, ends[0].guess, 1.0), Cone(ellipsoid, ends[1].guess, -1.0)};
     bool runs[2];
-    std::vector<double> vertexExcess[2];
     for (int side = 0; side < 2; ++side) {
         PolewardEnd& end = ends[side];
         if (end.atPole) {
             runs[side] = false;
             continue;
         }
-        end.excess = excesses(cones[side], mesh, axisDistances, vertexExcess[side]);
+        end.excess = excesses(cones[side], mesh, _axisDistances, _excess[side]);
         // chords run polewards; towards the equator they stay within their ends
         runs[side] = end.guess * end.pole > 0.0;
     }
@@ -295,7 +294,7 @@ QuickMeshBounds::QuickMeshBounds(const Ellipsoid& ellipsoid, const EcefMesh& mes
     Curvatures curvatures{kPerCircle / smallest, {0.0, 0.0}};
     for (int side = 0; side < 2; ++side)
         if (runs[side]) curvatures.excess[side] = kPerCircle * std::sin(std::abs(ends[side].guess)) / nearest;
-    const TriangleRanges chords = trianglePass(mesh, _altitudes, vertexExcess, curvatures);
+    const TriangleRanges chords = trianglePass(mesh, _altitudes, _excess, curvatures);
     const bool areShort = chords.longest2 <= kLongestChord * kLongestChord;
     const bool areFarFromAxis = !(runs[0] || runs[1]) || chords.longest2 <= 0.5 * nearest * nearest;
     if (!areShort || !areFarFromAxis) return;

@@ -125,8 +125,12 @@ bool readGeometry(const osg::Geometry& geometry, const osg::Matrixd& localToEcef
 }  // namespace
 
 bool readMesh(const osg::Drawable& drawable, const osg::Matrixd& localToEcef, SurfaceMesh& mesh) {
-    mesh = {};
+    mesh.triangles.clear();
+    mesh.texCoords = nullptr;
     if (const osg::Geometry* geometry = drawable.asGeometry()) return readGeometry(*geometry, localToEcef, mesh);
+    mesh.x.clear();
+    mesh.y.clear();
+    mesh.z.clear();
     osg::TriangleFunctor<TriangleSink> functor;
     if (!drawable.supports(functor)) return false;
     functor.mesh = &mesh;

@@ -28,8 +28,9 @@ private:
     }
 
     void visit(osg::Drawable& drawable) override {
-        if (!readMesh(drawable, localToEcef(), _mesh)) return giveUp();
-        if (!_mesh.triangles.empty()) unite(meshSurface(_mesh, _ellipsoid));
+        thread_local SurfaceMesh mesh;  // keeps its memory from tile to tile
+        if (!readMesh(drawable, localToEcef(), mesh)) return giveUp();
+        if (!mesh.triangles.empty()) unite(meshSurface(mesh, _ellipsoid));
     }
 
     void unite(const TileSurface& part) {
@@ -49,7 +50,6 @@ private:
     const osg::EllipsoidModel& _model;
     core::Ellipsoid _ellipsoid;
     double _sampleRatio;
-    SurfaceMesh _mesh;
     TileSurface _result;
 };
 
