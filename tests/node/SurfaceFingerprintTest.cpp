@@ -9,7 +9,9 @@
 #include <osg/Geode>
 #include <osg/Geometry>
 #include <osgTerrain/Layer>
+#include <osgTerrain/ValidDataOperator>
 
+#include <cmath>
 #include <set>
 
 namespace osgAnalyticBin::test {
@@ -47,7 +49,7 @@ TEST(SurfaceFingerprint, IsTheSameForTheSameTile) {
 
 // Indexes keep fingerprints: a change of the function is a change of their format.
 TEST(SurfaceFingerprint, StaysAsItIs) {
-    EXPECT_EQ(fingerprintOf(*makeTile()), 7543254853760213604u);
+    EXPECT_EQ(fingerprintOf(*makeTile()), 3446540989968547260u);
     EXPECT_EQ(fingerprintOf(*makeMesh()), 1996310240858576859u);
     EXPECT_NE(fingerprintOf(*new osg::Group), 0u);
 }
@@ -69,6 +71,14 @@ TEST(SurfaceFingerprint, TellsEveryPostOfATerrainTile) {
     static_cast<osgTerrain::HeightFieldLayer&>(*tile->getElevationLayer()).getHeightField()->setSkirtHeight(1.0f);
     EXPECT_TRUE(seen.insert(fingerprintOf(*tile)).second);
     EXPECT_TRUE(seen.insert(surfaceFingerprint(*makeTile(), osg::Matrixd::translate(0, 0, 1))).second);
+    for (const float noData : {-1.0f, 3.0f, 4.0f}) {
+        tile = makeTile();
+        tile->getElevationLayer()->setValidDataOperator(new osgTerrain::NoDataValue(noData));
+        EXPECT_TRUE(seen.insert(fingerprintOf(*tile)).second) << noData;
+    }
+    tile = makeTile();
+    tile->getElevationLayer()->getLocator()->setEllipsoidModel(new osg::EllipsoidModel(6378137.0, 6356752.0));
+    EXPECT_TRUE(seen.insert(fingerprintOf(*tile)).second);
 }
 
 TEST(SurfaceFingerprint, TellsEveryVertexAndIndexOfAMesh) {

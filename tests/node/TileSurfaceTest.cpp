@@ -82,7 +82,7 @@ TEST(TileSurface, HoldsEveryTriangleOfATerrainTile) {
             ASSERT_TRUE(surface.bin.valid()) << c.name;
             EXPECT_TRUE(surface.isScalable);
             EXPECT_EQ(surface.skirt, 0.0);
-            const auto samples = samplesOf(drawnTriangles(*tile, scale).surface, 4);
+            const auto samples = samplesOf(drawnTriangles(*tile, scale).surface, 3);
             ASSERT_FALSE(samples.empty());
             const AnalyticBin bin = surface.bin.exaggerated(static_cast<double>(scale));
             EXPECT_LE(metresOutside(bin, samples, kEllipsoid), bin.margin()) << c.name << " scale " << scale;

@@ -137,7 +137,7 @@ TEST(VpbSurface, HoldsEveryPolygonalTileWithoutItsSkirts) {
         const TileSurface surface = tileSurface(node, *kModel, osg::Matrixd());
         ASSERT_TRUE(surface.bin.valid());
         const SortedMesh parts = sorted(node);
-        const auto samples = samplesOf(parts.surface);
+        const auto samples = samplesOf(parts.surface, 4);
         EXPECT_LE(metresOutside(surface.bin, samples, kEllipsoid), surface.bin.margin());
         EXPECT_NEAR(surface.skirt, parts.depths.upper, 0.01 * surface.skirt);
         core::Interval seen{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};

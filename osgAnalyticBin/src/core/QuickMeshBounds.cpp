@@ -252,6 +252,22 @@ TriangleRanges trianglePass(const EcefMesh& mesh, const std::vector<double>& alt
     return ranges;
 }
 
+// Radians from the equator towards the end's pole. An excess of so many metres is so much latitude at least, and at
+// most.
+double latitudeLimit(const PolewardEnd& end, double chordExcess, const Interval& metresPerRadian) {
+    if (end.atPole) return kHalfPi;
+    const double excess = std::max(end.excess, chordExcess) + kLengthRounding;
+    const double beyond = excess >= 0.0 ? kRunSlack * std::asin(std::min(1.0, excess / metresPerRadian.lower))
+                                        : excess / metresPerRadian.upper;
+    return std::min(kHalfPi, end.guess * end.pole + beyond + kAngleRounding);
+}
+
+// A cone stands at the latitude that the steepest vertex would have on the ellipsoid.
+PolewardEnd endOf(const Ellipsoid& ellipsoid, double pole, double steepest, bool nearAxis) {
+    const double guess = std::atan(steepest / (1.0 - ellipsoid.eccentricitySquared()));
+    return {pole, guess, -kInfinity, nearAxis && steepest * pole > 0.0};
+}
+
 }  // namespace
 
 void QuickMeshBounds::find(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
@@ -268,22 +284,14 @@ void QuickMeshBounds::find(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
     const double flattening = std::abs(terms.flattening);
     _altitudeError = farthest * flattening * (0.5 * flattening + 1.05 * farthest / terms.b) + kLengthRounding;
 
-    // Cones at the latitudes that the steepest vertices would have on the ellipsoid.
     const bool nearAxis = ranges.axisDistance.lower < kPolarCap;
-    const double e2 = ellipsoid.eccentricitySquared();
-    PolewardEnd ends[2] = {{1.0, std::atan(ranges.slope.upper / (1.0 - e2)), -kInfinity, false},
-                           {-1.0, std::atan(ranges.slope.lower / (1.0 - e2)), -kInfinity, false}};
-    ends[0].atPole = nearAxis && ranges.slope.upper > 0.0;
-    ends[1].atPole = nearAxis && ranges.slope.lower < 0.0;
-    const Cone cones[2] = {Cone(ellipsoid, ends[0].guess, 1.0), Cone(ellipsoid, ends[1].guess, -1.0)};
-    bool runs[2];
+    PolewardEnd ends[2] = {endOf(ellipsoid, 1.0, ranges.slope.upper, nearAxis),
+                           endOf(ellipsoid, -1.0, ranges.slope.lower, nearAxis)};
+    bool runs[2] = {false, false};
     for (int side = 0; side < 2; ++side) {
         PolewardEnd& end = ends[side];
-        if (end.atPole) {
-            runs[side] = false;
-            continue;
-        }
-        end.excess = excesses(cones[side], mesh, _axisDistances, _excess[side]);
+        if (end.atPole) continue;
+        end.excess = excesses(Cone(ellipsoid, end.guess, end.pole), mesh, _axisDistances, _excess[side]);
         // chords run polewards; towards the equator they stay within their ends
         runs[side] = end.guess * end.pole > 0.0;
     }
@@ -301,18 +309,9 @@ void QuickMeshBounds::find(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
     _sag = chords.widestCircle * curvatures.altitude;
     const double low = std::min(chords.low, ranges.altitude.lower);
 
-    // An excess of so many metres is so much latitude at least, and at most.
-    const Interval metres{smallest, radius.upper + farthest};
-    double limits[2];
-    for (int side = 0; side < 2; ++side) {
-        const PolewardEnd& end = ends[side];
-        const double excess = std::max(end.excess, chords.excess[side]) + kLengthRounding;
-        const double beyond =
-            excess >= 0.0 ? kRunSlack * std::asin(std::min(1.0, excess / metres.lower)) : excess / metres.upper;
-        const double latitude = end.guess * end.pole + beyond + kAngleRounding;
-        limits[side] = end.atPole ? kHalfPi : std::min(kHalfPi, latitude);
-    }
-    _bin = GeodeticBin({-limits[1], limits[0]},
+    const Interval metresPerRadian{smallest, radius.upper + farthest};
+    _bin = GeodeticBin({-latitudeLimit(ends[1], chords.excess[1], metresPerRadian),
+                        latitudeLimit(ends[0], chords.excess[0], metresPerRadian)},
                        {reference + std::atan(ranges.tangent.lower) - kAngleRounding,
                         reference + std::atan(ranges.tangent.upper) + kAngleRounding},
                        {low - _altitudeError, ranges.altitude.upper + _altitudeError});

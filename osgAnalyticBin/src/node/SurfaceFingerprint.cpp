@@ -99,10 +99,18 @@ private:
         if (const osgTerrain::Locator* locator = masterLocator(tile)) {
             _mixer.add(static_cast<std::uint64_t>(locator->getCoordinateSystemType()));
             addMatrix(locator->getTransform());
+            if (const osg::EllipsoidModel* ellipsoid = locator->getEllipsoidModel()) {
+                _mixer.add(ellipsoid->getRadiusEquator());
+                _mixer.add(ellipsoid->getRadiusPolar());
+            }
         }
-        if (const osg::HeightField* field = heightField(tile)) {
+        const osgTerrain::Layer* layer = tile.getElevationLayer();
+        if (!layer) return;
+        const osg::HeightField* field = heightField(tile);
+        if (field) _mixer.add(static_cast<double>(field->getSkirtHeight()));
+        if (field && !layer->getValidDataOperator()) {
             addHeights(*field);
-        } else if (const osgTerrain::Layer* layer = tile.getElevationLayer()) {
+        } else if (field || !dynamic_cast<const osgTerrain::HeightFieldLayer*>(layer)) {
             addHeights(*layer);
         }
     }
@@ -124,7 +132,6 @@ private:
 
     void addHeights(const osg::HeightField& field) {
         addSize(field.getNumColumns(), field.getNumRows());
-        _mixer.add(static_cast<double>(field.getSkirtHeight()));
         const auto& heights = field.getFloatArray()->asVector();
         _mixer.addArray<std::uint32_t>(heights.data(), std::size_t{field.getNumColumns()} * field.getNumRows());
     }
