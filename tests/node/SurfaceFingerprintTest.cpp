@@ -51,7 +51,8 @@ TEST(SurfaceFingerprint, IsTheSameForTheSameTile) {
 TEST(SurfaceFingerprint, StaysAsItIs) {
     EXPECT_EQ(fingerprintOf(*makeTile()), 3446540989968547260u);
     EXPECT_EQ(fingerprintOf(*makeMesh()), 1996310240858576859u);
-    EXPECT_NE(fingerprintOf(*new osg::Group), 0u);
+    const osg::ref_ptr<osg::Group> empty = new osg::Group;
+    EXPECT_NE(fingerprintOf(*empty), 0u);
 }
 
 TEST(SurfaceFingerprint, TellsEveryPostOfATerrainTile) {
