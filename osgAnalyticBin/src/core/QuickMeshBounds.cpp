@@ -265,7 +265,8 @@ double latitudeLimit(const PolewardEnd& end, double chordExcess, const Interval&
 // A cone stands at the latitude that the steepest vertex would have on the ellipsoid.
 PolewardEnd endOf(const Ellipsoid& ellipsoid, double pole, double steepest, bool nearAxis) {
     const double guess = std::atan(steepest / (1.0 - ellipsoid.eccentricitySquared()));
-    return {pole, guess, -kInfinity, nearAxis && steepest * pole > 0.0};
+    // what is near the axis is steep, on its own side; float vertices on the equator are on both
+    return {pole, guess, -kInfinity, nearAxis && steepest * pole > 1.0};
 }
 
 }  // namespace
