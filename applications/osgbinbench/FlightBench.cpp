@@ -5,7 +5,9 @@
 
 #include "MethodScene.h"
 
+#include <chrono>
 #include <iostream>
+#include <thread>
 
 namespace osgAnalyticBin::bench {
 
@@ -19,7 +21,12 @@ FlightFigures flyOnce(const CullMethod& method, const Settings& settings, FileWa
     const std::uint64_t bytes = watch.reads->nodeBytes();
     FlightFigures figures;
     figures.method = method.name;
+    const auto period = std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+        std::chrono::duration<double>(1.0 / settings.frameRate));
+    auto next = std::chrono::steady_clock::now();
     for (const flight::CameraPose& frame : frames) {
+        std::this_thread::sleep_until(next);
+        next = std::chrono::steady_clock::now() + period;
         scene.drawFrame(frame);
         // The time of the frame before this one is known under every threading model.
         const unsigned int number = viewer.frameStamp().getFrameNumber();

@@ -111,6 +111,10 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
         ->check(CLI::Range(1, 10000));
     app.add_option("--frames", settings.frames, "fly continuously, that many frames, 1 to 1000000")
         ->check(CLI::Range(1, 1000000));
+    app.add_option("--frame-rate", settings.frameRate,
+                   "frames a second of the continuous flight at most, so that\nthe pager has time: 0.1 to 10000 "
+                   "(default 60)")
+        ->check(CLI::Range(0.1, 10000.0));
     app.add_option("--timeout", settings.timeout, "seconds that one pose may take to load, to 86400 (default 120)")
         ->check(CLI::Range(0.001, 86400.0));
 }

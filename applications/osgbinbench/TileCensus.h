@@ -23,7 +23,7 @@ struct DrawnMesh {
 
 /// A tile whose own mesh is drawn.
 struct DrawnTile {
-    /// Which child of which child it is, from the camera on, such as "0/0/1/2": the same for every culling method.
+    /// Which child of which child it is, from the scene's root on, such as "0/1/2": the same for every culling method.
     std::string key;
     std::vector<DrawnMesh> meshes;
 };

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// What goes wrong ends in one line, a code other than zero, and no files.
+
+#include "BenchProgram.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <support/TemporaryFolder.h>
+
+namespace osgAnalyticBin {
+namespace {
+
+using test::Outcome;
+using test::TemporaryFolder;
+
+constexpr const char* kPath =
+    "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg,near,far\n"
+    "down,20,30,10000000,20,30,0,40,1000000,20000000\n";
+
+void expectOneLine(const Outcome& outcome, const std::string& part) {
+    EXPECT_EQ(outcome.code, 1) << outcome.text;
+    EXPECT_EQ(outcome.linesWith("osgbinbench: "), 1) << outcome.text;
+    EXPECT_EQ(outcome.linesWith(part), 1) << outcome.text;
+}
+
+TEST(Errors, OfTheCommandLineNameTheOption) {
+    const TemporaryFolder folder;
+    const std::string good = "none.osgb --path " + test::quoted(folder.write("p.csv", kPath));
+    expectOneLine(test::runBenchBlind("x.osgb"), "--path is required");
+    expectOneLine(test::runBenchBlind(good + " --methods sphere,cube"), "unknown method \"cube\"");
+    expectOneLine(test::runBenchBlind(good + " --size 640"), "--size: \"640\"");
+    expectOneLine(test::runBenchBlind(good + " --size 640x480x3"), "--size: ");
+    expectOneLine(test::runBenchBlind(good + " --threading Many"), "--threading: unknown model \"Many\"");
+    expectOneLine(test::runBenchBlind(good + " --options horizont=3"), "--options: unknown parameter");
+    expectOneLine(test::runBenchBlind(good + " --options method=paper"), "--options: ");
+    expectOneLine(test::runBenchBlind(good + " --vertical-scale 0"), "--vertical-scale");
+    expectOneLine(test::runBenchBlind(good + " --frames 10 --pictures pictures"), "--pictures: ");
+    expectOneLine(test::runBenchBlind(good + " --csv " + folder.path() + "/absent/p.csv"), "--csv: there is no folder");
+}
+
+TEST(Errors, OfThePathNameTheLine) {
+    const TemporaryFolder folder;
+    const std::string broken = folder.write("p.csv", std::string(kPath) + "low,20,30,abc,20,30,0,40,1,2\n");
+    expectOneLine(test::runBenchBlind("x.osgb --path " + test::quoted(broken)), "p.csv:3: eyeAlt");
+}
+
+TEST(Errors, SayThatThereIsNoDisplay) {
+    const TemporaryFolder folder;
+    expectOneLine(test::runBenchBlind("x.osgb --path " + test::quoted(folder.write("p.csv", kPath))), "no display");
+}
+
+TEST(Errors, OfTheDatabaseLeaveNoTable) {
+    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    const TemporaryFolder folder;
+    const std::string path = test::quoted(folder.write("p.csv", kPath));
+    const std::string csv = folder / "poses.csv";
+    const Outcome outcome =
+        test::runBench(test::quoted(folder / "absent.osgb") + " --path " + path + " --csv " + test::quoted(csv));
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_EQ(outcome.linesWith("absent.osgb: cannot be read"), 1) << outcome.text;
+    EXPECT_LE(outcome.linesWith(""), 2) << outcome.text;  // progress, then what went wrong
+    EXPECT_FALSE(std::filesystem::exists(csv));
+}
+
+TEST(Errors, HelpExplainsEveryColumnAndGivesAnExample) {
+    const Outcome outcome = test::runBenchBlind("--help");
+    EXPECT_EQ(outcome.code, 0);
+    for (const char* const word : {"false_culls", "cull_ms", "degrees and metres", "Example:", "--vertical-scale"})
+        EXPECT_GE(outcome.linesWith(word), 1) << word;
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// The program on a small paged globe, on a virtual display. Skipped where xvfb-run is not installed.
+
+#include "BenchProgram.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <support/SyntheticDatabase.h>
+#include <support/TemporaryFolder.h>
+
+namespace osgAnalyticBin {
+namespace {
+
+using nlohmann::json;
+using test::Outcome;
+using test::TemporaryFolder;
+
+// The last pose sees nothing but the limb: the middle of a tile 45 degrees wide, whose corners lie 485 km lower.
+constexpr const char* kPath =
+    "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg,near,far\n"
+    "oblique,-10,170,800000,-4,178,0,60,10000,8000000\n"
+    "narrow,5,5,100000,6,8,0,10,10000,4000000\n"
+    "limb,-44.6,22.5,10000000,22.5,22.5,110000,2,1000000,30000000\n";
+
+struct Bench {
+    TemporaryFolder folder;
+    std::string database{test::writeSyntheticDatabase(folder.path())};
+    std::string path{folder.write("path.csv", kPath)};
+
+    // Returns: the sums by method; null when the program failed.
+    [[nodiscard]] json run(const std::string& name, const std::string& arguments) const {
+        const std::string file = folder / (name + ".json");
+        const Outcome outcome = test::runBench(test::quoted(database) + " --path " + test::quoted(path) +
+                                               " --size 320x240 --repeats 1 --json " + test::quoted(file) + " --csv " +
+                                               test::quoted(folder / (name + ".csv")) + " " + arguments);
+        EXPECT_EQ(outcome.code, 0) << outcome.text;
+        return outcome.code == 0 ? test::jsonFile(file)["methods"] : json();
+    }
+};
+
+// Times differ from run to run; nothing else may.
+json withoutTimes(json methods) {
+    for (auto& method : methods) {
+        method.erase("cull_ms");
+        method.erase("cull_spread_ms");
+    }
+    return methods;
+}
+
+TEST(Program, CountsTheSameInEveryRunAndThreadingModel) {
+    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    const Bench bench;
+    ASSERT_FALSE(bench.database.empty());
+    const json first = withoutTimes(bench.run("first", ""));
+    ASSERT_EQ(first.size(), 5U);
+    EXPECT_EQ(first, withoutTimes(bench.run("second", "")));
+    for (const char* const model :
+         {"CullDrawThreadPerContext", "DrawThreadPerContext", "CullThreadPerCameraDrawThreadPerContext"})
+        EXPECT_EQ(first, withoutTimes(bench.run(model, std::string("--threading ") + model))) << model;
+}
+
+TEST(Program, JudgesEveryMethodByTheReference) {
+    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    const Bench bench;
+    ASSERT_FALSE(bench.database.empty());
+    const json methods = bench.run("sums", "--methods sphere,quadratic,exact,corners");
+    ASSERT_TRUE(methods.contains("none"));
+    const json& none = methods["none"];
+    EXPECT_GT(none["visible_tiles"], 0);
+    EXPECT_LE(none["visible_tiles"], none["truth_tiles"]);
+    EXPECT_EQ(none["tested_tiles"], none["kept_tiles"]);
+    EXPECT_EQ(none["drawn_tiles"].get<int>(), none["false_keeps"].get<int>() + none["truth_tiles"].get<int>());
+    EXPECT_EQ(none["triangles"], none["drawn_tiles"].get<int>() * 512);
+    for (const char* const sound : {"none", "sphere", "quadratic", "exact"}) {
+        EXPECT_EQ(methods[sound]["false_culls"], 0) << sound;
+        EXPECT_EQ(methods[sound]["differing_pixels"], 0) << sound;
+        EXPECT_GT(methods[sound]["files_requested"], 0) << sound;
+        EXPECT_GT(methods[sound]["bytes"], 0) << sound;
+        EXPECT_GT(methods[sound]["cull_ms"], 0.0) << sound;
+    }
+    EXPECT_LT(methods["sphere"]["drawn_tiles"], none["drawn_tiles"]);
+    EXPECT_LT(methods["quadratic"]["drawn_tiles"], methods["sphere"]["drawn_tiles"]);
+    EXPECT_LT(methods["quadratic"]["paged_lods"], methods["sphere"]["paged_lods"]);
+    // The unsound method must be caught, by the tiles' own colours and by the picture.
+    EXPECT_GT(methods["corners"]["false_culls"], 0);
+    EXPECT_GT(methods["corners"]["false_cull_pixels"], 0);
+    EXPECT_GT(methods["corners"]["differing_pixels"], 0);
+}
+
+TEST(Program, SavesAPictureForEachPoseAndMethod) {
+    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    const Bench bench;
+    ASSERT_FALSE(bench.database.empty());
+    ASSERT_FALSE(
+        bench.run("pictures", "--methods exact --pictures " + test::quoted(bench.folder / "pictures")).is_null());
+    for (const char* const picture : {"none/oblique.png", "none/limb.png", "exact/narrow.png"})
+        EXPECT_TRUE(std::filesystem::exists(bench.folder / "pictures" + "/" + picture)) << picture;
+}
+
+TEST(Program, FliesContinuously) {
+    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    const Bench bench;
+    ASSERT_FALSE(bench.database.empty());
+    const json methods = bench.run("flight", "--frames 30 --frame-rate 15 --methods sphere,exact");
+    ASSERT_EQ(methods.size(), 3U);
+    for (const json& method : methods) {
+        EXPECT_EQ(method["frames"], 30);
+        EXPECT_GT(method["files_requested"], 0);
+        EXPECT_GT(method["cull_ms"], 0.0);
+    }
+}
+
+TEST(Program, SaysThatOnlyTerrainCanBeScaled) {
+    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    const Bench bench;
+    const Outcome outcome =
+        test::runBench(test::quoted(bench.database) + " --path " + test::quoted(bench.path) + " --vertical-scale 2");
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_EQ(outcome.linesWith("--vertical-scale: "), 1) << outcome.text;
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin

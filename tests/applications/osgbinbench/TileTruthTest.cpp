@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Which tiles a view needs. Oracle: bins and eyes for which the answer follows from their angles.
+
+#include "SurfaceBin.h"
+#include "TileTruth.h"
+
+#include <gtest/gtest.h>
+#include <osg/Geometry>
+
+#include <cmath>
+#include <iterator>
+
+namespace osgAnalyticBin::bench {
+namespace {
+
+using core::Ellipsoid;
+using core::GeodeticBin;
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+const osg::ref_ptr<const osg::EllipsoidModel> kModel = new osg::EllipsoidModel;
+
+Ellipsoid earth() {
+    return Ellipsoid(kModel->getRadiusEquator(), kModel->getRadiusPolar());
+}
+
+osg::Vec3 at(double latDeg, double lonDeg, double altitude) {
+    const glm::dvec3 p = earth().toEcef({latDeg * kDegree, lonDeg * kDegree, altitude});
+    return osg::Vec3(osg::Vec3d(p.x, p.y, p.z));
+}
+
+// One degree wide, from the south-west corner on, with a skirt to the south that hangs 20 km down.
+DrawnTile tileAt(const std::string& key, double southDeg, double westDeg, bool texCoords = true) {
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    const osg::Vec3 corners[] = {at(southDeg, westDeg, 0),         at(southDeg, westDeg + 1, 0),
+                                 at(southDeg + 1, westDeg + 1, 0), at(southDeg + 1, westDeg, 0),
+                                 at(southDeg, westDeg, -20000),    at(southDeg, westDeg + 1, -20000)};
+    const osg::Vec2 places[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}, {1, 0}};
+    geometry->setVertexArray(new osg::Vec3Array(std::begin(corners), std::end(corners)));
+    if (texCoords) geometry->setTexCoordArray(0, new osg::Vec2Array(std::begin(places), std::end(places)));
+    const unsigned int indices[] = {0, 1, 2, 0, 2, 3, 4, 1, 0, 4, 5, 1};
+    geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, 12, indices));
+    return {key, {{geometry, osg::Matrixd()}}};
+}
+
+TEST(SurfaceBin, LeavesTheSkirtOut) {
+    const GeodeticBin bin = surfaceBin(tileAt("t", 10, 20), earth(), osg::Matrixd());
+    EXPECT_NEAR(bin.latitude().lower, 10 * kDegree, 1e-6);
+    EXPECT_NEAR(bin.longitude().upper, 21 * kDegree, 1e-6);
+    EXPECT_NEAR(bin.altitude().upper, 0.0, 1.0);
+    EXPECT_GT(bin.altitude().lower, -1000.0);  // the sag of chords of one degree: 8 tan(1/2 degree) ... 486 m
+    EXPECT_LT(bin.altitude().lower, -400.0);
+}
+
+TEST(SurfaceBin, KeepsTheSkirtThatCannotBeTold) {
+    const GeodeticBin bin = surfaceBin(tileAt("t", 10, 20, false), earth(), osg::Matrixd());
+    EXPECT_LT(bin.altitude().lower, -19999.0);
+}
+
+TEST(OccluderDepth, GrowsOnlyByWhatIsBeforeItsOwnHorizon) {
+    const glm::dvec3 eye = earth().toEcef({0.0, 0.0, 10000.0});
+    const auto bin = [](double lonDeg, double low) {
+        return GeodeticBin::fromDegrees({-1.0, 1.0}, {lonDeg, lonDeg + 1.0}, {low, 0.0});
+    };
+    EXPECT_EQ(occluderDepth({}, earth(), eye), 0.0);
+    EXPECT_EQ(occluderDepth({bin(0.0, -500.0), bin(40.0, -20000.0)}, earth(), eye), 500.0);
+    // The first lowers the horizon so far that the second comes before it.
+    EXPECT_EQ(occluderDepth({bin(0.0, -30000.0), bin(5.0, -40000.0)}, earth(), eye), 40000.0);
+    EXPECT_EQ(occluderDepth({bin(0.0, 100.0)}, earth(), eye), 0.0);
+}
+
+TEST(TileTruth, NeedsWhatIsInViewAndNotBehindTheGlobe) {
+    const std::vector<DrawnTile> tiles{tileAt("ahead", -0.5, 2), tileAt("beside", 20, 2), tileAt("behind", -0.5, -4),
+                                       tileAt("antipode", -0.5, 40)};
+    const osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+    camera->setViewMatrixAsLookAt(at(0, 0, 20000), at(0, 2.5, 0), osg::Vec3d(1, 0, 0));
+    camera->setProjectionMatrixAsPerspective(30.0, 1.0, 100.0, 2e7);
+    TileTruth truth;
+    const flight::Globe globe{kModel, osg::Matrixd()};
+    EXPECT_EQ(truth.neededTiles(tiles, *camera, globe), std::set<std::string>{"ahead"});
+    // A globe that is moved takes its camera along.
+    const osg::Matrixd moved = osg::Matrixd::rotate(0.3, osg::Vec3d(1, 2, 3)) * osg::Matrixd::translate(1e6, 2e6, 3e6);
+    std::vector<DrawnTile> movedTiles = tiles;
+    for (DrawnTile& tile : movedTiles) tile.meshes[0].localToWorld = moved;
+    camera->setViewMatrix(osg::Matrixd::inverse(moved) * camera->getViewMatrix());
+    EXPECT_EQ(TileTruth().neededTiles(movedTiles, *camera, {kModel, moved}), std::set<std::string>{"ahead"});
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::bench
