@@ -82,6 +82,8 @@ BenchViewer::~BenchViewer() {
 void BenchViewer::show(osg::Node& root, osg::CullSettings::CullingMode culling) {
     rest();
     _viewer.getCamera()->setCullingMode(culling);
+    // As long as somebody else has the scene shown before, OSG makes a new one, with a pager that has seen nothing.
+    const osg::ref_ptr<osgViewer::Scene> before = scene();
     _viewer.setSceneData(&root);
     if (!_viewer.isRealized()) _viewer.realize();
 }

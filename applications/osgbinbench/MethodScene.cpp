@@ -69,7 +69,6 @@ MethodScene::~MethodScene() {
 }
 
 void MethodScene::forget() {
-    if (_scene && _scene->getDatabasePager()) _scene->getDatabasePager()->cancel();
     _scene = nullptr;
     _camera->removeChildren(0, _camera->getNumChildren());
 }
