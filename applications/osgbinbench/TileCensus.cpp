@@ -90,6 +90,8 @@ std::string TileCensus::keyOfPath() const {
     std::string key;
     for (std::size_t i = 1; i < path.size(); ++i) {
         const osg::Group* const parent = path[i - 1]->asGroup();
+        // a group that stands for its only child is there with bins, and is not without
+        if (parent && isPlainGroup(*parent) && parent->getNumChildren() == 1) continue;
         if (!key.empty()) key += '/';
         key += std::to_string(parent ? parent->getChildIndex(path[i]) : 0U);
     }
