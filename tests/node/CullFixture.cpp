@@ -46,9 +46,20 @@ void collectOccluders(osg::Node& scene, const CullView& view, osg::Viewport* vie
               std::back_inserter(visitor.getOccluderList()));
 }
 
+void collectDrawn(const osgUtil::RenderBin& bin, std::set<const osg::Drawable*>& drawn) {
+    // a traversal that is not sorted leaves all in graphs of states
+    for (const osgUtil::StateGraph* graph : const_cast<osgUtil::RenderBin&>(bin).getStateGraphList()) {
+        for (const auto& leaf : graph->_leaves) drawn.insert(leaf->getDrawable());
+    }
+    for (const auto& [number, child] : const_cast<osgUtil::RenderBin&>(bin).getRenderBinList()) {
+        collectDrawn(*child, drawn);
+    }
+}
+
 }  // namespace
 
-void cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& visitor, unsigned int frame, double time) {
+CullResult cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& visitor, unsigned int frame,
+                double time) {
     const osg::ref_ptr<osg::Viewport> viewport = new osg::Viewport(0, 0, 512, 512);
     const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
     stamp->setFrameNumber(frame);
@@ -62,19 +73,24 @@ void cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& visitor,
     visitor.setFrameStamp(stamp.get());
     visitor.setTraversalNumber(frame);
     visitor.setCullingMode(view.cullingMode);
-    visitor.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    visitor.setComputeNearFarMode(view.computeNearFar);
     visitor.setStateGraph(stateGraph.get());
     visitor.setRenderStage(stage.get());
     if (view.cullingMode & osg::CullSettings::SHADOW_OCCLUSION_CULLING) {
         collectOccluders(scene, view, viewport.get(), visitor);
     }
     visitor.pushViewport(viewport.get());
-    visitor.pushProjectionMatrix(new osg::RefMatrix(view.projection));
+    const osg::ref_ptr<osg::RefMatrix> projection = new osg::RefMatrix(view.projection);
+    visitor.pushProjectionMatrix(projection.get());
     visitor.pushModelViewMatrix(new osg::RefMatrix(view.modelView), osg::Transform::ABSOLUTE_RF);
     scene.accept(visitor);
     visitor.popModelViewMatrix();
     visitor.popProjectionMatrix();
     visitor.popViewport();
+    CullResult result;
+    result.projection = *projection;
+    collectDrawn(*stage, result.drawn);
+    return result;
 }
 
 void VisitRecorder::operator()(osg::Node* node, osg::NodeVisitor* nv) {

@@ -27,6 +27,7 @@ struct CullView {
     osg::Matrixd projection;
     osg::ref_ptr<osg::Camera> camera;  // what the render stage says it draws for; may be null
     osg::CullSettings::CullingMode cullingMode = osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING;
+    osg::CullSettings::ComputeNearFarMode computeNearFar = osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
 
     /// Perspective with the given vertical field of view, aspect 1.
     static CullView lookAt(const osg::Vec3d& eye, const osg::Vec3d& center, const osg::Vec3d& up, double fovDeg);
@@ -34,10 +35,16 @@ struct CullView {
     [[nodiscard]] std::vector<osg::Plane> sidePlanes() const;
 };
 
+/// What a cull traversal leaves to draw.
+struct CullResult {
+    std::set<const osg::Drawable*> drawn;  // by the view itself, not by cameras that render to textures
+    osg::Matrixd projection;               // with the near and far planes that were computed, if any
+};
+
 /// Runs one cull traversal, as osgUtil::SceneView does; occluders in the scene take part. `time`: of the frame, in
 /// seconds.
-void cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& visitor, unsigned int frame = 1,
-          double time = 0.0);
+CullResult cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& visitor, unsigned int frame = 1,
+                double time = 0.0);
 
 /// A callback that notes that the cull traversal reached it; put behind a bin's callback as a nested one.
 class VisitRecorder : public osg::NodeCallback {

@@ -7,8 +7,18 @@
 #include "Viewpoint.h"
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
 
 namespace osgAnalyticBin {
+
+namespace {
+
+bool isSame(const osg::Matrixd& a, const osg::Matrixd& b) {
+    return std::memcmp(a.ptr(), b.ptr(), 16 * sizeof(double)) == 0;
+}
+
+}  // namespace
 
 CullTraversal& CullTraversal::of(osg::NodeVisitor& visitor) {
     // Statistics of a visitor are never anything else.
@@ -41,12 +51,19 @@ const core::PlaneSet& CullTraversal::planes(const osg::Polytope& frustum) {
 const core::HorizonEye* CullTraversal::horizonEye(osg::CullStack& cullStack, osg::NodeVisitor& visitor,
                                                   const Occluder& occluder) {
     const osg::RefMatrix* modelView = cullStack.getModelViewMatrix();
-    const bool same = _eyeEllipsoid == occluder.ellipsoid && modelView == _modelView &&
-                      visitor.getTraversalNumber() == _eyeFrame && occluder.depth == _eyeDepth;
+    const osg::RefMatrix* projection = cullStack.getProjectionMatrix();
+    // Side planes do not tell orthographic cameras apart that differ in the near plane, nor do addresses, which are
+    // used again.
+    const bool same = _eyeEllipsoid == occluder.ellipsoid && modelView == _modelView && projection == _projection &&
+                      visitor.getTraversalNumber() == _eyeFrame && occluder.depth == _eyeDepth &&
+                      isSame(*modelView, _eyeModelView) && isSame(*projection, _eyeProjection);
     if (!same) {
         const auto viewpoint = Viewpoint::of(cullStack, visitor, occluder.forInheritedViewpoints);
         _eye = viewpoint ? viewpoint->above(occluder.ellipsoid, occluder.depth) : std::nullopt;
         _modelView = modelView;
+        _projection = projection;
+        _eyeModelView = *modelView;
+        _eyeProjection = *projection;
         _eyeFrame = visitor.getTraversalNumber();
         _eyeDepth = occluder.depth;
         _eyeEllipsoid = occluder.ellipsoid;

@@ -78,6 +78,8 @@ private:
     // The eye, and what it was prepared for.
     std::optional<core::HorizonEye> _eye;
     const osg::RefMatrix* _modelView = nullptr;
+    const osg::RefMatrix* _projection = nullptr;
+    osg::Matrixd _eyeModelView, _eyeProjection;
     unsigned int _eyeFrame = 0;
     double _eyeDepth = 0.0;
     std::optional<core::Ellipsoid> _eyeEllipsoid;  // none: not prepared yet

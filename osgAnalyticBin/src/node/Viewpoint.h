@@ -20,12 +20,14 @@ public:
     [[nodiscard]] static std::optional<Viewpoint> of(osg::CullStack& cullStack, osg::NodeVisitor& visitor,
                                                      bool evenInherited);
 
-    /// See core::HorizonEye; depth in metres below the ellipsoid.
+    /// See core::HorizonEye; depth in metres below the ellipsoid. Nothing is hidden when the near plane may reach the
+    /// occluder.
     [[nodiscard]] std::optional<core::HorizonEye> above(const core::Ellipsoid& ellipsoid, double depth) const noexcept;
 
 private:
     bool _isDirection = false;
-    glm::dvec3 _point{0.0};      // the eye, or a point of the near plane
+    double _nearReach = 0.0;  // metres from the eye that the near plane is at most; 0: not known before all is culled
+    glm::dvec3 _point{0.0};   // the eye, or a point of the near plane
     glm::dvec3 _direction{0.0};  // of an orthographic camera
 };
 

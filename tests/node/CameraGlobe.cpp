@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "CameraGlobe.h"
+
+#include <osg/Viewport>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <support/View.h>
+
+namespace osgAnalyticBin::test {
+
+namespace {
+
+constexpr int kSamplesAcross = 13;
+
+std::string innermostCamera(const osg::NodePath& path) {
+    for (auto node = path.rbegin(); node != path.rend(); ++node) {
+        if ((*node)->asCamera()) return (*node)->getName();
+    }
+    return {};
+}
+
+RealVector real(const osg::Vec3d& v) {
+    return {Real{v.x()}, Real{v.y()}, Real{v.z()}};
+}
+
+}  // namespace
+
+class LookRecorder : public osg::NodeCallback {
+public:
+    explicit LookRecorder(CameraGlobe& globe) : _globe(globe) {}
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        if (nv->getVisitorType() == osg::NodeVisitor::CULL_VISITOR) {
+            osg::CullStack& stack = *nv->asCullStack();
+            const std::lock_guard lock(_globe._mutex);
+            _globe._looks.push_back({innermostCamera(nv->getNodePath()),
+                                     nv,
+                                     *stack.getModelViewMatrix(),
+                                     *stack.getProjectionMatrix(),
+                                     {}});
+        }
+        traverse(node, nv);
+    }
+
+private:
+    CameraGlobe& _globe;
+};
+
+class ReachRecorder : public osg::NodeCallback {
+public:
+    ReachRecorder(CameraGlobe& globe, std::size_t tile) : _globe(globe), _tile(tile) {}
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        if (nv->getVisitorType() == osg::NodeVisitor::CULL_VISITOR) {
+            const std::lock_guard lock(_globe._mutex);
+            const auto look = std::find_if(_globe._looks.rbegin(), _globe._looks.rend(),
+                                           [&](const Look& candidate) { return candidate.visitor == nv; });
+            look->reached.insert(_tile);
+        }
+        traverse(node, nv);
+    }
+
+private:
+    CameraGlobe& _globe;
+    const std::size_t _tile;
+};
+
+CameraGlobe::CameraGlobe(const CullOptions& options, const std::vector<AnalyticBin>& tiles) {
+    _root->setCullCallback(new LookRecorder(*this));
+    const osg::EllipsoidModel wgs84;
+    for (const AnalyticBin& bin : tiles) {
+        osg::ref_ptr<osg::Group> tile = new osg::Group;
+        osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(bin, wgs84, options);
+        callback->setNestedCallback(new ReachRecorder(*this, _tiles.size()));
+        tile->setCullCallback(callback.get());
+        tile->setCullingActive(false);
+        _root->addChild(tile);
+        _tiles.push_back(tile);
+        _samples.push_back(samples(bin, kSamplesAcross));
+    }
+}
+
+std::vector<Look> CameraGlobe::takeLooks() {
+    const std::lock_guard lock(_mutex);
+    return std::exchange(_looks, {});
+}
+
+bool CameraGlobe::isSeen(const osg::Vec3d& sample, const Look& look, const osg::Matrixd& unproject, NearPlane nearPlane,
+                         std::optional<double> occluderDepth) const {
+    const osg::Vec4d clip = osg::Vec4d(sample, 1.0) * look.modelView * look.projection;
+    const double w = clip.w();
+    if (!(std::abs(clip.x()) <= w && std::abs(clip.y()) <= w)) return false;
+    if (nearPlane != NearPlane::AtTheEye && !(std::abs(clip.z()) <= w)) return false;
+    if (!occluderDepth) return true;
+    const double start = nearPlane == NearPlane::AtPlusOne ? 1.0 : -1.0;
+    const osg::Vec3d end = nearPlane == NearPlane::AtTheEye ? osg::Vec3d() * osg::Matrixd::inverse(look.modelView)
+                                                            : osg::Vec3d(clip.x() / w, clip.y() / w, start) * unproject;
+    return segmentMissesOccluder(core::Ellipsoid(kEarthRadius, 6356752.3142), *occluderDepth, real(sample), real(end));
+}
+
+std::set<std::size_t> CameraGlobe::seen(const Look& look, NearPlane nearPlane,
+                                        std::optional<double> occluderDepth) const {
+    const osg::Matrixd unproject = osg::Matrixd::inverse(look.modelView * look.projection);
+    std::set<std::size_t> tiles;
+    for (std::size_t i = 0; i < _tiles.size(); ++i) {
+        const bool any = std::any_of(_samples[i].begin(), _samples[i].end(), [&](const osg::Vec3d& sample) {
+            return isSeen(sample, look, unproject, nearPlane, occluderDepth);
+        });
+        if (any) tiles.insert(i);
+    }
+    return tiles;
+}
+
+std::vector<std::size_t> LookTotals::add(const CameraGlobe& globe, const Look& look, NearPlane nearPlane,
+                                         std::optional<double> occluderDepth) {
+    const std::set<std::size_t> visible = globe.seen(look, nearPlane, occluderDepth);
+    tiles += globe.size();
+    reached += look.reached.size();
+    seen += visible.size();
+    std::vector<std::size_t> missing;
+    std::set_difference(visible.begin(), visible.end(), look.reached.begin(), look.reached.end(),
+                        std::back_inserter(missing));
+    return missing;
+}
+
+CullOptions horizonOptions(Method method) {
+    CullOptions options;
+    options.method = method;
+    options.horizonUse = HorizonUse::Given;
+    options.horizon = -kOccluderDepth;
+    return options;
+}
+
+osg::ref_ptr<osg::Camera> makeCamera(const std::string& name, CameraGlobe& globe, osg::Transform::ReferenceFrame frame,
+                                     osg::Camera::RenderOrder order, const osg::Matrixd& view,
+                                     const osg::Matrixd& projection) {
+    osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+    camera->setName(name);
+    camera->setReferenceFrame(frame);
+    camera->setRenderOrder(order);
+    camera->setViewMatrix(view);
+    camera->setProjectionMatrix(projection);
+    if (order != osg::Camera::NESTED_RENDER) camera->setViewport(0, 0, 256, 256);
+    camera->addChild(&globe.root());
+    return camera;
+}
+
+}  // namespace osgAnalyticBin::test

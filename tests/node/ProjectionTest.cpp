@@ -1,0 +1,330 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Every kind of projection and view matrix in a real cull traversal. Oracle: samples of each tile, brought to clip
+// space by the camera's matrices, and exact lines of sight to the near plane; what a tile of a sample in the picture is
+// culled by does not matter. Each kind also has to cull most of what is not seen. Cameras in scenes:
+// NestedCameraTest.cpp.
+
+#include "CameraGlobe.h"
+
+#include <gtest/gtest.h>
+#include <osg/Projection>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <support/Random.h>
+
+namespace osgAnalyticBin {
+namespace {
+
+using test::CameraGlobe;
+using test::CullView;
+using test::kEarthRadius;
+using test::kOccluderDepth;
+using test::Look;
+using test::LookTotals;
+using test::NearPlane;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+osg::Vec3d toOsg(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+osg::Matrixd randomView(test::Random& random, double lowest = 2e4) {
+    const osg::Vec3d eye = toOsg(random.direction()) * (kEarthRadius + random.logUniform(lowest, 2e7));
+    return osg::Matrixd::lookAt(eye, toOsg(random.direction()) * kEarthRadius, toOsg(random.direction()));
+}
+
+// Clip space z -> -z.
+osg::Matrixd reversed(const osg::Matrixd& projection) {
+    return projection * osg::Matrixd::scale(1.0, 1.0, -1.0);
+}
+
+osg::Matrixd infiniteFar(double tangent, double near) {
+    return osg::Matrixd(1.0 / tangent, 0, 0, 0, 0, 1.0 / tangent, 0, 0, 0, 0, -1.0, -1.0, 0, 0, -2.0 * near, 0);
+}
+
+osg::Matrixd randomFrustum(test::Random& random, double near = 1.0, double far = 1e8) {
+    const double x = random.uniform(-0.8, 0.8);
+    const double y = random.uniform(-0.8, 0.8);
+    const double width = random.uniform(0.1, 0.6);
+    const double height = random.uniform(0.1, 0.6);
+    return osg::Matrixd::frustum((x - width) * near, (x + width) * near, (y - height) * near, (y + height) * near, near,
+                                 far);
+}
+
+osg::Matrixd randomOrtho(test::Random& random, double near, double far) {
+    const double x = random.uniform(-2e6, 2e6);
+    const double y = random.uniform(-2e6, 2e6);
+    const double width = random.logUniform(1e5, 4e6);
+    const double height = random.logUniform(1e5, 4e6);
+    return osg::Matrixd::ortho(x - width, x + width, y - height, y + height, near, far);
+}
+
+// An oblique near plane, through a random point before the camera.
+osg::Matrixd withObliqueNearPlane(osg::Matrixd projection, test::Random& random) {
+    osg::Vec4d plane(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), -1.0, -random.logUniform(1.0, 1e4));
+    osg::Matrixd unproject;
+    unproject.invert(projection);
+    // the corner of the frustum that faces the plane shall stay on the far plane
+    const osg::Vec4d corner = osg::Vec4d(plane.x() > 0 ? 1.0 : -1.0, plane.y() > 0 ? 1.0 : -1.0, 1.0, 1.0) * unproject;
+    plane *= 2.0 / (plane * corner);
+    for (int row = 0; row < 4; ++row) projection(row, 2) = plane[static_cast<unsigned int>(row)] - projection(row, 3);
+    return projection;
+}
+
+struct Kind {
+    const char* name;
+    std::function<osg::Matrixd(test::Random&)> view;
+    std::function<osg::Matrixd(test::Random&)> projection;
+    NearPlane nearPlane = NearPlane::AtMinusOne;
+    bool hasHorizon = true;  // whether the horizon is worth anything here
+};
+
+osg::Matrixd anyView(test::Random& random) {
+    return randomView(random);
+}
+
+osg::Matrixd mirroredView(test::Random& random) {
+    // as for the picture of a plane mirror somewhere on the globe
+    const osg::Vec3d normal = toOsg(random.direction());
+    const double offset = random.uniform(-1.0, 1.0) * kEarthRadius;
+    osg::Matrixd mirror;
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k) mirror(i, k) -= 2.0 * normal[i] * normal[k];
+        mirror(3, i) = 2.0 * offset * normal[i];
+    }
+    return mirror * randomView(random);
+}
+
+const Kind kKinds[] = {
+    {"off-axis", anyView, [](test::Random& random) { return randomFrustum(random); }},
+    {"mirror", mirroredView, [](test::Random& random) { return randomFrustum(random); }},
+    {"negative aspect", anyView,
+     [](test::Random& random) { return osg::Matrixd::perspective(random.uniform(5, 90), -1.5, 1.0, 1e8); }},
+    {"upside down", anyView,
+     [](test::Random& random) { return randomFrustum(random) * osg::Matrixd::scale(1.0, -1.0, 1.0); }},
+    {"infinite far", anyView, [](test::Random& random) { return infiniteFar(random.uniform(0.1, 1.0), 1.0); }},
+    {"reversed depth", anyView, [](test::Random& random) { return reversed(randomFrustum(random)); },
+     NearPlane::AtPlusOne},
+    {"reversed depth, infinite far", anyView,
+     [](test::Random& random) { return reversed(infiniteFar(random.uniform(0.1, 1.0), 1.0)); }, NearPlane::AtPlusOne},
+    {"oblique near plane", anyView,
+     [](test::Random& random) { return withObliqueNearPlane(randomFrustum(random), random); }},
+    {"deep near plane", anyView,
+     [](test::Random& random) { return randomFrustum(random, random.logUniform(1e4, 2e7), 1e9); },
+     NearPlane::AtMinusOne, false},
+    {"deep near plane, reversed depth", anyView,
+     [](test::Random& random) { return reversed(randomFrustum(random, random.logUniform(1e4, 2e7), 1e9)); },
+     NearPlane::AtPlusOne, false},
+    {"orthographic", anyView, [](test::Random& random) { return randomOrtho(random, -5e7, 1e8); }},
+    {"orthographic, mirrored", mirroredView, [](test::Random& random) { return randomOrtho(random, -5e7, 1e8); }},
+    {"orthographic, near plane anywhere", anyView,
+     [](test::Random& random) { return randomOrtho(random, random.uniform(-3e7, 3e7), 1e8); }, NearPlane::AtMinusOne,
+     false},
+    {"orthographic, reversed depth", anyView,
+     [](test::Random& random) { return reversed(randomOrtho(random, -5e7, 1e8)); }, NearPlane::AtPlusOne, false},
+    {"orthographic, near beyond far", anyView, [](test::Random& random) { return randomOrtho(random, 1e8, -5e7); },
+     NearPlane::AtMinusOne, false},
+};
+
+constexpr int kViews = 40;
+
+CullView viewOf(const Kind& kind, test::Random& random) {
+    CullView view;
+    view.modelView = kind.view(random);
+    view.projection = kind.projection(random);
+    return view;
+}
+
+Look lookOf(CameraGlobe& globe, const CullView& view, osgUtil::CullVisitor& visitor) {
+    test::cull(globe.root(), view, visitor);
+    return globe.takeLooks().at(0);
+}
+
+Look lookOf(CameraGlobe& globe, const CullView& view) {
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    return lookOf(globe, view, *visitor);
+}
+
+TEST(Projections, NoTileInThePictureIsCulledAndMostOthersAre) {
+    for (const Method method : {Method::Quadratic, Method::Exact}) {
+        CullOptions options;
+        options.method = method;
+        CameraGlobe globe(options);
+        for (const Kind& kind : kKinds) {
+            test::Random random(70);
+            LookTotals totals;
+            for (int i = 0; i < kViews; ++i) {
+                // what near and far planes cut off is kept: only the sides cull
+                const Look look = lookOf(globe, viewOf(kind, random));
+                EXPECT_TRUE(totals.add(globe, look, NearPlane::AtTheEye).empty()) << kind.name << ", view " << i;
+            }
+            EXPECT_LT(totals.reached, 1.5 * double(totals.seen) + 1.0 * kViews) << kind.name;
+            EXPECT_LT(totals.reached, totals.tiles / 2) << kind.name;
+        }
+    }
+}
+
+TEST(Projections, TheHorizonHidesNothingInThePicture) {
+    CameraGlobe globe(test::horizonOptions());
+    CameraGlobe without;
+    for (const Kind& kind : kKinds) {
+        test::Random random(71);
+        LookTotals totals, plain;
+        for (int i = 0; i < kViews; ++i) {
+            const CullView view = viewOf(kind, random);
+            EXPECT_TRUE(totals.add(globe, lookOf(globe, view), kind.nearPlane, kOccluderDepth).empty())
+                << kind.name << ", view " << i;
+            EXPECT_TRUE(plain.add(without, lookOf(without, view), kind.nearPlane).empty()) << kind.name;
+        }
+        if (kind.hasHorizon) {
+            EXPECT_LT(double(totals.reached), 0.9 * double(plain.reached)) << kind.name;
+        }
+    }
+}
+
+TEST(Projections, NearAndFarPlanesCullNothingBetweenThem) {
+    CameraGlobe globe;
+    for (const Kind& kind : kKinds) {
+        test::Random random(72);
+        LookTotals totals;
+        for (int i = 0; i < kViews; ++i) {
+            CullView view = viewOf(kind, random);
+            view.cullingMode = osg::CullSettings::VIEW_FRUSTUM_CULLING;
+            EXPECT_TRUE(totals.add(globe, lookOf(globe, view), kind.nearPlane).empty()) << kind.name << ", view " << i;
+        }
+        EXPECT_LT(totals.reached, 1.6 * double(totals.seen) + 1.0 * kViews) << kind.name;
+    }
+}
+
+TEST(Projections, NearAndFarPlanesCullByThemselves) {
+    CameraGlobe globe;
+    CullView view = CullView::lookAt({4 * kEarthRadius, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
+    view.projection = osg::Matrixd::perspective(60.0, 1.0, 3.6 * kEarthRadius, 4.2 * kEarthRadius);
+    using Settings = osg::CullSettings;
+    const auto reached = [&](int planes) {
+        view.cullingMode = Settings::VIEW_FRUSTUM_SIDES_CULLING | planes;
+        return lookOf(globe, view).reached.size();
+    };
+    const std::size_t none = reached(0);
+    const std::size_t near = reached(Settings::NEAR_PLANE_CULLING);
+    const std::size_t far = reached(Settings::FAR_PLANE_CULLING);
+    const std::size_t both = reached(Settings::NEAR_PLANE_CULLING | Settings::FAR_PLANE_CULLING);
+    EXPECT_EQ(none, 128u);
+    EXPECT_LT(near, none);  // the cap that faces the camera is cut off
+    EXPECT_LT(far, none);   // and the far side
+    EXPECT_EQ(none + both, near + far);
+}
+
+TEST(Projections, WithInfiniteFarTheFarPlaneDecidesNothing) {
+    CameraGlobe globe;
+    test::Random random(73);
+    for (int i = 0; i < kViews; ++i) {
+        CullView view;
+        view.modelView = randomView(random);
+        view.projection = infiniteFar(0.5, 1.0);
+        const std::set<std::size_t> sides = lookOf(globe, view).reached;
+        view.cullingMode |= osg::CullSettings::FAR_PLANE_CULLING;
+        const std::set<std::size_t> withFar = lookOf(globe, view).reached;
+        EXPECT_TRUE(std::includes(withFar.begin(), withFar.end(), sides.begin(), sides.end()));
+        EXPECT_LE(withFar.size(), sides.size() + 4);
+    }
+}
+
+TEST(Projections, BrokenMatricesCullNothing) {
+    CullView view = CullView::lookAt({2 * kEarthRadius, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
+    osg::Matrixd zero;
+    zero.set(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0);
+    osg::Matrixd notANumber;
+    notANumber(1, 2) = kNaN;
+    notANumber(3, 0) = kNaN;
+    osg::Matrixd flat = osg::Matrixd::perspective(60.0, 1.0, 1.0, 1e8);
+    flat(1, 1) = 0.0;
+    CameraGlobe globe;
+    for (const int mode : {int(osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING),
+                           int(osg::CullSettings::ENABLE_ALL_CULLING), int(osg::CullSettings::DEFAULT_CULLING)}) {
+        view.cullingMode = mode;
+        for (const osg::Matrixd& projection : {zero, notANumber}) {
+            view.projection = projection;
+            EXPECT_EQ(lookOf(globe, view).reached.size(), 128u) << mode;
+        }
+        // a picture without height shows what lies on its one line
+        view.projection = flat;
+        LookTotals totals;
+        EXPECT_TRUE(totals.add(globe, lookOf(globe, view)).empty()) << mode;
+    }
+    CameraGlobe hidden(test::horizonOptions());
+    view.projection = osg::Matrixd::perspective(60.0, 1.0, 1.0, 1e8);
+    for (const osg::Matrixd& modelView : {zero, notANumber}) {
+        view.modelView = modelView;
+        EXPECT_EQ(lookOf(hidden, view).reached.size(), 128u);
+    }
+}
+
+TEST(Projections, ZeroAspectDoesNoHarm) {
+    CameraGlobe globe(test::horizonOptions());
+    test::Random random(74);
+    for (const double aspect : {0.0, -0.0, kNaN, std::numeric_limits<double>::infinity(), 1e-300}) {
+        for (int i = 0; i < 10; ++i) {
+            CullView view;
+            view.modelView = randomView(random);
+            view.projection = osg::Matrixd::perspective(40.0, aspect, 1.0, 1e8);
+            view.cullingMode = osg::CullSettings::ENABLE_ALL_CULLING;
+            LookTotals totals;
+            EXPECT_TRUE(totals.add(globe, lookOf(globe, view), NearPlane::AtMinusOne, kOccluderDepth).empty())
+                << aspect;
+        }
+    }
+}
+
+osg::Matrixd alongX(double eye) {
+    return osg::Matrixd::lookAt(osg::Vec3d(eye, 0, 0), osg::Vec3d(eye + 1.0, 0, 0), osg::Vec3d(0, 0, 1));
+}
+
+// With near and far computed, OSG draws nothing that is wholly behind the eye of an orthographic camera.
+TEST(Projections, WhatIsBehindAnOrthographicEyeHidesNothing) {
+    CameraGlobe globe(test::horizonOptions());
+    CullView view;
+    view.modelView = alongX(0.0);
+    view.projection = osg::Matrixd::ortho(-8e6, 8e6, -8e6, 8e6, -1e8, 1e8);
+    view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
+    EXPECT_EQ(lookOf(globe, view).reached.size(), 128u);
+    view.modelView = alongX(-1e7);
+    EXPECT_LT(lookOf(globe, view).reached.size(), 100u);
+    view.modelView = alongX(0.0);
+    view.computeNearFar = osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
+    EXPECT_LT(lookOf(globe, view).reached.size(), 100u);
+}
+
+// Two orthographic cameras that share their side planes and their view matrix see different things if their near planes
+// differ; so does one that is culled for twice in a frame.
+TEST(Projections, CamerasThatDifferInTheNearPlaneAloneAreToldApart) {
+    CameraGlobe globe(test::horizonOptions());
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    for (const double near : {1e6, 3e7, 1e6}) {
+        const osg::ref_ptr<osg::Projection> projection =
+            new osg::Projection(osg::Matrixd::ortho(-8e6, 8e6, -8e6, 8e6, near, 1e8));
+        projection->setCullingActive(false);
+        projection->addChild(&globe.root());
+        scene->addChild(projection);
+    }
+    CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    test::cull(*scene, view, *visitor);
+    const std::vector<Look> looks = globe.takeLooks();
+    ASSERT_EQ(looks.size(), 3u);
+    LookTotals totals;
+    for (const Look& look : looks) {
+        EXPECT_TRUE(totals.add(globe, look, NearPlane::AtMinusOne, kOccluderDepth).empty());
+    }
+    EXPECT_LT(looks[0].reached.size(), looks[1].reached.size());
+    EXPECT_EQ(looks[0].reached, looks[2].reached);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin
