@@ -19,7 +19,8 @@
 
 namespace osgAnalyticBin {
 
-/// Where an occluder lies: the ellipsoid, its depth below it, and whether cameras that inherit a view point use it.
+/// Where an occluder lies: the ellipsoid, its depth below it, and whether cameras that inherit a view point
+/// or draw depth alone (shadow passes) use it.
 struct Occluder {
     core::Ellipsoid ellipsoid;
     double depth;

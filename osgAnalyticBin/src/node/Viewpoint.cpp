@@ -15,11 +15,28 @@ namespace osgAnalyticBin {
 
 namespace {
 
-bool inheritsViewpoint(osg::NodeVisitor& visitor) {
+// Shadow maps are drawn for another eye's picture, often of back faces alone.
+bool drawsShadows(const osg::Camera& camera) {
+    if (camera.getReferenceFrame() == osg::Transform::ABSOLUTE_RF_INHERIT_VIEWPOINT) return true;
+    const osg::Camera::BufferAttachmentMap& attachments = camera.getBufferAttachmentMap();
+    return !attachments.empty() && std::all_of(attachments.begin(), attachments.end(), [](const auto& attachment) {
+        return attachment.first == osg::Camera::DEPTH_BUFFER;
+    });
+}
+
+// Whether the camera that is culled for draws shadows, or one does that it is relative to.
+bool isShadowPass(osg::NodeVisitor& visitor) {
     osgUtil::CullVisitor* cullVisitor = visitor.asCullVisitor();
-    const osg::Camera* camera =
-        cullVisitor && cullVisitor->getRenderStage() ? cullVisitor->getCurrentCamera() : nullptr;
-    return camera && camera->getReferenceFrame() == osg::Transform::ABSOLUTE_RF_INHERIT_VIEWPOINT;
+    const osg::Camera* stage = cullVisitor && cullVisitor->getRenderStage() ? cullVisitor->getCurrentCamera() : nullptr;
+    if (stage && drawsShadows(*stage)) return true;
+    const osg::NodePath& path = visitor.getNodePath();
+    for (auto node = path.rbegin(); node != path.rend(); ++node) {
+        const osg::Camera* camera = (*node)->asCamera();
+        if (!camera) continue;
+        if (drawsShadows(*camera)) return true;
+        if (camera->getReferenceFrame() == osg::Transform::ABSOLUTE_RF) return false;
+    }
+    return false;
 }
 
 // Projections whose lines of sight meet in the origin of eye space.
@@ -65,8 +82,8 @@ double distanceTo(const core::Ellipsoid& ellipsoid, double depth, const glm::dve
 
 }  // namespace
 
-std::optional<Viewpoint> Viewpoint::of(osg::CullStack& cullStack, osg::NodeVisitor& visitor, bool evenInherited) {
-    if (!evenInherited && inheritsViewpoint(visitor)) return std::nullopt;
+std::optional<Viewpoint> Viewpoint::of(osg::CullStack& cullStack, osg::NodeVisitor& visitor, bool inShadowPasses) {
+    if (!inShadowPasses && isShadowPass(visitor)) return std::nullopt;
     osg::Matrixd eyeToWorld;
     if (!eyeToWorld.invert(*cullStack.getModelViewMatrix())) return std::nullopt;
     const osg::Matrixd& projection = *cullStack.getProjectionMatrix();

@@ -15,10 +15,10 @@ namespace osgAnalyticBin {
 /// Where a cull visitor looks from, in the frame of its current planes: what horizons are made for.
 class Viewpoint final {
 public:
-    /// Returns: nullopt for projections that have no horizon, and, unless `evenInherited`, for cameras that inherit
-    /// their view point: what casts a shadow may lie behind it.
+    /// Returns: nullopt for projections that have no horizon, and, unless `inShadowPasses`, for cameras that inherit
+    /// their view point or draw depth alone: what casts a shadow may lie behind it.
     [[nodiscard]] static std::optional<Viewpoint> of(osg::CullStack& cullStack, osg::NodeVisitor& visitor,
-                                                     bool evenInherited);
+                                                     bool inShadowPasses);
 
     /// See core::HorizonEye; depth in metres below the ellipsoid. Nothing is hidden when the near plane may reach the
     /// occluder.

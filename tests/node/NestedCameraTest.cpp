@@ -1,0 +1,287 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Cameras in the scene: drawn before, after and within the picture, in all frames of reference, with settings of their
+// own. Oracle: samples of the tiles, projected by the matrices that the cull traversal holds for each camera, which are
+// also compared with what the frame of reference asks for. Shadow techniques themselves: ShadowPassTest.cpp.
+
+#include "CameraGlobe.h"
+
+#include <gtest/gtest.h>
+#include <osg/MatrixTransform>
+#include <osg/Texture2D>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <support/Random.h>
+
+namespace osgAnalyticBin {
+namespace {
+
+using osg::Camera;
+using osg::CullSettings;
+using osg::Transform;
+using test::CameraGlobe;
+using test::CullView;
+using test::kEarthRadius;
+using test::kOccluderDepth;
+using test::Look;
+using test::LookTotals;
+using test::NearPlane;
+
+osg::Vec3d toOsg(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+osg::Matrixd randomView(test::Random& random) {
+    const osg::Vec3d eye = toOsg(random.direction()) * (kEarthRadius + random.logUniform(1e5, 2e7));
+    return osg::Matrixd::lookAt(eye, toOsg(random.direction()) * kEarthRadius, toOsg(random.direction()));
+}
+
+osg::Matrixd randomProjection(test::Random& random) {
+    if (random.uniform(0, 1) < 0.3) {
+        const double size = random.logUniform(5e5, 4e6);
+        return osg::Matrixd::ortho(-size, size, -size, size, -5e7, 1e8);
+    }
+    return osg::Matrixd::perspective(random.uniform(10, 70), random.uniform(0.5, 2.0), 1.0, 1e8);
+}
+
+CullView randomCullView(test::Random& random) {
+    CullView view;
+    view.modelView = randomView(random);
+    view.projection = randomProjection(random);
+    return view;
+}
+
+// A camera's look from outside of the globe.
+CullView fromAfar() {
+    return CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
+}
+
+std::vector<Look> looksAt(osg::Node& scene, const CullView& view, CameraGlobe& globe) {
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    test::cull(scene, view, *visitor);
+    return globe.takeLooks();
+}
+
+bool areAlike(const osg::Matrixd& a, const osg::Matrixd& b) {
+    return std::equal(a.ptr(), a.ptr() + 16, b.ptr(),
+                      [](double x, double y) { return std::abs(x - y) <= 1e-9 * (std::abs(x) + std::abs(y)) + 1e-9; });
+}
+
+TEST(NestedCameras, EveryFrameAndOrderCullsForItsOwnPicture) {
+    for (const bool horizon : {false, true}) {
+        CameraGlobe globe(horizon ? test::horizonOptions() : CullOptions());
+        const std::optional<double> depth = horizon ? std::optional(kOccluderDepth) : std::nullopt;
+        test::Random random(80);
+        LookTotals totals;
+        for (int i = 0; i < 15; ++i) {
+            const osg::ref_ptr<osg::Group> scene = new osg::Group;
+            scene->setCullingActive(false);
+            scene->addChild(&globe.root());
+            for (const auto frame :
+                 {Transform::RELATIVE_RF, Transform::ABSOLUTE_RF, Transform::ABSOLUTE_RF_INHERIT_VIEWPOINT}) {
+                for (const auto order : {Camera::PRE_RENDER, Camera::NESTED_RENDER, Camera::POST_RENDER}) {
+                    const bool relative = frame == Transform::RELATIVE_RF;
+                    const osg::Matrixd turn =
+                        osg::Matrixd::rotate(random.uniform(-0.5, 0.5), toOsg(random.direction()));
+                    const osg::ref_ptr<Camera> camera = test::makeCamera(
+                        "camera", globe, frame, order, relative ? turn : randomView(random),
+                        relative ? osg::Matrixd::scale(random.uniform(0.5, 2), random.uniform(0.5, 2), 1.0)
+                                 : randomProjection(random));
+                    if (i % 2) camera->setTransformOrder(Camera::POST_MULTIPLY);
+                    scene->addChild(camera);
+                }
+            }
+            const CullView view = randomCullView(random);
+            const std::vector<Look> looks = looksAt(*scene, view, globe);
+            ASSERT_EQ(looks.size(), 10u);
+            for (std::size_t k = 0; k < looks.size(); ++k) {
+                EXPECT_TRUE(totals.add(globe, looks[k], NearPlane::AtMinusOne, depth).empty())
+                    << "scene " << i << ", look " << k;
+            }
+            // what was projected with is what the cameras say
+            EXPECT_TRUE(areAlike(looks[0].modelView, view.modelView));
+            for (unsigned int k = 1; k < 10; ++k) {
+                const Camera& camera = *scene->getChild(k)->asCamera();
+                const bool post = camera.getTransformOrder() == Camera::POST_MULTIPLY;
+                osg::Matrixd expected = camera.getViewMatrix();
+                if (k <= 3) expected = post ? view.modelView * expected : expected * view.modelView;
+                EXPECT_TRUE(areAlike(looks[k].modelView, expected)) << k;
+            }
+        }
+        EXPECT_LT(totals.reached, totals.tiles / 3);
+        EXPECT_GT(totals.seen, 0u);
+    }
+}
+
+TEST(NestedCameras, CamerasWithinCamerasAndTransforms) {
+    CameraGlobe globe(test::horizonOptions());
+    test::Random random(81);
+    LookTotals totals;
+    for (int i = 0; i < 30; ++i) {
+        const osg::ref_ptr<Camera> inner = test::makeCamera("inner", globe, Transform::ABSOLUTE_RF, Camera::PRE_RENDER,
+                                                            randomView(random), randomProjection(random));
+        const osg::ref_ptr<Camera> relative =
+            test::makeCamera("relative", globe, Transform::RELATIVE_RF, Camera::NESTED_RENDER,
+                             osg::Matrixd::rotate(0.2, toOsg(random.direction())), osg::Matrixd());
+        const osg::ref_ptr<Camera> outer = test::makeCamera("outer", globe, Transform::ABSOLUTE_RF, Camera::POST_RENDER,
+                                                            randomView(random), randomProjection(random));
+        const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform(
+            osg::Matrixd::rotate(random.uniform(0, 6), toOsg(random.direction())) *
+            osg::Matrixd::scale(0.5, i % 3 ? 0.5 : -0.5, 0.5) * osg::Matrixd::translate(1e5, -2e5, 3e5));
+        mover->setCullingActive(false);
+        mover->addChild(relative);
+        outer->addChild(mover);
+        outer->addChild(inner);
+        const std::vector<Look> looks = looksAt(*outer, randomCullView(random), globe);
+        ASSERT_EQ(looks.size(), 3u);
+        EXPECT_EQ(looks[1].camera, "relative");
+        for (const Look& look : looks) {
+            EXPECT_TRUE(totals.add(globe, look, NearPlane::AtMinusOne, kOccluderDepth).empty())
+                << "scene " << i << ", " << look.camera;
+        }
+    }
+    EXPECT_LT(totals.reached, totals.tiles / 3);
+}
+
+// What is behind the horizon of a light may still be what a shadow map needs: its back faces are drawn.
+TEST(NestedCameras, NoHorizonInShadowPassesHoweverTheyAreMade) {
+    CameraGlobe globe(test::horizonOptions());
+    CullOptions asked = test::horizonOptions();
+    asked.inheritViewpoint = true;
+    CameraGlobe forShadows(asked);
+    const CullView view = fromAfar();
+    const auto reached = [&](CameraGlobe& scene, Transform::ReferenceFrame frame, bool depthMap, bool colours,
+                             bool relativeInside) {
+        const osg::ref_ptr<Camera> camera =
+            test::makeCamera("pass", scene, frame, Camera::PRE_RENDER, view.modelView, view.projection);
+        const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
+        if (depthMap) camera->attach(Camera::DEPTH_BUFFER, texture.get());
+        if (colours) camera->attach(Camera::COLOR_BUFFER, texture.get());
+        if (relativeInside) {
+            camera->removeChildren(0, 1);
+            camera->addChild(test::makeCamera("inside", scene, Transform::RELATIVE_RF, Camera::PRE_RENDER,
+                                              osg::Matrixd(), osg::Matrixd()));
+        }
+        return looksAt(*camera, view, scene).at(0).reached.size();
+    };
+    const auto absolute = Transform::ABSOLUTE_RF;
+    const auto inheriting = Transform::ABSOLUTE_RF_INHERIT_VIEWPOINT;
+    EXPECT_EQ(reached(globe, inheriting, true, false, false), 128u);
+    EXPECT_EQ(reached(globe, inheriting, false, true, false), 128u);
+    EXPECT_EQ(reached(globe, inheriting, true, true, true), 128u);
+    EXPECT_EQ(reached(globe, absolute, true, false, false), 128u);  // as ParallelSplitShadowMap has it
+    EXPECT_EQ(reached(globe, absolute, true, false, true), 128u);
+    EXPECT_LT(reached(globe, absolute, false, false, false), 100u);
+    EXPECT_LT(reached(globe, absolute, true, true, false), 100u);
+    EXPECT_LT(reached(globe, absolute, false, true, true), 100u);
+    EXPECT_LT(reached(forShadows, inheriting, true, false, false), 100u);
+    EXPECT_LT(reached(forShadows, absolute, true, false, true), 100u);
+}
+
+TEST(CameraSettings, ACameraWithoutCullingReachesEverythingAndTheOthersDoNot) {
+    // Without frustum culling the frustum says nothing of what is drawn, and so the eye does not either: no horizon.
+    CameraGlobe globe(test::horizonOptions());
+    const CullView view = CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 20.0);
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->setCullingActive(false);
+    const auto add = [&](const char* name) {
+        const osg::ref_ptr<Camera> camera =
+            test::makeCamera(name, globe, Transform::ABSOLUTE_RF, Camera::PRE_RENDER, view.modelView, view.projection);
+        scene->addChild(camera);
+        return camera;
+    };
+    add("inherits");
+    add("none")->setCullingMode(CullSettings::NO_CULLING);
+    add("small features")->setCullingMode(CullSettings::SMALL_FEATURE_CULLING);
+    const osg::ref_ptr<Camera> masked = add("set, but inherits");
+    masked->setCullingMode(CullSettings::NO_CULLING);
+    masked->setInheritanceMask(CullSettings::ALL_VARIABLES);
+    add("inherits again");
+    std::map<std::string, std::size_t> reached;
+    for (const Look& look : looksAt(*scene, view, globe)) reached[look.camera] = look.reached.size();
+    EXPECT_EQ(reached["none"], 128u);
+    EXPECT_EQ(reached["small features"], 128u);
+    EXPECT_LT(reached["inherits"], 20u);
+    EXPECT_EQ(reached["set, but inherits"], reached["inherits"]);
+    EXPECT_EQ(reached["inherits again"], reached["inherits"]);
+    // and the other way round
+    CullView open = view;
+    open.cullingMode = CullSettings::NO_CULLING;
+    scene->getChild(1)->asCamera()->setCullingMode(CullSettings::VIEW_FRUSTUM_SIDES_CULLING);
+    for (const Look& look : looksAt(*scene, open, globe)) reached[look.camera] = look.reached.size();
+    EXPECT_EQ(reached["inherits"], 128u);
+    EXPECT_LT(reached["none"], 20u);
+}
+
+TEST(CameraSettings, SmallFeaturesGoByTheCamerasOwnViewportAndPixels) {
+    CameraGlobe globe;
+    const CullView view = fromAfar();
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->setCullingActive(false);
+    const auto add = [&](const char* name, int size, float pixels) {
+        const osg::ref_ptr<Camera> camera =
+            test::makeCamera(name, globe, Transform::ABSOLUTE_RF, Camera::PRE_RENDER, view.modelView, view.projection);
+        camera->setCullingMode(CullSettings::VIEW_FRUSTUM_SIDES_CULLING | CullSettings::SMALL_FEATURE_CULLING);
+        camera->setSmallFeatureCullingPixelSize(pixels);
+        camera->setViewport(0, 0, size, size);
+        scene->addChild(camera);
+    };
+    add("large", 2000, 2.0f);
+    add("tiny", 8, 2.0f);
+    add("tiny, every feature", 8, 0.0f);
+    add("large, coarse", 2000, 500.0f);
+    std::map<std::string, std::size_t> reached;
+    for (const Look& look : looksAt(*scene, view, globe)) reached[look.camera] = look.reached.size();
+    EXPECT_EQ(reached["large"], 128u);
+    EXPECT_EQ(reached["tiny, every feature"], 128u);
+    EXPECT_EQ(reached["tiny"], 0u);
+    EXPECT_EQ(reached["large, coarse"], 0u);
+}
+
+TEST(CameraSettings, CullMasksChooseTilesAndBinsDoTheRest) {
+    CameraGlobe globe;
+    for (std::size_t i = 0; i < globe.size(); ++i) globe.tile(i).setNodeMask(i % 2 ? 0x1 : 0x2);
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->setCullingActive(false);
+    test::Random random(82);
+    const CullView view = randomCullView(random);
+    for (const unsigned int mask : {0x1u, 0x2u, 0x3u}) {
+        const osg::ref_ptr<Camera> camera = test::makeCamera(std::to_string(mask), globe, Transform::ABSOLUTE_RF,
+                                                             Camera::PRE_RENDER, view.modelView, view.projection);
+        camera->setCullMask(mask);
+        scene->addChild(camera);
+    }
+    const std::vector<Look> looks = looksAt(*scene, view, globe);
+    ASSERT_EQ(looks.size(), 3u);
+    std::set<std::size_t> both;
+    for (int k = 0; k < 2; ++k) {
+        for (const std::size_t tile : looks[std::size_t(k)].reached) EXPECT_EQ(tile % 2, k == 0 ? 1u : 0u);
+        both.insert(looks[std::size_t(k)].reached.begin(), looks[std::size_t(k)].reached.end());
+    }
+    EXPECT_EQ(both, looks[2].reached);
+    LookTotals totals;
+    EXPECT_TRUE(totals.add(globe, looks[2]).empty());
+    EXPECT_LT(totals.reached, 128u);
+}
+
+TEST(CameraSettings, LodScaleChangesNothingForBins) {
+    CameraGlobe globe(test::horizonOptions());
+    const CullView view = CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 20.0);
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    std::vector<std::set<std::size_t>> reached;
+    for (const float scale : {1.0f, 0.01f, 100.0f}) {
+        visitor->setLODScale(scale);
+        test::cull(globe.root(), view, *visitor);
+        reached.push_back(globe.takeLooks().at(0).reached);
+    }
+    EXPECT_EQ(reached[0], reached[1]);
+    EXPECT_EQ(reached[0], reached[2]);
+    EXPECT_LT(reached[0].size(), 20u);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin
