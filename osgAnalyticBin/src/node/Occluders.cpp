@@ -5,15 +5,26 @@
 
 #include "Spheres.h"
 
+#include <osg/Camera>
+#include <osg/OccluderNode>
+
 #include <algorithm>
 
 namespace osgAnalyticBin {
 
 namespace {
 
+// By the camera's settings: the masks of the culling sets are without occluders below a tile.
 bool isActive(osg::CullStack& cullStack) {
-    return (cullStack.getCurrentCullingSet().getCullingMask() & osg::CullingSet::SHADOW_OCCLUSION_CULLING) &&
+    return (cullStack.getCullingMode() & osg::CullSettings::SHADOW_OCCLUSION_CULLING) &&
            !cullStack.getOccluderList().empty();
+}
+
+const osg::Camera* innermostCamera(const osg::NodePath& path) {
+    for (auto node = path.rbegin(); node != path.rend(); ++node) {
+        if (const osg::Camera* camera = (*node)->asCamera()) return camera;
+    }
+    return nullptr;
 }
 
 bool isInside(const osg::Polytope& volume, const osg::BoundingSphere& sphere) {
@@ -29,6 +40,12 @@ bool mayBeSeenThrough(const osg::Polytope& hole, const osg::BoundingSphere& sphe
                         [&](const osg::Plane& plane) { return plane.intersect(sphere) < 0; });
 }
 
+// OSG drops holes that another occluder covers, be it one of another camera.
+bool hasAllHoles(const osg::ShadowVolumeOccluder& occluder) {
+    const auto* node = dynamic_cast<const osg::OccluderNode*>(occluder.getNodePath().back());
+    return node && node->getOccluder() && node->getOccluder()->getHoleList().size() == occluder.getHoleList().size();
+}
+
 // An occluder does not hide what hangs below its own node.
 bool isBelow(const osg::NodePath& path, const osg::NodePath& occluder) {
     return occluder.size() <= path.size() && std::equal(occluder.begin(), occluder.end(), path.begin());
@@ -40,9 +57,12 @@ bool isOccluded(osg::CullStack& cullStack, const osg::NodePath& path, const osg:
     if (!isActive(cullStack) || !sphere.valid()) return false;
     // The stack's own list is in eye coordinates and has never been masked.
     const osg::BoundingSphere inEyeFrame = movedSphere(sphere, *cullStack.getModelViewMatrix());
+    // Two cameras may have the same projection.
+    const osg::Camera* camera = innermostCamera(path);
     for (osg::ShadowVolumeOccluder& occluder : cullStack.getOccluderList()) {
         if (!occluder.matchProjectionMatrix(*cullStack.getProjectionMatrix()) ||
-            isBelow(path, occluder.getNodePath()) || !isInside(occluder.getOccluder(), inEyeFrame)) {
+            innermostCamera(occluder.getNodePath()) != camera || isBelow(path, occluder.getNodePath()) ||
+            !isInside(occluder.getOccluder(), inEyeFrame) || !hasAllHoles(occluder)) {
             continue;
         }
         const auto& holes = occluder.getHoleList();
@@ -55,16 +75,20 @@ bool isOccluded(osg::CullStack& cullStack, const osg::NodePath& path, const osg:
 
 OccluderScope::OccluderScope(osg::CullStack& cullStack) : _cullStack(cullStack), _active(isActive(cullStack)) {
     if (!_active) return;
-    for (osg::ShadowVolumeOccluder& occluder : _cullStack.getOccluderList()) {
-        _cullStack.disableAndPushOccludersCurrentMask(occluder.getNodePath());
-    }
+    // Culling sets of transforms below are made from that of the projection.
+    osg::CullingSet& current = _cullStack.getCurrentCullingSet();
+    osg::CullingSet& projection = _cullStack.getProjectionCullingStack().back();
+    _current = current.getCullingMask();
+    _projection = projection.getCullingMask();
+    current.setCullingMask(_current & ~osg::CullingSet::SHADOW_OCCLUSION_CULLING);
+    projection.setCullingMask(_projection & ~osg::CullingSet::SHADOW_OCCLUSION_CULLING);
 }
 
 OccluderScope::~OccluderScope() {
     if (!_active) return;
-    for (osg::ShadowVolumeOccluder& occluder : _cullStack.getOccluderList()) {
-        _cullStack.popOccludersCurrentMask(occluder.getNodePath());
-    }
+    // the stacks may have moved meanwhile
+    _cullStack.getCurrentCullingSet().setCullingMask(_current);
+    _cullStack.getProjectionCullingStack().back().setCullingMask(_projection);
 }
 
 }  // namespace osgAnalyticBin
