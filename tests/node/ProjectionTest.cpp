@@ -302,7 +302,7 @@ TEST(Projections, WhatIsBehindAnOrthographicEyeHidesNothing) {
 }
 
 // Two orthographic cameras that share their side planes and their view matrix see different things if their near planes
-// differ; so does one that is culled for twice in a frame.
+// differ; so does one that is culled for twice in a frame, moved along its view.
 TEST(Projections, CamerasThatDifferInTheNearPlaneAloneAreToldApart) {
     CameraGlobe globe(test::horizonOptions());
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
@@ -324,6 +324,15 @@ TEST(Projections, CamerasThatDifferInTheNearPlaneAloneAreToldApart) {
     }
     EXPECT_LT(looks[0].reached.size(), looks[1].reached.size());
     EXPECT_EQ(looks[0].reached, looks[2].reached);
+
+    view.projection = osg::Matrixd::ortho(-8e6, 8e6, -8e6, 8e6, 1.0, 1e8);
+    for (const double x : {3e7, 1e6, 3e7, 0.0}) {
+        view.modelView = osg::Matrixd::lookAt(osg::Vec3d(x, 0, 0), osg::Vec3d(x - 1.0, 0, 0), osg::Vec3d(0, 0, 1));
+        test::cull(globe.root(), view, *visitor);
+        const Look look = globe.takeLooks().at(0);
+        EXPECT_TRUE(totals.add(globe, look, NearPlane::AtMinusOne, kOccluderDepth).empty()) << x;
+        EXPECT_EQ(look.reached.size() < 128u, x > kEarthRadius) << x;
+    }
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ osg::ref_ptr<osg::GraphicsContext> makeContext(int width, int height) {
     traits->width = width;
     traits->height = height;
     traits->pbuffer = true;
-    traits->alpha = 8;
+    traits->doubleBuffer = false;
     traits->readDISPLAY();
     return osg::GraphicsContext::createGraphicsContext(traits.get());
 }

@@ -7,15 +7,14 @@
 #include "Viewpoint.h"
 
 #include <algorithm>
-#include <cstring>
-#include <limits>
 
 namespace osgAnalyticBin {
 
 namespace {
 
-bool isSame(const osg::Matrixd& a, const osg::Matrixd& b) {
-    return std::memcmp(a.ptr(), b.ptr(), 16 * sizeof(double)) == 0;
+// What changes when a matrix is overwritten in place by one with the same side planes.
+std::array<double, 3> depthOf(const osg::Matrixd& modelView, const osg::Matrixd& projection) {
+    return {modelView(3, 2), projection(2, 2), projection(3, 2)};
 }
 
 }  // namespace
@@ -52,18 +51,17 @@ const core::HorizonEye* CullTraversal::horizonEye(osg::CullStack& cullStack, osg
                                                   const Occluder& occluder) {
     const osg::RefMatrix* modelView = cullStack.getModelViewMatrix();
     const osg::RefMatrix* projection = cullStack.getProjectionMatrix();
-    // Side planes do not tell orthographic cameras apart that differ in the near plane, nor do addresses, which are
-    // used again.
+    // The planes are the same as before; sides alone do not tell near planes apart, nor eyes along an orthographic
+    // view.
     const bool same = _eyeEllipsoid == occluder.ellipsoid && modelView == _modelView && projection == _projection &&
                       visitor.getTraversalNumber() == _eyeFrame && occluder.depth == _eyeDepth &&
-                      isSame(*modelView, _eyeModelView) && isSame(*projection, _eyeProjection);
+                      depthOf(*modelView, *projection) == _eyeSpaceDepth;
     if (!same) {
         const auto viewpoint = Viewpoint::of(cullStack, visitor, occluder.forInheritedViewpoints);
         _eye = viewpoint ? viewpoint->above(occluder.ellipsoid, occluder.depth) : std::nullopt;
         _modelView = modelView;
         _projection = projection;
-        _eyeModelView = *modelView;
-        _eyeProjection = *projection;
+        _eyeSpaceDepth = depthOf(*modelView, *projection);
         _eyeFrame = visitor.getTraversalNumber();
         _eyeDepth = occluder.depth;
         _eyeEllipsoid = occluder.ellipsoid;

@@ -11,6 +11,7 @@
 #include <osg/CullStack>
 #include <osg/NodeVisitor>
 #include <osg/Polytope>
+#include <osg/ref_ptr>
 
 #include <array>
 #include <optional>
@@ -78,9 +79,8 @@ private:
 
     // The eye, and what it was prepared for.
     std::optional<core::HorizonEye> _eye;
-    const osg::RefMatrix* _modelView = nullptr;
-    const osg::RefMatrix* _projection = nullptr;
-    osg::Matrixd _eyeModelView, _eyeProjection;
+    osg::ref_ptr<const osg::RefMatrix> _modelView, _projection;  // held, so that OSG puts no others in their place
+    std::array<double, 3> _eyeSpaceDepth{};
     unsigned int _eyeFrame = 0;
     double _eyeDepth = 0.0;
     std::optional<core::Ellipsoid> _eyeEllipsoid;  // none: not prepared yet
