@@ -14,7 +14,7 @@ namespace osgAnalyticBin::test {
 
 namespace {
 
-constexpr int kSamplesAcross = 13;
+constexpr int kSamplesAcross = 9;
 
 std::string innermostCamera(const osg::NodePath& path) {
     for (auto node = path.rbegin(); node != path.rend(); ++node) {
@@ -89,28 +89,42 @@ std::vector<Look> CameraGlobe::takeLooks() {
     return std::exchange(_looks, {});
 }
 
-bool CameraGlobe::isSeen(const osg::Vec3d& sample, const Look& look, const osg::Matrixd& unproject, NearPlane nearPlane,
-                         std::optional<double> occluderDepth) const {
-    const osg::Vec4d clip = osg::Vec4d(sample, 1.0) * look.modelView * look.projection;
+namespace {
+
+// What a look does to samples.
+struct Sight {
+    osg::Matrixd toClip;
+    osg::Matrixd back;  // from clip space; where sight begins at the eye, from eye space
+    NearPlane nearPlane;
+    std::optional<double> occluderDepth;
+};
+
+bool isSeen(const osg::Vec3d& sample, const Sight& sight) {
+    const osg::Vec4d clip = osg::Vec4d(sample, 1.0) * sight.toClip;
     const double w = clip.w();
     if (!(std::abs(clip.x()) <= w && std::abs(clip.y()) <= w)) return false;
-    if (nearPlane != NearPlane::AtTheEye && !(std::abs(clip.z()) <= w)) return false;
-    if (!occluderDepth) return true;
-    const double start = nearPlane == NearPlane::AtPlusOne ? 1.0 : -1.0;
-    const osg::Vec3d end = nearPlane == NearPlane::AtTheEye ? osg::Vec3d() * osg::Matrixd::inverse(look.modelView)
-                                                            : osg::Vec3d(clip.x() / w, clip.y() / w, start) * unproject;
-    return segmentMissesOccluder(core::Ellipsoid(kEarthRadius, 6356752.3142), *occluderDepth, real(sample), real(end));
+    const bool fromEye = sight.nearPlane == NearPlane::AtTheEye;
+    if (!fromEye && !(std::abs(clip.z()) <= w)) return false;
+    if (!sight.occluderDepth) return true;
+    const double start = sight.nearPlane == NearPlane::AtPlusOne ? 1.0 : -1.0;
+    const osg::Vec3d end = (fromEye ? osg::Vec3d() : osg::Vec3d(clip.x() / w, clip.y() / w, start)) * sight.back;
+    return segmentMissesOccluder(core::Ellipsoid(kEarthRadius, 6356752.3142), *sight.occluderDepth, real(sample),
+                                 real(end));
 }
+
+}  // namespace
 
 std::set<std::size_t> CameraGlobe::seen(const Look& look, NearPlane nearPlane,
                                         std::optional<double> occluderDepth) const {
-    const osg::Matrixd unproject = osg::Matrixd::inverse(look.modelView * look.projection);
+    const osg::Matrixd toClip = look.modelView * look.projection;
+    const bool fromEye = nearPlane == NearPlane::AtTheEye;
+    const Sight sight{toClip, osg::Matrixd::inverse(fromEye ? look.modelView : toClip), nearPlane, occluderDepth};
     std::set<std::size_t> tiles;
     for (std::size_t i = 0; i < _tiles.size(); ++i) {
-        const bool any = std::any_of(_samples[i].begin(), _samples[i].end(), [&](const osg::Vec3d& sample) {
-            return isSeen(sample, look, unproject, nearPlane, occluderDepth);
-        });
-        if (any) tiles.insert(i);
+        if (std::any_of(_samples[i].begin(), _samples[i].end(),
+                        [&](const osg::Vec3d& sample) { return isSeen(sample, sight); })) {
+            tiles.insert(i);
+        }
     }
     return tiles;
 }

@@ -60,9 +60,6 @@ private:
     friend class LookRecorder;
     friend class ReachRecorder;
 
-    [[nodiscard]] bool isSeen(const osg::Vec3d& sample, const Look& look, const osg::Matrixd& unproject,
-                              NearPlane nearPlane, std::optional<double> occluderDepth) const;
-
     osg::ref_ptr<osg::Group> _root = new osg::Group;
     std::vector<osg::ref_ptr<osg::Group>> _tiles;
     std::vector<std::vector<osg::Vec3d>> _samples;

@@ -132,7 +132,7 @@ const Kind kKinds[] = {
      NearPlane::AtMinusOne, false},
 };
 
-constexpr int kViews = 40;
+constexpr int kViews = 20;
 
 CullView viewOf(const Kind& kind, test::Random& random) {
     CullView view;
