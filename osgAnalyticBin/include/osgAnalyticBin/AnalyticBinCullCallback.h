@@ -45,6 +45,8 @@ struct TerrainShape {
 /// the tile when the bin is outside one of them. It stands in place of OSG's sphere test (BinInstaller switches that
 /// off on the nodes it treats): planes with the bin proven inside are not tested again in the subgraph, and
 /// small-feature and shadow-occluder culling are kept. Nested callbacks run when the tile is not culled.
+/// It obeys the culling mode of the camera that is culled for; without frustum culling there is no horizon either, for
+/// then neither frustum nor eye say what is drawn.
 /// Frame: the bin is in ECEF; the frame in which the node's children stand is ECEF too unless setLocalToEcef() says
 /// otherwise. Transforms above the globe need nothing: OSG's planes follow them.
 /// Guarantee (Method::Quadratic, Method::Exact): a tile is never culled if a point of its bin is inside all planes and

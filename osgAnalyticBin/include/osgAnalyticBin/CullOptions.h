@@ -55,8 +55,8 @@ struct CullOptions {
     /// Altitude in metres below which nothing is drawn anywhere in the database, meshes between their posts included;
     /// the database covers the whole globe. Read with HorizonUse::Given.
     double horizon = 0.0;
-    /// Whether cameras that inherit a view point, such as those of shadow passes, use the horizon too: what casts a
-    /// shadow may lie behind it.
+    /// Whether shadow passes use the horizon too: cameras that inherit a view point or draw depth alone, and those
+    /// relative to them. What casts a shadow may lie behind it, and its back faces may be all that is drawn.
     bool inheritViewpoint = false;
     /// Whether tiles across an edge of the frustum are tested against the edge too; with Method::Quadratic and
     /// Method::Exact only.
