@@ -198,7 +198,10 @@ bool AnalyticBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisit
 const core::HorizonEye* AnalyticBinCullCallback::eyeOn(osg::CullStack& cullStack, osg::NodeVisitor& nv,
                                                        CullTraversal& traversal) const {
     if (const DatabaseView* database = traversal.databaseView()) {
-        return database->ellipsoid == _prepared->ellipsoid ? database->eye : nullptr;
+        // a camera between the database's root and the tile sees with other eyes
+        const bool isSame =
+            database->ellipsoid == _prepared->ellipsoid && database->projection == cullStack.getProjectionMatrix();
+        return isSame ? database->eye : nullptr;
     }
     // In a frame of its own the eye would have to be prepared anew for every tile.
     if (_options.horizonUse != HorizonUse::Given || _hasLocalFrame) return nullptr;

@@ -35,7 +35,8 @@ struct DatabaseView {
     const Database* database;
     core::Ellipsoid ellipsoid;
     TerrainShape shape;
-    const core::HorizonEye* eye;  // in ECEF, whatever transforms are below; nullptr: nothing is hidden
+    const core::HorizonEye* eye;       // in ECEF, whatever transforms are below; nullptr: nothing is hidden
+    const osg::RefMatrix* projection;  // of the camera that the eye is of
 };
 
 /// What one cull visitor knows of the frustum that it is in: prepared once per frustum, read by every tile. Lives in

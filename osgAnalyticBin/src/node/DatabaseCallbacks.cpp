@@ -54,7 +54,8 @@ void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         return;
     }
     CullTraversal& traversal = CullTraversal::of(*nv);
-    DatabaseView view{_database.get(), toCore(*_database->ellipsoid()), _database->shape(), nullptr};
+    DatabaseView view{_database.get(), toCore(*_database->ellipsoid()), _database->shape(), nullptr,
+                      cullStack->getProjectionMatrix()};
     const auto eye = eyeOver(*group, *nv, *cullStack, *_database, view);
     if (eye) view.eye = &*eye;
     const DatabaseView* outer = traversal.databaseView();
