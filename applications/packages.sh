@@ -10,7 +10,7 @@ packages="
   libopenscenegraph-dev openscenegraph libglm-dev
   libgdal-dev gdal-bin libcli11-dev nlohmann-json3-dev
   libgtest-dev librapidcheck-dev libboost-dev libhwy-dev libbenchmark-dev libccd-dev
-  xvfb xauth libgl1-mesa-dri
+  xvfb xauth libgl1-mesa-dri nginx
   ferret-datasets libncarg-data
 "
 
@@ -36,7 +36,8 @@ fi
 echo "packages: installing$missing"
 export DEBIAN_FRONTEND=noninteractive
 log=$(mktemp)
-trap 'rm -f "$log"' EXIT
+policy=""
+trap 'rm -f "$log"; [ -z "$policy" ] || $as_root rm -f "$policy"' EXIT
 run() {
     $as_root env DEBIAN_FRONTEND=noninteractive "$@" >"$log" 2>&1 || {
         cat "$log" >&2
@@ -44,6 +45,15 @@ run() {
         exit 1
     }
 }
+
+# nginx serves files to tests alone: where it is new, no web server is started, now or at the next boot.
+is_new() { case " $missing " in *" $1 "*) true ;; *) false ;; esac; }
+if is_new nginx && [ ! -e /usr/sbin/policy-rc.d ]; then
+    policy=/usr/sbin/policy-rc.d
+    printf '#!/bin/sh\nexit 101\n' | $as_root tee "$policy" >/dev/null
+    $as_root chmod 755 "$policy"
+fi
 run apt-get update
 # shellcheck disable=SC2086
 run apt-get install -y --no-install-recommends $missing
+! is_new nginx || run update-rc.d nginx disable

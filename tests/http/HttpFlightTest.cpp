@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// The stock osgviewer flies over a globe that a web server gives. Oracle: the pictures of the flight over the files
+// without any culling; what is sent is counted in the server's log.
+
+#include "Nginx.h"
+#include "Report.h"
+#include "SmallGlobe.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdio>
+#include <future>
+#include <support/StockPrograms.h>
+#include <support/TemporaryFolder.h>
+#include <thread>
+
+namespace osgAnalyticBin {
+namespace {
+
+using report::Report;
+using test::Nginx;
+
+constexpr const char* kPath =
+    "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg,near,far\n"
+    "oblique_1,-10,170,800000,-4,178,0,60,10000,8000000\n"
+    "oblique_2,75,-60,600000,80,-40,0,60,10000,8000000\n"
+    "narrow,5,5,100000,6,8,0,10,10000,4000000\n";
+
+struct Sent {
+    std::size_t requests = 0;
+    std::size_t bytes = 0;
+};
+
+class HttpFlight : public ::testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        folder = new test::TemporaryFolder;
+        if (!canFly()) return;
+        globe = folder->makeFolder("globe");
+        ASSERT_TRUE(test::makeSmallGlobe(globe));
+        path = folder->write("path.csv", kPath);
+        truth = fly(globe + "/earth.osgb", "none", "files");
+    }
+    static void TearDownTestSuite() { delete folder; }
+
+    void SetUp() override {
+        if (!canFly()) GTEST_SKIP() << "needs nginx, osgviewer and xvfb-run";
+    }
+
+    static bool canFly() { return Nginx::isInstalled() && test::canRunViewer(); }
+
+    // Returns: the folder of the pictures.
+    static std::string fly(const std::string& database, const std::string& method, const std::string& name) {
+        const std::string out = *folder / name;
+        const test::Outcome outcome =
+            test::runViewer("--SingleThreaded " + test::quoted(database + ".(method=" + method + ").analyticbin") +
+                                ' ' + test::quoted(path + ".(out=" + out + ",frames=2).binflight"),
+                            test::Modules::Present, "OSG_NOTIFY_LEVEL=NOTICE");
+        EXPECT_EQ(outcome.code, 0) << outcome.text;
+        return out;
+    }
+
+    static void expectEqualPictures(const std::vector<std::string>& flights) {
+        std::string error;
+        std::vector<std::string> folders{truth};
+        folders.insert(folders.end(), flights.begin(), flights.end());
+        const auto report = Report::of(folders, folders, "", error);
+        ASSERT_TRUE(report) << error;
+        for (const report::Mismatch& mismatch : report->mismatches())
+            ADD_FAILURE() << mismatch.label << " at " << mismatch.pose << ": " << mismatch.pixels << " pixels";
+    }
+
+    static Sent sentBy(const Nginx& nginx) {
+        Sent sent;
+        for (const Nginx::Request& request : nginx.requests()) {
+            ++sent.requests;
+            sent.bytes += request.bytes;
+            EXPECT_EQ(request.status, 200) << request.path;
+        }
+        return sent;
+    }
+
+    static inline test::TemporaryFolder* folder = nullptr;
+    static inline std::string globe;
+    static inline std::string path;
+    static inline std::string truth;
+};
+
+TEST_F(HttpFlight, BinsAskForLessThanSpheresAndDrawTheSame) {
+    std::vector<std::string> flights;
+    std::vector<Sent> sent;
+    for (const char* method : {"sphere", "quadratic"}) {
+        Nginx nginx(globe);
+        ASSERT_TRUE(nginx.start());
+        flights.push_back(fly(nginx.url("earth.osgb"), method, method));
+        sent.push_back(sentBy(nginx));
+        std::printf("%s: %zu requests, %zu bytes\n", method, sent.back().requests, sent.back().bytes);
+    }
+    expectEqualPictures(flights);
+    EXPECT_GT(sent[1].requests, 1u);
+    EXPECT_LT(sent[1].requests, sent[0].requests);
+    EXPECT_LT(sent[1].bytes, sent[0].bytes);
+}
+
+TEST_F(HttpFlight, AServerThatStopsOnTheWayAndComesBackLeavesNoTrace) {
+    Nginx nginx(globe);
+    ASSERT_TRUE(nginx.start("limit_rate 200k;"));
+    auto flight = std::async(std::launch::async, [&nginx] { return fly(nginx.url("earth.osgb"), "quadratic", "cut"); });
+    using std::chrono::milliseconds;
+    const auto isOver = [&flight](milliseconds wait) { return flight.wait_for(wait) == std::future_status::ready; };
+    // The first tiles are loaded, and more are wanted.
+    while (nginx.requests().size() < 4 && !isOver(milliseconds(5))) {
+    }
+    nginx.stop();
+    const std::size_t before = nginx.requests().size();
+    EXPECT_FALSE(isOver(milliseconds(1500)));
+    ASSERT_TRUE(nginx.start());
+    expectEqualPictures({flight.get()});
+    EXPECT_GT(nginx.requests().size(), before);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin

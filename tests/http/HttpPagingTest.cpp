@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Tiles that a real DatabasePager loads from a real web server, in good order and in trouble. Oracle: what is drawn
+// from the same files, or from those of them that the server gives. Needs OSG_LIBRARY_PATH.
+
+#include "Nginx.h"
+#include "PagedFlight.h"
+#include "SmallGlobe.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+
+#include <gtest/gtest.h>
+#include <osg/PagedLOD>
+#include <osgDB/ReadFile>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <support/TemporaryFolder.h>
+
+namespace osgAnalyticBin {
+namespace {
+
+namespace fs = std::filesystem;
+using test::CullView;
+using test::Nginx;
+using test::PagedFlight;
+
+// Of the finest tiles in view some are missing, for some the server is in trouble, for some it sends something else.
+constexpr const char* kMissing = "/L02_X[0-9]*[048]_";
+constexpr const char* kInTrouble = "/L02_X[0-9]*2_";
+constexpr const char* kNonsense = "/L02_X[0-9]*6_";
+
+std::string failingRules() {
+    return std::string("location ~ '") + kMissing + "' { return 404; }\nlocation ~ '" + kInTrouble +
+           "' { return 503; }\nlocation ~ '" + kNonsense + "' { return 200 'Please log in.'; }";
+}
+
+// 300 km above the hills, looking 45 degrees down.
+CullView view() {
+    const osg::Vec3d eye(5.9e6, 1.5e6, 2.7e6);
+    osg::Vec3d up = eye;
+    up.normalize();
+    const osg::Vec3d east = osg::Vec3d(0, 0, 1) ^ up;
+    return CullView::lookAt(eye, eye - up + east, up, 50.0);
+}
+
+// Tiles, and those of them that have their bins.
+struct TileCount : osg::NodeVisitor {
+    TileCount() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    using osg::NodeVisitor::apply;
+    void apply(osg::PagedLOD& node) override {
+        ++tiles;
+        if (dynamic_cast<AnalyticBinCullCallback*>(node.getCullCallback())) ++binned;
+        traverse(node);
+    }
+    int tiles = 0;
+    int binned = 0;
+};
+
+class HttpPaging : public ::testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        folder = new test::TemporaryFolder;
+        if (!Nginx::isInstalled()) return;
+        ASSERT_TRUE(test::makeSmallGlobe(folder->path()));
+        PagedFlight flight(*read(*folder / "earth.osgb"));
+        ASSERT_TRUE(flight.load(view()));
+        whole = flight.drawn();
+        ASSERT_GT(whole.size(), 5u);
+    }
+    static void TearDownTestSuite() { delete folder; }
+
+    void SetUp() override {
+        if (!Nginx::isInstalled()) GTEST_SKIP() << "needs nginx";
+    }
+
+    // The scene stays until the end of the test, longer than its flight.
+    static osg::ref_ptr<osg::Node> read(const std::string& name, const std::string& parameters = "") {
+        osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(name + parameters + ".analyticbin");
+        if (!node) ADD_FAILURE() << name << " cannot be read";
+        scenes.push_back(node ? node : new osg::Group);
+        return scenes.back();
+    }
+
+    static bool fails(const std::string& path) {
+        return std::regex_search(path, std::regex(kMissing)) || std::regex_search(path, std::regex(kInTrouble)) ||
+               std::regex_search(path, std::regex(kNonsense));
+    }
+
+    // Frames until nothing is missing but what the server does not give.
+    static bool loadWhatThereIs(PagedFlight& flight) {
+        return flight.framesUntil(view(), [&flight] {
+            const auto& wanted = flight.wanted();
+            return !wanted.empty() && std::all_of(wanted.begin(), wanted.end(), fails);
+        });
+    }
+
+    // What is drawn from the files that the server gives.
+    static std::multiset<std::string> drawnWithoutFailing() {
+        const test::TemporaryFolder partial;
+        fs::copy(folder->path(), partial.path(), fs::copy_options::recursive);
+        std::vector<fs::path> failing;
+        for (const auto& entry : fs::recursive_directory_iterator(partial.path()))
+            if (fails(entry.path().string())) failing.push_back(entry.path());
+        for (const fs::path& file : failing) fs::remove(file);
+        PagedFlight flight(*read(partial / "earth.osgb"));
+        EXPECT_TRUE(loadWhatThereIs(flight));
+        return flight.drawn();
+    }
+
+    // The largest number of requests for one file that failed.
+    [[nodiscard]] int mostRequests() const {
+        std::map<std::string, int> counts;
+        int most = 0;
+        for (const Nginx::Request& request : nginx.requests())
+            if (fails(request.path)) most = std::max(most, ++counts[request.path]);
+        return most;
+    }
+
+    static inline test::TemporaryFolder* folder = nullptr;
+    static inline std::multiset<std::string> whole;
+    static inline std::vector<osg::ref_ptr<osg::Node>> scenes;
+    Nginx nginx{folder->path()};
+};
+
+TEST_F(HttpPaging, DrawsWhatIsDrawnFromFilesAndEveryTileHasItsBin) {
+    ASSERT_TRUE(nginx.start());
+    const osg::ref_ptr<osg::Node> scene = read(nginx.url("earth.osgb"), ".(method=exact)");
+    TileCount before;
+    scene->accept(before);
+    PagedFlight flight(*scene);
+    ASSERT_TRUE(flight.load(view()));
+    EXPECT_EQ(flight.drawn(), whole);
+    TileCount after;
+    scene->accept(after);
+    EXPECT_GT(after.tiles, before.tiles);
+    EXPECT_EQ(after.binned, after.tiles);
+    // Once it is loaded, OSG's client asks the server for every name first, that of the pseudo-loader included.
+    for (const Nginx::Request& request : nginx.requests())
+        EXPECT_TRUE(request.status == 200 || request.path.find(".analyticbin") != std::string::npos) << request.path;
+}
+
+TEST_F(HttpPaging, OsgByItselfAsksForMissingTilesInEveryFrame) {
+    ASSERT_TRUE(nginx.start(failingRules()));
+    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(nginx.url("earth.osgb"));
+    ASSERT_TRUE(scene);
+    scene->setUpdateCallback(nullptr);  // no bins
+    PagedFlight flight(*scene);
+    EXPECT_TRUE(flight.framesUntil(view(), [this] { return mostRequests() > 30; }));
+}
+
+TEST_F(HttpPaging, WhereTilesFailTheirParentsStayAndTheServerIsSpared) {
+    ASSERT_TRUE(nginx.start(failingRules()));
+    PagedFlight flight(*read(nginx.url("earth.osgb")));
+    ASSERT_TRUE(loadWhatThereIs(flight));
+    constexpr int kFrames = 200;
+    flight.frames(view(), kFrames);
+    EXPECT_EQ(flight.drawn(), drawnWithoutFailing());
+    EXPECT_NE(flight.drawn(), whole);
+    EXPECT_GT(mostRequests(), 0);
+    EXPECT_LT(mostRequests(), 10);
+    // The server recovers: what failed is asked for again.
+    ASSERT_TRUE(nginx.start());
+    ASSERT_TRUE(flight.load(view()));
+    EXPECT_EQ(flight.drawn(), whole);
+}
+
+TEST_F(HttpPaging, ASlowServerDelaysTilesAndNothingElse) {
+    ASSERT_TRUE(nginx.start("limit_rate 100k;"));
+    PagedFlight flight(*read(nginx.url("earth.osgb"), ".(method=quadratic)"));
+    flight.frame(view());
+    EXPECT_FALSE(flight.drawn().empty());
+    ASSERT_TRUE(flight.load(view()));
+    EXPECT_EQ(flight.drawn(), whole);
+}
+
+TEST_F(HttpPaging, AServerThatStopsInTheMiddleOfAFileAndComesBackLeavesNoTrace) {
+    ASSERT_TRUE(nginx.start());
+    const osg::ref_ptr<osg::Node> scene = read(nginx.url("earth.osgb"));
+    ASSERT_TRUE(nginx.start("limit_rate 4k;"));  // some seconds a tile
+    PagedFlight flight(*scene);
+    constexpr int kFrames = 200;
+    flight.frames(view(), kFrames);
+    const std::multiset<std::string> coarse = flight.drawn();
+    EXPECT_FALSE(coarse.empty());
+    nginx.stop();
+    flight.frames(view(), kFrames);
+    EXPECT_EQ(flight.drawn(), coarse);
+    EXPECT_FALSE(flight.wanted().empty());
+    ASSERT_TRUE(nginx.start());
+    ASSERT_TRUE(flight.load(view()));
+    EXPECT_EQ(flight.drawn(), whole);
+}
+
+TEST_F(HttpPaging, AServerThatIsNotThereIsAnErrorAndNothingElse) {
+    EXPECT_FALSE(osgDB::readRefNodeFile(nginx.url("earth.osgb") + ".analyticbin"));
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin
