@@ -52,9 +52,18 @@ bool isCompressed(std::istream& in) {
     return readName(in) != "0";
 }
 
+// A file of the same name beside an archive, or on OSG's data path, is not the one in it.
+bool isInArchive(const std::string& fileName) {
+    const auto& extensions = osgDB::Registry::instance()->getArchiveExtensions();
+    return std::any_of(extensions.begin(), extensions.end(), [&fileName](const std::string& extension) {
+        return fileName.find('.' + extension + '/') != std::string::npos ||
+               fileName.find('.' + extension + '\\') != std::string::npos;
+    });
+}
+
 bool isGuarded(const std::string& fileName, const osgDB::Options* options) {
     const bool cached = options && (options->getObjectCacheHint() & osgDB::Options::CACHE_NODES);
-    return !cached && !osgDB::containsServerAddress(fileName) &&
+    return !cached && !osgDB::containsServerAddress(fileName) && !isInArchive(fileName) &&
            nativeFileType(osgDB::getLowerCaseFileExtension(fileName));
 }
 

@@ -11,8 +11,8 @@ namespace osgAnalyticBin {
 
 /// Reads a tile as osgDB::Registry does, but stops at the end of a truncated file: OSG's own reader goes on with
 /// whatever its variables hold, for minutes, and takes the pager's thread with it.
-/// Local files in OSG's native formats are guarded; all others are left to the Registry.
-/// Throws: std::exception when a guarded file ends too early or asks for more memory than there is.
+/// Local files in OSG's native formats are guarded; all others, those in archives and on servers among them, are left
+/// to the Registry. Throws: std::exception when a guarded file ends too early or asks for more memory than there is.
 [[nodiscard]] osgDB::ReaderWriter::ReadResult readTileFile(const std::string& fileName, const osgDB::Options* options);
 
 }  // namespace osgAnalyticBin

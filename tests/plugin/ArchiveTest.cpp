@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// A database packed by the stock osgarchive. Oracle: what is drawn from the files. Needs OSG_LIBRARY_PATH.
+
+#include "PagedFlight.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+
+#include <gtest/gtest.h>
+#include <osg/PagedLOD>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+
+#include <filesystem>
+#include <support/StockPrograms.h>
+#include <support/SyntheticDatabase.h>
+#include <support/TemporaryFolder.h>
+
+namespace osgAnalyticBin {
+namespace {
+
+namespace fs = std::filesystem;
+using test::CullView;
+using test::PagedFlight;
+
+// The coarse and the finer tiles of which all have their bins.
+std::size_t tilesWithBins(osg::Node& scene) {
+    class Counter : public osg::NodeVisitor {
+    public:
+        Counter() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+        using osg::NodeVisitor::apply;
+        void apply(osg::PagedLOD& node) override {
+            EXPECT_NE(dynamic_cast<AnalyticBinCullCallback*>(node.getCullCallback()), nullptr);
+            ++count;
+            traverse(node);
+        }
+        std::size_t count = 0;
+    };
+    Counter counter;
+    scene.accept(counter);
+    return counter.count;
+}
+
+class Archive : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (!fs::exists(OSGARCHIVE_FILE)) GTEST_SKIP() << "needs osgarchive";
+        _database = test::writeSyntheticDatabase(_folder.path());
+        ASSERT_FALSE(_database.empty());
+        // the first file is the one that opening the archive reads
+        const test::Outcome outcome = test::runStock("sh -c \"cd " + _folder.path() + " && " + OSGARCHIVE_FILE +
+                                                         " -a packed/globe.osga -i globe.osgb tiles_*.osgb\"",
+                                                     test::Modules::Present);
+        ASSERT_EQ(outcome.code, 0) << outcome.text;
+        ASSERT_TRUE(fs::exists(_archive)) << outcome.text;
+    }
+    void TearDown() override { osgDB::Registry::instance()->clearArchiveCache(); }
+
+    // Returns: what is drawn when everything in view is loaded.
+    std::multiset<std::string> drawnFrom(osg::Node& scene) const {
+        PagedFlight flight(scene);
+        EXPECT_TRUE(flight.load(_view));
+        return flight.drawn();
+    }
+
+    test::TemporaryFolder _folder;
+    std::string _database;
+    std::string _archive = _folder.makeFolder("packed") + "/globe.osga";
+    const CullView _view = CullView::lookAt({6.7e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
+};
+
+TEST_F(Archive, IsDrawnAsItsFilesAreAndEveryTileHasItsBin) {
+    const osg::ref_ptr<osg::Node> files = osgDB::readRefNodeFile(_database + ".analyticbin");
+    const std::multiset<std::string> drawn = drawnFrom(*files);
+    for (const char* suffix : {".analyticbin", ".(method=exact).analyticbin", ""}) {
+        const osg::ref_ptr<osg::Node> packed = osgDB::readRefNodeFile(_archive + suffix);
+        ASSERT_TRUE(packed) << suffix;
+        EXPECT_EQ(drawnFrom(*packed), drawn) << suffix;
+        EXPECT_GT(tilesWithBins(*packed), 32u) << suffix;
+    }
+}
+
+TEST_F(Archive, FilesOfTheSameNameElsewhereAreNotItsTiles) {
+    const osg::ref_ptr<osg::Node> files = osgDB::readRefNodeFile(_database + ".analyticbin");
+    const std::multiset<std::string> drawn = drawnFrom(*files);
+    const test::TemporaryFolder elsewhere;
+    for (const auto& entry : fs::directory_iterator(_folder.path()))
+        if (entry.path().extension() == ".osgb") (void)elsewhere.write(entry.path().filename().string(), "no tile");
+    osgDB::FilePathList& paths = osgDB::Registry::instance()->getDataFilePathList();
+    paths.push_front(elsewhere.path());
+    const osg::ref_ptr<osg::Node> packed = osgDB::readRefNodeFile(_archive + ".analyticbin");
+    EXPECT_EQ(drawnFrom(*packed), drawn);
+    paths.pop_front();
+}
+
+// osgarchive reads and writes each file anew, and drops what it does not know.
+TEST_F(Archive, PackedWithoutTheModulesLosesTheDatabasesRequestAndKeepsTheBins) {
+    fs::remove(_archive);
+    const test::Outcome outcome = test::runStock("sh -c \"cd " + _folder.path() + " && " + OSGARCHIVE_FILE +
+                                                     " -a packed/globe.osga -i globe.osgb tiles_*.osgb\"",
+                                                 test::Modules::Absent);
+    EXPECT_EQ(outcome.linesWith("Unsupported wrapper class"), 1) << outcome.text;
+    const osg::ref_ptr<osg::Node> plain = osgDB::readRefNodeFile(_archive);
+    ASSERT_TRUE(plain);
+    EXPECT_EQ(plain->getUpdateCallback(), nullptr);
+    const osg::ref_ptr<osg::Node> packed = osgDB::readRefNodeFile(_archive + ".analyticbin");
+    EXPECT_GE(tilesWithBins(*packed), 32u);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin
