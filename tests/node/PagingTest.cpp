@@ -3,12 +3,16 @@
 //
 // Tiles that are read later, as the DatabasePager reads them: through the options of their PagedLOD.
 
+#include "InstallerProbe.h"
+#include "PagedFlight.h"
+
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinInstaller.h>
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
 #include <osg/Geometry>
+#include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
@@ -17,6 +21,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <support/SyntheticDatabase.h>
+#include <support/TemporaryFolder.h>
+#include <thread>
 #include <unistd.h>
 
 namespace osgAnalyticBin {
@@ -113,6 +120,91 @@ TEST_F(Paging, TheRegistrysReadFileCallbackStillWorks) {
     osgDB::Registry::instance()->setReadFileCallback(nullptr);
     ASSERT_TRUE(children);
     EXPECT_EQ(reader->count, 1);
+}
+
+// As OSG has it.
+TEST_F(Paging, AUsersReadFileCallbackWinsOverTheRegistrys) {
+    const osg::ref_ptr<CountingReader> own = new CountingReader;
+    const osg::ref_ptr<CountingReader> registrys = new CountingReader;
+    const osg::ref_ptr<osgDB::Options> users = new osgDB::Options;
+    users->setReadFileCallback(own.get());
+    _paged->setDatabaseOptions(users.get());
+    osgDB::Registry::instance()->setReadFileCallback(registrys.get());
+    installBins(*_root);
+    const osg::ref_ptr<osg::Node> children = readChildren();
+    osgDB::Registry::instance()->setReadFileCallback(nullptr);
+    ASSERT_TRUE(children);
+    EXPECT_EQ(own->count, 1);
+    EXPECT_EQ(registrys->count, 0);
+}
+
+AnalyticBinCullCallback* firstCallback(osg::Node* file) {
+    return file ? dynamic_cast<AnalyticBinCullCallback*>(file->asGroup()->getChild(0)->getCullCallback()) : nullptr;
+}
+
+TEST_F(Paging, GlobesOfOneSceneKeepTheirEllipsoidsAndOptionsApart) {
+    const osg::ref_ptr<CountingReader> reader = new CountingReader;
+    const osg::ref_ptr<osgDB::Options> users = new osgDB::Options("shared=by both");
+    users->setReadFileCallback(reader.get());
+    const osg::ref_ptr<osg::CoordinateSystemNode> mars = new osg::CoordinateSystemNode;
+    mars->setEllipsoidModel(new osg::EllipsoidModel(3396190.0, 3376200.0));
+    const osg::ref_ptr<osg::PagedLOD> marsTile = makePagedTile("children.osgb");
+    mars->addChild(marsTile);
+    _paged->setDatabaseOptions(users);
+    marsTile->setDatabaseOptions(users);
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(_root);
+    scene->addChild(mars);
+    installBins(*scene);
+    CullOptions exact;
+    exact.method = Method::Exact;
+    installBins(*mars, exact);
+
+    const osg::ref_ptr<osg::Node> here = readChildren();
+    const osg::ref_ptr<osg::Node> there = osgDB::readRefNodeFile(file("children.osgb"), optionsOf(*marsTile));
+    ASSERT_NE(firstCallback(here), nullptr);
+    ASSERT_NE(firstCallback(there), nullptr);
+    EXPECT_NE(firstCallback(here)->getRadiiText(), "3396190 3376200");
+    EXPECT_EQ(firstCallback(there)->getRadiiText(), "3396190 3376200");
+    EXPECT_EQ(firstCallback(here)->cullOptions().method, Method::Quadratic);
+    EXPECT_EQ(firstCallback(there)->cullOptions().method, Method::Exact);
+    EXPECT_EQ(reader->count, 2);
+    EXPECT_EQ(optionsOf(*marsTile)->getOptionString(), "shared=by both");
+}
+
+TEST_F(Paging, TilesReadLaterStandInTheFrameOfTheirParent) {
+    const osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform(osg::Matrixd::translate(1, 2, 3));
+    const osg::ref_ptr<osg::PagedLOD> tile = makePagedTile("children.osgb");
+    moved->addChild(tile);
+    _root->addChild(moved);
+    installBins(*_root);
+    const osg::ref_ptr<osg::Node> here = readChildren();
+    const osg::ref_ptr<osg::Node> there = osgDB::readRefNodeFile(file("children.osgb"), optionsOf(*tile));
+    ASSERT_NE(firstCallback(here), nullptr);
+    ASSERT_NE(firstCallback(there), nullptr);
+    EXPECT_TRUE(firstCallback(here)->localToEcef().isIdentity());
+    EXPECT_EQ(firstCallback(there)->localToEcef(), osg::Matrixd::translate(1, 2, 3));
+}
+
+TEST(PagedFlight, BinsAreInstalledInThePagersThreadAlone) {
+    const test::TemporaryFolder folder;
+    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(test::writeSyntheticDatabase(folder.path()));
+    ASSERT_TRUE(scene);
+    const osg::ref_ptr<test::ProbingReader> reader = new test::ProbingReader;
+    osgDB::Registry::instance()->setReadFileCallback(reader);
+    bool loaded = false;
+    {
+        test::PagedFlight flight(*scene);  // runs the database's own request, update and cull traversals in this thread
+        loaded = flight.load(test::CullView::lookAt({6.7e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0));
+    }
+    osgDB::Registry::instance()->setReadFileCallback(nullptr);
+    ASSERT_TRUE(loaded);
+    EXPECT_GT(reader->files.size(), 4u);
+    EXPECT_EQ(reader->visits.threads().size(), reader->files.size());
+    for (const auto& [file, threads] : reader->visits.threads()) {
+        ASSERT_EQ(threads.size(), 1u);
+        EXPECT_NE(threads.front(), std::this_thread::get_id());
+    }
 }
 
 TEST_F(Paging, PagedLodsWithoutOptionsShareOneOptionsObject) {
