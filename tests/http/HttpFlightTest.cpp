@@ -53,12 +53,13 @@ protected:
     static bool canFly() { return Nginx::isInstalled() && test::canRunViewer(); }
 
     // Returns: the folder of the pictures.
-    static std::string fly(const std::string& database, const std::string& method, const std::string& name) {
+    static std::string fly(const std::string& database, const std::string& method, const std::string& name,
+                           const std::string& environment = {}) {
         const std::string out = *folder / name;
         const test::Outcome outcome =
             test::runViewer("--SingleThreaded " + test::quoted(database + ".(method=" + method + ").analyticbin") +
                                 ' ' + test::quoted(path + ".(out=" + out + ",frames=2).binflight"),
-                            test::Modules::Present, "OSG_NOTIFY_LEVEL=NOTICE");
+                            test::Modules::Present, "OSG_NOTIFY_LEVEL=NOTICE " + environment);
         EXPECT_EQ(outcome.code, 0) << outcome.text;
         return out;
     }
@@ -103,6 +104,20 @@ TEST_F(HttpFlight, BinsAskForLessThanSpheresAndDrawTheSame) {
     EXPECT_GT(sent[1].requests, 1u);
     EXPECT_LT(sent[1].requests, sent[0].requests);
     EXPECT_LT(sent[1].bytes, sent[0].bytes);
+}
+
+// The pager writes what it has read, bins and all, into the cache.
+TEST_F(HttpFlight, OsgsFileCacheServesLaterFlights) {
+    Nginx nginx(globe);
+    ASSERT_TRUE(nginx.start());
+    const std::string cache = "OSG_FILE_CACHE=" + folder->makeFolder("cache");
+    const std::string database = nginx.url("earth.osgb");
+    const std::string first = fly(database, "quadratic", "uncached", cache);
+    const std::size_t files = nginx.requests().size();
+    EXPECT_GT(files, 10u);
+    const std::string second = fly(database, "quadratic", "cached", cache);
+    EXPECT_EQ(nginx.requests().size(), files + 1);  // the root, which no pager reads
+    expectEqualPictures({first, second, fly(database, "sphere", "cached_sphere", cache)});
 }
 
 TEST_F(HttpFlight, AServerThatStopsOnTheWayAndComesBackLeavesNoTrace) {
