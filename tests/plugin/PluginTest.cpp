@@ -64,6 +64,22 @@ protected:
     std::string _database;
 };
 
+TEST_F(Plugin, TheObjectCacheKeepsTheDatabaseWithAndWithoutBinsApart) {
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    options->setObjectCacheHint(osgDB::Options::CACHE_ALL);
+    const auto read = [&](const std::string& suffix) { return osgDB::readRefNodeFile(_database + suffix, options); };
+    const osg::ref_ptr<osg::Node> plain = read("");
+    const osg::ref_ptr<osg::Node> bins = read(".analyticbin");
+    const osg::ref_ptr<osg::Node> exact = read(".(method=exact).analyticbin");
+    ASSERT_TRUE(plain && bins && exact);
+    EXPECT_EQ(counted(*plain).count, 0);
+    EXPECT_EQ(counted(*bins).options.method, Method::Quadratic);
+    EXPECT_EQ(counted(*exact).options.method, Method::Exact);
+    EXPECT_EQ(read(""), plain);
+    EXPECT_EQ(read(".analyticbin"), bins);
+    osgDB::Registry::instance()->clearObjectCache();
+}
+
 TEST_F(Plugin, InstallsTheQuadraticByDefault) {
     const osg::ref_ptr<osg::Node> node = read(".analyticbin");
     ASSERT_TRUE(node);
@@ -107,7 +123,7 @@ TEST_F(Plugin, RefusesWhatItDoesNotKnow) {
 TEST_F(Plugin, IsKnownToOsgByNameWithItsOptions) {
     osgDB::ReaderWriter* reader = osgDB::Registry::instance()->getReaderWriterForExtension("analyticbin");
     ASSERT_NE(reader, nullptr);
-    EXPECT_EQ(reader->supportedOptions().size(), 5u);
+    EXPECT_EQ(reader->supportedOptions().size(), 6u);
     EXPECT_TRUE(reader->acceptsExtension("analyticbin"));
 }
 
