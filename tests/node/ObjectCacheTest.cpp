@@ -127,16 +127,19 @@ TEST_F(ObjectCache, ThoseWhoReadWithoutBinsShareNothingWithUs) {
     EXPECT_EQ(osgDB::readRefNodeFile(_file, plain), before);
 }
 
-TEST_F(ObjectCache, GlobesAndMethodsShareNothing) {
+TEST_F(ObjectCache, InstallationsShareNothing) {
     CullOptions exact;
     exact.method = Method::Exact;
     const osg::EllipsoidModel wgs84;
     const osg::EllipsoidModel mars(3396190.0, 3376200.0);
+    const auto marsOptions = pagingOptions(osgDB::Options::CACHE_ALL, mars);
     const auto earth = osgDB::readRefNodeFile(_file, pagingOptions(osgDB::Options::CACHE_ALL));
-    const auto planet = osgDB::readRefNodeFile(_file, pagingOptions(osgDB::Options::CACHE_ALL, mars));
+    const auto twin = osgDB::readRefNodeFile(_file, pagingOptions(osgDB::Options::CACHE_ALL));
+    const auto planet = osgDB::readRefNodeFile(_file, marsOptions);
     const auto other = osgDB::readRefNodeFile(_file, pagingOptions(osgDB::Options::CACHE_ALL, wgs84, exact));
-    const auto again = osgDB::readRefNodeFile(_file, pagingOptions(osgDB::Options::CACHE_ALL, mars));
-    ASSERT_TRUE(earth && planet && other);
+    const auto again = osgDB::readRefNodeFile(_file, marsOptions);
+    ASSERT_TRUE(earth && twin && planet && other);
+    EXPECT_NE(earth, twin);
     EXPECT_NE(callbackIn(earth)->getRadiiText(), "3396190 3376200");
     EXPECT_EQ(callbackIn(planet)->getRadiiText(), "3396190 3376200");
     EXPECT_EQ(callbackIn(earth)->cullOptions().method, Method::Quadratic);
@@ -145,8 +148,9 @@ TEST_F(ObjectCache, GlobesAndMethodsShareNothing) {
 }
 
 TEST_F(ObjectCache, ANodeThatAUsersCallbackKeepsIsTreatedOnce) {
-    _reader->keepsOne = true;
     for (const auto hint : {osgDB::Options::CACHE_NONE, osgDB::Options::CACHE_ALL}) {
+        _reader = new test::ProbingReader;
+        _reader->keepsOne = true;
         readInThreads(*pagingOptions(hint));
         EXPECT_EQ(_reader->visits.threads().size(), 1u);
         expectOneVisitEach();

@@ -32,12 +32,13 @@ osg::ref_ptr<osg::Node> groupAbove(osg::Node& node) {
     return group;
 }
 
-// Which globe, and where on it.
-std::string placeText(const TileFrame& frame) {
+// Which installation, and where on its globe. A tile's bin holds for one Database alone: another may have other
+// corrections, another shape of terrain, or a horizon that the tile was never counted in.
+std::string placeText(const Database& database, const TileFrame& frame) {
     std::vector<double> numbers(frame.localToEcef.ptr(), frame.localToEcef.ptr() + 16);
     const osg::EllipsoidModel* ellipsoid = frame.ellipsoid.get();
     if (ellipsoid) numbers.insert(numbers.end(), {ellipsoid->getRadiusEquator(), ellipsoid->getRadiusPolar()});
-    return numbersToText(numbers);
+    return std::to_string(database.number()) + ' ' + numbersToText(numbers);
 }
 
 }  // namespace
@@ -93,8 +94,9 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readThroughCache(const std:
     osgDB::ObjectCache* const registrys = osgDB::Registry::instance()->getObjectCache();
     osgDB::ObjectCache* const own = options.getObjectCache() ? options.getObjectCache() : registrys;
     // The cache tells options apart by their text alone.
-    const osg::ref_ptr<osgDB::Options> key = new osgDB::Options(
-        options.getOptionString() + " osgAnalyticBin " + toText(_options) + ' ' + placeText(expected(fileName).frame));
+    const osg::ref_ptr<osgDB::Options> key =
+        new osgDB::Options(options.getOptionString() + " osgAnalyticBin " + toText(_options) + ' ' +
+                           placeText(*_database, expected(fileName).frame));
     for (osgDB::ObjectCache* cache : {own, registrys}) {
         if (!cache) continue;
         const osg::ref_ptr<osg::Object> found = cache->getRefFromObjectCache(fileName, key.get());
@@ -120,9 +122,10 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readTreated(const std::stri
         treat(*root, known);
         return ReadResult(root.get(), result.status());
     }
-    const auto outcome = SharedTiles::instance().treatOnce(*node, placeText(known.frame), [&] { treat(*node, known); });
+    const auto outcome =
+        SharedTiles::instance().treatOnce(*node, placeText(*_database, known.frame), [&] { treat(*node, known); });
     if (outcome == SharedTiles::Outcome::Usable) return result;
-    return unreadable(fileName, "a read callback shares one copy between two places");
+    return unreadable(fileName, "a read callback shares one copy between two places or installations");
 }
 
 void BinReadFileCallback::treat(osg::Node& node, const Expected& expected) const {

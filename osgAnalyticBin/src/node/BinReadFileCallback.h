@@ -20,7 +20,7 @@ namespace osgAnalyticBin {
 /// that was there before, if any, else to the Registry's, else to OSG. A file that could not be read is left alone for
 /// a while (FailedReads); the pager then gets nothing at once, and asks again.
 /// With osgDB::Options::CACHE_NODES the object cache keeps tiles with bins under options of their own: those who read
-/// without bins, or for another globe, place or method, never share them.
+/// without bins, or for another installation or place, never share them.
 class BinReadFileCallback : public osgDB::ReadFileCallback {
 public:
     /// `frame` is that of files of which expect() says nothing.

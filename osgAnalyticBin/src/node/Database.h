@@ -45,6 +45,9 @@ public:
              const BinIndex* index)
         : _options(options), _ellipsoid(ellipsoid), _terrain(terrain), _index(index), _fittedShape(shape()) {}
 
+    /// A number that no other database of this process has or had.
+    [[nodiscard]] unsigned long number() const { return _number; }
+
     [[nodiscard]] const CullOptions& options() const { return _options; }
     [[nodiscard]] const osg::EllipsoidModel* ellipsoid() const { return _ellipsoid.get(); }
     [[nodiscard]] const BinIndex* index() const { return _index.get(); }
@@ -77,6 +80,9 @@ protected:
 private:
     using TileKey = std::pair<std::string, std::size_t>;
 
+    static inline std::atomic<unsigned long> _count{0};
+
+    const unsigned long _number = ++_count;
     const CullOptions _options;
     const osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;
     const osg::observer_ptr<osgTerrain::Terrain> _terrain;
