@@ -14,6 +14,7 @@
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
+#include <osgDB/FileCache>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 #include <osgDB/WriteFile>
@@ -177,12 +178,35 @@ TEST_F(Paging, TilesReadLaterStandInTheFrameOfTheirParent) {
     const osg::ref_ptr<osg::PagedLOD> tile = makePagedTile("children.osgb");
     moved->addChild(tile);
     _root->addChild(moved);
+    // the same file, in two places
+    _paged->setDatabasePath(_folder.string());
+    tile->setDatabasePath(_folder.string());
+    ASSERT_EQ(_paged->getDatabasePath() + _paged->getFileName(1), file("children.osgb"));
     installBins(*_root);
     const osg::ref_ptr<osg::Node> here = readChildren();
     const osg::ref_ptr<osg::Node> there = osgDB::readRefNodeFile(file("children.osgb"), optionsOf(*tile));
     ASSERT_NE(firstCallback(here), nullptr);
     ASSERT_NE(firstCallback(there), nullptr);
     EXPECT_TRUE(firstCallback(here)->localToEcef().isIdentity());
+    EXPECT_EQ(firstCallback(there)->localToEcef(), osg::Matrixd::translate(1, 2, 3));
+}
+
+TEST_F(Paging, AFileOfAServerIsKnownByItsNameInTheFileCache) {
+    const osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform(osg::Matrixd::translate(1, 2, 3));
+    const osg::ref_ptr<osg::PagedLOD> tile = makePagedTile("children.osgb");
+    _paged->setDatabasePath("http://server/here");
+    tile->setDatabasePath("http://server/there");
+    moved->addChild(tile);
+    _root->addChild(moved);
+    const osg::ref_ptr<osgDB::FileCache> cache = new osgDB::FileCache((_folder / "cache").string());
+    const std::string copy = cache->createCacheFileName(tile->getDatabasePath() + "children.osgb");
+    fs::create_directories(fs::path(copy).parent_path());
+    fs::copy(file("children.osgb"), copy);
+    installBins(*_root);
+    osgDB::Registry::instance()->setFileCache(cache);
+    const osg::ref_ptr<osg::Node> there = osgDB::readRefNodeFile(copy, optionsOf(*tile));
+    osgDB::Registry::instance()->setFileCache(nullptr);
+    ASSERT_NE(firstCallback(there), nullptr);
     EXPECT_EQ(firstCallback(there)->localToEcef(), osg::Matrixd::translate(1, 2, 3));
 }
 

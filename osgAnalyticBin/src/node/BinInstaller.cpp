@@ -18,7 +18,10 @@
 #include <osgDB/Registry>
 #include <osgTerrain/Terrain>
 
+#include <algorithm>
+#include <string>
 #include <typeinfo>
+#include <vector>
 
 namespace osgAnalyticBin {
 
@@ -85,6 +88,23 @@ osgDB::ReadFileCallback* previousCallback(const osgDB::Options& options) {
 // Square radians.
 double areaOf(const core::GeodeticBin& extents) {
     return extents.empty() ? 0.0 : extents.latitude().width() * extents.longitude().width();
+}
+
+struct PagedFile {
+    std::string name;  // as the pager asks for it
+    TileFrame frame;
+};
+
+std::vector<PagedFile> filesPagedBy(const osg::PagedLOD& node, const TileFrame& frame, bool isTile) {
+    std::vector<PagedFile> files;
+    for (unsigned int i = 0; i < node.getNumFileNames(); ++i) {
+        if (node.getFileName(i).empty()) continue;
+        TileFrame inside = frame;
+        inside.file = pagedFilePath(frame.file, node.getFileName(i));
+        inside.isBelowTile = inside.isBelowTile || isTile;
+        files.push_back({node.getDatabasePath() + node.getFileName(i), inside});
+    }
+    return files;
 }
 
 }  // namespace
@@ -249,20 +269,19 @@ void BinInstaller::uninstall(FoundTile& tile) {
 
 void BinInstaller::followPaging(osg::PagedLOD& node, const ParentTile* tile) {
     const osg::ref_ptr<osgDB::Options> own = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
+    const std::vector<PagedFile> files = filesPagedBy(node, frame(), tile != nullptr);
     Paging& paging = _paging[own];
-    if (!paging.callback) {
+    // One file may be paged in several places.
+    const bool isTaken = paging.callback && std::any_of(files.begin(), files.end(), [&](const PagedFile& file) {
+                             return paging.callback->expectsOtherwise(file.name, file.frame, tile);
+                         });
+    if (!paging.callback || isTaken) {
         const osgDB::Options* base = own ? own.get() : osgDB::Registry::instance()->getOptions();
         paging.options = base ? base->cloneOptions() : new osgDB::Options;
         paging.callback = new BinReadFileCallback(_options, &database(), frame(), previousCallback(*paging.options));
         paging.options->setReadFileCallback(paging.callback);
     }
-    for (unsigned int i = 0; i < node.getNumFileNames(); ++i) {
-        if (node.getFileName(i).empty()) continue;
-        TileFrame inside = frame();
-        inside.file = pagedFilePath(frame().file, node.getFileName(i));
-        inside.isBelowTile = inside.isBelowTile || tile;
-        paging.callback->expect(node.getDatabasePath() + node.getFileName(i), inside, tile);
-    }
+    for (const PagedFile& file : files) paging.callback->expect(file.name, file.frame, tile);
     node.setDatabaseOptions(paging.options.get());
 }
 

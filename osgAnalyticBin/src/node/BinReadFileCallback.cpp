@@ -10,8 +10,10 @@
 #include <osgAnalyticBin/BinInstaller.h>
 
 #include <osg/Notify>
+#include <osgDB/FileCache>
 #include <osgDB/Registry>
 
+#include <algorithm>
 #include <exception>
 #include <ios>
 #include <vector>
@@ -53,9 +55,25 @@ void BinReadFileCallback::expect(const std::string& fileName, const TileFrame& f
     _expected[fileName] = {frame, parent};
 }
 
-const BinReadFileCallback::Expected& BinReadFileCallback::expected(const std::string& fileName) const {
+bool BinReadFileCallback::expectsOtherwise(const std::string& fileName, const TileFrame& frame,
+                                           const ParentTile* parent) const {
     const auto found = _expected.find(fileName);
-    return found == _expected.end() ? _unexpected : found->second;
+    if (found == _expected.end()) return false;
+    return found->second.parent != parent || found->second.frame.localToEcef != frame.localToEcef;
+}
+
+const BinReadFileCallback::Expected& BinReadFileCallback::expected(const std::string& fileName,
+                                                                   const osgDB::Options* options) const {
+    const auto found = _expected.find(fileName);
+    if (found != _expected.end()) return found->second;
+    // The pager asks for a file of a server by its name in OSG's file cache, if it is there.
+    const osgDB::FileCache* const own = options ? options->getFileCache() : nullptr;
+    const osg::ref_ptr<const osgDB::FileCache> cache = own ? own : osgDB::Registry::instance()->getFileCache();
+    if (!cache) return _unexpected;
+    const auto cached = std::find_if(_expected.begin(), _expected.end(), [&](const auto& entry) {
+        return cache->isFileAppropriateForFileCache(entry.first) && cache->createCacheFileName(entry.first) == fileName;
+    });
+    return cached == _expected.end() ? _unexpected : cached->second;
 }
 
 osgDB::ReaderWriter::ReadResult BinReadFileCallback::readUntreated(const std::string& fileName,
@@ -96,7 +114,7 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readThroughCache(const std:
     // The cache tells options apart by their text alone.
     const osg::ref_ptr<osgDB::Options> key =
         new osgDB::Options(options.getOptionString() + " osgAnalyticBin " + toText(_options) + ' ' +
-                           placeText(*_database, expected(fileName).frame));
+                           placeText(*_database, expected(fileName, &options).frame));
     for (osgDB::ObjectCache* cache : {own, registrys}) {
         if (!cache) continue;
         const osg::ref_ptr<osg::Object> found = cache->getRefFromObjectCache(fileName, key.get());
@@ -115,7 +133,7 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readTreated(const std::stri
     ReadResult result = readUntreated(fileName, options);
     osg::Node* const node = result.getNode();
     if (!node) return result;
-    const Expected& known = expected(fileName);
+    const Expected& known = expected(fileName, options);
     if (node->referenceCount() == 1) {
         // a tile that is a transform gets a group above it
         const osg::ref_ptr<osg::Node> root = node->asTransform() ? groupAbove(*node) : osg::ref_ptr<osg::Node>(node);

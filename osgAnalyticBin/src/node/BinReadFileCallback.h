@@ -31,6 +31,10 @@ public:
     /// (null: none). Not to be called once the pager may read.
     void expect(const std::string& fileName, const TileFrame& frame, const ParentTile* parent);
 
+    /// Whether the file is expected in another frame or below another tile: it then needs another callback.
+    [[nodiscard]] bool expectsOtherwise(const std::string& fileName, const TileFrame& frame,
+                                        const ParentTile* parent) const;
+
     osgDB::ReaderWriter::ReadResult readNode(const std::string& fileName, const osgDB::Options* options) override;
 
     [[nodiscard]] osgDB::ReadFileCallback* previous() { return _previous.get(); }
@@ -49,7 +53,7 @@ private:
         osg::ref_ptr<const ParentTile> parent;
     };
 
-    [[nodiscard]] const Expected& expected(const std::string& fileName) const;
+    [[nodiscard]] const Expected& expected(const std::string& fileName, const osgDB::Options* options) const;
     void treat(osg::Node& node, const Expected& expected) const;
     [[nodiscard]] osgDB::ReaderWriter::ReadResult readUntreated(const std::string& fileName,
                                                                 const osgDB::Options* options);
