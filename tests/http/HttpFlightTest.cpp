@@ -10,8 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <functional>
 #include <future>
 #include <support/StockPrograms.h>
 #include <support/TemporaryFolder.h>
@@ -79,7 +81,7 @@ protected:
         for (const Nginx::Request& request : nginx.requests()) {
             ++sent.requests;
             sent.bytes += request.bytes;
-            EXPECT_EQ(request.status, 200) << request.path;
+            EXPECT_TRUE(request.status == 200 || !request.isTile()) << request.path;
         }
         return sent;
     }
@@ -113,10 +115,14 @@ TEST_F(HttpFlight, OsgsFileCacheServesLaterFlights) {
     const std::string cache = "OSG_FILE_CACHE=" + folder->makeFolder("cache");
     const std::string database = nginx.url("earth.osgb");
     const std::string first = fly(database, "quadratic", "uncached", cache);
-    const std::size_t files = nginx.requests().size();
-    EXPECT_GT(files, 10u);
+    const auto tiles = [&nginx] {
+        const std::vector<Nginx::Request> requests = nginx.requests();
+        return std::count_if(requests.begin(), requests.end(), std::mem_fn(&Nginx::Request::isTile));
+    };
+    const auto loaded = tiles();
+    EXPECT_GT(loaded, 10);
     const std::string second = fly(database, "quadratic", "cached", cache);
-    EXPECT_EQ(nginx.requests().size(), files + 1);  // the root, which no pager reads
+    EXPECT_EQ(tiles(), loaded);
     expectEqualPictures({first, second, fly(database, "sphere", "cached_sphere", cache)});
 }
 

@@ -19,6 +19,9 @@ public:
         int status = 0;
         std::size_t bytes = 0;  // of the body
         std::string path;
+
+        /// A tile's file, rather than what OSG's client and the pseudo-loader look for beside the root.
+        [[nodiscard]] bool isTile() const { return path.find("/earth_tiles/") == 0; }
     };
 
     [[nodiscard]] static bool isInstalled();

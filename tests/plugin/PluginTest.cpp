@@ -123,7 +123,7 @@ TEST_F(Plugin, RefusesWhatItDoesNotKnow) {
 TEST_F(Plugin, IsKnownToOsgByNameWithItsOptions) {
     osgDB::ReaderWriter* reader = osgDB::Registry::instance()->getReaderWriterForExtension("analyticbin");
     ASSERT_NE(reader, nullptr);
-    EXPECT_EQ(reader->supportedOptions().size(), 6u);
+    EXPECT_EQ(reader->supportedOptions().size(), 10u);
     EXPECT_TRUE(reader->acceptsExtension("analyticbin"));
 }
 
