@@ -94,7 +94,8 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
     app.add_option(
            "--methods", settings.methods,
            "comma-separated: none, sphere, cluster, quadratic, exact,\npaper, corners (default: the first five)")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     app.add_option("--options", settings.binOptions,
                    "more options for the bins, comma-separated, such as\nhorizon=-500 (metres) or reverse=off");
     app.add_option("--csv", settings.csv, "file for the figures of every pose");
