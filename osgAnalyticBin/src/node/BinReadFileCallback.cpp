@@ -5,9 +5,9 @@
 
 #include "SharedTiles.h"
 #include "Text.h"
-#include "TileFile.h"
 
 #include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/TileFile.h>
 
 #include <osg/Notify>
 #include <osgDB/FileCache>

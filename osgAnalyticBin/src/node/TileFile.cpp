@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "TileFile.h"
+#include <osgAnalyticBin/TileFile.h>
 
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <osgAnalyticBin/Export.h>
+
 #include <osgDB/ReaderWriter>
 
 #include <string>
@@ -13,6 +15,7 @@ namespace osgAnalyticBin {
 /// whatever its variables hold, for minutes, and takes the pager's thread with it.
 /// Local files in OSG's native formats are guarded; all others, those in archives and on servers among them, are left
 /// to the Registry. Throws: std::exception when a guarded file ends too early or asks for more memory than there is.
-[[nodiscard]] osgDB::ReaderWriter::ReadResult readTileFile(const std::string& fileName, const osgDB::Options* options);
+[[nodiscard]] OSGANALYTICBIN_EXPORT osgDB::ReaderWriter::ReadResult readTileFile(const std::string& fileName,
+                                                                                 const osgDB::Options* options);
 
 }  // namespace osgAnalyticBin
