@@ -23,6 +23,8 @@ class Options;
 
 namespace osgAnalyticBin {
 
+struct FoundTile;
+
 /// The bins of a whole database, made once by `osgbinconv --index` and kept in one file beside it:
 /// "earth.ive" -> "earth.ive.bins". The database itself is not touched.
 /// Threads: reading members are const and may be called by any number of threads at once.
@@ -34,7 +36,7 @@ public:
         AnalyticBin bin;
         /// Lowest altitude of the tile's own surface, chords between posts included, metres.
         double ownLow = 0.0;
-        /// surfaceFingerprint() of the tile's own mesh; 0: unknown.
+        /// tileFingerprint() of the tile; 0: unknown.
         std::uint64_t fingerprint = 0;
     };
 
@@ -93,6 +95,10 @@ private:
     Source _source;
     std::map<std::string, std::vector<Entry>> _files;
 };
+
+/// surfaceFingerprint() of a tile's own mesh; of several meshes, one number made of all of theirs; 0 when there is
+/// none.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::uint64_t tileFingerprint(const FoundTile& tile);
 
 /// Name of a database's index: "earth.ive" -> "earth.ive.bins".
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::string binIndexName(const std::string& databaseFileName);

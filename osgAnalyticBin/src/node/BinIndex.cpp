@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 #include <osgAnalyticBin/BinIndex.h>
+#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
@@ -106,6 +108,15 @@ std::size_t BinIndex::tileCount() const {
     std::size_t count = 0;
     for (const auto& file : _files) count += file.second.size();
     return count;
+}
+
+std::uint64_t tileFingerprint(const FoundTile& tile) {
+    std::uint64_t result = 0;
+    for (const auto& mesh : tile.meshes) {
+        // of a single mesh its own number; the factor is odd, so that nothing gets lost
+        result = result * 0x9e3779b97f4a7c15u + surfaceFingerprint(*mesh, tile.frame.localToEcef);
+    }
+    return result;
 }
 
 std::string binIndexName(const std::string& databaseFileName) {
