@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "DatabaseFiles.h"
+
+#include "Failure.h"
+
+#include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/TileFile.h>
+
+#include <osg/Image>
+#include <osgDB/FileNameUtils>
+#include <osgDB/Options>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+
+#include <dlfcn.h>
+#include <exception>
+#include <filesystem>
+#include <ios>
+#include <sys/stat.h>
+
+namespace osgbinconv {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Images are no part of a bin: an empty one stands for each that is a file of its own.
+class EmptyImages : public osgDB::ReadFileCallback {
+public:
+    osgDB::ReaderWriter::ReadResult readImage(const std::string&, const osgDB::Options*) override {
+        return new osg::Image;
+    }
+
+protected:
+    ~EmptyImages() override = default;
+};
+
+/// The library's own modules stand in a folder beside the library; OpenSceneGraph has to be told, unless they are
+/// installed where it looks.
+void addModuleFolder() {
+    Dl_info info{};
+    if (dladdr(reinterpret_cast<const void*>(&osgAnalyticBin::methodName), &info) == 0 || !info.dli_fname) return;
+    const std::string library = info.dli_fname;
+    const auto slash = library.rfind('/');
+    if (slash == std::string::npos) return;
+    osgDB::Registry::instance()->getLibraryFilePathList().push_back(library.substr(0, slash));
+}
+
+}  // namespace
+
+DatabaseFiles::DatabaseFiles(const std::string& rootFile)
+    : _rootFile(rootFile), _rootName(osgDB::getSimpleFileName(rootFile)), _folder(osgDB::getFilePath(rootFile)) {
+    std::error_code error;
+    if (osgDB::containsServerAddress(rootFile)) {
+        throw Failure("\"" + rootFile + "\" is on a server; run osgbinconv where its files are");
+    }
+    if (!fs::exists(rootFile, error)) throw Failure("no file \"" + rootFile + "\"; name the root file of a database");
+    if (!fs::is_regular_file(rootFile, error)) {
+        throw Failure("\"" + rootFile + "\" is no file; name the root file of a database");
+    }
+    if (_folder.empty()) _folder = ".";
+}
+
+std::string DatabaseFiles::pathOf(const std::string& file) const {
+    return file.empty() ? _rootFile : _folder + "/" + file;
+}
+
+FileStamp DatabaseFiles::stampOf(const std::string& file) const {
+    struct stat status {};
+    if (::stat(pathOf(file).c_str(), &status) != 0) return {};
+    return {static_cast<std::uint64_t>(status.st_size), static_cast<std::int64_t>(status.st_mtime)};
+}
+
+osg::ref_ptr<osg::Node> DatabaseFiles::read(const std::string& file, Images images, std::string& error) const {
+    const std::string path = pathOf(file);
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored)) {
+        error = "is missing";
+        return nullptr;
+    }
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
+    options->getDatabasePathList().push_front(osgDB::getFilePath(path));
+    if (images == Images::Left) options->setReadFileCallback(new EmptyImages);
+    try {
+        osgDB::ReaderWriter::ReadResult result = osgAnalyticBin::readTileFile(path, options);
+        if (osg::Node* node = result.getNode()) return node;
+        error = result.message().empty() ? "cannot be read" : "cannot be read: " + result.message();
+    } catch (const std::ios_base::failure&) {
+        error = "ends too early";
+    } catch (const std::exception& failure) {
+        error = std::string("cannot be read: ") + failure.what();
+    }
+    error = error.substr(0, error.find('\n'));
+    return nullptr;
+}
+
+std::string DatabaseFiles::checked(const std::string& file, const std::string& namedBy) const {
+    const bool climbs = file == ".." || file.rfind("../", 0) == 0;
+    const bool isElsewhere = osgDB::isAbsolutePath(file) || file.find(":/") != std::string::npos;
+    if (climbs || isElsewhere || file.empty()) {
+        throw Failure("\"" + pathOf(namedBy) + "\" names \"" + file +
+                      "\", which is outside of the database's folder; name its files by paths below that folder");
+    }
+    return file == _rootName ? std::string() : file;
+}
+
+void prepareReaders() {
+    addModuleFolder();
+    osgDB::Registry& registry = *osgDB::Registry::instance();
+    for (const char* library : {"serializers_osg", "serializers_osgterrain", "serializers_osgsim",
+                                "serializers_osganalyticbin", "serializers_osgfx", "serializers_osgtext"}) {
+        (void)registry.loadLibrary(registry.createLibraryNameForExtension(library));
+    }
+}
+
+}  // namespace osgbinconv

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "DatabaseWalk.h"
+
+#include "Failure.h"
+#include "FileSurvey.h"
+#include "Progress.h"
+
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+namespace osgbinconv {
+
+namespace {
+
+struct Job {
+    std::string file;
+    FilePlace place;
+};
+
+/// The files that wait, those that are done, and what the threads share besides.
+class Walk {
+public:
+    Walk(const DatabaseFiles& files, std::vector<FileRecord> known, const std::function<void(const FileRecord&)>& keep,
+         const WalkOptions& options)
+        : _files(files), _keep(keep), _progress(options.isQuiet) {
+        for (FileRecord& record : known) _known[record.file] = std::move(record);
+    }
+
+    void start() {
+        _places[""] = FilePlace();
+        FilePlace& root = _places[""];
+        root.localToEcef = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        _waiting.push_back({"", root});
+    }
+
+    /// The body of each thread.
+    void work() {
+        try {
+            while (const std::optional<Job> job = next()) finish(recordOf(*job));
+        } catch (...) {
+            fail(std::current_exception());
+        }
+    }
+
+    /// Requires: the threads have ended. Throws what they threw.
+    FileRecords result() {
+        if (_error) std::rethrow_exception(_error);
+        _progress.finish();
+        return std::move(_records);
+    }
+
+private:
+    std::optional<Job> next() {
+        std::unique_lock<std::mutex> guard(_mutex);
+        while (true) {
+            if (_error || (_waiting.empty() && _busy == 0)) return std::nullopt;
+            throwIfStopRequested();
+            if (!_waiting.empty()) break;
+            _changed.wait(guard);
+        }
+        Job job = std::move(_waiting.back());
+        _waiting.pop_back();
+        ++_busy;
+        return job;
+    }
+
+    FileRecord recordOf(const Job& job) {
+        const FileStamp stamp = _files.stampOf(job.file);
+        const auto known = _known.find(job.file);  // nobody changes it any more
+        if (known != _known.end() && known->second.stamp == stamp && known->second.place == job.place) {
+            _progress.addKnown();
+            return known->second;
+        }
+        FileRecord record;
+        std::string error;
+        if (const osg::ref_ptr<osg::Node> scene = _files.read(job.file, Images::Left, error)) {
+            record = surveyFile(*scene, job.file, job.place, _files);
+        } else if (job.file.empty()) {
+            throw Failure("\"" + _files.rootFile() + "\" " + error + "; name the root file of a database");
+        }
+        record.file = job.file;
+        record.stamp = stamp;
+        record.place = job.place;
+        const std::lock_guard<std::mutex> guard(_keepMutex);
+        _keep(record);
+        return record;
+    }
+
+    void finish(FileRecord record) {
+        const std::lock_guard<std::mutex> guard(_mutex);
+        for (const FileLink& link : record.links) enter(link);
+        _progress.add(record.tiles.size());
+        _records[record.file] = std::move(record);
+        --_busy;
+        _changed.notify_all();
+    }
+
+    void enter(const FileLink& link) {
+        const auto [place, isNew] = _places.emplace(link.file, link.place);
+        if (isNew) {
+            _waiting.push_back({link.file, link.place});
+        } else if (!link.file.empty() && !(place->second == link.place)) {
+            throw Failure("\"" + _files.pathOf(link.file) +
+                          "\" is paged in two places that differ; an index needs each file in one place");
+        }
+    }
+
+    void fail(std::exception_ptr error) {
+        const std::lock_guard<std::mutex> guard(_mutex);
+        if (!_error) _error = std::move(error);
+        _changed.notify_all();
+    }
+
+    const DatabaseFiles& _files;
+    const std::function<void(const FileRecord&)>& _keep;
+    std::map<std::string, FileRecord> _known;
+    std::mutex _keepMutex;
+
+    std::mutex _mutex;
+    std::condition_variable _changed;
+    Progress _progress;
+    std::vector<Job> _waiting;
+    int _busy = 0;
+    std::map<std::string, FilePlace> _places;
+    FileRecords _records;
+    std::exception_ptr _error;
+};
+
+}  // namespace
+
+FileRecords walkDatabase(const DatabaseFiles& files, std::vector<FileRecord> known,
+                         const std::function<void(const FileRecord&)>& keep, const WalkOptions& options) {
+    Walk walk(files, std::move(known), keep, options);
+    walk.start();
+    std::vector<std::thread> threads;
+    for (int i = 0; i < options.threads; ++i) threads.emplace_back([&walk] { walk.work(); });
+    for (std::thread& thread : threads) thread.join();
+    return walk.result();
+}
+
+}  // namespace osgbinconv

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/TileSurface.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace osgbinconv {
+
+/// Where the content of a file stands, as far as the file that names it says.
+struct FilePlace {
+    /// Metres; 0: not below a geocentric CoordinateSystemNode.
+    double equatorialRadius = 0.0;
+    double polarRadius = 0.0;
+    std::array<double, 16> localToEcef{};
+    bool isBelowTile = false;
+    /// osgTerrain::Terrain's.
+    double sampleRatio = 1.0;
+
+    [[nodiscard]] bool operator==(const FilePlace& other) const {
+        return equatorialRadius == other.equatorialRadius && polarRadius == other.polarRadius &&
+               localToEcef == other.localToEcef && isBelowTile == other.isBelowTile && sampleRatio == other.sampleRatio;
+    }
+};
+
+/// A file that is paged below another one.
+struct FileLink {
+    /// Path relative to the root file's folder.
+    std::string file;
+    /// Ordinal of the tile that it is paged below, in the file that names it; -1: none.
+    std::int32_t tile = -1;
+    FilePlace place;
+};
+
+struct TileRecord {
+    osgAnalyticBin::TileSurface surface;
+    std::uint64_t fingerprint = 0;
+    /// Ordinal of the tile in the same file that it stands below; -1: none.
+    std::int32_t parent = -1;
+};
+
+/// Whether a file is still the one that was read.
+struct FileStamp {
+    std::uint64_t size = 0;
+    std::int64_t time = 0;
+
+    [[nodiscard]] bool operator==(const FileStamp& other) const { return size == other.size && time == other.time; }
+};
+
+/// All that is kept of a file once it has been read.
+struct FileRecord {
+    /// Path relative to the root file's folder; "" for the root file.
+    std::string file;
+    FileStamp stamp;
+    /// Where it was read.
+    FilePlace place;
+    /// False for a file that is missing or cannot be read.
+    bool isRead = false;
+    /// Whether the file draws anything that is part of no tile.
+    bool hasOtherContent = false;
+    std::vector<TileRecord> tiles;
+    std::vector<FileLink> links;
+};
+
+}  // namespace osgbinconv

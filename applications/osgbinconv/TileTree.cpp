@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TileTree.h"
+
+#include "Failure.h"
+
+#include <algorithm>
+#include <set>
+
+namespace osgbinconv {
+
+using osgAnalyticBin::AnalyticBin;
+using osgAnalyticBin::core::Interval;
+
+namespace {
+
+// What no terrain on earth leaves, for files that cannot be read now.
+constexpr Interval kTerrainAltitudes{-11500.0, 9000.0};
+
+/// A file that stands on a way back to itself, among those that no order could be found for.
+std::string fileInACycle(const FileRecords& records, const std::map<std::string, std::size_t>& waiting) {
+    std::map<std::string, std::string> namedBy;
+    for (const auto& [file, count] : waiting) {
+        for (const FileLink& link : records.at(file).links) namedBy.emplace(link.file, file);
+    }
+    std::string file = waiting.begin()->first;
+    std::set<std::string> seen;
+    while (seen.insert(file).second) file = namedBy.at(file);
+    return file;
+}
+
+/// Each file after all that name it.
+std::vector<const FileRecord*> sorted(const FileRecords& records) {
+    std::map<std::string, std::size_t> waiting;  // links that are not settled yet, by file
+    for (const auto& [file, record] : records) {
+        waiting[file];
+        for (const FileLink& link : record.links) ++waiting[link.file];
+    }
+    std::vector<const FileRecord*> order;
+    const auto settle = [&](const std::string& file) {
+        if (waiting.at(file) > 0) return;
+        order.push_back(&records.at(file));
+        waiting.erase(file);
+    };
+    settle("");
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        for (const FileLink& link : order[i]->links) {
+            --waiting.at(link.file);
+            settle(link.file);
+        }
+    }
+    if (waiting.empty()) return order;
+    const std::string file = fileInACycle(records, waiting);
+    throw Failure("\"" + (file.empty() ? "the root file" : file) +
+                  "\" is paged below itself; such a database has no end");
+}
+
+}  // namespace
+
+TileTree::TileTree(const FileRecords& records) {
+    std::map<std::string, Parents> above;  // the tiles that a file is paged below
+    for (const FileRecord* record : sorted(records)) {
+        const Parents parents = above[record->file];
+        const std::size_t first = _tiles.size();
+        _first[record->file] = first;
+        addTiles(*record, parents);
+        addGaps(*record, parents);
+        for (const FileLink& link : record->links) {
+            Parents& list = above[link.file];
+            const auto tile = static_cast<std::uint32_t>(first + static_cast<std::size_t>(std::max(link.tile, 0)));
+            if (link.tile >= 0) {
+                list.push_back(tile);
+            } else {
+                list.insert(list.end(), parents.begin(), parents.end());
+            }
+            std::sort(list.begin(), list.end());
+            list.erase(std::unique(list.begin(), list.end()), list.end());
+        }
+    }
+    unite();
+}
+
+void TileTree::addTiles(const FileRecord& record, const Parents& above) {
+    const std::size_t first = _tiles.size();
+    for (const TileRecord& source : record.tiles) {
+        TreeTile tile;
+        tile.record = &source;
+        tile.parents = source.parent < 0
+                           ? above
+                           : Parents{static_cast<std::uint32_t>(first + static_cast<std::size_t>(source.parent))};
+        for (const std::uint32_t parent : tile.parents) tile.depth = std::max(tile.depth, _tiles[parent].depth + 1);
+        tile.united = source.surface.bin;
+        tile.isKnown = tile.united.valid();
+        tile.skirt = source.surface.skirt;
+        if (tile.isKnown) {
+            tile.skirtLow = tile.united.bin().altitude().lower - tile.skirt;
+        } else if (_unknownTiles.count++ == 0) {
+            _unknownTiles.first = record.file;
+        }
+        _tiles.push_back(std::move(tile));
+    }
+}
+
+void TileTree::addGaps(const FileRecord& record, const Parents& above) {
+    if (!record.isRead && _unreadFiles.count++ == 0) _unreadFiles.first = record.file;
+    if (record.isRead && !record.hasOtherContent) return;
+    if (record.isRead && !above.empty() && _unknownTiles.count++ == 0) _unknownTiles.first = record.file;
+    for (const std::uint32_t index : above) {
+        TreeTile& tile = _tiles[index];
+        if (record.isRead || !tile.isKnown) {
+            tile.isKnown = false;
+            continue;
+        }
+        tile.united.expandBy(AnalyticBin(tile.united.bin().withAltitude(kTerrainAltitudes)));
+        tile.skirtLow = std::min(tile.skirtLow, kTerrainAltitudes.lower);
+    }
+}
+
+void TileTree::unite() {
+    for (auto child = _tiles.rbegin(); child != _tiles.rend(); ++child) {
+        for (const std::uint32_t index : child->parents) {
+            TreeTile& parent = _tiles[index];
+            parent.isKnown = parent.isKnown && child->isKnown;
+            if (!parent.isKnown) continue;
+            parent.united.expandBy(child->united);
+            parent.skirtLow = std::min(parent.skirtLow, child->skirtLow);
+            parent.skirt = std::max(parent.skirt, child->skirt);
+        }
+    }
+}
+
+}  // namespace osgbinconv

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "DatabaseFiles.h"
+#include "Failure.h"
+#include "IndexBuilder.h"
+#include "IndexReport.h"
+
+#include <CLI/CLI.hpp>
+#include <osg/Notify>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace {
+
+using osgbinconv::DatabaseFiles;
+using osgbinconv::Failure;
+
+constexpr int kInterrupted = 130;
+
+constexpr const char* kDescription =
+    "Finds the bins of all tiles of a paged globe, by whatever program it was made.\n"
+    "Altitudes are metres above the ellipsoid, skirts count as far as cracks show them.";
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  osgbinconv --index earth.ive             writes earth.ive.bins beside the database, which stays as it is\n"
+    "  osgbinconv --print earth.ive.bins        tells what is in an index\n"
+    "  osgbinconv --check earth.ive             compares earth.ive.bins with its database\n"
+    "An index that was interrupted is kept in earth.ive.bins.part; the same command goes on where it ended.";
+
+/// The command line as it was typed.
+struct Arguments {
+    bool isIndex = false;
+    bool isPrint = false;
+    bool isCheck = false;
+    std::vector<std::string> files;
+    osgbinconv::WalkOptions walk;
+};
+
+void declare(CLI::App& app, Arguments& arguments) {
+    arguments.walk.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    app.footer(kExamples);
+    auto* index = app.add_flag("--index", arguments.isIndex, "write DATABASE.bins, the bins of all tiles");
+    auto* print = app.add_flag("--print", arguments.isPrint, "print the statistics of an index, in metres and degrees");
+    auto* check = app.add_flag("--check", arguments.isCheck, "compare DATABASE.bins with the database");
+    index->excludes(print)->excludes(check);
+    print->excludes(check);
+    app.add_option("FILE", arguments.files, "the root file of a database; with --print an index")->required();
+    app.add_option("--threads", arguments.walk.threads, "number of threads (default: one per core)");
+    app.add_flag("--quiet", arguments.walk.isQuiet, "show no progress");
+}
+
+void requireSense(const Arguments& arguments) {
+    if (arguments.walk.threads < 1 || arguments.walk.threads > 256) {
+        throw Failure("--threads " + std::to_string(arguments.walk.threads) + "; give a number from 1 to 256");
+    }
+    if (!arguments.isIndex && !arguments.isPrint && !arguments.isCheck) {
+        throw Failure("nothing to do with \"" + arguments.files.front() + "\"; give --index, --print or --check");
+    }
+    if (arguments.files.size() > 1) {
+        throw Failure("more than one file on the command line, \"" + arguments.files[1] + "\"; name one");
+    }
+}
+
+int complain(const std::string& message) {
+    std::cerr << "osgbinconv: " << message << std::endl;
+    return EXIT_FAILURE;
+}
+
+void requestStop(int) {
+    osgbinconv::stopRequested.store(true);
+}
+
+void prepareProcess() {
+    if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::ALWAYS);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, requestStop);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error like a full disk
+    osgbinconv::prepareReaders();
+}
+
+int run(int argc, char** argv) {
+    Arguments arguments;
+    CLI::App app{kDescription, "osgbinconv"};
+    declare(app, arguments);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        return complain(std::string(error.what()) + "; see osgbinconv --help");
+    }
+    requireSense(arguments);
+    prepareProcess();
+    const std::string& file = arguments.files.front();
+    if (arguments.isPrint) {
+        osgbinconv::printIndex(file);
+        return EXIT_SUCCESS;
+    }
+    const DatabaseFiles files(file);
+    if (arguments.isIndex) osgbinconv::writeIndex(files, arguments.walk);
+    if (arguments.isCheck) osgbinconv::checkIndex(files, arguments.walk);
+    return EXIT_SUCCESS;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const osgbinconv::Interrupted&) {
+        complain("interrupted; the same command goes on where this one ended");
+        return kInterrupted;
+    } catch (const std::bad_alloc&) {
+        return complain("out of memory; use fewer --threads");
+    } catch (const std::exception& error) {
+        return complain(error.what());
+    }
+}
