@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "DrawnDatabase.h"
+
+#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileSurface.h>
+
+#include <glm/geometric.hpp>
+#include <osgDB/FileNameUtils>
+#include <osgDB/ReadFile>
+#include <osgTerrain/TerrainTile>
+
+#include <TileFixture.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace osgAnalyticBin::test {
+
+namespace {
+
+// Skirts stand upright, or nearly so where coarse meshes lean.
+constexpr double kSteepest = 0.25;
+constexpr std::size_t kMostTriangles = 400;
+
+bool isUpright(const EcefTriangle& t) {
+    const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
+    const double length = glm::length(normal);
+    return length == 0.0 || std::abs(glm::dot(normal / length, glm::normalize(t[0]))) < kSteepest;
+}
+
+std::vector<EcefTriangle> surfaceOf(const FoundTile& tile) {
+    std::vector<EcefTriangle> result;
+    for (const auto& mesh : tile.meshes) {
+        const auto* terrain = dynamic_cast<const osgTerrain::TerrainTile*>(mesh.get());
+        const DrawnTriangles drawn =
+            terrain ? drawnTriangles(*terrain, 1.0f) : drawnTriangles(*mesh, tile.frame.localToEcef);
+        result.insert(result.end(), drawn.surface.begin(), drawn.surface.end());
+    }
+    result.erase(std::remove_if(result.begin(), result.end(), isUpright), result.end());
+    return result;
+}
+
+// Those with two corners that are on the edge of the tile: every eighth of a millionth of its size is near enough.
+std::vector<EcefTriangle> alongEdges(const std::vector<EcefTriangle>& triangles, const core::GeodeticBin& bin) {
+    const double near = 1e-5 * std::max(bin.latitude().width(), bin.longitude().width());
+    const auto isOnEdge = [&](const glm::dvec3& point) {
+        const core::Geodetic g = wgs84().toGeodetic(point);
+        return std::abs(g.latitude - bin.latitude().lower) < near ||
+               std::abs(g.latitude - bin.latitude().upper) < near ||
+               std::abs(g.longitude - bin.longitude().lower) < near ||
+               std::abs(g.longitude - bin.longitude().upper) < near;
+    };
+    std::vector<EcefTriangle> result;
+    for (const EcefTriangle& t : triangles) {
+        if (isOnEdge(t[0]) || isOnEdge(t[1]) || isOnEdge(t[2])) result.push_back(t);
+    }
+    return result;
+}
+
+DrawnTile drawn(const FoundTile& tile) {
+    DrawnTile result;
+    result.file = tile.frame.file;
+    result.ordinal = tile.ordinal;
+    result.low = std::numeric_limits<double>::infinity();
+    result.high = -result.low;
+    AnalyticBin bin;
+    for (const auto& mesh : tile.meshes) {
+        const TileSurface surface = tileSurface(*mesh, *tile.frame.ellipsoid, tile.frame.localToEcef);
+        bin.expandBy(surface.bin);
+        result.skirt = std::max(result.skirt, surface.skirt);
+    }
+    result.low = bin.bin().altitude().lower;
+    result.high = bin.bin().altitude().upper;
+    result.fingerprint = surfaceFingerprint(*tile.meshes.front(), tile.frame.localToEcef);
+    const std::vector<EcefTriangle> all = surfaceOf(tile);
+    std::vector<EcefTriangle> some;
+    const std::size_t step = all.size() / kMostTriangles + 1;
+    for (std::size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
+    result.samples = samplesOf(some, 2);
+    for (const glm::dvec3& point : samplesOf(alongEdges(all, bin.bin()), 2)) {
+        result.edgeSamples.push_back(wgs84().toGeodetic(point));
+    }
+    return result;
+}
+
+class Reader {
+public:
+    explicit Reader(const std::string& rootFile) : _folder(osgDB::getFilePath(rootFile)) {}
+
+    void read(const std::string& path, const TileFrame& frame, const std::vector<std::size_t>& above) {
+        const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(path);
+        if (!node) throw std::runtime_error("cannot read " + path);
+        for (const FoundTile& tile : findTiles(*node, frame)) {
+            tiles.push_back(drawn(tile));
+            tiles.back().ancestors = above;
+            std::vector<std::size_t> line{tiles.size() - 1};
+            line.insert(line.end(), above.begin(), above.end());
+            for (const std::string& file : tile.pagedFiles) {
+                TileFrame below = tile.frame;
+                below.file = file;
+                below.isBelowTile = true;
+                read(_folder + "/" + file, below, line);
+            }
+        }
+    }
+
+    std::vector<DrawnTile> tiles;
+
+private:
+    std::string _folder;
+};
+
+}  // namespace
+
+bool DrawnTile::isAbove(std::size_t self, const DrawnTile& other) const {
+    return std::find(other.ancestors.begin(), other.ancestors.end(), self) != other.ancestors.end();
+}
+
+core::Ellipsoid wgs84() {
+    return {osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR};
+}
+
+std::vector<DrawnTile> readAllTiles(const std::string& rootFile) {
+    Reader reader(rootFile);
+    reader.read(rootFile, {}, {});
+    return std::move(reader.tiles);
+}
+
+}  // namespace osgAnalyticBin::test

@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Runs of osgbinconv: the same bytes whatever the threads and however often it was killed, and one clear line for
+// everything that it cannot do.
+
+#include "SmallDatabase.h"
+
+#include <osgAnalyticBin/BinIndex.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <support/Random.h>
+#include <support/StockPrograms.h>
+#include <support/SyntheticDatabase.h>
+#include <support/TemporaryFolder.h>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+Outcome binconv(const std::string& arguments, const std::string& before = {}) {
+    return runStock(before + test::quoted(OSGBINCONV_PROGRAM) + ' ' + arguments, Modules::Present);
+}
+
+std::string bytesOf(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void writeBytes(const std::string& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+class Run : public ::testing::Test {
+protected:
+    void SetUp() override {
+        _database = writeSyntheticDatabase(_folder.path());
+        ASSERT_FALSE(_database.empty());
+    }
+    [[nodiscard]] std::string indexFile() const { return _database + ".bins"; }
+    [[nodiscard]] std::string partFile() const { return _database + ".bins.part"; }
+
+    std::string indexed(const std::string& options = {}) {
+        const Outcome outcome = binconv("--quiet --index " + options + ' ' + test::quoted(_database));
+        EXPECT_EQ(outcome.code, 0) << outcome.text;
+        EXPECT_EQ(outcome.text, "");
+        EXPECT_FALSE(fs::exists(partFile()));
+        return bytesOf(indexFile());
+    }
+
+    TemporaryFolder _folder;
+    std::string _database;
+};
+
+void expectError(const Outcome& outcome, const std::string& what) {
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_EQ(outcome.text.rfind("osgbinconv: ", 0), 0u) << outcome.text;
+    EXPECT_NE(outcome.text.find(what), std::string::npos) << outcome.text;
+    EXPECT_EQ(outcome.text.find('\n'), outcome.text.size() - 1) << outcome.text;
+}
+
+TEST_F(Run, ThreadsDoNotChangeAByte) {
+    const std::string one = indexed("--threads 1");
+    ASSERT_FALSE(one.empty());
+    EXPECT_EQ(indexed("--threads 2"), one);
+    EXPECT_EQ(indexed("--threads 5"), one);
+}
+
+TEST_F(Run, GoesOnFromWhatIsWholeOfAKilledRun) {
+    const std::string whole = indexed();
+    fs::remove(indexFile());
+    // A folder in the way of the last step leaves all records, as a kill just before it does.
+    fs::create_directories(indexFile() + ".tmp/in the way");
+    expectError(binconv("--quiet --index " + test::quoted(_database)), "cannot write");
+    const std::string part = bytesOf(partFile());
+    ASSERT_GT(part.size(), 10000u);
+    fs::remove_all(indexFile() + ".tmp");
+    Random random(31);
+    for (int i = 0; i < 8; ++i) {
+        std::string damaged =
+            part.substr(0, static_cast<std::size_t>(random.integer(0, static_cast<int>(part.size()))));
+        if (i % 2 == 1 && !damaged.empty()) damaged.back() = static_cast<char>(damaged.back() ^ 4);
+        writeBytes(partFile(), damaged);
+        EXPECT_EQ(indexed(), whole) << damaged.size();
+    }
+    // all of it: nothing is read again
+    writeBytes(partFile(), part);
+    const Outcome rerun = binconv("--index " + test::quoted(_database));
+    EXPECT_NE(rerun.text.find("(161 files from an earlier run)"), std::string::npos) << rerun.text;
+    EXPECT_EQ(bytesOf(indexFile()), whole);
+}
+
+TEST_F(Run, ARunThatIsKilledGoesOnToTheSameBytes) {
+    const std::string whole = indexed();
+    fs::remove(indexFile());
+    int killed = 0;
+    for (const char* seconds : {"0.02", "0.04", "0.06", "0.08", "0.1"}) {
+        const Outcome outcome = binconv("--quiet --threads 1 --index " + test::quoted(_database),
+                                        std::string("timeout -s KILL ") + seconds + ' ');
+        if (outcome.code != 0) {
+            ++killed;
+            EXPECT_FALSE(fs::exists(indexFile()));
+        }
+    }
+    EXPECT_GT(killed, 0);
+    EXPECT_EQ(indexed(), whole);
+}
+
+TEST_F(Run, FilesThatHaveChangedSinceAreReadAgain) {
+    const std::string whole = indexed();
+    fs::create_directories(indexFile() + ".tmp/in the way");
+    (void)binconv("--quiet --index " + test::quoted(_database));
+    fs::remove_all(indexFile() + ".tmp");
+    ASSERT_TRUE(fs::exists(partFile()));
+    const std::string tile = _folder / "tiles_1_3_3.osgb";
+    const std::string was = bytesOf(tile);
+    writeSmallFile(tile, *makeSmallTile(""));
+    const std::string part = bytesOf(partFile());
+    const std::string changed = indexed();
+    EXPECT_NE(changed, whole);
+    fs::remove(indexFile());
+    EXPECT_EQ(indexed(), changed);
+}
+
+TEST_F(Run, InterruptedRunsSayHowToGoOn) {
+    const Outcome outcome =
+        binconv("--quiet --threads 1 --index " + test::quoted(_database), "timeout -s INT --preserve-status 0.03 ");
+    if (outcome.code == 0) GTEST_SKIP() << "too fast to interrupt";
+    if (outcome.code == -1) GTEST_SKIP() << "interrupted before it could say anything";
+    EXPECT_EQ(outcome.code, 130);
+    EXPECT_NE(outcome.text.find("goes on where this one ended"), std::string::npos) << outcome.text;
+}
+
+TEST_F(Run, CheckFindsWhatHasChanged) {
+    (void)indexed();
+    const Outcome same = binconv("--quiet --check " + test::quoted(_database));
+    EXPECT_EQ(same.code, 0) << same.text;
+    EXPECT_NE(same.text.find("672 tiles in 161 files"), std::string::npos) << same.text;
+    writeSmallFile(_folder / "tiles_1_3_3.osgb", *makeSmallTile(""));
+    expectError(binconv("--quiet --check " + test::quoted(_database)), "does not agree");
+    fs::remove(indexFile());
+    expectError(binconv("--quiet --check " + test::quoted(_database)), ".bins");
+}
+
+TEST_F(Run, PrintTellsWhatIsInAnIndex) {
+    (void)indexed();
+    const Outcome printed = binconv("--print " + test::quoted(indexFile()));
+    EXPECT_EQ(printed.code, 0);
+    for (const char* part : {"globe.osgb", "672 in 161 files", "never culled 0", "degrees", "per tile"}) {
+        EXPECT_NE(printed.text.find(part), std::string::npos) << printed.text;
+    }
+    expectError(binconv("--print " + test::quoted(_database)), "no such thing");
+    expectError(binconv("--print " + test::quoted(_folder / "absent.bins")), "absent.bins");
+}
+
+TEST_F(Run, WhatIsNotOursIsNotReplaced) {
+    writeBytes(indexFile(), "my own notes");
+    expectError(binconv("--quiet --index " + test::quoted(_database)), "move it away");
+    EXPECT_EQ(bytesOf(indexFile()), "my own notes");
+}
+
+TEST(SmallRun, NamesThatLeaveTheFolderAreRefused) {
+    for (const char* name :
+         {"../outside.osgb", "a/../../outside.osgb", "/etc/outside.osgb", "http://host/outside.osgb"}) {
+        const TemporaryFolder folder;
+        writeSmallFile(folder / "db/earth.osgb", *makeSmallTile(name), true);
+        writeSmallFile(folder / "outside.osgb", *makeSmallTile(""));
+        expectError(binconv("--quiet --index " + test::quoted(folder / "db/earth.osgb")),
+                    "outside of the database's folder");
+        EXPECT_FALSE(fs::exists(folder / "db/earth.osgb.bins"));
+    }
+}
+
+TEST(SmallRun, FoldersBesideEachOtherAreFollowed) {
+    const TemporaryFolder folder;
+    writeSmallFile(folder / "earth.osgb", *makeSmallTile("earth_root_L0_X0_Y0/a.osgb"), true);
+    writeSmallFile(folder / "earth_root_L0_X0_Y0/a.osgb", *makeSmallTile("../earth_subtile_L2_X0_Y0/b.osgb"));
+    writeSmallFile(folder / "earth_subtile_L2_X0_Y0/b.osgb", *makeSmallTile(""));
+    EXPECT_EQ(binconv("--quiet --index " + test::quoted(folder / "earth.osgb")).text, "");
+    std::string error;
+    const osg::ref_ptr<BinIndex> index = readBinIndex(folder / "earth.osgb", nullptr, error);
+    ASSERT_TRUE(index) << error;
+    for (const char* file : {"", "earth_root_L0_X0_Y0/a.osgb", "earth_subtile_L2_X0_Y0/b.osgb"}) {
+        ASSERT_TRUE(index->find(file, 0)) << file;
+        EXPECT_TRUE(index->find(file, 0)->bin.valid());
+    }
+}
+
+TEST(SmallRun, CyclesAreRefused) {
+    const TemporaryFolder folder;
+    writeSmallFile(folder / "earth.osgb", *makeSmallTile("a/a.osgb"), true);
+    writeSmallFile(folder / "a/a.osgb", *makeSmallTile("b.osgb"));
+    writeSmallFile(folder / "a/b.osgb", *makeSmallTile("../a/a.osgb"));
+    expectError(binconv("--quiet --index " + test::quoted(folder / "earth.osgb")), "paged below itself");
+    writeSmallFile(folder / "a/b.osgb", *makeSmallTile("../earth.osgb"));
+    expectError(binconv("--quiet --index " + test::quoted(folder / "earth.osgb")), "paged below itself");
+    EXPECT_FALSE(fs::exists(folder / "earth.osgb.bins"));
+}
+
+TEST(SmallRun, AMissingFileLeavesItsParentWithAllThatTerrainMayBe) {
+    const TemporaryFolder folder;
+    writeSmallFile(folder / "earth.osgb", *makeSmallTile("a.osgb"), true);
+    for (const bool isBroken : {false, true}) {
+        if (isBroken) writeBytes(folder / "a.osgb", "no scene at all");
+        const Outcome outcome = binconv("--quiet --index " + test::quoted(folder / "earth.osgb"));
+        EXPECT_EQ(outcome.code, 0);
+        EXPECT_EQ(outcome.linesWith("warning"), 1) << outcome.text;
+        EXPECT_NE(outcome.text.find("a.osgb"), std::string::npos) << outcome.text;
+        std::string error;
+        const osg::ref_ptr<BinIndex> index = readBinIndex(folder / "earth.osgb", nullptr, error);
+        ASSERT_TRUE(index) << error;
+        EXPECT_TRUE(index->find("", 0)->bin.bin().altitude().contains({-11500.0, 9000.0}));
+        EXPECT_FALSE(index->find("a.osgb", 0));
+    }
+}
+
+TEST(SmallRun, AnUnknownSurfaceLeavesAllTilesAboveItVisible) {
+    const TemporaryFolder folder;
+    const osg::ref_ptr<osg::Node> odd = makeSmallTile("");
+    odd->setDataVariance(osg::Object::DYNAMIC);
+    writeSmallFile(folder / "earth.osgb", *makeSmallTile("a.osgb"), true);
+    writeSmallFile(folder / "a.osgb", *makeSmallTile("b.osgb"));
+    writeSmallFile(folder / "b.osgb", *odd);
+    const Outcome outcome = binconv("--quiet --index " + test::quoted(folder / "earth.osgb"));
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.linesWith("warning"), 1) << outcome.text;
+    std::string error;
+    const osg::ref_ptr<BinIndex> index = readBinIndex(folder / "earth.osgb", nullptr, error);
+    ASSERT_TRUE(index) << error;
+    EXPECT_FALSE(index->find("", 0)->bin.valid());
+    EXPECT_FALSE(index->find("a.osgb", 0)->bin.valid());
+}
+
+TEST(SmallRun, BadCommandLinesAreOneLine) {
+    const TemporaryFolder folder;
+    expectError(binconv(""), "FILE");
+    expectError(binconv("--index " + test::quoted(folder / "absent.osgb")), "absent.osgb");
+    expectError(binconv("--index " + test::quoted(folder.path())), "is no file");
+    expectError(binconv("--index http://host/earth.osgb"), "on a server");
+    expectError(binconv("--index --print x"), "--");
+    expectError(binconv("--index --threads 0 x"), "--threads 0");
+    expectError(binconv("--index a b"), "\"b\"");
+    expectError(binconv("--frobnicate x"), "--frobnicate");
+    writeBytes(folder / "text.osgb", "no scene");
+    expectError(binconv("--quiet --index " + test::quoted(folder / "text.osgb")), "text.osgb");
+    writeSmallFile(folder / "cow.osgb", *makeSmallTile(""));
+    expectError(binconv("--quiet --index " + test::quoted(folder / "cow.osgb")), "no tile of a globe");
+    EXPECT_FALSE(fs::exists(folder / "cow.osgb.bins"));
+}
+
+TEST(SmallRun, HelpNamesUnitsAndExamples) {
+    const Outcome outcome = binconv("--help");
+    EXPECT_EQ(outcome.code, 0);
+    for (const char* word : {"--index", "--check", "--print", "metres", "degrees", "Example"}) {
+        EXPECT_NE(outcome.text.find(word), std::string::npos) << word;
+    }
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
