@@ -114,7 +114,7 @@ std::uint64_t tileFingerprint(const FoundTile& tile) {
     std::uint64_t result = 0;
     for (const auto& mesh : tile.meshes) {
         // of a single mesh its own number; the factor is odd, so that nothing gets lost
-        result = result * 0x9e3779b97f4a7c15u + surfaceFingerprint(*mesh, tile.frame.localToEcef);
+        result = result * 31 + surfaceFingerprint(*mesh, tile.frame.localToEcef);
     }
     return result;
 }
