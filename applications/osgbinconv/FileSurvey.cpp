@@ -26,17 +26,6 @@ using osgAnalyticBin::TileSurface;
 
 namespace {
 
-TileFrame frameOf(const FilePlace& place, const std::string& file) {
-    TileFrame frame;
-    if (place.equatorialRadius > 0.0) {
-        frame.ellipsoid = new osg::EllipsoidModel(place.equatorialRadius, place.polarRadius);
-    }
-    frame.localToEcef.set(place.localToEcef.data());
-    frame.file = file;
-    frame.isBelowTile = place.isBelowTile;
-    return frame;
-}
-
 FilePlace placeOf(const TileFrame& frame, bool isBelowTile, double sampleRatio) {
     FilePlace place;
     if (frame.ellipsoid) {
@@ -167,6 +156,17 @@ private:
 };
 
 }  // namespace
+
+TileFrame frameOf(const FilePlace& place, const std::string& file) {
+    TileFrame frame;
+    if (place.equatorialRadius > 0.0) {
+        frame.ellipsoid = new osg::EllipsoidModel(place.equatorialRadius, place.polarRadius);
+    }
+    frame.localToEcef.set(place.localToEcef.data());
+    frame.file = file;
+    frame.isBelowTile = place.isBelowTile;
+    return frame;
+}
 
 FileRecord surveyFile(osg::Node& scene, const std::string& file, const FilePlace& place, const DatabaseFiles& files) {
     Survey survey(files, file, place);

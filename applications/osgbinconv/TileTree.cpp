@@ -5,6 +5,8 @@
 
 #include "Failure.h"
 
+#include <osgAnalyticBin/CullOptions.h>
+
 #include <algorithm>
 #include <set>
 
@@ -15,8 +17,8 @@ using osgAnalyticBin::core::Interval;
 
 namespace {
 
-// What no terrain on earth leaves, for files that cannot be read now.
-constexpr Interval kTerrainAltitudes{-11500.0, 9000.0};
+// For files that cannot be read now.
+constexpr Interval kTerrainAltitudes = osgAnalyticBin::CullOptions::kTerrainOnEarth;
 
 /// A file that stands on a way back to itself, among those that no order could be found for.
 std::string fileInACycle(const FileRecords& records, const std::map<std::string, std::size_t>& waiting) {

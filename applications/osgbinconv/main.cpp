@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "DatabaseCopy.h"
 #include "DatabaseFiles.h"
 #include "Failure.h"
 #include "IndexBuilder.h"
@@ -32,6 +33,7 @@ constexpr const char* kDescription =
 constexpr const char* kExamples =
     "Examples:\n"
     "  osgbinconv --index earth.ive             writes earth.ive.bins beside the database, which stays as it is\n"
+    "  osgbinconv earth.ive bins/earth.osgb     writes a copy of the database with the bins in its files\n"
     "  osgbinconv --print earth.ive.bins        tells what is in an index\n"
     "  osgbinconv --check earth.ive             compares earth.ive.bins with its database\n"
     "An index that was interrupted is kept in earth.ive.bins.part; the same command goes on where it ended.";
@@ -42,6 +44,8 @@ struct Arguments {
     bool isPrint = false;
     bool isCheck = false;
     std::vector<std::string> files;
+    std::string cluster = "remove";
+    osgbinconv::CopyOptions copy;
     osgbinconv::WalkOptions walk;
 };
 
@@ -53,7 +57,13 @@ void declare(CLI::App& app, Arguments& arguments) {
     auto* check = app.add_flag("--check", arguments.isCheck, "compare DATABASE.bins with the database");
     index->excludes(print)->excludes(check);
     print->excludes(check);
-    app.add_option("FILE", arguments.files, "the root file of a database; with --print an index")->required();
+    app.add_option("FILE", arguments.files,
+                   "the root file of a database, with --print an index;\nthen the root file of a copy, *.osgb")
+        ->required();
+    app.add_flag("--overwrite", arguments.copy.overwrite, "replace the files of an older copy");
+    app.add_option("--cluster", arguments.cluster,
+                   "remove or keep the cluster culling callbacks of a copy, which\ncull visible tiles of an ellipsoid "
+                   "(default remove)");
     app.add_option("--threads", arguments.walk.threads, "number of threads (default: one per core)");
     app.add_flag("--quiet", arguments.walk.isQuiet, "show no progress");
 }
@@ -62,11 +72,18 @@ void requireSense(const Arguments& arguments) {
     if (arguments.walk.threads < 1 || arguments.walk.threads > 256) {
         throw Failure("--threads " + std::to_string(arguments.walk.threads) + "; give a number from 1 to 256");
     }
-    if (!arguments.isIndex && !arguments.isPrint && !arguments.isCheck) {
-        throw Failure("nothing to do with \"" + arguments.files.front() + "\"; give --index, --print or --check");
+    if (arguments.cluster != "remove" && arguments.cluster != "keep") {
+        throw Failure("--cluster " + arguments.cluster + "; give remove or keep");
     }
-    if (arguments.files.size() > 1) {
-        throw Failure("more than one file on the command line, \"" + arguments.files[1] + "\"; name one");
+    const bool isCopy = !arguments.isIndex && !arguments.isPrint && !arguments.isCheck;
+    if (isCopy && arguments.files.size() == 1) {
+        throw Failure("nothing to do with \"" + arguments.files.front() +
+                      "\"; give --index, --print, --check or the root file of a copy");
+    }
+    const std::size_t most = isCopy ? 2 : 1;
+    if (arguments.files.size() > most) {
+        throw Failure("one file too many on the command line, \"" + arguments.files[most] +
+                      "\"; see osgbinconv --help");
     }
 }
 
@@ -104,6 +121,10 @@ int run(int argc, char** argv) {
         return EXIT_SUCCESS;
     }
     const DatabaseFiles files(file);
+    if (arguments.files.size() == 2) {
+        arguments.copy.keepClusters = arguments.cluster == "keep";
+        osgbinconv::copyDatabase(files, arguments.files[1], arguments.copy, arguments.walk);
+    }
     if (arguments.isIndex) osgbinconv::writeIndex(files, arguments.walk);
     if (arguments.isCheck) osgbinconv::checkIndex(files, arguments.walk);
     return EXIT_SUCCESS;
@@ -115,7 +136,7 @@ int main(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const osgbinconv::Interrupted&) {
-        complain("interrupted; the same command goes on where this one ended");
+        complain("interrupted; an index goes on where it ended, by the same command");
         return kInterrupted;
     } catch (const std::bad_alloc&) {
         return complain("out of memory; use fewer --threads");

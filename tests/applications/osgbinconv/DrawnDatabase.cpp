@@ -64,6 +64,7 @@ DrawnTile drawn(const FoundTile& tile) {
     DrawnTile result;
     result.file = tile.frame.file;
     result.ordinal = tile.ordinal;
+    if (hasStoredBin(*tile.node)) result.storedBin = storedBin(*tile.node);
     result.low = std::numeric_limits<double>::infinity();
     result.high = -result.low;
     AnalyticBin bin;

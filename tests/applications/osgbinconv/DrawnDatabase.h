@@ -25,6 +25,8 @@ struct DrawnTile {
     double low = 0.0;
     double high = 0.0;
     std::uint64_t fingerprint = 0;
+    /// What the file itself says; not valid: nothing.
+    AnalyticBin storedBin;
     /// Points of what it draws itself, skirts left out: some all over, and all along its edges.
     std::vector<glm::dvec3> samples;
     std::vector<core::Geodetic> edgeSamples;

@@ -5,20 +5,17 @@
 // draws, tile by tile.
 
 #include "DrawnDatabase.h"
+#include "TestDatabases.h"
 
 #include <osgAnalyticBin/BinIndex.h>
 
 #include <gtest/gtest.h>
-#include <osgDB/Registry>
 
 #include <TileFixture.h>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <support/StockPrograms.h>
-#include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::test {
@@ -26,33 +23,11 @@ namespace {
 
 constexpr double kTwoPi = 6.28318530717958647693;
 
-std::string writeBindemDatabase(const TemporaryFolder& folder) {
-    std::ofstream grid(folder / "heights.asc");
-    grid << "ncols 144\nnrows 72\nxllcorner -180\nyllcorner -90\ncellsize 2.5\n";
-    for (int row = 0; row < 72; ++row) {
-        for (int column = 0; column < 144; ++column) {
-            grid << std::round(2000.0 * std::sin(0.3 * row) * std::cos(0.4 * column)) << ' ';
-        }
-        grid << '\n';
-    }
-    grid.close();
-    const Outcome made =
-        runStock(test::quoted(OSGBINDEM_PROGRAM) + " --quiet --levels 1 --cells 8 " +
-                     test::quoted(folder / "heights.asc") + " -o " + test::quoted(folder / "earth.osgb"),
-                 Modules::Present);
-    return made.code == 0 ? folder / "earth.osgb" : std::string();
-}
-
-std::string sharedData() {
-    const char* named = std::getenv("OSGANALYTICBIN_SHARED_DATA");
-    return named ? named : SHARED_DATA_FOLDER;
-}
-
 class Index : public ::testing::TestWithParam<const char*> {
 protected:
     void SetUp() override {
-        _database = makeDatabase();
-        if (IsSkipped()) return;
+        if (!isAtHand(GetParam())) GTEST_SKIP() << GetParam() << " is not there";
+        _database = makeDatabase(GetParam(), _folder);
         ASSERT_FALSE(_database.empty());
         const Outcome made = runStock(test::quoted(OSGBINCONV_PROGRAM) + " --quiet --index " + test::quoted(_database),
                                       Modules::Present);
@@ -64,19 +39,6 @@ protected:
         _tiles = readAllTiles(_database);
         ASSERT_FALSE(_tiles.empty());
     }
-
-    std::string makeDatabase() {
-        const std::string kind = GetParam();
-        if (kind == "synthetic") return writeSyntheticDatabase(_folder.path());
-        if (kind == "bindem") return writeBindemDatabase(_folder);
-        const std::string source = sharedData() + "/vpb/" + kind;
-        if (!std::filesystem::exists(source))
-            skip(source);
-        else
-            std::filesystem::copy(source, _folder.path(), std::filesystem::copy_options::recursive);
-        return _folder / "earth.osgb";
-    }
-    static void skip(const std::string& source) { GTEST_SKIP() << source << " is not there"; }
 
     [[nodiscard]] const BinIndex::Entry& entryOf(const DrawnTile& tile) const {
         const BinIndex::Entry* entry = _index->find(tile.file, tile.ordinal);

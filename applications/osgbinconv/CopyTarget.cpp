@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "CopyTarget.h"
+
+#include "Failure.h"
+
+#include <osgDB/FileNameUtils>
+#include <osgDB/Options>
+#include <osgDB/Registry>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+namespace osgbinconv {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The names under which OSG's native writer knows its kinds of files; other formats drop the request for bins.
+const char* fileTypeOf(const std::string& extension) {
+    if (extension == "osgb") return "Binary";
+    if (extension == "osgt") return "Ascii";
+    if (extension == "osgx") return "XML";
+    return nullptr;
+}
+
+void writeFile(const std::string& path, const std::string& extension, const osg::Node& scene) {
+    osgDB::ReaderWriter* writer = osgDB::Registry::instance()->getReaderWriterForExtension(extension);
+    if (!writer) throw Failure("OpenSceneGraph's plugin for ." + extension + " is missing; install it");
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("precision 17");
+    options->setPluginStringData("fileType", fileTypeOf(extension));
+    options->setPluginStringData("WriteImageHint", "IncludeData");
+    std::ofstream out(path, std::ios::binary | std::ios::trunc);
+    const bool isWritten = out && writer->writeNode(scene, out, options).success() && out.flush();
+    out.close();
+    if (!isWritten || !out) throw Failure("cannot write \"" + path + "\"; make room or choose another folder");
+}
+
+}  // namespace
+
+std::string withExtension(const std::string& name, const std::string& extension) {
+    return osgDB::getNameLessExtension(name) + "." + extension;
+}
+
+CopyTarget::CopyTarget(const std::string& rootFile, const DatabaseFiles& source, const FileRecords& records,
+                       bool overwrite)
+    : _rootFile(rootFile),
+      _folder(osgDB::getFilePath(rootFile)),
+      _extension(osgDB::getLowerCaseFileExtension(rootFile)) {
+    if (_folder.empty()) _folder = ".";
+    if (!fileTypeOf(_extension)) {
+        throw Failure("output \"" + rootFile + "\"; give a file name that ends in .osgb, .osgt or .osgx");
+    }
+    if (!fs::is_directory(_folder)) throw Failure("no folder \"" + _folder + "\" for the copy; create it first");
+    requireFree(source, records, overwrite);
+    // an old copy must not look whole while its files are replaced
+    std::error_code ignored;
+    fs::remove(rootFile, ignored);
+}
+
+CopyTarget::~CopyTarget() {
+    for (const std::string& path : _written) std::remove(path.c_str());
+}
+
+void CopyTarget::requireFree(const DatabaseFiles& source, const FileRecords& records, bool overwrite) const {
+    std::set<fs::path> originals;
+    std::set<std::string> names;
+    std::error_code ignored;
+    for (const auto& entry : records) originals.insert(fs::weakly_canonical(source.pathOf(entry.first), ignored));
+    for (const auto& entry : records) {
+        const std::string path = pathOf(entry.first);
+        if (!names.insert(path).second) throw Failure("two files would become \"" + path + "\"; rename one of them");
+        if (!fs::exists(path, ignored)) continue;
+        if (originals.count(fs::weakly_canonical(path, ignored)) > 0) {
+            throw Failure("\"" + path + "\" is a file of the database itself; give another folder or extension");
+        }
+        if (!overwrite) throw Failure("\"" + path + "\" is there already; give --overwrite or another name");
+    }
+}
+
+std::string CopyTarget::pathOf(const std::string& file) const {
+    return file.empty() ? _rootFile : _folder + "/" + withExtension(file, _extension);
+}
+
+void CopyTarget::write(const std::string& file, const osg::Node& scene) {
+    const std::string path = pathOf(file);
+    const std::string temporary = path + ".tmp";
+    std::error_code error;
+    fs::create_directories(fs::path(path).parent_path(), error);
+    {
+        const std::lock_guard<std::mutex> guard(_mutex);
+        _written.push_back(temporary);
+        _written.push_back(path);
+    }
+    writeFile(temporary, _extension, scene);
+    if (std::rename(temporary.c_str(), path.c_str()) != 0) {
+        throw Failure("cannot write \"" + path + "\": " + std::strerror(errno) + "; choose another folder");
+    }
+}
+
+}  // namespace osgbinconv

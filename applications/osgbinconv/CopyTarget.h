@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "DatabaseFiles.h"
+#include "DatabaseWalk.h"
+
+#include <osg/Node>
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace osgbinconv {
+
+/// A name with another extension: "../a/b.ive" -> "../a/b.osgb".
+[[nodiscard]] std::string withExtension(const std::string& name, const std::string& extension);
+
+/// The files of a copy, beside its root file as the originals are beside theirs. Each is written under a temporary name
+/// and renamed; what was written is removed again unless the copy is complete.
+class CopyTarget final {
+public:
+    /// Throws Failure when OpenSceneGraph cannot write such files with bins in them, when one would replace a file of
+    /// the original or take the name of another one, or when one is there already and `overwrite` is not given.
+    CopyTarget(const std::string& rootFile, const DatabaseFiles& source, const FileRecords& records, bool overwrite);
+    CopyTarget(const CopyTarget&) = delete;
+    CopyTarget& operator=(const CopyTarget&) = delete;
+    ~CopyTarget();
+
+    /// Without the point.
+    [[nodiscard]] const std::string& extension() const { return _extension; }
+
+    /// `file`: as the original is named. May be called by several threads. Throws Failure.
+    void write(const std::string& file, const osg::Node& scene);
+
+    /// Everything is there.
+    void complete() { _written.clear(); }
+
+private:
+    [[nodiscard]] std::string pathOf(const std::string& file) const;
+    void requireFree(const DatabaseFiles& source, const FileRecords& records, bool overwrite) const;
+
+    std::string _rootFile;
+    std::string _folder;
+    std::string _extension;
+    std::mutex _mutex;
+    std::vector<std::string> _written;
+};
+
+}  // namespace osgbinconv

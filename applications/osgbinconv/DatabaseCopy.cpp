@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "DatabaseCopy.h"
+
+#include "CopyTarget.h"
+#include "Failure.h"
+#include "FileSurvey.h"
+#include "IndexBuilder.h"
+
+#include <osgAnalyticBin/InstallBinsCallback.h>
+
+#include <osg/ClusterCullingCallback>
+#include <osg/Drawable>
+#include <osg/PagedLOD>
+#include <osgTerrain/TerrainTile>
+
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <thread>
+
+namespace osgbinconv {
+
+using osgAnalyticBin::AnalyticBin;
+using osgAnalyticBin::BinIndex;
+using osgAnalyticBin::InstallBinsCallback;
+
+namespace {
+
+template <class Callback>
+Callback* callbackIn(osg::Callback* first) {
+    for (osg::Callback* callback = first; callback; callback = callback->getNestedCallback()) {
+        if (auto* found = dynamic_cast<Callback*>(callback)) return found;
+    }
+    return nullptr;
+}
+
+/// Gives the files that a scene pages their new names, and takes away what the bins stand in for.
+class Renaming : public osg::NodeVisitor {
+public:
+    Renaming(const std::string& extension, bool keepClusters)
+        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _extension(extension), _keepClusters(keepClusters) {
+        setNodeMaskOverride(~0u);
+    }
+
+    void apply(osg::Node& node) override {
+        while (osg::ref_ptr<osg::Callback> old = callbackIn<InstallBinsCallback>(node.getUpdateCallback())) {
+            node.removeUpdateCallback(old);
+        }
+        while (!_keepClusters) {
+            const osg::ref_ptr<osg::Callback> old = callbackIn<osg::ClusterCullingCallback>(node.getCullCallback());
+            if (!old) break;
+            node.removeCullCallback(old);
+        }
+        // A terrain tile that is traversed before it has its Terrain never finds it afterwards.
+        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
+    }
+
+    void apply(osg::PagedLOD& node) override {
+        for (unsigned int i = 0; i < node.getNumFileNames(); ++i) {
+            const std::string& name = node.getFileName(i);
+            if (!name.empty()) node.setFileName(i, withExtension(name, _extension));
+        }
+        node.setDatabasePath("");
+        apply(static_cast<osg::Node&>(node));
+    }
+
+private:
+    const std::string& _extension;
+    const bool _keepClusters;
+};
+
+void storeBins(osg::Node& scene, const FileRecord& record, const BinIndex& index) {
+    std::map<osg::Node*, AnalyticBin> bins;
+    for (const osgAnalyticBin::FoundTile& tile : osgAnalyticBin::findTiles(scene, frameOf(record.place, record.file))) {
+        const BinIndex::Entry* entry = tile.frame.file == record.file ? index.find(record.file, tile.ordinal) : nullptr;
+        if (!entry) continue;
+        // a node that stands in two places has one bin for both
+        const auto [place, isNew] = bins.emplace(tile.node.get(), entry->bin);
+        if (!isNew && place->second.valid() && entry->bin.valid()) place->second.expandBy(entry->bin);
+        if (!entry->bin.valid()) place->second = AnalyticBin();
+    }
+    for (const auto& [node, bin] : bins) {
+        // a tile that is not known is left to the installer, which keeps it visible
+        if (bin.valid()) setStoredBin(*node, bin);
+    }
+}
+
+class Copy {
+public:
+    Copy(const DatabaseFiles& files, const BuiltIndex& built, CopyTarget& target, const CopyOptions& options)
+        : _files(files), _built(built), _target(target), _options(options) {
+        for (const auto& [file, record] : built.records) {
+            if (record.isRead && !file.empty()) _waiting.push_back(&record);
+        }
+    }
+
+    /// The body of each thread.
+    void work() {
+        try {
+            for (std::size_t i = _next++; i < _waiting.size() && !_isFailed; i = _next++) {
+                throwIfStopRequested();
+                write(*_waiting[i]);
+            }
+        } catch (...) {
+            const std::lock_guard<std::mutex> guard(_mutex);
+            if (!_error) _error = std::current_exception();
+            _isFailed = true;
+        }
+    }
+
+    /// Requires: the threads have ended. Throws what they threw.
+    void finish() {
+        if (_error) std::rethrow_exception(_error);
+        write(_built.records.at(""));
+        _target.complete();
+    }
+
+private:
+    void write(const FileRecord& record) {
+        std::string error;
+        const osg::ref_ptr<osg::Node> scene = _files.read(record.file, Images::Read, error);
+        if (!scene) throw Failure("\"" + _files.pathOf(record.file) + "\" " + error + "; it was there before");
+        storeBins(*scene, record, *_built.index);
+        Renaming renaming(_target.extension(), _options.keepClusters);
+        scene->accept(renaming);
+        if (record.file.empty()) requestBins(*scene);
+        _target.write(record.file, *scene);
+    }
+
+    void requestBins(osg::Node& root) const {
+        osgAnalyticBin::CullOptions options;
+        if (_options.keepClusters) options.cluster = osgAnalyticBin::ClusterUse::Keep;
+        if (_built.horizon) {
+            options.horizonUse = osgAnalyticBin::HorizonUse::Given;
+            options.horizon = std::floor(*_built.horizon);
+        }
+        root.addUpdateCallback(new InstallBinsCallback(options));
+    }
+
+    const DatabaseFiles& _files;
+    const BuiltIndex& _built;
+    CopyTarget& _target;
+    const CopyOptions _options;
+    std::vector<const FileRecord*> _waiting;
+    std::atomic<std::size_t> _next{0};
+    std::atomic<bool> _isFailed{false};
+    std::mutex _mutex;
+    std::exception_ptr _error;
+};
+
+}  // namespace
+
+void copyDatabase(const DatabaseFiles& files, const std::string& output, const CopyOptions& options,
+                  const WalkOptions& walk) {
+    const BuiltIndex built = indexFrom(files, walkDatabase(
+                                                  files, {}, [](const FileRecord&) {}, walk));
+    CopyTarget target(output, files, built.records, options.overwrite);
+    Copy copy(files, built, target, options);
+    std::vector<std::thread> threads;
+    for (int i = 0; i < walk.threads; ++i) threads.emplace_back([&copy] { copy.work(); });
+    for (std::thread& thread : threads) thread.join();
+    copy.finish();
+}
+
+}  // namespace osgbinconv
