@@ -84,7 +84,10 @@ void printIndex(const std::string& path) {
     std::printf("never culled %zu\n", all.unknown);
     if (all.unknown < all.tiles) {
         std::printf("altitudes    %.0f .. %.0f m\n", all.low, all.high);
-        std::printf("widths       %.6g .. %.6g degrees of longitude\n", all.narrowestDeg, all.widestDeg);
+        // of a quadtree, whose tiles halve from level to level
+        const double levels = std::round(std::log2(all.widestDeg / all.narrowestDeg)) + 1.0;
+        std::printf("widths       %.6g .. %.6g degrees of longitude, some %.0f levels\n", all.narrowestDeg,
+                    all.widestDeg, levels);
     }
     std::printf("size         %llu bytes, %.1f per tile\n", static_cast<unsigned long long>(bytes),
                 static_cast<double>(bytes) / static_cast<double>(std::max<std::size_t>(all.tiles, 1)));

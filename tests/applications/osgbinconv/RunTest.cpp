@@ -9,6 +9,7 @@
 #include <osgAnalyticBin/BinIndex.h>
 
 #include <gtest/gtest.h>
+#include <osg/PagedLOD>
 
 #include <filesystem>
 #include <fstream>
@@ -151,7 +152,8 @@ TEST_F(Run, PrintTellsWhatIsInAnIndex) {
     (void)indexed();
     const Outcome printed = binconv("--print " + test::quoted(indexFile()));
     EXPECT_EQ(printed.code, 0);
-    for (const char* part : {"globe.osgb", "672 in 161 files", "never culled 0", "degrees", "per tile"}) {
+    for (const char* part :
+         {"globe.osgb", "672 in 161 files", "never culled 0", "degrees", "some 3 levels", "per tile"}) {
         EXPECT_NE(printed.text.find(part), std::string::npos) << printed.text;
     }
     expectError(binconv("--print " + test::quoted(_database)), "no such thing");
@@ -189,6 +191,32 @@ TEST(SmallRun, FoldersBesideEachOtherAreFollowed) {
         ASSERT_TRUE(index->find(file, 0)) << file;
         EXPECT_TRUE(index->find(file, 0)->bin.valid());
     }
+}
+
+TEST(SmallRun, EveryFormatIsRead) {
+    for (const std::string extension : {"ive", "osgb", "osgt", "osgx"}) {
+        const TemporaryFolder folder;
+        const std::string root = folder / ("earth." + extension);
+        writeSmallFile(root, *makeSmallTile("tiles/a." + extension), true);
+        writeSmallFile(folder / ("tiles/a." + extension), *makeSmallTile(""));
+        EXPECT_EQ(binconv("--quiet --index " + test::quoted(root)).text, "") << extension;
+        std::string error;
+        const osg::ref_ptr<BinIndex> index = readBinIndex(root, nullptr, error);
+        ASSERT_TRUE(index) << error;
+        EXPECT_TRUE(index->find("tiles/a." + extension, 0)) << extension;
+        EXPECT_LT(index->find("", 0)->bin.bin().altitude().width(), 200.0) << extension;
+    }
+}
+
+TEST(SmallRun, APathToAnotherFolderInAFileIsRefused) {
+    const TemporaryFolder folder;
+    const osg::ref_ptr<osg::Node> tile = makeSmallTile("a.osgb");
+    dynamic_cast<osg::PagedLOD&>(*tile).setDatabasePath(folder / "elsewhere/");
+    writeSmallFile(folder / "db/earth.osgb", *tile, true);
+    writeSmallFile(folder / "db/a.osgb", *makeSmallTile(""));
+    EXPECT_EQ(binconv("--quiet --index " + test::quoted(folder / "db/earth.osgb")).text, "");  // nothing is there
+    writeSmallFile(folder / "elsewhere/a.osgb", *makeSmallTile(""));
+    expectError(binconv("--quiet --index " + test::quoted(folder / "db/earth.osgb")), "elsewhere");
 }
 
 TEST(SmallRun, CyclesAreRefused) {
