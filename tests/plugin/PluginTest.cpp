@@ -10,6 +10,7 @@
 #include <osg/CoordinateSystemNode>
 #include <osg/NodeVisitor>
 #include <osg/PagedLOD>
+#include <osgDB/Archive>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 
@@ -147,6 +148,27 @@ TEST_F(Plugin, ReadsIndexesOfBinsByNameAndFromStreams) {
     EXPECT_TRUE(dynamic_cast<BinIndex*>(reader->readObject(stream).getObject()));
     std::istringstream broken("no index");
     EXPECT_TRUE(reader->readObject(broken).error());
+}
+
+TEST_F(Plugin, ArchivesHoldIndexesBesideTheirDatabases) {
+    const osg::ref_ptr<BinIndex> index = new BinIndex;
+    index->setSource({"globe.osgb", 1, 2});
+    index->setTiles("", {{AnalyticBin(core::GeodeticBin::fromDegrees({1, 2}, {3, 4}, {5, 6})), 5.0, 77}});
+    const std::string name = _folder / "globe.osga";
+    {
+        const osg::ref_ptr<osgDB::Archive> archive = osgDB::openArchive(name, osgDB::ReaderWriter::CREATE);
+        ASSERT_TRUE(archive);
+        ASSERT_TRUE(archive->writeObject(*index, "globe.osgb.bins").success());
+        archive->close();
+    }
+    osgDB::Registry::instance()->clearArchiveCache();
+    std::string error;
+    const osg::ref_ptr<BinIndex> read = readBinIndex(name + "/globe.osgb", nullptr, error);
+    ASSERT_TRUE(read) << error;
+    EXPECT_EQ(read->find("", 0)->fingerprint, 77u);
+    EXPECT_FALSE(readBinIndex(name + "/other.osgb", nullptr, error));
+    EXPECT_EQ(error, "");
+    osgDB::Registry::instance()->clearArchiveCache();
 }
 
 // Databases that others built; they are not part of the project.

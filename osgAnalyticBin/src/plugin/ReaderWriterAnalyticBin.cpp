@@ -112,6 +112,21 @@ public:
         return index ? ReadResult(index.get()) : ReadResult(error);
     }
 
+    WriteResult writeObject(const osg::Object& object, const std::string& fileName,
+                            const osgDB::Options*) const override {
+        const auto* index = isIndex(fileName) ? dynamic_cast<const osgAnalyticBin::BinIndex*>(&object) : nullptr;
+        if (!index) return WriteResult::FILE_NOT_HANDLED;
+        std::string error;
+        return index->write(fileName, error) ? WriteResult(WriteResult::FILE_SAVED) : WriteResult(error);
+    }
+
+    /// An index of bins, into an archive.
+    WriteResult writeObject(const osg::Object& object, std::ostream& out, const osgDB::Options*) const override {
+        const auto* index = dynamic_cast<const osgAnalyticBin::BinIndex*>(&object);
+        if (!index) return WriteResult::FILE_NOT_HANDLED;
+        return index->write(out) ? WriteResult::FILE_SAVED : WriteResult::ERROR_IN_WRITING_FILE;
+    }
+
     ReadResult readNode(const std::string& fileName, const osgDB::Options* options) const override {
         if (osgDB::getLowerCaseFileExtension(fileName) != kExtension) return ReadResult::FILE_NOT_HANDLED;
         const NameAndParameters request = parted(osgDB::getNameLessExtension(fileName));
