@@ -86,12 +86,26 @@ BuiltIndex indexFrom(const DatabaseFiles& files, FileRecords records) {
     return built;
 }
 
+namespace {
+
+/// A database of which no index can be made leaves no records behind.
+BuiltIndex builtWith(PartFile& part, const DatabaseFiles& files, const WalkOptions& options) {
+    const auto keep = [&part](const FileRecord& record) { part.append(record); };
+    try {
+        return indexFrom(files, walkDatabase(files, part.takeRecords(), keep, options));
+    } catch (const Failure&) {
+        if (!part.hasFailed()) part.remove();
+        throw;
+    }
+}
+
+}  // namespace
+
 void writeIndex(const DatabaseFiles& files, const WalkOptions& options) {
     const std::string name = osgAnalyticBin::binIndexName(files.rootFile());
     requireNothingForeign(name);
     PartFile part(name + ".part", files.stampOf(""));
-    const auto keep = [&part](const FileRecord& record) { part.append(record); };
-    const BuiltIndex built = indexFrom(files, walkDatabase(files, part.takeRecords(), keep, options));
+    const BuiltIndex built = builtWith(part, files, options);
     std::string error;
     if (!built.index->write(name, error)) throw Failure(error);
     part.remove();

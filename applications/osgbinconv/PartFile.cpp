@@ -114,7 +114,8 @@ void PartFile::write(const std::string& bytes) {
     }
 }
 
-void PartFile::fail(const std::string& what) const {
+void PartFile::fail(const std::string& what) {
+    _hasFailed = true;
     throw Failure("cannot " + what + " \"" + _path + "\": " + std::strerror(errno) +
                   "; make room, or make the folder writable");
 }

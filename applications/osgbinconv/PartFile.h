@@ -26,16 +26,20 @@ public:
     /// Not to be called by two threads at once. Throws Failure.
     void append(const FileRecord& record);
 
-    /// Deletes the file: the index is complete.
+    /// Deletes the file: nobody needs it any more.
     void remove();
+
+    /// Whether the records could not be written, for want of room.
+    [[nodiscard]] bool hasFailed() const { return _hasFailed; }
 
 private:
     void load(const std::string& head);
     void write(const std::string& bytes);
-    [[noreturn]] void fail(const std::string& what) const;
+    [[noreturn]] void fail(const std::string& what);
 
     std::string _path;
     int _handle = -1;
+    bool _hasFailed = false;
     std::vector<FileRecord> _records;
 };
 
