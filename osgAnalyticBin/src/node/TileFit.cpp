@@ -34,14 +34,6 @@ TileSurface surfaceOf(const FoundTile& tile, double sampleRatio) {
     return surface;
 }
 
-std::uint64_t fingerprintOf(const FoundTile& tile) {
-    std::uint64_t fingerprint = 0;
-    for (const osg::ref_ptr<osg::Node>& mesh : tile.meshes) {
-        fingerprint = fingerprint * 31 + surfaceFingerprint(*mesh, tile.frame.localToEcef);
-    }
-    return fingerprint;
-}
-
 void linkTo(const core::GeodeticBin& extents, ParentTile& link) {
     link.extents = extents;
     const ParentTile* parent = link.parent.get();
@@ -85,7 +77,7 @@ void fitSurface(const FoundTile& tile, Database& database, ParentTile& link, Til
 // Returns: whether the index knows the tile as it is.
 bool fitIndexed(const FoundTile& tile, const Database& database, ParentTile& link, TileFit& fit) {
     const BinIndex::Entry* entry = database.index() ? database.index()->find(tile.frame.file, tile.ordinal) : nullptr;
-    const bool isAsKnown = entry && entry->fingerprint == fingerprintOf(tile);
+    const bool isAsKnown = entry && entry->fingerprint == tileFingerprint(tile);
     if (!isAsKnown) return false;
     fit.isTerrain = true;
     fit.bin = entry->bin;
