@@ -189,7 +189,7 @@ bool AnalyticBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisit
     return isCulledByBin(cullStack, nv, traversal, _prepared->sphere,
                          [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
                              if (!_hasLocalFrame) {
-                                 return classify(cullStack, nv, traversal, traversal.planes(frustum), undecided);
+                                 return classify(cullStack, nv, traversal, traversal.planes(cullStack), undecided);
                              }
                              return classify(cullStack, nv, traversal, ecefPlanes(frustum, _ecefToLocal), undecided);
                          });

@@ -17,9 +17,32 @@ std::array<double, 3> depthOf(const osg::Matrixd& modelView, const osg::Matrixd&
     return {modelView(3, 2), projection(2, 2), projection(3, 2)};
 }
 
+// The visitor that traverses a database in this thread, which a look into its user data would tell more slowly.
+struct ScopeOfThread {
+    const osg::NodeVisitor* visitor = nullptr;
+    CullTraversal* traversal = nullptr;
+};
+thread_local ScopeOfThread scopeOfThread;
+
 }  // namespace
 
+CullTraversal::DatabaseScope::DatabaseScope(osg::NodeVisitor& visitor, CullTraversal& traversal,
+                                            const DatabaseView& view)
+    : _traversal(traversal),
+      _outerView(traversal._databaseView),
+      _outerVisitor(scopeOfThread.visitor),
+      _outerTraversal(scopeOfThread.traversal) {
+    traversal._databaseView = &view;
+    scopeOfThread = {&visitor, &traversal};
+}
+
+CullTraversal::DatabaseScope::~DatabaseScope() {
+    _traversal._databaseView = _outerView;
+    scopeOfThread = {_outerVisitor, _outerTraversal};
+}
+
 CullTraversal& CullTraversal::of(osg::NodeVisitor& visitor) {
+    if (scopeOfThread.visitor == &visitor) return *scopeOfThread.traversal;
     // Statistics of a visitor are never anything else.
     return static_cast<CullTraversal&>(BinStatistics::of(visitor));
 }
@@ -34,8 +57,12 @@ bool CullTraversal::holds(const osg::Polytope::PlaneList& list) const {
     return true;
 }
 
-const core::PlaneSet& CullTraversal::planes(const osg::Polytope& frustum) {
-    const osg::Polytope::PlaneList& list = frustum.getPlaneList();
+const core::PlaneSet& CullTraversal::planes(osg::CullStack& cullStack) {
+    if (_databaseView && _databaseView->modelView == cullStack.getModelViewMatrix() &&
+        _databaseView->projection == cullStack.getProjectionMatrix()) {
+        return _databaseView->planes;
+    }
+    const osg::Polytope::PlaneList& list = cullStack.getCurrentCullingSet().getFrustum().getPlaneList();
     if (holds(list)) return _planes;
     _planes = core::PlaneSet();
     _planeCount = std::min(list.size(), core::kMaxPlanes);

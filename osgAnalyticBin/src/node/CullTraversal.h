@@ -35,8 +35,11 @@ struct DatabaseView {
     const Database* database;
     core::Ellipsoid ellipsoid;
     TerrainShape shape;
-    const core::HorizonEye* eye;       // in ECEF, whatever transforms are below; nullptr: nothing is hidden
-    const osg::RefMatrix* projection;  // of the camera that the eye is of
+    const core::HorizonEye* eye;  // in ECEF, whatever transforms are below; nullptr: nothing is hidden
+    // Of the traversal where the view was made: what is the same below has the same planes.
+    const osg::RefMatrix* modelView;
+    const osg::RefMatrix* projection;
+    core::PlaneSet planes;
 };
 
 /// What one cull visitor knows of the frustum that it is in: prepared once per frustum, read by every tile. Lives in
@@ -48,8 +51,23 @@ public:
     /// That of the visitor, made at the first call.
     [[nodiscard]] static CullTraversal& of(osg::NodeVisitor& visitor);
 
-    /// The planes of the frustum, all of them: OSG's masks may name any.
-    [[nodiscard]] const core::PlaneSet& planes(const osg::Polytope& frustum);
+    /// For the length of a traversal: what a database says to its tiles.
+    class DatabaseScope {
+    public:
+        DatabaseScope(osg::NodeVisitor& visitor, CullTraversal& traversal, const DatabaseView& view);
+        ~DatabaseScope();
+        DatabaseScope(const DatabaseScope&) = delete;
+        DatabaseScope& operator=(const DatabaseScope&) = delete;
+
+    private:
+        CullTraversal& _traversal;
+        const DatabaseView* const _outerView;
+        const osg::NodeVisitor* const _outerVisitor;
+        CullTraversal* const _outerTraversal;
+    };
+
+    /// The planes of the frustum that the cull stack is in, all of them: OSG's masks may name any.
+    [[nodiscard]] const core::PlaneSet& planes(osg::CullStack& cullStack);
 
     /// The eye in the frame of the planes last asked for. Returns: nullptr when nothing can be hidden from it.
     [[nodiscard]] const core::HorizonEye* horizonEye(osg::CullStack& cullStack, osg::NodeVisitor& visitor,
@@ -57,7 +75,6 @@ public:
 
     /// The database that is being traversed; nullptr: none that says so.
     [[nodiscard]] const DatabaseView* databaseView() const { return _databaseView; }
-    void setDatabaseView(const DatabaseView* view) { _databaseView = view; }
 
     /// The depth of the lowest surface that this visitor last found a database to show: where it looks next time.
     [[nodiscard]] double& lastDepth(const Database& database);

@@ -54,14 +54,17 @@ void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         return;
     }
     CullTraversal& traversal = CullTraversal::of(*nv);
-    DatabaseView view{_database.get(), toCore(*_database->ellipsoid()), _database->shape(), nullptr,
-                      cullStack->getProjectionMatrix()};
+    DatabaseView view{_database.get(),
+                      toCore(*_database->ellipsoid()),
+                      _database->shape(),
+                      nullptr,
+                      cullStack->getModelViewMatrix(),
+                      cullStack->getProjectionMatrix(),
+                      traversal.planes(*cullStack)};
     const auto eye = eyeOver(*group, *nv, *cullStack, *_database, view);
     if (eye) view.eye = &*eye;
-    const DatabaseView* outer = traversal.databaseView();
-    traversal.setDatabaseView(&view);
+    const CullTraversal::DatabaseScope scope(*nv, traversal, view);
     traverse(node, nv);
-    traversal.setDatabaseView(outer);
 }
 
 void DatabaseUpdateCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {

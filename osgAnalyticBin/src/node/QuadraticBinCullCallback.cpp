@@ -27,11 +27,10 @@ void QuadraticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv)
 bool QuadraticBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
     if (!_bin) return false;
     CullTraversal& traversal = CullTraversal::of(nv);
-    return isCulledByBin(cullStack, nv, traversal, _sphere,
-                         [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
-                             const core::PlaneSet& planes = traversal.planes(frustum);
-                             return Verdict{core::classify(*_bin, planes, undecided), Verdict::Plane};
-                         });
+    return isCulledByBin(cullStack, nv, traversal, _sphere, [&](const osg::Polytope&, core::PlaneMask& undecided) {
+        const core::PlaneSet& planes = traversal.planes(cullStack);
+        return Verdict{core::classify(*_bin, planes, undecided), Verdict::Plane};
+    });
 }
 
 }  // namespace osgAnalyticBin
