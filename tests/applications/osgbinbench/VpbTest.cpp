@@ -9,7 +9,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
 #include <support/TemporaryFolder.h>
+#include <vector>
 
 namespace osgAnalyticBin {
 namespace {
@@ -52,6 +56,72 @@ TEST_P(VpbSample, StockMethodsDifferInWhatTheyDrawAndAskFor) {
 
 INSTANTIATE_TEST_SUITE_P(Modes, VpbSample, testing::Values("terrain", "polygonal"),
                          [](const auto& mode) { return std::string(mode.param); });
+
+struct PictureCase {
+    const char* mode;
+    const char* threading;
+    int scale;
+};
+
+// Every other pose of the path; with exaggerated mountains eyes below 30 km are lifted above them.
+std::string shortPath(int scale) {
+    constexpr std::size_t kAltitude = 3, kNear = 8, kFar = 9;
+    std::ifstream in(VPB_PATH_FILE);
+    std::string text;
+    int poses = 0;
+    for (std::string line; std::getline(in, line);) {
+        const bool isHead = line.rfind('#', 0) == 0 || line.rfind("name", 0) == 0;
+        if (!isHead && poses++ % 2 == 1) continue;
+        std::vector<std::string> cells;
+        std::istringstream parts(line);
+        for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(cell);
+        if (!isHead && scale > 1 && std::stod(cells[kAltitude]) < 30000.0) {
+            cells[kAltitude] = "30000";
+            cells[kNear] = "750";
+            cells[kFar] = "1600000";
+        }
+        for (std::size_t i = 0; i < cells.size(); ++i) text += (i ? "," : "") + cells[i];
+        text += '\n';
+    }
+    return text;
+}
+
+class VpbPictures : public testing::TestWithParam<PictureCase> {};
+
+TEST_P(VpbPictures, WithBinsAreThoseWithoutCulling) {
+    const std::string database = std::string(SHARED_DATA) + "/vpb/" + GetParam().mode + "/earth.osgb";
+    if (!std::filesystem::exists(database)) GTEST_SKIP() << "needs " << database;
+    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    const TemporaryFolder folder;
+    const std::string file = folder / "sums.json";
+    const std::string path = folder.write("p.csv", shortPath(GetParam().scale));
+    const test::Outcome outcome =
+        test::runBench(test::quoted(database) + " --path " + test::quoted(path) + " --methods exact --size 480x270" +
+                       " --repeats 1 --threading " + GetParam().threading + " --vertical-scale " +
+                       std::to_string(GetParam().scale) + " --json " + test::quoted(file));
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+    const nlohmann::json sums = test::jsonFile(file);
+    EXPECT_GE(sums["poses"], 24);
+    const nlohmann::json& exact = sums["methods"]["exact"];
+    EXPECT_EQ(exact["differing_pixels"], 0);
+    EXPECT_EQ(exact["false_culls"], 0);
+    EXPECT_LT(exact["drawn_tiles"].get<double>(), 0.1 * sums["methods"]["none"]["drawn_tiles"].get<double>());
+}
+
+std::vector<PictureCase> pictureCases() {
+    std::vector<PictureCase> cases;
+    for (const char* const threading : {"SingleThreaded", "CullDrawThreadPerContext", "DrawThreadPerContext",
+                                        "CullThreadPerCameraDrawThreadPerContext"}) {
+        cases.push_back({"terrain", threading, 1});
+        cases.push_back({"terrain", threading, 3});
+        cases.push_back({"polygonal", threading, 1});
+    }
+    return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, VpbPictures, testing::ValuesIn(pictureCases()), [](const auto& each) {
+    return std::string(each.param.mode) + std::to_string(each.param.scale) + each.param.threading;
+});
 
 TEST(VpbPath, HasPosesOfEveryKind) {
     std::string error;
