@@ -18,14 +18,30 @@ constexpr double kPi = 3.14159265358979323846;
 // Lines of one quadtree are a tile's half width apart, or the same up to the poleward run of meshes.
 constexpr double kSameLine = 0.1;
 
+// Between the square tiles of a quadtree and the whole globe, which VirtualPlanetBuilder parts into two.
+constexpr double kWide = 1.5;
+
 double inheritedWidth(double width, double parentWidth, double distance) noexcept {
     return std::abs(distance) < kSameLine * width ? std::max(width, parentWidth) : width;
 }
 
+// Of the series of a chord's poleward run, cut after its first term, for chords up to a seventh of half a turn.
+constexpr double kRoomForRun = 1.1;
+
 // The poleward run of a chord between two posts `angle` apart on a parallel: source doc/databases.md, (4.3).
-double polewardRun(double angle, double latitude) noexcept {
+double polewardRun(const Ellipsoid& ellipsoid, double angle, double latitude) noexcept {
     const double half = std::min(0.5 * angle, 1.0);
-    return 0.55 * half * half * std::abs(std::sin(latitude) * std::cos(latitude));
+    const double flattening = std::max(1.0, ellipsoid.equatorialRadius() / ellipsoid.polarRadius());
+    return 0.5 * kRoomForRun * flattening * flattening * half * half *
+           std::abs(std::sin(latitude) * std::cos(latitude));
+}
+
+// The arc that sags as far as a neighbour `width` wide does along a parallel: its edge, and its triangles within the
+// edge's poleward run. `slope`: the height of tiles over their width. Source: doc/databases.md, (4.2).
+double arcAlongParallel(const Ellipsoid& ellipsoid, double width, double latitude, double slope) noexcept {
+    const double cell = width / kFewestCells;
+    const double across = 2.0 * std::sqrt(polewardRun(ellipsoid, cell, latitude) * cell * slope);
+    return std::hypot(cell * std::cos(latitude), across);
 }
 
 }  // namespace
@@ -53,22 +69,26 @@ double sagOfArc(const Ellipsoid& ellipsoid, double angle) noexcept {
 }
 
 double crackDepth(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const TileEdges& edges) noexcept {
-    const double southArc = edges.south * std::cos(tile.latitude().lower);
-    const double northArc = edges.north * std::cos(tile.latitude().upper);
-    return sagOfArc(ellipsoid, std::max({southArc, northArc, edges.west, edges.east}) / kFewestCells);
+    const double slope = tile.latitude().width() / tile.longitude().width();
+    const double southArc = arcAlongParallel(ellipsoid, edges.south, tile.latitude().lower, slope);
+    const double northArc = arcAlongParallel(ellipsoid, edges.north, tile.latitude().upper, slope);
+    return sagOfArc(ellipsoid, std::max({southArc, northArc, edges.west / kFewestCells, edges.east / kFewestCells}));
 }
 
-GeodeticBin withGaps(const GeodeticBin& tile, const TileEdges& edges) noexcept {
+GeodeticBin withGaps(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const TileEdges& edges) noexcept {
     Interval latitude = tile.latitude();
-    if (latitude.upper > 0.0) latitude.upper += polewardRun(edges.north / kFewestCells, latitude.upper);
-    if (latitude.lower < 0.0) latitude.lower -= polewardRun(edges.south / kFewestCells, latitude.lower);
+    if (latitude.upper > 0.0) latitude.upper += polewardRun(ellipsoid, edges.north / kFewestCells, latitude.upper);
+    if (latitude.lower < 0.0) latitude.lower -= polewardRun(ellipsoid, edges.south / kFewestCells, latitude.lower);
     return GeodeticBin(latitude, tile.longitude(), tile.altitude());
 }
 
 double sagOfFinerMeshes(const Ellipsoid& ellipsoid, const GeodeticBin& tile, bool areGrids) noexcept {
     const Interval& latitude = tile.latitude();
     const double nearest = latitude.contains(0.0) ? 0.0 : std::min(std::abs(latitude.lower), std::abs(latitude.upper));
-    const double diagonal = 0.5 * std::hypot(tile.longitude().width() * std::cos(nearest), latitude.width());
+    // a tile much wider than high is halved in longitude alone
+    const bool isWide = tile.longitude().width() > kWide * latitude.width();
+    const double height = isWide ? latitude.width() : 0.5 * latitude.width();
+    const double diagonal = std::hypot(0.5 * tile.longitude().width() * std::cos(nearest), height);
     return sagOfArc(ellipsoid, areGrids ? diagonal / kFewestCells : diagonal);
 }
 

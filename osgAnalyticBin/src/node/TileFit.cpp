@@ -107,7 +107,7 @@ TileFit fitTile(const FoundTile& tile, Database& database, ParentTile& link) {
         if (isIndexFit && database.index() && fit.isTerrain) database.reportMisfit(link, fit.bin);
     }
     if (!fit.bin.valid()) return fit;
-    fit.bin.setBin(core::withGaps(fit.bin.bin(), link.edges));
+    fit.bin.setBin(core::withGaps(toCore(*database.ellipsoid()), fit.bin.bin(), link.edges));
     fit.bin.expandBy(database.correction(tile.frame.file, tile.ordinal));
     return fit;
 }

@@ -25,21 +25,25 @@ struct TileEdges {
 /// VirtualPlanetBuilder's flat tiles have as few.
 constexpr int kFewestCells = 7;
 
-/// Metres by which the chord of an arc of `angle` radians sags below the ellipsoid at most.
+/// Metres by which the chord of an arc of `angle` radians sags below its ends at most.
+/// Source: doc/databases.md, (4.1).
 [[nodiscard]] double sagOfArc(const Ellipsoid& ellipsoid, double angle) noexcept;
 
-/// How far below the posts of its edges a coarser neighbour's edge can dip, metres: to that depth an eye above the
-/// terrain can see a tile's skirts.
-/// Assumes: neighbours have kFewestCells cells along an edge or more.
+/// How far below its posts a coarser neighbour can dip where it meets the tile's edges, metres: to that depth an eye
+/// above the terrain can see the tile's skirts. Zero or more.
+/// Assumes: neighbours have kFewestCells cells along an edge or more, and the tile's proportions; posts within 60 km of
+/// the ellipsoid, per 6378 km of its radius.
+/// Guarantee: tests: CrackBounds.*.
 [[nodiscard]] double crackDepth(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const TileEdges& edges) noexcept;
 
 /// The tile's bin, widened poleward by the gap that opens between it and the chords of a coarser neighbour's posts on
 /// their common parallel: through that gap its skirts are seen to any depth.
 /// Assumes: as crackDepth().
-[[nodiscard]] GeodeticBin withGaps(const GeodeticBin& tile, const TileEdges& edges) noexcept;
+[[nodiscard]] GeodeticBin withGaps(const Ellipsoid& ellipsoid, const GeodeticBin& tile,
+                                   const TileEdges& edges) noexcept;
 
 /// How far below its posts a mesh on a part of the tile, half as wide, can dip, metres: one triangle may cover it all,
-/// or, where meshes are grids, a cell.
+/// or, where meshes are grids, a cell. The part is half as high too, unless the tile is much wider than high.
 /// Assumes: grids have kFewestCells cells along an edge or more.
 [[nodiscard]] double sagOfFinerMeshes(const Ellipsoid& ellipsoid, const GeodeticBin& tile, bool areGrids) noexcept;
 

@@ -1,0 +1,438 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// What cracks between tiles can show. Oracle: points of chords and triangles in long double, of every neighbour that a
+// tile of a quadtree can have. Quadtree: as VirtualPlanetBuilder's, one tile over the whole globe, then two, then four
+// to each.
+
+#include <osgAnalyticBin/core/CrackBounds.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <support/GeodeticOracle.h>
+#include <support/Random.h>
+#include <vector>
+
+namespace osgAnalyticBin::core {
+namespace {
+
+using test::Random;
+using test::Real;
+using test::RealVector;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kRounding = 1e-5;  // metres
+
+const std::array<Ellipsoid, 5>& ellipsoids() {
+    static const std::array<Ellipsoid, 5> all{Ellipsoid(6378137.0, 6356752.3142), Ellipsoid(6371000.0, 6371000.0),
+                                              Ellipsoid(3396190.0, 3376200.0), Ellipsoid(6378137.0, 6420000.0),
+                                              Ellipsoid(60268000.0, 54364000.0)};
+    return all;
+}
+
+// A tile of the quadtree; columns count from 180 degrees west, rows from the south pole.
+struct Tile {
+    int level = 0;
+    int x = 0;
+    int y = 0;
+
+    [[nodiscard]] int columns() const { return 1 << level; }
+    [[nodiscard]] int rows() const { return level == 0 ? 1 : 1 << (level - 1); }
+    [[nodiscard]] double width() const { return 2.0 * kPi / columns(); }
+    [[nodiscard]] double height() const { return kPi / rows(); }
+    [[nodiscard]] double west() const { return -kPi + x * width(); }
+    [[nodiscard]] double south() const { return -0.5 * kPi + y * height(); }
+    [[nodiscard]] Tile parent() const { return {level - 1, x / 2, level == 1 ? 0 : y / 2}; }
+
+    // Larger than its cell by a part of its size on each side.
+    [[nodiscard]] GeodeticBin bin(double excess = 0.0) const {
+        const double dx = excess * width();
+        const double dy = excess * height();
+        return GeodeticBin({south() - dy, south() + height() + dy}, {west() - dx, west() + width() + dx}, {0.0, 0.0});
+    }
+
+    [[nodiscard]] static Tile random(Random& random, int coarsest, int finest) {
+        Tile tile;
+        tile.level = random.integer(coarsest, finest);
+        tile.x = random.integer(0, tile.columns() - 1);
+        tile.y = random.integer(0, tile.rows() - 1);
+        // the date line and the poles often
+        if (random.chance(0.2)) tile.x = random.chance(0.5) ? 0 : tile.columns() - 1;
+        if (random.chance(0.2)) tile.y = random.chance(0.5) ? 0 : tile.rows() - 1;
+        return tile;
+    }
+};
+
+template <class Excess>
+TileEdges edgesOf(const Tile& tile, const Excess& excess) {
+    if (tile.level == 0) return TileEdges::of(tile.bin(), nullptr, nullptr);
+    const Tile parent = tile.parent();
+    const TileEdges parentEdges = edgesOf(parent, excess);
+    const GeodeticBin parentBin = parent.bin(excess(parent));
+    return TileEdges::of(tile.bin(excess(tile)), &parentBin, &parentEdges);
+}
+
+TileEdges edgesOf(const Tile& tile) {
+    return edgesOf(tile, [](const Tile&) { return 0.0; });
+}
+
+enum Edge { South, East, North, West };
+
+// The coarsest ancestor, the tile itself included, with an edge on the same line, by whole numbers.
+Tile coarsestOnLine(const Tile& tile, Edge edge) {
+    Tile coarsest = tile;
+    Tile at = tile;
+    while (at.level > 0) {
+        const Tile parent = at.parent();
+        const int split = at.level == 1 ? 1 : 2;
+        const bool shares = edge == South   ? at.y == split * parent.y
+                            : edge == North ? at.y + 1 == split * (parent.y + 1)
+                            : edge == West  ? at.x == 2 * parent.x
+                                            : at.x + 1 == 2 * (parent.x + 1);
+        if (!shares) break;
+        coarsest = parent;
+        at = parent;
+    }
+    return coarsest;
+}
+
+RealVector post(const Ellipsoid& ellipsoid, double latitude, double longitude, double altitude) {
+    return test::geodeticToEcef(ellipsoid, Real{latitude}, Real{longitude}, Real{altitude});
+}
+
+RealVector mixed(const RealVector& p, const RealVector& q, Real share) {
+    return (1 - share) * p + share * q;
+}
+
+double altitudeOf(const Ellipsoid& ellipsoid, const RealVector& point) {
+    return static_cast<double>(test::ecefToGeodetic(ellipsoid, point).altitude);
+}
+
+// A number of cells that a mesh may have along an edge: the fewest, often.
+int randomCells(Random& random) {
+    return random.chance(0.5) ? kFewestCells : random.integer(kFewestCells, 70);
+}
+
+// Heights enter by their lowest: posts stand there, or higher by chance.
+class Heights {
+public:
+    explicit Heights(Random& random) : Heights(random, random.chance(0.5)) {}
+    Heights(Random& random, bool isFlat)
+        : _random(random), _lowest(random.uniform(-11000.0, 9000.0)), _relief(isFlat ? 0.0 : 3000.0) {}
+
+    [[nodiscard]] double lowest() const { return _lowest; }
+    [[nodiscard]] double next() const { return _lowest + _relief * _random.uniform(); }
+
+private:
+    Random& _random;
+    double _lowest, _relief;
+};
+
+TEST(CrackBounds, ArcsSagNoMoreAndNearlyAsMuch) {
+    Random random(1701);
+    for (const Ellipsoid& ellipsoid : ellipsoids()) {
+        double most = 0.0;
+        for (int trial = 0; trial < 3000; ++trial) {
+            const double angle = random.logUniform(1e-3, 1.0);
+            const Heights heights(random);
+            const bool isMeridian = random.chance(0.5);
+            // where curvature is least: the poles, or the equator
+            const double middle = random.chance(0.3) ? random.pick(std::array<double, 2>{0.0, 0.5 * (kPi - angle)})
+                                                     : random.uniform(-0.5, 0.5) * (kPi - angle);
+            const double half = isMeridian ? 0.5 * angle : std::min(0.5 * angle / std::cos(middle), 1.5);
+            const RealVector p = isMeridian ? post(ellipsoid, middle - half, 0.0, heights.next())
+                                            : post(ellipsoid, middle, -half, heights.next());
+            const RealVector q = isMeridian ? post(ellipsoid, middle + half, 0.0, heights.next())
+                                            : post(ellipsoid, middle, half, heights.next());
+            const double bound = sagOfArc(ellipsoid, angle);
+            for (int i = 1; i < 16; ++i) {
+                const double sag = heights.lowest() - altitudeOf(ellipsoid, mixed(p, q, Real(i) / 16));
+                ASSERT_LE(sag, bound) << "angle " << angle << " at " << middle;
+                most = std::max(most, sag / bound);
+            }
+        }
+        EXPECT_GT(most, 0.93);
+    }
+    EXPECT_EQ(sagOfArc(ellipsoids()[0], 0.0), 0.0);
+    EXPECT_LT(sagOfArc(ellipsoids()[0], 7.0), 2e7);
+}
+
+TEST(CrackBounds, EdgesAreThoseOfTheCoarsestTileOnTheLine) {
+    Random random(1702);
+    for (int trial = 0; trial < 5000; ++trial) {
+        const Tile tile = Tile::random(random, 0, 10);
+        const double most = random.chance(0.5) ? 0.0 : 0.02;
+        const TileEdges edges = edgesOf(tile, [&](const Tile&) { return random.uniform(0.0, most); });
+        const std::array<double, 4> found{edges.south, edges.east, edges.north, edges.west};
+        for (const Edge edge : {South, East, North, West}) {
+            const Tile coarsest = coarsestOnLine(tile, edge);
+            const double expected = edge == South || edge == North ? coarsest.width() : coarsest.height();
+            EXPECT_GE(found[edge], expected * (1.0 - 1e-12)) << tile.level << " " << tile.x << " " << tile.y;
+            EXPECT_LE(found[edge], expected * (1.0 + 2.0 * most + 1e-12))
+                << tile.level << " " << tile.x << " " << tile.y;
+        }
+    }
+}
+
+TEST(CrackBounds, EdgesFollowATileAcrossTheDateLine) {
+    const GeodeticBin parent = GeodeticBin::fromDegrees({0.0, 20.0}, {170.0, 190.0}, {0.0, 0.0});
+    const TileEdges parentEdges{0.5, 0.6, 0.7, 0.8};
+    // the same quarter, a turn away
+    const GeodeticBin child = GeodeticBin::fromDegrees({10.0, 20.0}, {-180.0, -170.0}, {0.0, 0.0});
+    const TileEdges edges = TileEdges::of(child, &parent, &parentEdges);
+    const double width = 10.0 * kPi / 180.0;
+    EXPECT_NEAR(edges.south, width, 1e-14);
+    EXPECT_NEAR(edges.west, width, 1e-14);
+    EXPECT_DOUBLE_EQ(edges.north, 0.7);
+    EXPECT_DOUBLE_EQ(edges.east, 0.6);
+}
+
+// What a tile's neighbours of one level draw along its edges, as far as the tile goes.
+class NeighbourSamples {
+public:
+    NeighbourSamples(const Ellipsoid& ellipsoid, const Tile& tile, Random& random)
+        : _ellipsoid(ellipsoid), _tile(tile), _random(random) {}
+
+    // Metres below their posts.
+    [[nodiscard]] double dip() const { return _dip; }
+    // Radians beyond the southern and the northern edge.
+    [[nodiscard]] double run(Edge edge) const { return edge == South ? _southRun : _northRun; }
+
+    void alongMeridian(const Tile& coarse, int cells) {
+        const Heights heights(_random, cells == kFewestCells);
+        const double step = coarse.height() / cells;
+        for (int i = 0; i < cells; ++i) {
+            const double south = coarse.south() + i * step;
+            if (south + step < _tile.south() || south > _tile.south() + _tile.height()) continue;
+            const RealVector p = post(_ellipsoid, south, 0.0, heights.next());
+            const RealVector q = post(_ellipsoid, south + step, 0.0, heights.next());
+            for (int k = 1; k < 8; ++k) note(heights, mixed(p, q, Real(k) / 8));
+        }
+    }
+
+    // `coarse`: the tile of this side whose neighbour, its mirror image, is beyond the edge; `cells` along, `rows` up.
+    void alongParallel(const Tile& coarse, Edge edge, int cells, int rows) {
+        const double latitude = edge == South ? _tile.south() : _tile.south() + _tile.height();
+        if (std::abs(latitude) > 0.5 * kPi - 1e-9) return;
+        const double inner = latitude + (edge == South ? -1.0 : 1.0) * coarse.height() / rows;
+        const Heights heights(_random, cells == kFewestCells);
+        const double step = coarse.width() / cells;
+        const bool runsOverTile = (edge == South) == (latitude > 0.0);
+        for (int i = 0; i < cells; ++i) {
+            const double west = coarse.west() + i * step;
+            if (west + step < _tile.west() || west > _tile.west() + _tile.width()) continue;
+            const RealVector p = post(_ellipsoid, latitude, west, heights.next());
+            const RealVector q = post(_ellipsoid, latitude, west + step, heights.next());
+            const RealVector third = post(_ellipsoid, inner, west + (_random.chance(0.5) ? step : 0.0), heights.next());
+            for (int k = 1; k < 8; ++k) {
+                const RealVector edgePoint = mixed(p, q, Real(k) / 8);
+                note(heights, edgePoint);
+                if (std::abs(latitude) < 1e-9) continue;  // a chord of the equator stays there
+                if (runsOverTile) {
+                    noteStrip(heights, edgePoint, third, latitude);
+                } else {
+                    noteRun(edgePoint, edge, latitude);
+                }
+            }
+        }
+    }
+
+private:
+    void note(const Heights& heights, const RealVector& point) {
+        _dip = std::max(_dip, heights.lowest() - altitudeOf(_ellipsoid, point));
+    }
+
+    void noteRun(const RealVector& point, Edge edge, double latitude) {
+        const double found = static_cast<double>(test::ecefToGeodetic(_ellipsoid, point).latitude);
+        double& run = edge == South ? _southRun : _northRun;
+        run = std::max(run, std::abs(found) - std::abs(latitude));
+    }
+
+    // The neighbour's triangle from its edge, which is above the tile, back to the tile's edge.
+    void noteStrip(const Heights& heights, const RealVector& edgePoint, const RealVector& third, double latitude) {
+        Real before = 0;
+        Real after = 0.2L;
+        for (int i = 0; i < 40; ++i) {
+            const Real share = (before + after) / 2;
+            const Real found = test::ecefToGeodetic(_ellipsoid, mixed(edgePoint, third, share)).latitude;
+            (std::abs(found) > std::abs(Real{latitude}) ? before : after) = share;
+        }
+        for (int k = 0; k <= 4; ++k) note(heights, mixed(edgePoint, third, before * k / 4));
+    }
+
+    const Ellipsoid& _ellipsoid;
+    const Tile _tile;
+    Random& _random;
+    double _dip = 0.0, _southRun = 0.0, _northRun = 0.0;
+};
+
+NeighbourSamples sampledNeighbours(const Ellipsoid& ellipsoid, const Tile& tile, Random& random) {
+    NeighbourSamples samples(ellipsoid, tile, random);
+    for (const Edge edge : {South, East, North, West}) {
+        const int coarsest = coarsestOnLine(tile, edge).level;
+        for (Tile coarse = tile; coarse.level >= std::max(1, coarsest); coarse = coarse.parent()) {
+            for (const int cells : {kFewestCells, randomCells(random)}) {
+                if (edge == East || edge == West) {
+                    samples.alongMeridian(coarse, cells);
+                } else {
+                    samples.alongParallel(coarse, edge, cells, cells == kFewestCells ? cells : randomCells(random));
+                }
+            }
+        }
+    }
+    return samples;
+}
+
+void expectCracksAreBounded(const Ellipsoid& ellipsoid, const Tile& tile, Random& random) {
+    const std::string name = std::to_string(tile.level) + " " + std::to_string(tile.x) + " " + std::to_string(tile.y);
+    const TileEdges edges = edgesOf(tile);
+    const GeodeticBin bin = tile.bin();
+    const NeighbourSamples samples = sampledNeighbours(ellipsoid, tile, random);
+    const double depth = crackDepth(ellipsoid, bin, edges);
+    EXPECT_LE(samples.dip(), depth + kRounding) << name;
+    // the largest radius of curvature counts everywhere
+    const double axes = std::max(ellipsoid.equatorialRadius() / ellipsoid.polarRadius(),
+                                 ellipsoid.polarRadius() / ellipsoid.equatorialRadius());
+    EXPECT_LE(depth, 1.1 * axes * axes * axes * samples.dip() + kRounding) << name;
+
+    const GeodeticBin wide = withGaps(ellipsoid, bin, edges);
+    const double south = bin.latitude().lower - wide.latitude().lower;
+    const double north = wide.latitude().upper - bin.latitude().upper;
+    EXPECT_EQ(wide.longitude(), bin.longitude());
+    EXPECT_EQ(wide.altitude(), bin.altitude());
+    EXPECT_LE(samples.run(South), south + 1e-15) << name;
+    EXPECT_LE(samples.run(North), north + 1e-15) << name;
+    // 1.1 of room, and the square of the axes' ratio
+    EXPECT_LE(south, 1.6 * samples.run(South) + 1e-15) << name;
+    EXPECT_LE(north, 1.6 * samples.run(North) + 1e-15) << name;
+
+    // a mesh's own chords run poleward too
+    const GeodeticBin grown = withGaps(ellipsoid, bin, {bin.longitude().width(), 0.0, bin.longitude().width(), 0.0});
+    EXPECT_LE(samples.dip(), crackDepth(ellipsoid, grown, edges) + kRounding) << name;
+}
+
+TEST(CrackBounds, NoCoarserNeighbourDipsDeeperOrRunsFarther) {
+    Random random(1703);
+    for (const Ellipsoid& ellipsoid : ellipsoids()) {
+        for (int trial = 0; trial < 60; ++trial) {
+            expectCracksAreBounded(ellipsoid, Tile::random(random, 2, 10), random);
+        }
+    }
+}
+
+TEST(CrackBounds, HoldsAtEveryLatitude) {
+    Random random(1704);
+    for (const int level : {2, 3, 4, 5}) {
+        const Tile first{level, 0, 0};
+        for (int y = 0; y < first.rows(); ++y) {
+            expectCracksAreBounded(ellipsoids()[0], {level, random.integer(0, first.columns() - 1), y}, random);
+        }
+    }
+}
+
+// A part of the tile that its children, or theirs, may be.
+Tile randomDescendant(const Tile& tile, Random& random) {
+    const int deeper = random.integer(1, 2);
+    Tile part = tile;
+    for (int i = 0; i < deeper; ++i) {
+        const int rows = part.level == 0 ? 1 : 2;
+        part = {part.level + 1, 2 * part.x + random.integer(0, 1), rows * part.y + random.integer(0, rows - 1)};
+    }
+    return part;
+}
+
+// The deepest of a triangle's points below `lowest`.
+double dipOf(const Ellipsoid& ellipsoid, const std::array<RealVector, 3>& corners, double lowest) {
+    constexpr int kSteps = 6;
+    double dip = 0.0;
+    for (int i = 0; i <= kSteps; ++i) {
+        for (int j = 0; j <= kSteps - i; ++j) {
+            const RealVector point = Real(i) / kSteps * corners[0] + Real(j) / kSteps * corners[1] +
+                                     Real(kSteps - i - j) / kSteps * corners[2];
+            dip = std::max(dip, lowest - altitudeOf(ellipsoid, point));
+        }
+    }
+    return dip;
+}
+
+double dipOfCells(const Ellipsoid& ellipsoid, const Tile& part, int cells, Random& random) {
+    const Heights heights(random);
+    const double lat = part.height() / cells;
+    const double lon = part.width() / cells;
+    double dip = 0.0;
+    for (const int row : {0, cells - 1, random.integer(0, cells - 1)}) {
+        const double south = part.south() + row * lat;
+        const double west = part.west() + random.integer(0, cells - 1) * lon;
+        const RealVector sw = post(ellipsoid, south, west, heights.next());
+        const RealVector se = post(ellipsoid, south, west + lon, heights.next());
+        const RealVector nw = post(ellipsoid, south + lat, west, heights.next());
+        const RealVector ne = post(ellipsoid, south + lat, west + lon, heights.next());
+        for (const auto& triangle : {std::array<RealVector, 3>{sw, se, ne}, std::array<RealVector, 3>{sw, ne, nw},
+                                     std::array<RealVector, 3>{sw, se, nw}, std::array<RealVector, 3>{se, ne, nw}}) {
+            dip = std::max(dip, dipOf(ellipsoid, triangle, heights.lowest()));
+        }
+    }
+    return dip;
+}
+
+TEST(CrackBounds, NoFinerGridDipsDeeper) {
+    Random random(1705);
+    for (const Ellipsoid& ellipsoid : ellipsoids()) {
+        for (int trial = 0; trial < 300; ++trial) {
+            const Tile tile = Tile::random(random, 0, 9);
+            const double bound = sagOfFinerMeshes(ellipsoid, tile.bin(), true);
+            const Tile part = randomDescendant(tile, random);
+            ASSERT_LE(dipOfCells(ellipsoid, part, randomCells(random), random), bound + kRounding)
+                << tile.level << " " << tile.x << " " << tile.y << " / " << part.level;
+        }
+    }
+}
+
+TEST(CrackBounds, NoFinerTriangleDipsDeeper) {
+    Random random(1706);
+    for (const Ellipsoid& ellipsoid : ellipsoids()) {
+        for (int trial = 0; trial < 1000; ++trial) {
+            const Tile tile = Tile::random(random, 1, 9);
+            const double bound = sagOfFinerMeshes(ellipsoid, tile.bin(), false);
+            const Tile part = randomDescendant(tile, random);
+            const Heights heights(random);
+            const auto corner = [&] {
+                const auto share = [&] { return random.chance(0.6) ? double(random.chance(0.5)) : random.uniform(); };
+                const double latitude = part.south() + share() * part.height();
+                return post(ellipsoid, latitude, part.west() + share() * part.width(), heights.next());
+            };
+            ASSERT_LE(dipOf(ellipsoid, {corner(), corner(), corner()}, heights.lowest()), bound + kRounding)
+                << tile.level << " " << tile.x << " " << tile.y << " / " << part.level;
+        }
+    }
+}
+
+TEST(CrackBounds, FinerMeshesNearlyDipAsDeep) {
+    Random random(1707);
+    for (int trial = 0; trial < 300; ++trial) {
+        const Ellipsoid& ellipsoid = ellipsoids()[0];
+        const Tile tile = Tile::random(random, 3, 9);
+        // the part nearest to the equator
+        const bool isNorth = tile.south() >= 0.0;
+        const Tile part{tile.level + 1, 2 * tile.x, 2 * tile.y + (isNorth ? 0 : 1)};
+        const double south = part.south();
+        const double north = part.south() + part.height();
+        const double west = part.west();
+        const double east = part.west() + part.width();
+        const double near = isNorth ? south : north;
+        const std::array<RealVector, 3> half{post(ellipsoid, near, west, 0.0), post(ellipsoid, near, east, 0.0),
+                                             post(ellipsoid, isNorth ? north : south, east, 0.0)};
+        EXPECT_LE(sagOfFinerMeshes(ellipsoid, tile.bin(), false), 1.4 * dipOf(ellipsoid, half, 0.0));
+        const double step = part.width() / kFewestCells;
+        const double far = near + (isNorth ? step : -step);
+        const std::array<RealVector, 3> cell{post(ellipsoid, near, west, 0.0), post(ellipsoid, near, west + step, 0.0),
+                                             post(ellipsoid, far, west + step, 0.0)};
+        EXPECT_LE(sagOfFinerMeshes(ellipsoid, tile.bin(), true), 1.4 * dipOf(ellipsoid, cell, 0.0));
+    }
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::core
