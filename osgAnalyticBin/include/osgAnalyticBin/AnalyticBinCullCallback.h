@@ -100,13 +100,14 @@ public:
     /// they count; minus infinity when not known.
     [[nodiscard]] double binLow() const { return _binLow; }
 
-    /// A sphere in ECEF that holds the bin, for a first look. Returns: nullptr when there is none at hand.
-    [[nodiscard]] const osg::BoundingSphere* ecefSphere() const {
-        return _prepared && !_hasLocalFrame ? &_prepared->sphere : nullptr;
+    /// A sphere in ECEF that holds the bin's column, for a first look: the bin and, where it lies below the ellipsoid,
+    /// what is above it up to there. Returns: nullptr when there is none at hand.
+    [[nodiscard]] const osg::BoundingSphere* ecefColumnSphere() const {
+        return _prepared && !_hasLocalFrame ? &_prepared->columnSphere : nullptr;
     }
 
-    /// Whether the eye sees nothing of the bin for the horizon. Requires: an eye on the bin's ellipsoid.
-    [[nodiscard]] bool isHiddenFrom(const core::HorizonEye& eye) const;
+    /// Whether the eye sees nothing of the bin's column for the horizon. Requires: an eye on the bin's ellipsoid.
+    [[nodiscard]] bool isColumnHiddenFrom(const core::HorizonEye& eye) const;
 
     /// The same properties as text, exact in every file format; what the serializer stores.
     void setBinText(const std::string& text);
@@ -132,6 +133,8 @@ private:
         std::optional<core::HorizonBin> horizon;
         core::Ellipsoid ellipsoid;
         osg::BoundingSphere sphere;  // in the frame of the node's children
+        osg::BoundingSphere columnSphere;
+        std::optional<core::HorizonBin> columnHorizon;  // where it is not that of the bin
     };
 
     void prepare();

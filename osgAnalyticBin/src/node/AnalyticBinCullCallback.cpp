@@ -113,13 +113,20 @@ void AnalyticBinCullCallback::prepare() {
     osg::BoundingSphere sphere = shown.boundingSphere(*_ellipsoid);
     if (_hasLocalFrame) sphere = movedSphere(sphere, _ecefToLocal);
     const core::Ellipsoid ellipsoid = toCore(*_ellipsoid);
-    _prepared = Prepared{preparedBin(shown, ellipsoid, _options), std::nullopt, std::nullopt, ellipsoid, sphere};
+    _prepared = Prepared{
+        preparedBin(shown, ellipsoid, _options), std::nullopt, std::nullopt, ellipsoid, sphere, sphere, std::nullopt};
     if (!isSound(_options.method)) return;
     const bool isExact = std::holds_alternative<core::ExactGeodeticBin>(_prepared->bin);
     if (_options.reverse && !isExact && core::ExactGeodeticBin::holds(ellipsoid, shown.bin())) {
         _prepared->separable.emplace(ellipsoid, shown.bin(), shown.margin());
     }
-    if (_options.horizonUse != HorizonUse::Off) _prepared->horizon.emplace(ellipsoid, shown.bin(), shown.margin());
+    if (_options.horizonUse == HorizonUse::Off) return;
+    _prepared->horizon.emplace(ellipsoid, shown.bin(), shown.margin());
+    if (shown.bin().altitude().upper >= 0.0) return;
+    AnalyticBin column = shown;
+    column.setBin(shown.bin().withAltitude({shown.bin().altitude().lower, 0.0}));
+    _prepared->columnHorizon.emplace(ellipsoid, column.bin(), column.margin());
+    if (!_hasLocalFrame) _prepared->columnSphere = column.boundingSphere(*_ellipsoid);
 }
 
 void AnalyticBinCullCallback::setBin(const AnalyticBin& bin) {
@@ -144,8 +151,9 @@ void AnalyticBinCullCallback::setSurface(const AnalyticBin& surface) {
     _surfaceLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
 }
 
-bool AnalyticBinCullCallback::isHiddenFrom(const core::HorizonEye& eye) const {
-    return _prepared && _prepared->horizon && eye.hides(*_prepared->horizon);
+bool AnalyticBinCullCallback::isColumnHiddenFrom(const core::HorizonEye& eye) const {
+    if (!_prepared || !_prepared->horizon) return false;
+    return eye.hides(_prepared->columnHorizon ? *_prepared->columnHorizon : *_prepared->horizon);
 }
 
 void AnalyticBinCullCallback::setCullOptions(const CullOptions& options) {

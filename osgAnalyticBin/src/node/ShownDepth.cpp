@@ -18,12 +18,15 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-// The installer puts its callback first. A dynamic_cast across OSG's virtual bases would be most of the search's cost.
+// The installer puts its callback first, others may have put theirs before it. A dynamic_cast across OSG's virtual
+// bases would be most of the search's cost.
 const AnalyticBinCullCallback* binCallback(const osg::Node& node) {
-    const osg::Callback* first = node.getCullCallback();
-    const osg::NodeCallback* callback = first ? first->asNodeCallback() : nullptr;
-    const bool isBin = callback && typeid(*callback) == typeid(AnalyticBinCullCallback);
-    return isBin ? static_cast<const AnalyticBinCullCallback*>(callback) : nullptr;
+    for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
+        const osg::NodeCallback* callback = at->asNodeCallback();
+        const bool isBin = callback && typeid(*callback) == typeid(AnalyticBinCullCallback);
+        if (isBin) return static_cast<const AnalyticBinCullCallback*>(callback);
+    }
+    return nullptr;
 }
 
 osg::PagedLOD* pagedLod(osg::Node& node) {
@@ -51,7 +54,7 @@ public:
 private:
     void searchNode(osg::Node& node) {
         const AnalyticBinCullCallback* tile = binCallback(node);
-        if (tile && (isAbove(*tile) || isBesideFrustum(*tile) || tile->isHiddenFrom(_eye))) return;
+        if (tile && (isAbove(*tile) || isBesideFrustum(*tile) || tile->isColumnHiddenFrom(_eye))) return;
         osg::PagedLOD* paged = tile ? pagedLod(node) : nullptr;
         if (paged) return searchPaged(*paged, *tile);
         if (tile) return show(*tile);
@@ -70,9 +73,9 @@ private:
         return isFitted(tile) && tile.binLow() >= -_depth;
     }
 
-    // Rays that are seen meet nothing there.
+    // Rays that are seen do not enter the occluder there: it lies below the ellipsoid, but it may lie above the tile.
     [[nodiscard]] bool isBesideFrustum(const AnalyticBinCullCallback& tile) const {
-        const osg::BoundingSphere* sphere = tile.ecefSphere();
+        const osg::BoundingSphere* sphere = tile.ecefColumnSphere();
         if (!sphere || !isFitted(tile)) return false;
         const osg::Vec3d center = sphere->center();
         return std::any_of(_planes.begin(), _planes.end(), [&](const osg::Plane& plane) {

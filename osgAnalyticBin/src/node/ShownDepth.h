@@ -21,7 +21,9 @@ namespace osgAnalyticBin {
 /// and its horizon.
 /// `shape` is the one that the database is shown in. Coarse meshes elsewhere, which dip far below the ellipsoid, do not
 /// count. `depth` (metres) is where the search starts, best that of the last frame; it returns the depth found.
-/// Requires: tiles that cover the globe without gaps.
+/// Requires: tiles that cover the globe without gaps, an eye above them.
+/// Guarantee: nothing is hidden that is seen past the shown surfaces; the eye's occluder is no deeper than `depth` was
+/// or 1.05 times the depth found, but for eyes below the ellipsoid; tests: ShownDepth.*.
 /// Returns: nullopt when something of unknown depth is shown, or when nothing can be hidden.
 /// Cost: one short test for every tile shown on the near side of the horizon.
 /// Source: doc/horizon.md, section 7.
