@@ -26,7 +26,7 @@ namespace osgAnalyticBin {
 /// or 1.05 times the depth found, but for eyes below the ellipsoid; tests: ShownDepth.*.
 /// Returns: nullopt when something of unknown depth is shown, or when nothing can be hidden.
 /// Cost: one short test for every tile shown on the near side of the horizon.
-/// Source: doc/horizon.md, section 7.
+/// Source: doc/horizon.md, section 8.
 [[nodiscard]] std::optional<core::HorizonEye> eyeAboveWhatIsShown(osg::Group& database, osg::NodeVisitor& visitor,
                                                                   const osg::CullStack& cullStack,
                                                                   const Viewpoint& viewpoint,
