@@ -507,6 +507,7 @@ TEST_F(FlatGlobe, HasNoHorizonWhereATileIsOfAnotherShape) {
 TEST_F(FlatGlobe, IsNoDeeperForAnotherDatabaseInsideIt) {
     globe->build();
     Terrain terrain;
+    terrain.deepShare = 0.0;
     terrain.loadedShare = 0.0;
     Random random(2);
     Globe other(terrain, random);
@@ -518,6 +519,40 @@ TEST_F(FlatGlobe, IsNoDeeperForAnotherDatabaseInsideIt) {
     const Picture picture = pictureOf(40.0);
     EXPECT_NEAR(ask(*globe->root, picture).found, 100.0, 1e-9);
     EXPECT_NEAR(ask(*other.root, picture).found, 7000.0, 1e-9);
+}
+
+// Adds a tile without parts, its bin as flat as its surface. Degrees.
+void addFlatTile(osg::Group& root, core::Interval latitude, core::Interval longitude, double altitude) {
+    const AnalyticBin bin(GeodeticBin::fromDegrees(latitude, longitude, {altitude, altitude}));
+    const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(bin, osg::EllipsoidModel());
+    callback->setSurface(bin);
+    const osg::ref_ptr<osg::Group> tile = new osg::Group;
+    tile->setCullCallback(callback);
+    root.addChild(tile);
+}
+
+TEST(ShownDepth, FindsABasinThatLinesOfSightPassHighAbove) {
+    // Looking east along the equator past the limb, 4500 m below the ellipsoid at its nearest, over tiles of a basin
+    // at -9000 m that are all below the picture.
+    constexpr double kDegree = 3.14159265358979323846 / 180.0;
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    addFlatTile(*root, {-1.0, 1.0}, {-1.0, 0.5}, -3000.0);
+    for (int i = 10; i < 100; ++i) addFlatTile(*root, {-0.025, 0.025}, {0.05 * i, 0.05 * (i + 1)}, -9000.0);
+    const glm::dvec3 eye = earth().toEcef({0.0, 0.0, 2000.0});
+    const double toLimb = std::acos((kRadius - 4500.0) / (kRadius + 2000.0));
+    const glm::dvec3 limb = earth().toEcef({0.0, toLimb, -4500.0});
+    const Picture picture(eye, limb, {1.0, 0.0, 0.0}, 0.1);
+
+    const auto shallow = HorizonEye::fromEye(earth(), 3000.0, eye);
+    ASSERT_TRUE(shallow);
+    ASSERT_TRUE(hidesPoint(*shallow, earth().toEcef({0.0, 2.5 * toLimb, -4000.0})));
+    const auto distance = entry(eye, picture.ray(0.0, 0.0), 3000.0);
+    ASSERT_TRUE(distance);
+    EXPECT_GT(earth().toGeodetic(eye + picture.ray(0.0, 0.0) * *distance).longitude, 0.5 * kDegree);
+
+    const Answer answer = ask(*root, picture, 3000.0);
+    ASSERT_TRUE(answer.eye);
+    EXPECT_NEAR(answer.found, 9000.0, 1e-9);
 }
 
 }  // namespace
