@@ -21,8 +21,24 @@ constexpr double kSameLine = 0.1;
 // Between the square tiles of a quadtree and the whole globe, which VirtualPlanetBuilder parts into two.
 constexpr double kWide = 1.5;
 
-double inheritedWidth(double width, double parentWidth, double distance) noexcept {
-    return std::abs(distance) < kSameLine * width ? std::max(width, parentWidth) : width;
+// Radians: rounding of extents that were read off meshes.
+constexpr double kSameAngle = 1e-5;
+
+struct Edge {
+    double& width;
+    bool& isOnBorder;
+};
+
+void inherit(const Edge& edge, double parentWidth, bool isParentOnBorder, double distance) noexcept {
+    if (!(std::abs(distance) < kSameLine * edge.width)) return;
+    edge.width = std::max(edge.width, parentWidth);
+    edge.isOnBorder = isParentOnBorder;
+}
+
+TileEdges::Border borderOfRoot(const GeodeticBin& tile) noexcept {
+    const bool isAround = tile.longitude().width() > 2.0 * kPi - kSameAngle;
+    const double pole = 0.5 * kPi - kSameAngle;
+    return {tile.latitude().lower > -pole, !isAround, tile.latitude().upper < pole, !isAround};
 }
 
 // Of the series of a chord's poleward run, cut after its first term, for chords up to a seventh of half a turn.
@@ -49,14 +65,24 @@ double arcAlongParallel(const Ellipsoid& ellipsoid, double width, double latitud
 TileEdges TileEdges::of(const GeodeticBin& tile, const GeodeticBin* parentTile, const TileEdges* parentEdges) noexcept {
     const double lon = tile.longitude().width();
     const double lat = tile.latitude().width();
-    TileEdges edges{lon, lat, lon, lat};
-    if (!parentTile || !parentEdges) return edges;
+    TileEdges edges{lon, lat, lon, lat, {}};
+    if (!parentTile || !parentEdges || parentTile->empty()) {
+        edges.border = borderOfRoot(tile);
+        return edges;
+    }
     const GeodeticBin& p = *parentTile;
-    edges.south = inheritedWidth(lon, parentEdges->south, (tile.latitude().lower - p.latitude().lower) * lon / lat);
-    edges.north = inheritedWidth(lon, parentEdges->north, (tile.latitude().upper - p.latitude().upper) * lon / lat);
+    const TileEdges& of = *parentEdges;
+    TileEdges::Border& border = edges.border;
+    const double east = lon / lat;
     const auto turn = [](double angle) { return std::remainder(angle, 2.0 * kPi); };
-    edges.west = inheritedWidth(lat, parentEdges->west, turn(tile.longitude().lower - p.longitude().lower) * lat / lon);
-    edges.east = inheritedWidth(lat, parentEdges->east, turn(tile.longitude().upper - p.longitude().upper) * lat / lon);
+    inherit({edges.south, border.south}, of.south, of.border.south,
+            (tile.latitude().lower - p.latitude().lower) * east);
+    inherit({edges.north, border.north}, of.north, of.border.north,
+            (tile.latitude().upper - p.latitude().upper) * east);
+    inherit({edges.west, border.west}, of.west, of.border.west,
+            turn(tile.longitude().lower - p.longitude().lower) / east);
+    inherit({edges.east, border.east}, of.east, of.border.east,
+            turn(tile.longitude().upper - p.longitude().upper) / east);
     return edges;
 }
 

@@ -71,7 +71,14 @@ void fitSurface(const FoundTile& tile, Database& database, ParentTile& link, Til
     fit.surface = surface.bin;
     fit.bin = rangedBin(surface, !tile.pagedFiles.empty(), database, link);
     fit.isScalable = surface.isScalable;
-    if (database.options().skirts == SkirtUse::All) fit.skirt = surface.skirt;
+    if (database.options().skirts == SkirtUse::All || link.edges.areOnBorder()) fit.skirt = surface.skirt;
+}
+
+// For a tile whose bin says nothing of skirts.
+void fitSkirt(const FoundTile& tile, const Database& database, TileFit& fit) {
+    const TileSurface surface = surfaceOf(tile, database.shape().sampleRatio);
+    fit.skirt = surface.skirt;
+    if (!surface.bin.valid()) fit.bin.init();
 }
 
 // Returns: whether the index knows the tile as it is.
@@ -86,6 +93,7 @@ bool fitIndexed(const FoundTile& tile, const Database& database, ParentTile& lin
     linkTo(fit.bin.bin(), link);
     const double high = std::max(entry->ownLow, fit.bin.bin().altitude().upper);
     fit.surface = withAltitude(fit.bin, {entry->ownLow, high}, 0.0);
+    if (link.edges.areOnBorder()) fitSkirt(tile, database, fit);
     return true;
 }
 

@@ -14,7 +14,10 @@ namespace osgAnalyticBin {
 struct TileFit {
     AnalyticBin bin;      ///< with all descendants; not valid: see isTerrain
     AnalyticBin surface;  ///< what it draws by itself; not valid: not known
-    double skirt = 0.0;   ///< metres that skirts hang below the bin, where they are to count
+    /// Metres that skirts hang below the bin, where they are to count: with SkirtUse::All, and on the outer border of a
+    /// database, where no neighbour stands before them. Assumes: descendants' skirts hang no longer than the tile's
+    /// own.
+    double skirt = 0.0;
     bool isScalable = false;
     /// False: the node is not terrain, and left as it is. True with a bin that is not valid: never culled.
     bool isTerrain = false;

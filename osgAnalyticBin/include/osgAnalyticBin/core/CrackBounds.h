@@ -16,7 +16,19 @@ namespace osgAnalyticBin::core {
 struct TileEdges {
     double south = 0.0, east = 0.0, north = 0.0, west = 0.0;
 
-    /// The edges of a tile, `parent` being those of the tile that it is a part of (null: a root).
+    /// Whether the edge is a part of the database's outer border: there is no neighbour, and skirts stand in plain
+    /// view.
+    struct Border {
+        bool south = false, east = false, north = false, west = false;
+    } border;
+
+    [[nodiscard]] bool areOnBorder() const noexcept {
+        return border.south || border.east || border.north || border.west;
+    }
+
+    /// The edges of a tile, `parent` being those of the tile that it is a part of (null or empty: a root). Edges of
+    /// roots are on the border unless they lie at a pole or their tile runs around the globe; other roots beside it do
+    /// not count.
     [[nodiscard]] static TileEdges of(const GeodeticBin& tile, const GeodeticBin* parentTile,
                                       const TileEdges* parentEdges) noexcept;
 };
