@@ -35,9 +35,12 @@ struct Verdict;
 struct TerrainShape {
     double verticalScale = 1.0;
     double sampleRatio = 1.0;
+    bool areBoundariesEqual = false;  ///< Whether edges lie half way to the heights of neighbours.
+    bool isKnown = true;              ///< Whether osgTerrain::GeometryTechnique itself makes the meshes.
 
     [[nodiscard]] bool operator==(const TerrainShape& other) const {
-        return verticalScale == other.verticalScale && sampleRatio == other.sampleRatio;
+        return verticalScale == other.verticalScale && sampleRatio == other.sampleRatio &&
+               areBoundariesEqual == other.areBoundariesEqual && isKnown == other.isKnown;
     }
 };
 

@@ -39,8 +39,8 @@ struct TileSurface {
 /// count as surface.
 /// Guarantee: the bin holds every point of every triangle that is drawn, skirts left out, and of terrain tiles at any
 /// vertical scale from -10 to 10 once exaggerated(); tests: TileSurface.*. Terrain whose boundaries are equalised
-/// (Terrain::setEqualizeBoundaries(), off by default) takes heights of its neighbours at its edges: the bins of both
-/// hold these together.
+/// (Terrain::setEqualizeBoundaries(), off by default) takes heights of its neighbours at its edges, which are not in
+/// here.
 /// Cost: one pass over heights or vertices and triangles.
 [[nodiscard]] OSGANALYTICBIN_EXPORT TileSurface tileSurface(osg::Node& node, const osg::EllipsoidModel& ellipsoid,
                                                             const osg::Matrixd& localToEcef, double sampleRatio = 1.0);

@@ -213,7 +213,8 @@ void BinInstaller::install(FoundTile& tile) {
     link->parent = _parent;
     link->file = tile.frame.file;
     link->ordinal = tile.ordinal;
-    const TileFit fit = fitTile(tile, database(), *link);
+    const TerrainShape shape = database().shape();
+    const TileFit fit = fitTile(tile, database(), shape, *link);
     if (!fit.isTerrain) return visitOther(node);
 
     const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database().ellipsoid();
@@ -222,7 +223,7 @@ void BinInstaller::install(FoundTile& tile) {
     osg::Transform* transform = culled.asTransform();
     const osg::Matrixd localToEcef = transform ? frameInside(*transform, tile.frame) : tile.frame.localToEcef;
     if (!localToEcef.isIdentity()) callback->setLocalToEcef(localToEcef);
-    if (fit.isScalable) callback->setTerrainShape(database().shape());
+    if (fit.isScalable) callback->setTerrainShape(shape);
     if (fit.skirt > 0.0) callback->setSkirt(fit.skirt);
     callback->setSurface(fit.surface);
     // In front: what is nested runs when the tile is kept.

@@ -4,13 +4,19 @@
 #include "Database.h"
 
 #include <osg/Notify>
+#include <osgTerrain/GeometryTechnique>
+
+#include <typeinfo>
 
 namespace osgAnalyticBin {
 
 TerrainShape Database::shape() const {
     osg::ref_ptr<osgTerrain::Terrain> terrain;
     if (!_terrain.lock(terrain)) return {};
-    return {terrain->getVerticalScale(), terrain->getSampleRatio()};
+    // tiles get copies of it
+    const osgTerrain::TerrainTechnique* technique = terrain->getTerrainTechniquePrototype();
+    const bool isKnown = !technique || typeid(*technique) == typeid(osgTerrain::GeometryTechnique);
+    return {terrain->getVerticalScale(), terrain->getSampleRatio(), terrain->getEqualizeBoundaries(), isKnown};
 }
 
 bool Database::takeShapeChange() {
@@ -24,6 +30,13 @@ void Database::noteGap(const std::string& where) {
     if (_hasGap.exchange(true, std::memory_order_relaxed)) return;
     OSG_INFO << "osgAnalyticBin: the tiles of \"" << where
              << "\" do not cover the tile that they are paged below, or the globe; the horizon is not used."
+             << std::endl;
+}
+
+void Database::noteUnknownTechnique() {
+    if (_hasUnknownTechnique.exchange(true, std::memory_order_relaxed)) return;
+    OSG_INFO << "osgAnalyticBin: the Terrain has a technique that is not osgTerrain::GeometryTechnique; its tiles are "
+                "not culled."
              << std::endl;
 }
 

@@ -65,6 +65,9 @@ public:
     void noteGap(const std::string& where);
     [[nodiscard]] bool hasGap() const { return _hasGap.load(std::memory_order_relaxed); }
 
+    /// Says that osgTerrain tiles are drawn in a way that is not known.
+    void noteUnknownTechnique();
+
     /// Says that a tile does not fit the index: warns once, and widens the tile's ancestors at the next update.
     void reportMisfit(const ParentTile& tile, const AnalyticBin& bin);
 
@@ -89,6 +92,7 @@ private:
     const osg::ref_ptr<const BinIndex> _index;
     mutable std::atomic<bool> _isRefitWanted{false};
     std::atomic<bool> _hasGap{false};
+    std::atomic<bool> _hasUnknownTechnique{false};
     TerrainShape _fittedShape;
     mutable std::mutex _mutex;  // guards what follows
     bool _hasWarned = false;

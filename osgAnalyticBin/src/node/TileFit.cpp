@@ -63,8 +63,8 @@ AnalyticBin rangedBin(const TileSurface& surface, bool hasDescendants, const Dat
     return withAltitude(surface.bin, altitude, sag);
 }
 
-void fitSurface(const FoundTile& tile, Database& database, ParentTile& link, TileFit& fit) {
-    const TileSurface surface = surfaceOf(tile, database.shape().sampleRatio);
+void fitSurface(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link, TileFit& fit) {
+    const TileSurface surface = surfaceOf(tile, shape.sampleRatio);
     fit.isTerrain = surface.bin.valid();
     if (!fit.isTerrain) return;
     linkTo(surface.bin.bin(), link);
@@ -75,14 +75,15 @@ void fitSurface(const FoundTile& tile, Database& database, ParentTile& link, Til
 }
 
 // For a tile whose bin says nothing of skirts.
-void fitSkirt(const FoundTile& tile, const Database& database, TileFit& fit) {
-    const TileSurface surface = surfaceOf(tile, database.shape().sampleRatio);
+void fitSkirt(const FoundTile& tile, const TerrainShape& shape, TileFit& fit) {
+    const TileSurface surface = surfaceOf(tile, shape.sampleRatio);
     fit.skirt = surface.skirt;
     if (!surface.bin.valid()) fit.bin.init();
 }
 
 // Returns: whether the index knows the tile as it is.
-bool fitIndexed(const FoundTile& tile, const Database& database, ParentTile& link, TileFit& fit) {
+bool fitIndexed(const FoundTile& tile, const Database& database, const TerrainShape& shape, ParentTile& link,
+                TileFit& fit) {
     const BinIndex::Entry* entry = database.index() ? database.index()->find(tile.frame.file, tile.ordinal) : nullptr;
     const bool isAsKnown = entry && entry->fingerprint == tileFingerprint(tile);
     if (!isAsKnown) return false;
@@ -93,13 +94,30 @@ bool fitIndexed(const FoundTile& tile, const Database& database, ParentTile& lin
     linkTo(fit.bin.bin(), link);
     const double high = std::max(entry->ownLow, fit.bin.bin().altitude().upper);
     fit.surface = withAltitude(fit.bin, {entry->ownLow, high}, 0.0);
-    if (link.edges.areOnBorder()) fitSkirt(tile, database, fit);
+    if (link.edges.areOnBorder()) fitSkirt(tile, shape, fit);
     return true;
 }
 
-}  // namespace
+// Edges that lie half way to a neighbour's heights are anywhere in the heights that the options declare.
+AnalyticBin withHeights(const AnalyticBin& bin, const core::Interval& heights) {
+    if (!bin.valid()) return bin;
+    const core::Interval& own = bin.bin().altitude();
+    const core::Interval all{std::min(own.lower, heights.lower - bin.sag()), std::max(own.upper, heights.upper)};
+    return withAltitude(bin, all, 0.0);
+}
 
-TileFit fitTile(const FoundTile& tile, Database& database, ParentTile& link) {
+// A terrain tile that another technique than OSG's own draws as it likes.
+TileFit unknownFit(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
+    database.noteUnknownTechnique();
+    const TileSurface surface = surfaceOf(tile, shape.sampleRatio);
+    if (surface.bin.valid()) linkTo(surface.bin.bin(), link);
+    TileFit fit;
+    fit.isScalable = true;
+    fit.isTerrain = true;
+    return fit;
+}
+
+TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
     TileFit fit;
     if (hasStoredBin(*tile.node)) {
         fit.bin = storedBin(*tile.node);
@@ -109,14 +127,26 @@ TileFit fitTile(const FoundTile& tile, Database& database, ParentTile& link) {
         return fit;
     }
     // an index does not know how far skirts hang, nor meshes of other sample ratios
-    const bool isIndexFit = database.options().skirts == SkirtUse::Cracks && database.shape().sampleRatio == 1.0;
-    if (!isIndexFit || !fitIndexed(tile, database, link, fit)) {
-        fitSurface(tile, database, link, fit);
+    const bool isIndexFit = database.options().skirts == SkirtUse::Cracks && shape.sampleRatio == 1.0;
+    if (!isIndexFit || !fitIndexed(tile, database, shape, link, fit)) {
+        fitSurface(tile, database, shape, link, fit);
         if (isIndexFit && database.index() && fit.isTerrain) database.reportMisfit(link, fit.bin);
     }
     if (!fit.bin.valid()) return fit;
     fit.bin.setBin(core::withGaps(toCore(*database.ellipsoid()), fit.bin.bin(), link.edges));
     fit.bin.expandBy(database.correction(tile.frame.file, tile.ordinal));
+    return fit;
+}
+
+}  // namespace
+
+TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
+    if (!shape.isKnown && hasTerrainTile(tile)) return unknownFit(tile, database, shape, link);
+    TileFit fit = fitKnown(tile, database, shape, link);
+    if (shape.areBoundariesEqual && fit.isScalable) {
+        fit.bin = withHeights(fit.bin, database.options().heights);
+        fit.surface = withHeights(fit.surface, database.options().heights);
+    }
     return fit;
 }
 

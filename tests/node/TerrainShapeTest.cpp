@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// What osgTerrain::Terrain says about its tiles: vertical scale, equalised boundaries, another technique; set before
+// bins are installed, and changed while the database is shown. Oracle: the triangles that osgTerrain draws.
+
+#include "DatabaseFixture.h"
+#include "TileFixture.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+
+#include <gtest/gtest.h>
+#include <osgTerrain/GeometryTechnique>
+#include <osgUtil/UpdateVisitor>
+
+#include <algorithm>
+#include <map>
+#include <support/CapturedNotes.h>
+#include <support/Random.h>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+const core::Ellipsoid kEllipsoid(osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR);
+
+osg::ref_ptr<osgTerrain::TerrainTile> makeHilly(const core::GeodeticBin& extents, Random& random) {
+    const double high = random.uniform(0.0, 8000.0);
+    return makeTerrainTile(
+        extents, 9, 9, [&](unsigned int, unsigned int) { return static_cast<float>(random.uniform(-3000.0, high)); });
+}
+
+// A terrain of 6 x 6 tiles, half a degree wide, that are drawn by osgTerrain itself.
+struct Hills {
+    Hills() {
+        Random random(50);
+        for (int row = 0; row < 6; ++row) {
+            for (int column = 0; column < 6; ++column) {
+                const double south = 40.0 + 0.5 * row;
+                const double west = 10.0 + 0.5 * column;
+                const auto extents = extentsDeg(south, south + 0.5, west, west + 0.5);
+                const auto tile = makeHilly(extents, random);
+                tile->setTileID(osgTerrain::TileID(5, column, row));
+                tiles.push_back(tile);
+                terrain->addChild(tile);
+            }
+        }
+    }
+
+    void watch() {
+        for (std::size_t i = 0; i < tiles.size(); ++i) reached.watch(*tiles[i], std::to_string(i));
+    }
+
+    void update() {
+        const osg::ref_ptr<osgUtil::UpdateVisitor> visitor = new osgUtil::UpdateVisitor;
+        visitor->setTraversalNumber(++frame);
+        terrain->accept(*visitor);
+        // OSG makes the mesh of a tile when the tile is culled for the first time, or in the next update
+        (void)reached.in(*terrain, ecefDeg(45, 15, 2e7), {0, 0, 0}, 90.0);
+    }
+
+    [[nodiscard]] AnalyticBinCullCallback& bin(std::size_t i) const { return *installedOn(*tiles[i]); }
+
+    std::vector<osg::ref_ptr<osgTerrain::TerrainTile>> tiles;
+    ReachedTiles reached;
+    unsigned int frame = 0;
+    osg::ref_ptr<osgTerrain::Terrain> terrain = new osgTerrain::Terrain;
+};
+
+// What the tile draws at present.
+std::vector<glm::dvec3> drawnSamples(osgTerrain::TerrainTile& tile) {
+    const auto* technique = dynamic_cast<osgTerrain::GeometryTechnique*>(tile.getTerrainTechnique());
+    return technique ? samplesOf(drawnTriangles(tile).surface, 3) : std::vector<glm::dvec3>();
+}
+
+void expectHeld(const Hills& hills) {
+    for (std::size_t i = 0; i < hills.tiles.size(); ++i) {
+        const auto samples = drawnSamples(*hills.tiles[i]);
+        ASSERT_FALSE(samples.empty());
+        const AnalyticBin bin = culledBin(hills.bin(i));
+        EXPECT_LE(metresOutside(bin, samples, kEllipsoid), bin.margin()) << i;
+    }
+}
+
+osg::Vec3d toOsg(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+// Narrow views at points of what is drawn: the tile must be reached. The first of each tile is at the point that is
+// farthest from the middle of OSG's sphere, past the sphere if the point is not in it.
+// Returns: the tiles that were not reached, over all views.
+std::set<std::size_t> tilesMissed(Hills& hills) {
+    Random random(51);
+    std::set<std::size_t> missed;
+    for (std::size_t i = 0; i < hills.tiles.size(); ++i) {
+        const auto samples = drawnSamples(*hills.tiles[i]);
+        const osg::Vec3d middle = hills.tiles[i]->getBound().center();
+        const glm::dvec3& farthest =
+            *std::max_element(samples.begin(), samples.end(), [&](const glm::dvec3& a, const glm::dvec3& b) {
+                return (toOsg(a) - middle).length2() < (toOsg(b) - middle).length2();
+            });
+        for (int k = 0; k < 12; ++k) {
+            const int last = static_cast<int>(samples.size()) - 1;
+            const osg::Vec3d at = toOsg(k == 0 ? farthest : samples[static_cast<std::size_t>(random.integer(0, last))]);
+            osg::Vec3d towardsEye = toOsg(random.direction());
+            if (k == 0) towardsEye = towardsEye ^ (at - middle);
+            towardsEye.normalize();
+            const auto& names = hills.reached.in(*hills.terrain, at + towardsEye * 3e5, at, 0.1);
+            if (!names.count(std::to_string(i))) missed.insert(i);
+        }
+    }
+    return missed;
+}
+
+TEST(VerticalScale, TilesInViewAreKeptWhereOsgsSpheresLoseThem) {
+    Hills spheres;
+    spheres.terrain->setVerticalScale(10.0f);
+    spheres.watch();
+    spheres.update();
+    EXPECT_FALSE(tilesMissed(spheres).empty());
+
+    Hills bins;
+    bins.terrain->setVerticalScale(10.0f);
+    bins.watch();
+    installBins(*bins.terrain);
+    bins.update();
+    EXPECT_TRUE(tilesMissed(bins).empty());
+    expectHeld(bins);
+}
+
+TEST(VerticalScale, IsFollowedAtRunTime) {
+    Hills hills;
+    hills.watch();
+    installBins(*hills.terrain);
+    hills.update();
+    expectHeld(hills);
+    for (const float scale : {4.0f, 0.0f, -2.0f, 1.0f}) {
+        hills.terrain->setVerticalScale(scale);
+        hills.update();
+        EXPECT_TRUE(tilesMissed(hills).empty()) << scale;
+        expectHeld(hills);
+        EXPECT_EQ(hills.bin(0).terrainShape()->verticalScale, static_cast<double>(scale));
+    }
+}
+
+TEST(VerticalScale, ATileOfAnotherShapeIsNeverCulledUntilItIsFitted) {
+    Hills hills;
+    hills.watch();
+    installBins(*hills.terrain);
+    hills.update();
+    const osg::Vec3d eye = ecefDeg(-30, -120, 1e5);
+    const osg::Vec3d away = ecefDeg(-31, -121, 0);
+    ASSERT_TRUE(hills.reached.in(*hills.terrain, eye, away, 10.0).empty());
+    // changed after the update traversal: tiles are as they were, and may be drawn anew at any time
+    hills.terrain->setVerticalScale(5.0f);
+    EXPECT_EQ(hills.reached.in(*hills.terrain, eye, away, 10.0).size(), hills.tiles.size());
+    hills.update();
+    EXPECT_TRUE(hills.reached.in(*hills.terrain, eye, away, 10.0).empty());
+
+    // a tile that the pager fitted before, and merged after that
+    hills.bin(7).setTerrainShape(TerrainShape());
+    EXPECT_EQ(hills.reached.in(*hills.terrain, eye, away, 10.0), std::set<std::string>{"7"});
+    hills.update();
+    EXPECT_TRUE(hills.reached.in(*hills.terrain, eye, away, 10.0).empty());
+    EXPECT_EQ(hills.bin(7).terrainShape()->verticalScale, 5.0);
+}
+
+TEST(EqualBoundaries, BinsHoldTheHeightsOfNeighbours) {
+    Hills before;
+    before.terrain->setEqualizeBoundaries(true);
+    installBins(*before.terrain);
+    before.update();
+    before.update();  // neighbours that came later
+    expectHeld(before);
+
+    Hills later;
+    later.watch();
+    CullOptions options;
+    options.heights = {-3000.0, 8000.0};
+    installBins(*later.terrain, options);
+    later.update();
+    expectHeld(later);
+    const double own = later.bin(0).bin().bin().altitude().upper;
+    ASSERT_LT(own, 7990.0);
+    later.terrain->setEqualizeBoundaries(true);
+    later.update();
+    later.update();
+    expectHeld(later);
+    EXPECT_TRUE(tilesMissed(later).empty());
+    EXPECT_EQ(later.bin(0).bin().bin().altitude().upper, 8000.0);
+    EXPECT_LE(later.bin(0).surface().bin().altitude().lower, -3000.0 - later.bin(0).surface().sag());
+    later.terrain->setEqualizeBoundaries(false);
+    later.update();
+    EXPECT_EQ(later.bin(0).bin().bin().altitude().upper, own);
+}
+
+class OtherTechnique : public osgTerrain::GeometryTechnique {
+public:
+    OtherTechnique() = default;
+    OtherTechnique(const OtherTechnique& other, const osg::CopyOp& copyop)
+        : osgTerrain::GeometryTechnique(other, copyop) {}
+    META_Object(osgAnalyticBin, OtherTechnique)
+};
+
+TEST(TerrainTechnique, TilesOfAnUnknownOneAreNeverCulled) {
+    Hills hills;
+    hills.watch();
+    hills.terrain->setTerrainTechniquePrototype(new OtherTechnique);
+    const CapturedNotes notes(osg::INFO);
+    installBins(*hills.terrain);
+    hills.update();
+    const osg::Vec3d eye = ecefDeg(-30, -120, 1e5);
+    EXPECT_EQ(hills.reached.in(*hills.terrain, eye, ecefDeg(-31, -121, 0), 10.0).size(), hills.tiles.size());
+    EXPECT_FALSE(hills.bin(0).bin().valid());
+    EXPECT_FALSE(hills.bin(0).surface().valid());
+    EXPECT_EQ(notes.count("technique"), 1u);
+}
+
+TEST(TerrainTechnique, OsgsOwnAsAPrototypeIsKnown) {
+    Hills hills;
+    hills.terrain->setTerrainTechniquePrototype(new osgTerrain::GeometryTechnique);
+    installBins(*hills.terrain);
+    EXPECT_TRUE(hills.bin(0).bin().valid());
+    hills.terrain->setTerrainTechniquePrototype(new OtherTechnique);
+    hills.update();
+    EXPECT_FALSE(hills.bin(0).bin().valid());
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
