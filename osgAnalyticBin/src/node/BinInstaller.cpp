@@ -203,6 +203,8 @@ void BinInstaller::visitOther(osg::Node& node) {
     if (_options.method == Method::None) {
         node.setCullingActive(false);
         suspendClusterCullingOf(node);
+    } else {
+        resumeClusterCullingOf(node);
     }
     traverseBelow(node);
 }
@@ -259,13 +261,12 @@ void BinInstaller::uninstall(FoundTile& tile) {
         culled->setCullingActive(true);
         wasInstalled = true;
     }
+    // Method::None suspends them without a callback of ours
+    resumeClusterCullingOf(node);
+    for (const auto& mesh : tile.meshes) resumeClusterCulling(*mesh);
     if (!wasInstalled) return;
     node.setCullingActive(true);
-    resumeClusterCullingOf(node);
-    for (const auto& mesh : tile.meshes) {
-        setSphereCulling(*mesh, true);
-        resumeClusterCulling(*mesh);
-    }
+    for (const auto& mesh : tile.meshes) setSphereCulling(*mesh, true);
 }
 
 void BinInstaller::followPaging(osg::PagedLOD& node, const ParentTile* tile) {
