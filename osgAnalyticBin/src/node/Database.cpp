@@ -68,7 +68,11 @@ void Database::update() {
     }
     for (const auto& [observed, bin] : toWiden) {
         osg::ref_ptr<AnalyticBinCullCallback> callback;
-        if (!observed.lock(callback)) continue;
+        if (!observed.lock(callback)) {
+            // paged out, or fitted anew while the tile was on its way
+            requestRefit();
+            continue;
+        }
         AnalyticBin wider = callback->bin();
         wider.expandBy(bin);
         callback->setBin(wider);

@@ -74,7 +74,7 @@ public:
     /// What reportMisfit() said of a tile or its descendants; invalid: nothing.
     [[nodiscard]] AnalyticBin correction(const std::string& file, std::size_t ordinal) const;
 
-    /// In the update traversal: widens the loaded tiles that reportMisfit() named.
+    /// In the update traversal, before takeShapeChange(): widens the loaded tiles that reportMisfit() named.
     void update();
 
 protected:

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// An index beside a database: how it is used, and what becomes of tiles that are no longer as it knows them. Its file
+// format is tested in BinIndexTest.cpp.
+
+#include "DatabaseFixture.h"
+#include "PagedFlight.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/TileSurface.h>
+
+#include <gtest/gtest.h>
+#include <osgDB/ReadFile>
+#include <osgUtil/UpdateVisitor>
+
+#include <cmath>
+#include <filesystem>
+#include <support/CapturedNotes.h>
+#include <support/TemporaryFolder.h>
+#include <utility>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+const std::string kWarning = "is not as the index knows it";
+
+class StaleIndex : public ::testing::Test {
+protected:
+    // Writes the database and its index; then, maybe, the database anew with other heights.
+    void write(double leafHeight, double singleHeight) {
+        _file = writeMeshDatabase(_folder.path(), 500.0, 500.0);
+        ASSERT_FALSE(_file.empty());
+        const osg::ref_ptr<BinIndex> index = new BinIndex;
+        AnalyticBin all;
+        for (const char* name : {"single.osgb", "children.osgb", ""}) {
+            std::vector<BinIndex::Entry> entries = entriesOf(name);
+            for (BinIndex::Entry& entry : entries) all.expandBy(entry.bin);
+            // a bin of everything holds all descendants
+            for (BinIndex::Entry& entry : entries) entry.bin = all;
+            index->setTiles(name, std::move(entries));
+        }
+        index->setSource({"root.osgb", std::filesystem::file_size(_file), 0});
+        std::string error;
+        ASSERT_TRUE(index->write(binIndexName(_file), error)) << error;
+        ASSERT_FALSE(writeMeshDatabase(_folder.path(), leafHeight, singleHeight).empty());
+    }
+
+    void load(const CullOptions& options = {}) {
+        _scene = osgDB::readRefNodeFile(_file);
+        ASSERT_TRUE(_scene);
+        _root = dynamic_cast<osg::PagedLOD*>(_scene->asGroup()->getChild(0));
+        ASSERT_TRUE(_root);
+        EXPECT_EQ(installBins(*_scene, options, _file), 1u);
+    }
+
+    // Reads and merges what is below the root, as the pager does.
+    void page() {
+        const osg::ref_ptr<osg::Node> children = readBelow(*_root);
+        ASSERT_TRUE(children);
+        putBelow(*_root, children);
+        _leaf = children->asGroup()->getChild(0);
+        _north = dynamic_cast<osg::PagedLOD*>(children->asGroup()->getChild(1));
+        ASSERT_TRUE(_north);
+    }
+
+    void pageSingle() {
+        _single = readBelow(*_north);
+        ASSERT_TRUE(_single);
+        putBelow(*_north, _single);
+    }
+
+    void update() {
+        const osg::ref_ptr<osgUtil::UpdateVisitor> visitor = new osgUtil::UpdateVisitor;
+        _scene->accept(*visitor);
+    }
+
+    static double highOf(osg::Node& node) { return installedOn(node)->bin().bin().altitude().upper; }
+
+    TemporaryFolder _folder;
+    std::string _file;
+    osg::ref_ptr<osg::Node> _scene, _leaf, _single;
+    osg::ref_ptr<osg::PagedLOD> _root, _north;
+
+private:
+    std::vector<BinIndex::Entry> entriesOf(const std::string& name) const {
+        const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(_folder / (name.empty() ? "root.osgb" : name));
+        TileFrame frame;
+        frame.ellipsoid = new osg::EllipsoidModel;
+        frame.file = name;
+        frame.isBelowTile = !name.empty();
+        std::vector<BinIndex::Entry> entries;
+        for (const FoundTile& tile : findTiles(*node, frame)) {
+            osg::Node& mesh = *tile.meshes.front();
+            const TileSurface surface = tileSurface(mesh, *tile.frame.ellipsoid, osg::Matrixd());
+            entries.push_back(
+                {surface.bin, surface.bin.bin().altitude().lower, surfaceFingerprint(mesh, osg::Matrixd())});
+        }
+        return entries;
+    }
+};
+
+TEST_F(StaleIndex, AnIndexThatFitsTellsTheHeights) {
+    write(500.0, 500.0);
+    const CapturedNotes notes;
+    load();
+    page();
+    pageSingle();
+    update();
+    for (osg::Node* node :
+         {static_cast<osg::Node*>(_root), _leaf.get(), static_cast<osg::Node*>(_north), _single.get()}) {
+        EXPECT_NEAR(highOf(*node), 500.0, 1.0);
+        EXPECT_GT(installedOn(*node)->bin().bin().altitude().lower, -13000.0);
+    }
+    EXPECT_EQ(notes.count(kWarning), 0u);
+}
+
+TEST_F(StaleIndex, IsIgnoredWhereItIsOff) {
+    write(500.0, 6000.0);
+    CullOptions options;
+    options.index = false;
+    const CapturedNotes notes;
+    load(options);
+    page();
+    pageSingle();
+    EXPECT_EQ(highOf(*_root), CullOptions::kTerrainOnEarth.upper);
+    EXPECT_NEAR(highOf(*_single), 6000.0, 1.0);
+    EXPECT_EQ(notes.count(""), 0u);
+}
+
+TEST_F(StaleIndex, ATileThatDoesNotFitWarnsOnceAndWidensItsAncestorsAtTheNextUpdate) {
+    write(7000.0, 6000.0);
+    const CapturedNotes notes;
+    load();
+    EXPECT_NEAR(highOf(*_root), 500.0, 1.0);
+    page();
+    EXPECT_NEAR(highOf(*_leaf), 7000.0, 1.0);
+    EXPECT_EQ(notes.count(kWarning), 1u);
+    // bins are not to change while another thread culls
+    EXPECT_NEAR(highOf(*_root), 500.0, 1.0);
+    update();
+    EXPECT_NEAR(highOf(*_root), 7000.0, 1.0);
+    EXPECT_NEAR(highOf(*_north), 500.0, 1.0);
+    pageSingle();
+    update();
+    EXPECT_NEAR(highOf(*_north), 6000.0, 1.0);
+    EXPECT_EQ(notes.count(kWarning), 1u);
+    for (osg::Node* ancestor : {_root.get(), _north.get()}) {
+        EXPECT_LE(installedOn(*ancestor)->bin().bin().altitude().lower,
+                  installedOn(*_single)->bin().bin().altitude().lower);
+    }
+}
+
+TEST_F(StaleIndex, TilesStayWideWhenTheyComeBack) {
+    write(500.0, 6000.0);
+    const CapturedNotes notes;
+    load();
+    page();
+    pageSingle();
+    _root->removeChildren(1, 1);
+    page();
+    EXPECT_NEAR(highOf(*_north), 6000.0, 1.0);
+    EXPECT_EQ(notes.count(kWarning), 1u);
+}
+
+TEST_F(StaleIndex, ATileThatWasOnItsWayWidensAncestorsThatWereFittedAnewMeanwhile) {
+    write(500.0, 6000.0);
+    const CapturedNotes notes;
+    load();
+    const osg::ref_ptr<osgTerrain::Terrain> terrain = new osgTerrain::Terrain;
+    terrain->addChild(_root);
+    _scene = terrain;
+    installBins(*terrain, {}, _file);
+    page();
+    const osg::ref_ptr<osgDB::Options> options = dynamic_cast<osgDB::Options*>(_north->getDatabaseOptions());
+    terrain->setVerticalScale(2.0f);
+    update();
+    EXPECT_NEAR(highOf(*_north), 500.0, 1.0);
+    const std::string file = _north->getDatabasePath() + _north->getFileName(1);
+    ASSERT_TRUE(osgDB::readRefNodeFile(file, options));
+    update();
+    EXPECT_NEAR(highOf(*_north), 6000.0, 1.0);
+    EXPECT_NEAR(highOf(*_root), 6000.0, 1.0);
+}
+
+// With OSG's own pager: in the frame in which the tile appears its ancestors no longer hide it.
+TEST_F(StaleIndex, APeakThatIsNewIsNeverCulled) {
+    write(500.0, 8000.0);
+    const CapturedNotes notes;
+    load();
+    const auto near = CullView::lookAt(ecefDeg(40, 20, 8.0e5), ecefDeg(40, 20, 0), {0, 0, 1}, 60.0);
+    {
+        PagedFlight flight(*_scene);
+        // along the summit's tangent, high above the terrain that the index knows
+        const osg::Vec3d summit = ecefDeg(40, 20, 7900);
+        const osg::Vec3d east(-std::sin(osg::DegreesToRadians(20.0)), std::cos(osg::DegreesToRadians(20.0)), 0);
+        const auto along = CullView::lookAt(summit + east * 3e5, summit, {0, 0, 1}, 0.05);
+        ASSERT_TRUE(flight.load(near));
+        flight.frame(along);
+        EXPECT_FALSE(flight.drawn().empty());
+    }
+    EXPECT_EQ(notes.count(kWarning), 1u);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
