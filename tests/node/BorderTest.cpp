@@ -11,6 +11,7 @@
 #include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>
+#include <osgDB/ReadFile>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -59,13 +60,13 @@ TEST(Border, TilesHoldTheirSkirtsWhole) {
 }
 
 TEST(Border, ASkirtInPlainViewIsNotCulled) {
-    const Pair pair(extentsDeg(0, 40, 0, 40), extentsDeg(10, 20, 0, 10));
+    const Pair pair(extentsDeg(0, 40, 0, 40), extentsDeg(14, 16, 0, 2));
     ReachedTiles reached;
     reached.watch(*pair.tile, "tile");
     installBins(*pair.terrain, lowHeights());
     const osg::Vec3d eye = ecefDeg(15, -3, 2000);
     EXPECT_EQ(reached.in(*pair.terrain, eye, ecefDeg(15, 0, -25000), 0.5).count("tile"), 1u);
-    EXPECT_EQ(reached.in(*pair.terrain, eye, ecefDeg(15, 0, -100000), 0.5).count("tile"), 0u);
+    EXPECT_EQ(reached.in(*pair.terrain, eye, ecefDeg(15, 0, -60000), 0.5).count("tile"), 0u);
 }
 
 TEST(Border, RunsAlongEachSideAndIsInherited) {
@@ -105,6 +106,25 @@ TEST(Border, TilesThatAnIndexKnowsHoldTheirSkirtsToo) {
     ASSERT_LT(root.bin().bin().altitude().upper, 1000.0);
     EXPECT_EQ(root.skirt(), kSkirt);
     EXPECT_EQ(installedOn(*pair.tile)->skirt(), 0.0);
+}
+
+TEST(Border, VirtualPlanetBuildersGlobesHaveNone) {
+    for (const std::string name : {"terrain", "polygonal"}) {
+        const osg::ref_ptr<osg::Node> globe =
+            osgDB::readRefNodeFile(std::string(SHARED_DATA_FOLDER) + "/vpb/" + name + "/earth.osgb");
+        if (!globe) GTEST_SKIP() << "no databases of VirtualPlanetBuilder here";
+        ASSERT_EQ(installBins(*globe), 1u);
+        auto& root = dynamic_cast<osg::PagedLOD&>(*globe->asGroup()->getChild(0));
+        EXPECT_EQ(installedOn(root)->skirt(), 0.0) << name;
+        const osg::ref_ptr<osg::Node> below = readBelow(root);
+        ASSERT_TRUE(below);
+        ASSERT_GT(below->asGroup()->getNumChildren(), 1u);
+        for (unsigned int i = 0; i < below->asGroup()->getNumChildren(); ++i) {
+            const AnalyticBinCullCallback* tile = installedOn(*below->asGroup()->getChild(i));
+            ASSERT_NE(tile, nullptr) << name;
+            EXPECT_EQ(tile->skirt(), 0.0) << name;
+        }
+    }
 }
 
 }  // namespace

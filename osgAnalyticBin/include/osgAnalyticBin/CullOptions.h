@@ -36,8 +36,11 @@ enum class HorizonUse {
 
 /// What of the skirts that hang from the edges of tiles a bin holds.
 enum class SkirtUse {
-    Cracks,  ///< what an eye above the terrain can see through cracks between tiles; the default
-    All      ///< all of them, for cameras below the terrain; the horizon is used only where it is given
+    /// What an eye above the terrain can see: through cracks between tiles, and whole where a tile ends at the outer
+    /// border of its database; the default.
+    Cracks,
+    /// All of them, for cameras below the terrain; the horizon is used only where it is given.
+    All
 };
 
 /// What becomes of the osg::ClusterCullingCallbacks of a database, whose culls are not sound on an ellipsoid.
