@@ -194,7 +194,7 @@ TEST_F(StaleIndex, APeakThatIsNewIsNeverCulled) {
         // along the summit's tangent, high above the terrain that the index knows
         const osg::Vec3d summit = ecefDeg(40, 20, 7900);
         const osg::Vec3d east(-std::sin(osg::DegreesToRadians(20.0)), std::cos(osg::DegreesToRadians(20.0)), 0);
-        const auto along = CullView::lookAt(summit + east * 3e5, summit, {0, 0, 1}, 0.05);
+        const auto along = CullView::lookAt(summit + east * 3e5, summit, summit, 0.05);
         ASSERT_TRUE(flight.load(near));
         flight.frame(along);
         EXPECT_FALSE(flight.drawn().empty());
