@@ -18,7 +18,7 @@ namespace {
 
 // Frames without a request or a merge after which the pager counts as idle: a request made in one frame may be on its
 // way from a queue to a thread in the next.
-constexpr int kIdleFrames = 5;
+constexpr int kIdleFrames = 20;
 
 class VerticalScaler : public osg::NodeVisitor {
 public:

@@ -179,7 +179,7 @@ TEST(CrackBounds, EdgesAreThoseOfTheCoarsestTileOnTheLine) {
 
 TEST(CrackBounds, EdgesFollowATileAcrossTheDateLine) {
     const GeodeticBin parent = GeodeticBin::fromDegrees({0.0, 20.0}, {170.0, 190.0}, {0.0, 0.0});
-    const TileEdges parentEdges{0.5, 0.6, 0.7, 0.8};
+    const TileEdges parentEdges{0.5, 0.6, 0.7, 0.8, {}};
     // the same quarter, a turn away
     const GeodeticBin child = GeodeticBin::fromDegrees({10.0, 20.0}, {-180.0, -170.0}, {0.0, 0.0});
     const TileEdges edges = TileEdges::of(child, &parent, &parentEdges);
@@ -310,7 +310,8 @@ void expectCracksAreBounded(const Ellipsoid& ellipsoid, const Tile& tile, Random
     EXPECT_LE(north, 1.6 * samples.run(North) + 1e-15) << name;
 
     // a mesh's own chords run poleward too
-    const GeodeticBin grown = withGaps(ellipsoid, bin, {bin.longitude().width(), 0.0, bin.longitude().width(), 0.0});
+    const GeodeticBin grown =
+        withGaps(ellipsoid, bin, {bin.longitude().width(), 0.0, bin.longitude().width(), 0.0, {}});
     EXPECT_LE(samples.dip(), crackDepth(ellipsoid, grown, edges) + kRounding) << name;
 }
 

@@ -80,9 +80,14 @@ private:
     osg::ref_ptr<Database> _refitted;        // that is about to be visited again
     osg::ref_ptr<const ParentTile> _parent;  // below which the visited node is
     PagingByOptions _paging;
-    // Square radians that the tiles of a file cover, and those of the tile that the file is paged below.
-    std::map<std::string, double> _covered;
-    std::map<std::string, double> _toBeCovered;
+    // Square radians.
+    struct Coverage {
+        double tiles = 0.0;     // that the tiles of a file cover
+        double smallest = 1e9;  // of them
+        double expected = 0.0;  // that the tile covers which the file is paged below; 0: not known
+        bool isVisited = false;
+    };
+    std::map<std::string, Coverage> _coverage;
     std::size_t _installed = 0;
 };
 

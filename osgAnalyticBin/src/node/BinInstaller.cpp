@@ -119,8 +119,8 @@ void BinInstaller::continueBelow(Database* database, const TileFrame& frame, con
     _index = database->index();
     _parent = parent;
     if (!parent) return;
-    _covered[frame.file] = 0.0;
-    _toBeCovered[frame.file] = areaOf(parent->extents);
+    _coverage[frame.file].expected = areaOf(parent->extents);
+    _coverage[frame.file].isVisited = true;
 }
 
 void BinInstaller::refit(osg::Node& node, Database& database) {
@@ -131,14 +131,14 @@ void BinInstaller::refit(osg::Node& node, Database& database) {
 }
 
 void BinInstaller::finish() {
-    // tiles run a little over their lines
-    constexpr double kWhole = 0.98;
-    for (const auto& [file, area] : _covered) {
-        const auto expected = _toBeCovered.find(file);
-        if (expected != _toBeCovered.end() && area < kWhole * expected->second) database().noteGap(file);
+    // Tiles run a little over their lines; that is less than half of a tile, which would be missed.
+    if (!installsBins()) return _coverage.clear();
+    for (const auto& [file, coverage] : _coverage) {
+        const double missing = coverage.expected - coverage.tiles;
+        const bool isWhole = missing < 0.5 * std::min(coverage.smallest, coverage.expected);
+        if (coverage.isVisited && coverage.expected > 0.0 && !isWhole) database().noteGap(file);
     }
-    _covered.clear();
-    _toBeCovered.clear();
+    _coverage.clear();
 }
 
 bool BinInstaller::installsBins() const {
@@ -178,8 +178,8 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     }
     const Scoped database(_database, own);
     const Scoped paging(_paging, PagingByOptions());
-    _covered[frame().file] = 0.0;
-    _toBeCovered[frame().file] = 2.0 * kPi * kPi;
+    _coverage[frame().file].expected = 2.0 * kPi * kPi;
+    _coverage[frame().file].isVisited = true;
     const std::size_t before = _installed;
     TileFinder::apply(node);
     finish();
@@ -240,8 +240,12 @@ void BinInstaller::install(FoundTile& tile) {
     }
     link->callback = callback.get();
     ++_installed;
-    _covered[tile.frame.file] += areaOf(link->extents);
-    for (const std::string& file : tile.pagedFiles) _toBeCovered[file] = areaOf(link->extents);
+    const double area = areaOf(link->extents);
+    Coverage& coverage = _coverage[tile.frame.file];
+    coverage.isVisited = true;
+    coverage.tiles += area;
+    coverage.smallest = std::min(coverage.smallest, area);
+    for (const std::string& file : tile.pagedFiles) _coverage[file].expected = area;
 
     if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) {
         raiseExpiry(*paged, _options.expiry);

@@ -32,8 +32,12 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
         return viewpoint->above(view.ellipsoid, std::max(0.0, -options.horizon));
     }
     if (database.hasGap()) return std::nullopt;
-    return eyeAboveWhatIsShown(node, nv, cullStack, *viewpoint, view.ellipsoid, view.shape,
-                               CullTraversal::of(nv).lastDepth(database));
+    // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: what is shown
+    // shall not depend on where the camera has been.
+    constexpr unsigned int kFreshStart = 16;
+    double& depth = CullTraversal::of(nv).lastDepth(database);
+    if (nv.getTraversalNumber() % kFreshStart == 0) depth = 0.0;
+    return eyeAboveWhatIsShown(node, nv, cullStack, *viewpoint, view.ellipsoid, view.shape, depth);
 }
 
 template <class Callback>

@@ -122,8 +122,10 @@ std::optional<core::HorizonEye> eyeAboveWhatIsShown(osg::Group& database, osg::N
                                                     const osg::CullStack& cullStack, const Viewpoint& viewpoint,
                                                     const core::Ellipsoid& ellipsoid, const TerrainShape& shape,
                                                     double& depth) {
-    // A deeper occluder has a wider horizon, over which more may be seen that is deeper still.
-    constexpr int kMostRounds = 8;
+    // A deeper occluder has a wider horizon, over which more may be seen that is deeper still. Raised from zero to what
+    // is found until nothing deeper is, the depth is the least that will do.
+    constexpr int kMostRounds = 16;
+    constexpr int kExactRounds = 12;
     constexpr double kRoom = 1.05;
     constexpr double kStep = 500.0;
     depth = std::max(depth, 0.0);
@@ -141,7 +143,7 @@ std::optional<core::HorizonEye> eyeAboveWhatIsShown(osg::Group& database, osg::N
             return eye;
         }
         if (lowest.depth() > 0.25 * ellipsoid.polarRadius()) break;
-        depth = kRoom * lowest.depth();
+        depth = (round < kExactRounds ? 1.0 : kRoom) * lowest.depth();
     }
     depth = 0.0;
     return std::nullopt;
