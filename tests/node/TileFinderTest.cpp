@@ -127,7 +127,9 @@ TEST(TileFinder, ATerrainWithoutEllipsoidIsOnWgs84AndAMapIsNoGlobe) {
     ASSERT_EQ(findTiles(*terrain).size(), 1u);
     EXPECT_EQ(findTiles(*terrain)[0].frame.ellipsoid->getRadiusEquator(), osg::WGS_84_RADIUS_EQUATOR);
     terrain->setCoordinateSystem("PROJCS[\"UTM 33\"]");
-    EXPECT_TRUE(findTiles(*terrain).empty());
+    ASSERT_EQ(findTiles(*terrain).size(), 1u);
+    EXPECT_FALSE(findTiles(*terrain)[0].frame.ellipsoid);
+    EXPECT_TRUE(findTiles(*terrain)[0].frame.isProjected);
 }
 
 TEST(TileFinder, PathsOfPagedFilesAreRelativeToTheRoot) {

@@ -20,12 +20,14 @@ namespace osgAnalyticBin {
 class BinReadFileCallback;
 class Database;
 struct ParentTile;
+struct PlanarFit;
 
 /// Puts AnalyticBinCullCallbacks on the tiles of a geocentric database, switches OSG's sphere test off on them and
 /// below (drawables keep their boxes), and arranges that tiles that the DatabasePager loads later are treated in the
 /// pager's thread. Which nodes are tiles is TileFinder's matter; their bins come from what is stored with them, from
-/// the database's index, or from their own surface and the heights that the options declare. Everything else is left as
-/// it is. Method::Sphere installs nothing. Running it again replaces what it installed before.
+/// the database's index, or from their own surface and the heights that the options declare. Tiles of a map get boxes
+/// in its coordinates, by callbacks of their own that files do not keep. Everything else is left
+/// as it is. Method::Sphere installs nothing. Running it again replaces what it installed before.
 class OSGANALYTICBIN_EXPORT BinInstaller : public TileFinder {
 public:
     explicit BinInstaller(const CullOptions& options = {});
@@ -71,6 +73,7 @@ private:
     [[nodiscard]] bool installsBins() const;
     [[nodiscard]] Database& database();
     void install(FoundTile& tile);
+    void installPlanar(FoundTile& tile, const PlanarFit& fit);
     void uninstall(FoundTile& tile);
     void followPaging(osg::PagedLOD& node, const ParentTile* tile);
 

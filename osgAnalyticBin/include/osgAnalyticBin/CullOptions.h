@@ -34,7 +34,8 @@ enum class HorizonUse {
     Given      ///< against the altitude in CullOptions::horizon
 };
 
-/// What of the skirts that hang from the edges of tiles a bin holds.
+/// What of the skirts that hang from the edges of tiles a bin holds. Tiles of a map always hold all of them: at the
+/// border of the map they are in plain view.
 enum class SkirtUse {
     /// What an eye above the terrain can see: through cracks between tiles, and whole where a tile ends at the outer
     /// border of its database; the default.
@@ -43,7 +44,8 @@ enum class SkirtUse {
     All
 };
 
-/// What becomes of the osg::ClusterCullingCallbacks of a database, whose culls are not sound on an ellipsoid.
+/// What becomes of the osg::ClusterCullingCallbacks of a database, whose culls are not sound on an ellipsoid. Those of
+/// a map are left alone.
 enum class ClusterUse {
     Replace,  ///< taken off; the horizon does their work; the default
     Keep      ///< left in charge beside the bins
@@ -72,7 +74,8 @@ struct CullOptions {
     SkirtUse skirts = SkirtUse::Cracks;
     ClusterUse cluster = ClusterUse::Replace;
     /// Altitudes in metres that no terrain of the database leaves, at any level of detail: for tiles whose descendants
-    /// are known neither from a stored bin nor from an index. The default holds all terrain on earth.
+    /// are known neither from a stored bin nor from an index. The default holds all terrain on earth. In a map: heights
+    /// in its own units; left at the default, all terrain on earth in feet.
     core::Interval heights = kTerrainOnEarth;
     /// Whether an index beside the database is used.
     bool index = true;

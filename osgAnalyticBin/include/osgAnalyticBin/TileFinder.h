@@ -20,11 +20,17 @@ namespace osgAnalyticBin {
 /// Where the content of a file stands, and whose it is.
 struct TileFrame {
     osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;  ///< null: not below a geocentric CoordinateSystemNode
-    osg::Matrixd localToEcef;
+    osg::Matrixd localToEcef;                           ///< in a map: to the map
+    /// Whether the coordinate system's text names a map projection. Without an ellipsoid the tiles stand in that map;
+    /// with one, what they look like has to tell.
+    bool isProjected = false;
     /// The file that the content was read from: its path relative to the folder of the database's root file, "" for the
     /// root file itself.
     std::string file;
     bool isBelowTile = false;  ///< Whether the file is paged below a tile: then plain meshes in it are leaf tiles.
+
+    /// Whether tiles have a place: on a globe or in a map.
+    [[nodiscard]] bool isKnown() const { return ellipsoid || isProjected; }
 };
 
 /// A tile: a node with a stored bin, a PagedLOD with a mesh of its own, an osgTerrain tile, or a mesh beside them.

@@ -6,6 +6,8 @@
 #include "DatabaseCallbacks.h"
 #include "MeshCulling.h"
 #include "PagingExpiry.h"
+#include "PlanarBinCullCallback.h"
+#include "PlanarFit.h"
 #include "Scoped.h"
 #include "TileFit.h"
 
@@ -19,6 +21,7 @@
 #include <osgTerrain/Terrain>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <typeinfo>
 #include <vector>
@@ -29,11 +32,19 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-AnalyticBinCullCallback* installedCallback(osg::Node& node) {
-    for (osg::Callback* callback = node.getCullCallback(); callback; callback = callback->getNestedCallback()) {
-        if (auto* ours = dynamic_cast<AnalyticBinCullCallback*>(callback)) return ours;
+// The options that a callback of ours was made with. Returns: nullptr for any other callback.
+const CullOptions* optionsOf(const osg::Callback& callback) {
+    if (const auto* geocentric = dynamic_cast<const AnalyticBinCullCallback*>(&callback)) {
+        return &geocentric->cullOptions();
     }
-    return nullptr;
+    const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(&callback);
+    return planar ? &planar->cullOptions() : nullptr;
+}
+
+osg::Callback* installedCallback(osg::Node& node) {
+    osg::Callback* callback = node.getCullCallback();
+    while (callback && !optionsOf(*callback)) callback = callback->getNestedCallback();
+    return callback;
 }
 
 // Whether a group stands for its only child.
@@ -188,6 +199,11 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
 
 void BinInstaller::visitTile(FoundTile& tile) {
     uninstall(tile);
+    if (installsBins() && !hasStoredBin(*tile.node)) {
+        const PlanarFit fit = fitPlanarTile(tile, _options, database().shape());
+        if (fit.kind == PlanarFit::Planar) return installPlanar(tile, fit);
+        if (fit.kind == PlanarFit::Contradictory || !tile.frame.ellipsoid) return visitOther(*tile.node);
+    }
     if (installsBins()) return install(tile);
     if (_options.method == Method::None) {
         for (const auto& mesh : tile.meshes) {
@@ -255,12 +271,42 @@ void BinInstaller::install(FoundTile& tile) {
     traverseBelow(node);
 }
 
+void BinInstaller::installPlanar(FoundTile& tile, const PlanarFit& fit) {
+    osg::Node& node = *tile.node;
+    osg::Node& culled = culledNode(tile);
+    osg::Transform* transform = culled.asTransform();
+    const osg::Matrixd localToMap = transform ? frameInside(*transform, tile.frame) : tile.frame.localToEcef;
+    osg::Matrixd mapToLocal;
+    if (!mapToLocal.invert(localToMap)) return visitOther(node);
+    const std::optional<TerrainShape> shape = fit.isScalable ? std::optional(database().shape()) : std::nullopt;
+    const osg::ref_ptr<PlanarBinCullCallback> callback =
+        new PlanarBinCullCallback(PlanarBin(fit.box, mapToLocal), shape, _options);
+    // In front: what is nested runs when the tile is kept.
+    callback->setNestedCallback(culled.getCullCallback());
+    culled.setCullCallback(callback.get());
+    culled.setCullingActive(false);
+    node.setCullingActive(false);
+    for (const auto& mesh : tile.meshes) setSphereCulling(*mesh, false);
+    ++_installed;
+
+    const osg::ref_ptr<ParentTile> link = new ParentTile;
+    link->parent = _parent;
+    link->file = tile.frame.file;
+    link->ordinal = tile.ordinal;
+    if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) {
+        raiseExpiry(*paged, _options.expiry);
+        followPaging(*paged, link.get());
+    }
+    const Scoped below(_parent, osg::ref_ptr<const ParentTile>(link));
+    traverseBelow(node);
+}
+
 void BinInstaller::uninstall(FoundTile& tile) {
     osg::Node& node = *tile.node;
     bool wasInstalled = false;
     while (osg::Node* culled = installedNode(node)) {
-        const osg::ref_ptr<AnalyticBinCullCallback> ours = installedCallback(*culled);
-        if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) restoreExpiry(*paged, ours->cullOptions().expiry);
+        const osg::ref_ptr<osg::Callback> ours = installedCallback(*culled);
+        if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) restoreExpiry(*paged, optionsOf(*ours)->expiry);
         culled->removeCullCallback(ours.get());
         culled->setCullingActive(true);
         wasInstalled = true;

@@ -13,6 +13,7 @@
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
+#include <array>
 #include <typeinfo>
 
 namespace osgAnalyticBin {
@@ -78,9 +79,23 @@ std::vector<std::string> filesBelow(const osg::Node& node, const std::string& fi
     return files;
 }
 
-// Whether a coordinate system says of itself that its coordinates are those of a map.
-bool isPlanar(const osg::CoordinateSystemNode& node) {
-    return node.getCoordinateSystem().rfind("PROJCS", 0) == 0 && !node.getEllipsoidModel();
+bool startsWith(const std::string& text, const char* start) {
+    return text.rfind(start, 0) == 0;
+}
+
+// Whether a coordinate system says of itself that its coordinates are those of a map: in well-known text, alone or
+// with a vertical one, or in the parameters of PROJ.
+bool isProjected(const osg::CoordinateSystemNode& node) {
+    const std::string& text = node.getCoordinateSystem();
+    if (startsWith(text, "PROJCS") || startsWith(text, "PROJCRS")) return true;
+    if (startsWith(text, "COMPD_CS")) return text.find("PROJCS") != std::string::npos;
+    const std::string key = "+proj=";
+    const std::size_t at = text.find(key);
+    if (node.getFormat() != "PROJ4" || at == std::string::npos) return false;
+    const std::size_t begin = at + key.size();
+    const std::string name = text.substr(begin, text.find_first_of(" \t\n", begin) - begin);
+    const std::array<const char*, 6> others{"longlat", "latlong", "lonlat", "latlon", "geocent", ""};
+    return std::none_of(others.begin(), others.end(), [&](const char* other) { return name == other; });
 }
 
 }  // namespace
@@ -110,7 +125,7 @@ std::string pagedFilePath(const std::string& referringFile, const std::string& n
 osg::Matrixd frameInside(const osg::Transform& node, const TileFrame& frame) {
     osg::Matrixd inside;
     // Without a CoordinateSystemNode above, a tile's own frame is ECEF, whatever moves the globe.
-    if (!frame.ellipsoid) return inside;
+    if (!frame.isKnown()) return inside;
     node.computeLocalToWorldMatrix(inside, nullptr);
     return inside * frame.localToEcef;
 }
@@ -127,13 +142,14 @@ void TileFinder::apply(osg::CoordinateSystemNode& node) {
     TileFrame inside = _frame;
     inside.localToEcef.makeIdentity();
     inside.ellipsoid = node.getEllipsoidModel();
-    if (!inside.ellipsoid && !isPlanar(node)) inside.ellipsoid = new osg::EllipsoidModel;
+    inside.isProjected = isProjected(node);
+    if (!inside.isKnown()) inside.ellipsoid = new osg::EllipsoidModel;
     const Scoped scope(_frame, inside);
     visit(node, hasStoredBin(node));
 }
 
 void TileFinder::apply(osg::Transform& node) {
-    const bool hasFrame = _frame.ellipsoid || hasStoredBin(node);
+    const bool hasFrame = _frame.isKnown() || hasStoredBin(node);
     if (hasFrame && !isFixed(node)) return;
     visit(node, isTile(node));
 }
@@ -144,7 +160,7 @@ void TileFinder::apply(osg::PagedLOD& node) {
 
 bool TileFinder::isTile(osg::Node& node) const {
     if (hasStoredBin(node)) return true;
-    if (!_frame.ellipsoid) return false;
+    if (!_frame.isKnown()) return false;
     if (isTerrainTile(node)) return true;
     if (dynamic_cast<osg::PagedLOD*>(&node)) {
         const auto meshes = ownMeshes(node);

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "PlanarBinCullCallback.h"
+
+#include "BinCulling.h"
+#include "Database.h"
+
+#include <osgAnalyticBin/core/HullSeparation.h>
+
+namespace osgAnalyticBin {
+
+void PlanarBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    cullOrTraverse(
+        *nv, [&](osg::CullStack& cullStack) { return isCulled(cullStack, *nv); }, [&] { traverse(node, nv); });
+}
+
+bool PlanarBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
+    CullTraversal& traversal = CullTraversal::of(nv);
+    const DatabaseView* database = traversal.databaseView();
+    if (_shape && database && !(database->shape == *_shape)) {
+        database->database->requestRefit();
+        return false;
+    }
+    return isCulledByBin(
+        cullStack, nv, traversal, _sphere, [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
+            const core::PlaneSet& planes = traversal.planes(frustum);
+            const core::Side side = _bin.classify(planes, undecided);
+            const bool isSeparated = side == core::Side::Straddling && _options.reverse &&
+                                     core::isSeparated(_bin, planes, planes.size(), undecided);
+            return isSeparated ? Verdict{core::Side::Outside, Verdict::Edge} : Verdict{side, Verdict::Plane};
+        });
+}
+
+}  // namespace osgAnalyticBin

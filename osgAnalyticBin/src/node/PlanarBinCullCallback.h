@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "CullTraversal.h"
+#include "PlanarBin.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/CullOptions.h>
+
+#include <osg/NodeCallback>
+
+#include <optional>
+
+namespace osgAnalyticBin {
+
+/// The cull callback of a tile of a map. It culls as AnalyticBinCullCallback does, without a horizon. It says of itself
+/// that it is a plain osg::NodeCallback: a scene that is saved holds nothing of it.
+/// Guarantee: a tile is never culled if a point of its bin is inside all planes; tests: PlanarDatabase.*.
+/// Threads: run() changes nothing in the callback.
+class PlanarBinCullCallback final : public osg::NodeCallback {
+public:
+    /// `shape`: what the bin is for; while the database is shown in another the tile is never culled. nullopt: a mesh
+    /// that no Terrain shapes.
+    PlanarBinCullCallback(const PlanarBin& bin, const std::optional<TerrainShape>& shape, const CullOptions& options)
+        : _bin(bin), _sphere(bin.boundingSphere()), _shape(shape), _options(options) {}
+
+    [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
+
+protected:
+    ~PlanarBinCullCallback() override = default;
+
+private:
+    [[nodiscard]] bool isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
+
+    const PlanarBin _bin;
+    const osg::BoundingSphere _sphere;
+    const std::optional<TerrainShape> _shape;
+    const CullOptions _options;
+};
+
+}  // namespace osgAnalyticBin

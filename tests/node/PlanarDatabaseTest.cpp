@@ -1,0 +1,418 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Databases of a map: which are told to be such, and how their tiles are culled. Oracle: all that the levels of detail
+// choose, by a traversal without frustum culling, and points of its triangles against the frustum's planes.
+
+#include "PagedFlight.h"
+#include "PlanarMap.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/BinStatistics.h>
+
+#include <gtest/gtest.h>
+#include <osg/ClusterCullingCallback>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+#include <osg/TriangleFunctor>
+#include <osgTerrain/Layer>
+#include <osgTerrain/TerrainTile>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <support/Random.h>
+#include <support/TemporaryFolder.h>
+
+namespace osgAnalyticBin {
+namespace {
+
+using test::CullView;
+using test::PlanarMap;
+
+CullOptions optionsOf(const std::string& text) {
+    std::string error;
+    const auto options = cullOptionsFromText(text, error);
+    EXPECT_TRUE(options) << error;
+    return options.value_or(CullOptions());
+}
+
+// Notes the drawables that a traversal comes to, whatever becomes of their own boxes.
+class Reached : public osgUtil::CullVisitor {
+public:
+    using osgUtil::CullVisitor::apply;
+    void apply(osg::Drawable& drawable) override {
+        drawables.insert(&drawable);
+        osgUtil::CullVisitor::apply(drawable);
+    }
+    std::set<osg::Drawable*> drawables;
+};
+
+std::set<osg::Drawable*> reached(osg::Node& scene, const CullView& view, BinCounts* counts = nullptr) {
+    const osg::ref_ptr<Reached> visitor = new Reached;
+    test::cull(scene, view, *visitor);
+    if (counts) *counts = BinStatistics::of(*visitor).counts();
+    return visitor->drawables;
+}
+
+struct PointSink {
+    std::vector<osg::Vec3d>* points = nullptr;
+    void operator()(const osg::Vec3& a, const osg::Vec3& b, const osg::Vec3& c, bool = false) const {
+        for (int i = 0; i <= 3; ++i)
+            for (int j = 0; j <= 3 - i; ++j)
+                points->push_back((osg::Vec3d(a) * i + osg::Vec3d(b) * j + osg::Vec3d(c) * (3 - i - j)) / 3.0);
+    }
+};
+
+std::vector<osg::Vec3d> pointsOf(osg::Drawable& drawable) {
+    std::vector<osg::Vec3d> points;
+    osg::TriangleFunctor<PointSink> functor;
+    functor.points = &points;
+    drawable.accept(functor);
+    const osg::Matrixd toWorld = drawable.getWorldMatrices().at(0);
+    for (osg::Vec3d& point : points) point = point * toWorld;
+    return points;
+}
+
+bool isSeen(const std::vector<osg::Vec3d>& points, const std::vector<osg::Plane>& planes) {
+    return std::any_of(points.begin(), points.end(), [&](const osg::Vec3d& point) {
+        return std::all_of(planes.begin(), planes.end(), [&](const osg::Plane& p) { return p.distance(point) > 0.0; });
+    });
+}
+
+// Over the map, beside it or below it; perspective or orthographic.
+CullView randomView(test::Random& random, const PlanarMap& map) {
+    const auto place = [&](double beside) {
+        return map.origin +
+               osg::Vec3d(random.uniform(-beside, 1.0 + beside), random.uniform(-beside, 1.0 + beside), 0) * map.size;
+    };
+    const osg::Vec3d eye =
+        place(0.3) + osg::Vec3d(0, 0, 1) * (random.logUniform(10.0, 40000.0) - random.uniform(0.0, 3000.0));
+    const osg::Vec3d target = place(0.1) + osg::Vec3d(0, 0, 1) * random.uniform(-2000.0, 4000.0);
+    const osg::Vec3d up(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.1, 1));
+    CullView view = CullView::lookAt(eye, target, up, random.uniform(5.0, 60.0));
+    if (random.chance(0.3)) {
+        const double half = random.logUniform(300.0, 30000.0);
+        view.projection = osg::Matrixd::ortho(-half, half, -half, half, 1.0, 1e8);
+    }
+    return view;
+}
+
+// Tiles' own meshes: leaves and those of PagedLODs.
+struct MeshCount : osg::NodeVisitor {
+    MeshCount() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::Node& node) override {
+        if (dynamic_cast<osgTerrain::TerrainTile*>(&node) || node.asTransform()) {
+            ++all;
+            if (node.getCullingActive()) ++withSpheres;
+            return;
+        }
+        traverse(node);
+    }
+    std::size_t all = 0;
+    std::size_t withSpheres = 0;
+};
+
+struct Tally {
+    std::size_t seen = 0;
+    std::size_t withBins = 0;
+    std::size_t withSpheres = 0;
+    std::size_t separated = 0;
+};
+
+using Shown = std::map<osg::Drawable*, std::vector<osg::Vec3d>>;
+
+// Returns: how many of the drawables are seen; each of them has to be kept.
+std::size_t checkKept(const Shown& shown, const std::set<osg::Drawable*>& kept, const CullView& view) {
+    const std::vector<osg::Plane> planes = view.sidePlanes();
+    std::size_t number = 0;
+    for (const auto& [drawable, points] : shown) {
+        if (!isSeen(points, planes)) continue;
+        ++number;
+        EXPECT_TRUE(kept.count(drawable));
+    }
+    return number;
+}
+
+// From the same eye, through a long lens at the lowest or the highest point of one tile: just into the picture.
+CullView closeUp(test::Random& random, const Shown& shown, const osg::Vec3d& eye) {
+    const auto& points = std::next(shown.begin(), random.integer(0, static_cast<int>(shown.size()) - 1))->second;
+    const auto [lowest, highest] = std::minmax_element(
+        points.begin(), points.end(), [](const osg::Vec3d& a, const osg::Vec3d& b) { return a.z() < b.z(); });
+    const bool isLow = random.chance(0.5);
+    const osg::Vec3d point = isLow ? *lowest : *highest;
+    const double fov = random.logUniform(0.05, 2.0);
+    const double beside = 0.95 * std::tan(osg::DegreesToRadians(0.5 * fov)) * (point - eye).length();
+    return CullView::lookAt(eye, point + osg::Vec3d(0, 0, isLow ? -beside : beside), osg::Vec3d(0, 0, 1), fov);
+}
+
+// Flies over the installed database and its plain twin.
+void fly(osg::Group& installed, osg::Group& plain, const PlanarMap& map, test::Random& random, Tally& tally) {
+    test::PagedFlight binFlight(installed);
+    test::PagedFlight sphereFlight(plain);
+    for (int trial = 0; trial < 60; ++trial) {
+        const CullView view = randomView(random, map);
+        CullView all = view;
+        all.cullingMode = osg::CullSettings::NO_CULLING;
+        ASSERT_TRUE(binFlight.load(all));
+        ASSERT_TRUE(sphereFlight.load(all));
+        binFlight.frames(all, 2);
+        sphereFlight.frames(all, 2);
+        BinCounts counts;
+        Shown shown;
+        for (osg::Drawable* drawable : reached(installed, all)) shown[drawable] = pointsOf(*drawable);
+        const std::set<osg::Drawable*> kept = reached(installed, view, &counts);
+        const std::set<osg::Drawable*> keptBySpheres = reached(plain, view);
+        EXPECT_EQ(shown.size(), reached(plain, all).size());
+        EXPECT_GT(counts.tested, 0u);
+        tally.seen += checkKept(shown, kept, view);
+        const osg::Vec3d eye = osg::Matrixd::inverse(view.modelView).getTrans();
+        for (int i = 0; i < 10; ++i) {
+            const CullView close = closeUp(random, shown, eye);
+            (void)checkKept(shown, reached(installed, close), close);
+        }
+        tally.withBins += kept.size();
+        tally.withSpheres += keptBySpheres.size();
+        tally.separated += counts.separated;
+    }
+    MeshCount meshes;
+    installed.accept(meshes);
+    EXPECT_GT(meshes.all, 40u);
+    EXPECT_EQ(meshes.withSpheres, 0u);
+}
+
+Tally flownTally(const PlanarMap& map, const std::string& options) {
+    const test::TemporaryFolder folder;
+    const auto installed = map.build(folder.path());
+    const auto plain = map.build(folder.path());
+    EXPECT_EQ(installBins(*installed, optionsOf(options)), 1u);
+    for (osg::Group* root : {installed.get(), plain.get()}) {
+        auto* terrain = dynamic_cast<osgTerrain::Terrain*>(root);
+        if (terrain) terrain->setVerticalScale(static_cast<float>(map.verticalScale));
+    }
+    Tally tally;
+    test::Random random(815);
+    fly(*installed, *plain, map, random, tally);
+    EXPECT_GT(tally.seen, 100u);
+    ::testing::Test::RecordProperty("withBins", static_cast<int>(tally.withBins));
+    ::testing::Test::RecordProperty("withSpheres", static_cast<int>(tally.withSpheres));
+    ::testing::Test::RecordProperty("seen", static_cast<int>(tally.seen));
+    return tally;
+}
+
+// Tiles that are kept in vain.
+void expectFewerThanWithSpheres(const Tally& tally) {
+    EXPECT_LT(5 * (tally.withBins - tally.seen), 4 * (tally.withSpheres - tally.seen));
+}
+
+TEST(PlanarDatabase, TerrainTilesAreCulledWellAndNeverWhenSeen) {
+    const Tally tally = flownTally(PlanarMap(), "heights=0..2600");
+    expectFewerThanWithSpheres(tally);
+    EXPECT_GT(tally.separated, 0u);
+}
+
+TEST(PlanarDatabase, MeshesAreCulledWellAndNeverWhenSeen) {
+    PlanarMap map;
+    map.isTerrain = false;
+    const Tally tally = flownTally(map, "heights=0..2600");
+    expectFewerThanWithSpheres(tally);
+}
+
+TEST(PlanarDatabase, ShownInAnotherShapeNothingIsCulledUntilItIsFitted) {
+    const test::TemporaryFolder folder;
+    const PlanarMap map;
+    const auto root = map.build(folder.path());
+    installBins(*root, optionsOf("heights=0..2600"));
+    test::PagedFlight flight(*root);
+    const osg::Vec3d eye = map.origin + osg::Vec3d(-1000, 0, 5000);
+    const CullView away = CullView::lookAt(eye, eye - osg::Vec3d(1000, 0, 0), osg::Vec3d(0, 0, 1), 40.0);
+    CullView all = away;
+    all.cullingMode = osg::CullSettings::NO_CULLING;
+    ASSERT_TRUE(flight.load(all));
+    EXPECT_TRUE(reached(*root, away).empty());
+    dynamic_cast<osgTerrain::Terrain&>(*root).setVerticalScale(3.0f);
+    EXPECT_FALSE(reached(*root, away).empty());
+    flight.frames(all, 2);
+    EXPECT_TRUE(reached(*root, away).empty());
+}
+
+TEST(PlanarDatabase, FollowsTheVerticalScale) {
+    PlanarMap map;
+    map.verticalScale = 3.0;
+    const Tally tally = flownTally(map, "heights=0..2600");
+    EXPECT_LT(tally.withBins, tally.withSpheres);
+}
+
+TEST(PlanarDatabase, UndeclaredHeightsHoldTerrainInFeet) {
+    PlanarMap map;
+    map.heightUnit = 0.3048;
+    map.origin.z() = 0.0;
+    (void)flownTally(map, "");
+    map.isTerrain = false;
+    (void)flownTally(map, "");
+}
+
+osg::ref_ptr<osg::PagedLOD> paged(const osg::ref_ptr<osg::Node>& mesh) {
+    osg::ref_ptr<osg::PagedLOD> node = new osg::PagedLOD;
+    node->addChild(mesh, 1e6f, 1e10f);
+    node->setFileName(1, "parts.osgb");
+    node->setRange(1, 0.0f, 1e6f);
+    return node;
+}
+
+enum class Callback { None, Planar, Geocentric };
+
+// What a paged tile with this mesh gets.
+Callback installedOn(osg::CoordinateSystemNode& root, const osg::ref_ptr<osg::Node>& mesh) {
+    const osg::ref_ptr<osg::PagedLOD> tile = paged(mesh);
+    root.removeChildren(0, root.getNumChildren());
+    root.addChild(tile);
+    const std::size_t installed = installBins(root);
+    osg::Callback* callback = tile->getCullCallback();
+    EXPECT_EQ(installed, callback ? 1u : 0u);
+    EXPECT_EQ(tile->getCullingActive(), callback == nullptr);
+    if (!callback) return Callback::None;
+    return dynamic_cast<AnalyticBinCullCallback*>(callback) ? Callback::Geocentric : Callback::Planar;
+}
+
+TEST(PlanarDatabase, IsToldByItsCoordinateSystemOrItsLocators) {
+    struct Row {
+        std::string format, text;
+        bool hasEllipsoid, isTerrain;
+        Callback expected;
+    };
+    const std::string utm = test::kUtm;
+    const std::vector<Row> rows{
+        {"WKT", utm, false, false, Callback::Planar},
+        {"WKT", utm, false, true, Callback::Planar},
+        {"", utm, false, false, Callback::Planar},
+        {"WKT", "PROJCRS[\"WGS 84 / UTM zone 33N\"]", false, false, Callback::Planar},
+        {"WKT", "COMPD_CS[\"UTM and heights\"," + utm + ",VERT_CS[\"EGM96\"]]", false, false, Callback::Planar},
+        {"WKT", "COMPD_CS[\"WGS 84\",GEOGCS[\"WGS 84\"],VERT_CS[\"EGM96\"]]", false, false, Callback::None},
+        {"PROJ4", "+proj=utm +zone=33 +datum=WGS84", false, false, Callback::Planar},
+        {"PROJ4", "+zone=33 +proj=utm", false, false, Callback::Planar},
+        {"PROJ4", "+proj=longlat +datum=WGS84", false, false, Callback::None},
+        {"PROJ4", "+proj=geocent", false, false, Callback::None},
+        {"WKT", "+proj=utm +zone=33", false, false, Callback::None},
+        {"PROJ4", "+init=epsg:32633", false, false, Callback::None},
+        {"WKT", "GEOGCS[\"WGS 84\"]", false, false, Callback::None},
+        {"WKT", "GEOCCS[\"WGS 84\"]", false, false, Callback::None},
+        {"", "", false, false, Callback::None},
+        // locators say what osgTerrain draws
+        {"WKT", "GEOGCS[\"WGS 84\"]", false, true, Callback::Planar},
+        {"PROJ4", "+proj=longlat", false, true, Callback::Planar},
+        {"", "", false, true, Callback::Planar},
+        {"", "", true, true, Callback::Planar},
+        // a map, but also an ellipsoid
+        {"WKT", utm, true, true, Callback::Planar},
+        {"WKT", utm, true, false, Callback::None},
+    };
+    for (const Row& row : rows) {
+        PlanarMap map;
+        map.isTerrain = row.isTerrain;
+        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode(row.format, row.text);
+        if (row.hasEllipsoid) root->setEllipsoidModel(new osg::EllipsoidModel);
+        EXPECT_EQ(installedOn(*root, map.mesh(1, 0, 0)), row.expected)
+            << row.format << ' ' << row.text << (row.isTerrain ? " terrain" : " mesh");
+    }
+}
+
+TEST(PlanarDatabase, LocatorsInDegreesArePlanarToo) {
+    PlanarMap map;
+    map.origin = osg::Vec3d(10, 45, 0);
+    map.size = 2.0;
+    map.heightUnit = 111319.0;  // as VirtualPlanetBuilder scales them
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", "GEOGCS[\"WGS 84\"]");
+    const osg::ref_ptr<osg::Node> tile = map.mesh(0, 0, 0);
+    auto& locator = *dynamic_cast<osgTerrain::TerrainTile&>(*tile).getLocator();
+    EXPECT_EQ(installedOn(*root, tile), Callback::Planar);
+    locator.setCoordinateSystemType(osgTerrain::Locator::GEOGRAPHIC);
+    EXPECT_EQ(installedOn(*root, tile), Callback::Planar);
+    locator.setCoordinateSystemType(osgTerrain::Locator::GEOCENTRIC);
+    EXPECT_NE(installedOn(*root, tile), Callback::Planar);
+}
+
+TEST(PlanarDatabase, ATextThatNamesAMapAboveAGlobeIsFoundOut) {
+    for (const double latitude : {45.0, 0.3, 88.0, -30.0}) {
+        const osg::EllipsoidModel wgs84;
+        const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+        for (const auto& [north, east] : {std::pair{0, 0}, {0, 1}, {1, 1}, {0, 0}, {1, 1}, {1, 0}}) {
+            double x = 0, y = 0, z = 0;
+            wgs84.convertLatLongHeightToXYZ(osg::DegreesToRadians(latitude + 0.5 * north),
+                                            osg::DegreesToRadians(20.0 + 0.5 * east), 300.0, x, y, z);
+            vertices->push_back(osg::Vec3d(x, y, z));
+        }
+        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+        geometry->setVertexArray(vertices);
+        geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 6));
+        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", test::kUtm);
+        EXPECT_EQ(installedOn(*root, geometry), Callback::None) << latitude;
+        root->setEllipsoidModel(new osg::EllipsoidModel);
+        EXPECT_EQ(installedOn(*root, geometry), Callback::Geocentric) << latitude;
+    }
+    // and a map at a northing that is nearly the earth's radius is no globe
+    PlanarMap map;
+    map.isTerrain = false;
+    map.origin.y() = 6340000.0;
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", test::kUtm);
+    root->setEllipsoidModel(new osg::EllipsoidModel);
+    EXPECT_EQ(installedOn(*root, map.mesh(2, 0, 0)), Callback::None);
+}
+
+osg::ref_ptr<osg::Geometry> triangles(const std::vector<osg::Vec3>& vertices) {
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(new osg::Vec3Array(vertices.begin(), vertices.end()));
+    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<int>(vertices.size())));
+    return geometry;
+}
+
+TEST(PlanarDatabase, WhatIsNoTerrainIsLeftAsItIs) {
+    const osg::Vec3 a(0, 0, 0), b(100, 0, 0), c(0, 100, 0), up(0, 0, 50);
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", test::kUtm);
+    ASSERT_EQ(installedOn(*root, triangles({a, b, c})), Callback::Planar);
+    ASSERT_EQ(installedOn(*root, triangles({a, c, b})), Callback::Planar) << "wound the other way";
+    EXPECT_EQ(installedOn(*root, triangles({a, b, c, a + up, c + up, b + up})), Callback::None) << "a closed body";
+    EXPECT_EQ(installedOn(*root, triangles({a, b, a + up})), Callback::None) << "a wall";
+    const osg::Vec3 high(0, 0, 2e5f);
+    EXPECT_EQ(installedOn(*root, triangles({a + high, b + high, c + high})), Callback::None) << "in orbit";
+    const float nan = std::nanf("");
+    EXPECT_EQ(installedOn(*root, triangles({a, b, c, a, b, osg::Vec3(nan, 0, 0)})), Callback::None) << "broken";
+    const osg::ref_ptr<osg::MatrixTransform> moving = new osg::MatrixTransform;
+    moving->setDataVariance(osg::Object::DYNAMIC);
+    moving->addChild(triangles({a, b, c}));
+    EXPECT_EQ(installedOn(*root, moving), Callback::None);
+    // outside of paged files a mesh is no tile
+    root->removeChildren(0, root->getNumChildren());
+    root->addChild(triangles({a, b, c}));
+    EXPECT_EQ(installBins(*root), 0u);
+    EXPECT_TRUE(root->getChild(0)->getCullingActive());
+}
+
+TEST(PlanarDatabase, SpheresTakeItBackAndClusterCallbacksStay) {
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", test::kUtm);
+    PlanarMap map;
+    map.isTerrain = false;
+    const osg::ref_ptr<osg::PagedLOD> tile = paged(map.mesh(0, 0, 0));
+    const osg::ref_ptr<osg::ClusterCullingCallback> cluster = new osg::ClusterCullingCallback;
+    cluster->set(osg::Vec3(1, 2, 3), osg::Vec3(0, 0, 1), -0.5f, 1000.0f);
+    tile->setCullCallback(cluster);
+    root->addChild(tile);
+    for (const char* method : {"quadratic", "exact", "paper", "corners", "quadratic"}) {
+        EXPECT_EQ(installBins(*root, optionsOf(std::string("method=") + method)), 1u) << method;
+        EXPECT_EQ(tile->getCullCallback()->getNestedCallback(), cluster.get()) << "and one of ours, not two";
+        EXPECT_EQ(tile->getMinimumExpiryTime(1), CullOptions::kDefaultExpiry);
+    }
+    EXPECT_EQ(cluster->getDeviation(), -0.5f);
+    EXPECT_EQ(installBins(*root, optionsOf("method=sphere")), 0u);
+    EXPECT_EQ(tile->getCullCallback(), cluster.get());
+    EXPECT_TRUE(tile->getCullingActive());
+    EXPECT_TRUE(tile->getChild(0)->getCullingActive());
+    EXPECT_EQ(tile->getMinimumExpiryTime(1), 0.0);
+    EXPECT_EQ(root->getCullCallback(), nullptr);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin
