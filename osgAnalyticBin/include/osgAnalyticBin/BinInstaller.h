@@ -21,6 +21,7 @@ class BinReadFileCallback;
 class Database;
 struct ParentTile;
 struct PlanarFit;
+struct TerrainShape;
 
 /// Puts AnalyticBinCullCallbacks on the tiles of a geocentric database, switches OSG's sphere test off on them and
 /// below (drawables keep their boxes), and arranges that tiles that the DatabasePager loads later are treated in the
@@ -73,7 +74,7 @@ private:
     [[nodiscard]] bool installsBins() const;
     [[nodiscard]] Database& database();
     void install(FoundTile& tile);
-    void installPlanar(FoundTile& tile, const PlanarFit& fit);
+    void installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape);
     void uninstall(FoundTile& tile);
     void followPaging(osg::PagedLOD& node, const ParentTile* tile);
 

@@ -200,8 +200,9 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
 void BinInstaller::visitTile(FoundTile& tile) {
     uninstall(tile);
     if (installsBins() && !hasStoredBin(*tile.node)) {
-        const PlanarFit fit = fitPlanarTile(tile, _options, database().shape());
-        if (fit.kind == PlanarFit::Planar) return installPlanar(tile, fit);
+        const TerrainShape shape = database().shape();
+        const PlanarFit fit = fitPlanarTile(tile, _options, shape);
+        if (fit.kind == PlanarFit::Planar) return installPlanar(tile, fit, shape);
         if (fit.kind == PlanarFit::Contradictory || !tile.frame.ellipsoid) return visitOther(*tile.node);
     }
     if (installsBins()) return install(tile);
@@ -271,16 +272,17 @@ void BinInstaller::install(FoundTile& tile) {
     traverseBelow(node);
 }
 
-void BinInstaller::installPlanar(FoundTile& tile, const PlanarFit& fit) {
+void BinInstaller::installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape) {
     osg::Node& node = *tile.node;
     osg::Node& culled = culledNode(tile);
     osg::Transform* transform = culled.asTransform();
     const osg::Matrixd localToMap = transform ? frameInside(*transform, tile.frame) : tile.frame.localToEcef;
     osg::Matrixd mapToLocal;
     if (!mapToLocal.invert(localToMap)) return visitOther(node);
-    const std::optional<TerrainShape> shape = fit.isScalable ? std::optional(database().shape()) : std::nullopt;
-    const osg::ref_ptr<PlanarBinCullCallback> callback =
-        new PlanarBinCullCallback(PlanarBin(fit.box, mapToLocal), shape, _options);
+    // what neighbours lend to edges, and what other techniques make of heights, is not known
+    if (fit.isScalable && (shape.areBoundariesEqual || !shape.isKnown)) return visitOther(node);
+    const osg::ref_ptr<PlanarBinCullCallback> callback = new PlanarBinCullCallback(
+        PlanarBin(fit.box, mapToLocal), fit.isScalable ? std::optional(shape) : std::nullopt, _options);
     // In front: what is nested runs when the tile is kept.
     callback->setNestedCallback(culled.getCullCallback());
     culled.setCullCallback(callback.get());

@@ -22,14 +22,13 @@ bool PlanarBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisitor
         database->database->requestRefit();
         return false;
     }
-    return isCulledByBin(
-        cullStack, nv, traversal, _sphere, [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
-            const core::PlaneSet& planes = traversal.planes(frustum);
-            const core::Side side = _bin.classify(planes, undecided);
-            const bool isSeparated = side == core::Side::Straddling && _options.reverse &&
-                                     core::isSeparated(_bin, planes, planes.size(), undecided);
-            return isSeparated ? Verdict{core::Side::Outside, Verdict::Edge} : Verdict{side, Verdict::Plane};
-        });
+    return isCulledByBin(cullStack, nv, traversal, _sphere, [&](const osg::Polytope&, core::PlaneMask& undecided) {
+        const core::PlaneSet& planes = traversal.planes(cullStack);
+        const core::Side side = _bin.classify(planes, undecided);
+        const bool isSeparated = side == core::Side::Straddling && _options.reverse &&
+                                 core::isSeparated(_bin, planes, planes.size(), undecided);
+        return isSeparated ? Verdict{core::Side::Outside, Verdict::Edge} : Verdict{side, Verdict::Plane};
+    });
 }
 
 }  // namespace osgAnalyticBin
