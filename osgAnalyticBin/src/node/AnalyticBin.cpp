@@ -6,6 +6,7 @@
 #include "Text.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/core/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/GeodeticMapping.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
 
@@ -60,6 +61,28 @@ double reachOf(const core::GeodeticMapping& mapping, const core::ParameterBox& b
         reach = std::max(reach, reachOf(mapping, {center, half * (1.0 + 1e-12)}, from, splits - 1));
     }
     return reach;
+}
+
+// Radians: wider bins fill the box about them badly.
+constexpr double kWidestBox = 1.0;
+
+// The box about a bin along the east, north and up of its middle hardly leaves the bin's corners.
+osg::BoundingSphere sphereOfBox(const core::ExactGeodeticBin& bin, const core::Geodetic& middle) {
+    const double sinLat = std::sin(middle.latitude);
+    const double cosLat = std::cos(middle.latitude);
+    const double sinLon = std::sin(middle.longitude);
+    const double cosLon = std::cos(middle.longitude);
+    const glm::dvec3 axes[] = {{-sinLon, cosLon, 0.0},
+                               {-sinLat * cosLon, -sinLat * sinLon, cosLat},
+                               {cosLat * cosLon, cosLat * sinLon, sinLat}};
+    glm::dvec3 center(0.0);
+    double squaredRadius = 0.0;
+    for (const glm::dvec3& axis : axes) {
+        const core::Interval range = bin.distanceRange({axis, 0.0});
+        center += range.middle() * axis;
+        squaredRadius += 0.25 * range.width() * range.width();
+    }
+    return roundedOutward(toOsg(center), std::sqrt(squaredRadius));
 }
 
 double radians(double degrees) {
@@ -120,6 +143,10 @@ osg::Vec3d AnalyticBin::center(const osg::EllipsoidModel& ellipsoid) const {
 
 osg::BoundingSphere AnalyticBin::boundingSphere(const osg::EllipsoidModel& ellipsoid) const {
     if (!valid()) return {};
+    const bool isNarrow = _bin.longitude().width() < kWidestBox && _bin.latitude().width() < kWidestBox;
+    if (isNarrow && core::ExactGeodeticBin::holds(toCore(ellipsoid), _bin)) {
+        return sphereOfBox(core::ExactGeodeticBin(toCore(ellipsoid), _bin, _margin), _bin.center());
+    }
     const core::GeodeticMapping mapping(toCore(ellipsoid));
     const core::ParameterBox box = core::parameterBox(_bin);
     const glm::dvec3 center = middleOf(mapping, box);
