@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <ostream>
 #include <sstream>
 #include <string>
 #include <support/TemporaryFolder.h>
@@ -62,6 +63,10 @@ struct PictureCase {
     const char* threading;
     int scale;
 };
+
+std::ostream& operator<<(std::ostream& out, const PictureCase& each) {
+    return out << each.mode << " x" << each.scale << ' ' << each.threading;
+}
 
 // Every other pose of the path; with exaggerated mountains eyes below 30 km are lifted above them.
 std::string shortPath(int scale) {
