@@ -435,5 +435,32 @@ TEST(CrackBounds, FinerMeshesNearlyDipAsDeep) {
     }
 }
 
+// Oracle: along a meridian, the chord between the edge and the row of posts behind it, in long double on a sphere.
+TEST(CrackBounds, WhatIsBehindAnEdgeDipsNoDeeperThanTheBound) {
+    const Ellipsoid sphere(6371000.0, 6371000.0);
+    for (const double width : {0.02, 0.1, 0.4}) {
+        for (const double south : {-1.2, -0.6, 0.1, 0.7, 1.1}) {
+            const GeodeticBin tile({south, south + width}, {0.3, 0.3 + width}, {-500.0, 9000.0});
+            const TileEdges edges{width, width, width, width, {}};
+            const long double cell = width / kFewestCells;
+            for (const double edge : {south, south + width}) {
+                const long double run = std::abs(std::sin(edge) * std::cos(edge)) * cell * cell / 8.0L;
+                // a post lower by the relief stands one cell behind the edge
+                const long double relief = 2000.0L;
+                const long double low = 6371000.0L - relief;
+                const long double x = 6371000.0L + (low * std::cos(cell) - 6371000.0L) * run / cell;
+                const long double y = low * std::sin(cell) * run / cell;
+                const long double dip = 6371000.0L - std::hypot(x, y);
+                const double bound = dipBehindEdge(sphere, tile, edges, 2000.0);
+                EXPECT_LE(static_cast<double>(dip), bound) << width << " at " << edge;
+            }
+        }
+    }
+    const GeodeticBin flat({0.5, 0.6}, {0.3, 0.4}, {0.0, 0.0});
+    const TileEdges edges{0.1, 0.1, 0.1, 0.1, {}};
+    EXPECT_LT(dipBehindEdge(sphere, flat, edges, 0.0), 3.0);
+    EXPECT_LT(dipBehindEdge(sphere, flat, edges, 20000.0), 30.0);
+}
+
 }  // namespace
 }  // namespace osgAnalyticBin::core

@@ -101,6 +101,19 @@ double crackDepth(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const Til
     return sagOfArc(ellipsoid, std::max({southArc, northArc, edges.west / kFewestCells, edges.east / kFewestCells}));
 }
 
+double dipBehindEdge(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const TileEdges& edges,
+                     double relief) noexcept {
+    const double slope = tile.latitude().width() / tile.longitude().width();
+    const auto behind = [&](double width, double latitude) {
+        const double cell = width / kFewestCells;
+        const double run = polewardRun(ellipsoid, cell, latitude);
+        const double height = cell * slope;
+        // as in the arc of a crack's depth: a chord of height d dips by (R / 2) r d at r from its end
+        return sagOfArc(ellipsoid, 2.0 * std::sqrt(run * height)) + relief * std::min(1.0, run / height);
+    };
+    return std::max(behind(edges.south, tile.latitude().lower), behind(edges.north, tile.latitude().upper));
+}
+
 GeodeticBin withGaps(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const TileEdges& edges) noexcept {
     Interval latitude = tile.latitude();
     if (latitude.upper > 0.0) latitude.upper += polewardRun(ellipsoid, edges.north / kFewestCells, latitude.upper);

@@ -94,6 +94,11 @@ bool fitIndexed(const FoundTile& tile, const Database& database, const TerrainSh
     linkTo(fit.bin.bin(), link);
     const double high = std::max(entry->ownLow, fit.bin.bin().altitude().upper);
     fit.surface = withAltitude(fit.bin, {entry->ownLow, high}, 0.0);
+    // the floor of an index is that of its neighbours' edges
+    const double relief = database.options().heights.width() + fit.bin.sag();
+    const double dip = core::dipBehindEdge(toCore(*database.ellipsoid()), fit.bin.bin(), link.edges, relief);
+    const core::Interval& altitude = fit.bin.bin().altitude();
+    fit.bin = withAltitude(fit.bin, {altitude.lower - dip, altitude.upper}, fit.bin.sag() + dip);
     if (link.edges.areOnBorder()) fitSkirt(tile, shape, fit);
     return true;
 }

@@ -48,6 +48,13 @@ constexpr int kFewestCells = 7;
 /// Guarantee: tests: CrackBounds.*.
 [[nodiscard]] double crackDepth(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const TileEdges& edges) noexcept;
 
+/// Metres by which the triangles of a coarser neighbour, within its edge's poleward run, dip below the lowest point of
+/// the edge at most: what a floor that was found from edges alone is to be lowered by. `relief`: metres that a mesh is
+/// lower than its edge at most.
+/// Assumes: as crackDepth(). Source: doc/databases.md, (4.5).
+[[nodiscard]] double dipBehindEdge(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const TileEdges& edges,
+                                   double relief) noexcept;
+
 /// The tile's bin, widened poleward by the gap that opens between it and the chords of a coarser neighbour's posts on
 /// their common parallel: through that gap its skirts are seen to any depth.
 /// Assumes: as crackDepth().
