@@ -47,7 +47,7 @@ cmake -S tests/consumer -B build/consumer/build -G Ninja -DCMAKE_PREFIX_PATH="$p
 ctest --test-dir build/consumer/build --output-on-failure --no-tests=error
 
 build dev
-test_preset dev -LE soundness
+test_preset dev -LE 'soundness|pictures'
 build scalar --target osganalyticbin_core_tests
 test_preset scalar -L core
 

@@ -128,6 +128,23 @@ INSTANTIATE_TEST_SUITE_P(Cases, VpbPictures, testing::ValuesIn(pictureCases()), 
     return std::string(each.param.mode) + std::to_string(each.param.scale) + each.param.threading;
 });
 
+TEST(VpbExaggerated, ClusterCallbacksCullWhatIsSeenAndBinsDoNot) {
+    const std::string database = std::string(SHARED_DATA) + "/vpb/terrain/earth.osgb";
+    if (!std::filesystem::exists(database)) GTEST_SKIP() << "needs " << database;
+    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    const TemporaryFolder folder;
+    const std::string file = folder / "sums.json";
+    const test::Outcome outcome = test::runBench(
+        test::quoted(database) + " --path " + test::quoted(VPB_EXAGGERATED_PATH_FILE) +
+        " --vertical-scale 10 --methods cluster,exact --size 640x360 --repeats 1 --json " + test::quoted(file));
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+    const nlohmann::json methods = test::jsonFile(file)["methods"];
+    EXPECT_GE(methods["cluster"]["false_culls"], 5);
+    EXPECT_GE(methods["cluster"]["differing_pixels"], 500);
+    EXPECT_EQ(methods["exact"]["false_culls"], 0);
+    EXPECT_EQ(methods["exact"]["differing_pixels"], 0);
+}
+
 TEST(VpbPath, HasPosesOfEveryKind) {
     std::string error;
     const auto path = flight::readCameraPathFile(VPB_PATH_FILE, error);
