@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Output.h"
+
+#include "Claims.h"
+#include "Failure.h"
+#include "TextTable.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+namespace osgAnalyticBin::paper {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using report::TextTable;
+
+std::string withDecimals(double value, int decimals) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+    return text;
+}
+
+std::vector<std::string> headLine(const std::string& first) {
+    std::vector<std::string> cells{first};
+    for (const CountColumn& column : kCountColumns) cells.emplace_back(column.name);
+    return cells;
+}
+
+std::vector<std::string> countLine(const std::string& first, const Counts& counts) {
+    std::vector<std::string> cells{first};
+    for (const CountColumn& column : kCountColumns) cells.push_back(std::to_string(counts.*column.count));
+    return cells;
+}
+
+void addView(TextTable& table, const std::string& name, const ViewResult& view) {
+    std::vector<std::string> head =
+        headLine(name + ": " + std::to_string(view.cameras) + " cameras, " + std::to_string(view.seen()) + " seen");
+    head.emplace_back("ns");
+    table.add(std::move(head));
+    for (std::size_t method = 0; method < kMethods; ++method) {
+        std::vector<std::string> cells = countLine(kMethodNames[method], sumOf(view.methods[method]));
+        cells.push_back(withDecimals(view.nanoseconds[method], 1));
+        table.add(std::move(cells));
+    }
+    table.addGap();
+}
+
+void addLevels(TextTable& table, const ViewResult& sum, int levels) {
+    std::vector<std::string> head{"tested / kept / drawn, all views", "width", "seen"};
+    for (const char* const name : kMethodNames) head.emplace_back(name);
+    table.add(std::move(head));
+    for (std::size_t level = 0; level <= static_cast<std::size_t>(levels); ++level) {
+        std::vector<std::string> cells{"level " + std::to_string(level),
+                                       withDecimals(std::ldexp(22.5, -static_cast<int>(level)), 2) + " deg",
+                                       std::to_string(sum.seenLeaves[level])};
+        for (const LevelCounts& counts : sum.methods) {
+            cells.push_back(std::to_string(counts[level].tested) + "/" + std::to_string(counts[level].kept) + "/" +
+                            std::to_string(counts[level].drawn));
+        }
+        table.add(std::move(cells));
+    }
+}
+
+Json jsonOf(const ViewResult& view) {
+    Json json;
+    json["cameras"] = view.cameras;
+    json["seen_leaves"] = view.seen();
+    for (std::size_t method = 0; method < kMethods; ++method) {
+        const Counts counts = sumOf(view.methods[method]);
+        Json& sums = json["methods"][kMethodNames[method]];
+        for (const CountColumn& column : kCountColumns) sums[column.name] = counts.*column.count;
+        sums["ns"] = view.nanoseconds[method];
+    }
+    return json;
+}
+
+Json jsonOf(const WrongCull& worst) {
+    return {{"view", kViewKinds[worst.kind].name},
+            {"camera", worst.number},
+            {"level", worst.tile.level},
+            {"x", worst.tile.x},
+            {"y", worst.tile.y},
+            {"depth_m", worst.depth},
+            {"in_picture", worst.isHole}};
+}
+
+}  // namespace
+
+void writeFile(const std::string& file, const std::string& text) {
+    const std::string unfinished = file + ".tmp";
+    std::ofstream output(unfinished, std::ios::binary);
+    output << text;
+    output.close();
+    std::error_code problem;
+    if (output) std::filesystem::rename(unfinished, file, problem);
+    if (output && !problem) return;
+    std::filesystem::remove(unfinished, problem);
+    throw osgbindem::Failure("cannot write \"" + file + "\"; check that its folder is there and not full");
+}
+
+std::string csvOf(const Results& results, int levels) {
+    std::string text = "view,level,method,cameras,seen_leaves";
+    for (const CountColumn& column : kCountColumns) text += std::string(",") + column.name;
+    text += "\n";
+    for (std::size_t kind = 0; kind < kViewKinds.size(); ++kind) {
+        const ViewResult& view = results.views[kind];
+        for (std::size_t level = 0; level <= static_cast<std::size_t>(levels); ++level) {
+            for (std::size_t method = 0; method < kMethods; ++method) {
+                text += std::string("\"") + kViewKinds[kind].name + "\"," + std::to_string(level) + "," +
+                        kMethodNames[method] + "," + std::to_string(view.cameras) + "," +
+                        std::to_string(view.seenLeaves[level]);
+                for (const CountColumn& column : kCountColumns)
+                    text += "," + std::to_string(view.methods[method][level].*column.count);
+                text += "\n";
+            }
+        }
+    }
+    return text;
+}
+
+std::string jsonOf(const Settings& settings, const Results& results) {
+    Json json;
+    json["dem"] = settings.dem;
+    json["levels"] = settings.levels;
+    json["floor_m"] = settings.floor;
+    json["factor"] = settings.experiment.factor;
+    json["seed"] = settings.experiment.seed;
+    json.update(jsonOf(results.sum()));
+    for (std::size_t kind = 0; kind < kViewKinds.size(); ++kind)
+        json["views"][kViewKinds[kind].name] = jsonOf(results.views[kind]);
+    for (std::size_t method = 0; method < kMethods; ++method) {
+        if (results.worst[method]) json["worst"][kMethodNames[method]] = jsonOf(*results.worst[method]);
+    }
+    json["findings"] = findings(results);
+    return json.dump(2) + "\n";
+}
+
+void printTables(std::ostream& output, const Results& results, int levels) {
+    TextTable views(1);
+    for (std::size_t kind = 0; kind < kViewKinds.size(); ++kind)
+        addView(views, kViewKinds[kind].name, results.views[kind]);
+    addView(views, "all views", results.sum());
+    views.print(output);
+    TextTable byLevel(1);
+    addLevels(byLevel, results.sum(), levels);
+    byLevel.print(output);
+    output << '\n';
+    for (const std::string& line : findings(results)) output << line << '\n';
+}
+
+}  // namespace osgAnalyticBin::paper

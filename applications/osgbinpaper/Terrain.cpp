@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Terrain.h"
+
+#include "Failure.h"
+
+#include <osg/CoordinateSystemNode>
+
+#include <algorithm>
+
+namespace osgAnalyticBin::paper {
+
+namespace {
+
+constexpr double kDegreesPerRadian = 180.0 / 3.14159265358979323846;
+
+osgbindem::DemOptions optionsFor(const std::string& dem) {
+    osgbindem::DemOptions options;
+    options.raster.path = dem;
+    return options;
+}
+
+}  // namespace
+
+core::Ellipsoid wgs84() {
+    const osg::ref_ptr<osg::EllipsoidModel> model = new osg::EllipsoidModel;
+    return {model->getRadiusEquator(), model->getRadiusPolar()};
+}
+
+Terrain::Terrain(const std::string& dem, int deepestLevel, double floor, Progress& progress)
+    : _ellipsoid(wgs84()),
+      _source(optionsFor(dem)),
+      _floor(floor),
+      _pyramid(
+          deepestLevel, [this](const TileId& tile) { return range(tile); },
+          [&](const TileId& start) {
+              const int done = start.y * TileId::kStartColumns + start.x;
+              progress.show("heights", static_cast<std::size_t>(done), TileId::kStartColumns * TileId::kStartRows);
+              _source.prefetch(start.rect());
+          }) {
+    if (!_source.hasAnyData()) throw osgbindem::Failure("no heights in \"" + dem + "\", only missing data");
+}
+
+core::Interval Terrain::range(const TileId& tile) {
+    osgbindem::HeightRange range;
+    if (!_source.addRange(tile.rect(), range)) range.include(0.0);
+    return {std::max(range.lower, _floor), std::max(range.upper, _floor)};
+}
+
+osgbindem::RectDeg Terrain::extent() const noexcept {
+    if (_source.grid().isGlobal()) return {-180.0, -90.0, 180.0, 90.0};
+    const osgbindem::RectDeg extent = _source.grid().extent();
+    return {extent.west, std::max(extent.south, -90.0), extent.east, std::min(extent.north, 90.0)};
+}
+
+double Terrain::height(const osgbindem::PositionDeg& position) {
+    return std::max(_source.height(position).value_or(0.0), _floor);
+}
+
+core::Geodetic Terrain::onSurface(const core::Geodetic& position) {
+    return {position.latitude, position.longitude,
+            height({position.latitude * kDegreesPerRadian, position.longitude * kDegreesPerRadian})};
+}
+
+}  // namespace osgAnalyticBin::paper

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Witness.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace osgAnalyticBin::paper {
+
+namespace {
+
+constexpr int kSteps = 6;
+constexpr int kHalvings = 14;
+// Of the radius: what rounding may add to a line of sight that ends on the globe.
+constexpr double kGrazing = 1e-9;
+
+// A position of the unit cube, in latitude, longitude and altitude.
+using Shares = glm::dvec3;
+
+core::Geodetic positionAt(const core::GeodeticBin& bin, const Shares& shares) {
+    return {bin.latitude().lower + shares.x * bin.latitude().width(),
+            bin.longitude().lower + shares.y * bin.longitude().width(),
+            bin.altitude().lower + shares.z * bin.altitude().width()};
+}
+
+double depthOf(const glm::dvec3& point, const std::array<core::Plane, 4>& planes) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const core::Plane& plane : planes) least = std::min(least, plane.distance(point));
+    return least;
+}
+
+struct Best {
+    Shares shares{0.5};
+    double depth = -std::numeric_limits<double>::infinity();
+};
+
+// Steps along the axes and along the diagonals, which a corner between two sides of the frustum needs.
+template <class Depth>
+void climb(const Depth& depth, glm::length_t axes, Best& best) {
+    double step = 0.5 / kSteps;
+    for (int halving = 0; halving < kHalvings; step *= 0.5, ++halving) {
+        const Shares from = best.shares;
+        for (int i = -1; i <= 1; ++i) {
+            for (int j = -1; j <= 1; ++j) {
+                Shares to = from + step * glm::dvec3(i, j, 0.0);
+                to = {std::clamp(to.x, 0.0, 1.0), std::clamp(to.y, 0.0, 1.0), to.z};
+                const double value = depth(to);
+                if (value > best.depth) best = {to, value};
+            }
+        }
+        if (axes < 3) continue;
+        for (const double z : {0.0, 1.0}) {
+            const Shares to{best.shares.x, best.shares.y, z};
+            const double value = depth(to);
+            if (value > best.depth) best = {to, value};
+        }
+    }
+}
+
+template <class Depth>
+Best deepest(const Depth& depth, glm::length_t axes) {
+    Best best;
+    for (int i = 0; i <= kSteps; ++i) {
+        for (int j = 0; j <= kSteps; ++j) {
+            for (int k = 0; k <= (axes < 3 ? 0 : 1); ++k) {
+                const Shares shares{static_cast<double>(i) / kSteps, static_cast<double>(j) / kSteps, k};
+                const double value = depth(shares);
+                if (value > best.depth) best = {shares, value};
+            }
+        }
+    }
+    climb(depth, axes, best);
+    return best;
+}
+
+// Whether the ellipsoid leaves the line of sight free.
+bool isInSight(const core::Ellipsoid& ellipsoid, const glm::dvec3& eye, const glm::dvec3& point) {
+    const glm::dvec3 radii(ellipsoid.equatorialRadius(), ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+    const glm::dvec3 from = point / radii;
+    const glm::dvec3 step = eye / radii - from;
+    const double nearest = std::clamp(-glm::dot(from, step) / glm::dot(step, step), 0.0, 1.0);
+    return glm::length(from + nearest * step) >= 1.0 - kGrazing;
+}
+
+}  // namespace
+
+std::optional<Witness> findWitness(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin,
+                                   const Camera& camera) {
+    const std::array<core::Plane, 4> planes = camera.planes();
+    const auto depth = [&](const Shares& shares) { return depthOf(ellipsoid.toEcef(positionAt(bin, shares)), planes); };
+    const Best best = deepest(depth, 3);
+    if (!(best.depth > 0.0)) return std::nullopt;
+    return Witness{positionAt(bin, best.shares), best.depth};
+}
+
+std::optional<Witness> findTerrainWitness(Terrain& terrain, const core::GeodeticBin& bin, const Camera& camera) {
+    const std::array<core::Plane, 4> planes = camera.planes();
+    const auto depth = [&](const Shares& shares) {
+        const glm::dvec3 point = terrain.ellipsoid().toEcef(terrain.onSurface(positionAt(bin, shares)));
+        if (!isInSight(terrain.ellipsoid(), camera.eye, point)) return -std::numeric_limits<double>::infinity();
+        return depthOf(point, planes);
+    };
+    const Best best = deepest(depth, 2);
+    if (!(best.depth > 0.0)) return std::nullopt;
+    return Witness{terrain.onSurface(positionAt(bin, best.shares)), best.depth};
+}
+
+}  // namespace osgAnalyticBin::paper

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Failure.h"
+#include "Output.h"
+
+#include <cpl_error.h>
+#include <gdal.h>
+
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+
+namespace {
+
+using namespace osgAnalyticBin::paper;
+
+int complain(const std::string& message) {
+    std::cerr << "osgbinpaper: " << message << std::endl;
+    return EXIT_FAILURE;
+}
+
+int run(int argc, char** argv) {
+    const Settings settings = readSettings(argc, argv);
+    GDALAllRegister();
+    CPLSetErrorHandler(CPLQuietErrorHandler);
+    Progress progress(settings.isQuiet);
+    Terrain terrain(settings.dem, settings.levels, settings.floor, progress);
+    const Results results = runExperiment(terrain, settings.experiment, progress);
+    printTables(std::cout, results, settings.levels);
+    if (!settings.csv.empty()) writeFile(settings.csv, csvOf(results, settings.levels));
+    if (!settings.json.empty()) writeFile(settings.json, jsonOf(settings, results));
+    return EXIT_SUCCESS;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& error) {
+        return complain(error.what());
+    }
+}
