@@ -10,7 +10,7 @@ packages="
   libopenscenegraph-dev openscenegraph libglm-dev
   libgdal-dev gdal-bin libcli11-dev nlohmann-json3-dev
   libgtest-dev librapidcheck-dev libboost-dev libhwy-dev libbenchmark-dev libccd-dev
-  xvfb xauth libgl1-mesa-dri nginx
+  xvfb xauth libgl1-mesa-dri nginx gnuplot-nox
   ferret-datasets libncarg-data
 "
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Failure.h"
+#include "Figures.h"
 #include "Output.h"
 
 #include <cpl_error.h>
@@ -31,6 +31,8 @@ int run(int argc, char** argv) {
     printTables(std::cout, results, settings.levels);
     if (!settings.csv.empty()) writeFile(settings.csv, csvOf(results, settings.levels));
     if (!settings.json.empty()) writeFile(settings.json, jsonOf(settings, results));
+    if (!settings.plotFolder.empty())
+        drawFigures(settings.plotFolder, terrain, settings.experiment.factor, results, progress);
     return EXIT_SUCCESS;
 }
 

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Figures.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace osgAnalyticBin::paper {
+
+namespace {
+
+constexpr double kDegreesPerRadian = 180.0 / 3.14159265358979323846;
+
+std::string boxOf(const TileId& tile) {
+    const osgbindem::RectDeg rect = tile.rect();
+    return decimals(rect.west, 4) + " " + decimals(rect.south, 4) + " " + decimals(rect.east, 4) + " " +
+           decimals(rect.north, 4);
+}
+
+// Tiles that the recursion ended at, by verdict.
+std::vector<std::string> rowsOf(const FigureScene& scene, Verdict verdict) {
+    std::vector<std::string> rows;
+    for (std::size_t i = 0; i < scene.tree.tiles.size(); ++i) {
+        const bool isEnd = scene.tree.tiles[i].isLeaf() || verdict != Verdict::Straddling;
+        if (scene.verdicts[i] == verdict && isEnd) rows.push_back(boxOf(scene.tree.tiles[i].id));
+    }
+    return rows;
+}
+
+// Where a ray first meets the ellipsoid, in degrees. Returns: false where it misses.
+bool meet(const FigureScene& scene, const glm::dvec3& direction, glm::dvec3& longitudeLatitude) {
+    const core::Ellipsoid& ellipsoid = scene.terrain.ellipsoid();
+    const glm::dvec3 radii(ellipsoid.equatorialRadius(), ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+    const glm::dvec3 o = scene.camera.eye / radii;
+    const glm::dvec3 d = direction / radii;
+    const double b = glm::dot(o, d);
+    const double discriminant = b * b - glm::dot(d, d) * (glm::dot(o, o) - 1.0);
+    if (discriminant < 0.0) return false;
+    const double t = (-b - std::sqrt(discriminant)) / glm::dot(d, d);
+    const core::Geodetic p = ellipsoid.toGeodetic(scene.camera.eye + t * direction);
+    longitudeLatitude = {p.longitude * kDegreesPerRadian, p.latitude * kDegreesPerRadian, 0.0};
+    return t > 0.0;
+}
+
+// The border of the picture on the globe.
+std::vector<Polyline> footprint(const FigureScene& scene) {
+    constexpr int kSteps = 200;
+    std::vector<Polyline> lines(1);
+    const auto edges = scene.camera.edges();
+    for (std::size_t side = 0; side < 4; ++side) {
+        for (int i = 0; i <= kSteps; ++i) {
+            const double share = static_cast<double>(i) / kSteps;
+            glm::dvec3 point(0.0);
+            if (meet(scene, edges[side] + share * (edges[(side + 1) % 4] - edges[side]), point)) {
+                lines.back().push_back(point);
+            } else if (!lines.back().empty()) {
+                lines.emplace_back();
+            }
+        }
+    }
+    return lines;
+}
+
+}  // namespace
+
+void drawRecursionFigure(const Gnuplot& gnuplot, const FigureScene& scene) {
+    PlotScript script;
+    script.addRows("$outside", rowsOf(scene, Verdict::Outside));
+    script.addRows("$straddling", rowsOf(scene, Verdict::Straddling));
+    script.addRows("$inside", rowsOf(scene, Verdict::Inside));
+    script.addRows("$within", rowsOf(scene, Verdict::WithinInside));
+    script.addBlock("$footprint", footprint(scene));
+    const double eastDeg = scene.eye.longitude * kDegreesPerRadian;
+    const double northDeg = scene.eye.latitude * kDegreesPerRadian;
+    script.addBlock("$eye", {{glm::dvec3(eastDeg, northDeg, 0.0)}});
+    const auto boxes = [](const char* block, const char* fill, const char* title) {
+        return std::string(block) +
+               " using (0.5*($1+$3)):(0.5*($2+$4)):1:3:2:4 with boxxyerror fs solid 1 border lc rgb "
+               "'#404040' lw 0.6 fc rgb '" +
+               fill + "' title '" + title + "'";
+    };
+    const std::string plot = "plot " + boxes("$outside", "#E8E8E8", "outside: no more tests") + ", " +
+                             boxes("$straddling", colour::kOrange, "straddling: divided, or drawn at the last level") +
+                             ", " + boxes("$inside", colour::kBlue, "inside: no more tests") + ", " +
+                             boxes("$within", colour::kSky, "drawn without a test") +
+                             ", $footprint using 1:2 with lines lw 2.5 lc rgb 'black' title 'border of the picture', "
+                             "$eye using 1:2 with points pt 7 ps 1.3 lc rgb 'black' title 'eye'";
+    script << "set multiplot"
+           << "set style fill solid 1 border"
+           << "set xlabel 'longitude (deg)'"
+           << "set ylabel 'latitude (deg)' offset 1,0"
+           << "set tics out nomirror"
+           << "set lmargin at screen 0.07; set rmargin at screen 0.53; set bmargin at screen 0.24"
+           << "set tmargin at screen 0.91"
+           << "set xrange [-180:180]"
+           << "set yrange [-90:90]"
+           << "set xtics 90"
+           << "set ytics 45"
+           << "set key at screen 0.5,0.125 center maxrows 3 samplen 2 width 1"
+           << "set title 'The whole globe'" << plot;
+    script << "unset key"
+           << "set lmargin at screen 0.60; set rmargin at screen 0.98"
+           << "set xrange [" + decimals(eastDeg - 14.0, 2) + ":" + decimals(eastDeg + 18.0, 2) + "]"
+           << "set yrange [" + decimals(northDeg - 6.0, 2) + ":" + decimals(northDeg + 20.0, 2) + "]"
+           << "set xtics 5"
+           << "set ytics 5"
+           << "set title 'About the eye'" << plot;
+    gnuplot.draw("figure4", 560, script);
+}
+
+}  // namespace osgAnalyticBin::paper

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "BinLines.h"
+#include "Figures.h"
+
+#include <osgAnalyticBin/core/GeodeticMapping.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgAnalyticBin::paper {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kGridParts = 8;
+
+/// What the method takes for the tile.
+struct Tested {
+    SharePoint surface;  // shares of the box that it tests
+    const char* points;
+    const char* lines;
+};
+
+/// The side that the method culled by, and a direction along it: the plane of the right panel.
+struct Profile {
+    core::Plane side;
+    glm::dvec3 along{0.0};
+    glm::dvec3 origin{0.0};
+
+    // Km along the side, and from it.
+    [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& ecef) const noexcept {
+        return {glm::dot(ecef - origin, along) * 1e-3, side.distance(ecef) * 1e-3, 0.0};
+    }
+};
+
+core::ParameterBox grown(const core::ParameterBox& box, double growth) {
+    return {box.center, growth * box.halfSize};
+}
+
+core::Plane cullingSide(const WrongCull& wrong, Method method, const core::Ellipsoid& ellipsoid) {
+    const MethodBins bins = methodBins(ellipsoid, {wrong.box});
+    core::Plane culling = wrong.camera.planes()[0];
+    withBins(bins, method, [&](const auto& own) {
+        for (const core::Plane& plane : wrong.camera.planes()) {
+            core::PlaneSet one;
+            one.push_back(plane);
+            core::PlaneMask undecided = one.all();
+            if constexpr (!std::is_same_v<std::decay_t<decltype(own.front())>, HullBin>) {
+                if (core::classify(own.front(), one, undecided) == core::Side::Outside) culling = plane;
+            }
+        }
+    });
+    return culling;
+}
+
+// Along the side in which the tile is widest.
+Profile profileOf(const core::Plane& side, const Polyline& corners, const glm::dvec3& witness) {
+    const glm::dvec3 any = std::abs(side.normal.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 u = glm::normalize(glm::cross(side.normal, any));
+    const glm::dvec3 v = glm::cross(side.normal, u);
+    Profile best{side, u, witness};
+    double widest = -1.0;
+    for (int i = 0; i < 90; ++i) {
+        const glm::dvec3 along = std::cos(kPi * i / 90) * u + std::sin(kPi * i / 90) * v;
+        double least = HUGE_VAL;
+        double most = -HUGE_VAL;
+        for (const glm::dvec3& corner : corners) {
+            least = std::min(least, glm::dot(corner, along));
+            most = std::max(most, glm::dot(corner, along));
+        }
+        if (most - least <= widest) continue;
+        widest = most - least;
+        best.along = along;
+    }
+    return best;
+}
+
+// Pyramid of sight, as far as the farthest corner.
+std::vector<Polyline> frustumOf(const Camera& camera, const Polyline& corners, const glm::dvec3& witness) {
+    double depth = 1.1 * glm::dot(witness - camera.eye, camera.forward);
+    for (const glm::dvec3& corner : corners)
+        depth = std::max(depth, 0.8 * glm::dot(corner - camera.eye, camera.forward));
+    std::vector<Polyline> lines;
+    Polyline end;
+    for (const glm::dvec3& edge : camera.edges()) {
+        lines.push_back({camera.eye, camera.eye + depth * edge});
+        end.push_back(camera.eye + depth * edge);
+    }
+    end.push_back(end.front());
+    lines.push_back(end);
+    return lines;
+}
+
+Tested testedBy(Method method, const core::GeodeticMapping& mapping, const core::GeodeticBin& box) {
+    const core::ParameterBox parameters = core::parameterBox(box);
+    if (method == Method::Corners) {
+        return {
+            [&mapping, box](const glm::dvec3& shares) { return mapping.ellipsoid().toEcef(positionIn(box, shares)); },
+            "the 8 corners tested", ""};
+    }
+    const core::QuadraticBin model(mapping, grown(parameters, core::PaperBin::kDefaultGrowth));
+    return {[model](const glm::dvec3& shares) { return model.modelPoint(2.0 * shares - 1.0); },
+            "the 8 corners of its model, all outside", "the model, box x 1.1"};
+}
+
+void addPictures(PlotScript& script, const std::string& suffix, const std::vector<Polyline>& tile,
+                 const std::vector<Polyline>& edges, const std::vector<Polyline>& model, const Polyline& corners,
+                 const glm::dvec3& witness, const std::function<glm::dvec3(const glm::dvec3&)>& map) {
+    script.addBlock("$tile" + suffix, mapped(tile, map));
+    script.addBlock("$edges" + suffix, mapped(edges, map));
+    script.addBlock("$model" + suffix, mapped(model, map));
+    script.addBlock("$corners" + suffix, mapped({corners}, map));
+    script.addBlock("$witness" + suffix, mapped({{witness}}, map));
+}
+
+std::string plotOf(const std::string& suffix, const Tested& tested, bool isTitled) {
+    const auto titled = [&](const std::string& title) {
+        return isTitled && !title.empty() ? " title " + quoted(title) : std::string(" notitle");
+    };
+    const std::string lines = " with lines lc rgb '";
+    std::string plot = "$tile" + suffix + lines + colour::kGrey + "' lw 1 notitle, $edges" + suffix + lines +
+                       colour::kBlue + "' lw 2" + titled("the tile's bin") + ", ";
+    if (*tested.lines != '\0')
+        plot += "$model" + suffix + lines + colour::kOrange + "' lw 1.5 dt 2" + titled(tested.lines) + ", ";
+    return plot + "$corners" + suffix + " with points pt 7 ps 1.1 lc rgb '" + colour::kDark + "'" +
+           titled(tested.points) + ", $witness" + suffix + " with points pt 3 ps 2.2 lw 3 lc rgb '" + colour::kRed +
+           "'" + titled("a point in view");
+}
+
+}  // namespace
+
+void drawWrongCullFigure(const Gnuplot& gnuplot, const core::Ellipsoid& ellipsoid, Method method,
+                         const WrongCull& wrong) {
+    const core::GeodeticMapping mapping(ellipsoid);
+    const SharePoint point = [&](const glm::dvec3& shares) { return ellipsoid.toEcef(positionIn(wrong.box, shares)); };
+    const Tested tested = testedBy(method, mapping, wrong.box);
+    const Polyline corners = binCorners(tested.surface);
+    const glm::dvec3 witness = ellipsoid.toEcef(wrong.witness);
+    const Profile profile = profileOf(cullingSide(wrong, method, ellipsoid), corners, witness);
+    const LocalFrame frame(ellipsoid, wrong.box.center());
+    const auto local = [&](const glm::dvec3& ecef) { return frame.toLocalKm(ecef); };
+    const auto tile = binGrid(point, kGridParts);
+    const auto edges = binEdges(point);
+    const auto model = binEdges(tested.surface);
+
+    PlotScript script;
+    addPictures(script, "3", tile, edges, model, corners, witness, local);
+    addPictures(script, "2", tile, edges, model, corners, witness, profile);
+    script.addBlock("$frustum", mapped(frustumOf(wrong.camera, corners, witness), local));
+    script.addBlock("$eye", {{local(wrong.camera.eye)}});
+    const double sizeDeg = std::ldexp(22.5, -wrong.tile.level);
+    script << "set multiplot title " +
+                  quoted(std::string("A visible tile culled by ") +
+                         (method == Method::Corners ? "the test of eight corners" : "the published nine-point rule") +
+                         ": " + decimals(sizeDeg, 2) + "° wide, " + decimals(wrong.depth * 1e-3, 1) +
+                         " km inside the frustum (" + kViewKinds[wrong.kind].name + ", camera " +
+                         std::to_string(wrong.number) + ")")
+           << "set ticslevel 0"
+           << "set view equal xyz"
+           << "set view 58,30"
+           << "set xyplane relative 0"
+           << "set lmargin at screen 0.04; set rmargin at screen 0.50; set bmargin at screen 0.17"
+           << "set tmargin at screen 0.90"
+           << "set key at screen 0.5,0.05 center horizontal samplen 2 maxrows 2"
+           << "set xlabel 'east (km)' offset 0,-0.5"
+           << "set ylabel 'north (km)' offset 1,-0.5"
+           << "set zlabel 'up (km)' rotate offset 1,0"
+           << "set xtics 1000"
+           << "set ytics 1000"
+           << "set ztics 1000"
+           << std::string("splot $frustum with lines lw 2 lc rgb '") + colour::kGreen +
+                  "' title 'frustum', $eye with points pt 7 ps 1 lc rgb 'black' title 'eye', " +
+                  plotOf("3", tested, true);
+    script << "unset key"
+           << "set lmargin at screen 0.60; set rmargin at screen 0.98"
+           << "unset zlabel"
+           << "set xlabel 'along the side of the frustum (km)' offset 0,0"
+           << "set ylabel 'distance to the side (km), > 0 inside' offset 0,0 rotate"
+           << "set grid"
+           << "set xtics auto"
+           << "set ytics auto"
+           << std::string("set object 1 rectangle from graph 0, first 0 to graph 1, graph 1 behind fc rgb '") +
+                  colour::kGreen + "' fs solid 0.12 noborder"
+           << std::string("set arrow 1 from graph 0, first 0 to graph 1, first 0 nohead lw 2 lc rgb '") +
+                  colour::kGreen + "'"
+           << std::string("set label 1 'inside the side' at graph 0.02, graph 0.96 textcolor rgb '") + colour::kGreen +
+                  "'"
+           << "plot " + plotOf("2", tested, false);
+    gnuplot.draw(std::string("wrong_cull_") + kMethodNames[indexOf(method)], 600, script);
+}
+
+}  // namespace osgAnalyticBin::paper

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Gnuplot.h"
+
+#include "Failure.h"
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sys/wait.h>
+
+namespace osgAnalyticBin::paper {
+
+namespace {
+
+namespace fs = std::filesystem;
+using osgbindem::Failure;
+
+constexpr int kNoSuchCommand = 127;
+
+// For the shell.
+std::string shellQuoted(const std::string& text) {
+    std::string result = "'";
+    for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return result + "'";
+}
+
+std::string firstLineOf(const std::string& file) {
+    std::ifstream stream(file);
+    std::string line;
+    while (std::getline(stream, line)) {
+        // Lines of the script and a caret come first, empty ones between.
+        const std::size_t error = line.find(": ");
+        if (error != std::string::npos) return line.substr(error + 2);
+    }
+    return "no reason given";
+}
+
+// Returns: the exit code of gnuplot.
+int runGnuplot(const std::string& script, const std::string& messages) {
+    std::signal(SIGPIPE, SIG_IGN);  // a gnuplot that ends early is told by its exit code
+    std::FILE* const pipe = popen(("gnuplot 2>" + shellQuoted(messages)).c_str(), "w");
+    if (pipe == nullptr) return kNoSuchCommand;
+    std::fwrite(script.data(), 1, script.size(), pipe);
+    const int status = pclose(pipe);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+struct Terminal {
+    const char* ending;
+    const char* command;
+    int fontSize;
+};
+
+constexpr std::array<Terminal, 2> kTerminals{
+    {{".svg", "set terminal svg background 'white'", 15}, {".png", "set terminal pngcairo", 12}}};
+
+}  // namespace
+
+PlotScript& PlotScript::operator<<(const std::string& line) {
+    _text += line + "\n";
+    return *this;
+}
+
+void PlotScript::addBlock(const std::string& name, const std::vector<Polyline>& lines) {
+    std::vector<std::string> rows;
+    for (const Polyline& line : lines) {
+        for (const glm::dvec3& p : line)
+            rows.push_back(decimals(p.x, 6) + " " + decimals(p.y, 6) + " " + decimals(p.z, 6));
+        rows.emplace_back();
+        rows.emplace_back();
+    }
+    addRows(name, rows);
+}
+
+void PlotScript::addRows(const std::string& name, const std::vector<std::string>& rows) {
+    _text += name + " << END\n";
+    for (const std::string& row : rows) _text += row + "\n";
+    _text += "END\n";
+}
+
+std::string decimals(double value, int count) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", count, value);
+    return text;
+}
+
+std::string quoted(const std::string& text) {
+    std::string result = "'";
+    for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
+    return result + "'";
+}
+
+Gnuplot::Gnuplot(const std::string& folder) : _folder(folder) {
+    std::error_code problem;
+    fs::create_directories(folder, problem);
+    if (problem || !fs::is_directory(folder)) throw Failure("cannot make the folder \"" + folder + "\" for --plot");
+    if (std::system("gnuplot --version >/dev/null 2>&1") != 0)
+        throw Failure("cannot run gnuplot; install the package gnuplot-nox, or leave --plot out");
+}
+
+void Gnuplot::draw(const std::string& name, int height, const PlotScript& script) const {
+    for (const Terminal& terminal : kTerminals) {
+        const std::string target = file(name + terminal.ending);
+        const std::string unfinished = target + ".tmp";
+        const std::string messages = file(name + ".messages.tmp");
+        const std::string head = std::string(terminal.command) + " size " + std::to_string(kWidth) + "," +
+                                 std::to_string(height) + " font 'DejaVu Sans," + std::to_string(terminal.fontSize) +
+                                 "'\nset output " + quoted(unfinished) + "\nset encoding utf8\n";
+        const int code = runGnuplot(head + script.text() + "unset multiplot\nunset output\n", messages);
+        const std::string reason = code == 0 ? "" : firstLineOf(messages);
+        std::error_code problem;
+        fs::remove(messages, problem);
+        if (code == 0) fs::rename(unfinished, target, problem);
+        if (code == 0 && !problem) continue;
+        const std::string why = code == 0 ? problem.message() : reason;
+        fs::remove(unfinished, problem);
+        throw Failure("cannot draw \"" + target + "\": " + why + "; check that the folder is not full");
+    }
+}
+
+}  // namespace osgAnalyticBin::paper
