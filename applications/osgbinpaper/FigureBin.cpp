@@ -52,34 +52,38 @@ void drawBinFigure(const Gnuplot& gnuplot, const FigureScene& scene) {
     script.addBlock("$center", {{inAngles(glm::dvec3(0.5))}});
     script.addBlock("$slabCenter", {{inSpace(glm::dvec3(0.5))}});
     const double middleDeg = bin.longitude().middle() * kDegreesPerRadian;
-    const std::string grid = std::string(" with lines lw 1 lc rgb '") + colour::kGrey + "' notitle";
-    const std::string edges = std::string(" with lines lw 2.5 lc rgb '") + colour::kBlue + "' title 'the bin'";
-    const std::string point = std::string(" with points pt 7 ps 1.3 lc rgb '") + colour::kRed + "' title 'its centre'";
-    script << "set multiplot layout 1,2 margins 0.07,0.98,0.10,0.86 spacing 0.10"
-           << "set ticslevel 0"
-           << "set key at screen 0.5,0.06 center horizontal"
-           << "set xlabel 'longitude (deg)' offset 0,-0.5"
-           << "set ylabel 'latitude (deg)' offset 1,-0.5"
-           << "set zlabel 'altitude (km)' rotate offset 1,0"
-           << "set xtics 5 offset 0,-0.3"
-           << "set ytics 5"
-           << "set zrange " + rangeText(bin.altitude().lower * 1e-3 - 0.01, 1.3 * bin.altitude().upper * 1e-3, 3)
-           << "set view 62,32"
-           << "set border 127"
-           << "set title 'The bin as it is given: a box' offset 0,1"
+    const std::string grid = std::string(" with lines lw 1 lc rgb '") + colour::kGrey + "'";
+    const std::string edges = std::string(" with lines lw 2.5 lc rgb '") + colour::kBlue + "'";
+    const std::string point = std::string(" with points pt 7 ps 1.3 lc rgb '") + colour::kRed + "'";
+    script << R"(set multiplot
+set xyplane at 0
+unset key
+set origin 0.02,0.08
+set size 0.48,0.84
+set view 62,32,1.05
+set xtics 5 offset 0,-0.3
+set ytics 5
+set ztics 2
+set xlabel 'longitude (deg)' offset 0,-0.5
+set ylabel 'latitude (deg)' offset 1,-0.5
+set zlabel 'altitude (km)' rotate offset 1,0
+set label 1 'The bin as it is given: a box' at screen 0.26,0.95 center)"
+           << "set zrange " + rangeText(bin.altitude().lower * 1e-3 - 0.01, 1.1 * bin.altitude().upper * 1e-3, 3)
            << "splot $boxGrid" + grid + ", $boxEdges" + edges + ", $center" + point;
-    script << "set view equal xyz"
-           << "set autoscale z"
-           << "unset key"
-           << "set view 68," + decimals(std::fmod(middleDeg + 90.0 - 35.0 + 720.0, 360.0), 1)
-           << "set xlabel 'x (1000 km)'"
-           << "set ylabel 'y (1000 km)'"
-           << "set zlabel 'z (1000 km)'"
-           << "set xtics 1"
-           << "set ytics 1"
-           << "set ztics 1"
-           << "set title 'Mapped to ECEF: a curved slab (altitude x " + decimals(kExaggeration, 0) + ")' offset 0,1"
+    script << R"(set origin 0.52,0.08
+set size 0.48,0.84
+set view equal xyz
+set autoscale z
+set xyplane relative 0
+set tics 1
+set xlabel 'x (1000 km)'
+set ylabel 'y (1000 km)'
+set zlabel 'z (1000 km)')"
+           << "set view 68," + decimals(std::fmod(middleDeg + 90.0 - 35.0 + 720.0, 360.0), 1) + ",1.15"
+           << "set label 1 'Mapped to ECEF: a curved slab (altitude x " + decimals(kExaggeration, 0) +
+                  ")' at screen 0.76,0.95 center"
            << "splot $slabGrid" + grid + ", $slabEdges" + edges + ", $slabCenter" + point;
+    script.addKey(0.09, {edges + " title 'the bin'", point + " title 'its centre'"});
     gnuplot.draw("figure1", 520, script);
 }
 

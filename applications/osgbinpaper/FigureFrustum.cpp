@@ -23,20 +23,22 @@ std::size_t sidesCrossed(const FigureScene& scene, std::size_t tile) {
     return crossed;
 }
 
-// The largest tile that crosses one side and is well in view.
+// The tile that looks largest of those that cross one side and are well in view.
 std::size_t straddlingTile(const FigureScene& scene) {
     std::size_t best = 0;
-    double deepest = -1.0;
+    double largest = 0.0;
     for (std::size_t i = 0; i < scene.tree.tiles.size(); ++i) {
         const TreeTile& tile = scene.tree.tiles[i];
-        if (!tile.isLeaf() || !tile.witness || sidesCrossed(scene, i) != 1) continue;
+        if (!tile.witness || sidesCrossed(scene, i) != 1) continue;
         const glm::dvec3 center = scene.terrain.ellipsoid().toEcef(scene.tree.boxes[i].center());
         const double distance = glm::distance(center, scene.camera.eye);
         // Behind the globe nobody looks.
         if (distance > 1.2e6) continue;
-        const double size = scene.tree.boxes[i].latitude().width() * (tile.witness->depth / distance);
-        if (size <= deepest) continue;
-        deepest = size;
+        const double width = scene.tree.boxes[i].latitude().width() * scene.terrain.ellipsoid().equatorialRadius();
+        if (tile.witness->depth < 0.3 * width) continue;
+        const double size = width / distance;
+        if (size <= largest) continue;
+        largest = size;
         best = i;
     }
     return best;
@@ -118,42 +120,43 @@ void drawFrustumFigure(const Gnuplot& gnuplot, const FigureScene& scene) {
     const auto line = [](const char* lc, const char* lw) {
         return std::string(" with lines lw ") + lw + " lc rgb '" + lc + "'";
     };
-    script << "set multiplot"
-           << "set ticslevel 0"
-           << "set view equal xyz"
-           << "set view 66,24"
-           << "set lmargin at screen 0.04; set rmargin at screen 0.60; set bmargin at screen 0.10"
-           << "set tmargin at screen 0.92"
-           << "set key at screen 0.03,0.94 left top Left reverse samplen 2"
-           << "set xlabel 'east (km)' offset 0,-0.5"
-           << "set ylabel 'north (km)' offset 1,-0.5"
-           << "set zlabel 'up (km)' rotate offset 1,0"
-           << "set label 1 'A bin against a frustum' at screen 0.3,0.975 center"
-           << "set label 2 'Signed distances of the bin' at screen 0.82,0.975 center"
-           << "set xtics 200"
-           << "set ytics 200"
-           << "set ztics 100"
-           << "splot $frustum" + line(colour::kDark, "2") + " title 'frustum', $inside" + line(colour::kBlue, "1.5") +
-                  " title 'bin, inside all four sides', $outside" + line(colour::kRed, "1.5") +
-                  " title 'bin, outside of one', $eye with points pt 7 ps 1.2 lc rgb 'black' title 'eye'";
-    script << "unset label 1"
-           << "unset label 2"
-           << "unset view"
-           << "set view map"
-           << "set lmargin at screen 0.69; set rmargin at screen 0.97; set bmargin at screen 0.20"
-           << "set tmargin at screen 0.92"
-           << "set key at screen 0.98,0.055 right horizontal samplen 2"
-           << "set yrange [0.4:4.6]"
-           << "set ylabel 'side of the frustum' offset -1.5,0 rotate"
-           << "set xlabel 'distance to the side (km), > 0 inside' offset 0,0"
-           << "unset zlabel"
-           << "set ytics ('left' 4, 'right' 3, 'bottom' 2, 'top' 1)"
-           << "set xtics auto rotate by -40"
-           << "set grid x"
-           << "set arrow 1 from 0,0.4 to 0,4.6 nohead lw 2 lc rgb 'black'"
+    script << R"(set multiplot
+set xyplane relative 0
+set view equal xyz
+set view 66,24,1.4
+set origin 0.04,0.10
+set size 0.56,0.84
+unset key
+set xlabel 'east (km)' offset 0,-0.5
+set ylabel 'north (km)' offset 1,-0.5
+set zlabel 'up (km)' rotate offset 1,0
+set label 1 'A bin against a frustum' at screen 0.3,0.96 center
+set tics 200)"
+           << "splot $frustum" + line(colour::kDark, "2") + ", $inside" + line(colour::kBlue, "1.5") + ", $outside" +
+                  line(colour::kRed, "1.5") + ", $eye with points pt 7 ps 1.2 lc rgb 'black'";
+    script << R"(set origin 0,0
+set size 1,1
+unset view
+set lmargin at screen 0.71
+set rmargin at screen 0.97
+set bmargin at screen 0.24
+set tmargin at screen 0.92
+set label 1 'Its signed distances to the sides' at screen 0.84,0.96 center
+set yrange [0.4:4.6]
+set ylabel 'side of the frustum' offset -0.5,0 rotate
+set xlabel 'distance (km), > 0 inside' offset 0,0
+set ytics ('left' 4, 'right' 3, 'bottom' 2, 'top' 1)
+set xtics autofreq font ',10'
+set grid x
+set arrow 1 from 0,0.4 to 0,4.6 nohead lw 2 lc rgb 'black')"
            << std::string("plot $ranges using 3:2:($4-$3):(0) with vectors nohead lw 9 lc rgb '") + colour::kSky +
-                  "' title 'quadratic bin', $ranges using 5:2:($6-$5):(0) with vectors nohead lw 3 lc rgb '" +
-                  colour::kDark + "' title 'its corners'";
+                  "', $ranges using 5:2:($6-$5):(0) with vectors nohead lw 3 lc rgb '" + colour::kDark + "'";
+    script.addKey(0.11,
+                  {line(colour::kDark, "2") + " title 'frustum'", "with points pt 7 ps 1.2 lc rgb 'black' title 'eye'",
+                   line(colour::kBlue, "1.5") + " title 'bin, inside all sides'",
+                   line(colour::kRed, "1.5") + " title 'bin, outside of one'",
+                   line(colour::kSky, "9") + " title 'range by the quadratic bin'",
+                   line(colour::kDark, "3") + " title 'by eight corners'"});
     gnuplot.draw("figure2", 560, script);
 }
 

@@ -11,6 +11,7 @@ namespace osgAnalyticBin::paper {
 
 namespace {
 
+constexpr const char* kPale = "#E8E8E8";
 constexpr double kDegreesPerRadian = 180.0 / 3.14159265358979323846;
 
 std::string boxOf(const TileId& tile) {
@@ -75,38 +76,44 @@ void drawRecursionFigure(const Gnuplot& gnuplot, const FigureScene& scene) {
     const double eastDeg = scene.eye.longitude * kDegreesPerRadian;
     const double northDeg = scene.eye.latitude * kDegreesPerRadian;
     script.addBlock("$eye", {{glm::dvec3(eastDeg, northDeg, 0.0)}});
-    const auto boxes = [](const char* block, const char* fill, const char* title) {
-        return std::string(block) +
-               " using (0.5*($1+$3)):(0.5*($2+$4)):1:3:2:4 with boxxyerror fs solid 1 border lc rgb "
-               "'#404040' lw 0.6 fc rgb '" +
-               fill + "' title '" + title + "'";
+    const std::string border = "fs solid 1 border lc rgb '#404040' lw 0.6 fc rgb '";
+    const auto boxes = [&](const char* block, const char* fill) {
+        return std::string(block) + " using (0.5*($1+$3)):(0.5*($2+$4)):1:3:2:4 with boxxyerror " + border + fill +
+               "', ";
     };
-    const std::string plot = "plot " + boxes("$outside", "#E8E8E8", "outside: no more tests") + ", " +
-                             boxes("$straddling", colour::kOrange, "straddling: divided, or drawn at the last level") +
-                             ", " + boxes("$inside", colour::kBlue, "inside: no more tests") + ", " +
-                             boxes("$within", colour::kSky, "drawn without a test") +
-                             ", $footprint using 1:2 with lines lw 2.5 lc rgb 'black' title 'border of the picture', "
-                             "$eye using 1:2 with points pt 7 ps 1.3 lc rgb 'black' title 'eye'";
-    script << "set multiplot"
-           << "set style fill solid 1 border"
-           << "set xlabel 'longitude (deg)'"
-           << "set ylabel 'latitude (deg)' offset 1,0"
-           << "set tics out nomirror"
-           << "set lmargin at screen 0.07; set rmargin at screen 0.53; set bmargin at screen 0.24"
-           << "set tmargin at screen 0.91"
-           << "set xrange [-180:180]"
-           << "set yrange [-90:90]"
-           << "set xtics 90"
-           << "set ytics 45"
-           << "set key at screen 0.5,0.125 center maxrows 3 samplen 2 width 1"
-           << "set title 'The whole globe'" << plot;
-    script << "unset key"
-           << "set lmargin at screen 0.60; set rmargin at screen 0.98"
+    const auto entry = [&](const char* fill, const char* title) {
+        return "with boxes " + border + fill + "' title '" + title + "'";
+    };
+    const std::string footprintStyle = "with lines lw 2.5 lc rgb 'black'";
+    const std::string eyeStyle = "with points pt 7 ps 1.3 lc rgb 'black'";
+    const std::string plot = "plot " + boxes("$outside", kPale) + boxes("$straddling", colour::kOrange) +
+                             boxes("$inside", colour::kBlue) + boxes("$within", colour::kSky) +
+                             "$footprint using 1:2 " + footprintStyle + ", $eye using 1:2 " + eyeStyle;
+    script << R"(set multiplot
+set xlabel 'longitude (deg)'
+set ylabel 'latitude (deg)' offset 1,0
+set tics out nomirror
+set lmargin at screen 0.07
+set rmargin at screen 0.53
+set bmargin at screen 0.23
+set tmargin at screen 0.91
+set xrange [-180:180]
+set yrange [-90:90]
+set xtics 90
+set ytics 45
+unset key
+set title 'The recursion on the whole globe')"
+           << plot;
+    script << R"(set lmargin at screen 0.60
+set rmargin at screen 0.98
+set xtics 5
+set ytics 5
+set title 'About the eye')"
            << "set xrange [" + decimals(eastDeg - 14.0, 2) + ":" + decimals(eastDeg + 18.0, 2) + "]"
-           << "set yrange [" + decimals(northDeg - 6.0, 2) + ":" + decimals(northDeg + 20.0, 2) + "]"
-           << "set xtics 5"
-           << "set ytics 5"
-           << "set title 'About the eye'" << plot;
+           << "set yrange [" + decimals(northDeg - 6.0, 2) + ":" + decimals(northDeg + 20.0, 2) + "]" << plot;
+    script.addKey(0.11, {entry(kPale, "outside"), entry(colour::kOrange, "straddling"), entry(colour::kBlue, "inside"),
+                         entry(colour::kSky, "within inside: not tested"),
+                         footprintStyle + " title 'border of the picture'", eyeStyle + " title 'eye'"});
     gnuplot.draw("figure4", 560, script);
 }
 

@@ -39,14 +39,14 @@ void drawStartTilesFigure(const Gnuplot& gnuplot, const FigureScene& scene) {
         << "set xtics -180,45,180 out nomirror"
         << "set ytics -90,22.5,90 out nomirror"
         << "set xlabel 'longitude (deg)'"
-        << "set ylabel 'latitude (deg)'"
+        << "set ylabel 'latitude (deg)' offset 1,0"
         << "set size ratio -1"
         << "set cblabel 'height above the ellipsoid (m)' offset 0.5,0"
         << "set palette defined (0 '#dbe9f4', 0.0001 '#dbe9f4', 1 '#f4ecd0', 1000 '#d9b872', 3000 '#a06a3c', "
            "6000 '#5a2d14')"
         << "set cbrange [0:6000]"
-        << "set lmargin at screen 0.09; set rmargin at screen 0.87; set tmargin at screen 0.92; set bmargin at screen "
-           "0.12";
+        << "set lmargin at screen 0.09; set rmargin at screen 0.85; set tmargin at screen 0.92; set bmargin at screen "
+           "0.14";
     for (int i = 1; i < TileId::kStartColumns; ++i) {
         const std::string at = decimals(-180.0 + 22.5 * i, 1);
         script << "set arrow from " + at + ",-90 to " + at + ",90 nohead front lw 1.2 lc rgb '" + colour::kBlue + "'";
@@ -58,7 +58,7 @@ void drawStartTilesFigure(const Gnuplot& gnuplot, const FigureScene& scene) {
     script << "plot $posts matrix using ($1*0.5-179.75):($2*0.5-89.75):3 with image notitle, "
               "$tiles using 1:($2+4):(sprintf('%d',$4)) with labels font ',10' notitle, "
               "$tiles using 1:($2-5):(sprintf('%d',$3)) with labels font ',10' notitle";
-    gnuplot.draw("figure3", 540, script);
+    gnuplot.draw("figure3", 510, script);
 }
 
 }  // namespace osgAnalyticBin::paper

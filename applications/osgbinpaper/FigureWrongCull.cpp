@@ -117,18 +117,31 @@ void addPictures(PlotScript& script, const std::string& suffix, const std::vecto
     script.addBlock("$witness" + suffix, mapped({{witness}}, map));
 }
 
-std::string plotOf(const std::string& suffix, const Tested& tested, bool isTitled) {
-    const auto titled = [&](const std::string& title) {
-        return isTitled && !title.empty() ? " title " + quoted(title) : std::string(" notitle");
+// What is plotted in both panels, and how.
+struct Layer {
+    const char* block;
+    std::string style;
+    const char* title;
+};
+
+std::vector<Layer> layersOf(const Tested& tested) {
+    const auto lines = [](const char* colour, const char* more) {
+        return std::string("with lines lc rgb '") + colour + "' " + more;
     };
-    const std::string lines = " with lines lc rgb '";
-    std::string plot = "$tile" + suffix + lines + colour::kGrey + "' lw 1 notitle, $edges" + suffix + lines +
-                       colour::kBlue + "' lw 2" + titled("the tile's bin") + ", ";
-    if (*tested.lines != '\0')
-        plot += "$model" + suffix + lines + colour::kOrange + "' lw 1.5 dt 2" + titled(tested.lines) + ", ";
-    return plot + "$corners" + suffix + " with points pt 7 ps 1.1 lc rgb '" + colour::kDark + "'" +
-           titled(tested.points) + ", $witness" + suffix + " with points pt 3 ps 2.2 lw 3 lc rgb '" + colour::kRed +
-           "'" + titled("a point in view");
+    std::vector<Layer> layers{{"$tile", lines(colour::kGrey, "lw 1"), ""},
+                              {"$edges", lines(colour::kBlue, "lw 2"), "the tile's bin"}};
+    if (*tested.lines != '\0') layers.push_back({"$model", lines(colour::kOrange, "lw 1.5 dt 2"), tested.lines});
+    layers.push_back(
+        {"$corners", std::string("with points pt 7 ps 1.1 lc rgb '") + colour::kDark + "'", tested.points});
+    layers.push_back(
+        {"$witness", std::string("with points pt 3 ps 2.2 lw 3 lc rgb '") + colour::kRed + "'", "a point in view"});
+    return layers;
+}
+
+std::string plotOf(const std::vector<Layer>& layers, const std::string& suffix) {
+    std::string plot;
+    for (const Layer& layer : layers) plot += (plot.empty() ? "" : ", ") + (layer.block + suffix) + " " + layer.style;
+    return plot;
 }
 
 }  // namespace
@@ -147,6 +160,9 @@ void drawWrongCullFigure(const Gnuplot& gnuplot, const core::Ellipsoid& ellipsoi
     const auto edges = binEdges(point);
     const auto model = binEdges(tested.surface);
 
+    const std::vector<Layer> layers = layersOf(tested);
+    const std::string frustumStyle = std::string("with lines lw 2 lc rgb '") + colour::kGreen + "'";
+    const std::string eyeStyle = "with points pt 7 ps 1 lc rgb 'black'";
     PlotScript script;
     addPictures(script, "3", tile, edges, model, corners, witness, local);
     addPictures(script, "2", tile, edges, model, corners, witness, profile);
@@ -155,41 +171,44 @@ void drawWrongCullFigure(const Gnuplot& gnuplot, const core::Ellipsoid& ellipsoi
     const double sizeDeg = std::ldexp(22.5, -wrong.tile.level);
     script << "set multiplot title " +
                   quoted(std::string("A visible tile culled by ") +
-                         (method == Method::Corners ? "the test of eight corners" : "the published nine-point rule") +
-                         ": " + decimals(sizeDeg, 2) + "° wide, " + decimals(wrong.depth * 1e-3, 1) +
+                         (method == Method::Corners ? "the test of eight corners" : "the nine-point rule") + ": " +
+                         decimals(sizeDeg, 2) + "° wide, " + decimals(wrong.depth * 1e-3, 1) +
                          " km inside the frustum (" + kViewKinds[wrong.kind].name + ", camera " +
                          std::to_string(wrong.number) + ")")
-           << "set ticslevel 0"
-           << "set view equal xyz"
-           << "set view 58,30"
-           << "set xyplane relative 0"
-           << "set lmargin at screen 0.04; set rmargin at screen 0.50; set bmargin at screen 0.17"
-           << "set tmargin at screen 0.90"
-           << "set key at screen 0.5,0.05 center horizontal samplen 2 maxrows 2"
-           << "set xlabel 'east (km)' offset 0,-0.5"
-           << "set ylabel 'north (km)' offset 1,-0.5"
-           << "set zlabel 'up (km)' rotate offset 1,0"
-           << "set xtics 1000"
-           << "set ytics 1000"
-           << "set ztics 1000"
-           << std::string("splot $frustum with lines lw 2 lc rgb '") + colour::kGreen +
-                  "' title 'frustum', $eye with points pt 7 ps 1 lc rgb 'black' title 'eye', " +
-                  plotOf("3", tested, true);
-    script << "unset key"
-           << "set lmargin at screen 0.60; set rmargin at screen 0.98"
-           << "unset zlabel"
-           << "set xlabel 'along the side of the frustum (km)' offset 0,0"
-           << "set ylabel 'distance to the side (km), > 0 inside' offset 0,0 rotate"
-           << "set grid"
-           << "set xtics auto"
-           << "set ytics auto"
-           << std::string("set object 1 rectangle from graph 0, first 0 to graph 1, graph 1 behind fc rgb '") +
-                  colour::kGreen + "' fs solid 0.12 noborder"
-           << std::string("set arrow 1 from graph 0, first 0 to graph 1, first 0 nohead lw 2 lc rgb '") +
-                  colour::kGreen + "'"
-           << std::string("set label 1 'inside the side' at graph 0.02, graph 0.96 textcolor rgb '") + colour::kGreen +
-                  "'"
-           << "plot " + plotOf("2", tested, false);
+           << R"(unset key
+set xyplane relative 0
+set view equal xyz
+set view 58,30,1.3
+set origin 0.04,0.14
+set size 0.46,0.78
+set xlabel 'east (km)' offset 0,-0.5
+set ylabel 'north (km)' offset 1,-0.5
+set zlabel 'up (km)' rotate offset 1,0
+set xtics autofreq
+set tics 1000)"
+           << "splot $frustum " + frustumStyle + ", $eye " + eyeStyle + ", " + plotOf(layers, "3");
+    script << R"(set origin 0,0
+set size 1,1
+set lmargin at screen 0.62
+set rmargin at screen 0.97
+set bmargin at screen 0.22
+set tmargin at screen 0.92
+set xlabel 'along the side of the frustum (km)' offset 0,0
+set ylabel 'distance to the side (km), > 0 inside' offset 0,0 rotate
+set grid
+set ytics autofreq
+set object 1 rectangle from graph 0, first 0 to graph 1, graph 1 behind fs solid 0.12 noborder
+set arrow 1 from graph 0, first 0 to graph 1, first 0 nohead lw 2
+set label 1 'inside the side' at graph 0.02, graph 0.96)"
+           << std::string("set object 1 fc rgb '") + colour::kGreen + "'"
+           << std::string("set arrow 1 lc rgb '") + colour::kGreen + "'"
+           << std::string("set label 1 textcolor rgb '") + colour::kGreen + "'"
+           << "plot " + plotOf(layers, "2");
+    std::vector<std::string> key{frustumStyle + " title 'frustum'", eyeStyle + " title 'eye'"};
+    for (const Layer& layer : layers) {
+        if (*layer.title != '\0') key.push_back(layer.style + " title " + quoted(layer.title));
+    }
+    script.addKey(0.11, key);
     gnuplot.draw(std::string("wrong_cull_") + kMethodNames[indexOf(method)], 600, script);
 }
 

@@ -45,10 +45,8 @@ FigureScene::FigureScene(Terrain& terrainSeen, double factor)
     cull(tree, frustum, Method::Quadratic, verdicts);
 }
 
-void drawFigures(const std::string& folder, Terrain& terrain, double factor, const Results& results,
-                 Progress& progress) {
+void drawFigures(const Gnuplot& gnuplot, Terrain& terrain, double factor, const Results& results, Progress& progress) {
     constexpr std::size_t kFigures = 7;
-    const Gnuplot gnuplot(folder);
     const FigureScene scene(terrain, factor);
     std::size_t done = 0;
     for (const auto draw :

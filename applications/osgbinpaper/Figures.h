@@ -38,7 +38,6 @@ void drawWrongCullFigure(const Gnuplot& gnuplot, const core::Ellipsoid& ellipsoi
                          const WrongCull& wrong);
 
 /// All of them; a wrong cull that the cameras did not meet is left out, with a line on stderr.
-void drawFigures(const std::string& folder, Terrain& terrain, double factor, const Results& results,
-                 Progress& progress);
+void drawFigures(const Gnuplot& gnuplot, Terrain& terrain, double factor, const Results& results, Progress& progress);
 
 }  // namespace osgAnalyticBin::paper

@@ -82,6 +82,29 @@ void PlotScript::addRows(const std::string& name, const std::vector<std::string>
     _text += "END\n";
 }
 
+void PlotScript::addKey(double part, const std::vector<std::string>& entries) {
+    _text += R"(unset label
+unset arrow
+unset object
+unset tics
+unset border
+unset grid
+unset title
+unset xlabel
+unset ylabel
+set origin 0,0
+set lmargin at screen 0.01
+set rmargin at screen 0.99
+set bmargin at screen 0
+set xrange [0:1]
+set yrange [0:1]
+set key center center horizontal samplen 2
+)";
+    _text += "set size 1," + decimals(part, 3) + "\nset tmargin at screen " + decimals(part, 3) + "\nplot NaN notitle";
+    for (const std::string& entry : entries) _text += ", keyentry " + entry;
+    _text += "\n";
+}
+
 std::string decimals(double value, int count) {
     char text[64];
     std::snprintf(text, sizeof text, "%.*f", count, value);

@@ -22,6 +22,8 @@ public:
     void addBlock(const std::string& name, const std::vector<Polyline>& lines);
     /// Adds a data block of rows of words.
     void addRows(const std::string& name, const std::vector<std::string>& rows);
+    /// Adds the key of a multiplot across its foot, that part of its height: an entry is a style and a title.
+    void addKey(double part, const std::vector<std::string>& entries);
 
     [[nodiscard]] const std::string& text() const noexcept { return _text; }
 

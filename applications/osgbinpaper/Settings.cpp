@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdio>
 #include <cstdlib>
 
 namespace osgAnalyticBin::paper {
@@ -36,6 +37,20 @@ constexpr const char* kLegend =
     "Example:\n"
     "  osgbinpaper --cameras 200 --csv paper.csv --json paper.json --plot figures\n";
 
+// As CLI::Range, which lets "nan" pass.
+CLI::Validator within(double lower, double upper) {
+    char range[64];
+    std::snprintf(range, sizeof range, "%g to %g", lower, upper);
+    const std::string complaint = std::string(" is not in ") + range;
+    return CLI::Validator(
+        [=](const std::string& word) {
+            double value = 0.0;
+            const bool isNumber = CLI::detail::lexical_cast(word, value);
+            return isNumber && value >= lower && value <= upper ? std::string() : word + complaint;
+        },
+        "FLOAT");
+}
+
 void declare(CLI::App& app, Settings& settings) {
     ExperimentSettings& experiment = settings.experiment;
     app.add_option("DEM", settings.dem,
@@ -46,11 +61,11 @@ void declare(CLI::App& app, Settings& settings) {
         ->check(CLI::Range(0, HeightPyramid::kDeepest));
     app.add_option("--floor", settings.floor,
                    "metres; lower heights are taken for this: the sea's surface (default: 0)")
-        ->check(CLI::Range(-12000.0, 10000.0));
+        ->check(within(-12000.0, 10000.0));
     app.add_option("--factor", experiment.factor,
                    "a tile is divided while it is nearer to the eye than this many of its widths,\n0.5 to 20 "
                    "(default: 3)")
-        ->check(CLI::Range(0.5, 20.0));
+        ->check(within(0.5, 20.0));
     app.add_option("--cameras", experiment.cameras, "cameras of each of the six kinds of view (default: 400)")
         ->check(CLI::Range(1, 100000));
     app.add_option("--seed", experiment.seed, "seed of the cameras (default: 1)");

@@ -9,8 +9,8 @@
 
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
 #include <iostream>
+#include <optional>
 
 namespace {
 
@@ -23,6 +23,8 @@ int complain(const std::string& message) {
 
 int run(int argc, char** argv) {
     const Settings settings = readSettings(argc, argv);
+    std::optional<Gnuplot> gnuplot;
+    if (!settings.plotFolder.empty()) gnuplot.emplace(settings.plotFolder);
     GDALAllRegister();
     CPLSetErrorHandler(CPLQuietErrorHandler);
     Progress progress(settings.isQuiet);
@@ -31,8 +33,7 @@ int run(int argc, char** argv) {
     printTables(std::cout, results, settings.levels);
     if (!settings.csv.empty()) writeFile(settings.csv, csvOf(results, settings.levels));
     if (!settings.json.empty()) writeFile(settings.json, jsonOf(settings, results));
-    if (!settings.plotFolder.empty())
-        drawFigures(settings.plotFolder, terrain, settings.experiment.factor, results, progress);
+    if (gnuplot) drawFigures(*gnuplot, terrain, settings.experiment.factor, results, progress);
     return EXIT_SUCCESS;
 }
 
