@@ -28,15 +28,16 @@ std::string shellQuoted(const std::string& text) {
     return result + "'";
 }
 
-std::string firstLineOf(const std::string& file) {
+// What gnuplot says after the place in the script: "PLACE: REASON".
+std::string reasonIn(const std::string& file) {
     std::ifstream stream(file);
     std::string line;
     while (std::getline(stream, line)) {
-        // Lines of the script and a caret come first, empty ones between.
-        const std::size_t error = line.find(": ");
-        if (error != std::string::npos) return line.substr(error + 2);
+        const std::size_t place = line.find(": ");
+        const std::size_t reason = place == std::string::npos ? place : line.find_first_not_of(' ', place + 1);
+        if (reason != std::string::npos) return line.substr(reason);
     }
-    return "no reason given";
+    return "gnuplot gives no reason";
 }
 
 // Returns: the exit code of gnuplot.
@@ -134,14 +135,15 @@ void Gnuplot::draw(const std::string& name, int height, const PlotScript& script
                                  std::to_string(height) + " font 'DejaVu Sans," + std::to_string(terminal.fontSize) +
                                  "'\nset output " + quoted(unfinished) + "\nset encoding utf8\n";
         const int code = runGnuplot(head + script.text() + "unset multiplot\nunset output\n", messages);
-        const std::string reason = code == 0 ? "" : firstLineOf(messages);
+        const std::string reason = code == 0 ? "" : reasonIn(messages);
         std::error_code problem;
         fs::remove(messages, problem);
         if (code == 0) fs::rename(unfinished, target, problem);
         if (code == 0 && !problem) continue;
         const std::string why = code == 0 ? problem.message() : reason;
         fs::remove(unfinished, problem);
-        throw Failure("cannot draw \"" + target + "\": " + why + "; check that the folder is not full");
+        throw Failure("cannot draw \"" + target + "\": " + why +
+                      "; check that the folder can be written and is not full");
     }
 }
 

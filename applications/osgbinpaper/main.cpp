@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Failure.h"
 #include "Figures.h"
 #include "Output.h"
 
@@ -31,6 +32,7 @@ int run(int argc, char** argv) {
     Terrain terrain(settings.dem, settings.levels, settings.floor, progress);
     const Results results = runExperiment(terrain, settings.experiment, progress);
     printTables(std::cout, results, settings.levels);
+    if (!std::cout.flush()) throw osgbindem::Failure("cannot write the tables to standard output");
     if (!settings.csv.empty()) writeFile(settings.csv, csvOf(results, settings.levels));
     if (!settings.json.empty()) writeFile(settings.json, jsonOf(settings, results));
     if (gnuplot) drawFigures(*gnuplot, terrain, settings.experiment.factor, results, progress);

@@ -107,11 +107,16 @@ TEST_F(ProgramTest, SaysWhatIsWrong) {
 TEST_F(ProgramTest, SaysWhatItCannotWrite) {
     const std::string absent = _folder / "absent/a.csv";
     for (const char* const option : {"--csv ", "--json "}) {
-        const Outcome outcome = run(quick() + option + quoted(absent) + " >/dev/null");
+        const Outcome outcome = run(quick() + option + quoted(absent));
         EXPECT_GT(outcome.code, 0);
         EXPECT_NE(outcome.text.find("cannot write"), std::string::npos) << outcome.text;
     }
     expectError(quick() + "--plot " + quoted(_globe.file()), "cannot make the folder");
+    const Outcome full =
+        test::runStock("sh -c '\"" PAPER_FILE "\" --quiet --levels 1 --cameras 1 \"" + _globe.file() + "\" >/dev/full'",
+                       Modules::Absent);
+    EXPECT_GT(full.code, 0);
+    EXPECT_NE(full.text.find("standard output"), std::string::npos) << full.text;
     EXPECT_TRUE(namesIn(_folder.path()).empty());
 }
 
