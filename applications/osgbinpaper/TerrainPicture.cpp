@@ -20,6 +20,8 @@ constexpr int kCells = 24;
 constexpr double kNear = 100.0;
 // Slopes are shaded as if they were this much steeper: from far away they are faint.
 constexpr double kSteeper = 6.0;
+// A height with the colour of water.
+constexpr double kWater = -1000.0;
 const glm::dvec3 kSky(214.0, 228.0, 240.0);
 const glm::dvec3 kLine(30.0, 30.0, 30.0);
 
@@ -55,7 +57,9 @@ TerrainPicture::Vertex TerrainPicture::vertex(Terrain& terrain, const osgbindem:
     const double cosine = std::max(0.01, std::cos(position.latitudeDeg * kRadiansPerDegree));
     const double light = brightness((height(0.0, stepDeg) - height(0.0, -stepDeg)) / (metres * cosine),
                                     (height(stepDeg, 0.0) - height(-stepDeg, 0.0)) / metres);
-    const osgbindem::Rgb rgb = osgbindem::hypsometricColour(here > terrain.floor() ? here : here - 1000.0);
+    // The sea's surface, and where the raster has no data.
+    const bool isWater = here == 0.0 || here <= terrain.floor();
+    const osgbindem::Rgb rgb = osgbindem::hypsometricColour(isWater ? kWater : here);
     const glm::dvec3 point = terrain.ellipsoid().toEcef(
         {position.latitudeDeg * kRadiansPerDegree, position.longitudeDeg * kRadiansPerDegree, here});
     const glm::dvec3 offset = point - _camera.eye;
