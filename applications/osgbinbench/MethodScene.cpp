@@ -126,7 +126,7 @@ bool MethodScene::isPagerIdle() {
 
 void MethodScene::drawFrame(const flight::CameraPose& pose) {
     _camera->setViewMatrix(flight::viewMatrixOf(pose, _globe));
-    _camera->setProjectionMatrix(flight::projectionMatrixOf(pose, _camera->getViewport()->aspectRatio()));
+    _camera->setProjectionMatrix(flight::projectionMatrixOf(pose, _globe, _camera->getViewport()->aspectRatio()));
     _viewer.setView(_camera->getViewMatrix(), _camera->getProjectionMatrix());
     _viewer.drawFrame();
 }

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <set>
+#include <map>
 
 namespace osgAnalyticBin::flight {
 
@@ -18,14 +18,16 @@ constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
 // Far beyond the moon, and far from where a double stops to resolve metres.
 constexpr double kLargestDistance = 1e12;
 constexpr double kLowestAltitude = -6.3e6;
+constexpr double kLongestTime = 1e9;
 
 struct NumberColumn {
     const char* name;
     double lowest;
     double highest;
+    bool isOptional = false;
 };
 
-enum Number { EyeLat, EyeLon, EyeAlt, LookLat, LookLon, LookAlt, Fov, Near, Far, NumberCount };
+enum Number { EyeLat, EyeLon, EyeAlt, LookLat, LookLon, LookAlt, Fov, Near, Far, Time, Roll, EyeRight, NumberCount };
 
 constexpr std::array<NumberColumn, NumberCount> kNumbers{{{"eyeLatDeg", -90.0, 90.0},
                                                           {"eyeLonDeg", -360.0, 360.0},
@@ -35,12 +37,15 @@ constexpr std::array<NumberColumn, NumberCount> kNumbers{{{"eyeLatDeg", -90.0, 9
                                                           {"lookAlt", kLowestAltitude, kLargestDistance},
                                                           {"fovDeg", 0.001, 179.0},
                                                           {"near", 1e-6, kLargestDistance},
-                                                          {"far", 1e-6, kLargestDistance}}};
+                                                          {"far", 1e-6, kLargestDistance},
+                                                          {"time", 0.0, kLongestTime, true},
+                                                          {"rollDeg", -360.0, 360.0, true},
+                                                          {"eyeRight", -kLargestDistance, kLargestDistance, true}}};
 constexpr const char* kNameColumn = "name";
 
 struct Columns {
     std::size_t name = 0;
-    std::array<std::size_t, NumberCount> numbers{};
+    std::array<std::optional<std::size_t>, NumberCount> numbers;
 };
 
 std::optional<Columns> columnsOf(const CsvTable& table, std::string& error) {
@@ -54,9 +59,8 @@ std::optional<Columns> columnsOf(const CsvTable& table, std::string& error) {
     if (!name) return std::nullopt;
     columns.name = *name;
     for (std::size_t i = 0; i < kNumbers.size(); ++i) {
-        const auto column = require(kNumbers[i].name);
-        if (!column) return std::nullopt;
-        columns.numbers[i] = *column;
+        columns.numbers[i] = kNumbers[i].isOptional ? table.column(kNumbers[i].name) : require(kNumbers[i].name);
+        if (!columns.numbers[i] && !kNumbers[i].isOptional) return std::nullopt;
     }
     const auto unknown = std::find_if(table.columns.begin(), table.columns.end(), [](const std::string& column) {
         return column != kNameColumn && std::none_of(kNumbers.begin(), kNumbers.end(),
@@ -90,7 +94,8 @@ std::optional<CameraPose> poseOf(const CsvTable& table, const CsvTable::Row& row
                                  std::string& error) {
     std::array<double, NumberCount> n{};
     for (std::size_t i = 0; i < n.size(); ++i) {
-        const std::string& cell = row.cells[columns.numbers[i]];
+        if (!columns.numbers[i]) continue;
+        const std::string& cell = row.cells[*columns.numbers[i]];
         const auto number = numberFrom(cell);
         if (!number || *number < kNumbers[i].lowest || *number > kNumbers[i].highest) {
             error = atLine(table, row,
@@ -112,7 +117,23 @@ std::optional<CameraPose> poseOf(const CsvTable& table, const CsvTable::Row& row
                       fromDegrees(n[LookLat], n[LookLon], n[LookAlt]),
                       n[Fov] * kRadiansPerDegree,
                       n[Near],
-                      n[Far]};
+                      n[Far],
+                      n[Time],
+                      n[Roll] * kRadiansPerDegree,
+                      n[EyeRight]};
+}
+
+// Gives the pose its time, where the file does not, and looks at what concerns the poses before it too.
+bool append(std::vector<CameraPose>& path, CameraPose pose, bool hasTime, std::string& problem) {
+    const bool isKnown =
+        std::any_of(path.begin(), path.end(), [&](const CameraPose& before) { return before.name == pose.name; });
+    if (isKnown) problem = "name \"" + pose.name + "\" is used twice";
+    if (!hasTime) pose.time = static_cast<double>(path.size());
+    if (!path.empty() && !(path.back().time < pose.time))
+        problem = "time is " + textFrom(pose.time) + ", but has to be later than " + textFrom(path.back().time) +
+                  " of the pose before";
+    path.push_back(std::move(pose));
+    return problem.empty();
 }
 
 }  // namespace
@@ -124,15 +145,14 @@ std::optional<std::vector<CameraPose>> readCameraPath(std::istream& input, const
     const auto columns = columnsOf(*table, error);
     if (!columns) return std::nullopt;
     std::vector<CameraPose> path;
-    std::set<std::string> names;
     for (const CsvTable::Row& row : table->rows) {
         auto pose = poseOf(*table, row, *columns, error);
         if (!pose) return std::nullopt;
-        if (!names.insert(pose->name).second) {
-            error = atLine(*table, row, "name \"" + pose->name + "\" is used twice");
+        std::string problem;
+        if (!append(path, std::move(*pose), columns->numbers[Time].has_value(), problem)) {
+            error = atLine(*table, row, problem);
             return std::nullopt;
         }
-        path.push_back(std::move(*pose));
     }
     if (!path.empty()) return path;
     error = fileName + ": no pose";
@@ -144,6 +164,27 @@ std::optional<std::vector<CameraPose>> readCameraPathFile(const std::string& fil
     if (input) return readCameraPath(input, fileName, error);
     error = fileName + ": cannot be opened";
     return std::nullopt;
+}
+
+std::optional<std::vector<CameraPose>> readCameraPathFiles(const std::vector<std::string>& fileNames,
+                                                           std::string& error) {
+    std::vector<CameraPose> joined;
+    std::map<std::string, std::string> fileOfName;
+    for (const std::string& fileName : fileNames) {
+        const auto path = readCameraPathFile(fileName, error);
+        if (!path) return std::nullopt;
+        const double begin = joined.empty() ? 0.0 : joined.back().time + 1.0 - path->front().time;
+        for (CameraPose pose : *path) {
+            const auto [known, isNew] = fileOfName.emplace(pose.name, fileName);
+            if (!isNew) {
+                error = fileName + ": name \"" + pose.name + "\" is used in " + known->second + " too";
+                return std::nullopt;
+            }
+            pose.time += begin;
+            joined.push_back(std::move(pose));
+        }
+    }
+    return joined;
 }
 
 }  // namespace osgAnalyticBin::flight

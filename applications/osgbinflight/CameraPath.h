@@ -20,18 +20,31 @@ struct CameraPose {
     double verticalFov = 0.0;
     double nearPlane = 0.0;
     double farPlane = 0.0;
+    double time = 0.0;  ///< seconds
+    double roll = 0.0;  ///< of up, clockwise about the line of sight, from the local vertical
+    /// How far the eye stands to the right of `eye`: the view's direction stays, the frustum is sheared so that the
+    /// plane through the look point is shown unchanged. Plus and minus half a base make a stereo pair.
+    double eyeRight = 0.0;
 };
 
 /// Reads a camera path: comma-separated values with the columns name, eyeLatDeg, eyeLonDeg, eyeAlt, lookLatDeg,
-/// lookLonDeg, lookAlt, fovDeg, near, far in any order. Angles are in degrees, the rest in metres, altitudes above the
-/// ellipsoid. `#` starts a comment line. The file name only serves the messages.
+/// lookLonDeg, lookAlt, fovDeg, near, far in any order, and, where wanted, time (seconds, growing; without it each pose
+/// is one second after the one before, from 0), rollDeg and eyeRight (both 0 without). Angles are in degrees, the rest
+/// in metres, altitudes above the ellipsoid. `#` starts a comment line. The file name only serves the messages.
 /// Returns: at least one pose; nullopt, with one line in `error` that names the file and the line, when a column is
-/// missing or unknown, a number is malformed or out of range, a name is used twice, or there is no pose.
+/// missing or unknown, a number is malformed or out of range, time does not grow, a name is used twice, or there is no
+/// pose.
 [[nodiscard]] std::optional<std::vector<CameraPose>> readCameraPath(std::istream& input, const std::string& fileName,
                                                                     std::string& error);
 
 /// Opens and reads a file.
 [[nodiscard]] std::optional<std::vector<CameraPose>> readCameraPathFile(const std::string& fileName,
                                                                         std::string& error);
+
+/// Reads several files, one or more, and joins them to one path: the first pose of each is one second after the last of
+/// the file before.
+/// Returns: nullopt, with one line in `error`, when a file is broken or two share a pose's name.
+[[nodiscard]] std::optional<std::vector<CameraPose>> readCameraPathFiles(const std::vector<std::string>& fileNames,
+                                                                         std::string& error);
 
 }  // namespace osgAnalyticBin::flight

@@ -73,11 +73,18 @@ osg::Matrixd viewMatrixOf(const CameraPose& pose, const Globe& globe) {
     direction.normalize();
     const osg::Vec3d vertical = directionToWorld(verticalAt(pose.eye), globe);
     const bool straight = (direction ^ vertical).length() < kStraight;
-    return osg::Matrixd::lookAt(eye, look, straight ? directionToWorld(northAt(pose.eye), globe) : vertical);
+    const osg::Vec3d up = straight ? directionToWorld(northAt(pose.eye), globe) : vertical;
+    osg::Matrixd view = osg::Matrixd::lookAt(eye, look, osg::Quat(pose.roll, direction) * up);
+    view.postMultTranslate(osg::Vec3d(-pose.eyeRight, 0.0, 0.0));
+    return view;
 }
 
-osg::Matrixd projectionMatrixOf(const CameraPose& pose, double aspect) {
-    return osg::Matrixd::perspective(osg::RadiansToDegrees(pose.verticalFov), aspect, pose.nearPlane, pose.farPlane);
+osg::Matrixd projectionMatrixOf(const CameraPose& pose, const Globe& globe, double aspect) {
+    const double lookDistance = (toWorld(pose.look, globe) - toWorld(pose.eye, globe)).length();
+    const double top = pose.nearPlane * std::tan(pose.verticalFov / 2.0);
+    const double right = top * aspect;
+    const double aside = pose.eyeRight * pose.nearPlane / lookDistance;
+    return osg::Matrixd::frustum(-right - aside, right - aside, -top, top, pose.nearPlane, pose.farPlane);
 }
 
 }  // namespace osgAnalyticBin::flight

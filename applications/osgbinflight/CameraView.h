@@ -20,10 +20,12 @@ struct Globe {
 /// place.
 [[nodiscard]] Globe globeOf(osg::Node& scene);
 
-/// From the world to the eye. Up is the local vertical at the eye, or north where the view goes straight up or down.
+/// From the world to the eye. Up is the local vertical at the pose's `eye`, or north where the view goes straight up or
+/// down, turned by the roll.
 [[nodiscard]] osg::Matrixd viewMatrixOf(const CameraPose& pose, const Globe& globe);
 
-/// Perspective with the pose's vertical field of view, near and far plane. `aspect` is width / height.
-[[nodiscard]] osg::Matrixd projectionMatrixOf(const CameraPose& pose, double aspect);
+/// Perspective with the pose's vertical field of view, near and far plane, sheared for an eye that stands aside.
+/// `aspect` is width / height.
+[[nodiscard]] osg::Matrixd projectionMatrixOf(const CameraPose& pose, const Globe& globe, double aspect);
 
 }  // namespace osgAnalyticBin::flight

@@ -34,6 +34,28 @@ TEST(ContinuousPath, ClimbsByEqualRatiosAndCrossesTheDateLineTheShortWay) {
     EXPECT_NEAR(std::cos(frames[1].eye.longitude), -1.0, kTolerance);
 }
 
+TEST(ContinuousPath, ReachesThePosesAtTheirTimes) {
+    std::vector<flight::CameraPose> path{poseAt(10, 20, 1000), poseAt(30, 40, 4000), poseAt(50, 60, 500)};
+    path[0].time = 5.0;
+    path[1].time = 6.0;
+    path[2].time = 9.0;
+    const auto frames = continuousPath(path, 5);
+    EXPECT_NEAR(frames[1].eye.altitude, 4000.0, 1e-9);
+    EXPECT_NEAR(frames[1].time, 6.0, kTolerance);
+    EXPECT_NEAR(frames[4].eye.altitude, 500.0, 1e-9);
+    EXPECT_NEAR(frames[4].time, 9.0, kTolerance);
+}
+
+TEST(ContinuousPath, RollsAndStepsAsideEvenly) {
+    std::vector<flight::CameraPose> path{poseAt(10, 20, 1000), poseAt(30, 40, 4000)};
+    path[0].roll = -0.5;
+    path[1].roll = 1.5;
+    path[1].eyeRight = 8.0;
+    const auto frames = continuousPath(path, 5);
+    EXPECT_NEAR(frames[1].roll, 0.0, kTolerance);
+    EXPECT_NEAR(frames[1].eyeRight, 2.0, kTolerance);
+}
+
 TEST(ContinuousPath, TakesOnePoseOrOneFrame) {
     EXPECT_EQ(continuousPath({poseAt(1, 2, 3)}, 4).size(), 4U);
     const auto frames = continuousPath({poseAt(10, 20, 1000), poseAt(30, 40, 4000)}, 1);

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin::flight {
 namespace {
@@ -81,6 +82,60 @@ TEST(CameraPath, RejectsAnUnsuitableHeader) {
     EXPECT_TRUE(contains(errorOf("name,name\na,1\n"), "path.csv:1: column \"name\" stands twice"));
     const std::string header = kHeader.substr(0, kHeader.size() - 1);
     EXPECT_TRUE(contains(errorOf(header + ",roll\na,0,0,1000,0,0,0,60,1,2,0\n"), "unknown column \"roll\""));
+}
+
+TEST(CameraPath, TakesTimeRollAndAnEyeAside) {
+    const std::string header = "eyeRight,time,rollDeg," + kHeader;
+    std::istringstream input(header + "-0.5,10,-90,a,0,0,1000,0,0,0,60,1,2\n0.5,12.5,0,b,0,0,1000,0,0,0,60,1,2\n");
+    std::string error;
+    const auto path = readCameraPath(input, "path.csv", error);
+    ASSERT_TRUE(path.has_value()) << error;
+    EXPECT_EQ(path->front().eyeRight, -0.5);
+    EXPECT_EQ(path->front().time, 10.0);
+    EXPECT_DOUBLE_EQ(path->front().roll, -kPi / 2);
+    EXPECT_EQ(path->back().time, 12.5);
+    EXPECT_EQ(path->back().name, "b");
+}
+
+TEST(CameraPath, IsLevelFromTheMiddleAndASecondAPoseWithoutTheseColumns) {
+    std::istringstream input(kHeader + "a,0,0,1000,0,0,0,60,1,2\nb,0,0,1000,0,0,0,60,1,2\n");
+    std::string error;
+    const auto path = readCameraPath(input, "path.csv", error);
+    ASSERT_TRUE(path.has_value()) << error;
+    EXPECT_EQ(path->front().time, 0.0);
+    EXPECT_EQ(path->back().time, 1.0);
+    EXPECT_EQ(path->back().roll, 0.0);
+    EXPECT_EQ(path->back().eyeRight, 0.0);
+}
+
+TEST(CameraPath, RejectsTimesThatDoNotGrow) {
+    const std::string header = "time," + kHeader;
+    const std::string error = errorOf(header + "3,a,0,0,1000,0,0,0,60,1,2\n3,b,0,0,1000,0,0,0,60,1,2\n");
+    EXPECT_TRUE(contains(error, "path.csv:3: time is 3, but has to be later than 3")) << error;
+    EXPECT_TRUE(contains(errorOf(header + "-1,a,0,0,1000,0,0,0,60,1,2\n"), "path.csv:2: time"));
+    EXPECT_TRUE(contains(errorOf("rollDeg," + kHeader + "400,a,0,0,1000,0,0,0,60,1,2\n"), "path.csv:2: rollDeg"));
+    EXPECT_TRUE(contains(errorOf("eyeRight," + kHeader + ",a,0,0,1000,0,0,0,60,1,2\n"), "path.csv:2: eyeRight"));
+}
+
+TEST(CameraPath, JoinsFilesOneSecondApart) {
+    const test::TemporaryFolder folder;
+    const std::string first = folder.write("first.csv", "time," + kHeader +
+                                                            "4,a,0,0,1000,0,0,0,60,1,2\n"
+                                                            "9,b,0,0,1000,0,0,0,60,1,2\n");
+    const std::string second = folder.write("second.csv", "time," + kHeader +
+                                                              "7,c,0,0,1000,0,0,0,60,1,2\n"
+                                                              "8,d,0,0,1000,0,0,0,60,1,2\n");
+    std::string error;
+    const auto path = readCameraPathFiles({first, second}, error);
+    ASSERT_TRUE(path.has_value()) << error;
+    ASSERT_EQ(path->size(), 4U);
+    EXPECT_EQ((*path)[1].time, 9.0);
+    EXPECT_EQ((*path)[2].time, 10.0);
+    EXPECT_EQ((*path)[3].time, 11.0);
+    EXPECT_FALSE(readCameraPathFiles({first, first}, error).has_value());
+    EXPECT_TRUE(contains(error, "name \"a\" is used in " + first + " too")) << error;
+    EXPECT_FALSE(readCameraPathFiles({first, "/nowhere/path.csv"}, error).has_value());
+    EXPECT_TRUE(contains(error, "/nowhere/path.csv")) << error;
 }
 
 TEST(CameraPath, NamesAMissingFile) {

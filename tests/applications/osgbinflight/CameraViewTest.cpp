@@ -60,10 +60,44 @@ TEST(CameraView, FollowsATransformAboveTheGlobe) {
     EXPECT_LT((osg::Vec3d(1100.0, 0.0, 5e6) * view).length(), kMetre);
 }
 
+TEST(CameraView, TurnsUpClockwiseByTheRoll) {
+    CameraPose pose = poseOf({0.0, 0.0, 1000.0}, {0.0, 0.0, 0.0});
+    pose.roll = osg::PI_2;  // from north to east
+    const osg::Vec3d east = osg::Vec3d(kRadius, 500.0, 0.0) * viewMatrixOf(pose, earth());
+    EXPECT_NEAR(east.x(), 0.0, kMetre);
+    EXPECT_NEAR(east.y(), 500.0, kMetre);
+    EXPECT_NEAR(east.z(), -1000.0, kMetre);
+}
+
+TEST(CameraView, PutsTheEyeAsideInTheRolledFrame) {
+    CameraPose pose = poseOf({0.0, 0.0, 1000.0}, {0.0, 0.0, 0.0});
+    pose.eyeRight = 30.0;
+    EXPECT_LT((osg::Vec3d(kRadius + 1000.0, 30.0, 0.0) * viewMatrixOf(pose, earth())).length(), kMetre);
+    pose.roll = osg::PI_2;  // right is now south
+    EXPECT_LT((osg::Vec3d(kRadius + 1000.0, 0.0, -30.0) * viewMatrixOf(pose, earth())).length(), kMetre);
+}
+
+TEST(CameraView, ShowsThePlaneOfTheLookPointUnchangedFromAside) {
+    const auto inPicture = [](const CameraPose& pose, const osg::Vec3d& point) {
+        return point * viewMatrixOf(pose, earth()) * projectionMatrixOf(pose, earth(), 1.5);
+    };
+    CameraPose middle = poseOf({0.0, 0.0, 1000.0}, {0.0, 0.0, 0.0});
+    middle.roll = 0.3;
+    CameraPose right = middle;
+    right.eyeRight = 30.0;
+    for (const osg::Vec3d& inPlane : {osg::Vec3d(kRadius, 0.0, 0.0), osg::Vec3d(kRadius, 200.0, -100.0)}) {
+        EXPECT_NEAR(inPicture(right, inPlane).x(), inPicture(middle, inPlane).x(), 1e-9);
+        EXPECT_NEAR(inPicture(right, inPlane).y(), inPicture(middle, inPlane).y(), 1e-9);
+    }
+    // What is nearer moves to the left for an eye that moves to the right.
+    const osg::Vec3d nearer(kRadius + 500.0, 0.0, 0.0);
+    EXPECT_LT(inPicture(right, nearer).x(), inPicture(middle, nearer).x() - 0.01);
+}
+
 TEST(CameraView, ProjectsWithTheVerticalFieldOfView) {
     double fovy = 0.0, aspect = 0.0, nearPlane = 0.0, farPlane = 0.0;
     const CameraPose pose = poseOf({0.0, 0.0, 1.0}, {});
-    ASSERT_TRUE(projectionMatrixOf(pose, 1.5).getPerspective(fovy, aspect, nearPlane, farPlane));
+    ASSERT_TRUE(projectionMatrixOf(pose, earth(), 1.5).getPerspective(fovy, aspect, nearPlane, farPlane));
     EXPECT_NEAR(fovy, 60.0, 1e-9);
     EXPECT_NEAR(aspect, 1.5, 1e-9);
     EXPECT_NEAR(nearPlane, 10.0, 1e-9);
