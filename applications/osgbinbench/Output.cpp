@@ -5,6 +5,7 @@
 
 #include "CsvTable.h"
 #include "Failure.h"
+#include "PathGroups.h"
 #include "TextTable.h"
 
 #include <osg/Version>
@@ -39,7 +40,7 @@ Json headOf(const Settings& settings, const char* mode) {
     Json json;
     json["mode"] = mode;
     json["database"] = settings.database;
-    json["path"] = settings.path;
+    json["path"] = settings.paths;
     json["options"] = settings.binOptions;
     json["vertical_scale"] = settings.verticalScale;
     json["width"] = settings.width;
@@ -69,6 +70,46 @@ std::vector<std::string> ratioLine(const MethodFigures& method, const Figures& r
         cells.push_back(ratio(static_cast<double>(sum.*column.count), static_cast<double>(reference.*column.count)));
     cells.push_back(ratio(sum.cullMs, reference.cullMs));
     return cells;
+}
+
+Json sumsOf(const Figures& sum) {
+    Json sums;
+    for (const CountColumn& column : kCountColumns) sums[column.name] = sum.*column.count;
+    sums[kCullColumn] = sum.cullMs;
+    sums[kCullSpreadColumn] = sum.cullSpreadMs;
+    return sums;
+}
+
+Json byPose(const MethodFigures& method) {
+    Json columns;
+    for (const Figures& pose : method.poses) {
+        for (const CountColumn& column : kCountColumns) columns[column.name].push_back(pose.*column.count);
+        columns[kCullColumn].push_back(pose.cullMs);
+        columns[kCullSpreadColumn].push_back(pose.cullSpreadMs);
+    }
+    return columns;
+}
+
+void printByPath(std::ostream& output, const std::vector<std::string>& poses,
+                 const std::vector<MethodFigures>& methods) {
+    const std::vector<PathGroup> groups = pathGroupsOf(poses);
+    if (groups.size() < 2) return;
+    TextTable table(2);
+    table.add({"sums by path", "method", "truth_tiles", "drawn_tiles", "drawn/truth", "triangles", "files_requested",
+               "false_culls", "differing_pixels", kCullColumn});
+    for (const PathGroup& group : groups) {
+        table.addGap();
+        for (const MethodFigures& method : methods) {
+            const Figures sum = sumOf(method, group);
+            table.add({group.name, method.method, std::to_string(sum.truthTiles), std::to_string(sum.drawnTiles),
+                       ratio(static_cast<double>(sum.drawnTiles), static_cast<double>(sum.truthTiles)),
+                       std::to_string(sum.triangles), std::to_string(sum.filesRequested),
+                       std::to_string(sum.falseCulls), std::to_string(sum.differingPixels),
+                       withDecimals(sum.cullMs, 3)});
+        }
+    }
+    output << '\n';
+    table.print(output);
 }
 
 // The longer a table's lines, the harder they are to read: columns become lines.
@@ -123,13 +164,14 @@ std::string jsonOf(const Settings& settings, const std::vector<std::string>& pos
                    const std::vector<MethodFigures>& methods) {
     Json json = headOf(settings, "poses");
     json["poses"] = poses.size();
-    for (const MethodFigures& method : methods) {
-        const Figures sum = method.sum();
-        Json& sums = json["methods"][method.method];
-        for (const CountColumn& column : kCountColumns) sums[column.name] = sum.*column.count;
-        sums[kCullColumn] = sum.cullMs;
-        sums[kCullSpreadColumn] = sum.cullSpreadMs;
+    for (const MethodFigures& method : methods) json["methods"][method.method] = sumsOf(method.sum());
+    for (const PathGroup& group : pathGroupsOf(poses)) {
+        Json& path = json["paths"][group.name];
+        path["poses"] = group.poses.size();
+        for (const MethodFigures& method : methods) path["methods"][method.method] = sumsOf(sumOf(method, group));
     }
+    json["pose_names"] = poses;
+    for (const MethodFigures& method : methods) json["by_pose"][method.method] = byPose(method);
     return json.dump(2) + "\n";
 }
 
@@ -143,7 +185,8 @@ std::string jsonOf(const Settings& settings, const std::vector<FlightFigures>& m
     return json.dump(2) + "\n";
 }
 
-void printTable(std::ostream& output, const std::vector<MethodFigures>& methods) {
+void printTable(std::ostream& output, const std::vector<std::string>& poses,
+                const std::vector<MethodFigures>& methods) {
     std::vector<std::vector<std::string>> lines{headLine("sums over poses")};
     for (const MethodFigures& method : methods) {
         const Figures sum = method.sum();
@@ -160,6 +203,7 @@ void printTable(std::ostream& output, const std::vector<MethodFigures>& methods)
         output << '\n';
         turned(lines).print(output);
     }
+    printByPath(output, poses, methods);
 }
 
 void printTable(std::ostream& output, const std::vector<FlightFigures>& methods) {

@@ -19,13 +19,16 @@ void writeFile(const std::string& file, const std::string& text);
 [[nodiscard]] std::string csvOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods);
 [[nodiscard]] std::string csvOf(const std::vector<FlightFigures>& methods);
 
-/// An object: how it was measured, and "methods", by name, with sums over the poses or the flight.
+/// An object: how it was measured; "methods", by name, with sums over the poses or the flight; of poses also "paths",
+/// by name, with "methods" as above over the poses of one path, and "by_pose", by method and column, what was measured
+/// at each of "pose_names".
 [[nodiscard]] std::string jsonOf(const Settings& settings, const std::vector<std::string>& poses,
                                  const std::vector<MethodFigures>& methods);
 [[nodiscard]] std::string jsonOf(const Settings& settings, const std::vector<FlightFigures>& methods);
 
-/// Sums for people, then their ratios to "sphere" and "cluster" where these were flown.
-void printTable(std::ostream& output, const std::vector<MethodFigures>& methods);
+/// Sums for people, then their ratios to "sphere" and "cluster" where these were flown, then the most telling sums path
+/// by path, if there are several.
+void printTable(std::ostream& output, const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods);
 void printTable(std::ostream& output, const std::vector<FlightFigures>& methods);
 
 }  // namespace osgAnalyticBin::bench

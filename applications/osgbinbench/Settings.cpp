@@ -77,6 +77,9 @@ std::string footer() {
     return text +
            "  cull_ms            milliseconds of a cull traversal and its sorting, median\n"
            "  cull_spread_ms     from the first quartile of these times to the third\n\n"
+           "\"paths\" in --json holds the sums of the poses whose names share the text before the first _, \"by_pose\" "
+           "the\n"
+           "figures of every pose, in the order of \"pose_names\".\n\n"
            "Needs a display. Exit code: 0; 1 when something failed: one line says what, and no table is written.\n\n"
            "Example:\n"
            "  xvfb-run -a osgbinbench earth.osgb --path data/paths/vpb_sample.csv --csv poses.csv --json sums.json";
@@ -90,7 +93,10 @@ struct Words {
 void declare(CLI::App& app, Settings& settings, Words& words) {
     app.footer(footer());
     app.add_option("DATABASE", settings.database, "root file of a paged globe that OSG reads")->required();
-    app.add_option("--path", settings.path, "camera path, CSV: degrees and metres, as data/paths/demo.csv")->required();
+    app.add_option("--path", settings.paths,
+                   "camera path, CSV: degrees and metres, as data/paths/demo.csv;\nmay be given several times")
+        ->allow_extra_args(false)
+        ->required();
     app.add_option(
            "--methods", settings.methods,
            "comma-separated: none, sphere, cluster, quadratic, exact,\npaper, corners (default: the first five)")
@@ -101,6 +107,8 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
     app.add_option("--csv", settings.csv, "file for the figures of every pose");
     app.add_option("--json", settings.json, "file for the sums");
     app.add_option("--pictures", settings.pictures, "folder for pictures, METHOD/POSE.png");
+    app.add_option("--plot", settings.plot,
+                   "folder for diagrams, SVG and PNG, drawn by gnuplot, with their\nscripts and data");
     app.add_option("--vertical-scale", settings.verticalScale,
                    "factor for the heights of an osgTerrain database (default 1)")
         ->check(CLI::Range(0.001, 1000.0));
@@ -128,9 +136,12 @@ void check(const Settings& settings) {
     if (!cullOptionsFromText(settings.binOptions, error)) throw Failure("--options: " + error);
     if (settings.frames > 0 && !settings.pictures.empty())
         throw Failure("--pictures: a continuous flight takes none; leave --frames out");
+    if (settings.frames > 0 && !settings.plot.empty())
+        throw Failure("--plot: a continuous flight has no poses to show; leave --frames out");
     requireFolder("--csv", settings.csv);
     requireFolder("--json", settings.json);
     requireFolder("--pictures", settings.pictures);
+    requireFolder("--plot", settings.plot);
 }
 
 }  // namespace

@@ -13,12 +13,13 @@ namespace osgAnalyticBin::bench {
 /// What the command line asks for.
 struct Settings {
     std::string database;
-    std::string path;
+    std::vector<std::string> paths;
     std::vector<std::string> methods{"none", "sphere", "cluster", "quadratic", "exact"};
     std::string binOptions;
     std::string csv;
     std::string json;
     std::string pictures;
+    std::string plot;
     double verticalScale = 1.0;
     int width = 1280;
     int height = 720;

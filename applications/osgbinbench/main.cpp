@@ -5,6 +5,7 @@
 #include "Failure.h"
 #include "FlightBench.h"
 #include "Output.h"
+#include "Plot.h"
 #include "PoseBench.h"
 
 #include <osgAnalyticBin/CullOptions.h>
@@ -45,7 +46,7 @@ void write(const Settings& settings, const std::string& csv, const std::string& 
 
 void measure(const Settings& settings) {
     std::string error;
-    const auto path = osgAnalyticBin::flight::readCameraPathFile(settings.path, error);
+    const auto path = osgAnalyticBin::flight::readCameraPathFiles(settings.paths, error);
     if (!path) throw Failure(error);
     const std::vector<CullMethod> methods = cullMethodsFromNames(settings.methods);
     if (settings.frames > 0) {
@@ -55,7 +56,9 @@ void measure(const Settings& settings) {
     }
     const auto figures = PoseBench(settings, methods).run(*path);
     write(settings, csvOf(namesOf(*path), figures), jsonOf(settings, namesOf(*path), figures));
-    printTable(std::cout, figures);
+    printTable(std::cout, namesOf(*path), figures);
+    std::cout.flush();
+    if (!settings.plot.empty()) plot(settings.plot, diagramsOf(namesOf(*path), figures));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "Failure.h"
 #include "Output.h"
+#include "PathGroups.h"
 
 #include <gtest/gtest.h>
 
@@ -36,6 +37,35 @@ TEST(Output, JsonHoldsTheSumsByMethod) {
         EXPECT_TRUE(json["methods"]["sphere"].contains(key)) << key;
 }
 
+TEST(Output, JsonHoldsTheSumsByPathAndEveryPose) {
+    const auto json = nlohmann::json::parse(jsonOf(Settings(), {"down_1", "far"}, twoMethods()));
+    ASSERT_EQ(json["paths"].size(), 2U);
+    EXPECT_EQ(json["paths"]["down"]["poses"], 1);
+    EXPECT_EQ(json["paths"]["down"]["methods"]["none"]["drawn_tiles"], 6);
+    EXPECT_EQ(json["paths"]["far"]["methods"]["none"]["drawn_tiles"], 4);
+    EXPECT_EQ(json["pose_names"], nlohmann::json::parse(R"(["down_1", "far"])"));
+    EXPECT_EQ(json["by_pose"]["none"]["drawn_tiles"], nlohmann::json::parse("[6, 4]"));
+    EXPECT_EQ(json["by_pose"]["sphere"]["cull_ms"], nlohmann::json::parse("[0.25, 0.5]"));
+}
+
+TEST(Output, PosesBelongToThePathThatTheirNamesBeginWith) {
+    const auto groups = pathGroupsOf({"down_1", "far", "down_2", "downs_1"});
+    ASSERT_EQ(groups.size(), 3U);
+    EXPECT_EQ(groups[0].name, "down");
+    EXPECT_EQ(groups[0].poses, (std::vector<std::size_t>{0, 2}));
+    EXPECT_EQ(groups[1].name, "far");
+    EXPECT_EQ(groups[2].name, "downs");
+}
+
+TEST(Output, TheTableHasTheSumsOfSeveralPaths) {
+    std::ostringstream several;
+    printTable(several, {"down_1", "far_1"}, twoMethods());
+    EXPECT_NE(several.str().find("sums by path"), std::string::npos);
+    std::ostringstream one;
+    printTable(one, {"far_1", "far_2"}, twoMethods());
+    EXPECT_EQ(one.str().find("sums by path"), std::string::npos);
+}
+
 TEST(Output, CsvHasALineForEachPoseAndMethod) {
     std::istringstream lines(csvOf({"a", "b"}, twoMethods()));
     std::vector<std::string> begins;
@@ -45,7 +75,7 @@ TEST(Output, CsvHasALineForEachPoseAndMethod) {
 
 TEST(Output, TheTableHasRatiosToTheMethodsThatWereFlown) {
     std::ostringstream output;
-    printTable(output, twoMethods());
+    printTable(output, {"a", "b"}, twoMethods());
     EXPECT_NE(output.str().find("ratio to sphere"), std::string::npos);
     EXPECT_EQ(output.str().find("ratio to cluster"), std::string::npos);
     EXPECT_NE(output.str().find("drawn_tiles        2.000   1.000"), std::string::npos) << output.str();

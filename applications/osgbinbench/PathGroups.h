@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "Figures.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin::bench {
+
+/// Poses that belong together: their names share the text before the first `_`, which names the path.
+struct PathGroup {
+    std::string name;
+    std::vector<std::size_t> poses;  ///< places in the list of poses
+};
+
+/// The groups in the order in which their first poses come; every pose is in one.
+[[nodiscard]] std::vector<PathGroup> pathGroupsOf(const std::vector<std::string>& poses);
+
+/// What a method did at the poses of one group. Requires: figures for each of them.
+[[nodiscard]] Figures sumOf(const MethodFigures& method, const PathGroup& group);
+
+}  // namespace osgAnalyticBin::bench
