@@ -3,6 +3,7 @@
 
 #include "Settings.h"
 
+#include "Compare.h"
 #include "CullMethod.h"
 #include "Failure.h"
 #include "Figures.h"
@@ -79,8 +80,11 @@ std::string footer() {
            "  cull_spread_ms     from the first quartile of these times to the third\n\n"
            "\"paths\" in --json holds the sums of the poses whose names share the text before the first _, \"by_pose\" "
            "the\n"
-           "figures of every pose, in the order of \"pose_names\".\n\n"
-           "Needs a display. Exit code: 0; 1 when something failed: one line says what, and no table is written.\n\n"
+           "figures of every pose, in the order of \"pose_names\".\n\n" +
+           comparisonRule() +
+           "\n"
+           "Needs a display, except for --compare. Exit code: 0; 1 when something failed: one line says what, and no\n"
+           "table is written; 2 when --compare found something worse.\n\n"
            "Example:\n"
            "  xvfb-run -a osgbinbench earth.osgb --path data/paths/vpb_sample.csv --csv poses.csv --json sums.json";
 }
@@ -92,11 +96,10 @@ struct Words {
 
 void declare(CLI::App& app, Settings& settings, Words& words) {
     app.footer(footer());
-    app.add_option("DATABASE", settings.database, "root file of a paged globe that OSG reads")->required();
+    app.add_option("DATABASE", settings.database, "root file of a paged globe that OSG reads");
     app.add_option("--path", settings.paths,
                    "camera path, CSV: degrees and metres, as data/paths/demo.csv;\nmay be given several times")
-        ->allow_extra_args(false)
-        ->required();
+        ->allow_extra_args(false);
     app.add_option(
            "--methods", settings.methods,
            "comma-separated: none, sphere, cluster, quadratic, exact,\npaper, corners (default: the first five)")
@@ -109,6 +112,11 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
     app.add_option("--pictures", settings.pictures, "folder for pictures, METHOD/POSE.png");
     app.add_option("--plot", settings.plot,
                    "folder for diagrams, SVG and PNG, drawn by gnuplot, with their\nscripts and data");
+    app.add_option(
+           "--compare", settings.compared,
+           "two files of --json instead of a DATABASE: says what\nbecame better and worse from the first to the second")
+        ->type_name("OLD NEW")
+        ->expected(2);
     app.add_option("--vertical-scale", settings.verticalScale,
                    "factor for the heights of an osgTerrain database (default 1)")
         ->check(CLI::Range(0.001, 1000.0));
@@ -129,6 +137,13 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
 }
 
 void check(const Settings& settings) {
+    if (!settings.compared.empty()) {
+        if (!settings.database.empty() || !settings.paths.empty())
+            throw Failure("--compare: takes two files of --json and measures nothing; leave DATABASE and --path out");
+        return;
+    }
+    if (settings.database.empty()) throw Failure("DATABASE is required; see osgbinbench --help");
+    if (settings.paths.empty()) throw Failure("--path is required; see osgbinbench --help");
     (void)cullMethodsFromNames(settings.methods);
     std::string error;
     if (settings.binOptions.find("method=") != std::string::npos)

@@ -20,6 +20,7 @@ struct Settings {
     std::string json;
     std::string pictures;
     std::string plot;
+    std::vector<std::string> compared;  ///< two files of --json, old and new, instead of a measurement
     double verticalScale = 1.0;
     int width = 1280;
     int height = 720;
@@ -34,7 +35,7 @@ struct Settings {
 [[nodiscard]] std::string threadingName(osgViewer::ViewerBase::ThreadingModel model);
 
 /// Reads the command line; --help is answered at once.
-/// Returns: whether there is something to measure.
+/// Returns: whether there is something to measure, or to compare.
 /// Throws: Failure when an option is unknown, malformed or out of range.
 [[nodiscard]] bool settingsFromCommandLine(int argc, char** argv, Settings& settings);
 

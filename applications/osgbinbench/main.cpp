@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Compare.h"
 #include "ContinuousPath.h"
 #include "Failure.h"
 #include "FlightBench.h"
@@ -21,6 +22,9 @@ namespace {
 
 using namespace osgAnalyticBin::bench;
 using osgAnalyticBin::flight::CameraPose;
+
+// The exit code when figures became worse.
+constexpr int kWorse = 2;
 
 // The kit's modules stand in a folder beside its library; OpenSceneGraph has to be told, unless they are installed
 // where it looks.
@@ -67,6 +71,8 @@ int main(int argc, char** argv) {
     try {
         Settings settings;
         if (!settingsFromCommandLine(argc, argv, settings)) return EXIT_SUCCESS;
+        if (!settings.compared.empty())
+            return compareFiles(settings.compared[0], settings.compared[1], std::cout) ? kWorse : EXIT_SUCCESS;
         addModuleFolder();
         measure(settings);
         return EXIT_SUCCESS;

@@ -1,0 +1,262 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Two measurements side by side: files made by hand.
+
+#include "BenchProgram.h"
+#include "Compare.h"
+#include "Failure.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <support/TemporaryFolder.h>
+
+namespace osgAnalyticBin::bench {
+namespace {
+
+using nlohmann::json;
+
+// Two poses, spheres and bins; times with a spread of a tenth.
+json measurement() {
+    return json::parse(R"({
+        "mode": "poses", "database": "earth.osgb", "path": ["p.csv"], "options": "", "vertical_scale": 1.0,
+        "width": 320, "height": 240, "threading": "SingleThreaded", "osg": "3.6.5",
+        "methods": {
+            "sphere": {"truth_tiles": 10, "drawn_tiles": 20, "cull_ms": 2.0, "cull_spread_ms": 0.2},
+            "exact": {"truth_tiles": 10, "drawn_tiles": 12, "cull_ms": 1.0, "cull_spread_ms": 0.1}},
+        "pose_names": ["a", "b"],
+        "by_pose": {
+            "sphere": {"truth_tiles": [5, 5], "drawn_tiles": [10, 10], "cull_ms": [1, 1], "cull_spread_ms": [0.1, 0.1]},
+            "exact": {"truth_tiles": [5, 5], "drawn_tiles": [6, 6], "cull_ms": [0.5, 0.5],
+                      "cull_spread_ms": [0.05, 0.05]}}})");
+}
+
+struct Comparison {
+    bool isWorse = false;
+    std::string text;
+
+    [[nodiscard]] bool says(const std::string& part) const { return text.find(part) != std::string::npos; }
+
+    // The line of the table, its columns one blank apart; empty when there is none.
+    [[nodiscard]] std::string line(const std::string& method, const std::string& figure) const {
+        std::istringstream lines(text);
+        for (std::string raw; std::getline(lines, raw);) {
+            std::istringstream words(raw);
+            std::string line;
+            for (std::string word; words >> word;) line += (line.empty() ? "" : " ") + word;
+            if (line.rfind(method + " " + figure + " ", 0) == 0) return line;
+        }
+        return {};
+    }
+};
+
+Comparison compared(const json& before, const json& after) {
+    const test::TemporaryFolder folder;
+    std::ostringstream output;
+    const std::string old = folder.write("old.json", before.dump());
+    const bool isWorse = compareFiles(old, folder.write("new.json", after.dump()), output);
+    return {isWorse, output.str()};
+}
+
+std::string errorOf(const std::string& before, const std::string& after) {
+    const test::TemporaryFolder folder;
+    std::ostringstream output;
+    const std::string old = folder.write("old.json", before);
+    try {
+        (void)compareFiles(old, folder.write("new.json", after), output);
+    } catch (const Failure& failure) {
+        EXPECT_EQ(std::string(failure.what()).find('\n'), std::string::npos);
+        return failure.what();
+    }
+    return "no error";
+}
+
+void setTime(json& file, const std::string& method, double factor) {
+    json& sums = file["methods"][method];
+    sums["cull_ms"] = sums["cull_ms"].get<double>() * factor;
+}
+
+// A sum's uncertainty: half a spread of a tenth, over two poses: 0.05 / sqrt(2); with four sums twice that, 0.071.
+TEST(Compare, FindsNothingInTheSameFile) {
+    const Comparison same = compared(measurement(), measurement());
+    EXPECT_FALSE(same.isWorse);
+    EXPECT_TRUE(same.says("beyond noise: 0 worse, 0 better, 0 changed otherwise")) << same.text;
+    EXPECT_TRUE(same.says("4 counts are the same")) << same.text;
+    EXPECT_FALSE(same.says("warning")) << same.text;
+    EXPECT_EQ(same.line("exact", "cull_ms/sphere"), "exact cull_ms/sphere 0.5000 0.5000 1.000 0.071 within noise");
+}
+
+TEST(Compare, SaysEveryChangeOfACount) {
+    json after = measurement();
+    after["methods"]["exact"]["drawn_tiles"] = 13;
+    after["by_pose"]["exact"]["drawn_tiles"] = {6, 7};
+    const Comparison worse = compared(measurement(), after);
+    EXPECT_TRUE(worse.isWorse);
+    EXPECT_EQ(worse.line("exact", "drawn_tiles"), "exact drawn_tiles 12 13 1.083 1.00 .. 1.17 WORSE");
+    const Comparison better = compared(after, measurement());
+    EXPECT_FALSE(better.isWorse);
+    EXPECT_EQ(better.line("exact", "drawn_tiles"), "exact drawn_tiles 13 12 0.923 0.86 .. 1.00 better");
+}
+
+TEST(Compare, SaysWhatMovedFromPoseToPose) {
+    json after = measurement();
+    after["by_pose"]["exact"]["drawn_tiles"] = {5, 7};
+    const Comparison moved = compared(measurement(), after);
+    EXPECT_FALSE(moved.isWorse);
+    EXPECT_EQ(moved.line("exact", "drawn_tiles"), "exact drawn_tiles 12 12 1.000 0.83 .. 1.17 changed");
+}
+
+TEST(Compare, CountsThatWereZeroCanOnlyGrow) {
+    json before = measurement();
+    json after = measurement();
+    before["methods"]["exact"]["false_culls"] = 0;
+    after["methods"]["exact"]["false_culls"] = 1;
+    EXPECT_TRUE(compared(before, after).isWorse);
+    EXPECT_FALSE(compared(after, before).isWorse);
+}
+
+TEST(Compare, DoesNotJudgeWhatBelongsToTheView) {
+    json after = measurement();
+    after["methods"]["exact"]["truth_tiles"] = 11;
+    const Comparison comparison = compared(measurement(), after);
+    EXPECT_FALSE(comparison.isWorse);
+    EXPECT_EQ(comparison.line("exact", "truth_tiles"), "exact truth_tiles 10 11 1.100 1.00 .. 1.00 changed");
+}
+
+TEST(Compare, JudgesTimesByTheSpheres) {
+    json slowMachine = measurement();
+    setTime(slowMachine, "sphere", 1.5);
+    setTime(slowMachine, "exact", 1.5);
+    const Comparison drift = compared(measurement(), slowMachine);
+    EXPECT_FALSE(drift.isWorse) << drift.text;
+    EXPECT_NE(drift.line("exact", "cull_ms").find("changed"), std::string::npos) << drift.text;
+
+    json slower = slowMachine;
+    setTime(slower, "exact", 1.2);
+    const Comparison worse = compared(measurement(), slower);
+    EXPECT_TRUE(worse.isWorse) << worse.text;
+    EXPECT_NE(worse.line("exact", "cull_ms/sphere").find("1.200"), std::string::npos) << worse.text;
+    EXPECT_NE(worse.line("exact", "cull_ms/sphere").find("WORSE"), std::string::npos) << worse.text;
+    EXPECT_FALSE(compared(slower, measurement()).isWorse);
+}
+
+TEST(Compare, JudgesTimesAsTheyAreWithoutSpheres) {
+    json before = measurement();
+    before["methods"].erase("sphere");
+    json after = before;
+    setTime(after, "exact", 1.04);
+    EXPECT_FALSE(compared(before, after).isWorse);
+    setTime(after, "exact", 1.2);
+    EXPECT_TRUE(compared(before, after).isWorse);
+    after["methods"]["exact"].erase("cull_spread_ms");  // no noise known
+    EXPECT_FALSE(compared(before, after).isWorse);
+}
+
+TEST(Compare, TakesAtLeastFivePercentForNoise) {
+    json before = measurement();
+    for (const char* const method : {"sphere", "exact"}) before["by_pose"][method]["cull_spread_ms"] = {0, 0};
+    json after = before;
+    setTime(after, "exact", 1.04);
+    EXPECT_FALSE(compared(before, after).isWorse);
+    setTime(after, "exact", 1.02);
+    EXPECT_TRUE(compared(before, after).isWorse);
+}
+
+TEST(Compare, TakesTheSumsSpreadWhereThereAreNoPoses) {
+    json before = measurement();
+    before.erase("pose_names");
+    before.erase("by_pose");
+    json after = before;
+    setTime(after, "exact", 1.08);
+    EXPECT_FALSE(compared(before, after).isWorse);  // four sums, a half spread of 0.05 each: 0.1
+    setTime(after, "exact", 1.08);
+    EXPECT_TRUE(compared(before, after).isWorse);
+}
+
+TEST(Compare, DoesNotJudgeTheLivePhaseNorAContinuousFlight) {
+    json before = measurement();
+    before["live"] = {{"frames", 9}, {"methods", {{"exact", {{"files_requested", 3}, {"cull_ms", 1.0}}}}}};
+    json after = before;
+    after["live"]["methods"]["exact"]["files_requested"] = 5;
+    const Comparison live = compared(before, after);
+    EXPECT_FALSE(live.isWorse);
+    EXPECT_EQ(live.line("exact", "files_requested"), "exact files_requested 3 5 1.667 changed");
+
+    const json flight = {{"mode", "flight"}, {"methods", before["live"]["methods"]}};
+    const json other = {{"mode", "flight"}, {"methods", after["live"]["methods"]}};
+    EXPECT_FALSE(compared(flight, other).isWorse);
+}
+
+TEST(Compare, WarnsOnceOfOtherConditions) {
+    json after = measurement();
+    after["database"] = "mars.osgb";
+    after["width"] = 640;
+    const Comparison comparison = compared(measurement(), after);
+    EXPECT_TRUE(
+        comparison.says("warning: not measured alike: database (\"earth.osgb\" and \"mars.osgb\"), "
+                        "width (320 and 640)\n"))
+        << comparison.text;
+}
+
+TEST(Compare, SaysWhatOnlyOneFileHas) {
+    json after = measurement();
+    after["methods"]["paper"] = after["methods"]["exact"];
+    after["methods"]["exact"]["new_tiles"] = 1;
+    const Comparison comparison = compared(measurement(), after);
+    EXPECT_TRUE(comparison.says("new.json: paper new_tiles\n")) << comparison.text;
+    EXPECT_FALSE(comparison.isWorse);
+}
+
+TEST(Compare, RefusesWhatCannotBeCompared) {
+    const std::string good = measurement().dump();
+    json otherPoses = measurement();
+    otherPoses["pose_names"] = {"a", "c"};
+    EXPECT_NE(errorOf(good, otherPoses.dump()).find("the poses are not the same"), std::string::npos);
+    json flight = measurement();
+    flight["mode"] = "flight";
+    EXPECT_NE(errorOf(good, flight.dump()).find("the other flew on"), std::string::npos);
+    json otherMethods = measurement();
+    otherMethods["methods"] = {{"paper", {{"drawn_tiles", 1}}}};
+    EXPECT_NE(errorOf(good, otherMethods.dump()).find("no method is in both"), std::string::npos);
+}
+
+TEST(Compare, NamesABrokenFileAndWhatIsWrong) {
+    const std::string good = measurement().dump();
+    EXPECT_NE(errorOf(good, "{\"mode\": ").find("new.json: is no JSON"), std::string::npos);
+    EXPECT_NE(errorOf("[1, 2]", good).find("old.json: has no \"mode\" or no \"methods\""), std::string::npos);
+    EXPECT_NE(errorOf("", good).find("old.json: is no JSON"), std::string::npos);
+    json broken = measurement();
+    broken["methods"]["exact"]["drawn_tiles"] = "many";
+    EXPECT_NE(errorOf(good, broken.dump()).find("methods.exact.drawn_tiles is no number"), std::string::npos);
+    broken = measurement();
+    broken["methods"]["exact"] = 3;
+    EXPECT_NE(errorOf(good, broken.dump()).find("methods.exact holds no figures"), std::string::npos);
+    broken = measurement();
+    broken["by_pose"]["exact"]["drawn_tiles"] = {6};
+    EXPECT_NE(errorOf(good, broken.dump()).find("by_pose.exact.drawn_tiles"), std::string::npos);
+    broken = measurement();
+    broken["by_pose"]["exact"] = {1, 2};
+    EXPECT_NE(errorOf(good, broken.dump()).find("by_pose.exact.0"), std::string::npos);
+    broken = measurement();
+    broken["pose_names"] = {1, 2};
+    EXPECT_NE(errorOf(good, broken.dump()).find("pose_names"), std::string::npos);
+    std::ostringstream output;
+    EXPECT_THROW((void)compareFiles("/nowhere/a.json", "/nowhere/b.json", output), Failure);
+}
+
+TEST(Compare, TheProgramAnswersWithItsExitCode) {
+    const test::TemporaryFolder folder;
+    json after = measurement();
+    after["methods"]["exact"]["drawn_tiles"] = 13;
+    const std::string old = test::quoted(folder.write("old.json", measurement().dump()));
+    const std::string now = test::quoted(folder.write("new.json", after.dump()));
+    EXPECT_EQ(test::runBenchBlind("--compare " + old + " " + now).code, 2);
+    EXPECT_EQ(test::runBenchBlind("--compare " + now + " " + old).code, 0);
+    EXPECT_EQ(test::runBenchBlind("--compare " + old + " /nowhere/new.json").code, 1);
+    EXPECT_EQ(test::runBenchBlind("--compare " + old).code, 1);
+    EXPECT_EQ(test::runBenchBlind("earth.osgb --compare " + old + " " + now).code, 1);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::bench
