@@ -144,6 +144,33 @@ TEST(CameraPath, NamesAMissingFile) {
     EXPECT_TRUE(contains(error, "/nowhere/path.csv"));
 }
 
+// Names that begin with the path's, so that figures can be summed up by path.
+TEST(CameraPath, TheShippedPathsAreGoodTogetherAndNamedForTheirFiles) {
+    const std::vector<std::string> names{"nadir",    "oblique",  "horizon", "rockies", "pole",
+                                         "dateline", "sensor10", "sensor2", "stereo",  "turning"};
+    std::vector<std::string> files;
+    for (const std::string& name : names) files.push_back(std::string(SHIPPED_PATHS) + "/" + name + ".csv");
+    std::string error;
+    ASSERT_TRUE(readCameraPathFiles(files, error).has_value()) << error;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const auto path = readCameraPathFile(files[i], error);
+        ASSERT_TRUE(path.has_value()) << error;
+        EXPECT_GE(path->size(), 6U) << names[i];
+        for (const CameraPose& pose : *path) EXPECT_EQ(pose.name.rfind(names[i] + "_", 0), 0U) << pose.name;
+    }
+}
+
+TEST(CameraPath, TheShippedStereoPathIsMadeOfPairs) {
+    std::string error;
+    const auto path = readCameraPathFile(std::string(SHIPPED_PATHS) + "/stereo.csv", error);
+    ASSERT_TRUE(path.has_value()) << error;
+    ASSERT_EQ(path->size() % 2, 0U);
+    for (std::size_t i = 0; i < path->size(); i += 2) {
+        EXPECT_LT((*path)[i].eyeRight, 0.0) << (*path)[i].name;
+        EXPECT_EQ((*path)[i].eyeRight, -(*path)[i + 1].eyeRight) << (*path)[i].name;
+    }
+}
+
 TEST(CameraPath, TheDemosPathIsGood) {
     std::string error;
     const auto path = readCameraPathFile(DEMO_PATH_FILE, error);
