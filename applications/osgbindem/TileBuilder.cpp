@@ -5,8 +5,10 @@
 
 #include "Failure.h"
 #include "NodeFile.h"
+#include "TileGeometry.h"
 #include "TileMesh.h"
 #include "TileNode.h"
+#include "TileTopology.h"
 
 namespace osgbindem {
 

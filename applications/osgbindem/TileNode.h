@@ -3,22 +3,19 @@
 
 #pragma once
 
-#include "HeightGrid.h"
-#include "TileMesh.h"
+#include "TileLayout.h"
 
+#include <osgAnalyticBin/AnalyticBin.h>
+
+#include <glm/vec3.hpp>
 #include <osg/Geometry>
 #include <osg/Group>
-#include <osg/Image>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace osgbindem {
-
-/// The vertices, normals and colours of a tile; the parts that tiles share are added by SharedParts.
-/// With an image the colours are in the texture.
-[[nodiscard]] osg::ref_ptr<osg::Geometry> makeGeometry(const TileMesh& mesh, const HeightGrid& heights,
-                                                       osg::Image* image);
 
 /// Puts the geometry at its place on the globe.
 [[nodiscard]] osg::ref_ptr<osg::Node> makePlaced(osg::Geometry& geometry, const glm::dvec3& originEcef);
