@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "GlobeOptions.h"
+
+#include <CsvTable.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+namespace osgAnalyticBin::globe {
+
+namespace {
+
+using flight::numberFrom;
+using flight::textFrom;
+using flight::trimmed;
+using osgbindem::TileId;
+
+enum class Applied { Yes, Unknown, Malformed };
+
+bool setWhole(int& target, const std::string& value, int least, int most) {
+    const auto number = numberFrom(value);
+    if (!number || *number < least || *number > most || *number != std::floor(*number)) return false;
+    target = static_cast<int>(*number);
+    return true;
+}
+
+bool setNumber(double& target, const std::string& value, double least, double most) {
+    const auto number = numberFrom(value);
+    if (!number || !(*number >= least && *number <= most)) return false;
+    target = *number;
+    return true;
+}
+
+bool setSwitch(bool& target, const std::string& value) {
+    target = value == "on";
+    return target || value == "off";
+}
+
+Applied applyItem(const std::string& item, GlobeOptions& options) {
+    const std::size_t equals = item.find('=');
+    const std::string key = trimmed(item.substr(0, equals));
+    const std::string value = equals == std::string::npos ? std::string() : trimmed(item.substr(equals + 1));
+    const auto applied = [](bool success) { return success ? Applied::Yes : Applied::Malformed; };
+    if (key == "levels") return applied(setWhole(options.levels, value, 0, GlobeOptions::kMostLevels));
+    if (key == "cells")
+        return applied(setWhole(options.cells, value, 2, GlobeOptions::kMostCells) && options.cells % 2 == 0);
+    if (key == "relief") return applied(setNumber(options.relief, value, 0.0, GlobeOptions::kMostRelief));
+    if (key == "lod") return applied(setNumber(options.lod, value, GlobeOptions::kLeastLod, GlobeOptions::kMostLod));
+    if (key == "bins") return applied(setSwitch(options.bins, value));
+    return Applied::Unknown;
+}
+
+std::string complaint(const std::string& item, const char* what) {
+    return std::string(kGlobeExtension) + ": " + what + " parameter \"" + item + "\"; allowed are " +
+           kAllowedParameters;
+}
+
+bool applyParameters(const std::string& parameters, GlobeOptions& options, std::string& error) {
+    std::istringstream items(parameters);
+    for (std::string item; std::getline(items, item, ',');) {
+        const Applied applied = applyItem(item, options);
+        if (applied == Applied::Yes) continue;
+        error = complaint(trimmed(item), applied == Applied::Unknown ? "unknown" : "malformed");
+        return false;
+    }
+    return true;
+}
+
+bool applyOptionString(const std::string& optionString, GlobeOptions& options, std::string& error) {
+    std::string blanks = optionString;
+    std::replace(blanks.begin(), blanks.end(), ',', ' ');
+    std::istringstream items(blanks);
+    for (std::string item; items >> item;) {
+        if (applyItem(item, options) != Applied::Malformed) continue;
+        error = complaint(item, "malformed");
+        return false;
+    }
+    return true;
+}
+
+// A name without its extension: what stands before the brackets, and in them.
+struct Parts {
+    std::string name;
+    std::string parameters;
+};
+
+Parts partsOf(const std::string& stem) {
+    if (stem.empty() || stem.back() != ')') return {stem, {}};
+    const std::size_t open = stem.rfind('(');
+    if (open == std::string::npos) return {stem, {}};
+    std::string name = stem.substr(0, open);
+    if (!name.empty() && name.back() == '.') name.pop_back();
+    return {name, stem.substr(open + 1, stem.size() - open - 2)};
+}
+
+std::optional<TileId> tileFrom(const std::string& name) {
+    TileId tile;
+    char rest = 0;
+    const bool isRead = std::sscanf(name.c_str(), "%2d-%9d-%9d%c", &tile.level, &tile.x, &tile.y, &rest) == 3;
+    return isRead ? std::optional(tile) : std::nullopt;
+}
+
+bool hasChildren(const TileId& tile, const GlobeOptions& options) {
+    return tile.level >= 0 && tile.level < options.levels && tile.x >= 0 && tile.x < tile.columns() && tile.y >= 0 &&
+           tile.y < tile.rows();
+}
+
+std::string withoutFolder(const std::string& fileName) {
+    return fileName.substr(fileName.find_last_of("/\\") + 1);
+}
+
+}  // namespace
+
+bool GlobeOptions::operator==(const GlobeOptions& other) const {
+    return levels == other.levels && cells == other.cells && relief == other.relief && lod == other.lod &&
+           bins == other.bins;
+}
+
+std::optional<GlobeName> globeNameOf(const std::string& fileName, const std::string& optionString, std::string& error) {
+    const std::string file = withoutFolder(fileName);
+    const Parts parts = partsOf(file.substr(0, file.rfind('.')));
+    GlobeName result;
+    result.tile = tileFrom(parts.name);
+    if (!result.tile) {
+        if (!applyOptionString(optionString, result.options, error)) return std::nullopt;
+        if (!parts.name.empty() && applyItem("levels=" + parts.name, result.options) != Applied::Yes) {
+            error = std::string(kGlobeExtension) + ": \"" + parts.name +
+                    "\" is no number of levels; give 0 to 24, for example 12." + kGlobeExtension;
+            return std::nullopt;
+        }
+    }
+    if (!applyParameters(parts.parameters, result.options, error)) return std::nullopt;
+    if (!result.tile || hasChildren(*result.tile, result.options)) return result;
+    error = std::string(kGlobeExtension) + ": tile \"" + parts.name + "\" has no children in a globe of " +
+            std::to_string(result.options.levels) + " levels";
+    return std::nullopt;
+}
+
+namespace {
+
+std::string parametersOf(const GlobeOptions& options) {
+    const GlobeOptions usual;
+    std::string text = "(levels=" + std::to_string(options.levels);
+    if (options.cells != usual.cells) text += ",cells=" + std::to_string(options.cells);
+    if (options.relief != usual.relief) text += ",relief=" + textFrom(options.relief);
+    if (options.lod != usual.lod) text += ",lod=" + textFrom(options.lod);
+    if (options.bins != usual.bins) text += ",bins=off";
+    return text + ")." + kGlobeExtension;
+}
+
+}  // namespace
+
+std::string childrenFileOf(const TileId& tile, const GlobeOptions& options) {
+    return std::to_string(tile.level) + '-' + std::to_string(tile.x) + '-' + std::to_string(tile.y) + '.' +
+           parametersOf(options);
+}
+
+std::string rootFileOf(const GlobeOptions& options) {
+    return parametersOf(options);
+}
+
+}  // namespace osgAnalyticBin::globe

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <TileLayout.h>
+#include <optional>
+#include <string>
+
+namespace osgAnalyticBin::globe {
+
+/// What a procedural globe is made of.
+struct GlobeOptions {
+    int levels = 12;  ///< below the 16 x 8 start tiles, 0 to 24
+    int cells = 16;   ///< along a tile's edge, even, 2 to 64
+    double relief =
+        8000.0;        ///< metres from the lowest terrain there may be, at the ellipsoid, to the highest; 0 to 20000
+    double lod = 4.0;  ///< half diagonals from its middle at which a tile is refined, 1 to 100
+    bool bins = true;  ///< whether tiles carry their bins, and the root its horizon
+
+    static constexpr int kMostLevels = 24;
+    static constexpr int kMostCells = 64;
+    static constexpr double kMostRelief = 20000.0;
+    static constexpr double kLeastLod = 1.0;
+    static constexpr double kMostLod = 100.0;
+
+    [[nodiscard]] bool operator==(const GlobeOptions& other) const;
+};
+
+inline constexpr const char* kGlobeExtension = "proceduralglobe";
+inline constexpr const char* kAllowedParameters =
+    "levels=0..24, cells=2..64 (even), relief=0..20000 (metres), lod=1..100, bins=on|off";
+
+/// What a file name asks for.
+struct GlobeName {
+    GlobeOptions options;
+    /// The tile whose children are asked for; nullopt: the root.
+    std::optional<osgbindem::TileId> tile;
+};
+
+/// Reads "LEVELS.proceduralglobe", "(levels=LEVELS,cells=CELLS).proceduralglobe", both at once as
+/// "LEVELS.(cells=CELLS).proceduralglobe", and the names of children, "LEVEL-X-Y.(...).proceduralglobe".
+/// `optionString`: a plugin option string; because every plugin reads that, items that are not ours are passed over.
+/// The name of the file wins; names of children say everything themselves.
+/// Returns: nullopt, with one line in `error`, when the name or a parameter is unknown, malformed or out of range.
+[[nodiscard]] std::optional<GlobeName> globeNameOf(const std::string& fileName, const std::string& optionString,
+                                                   std::string& error);
+
+/// The file with the children of a tile. Requires: a tile above the deepest level.
+[[nodiscard]] std::string childrenFileOf(const osgbindem::TileId& tile, const GlobeOptions& options);
+
+/// The root file.
+[[nodiscard]] std::string rootFileOf(const GlobeOptions& options);
+
+}  // namespace osgAnalyticBin::globe
