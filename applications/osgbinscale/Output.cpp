@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Output.h"
+
+#include "Failure.h"
+
+#include <CsvTable.h>
+#include <TextTable.h>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+namespace osgAnalyticBin::scale {
+
+namespace {
+
+using flight::textFrom;
+using Json = nlohmann::ordered_json;
+
+Json jsonOf(const TileTally& tiles) {
+    return {{"tested_tiles", tiles.tested},
+            {"kept_tiles", tiles.kept},
+            {"drawn_tiles", tiles.drawn},
+            {"deepest_tiles", tiles.leaves}};
+}
+
+Json jsonOf(const DepthRow& row) {
+    Json json{{"levels", row.levels}, {"method", row.method}};
+    json.update(jsonOf(row.tiles));
+    json["cull_ms"] = row.cullMs;
+    json["cull_spread_ms"] = row.cullSpreadMs;
+    json["cull_us_per_drawn_tile"] = row.usPerDrawnTile();
+    return json;
+}
+
+Json jsonOf(const ResidentRow& row) {
+    Json json{{"paged_lods", row.pagedLods}, {"method", row.method}};
+    json.update(jsonOf(row.tiles));
+    json["cull_ms"] = row.cullMs;
+    json["cull_spread_ms"] = row.cullSpreadMs;
+    json["update_ms"] = row.updateMs;
+    json["pager_below_target_ms"] = row.pagerIdleMs;
+    json["pager_above_target_ms"] = row.pagerFullMs;
+    return json;
+}
+
+Json jsonOf(const MemoryRow& row) {
+    return {{"method", row.method}, {"tiles", row.tiles}, {"bytes_per_tile", row.bytesPerTile}};
+}
+
+template <class Row>
+Json listOf(const std::vector<Row>& rows) {
+    Json list = Json::array();
+    for (const Row& row : rows) list.push_back(jsonOf(row));
+    return list;
+}
+
+// Every method with the value of its first row and that of its last.
+template <class Row, class Value>
+Json ratiosOf(std::vector<Row> rows, const Value& value) {
+    Json ratios = Json::object();
+    for (const Row& last : rows) {
+        const auto first =
+            std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.method == last.method; });
+        if (value(*first) > 0.0) ratios[last.method] = value(last) / value(*first);
+    }
+    return ratios;
+}
+
+Json depthRatios(std::vector<DepthRow> rows) {
+    const auto isShallow = [](const DepthRow& row) { return row.levels < 8; };
+    if (!std::all_of(rows.begin(), rows.end(), isShallow))
+        rows.erase(std::remove_if(rows.begin(), rows.end(), isShallow), rows.end());
+    std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.levels < b.levels; });
+    return ratiosOf(rows, [](const DepthRow& row) { return row.usPerDrawnTile(); });
+}
+
+Json residentRatios(std::vector<ResidentRow> rows) {
+    std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.pagedLods < b.pagedLods; });
+    return ratiosOf(rows, [](const ResidentRow& row) { return row.cullMs; });
+}
+
+// The columns of all lists, in the order in which they first come.
+std::vector<std::string> columnsOf(const Json& lists) {
+    std::vector<std::string> columns;
+    for (const auto& list : lists) {
+        for (const auto& row : list) {
+            for (const auto& item : row.items())
+                if (std::find(columns.begin(), columns.end(), item.key()) == columns.end())
+                    columns.push_back(item.key());
+        }
+    }
+    return columns;
+}
+
+std::string cellOf(const Json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    return value.is_number_float() ? textFrom(value.get<double>()) : value.dump();
+}
+
+Json listsOf(const Results& results) {
+    return {
+        {"depth", listOf(results.depth)}, {"residents", listOf(results.residents)}, {"memory", listOf(results.memory)}};
+}
+
+std::string shortText(const Json& value) {
+    if (!value.is_number_float()) return cellOf(value);
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value.get<double>());
+    return text;
+}
+
+}  // namespace
+
+std::string csvOf(const Results& results) {
+    const Json lists = listsOf(results);
+    const std::vector<std::string> columns = columnsOf(lists);
+    std::string text = "series";
+    for (const std::string& column : columns) text += "," + column;
+    text += "\n";
+    for (const auto& list : lists.items()) {
+        for (const auto& row : list.value()) {
+            text += list.key();
+            for (const std::string& column : columns)
+                text += "," + (row.contains(column) ? cellOf(row[column]) : std::string());
+            text += "\n";
+        }
+    }
+    return text;
+}
+
+std::string jsonOf(const Settings& settings, const Results& results) {
+    Json json{{"poses", settings.poses}, {"cells", settings.cells}, {"rounds", settings.rounds}};
+    json.update(listsOf(results));
+    json["ratios"] = {{"cull_us_per_drawn_tile", depthRatios(results.depth)},
+                      {"cull_ms_by_residents", residentRatios(results.residents)}};
+    return json.dump(2) + "\n";
+}
+
+void printTables(std::ostream& output, const Results& results) {
+    constexpr std::size_t kNameColumns = 2;
+    const Json lists = listsOf(results);
+    for (const auto& list : lists.items()) {
+        if (list.value().empty()) continue;
+        report::TextTable table(kNameColumns);
+        std::vector<std::string> titles;
+        for (const auto& item : list.value().front().items()) titles.push_back(item.key());
+        table.add(std::move(titles));
+        for (const auto& row : list.value()) {
+            std::vector<std::string> cells;
+            for (const auto& value : row) cells.push_back(shortText(value));
+            table.add(std::move(cells));
+        }
+        output << list.key() << '\n';
+        table.print(output);
+        output << '\n';
+    }
+}
+
+void writeFile(const std::string& file, const std::string& text) {
+    const std::string unfinished = file + ".tmp";
+    std::ofstream output(unfinished, std::ios::binary);
+    output << text;
+    output.close();
+    std::error_code problem;
+    if (output) std::filesystem::rename(unfinished, file, problem);
+    if (output && !problem) return;
+    std::filesystem::remove(unfinished, problem);
+    throw Failure(file + ": cannot be written; check that its folder is there and not full");
+}
+
+}  // namespace osgAnalyticBin::scale

@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "ScaleScene.h"
+
+#include "Failure.h"
+
+#include <osgAnalyticBin/AnalyticBin.h>
+
+#include <osgDB/Options>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+#include <osgUtil/UpdateVisitor>
+
+#include <CullWatcher.h>
+#include <TileCounter.h>
+#include <algorithm>
+#include <chrono>
+#include <typeinfo>
+
+namespace osgAnalyticBin::scale {
+
+namespace {
+
+constexpr int kWidth = 1280;
+constexpr int kHeight = 720;
+
+class PagedLodFinder : public osg::NodeVisitor {
+public:
+    PagedLodFinder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    using osg::NodeVisitor::apply;
+    void apply(osg::PagedLOD& node) override {
+        found.emplace_back(&node);
+        traverse(node);
+    }
+    std::vector<osg::ref_ptr<osg::PagedLOD>> found;
+};
+
+std::vector<osg::ref_ptr<osg::PagedLOD>> pagedLodsBelow(osg::Node& node) {
+    PagedLodFinder finder;
+    node.accept(finder);
+    return finder.found;
+}
+
+// Drawn tiles of the deepest level: those that carry a bin, or stand beside such, and page nothing.
+class LeafCounter : public flight::CullWatcher {
+public:
+    std::uint64_t count = 0;
+
+private:
+    static bool isLeaf(const osg::Node& node) { return typeid(node) == typeid(osg::Group) && hasStoredBin(node); }
+    void enter(osg::Node& node) override { _depth += isLeaf(node) ? 1 : 0; }
+    void leave(osg::Node& node) override { _depth -= isLeaf(node) ? 1 : 0; }
+    void draw(osg::Drawable&) override { count += _depth > 0 ? 1U : 0U; }
+
+    int _depth = 0;
+};
+
+class Stopwatch {
+public:
+    [[nodiscard]] double ms() const {
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - _begin).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point _begin = std::chrono::steady_clock::now();
+};
+
+osg::ref_ptr<osg::Group> readGlobe(const ScaleMethod& method, const globe::GlobeOptions& options) {
+    const std::string name = globe::rootFileOf(options) + ".(" + method.parameters + ").analyticbin";
+    osgDB::ReaderWriter::ReadResult result = osgDB::Registry::instance()->readNode(name, nullptr);
+    const osg::ref_ptr<osg::Node> node = result.getNode();
+    if (node && node->asGroup()) return node->asGroup();
+    throw Failure(name + ": cannot be read" + (result.message().empty() ? "" : ": " + result.message()) +
+                  "; install this project's modules or set OSG_LIBRARY_PATH");
+}
+
+}  // namespace
+
+void TileTally::add(const TileTally& other) {
+    tested += other.tested;
+    kept += other.kept;
+    drawn += other.drawn;
+    leaves += other.leaves;
+}
+
+Quartiles quartilesOf(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const auto at = [&](std::size_t part) { return values[(values.size() - 1) * part / 4]; };
+    return {at(1), at(2), at(3)};
+}
+
+std::vector<osg::ref_ptr<osg::PagedLOD>> loadChildren(osg::PagedLOD& node) {
+    constexpr unsigned int kFiner = 1;
+    const auto* const options = dynamic_cast<const osgDB::Options*>(node.getDatabaseOptions());
+    const osg::ref_ptr<osg::Node> file =
+        osgDB::readRefNodeFile(node.getDatabasePath() + node.getFileName(kFiner), options);
+    if (!file) throw Failure(node.getFileName(kFiner) + ": cannot be made");
+    node.addChild(file);
+    return pagedLodsBelow(*file);
+}
+
+void TileLoader::requestNodeFile(const std::string&, osg::NodePath& nodePath, float, const osg::FrameStamp*,
+                                 osg::ref_ptr<osg::Referenced>&, const osg::Referenced*) {
+    if (auto* const paged = dynamic_cast<osg::PagedLOD*>(nodePath.back())) _pending.emplace_back(paged);
+}
+
+bool TileLoader::load(std::size_t& pagedLods) {
+    const bool isAsked = !_pending.empty();
+    for (const osg::ref_ptr<osg::PagedLOD>& node : _pending) pagedLods += loadChildren(*node).size();
+    _pending.clear();
+    return isAsked;
+}
+
+ScaleScene::ScaleScene(const ScaleMethod& method, const globe::GlobeOptions& options)
+    : _method(method),
+      _root(readGlobe(method, options)),
+      _camera(new osg::Camera),
+      _frameStamp(new osg::FrameStamp),
+      _globe(flight::globeOf(*_root)),
+      _pagedLods(pagedLodsBelow(*_root).size()),
+      _visitor(new osgUtil::CullVisitor),
+      _stateGraph(new osgUtil::StateGraph),
+      _stage(new osgUtil::RenderStage),
+      _loader(new TileLoader),
+      _deaf(new flight::RequestCounter) {
+    _camera->setViewport(0, 0, kWidth, kHeight);
+    _camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    if (method.cullsNothing) _camera->setCullingMode(osg::CullSettings::NO_CULLING);
+    _camera->addChild(_root);
+    nextFrame();
+}
+
+void ScaleScene::nextFrame() {
+    constexpr double kFrameRate = 60.0;
+    const unsigned int frame = _frameStamp->getFrameNumber() + 1;
+    _frameStamp->setFrameNumber(frame);
+    _frameStamp->setReferenceTime(frame / kFrameRate);
+    _frameStamp->setSimulationTime(frame / kFrameRate);
+}
+
+void ScaleScene::cull(osg::NodeVisitor::DatabaseRequestHandler& requests) {
+    _visitor->setDatabaseRequestHandler(&requests);
+    flight::cullScene(*_visitor, *_camera, *_frameStamp, *_stateGraph, *_stage);
+    _stage->sort();
+    _stateGraph->prune();
+}
+
+void ScaleScene::settle(const flight::CameraPose& pose) {
+    _camera->setViewMatrix(flight::viewMatrixOf(pose, _globe));
+    _camera->setProjectionMatrix(flight::projectionMatrixOf(pose, _camera->getViewport()->aspectRatio()));
+    _globe.ellipsoid->convertLatLongHeightToXYZ(pose.eye.latitude, pose.eye.longitude, pose.eye.altitude, _eyeEcef.x(),
+                                                _eyeEcef.y(), _eyeEcef.z());
+    do {
+        nextFrame();
+        _visitor->reset();
+        _stateGraph->clean();
+        _stage->reset();
+        cull(*_loader);
+    } while (_loader->load(_pagedLods));
+}
+
+void ScaleScene::fill(std::size_t pagedLods) {
+    if (!_isFilling) {
+        for (const auto& node : pagedLodsBelow(*_root)) {
+            const bool isBeyond = osg::Vec3d(node->getCenter()) * _eyeEcef < 0.0;
+            if (isBeyond && node->getNumChildren() == 1) _frontier.push_back(node);
+        }
+        _isFilling = true;
+    }
+    while (_pagedLods < pagedLods) {
+        if (_frontier.empty())
+            throw Failure("--residents: a globe of this depth has no " + std::to_string(pagedLods) +
+                          " PagedLODs away from the eye");
+        const auto children = loadChildren(*_frontier.front());
+        _frontier.pop_front();
+        _frontier.insert(_frontier.end(), children.begin(), children.end());
+        _pagedLods += children.size();
+    }
+}
+
+TileTally ScaleScene::tally() {
+    const flight::TileCounts counts = flight::TileCounter::count(*_camera, *_frameStamp);
+    const osg::ref_ptr<LeafCounter> leaves = new LeafCounter;
+    leaves->watch(*_camera, *_frameStamp);
+    return {counts.tested, counts.kept, counts.drawn, leaves->count};
+}
+
+double ScaleScene::cullMs() {
+    nextFrame();
+    _visitor->reset();
+    _stateGraph->clean();
+    _stage->reset();
+    const Stopwatch watch;
+    cull(*_deaf);
+    return watch.ms();
+}
+
+double ScaleScene::updateMs() {
+    nextFrame();
+    const osg::ref_ptr<osgUtil::UpdateVisitor> visitor = new osgUtil::UpdateVisitor;
+    visitor->setFrameStamp(_frameStamp);
+    visitor->setTraversalNumber(_frameStamp->getFrameNumber());
+    const Stopwatch watch;
+    _camera->accept(*visitor);
+    return watch.ms();
+}
+
+}  // namespace osgAnalyticBin::scale

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "Settings.h"
+
+#include <osg/Camera>
+#include <osg/PagedLOD>
+#include <osgUtil/CullVisitor>
+
+#include <CameraView.h>
+#include <GlobeOptions.h>
+#include <cstddef>
+#include <deque>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace osgAnalyticBin::scale {
+
+/// Reads what PagedLODs ask for at once, in the thread that calls load().
+class TileLoader : public osg::NodeVisitor::DatabaseRequestHandler {
+public:
+    void requestNodeFile(const std::string& fileName, osg::NodePath& nodePath, float priority,
+                         const osg::FrameStamp* frameStamp, osg::ref_ptr<osg::Referenced>& request,
+                         const osg::Referenced* options) override;
+
+    /// Merges everything asked for since the last call, and counts the PagedLODs that came.
+    /// Returns: whether anything was asked for. Throws: Failure.
+    bool load(std::size_t& pagedLods);
+
+private:
+    std::vector<osg::ref_ptr<osg::PagedLOD>> _pending;
+};
+
+/// Reads the finer children of a PagedLOD and merges them as the DatabasePager does.
+/// Returns: the PagedLODs among them. Throws: Failure.
+std::vector<osg::ref_ptr<osg::PagedLOD>> loadChildren(osg::PagedLOD& node);
+
+/// What a cull traversal found.
+struct TileTally {
+    std::uint64_t tested = 0;
+    std::uint64_t kept = 0;
+    std::uint64_t drawn = 0;
+    std::uint64_t leaves = 0;  ///< drawn tiles of the deepest level
+
+    void add(const TileTally& other);
+};
+
+/// A procedural globe, culled by one method without a window: tiles are loaded in the calling thread.
+class ScaleScene {
+public:
+    /// Throws: Failure when the globe cannot be read.
+    ScaleScene(const ScaleMethod& method, const globe::GlobeOptions& options);
+    ScaleScene(const ScaleScene&) = delete;
+    ScaleScene& operator=(const ScaleScene&) = delete;
+
+    /// Stands at a pose until all that it asks for is loaded. Throws: Failure.
+    void settle(const flight::CameraPose& pose);
+
+    /// Loads tiles of the hemisphere away from the eye, coarse ones first, until there are that many PagedLODs in all.
+    /// Requires: settle(). Throws: Failure when the globe has no more.
+    void fill(std::size_t pagedLods);
+
+    [[nodiscard]] TileTally tally();
+
+    /// Milliseconds of one cull traversal and its sorting.
+    [[nodiscard]] double cullMs();
+
+    /// Milliseconds of one update traversal.
+    [[nodiscard]] double updateMs();
+
+    [[nodiscard]] osg::Group& root() { return *_root; }
+    [[nodiscard]] osg::FrameStamp& frameStamp() { return *_frameStamp; }
+    [[nodiscard]] const std::string& method() const { return _method.name; }
+    [[nodiscard]] std::size_t pagedLods() const { return _pagedLods; }
+
+private:
+    void nextFrame();
+    void cull(osg::NodeVisitor::DatabaseRequestHandler& requests);
+
+    ScaleMethod _method;
+    osg::ref_ptr<osg::Group> _root;
+    osg::ref_ptr<osg::Camera> _camera;
+    osg::ref_ptr<osg::FrameStamp> _frameStamp;
+    flight::Globe _globe;
+    osg::Vec3d _eyeEcef;
+    std::size_t _pagedLods = 0;
+    std::deque<osg::ref_ptr<osg::PagedLOD>> _frontier;
+    bool _isFilling = false;
+    // What osgUtil::SceneView keeps from frame to frame for its cull stage.
+    osg::ref_ptr<osgUtil::CullVisitor> _visitor;
+    osg::ref_ptr<osgUtil::StateGraph> _stateGraph;
+    osg::ref_ptr<osgUtil::RenderStage> _stage;
+    osg::ref_ptr<TileLoader> _loader;
+    osg::ref_ptr<osg::NodeVisitor::DatabaseRequestHandler> _deaf;
+};
+
+/// The first quartile, the median and the third quartile of some times.
+struct Quartiles {
+    double lower = 0.0;
+    double median = 0.0;
+    double upper = 0.0;
+};
+
+/// Requires: at least one.
+[[nodiscard]] Quartiles quartilesOf(std::vector<double> values);
+
+/// Measures every scene in turn, each round starting with another one: one measurement that is not counted, then
+/// three that are. Returns: one result for each scene.
+template <class Scenes, class Measure>
+[[nodiscard]] std::vector<Quartiles> measuredInTurns(const Scenes& scenes, int rounds, const Measure& measure) {
+    constexpr int kTimedPerTurn = 3;
+    std::vector<std::vector<double>> times(scenes.size());
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t i = 0; i < scenes.size(); ++i) {
+            const std::size_t at = (i + static_cast<std::size_t>(round)) % scenes.size();
+            (void)measure(*scenes[at]);
+            for (int k = 0; k < kTimedPerTurn; ++k) times[at].push_back(measure(*scenes[at]));
+        }
+    }
+    std::vector<Quartiles> result;
+    for (std::vector<double>& values : times) result.push_back(quartilesOf(std::move(values)));
+    return result;
+}
+
+}  // namespace osgAnalyticBin::scale
