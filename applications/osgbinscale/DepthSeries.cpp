@@ -68,8 +68,8 @@ std::vector<DepthRow> measureDepth(const Settings& settings) {
         }
         const auto times = measuredInTurns(scenes, settings.rounds, [](ScaleScene& scene) { return scene.cullMs(); });
         for (std::size_t i = 0; i < scenes.size(); ++i) {
-            rows[i].cullMs += times[i].median;
-            rows[i].cullSpreadMs += times[i].upper - times[i].lower;
+            rows[i].cullMs += times[i].ms;
+            rows[i].cullSpreadMs += times[i].spread;
         }
     }
     return rows;

@@ -29,15 +29,16 @@ MemoryRow memoryOf(const std::string& name, const ScaleMethod& method, const Set
     // What is loaded once, and the start tiles, do not count.
     const std::size_t before = scene.pagedLods();
     const double bytes = allocatedBytes();
+    const Stopwatch watch;
     scene.fill(before + static_cast<std::size_t>(settings.memoryTiles));
-    const std::size_t tiles = scene.pagedLods() - before;
-    return {name, tiles, (allocatedBytes() - bytes) / static_cast<double>(tiles)};
+    const double us = 1000.0 * watch.ms();
+    const auto tiles = static_cast<double>(scene.pagedLods() - before);
+    return {name, scene.pagedLods() - before, (allocatedBytes() - bytes) / tiles, us / tiles};
 }
 
 }  // namespace
 
 std::vector<MemoryRow> measureMemory(const Settings& settings) {
-    if (allocatedBytes() == 0.0) return {};
     const ScaleMethod sphere = scaleMethodFromName("sphere");
     std::vector<MemoryRow> rows{memoryOf("no bins", sphere, settings, false),
                                 memoryOf("stored bins", sphere, settings, true)};

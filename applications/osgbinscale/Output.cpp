@@ -49,7 +49,10 @@ Json jsonOf(const ResidentRow& row) {
 }
 
 Json jsonOf(const MemoryRow& row) {
-    return {{"method", row.method}, {"tiles", row.tiles}, {"bytes_per_tile", row.bytesPerTile}};
+    return {{"method", row.method},
+            {"tiles", row.tiles},
+            {"bytes_per_tile", row.bytesPerTile},
+            {"load_us_per_tile", row.loadUsPerTile}};
 }
 
 template <class Row>

@@ -6,7 +6,6 @@
 
 #include <osgDB/DatabasePager>
 
-#include <chrono>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -60,9 +59,9 @@ public:
     void setTarget(unsigned int pagedLods) { _pager->setTargetMaximumNumberOfPageLOD(pagedLods); }
 
     [[nodiscard]] double ms() {
-        const auto begin = std::chrono::steady_clock::now();
+        const Stopwatch watch;
         _pager->updateSceneGraph(_scene.frameStamp());
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+        return watch.ms();
     }
 
 private:
@@ -100,11 +99,11 @@ std::vector<ResidentRow> measureResidents(const Settings& settings) {
     const auto idle = pagerMs(std::numeric_limits<unsigned int>::max());
     const auto full = pagerMs(0);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        rows[i].cullMs = cull[i].median;
-        rows[i].cullSpreadMs = cull[i].upper - cull[i].lower;
-        rows[i].updateMs = update[i].median;
-        rows[i].pagerIdleMs = idle[i].median;
-        rows[i].pagerFullMs = full[i].median;
+        rows[i].cullMs = cull[i].ms;
+        rows[i].cullSpreadMs = cull[i].spread;
+        rows[i].updateMs = update[i].ms;
+        rows[i].pagerIdleMs = idle[i].ms;
+        rows[i].pagerFullMs = full[i].ms;
     }
     return rows;
 }

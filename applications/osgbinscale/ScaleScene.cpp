@@ -15,7 +15,6 @@
 #include <CullWatcher.h>
 #include <TileCounter.h>
 #include <algorithm>
-#include <chrono>
 #include <typeinfo>
 
 namespace osgAnalyticBin::scale {
@@ -57,16 +56,6 @@ private:
     int _depth = 0;
 };
 
-class Stopwatch {
-public:
-    [[nodiscard]] double ms() const {
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - _begin).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point _begin = std::chrono::steady_clock::now();
-};
-
 osg::ref_ptr<osg::Group> readGlobe(const ScaleMethod& method, const globe::GlobeOptions& options) {
     const std::string name = globe::rootFileOf(options) + ".(" + method.parameters + ").analyticbin";
     osgDB::ReaderWriter::ReadResult result = osgDB::Registry::instance()->readNode(name, nullptr);
@@ -85,10 +74,10 @@ void TileTally::add(const TileTally& other) {
     leaves += other.leaves;
 }
 
-Quartiles quartilesOf(std::vector<double> values) {
+Timing timingOf(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const auto at = [&](std::size_t part) { return values[(values.size() - 1) * part / 4]; };
-    return {at(1), at(2), at(3)};
+    return {at(1), at(3) - at(1)};
 }
 
 std::vector<osg::ref_ptr<osg::PagedLOD>> loadChildren(osg::PagedLOD& node) {
@@ -138,6 +127,9 @@ void ScaleScene::nextFrame() {
     _frameStamp->setFrameNumber(frame);
     _frameStamp->setReferenceTime(frame / kFrameRate);
     _frameStamp->setSimulationTime(frame / kFrameRate);
+    _visitor->reset();
+    _stateGraph->clean();
+    _stage->reset();
 }
 
 void ScaleScene::cull(osg::NodeVisitor::DatabaseRequestHandler& requests) {
@@ -154,9 +146,6 @@ void ScaleScene::settle(const flight::CameraPose& pose) {
                                                 _eyeEcef.y(), _eyeEcef.z());
     do {
         nextFrame();
-        _visitor->reset();
-        _stateGraph->clean();
-        _stage->reset();
         cull(*_loader);
     } while (_loader->load(_pagedLods));
 }
@@ -189,9 +178,6 @@ TileTally ScaleScene::tally() {
 
 double ScaleScene::cullMs() {
     nextFrame();
-    _visitor->reset();
-    _stateGraph->clean();
-    _stage->reset();
     const Stopwatch watch;
     cull(*_deaf);
     return watch.ms();

@@ -11,6 +11,7 @@
 
 #include <CameraView.h>
 #include <GlobeOptions.h>
+#include <chrono>
 #include <cstddef>
 #include <deque>
 #include <string>
@@ -97,20 +98,31 @@ private:
     osg::ref_ptr<osg::NodeVisitor::DatabaseRequestHandler> _deaf;
 };
 
-/// The first quartile, the median and the third quartile of some times.
-struct Quartiles {
-    double lower = 0.0;
-    double median = 0.0;
-    double upper = 0.0;
+/// Milliseconds since it was made.
+class Stopwatch {
+public:
+    [[nodiscard]] double ms() const {
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - _begin).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point _begin = std::chrono::steady_clock::now();
+};
+
+/// Of some times: the first quartile, since what else the machine does only adds to them, and the distance from there
+/// to the third.
+struct Timing {
+    double ms = 0.0;
+    double spread = 0.0;
 };
 
 /// Requires: at least one.
-[[nodiscard]] Quartiles quartilesOf(std::vector<double> values);
+[[nodiscard]] Timing timingOf(std::vector<double> values);
 
 /// Measures every scene in turn, each round starting with another one: one measurement that is not counted, then
 /// three that are. Returns: one result for each scene.
 template <class Scenes, class Measure>
-[[nodiscard]] std::vector<Quartiles> measuredInTurns(const Scenes& scenes, int rounds, const Measure& measure) {
+[[nodiscard]] std::vector<Timing> measuredInTurns(const Scenes& scenes, int rounds, const Measure& measure) {
     constexpr int kTimedPerTurn = 3;
     std::vector<std::vector<double>> times(scenes.size());
     for (int round = 0; round < rounds; ++round) {
@@ -120,8 +132,8 @@ template <class Scenes, class Measure>
             for (int k = 0; k < kTimedPerTurn; ++k) times[at].push_back(measure(*scenes[at]));
         }
     }
-    std::vector<Quartiles> result;
-    for (std::vector<double>& values : times) result.push_back(quartilesOf(std::move(values)));
+    std::vector<Timing> result;
+    for (std::vector<double>& values : times) result.push_back(timingOf(std::move(values)));
     return result;
 }
 

@@ -41,13 +41,13 @@ struct ResidentRow {
 struct MemoryRow {
     std::string method;  ///< "no bins", "stored bins", or a method
     std::size_t tiles = 0;
-    double bytesPerTile = 0.0;
+    double bytesPerTile = 0.0;   ///< 0 where malloc does not count
+    double loadUsPerTile = 0.0;  ///< making the tile and installing its bin, in the pager's thread as a rule
 };
 
 /// Throws: Failure.
 [[nodiscard]] std::vector<DepthRow> measureDepth(const Settings& settings);
 [[nodiscard]] std::vector<ResidentRow> measureResidents(const Settings& settings);
-/// Empty where malloc does not count.
 [[nodiscard]] std::vector<MemoryRow> measureMemory(const Settings& settings);
 
 /// The flight's stops, from 10 000 km above the terrain down to where tiles of the deepest level are near enough.

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+//
+// The plugin and the programs as users run them.
+
+#include <gtest/gtest.h>
+#include <osg/CoordinateSystemNode>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <support/StockPrograms.h>
+#include <support/TemporaryFolder.h>
+#include <unistd.h>
+
+namespace osgAnalyticBin {
+namespace {
+
+using nlohmann::json;
+using test::Modules;
+using test::Outcome;
+using test::TemporaryFolder;
+
+constexpr const char* kQuiet = "ASAN_OPTIONS=detect_leaks=0";
+
+Outcome runScale(const std::string& arguments) {
+    return test::runStock("timeout 300 " + test::quoted(SCALE_FILE) + ' ' + arguments, Modules::Absent, kQuiet);
+}
+
+json jsonFile(const std::string& file) {
+    return json::parse(test::textOfFile(file), nullptr, false);
+}
+
+// Needs OSG_LIBRARY_PATH.
+TEST(GlobePlugin, OpensByNameAloneAndBelowTheBins) {
+    for (const char* const name :
+         {"2.proceduralglobe", "(levels=2,cells=4).proceduralglobe", "2.proceduralglobe.(method=exact).analyticbin",
+          "1-5-6.(levels=2).proceduralglobe"}) {
+        const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(name);
+        ASSERT_TRUE(node) << name;
+        EXPECT_TRUE(node->getBound().valid()) << name;
+    }
+}
+
+TEST(GlobePlugin, SaysWhatIsWrong) {
+    osgDB::ReaderWriter::ReadResult result =
+        osgDB::Registry::instance()->readNode("(cells=3).proceduralglobe", nullptr);
+    EXPECT_FALSE(result.validNode());
+    EXPECT_NE(result.message().find("malformed parameter \"cells=3\""), std::string::npos) << result.message();
+}
+
+TEST(ScaleProgram, WritesWhatItMeasured) {
+    const TemporaryFolder folder;
+    const Outcome outcome = runScale(
+        "--levels 2,4 --methods none,sphere,exact+horizon+reverse --residents 1,600 --memory-tiles 40 --poses 3 "
+        "--cells 4 --rounds 1 --json " +
+        test::quoted(folder / "scale.json") + " --csv " + test::quoted(folder / "scale.csv"));
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+    const json result = jsonFile(folder / "scale.json");
+    ASSERT_EQ(result["depth"].size(), 6U);
+    for (const json& row : result["depth"]) {
+        EXPECT_GT(row["deepest_tiles"], 0) << row;
+        EXPECT_GE(row["drawn_tiles"], row["deepest_tiles"]);
+        EXPECT_GE(row["tested_tiles"], row["kept_tiles"]);
+        EXPECT_GT(row["cull_us_per_drawn_tile"], 0.0);
+    }
+    EXPECT_LT(result["depth"][2]["drawn_tiles"], result["depth"][1]["drawn_tiles"]);
+    EXPECT_LT(result["depth"][1]["drawn_tiles"], result["depth"][0]["drawn_tiles"]);
+    ASSERT_EQ(result["residents"].size(), 6U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        // The same view, whatever else is in memory.
+        EXPECT_EQ(result["residents"][i]["tested_tiles"], result["residents"][i + 3]["tested_tiles"]);
+        EXPECT_EQ(result["residents"][i]["drawn_tiles"], result["residents"][i + 3]["drawn_tiles"]);
+        EXPECT_GE(result["residents"][i + 3]["paged_lods"], 600);
+    }
+    ASSERT_EQ(result["memory"].size(), 4U);
+    EXPECT_EQ(result["memory"][0]["method"], "no bins");
+    EXPECT_EQ(result["ratios"]["cull_us_per_drawn_tile"].size(), 3U);
+    const std::string csv = test::textOfFile(folder / "scale.csv");
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 17);
+    EXPECT_EQ(csv.find("series,levels,method,tested_tiles"), 0U);
+}
+
+TEST(ScaleProgram, DrawsFigures) {
+    if (!std::filesystem::exists("/usr/bin/gnuplot")) GTEST_SKIP() << "needs gnuplot";
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        runScale("--series depth --levels 1,2 --poses 2 --cells 2 --rounds 1 --plot " + test::quoted(folder.path()));
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+    std::set<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+        files.insert(entry.path().filename().string());
+        EXPECT_GT(entry.file_size(), 1000U);
+    }
+    EXPECT_EQ(files, (std::set<std::string>{"depth.png", "depth.svg"}));
+}
+
+TEST(ScaleProgram, SaysInOneLineWhatIsWrong) {
+    const struct {
+        const char* arguments;
+        const char* part;
+    } cases[] = {{"--methods cube", "--methods: unknown method \"cube\""},
+                 {"--methods sphere+horizon", "--methods: unknown method"},
+                 {"--levels 25", "--levels"},
+                 {"--cells 3", "--cells: 3 is odd"},
+                 {"--series memory,shape", "--series: unknown series \"shape\""},
+                 {"--json /absent/scale.json", "--json: there is no folder"},
+                 {"--residents 1000000 --series residents --methods sphere --rounds 0", "--rounds"}};
+    for (const auto& wrong : cases) {
+        const Outcome outcome = runScale(wrong.arguments);
+        EXPECT_EQ(outcome.code, 1) << wrong.arguments;
+        EXPECT_EQ(outcome.linesWith("osgbinscale: "), 1) << outcome.text;
+        EXPECT_EQ(outcome.linesWith(wrong.part), 1) << outcome.text;
+    }
+    EXPECT_EQ(runScale("--help").code, 0);
+}
+
+// From high above, across the date line, near a pole, along the ground, through a narrow opening.
+constexpr const char* kPath =
+    "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg,near,far\n"
+    "dateline,-18,179.5,300000,-16,-179,0,60,10000,5000000\n"
+    "pole,89,0,60000,89.9,20,4000,60,1000,2000000\n"
+    "ground,45,9,9000,45.2,9,4000,60,100,800000\n"
+    "narrow,10,10,200000,14,11,4000,4,10000,4000000\n";
+
+TEST(GlobePictures, AreThoseWithoutCulling) {
+    if (!std::filesystem::exists(XVFB_RUN_FILE)) GTEST_SKIP() << "needs xvfb-run";
+    const TemporaryFolder folder;
+    const std::string result = folder / "sums.json";
+    const std::string display = test::quoted(XVFB_RUN_FILE) + " -a -n " + std::to_string(100 + getpid() % 5000) +
+                                " -s '-screen 0 640x480x24' timeout 300 ";
+    const Outcome outcome =
+        test::runStock(display + test::quoted(BENCH_FILE) +
+                           " '(levels=5,cells=4).proceduralglobe' --size 320x240 --repeats 1 --path " +
+                           test::quoted(folder.write("path.csv", kPath)) + " --json " + test::quoted(result),
+                       Modules::Absent, std::string("LIBGL_ALWAYS_SOFTWARE=1 ") + kQuiet);
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+    const json methods = jsonFile(result)["methods"];
+    ASSERT_GE(methods.size(), 4U);
+    for (const auto& method : methods.items()) {
+        EXPECT_EQ(method.value()["differing_pixels"], 0) << method.key();
+        EXPECT_EQ(method.value()["false_culls"], 0) << method.key();
+        EXPECT_GT(method.value()["files_requested"], 0) << method.key();
+        EXPECT_EQ(method.value()["bytes"], 0) << method.key();
+    }
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin
