@@ -27,6 +27,9 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kRadiansPerDegree = kPi / 180.0;
 
+// Of the relief, how much is coloured as the bottom of a sea.
+constexpr double kSea = 0.45;
+
 core::Ellipsoid wgs84() {
     const osg::ref_ptr<osg::EllipsoidModel> model = new osg::EllipsoidModel;
     return {model->getRadiusEquator(), model->getRadiusPolar()};
@@ -174,7 +177,7 @@ osg::ref_ptr<osg::Geometry> ProceduralGlobe::mesh(const Posts& posts, const glm:
     const auto add = [&](const glm::dvec3& ecef, int column, int row) {
         vertices->push_back(toOsg(glm::vec3(rounded(ecef, quantum) - originEcef)));
         normals->push_back(toOsg(posts.normal(column, row)));
-        const osgbindem::Rgb colour = osgbindem::hypsometricColour(posts.height(column, row));
+        const osgbindem::Rgb colour = osgbindem::hypsometricColour(posts.height(column, row) - kSea * _options.relief);
         colours->push_back(osg::Vec4ub(colour[0], colour[1], colour[2], 255));
     };
     for (int row = 0; row <= cells; ++row)

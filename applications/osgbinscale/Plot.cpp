@@ -53,6 +53,13 @@ std::string depthPlot(const std::vector<DepthRow>& rows) {
            });
 }
 
+std::string flightPlot(const std::vector<DepthRow>& rows) {
+    return "set title 'Cull time of the flight'\nset xlabel 'levels below the start tiles'\n"
+           "set ylabel 'milliseconds, one frame at each pose'\nset yrange [0:*]\n" +
+           linesOf<DepthRow>(
+               rows, [](const DepthRow& row) { return std::pair(static_cast<double>(row.levels), row.cullMs); });
+}
+
 std::string residentPlot(const std::vector<ResidentRow>& rows) {
     return "set title 'Cull time of one view'\nset xlabel 'PagedLODs in memory'\nset logscale x\n"
            "set ylabel 'milliseconds'\nset yrange [0:*]\n" +
@@ -91,7 +98,7 @@ void draw(const std::string& folder, const std::string& name, const std::string&
         const std::string file = folder + "/" + name + kind.extension;
         const std::string unfinished = file + ".tmp";
         runGnuplot(std::string("set terminal ") + kind.terminal + "\nset output " + quotedForGnuplot(unfinished) +
-                   "\nset key top left\nset grid\n" + commands + "unset output\n");
+                   "\nset key bottom right\nset grid\n" + commands + "unset output\n");
         std::error_code problem;
         std::filesystem::rename(unfinished, file, problem);
         if (problem) throw Failure(file + ": cannot be written; check that its folder is there and not full");
@@ -102,6 +109,7 @@ void draw(const std::string& folder, const std::string& name, const std::string&
 
 void plot(const std::string& folder, const Results& results) {
     if (!results.depth.empty()) draw(folder, "depth", depthPlot(results.depth));
+    if (!results.depth.empty()) draw(folder, "flight", flightPlot(results.depth));
     if (!results.residents.empty()) draw(folder, "residents", residentPlot(results.residents));
     if (!results.memory.empty()) draw(folder, "memory", memoryPlot(results.memory));
 }

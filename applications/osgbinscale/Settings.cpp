@@ -68,7 +68,8 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
         ->check(CLI::Range(1, 10000));
     app.add_option("--csv", settings.csv, "file for the figures, a line for each method and measurement");
     app.add_option("--json", settings.json, "file for the figures and the ratios between them");
-    app.add_option("--plot", settings.plot, "folder for depth, residents and memory as .svg and .png\n(needs gnuplot)");
+    app.add_option("--plot", settings.plot,
+                   "folder for depth, flight, residents and memory as .svg\nand .png (needs gnuplot)");
 }
 
 // What would only be found out at the end is looked at before.

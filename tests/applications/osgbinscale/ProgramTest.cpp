@@ -97,7 +97,7 @@ TEST(ScaleProgram, DrawsFigures) {
         files.insert(entry.path().filename().string());
         EXPECT_GT(entry.file_size(), 1000U);
     }
-    EXPECT_EQ(files, (std::set<std::string>{"depth.png", "depth.svg"}));
+    EXPECT_EQ(files, (std::set<std::string>{"depth.png", "depth.svg", "flight.png", "flight.svg"}));
 }
 
 TEST(ScaleProgram, SaysInOneLineWhatIsWrong) {
