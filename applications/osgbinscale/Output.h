@@ -32,6 +32,9 @@ void printTables(std::ostream& output, const Results& results);
 /// Writes a file under another name and renames it. Throws: Failure; what is there under its name stays as it was then.
 void writeFile(const std::string& file, const std::string& text);
 
+/// Throws: Failure where gnuplot is not installed.
+void requireGnuplot();
+
 /// Draws depth (time for each drawn tile), flight (time of the whole flight), residents and memory into a folder, each
 /// as .svg and .png. Throws: Failure.
 void plot(const std::string& folder, const Results& results);

@@ -6,6 +6,7 @@
 
 #include <CsvTable.h>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -76,9 +77,12 @@ std::string memoryPlot(const std::vector<MemoryRow>& rows) {
 }
 
 void runGnuplot(const std::string& script) {
-    std::FILE* const pipe = ::popen("gnuplot 2>&1 >/dev/null", "w");
+    // A program that is not there reads nothing.
+    const auto before = std::signal(SIGPIPE, SIG_IGN);
+    std::FILE* const pipe = ::popen("{ gnuplot; } >/dev/null 2>&1", "w");
     const bool isWritten = pipe && std::fwrite(script.data(), 1, script.size(), pipe) == script.size();
     const int code = pipe ? ::pclose(pipe) : -1;
+    (void)std::signal(SIGPIPE, before);
     if (!isWritten || code != 0) throw Failure("--plot: gnuplot failed; install the package gnuplot-nox");
 }
 
@@ -106,6 +110,10 @@ void draw(const std::string& folder, const std::string& name, const std::string&
 }
 
 }  // namespace
+
+void requireGnuplot() {
+    runGnuplot("exit\n");
+}
 
 void plot(const std::string& folder, const Results& results) {
     if (!results.depth.empty()) draw(folder, "depth", depthPlot(results.depth));

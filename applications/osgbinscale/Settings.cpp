@@ -30,7 +30,7 @@ constexpr const char* kFooter =
     "Times are first quartiles: what else the machine does only adds to them; cull_spread_ms is the distance to the\n"
     "third. Figures of the flight are sums over its poses. deepest_tiles: drawn tiles of the deepest level.\n\n"
     "Methods: none, sphere (OSG's own), and BASE[+horizon][+reverse] with BASE quadratic, exact, paper or corners.\n"
-    "Exit code: 0; 1 when something failed: one line says what, and no file is written.\n\n"
+    "Exit code: 0; 1 when something failed: one line says what.\n\n"
     "Example:\n"
     "  osgbinscale --levels 8,20 --residents 1000,100000 --json scale.json --plot figures";
 

@@ -31,6 +31,7 @@ void addModuleFolder() {
 }
 
 void measure(const Settings& settings) {
+    if (!settings.plot.empty()) requireGnuplot();
     Results results;
     // First, while little has been allocated and freed.
     if (settings.measuresMemory) results.memory = measureMemory(settings);

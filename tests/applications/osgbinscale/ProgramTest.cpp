@@ -100,6 +100,14 @@ TEST(ScaleProgram, DrawsFigures) {
     EXPECT_EQ(files, (std::set<std::string>{"depth.png", "depth.svg", "flight.png", "flight.svg"}));
 }
 
+TEST(ScaleProgram, SaysAtOnceThatGnuplotIsMissing) {
+    const TemporaryFolder folder;
+    const Outcome outcome = test::runStock(test::quoted(SCALE_FILE) + " --plot " + test::quoted(folder.path()),
+                                           Modules::Absent, std::string("PATH=/absent ") + kQuiet);
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_EQ(outcome.text, "osgbinscale: --plot: gnuplot failed; install the package gnuplot-nox\n");
+}
+
 TEST(ScaleProgram, SaysInOneLineWhatIsWrong) {
     const struct {
         const char* arguments;
