@@ -141,7 +141,7 @@ void ScaleScene::cull(osg::NodeVisitor::DatabaseRequestHandler& requests) {
 
 void ScaleScene::settle(const flight::CameraPose& pose) {
     _camera->setViewMatrix(flight::viewMatrixOf(pose, _globe));
-    _camera->setProjectionMatrix(flight::projectionMatrixOf(pose, _camera->getViewport()->aspectRatio()));
+    _camera->setProjectionMatrix(flight::projectionMatrixOf(pose, _globe, _camera->getViewport()->aspectRatio()));
     _globe.ellipsoid->convertLatLongHeightToXYZ(pose.eye.latitude, pose.eye.longitude, pose.eye.altitude, _eyeEcef.x(),
                                                 _eyeEcef.y(), _eyeEcef.z());
     do {
