@@ -18,7 +18,7 @@ struct CullTime {
 
 /// Times osgUtil's cull traversal and the sorting of what it finds, of every scene at its present pose. The
 /// scenes take turns, starting with another one each round, so that what slows the machine down slows all of them;
-/// every turn begins with a traversal that is not timed.
+/// every turn begins with traversals that are not timed.
 /// Requires: a viewer at rest. Returns: one time for each scene.
 [[nodiscard]] std::vector<CullTime> cullTimes(const std::vector<std::unique_ptr<MethodScene>>& scenes, int rounds);
 

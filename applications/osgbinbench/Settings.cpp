@@ -124,7 +124,7 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
     app.add_option("--threading", words.threading,
                    "SingleThreaded (default), CullDrawThreadPerContext,\nDrawThreadPerContext or "
                    "CullThreadPerCameraDrawThreadPerContext");
-    app.add_option("--repeats", settings.repeats, "rounds of three timed cull traversals each, 1 to 10000 (default 15)")
+    app.add_option("--repeats", settings.repeats, "rounds of three timed cull traversals each, 1 to 10000 (default 40)")
         ->check(CLI::Range(1, 10000));
     app.add_option("--frames", settings.frames, "fly continuously, that many frames, 1 to 1000000")
         ->check(CLI::Range(1, 1000000));

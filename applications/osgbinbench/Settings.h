@@ -25,7 +25,7 @@ struct Settings {
     int width = 1280;
     int height = 720;
     osgViewer::ViewerBase::ThreadingModel threading = osgViewer::ViewerBase::SingleThreaded;
-    int repeats = 15;         ///< rounds in which every method's culling is timed
+    int repeats = 40;         ///< rounds in which every method's culling is timed
     int frames = 0;           ///< of the continuous flight; 0: stop at every pose instead
     double frameRate = 60.0;  ///< frames a second of the continuous flight, at most
     double timeout = 120.0;   ///< seconds that one pose may take to load and draw
