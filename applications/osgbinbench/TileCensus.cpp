@@ -3,7 +3,7 @@
 
 #include "TileCensus.h"
 
-#include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
 
 #include <osg/PagedLOD>
 #include <osg/Transform>
@@ -25,7 +25,69 @@ bool isPlainGroup(const osg::Node& node) {
     return typeid(node) == typeid(osg::Group);
 }
 
+// Whether nothing but plain groups stands between the path's last node and the PagedLOD that had it loaded.
+bool isOnPage(const osg::NodePath& path) {
+    for (std::size_t i = path.size(); i-- > 1;) {
+        const osg::Node& parent = *path[i - 1];
+        if (const auto* const lod = dynamic_cast<const osg::PagedLOD*>(&parent)) return isPaged(*lod, *path[i]);
+        if (!isPlainGroup(parent)) return false;
+    }
+    return false;
+}
+
+const AnalyticBinCullCallback* binCallback(const osg::Node& node) {
+    for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback())
+        if (const auto* const callback = dynamic_cast<const AnalyticBinCullCallback*>(at)) return callback;
+    return nullptr;
+}
+
+AnalyticBin shownBin(const AnalyticBinCullCallback& callback) {
+    AnalyticBin bin =
+        callback.terrainShape() ? callback.bin().exaggerated(callback.terrainShape()->verticalScale) : callback.bin();
+    if (!bin.valid()) return bin;
+    const core::Interval altitude = bin.bin().altitude();
+    bin.setBin(bin.bin().withAltitude({altitude.lower - callback.skirt(), altitude.upper}));
+    return bin;
+}
+
+// The bin of the path's last node, a tile; the kit culls a tile that is a transform in a group that stands for it.
+AnalyticBin binOfTile(const osg::NodePath& path) {
+    const AnalyticBinCullCallback* callback = binCallback(*path.back());
+    if (!callback && path.size() > 1 && isPlainGroup(*path[path.size() - 2])) {
+        const osg::Group& parent = *path[path.size() - 2]->asGroup();
+        if (parent.getNumChildren() == 1) callback = binCallback(parent);
+    }
+    return callback ? shownBin(*callback) : AnalyticBin();
+}
+
+class ResidentCounter : public osg::NodeVisitor {
+public:
+    ResidentCounter() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0U); }
+
+    using osg::NodeVisitor::apply;
+    void apply(osg::Node& node) override {
+        count += isTile(getNodePath()) ? 1U : 0U;
+        // One that is traversed before its first update never finds its Terrain; it has no tiles below it.
+        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
+    }
+
+    std::uint64_t count = 0;
+};
+
 }  // namespace
+
+bool isTile(const osg::NodePath& path) {
+    osg::Node& node = *path.back();
+    if (node.asDrawable()) return false;
+    if (hasStoredBin(node) || dynamic_cast<const osg::PagedLOD*>(&node)) return true;
+    return !isPlainGroup(node) && isOnPage(path);
+}
+
+std::uint64_t residentTiles(osg::Node& scene) {
+    ResidentCounter counter;
+    scene.accept(counter);
+    return counter.count;
+}
 
 std::set<std::string> Census::keys() const {
     std::set<std::string> keys;
@@ -43,10 +105,11 @@ Census TileCensus::take(osg::Camera& camera, osg::FrameStamp& frameStamp) {
 void TileCensus::enter(osg::Node& node) {
     ++_census.nodes;
     if (!_openTiles.empty()) _openTiles.back().kept = true;
-    if (!isTile(node)) return;
+    if (!isTile(getNodePath())) return;
     _openTiles.emplace_back();
     _openTiles.back().node = &node;
     _openTiles.back().drawn.key = keyOfPath();
+    _openTiles.back().drawn.bin = binOfTile(getNodePath());
 }
 
 void TileCensus::leave(osg::Node& node) {
@@ -66,23 +129,6 @@ void TileCensus::draw(osg::Drawable& drawable) {
     const osg::Matrixd localToWorld =
         *getModelViewMatrix() * osg::Matrixd::inverse(getRenderStage()->getCamera()->getViewMatrix());
     _openTiles.back().drawn.meshes.push_back({&drawable, localToWorld});
-}
-
-bool TileCensus::isTile(const osg::Node& node) const {
-    if (const_cast<osg::Node&>(node).asDrawable()) return false;
-    if (hasStoredBin(node) || dynamic_cast<const osg::PagedLOD*>(&node)) return true;
-    return !isPlainGroup(node) && isOnPage();
-}
-
-// Whether nothing but plain groups stands between the node and the PagedLOD that had it loaded.
-bool TileCensus::isOnPage() const {
-    const osg::NodePath& path = const_cast<TileCensus*>(this)->getNodePath();
-    for (std::size_t i = path.size(); i-- > 1;) {
-        const osg::Node& parent = *path[i - 1];
-        if (const auto* const lod = dynamic_cast<const osg::PagedLOD*>(&parent)) return isPaged(*lod, *path[i]);
-        if (!isPlainGroup(parent)) return false;
-    }
-    return false;
 }
 
 std::string TileCensus::keyOfPath() const {

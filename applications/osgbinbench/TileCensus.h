@@ -5,6 +5,8 @@
 
 #include "CullWatcher.h"
 
+#include <osgAnalyticBin/AnalyticBin.h>
+
 #include <osg/Drawable>
 #include <osg/Matrixd>
 
@@ -26,6 +28,9 @@ struct DrawnTile {
     /// Which child of which child it is, from the scene's root on, such as "0/1/2": the same for every culling method.
     std::string key;
     std::vector<DrawnMesh> meshes;
+    /// The bin by which the kit culls it, as it is shown: for the Terrain's vertical scale, with the skirts that count.
+    /// Invalid where the kit has installed none.
+    AnalyticBin bin;
 };
 
 /// What one cull traversal of a scene does.
@@ -42,8 +47,14 @@ struct Census {
     [[nodiscard]] std::set<std::string> keys() const;
 };
 
-/// Takes the census of a camera's scene. Tiles are nodes with a stored bin, PagedLODs, and what a page brings that is
-/// no PagedLOD, as the leaves of VirtualPlanetBuilder are; the mesh of a PagedLOD is the child that needs no file.
+/// Whether the path's last node is a tile: a node with a stored bin, a PagedLOD, or what a page brings that is no
+/// PagedLOD, as the leaves of VirtualPlanetBuilder are.
+[[nodiscard]] bool isTile(const osg::NodePath& path);
+
+/// How many tiles of a scene are in memory, shown or not. Cost: one traversal of all nodes.
+[[nodiscard]] std::uint64_t residentTiles(osg::Node& scene);
+
+/// Takes the census of a camera's scene. The mesh of a PagedLOD is the child that needs no file.
 /// Requires: a camera with a viewport, and no update traversal meanwhile.
 class TileCensus final : public flight::CullWatcher {
 public:
@@ -60,8 +71,6 @@ private:
     void leave(osg::Node& node) override;
     void draw(osg::Drawable& drawable) override;
 
-    [[nodiscard]] bool isTile(const osg::Node& node) const;
-    [[nodiscard]] bool isOnPage() const;
     [[nodiscard]] std::string keyOfPath() const;
 
     std::vector<OpenTile> _openTiles;

@@ -42,7 +42,7 @@ DrawnTile tileAt(const std::string& key, double southDeg, double westDeg, bool t
     if (texCoords) geometry->setTexCoordArray(0, new osg::Vec2Array(std::begin(places), std::end(places)));
     const unsigned int indices[] = {0, 1, 2, 0, 2, 3, 4, 1, 0, 4, 5, 1};
     geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, 12, indices));
-    return {key, {{geometry, osg::Matrixd()}}};
+    return {key, {{geometry, osg::Matrixd()}}, {}};
 }
 
 TEST(SurfaceBin, LeavesTheSkirtOut) {
