@@ -12,8 +12,6 @@ namespace osgAnalyticBin::bench {
 namespace {
 
 constexpr int kMostPictureFrames = 20;
-constexpr double kMillisecondsPerSecond = 1000.0;
-constexpr const char* kCullTime = "Cull traversal time taken";
 
 osg::ref_ptr<osg::GraphicsContext> makeDrawingSurface(int width, int height) {
     const osg::ref_ptr<osg::GraphicsContext::Traits> traits =
@@ -56,7 +54,6 @@ void prepareCamera(osg::Camera& camera, osg::GraphicsContext& surface) {
     camera.setProjectionResizePolicy(osg::Camera::FIXED);
     camera.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
     camera.setLODScale(1.0F);
-    camera.getStats()->collectStats("rendering", true);
     osg::StateSet& state = *camera.getOrCreateStateSet();
     state.setMode(GL_MULTISAMPLE_ARB, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
     state.setMode(GL_DITHER, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
@@ -82,8 +79,8 @@ BenchViewer::~BenchViewer() {
 void BenchViewer::show(osg::Node& root, osg::CullSettings::CullingMode culling) {
     rest();
     _viewer.getCamera()->setCullingMode(culling);
-    // As long as somebody else has the scene shown before, OSG makes a new one, with a pager that has seen nothing.
-    const osg::ref_ptr<osgViewer::Scene> before = scene();
+    // As long as somebody has the scene shown before, OSG does not put another root into it.
+    const osg::ref_ptr<osgViewer::Scene> before = _viewer.getScene();
     _viewer.setSceneData(&root);
     if (!_viewer.isRealized()) _viewer.realize();
 }
@@ -100,7 +97,7 @@ void BenchViewer::drawFrame() {
 }
 
 osg::ref_ptr<osg::Image> BenchViewer::picture() {
-    _capture->request(frameStamp().getFrameNumber() + 1);
+    _capture->request(_viewer.getFrameStamp()->getFrameNumber() + 1);
     for (int i = 0; i < kMostPictureFrames; ++i) {
         drawFrame();
         if (osg::ref_ptr<osg::Image> picture = _capture->take()) return picture;
@@ -110,12 +107,6 @@ osg::ref_ptr<osg::Image> BenchViewer::picture() {
 
 void BenchViewer::rest() {
     if (_viewer.areThreadsRunning()) _viewer.stopThreading();
-}
-
-double BenchViewer::cullMs(unsigned int frameNumber) const {
-    double seconds = 0.0;
-    (void)_viewer.getCamera()->getStats()->getAttribute(frameNumber, kCullTime, seconds);
-    return seconds * kMillisecondsPerSecond;
 }
 
 }  // namespace osgAnalyticBin::bench

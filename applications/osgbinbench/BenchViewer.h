@@ -22,15 +22,10 @@ public:
     BenchViewer(const BenchViewer&) = delete;
     BenchViewer& operator=(const BenchViewer&) = delete;
 
-    /// Draws this scene from now on. Whoever keeps what scene() returns keeps its pager and comes back to it here.
+    /// Draws this scene from now on, with the pager that it has already, if any.
     void show(osg::Node& root, osg::CullSettings::CullingMode culling);
 
-    /// The scene shown, with the pager that belongs to it.
-    [[nodiscard]] osg::ref_ptr<osgViewer::Scene> scene() { return _viewer.getScene(); }
-
     void setView(const osg::Matrixd& view, const osg::Matrixd& projection);
-
-    void drawFrame();
 
     /// Draws frames until the picture of one that begins now is there.
     /// Throws: Failure when it does not come.
@@ -39,19 +34,11 @@ public:
     /// Ends all drawing, so that the scene may be looked at by others; the next frame starts it again.
     void rest();
 
-    [[nodiscard]] osg::FrameStamp& frameStamp() { return *_viewer.getFrameStamp(); }
-    [[nodiscard]] const osg::Viewport& viewport() const { return *_viewer.getCamera()->getViewport(); }
-
-    /// What OSG's own cull traversal of a frame took, milliseconds; zero when that is not known (yet).
-    [[nodiscard]] double cullMs(unsigned int frameNumber) const;
-
 private:
+    void drawFrame();
+
     osgViewer::Viewer _viewer;
     osg::ref_ptr<flight::FrameCapture> _capture;
 };
-
-/// How cameras cull here unless a method wants otherwise: everything but small features.
-inline constexpr osg::CullSettings::CullingMode kDefaultCulling =
-    osg::CullSettings::DEFAULT_CULLING & ~osg::CullSettings::SMALL_FEATURE_CULLING;
 
 }  // namespace osgAnalyticBin::bench

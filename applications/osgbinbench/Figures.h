@@ -21,6 +21,7 @@ struct Figures {
     std::uint64_t drawables = 0;
     std::uint64_t triangles = 0;
     std::uint64_t pagedLods = 0;
+    std::uint64_t residentTiles = 0;
     std::uint64_t filesRequested = 0;
     std::uint64_t bytes = 0;
     std::uint64_t falseCulls = 0;
@@ -40,7 +41,7 @@ struct CountColumn {
     const char* meaning;
 };
 
-inline constexpr std::array<CountColumn, 15> kCountColumns{{
+inline constexpr std::array<CountColumn, 16> kCountColumns{{
     {"truth_tiles", &Figures::truthTiles,
      "tiles needed: the hull of the surface meets the frustum, not behind the globe"},
     {"visible_tiles", &Figures::visibleTiles, "tiles with a pixel of their own, skirts included"},
@@ -51,6 +52,7 @@ inline constexpr std::array<CountColumn, 15> kCountColumns{{
     {"drawables", &Figures::drawables, "drawables drawn"},
     {"triangles", &Figures::triangles, "triangles of these"},
     {"paged_lods", &Figures::pagedLods, "PagedLODs among the tiles kept"},
+    {"resident_tiles", &Figures::residentTiles, "tiles in memory then, shown or not"},
     {"files_requested", &Figures::filesRequested, "files read from the root file's on, until the pager was idle"},
     {"bytes", &Figures::bytes, "bytes of these files"},
     {"false_culls", &Figures::falseCulls, "visible tiles that were not drawn"},
@@ -70,13 +72,33 @@ struct MethodFigures {
     [[nodiscard]] Figures sum() const;
 };
 
-/// The same for a continuous flight.
+/// The same for a continuous flight, with paging live.
 struct FlightFigures {
     std::string method;
     std::uint64_t frames = 0;
+    std::uint64_t drawnTiles = 0;
+    std::uint64_t missingFrames = 0;
+    std::uint64_t residentTiles = 0;
     std::uint64_t filesRequested = 0;
     std::uint64_t bytes = 0;
     double cullMs = 0.0;
+    double cullMedianMs = 0.0;
 };
+
+struct FlightColumn {
+    const char* name;
+    std::uint64_t FlightFigures::*count;
+    const char* meaning;
+};
+
+inline constexpr std::array<FlightColumn, 5> kFlightColumns{{
+    {"drawn_tiles", &FlightFigures::drawnTiles, "tiles with a mesh of their own drawn, summed over frames"},
+    {"missing_frames", &FlightFigures::missingFrames, "frames that asked for a file: something was shown too coarse"},
+    {"resident_tiles", &FlightFigures::residentTiles, "tiles in memory after the last frame"},
+    {"files_requested", &FlightFigures::filesRequested, "files read"},
+    {"bytes", &FlightFigures::bytes, "bytes of these files"},
+}};
+
+inline constexpr const char* kCullMedianColumn = "cull_median_ms";
 
 }  // namespace osgAnalyticBin::bench

@@ -6,17 +6,21 @@
 #include "CameraPath.h"
 #include "CullMethod.h"
 #include "Figures.h"
+#include "MethodScene.h"
 #include "Settings.h"
 
 #include <vector>
 
 namespace osgAnalyticBin::bench {
 
-/// Flies every method, one after the other, once along a path with the pager loading as it can: frame after frame at
-/// the settings' rate, or slower where drawing takes longer. How many files that takes depends on the machine too.
-/// Throws: Failure when the database cannot be read or there is nothing to draw on. Progress goes to stderr.
+/// Flies every method once along a path with paging live: frame after frame at the settings' rate, whether the files
+/// wanted have come or not. Methods take turns of some frames each, starting with another one every time; in the turns
+/// of others a method's pager and clock stand still. Frames are culled, not drawn, as drawing by software would set
+/// the pace. How many files a flight takes depends on the machine too.
+/// Throws: Failure when the database cannot be read. Progress goes to stderr.
 [[nodiscard]] std::vector<FlightFigures> flyContinuously(const Settings& settings,
                                                          const std::vector<CullMethod>& methods,
-                                                         const std::vector<flight::CameraPose>& frames);
+                                                         const std::vector<flight::CameraPose>& frames,
+                                                         FileWatch& watch);
 
 }  // namespace osgAnalyticBin::bench

@@ -10,15 +10,18 @@
 #include <osgDB/Registry>
 #include <osgTerrain/Terrain>
 
-#include <limits>
+#include <thread>
 
 namespace osgAnalyticBin::bench {
 
 namespace {
 
-// Frames without a request or a merge after which the pager counts as idle: a request made in one frame may be on its
-// way from a queue to a thread in the next.
-constexpr int kIdleFrames = 20;
+// Frames in a row that ask for nothing: what one update changes after the last merge is seen by the next cull.
+constexpr int kQuietFrames = 3;
+constexpr double kSettleFrame = 1.0 / 60.0;  // seconds
+constexpr std::chrono::microseconds kLook{100};
+// Before a file that could not be read is asked for once more.
+constexpr std::chrono::milliseconds kBeforeNextTry{20};
 
 class VerticalScaler : public osg::NodeVisitor {
 public:
@@ -55,21 +58,16 @@ osg::CullSettings::CullingMode cullingOf(const CullMethod& method) {
 
 }  // namespace
 
-MethodScene::MethodScene(const CullMethod& method, const Settings& settings, FileWatch& watch, BenchViewer& viewer)
-    : _method(method), _settings(settings), _watch(watch), _viewer(viewer), _camera(new osg::Camera) {
-    _camera->setViewport(new osg::Viewport(viewer.viewport()));
+MethodScene::MethodScene(const CullMethod& method, const Settings& settings, FileWatch& watch)
+    : _method(method), _settings(settings), _watch(watch), _camera(new osg::Camera) {
+    _camera->setViewport(new osg::Viewport(0, 0, settings.width, settings.height));
     _camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
     _camera->setCullingMode(cullingOf(method));
     _camera->setLODScale(1.0F);
 }
 
-MethodScene::~MethodScene() {
-    _viewer.rest();
-    forget();
-}
-
 void MethodScene::forget() {
-    _scene = nullptr;
+    _paged.reset();
     _camera->removeChildren(0, _camera->getNumChildren());
 }
 
@@ -83,52 +81,53 @@ osg::ref_ptr<osg::Node> MethodScene::read() const {
 }
 
 void MethodScene::load() {
-    _viewer.rest();
     forget();
     _watch.remover->setEnabled(_method.removesClusters);
     const osg::ref_ptr<osg::Node> root = read();
     if (!root->getBound().valid()) throw Failure(_settings.database + ": there is nothing to fly over");
     if (_settings.verticalScale != 1.0) scaleVertically(*root, _settings.verticalScale, _settings.database);
     _globe = flight::globeOf(*root);
-    _viewer.show(*root, cullingOf(_method));
-    _scene = _viewer.scene();
     _camera->addChild(root);
-    _filesLastFrame = _watch.reads->nodeFiles();
+    _paged.emplace(*root, *_camera);
+}
+
+void MethodScene::resume() {
+    _watch.remover->setEnabled(_method.removesClusters);
+    _paged->resume();
 }
 
 void MethodScene::settle(const flight::CameraPose& pose) {
     // What a pose is charged with must not depend on what the pager threw away.
-    _scene->getDatabasePager()->setTargetMaximumNumberOfPageLOD(std::numeric_limits<unsigned int>::max());
-    const osg::Timer_t begin = osg::Timer::instance()->tick();
-    do {
-        drawUntilIdle(pose, begin);
-        _viewer.rest();
-    } while (census().wanted > 0);
-}
-
-void MethodScene::drawUntilIdle(const flight::CameraPose& pose, osg::Timer_t begin) {
-    for (int idleFrames = 0; idleFrames < kIdleFrames;) {
-        drawFrame(pose);
-        idleFrames = isPagerIdle() ? idleFrames + 1 : 0;
-        if (osg::Timer::instance()->delta_s(begin, osg::Timer::instance()->tick()) > _settings.timeout)
-            throw Failure("pose " + pose.name + ", method " + _method.name + ": files are still missing after " +
-                          flight::textFrom(_settings.timeout) + " s; raise --timeout, or look for missing files");
+    _paged->keepEverything();
+    const auto begin = std::chrono::steady_clock::now();
+    setPose(pose);
+    for (int quietFrames = 0; quietFrames < kQuietFrames;) {
+        _paged->forgetFrames();
+        const PagedScene::Frame frame = _paged->step(kSettleFrame);
+        awaitFiles(pose, begin);
+        quietFrames = frame.wanted == 0 && !_paged->hasFilesToMerge() ? quietFrames + 1 : 0;
+        if (frame.wanted > 0 && !_paged->hasFilesToMerge()) std::this_thread::sleep_for(kBeforeNextTry);
     }
 }
 
-bool MethodScene::isPagerIdle() {
-    const std::uint64_t files = _watch.reads->nodeFiles();
-    const bool quiet = files == _filesLastFrame;
-    _filesLastFrame = files;
-    const osgDB::DatabasePager& pager = *_scene->getDatabasePager();
-    return quiet && !pager.getRequestsInProgress() && !pager.requiresUpdateSceneGraph();
+void MethodScene::awaitFiles(const flight::CameraPose& pose, std::chrono::steady_clock::time_point begin) const {
+    do {
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+        if (passed.count() > _settings.timeout)
+            throw Failure("pose " + pose.name + ", method " + _method.name + ": files are still missing after " +
+                          flight::textFrom(_settings.timeout) + " s; raise --timeout, or look for missing files");
+        if (_paged->isReading()) std::this_thread::sleep_for(kLook);
+    } while (_paged->isReading());
 }
 
-void MethodScene::drawFrame(const flight::CameraPose& pose) {
+void MethodScene::setPose(const flight::CameraPose& pose) {
     _camera->setViewMatrix(flight::viewMatrixOf(pose, _globe));
     _camera->setProjectionMatrix(flight::projectionMatrixOf(pose, _globe, _camera->getViewport()->aspectRatio()));
-    _viewer.setView(_camera->getViewMatrix(), _camera->getProjectionMatrix());
-    _viewer.drawFrame();
+}
+
+PagedScene::Frame MethodScene::flyFrame(const flight::CameraPose& pose, double seconds) {
+    setPose(pose);
+    return _paged->step(seconds);
 }
 
 }  // namespace osgAnalyticBin::bench

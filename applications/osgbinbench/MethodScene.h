@@ -3,16 +3,17 @@
 
 #pragma once
 
-#include "BenchViewer.h"
 #include "CameraPath.h"
 #include "CameraView.h"
 #include "ClusterRemover.h"
 #include "CullMethod.h"
+#include "PagedScene.h"
 #include "ReadCounter.h"
 #include "Settings.h"
 #include "TileCensus.h"
 
-#include <osg/Timer>
+#include <chrono>
+#include <optional>
 
 namespace osgAnalyticBin::bench {
 
@@ -22,51 +23,58 @@ struct FileWatch {
     osg::ref_ptr<flight::ReadCounter> reads = flight::ReadCounter::install();
 };
 
-/// A database with a pager of its own, culled by one method. Scenes take turns with the viewer; only the one that was
-/// loaded last reads files.
+/// A database with a pager of its own, culled by one method. Nothing is drawn here.
+/// Scenes take turns in reading files: only the one that was loaded or resumed last does.
 class MethodScene {
 public:
-    MethodScene(const CullMethod& method, const Settings& settings, FileWatch& watch, BenchViewer& viewer);
-    ~MethodScene();
+    MethodScene(const CullMethod& method, const Settings& settings, FileWatch& watch);
 
     MethodScene(const MethodScene&) = delete;
     MethodScene& operator=(const MethodScene&) = delete;
 
-    /// Reads the database's root file and shows it; pages of before are forgotten.
+    /// Reads the database's root file; pages of before are forgotten.
     /// Throws: Failure when it cannot be read or is empty.
     void load();
 
-    /// Stands at a pose until every file that is wanted there has been read and merged.
-    /// Requires: load(), and no other scene shown since.
+    /// Takes its turn after another scene had its own, or gives it up. Requires: load().
+    void resume();
+    void pause() { _paged->pause(); }
+
+    /// Stands at a pose until every file that is wanted there has been read and merged. All files that one frame asks
+    /// for are merged before the next frame asks for more, so that what is read depends on nothing but the pose and
+    /// what was loaded before. Requires: load(), and no other scene's turn since.
     /// Throws: Failure when that takes longer than the timeout.
     void settle(const flight::CameraPose& pose);
 
-    /// Draws one frame from a pose, wherever the pager is. Requires: as settle().
-    void drawFrame(const flight::CameraPose& pose);
+    /// One frame from a pose, `seconds` after the last one, wherever the pager is. Requires: as settle().
+    PagedScene::Frame flyFrame(const flight::CameraPose& pose, double seconds);
 
-    /// What a cull traversal at the pose last set does. Requires: a viewer at rest.
-    [[nodiscard]] Census census() { return TileCensus::take(*_camera, _viewer.frameStamp()); }
+    /// What a cull traversal at the pose last set does.
+    [[nodiscard]] Census census() { return TileCensus::take(*_camera, _paged->frameStamp()); }
 
     [[nodiscard]] const CullMethod& method() const { return _method; }
-    /// A camera for culling off the record: it has the scene, the view and the settings of the viewer's, and no window.
+    [[nodiscard]] osg::Node& root() { return *_camera->getChild(0); }
+    /// A camera for culling off the record: it has the scene, the view and the method's settings, and no window.
     [[nodiscard]] osg::Camera& camera() { return *_camera; }
-    [[nodiscard]] osg::FrameStamp& frameStamp() { return _viewer.frameStamp(); }
+    [[nodiscard]] osg::FrameStamp& frameStamp() { return _paged->frameStamp(); }
     [[nodiscard]] const flight::Globe& globe() const { return _globe; }
 
 private:
     void forget();
+    void setPose(const flight::CameraPose& pose);
+    void awaitFiles(const flight::CameraPose& pose, std::chrono::steady_clock::time_point begin) const;
     [[nodiscard]] osg::ref_ptr<osg::Node> read() const;
-    void drawUntilIdle(const flight::CameraPose& pose, osg::Timer_t begin);
-    [[nodiscard]] bool isPagerIdle();
 
     CullMethod _method;
     const Settings& _settings;
     FileWatch& _watch;
-    BenchViewer& _viewer;
-    osg::ref_ptr<osgViewer::Scene> _scene;
     osg::ref_ptr<osg::Camera> _camera;
+    std::optional<PagedScene> _paged;
     flight::Globe _globe;
-    std::uint64_t _filesLastFrame = 0;
 };
+
+/// How cameras cull here unless a method wants otherwise: everything but small features.
+inline constexpr osg::CullSettings::CullingMode kDefaultCulling =
+    osg::CullSettings::DEFAULT_CULLING & ~osg::CullSettings::SMALL_FEATURE_CULLING;
 
 }  // namespace osgAnalyticBin::bench

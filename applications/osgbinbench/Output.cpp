@@ -50,6 +50,41 @@ Json headOf(const Settings& settings, const char* mode) {
     return json;
 }
 
+Json flightOf(const std::vector<FlightFigures>& methods) {
+    Json json;
+    for (const FlightFigures& method : methods) {
+        Json& sums = json[method.method];
+        sums["frames"] = method.frames;
+        for (const FlightColumn& column : kFlightColumns) sums[column.name] = method.*column.count;
+        sums[kCullColumn] = method.cullMs;
+        sums[kCullMedianColumn] = method.cullMedianMs;
+    }
+    return json;
+}
+
+std::vector<std::string> flightHead(const std::string& first) {
+    std::vector<std::string> cells{first, "frames"};
+    for (const FlightColumn& column : kFlightColumns) cells.emplace_back(column.name);
+    cells.insert(cells.end(), {kCullColumn, kCullMedianColumn});
+    return cells;
+}
+
+std::vector<std::string> flightLine(const FlightFigures& m) {
+    std::vector<std::string> cells{m.method, std::to_string(m.frames)};
+    for (const FlightColumn& column : kFlightColumns) cells.push_back(std::to_string(m.*column.count));
+    cells.insert(cells.end(), {withDecimals(m.cullMs, 3), withDecimals(m.cullMedianMs, 4)});
+    return cells;
+}
+
+std::vector<std::string> flightRatios(const FlightFigures& m, const FlightFigures& reference) {
+    std::vector<std::string> cells{m.method,
+                                   ratio(static_cast<double>(m.frames), static_cast<double>(reference.frames))};
+    for (const FlightColumn& column : kFlightColumns)
+        cells.push_back(ratio(static_cast<double>(m.*column.count), static_cast<double>(reference.*column.count)));
+    cells.insert(cells.end(), {ratio(m.cullMs, reference.cullMs), ratio(m.cullMedianMs, reference.cullMedianMs)});
+    return cells;
+}
+
 template <class Method>
 const Method* find(const std::vector<Method>& methods, const std::string& name) {
     const auto found = std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.method == name; });
@@ -153,15 +188,19 @@ std::string csvOf(const std::vector<std::string>& poses, const std::vector<Metho
 }
 
 std::string csvOf(const std::vector<FlightFigures>& methods) {
-    std::string text = "method,frames,files_requested,bytes,cull_ms\n";
-    for (const FlightFigures& method : methods)
-        text += method.method + "," + std::to_string(method.frames) + "," + std::to_string(method.filesRequested) +
-                "," + std::to_string(method.bytes) + "," + flight::textFrom(method.cullMs) + "\n";
+    std::string text = "method,frames";
+    for (const FlightColumn& column : kFlightColumns) text += std::string(",") + column.name;
+    text += std::string(",") + kCullColumn + "," + kCullMedianColumn + "\n";
+    for (const FlightFigures& method : methods) {
+        text += method.method + "," + std::to_string(method.frames);
+        for (const FlightColumn& column : kFlightColumns) text += "," + std::to_string(method.*column.count);
+        text += "," + flight::textFrom(method.cullMs) + "," + flight::textFrom(method.cullMedianMs) + "\n";
+    }
     return text;
 }
 
 std::string jsonOf(const Settings& settings, const std::vector<std::string>& poses,
-                   const std::vector<MethodFigures>& methods) {
+                   const std::vector<MethodFigures>& methods, const std::vector<FlightFigures>& live) {
     Json json = headOf(settings, "poses");
     json["poses"] = poses.size();
     for (const MethodFigures& method : methods) json["methods"][method.method] = sumsOf(method.sum());
@@ -170,6 +209,7 @@ std::string jsonOf(const Settings& settings, const std::vector<std::string>& pos
         path["poses"] = group.poses.size();
         for (const MethodFigures& method : methods) path["methods"][method.method] = sumsOf(sumOf(method, group));
     }
+    if (!live.empty()) json["live"] = {{"frames", live.front().frames}, {"methods", flightOf(live)}};
     json["pose_names"] = poses;
     for (const MethodFigures& method : methods) json["by_pose"][method.method] = byPose(method);
     return json.dump(2) + "\n";
@@ -177,11 +217,7 @@ std::string jsonOf(const Settings& settings, const std::vector<std::string>& pos
 
 std::string jsonOf(const Settings& settings, const std::vector<FlightFigures>& methods) {
     Json json = headOf(settings, "flight");
-    for (const FlightFigures& method : methods)
-        json["methods"][method.method] = {{"frames", method.frames},
-                                          {"files_requested", method.filesRequested},
-                                          {"bytes", method.bytes},
-                                          {kCullColumn, method.cullMs}};
+    json["methods"] = flightOf(methods);
     return json.dump(2) + "\n";
 }
 
@@ -207,20 +243,14 @@ void printTable(std::ostream& output, const std::vector<std::string>& poses,
 }
 
 void printTable(std::ostream& output, const std::vector<FlightFigures>& methods) {
-    std::vector<std::vector<std::string>> lines{{"one flight", "frames", "files_requested", "bytes", kCullColumn}};
-    for (const FlightFigures& m : methods)
-        lines.push_back({m.method, std::to_string(m.frames), std::to_string(m.filesRequested), std::to_string(m.bytes),
-                         withDecimals(m.cullMs, 3)});
+    std::vector<std::vector<std::string>> lines{flightHead("one flight, paging live")};
+    for (const FlightFigures& m : methods) lines.push_back(flightLine(m));
     turned(lines).print(output);
     for (const char* const name : kComparedWith) {
         const FlightFigures* const reference = find(methods, name);
         if (!reference) continue;
-        lines = {{std::string("ratio to ") + name, "files_requested", "bytes", kCullColumn}};
-        for (const FlightFigures& m : methods)
-            lines.push_back(
-                {m.method, ratio(static_cast<double>(m.filesRequested), static_cast<double>(reference->filesRequested)),
-                 ratio(static_cast<double>(m.bytes), static_cast<double>(reference->bytes)),
-                 ratio(m.cullMs, reference->cullMs)});
+        lines = {flightHead(std::string("ratio to ") + name)};
+        for (const FlightFigures& m : methods) lines.push_back(flightRatios(m, *reference));
         output << '\n';
         turned(lines).print(output);
     }

@@ -20,10 +20,11 @@ void writeFile(const std::string& file, const std::string& text);
 [[nodiscard]] std::string csvOf(const std::vector<FlightFigures>& methods);
 
 /// An object: how it was measured; "methods", by name, with sums over the poses or the flight; of poses also "paths",
-/// by name, with "methods" as above over the poses of one path, and "by_pose", by method and column, what was measured
-/// at each of "pose_names".
+/// by name, with "methods" as above over the poses of one path, "by_pose", by method and column, what was measured at
+/// each of "pose_names", and "live", the same of the flight after the poses, unless that is empty.
 [[nodiscard]] std::string jsonOf(const Settings& settings, const std::vector<std::string>& poses,
-                                 const std::vector<MethodFigures>& methods);
+                                 const std::vector<MethodFigures>& methods,
+                                 const std::vector<FlightFigures>& live = {});
 [[nodiscard]] std::string jsonOf(const Settings& settings, const std::vector<FlightFigures>& methods);
 
 /// Sums for people, then their ratios to "sphere" and "cluster" where these were flown, then the most telling sums path

@@ -31,7 +31,9 @@ void countFalseVerdicts(Figures& figures, const Census& census, const std::set<s
         ++figures.falseCulls;
         figures.falseCullPixels += pixels;
     }
-    for (const std::string& key : drawn) figures.falseKeeps += needed.count(key) == 0 ? 1U : 0U;
+    for (const std::string& key : drawn) {
+        figures.falseKeeps += needed.count(key) == 0 ? 1U : 0U;
+    }
 }
 
 Figures figuresOf(const Census& census) {
@@ -48,10 +50,12 @@ Figures figuresOf(const Census& census) {
 
 }  // namespace
 
-PoseBench::PoseBench(const Settings& settings, const std::vector<CullMethod>& methods)
-    : _settings(settings), _viewer(settings.width, settings.height, settings.threading), _painter(_viewer) {
-    for (const CullMethod& method : methods)
-        _scenes.push_back(std::make_unique<MethodScene>(method, settings, _watch, _viewer));
+PoseBench::PoseBench(const Settings& settings, const std::vector<CullMethod>& methods, FileWatch& watch)
+    : _settings(settings),
+      _watch(watch),
+      _viewer(settings.width, settings.height, settings.threading),
+      _painter(_viewer) {
+    for (const CullMethod& method : methods) _scenes.push_back(std::make_unique<MethodScene>(method, settings, watch));
 }
 
 std::vector<MethodFigures> PoseBench::run(const std::vector<flight::CameraPose>& path) {
@@ -73,11 +77,19 @@ PoseBench::Visit PoseBench::visit(MethodScene& scene, const flight::CameraPose& 
     scene.settle(pose);
     visit.files = _watch.reads->nodeFiles() - files;
     visit.bytes = _watch.reads->nodeBytes() - bytes;
-    visit.picture = _viewer.picture();
-    _viewer.rest();
     visit.census = scene.census();
+    visit.residentTiles = residentTiles(scene.root());
+    visit.picture = pictureOf(scene);
     if (!_settings.pictures.empty()) savePicture(*visit.picture, scene.method().name, pose.name);
     return visit;
+}
+
+osg::ref_ptr<osg::Image> PoseBench::pictureOf(MethodScene& scene) {
+    _viewer.show(scene.root(), scene.camera().getCullingMode());
+    _viewer.setView(scene.camera().getViewMatrix(), scene.camera().getProjectionMatrix());
+    osg::ref_ptr<osg::Image> picture = _viewer.picture();
+    _viewer.rest();
+    return picture;
 }
 
 std::vector<Figures> PoseBench::measure(const flight::CameraPose& pose) {
@@ -94,6 +106,7 @@ std::vector<Figures> PoseBench::measure(const flight::CameraPose& pose) {
         Figures& f = figures.emplace_back(figuresOf(visits[i].census));
         f.truthTiles = needed.size();
         f.visibleTiles = visible.size();
+        f.residentTiles = visits[i].residentTiles;
         f.filesRequested = visits[i].files;
         f.bytes = visits[i].bytes;
         f.cullMs = times[i].median;

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "BenchViewer.h"
 #include "CameraPath.h"
 #include "CullMethod.h"
 #include "Figures.h"
@@ -22,7 +23,7 @@ class PoseBench {
 public:
     /// `methods`: the reference first, as cullMethodsFromNames() gives them.
     /// Throws: Failure when there is nothing to draw on.
-    PoseBench(const Settings& settings, const std::vector<CullMethod>& methods);
+    PoseBench(const Settings& settings, const std::vector<CullMethod>& methods, FileWatch& watch);
 
     /// Throws: Failure when the database cannot be read, a pose takes longer than the timeout, or a picture cannot be
     /// saved. Progress goes to stderr.
@@ -33,16 +34,18 @@ private:
     struct Visit {
         Census census;
         osg::ref_ptr<osg::Image> picture;
+        std::uint64_t residentTiles = 0;
         std::uint64_t files = 0;
         std::uint64_t bytes = 0;
     };
 
     [[nodiscard]] Visit visit(MethodScene& scene, const flight::CameraPose& pose);
+    [[nodiscard]] osg::ref_ptr<osg::Image> pictureOf(MethodScene& scene);
     [[nodiscard]] std::vector<Figures> measure(const flight::CameraPose& pose);
     void savePicture(const osg::Image& picture, const std::string& method, const std::string& pose) const;
 
     const Settings& _settings;
-    FileWatch _watch;
+    FileWatch& _watch;
     BenchViewer _viewer;
     std::vector<std::unique_ptr<MethodScene>> _scenes;
     TilePainter _painter;

@@ -61,23 +61,35 @@ void requireFolder(const char* option, const std::string& file) {
         throw Failure(std::string(option) + ": there is no folder " + folder.string() + "; make it first");
 }
 
+std::string line(const char* name, const char* meaning) {
+    std::string text = std::string("  ") + name;
+    text.resize(23, ' ');
+    return text + meaning + "\n";
+}
+
+std::string flightColumns() {
+    std::string text;
+    for (const FlightColumn& column : kFlightColumns) text += line(column.name, column.meaning);
+    return text;
+}
+
 std::string footer() {
     std::string text =
         "At every pose every method starts from the root file alone and loads what it wants; then it is measured.\n"
         "Methods: none = no culling, always flown, as all others are judged by it; sphere = OSG's spheres and boxes,\n"
         "the database's ClusterCullingCallbacks taken away; cluster = OSG as it comes, with these callbacks;\n"
         "quadratic, exact, paper, corners = analytic bins.\n"
-        "With --frames the path is flown continuously instead, every method once, while files are being loaded;\n"
-        "then only files_requested, bytes and cull_ms are measured.\n\n"
+        "Afterwards the path is flown continuously, every method once, while files are being loaded: --live; with\n"
+        "--frames nothing but that. Methods take turns of 10 frames each; these are culled, and not drawn.\n\n"
         "Columns of --csv, one line for each pose and method, and keys of --json, sums over the poses:\n";
-    for (const CountColumn& column : kCountColumns) {
-        std::string name = std::string("  ") + column.name;
-        name.resize(21, ' ');
-        text += name + column.meaning + "\n";
-    }
+    for (const CountColumn& column : kCountColumns) text += line(column.name, column.meaning);
     return text +
-           "  cull_ms            milliseconds of a cull traversal and its sorting, median\n"
-           "  cull_spread_ms     from the first quartile of these times to the third\n\n"
+           "  cull_ms              milliseconds of a cull traversal and its sorting, median\n"
+           "  cull_spread_ms       from the first quartile of these times to the third\n\n"
+           "Keys of the object \"live\" of --json, and columns of --csv with --frames:\n" +
+           flightColumns() +
+           "  cull_ms              milliseconds of all cull traversals and their sorting, summed\n"
+           "  cull_median_ms       of one, median\n\n"
            "\"paths\" in --json holds the sums of the poses whose names share the text before the first _, \"by_pose\" "
            "the\n"
            "figures of every pose, in the order of \"pose_names\".\n\n" +
@@ -126,7 +138,10 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
                    "CullThreadPerCameraDrawThreadPerContext");
     app.add_option("--repeats", settings.repeats, "rounds of three timed cull traversals each, 1 to 10000 (default 40)")
         ->check(CLI::Range(1, 10000));
-    app.add_option("--frames", settings.frames, "fly continuously, that many frames, 1 to 1000000")
+    app.add_option("--live", settings.live,
+                   "frames from pose to pose of the flight after the poses,\nto 100000 (default 10, 0: no flight)")
+        ->check(CLI::Range(0, 100000));
+    app.add_option("--frames", settings.frames, "only fly continuously, that many frames in all,\n1 to 1000000")
         ->check(CLI::Range(1, 1000000));
     app.add_option("--frame-rate", settings.frameRate,
                    "frames a second of the continuous flight at most, so that\nthe pager has time: 0.1 to 10000 "

@@ -26,7 +26,8 @@ struct Settings {
     int height = 720;
     osgViewer::ViewerBase::ThreadingModel threading = osgViewer::ViewerBase::SingleThreaded;
     int repeats = 40;         ///< rounds in which every method's culling is timed
-    int frames = 0;           ///< of the continuous flight; 0: stop at every pose instead
+    int live = 10;            ///< frames from pose to pose of the flight after the poses; 0: none
+    int frames = 0;           ///< of the continuous flight alone; 0: stop at every pose first
     double frameRate = 60.0;  ///< frames a second of the continuous flight, at most
     double timeout = 120.0;   ///< seconds that one pose may take to load and draw
 };

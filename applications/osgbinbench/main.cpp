@@ -13,6 +13,7 @@
 
 #include <osgDB/Registry>
 
+#include <algorithm>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <exception>
@@ -52,6 +53,10 @@ std::vector<std::string> namesOf(const std::vector<CameraPose>& path) {
     return names;
 }
 
+std::vector<CameraPose> livePath(const std::vector<CameraPose>& path, int framesPerLeg) {
+    return continuousPath(path, 1 + framesPerLeg * std::max(1, static_cast<int>(path.size()) - 1));
+}
+
 void write(const Settings& settings, const std::string& csv, const std::string& json) {
     if (!settings.csv.empty()) writeFile(settings.csv, csv);
     if (!settings.json.empty()) writeFile(settings.json, json);
@@ -62,14 +67,21 @@ void measure(const Settings& settings) {
     const auto path = osgAnalyticBin::flight::readCameraPathFiles(settings.paths, error);
     if (!path) throw Failure(error);
     const std::vector<CullMethod> methods = cullMethodsFromNames(settings.methods);
+    FileWatch watch;
     if (settings.frames > 0) {
-        const auto figures = flyContinuously(settings, methods, continuousPath(*path, settings.frames));
+        const auto figures = flyContinuously(settings, methods, continuousPath(*path, settings.frames), watch);
         write(settings, csvOf(figures), jsonOf(settings, figures));
         return printTable(std::cout, figures);
     }
-    const auto figures = PoseBench(settings, methods).run(*path);
-    write(settings, csvOf(namesOf(*path), figures), jsonOf(settings, namesOf(*path), figures));
+    const auto figures = PoseBench(settings, methods, watch).run(*path);
+    std::vector<FlightFigures> live;
+    if (settings.live > 0) live = flyContinuously(settings, methods, livePath(*path, settings.live), watch);
+    write(settings, csvOf(namesOf(*path), figures), jsonOf(settings, namesOf(*path), figures, live));
     printTable(std::cout, namesOf(*path), figures);
+    if (!live.empty()) {
+        std::cout << '\n';
+        printTable(std::cout, live);
+    }
     std::cout.flush();
     if (!settings.plot.empty()) plot(settings.plot, diagramsOf(namesOf(*path), figures));
 }

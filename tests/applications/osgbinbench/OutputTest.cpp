@@ -66,6 +66,21 @@ TEST(Output, TheTableHasTheSumsOfSeveralPaths) {
     EXPECT_EQ(one.str().find("sums by path"), std::string::npos);
 }
 
+TEST(Output, JsonHoldsTheLiveFlightBesideTheSums) {
+    FlightFigures flight;
+    flight.method = "sphere";
+    flight.frames = 7;
+    flight.filesRequested = 5;
+    flight.cullMs = 2.0;
+    const auto json = nlohmann::json::parse(jsonOf(Settings(), {"a", "b"}, twoMethods(), {flight}));
+    EXPECT_EQ(json["live"]["frames"], 7);
+    EXPECT_EQ(json["live"]["methods"]["sphere"]["files_requested"], 5);
+    EXPECT_DOUBLE_EQ(json["live"]["methods"]["sphere"]["cull_ms"].get<double>(), 2.0);
+    for (const char* const key : {"drawn_tiles", "resident_tiles", "missing_frames", "bytes", "cull_median_ms"})
+        EXPECT_TRUE(json["live"]["methods"]["sphere"].contains(key)) << key;
+    EXPECT_FALSE(nlohmann::json::parse(jsonOf(Settings(), {"a", "b"}, twoMethods())).contains("live"));
+}
+
 TEST(Output, CsvHasALineForEachPoseAndMethod) {
     std::istringstream lines(csvOf({"a", "b"}, twoMethods()));
     std::vector<std::string> begins;

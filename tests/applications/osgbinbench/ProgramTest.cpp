@@ -8,8 +8,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <sstream>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
+#include <vector>
 
 namespace osgAnalyticBin {
 namespace {
@@ -39,6 +41,8 @@ struct Bench {
         EXPECT_EQ(outcome.code, 0) << outcome.text;
         return outcome.code == 0 ? test::jsonFile(file)["methods"] : json();
     }
+
+    [[nodiscard]] json live(const std::string& name) const { return test::jsonFile(folder / (name + ".json"))["live"]; }
 };
 
 // Times differ from run to run; nothing else may.
@@ -50,27 +54,42 @@ json withoutTimes(json methods) {
     return methods;
 }
 
+// The lines of a CSV without its last two columns, the times.
+std::vector<std::string> countsOf(const std::string& file) {
+    std::istringstream in(test::textOfFile(file));
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) {
+        for (int i = 0; i < 2; ++i) line.resize(line.rfind(','));
+        lines.push_back(line);
+    }
+    EXPECT_GT(lines.size(), 1U);
+    return lines;
+}
+
 TEST(Program, CountsTheSameInEveryRunAndThreadingModel) {
     if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
-    const json first = withoutTimes(bench.run("first", ""));
+    const json first = withoutTimes(bench.run("first", "--live 0"));
     ASSERT_EQ(first.size(), 5U);
-    EXPECT_EQ(first, withoutTimes(bench.run("second", "")));
+    EXPECT_EQ(first, withoutTimes(bench.run("second", "--live 0")));
+    // pose by pose too
+    EXPECT_EQ(countsOf(bench.folder / "first.csv"), countsOf(bench.folder / "second.csv"));
     for (const char* const model :
          {"CullDrawThreadPerContext", "DrawThreadPerContext", "CullThreadPerCameraDrawThreadPerContext"})
-        EXPECT_EQ(first, withoutTimes(bench.run(model, std::string("--threading ") + model))) << model;
+        EXPECT_EQ(first, withoutTimes(bench.run(model, std::string("--live 0 --threading ") + model))) << model;
 }
 
 TEST(Program, JudgesEveryMethodByTheReference) {
     if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
-    const json methods = bench.run("sums", "--methods sphere,quadratic,exact,corners");
+    const json methods = bench.run("sums", "--live 0 --methods sphere,quadratic,exact,corners");
     ASSERT_TRUE(methods.contains("none"));
     const json& none = methods["none"];
     EXPECT_GT(none["visible_tiles"], 0);
     EXPECT_LE(none["visible_tiles"], none["truth_tiles"]);
+    EXPECT_GE(none["resident_tiles"], none["tested_tiles"]);
     EXPECT_EQ(none["tested_tiles"], none["kept_tiles"]);
     EXPECT_EQ(none["drawn_tiles"].get<int>(), none["false_keeps"].get<int>() + none["truth_tiles"].get<int>());
     EXPECT_EQ(none["triangles"], none["drawn_tiles"].get<int>() * 512);
@@ -94,8 +113,8 @@ TEST(Program, SavesAPictureForEachPoseAndMethod) {
     if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
-    ASSERT_FALSE(
-        bench.run("pictures", "--methods exact --pictures " + test::quoted(bench.folder / "pictures")).is_null());
+    ASSERT_FALSE(bench.run("pictures", "--live 0 --methods exact --pictures " + test::quoted(bench.folder / "pictures"))
+                     .is_null());
     for (const char* const picture : {"none/oblique.png", "none/limb.png", "exact/narrow.png"})
         EXPECT_TRUE(std::filesystem::exists(bench.folder / "pictures" + "/" + picture)) << picture;
 }
@@ -110,6 +129,24 @@ TEST(Program, FliesContinuously) {
         EXPECT_EQ(method["frames"], 30);
         EXPECT_GT(method["files_requested"], 0);
         EXPECT_GT(method["cull_ms"], 0.0);
+    }
+}
+
+TEST(Program, FliesOnceMoreWithPagingLive) {
+    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    const Bench bench;
+    ASSERT_FALSE(bench.database.empty());
+    ASSERT_EQ(bench.run("live", "--live 6 --frame-rate 15 --methods sphere,exact").size(), 3U);
+    const json live = bench.live("live");
+    EXPECT_EQ(live["frames"], 13);
+    ASSERT_EQ(live["methods"].size(), 3U);
+    for (const json& method : live["methods"]) {
+        EXPECT_EQ(method["frames"], 13);
+        EXPECT_GT(method["files_requested"], 0);
+        EXPECT_GT(method["missing_frames"], 0);
+        EXPECT_GT(method["resident_tiles"], 32);
+        EXPECT_GT(method["drawn_tiles"], 0);
+        EXPECT_GT(method["cull_median_ms"], 0.0);
     }
 }
 
