@@ -13,6 +13,8 @@ namespace osgAnalyticBin::bench {
 /// What was measured of one method at one pose, or summed over poses.
 struct Figures {
     std::uint64_t truthTiles = 0;
+    std::uint64_t surfaceTiles = 0;
+    std::uint64_t hiddenTiles = 0;
     std::uint64_t visibleTiles = 0;
     std::uint64_t nodes = 0;
     std::uint64_t testedTiles = 0;
@@ -27,6 +29,7 @@ struct Figures {
     std::uint64_t falseCulls = 0;
     std::uint64_t falseCullPixels = 0;
     std::uint64_t falseKeeps = 0;
+    std::uint64_t surfaceFalseKeeps = 0;
     std::uint64_t differingPixels = 0;
     double cullMs = 0.0;
     double cullSpreadMs = 0.0;
@@ -41,9 +44,11 @@ struct CountColumn {
     const char* meaning;
 };
 
-inline constexpr std::array<CountColumn, 16> kCountColumns{{
+inline constexpr std::array<CountColumn, 19> kCountColumns{{
     {"truth_tiles", &Figures::truthTiles,
-     "tiles needed: the hull of the surface meets the frustum, not behind the globe"},
+     "tiles needed: the hull of the tile's bin, finer descendants in it, meets the frustum, not behind the globe"},
+    {"surface_tiles", &Figures::surfaceTiles, "the same, more strictly, of the tile's own surface alone"},
+    {"hidden_tiles", &Figures::hiddenTiles, "tiles whose bin meets the frustum, but behind the globe"},
     {"visible_tiles", &Figures::visibleTiles, "tiles with a pixel of their own, skirts included"},
     {"nodes", &Figures::nodes, "nodes and drawables that the cull traversal reached"},
     {"tested_tiles", &Figures::testedTiles, "tiles that it reached"},
@@ -57,7 +62,8 @@ inline constexpr std::array<CountColumn, 16> kCountColumns{{
     {"bytes", &Figures::bytes, "bytes of these files"},
     {"false_culls", &Figures::falseCulls, "visible tiles that were not drawn"},
     {"false_cull_pixels", &Figures::falseCullPixels, "pixels of these"},
-    {"false_keeps", &Figures::falseKeeps, "tiles drawn that are not needed"},
+    {"false_keeps", &Figures::falseKeeps, "tiles drawn that are not among the truth_tiles"},
+    {"surface_false_keeps", &Figures::surfaceFalseKeeps, "tiles drawn that are not among the surface_tiles"},
     {"differing_pixels", &Figures::differingPixels, "pixels that differ from the picture without culling"},
 }};
 

@@ -23,7 +23,18 @@ std::uint64_t differingPixels(const osg::Image& first, const osg::Image& second)
     return difference->pixels;
 }
 
-void countFalseVerdicts(Figures& figures, const Census& census, const std::set<std::string>& needed,
+// With more tiles in memory than this the scene of the bins starts from the root file again.
+constexpr std::uint64_t kMostBinTiles = 10000;
+
+// Every tile is reached, each with its bin.
+CullMethod binMethod() {
+    CullMethod method = cullMethodFromName("exact");
+    method.removesClusters = true;
+    method.cullsNothing = true;
+    return method;
+}
+
+void countFalseVerdicts(Figures& figures, const Census& census, const NeededTiles& needed,
                         const std::map<std::string, std::uint64_t>& visible) {
     const std::set<std::string> drawn = census.keys();
     for (const auto& [key, pixels] : visible) {
@@ -32,7 +43,8 @@ void countFalseVerdicts(Figures& figures, const Census& census, const std::set<s
         figures.falseCullPixels += pixels;
     }
     for (const std::string& key : drawn) {
-        figures.falseKeeps += needed.count(key) == 0 ? 1U : 0U;
+        figures.falseKeeps += needed.byBin.count(key) == 0 ? 1U : 0U;
+        figures.surfaceFalseKeeps += needed.bySurface.count(key) == 0 ? 1U : 0U;
     }
 }
 
@@ -54,6 +66,7 @@ PoseBench::PoseBench(const Settings& settings, const std::vector<CullMethod>& me
     : _settings(settings),
       _watch(watch),
       _viewer(settings.width, settings.height, settings.threading),
+      _binScene(binMethod(), settings, watch),
       _painter(_viewer) {
     for (const CullMethod& method : methods) _scenes.push_back(std::make_unique<MethodScene>(method, settings, watch));
 }
@@ -92,19 +105,32 @@ osg::ref_ptr<osg::Image> PoseBench::pictureOf(MethodScene& scene) {
     return picture;
 }
 
+void PoseBench::learnBins(const flight::CameraPose& pose) {
+    if (!_isBinSceneLoaded || residentTiles(_binScene.root()) > kMostBinTiles)
+        _binScene.load();
+    else
+        _binScene.resume();
+    _isBinSceneLoaded = true;
+    _binScene.settle(pose);
+    _truth.learnBins(_binScene.census().tiles);
+}
+
 std::vector<Figures> PoseBench::measure(const flight::CameraPose& pose) {
     std::vector<Visit> visits;
     for (const auto& scene : _scenes) visits.push_back(visit(*scene, pose));
     const Visit& reference = visits.front();
     MethodScene& view = *_scenes.front();
-    const auto needed = _truth.neededTiles(reference.census.tiles, view.camera(), view.globe());
+    learnBins(pose);
+    const NeededTiles needed = _truth.neededTiles(reference.census.tiles, view.camera(), view.globe());
     const auto visible = _painter.visiblePixels(reference.census.tiles, view.camera());
     const std::vector<CullTime> times = cullTimes(_scenes, _settings.repeats);
 
     std::vector<Figures> figures;
     for (std::size_t i = 0; i < visits.size(); ++i) {
         Figures& f = figures.emplace_back(figuresOf(visits[i].census));
-        f.truthTiles = needed.size();
+        f.truthTiles = needed.byBin.size();
+        f.surfaceTiles = needed.bySurface.size();
+        f.hiddenTiles = needed.hidden;
         f.visibleTiles = visible.size();
         f.residentTiles = visits[i].residentTiles;
         f.filesRequested = visits[i].files;

@@ -40,6 +40,7 @@ private:
     };
 
     [[nodiscard]] Visit visit(MethodScene& scene, const flight::CameraPose& pose);
+    void learnBins(const flight::CameraPose& pose);
     [[nodiscard]] osg::ref_ptr<osg::Image> pictureOf(MethodScene& scene);
     [[nodiscard]] std::vector<Figures> measure(const flight::CameraPose& pose);
     void savePicture(const osg::Image& picture, const std::string& method, const std::string& pose) const;
@@ -48,6 +49,9 @@ private:
     FileWatch& _watch;
     BenchViewer _viewer;
     std::vector<std::unique_ptr<MethodScene>> _scenes;
+    /// All tiles of a pose with their bins; what it has loaded it keeps for the next pose.
+    MethodScene _binScene;
+    bool _isBinSceneLoaded = false;
     TilePainter _painter;
     TileTruth _truth;
 };

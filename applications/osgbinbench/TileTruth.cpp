@@ -44,21 +44,24 @@ public:
 
     void setOccluder(double depth) { _horizon = core::HorizonEye::fromEye(_ellipsoid, depth, _eye); }
 
-    [[nodiscard]] bool needs(const core::GeodeticBin& bin) const {
-        return meets(bin) && !(_horizon && _horizon->hides(core::HorizonBin(_ellipsoid, bin, kSurfaceMargin)));
-    }
-
-    [[nodiscard]] const glm::dvec3& eye() const { return _eye; }
-
-private:
-    [[nodiscard]] bool meets(const core::GeodeticBin& bin) const {
-        const core::ExactGeodeticBin exact(_ellipsoid, bin, kSurfaceMargin);
+    /// Whether the hull of the bin meets the frustum.
+    [[nodiscard]] bool meets(const AnalyticBin& shown) const {
+        const core::GeodeticBin& bin = shown.bin();
+        if (!core::ExactGeodeticBin::holds(_ellipsoid, bin)) return true;
+        const core::ExactGeodeticBin exact(_ellipsoid, bin, shown.margin());
         core::PlaneMask undecided = (core::PlaneMask{1} << _planes.size()) - 1;
         if (core::classify(exact, _planes, _planes.size(), undecided) == core::Side::Outside) return false;
         return !core::isSeparated(core::ReverseBin(exact, bin), _hull) &&
                !core::isSeparated(exact, _planes, _planes.size(), undecided, _planes.size());
     }
 
+    [[nodiscard]] bool hides(const AnalyticBin& shown) const {
+        return _horizon && _horizon->hides(core::HorizonBin(_ellipsoid, shown.bin(), shown.margin()));
+    }
+
+    [[nodiscard]] const glm::dvec3& eye() const { return _eye; }
+
+private:
     core::Ellipsoid _ellipsoid;
     glm::dvec3 _eye;
     std::vector<core::Plane> _planes;
@@ -114,24 +117,42 @@ double occluderDepth(const std::vector<core::GeodeticBin>& bins, const core::Ell
     return depth;
 }
 
-const core::GeodeticBin& TileTruth::binOf(const DrawnTile& tile, const core::Ellipsoid& ellipsoid,
-                                          const osg::Matrixd& worldToEcef) {
-    const auto found = _bins.find(tile.key);
-    if (found != _bins.end()) return found->second;
-    return _bins.emplace(tile.key, surfaceBin(tile, ellipsoid, worldToEcef)).first->second;
+void TileTruth::learnBins(const std::vector<DrawnTile>& tiles) {
+    for (const DrawnTile& tile : tiles)
+        if (tile.bin.valid()) _bins.insert_or_assign(tile.key, tile.bin);
 }
 
-std::set<std::string> TileTruth::neededTiles(const std::vector<DrawnTile>& tiles, const osg::Camera& view,
-                                             const flight::Globe& globe) {
+const core::GeodeticBin& TileTruth::surfaceOf(const DrawnTile& tile, const core::Ellipsoid& ellipsoid,
+                                              const osg::Matrixd& worldToEcef) {
+    const auto found = _surfaces.find(tile.key);
+    if (found != _surfaces.end()) return found->second;
+    return _surfaces.emplace(tile.key, surfaceBin(tile, ellipsoid, worldToEcef)).first->second;
+}
+
+NeededTiles TileTruth::neededTiles(const std::vector<DrawnTile>& tiles, const osg::Camera& view,
+                                   const flight::Globe& globe) {
     const core::Ellipsoid ellipsoid = toCore(*globe.ellipsoid);
     const osg::Matrixd worldToEcef = osg::Matrixd::inverse(globe.localToWorld);
-    std::vector<core::GeodeticBin> bins;
-    for (const DrawnTile& tile : tiles) bins.push_back(binOf(tile, ellipsoid, worldToEcef));
+    std::vector<core::GeodeticBin> surfaces;
+    for (const DrawnTile& tile : tiles) surfaces.push_back(surfaceOf(tile, ellipsoid, worldToEcef));
     View seen(view, globe, ellipsoid);
-    seen.setOccluder(occluderDepth(bins, ellipsoid, seen.eye()));
-    std::set<std::string> needed;
-    for (std::size_t i = 0; i < tiles.size(); ++i)
-        if (bins[i].empty() || seen.needs(bins[i])) needed.insert(tiles[i].key);
+    seen.setOccluder(occluderDepth(surfaces, ellipsoid, seen.eye()));
+    // A tile of which nothing is known is needed.
+    const auto meets = [&](const AnalyticBin& bin) { return !bin.valid() || seen.meets(bin); };
+    const auto hides = [&](const AnalyticBin& bin) { return bin.valid() && seen.hides(bin); };
+    NeededTiles needed;
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const std::string& key = tiles[i].key;
+        const AnalyticBin surface(surfaces[i], kSurfaceMargin);
+        const auto known = _bins.find(key);
+        const AnalyticBin& bin = known == _bins.end() ? surface : known->second;
+        if (meets(surface) && !hides(surface)) needed.bySurface.insert(key);
+        if (!meets(bin)) continue;
+        if (hides(bin))
+            ++needed.hidden;
+        else
+            needed.byBin.insert(key);
+    }
     return needed;
 }
 

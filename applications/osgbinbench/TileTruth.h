@@ -17,24 +17,37 @@
 
 namespace osgAnalyticBin::bench {
 
-/// Says which tiles are truly needed: the hull of the tile's surface bin meets the frustum, and the bin is not wholly
+/// The tiles, by key, of those drawn without any culling, that a view needs.
+struct NeededTiles {
+    std::set<std::string> byBin;      ///< their bins' hulls meet the frustum, and are not hidden
+    std::set<std::string> bySurface;  ///< the same of their own surfaces, without descendants and skirts
+    std::uint64_t hidden = 0;         ///< bins that meet the frustum wholly behind the globe
+};
+
+/// Says which tiles are truly needed: the hull of the tile's bin meets the frustum, and the bin is not wholly
 /// behind the globe. The body that hides is the ellipsoid lowered to the lowest surface drawn nearer than that body's
 /// own horizon: a line of sight that enters it has passed through the terrain before.
+/// The bin is the one that the kit culls the tile by, with all finer descendants in it; where there is none, the bin of
+/// the tile's own surface.
 /// The hulls are parted by the faces of both and by the edges of the frustum; what is left undecided counts as needed
 /// (one or two percent above the truth: tests/core/Tightness.cpp).
-/// Skirts count neither as needed nor as hiding.
+/// Skirts do not hide; they count as needed where the kit's bins hold them.
 class TileTruth {
 public:
-    /// Returns: the keys of the tiles, of those drawn without any culling, that the view needs.
+    /// Takes note of the bins that the kit has installed on tiles.
+    void learnBins(const std::vector<DrawnTile>& tiles);
+
+    /// `tiles`: all that are drawn without any culling.
     /// Cost: the surface bin of every tile not met before, and some microseconds a tile.
-    [[nodiscard]] std::set<std::string> neededTiles(const std::vector<DrawnTile>& tiles, const osg::Camera& view,
-                                                    const flight::Globe& globe);
+    [[nodiscard]] NeededTiles neededTiles(const std::vector<DrawnTile>& tiles, const osg::Camera& view,
+                                          const flight::Globe& globe);
 
 private:
-    [[nodiscard]] const core::GeodeticBin& binOf(const DrawnTile& tile, const core::Ellipsoid& ellipsoid,
-                                                 const osg::Matrixd& worldToEcef);
+    [[nodiscard]] const core::GeodeticBin& surfaceOf(const DrawnTile& tile, const core::Ellipsoid& ellipsoid,
+                                                     const osg::Matrixd& worldToEcef);
 
-    std::map<std::string, core::GeodeticBin> _bins;
+    std::map<std::string, core::GeodeticBin> _surfaces;
+    std::map<std::string, AnalyticBin> _bins;
 };
 
 /// The least depth below the ellipsoid, in metres and not negative, such that no surface nearer to the eye than the

@@ -93,7 +93,7 @@ TEST(Output, TheTableHasRatiosToTheMethodsThatWereFlown) {
     printTable(output, {"a", "b"}, twoMethods());
     EXPECT_NE(output.str().find("ratio to sphere"), std::string::npos);
     EXPECT_EQ(output.str().find("ratio to cluster"), std::string::npos);
-    EXPECT_NE(output.str().find("drawn_tiles        2.000   1.000"), std::string::npos) << output.str();
+    EXPECT_NE(output.str().find("drawn_tiles          2.000   1.000"), std::string::npos) << output.str();
 }
 
 TEST(Output, AFileThatCannotBeWrittenStaysAsItWas) {

@@ -89,6 +89,8 @@ TEST(Program, JudgesEveryMethodByTheReference) {
     const json& none = methods["none"];
     EXPECT_GT(none["visible_tiles"], 0);
     EXPECT_LE(none["visible_tiles"], none["truth_tiles"]);
+    EXPECT_LE(none["surface_tiles"], none["truth_tiles"]);
+    EXPECT_GT(none["hidden_tiles"], 0);
     EXPECT_GE(none["resident_tiles"], none["tested_tiles"]);
     EXPECT_EQ(none["tested_tiles"], none["kept_tiles"]);
     EXPECT_EQ(none["drawn_tiles"].get<int>(), none["false_keeps"].get<int>() + none["truth_tiles"].get<int>());

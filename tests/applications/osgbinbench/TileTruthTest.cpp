@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Which tiles a view needs. Oracle: bins and eyes for which the answer follows from their angles.
+// Which tiles a view needs. Oracles: bins and eyes for which the answer follows from their angles; hulls by libccd and
+// lines of sight in long double for random ones.
 
 #include "SurfaceBin.h"
 #include "TileTruth.h"
@@ -11,6 +12,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <support/RandomViews.h>
 
 namespace osgAnalyticBin::bench {
 namespace {
@@ -79,13 +81,100 @@ TEST(TileTruth, NeedsWhatIsInViewAndNotBehindTheGlobe) {
     camera->setProjectionMatrixAsPerspective(30.0, 1.0, 100.0, 2e7);
     TileTruth truth;
     const flight::Globe globe{kModel, osg::Matrixd()};
-    EXPECT_EQ(truth.neededTiles(tiles, *camera, globe), std::set<std::string>{"ahead"});
+    EXPECT_EQ(truth.neededTiles(tiles, *camera, globe).bySurface, std::set<std::string>{"ahead"});
     // A globe that is moved takes its camera along.
     const osg::Matrixd moved = osg::Matrixd::rotate(0.3, osg::Vec3d(1, 2, 3)) * osg::Matrixd::translate(1e6, 2e6, 3e6);
     std::vector<DrawnTile> movedTiles = tiles;
     for (DrawnTile& tile : movedTiles) tile.meshes[0].localToWorld = moved;
     camera->setViewMatrix(osg::Matrixd::inverse(moved) * camera->getViewMatrix());
-    EXPECT_EQ(TileTruth().neededTiles(movedTiles, *camera, {kModel, moved}), std::set<std::string>{"ahead"});
+    EXPECT_EQ(TileTruth().neededTiles(movedTiles, *camera, {kModel, moved}).bySurface, std::set<std::string>{"ahead"});
+}
+
+AnalyticBin binAt(double southDeg, double westDeg, double low, double high) {
+    return AnalyticBin(GeodeticBin::fromDegrees({southDeg, southDeg + 1}, {westDeg, westDeg + 1}, {low, high}));
+}
+
+TEST(TileTruth, CountsTheBinOfTheKitAndElseTheSurface) {
+    const std::vector<DrawnTile> tiles{tileAt("ahead", -0.5, 2), tileAt("mountain", 1.5, 2), tileAt("far", -0.5, 8)};
+    const osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+    camera->setViewMatrixAsLookAt(at(0, 0, 20000), at(0, 2.5, 0), osg::Vec3d(1, 0, 0));
+    camera->setProjectionMatrixAsPerspective(30.0, 1.0, 100.0, 2e7);
+    const flight::Globe globe{kModel, osg::Matrixd()};
+    TileTruth truth;
+    const NeededTiles bySurface = truth.neededTiles(tiles, *camera, globe);
+    EXPECT_EQ(bySurface.byBin, std::set<std::string>{"ahead"});
+    EXPECT_EQ(bySurface.hidden, 1U);
+    // What finer descendants of "far" have in store rises above the horizon; "mountain" stays beside the frustum.
+    std::vector<DrawnTile> withBins = tiles;
+    withBins[1].bin = binAt(1.5, 2, -500, 500);
+    withBins[2].bin = binAt(-0.5, 8, -500, 50000);
+    truth.learnBins(withBins);
+    const NeededTiles byBin = truth.neededTiles(tiles, *camera, globe);
+    EXPECT_EQ(byBin.byBin, (std::set<std::string>{"ahead", "far"}));
+    EXPECT_EQ(byBin.bySurface, std::set<std::string>{"ahead"});
+    EXPECT_EQ(byBin.hidden, 0U);
+}
+
+// A camera like the view, whose planes near and far it needs.
+osg::ref_ptr<osg::Camera> cameraOf(const test::View& view) {
+    const auto toOsg = [](const glm::dvec3& v) { return osg::Vec3d(v.x, v.y, v.z); };
+    osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+    camera->setViewMatrixAsLookAt(toOsg(view.eye), toOsg(view.eye + 1e6 * view.forward), toOsg(view.up));
+    camera->setProjectionMatrixAsPerspective(2.0 * std::atan(view.halfWidth) / kDegree, 1.0, view.nearDistance,
+                                             view.farDistance);
+    return camera;
+}
+
+test::View randomPerspective(test::Random& random, const glm::dvec3& target) {
+    test::View view;
+    const core::Geodetic below{random.uniform(-1.5, 1.5), random.uniform(-3.1, 3.1), random.logUniform(1e4, 1e7)};
+    view.eye = earth().toEcef(below);
+    view.lookAlong(glm::normalize(target - view.eye), random);
+    view.halfWidth = random.logUniform(0.02, 0.6);
+    view.nearDistance = random.logUniform(1e3, 1e5);
+    view.farDistance = 3e7;
+    return view;
+}
+
+// Whether the ellipsoid stands between the eye and every one of some points of the bin.
+bool isBlocked(test::Random& random, const GeodeticBin& bin, const glm::dvec3& eye) {
+    for (int i = 0; i < 20; ++i) {
+        const auto point = test::geodeticToEcef(earth(), test::randomPosition(random, bin));
+        if (test::segmentMissesOccluder(earth(), 0.0, point, test::real(eye))) return false;
+    }
+    return true;
+}
+
+TEST(TileTruth, AgreesWithHullsAndLinesOfSight) {
+    test::Random random(20261);
+    int meeting = 0, more = 0, hidden = 0, blocked = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const core::Interval heights{random.uniform(0, 2000), random.uniform(2000, 9000)};
+        const GeodeticBin bin = test::randomTile(random, random.integer(1, 6), heights);
+        const core::Geodetic near = test::randomPosition(random, bin);
+        const test::View view =
+            randomPerspective(random, earth().toEcef({near.latitude * random.uniform(0.9, 1.1),
+                                                      near.longitude + random.uniform(-0.3, 0.3), near.altitude}));
+        TileTruth truth;
+        truth.learnBins({{"t", {}, AnalyticBin(bin)}});
+        const NeededTiles needed =
+            truth.neededTiles({{"t", {}, {}}}, *cameraOf(view), flight::Globe{kModel, osg::Matrixd()});
+        const bool isCounted = !needed.byBin.empty() || needed.hidden > 0;
+        const bool meets = test::hullsMeet(earth(), bin, view);
+        EXPECT_TRUE(isCounted || !meets) << i;
+        meeting += meets ? 1 : 0;
+        more += isCounted && !meets ? 1 : 0;
+        if (!meets || !isBlocked(random, bin, view.eye)) {
+            EXPECT_TRUE(!meets || needed.hidden == 0) << i;
+            continue;
+        }
+        ++blocked;
+        hidden += needed.hidden > 0 ? 1 : 0;
+    }
+    EXPECT_GT(meeting, 400);
+    EXPECT_LE(more, meeting / 1000);
+    EXPECT_GT(blocked, 100);
+    EXPECT_GE(hidden, blocked * 99 / 100);
 }
 
 }  // namespace
