@@ -7,6 +7,7 @@
 #include "TileMix.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/core/BoxBins.h>
 #include <osgAnalyticBin/core/ComparisonBins.h>
 #include <osgAnalyticBin/core/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/GeodeticMapping.h>
@@ -20,7 +21,6 @@
 #include <osg/BoundingSphere>
 #include <osg/CoordinateSystemNode>
 
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -34,7 +34,6 @@ namespace {
 
 using core::ExactGeodeticBin;
 using core::GeodeticBin;
-using core::Interval;
 using core::PlaneMask;
 using core::Side;
 
@@ -43,38 +42,6 @@ constexpr Real kFloatTolerance = 4.0;
 
 constexpr double kMostlyOutside = 0.9;
 constexpr double kHalfOutside = 0.5;
-
-// A box along east, north and up of the tile's middle.
-class OrientedBox {
-public:
-    explicit OrientedBox(const BinOracle& tile) : _center(0.0) {
-        const core::Geodetic middle = tile.bin().center();
-        const double sinLat = std::sin(middle.latitude);
-        const double cosLat = std::cos(middle.latitude);
-        const glm::dvec3 radial(std::cos(middle.longitude), std::sin(middle.longitude), 0.0);
-        const glm::dvec3 axes[3] = {{-radial.y, radial.x, 0.0},
-                                    {-sinLat * radial.x, -sinLat * radial.y, cosLat},
-                                    {cosLat * radial.x, cosLat * radial.y, sinLat}};
-        for (int i = 0; i < 3; ++i) {
-            const RealRange along = tile.range(axes[i]);
-            _center += axes[i] * static_cast<double>((along.lower + along.upper) / 2);
-            _halfAxes[i] = axes[i] * static_cast<double>(along.width() / 2 + 1e-6L);
-        }
-    }
-
-    [[nodiscard]] Side classify(const core::Plane& plane) const noexcept {
-        const double distance = plane.distance(_center);
-        const double reach = std::abs(glm::dot(plane.normal, _halfAxes[0])) +
-                             std::abs(glm::dot(plane.normal, _halfAxes[1])) +
-                             std::abs(glm::dot(plane.normal, _halfAxes[2]));
-        if (distance < -reach) return Side::Outside;
-        return distance >= reach ? Side::Inside : Side::Straddling;
-    }
-
-private:
-    glm::dvec3 _center;
-    glm::dvec3 _halfAxes[3];
-};
 
 osg::BoundingBox axisAlignedBox(const BinOracle& tile) {
     osg::BoundingBox box;
@@ -167,11 +134,13 @@ public:
         };
         const auto quadratic = [&](const BinOracle& tile) { return core::GeodeticQuadraticBin(wgs84(), tile.bin()); };
         const auto exact = [&](const BinOracle& tile) { return ExactGeodeticBin(wgs84(), tile.bin()); };
-        const auto box = [&](const BinOracle& tile) { return OrientedBox(tile); };
+        const auto box = [&](const BinOracle& tile) { return core::BoxBin(wgs84(), tile.bin()); };
+        const auto orientedBox = [&](const BinOracle& tile) { return core::OrientedBoxBin(wgs84(), tile.bin()); };
         const Real never = std::numeric_limits<Real>::infinity();
         bool right = addMethod("osgSphere", madeOf(_scene.tiles, sphere), OsgTest(), ReachesIn{kFloatTolerance});
         right &= addMethod("osgBox", madeOf(_scene.tiles, axisAlignedBox), OsgTest(), ReachesIn{kFloatTolerance});
-        right &= addMethod("orientedBox", madeOf(_scene.tiles, box), PlaneByPlaneTest(), ReachesIn{0});
+        right &= addMethod("box", madeOf(_scene.tiles, box), PlaneByPlaneTest(), ReachesIn{0});
+        right &= addMethod("orientedBox", madeOf(_scene.tiles, orientedBox), PlaneByPlaneTest(), ReachesIn{0});
         right &= addMethod("corners", madeOf(_scene.tiles, corners), PlaneByPlaneTest(), ReachesIn{never});
         right &= addMethod("paper", madeOf(_scene.tiles, paper), PlaneByPlaneTest(), ReachesIn{never});
         right &= addMethod("quadratic", madeOf(_scene.tiles, quadratic), SetTest(), ReachesIn{0});

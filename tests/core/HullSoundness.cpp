@@ -6,6 +6,7 @@
 // whose planes just hold a point of the bin. Every verdict of "hidden" or "separated" is then a false one, and so is an
 // Outside of the plane tests. Fails when there is a single one.
 
+#include <osgAnalyticBin/core/BoxBins.h>
 #include <osgAnalyticBin/core/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/FrustumHull.h>
 #include <osgAnalyticBin/core/GeodeticMapping.h>
@@ -32,12 +33,15 @@
 namespace osgAnalyticBin::test {
 namespace {
 
+using core::BoxBin;
 using core::Ellipsoid;
 using core::ExactGeodeticBin;
 using core::FrustumHull;
 using core::GeodeticBin;
 using core::HorizonBin;
 using core::HorizonEye;
+using core::HorizonPoint;
+using core::OrientedBoxBin;
 using core::Plane;
 using core::PlaneMask;
 using core::ReverseBin;
@@ -51,9 +55,21 @@ struct Options {
     unsigned threads = std::max(1u, std::thread::hardware_concurrency());
 };
 
-enum Test : std::size_t { kHorizon, kParallelHorizon, kReverse, kSearch, kExactPlanes, kQuadraticPlanes, kTests };
-constexpr std::array<const char*, kTests> kTestNames{"horizon",       "horizon, orthographic", "reverse test",
-                                                     "parting plane", "planes, exact",         "planes, quadratic"};
+enum Test : std::size_t {
+    kHorizon,
+    kParallelHorizon,
+    kHorizonPoint,
+    kReverse,
+    kSearch,
+    kExactPlanes,
+    kQuadraticPlanes,
+    kBox,
+    kOrientedBox,
+    kTests
+};
+constexpr std::array<const char*, kTests> kTestNames{
+    "horizon",       "horizon, orthographic", "horizon point", "reverse test", "parting plane",
+    "planes, exact", "planes, quadratic",     "box",           "oriented box"};
 
 struct Counts {
     std::array<std::uint64_t, kTests> trials{}, wrong{};
@@ -71,6 +87,7 @@ void trySight(Random& random, Counts& counts) {
     if (segmentMissesOccluder(line.ellipsoid, line.depth, line.target, real(line.eye))) {
         const auto eye = HorizonEye::fromEye(line.ellipsoid, line.depth, line.eye);
         counts.note(kHorizon, eye && isHidden(bin, *eye));
+        counts.note(kHorizonPoint, eye && eye->hides(HorizonPoint(bin)));
     }
     const glm::dvec3 view = glm::normalize(rounded(line.target) - line.eye);
     if (halfLineMissesOccluder(line.ellipsoid, line.depth, line.target, real(-view))) {
@@ -93,7 +110,15 @@ void tryFrustum(Random& random, Counts& counts) {
     counts.note(kExactPlanes, core::classify(exact, planes, planes.size(), mask) == Side::Outside);
     mask = all;
     counts.note(kQuadraticPlanes, core::classify(quadratic, planes, planes.size(), mask) == Side::Outside);
-    counts.note(kReverse, isSeparated(ReverseBin(exact, bin), FrustumHull(planes, planes.size())));
+    const FrustumHull frustum(planes, planes.size());
+    counts.note(kReverse, isSeparated(ReverseBin(exact, bin), frustum));
+    const BoxBin box(ellipsoid, bin, margin);
+    mask = all;
+    counts.note(kBox, core::classify(box, planes, planes.size(), mask) == Side::Outside || isSeparated(box, frustum));
+    const OrientedBoxBin oriented(ellipsoid, bin, margin);
+    mask = all;
+    counts.note(kOrientedBox, core::classify(oriented, planes, planes.size(), mask) == Side::Outside ||
+                                  isSeparated(oriented, frustum));
     counts.note(kSearch, isSeparated(exact, planes, planes.size(), all, planes.size()));
 }
 

@@ -21,6 +21,8 @@ constexpr double kUp = 1.0 + 16.0 * kEpsilon;
 constexpr double kDown = 1.0 - 16.0 * kEpsilon;
 // Of one cosine that is compared; doc/horizon.md, section 5.
 constexpr double kCosineSlack = 64.0 * kEpsilon;
+// Of the cosine that a point's spread is made from; doc/horizon.md, section 9.
+constexpr double kSpreadSlack = 16.0 * kEpsilon;
 // Deeper, the geometry of altitudes is no longer one to one, and there is no use in it.
 constexpr double kDeepest = 0.5;
 
@@ -122,6 +124,27 @@ void HorizonBin::setRadius(const Ellipsoid& ellipsoid, const GeodeticBin& bin, d
     _inverseRadius = kDown / (highest + step);
 }
 
+HorizonPoint::HorizonPoint(const HorizonBin& bin) noexcept {
+    const glm::dvec2 sum(bin._cosSouth + bin._cosNorth, bin._sinSouth + bin._sinNorth);
+    const glm::dvec2 middle = glm::length(sum) > 0.0 ? glm::normalize(sum) : glm::dvec2(1.0, 0.0);
+    // In longitude the cosine is least at the ends; along them it is least at the south or the north end, unless it
+    // falls and rises again, which it does beyond a quarter turn only.
+    const double radial = middle.x * bin._cosHalf;
+    const bool falls = middle.y * bin._cosSouth - radial * bin._sinSouth < 0.0;
+    const bool rises = middle.y * bin._cosNorth - radial * bin._sinNorth > 0.0;
+    if (falls && rises) return;
+    const double cosine =
+        std::min(radial * bin._cosSouth + middle.y * bin._sinSouth, radial * bin._cosNorth + middle.y * bin._sinNorth) -
+        kSpreadSlack;
+    if (!(cosine > 0.0)) return;
+    const double sine = std::sqrt((1.0 - cosine) * (1.0 + cosine));
+    _cosSpread = cosine * bin._cosMargin - sine * bin._sinMargin;
+    _sinSpread = sine * bin._cosMargin + cosine * bin._sinMargin;
+    if (!(_cosSpread > 0.0)) return;
+    _direction = {middle.x * bin._cosMiddle, middle.x * bin._sinMiddle, middle.y};
+    _inverseRadius = bin._inverseRadius;
+}
+
 std::optional<HorizonEye> HorizonEye::fromEye(const Ellipsoid& ellipsoid, double depth,
                                               const glm::dvec3& eyeEcef) noexcept {
     const double scale = occluderScale(ellipsoid, depth);
@@ -171,14 +194,25 @@ bool HorizonEye::hides(const HorizonBin& bin) const noexcept {
     const double south = bin._cosSouth * toward + bin._sinSouth * _direction.z;
     const double north = bin._cosNorth * toward + bin._sinNorth * _direction.z;
     if (south >= _cosDip || north >= _cosDip) return false;
+    return largestCosine(bin) < hiddenBelow(bin._inverseRadius, bin._cosMargin, bin._sinMargin);
+}
+
+// The cosine of the angle from the eye beyond which a direction is hidden, of points at the radius or nearer; the
+// spread is added to it. Minus infinity: nothing is hidden.
+double HorizonEye::hiddenBelow(double inverseRadius, double cosSpread, double sinSpread) const noexcept {
     // B, the angle at the centre between the bin's farthest point and its horizon
-    const double cosB = std::min(1.0, _scale * bin._inverseRadius * kDown);
+    const double cosB = std::min(1.0, _scale * inverseRadius * kDown);
     const double sinB = std::sqrt(1.0 - cosB * cosB + 4.0 * kEpsilon);
-    const double cosC = cosB * bin._cosMargin - sinB * bin._sinMargin;
-    const double sinC = sinB * bin._cosMargin + cosB * bin._sinMargin;
-    if (!(cosC > 0.0)) return false;  // so that dip + C stays below half a turn
-    const double limit = _cosDip * cosC - _sinDip * sinC - kCosineSlack;
-    return largestCosine(bin) < limit;
+    const double cosC = cosB * cosSpread - sinB * sinSpread;
+    const double sinC = sinB * cosSpread + cosB * sinSpread;
+    if (!(cosC > 0.0)) return -std::numeric_limits<double>::infinity();  // so that dip + C stays below half a turn
+    return _cosDip * cosC - _sinDip * sinC - kCosineSlack;
+}
+
+bool HorizonEye::hides(const HorizonPoint& point) const noexcept {
+    const double cosine = glm::dot(_direction, point._direction);
+    if (cosine >= _cosDip) return false;
+    return cosine < hiddenBelow(point._inverseRadius, point._cosSpread, point._sinSpread);
 }
 
 }  // namespace osgAnalyticBin::core

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Oracles: the exact intersection of a line of sight with the occluder in long double; the point itself, found from
+// samples of the bin, whose own line of sight is tested. Ten million more trials: HullSoundness.cpp.
+
+#include <osgAnalyticBin/core/Horizon.h>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <optional>
+#include <support/RandomBins.h>
+#include <support/RandomViews.h>
+#include <support/View.h>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::Ellipsoid;
+using core::GeodeticBin;
+using core::HorizonBin;
+using core::HorizonEye;
+using core::HorizonPoint;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kDepth = 11000.0;
+
+HorizonPoint pointOf(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin = 0.0) {
+    return HorizonPoint(HorizonBin(ellipsoid, bin, margin));
+}
+
+TEST(HorizonPoint, HidesNoVisiblePoint) {
+    Random random(420);
+    int hidden = 0;
+    for (int trial = 0; trial < 60000; ++trial) {
+        const Ellipsoid ellipsoid = randomEllipsoid(random);
+        const GeodeticBin bin = randomBin(random);
+        const double depth = randomDepth(random);
+        const glm::dvec3 eye = randomEye(random, ellipsoid, depth);
+        const auto prepared = HorizonEye::fromEye(ellipsoid, depth, eye);
+        if (!prepared || !prepared->hides(pointOf(ellipsoid, bin))) continue;
+        ++hidden;
+        for (int i = 0; i < 40; ++i) {
+            const RealVector point = geodeticToEcef(ellipsoid, randomPosition(random, bin));
+            ASSERT_FALSE(segmentMissesOccluder(ellipsoid, depth, point, real(eye))) << "trial " << trial;
+        }
+    }
+    EXPECT_GT(hidden, 10000) << "nothing is tested";
+}
+
+TEST(HorizonPoint, SeesEveryPointWhoseLineOfSightJustMisses) {
+    Random random(421);
+    int seen = 0;
+    for (int trial = 0; trial < 300000; ++trial) {
+        const LineOfSight line = randomLineOfSight(random);
+        const HorizonPoint point = pointOf(line.ellipsoid, line.bin, line.margin);
+        if (segmentMissesOccluder(line.ellipsoid, line.depth, line.target, real(line.eye))) {
+            ++seen;
+            const auto eye = HorizonEye::fromEye(line.ellipsoid, line.depth, line.eye);
+            ASSERT_FALSE(eye && eye->hides(point)) << "trial " << trial;
+        }
+        const glm::dvec3 direction = glm::normalize(rounded(line.target) - line.eye);
+        if (halfLineMissesOccluder(line.ellipsoid, line.depth, line.target, real(-direction))) {
+            const auto eye =
+                HorizonEye::fromDirection(line.ellipsoid, line.depth, direction, line.eye - 4e7 * direction);
+            ASSERT_FALSE(eye && eye->hides(point)) << "trial " << trial;
+        }
+    }
+    EXPECT_GT(seen, 100000) << "nothing is tested";
+}
+
+TEST(HorizonPoint, NeverHidesWhatTheBinItselfDoesNot) {
+    Random random(422);
+    int byBoth = 0;
+    int byBin = 0;
+    for (int trial = 0; trial < 200000; ++trial) {
+        const GeodeticBin bin = randomTile(random, random.integer(0, 6), {-500.0, 3000.0});
+        const glm::dvec3 eye = randomEye(random, wgs84(), kDepth);
+        const auto prepared = HorizonEye::fromEye(wgs84(), kDepth, eye);
+        if (!prepared) continue;
+        const bool isBinHidden = prepared->hides(HorizonBin(wgs84(), bin));
+        const bool isPointHidden = prepared->hides(pointOf(wgs84(), bin));
+        ASSERT_TRUE(isBinHidden || !isPointHidden) << "trial " << trial;
+        byBin += isBinHidden ? 1 : 0;
+        byBoth += isPointHidden ? 1 : 0;
+    }
+    std::printf("hidden by the point: %.2f %% of what is hidden by the bin\n", 100.0 * byBoth / byBin);
+    EXPECT_LT(byBoth, byBin) << "the point is no better than it can be";
+    EXPECT_GT(byBoth, 0.9 * byBin);
+}
+
+// The point as [R13] has it, from samples in the space where the occluder is the unit ball: along the middle, as high
+// as the sample needs that needs most.
+std::optional<RealVector> sampledPoint(const GeodeticBin& bin, Real scale) {
+    const Real a = wgs84().equatorialRadius();
+    const Real b = wgs84().polarRadius();
+    const auto inBall = [&](Real latitude, Real longitude) {
+        const RealVector p = geodeticToEcef(wgs84(), latitude, longitude, bin.altitude().upper);
+        return RealVector{p.x / a / scale, p.y / a / scale, p.z / b / scale};
+    };
+    const RealVector middle = inBall(bin.center().latitude, bin.center().longitude);
+    const RealVector direction = (1 / length(middle)) * middle;
+    constexpr int kSteps = 8;
+    Real height = 0;
+    for (int i = 0; i <= kSteps; ++i) {
+        for (int j = 0; j <= kSteps; ++j) {
+            const RealVector p = inBall(bin.latitude().lower + bin.latitude().width() * i / kSteps,
+                                        bin.longitude().lower + bin.longitude().width() * j / kSteps);
+            const Real angle = std::acos(std::min<Real>(1, dot(p, direction) / length(p))) + std::acos(1 / length(p));
+            if (!(angle < static_cast<Real>(kHalfPi))) return std::nullopt;
+            height = std::max(height, 1 / std::cos(angle));
+        }
+    }
+    const RealVector q = height * direction;
+    return RealVector{q.x * a * scale, q.y * a * scale, q.z * b * scale};
+}
+
+TEST(HorizonPoint, IsThePublishedPoint) {
+    Random random(423);
+    const Real scale = 1 - static_cast<Real>(kDepth) / wgs84().polarRadius();
+    int differences = 0;
+    int hidden = 0;
+    constexpr int kTrials = 20000;
+    for (int trial = 0; trial < kTrials; ++trial) {
+        const GeodeticBin bin = randomTile(random, random.integer(1, 6), {-500.0, 3000.0});
+        const glm::dvec3 eye = randomEye(random, wgs84(), kDepth);
+        const auto prepared = HorizonEye::fromEye(wgs84(), kDepth, eye);
+        const auto point = sampledPoint(bin, scale);
+        if (!prepared || !point) continue;
+        const bool isPublishedHidden = !segmentMissesOccluder(wgs84(), kDepth, *point, real(eye));
+        hidden += isPublishedHidden ? 1 : 0;
+        differences += isPublishedHidden != prepared->hides(pointOf(wgs84(), bin)) ? 1 : 0;
+    }
+    EXPECT_GT(hidden, kTrials / 4);
+    // The middle in latitude is not quite that of the scaled latitudes, and no sample may be the farthest point.
+    EXPECT_LT(differences, kTrials / 500);
+}
+
+TEST(HorizonPoint, MissingInformationIsVisible) {
+    const auto eye = HorizonEye::fromEye(wgs84(), kDepth, {1e7, 0.0, 0.0});
+    ASSERT_TRUE(eye);
+    const auto behind = [](double halfWidthDeg, core::Interval altitude) {
+        return GeodeticBin::fromDegrees({-1.0, 1.0}, {180.0 - halfWidthDeg, 180.0 + halfWidthDeg}, altitude);
+    };
+    EXPECT_TRUE(eye->hides(pointOf(wgs84(), behind(1.0, {0.0, 1000.0}))));
+    EXPECT_FALSE(eye->hides(pointOf(wgs84(), behind(1.0, {0.0, 1000.0}), kNaN)));
+    EXPECT_FALSE(eye->hides(pointOf(wgs84(), behind(1.0, {-4e6, 1000.0})))) << "nearer the centre than altitudes go";
+    EXPECT_FALSE(eye->hides(pointOf(wgs84(), behind(95.0, {0.0, 1000.0})))) << "wider than any point stands for";
+    EXPECT_FALSE(eye->hides(pointOf(wgs84(), GeodeticBin())));
+    EXPECT_FALSE(eye->hides(pointOf(wgs84(), GeodeticBin::wholeGlobe({0.0, 1000.0}))));
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
