@@ -34,8 +34,8 @@ TEST(CullOptions, ExpiryReadsBack) {
 }
 
 TEST(CullOptions, EveryMethodReadsBack) {
-    for (const Method method :
-         {Method::Quadratic, Method::Exact, Method::Paper, Method::Corners, Method::Sphere, Method::None}) {
+    for (const Method method : {Method::Quadratic, Method::Exact, Method::Paper, Method::Corners, Method::Box,
+                                Method::OrientedBox, Method::Sphere, Method::None}) {
         EXPECT_EQ(methodFromName(methodName(method)), method);
         CullOptions options;
         options.method = method;
@@ -45,8 +45,8 @@ TEST(CullOptions, EveryMethodReadsBack) {
         ASSERT_TRUE(back) << error;
         EXPECT_EQ(back->method, method);
         EXPECT_EQ(back->growth, options.growth);
-        EXPECT_EQ(back->horizonUse, HorizonUse::Declared);
-        EXPECT_TRUE(back->reverse);
+        EXPECT_EQ(back->horizonUse, HorizonUse::ByMethod);
+        EXPECT_EQ(back->reverse, std::nullopt);
     }
 }
 
@@ -62,6 +62,27 @@ TEST(CullOptions, HorizonAndReverseReadBack) {
         EXPECT_EQ(back->reverse, options->reverse);
     }
     EXPECT_EQ(cullOptionsFromText("horizon=-500", error)->horizon, -500.0);
+}
+
+TEST(CullOptions, MethodsForComparisonCullByPlanesAloneUnlessTold) {
+    std::string error;
+    const auto horizonOf = [&](const char* text) { return cullOptionsFromText(text, error)->effectiveHorizonUse(); };
+    const auto reverseOf = [&](const char* text) { return cullOptionsFromText(text, error)->effectiveReverse(); };
+    for (const std::string name : {"paper", "corners", "box", "orientedbox"}) {
+        const std::string text = "method=" + name;
+        EXPECT_EQ(horizonOf(text.c_str()), HorizonUse::Off) << name;
+        EXPECT_FALSE(reverseOf(text.c_str())) << name;
+        EXPECT_EQ(horizonOf(("horizon=declared," + text).c_str()), HorizonUse::Declared) << name;
+        EXPECT_EQ(horizonOf((text + ",horizon=-500").c_str()), HorizonUse::Given) << name;
+        EXPECT_TRUE(reverseOf((text + ",reverse=on").c_str())) << name;
+    }
+    for (const std::string name : {"quadratic", "exact"}) {
+        const std::string text = "method=" + name;
+        EXPECT_EQ(horizonOf(text.c_str()), HorizonUse::Declared) << name;
+        EXPECT_TRUE(reverseOf(text.c_str())) << name;
+        EXPECT_EQ(horizonOf((text + ",horizon=off").c_str()), HorizonUse::Off) << name;
+        EXPECT_FALSE(reverseOf((text + ",reverse=off").c_str())) << name;
+    }
 }
 
 TEST(CullOptions, WhatConcernsForeignDatabasesReadsBack) {

@@ -80,8 +80,10 @@ CullView randomView(test::Random& random, osg::Vec3d& eye) {
 }
 
 TEST(HorizonCulling, NeverCullsATileWithASampleInSight) {
-    for (const Method method : {Method::Quadratic, Method::Exact}) {
-        Globe globe(withHorizon(method));
+    for (const Method method : {Method::Quadratic, Method::Exact, Method::Box, Method::OrientedBox}) {
+        CullOptions options = withHorizon(method);
+        options.reverse = true;
+        Globe globe(options);
         test::Random random(30);
         unsigned int hidden = 0;
         for (int i = 0; i < 150; ++i) {
@@ -147,13 +149,37 @@ TEST(HorizonCulling, IsOffForCamerasThatInheritAViewpointUnlessAsked) {
     EXPECT_LT(plain.reached(*plain.root, view).size(), 100u);
 }
 
-TEST(HorizonCulling, IsOffWhereItIsNotAskedForAndForTheUnsoundMethods) {
+TEST(HorizonCulling, IsOffWhereItIsNotAskedFor) {
     const CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
-    for (const CullOptions& options : {CullOptions(), withHorizon(Method::Paper), withHorizon(Method::Corners)}) {
-        Globe globe(options);
-        globe.reached(*globe.root, view);
-        EXPECT_EQ(globe.counts.hidden, 0u);
+    Globe undeclared({});
+    undeclared.reached(*undeclared.root, view);
+    EXPECT_EQ(undeclared.counts.hidden, 0u);
+    for (const Method method : {Method::Paper, Method::Corners, Method::Box, Method::OrientedBox}) {
+        Globe asked(withHorizon(method));
+        asked.reached(*asked.root, view);
+        EXPECT_GT(asked.counts.hidden, 40u) << methodName(method);
     }
+}
+
+TEST(HorizonCulling, OfBoxesIsThatOfAPoint) {
+    Globe corners(withHorizon(Method::Corners));
+    Globe boxes(withHorizon(Method::Box));
+    test::Random random(34);
+    unsigned int byBin = 0;
+    unsigned int byPoint = 0;
+    for (int i = 0; i < 100; ++i) {
+        osg::Vec3d eye;
+        // the whole globe is inside all planes: nothing but the horizon culls
+        CullView view = randomView(random, eye);
+        view.projection = osg::Matrixd::ortho(-1e8, 1e8, -1e8, 1e8, 1.0, 1e9);
+        view.modelView = osg::Matrixd::lookAt(eye, {0, 0, 0}, {0.1, 0.2, 0.9});
+        corners.reached(*corners.root, view);
+        boxes.reached(*boxes.root, view);
+        byBin += corners.counts.hidden;
+        byPoint += boxes.counts.hidden;
+    }
+    EXPECT_LT(byPoint, byBin);
+    EXPECT_GT(byPoint, byBin * 3 / 4);
 }
 
 TEST(HorizonCulling, ADatabaseDeclaresItAndTheUserHasTheLastWord) {
@@ -171,6 +197,11 @@ TEST(HorizonCulling, ADatabaseDeclaresItAndTheUserHasTheLastWord) {
     CullOptions off;
     off.horizonUse = HorizonUse::Off;
     EXPECT_EQ(installed(off).horizonUse, HorizonUse::Off);
+    CullOptions box;
+    box.method = Method::Box;
+    EXPECT_EQ(installed(box).effectiveHorizonUse(), HorizonUse::Off);
+    box.horizonUse = HorizonUse::Declared;
+    EXPECT_EQ(installed(box).horizonUse, HorizonUse::Given);
     CullOptions other = withHorizon();
     other.horizon = -9.0;
     EXPECT_EQ(installed(other).horizon, -9.0);
@@ -193,6 +224,27 @@ TEST(EdgeCulling, CullsTilesBeyondTheEdgesOfANarrowFrustumAndNoneInSight) {
         EXPECT_EQ(reached.size() + with.counts.separated, more.size());
     }
     EXPECT_GT(separated, 20u);
+}
+
+TEST(EdgeCulling, IsOffForMethodsForComparisonUnlessAskedFor) {
+    for (const Method method : {Method::Paper, Method::Corners, Method::Box, Method::OrientedBox}) {
+        CullOptions options;
+        options.method = method;
+        Globe plain(options);
+        options.reverse = true;
+        Globe asked(options);
+        test::Random random(33);
+        unsigned int separated = 0;
+        for (int i = 0; i < 200; ++i) {
+            osg::Vec3d eye;
+            const CullView view = randomView(random, eye);
+            const std::set<std::string> all = plain.reached(*plain.root, view);
+            EXPECT_EQ(plain.counts.separated, 0u);
+            EXPECT_EQ(asked.reached(*asked.root, view).size() + asked.counts.separated, all.size());
+            separated += asked.counts.separated;
+        }
+        EXPECT_GT(separated, 0u) << methodName(method);
+    }
 }
 
 }  // namespace

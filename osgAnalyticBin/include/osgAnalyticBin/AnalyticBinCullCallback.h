@@ -6,6 +6,7 @@
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/core/BoxBins.h>
 #include <osgAnalyticBin/core/ComparisonBins.h>
 #include <osgAnalyticBin/core/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
@@ -52,8 +53,8 @@ struct TerrainShape {
 /// then neither frustum nor eye say what is drawn.
 /// Frame: the bin is in ECEF; the frame in which the node's children stand is ECEF too unless setLocalToEcef() says
 /// otherwise. Transforms above the globe need nothing: OSG's planes follow them.
-/// Guarantee (Method::Quadratic, Method::Exact): a tile is never culled if a point of its bin is inside all planes and
-/// not behind the horizon; tests: AnalyticBinCullCallback.*. An invalid bin is never culled.
+/// Guarantee (all methods but Method::Paper and Method::Corners): a tile is never culled if a point of its bin is
+/// inside all planes and not behind the horizon; tests: AnalyticBinCullCallback.*. An invalid bin is never culled.
 /// Threads: run() changes nothing in the callback; any number of cull traversals may run it at once. Setters must not
 /// be called while a cull traversal runs.
 /// Cost: no allocation, no trigonometry.
@@ -130,14 +131,17 @@ protected:
 private:
     // What a cull traversal reads, made once per bin.
     struct Prepared {
-        std::variant<core::GeodeticQuadraticBin, core::ExactGeodeticBin, core::PaperBin, core::CornersBin> bin;
+        std::variant<core::GeodeticQuadraticBin, core::ExactGeodeticBin, core::PaperBin, core::CornersBin, core::BoxBin,
+                     core::OrientedBoxBin>
+            bin;
         std::optional<core::ExactGeodeticBin>
             separable;  // for the test against edges, where `bin` is not the exact one
         std::optional<core::HorizonBin> horizon;
         core::Ellipsoid ellipsoid;
         osg::BoundingSphere sphere;  // in the frame of the node's children
         osg::BoundingSphere columnSphere;
-        std::optional<core::HorizonBin> columnHorizon;  // where it is not that of the bin
+        std::optional<core::HorizonBin> columnHorizon;   // where it is not that of the bin
+        std::optional<core::HorizonPoint> horizonPoint;  // in place of the bin's horizon, for boxes
     };
 
     void prepare();
@@ -147,10 +151,14 @@ private:
     [[nodiscard]] bool isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
     [[nodiscard]] Verdict classify(osg::CullStack& cullStack, osg::NodeVisitor& nv, CullTraversal& traversal,
                                    const core::PlaneSet& planes, core::PlaneMask& undecided) const;
-    [[nodiscard]] bool isBeyondAnEdge(const core::PlaneSet& planes, core::PlaneMask undecided) const;
+    [[nodiscard]] bool isHiddenFrom(const core::HorizonEye& eye) const;
+    [[nodiscard]] bool isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,
+                                      core::PlaneMask undecided) const;
 
     std::optional<Prepared> _prepared;
     bool _hasLocalFrame = false;
+    bool _testsEdges = false;
+    bool _hidesByPoint = false;
     CullOptions _options;
     osg::Matrixd _ecefToLocal;
     osg::Matrixd _localToEcef;

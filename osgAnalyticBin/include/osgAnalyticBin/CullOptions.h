@@ -13,23 +13,30 @@ namespace osgAnalyticBin {
 
 /// How the tiles of a database are culled.
 enum class Method {
-    Quadratic,  ///< the quadratic bin: sound; the default
-    Exact,      ///< the closed form of the geodetic bin: sound, and tight to rounding
-    Paper,      ///< the published nine-point rule: unsound, for comparison
-    Corners,    ///< the eight corners of the bin: unsound, for comparison
-    Sphere,     ///< OpenSceneGraph's own bounding spheres, untouched
-    None        ///< no culling at all: every tile is drawn
+    Quadratic,    ///< the quadratic bin: sound; the default
+    Exact,        ///< the closed form of the geodetic bin: sound, and tight to rounding
+    Paper,        ///< the published nine-point rule: unsound, for comparison
+    Corners,      ///< the eight corners of the bin: unsound, for comparison
+    Box,          ///< the bin's box along the axes of ECEF: sound, for comparison
+    OrientedBox,  ///< the bin's box along east, north and up, and a horizon point: sound, for comparison
+    Sphere,       ///< OpenSceneGraph's own bounding spheres, untouched
+    None          ///< no culling at all: every tile is drawn
 };
 
-/// The name that files, options and command lines use: "quadratic", "exact", "paper", "corners", "sphere", "none".
+/// The name that files, options and command lines use: "quadratic", "exact", "paper", "corners", "box", "orientedbox",
+/// "sphere", "none".
 [[nodiscard]] OSGANALYTICBIN_EXPORT const char* methodName(Method method) noexcept;
 
 /// Returns: nullopt for an unknown name.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<Method> methodFromName(const std::string& name) noexcept;
 
-/// Whether tiles behind the horizon are culled; with Method::Quadratic and Method::Exact only.
+/// Whether a method is there to be compared with: it culls by planes alone unless it is told otherwise.
+[[nodiscard]] OSGANALYTICBIN_EXPORT bool isForComparison(Method method) noexcept;
+
+/// Whether tiles behind the horizon are culled.
 enum class HorizonUse {
-    Declared,  ///< against the lowest surface that the database declares, else the lowest one shown; the default
+    ByMethod,  ///< Off with methods for comparison, Declared with the others; the default
+    Declared,  ///< against the lowest surface that the database declares, else the lowest one shown
     Off,       ///< never
     Given      ///< against the altitude in CullOptions::horizon
 };
@@ -56,16 +63,17 @@ struct CullOptions {
     Method method = Method::Quadratic;
     /// Factor by which Method::Paper enlarges its box; at least 1.
     double growth = core::PaperBin::kDefaultGrowth;
-    HorizonUse horizonUse = HorizonUse::Declared;
+    HorizonUse horizonUse = HorizonUse::ByMethod;
     /// Altitude in metres below which nothing is drawn anywhere in the database, meshes between their posts included;
     /// the database covers the whole globe. Read with HorizonUse::Given.
     double horizon = 0.0;
     /// Whether shadow passes use the horizon too: cameras that inherit a view point or draw depth alone, and those
     /// relative to them. What casts a shadow may lie behind it, and its back faces may be all that is drawn.
     bool inheritViewpoint = false;
-    /// Whether tiles across an edge of the frustum are tested against the edge too; with Method::Quadratic and
-    /// Method::Exact only.
-    bool reverse = true;
+    /// Whether tiles across an edge of the frustum are tested against the edge too, or, with boxes, whether the frustum
+    /// is beyond one of their faces. Without a value: not with methods for comparison. Tiles of a map, all of them
+    /// boxes, are tested unless it is false.
+    std::optional<bool> reverse;
     /// Seconds for which the DatabasePager keeps a tile's finer children after they were last seen, when it has more
     /// PagedLODs than its target; 0 leaves OSG's own rule alone. Bins cull what spheres keep by chance: without this,
     /// turning the head and back reads the same files again.
@@ -79,6 +87,12 @@ struct CullOptions {
     core::Interval heights = kTerrainOnEarth;
     /// Whether an index beside the database is used.
     bool index = true;
+
+    /// What `horizonUse` comes to with this method; never ByMethod.
+    [[nodiscard]] OSGANALYTICBIN_EXPORT HorizonUse effectiveHorizonUse() const noexcept;
+
+    /// What `reverse` comes to with this method.
+    [[nodiscard]] OSGANALYTICBIN_EXPORT bool effectiveReverse() const noexcept;
 
     static constexpr double kDefaultExpiry = 3.0;
     static constexpr core::Interval kTerrainOnEarth{-11500.0, 9000.0};

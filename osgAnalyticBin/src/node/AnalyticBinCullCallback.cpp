@@ -27,7 +27,8 @@ namespace {
 
 constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
-using PreparedBin = std::variant<core::GeodeticQuadraticBin, core::ExactGeodeticBin, core::PaperBin, core::CornersBin>;
+using PreparedBin = std::variant<core::GeodeticQuadraticBin, core::ExactGeodeticBin, core::PaperBin, core::CornersBin,
+                                 core::BoxBin, core::OrientedBoxBin>;
 
 PreparedBin preparedBin(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid, const CullOptions& options) {
     const core::ParameterBox box = core::parameterBox(bin.bin());
@@ -36,6 +37,10 @@ PreparedBin preparedBin(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid
             return core::PaperBin(core::GeodeticMapping(ellipsoid), box, options.growth);
         case Method::Corners:
             return core::CornersBin(core::GeodeticMapping(ellipsoid), box);
+        case Method::Box:
+            return core::BoxBin(ellipsoid, bin.bin(), bin.margin());
+        case Method::OrientedBox:
+            return core::OrientedBoxBin(ellipsoid, bin.bin(), bin.margin());
         case Method::Exact:
             if (core::ExactGeodeticBin::holds(ellipsoid, bin.bin())) {
                 return core::ExactGeodeticBin(ellipsoid, bin.bin(), bin.margin());
@@ -49,8 +54,8 @@ PreparedBin preparedBin(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid
     return core::GeodeticQuadraticBin(ellipsoid, bin.bin(), bin.margin());
 }
 
-bool isSound(Method method) {
-    return method == Method::Quadratic || method == Method::Exact;
+bool isBox(Method method) {
+    return method == Method::Box || method == Method::OrientedBox;
 }
 
 // The planes of a frustum, moved to ECEF.
@@ -85,6 +90,8 @@ AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& 
       osg::NodeCallback(other, copyop),
       _prepared(other._prepared),
       _hasLocalFrame(other._hasLocalFrame),
+      _testsEdges(other._testsEdges),
+      _hidesByPoint(other._hidesByPoint),
       _options(other._options),
       _ecefToLocal(other._ecefToLocal),
       _localToEcef(other._localToEcef),
@@ -113,15 +120,23 @@ void AnalyticBinCullCallback::prepare() {
     osg::BoundingSphere sphere = shown.boundingSphere(*_ellipsoid);
     if (_hasLocalFrame) sphere = movedSphere(sphere, _ecefToLocal);
     const core::Ellipsoid ellipsoid = toCore(*_ellipsoid);
-    _prepared = Prepared{
-        preparedBin(shown, ellipsoid, _options), std::nullopt, std::nullopt, ellipsoid, sphere, sphere, std::nullopt};
-    if (!isSound(_options.method)) return;
-    const bool isExact = std::holds_alternative<core::ExactGeodeticBin>(_prepared->bin);
-    if (_options.reverse && !isExact && core::ExactGeodeticBin::holds(ellipsoid, shown.bin())) {
+    _prepared = Prepared{preparedBin(shown, ellipsoid, _options),
+                         std::nullopt,
+                         std::nullopt,
+                         ellipsoid,
+                         sphere,
+                         sphere,
+                         std::nullopt,
+                         std::nullopt};
+    _testsEdges = _options.effectiveReverse();
+    _hidesByPoint = isBox(_options.method);
+    const bool isOwnEdge = isBox(_options.method) || std::holds_alternative<core::ExactGeodeticBin>(_prepared->bin);
+    if (_testsEdges && !isOwnEdge && core::ExactGeodeticBin::holds(ellipsoid, shown.bin())) {
         _prepared->separable.emplace(ellipsoid, shown.bin(), shown.margin());
     }
-    if (_options.horizonUse == HorizonUse::Off) return;
+    if (_options.effectiveHorizonUse() == HorizonUse::Off) return;
     _prepared->horizon.emplace(ellipsoid, shown.bin(), shown.margin());
+    if (_hidesByPoint) _prepared->horizonPoint.emplace(*_prepared->horizon);
     if (shown.bin().altitude().upper >= 0.0) return;
     AnalyticBin column = shown;
     column.setBin(shown.bin().withAltitude({shown.bin().altitude().lower, 0.0}));
@@ -224,16 +239,26 @@ Verdict AnalyticBinCullCallback::classify(osg::CullStack& cullStack, osg::NodeVi
     if (side == core::Side::Outside) return {side, Verdict::Plane};
     if (_prepared->horizon) {
         const core::HorizonEye* eye = eyeOn(cullStack, nv, traversal);
-        if (eye && eye->hides(*_prepared->horizon)) return {core::Side::Outside, Verdict::Horizon};
+        if (eye && isHiddenFrom(*eye)) return {core::Side::Outside, Verdict::Horizon};
     }
-    if (side == core::Side::Straddling && isBeyondAnEdge(planes, undecided)) {
+    if (side == core::Side::Straddling && _testsEdges && isBeyondAnEdge(traversal, planes, undecided)) {
         return {core::Side::Outside, Verdict::Edge};
     }
     return {side, Verdict::Plane};
 }
 
-bool AnalyticBinCullCallback::isBeyondAnEdge(const core::PlaneSet& planes, core::PlaneMask undecided) const {
-    if (!_options.reverse || !isSound(_options.method)) return false;
+bool AnalyticBinCullCallback::isHiddenFrom(const core::HorizonEye& eye) const {
+    return _hidesByPoint ? eye.hides(*_prepared->horizonPoint) : eye.hides(*_prepared->horizon);
+}
+
+bool AnalyticBinCullCallback::isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,
+                                             core::PlaneMask undecided) const {
+    if (const auto* box = std::get_if<core::BoxBin>(&_prepared->bin)) {
+        return core::isSeparated(*box, traversal.hull(planes));
+    }
+    if (const auto* box = std::get_if<core::OrientedBoxBin>(&_prepared->bin)) {
+        return core::isSeparated(*box, traversal.hull(planes));
+    }
     const auto* exact = std::get_if<core::ExactGeodeticBin>(&_prepared->bin);
     if (!exact && _prepared->separable) exact = &*_prepared->separable;
     return exact && core::isSeparated(*exact, planes, planes.size(), undecided);

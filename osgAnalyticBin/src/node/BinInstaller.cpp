@@ -81,7 +81,7 @@ CullOptions settled(osg::Node& node, const CullOptions& options) {
         auto* request = dynamic_cast<InstallBinsCallback*>(callback);
         if (!request) continue;
         const CullOptions declared = request->cullOptions();
-        if (effective.horizonUse == HorizonUse::Declared && declared.horizonUse == HorizonUse::Given) {
+        if (effective.effectiveHorizonUse() == HorizonUse::Declared && declared.horizonUse == HorizonUse::Given) {
             effective.horizonUse = HorizonUse::Given;
             effective.horizon = declared.horizon;
         }

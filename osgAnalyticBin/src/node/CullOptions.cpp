@@ -13,10 +13,12 @@ namespace osgAnalyticBin {
 
 namespace {
 
-constexpr std::array<std::pair<Method, const char*>, 6> kMethodNames{{{Method::Quadratic, "quadratic"},
+constexpr std::array<std::pair<Method, const char*>, 8> kMethodNames{{{Method::Quadratic, "quadratic"},
                                                                       {Method::Exact, "exact"},
                                                                       {Method::Paper, "paper"},
                                                                       {Method::Corners, "corners"},
+                                                                      {Method::Box, "box"},
+                                                                      {Method::OrientedBox, "orientedbox"},
                                                                       {Method::Sphere, "sphere"},
                                                                       {Method::None, "none"}}};
 
@@ -31,7 +33,9 @@ constexpr double kLongestExpiry = 86400.0;
 bool applyMethod(const std::string& value, CullOptions& options, std::string& error) {
     const std::optional<Method> method = methodFromName(value);
     if (method) options.method = *method;
-    if (!method) error = "unknown method \"" + value + "\" (use quadratic, exact, paper, corners, sphere or none)";
+    if (!method)
+        error =
+            "unknown method \"" + value + "\" (use quadratic, exact, paper, corners, box, orientedbox, sphere or none)";
     return method.has_value();
 }
 
@@ -91,7 +95,8 @@ bool applyChoice(const std::string& key, const std::string& value, const char* f
     return false;
 }
 
-bool applySwitch(const std::string& key, const std::string& value, bool& option, std::string& error) {
+template <class Switch>
+bool applySwitch(const std::string& key, const std::string& value, Switch& option, std::string& error) {
     bool isOn = false;
     if (!applyChoice(key, value, "on", "off", isOn, error)) return false;
     option = isOn;
@@ -146,6 +151,20 @@ std::optional<Method> methodFromName(const std::string& name) noexcept {
     return std::nullopt;
 }
 
+bool isForComparison(Method method) noexcept {
+    return method == Method::Paper || method == Method::Corners || method == Method::Box ||
+           method == Method::OrientedBox;
+}
+
+HorizonUse CullOptions::effectiveHorizonUse() const noexcept {
+    if (horizonUse != HorizonUse::ByMethod) return horizonUse;
+    return isForComparison(method) ? HorizonUse::Off : HorizonUse::Declared;
+}
+
+bool CullOptions::effectiveReverse() const noexcept {
+    return reverse.value_or(!isForComparison(method));
+}
+
 std::optional<CullOptions> cullOptionsFromText(const std::string& text, std::string& error) {
     std::string spaced = text;
     for (char& c : spaced) {
@@ -163,10 +182,11 @@ std::optional<CullOptions> cullOptionsFromText(const std::string& text, std::str
 
 std::string toText(const CullOptions& options) {
     std::string text = std::string("method=") + methodName(options.method) + ",growth=" + numberToText(options.growth);
+    if (options.horizonUse == HorizonUse::Declared) text += ",horizon=declared";
     if (options.horizonUse == HorizonUse::Off) text += ",horizon=off";
     if (options.horizonUse == HorizonUse::Given) text += ",horizon=" + numberToText(options.horizon);
     if (options.inheritViewpoint) text += ",inheritviewpoint=on";
-    if (!options.reverse) text += ",reverse=off";
+    if (options.reverse) text += *options.reverse ? ",reverse=on" : ",reverse=off";
     if (options.expiry != CullOptions::kDefaultExpiry) text += ",expiry=" + numberToText(options.expiry);
     if (options.skirts == SkirtUse::All) text += ",skirts=all";
     if (options.cluster == ClusterUse::Keep) text += ",cluster=keep";

@@ -5,6 +5,7 @@
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/core/FrustumHull.h>
 #include <osgAnalyticBin/core/Horizon.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
 
@@ -69,6 +70,9 @@ public:
     /// The planes of the frustum that the cull stack is in, all of them: OSG's masks may name any.
     [[nodiscard]] const core::PlaneSet& planes(osg::CullStack& cullStack);
 
+    /// The corners of the frustum inside the planes; made again where these are others than last time.
+    [[nodiscard]] const core::FrustumHull& hull(const core::PlaneSet& planes);
+
     /// The eye in the frame of the planes last asked for. Returns: nullptr when nothing can be hidden from it.
     [[nodiscard]] const core::HorizonEye* horizonEye(osg::CullStack& cullStack, osg::NodeVisitor& visitor,
                                                      const Occluder& occluder);
@@ -94,6 +98,9 @@ private:
     core::PlaneSet _planes;
     Coefficients _coefficients{};
     std::size_t _planeCount = 0;
+
+    std::optional<core::FrustumHull> _hull;
+    core::PlaneSet _hullPlanes;
 
     // The eye, and what it was prepared for.
     std::optional<core::HorizonEye> _eye;

@@ -22,13 +22,14 @@ namespace {
 std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack,
                                         Database& database, const DatabaseView& view) {
     const CullOptions& options = database.options();
-    if (options.horizonUse == HorizonUse::Off) return std::nullopt;
+    const HorizonUse horizonUse = options.effectiveHorizonUse();
+    if (horizonUse == HorizonUse::Off) return std::nullopt;
     // an eye below the terrain looks through the backs of the faces that would hide
     const bool isAboveTerrain = options.skirts == SkirtUse::Cracks;
-    if (options.horizonUse == HorizonUse::Declared && !isAboveTerrain) return std::nullopt;
+    if (horizonUse == HorizonUse::Declared && !isAboveTerrain) return std::nullopt;
     const auto viewpoint = Viewpoint::of(cullStack, nv, options.inheritViewpoint);
     if (!viewpoint) return std::nullopt;
-    if (options.horizonUse == HorizonUse::Given) {
+    if (horizonUse == HorizonUse::Given) {
         return viewpoint->above(view.ellipsoid, std::max(0.0, -options.horizon));
     }
     if (database.hasGap()) return std::nullopt;

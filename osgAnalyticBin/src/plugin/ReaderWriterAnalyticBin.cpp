@@ -70,16 +70,19 @@ public:
     ReaderWriterAnalyticBin() {
         supportsExtension(kExtension, "Culls the tiles of a terrain database by their analytic bins (pseudo-loader)");
         supportsExtension(kIndexExtension, "The bins of a whole terrain database, made by osgbinconv --index");
-        supportsOption("method=quadratic|exact|paper|corners|sphere|none",
-                       "How tiles are culled. quadratic (default) and exact are sound and tight; paper and corners "
-                       "cull visible tiles "
-                       "and are there for comparison; sphere leaves OSG's culling alone; none culls nothing.");
+        supportsOption("method=quadratic|exact|paper|corners|box|orientedbox|sphere|none",
+                       "How tiles are culled. quadratic (default) and exact are sound and tight; paper, corners, box "
+                       "and orientedbox are there for comparison, the first two cull visible tiles; sphere leaves "
+                       "OSG's culling alone; none culls nothing.");
         supportsOption("horizon=METRES|declared|off",
-                       "Culls tiles behind the horizon, against a globe of which nothing is drawn below this altitude; "
-                       "default: where the database declares it.");
+                       "Culls tiles behind the horizon, against a globe of which nothing is drawn below this altitude "
+                       "(declared: as the database declares, else the lowest surface shown); default declared, for "
+                       "comparison off.");
         supportsOption("inheritviewpoint=on|off",
                        "The horizon also for cameras that inherit a view point (shadow passes); default off.");
-        supportsOption("reverse=on|off", "Tests tiles across an edge of the frustum against the edge too; default on.");
+        supportsOption(
+            "reverse=on|off",
+            "Tests tiles across an edge of the frustum against the edge too; default on, for comparison off.");
         supportsOption("expiry=SECONDS",
                        "How long finer tiles out of view are kept when the DatabasePager has more than its target; "
                        "default 3, 0 leaves OSG's own rule alone.");
