@@ -3,6 +3,8 @@
 
 #include "ClusterRemover.h"
 
+#include "ClusterFiller.h"
+
 #include <osg/ClusterCullingCallback>
 #include <osg/NodeVisitor>
 #include <osgDB/Registry>
@@ -19,20 +21,51 @@ osg::ClusterCullingCallback* clusterCallbackOf(osg::Node& node) {
     return nullptr;
 }
 
-class Remover : public osg::NodeVisitor {
+class Walk : public osg::NodeVisitor {
 public:
-    Remover() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0U); }
+    Walk() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0U); }
 
     using osg::NodeVisitor::apply;
     void apply(osg::Node& node) override {
+        visit(node);
+        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
+    }
+
+protected:
+    virtual void visit(osg::Node& node) = 0;
+};
+
+class Remover : public Walk {
+public:
+    std::size_t removed = 0;
+
+private:
+    void visit(osg::Node& node) override {
         while (osg::ClusterCullingCallback* const cluster = clusterCallbackOf(node)) {
             node.removeCullCallback(cluster);
             ++removed;
         }
-        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
     }
+};
 
-    std::size_t removed = 0;
+class Counter : public Walk {
+public:
+    std::size_t count = 0;
+
+private:
+    void visit(osg::Node& node) override { count += clusterCallbackOf(node) ? 1U : 0U; }
+};
+
+class GlobeFinder : public Walk {
+public:
+    osg::ref_ptr<osg::EllipsoidModel> ellipsoid;
+
+private:
+    void visit(osg::Node& node) override {
+        auto* const globe = dynamic_cast<osg::CoordinateSystemNode*>(&node);
+        if (!globe || ellipsoid) return;
+        ellipsoid = globe->getEllipsoidModel() ? globe->getEllipsoidModel() : new osg::EllipsoidModel;
+    }
 };
 
 }  // namespace
@@ -41,6 +74,12 @@ std::size_t removeClusterCallbacks(osg::Node& graph) {
     Remover remover;
     graph.accept(remover);
     return remover.removed;
+}
+
+std::size_t countClusterCallbacks(osg::Node& graph) {
+    Counter counter;
+    graph.accept(counter);
+    return counter.count;
 }
 
 osg::ref_ptr<ClusterRemover> ClusterRemover::install() {
@@ -53,10 +92,29 @@ osg::ref_ptr<ClusterRemover> ClusterRemover::install() {
     return remover;
 }
 
+void ClusterRemover::setTreatment(Clusters treatment) {
+    _treatment = treatment;
+    _ellipsoid = nullptr;
+}
+
 osgDB::ReaderWriter::ReadResult ClusterRemover::readNode(const std::string& fileName, const osgDB::Options* options) {
     osgDB::ReaderWriter::ReadResult result = _next->readNode(fileName, options);
-    if (_enabled && result.getNode()) removeClusterCallbacks(*result.getNode());
+    if (!result.getNode()) return result;
+    if (_treatment == Clusters::Remove) removeClusterCallbacks(*result.getNode());
+    if (_treatment == Clusters::Fill) fill(*result.getNode());
     return result;
+}
+
+void ClusterRemover::fill(osg::Node& graph) {
+    GlobeFinder finder;
+    graph.accept(finder);
+    osg::ref_ptr<osg::EllipsoidModel> pageOf;
+    {
+        const std::lock_guard lock(_mutex);
+        if (!finder.ellipsoid) pageOf = _ellipsoid;
+        if (finder.ellipsoid) _ellipsoid = finder.ellipsoid;
+    }
+    fillClusterCallbacks(graph, pageOf.get());
 }
 
 }  // namespace osgAnalyticBin::bench

@@ -3,13 +3,12 @@
 
 #pragma once
 
+#include <osg/CoordinateSystemNode>
 #include <osgDB/Callbacks>
 
 #include <atomic>
-
-namespace osg {
-class Node;
-}
+#include <cstddef>
+#include <mutex>
 
 namespace osgAnalyticBin::bench {
 
@@ -18,16 +17,26 @@ namespace osgAnalyticBin::bench {
 /// Returns: how many were taken off.
 std::size_t removeClusterCallbacks(osg::Node& graph);
 
-/// A callback of the Registry that takes the cluster callbacks off whatever is read while it is switched on: pages that
-/// the DatabasePager loads too. Everything else goes on to the callback that was there before.
+/// How many ClusterCullingCallbacks nodes and drawables of the graph have; tiles as above.
+[[nodiscard]] std::size_t countClusterCallbacks(osg::Node& graph);
+
+/// What becomes of the ClusterCullingCallbacks of a database.
+enum class Clusters {
+    Keep,
+    Remove,
+    Fill  ///< kept; where a file has none its tiles get such as VirtualPlanetBuilder makes
+};
+
+/// A callback of the Registry that removes or fills the cluster callbacks of whatever is read: pages that the
+/// DatabasePager loads too. Everything else goes on to the callback that was there before.
 /// Threads: the calls come from the DatabasePager's threads.
 class ClusterRemover : public osgDB::ReadFileCallback {
 public:
-    /// Puts a remover, switched off, in front of the Registry's callback. Must not be called while files are read.
+    /// Puts a remover that keeps all in front of the Registry's callback. Must not be called while files are read.
     [[nodiscard]] static osg::ref_ptr<ClusterRemover> install();
 
-    /// Must not be called while files are read.
-    void setEnabled(bool enabled) { _enabled = enabled; }
+    /// Must not be called while files are read; the root file has to be read next.
+    void setTreatment(Clusters treatment);
 
     osgDB::ReaderWriter::ReadResult readNode(const std::string& fileName, const osgDB::Options* options) override;
 
@@ -35,8 +44,12 @@ protected:
     ~ClusterRemover() override = default;
 
 private:
+    void fill(osg::Node& graph);
+
     osg::ref_ptr<osgDB::ReadFileCallback> _next;
-    std::atomic<bool> _enabled{false};
+    std::atomic<Clusters> _treatment{Clusters::Keep};
+    std::mutex _mutex;
+    osg::ref_ptr<osg::EllipsoidModel> _ellipsoid;  // of the globe whose pages are read; null before its root file
 };
 
 }  // namespace osgAnalyticBin::bench

@@ -5,33 +5,89 @@
 
 #include "Failure.h"
 
-#include <osgAnalyticBin/CullOptions.h>
-
 #include <algorithm>
+#include <array>
+#include <utility>
 
 namespace osgAnalyticBin::bench {
 
+namespace {
+
+// The bases that bins stand behind, and the names that the pseudo-loader has for them.
+constexpr std::array<std::pair<const char*, const char*>, 6> kBinBases{{{"box", "box"},
+                                                                        {"orientedBox", "orientedbox"},
+                                                                        {"corners", "corners"},
+                                                                        {"paper", "paper"},
+                                                                        {"quadratic", "quadratic"},
+                                                                        {"exact", "exact"}}};
+
+constexpr std::array<const char*, 18> kAll{"none",
+                                           "sphere",
+                                           "cluster",
+                                           "box",
+                                           "box+horizon",
+                                           "orientedBox",
+                                           "orientedBox+horizon",
+                                           "orientedBox+horizon+reverse",
+                                           "corners",
+                                           "corners+horizon",
+                                           "paper",
+                                           "paper+horizon",
+                                           "quadratic",
+                                           "quadratic+horizon",
+                                           "quadratic+horizon+reverse",
+                                           "exact",
+                                           "exact+horizon",
+                                           "exact+horizon+reverse"};
+
+// Takes a suffix off the end of a name. Returns: whether it was there.
+bool takeSuffix(std::string& name, const std::string& suffix) {
+    if (name.size() < suffix.size() || name.compare(name.size() - suffix.size(), suffix.size(), suffix) != 0)
+        return false;
+    name.resize(name.size() - suffix.size());
+    return true;
+}
+
+}  // namespace
+
 std::string CullMethod::sceneName(const std::string& database, const std::string& binOptions) const {
     std::string parameters = "method=" + loaderMethod;
-    if (usesBins() && !binOptions.empty()) parameters += "," + binOptions;
+    if (usesBins()) {
+        // the last item of a key counts
+        if (usesHorizon) parameters += ",horizon=declared";
+        if (!binOptions.empty()) parameters += "," + binOptions;
+        if (!usesHorizon) parameters += ",horizon=off";
+        parameters += usesReverse ? ",reverse=on" : ",reverse=off";
+    }
     return database + ".(" + parameters + ").analyticbin";
 }
 
 CullMethod cullMethodFromName(const std::string& name) {
-    if (name == kReferenceMethod) return {name, "none", true, true};
-    if (name == "sphere") return {name, "sphere", true, false};
-    // Stock OSG, as the database was shipped.
-    if (name == "cluster") return {name, "sphere", false, false};
-    if (methodFromName(name)) return {name, name, false, false};
+    if (name == kReferenceMethod) return {name, "none", false, false, Clusters::Remove, true};
+    if (name == "sphere") return {name, "sphere", false, false, Clusters::Remove, false};
+    // Stock OSG with what a builder of databases gives it.
+    if (name == "cluster") return {name, "sphere", false, false, Clusters::Fill, false};
+    std::string base = name;
+    CullMethod method{name, {}, false, false, Clusters::Keep, false};
+    method.usesReverse = takeSuffix(base, "+reverse");
+    method.usesHorizon = takeSuffix(base, "+horizon");
+    for (const auto& [known, loaderMethod] : kBinBases)
+        if (base == known) method.loaderMethod = loaderMethod;
+    if (!method.loaderMethod.empty()) return method;
     throw Failure("--methods: unknown method \"" + name +
-                  "\"; use none, sphere, cluster, quadratic, exact, paper or corners");
+                  "\"; use none, sphere, cluster, all, or box, orientedBox, corners, paper, quadratic or exact, these "
+                  "with +horizon, +reverse or +horizon+reverse");
 }
 
 std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& names) {
     std::vector<CullMethod> methods{cullMethodFromName(kReferenceMethod)};
-    for (const std::string& name : names) {
+    const auto add = [&](const std::string& name) {
         const bool known = std::any_of(methods.begin(), methods.end(), [&](const auto& m) { return m.name == name; });
         if (!known) methods.push_back(cullMethodFromName(name));
+    };
+    for (const std::string& name : names) {
+        if (name != kAllMethods) add(name);
+        if (name == kAllMethods) std::for_each(kAll.begin(), kAll.end(), add);
     }
     return methods;
 }

@@ -3,36 +3,45 @@
 
 #pragma once
 
+#include "ClusterRemover.h"
+
 #include <string>
 #include <vector>
 
 namespace osgAnalyticBin::bench {
 
-/// A way to cull a database, by the name that the command line and the tables use.
+/// A way to cull a database, by the name that the command line and the tables use: BASE[+horizon][+reverse]. A plain
+/// base culls by the frustum's planes alone.
 struct CullMethod {
     std::string name;
     /// What the pseudo-loader analyticbin is asked for.
     std::string loaderMethod;
-    /// Whether the database's own ClusterCullingCallbacks are taken away.
-    bool removesClusters = false;
+    bool usesHorizon = false;
+    bool usesReverse = false;
+    /// What becomes of the database's own ClusterCullingCallbacks; bins see to it by themselves.
+    Clusters clusters = Clusters::Keep;
     /// Whether the camera culls nothing at all.
     bool cullsNothing = false;
 
     [[nodiscard]] bool usesBins() const { return loaderMethod != "sphere" && loaderMethod != "none"; }
 
-    /// The name under which OSG reads the database with this method. `binOptions` go to the bins alone.
+    /// The name under which OSG reads the database with this method. `binOptions` go to the bins alone; an altitude of
+    /// the horizon in them counts with methods that use the horizon.
     [[nodiscard]] std::string sceneName(const std::string& database, const std::string& binOptions) const;
 };
 
 /// The method that all others are judged by: nothing is culled.
 inline constexpr const char* kReferenceMethod = "none";
 
-/// "none", "sphere", "cluster" and the names of the kit's bins, with the culling they stand for.
-/// Throws: Failure for an unknown name.
+/// Stands for all methods that are worth comparing.
+inline constexpr const char* kAllMethods = "all";
+
+/// "none", "sphere", "cluster", and box, orientedBox, corners, paper, quadratic and exact with their suffixes.
+/// Throws: Failure for a name that is unknown or makes no sense.
 [[nodiscard]] CullMethod cullMethodFromName(const std::string& name);
 
-/// The methods in the order given, each once, the reference in front whether it was named or not.
-/// Throws: Failure for an unknown name.
+/// The methods in the order given, each once, the reference in front whether it was named or not; "all" stands for
+/// many. Throws: Failure as above.
 [[nodiscard]] std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& names);
 
 }  // namespace osgAnalyticBin::bench

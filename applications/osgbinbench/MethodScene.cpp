@@ -82,7 +82,7 @@ osg::ref_ptr<osg::Node> MethodScene::read() const {
 
 void MethodScene::load() {
     forget();
-    _watch.remover->setEnabled(_method.removesClusters);
+    _watch.remover->setTreatment(_method.clusters);
     const osg::ref_ptr<osg::Node> root = read();
     if (!root->getBound().valid()) throw Failure(_settings.database + ": there is nothing to fly over");
     if (_settings.verticalScale != 1.0) scaleVertically(*root, _settings.verticalScale, _settings.database);

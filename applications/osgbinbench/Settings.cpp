@@ -77,8 +77,14 @@ std::string footer() {
     std::string text =
         "At every pose every method starts from the root file alone and loads what it wants; then it is measured.\n"
         "Methods: none = no culling, always flown, as all others are judged by it; sphere = OSG's spheres and boxes,\n"
-        "the database's ClusterCullingCallbacks taken away; cluster = OSG as it comes, with these callbacks;\n"
-        "quadratic, exact, paper, corners = analytic bins.\n"
+        "the database's ClusterCullingCallbacks taken away; cluster = OSG with these callbacks: the database's own, "
+        "else\n"
+        "such as VirtualPlanetBuilder makes, from every tile's mesh; box, orientedBox = boxes about the bins, along\n"
+        "the axes of ECEF or east, north, up; corners, paper = rules that cull visible tiles, for comparison;\n"
+        "quadratic, exact = analytic bins. The last six cull by the frustum's planes alone; +horizon adds the horizon\n"
+        "(boxes: of one point), +reverse tiles beyond an edge of the frustum (boxes: a frustum beyond a face), in "
+        "this\n"
+        "order: exact+horizon+reverse is everything on. all = these methods, in the combinations worth comparing.\n"
         "Afterwards the path is flown continuously, every method once, while files are being loaded: --live; with\n"
         "--frames nothing but that. Methods take turns of 10 frames each; these are culled, and not drawn.\n\n"
         "Columns of --csv, one line for each pose and method, and keys of --json, sums over the poses:\n";
@@ -112,13 +118,14 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
     app.add_option("--path", settings.paths,
                    "camera path, CSV: degrees and metres, as data/paths/demo.csv;\nmay be given several times")
         ->allow_extra_args(false);
-    app.add_option(
-           "--methods", settings.methods,
-           "comma-separated: none, sphere, cluster, quadratic, exact,\npaper, corners (default: the first five)")
+    app.add_option("--methods", settings.methods,
+                   "comma-separated, see below, or all (default: none,sphere,cluster,\n"
+                   "quadratic+horizon+reverse,exact+horizon+reverse)")
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--options", settings.binOptions,
-                   "more options for the bins, comma-separated, such as\nhorizon=-500 (metres) or reverse=off");
+                   "more options for the bins, comma-separated, such as skirts=all\n"
+                   "or horizon=-500 (metres; for the methods with +horizon)");
     app.add_option("--csv", settings.csv, "file for the figures of every pose");
     app.add_option("--json", settings.json, "file for the sums");
     app.add_option("--pictures", settings.pictures, "folder for pictures, METHOD/POSE.png");
@@ -163,7 +170,12 @@ void check(const Settings& settings) {
     std::string error;
     if (settings.binOptions.find("method=") != std::string::npos)
         throw Failure("--options: name methods in --methods instead of \"" + settings.binOptions + "\"");
-    if (!cullOptionsFromText(settings.binOptions, error)) throw Failure("--options: " + error);
+    const auto binOptions = cullOptionsFromText(settings.binOptions, error);
+    if (!binOptions) throw Failure("--options: " + error);
+    if (binOptions->horizonUse == HorizonUse::Off)
+        throw Failure("--options: leave +horizon out of the names in --methods instead of horizon=off");
+    if (binOptions->reverse)
+        throw Failure("--options: name methods with or without +reverse in --methods instead of reverse=on or off");
     if (settings.frames > 0 && !settings.pictures.empty())
         throw Failure("--pictures: a continuous flight takes none; leave --frames out");
     if (settings.frames > 0 && !settings.plot.empty())

@@ -56,7 +56,7 @@ TEST(ClusterRemover, TreatsTerrainTilesWithoutTraversingThem) {
     EXPECT_EQ(tile->getTerrainTechnique(), nullptr);
 }
 
-TEST(ClusterRemover, TreatsWhatIsReadWhileItIsOn) {
+TEST(ClusterRemover, TreatsWhatIsReadAsItIsTold) {
     const test::TemporaryFolder folder;
     const osg::ref_ptr<osg::Group> root = new osg::Group;
     root->setCullCallback(cluster());
@@ -65,7 +65,7 @@ TEST(ClusterRemover, TreatsWhatIsReadWhileItIsOn) {
     const osg::ref_ptr<osgDB::ReadFileCallback> before = osgDB::Registry::instance()->getReadFileCallback();
     const osg::ref_ptr<ClusterRemover> remover = ClusterRemover::install();
     EXPECT_NE(osgDB::readRefNodeFile(file)->getCullCallback(), nullptr);
-    remover->setEnabled(true);
+    remover->setTreatment(Clusters::Remove);
     EXPECT_EQ(osgDB::readRefNodeFile(file)->getCullCallback(), nullptr);
     osgDB::Registry::instance()->setReadFileCallback(before);
 }

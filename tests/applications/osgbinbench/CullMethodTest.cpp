@@ -4,36 +4,87 @@
 #include "CullMethod.h"
 #include "Failure.h"
 
+#include <osgAnalyticBin/CullOptions.h>
+
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
 
 namespace osgAnalyticBin::bench {
 namespace {
 
-TEST(CullMethod, FliesTheReferenceFirstAndEveryMethodOnce) {
-    const auto methods = cullMethodsFromNames({"cluster", "exact", "none", "cluster"});
-    ASSERT_EQ(methods.size(), 3U);
-    EXPECT_EQ(methods[0].name, "none");
-    EXPECT_EQ(methods[1].name, "cluster");
-    EXPECT_EQ(methods[2].name, "exact");
+std::vector<std::string> namesOf(const std::vector<CullMethod>& methods) {
+    std::vector<std::string> names;
+    for (const CullMethod& method : methods) names.push_back(method.name);
+    return names;
 }
 
-TEST(CullMethod, KnowsWhoKeepsTheClusterCallbacks) {
-    EXPECT_TRUE(cullMethodFromName("none").removesClusters);
+// What the kit makes of the parameters in the name of a scene.
+CullOptions optionsOf(const std::string& method, const std::string& binOptions = {}) {
+    const std::string scene = cullMethodFromName(method).sceneName("earth.osgb", binOptions);
+    const std::size_t begin = scene.find(".(") + 2;
+    std::string error;
+    const auto options = cullOptionsFromText(scene.substr(begin, scene.find(").analyticbin") - begin), error);
+    EXPECT_TRUE(options) << scene << ": " << error;
+    return options.value_or(CullOptions());
+}
+
+TEST(CullMethod, FliesTheReferenceFirstAndEveryMethodOnce) {
+    const std::vector<std::string> names{"none", "cluster", "exact", "exact+horizon"};
+    EXPECT_EQ(namesOf(cullMethodsFromNames({"cluster", "exact", "none", "cluster", "exact+horizon"})), names);
+}
+
+TEST(CullMethod, AllStandsForWhatIsWorthComparing) {
+    const std::vector<std::string> names = namesOf(cullMethodsFromNames({"exact", "all"}));
+    EXPECT_EQ(names.size(), 18U);
+    EXPECT_EQ(names[0], "none");
+    EXPECT_EQ(names[1], "exact") << "each once, in the order given";
+    for (const char* const name : {"sphere", "cluster", "box", "orientedBox+horizon+reverse", "exact+horizon+reverse"})
+        EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+}
+
+TEST(CullMethod, KnowsWhatBecomesOfTheClusterCallbacks) {
+    EXPECT_EQ(cullMethodFromName("none").clusters, Clusters::Remove);
     EXPECT_TRUE(cullMethodFromName("none").cullsNothing);
-    EXPECT_TRUE(cullMethodFromName("sphere").removesClusters);
-    EXPECT_FALSE(cullMethodFromName("cluster").removesClusters);
-    EXPECT_FALSE(cullMethodFromName("quadratic").removesClusters);
+    EXPECT_EQ(cullMethodFromName("sphere").clusters, Clusters::Remove);
+    EXPECT_EQ(cullMethodFromName("cluster").clusters, Clusters::Fill);
+    EXPECT_EQ(cullMethodFromName("quadratic+horizon").clusters, Clusters::Keep);
+}
+
+TEST(CullMethod, PlainNamesCullByPlanesAlone) {
+    for (const char* const name : {"box", "orientedBox", "corners", "paper", "quadratic", "exact"}) {
+        const CullOptions plain = optionsOf(name, "horizon=-5");
+        EXPECT_EQ(plain.effectiveHorizonUse(), HorizonUse::Off) << name;
+        EXPECT_FALSE(plain.effectiveReverse()) << name;
+        const CullOptions horizon = optionsOf(std::string(name) + "+horizon");
+        EXPECT_EQ(horizon.effectiveHorizonUse(), HorizonUse::Declared) << name;
+        EXPECT_FALSE(horizon.effectiveReverse()) << name;
+        const CullOptions reverse = optionsOf(std::string(name) + "+reverse");
+        EXPECT_EQ(reverse.effectiveHorizonUse(), HorizonUse::Off) << name;
+        EXPECT_TRUE(reverse.effectiveReverse()) << name;
+        const CullOptions both = optionsOf(std::string(name) + "+horizon+reverse", "horizon=-5,skirts=all");
+        EXPECT_EQ(both.effectiveHorizonUse(), HorizonUse::Given) << name;
+        EXPECT_EQ(both.horizon, -5.0) << name;
+        EXPECT_EQ(both.skirts, SkirtUse::All) << name;
+        EXPECT_TRUE(both.effectiveReverse()) << name;
+    }
+    EXPECT_EQ(optionsOf("orientedBox").method, Method::OrientedBox);
+    EXPECT_EQ(optionsOf("exact+horizon").method, Method::Exact);
 }
 
 TEST(CullMethod, NamesThePseudoLoader) {
-    EXPECT_EQ(cullMethodFromName("exact").sceneName("a/earth.osgb", "horizon=-5,reverse=off"),
-              "a/earth.osgb.(method=exact,horizon=-5,reverse=off).analyticbin");
+    EXPECT_EQ(cullMethodFromName("exact+horizon+reverse").sceneName("a/earth.osgb", "skirts=all"),
+              "a/earth.osgb.(method=exact,horizon=declared,skirts=all,reverse=on).analyticbin");
     EXPECT_EQ(cullMethodFromName("cluster").sceneName("earth.osgb", "horizon=-5"),
               "earth.osgb.(method=sphere).analyticbin");
 }
 
-TEST(CullMethod, RefusesUnknownNames) {
-    EXPECT_THROW((void)cullMethodFromName("spheres"), Failure);
+TEST(CullMethod, RefusesWhatIsUnknownOrMakesNoSense) {
+    for (const char* const name : {"spheres", "sphere+horizon", "none+reverse", "cluster+horizon", "orientedbox",
+                                   "exact+reverse+horizon", "exact+horizon+horizon", "exact+", "+horizon", ""})
+        EXPECT_THROW((void)cullMethodFromName(name), Failure) << name;
 }
 
 }  // namespace

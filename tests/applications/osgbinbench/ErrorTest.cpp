@@ -31,6 +31,9 @@ TEST(Errors, OfTheCommandLineNameTheOption) {
     const std::string good = "none.osgb --path " + test::quoted(folder.write("p.csv", kPath));
     expectOneLine(test::runBenchBlind("x.osgb"), "--path is required");
     expectOneLine(test::runBenchBlind(good + " --methods sphere,cube"), "unknown method \"cube\"");
+    expectOneLine(test::runBenchBlind(good + " --methods sphere+horizon"), "unknown method \"sphere+horizon\"");
+    expectOneLine(test::runBenchBlind(good + " --options horizon=off"), "--options: leave +horizon out");
+    expectOneLine(test::runBenchBlind(good + " --options reverse=off"), "--options: name methods with or without");
     expectOneLine(test::runBenchBlind(good + " --size 640"), "--size: \"640\"");
     expectOneLine(test::runBenchBlind(good + " --size 640x480x3"), "--size: ");
     expectOneLine(test::runBenchBlind(good + " --threading Many"), "--threading: unknown model \"Many\"");
@@ -68,7 +71,8 @@ TEST(Errors, OfTheDatabaseLeaveNoTable) {
 TEST(Errors, HelpExplainsEveryColumnAndGivesAnExample) {
     const Outcome outcome = test::runBenchBlind("--help");
     EXPECT_EQ(outcome.code, 0);
-    for (const char* const word : {"false_culls", "cull_ms", "degrees and metres", "Example:", "--vertical-scale"})
+    for (const char* const word :
+         {"false_culls", "cull_ms", "degrees and metres", "Example:", "--vertical-scale", "exact+horizon+reverse"})
         EXPECT_GE(outcome.linesWith(word), 1) << word;
 }
 

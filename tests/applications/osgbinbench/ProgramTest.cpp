@@ -20,11 +20,13 @@ using nlohmann::json;
 using test::Outcome;
 using test::TemporaryFolder;
 
-// The last pose sees nothing but the limb: the middle of a tile 45 degrees wide, whose corners lie 485 km lower.
+// The horizon is in view of the third pose, and the other side of the globe below it. The last one sees nothing but the
+// limb: the middle of a tile 45 degrees wide, whose corners lie 485 km lower.
 constexpr const char* kPath =
     "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg,near,far\n"
     "oblique,-10,170,800000,-4,178,0,60,10000,8000000\n"
     "narrow,5,5,100000,6,8,0,10,10000,4000000\n"
+    "level,5,5,20000,5,15,0,60,2000,4000000\n"
     "limb,-44.6,22.5,10000000,22.5,22.5,110000,2,1000000,30000000\n";
 
 struct Bench {
@@ -84,7 +86,10 @@ TEST(Program, JudgesEveryMethodByTheReference) {
     if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
-    const json methods = bench.run("sums", "--live 0 --methods sphere,quadratic,exact,corners");
+    const json methods = bench.run(
+        "sums",
+        "--live 0 --methods sphere,cluster,box,orientedBox,orientedBox+horizon+reverse,corners,corners+horizon,"
+        "quadratic,quadratic+horizon,exact,exact+horizon+reverse --options horizon=-6000");
     ASSERT_TRUE(methods.contains("none"));
     const json& none = methods["none"];
     EXPECT_GT(none["visible_tiles"], 0);
@@ -95,16 +100,26 @@ TEST(Program, JudgesEveryMethodByTheReference) {
     EXPECT_EQ(none["tested_tiles"], none["kept_tiles"]);
     EXPECT_EQ(none["drawn_tiles"].get<int>(), none["false_keeps"].get<int>() + none["truth_tiles"].get<int>());
     EXPECT_EQ(none["triangles"], none["drawn_tiles"].get<int>() * 512);
-    for (const char* const sound : {"none", "sphere", "quadratic", "exact"}) {
+    for (const char* const sound : {"none", "sphere", "box", "orientedBox", "orientedBox+horizon+reverse", "quadratic",
+                                    "quadratic+horizon", "exact", "exact+horizon+reverse"}) {
         EXPECT_EQ(methods[sound]["false_culls"], 0) << sound;
         EXPECT_EQ(methods[sound]["differing_pixels"], 0) << sound;
         EXPECT_GT(methods[sound]["files_requested"], 0) << sound;
         EXPECT_GT(methods[sound]["bytes"], 0) << sound;
         EXPECT_GT(methods[sound]["cull_ms"], 0.0) << sound;
     }
-    EXPECT_LT(methods["sphere"]["drawn_tiles"], none["drawn_tiles"]);
-    EXPECT_LT(methods["quadratic"]["drawn_tiles"], methods["sphere"]["drawn_tiles"]);
-    EXPECT_LT(methods["quadratic"]["paged_lods"], methods["sphere"]["paged_lods"]);
+    const auto drawn = [&](const char* name) { return methods[name]["drawn_tiles"].get<int>(); };
+    EXPECT_LT(drawn("sphere"), drawn("none"));
+    EXPECT_LT(drawn("quadratic"), drawn("sphere"));
+    EXPECT_LE(drawn("exact"), drawn("orientedBox"));
+    EXPECT_LT(drawn("orientedBox"), drawn("box"));
+    EXPECT_LT(drawn("quadratic+horizon"), drawn("quadratic"));
+    EXPECT_LT(drawn("corners+horizon"), drawn("corners"));
+    EXPECT_LT(drawn("orientedBox+horizon+reverse"), drawn("orientedBox"));
+    EXPECT_LT(drawn("exact+horizon+reverse"), drawn("exact"));
+    // The callbacks that the database lacks are made: they cull what is behind the horizon.
+    EXPECT_LT(drawn("cluster"), drawn("sphere"));
+    EXPECT_LT(methods["quadratic+horizon"]["paged_lods"], methods["sphere"]["paged_lods"]);
     // The unsound method must be caught, by the tiles' own colours and by the picture.
     EXPECT_GT(methods["corners"]["false_culls"], 0);
     EXPECT_GT(methods["corners"]["false_cull_pixels"], 0);
@@ -115,9 +130,10 @@ TEST(Program, SavesAPictureForEachPoseAndMethod) {
     if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
-    ASSERT_FALSE(bench.run("pictures", "--live 0 --methods exact --pictures " + test::quoted(bench.folder / "pictures"))
-                     .is_null());
-    for (const char* const picture : {"none/oblique.png", "none/limb.png", "exact/narrow.png"})
+    ASSERT_FALSE(
+        bench.run("pictures", "--live 0 --methods exact+horizon --pictures " + test::quoted(bench.folder / "pictures"))
+            .is_null());
+    for (const char* const picture : {"none/oblique.png", "none/limb.png", "exact+horizon/narrow.png"})
         EXPECT_TRUE(std::filesystem::exists(bench.folder / "pictures" + "/" + picture)) << picture;
 }
 
