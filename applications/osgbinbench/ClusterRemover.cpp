@@ -92,9 +92,9 @@ osg::ref_ptr<ClusterRemover> ClusterRemover::install() {
     return remover;
 }
 
-void ClusterRemover::setTreatment(Clusters treatment) {
+void ClusterRemover::setTreatment(Clusters treatment, const osg::EllipsoidModel* globe) {
     _treatment = treatment;
-    _ellipsoid = nullptr;
+    _ellipsoid = globe;
 }
 
 osgDB::ReaderWriter::ReadResult ClusterRemover::readNode(const std::string& fileName, const osgDB::Options* options) {
@@ -108,7 +108,7 @@ osgDB::ReaderWriter::ReadResult ClusterRemover::readNode(const std::string& file
 void ClusterRemover::fill(osg::Node& graph) {
     GlobeFinder finder;
     graph.accept(finder);
-    osg::ref_ptr<osg::EllipsoidModel> pageOf;
+    osg::ref_ptr<const osg::EllipsoidModel> pageOf;
     {
         const std::lock_guard lock(_mutex);
         if (!finder.ellipsoid) pageOf = _ellipsoid;

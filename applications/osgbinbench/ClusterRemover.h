@@ -35,8 +35,9 @@ public:
     /// Puts a remover that keeps all in front of the Registry's callback. Must not be called while files are read.
     [[nodiscard]] static osg::ref_ptr<ClusterRemover> install();
 
-    /// Must not be called while files are read; the root file has to be read next.
-    void setTreatment(Clusters treatment);
+    /// `globe` is that of the pages read next; with nullptr the root file has to be read next. Must not be called while
+    /// files are read.
+    void setTreatment(Clusters treatment, const osg::EllipsoidModel* globe = nullptr);
 
     osgDB::ReaderWriter::ReadResult readNode(const std::string& fileName, const osgDB::Options* options) override;
 
@@ -49,7 +50,7 @@ private:
     osg::ref_ptr<osgDB::ReadFileCallback> _next;
     std::atomic<Clusters> _treatment{Clusters::Keep};
     std::mutex _mutex;
-    osg::ref_ptr<osg::EllipsoidModel> _ellipsoid;  // of the globe whose pages are read; null before its root file
+    osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;  // of the globe whose pages are read; null before its root file
 };
 
 }  // namespace osgAnalyticBin::bench

@@ -92,7 +92,7 @@ void MethodScene::load() {
 }
 
 void MethodScene::resume() {
-    _watch.remover->setEnabled(_method.removesClusters);
+    _watch.remover->setTreatment(_method.clusters, _globe.ellipsoid);
     _paged->resume();
 }
 

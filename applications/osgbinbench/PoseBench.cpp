@@ -29,7 +29,7 @@ constexpr std::uint64_t kMostBinTiles = 10000;
 // Every tile is reached, each with its bin.
 CullMethod binMethod() {
     CullMethod method = cullMethodFromName("exact");
-    method.removesClusters = true;
+    method.clusters = Clusters::Remove;
     method.cullsNothing = true;
     return method;
 }
