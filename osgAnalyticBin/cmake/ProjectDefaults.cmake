@@ -5,8 +5,13 @@
 
 include(GNUInstallDirs)
 
-set(OSGANALYTICBIN_OSG_PLUGIN_DIR "osgPlugins-3.6.5"
+# OpenSceneGraph, of which OsgTargets.cmake found the version, looks for plugins in a folder that bears it.
+set(OSGANALYTICBIN_OSG_PLUGIN_DIR "osgPlugins-${OPENSCENEGRAPH_VERSION}"
     CACHE STRING "Folder, below the library folder, in which OpenSceneGraph looks for plugins")
+
+# An installed tree finds its own library wherever it is moved. Packages for /usr set CMAKE_SKIP_INSTALL_RPATH.
+file(RELATIVE_PATH _library_from_bin "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
+set(CMAKE_INSTALL_RPATH "$ORIGIN/${_library_from_bin}")
 
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
@@ -35,5 +40,6 @@ function(osganalyticbin_osg_module target)
     ${target} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY
                                    "${PROJECT_BINARY_DIR}/lib/${OSGANALYTICBIN_OSG_PLUGIN_DIR}"
                          INSTALL_RPATH "$ORIGIN/..")
-  install(TARGETS ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/${OSGANALYTICBIN_OSG_PLUGIN_DIR}")
+  install(TARGETS ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/${OSGANALYTICBIN_OSG_PLUGIN_DIR}"
+                                    COMPONENT runtime)
 endfunction()
