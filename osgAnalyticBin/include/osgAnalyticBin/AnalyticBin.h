@@ -25,33 +25,45 @@ namespace osgAnalyticBin {
 class OSGANALYTICBIN_EXPORT AnalyticBin {
 public:
     AnalyticBin() = default;
+    /// A bin of this box. `margin`: metres.
     explicit AnalyticBin(const core::GeodeticBin& bin, double margin = 0.0) : _bin(bin), _margin(margin) {}
 
     /// Makes the bin empty.
     void init() { *this = AnalyticBin(); }
 
+    /// Whether there is a box at all; an invalid bin stands for "not known", and is never culled.
     [[nodiscard]] bool valid() const { return !_bin.empty(); }
 
+    /// The box, sag included, margin not.
     [[nodiscard]] const core::GeodeticBin& bin() const { return _bin; }
+    /// Replaces the box alone; margin and sag stay.
     void setBin(const core::GeodeticBin& bin) { _bin = bin; }
 
     /// Metres, default 0.
     [[nodiscard]] double margin() const { return _margin; }
+    /// Metres, 0 or more.
     void setMargin(double margin) { _margin = margin; }
 
     /// Metres, default 0: of the box's depth, how much may be chords between posts and not heights.
     [[nodiscard]] double sag() const { return _sag; }
+    /// Metres, 0 or more.
     void setSag(double sag) { _sag = sag; }
 
+    /// Grows the box to hold a position; margin and sag stay.
     void expandBy(const core::Geodetic& position) { _bin.expandBy(position); }
+    /// Grows to hold all that the other bin holds; margin and sag become the larger of both.
     void expandBy(const AnalyticBin& other);
 
+    /// Whether the position is in the box; the margin does not count.
     [[nodiscard]] bool contains(const core::Geodetic& position) const { return _bin.contains(position); }
+    /// Whether the other's box is in this one, and its margin and sag are no larger; every bin contains an invalid one.
     [[nodiscard]] bool contains(const AnalyticBin& other) const;
 
+    /// Whether box, margin and sag are the same numbers.
     [[nodiscard]] bool operator==(const AnalyticBin& other) const {
         return _bin == other._bin && _margin == other._margin && _sag == other._sag;
     }
+    /// Whether anything differs.
     [[nodiscard]] bool operator!=(const AnalyticBin& other) const { return !(*this == other); }
 
     /// The bin of the same terrain with all heights multiplied, as osgTerrain::Terrain::setVerticalScale() does.

@@ -34,11 +34,14 @@ struct Verdict;
 
 /// What osgTerrain::Terrain says about the meshes of its tiles while they are shown.
 struct TerrainShape {
+    /// osgTerrain::Terrain::setVerticalScale().
     double verticalScale = 1.0;
+    /// osgTerrain::Terrain::setSampleRatio().
     double sampleRatio = 1.0;
     bool areBoundariesEqual = false;  ///< Whether edges lie half way to the heights of neighbours.
     bool isKnown = true;              ///< Whether osgTerrain::GeometryTechnique itself makes the meshes.
 
+    /// Whether the meshes have the same shape.
     [[nodiscard]] bool operator==(const TerrainShape& other) const {
         return verticalScale == other.verticalScale && sampleRatio == other.sampleRatio &&
                areBoundariesEqual == other.areBoundariesEqual && isKnown == other.isKnown;
@@ -61,17 +64,23 @@ struct TerrainShape {
 class OSGANALYTICBIN_EXPORT AnalyticBinCullCallback : public osg::NodeCallback {
 public:
     AnalyticBinCullCallback();
+    /// Culls by this bin on this ellipsoid.
     AnalyticBinCullCallback(const AnalyticBin& bin, const osg::EllipsoidModel& ellipsoid,
                             const CullOptions& options = {});
+    /// A copy of all settings.
     AnalyticBinCullCallback(const AnalyticBinCullCallback& other,
                             const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
 
     META_Object(osgAnalyticBin, AnalyticBinCullCallback)
 
+        /// The box that holds all that the tile and its descendants draw. Cost: prepares the bin.
         void setBin(const AnalyticBin& bin);
+    /// The bin as it was set, before any terrain shape.
     [[nodiscard]] const AnalyticBin& bin() const { return _bin; }
 
+    /// How the tile is culled; items that are an installer's alone are not read. Cost: prepares the bin.
     void setCullOptions(const CullOptions& options);
+    /// Default: CullOptions().
     [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
 
     /// Metres; default: those of a default osg::EllipsoidModel.
@@ -80,20 +89,24 @@ public:
     /// From the frame of the node's children to ECEF; default identity. Has to be rigid or a uniform scale for
     /// small-feature culling to mean what it says; the frustum test is right under any invertible affine matrix.
     void setLocalToEcef(const osg::Matrixd& matrix);
+    /// See setLocalToEcef().
     [[nodiscard]] const osg::Matrixd& localToEcef() const { return _localToEcef; }
 
     /// For an osgTerrain tile: the shape that its bin is to be for; the bin set is that at vertical scale 1. While its
     /// database is shown in another shape the tile is never culled. nullopt: a mesh that no Terrain shapes.
     void setTerrainShape(const std::optional<TerrainShape>& shape);
+    /// See setTerrainShape().
     [[nodiscard]] const std::optional<TerrainShape>& terrainShape() const { return _shape; }
 
     /// Metres by which skirts hang below the bin; they count as a part of it.
     void setSkirt(double metres);
+    /// Metres, default 0.
     [[nodiscard]] double skirt() const { return _skirt; }
 
     /// What the tile draws by itself, without descendants, at vertical scale 1: how deep an eye may see where it is
     /// shown. Invalid: not known, and no horizon is used where it is shown.
     void setSurface(const AnalyticBin& surface);
+    /// See setSurface().
     [[nodiscard]] const AnalyticBin& surface() const { return _surface; }
 
     /// Altitude in metres below which the tile draws nothing by itself, in its present shape; minus infinity when not
@@ -115,14 +128,22 @@ public:
 
     /// The same properties as text, exact in every file format; what the serializer stores.
     void setBinText(const std::string& text);
+    /// AnalyticBin::toText() of the bin.
     [[nodiscard]] std::string getBinText() const;
+    /// As cullOptionsFromText() reads it; the default, after a warning, when it is malformed.
     void setOptionsText(const std::string& text);
+    /// toText() of the options.
     [[nodiscard]] std::string getOptionsText() const;
+    /// "EQUATORIAL POLAR" in metres; malformed: a warning, and the tile is never culled.
     void setRadiiText(const std::string& text);
+    /// The radii as setRadiiText() reads them.
     [[nodiscard]] std::string getRadiiText() const;
+    /// Sixteen numbers, row by row, or nothing for the identity; malformed: a warning, and the tile is never culled.
     void setLocalToEcefText(const std::string& text);
+    /// The matrix as setLocalToEcefText() reads it.
     [[nodiscard]] std::string getLocalToEcefText() const;
 
+    /// Called by OSG's cull traversal: goes on below the node unless the tile is culled.
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
 protected:

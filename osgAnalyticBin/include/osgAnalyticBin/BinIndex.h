@@ -30,6 +30,7 @@ struct FoundTile;
 /// Threads: reading members are const and may be called by any number of threads at once.
 class OSGANALYTICBIN_EXPORT BinIndex : public osg::Object {
 public:
+    /// What the index knows of a tile.
     struct Entry {
         /// What the tile is culled by: itself, all its descendants, and what cracks beside it can show. Not valid: the
         /// tile is never culled.
@@ -51,6 +52,7 @@ public:
     };
 
     BinIndex() = default;
+    /// A copy of all entries.
     BinIndex(const BinIndex& other, const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
 
     META_Object(osgAnalyticBin, BinIndex)
@@ -68,17 +70,23 @@ public:
     /// that reading back what was written gives the same entries.
     void setTiles(const std::string& file, std::vector<Entry> tiles);
 
+    /// Visits all files in the order of their names.
     void forEachFile(const std::function<void(const std::string& file, const std::vector<Entry>& tiles)>& visit) const;
 
+    /// Number of files with tiles.
     [[nodiscard]] std::size_t fileCount() const { return _files.size(); }
+    /// Number of tiles in all files.
     [[nodiscard]] std::size_t tileCount() const;
 
+    /// What the index was made from.
     [[nodiscard]] const Source& source() const { return _source; }
+    /// Says what the index was made from.
     void setSource(const Source& source) { _source = source; }
 
     /// Reads to the end of the stream. Memory is taken only for what the stream has delivered.
     /// Returns: null, with one line in `error`, for what is broken, truncated, foreign or of a newer version.
     [[nodiscard]] static osg::ref_ptr<BinIndex> read(std::istream& in, std::string& error);
+    /// The same from a local file.
     [[nodiscard]] static osg::ref_ptr<BinIndex> read(const std::string& path, std::string& error);
 
     /// The same index gives the same bytes, on every machine. Returns: false when the stream fails.

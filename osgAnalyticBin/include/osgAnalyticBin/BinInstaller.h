@@ -31,6 +31,7 @@ struct TerrainShape;
 /// as it is. Method::Sphere installs nothing. Running it again replaces what it installed before.
 class OSGANALYTICBIN_EXPORT BinInstaller : public TileFinder {
 public:
+    /// Installs by these options.
     explicit BinInstaller(const CullOptions& options = {});
     ~BinInstaller() override;
 
@@ -44,9 +45,13 @@ public:
     /// Number of callbacks installed so far.
     [[nodiscard]] std::size_t installed() const { return _installed; }
 
+    /// Visits a node of the database; called by OSG's traversal.
     void apply(osg::Node& node) override;
+    /// Enters a globe or a map.
     void apply(osg::CoordinateSystemNode& node) override;
+    /// Enters another frame.
     void apply(osg::Transform& node) override;
+    /// Arranges, besides, that what is paged in later is treated.
     void apply(osg::PagedLOD& node) override;
 
 protected:

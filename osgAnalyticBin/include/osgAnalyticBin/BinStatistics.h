@@ -19,9 +19,13 @@ namespace osgAnalyticBin {
 
 /// What the bins decided in one cull traversal.
 struct BinCounts {
+    /// Bins that were asked: the sum of the next three.
     std::uint32_t tested = 0;
+    /// Tiles that were culled.
     std::uint32_t outside = 0;
+    /// Tiles wholly in view, below which nothing more is tested.
     std::uint32_t inside = 0;
+    /// Tiles that are kept because some plane did not decide.
     std::uint32_t straddling = 0;
     /// Of those outside: behind the horizon.
     std::uint32_t hidden = 0;
@@ -36,6 +40,7 @@ struct BinCounts {
 class OSGANALYTICBIN_EXPORT BinStatistics : public osg::Object {
 public:
     BinStatistics() = default;
+    /// Counters that start from zero: counts are not copied.
     BinStatistics(const BinStatistics& other, const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
 
     META_Object(osgAnalyticBin, BinStatistics)
@@ -51,6 +56,7 @@ public:
 
     /// Says of the tile counted last why it was outside.
     void countHidden() noexcept;
+    /// Says of the tile counted last that an edge of the frustum proved it outside.
     void countSeparated() noexcept;
 
     /// Starts from zero, for a visitor that traverses more than once in a frame.

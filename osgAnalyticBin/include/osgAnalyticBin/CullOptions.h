@@ -60,9 +60,11 @@ enum class ClusterUse {
 
 /// What an installer, a plugin option string or a stored database says about culling.
 struct CullOptions {
+    /// How tiles are culled.
     Method method = Method::Quadratic;
     /// Factor by which Method::Paper enlarges its box; at least 1.
     double growth = core::PaperBin::kDefaultGrowth;
+    /// Whether tiles behind the horizon are culled.
     HorizonUse horizonUse = HorizonUse::ByMethod;
     /// Altitude in metres below which nothing is drawn anywhere in the database, meshes between their posts included;
     /// the database covers the whole globe. Read with HorizonUse::Given.
@@ -79,7 +81,9 @@ struct CullOptions {
     /// turning the head and back reads the same files again.
     double expiry = kDefaultExpiry;
 
+    /// What bins hold of skirts.
     SkirtUse skirts = SkirtUse::Cracks;
+    /// What becomes of ClusterCullingCallbacks.
     ClusterUse cluster = ClusterUse::Replace;
     /// Altitudes in metres that no terrain of the database leaves, at any level of detail: for tiles whose descendants
     /// are known neither from a stored bin nor from an index. The default holds all terrain on earth. In a map: heights
@@ -94,7 +98,9 @@ struct CullOptions {
     /// What `reverse` comes to with this method.
     [[nodiscard]] OSGANALYTICBIN_EXPORT bool effectiveReverse() const noexcept;
 
+    /// Seconds.
     static constexpr double kDefaultExpiry = 3.0;
+    /// Metres: the deepest trench and the highest mountain, with room.
     static constexpr core::Interval kTerrainOnEarth{-11500.0, 9000.0};
 };
 

@@ -17,23 +17,29 @@ namespace osgAnalyticBin {
 /// it once, and draws the database with its own spheres.
 class OSGANALYTICBIN_EXPORT InstallBinsCallback : public osg::NodeCallback {
 public:
+    /// Will install by these options.
     explicit InstallBinsCallback(const CullOptions& options = {}) : _options(options) {}
+    /// A copy that will install as the original did.
     InstallBinsCallback(const InstallBinsCallback& other, const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
 
     META_Object(osgAnalyticBin, InstallBinsCallback)
 
+        /// Read at the first update traversal.
         void setCullOptions(const CullOptions& options) {
         _options = options;
     }
+    /// Default: CullOptions().
     [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
 
     /// The options as text; what the serializer stores.
     void setOptionsText(const std::string& text);
+    /// toText() of the options.
     [[nodiscard]] std::string getOptionsText() const;
 
     /// Tells the callback that bins are installed already: it does nothing from then on.
     void setDone() { _done = true; }
 
+    /// Called by OSG's update traversal.
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
 protected:

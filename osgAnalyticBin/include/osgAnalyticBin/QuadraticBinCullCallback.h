@@ -34,15 +34,18 @@ public:
     /// leaves these out.
     explicit QuadraticBinCullCallback(const core::QuadraticBin& bin,
                                       const osg::BoundingSphere& sphere = osg::BoundingSphere());
+    /// A copy, bin included.
     QuadraticBinCullCallback(const QuadraticBinCullCallback& other,
                              const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
 
     META_Object(osgAnalyticBin, QuadraticBinCullCallback)
 
+        /// nullopt: never culls.
         [[nodiscard]] const std::optional<core::QuadraticBin>& bin() const {
         return _bin;
     }
 
+    /// Called by OSG's cull traversal: goes on below the node unless it is culled.
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
 protected:

@@ -55,11 +55,16 @@ struct FoundTile {
 /// children. Nothing is changed, and no osgTerrain tile is traversed. Transforms that may move end the walk.
 class OSGANALYTICBIN_EXPORT TileFinder : public osg::NodeVisitor {
 public:
+    /// Starts in this frame: for what is paged below a database that is known already.
     explicit TileFinder(const TileFrame& frame = {});
 
+    /// Visits a node; called by OSG's traversal.
     void apply(osg::Node& node) override;
+    /// Enters a globe or a map.
     void apply(osg::CoordinateSystemNode& node) override;
+    /// Enters another frame, unless it may move.
     void apply(osg::Transform& node) override;
+    /// Tells whether it is a tile, and numbers the files paged below it.
     void apply(osg::PagedLOD& node) override;
 
 protected:
@@ -72,7 +77,9 @@ protected:
     /// Goes on with the children, those that are paged as content of their own files.
     void traverseBelow(osg::Node& node);
 
+    /// The frame of the node that is being visited.
     [[nodiscard]] const TileFrame& frame() const { return _frame; }
+    /// Changes the frame for what is visited from here on.
     void setFrame(const TileFrame& frame) { _frame = frame; }
 
 private:

@@ -10,13 +10,18 @@ namespace osgAnalyticBin::core {
 
 /// A box in the three parameters of a mapping.
 struct ParameterBox {
+    /// In the mapping's own parameters and units.
     glm::dvec3 center{0.0};
+    /// Half the widths, 0 or more.
     glm::dvec3 halfSize{0.0};
 };
 
 /// The second partial derivatives of a mapping, a vector each; u, v, w are its three parameters.
 struct Hessians {
+    /// @{
+    /// By the two parameters that each is named for.
     glm::dvec3 uu{0.0}, vv{0.0}, ww{0.0}, uv{0.0}, uw{0.0}, vw{0.0};
+    /// @}
 };
 
 /// A three times differentiable mapping of a parameter box into space: what a bin is a box *of*.
@@ -25,11 +30,13 @@ class AnalyticMapping {
 public:
     virtual ~AnalyticMapping() = default;
 
+    /// The mapped point, in metres.
     [[nodiscard]] virtual glm::dvec3 value(const glm::dvec3& parameters) const noexcept = 0;
 
     /// Column i is the derivative by parameter i.
     [[nodiscard]] virtual glm::dmat3 jacobian(const glm::dvec3& parameters) const noexcept = 0;
 
+    /// The second derivatives at the parameters.
     [[nodiscard]] virtual Hessians hessians(const glm::dvec3& parameters) const noexcept = 0;
 
     /// An upper bound of the length of the third differential D3f(x)[e, e, e] over all x in the box and all steps e
@@ -38,8 +45,11 @@ public:
     [[nodiscard]] virtual double thirdDerivativeBound(const ParameterBox& box) const noexcept = 0;
 
 protected:
+    /// For derived classes alone, as are copies.
     AnalyticMapping() = default;
+    /// Not through the base.
     AnalyticMapping(const AnalyticMapping&) = default;
+    /// Not through the base.
     AnalyticMapping& operator=(const AnalyticMapping&) = default;
 };
 

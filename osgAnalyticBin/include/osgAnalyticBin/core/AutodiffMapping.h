@@ -56,18 +56,22 @@ public:
     explicit AutodiffMapping(F formula, int pieces = 2) noexcept
         : _formula(std::move(formula)), _pieces(std::max(pieces, 1)) {}
 
+    /// The formula that was given.
     [[nodiscard]] const F& formula() const noexcept { return _formula; }
 
+    /// The formula evaluated with double.
     [[nodiscard]] glm::dvec3 value(const glm::dvec3& at) const noexcept override {
         const Vec3<double> f = _formula(at.x, at.y, at.z);
         return {f.x, f.y, f.z};
     }
 
+    /// By automatic differentiation; column i is the derivative by parameter i.
     [[nodiscard]] glm::dmat3 jacobian(const glm::dvec3& at) const noexcept override {
         const auto f = expanded<1>(at);
         return {derivative(f, 1, 0, 0), derivative(f, 0, 1, 0), derivative(f, 0, 0, 1)};
     }
 
+    /// By automatic differentiation.
     [[nodiscard]] Hessians hessians(const glm::dvec3& at) const noexcept override {
         const auto f = expanded<2>(at);
         return {derivative(f, 2, 0, 0), derivative(f, 0, 2, 0), derivative(f, 0, 0, 2),

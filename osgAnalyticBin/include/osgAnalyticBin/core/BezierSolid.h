@@ -13,11 +13,16 @@ namespace osgAnalyticBin::core {
 
 /// The control points of a Bezier patch, (degreeU + 1) rows of (degreeV + 1).
 struct ControlNet {
+    /// Along the rows' index.
     std::size_t degreeU = 0;
+    /// Within a row.
     std::size_t degreeV = 0;
+    /// Row by row, metres.
     std::vector<glm::dvec3> points;
 
+    /// Point j of row i.
     [[nodiscard]] const glm::dvec3& at(std::size_t i, std::size_t j) const { return points[i * (degreeV + 1) + j]; }
+    /// Point j of row i, to be set.
     [[nodiscard]] glm::dvec3& at(std::size_t i, std::size_t j) { return points[i * (degreeV + 1) + j]; }
 };
 
@@ -31,9 +36,12 @@ public:
     /// Requires: both nets of the same degrees, at least 1 in each direction.
     BezierSolid(ControlNet inner, ControlNet outer);
 
+    /// The patch at w = 0.
     [[nodiscard]] const ControlNet& inner() const noexcept { return _inner; }
+    /// The patch at w = 1.
     [[nodiscard]] const ControlNet& outer() const noexcept { return _outer; }
 
+    /// The point of the solid at u, v, w.
     template <class T>
     [[nodiscard]] Vec3<T> operator()(T u, T v, T w) const {
         const Vec3<T> a = point(_inner, u, v);

@@ -16,10 +16,13 @@ namespace osgAnalyticBin::core {
 /// Guarantee: none. It culls visible tiles and accepts invisible ones; tests: PaperBin.IsKnownToBeUnsound.
 class PaperBin final {
 public:
+    /// Factor of all three half sizes.
     static constexpr double kDefaultGrowth = 1.1;
 
+    /// `growth`: 1 or more. Cost: one evaluation of the mapping and its derivatives.
     PaperBin(const AnalyticMapping& mapping, const ParameterBox& box, double growth = kDefaultGrowth) noexcept;
 
+    /// By the nine points; never a proof.
     [[nodiscard]] Side classify(const Plane& plane) const noexcept;
 
 private:
@@ -30,8 +33,10 @@ private:
 /// Guarantee: none; a curved bin bulges past its corners. tests: CornersBin.IsKnownToBeUnsound.
 class CornersBin final {
 public:
+    /// Cost: eight evaluations of the mapping.
     CornersBin(const AnalyticMapping& mapping, const ParameterBox& box) noexcept;
 
+    /// By the eight corners; never a proof.
     [[nodiscard]] Side classify(const Plane& plane) const noexcept;
 
 private:

@@ -14,14 +14,23 @@ namespace osgAnalyticBin::core {
 /// the same line. A neighbour beyond that line can be that coarse.
 /// Source: doc/databases.md, section 4.
 struct TileEdges {
+    /// @{
+    /// Radians; 0: no tile is as wide.
     double south = 0.0, east = 0.0, north = 0.0, west = 0.0;
+    /// @}
 
     /// Whether the edge is a part of the database's outer border: there is no neighbour, and skirts stand in plain
     /// view.
     struct Border {
+        /// @{
+        /// Edge by edge.
         bool south = false, east = false, north = false, west = false;
-    } border;
+        /// @}
+    };
+    /// Default: none.
+    Border border;
 
+    /// Whether any edge is.
     [[nodiscard]] bool areOnBorder() const noexcept {
         return border.south || border.east || border.north || border.west;
     }

@@ -18,8 +18,10 @@ namespace osgAnalyticBin::core {
 /// error; tests: CylinderSegment.*.
 class CylinderSegment final {
 public:
+    /// The axis is the frame's z; angles are counted from its x towards its y.
     explicit CylinderSegment(const Frame& frame) noexcept : _frame(frame) {}
 
+    /// Radians, metres, metres.
     template <class T>
     [[nodiscard]] Vec3<T> operator()(T angle, T radius, T height) const {
         using std::cos;

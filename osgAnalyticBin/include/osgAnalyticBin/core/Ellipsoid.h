@@ -9,8 +9,11 @@ namespace osgAnalyticBin::core {
 
 /// A position as latitude and longitude in radians and altitude in metres above the ellipsoid.
 struct Geodetic {
+    /// Radians, north positive.
     double latitude = 0.0;
+    /// Radians, east positive.
     double longitude = 0.0;
+    /// Metres.
     double altitude = 0.0;
 };
 
@@ -19,9 +22,12 @@ struct Geodetic {
 /// Requires: both radii finite and positive (asserted).
 class Ellipsoid final {
 public:
+    /// Metres.
     Ellipsoid(double equatorialRadius, double polarRadius) noexcept;
 
+    /// a, metres.
     [[nodiscard]] double equatorialRadius() const noexcept { return _a; }
+    /// b, metres.
     [[nodiscard]] double polarRadius() const noexcept { return _b; }
 
     /// e2 = 1 - b2/a2: zero for a sphere, negative for a prolate ellipsoid.
@@ -47,7 +53,9 @@ public:
     /// The largest value of n.x over the solid ellipsoid: sqrt(a2 (nx2 + ny2) + b2 nz2).
     [[nodiscard]] double support(const glm::dvec3& direction) const noexcept;
 
+    /// Whether both radii are the same numbers.
     [[nodiscard]] bool operator==(const Ellipsoid& other) const noexcept { return _a == other._a && _b == other._b; }
+    /// Whether a radius differs.
     [[nodiscard]] bool operator!=(const Ellipsoid& other) const noexcept { return !(*this == other); }
 
 private:

@@ -9,9 +9,13 @@ namespace osgAnalyticBin::core {
 
 /// Where a shape stands: an origin and three axes of unit length, at right angles to each other.
 struct Frame {
+    /// Metres, in the outer frame, as are the axes.
     glm::dvec3 origin{0.0};
+    /// First axis.
     glm::dvec3 x{1.0, 0.0, 0.0};
+    /// Second axis.
     glm::dvec3 y{0.0, 1.0, 0.0};
+    /// Third axis.
     glm::dvec3 z{0.0, 0.0, 1.0};
 
     /// The right-handed frame whose z points along `axis`, and x as nearly as possible along `zeroDirection`.
@@ -22,6 +26,7 @@ struct Frame {
     /// Moves and turns by another frame: origin and axes are given in its coordinates.
     [[nodiscard]] Frame placedIn(const Frame& outer) const noexcept;
 
+    /// A point of this frame in the outer one.
     [[nodiscard]] glm::dvec3 toOuter(const glm::dvec3& local) const noexcept {
         return origin + local.x * x + local.y * y + local.z * z;
     }

@@ -21,7 +21,9 @@ namespace osgAnalyticBin::core {
 /// Source: doc/horizon.md, section 6.
 class FrustumHull final {
 public:
+    /// The sides, near and far.
     static constexpr std::size_t kMostPlanes = 6;
+    /// Of six planes.
     static constexpr std::size_t kMostCorners = 8;
 
     /// Planes above kMostPlanes, and corners above kMostCorners, are left out, which is sound. `planes` is anything
@@ -34,6 +36,7 @@ public:
 
     /// An apex counts once for every three of its planes.
     [[nodiscard]] std::size_t cornerCount() const noexcept { return _cornerCount; }
+    /// Requires: i < cornerCount().
     [[nodiscard]] const glm::dvec3& corner(std::size_t i) const noexcept { return _corners[i].point; }
 
     /// Guarantee: true only if no point x with |x| <= reach and face.distance(x) >= 0 is inside all planes.
@@ -64,10 +67,14 @@ public:
     /// `exact` is the same bin, with its margin. Cost: sines and cosines of the edges, three support values.
     ReverseBin(const ExactGeodeticBin& exact, const GeodeticBin& bin) noexcept;
 
+    /// Two meridians, the top, south and north.
     static constexpr std::size_t kMostFaces = 5;
 
+    /// Faces that the bin has.
     [[nodiscard]] std::size_t faceCount() const noexcept { return _faceCount; }
+    /// Requires: i < faceCount().
     [[nodiscard]] const Plane& face(std::size_t i) const noexcept { return _faces[i]; }
+    /// No point of the bin, margin included, is farther from the earth's centre; metres.
     [[nodiscard]] double reach() const noexcept { return _reach; }
 
 private:

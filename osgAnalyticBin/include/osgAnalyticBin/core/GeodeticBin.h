@@ -11,15 +11,22 @@ namespace osgAnalyticBin::core {
 
 /// A closed interval; empty when lower > upper.
 struct Interval {
+    /// The lower end.
     double lower = 0.0;
+    /// The upper end.
     double upper = 0.0;
 
+    /// Negative when empty.
     [[nodiscard]] double width() const noexcept { return upper - lower; }
+    /// Requires: not empty.
     [[nodiscard]] double middle() const noexcept { return 0.5 * (lower + upper); }
+    /// Ends are contained.
     [[nodiscard]] bool contains(double value) const noexcept { return lower <= value && value <= upper; }
+    /// Whether both ends of the other are contained.
     [[nodiscard]] bool contains(const Interval& other) const noexcept {
         return lower <= other.lower && other.upper <= upper;
     }
+    /// Whether both ends are the same numbers.
     [[nodiscard]] bool operator==(const Interval& other) const noexcept {
         return lower == other.lower && upper == other.upper;
     }
@@ -47,11 +54,16 @@ public:
     /// Every latitude and longitude, with the given altitudes.
     [[nodiscard]] static GeodeticBin wholeGlobe(Interval altitude) noexcept;
 
+    /// Radians.
     [[nodiscard]] const Interval& latitude() const noexcept { return _latitude; }
+    /// Radians; see the class for the date line.
     [[nodiscard]] const Interval& longitude() const noexcept { return _longitude; }
+    /// Metres.
     [[nodiscard]] const Interval& altitude() const noexcept { return _altitude; }
 
+    /// Whether there is no position in it.
     [[nodiscard]] bool empty() const noexcept { return !(_latitude.lower <= _latitude.upper); }
+    /// Whether it runs all the way around the globe.
     [[nodiscard]] bool isFullCircle() const noexcept;
 
     /// The position in the middle of the three intervals. Requires: not empty.
@@ -69,6 +81,7 @@ public:
 
     /// Grows to hold the position or the other bin.
     void expandBy(const Geodetic& position) noexcept;
+    /// Grows to hold the other bin.
     void expandBy(const GeodeticBin& other) noexcept { *this = united(other); }
 
     /// The same latitudes and longitudes with other altitudes.
@@ -79,7 +92,9 @@ public:
     /// tests: GeodeticBin.QuartersNestExactly.
     [[nodiscard]] std::array<GeodeticBin, 4> quarters() const noexcept;
 
+    /// Whether all ends are the same numbers.
     [[nodiscard]] bool operator==(const GeodeticBin& other) const noexcept;
+    /// Whether any end differs.
     [[nodiscard]] bool operator!=(const GeodeticBin& other) const noexcept { return !(*this == other); }
 
 private:

@@ -15,9 +15,13 @@ namespace osgAnalyticBin::core {
 /// between them stand triangles with the diagonal either way.
 /// Requires: at least two columns and rows, cells of at most 60 by 60 degrees, latitudes within the poles (asserted).
 struct GeodeticGrid {
+    /// Radians, from the first row to the last.
     Interval latitude;
+    /// Radians, from the first column to the last.
     Interval longitude;
+    /// Posts from west to east.
     std::size_t columns = 2;
+    /// Posts from south to north.
     std::size_t rows = 2;
 };
 
@@ -34,6 +38,7 @@ public:
     /// below 0.1 (asserted).
     GeodeticGridBounds(const Ellipsoid& ellipsoid, const GeodeticGrid& grid, double reach) noexcept;
 
+    /// Radians: the grid's latitudes, and what chords run poleward of them.
     [[nodiscard]] const Interval& latitude() const noexcept { return _latitude; }
 
     /// Metres, of any triangle of the grid.

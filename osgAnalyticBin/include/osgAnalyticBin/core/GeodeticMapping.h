@@ -13,12 +13,17 @@ namespace osgAnalyticBin::core {
 /// Source: [JJ] eq. (4), corrected; doc/derivation.md, section 2.
 class GeodeticMapping final : public AnalyticMapping {
 public:
+    /// Maps onto this ellipsoid.
     explicit GeodeticMapping(const Ellipsoid& ellipsoid) noexcept : _ellipsoid(ellipsoid) {}
 
+    /// The ellipsoid that altitudes are above.
     [[nodiscard]] const Ellipsoid& ellipsoid() const noexcept { return _ellipsoid; }
 
+    /// ECEF metres.
     [[nodiscard]] glm::dvec3 value(const glm::dvec3& parameters) const noexcept override;
+    /// In closed form; column i is the derivative by parameter i.
     [[nodiscard]] glm::dmat3 jacobian(const glm::dvec3& parameters) const noexcept override;
+    /// In closed form.
     [[nodiscard]] Hessians hessians(const glm::dvec3& parameters) const noexcept override;
 
     /// Guarantee: holds for every box of latitudes within the poles, any longitudes, any altitudes;

@@ -22,6 +22,7 @@ public:
     /// Cost: that of the quadratic bin, and for wide bins that of the exact one as well.
     GeodeticQuadraticBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin = 0.0) noexcept;
 
+    /// Whether the bin is in the closed form.
     [[nodiscard]] bool isExact() const noexcept { return _data.isExact(); }
 
     /// As QuadraticBin::classify() and ExactGeodeticBin::classify().

@@ -17,8 +17,10 @@ namespace osgAnalyticBin::core {
 /// tests: MercatorHeightField.*.
 class MercatorHeightField final {
 public:
+    /// Radius of the sphere, metres.
     explicit MercatorHeightField(double radius) noexcept : _radius(radius) {}
 
+    /// The earth-centred point.
     template <class T>
     [[nodiscard]] Vec3<T> operator()(T easting, T northing, T altitude) const {
         using std::cos;

@@ -17,10 +17,14 @@ enum class Side { Outside, Straddling, Inside };
 
 /// The plane normal.x + offset = 0 with a unit normal that points into the frustum: a positive distance is inside.
 struct Plane {
+    /// Of unit length, pointing inside.
     glm::dvec3 normal{0.0, 0.0, 1.0};
+    /// Metres: the distance of the origin.
     double offset = 0.0;
 
+    /// Metres, positive inside.
     [[nodiscard]] double distance(const glm::dvec3& point) const noexcept { return glm::dot(normal, point) + offset; }
+    /// The same plane with the other side inside.
     [[nodiscard]] Plane flipped() const noexcept { return {-normal, -offset}; }
 };
 

@@ -30,9 +30,12 @@ public:
     /// Requires: size() < kMaxPlanes (asserted).
     void push_back(const Plane& plane) noexcept;
 
+    /// Planes in the set.
     [[nodiscard]] std::size_t size() const noexcept { return _size; }
+    /// Requires: i < size().
     [[nodiscard]] Plane operator[](std::size_t i) const noexcept;
 
+    /// What the kernels read: four planes a block.
     [[nodiscard]] const PlaneBlock* blocks() const noexcept { return _blocks.data(); }
 
     /// One bit for each plane.
@@ -52,7 +55,9 @@ private:
 /// tests: PlaneKernels.EveryTargetAgreesWithTheScalarForm.
 /// Cost: for most bins one sphere test of all planes together; no allocation, no trigonometry.
 [[nodiscard]] Side classify(const ExactGeodeticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept;
+/// Likewise for a bin of any mapping.
 [[nodiscard]] Side classify(const QuadraticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept;
+/// Likewise for the bin of a terrain tile.
 [[nodiscard]] Side classify(const GeodeticQuadraticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept;
 
 /// Every other bin, plane by plane.

@@ -11,11 +11,14 @@ namespace osgAnalyticBin::core {
 
 /// A quadratic polynomial q(x) = value + gradient.x + 1/2 x'Hx over the unit box [-1, 1]^3.
 struct Quadratic {
+    /// At the centre.
     double value = 0.0;
+    /// u, v, w
     std::array<double, 3> gradient{};
     /// uu, vv, ww, uv, uw, vw
     std::array<double, 6> hessian{};
 
+    /// q at a position.
     [[nodiscard]] double operator()(double u, double v, double w) const noexcept;
 };
 

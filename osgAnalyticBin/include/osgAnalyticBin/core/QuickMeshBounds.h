@@ -14,10 +14,16 @@ namespace osgAnalyticBin::core {
 
 /// A triangle mesh in ECEF metres; each coordinate has its array. Every vertex counts, whether triangles use it or not.
 struct EcefMesh {
+    /// @{
+    /// Of the vertices.
     std::vector<double> x, y, z;
+    /// @}
+    /// Three indices of vertices a triangle.
     std::vector<std::uint32_t> triangles;
 
+    /// Number of vertices.
     [[nodiscard]] std::size_t size() const noexcept { return x.size(); }
+    /// Requires: i < size().
     [[nodiscard]] glm::dvec3 vertex(std::size_t i) const noexcept { return {x[i], y[i], z[i]}; }
 };
 
@@ -30,6 +36,7 @@ struct EcefMesh {
 class QuickMeshBounds final {
 public:
     QuickMeshBounds() = default;
+    /// Finds the bin at once; see find().
     QuickMeshBounds(const Ellipsoid& ellipsoid, const EcefMesh& mesh) { find(ellipsoid, mesh); }
 
     /// In place of what was found before. Requires: indices within the vertices.
@@ -39,6 +46,7 @@ public:
     /// earth's; bin() is empty then, and GeodeticMeshBounds is to be asked.
     [[nodiscard]] bool isKnown() const noexcept { return !_bin.empty(); }
 
+    /// Empty unless isKnown().
     [[nodiscard]] const GeodeticBin& bin() const noexcept { return _bin; }
 
     /// Some vertex lies within 1 m of the axis.
@@ -46,6 +54,7 @@ public:
 
     /// Metres, of each vertex, up to altitudeError().
     [[nodiscard]] const std::vector<double>& altitudes() const noexcept { return _altitudes; }
+    /// Metres.
     [[nodiscard]] double altitudeError() const noexcept { return _altitudeError; }
 
     /// Metres that chords may sag below the lowest corner of their triangle at most.

@@ -25,7 +25,9 @@ public:
     /// Monomials of degree 0; 1: u, v, w; 2: uu, vv, ww, uv, uw, vw; 3: uuu, vvv, www, uuv, uuw, uvv, vvw, uww, vww,
     /// uvw.
     static constexpr std::size_t kCoefficients = 20;
+    /// Where the monomials of degree 2 begin.
     static constexpr std::size_t kFirstOfDegree2 = 4;
+    /// Where the monomials of degree 3 begin.
     static constexpr std::size_t kFirstOfDegree3 = 10;
 
     /// A constant, exactly this number.
@@ -34,8 +36,11 @@ public:
     /// Variable 0, 1 or 2 over a range. A step of 1 in the Taylor series is `scale` in the variable.
     [[nodiscard]] static TaylorInterval variable(std::size_t index, const IntervalNumber& range, double scale) noexcept;
 
+    /// Requires: i < kCoefficients.
     [[nodiscard]] const IntervalNumber& coefficient(std::size_t i) const noexcept { return _coefficients[i]; }
 
+    /// @{
+    /// By the rules of derivatives, monomial by monomial; undefined where a divisor may be zero.
     TaylorInterval operator-() const noexcept;
     TaylorInterval& operator+=(const TaylorInterval& other) noexcept { return *this = *this + other; }
     TaylorInterval& operator-=(const TaylorInterval& other) noexcept { return *this = *this - other; }
@@ -47,6 +52,10 @@ public:
     friend TaylorInterval operator*(const TaylorInterval& a, const TaylorInterval& b) noexcept;
     friend TaylorInterval operator/(const TaylorInterval& a, const TaylorInterval& b) noexcept;
 
+    /// @}
+
+    /// @{
+    /// The function's own series at the value, composed; undefined outside of its domain.
     friend TaylorInterval sqrt(const TaylorInterval& x) noexcept;
     friend TaylorInterval exp(const TaylorInterval& x) noexcept;
     friend TaylorInterval log(const TaylorInterval& x) noexcept;
@@ -55,6 +64,7 @@ public:
     friend TaylorInterval tan(const TaylorInterval& x) noexcept;
     friend TaylorInterval atan(const TaylorInterval& x) noexcept;
     friend TaylorInterval pow(const TaylorInterval& x, int exponent) noexcept;
+    /// @}
 
     // Not with a real exponent, nor rounded to an integer behind the caller's back.
     friend TaylorInterval pow(const TaylorInterval& x, double exponent) = delete;

@@ -21,6 +21,7 @@ public:
     /// The radius of the circle along which the tube's middle runs, in metres.
     TorusSegment(const Frame& frame, double bendRadius) noexcept : _frame(frame), _bendRadius(bendRadius) {}
 
+    /// Radians, radians, metres.
     template <class T>
     [[nodiscard]] Vec3<T> operator()(T bend, T tube, T radius) const {
         using std::cos;

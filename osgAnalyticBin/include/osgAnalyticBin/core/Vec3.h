@@ -11,7 +11,10 @@ namespace osgAnalyticBin::core {
 /// a mapping returns.
 template <class T>
 struct Vec3 {
+    /// @{
+    /// In the order of the axes.
     T x, y, z;
+    /// @}
 };
 
 /// origin + a u + b v + c w, for fixed vectors and any kind of numbers.
