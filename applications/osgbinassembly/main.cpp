@@ -3,6 +3,8 @@
 
 #include "CullRun.h"
 
+#include <osgAnalyticBin/Version.h>
+
 #include <CLI/CLI.hpp>
 #include <osgDB/WriteFile>
 
@@ -38,7 +40,7 @@ void declare(CLI::App& app, Arguments& arguments) {
         "drawn = parts whose geometry also passed OSG's own box test; false = parts in view that were not drawn;\n"
         "ms = one cull traversal. Sizes are metres.\n"
         "Exit code: 0; 1 when a part in view was culled, or when bins do not keep fewer parts than spheres;\n"
-        "2 when the file cannot be written.\n\n"
+        "2 when the file cannot be written, or the command line is wrong.\n\n"
         "Example:\n"
         "  osgbinassembly --parts 20000 --cameras 100 --output assembly.osgb");
 }
@@ -89,9 +91,16 @@ int compare(const Assembly& assembly, const Arguments& arguments) {
 int main(int argc, char** argv) {
     CLI::App app{"Builds a plant of pipes and curved panels and culls it with spheres and with bins.",
                  "osgbinassembly"};
+    app.set_version_flag("--version", std::string("osgbinassembly (osgAnalyticBin) ") + osgAnalyticBin::version());
     Arguments arguments;
     declare(app, arguments);
-    CLI11_PARSE(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        std::cerr << "osgbinassembly: " << error.what() << "; see osgbinassembly --help\n";
+        return kNotWritten;
+    }
     const Assembly assembly = buildAssembly(arguments.parts, arguments.seed);
     if (!arguments.output.empty() && !osgDB::writeNodeFile(*assembly.scene, arguments.output)) {
         std::cerr << "osgbinassembly: cannot write " << arguments.output << '\n';

@@ -9,6 +9,7 @@
 #include "Figures.h"
 
 #include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/Version.h>
 
 #include <CLI/CLI.hpp>
 
@@ -196,6 +197,7 @@ std::string threadingName(Model model) {
 
 bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {
     CLI::App app{"Measures the culling of a paged globe, method by method, along a camera path.", "osgbinbench"};
+    app.set_version_flag("--version", std::string("osgbinbench (osgAnalyticBin) ") + osgAnalyticBin::version());
     Words words;
     declare(app, settings, words);
     try {

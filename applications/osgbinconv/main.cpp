@@ -7,6 +7,8 @@
 #include "IndexBuilder.h"
 #include "IndexReport.h"
 
+#include <osgAnalyticBin/Version.h>
+
 #include <CLI/CLI.hpp>
 #include <osg/Notify>
 
@@ -106,6 +108,7 @@ void prepareProcess() {
 int run(int argc, char** argv) {
     Arguments arguments;
     CLI::App app{kDescription, "osgbinconv"};
+    app.set_version_flag("--version", std::string("osgbinconv (osgAnalyticBin) ") + osgAnalyticBin::version());
     declare(app, arguments);
     try {
         app.parse(argc, argv);

@@ -5,6 +5,8 @@
 #include "Failure.h"
 #include "TileLayout.h"
 
+#include <osgAnalyticBin/Version.h>
+
 #include <CLI/CLI.hpp>
 #include <gdal.h>
 #include <osg/CoordinateSystemNode>
@@ -175,6 +177,7 @@ void prepareProcess() {
 int run(int argc, char** argv) {
     Arguments arguments;
     CLI::App app{kDescription, "osgbindem"};
+    app.set_version_flag("--version", std::string("osgbindem (osgAnalyticBin) ") + osgAnalyticBin::version());
     declare(app, arguments);
     try {
         app.parse(argc, argv);

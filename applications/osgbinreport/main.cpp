@@ -3,6 +3,8 @@
 
 #include "Report.h"
 
+#include <osgAnalyticBin/Version.h>
+
 #include <CLI/CLI.hpp>
 
 #include <iostream>
@@ -36,7 +38,7 @@ void declare(CLI::App& app, Arguments& arguments) {
         "Tiles: tested = the cull traversal reached the tile; kept = it reached what is below; drawn = its own\n"
         "geometry was drawn. Files: node files read from the camera's arrival on. Cull: milliseconds, median.\n"
         "Exit code: 0; 1 when a picture of a sound method (any but paper and corners) differs from the reference;\n"
-        "2 when a run is missing or broken.\n\n"
+        "2 when a run is missing or broken, or the command line is wrong.\n\n"
         "Example:\n"
         "  osgbinreport demo/none demo/sphere demo/quadratic --difference demo/difference");
 }
@@ -60,8 +62,15 @@ int report(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     CLI::App app{"Compares flights over a database that were made with different culling methods.", "osgbinreport"};
+    app.set_version_flag("--version", std::string("osgbinreport (osgAnalyticBin) ") + osgAnalyticBin::version());
     Arguments arguments;
     declare(app, arguments);
-    CLI11_PARSE(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        std::cerr << "osgbinreport: " << error.what() << "; see osgbinreport --help\n";
+        return kUnreadable;
+    }
     return report(arguments);
 }

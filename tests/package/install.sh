@@ -65,9 +65,14 @@ for pair in uses_core:osgAnalyticBinCore uses_kit:osgAnalyticBin; do
     LD_LIBRARY_PATH="$moved/$libdir" "$scratch/$program" || fail "$program by pkg-config failed"
 done
 
-echo "== programs find their library where they are"
+echo "== programs find their library where they are, tell their version, and have man pages where help2man is"
 for program in "$moved"/bin/*; do
+    name=$(basename "$program")
     quietly "$program" --help
+    quietly "$program" --version
+    grep -Eq "^$name \(osgAnalyticBin\) [0-9]+\.[0-9]+\.[0-9]+$" "$scratch/log" || fail "$name --version says something else"
+    command -v help2man >/dev/null || continue
+    zcat "$moved/share/man/man1/$name.1.gz" | grep -q '^\.SH OPTIONS' || fail "no man page of $name, or one without options"
 done
 
 echo "== the stock osgconv finds the plugins"

@@ -45,8 +45,9 @@ unset LD_LIBRARY_PATH || true
 export PATH="$scratch/prefix/bin:$PATH" CMAKE_PREFIX_PATH="$scratch/prefix" OSG_LIBRARY_PATH="$scratch/prefix/$libdir"
 export OSG_RUN_FRAME_COUNT=40 OSG_WINDOW="0 0 320 240" LIBGL_ALWAYS_SOFTWARE=1
 cd "$scratch/work"
-# A display number by process: tests run side by side.
-timeout 300 xvfb-run -a -n $((6000 + $$ % 3000)) -s "-screen 0 640x480x24" sh -eux "$scratch/commands" >"$scratch/log" 2>&1 || {
+# A display number by process, for tests run side by side. A display that resets when the last window closes may miss
+# the next.
+timeout 300 xvfb-run -a -n $((6000 + $$ % 3000)) -s "-screen 0 640x480x24 -noreset" sh -eux "$scratch/commands" >"$scratch/log" 2>&1 || {
     cat "$scratch/log" >&2
     fail "a command of tutorial.md failed"
 }
