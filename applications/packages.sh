@@ -2,11 +2,12 @@
 # SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 # SPDX-License-Identifier: MIT
 #
-# Installs every Debian 12 package that the build, the tests and the demo need, if one is missing.
+# Installs every Debian 12 package that the build, the tests and the demo need, and those named as arguments, if one is
+# missing.
 set -eu
 
 packages="
-  ca-certificates clang-format cmake g++ git ninja-build pkg-config
+  ca-certificates clang-format cmake doxygen g++ git help2man ninja-build pkg-config python3
   libopenscenegraph-dev openscenegraph libglm-dev
   libgdal-dev gdal-bin libcli11-dev nlohmann-json3-dev
   gnuplot-nox
@@ -16,7 +17,7 @@ packages="
 "
 
 missing=""
-for package in $packages; do
+for package in $packages "$@"; do
     status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
     [ "$status" = installed ] || missing="$missing $package"
 done
