@@ -12,7 +12,7 @@ namespace osgAnalyticBin::core {
 namespace {
 
 constexpr double kHalfPi = 1.57079632679489661923;
-constexpr double kMaxCell = 1.0472;
+[[maybe_unused]] constexpr double kMaxCell = 1.0472;
 // Sines are taken for angles in the bound of the poleward run, and the last bits of its own evaluation are covered.
 constexpr double kRunSlack = 1.01;
 constexpr double kAngleRounding = 1e-15;
