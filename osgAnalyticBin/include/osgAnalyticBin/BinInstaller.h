@@ -61,6 +61,7 @@ protected:
 private:
     friend class BinReadFileCallback;
     friend class DatabaseUpdateCallback;
+    friend OSGANALYTICBIN_EXPORT std::size_t setCullOptions(osg::Node& node, const CullOptions& options);
 
     // What PagedLODs get for the options that they came with (null: none).
     struct Paging {
@@ -84,6 +85,7 @@ private:
     void followPaging(osg::PagedLOD& node, const ParentTile* tile);
 
     CullOptions _options;
+    bool _keepsDatabases = false;
     osg::ref_ptr<const BinIndex> _index;
     osg::ref_ptr<Database> _database;        // that is visited
     osg::ref_ptr<Database> _refitted;        // that is about to be visited again
@@ -108,5 +110,16 @@ OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions
 OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions& options,
                                               const std::string& databaseFileName,
                                               const osgDB::Options* readOptions = nullptr);
+
+/// Culls databases by other options while they are shown, Method::Sphere and Method::None among them: from the next
+/// frame on, tiles are culled as if the database had been read with these options. That goes for tiles that are loaded,
+/// for those that the DatabasePager is reading just now, and for those that it reads later. What was known of the
+/// database (its index, tiles that did not fit it) stays known. On a database without bins: installBins().
+/// Call it between frames, in the event or update phase, where no cull traversal runs; the pager may work meanwhile.
+/// Without a CoordinateSystemNode in the scene, files that are being read keep the options that they were asked for
+/// with.
+/// Guarantee: the same tiles are drawn as after reading anew; tests: SwitchedCulling.*.
+/// Returns: the number of callbacks installed. Cost: as installing bins on what is loaded.
+OSGANALYTICBIN_EXPORT std::size_t setCullOptions(osg::Node& node, const CullOptions& options);
 
 }  // namespace osgAnalyticBin

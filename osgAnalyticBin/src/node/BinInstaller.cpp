@@ -19,6 +19,7 @@
 #include <osg/PagedLOD>
 #include <osgDB/Registry>
 #include <osgTerrain/Terrain>
+#include <osgTerrain/TerrainTile>
 
 #include <algorithm>
 #include <optional>
@@ -88,6 +89,39 @@ CullOptions settled(osg::Node& node, const CullOptions& options) {
         request->setDone();
     }
     return effective;
+}
+
+BinReadFileCallback* readCallbackOf(osg::PagedLOD& node) {
+    const auto* options = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
+    return options ? dynamic_cast<BinReadFileCallback*>(options->getReadFileCallback()) : nullptr;
+}
+
+// Looks for the database that the pages below a node belong to.
+class DatabaseFinder : public osg::NodeVisitor {
+public:
+    DatabaseFinder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Node& node) override {
+        if (!_found && !dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
+    }
+    void apply(osg::PagedLOD& node) override {
+        BinReadFileCallback* callback = readCallbackOf(node);
+        if (callback && !_found) _found = callback->database();
+        apply(static_cast<osg::Node&>(node));
+    }
+
+    [[nodiscard]] Database* found() const { return _found.get(); }
+
+private:
+    osg::ref_ptr<Database> _found;
+};
+
+// Returns: null when no installer has been here.
+osg::ref_ptr<Database> databaseOf(osg::Node& node) {
+    if (Database* attached = attachedDatabase(node)) return attached;
+    DatabaseFinder finder;
+    node.accept(finder);
+    return finder.found();
 }
 
 osgDB::ReadFileCallback* previousCallback(const osgDB::Options& options) {
@@ -179,14 +213,17 @@ void BinInstaller::apply(osg::PagedLOD& node) {
 void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const Scoped options(_options, settled(node, _options));
     const bool isRefit = _refitted.valid();
-    osg::ref_ptr<Database> own = _refitted;
+    osg::ref_ptr<Database> own = isRefit || !_keepsDatabases ? _refitted : databaseOf(node);
+    const bool isKept = !isRefit && own;
     _refitted = nullptr;
-    if (!isRefit) {
-        detachDatabase(node);
+    if (isKept) own->setOptions(_options);
+    if (!isRefit) detachDatabase(node);
+    if (!own) {
         const osg::ref_ptr<osg::EllipsoidModel> ellipsoid =
             node.getEllipsoidModel() ? node.getEllipsoidModel() : new osg::EllipsoidModel;
         own = new Database(_options, ellipsoid.get(), dynamic_cast<osgTerrain::Terrain*>(&node), _index.get());
     }
+    const Scoped index(_index, isKept ? osg::ref_ptr<const BinIndex>(own->index()) : _index);
     const Scoped database(_database, own);
     const Scoped paging(_paging, PagingByOptions());
     _coverage[frame().file].expected = 2.0 * kPi * kPi;
@@ -194,7 +231,10 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const std::size_t before = _installed;
     TileFinder::apply(node);
     finish();
-    if (!isRefit && installsBins() && (_installed > before || !_paging.empty())) attachDatabase(node, *own);
+    if (isRefit) return;
+    if (installsBins() && (_installed > before || !_paging.empty())) return attachDatabase(node, *own);
+    // tiles that are on their way may have bins
+    if (isKept) attachUpdate(node, *own);
 }
 
 void BinInstaller::visitTile(FoundTile& tile) {
@@ -208,7 +248,7 @@ void BinInstaller::visitTile(FoundTile& tile) {
     if (installsBins()) return install(tile);
     if (_options.method == Method::None) {
         for (const auto& mesh : tile.meshes) {
-            switchAllCullingOff(*mesh);
+            suspendCulling(*mesh);
             suspendClusterCulling(*mesh);
         }
     }
@@ -218,9 +258,10 @@ void BinInstaller::visitTile(FoundTile& tile) {
 void BinInstaller::visitOther(osg::Node& node) {
     if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) followPaging(*paged, nullptr);
     if (_options.method == Method::None) {
-        node.setCullingActive(false);
+        suspendCullingOf(node);
         suspendClusterCullingOf(node);
     } else {
+        resumeCullingOf(node);
         resumeClusterCullingOf(node);
     }
     traverseBelow(node);
@@ -313,9 +354,13 @@ void BinInstaller::uninstall(FoundTile& tile) {
         culled->setCullingActive(true);
         wasInstalled = true;
     }
-    // Method::None suspends them without a callback of ours
+    // Method::None suspends without a callback of ours
+    resumeCullingOf(node);
     resumeClusterCullingOf(node);
-    for (const auto& mesh : tile.meshes) resumeClusterCulling(*mesh);
+    for (const auto& mesh : tile.meshes) {
+        resumeCulling(*mesh);
+        resumeClusterCulling(*mesh);
+    }
     if (!wasInstalled) return;
     node.setCullingActive(true);
     for (const auto& mesh : tile.meshes) setSphereCulling(*mesh, true);
@@ -337,6 +382,13 @@ void BinInstaller::followPaging(osg::PagedLOD& node, const ParentTile* tile) {
     }
     for (const PagedFile& file : files) paging.callback->expect(file.name, file.frame, tile);
     node.setDatabaseOptions(paging.options.get());
+}
+
+std::size_t setCullOptions(osg::Node& node, const CullOptions& options) {
+    BinInstaller installer(options);
+    installer._keepsDatabases = true;
+    node.accept(installer);
+    return installer.installed();
 }
 
 std::size_t installBins(osg::Node& node, const CullOptions& options) {

@@ -47,7 +47,11 @@ std::string placeText(const Database& database, const TileFrame& frame) {
 
 BinReadFileCallback::BinReadFileCallback(const CullOptions& options, Database* database, const TileFrame& frame,
                                          osgDB::ReadFileCallback* previous)
-    : _options(options), _database(database), _unexpected{frame, nullptr}, _previous(previous) {}
+    : _options(options),
+      _database(database),
+      _generation(database->generation()),
+      _unexpected{frame, nullptr},
+      _previous(previous) {}
 
 BinReadFileCallback::~BinReadFileCallback() = default;
 
@@ -89,6 +93,7 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readNode(const std::string&
     if (!_failures.mayRead(fileName, FailedReads::Clock::now())) return ReadResult::FILE_LOADED;
     ReadResult result = readOrFail(fileName, options);
     _failures.note(fileName, result.validNode(), FailedReads::Clock::now());
+    if (result.validNode()) _database->noteRead(*result.getNode(), _generation);
     return result;
 }
 
@@ -112,9 +117,9 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readThroughCache(const std:
     osgDB::ObjectCache* const registrys = osgDB::Registry::instance()->getObjectCache();
     osgDB::ObjectCache* const own = options.getObjectCache() ? options.getObjectCache() : registrys;
     // The cache tells options apart by their text alone.
-    const osg::ref_ptr<osgDB::Options> key =
-        new osgDB::Options(options.getOptionString() + " osgAnalyticBin " + toText(_options) + ' ' +
-                           placeText(*_database, expected(fileName, &options).frame));
+    const osg::ref_ptr<osgDB::Options> key = new osgDB::Options(
+        options.getOptionString() + " osgAnalyticBin " + toText(_options) + ' ' +
+        placeText(*_database, expected(fileName, &options).frame) + ' ' + std::to_string(_generation));
     for (osgDB::ObjectCache* cache : {own, registrys}) {
         if (!cache) continue;
         const osg::ref_ptr<osg::Object> found = cache->getRefFromObjectCache(fileName, key.get());
@@ -140,8 +145,8 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readTreated(const std::stri
         treat(*root, known);
         return ReadResult(root.get(), result.status());
     }
-    const auto outcome =
-        SharedTiles::instance().treatOnce(*node, placeText(*_database, known.frame), [&] { treat(*node, known); });
+    const auto outcome = SharedTiles::instance().treatOnce(*node, placeText(*_database, known.frame), _generation,
+                                                           [&] { treat(*node, known); });
     if (outcome == SharedTiles::Outcome::Usable) return result;
     return unreadable(fileName, "a read callback shares one copy between two places or installations");
 }

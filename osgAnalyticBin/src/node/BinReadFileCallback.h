@@ -38,6 +38,7 @@ public:
     osgDB::ReaderWriter::ReadResult readNode(const std::string& fileName, const osgDB::Options* options) override;
 
     [[nodiscard]] osgDB::ReadFileCallback* previous() { return _previous.get(); }
+    [[nodiscard]] Database* database() { return _database.get(); }
 
 protected:
     ~BinReadFileCallback() override;
@@ -60,6 +61,7 @@ private:
 
     const CullOptions _options;
     const osg::ref_ptr<Database> _database;
+    const unsigned int _generation;  // of the database's options
     const Expected _unexpected;
     std::map<std::string, Expected> _expected;
     const osg::ref_ptr<osgDB::ReadFileCallback> _previous;

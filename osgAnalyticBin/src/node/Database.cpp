@@ -6,9 +6,64 @@
 #include <osg/Notify>
 #include <osgTerrain/GeometryTechnique>
 
+#include <algorithm>
 #include <typeinfo>
 
 namespace osgAnalyticBin {
+
+namespace {
+
+using Contents = std::vector<osg::observer_ptr<osg::Node>>;
+
+// Forgets what is in the scene or deleted. Returns: whether some of it is in the scene.
+bool takeMerged(Contents& contents) {
+    bool found = false;
+    const auto isGone = [&](const osg::observer_ptr<osg::Node>& observed) {
+        osg::ref_ptr<osg::Node> node;
+        if (!observed.lock(node)) return true;
+        const bool isMerged = node->getNumParents() > 0;
+        found = found || isMerged;
+        return isMerged;
+    };
+    contents.erase(std::remove_if(contents.begin(), contents.end(), isGone), contents.end());
+    return found;
+}
+
+}  // namespace
+
+CullOptions Database::options() const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return _options;
+}
+
+void Database::setOptions(const CullOptions& options) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    _options = options;
+    ++_generation;
+    (void)takeMerged(_onTheirWay);
+    _lateComers.insert(_lateComers.end(), _onTheirWay.begin(), _onTheirWay.end());
+    _onTheirWay.clear();
+}
+
+unsigned int Database::generation() const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return _generation;
+}
+
+void Database::noteRead(osg::Node& content, unsigned int generation) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    Contents& contents = generation == _generation ? _onTheirWay : _lateComers;
+    contents.emplace_back(&content);
+    // a database without an update callback of ours never looks what has arrived
+    constexpr std::size_t kMostOnTheirWay = 4096;
+    if (contents.size() > kMostOnTheirWay) contents.erase(contents.begin(), contents.begin() + kMostOnTheirWay / 2);
+}
+
+void Database::refitLateComers() {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    (void)takeMerged(_onTheirWay);
+    if (takeMerged(_lateComers)) requestRefit();
+}
 
 TerrainShape Database::shape() const {
     osg::ref_ptr<osgTerrain::Terrain> terrain;
@@ -61,6 +116,7 @@ AnalyticBin Database::correction(const std::string& file, std::size_t ordinal) c
 }
 
 void Database::update() {
+    refitLateComers();
     std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, AnalyticBin>> toWiden;
     {
         const std::lock_guard<std::mutex> lock(_mutex);

@@ -37,18 +37,29 @@ protected:
 };
 
 /// What the tiles of one installed database share: those that are loaded, and those that the DatabasePager will load.
-/// Threads: everything may be called from the pager's threads and from cull threads but update().
+/// Threads: everything may be called from the pager's threads and from cull threads but update() and setOptions().
 class Database : public osg::Referenced {
 public:
     /// `terrain` and `index` may be null.
     Database(const CullOptions& options, const osg::EllipsoidModel* ellipsoid, osgTerrain::Terrain* terrain,
              const BinIndex* index)
-        : _options(options), _ellipsoid(ellipsoid), _terrain(terrain), _index(index), _fittedShape(shape()) {}
+        : _ellipsoid(ellipsoid), _terrain(terrain), _index(index), _fittedShape(shape()), _options(options) {}
 
     /// A number that no other database of this process has or had.
     [[nodiscard]] unsigned long number() const { return _number; }
 
-    [[nodiscard]] const CullOptions& options() const { return _options; }
+    [[nodiscard]] CullOptions options() const;
+
+    /// Culls by other options from now on. Tiles that were treated by the old ones and are still on their way, read or
+    /// not, are fitted anew in the update traversal that finds them in the scene. Not while a cull traversal runs.
+    void setOptions(const CullOptions& options);
+
+    /// How often setOptions() was called.
+    [[nodiscard]] unsigned int generation() const;
+
+    /// Says that a file's content is on its way into the scene, treated by the options of that generation.
+    void noteRead(osg::Node& content, unsigned int generation);
+
     [[nodiscard]] const osg::EllipsoidModel* ellipsoid() const { return _ellipsoid.get(); }
     [[nodiscard]] const BinIndex* index() const { return _index.get(); }
 
@@ -86,7 +97,8 @@ private:
     static inline std::atomic<unsigned long> _count{0};
 
     const unsigned long _number = ++_count;
-    const CullOptions _options;
+    void refitLateComers();
+
     const osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;
     const osg::observer_ptr<osgTerrain::Terrain> _terrain;
     const osg::ref_ptr<const BinIndex> _index;
@@ -95,6 +107,10 @@ private:
     std::atomic<bool> _hasUnknownTechnique{false};
     TerrainShape _fittedShape;
     mutable std::mutex _mutex;  // guards what follows
+    CullOptions _options;
+    unsigned int _generation = 0;
+    std::vector<osg::observer_ptr<osg::Node>> _onTheirWay;  // treated by the present options
+    std::vector<osg::observer_ptr<osg::Node>> _lateComers;  // treated by earlier ones
     bool _hasWarned = false;
     std::map<TileKey, AnalyticBin> _corrections;
     std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, AnalyticBin>> _toWiden;

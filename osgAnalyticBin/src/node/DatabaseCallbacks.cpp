@@ -21,7 +21,7 @@ namespace {
 
 std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack,
                                         Database& database, const DatabaseView& view) {
-    const CullOptions& options = database.options();
+    const CullOptions options = database.options();
     const HorizonUse horizonUse = options.effectiveHorizonUse();
     if (horizonUse == HorizonUse::Off) return std::nullopt;
     // an eye below the terrain looks through the backs of the faces that would hide
@@ -82,13 +82,22 @@ void DatabaseUpdateCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
 }
 
 void attachDatabase(osg::Node& node, Database& database) {
-    detachDatabase(node);
+    attachUpdate(node, database);
     // in front: what is nested runs in the scope of the database
     const osg::ref_ptr<DatabaseCullCallback> cull = new DatabaseCullCallback(&database);
     cull->setNestedCallback(node.getCullCallback());
     node.setCullCallback(cull);
+}
+
+void attachUpdate(osg::Node& node, Database& database) {
+    detachDatabase(node);
     const osg::ref_ptr<DatabaseUpdateCallback> update = new DatabaseUpdateCallback(&database);
     node.addUpdateCallback(update);
+}
+
+Database* attachedDatabase(osg::Node& node) {
+    const auto* update = findCallback<DatabaseUpdateCallback>(node.getUpdateCallback());
+    return update ? update->database() : nullptr;
 }
 
 void detachDatabase(osg::Node& node) {

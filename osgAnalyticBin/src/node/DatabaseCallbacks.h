@@ -32,6 +32,8 @@ class DatabaseUpdateCallback : public osg::NodeCallback {
 public:
     explicit DatabaseUpdateCallback(Database* database) : _database(database) {}
 
+    [[nodiscard]] Database* database() const { return _database.get(); }
+
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
 protected:
@@ -43,6 +45,12 @@ private:
 
 /// Puts both on the node, in place of those that are there.
 void attachDatabase(osg::Node& node, Database& database);
+
+/// Puts the update callback alone on the node, for a database that bins do not cull at present.
+void attachUpdate(osg::Node& node, Database& database);
+
+/// Returns: nullptr when neither is on the node.
+[[nodiscard]] Database* attachedDatabase(osg::Node& node);
 
 /// Takes both off the node.
 void detachDatabase(osg::Node& node);

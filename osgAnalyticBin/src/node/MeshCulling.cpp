@@ -6,6 +6,8 @@
 #include <osg/ClusterCullingCallback>
 #include <osg/Drawable>
 #include <osg/NodeVisitor>
+#include <osg/UserDataContainer>
+#include <osg/ValueObject>
 #include <osgTerrain/TerrainTile>
 
 #include <functional>
@@ -14,6 +16,9 @@
 namespace osgAnalyticBin {
 
 namespace {
+
+// A user value of nodes whose culling is suspended.
+constexpr const char* kWasCulling = "osgAnalyticBin culling";
 
 class ForEachNode : public osg::NodeVisitor {
 public:
@@ -77,8 +82,26 @@ void setSphereCulling(osg::Node& mesh, bool active) {
     });
 }
 
-void switchAllCullingOff(osg::Node& node) {
-    forEachNode(node, [](osg::Node& each) { each.setCullingActive(false); });
+void suspendCullingOf(osg::Node& node) {
+    if (!node.getCullingActive()) return;
+    node.setCullingActive(false);
+    node.setUserValue(kWasCulling, true);
+}
+
+void resumeCullingOf(osg::Node& node) {
+    osg::UserDataContainer* values = node.getUserDataContainer();
+    const unsigned int index = values ? values->getUserObjectIndex(kWasCulling) : 0;
+    if (!values || index >= values->getNumUserObjects()) return;
+    values->removeUserObject(index);
+    node.setCullingActive(true);
+}
+
+void suspendCulling(osg::Node& mesh) {
+    forEachNode(mesh, suspendCullingOf);
+}
+
+void resumeCulling(osg::Node& mesh) {
+    forEachNode(mesh, resumeCullingOf);
 }
 
 void suspendClusterCullingOf(osg::Node& node) {

@@ -12,8 +12,13 @@ namespace osgAnalyticBin {
 /// Switches OSG's sphere test on the mesh's nodes; drawables keep their boxes.
 void setSphereCulling(osg::Node& mesh, bool active);
 
-/// Switches all culling off below the node, boxes of drawables included.
-void switchAllCullingOff(osg::Node& node);
+/// Switches culling off for one node, and remembers with the node that it was on; or gives it back.
+void suspendCullingOf(osg::Node& node);
+void resumeCullingOf(osg::Node& node);
+
+/// The same for a mesh, boxes of drawables included.
+void suspendCulling(osg::Node& mesh);
+void resumeCulling(osg::Node& mesh);
 
 /// Makes osg::ClusterCullingCallbacks of the mesh cull nothing, or gives back what was taken. What is saved to a file
 /// in between is what was there before.

@@ -12,18 +12,19 @@ SharedTiles& SharedTiles::instance() {
     return tiles;
 }
 
-SharedTiles::Outcome SharedTiles::treatOnce(osg::Node& node, const std::string& place,
+SharedTiles::Outcome SharedTiles::treatOnce(osg::Node& node, const std::string& place, unsigned int generation,
                                             const std::function<void()>& treat) {
     const std::lock_guard<std::mutex> lock(_mutex);
     const auto known = _treated.find(&node);
     if (known != _treated.end() && known->second.node.valid()) {
-        return known->second.place == place ? Outcome::Usable : Outcome::Elsewhere;
+        if (known->second.place != place) return Outcome::Elsewhere;
+        if (known->second.generation == generation || node.getNumParents() > 0) return Outcome::Usable;
     }
     // In a scene already, without bins: a cull traversal may be in it just now. OSG's spheres stay in charge there.
     if (node.getNumParents() > 0) return Outcome::Usable;
     treat();
     forgetDeleted();
-    _treated[&node] = {osg::observer_ptr<osg::Node>(&node), place};
+    _treated[&node] = {osg::observer_ptr<osg::Node>(&node), place, generation};
     return Outcome::Usable;
 }
 

@@ -26,13 +26,17 @@ public:
 
     [[nodiscard]] static SharedTiles& instance();
 
-    /// Runs `treat` unless the node was treated before. `place`: where on which globe the node stands.
-    [[nodiscard]] Outcome treatOnce(osg::Node& node, const std::string& place, const std::function<void()>& treat);
+    /// Runs `treat` unless the node was treated before. `place`: where on which globe the node stands. A later
+    /// `generation` of the globe's options treats anew what is not in its scene just now; what is there follows with
+    /// it.
+    [[nodiscard]] Outcome treatOnce(osg::Node& node, const std::string& place, unsigned int generation,
+                                    const std::function<void()>& treat);
 
 private:
     struct Treated {
         osg::observer_ptr<osg::Node> node;
         std::string place;
+        unsigned int generation = 0;
     };
 
     void forgetDeleted();

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Databases that change how they are culled while they are shown. Oracle: the same database, read anew with the method.
+
+#include "DatabaseFixture.h"
+#include "PagedFlight.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+
+#include <gtest/gtest.h>
+#include <osg/Geode>
+#include <osg/ValueObject>
+#include <osgDB/ReadFile>
+#include <osgUtil/UpdateVisitor>
+
+#include <support/SyntheticDatabase.h>
+#include <support/TemporaryFolder.h>
+
+namespace osgAnalyticBin {
+namespace {
+
+using test::CullView;
+using test::PagedFlight;
+
+CullOptions by(Method method) {
+    CullOptions options;
+    options.method = method;
+    return options;
+}
+
+// 300 km above the equator, looking down at 45 degrees to the east or west.
+CullView look(double side) {
+    const osg::Vec3d eye(6378137.0 + 300e3, 0.0, 0.0);
+    return CullView::lookAt(eye, eye + osg::Vec3d(-1.0, side, 0.0), osg::Vec3d(1.0, 0.0, 0.0), 40.0);
+}
+
+osg::PagedLOD& pagedIn(osg::Node& root) {
+    return dynamic_cast<osg::PagedLOD&>(*root.asGroup()->getChild(0));
+}
+
+void update(osg::Node& scene) {
+    const osg::ref_ptr<osgUtil::UpdateVisitor> visitor = new osgUtil::UpdateVisitor;
+    scene.accept(*visitor);
+}
+
+// The nodes of a scene with culling switched off.
+class InactiveNodes : public osg::NodeVisitor {
+public:
+    InactiveNodes() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::Node& node) override {
+        if (!node.getCullingActive()) nodes.insert(&node);
+        if (node.getUserDataContainer()) values += node.getUserDataContainer()->getNumUserObjects();
+        traverse(node);
+    }
+    [[nodiscard]] static InactiveNodes of(osg::Node& scene) {
+        InactiveNodes found;
+        scene.accept(found);
+        return found;
+    }
+    std::set<const osg::Node*> nodes;
+    unsigned int values = 0;
+};
+
+class SwitchedCulling : public ::testing::Test {
+protected:
+    void SetUp() override {
+        _file = test::writeSyntheticDatabase(_folder.path());
+        ASSERT_FALSE(_file.empty());
+    }
+
+    [[nodiscard]] osg::ref_ptr<osg::Node> read(Method method) const {
+        osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_file);
+        installBins(*scene, by(method));
+        return scene;
+    }
+
+    [[nodiscard]] std::multiset<std::string> drawnAfresh(Method method, const CullView& view) const {
+        const osg::ref_ptr<osg::Node> scene = read(method);
+        PagedFlight flight(*scene);
+        EXPECT_TRUE(flight.load(view));
+        return flight.drawn();
+    }
+
+    test::TemporaryFolder _folder;
+    std::string _file;
+};
+
+TEST_F(SwitchedCulling, DrawsWhatTheMethodDrawsAfreshAlsoWhatIsPagedInLater) {
+    const osg::ref_ptr<osg::Node> scene = read(Method::Quadratic);
+    PagedFlight flight(*scene);
+    ASSERT_TRUE(flight.load(look(+1)));
+    double side = -1.0;
+    for (const Method method : {Method::Sphere, Method::Quadratic, Method::None, Method::Exact, Method::None,
+                                Method::Sphere, Method::Paper, Method::Corners, Method::Quadratic}) {
+        setCullOptions(*scene, by(method));
+        ASSERT_TRUE(flight.load(look(-side)));
+        EXPECT_EQ(flight.drawn(), drawnAfresh(method, look(-side))) << methodName(method) << ", tiles loaded before";
+        ASSERT_TRUE(flight.load(look(side)));
+        EXPECT_EQ(flight.drawn(), drawnAfresh(method, look(side))) << methodName(method) << ", tiles loaded later";
+        side = -side;
+    }
+}
+
+TEST_F(SwitchedCulling, MethodsDrawDifferently) {
+    const std::size_t bins = drawnAfresh(Method::Quadratic, look(1)).size();
+    const std::size_t spheres = drawnAfresh(Method::Sphere, look(1)).size();
+    const std::size_t all = drawnAfresh(Method::None, look(1)).size();
+    EXPECT_LT(bins, spheres);
+    EXPECT_LT(spheres, all);
+}
+
+TEST_F(SwitchedCulling, WhileThePagerReadsLosesNoTile) {
+    const osg::ref_ptr<osg::Node> scene = read(Method::Paper);
+    PagedFlight flight(*scene);
+    constexpr std::array<Method, 4> kMethods{Method::Sphere, Method::Exact, Method::None, Method::Paper};
+    for (std::size_t i = 0; i < 60; ++i) {
+        setCullOptions(*scene, by(kMethods[i % kMethods.size()]));
+        flight.frames(look(i % 8 < 4 ? 1.0 : -1.0), 1);
+    }
+    setCullOptions(*scene, by(Method::Quadratic));
+    for (const double side : {1.0, -1.0}) {
+        ASSERT_TRUE(flight.load(look(side)));
+        EXPECT_EQ(flight.drawn(), drawnAfresh(Method::Quadratic, look(side)));
+    }
+}
+
+// The pager has read a file, and merges it after the switch.
+class LateComer : public SwitchedCulling, public ::testing::WithParamInterface<Method> {};
+
+TEST_P(LateComer, IsCulledByTheNewMethodBeforeItIsShown) {
+    const osg::ref_ptr<osg::Node> scene = read(GetParam());
+    osg::PagedLOD& paged = pagedIn(*scene);
+    const osg::ref_ptr<osg::Node> late = test::readBelow(paged);
+    ASSERT_TRUE(late);
+    setCullOptions(*scene, by(Method::Exact));
+    update(*scene);
+    test::putBelow(paged, late);
+    update(*scene);
+    osg::PagedLOD& finer = pagedIn(*late);
+    ASSERT_TRUE(test::installedOn(finer));
+    EXPECT_EQ(test::installedOn(finer)->cullOptions().method, Method::Exact);
+    const osg::ref_ptr<osg::Node> finest = test::readBelow(finer);
+    ASSERT_TRUE(finest && test::installedOn(pagedIn(*finest)));
+    EXPECT_EQ(test::installedOn(pagedIn(*finest))->cullOptions().method, Method::Exact);
+}
+
+TEST_P(LateComer, HasNoBinsWhereTheNewMethodHasNone) {
+    const osg::ref_ptr<osg::Node> scene = read(GetParam());
+    osg::PagedLOD& paged = pagedIn(*scene);
+    const osg::ref_ptr<osg::Node> late = test::readBelow(paged);
+    ASSERT_TRUE(late);
+    setCullOptions(*scene, by(Method::Sphere));
+    test::putBelow(paged, late);
+    update(*scene);
+    EXPECT_FALSE(test::installedOn(pagedIn(*late)));
+    EXPECT_TRUE(InactiveNodes::of(*scene).nodes.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, LateComer,
+                         ::testing::Values(Method::Quadratic, Method::Paper, Method::Sphere, Method::None),
+                         [](const auto& test) { return std::string(methodName(test.param)); });
+
+TEST_F(SwitchedCulling, GivesBackWhatMethodNoneSwitchedOff) {
+    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_file);
+    osg::Node& own = *scene->asGroup()->getChild(3)->asGroup()->getChild(0);
+    own.setCullingActive(false);  // by the database itself
+    const unsigned int values = InactiveNodes::of(*scene).values;
+    installBins(*scene, by(Method::None));
+    EXPECT_GT(InactiveNodes::of(*scene).nodes.size(), 32u);
+    setCullOptions(*scene, by(Method::None));
+    setCullOptions(*scene, by(Method::Sphere));
+    const InactiveNodes after = InactiveNodes::of(*scene);
+    EXPECT_EQ(after.nodes, std::set<const osg::Node*>{&own});
+    EXPECT_EQ(after.values, values);
+}
+
+TEST_F(SwitchedCulling, FindsNoTileOfAnEarlierMethodInTheObjectCache) {
+    const osg::ref_ptr<osgDB::Options> caching = new osgDB::Options;
+    caching->setObjectCacheHint(osgDB::Options::CACHE_NODES);
+    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_file, caching);
+    pagedIn(*scene).setDatabaseOptions(caching);
+    installBins(*scene, by(Method::Paper));
+    for (const Method method : {Method::Exact, Method::Paper, Method::Exact}) {
+        setCullOptions(*scene, by(method));
+        const osg::ref_ptr<osg::Node> page = test::readBelow(pagedIn(*scene));
+        ASSERT_TRUE(page && test::installedOn(pagedIn(*page)));
+        EXPECT_EQ(test::installedOn(pagedIn(*page))->cullOptions().method, method);
+        test::putBelow(pagedIn(*scene), page);
+        setCullOptions(*scene, by(Method::Quadratic));
+        // as the pager does: the file's name stays
+        pagedIn(*scene).osg::Group::removeChildren(1, 1);
+    }
+    osgDB::Registry::instance()->clearObjectCache();
+}
+
+TEST_F(SwitchedCulling, InstallsBinsWhereThereWereNone) {
+    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_file);
+    EXPECT_EQ(setCullOptions(*scene, by(Method::Exact)), 32u);
+    EXPECT_EQ(setCullOptions(*scene, by(Method::Sphere)), 0u);
+    EXPECT_EQ(setCullOptions(*scene, by(Method::Quadratic)), 32u);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin
