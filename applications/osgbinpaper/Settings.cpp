@@ -5,6 +5,8 @@
 
 #include "Failure.h"
 
+#include <osgAnalyticBin/Version.h>
+
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -82,6 +84,7 @@ void declare(CLI::App& app, Settings& settings) {
 Settings readSettings(int argc, char** argv) {
     Settings settings;
     CLI::App app{kDescription, "osgbinpaper"};
+    app.set_version_flag("--version", std::string("osgbinpaper (osgAnalyticBin) ") + osgAnalyticBin::version());
     declare(app, settings);
     try {
         app.parse(argc, argv);

@@ -6,6 +6,7 @@
 #include "Failure.h"
 
 #include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/Version.h>
 
 #include <CLI/CLI.hpp>
 
@@ -122,6 +123,7 @@ ScaleMethod scaleMethodFromName(const std::string& name) {
 
 bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {
     CLI::App app{"Measures how culling scales with the depth of a database and with what is in memory.", "osgbinscale"};
+    app.set_version_flag("--version", std::string("osgbinscale (osgAnalyticBin) ") + osgAnalyticBin::version());
     Words words;
     declare(app, settings, words);
     try {

@@ -15,9 +15,13 @@ install(
   TARGETS osgAnalyticBin EXPORT osgAnalyticBinKitTargets
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT runtime NAMELINK_COMPONENT development
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
+install(
+  TARGETS osgAnalyticBinViewer EXPORT osgAnalyticBinViewerTargets
+  LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT runtime NAMELINK_COMPONENT development
+  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
 install(DIRECTORY include/osgAnalyticBin DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development)
 
-foreach(_part IN ITEMS Core Kit)
+foreach(_part IN ITEMS Core Kit Viewer)
   install(EXPORT osgAnalyticBin${_part}Targets NAMESPACE osgAnalyticBin:: DESTINATION "${_package_dir}"
           COMPONENT development)
 endforeach()
@@ -35,7 +39,7 @@ set(_simd_package "")
 if(OSGANALYTICBIN_SIMD)
   set(_simd_package "libhwy")
 endif()
-foreach(_name IN ITEMS osgAnalyticBinCore osgAnalyticBin)
+foreach(_name IN ITEMS osgAnalyticBinCore osgAnalyticBin osgAnalyticBinViewer)
   configure_file(cmake/${_name}.pc.in ${_name}.pc @ONLY)
   install(FILES "${CMAKE_CURRENT_BINARY_DIR}/${_name}.pc" DESTINATION "${_pkgconfig_dir}" COMPONENT development)
 endforeach()

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "HomeView.h"
+
+#include "CameraView.h"
+
+namespace osgAnalyticBin::viewer {
+
+HomeView homeViewOf(osg::Node& scene) {
+    const osg::BoundingSphere bound = scene.getBound();
+    const osg::Vec3d middle = bound.center();
+    const double radius = bound.radius();
+    const flight::Globe globe = flight::globeOf(scene);
+    const osg::Vec3d globeCenter = globe.localToWorld.getTrans();
+    const double globeRadius = globe.ellipsoid->getRadiusPolar();
+    const bool isGeocentric = (middle - globeCenter).length() + radius > 0.5 * globeRadius;
+    if (isGeocentric && radius > 0.9 * globeRadius) {
+        // over Europe and Africa, where most globes are looked at first
+        const osg::Vec3d outward = osg::Matrixd::transform3x3(osg::Vec3d(0.85, 0.15, 0.5), globe.localToWorld);
+        return {globeCenter + outward * (3.2 * globeRadius), globeCenter,
+                osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, 1.0), globe.localToWorld)};
+    }
+    osg::Vec3d up = isGeocentric ? middle - globeCenter : osg::Vec3d(0.0, 0.0, 1.0);
+    up.normalize();
+    osg::Vec3d north = isGeocentric ? osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, 1.0), globe.localToWorld)
+                                    : osg::Vec3d(0.0, 1.0, 0.0);
+    north -= up * (north * up);
+    if (north.normalize() < 1e-6) north.set(0.0, 1.0, 0.0);
+    return {middle + (up * 1.4 - north * 1.4) * radius, middle, up};
+}
+
+}  // namespace osgAnalyticBin::viewer

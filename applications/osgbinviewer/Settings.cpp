@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Settings.h"
+
+#include <osgDB/FileNameUtils>
+
+#include <stdexcept>
+
+namespace osgAnalyticBin::viewer {
+
+void describe(osg::ApplicationUsage& usage) {
+    usage.setDescription("osgbinviewer shows a terrain database culled by its analytic bins, and what the bins do.");
+    usage.setCommandLineUsage("osgbinviewer [options] DATABASE ...");
+    usage.addCommandLineOption("-h or --help", "Display this information.");
+    usage.addCommandLineOption("--version", "Display the version.");
+    usage.addCommandLineOption("--options <text>",
+                               "Culling, as \"method=exact,horizon=off\"; see osgconv --format analyticbin.");
+    usage.addCommandLineOption("--record <file.csv>",
+                               "Record the camera for osgbinbench from the start; key R stops and starts.");
+    usage.addCommandLineOption("-p <file.path>", "Fly along an animation path of OpenSceneGraph.");
+    usage.addCommandLineOption("--speed <factor>", "How fast animation paths are flown.");
+    usage.addCommandLineOption("--poses <file.csv>", "Camera path with the poses that --steps names.");
+    usage.addCommandLineOption(
+        "--steps <text>",
+        "Do this and end: at=POSE, press=KEY, spy=AZIMUTH,ELEVATION,DISTANCE (degrees, and a multiple of the camera's "
+        "distance), frames=N, picture=FILE, spypicture=FILE, parted by blanks; each waits for the database's pages.");
+}
+
+Settings settingsFrom(osg::ArgumentParser& arguments) {
+    Settings settings;
+    std::string text;
+    while (arguments.read("--options", text)) {
+    }
+    std::string error;
+    const auto options = cullOptionsFromText(text, error);
+    if (!options) throw std::runtime_error("--options: " + error);
+    settings.cullOptions = *options;
+    while (arguments.read("--record", settings.record)) {
+    }
+    while (arguments.read("--poses", settings.poses)) {
+    }
+    while (arguments.read("--steps", settings.steps)) {
+    }
+    while (arguments.read("--speed", settings.speed)) {
+    }
+    std::string path;
+    while (arguments.read("-p", path)) settings.animationPaths.push_back(path);
+    for (int i = 1; i < arguments.argc(); ++i) {
+        if (arguments.isOption(i))
+            throw std::runtime_error(std::string("unknown option ") + arguments[i] + "; see --help");
+        const std::string name = arguments[i];
+        const bool isWhole = osgDB::getLowerCaseFileExtension(name) == "analyticbin";
+        settings.databases.push_back(isWhole ? name : name + ".(" + toText(*options) + ").analyticbin");
+    }
+    if (settings.databases.empty()) throw std::runtime_error("no database given; see --help");
+    return settings;
+}
+
+}  // namespace osgAnalyticBin::viewer

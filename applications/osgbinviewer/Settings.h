@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/CullOptions.h>
+
+#include <osg/ArgumentParser>
+
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin::viewer {
+
+/// What the command line says beside what osgViewer itself reads from it.
+struct Settings {
+    std::vector<std::string> databases;  ///< as the pseudo-loader takes them
+    CullOptions cullOptions;
+    std::string record;
+    std::string poses;
+    std::string steps;
+    std::vector<std::string> animationPaths;
+    double speed = 1.0;
+};
+
+/// Names the options for --help.
+void describe(osg::ApplicationUsage& usage);
+
+/// Throws: std::runtime_error with one line for what cannot be understood.
+[[nodiscard]] Settings settingsFrom(osg::ArgumentParser& arguments);
+
+}  // namespace osgAnalyticBin::viewer

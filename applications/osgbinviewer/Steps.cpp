@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Steps.h"
+
+#include "CameraView.h"
+
+#include <osg/Timer>
+#include <osgDB/DatabasePager>
+#include <osgDB/WriteFile>
+#include <osgViewer/ViewerEventHandlers>
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+#include <stdexcept>
+
+namespace osgAnalyticBin::viewer {
+
+namespace {
+
+constexpr double kLongestWait = 120.0;  // seconds
+constexpr int kIdleFrames = 5;
+
+// Keeps the picture of one window.
+class Keeper : public osgViewer::ScreenCaptureHandler::CaptureOperation {
+public:
+    explicit Keeper(unsigned int context) : _context(context) {}
+
+    void operator()(const osg::Image& image, const unsigned int context) override {
+        if (context == _context) picture = new osg::Image(image);
+    }
+
+    osg::ref_ptr<osg::Image> picture;
+
+private:
+    const unsigned int _context;
+};
+
+}  // namespace
+
+Steps::Steps(osgViewer::Viewer& viewer, SpyViewHandler& spy, const std::vector<flight::CameraPose>& poses)
+    : _viewer(viewer), _spy(spy), _poses(poses) {}
+
+void Steps::run(const std::string& text) {
+    std::istringstream steps(text);
+    for (std::string step; steps >> step;) {
+        const auto equals = step.find('=');
+        if (equals == std::string::npos) throw std::runtime_error("--steps: \"" + step + "\" is not VERB=VALUE");
+        runOne(step.substr(0, equals), step.substr(equals + 1));
+    }
+}
+
+void Steps::runOne(const std::string& verb, const std::string& value) {
+    if (verb == "at") return standAt(value);
+    if (verb == "press") return press(value);
+    if (verb == "spy") return orbit(value);
+    if (verb == "frames") return drawFrames(std::atoi(value.c_str()));
+    if (verb == "picture") return takePicture(value, _viewer.getCamera()->getGraphicsContext());
+    if (verb == "spypicture") {
+        if (!_spy.isOpen()) throw std::runtime_error("--steps: spypicture needs the second window (press=y)");
+        return takePicture(value, _spy.camera()->getGraphicsContext());
+    }
+    throw std::runtime_error("--steps: \"" + verb + "\" is none of at, press, spy, frames, picture, spypicture");
+}
+
+void Steps::standAt(const std::string& name) {
+    const auto pose =
+        std::find_if(_poses.begin(), _poses.end(), [&](const flight::CameraPose& each) { return each.name == name; });
+    if (pose == _poses.end()) throw std::runtime_error("--steps: no pose \"" + name + "\" in the file of --poses");
+    osg::Camera& camera = *_viewer.getCamera();
+    camera.setViewMatrix(flight::viewMatrixOf(*pose, flight::globeOf(*_viewer.getSceneData())));
+    camera.setProjectionMatrix(flight::projectionMatrixOf(*pose, camera.getViewport()->aspectRatio()));
+    drawUntilIdle();
+}
+
+void Steps::press(const std::string& key) {
+    if (key.size() != 1) throw std::runtime_error("--steps: press takes one key, not \"" + key + "\"");
+    _viewer.getEventQueue()->keyPress(key[0]);
+    _viewer.getEventQueue()->keyRelease(key[0]);
+    drawUntilIdle();
+}
+
+void Steps::orbit(const std::string& numbers) {
+    double azimuth = 0.0;
+    double elevation = 0.0;
+    double distance = 0.0;
+    char comma = 0;
+    std::istringstream in(numbers);
+    if (!(in >> azimuth >> comma >> elevation >> comma >> distance)) {
+        throw std::runtime_error("--steps: spy takes AZIMUTH,ELEVATION,DISTANCE, not \"" + numbers + "\"");
+    }
+    _spy.setOrbit(osg::DegreesToRadians(azimuth), osg::DegreesToRadians(elevation), distance);
+    drawUntilIdle();
+}
+
+void Steps::drawFrames(int count) {
+    for (int i = 0; i < count; ++i) _viewer.frame();
+}
+
+void Steps::drawUntilIdle() {
+    const osg::Timer_t begin = osg::Timer::instance()->tick();
+    for (int idle = 0; idle < kIdleFrames;) {
+        _viewer.frame();
+        const osgDB::DatabasePager& pager = *_viewer.getDatabasePager();
+        idle = pager.getRequestsInProgress() || pager.requiresUpdateSceneGraph() ? 0 : idle + 1;
+        if (osg::Timer::instance()->delta_s(begin, osg::Timer::instance()->tick()) > kLongestWait) {
+            throw std::runtime_error("--steps: pages are still missing after two minutes; look for missing files");
+        }
+    }
+}
+
+void Steps::takePicture(const std::string& fileName, osg::GraphicsContext* window) {
+    const osg::ref_ptr<Keeper> keeper = new Keeper(window->getState()->getContextID());
+    const osg::ref_ptr<osgViewer::ScreenCaptureHandler> capture = new osgViewer::ScreenCaptureHandler(keeper);
+    capture->captureNextFrame(_viewer);
+    drawFrames(2);
+    if (!keeper->picture) throw std::runtime_error("--steps: a picture was never drawn; try --SingleThreaded");
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("JPEG_QUALITY 88");
+    if (!osgDB::writeImageFile(*keeper->picture, fileName, options)) {
+        throw std::runtime_error("--steps: " + fileName + " cannot be written");
+    }
+}
+
+}  // namespace osgAnalyticBin::viewer

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "HomeView.h"
+#include "Settings.h"
+#include "Steps.h"
+
+#include <osgAnalyticBin/Version.h>
+#include <osgAnalyticBin/viewer/BinDisplayHandler.h>
+#include <osgAnalyticBin/viewer/BinStatsHandler.h>
+#include <osgAnalyticBin/viewer/FreezeCullHandler.h>
+#include <osgAnalyticBin/viewer/MethodSwitchHandler.h>
+#include <osgAnalyticBin/viewer/PathRecorder.h>
+#include <osgAnalyticBin/viewer/SpyViewHandler.h>
+
+#include <osg/GLExtensions>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+#include <osgGA/AnimationPathManipulator>
+#include <osgGA/DriveManipulator>
+#include <osgGA/FirstPersonManipulator>
+#include <osgGA/FlightManipulator>
+#include <osgGA/KeySwitchMatrixManipulator>
+#include <osgGA/OrbitManipulator>
+#include <osgGA/SphericalManipulator>
+#include <osgGA/StateSetManipulator>
+#include <osgGA/TerrainManipulator>
+#include <osgGA/TrackballManipulator>
+#include <osgViewer/Viewer>
+#include <osgViewer/ViewerEventHandlers>
+
+#include <cstdlib>
+#include <dlfcn.h>
+#include <iostream>
+#include <stdexcept>
+
+namespace {
+
+using namespace osgAnalyticBin;
+
+// The kit's modules stand in a folder beside its library; OpenSceneGraph has to be told, unless they are installed
+// where it looks.
+void addModuleFolder() {
+    Dl_info info{};
+    if (dladdr(reinterpret_cast<const void*>(&methodName), &info) == 0 || !info.dli_fname) return;
+    const std::string library = info.dli_fname;
+    const auto slash = library.rfind('/');
+    if (slash != std::string::npos) {
+        osgDB::Registry::instance()->getLibraryFilePathList().push_back(library.substr(0, slash));
+    }
+}
+
+// Mesa's software renderer (22.3) may never come back from filtering terrain anisotropically.
+class WithoutAnisotropy : public osg::Operation {
+public:
+    WithoutAnisotropy() : osg::Operation("without anisotropic filtering", false) {}
+
+    void operator()(osg::Object* object) override {
+        const auto* const surface = dynamic_cast<osg::GraphicsContext*>(object);
+        if (!surface || !surface->getState()) return;
+        osg::GLExtensions::Get(surface->getState()->getContextID(), true)->isTextureFilterAnisotropicSupported = false;
+    }
+};
+
+// As osgviewer's, but that the one for terrain is the first choice.
+osg::ref_ptr<osgGA::CameraManipulator> makeManipulator(const viewer::Settings& settings, osg::Node& scene) {
+    osg::ref_ptr<osgGA::KeySwitchMatrixManipulator> keys = new osgGA::KeySwitchMatrixManipulator;
+    keys->addMatrixManipulator('1', "Trackball", new osgGA::TrackballManipulator);
+    keys->addMatrixManipulator('2', "Flight", new osgGA::FlightManipulator);
+    keys->addMatrixManipulator('3', "Drive", new osgGA::DriveManipulator);
+    keys->addMatrixManipulator('4', "Terrain", new osgGA::TerrainManipulator);
+    keys->addMatrixManipulator('5', "Orbit", new osgGA::OrbitManipulator);
+    keys->addMatrixManipulator('6', "FirstPerson", new osgGA::FirstPersonManipulator);
+    keys->addMatrixManipulator('7', "Spherical", new osgGA::SphericalManipulator);
+    keys->selectMatrixManipulator(3);
+    char key = '8';
+    for (const std::string& path : settings.animationPaths) {
+        const osg::ref_ptr<osgGA::AnimationPathManipulator> manipulator = new osgGA::AnimationPathManipulator(path);
+        if (!manipulator->valid()) throw std::runtime_error(path + ": not an animation path");
+        manipulator->setTimeScale(settings.speed);
+        keys->addMatrixManipulator(key++, "Path", manipulator);
+        keys->selectMatrixManipulator(keys->getNumMatrixManipulators() - 1);
+    }
+    const viewer::HomeView home = viewer::homeViewOf(scene);
+    keys->setHomePosition(home.eye, home.center, home.up);
+    return keys;
+}
+
+osg::ref_ptr<SpyViewHandler> addHandlers(osgViewer::Viewer& viewer, const viewer::Settings& settings,
+                                         osg::ApplicationUsage& usage) {
+    viewer.addEventHandler(new osgGA::StateSetManipulator(viewer.getCamera()->getOrCreateStateSet()));
+    viewer.addEventHandler(new osgViewer::ThreadingHandler);
+    viewer.addEventHandler(new osgViewer::WindowSizeHandler);
+    viewer.addEventHandler(new osgViewer::LODScaleHandler);
+    viewer.addEventHandler(new osgViewer::RecordCameraPathHandler);
+    viewer.addEventHandler(new osgViewer::ScreenCaptureHandler);
+    viewer.addEventHandler(new osgViewer::HelpHandler(&usage));
+    const osg::ref_ptr<osgViewer::StatsHandler> stats = new osgViewer::StatsHandler;
+    viewer.addEventHandler(new BinStatsHandler(*stats));
+    viewer.addEventHandler(stats);
+    viewer.addEventHandler(new FreezeCullHandler);
+    viewer.addEventHandler(new BinDisplayHandler);
+    viewer.addEventHandler(new MethodSwitchHandler(settings.cullOptions));
+    const osg::ref_ptr<PathRecorder> recorder =
+        new PathRecorder(settings.record.empty() ? "recorded.csv" : settings.record);
+    recorder->setRecording(!settings.record.empty());
+    viewer.addEventHandler(recorder);
+    const osg::ref_ptr<SpyViewHandler> spy = new SpyViewHandler;
+    viewer.addEventHandler(spy);
+    return spy;
+}
+
+int runSteps(osgViewer::Viewer& viewer, const viewer::Settings& settings, SpyViewHandler& spy) {
+    std::vector<flight::CameraPose> poses;
+    if (!settings.poses.empty()) {
+        std::string error;
+        const auto path = flight::readCameraPathFile(settings.poses, error);
+        if (!path) throw std::runtime_error(error);
+        poses = *path;
+    }
+    viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
+    viewer.setRealizeOperation(new WithoutAnisotropy);
+    viewer.realize();
+    viewer::Steps(viewer, spy, poses).run(settings.steps);
+    return EXIT_SUCCESS;
+}
+
+int show(osg::ArgumentParser& arguments) {
+    viewer::describe(*arguments.getApplicationUsage());
+    osgViewer::Viewer viewer(arguments);
+    unsigned int helpType = 0;
+    if ((helpType = arguments.readHelpType()) != 0) {
+        arguments.getApplicationUsage()->write(std::cout, helpType);
+        return EXIT_SUCCESS;
+    }
+    if (arguments.read("--version")) {
+        std::cout << "osgbinviewer (osgAnalyticBin) " << version() << std::endl;
+        return EXIT_SUCCESS;
+    }
+    const viewer::Settings settings = viewer::settingsFrom(arguments);
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    for (const std::string& name : settings.databases) {
+        const osg::ref_ptr<osg::Node> database = osgDB::readRefNodeFile(name);
+        if (!database) throw std::runtime_error(name + ": cannot be read");
+        scene->addChild(database);
+    }
+    viewer.setSceneData(scene->getNumChildren() == 1 ? scene->getChild(0) : scene.get());
+    const osg::ref_ptr<SpyViewHandler> spy = addHandlers(viewer, settings, *arguments.getApplicationUsage());
+    if (!settings.steps.empty()) return runSteps(viewer, settings, *spy);
+    viewer.setCameraManipulator(makeManipulator(settings, *viewer.getSceneData()));
+    return viewer.run();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    osg::ArgumentParser arguments(&argc, argv);
+    arguments.getApplicationUsage()->setApplicationName(arguments.getApplicationName());
+    try {
+        addModuleFolder();
+        return show(arguments);
+    } catch (const std::exception& error) {
+        std::cerr << "osgbinviewer: " << error.what() << std::endl;
+        return EXIT_FAILURE;
+    }
+}

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/viewer/Export.h>
+#include <osgAnalyticBin/viewer/TileSurvey.h>
+
+#include <osg/Group>
+#include <osg/Vec4>
+#include <osgGA/GUIEventHandler>
+
+#include <map>
+
+namespace osgAnalyticBin {
+
+class TextPanel;
+
+/// The colour that a verdict is shown in, opaque.
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT osg::Vec4 verdictColour(TileVerdict verdict);
+
+/// A short name: "outside", "straddling", "inside", "behind the horizon", "beyond an edge".
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT const char* verdictName(TileVerdict verdict);
+
+/// Key `B`: draws the bins that the view's camera tests, as the curved slabs that they are, coloured by verdict: those
+/// where its cull traversal ends (tiles culled or drawn), then all, then none. Key `Q`: the same bins' quadratic
+/// approximation as white lines. Bins of maps are not drawn. One handler for each view.
+/// Cost: while shown, a TileSurvey for each frame.
+class OSGANALYTICBINVIEWER_EXPORT BinDisplayHandler : public osgGA::GUIEventHandler {
+public:
+    enum class Shown { Nothing, Ends, All };
+
+    BinDisplayHandler();
+
+    /// Defaults `B` and `Q`.
+    void setKeyEventBins(int key) { _keyBins = key; }
+    void setKeyEventQuadratic(int key) { _keyQuadratic = key; }
+
+    void setShown(Shown shown) { _shown = shown; }
+    [[nodiscard]] Shown shown() const { return _shown; }
+    void setQuadraticShown(bool shown) { _showsQuadratic = shown; }
+
+    /// What is drawn at present, in the world's frame: a child for each slab.
+    [[nodiscard]] const osg::Group& slabs() const { return *_slabs; }
+
+    bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
+    void getUsage(osg::ApplicationUsage& usage) const override;
+
+protected:
+    ~BinDisplayHandler() override;
+
+private:
+    struct Slab {
+        AnalyticBin bin;
+        TileVerdict verdict;
+        bool withQuadratic;
+        osg::Matrixd ecefToWorld;
+        osg::ref_ptr<osg::Node> node;
+        bool isUsed;
+    };
+
+    void draw(const TileSurvey& survey);
+    osg::Node* slabOf(const SurveyedTile& tile);
+    void showLegend(const TileSurvey& survey, osg::Camera& camera);
+
+    int _keyBins = 'B';
+    int _keyQuadratic = 'Q';
+    Shown _shown = Shown::Nothing;
+    bool _showsQuadratic = false;
+    const osg::ref_ptr<osg::Group> _slabs;
+    const osg::ref_ptr<TextPanel> _legend;
+    std::map<osg::ref_ptr<osg::Node>, Slab> _known;
+};
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/viewer/Export.h>
+
+#include <osg/Camera>
+#include <osg/Group>
+#include <osg/Matrixd>
+#include <osg/NodeCallback>
+#include <osg/Viewport>
+#include <osg/observer_ptr>
+
+#include <optional>
+
+namespace osgUtil {
+class CullVisitor;
+}
+
+namespace osgAnalyticBin {
+
+/// What a cull traversal looks through: from the world to the eye, from the eye to clip space, and the pixels.
+struct CullingView {
+    osg::Matrixd view;
+    osg::Matrixd projection;
+    osg::ref_ptr<osg::Viewport> viewport;
+};
+
+/// The cull callback of a camera that may show what another camera sees: its scene is culled, refined and paged by a
+/// culling view that stands still or is another camera's, and drawn by the camera's own. What is drawn is then
+/// precisely what that other camera draws: every test of every node runs with the other camera's matrices.
+/// Overlays are drawn by the camera's own view, cut by neither near nor far plane.
+/// Cameras inside the scene (render to texture) keep the culling view throughout, and OccluderNodes are those of the
+/// camera's own view.
+/// Threads: setters and the overlay's nodes may be touched where no cull traversal runs, as between frames.
+class OSGANALYTICBINVIEWER_EXPORT CameraCulling : public osg::NodeCallback {
+public:
+    CameraCulling();
+
+    /// That of the camera, installed at the first call behind what is there.
+    [[nodiscard]] static CameraCulling& of(osg::Camera& camera);
+
+    /// Returns: nullptr when the camera has none.
+    [[nodiscard]] static CameraCulling* find(osg::Camera& camera);
+
+    /// What the camera is culled by at present: its own view, unless told otherwise.
+    [[nodiscard]] static CullingView cullingView(osg::Camera& camera);
+
+    /// Culls by this view from now on.
+    void freeze(const CullingView& view) { _frozen = view; }
+    /// Culls by the camera's own view again, or that of the followed one.
+    void thaw() { _frozen.reset(); }
+    [[nodiscard]] bool isFrozen() const { return _frozen.has_value(); }
+
+    /// Culls as that camera is culled, frame by frame, and draws its overlay too; nullptr: no longer.
+    void follow(osg::Camera* camera) { _followed = camera; }
+    [[nodiscard]] bool isFollowing() const { return _followed.valid(); }
+
+    /// What the camera draws on top of its scene, in the world's frame.
+    [[nodiscard]] osg::Group& overlay() { return *_overlay; }
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
+
+protected:
+    ~CameraCulling() override;
+
+private:
+    [[nodiscard]] std::optional<CullingView> foreignView() const;
+    void drawOverlay(osgUtil::CullVisitor& visitor) const;
+
+    std::optional<CullingView> _frozen;
+    osg::observer_ptr<osg::Camera> _followed;
+    const osg::ref_ptr<osg::Group> _overlay;
+};
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/viewer/Export.h>
+
+#include <osgGA/GUIEventHandler>
+
+namespace osg {
+class Camera;
+class Node;
+}  // namespace osg
+
+namespace osgAnalyticBin {
+
+/// Key `F`: the cameras of a view go on culling from where they stand, while the view is flown on: what is drawn stays
+/// what they saw from there, with their frustum as lines and translucent sides down to the globe. `F` again: as usual.
+/// One handler for each view.
+class OSGANALYTICBINVIEWER_EXPORT FreezeCullHandler : public osgGA::GUIEventHandler {
+public:
+    FreezeCullHandler();
+
+    /// Default `F`.
+    void setKeyEventFreeze(int key) { _key = key; }
+
+    [[nodiscard]] bool isFrozen() const { return _isFrozen; }
+
+    /// Freezes or thaws the view's cameras, as the key does. Between frames only.
+    void setFrozen(osgGA::GUIActionAdapter& view, bool frozen);
+
+    bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
+    void getUsage(osg::ApplicationUsage& usage) const override;
+
+protected:
+    ~FreezeCullHandler() override;
+
+private:
+    int _key = 'F';
+    bool _isFrozen = false;
+};
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/viewer/Export.h>
+#include <osgAnalyticBin/viewer/TileSurvey.h>
+
+#include <osgGA/GUIEventHandler>
+
+namespace osgAnalyticBin {
+
+class TextPanel;
+
+/// Keys `n` and `N`: the next and the previous culling method for the view's scene, tiles that are paged in later
+/// included; what that changes in tiles is shown for a while. One handler for each scene.
+class OSGANALYTICBINVIEWER_EXPORT MethodSwitchHandler : public osgGA::GUIEventHandler {
+public:
+    /// `options`: those that the scene's bins were installed with.
+    explicit MethodSwitchHandler(const CullOptions& options = {});
+
+    /// Defaults `n` and `N`.
+    void setKeyEventNext(int key) { _keyNext = key; }
+    void setKeyEventPrevious(int key) { _keyPrevious = key; }
+
+    [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
+
+    /// Culls the view's scene by another method from the next frame on, as the keys do. Between frames only.
+    void setMethod(osgGA::GUIActionAdapter& view, Method method);
+
+    bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
+    void getUsage(osg::ApplicationUsage& usage) const override;
+
+protected:
+    ~MethodSwitchHandler() override;
+
+private:
+    void showChange(osg::Camera& camera, osg::FrameStamp& frameStamp);
+
+    int _keyNext = 'n';
+    int _keyPrevious = 'N';
+    CullOptions _options;
+    Method _methodBefore;
+    TileCounts _countsBefore;
+    double _shownUntil = -1.0;  // reference time, seconds
+    const osg::ref_ptr<TextPanel> _panel;
+};
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/viewer/Export.h>
+
+#include <osg/Camera>
+#include <osgGA/GUIEventHandler>
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+/// A pose of a camera on a globe. Radians, metres and seconds; altitudes above the ellipsoid.
+struct RecordedPose {
+    double time = 0.0;
+    core::Geodetic eye;
+    core::Geodetic look;  ///< a point on the line of sight
+    double verticalFov = 0.0;
+    double nearPlane = 0.0;
+    double farPlane = 0.0;
+    double roll = 0.0;  ///< of up, clockwise about the line of sight, from the local vertical
+};
+
+/// How the camera stands over the globe of its scene at present; near and far planes as last drawn, with room to spare.
+/// Returns: nullopt for views that are not perspective, and where there is no globe.
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<RecordedPose> recordedPose(osg::Camera& camera, double time);
+
+/// Which columns a camera path has.
+enum class PathColumns {
+    Poses,       ///< name, eyeLatDeg, eyeLonDeg, eyeAlt, lookLatDeg, lookLonDeg, lookAlt, fovDeg, near, far
+    PosesInTime  ///< and time, rollDeg
+};
+
+/// Writes the poses as the camera path that osgbinbench plays, exact to the last bit.
+OSGANALYTICBINVIEWER_EXPORT void writeCameraPath(std::ostream& out, const std::vector<RecordedPose>& path,
+                                                 PathColumns columns);
+
+/// Writes a file under a temporary name beside it, then renames it. Returns: false, with one line in `error`, when
+/// that fails; what was there before stays.
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT bool writeCameraPathFile(const std::string& fileName,
+                                                                   const std::vector<RecordedPose>& path,
+                                                                   PathColumns columns, std::string& error);
+
+/// Key `R`: starts or stops recording the view's camera into a file that osgbinbench plays: a pose every half second
+/// while it moves. The file is written whenever recording stops, and at the end. One handler for each view.
+class OSGANALYTICBINVIEWER_EXPORT PathRecorder : public osgGA::GUIEventHandler {
+public:
+    /// `interval`: seconds between poses.
+    explicit PathRecorder(const std::string& fileName, double interval = 0.5,
+                          PathColumns columns = PathColumns::PosesInTime);
+
+    /// Default `R`.
+    void setKeyEventRecord(int key) { _key = key; }
+
+    /// Starts or stops, as the key does; stopping writes the file.
+    void setRecording(bool recording);
+    [[nodiscard]] bool isRecording() const { return _isRecording; }
+
+    [[nodiscard]] const std::vector<RecordedPose>& path() const { return _path; }
+
+    bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
+    void getUsage(osg::ApplicationUsage& usage) const override;
+
+protected:
+    ~PathRecorder() override;
+
+private:
+    void record(osg::Camera& camera, double time);
+    void write();
+
+    int _key = 'R';
+    const std::string _fileName;
+    const double _interval;
+    const PathColumns _columns;
+    bool _isRecording = false;
+    bool _isWritten = true;
+    double _lastTime = 0.0;
+    osg::Matrixd _lastView;
+    std::vector<RecordedPose> _path;
+};
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/core/GeodeticBin.h>
+#include <osgAnalyticBin/viewer/Export.h>
+
+#include <osg/Node>
+#include <osg/Vec3d>
+#include <osg/Vec4>
+
+#include <vector>
+
+namespace osgAnalyticBin {
+
+/// The surface of a bin as meshes and lines.
+struct SlabMesh {
+    osg::Vec3d origin;                    ///< ECEF, metres
+    std::vector<osg::Vec3> vertices;      ///< from the origin
+    std::vector<unsigned int> triangles;  ///< three indices each
+    std::vector<unsigned int> lines;      ///< two indices each: the bin's twelve edges
+};
+
+/// Which surface of a bin.
+enum class SlabShape {
+    Bin,       ///< the box in latitude, longitude and altitude itself
+    Quadratic  ///< its second-order Taylor model, which the quadratic bin tests
+};
+
+/// The six curved faces of a bin, a vertex every two degrees or finer.
+/// Guarantee: every vertex of SlabShape::Bin is on the bin's surface to the rounding of float; the faces leave it by
+/// 2 km at most, the sag of chords of two degrees, and that much only for bins so wide; tests: Slab.*.
+/// Requires: a bin that is not empty.
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT SlabMesh slabMesh(const core::GeodeticBin& bin,
+                                                            const core::Ellipsoid& ellipsoid, SlabShape shape);
+
+/// Faces, translucent where the colour is, and edges; in ECEF.
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT osg::ref_ptr<osg::Node> makeSlab(const SlabMesh& mesh, const osg::Vec4& faces,
+                                                                           const osg::Vec4& edges);
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/viewer/Export.h>
+
+#include <osg/GraphicsContext>
+#include <osg/Group>
+#include <osgGA/GUIEventHandler>
+
+namespace osg {
+class Camera;
+}
+namespace osgViewer {
+class View;
+}
+
+namespace osgAnalyticBin {
+
+/// Key `y`: opens or closes a second window that looks at the view's camera from aside: it shows what that camera
+/// draws, and its frustum. Drag in the window to go round, scroll to come nearer. One handler for each view.
+class OSGANALYTICBINVIEWER_EXPORT SpyViewHandler : public osgGA::GUIEventHandler {
+public:
+    SpyViewHandler();
+
+    /// Default `y`.
+    void setKeyEventSpy(int key) { _key = key; }
+
+    /// Opens or closes the window, as the key does. Between frames only; a viewer that draws in threads pauses them.
+    void setOpen(osgViewer::View& view, bool open);
+    [[nodiscard]] bool isOpen() const { return _camera.valid(); }
+
+    /// The window's camera, a slave of the view's; null while it is closed.
+    [[nodiscard]] osg::Camera* camera() const { return _camera.get(); }
+
+    /// Where the window looks from: radians round the local vertical from behind the view's camera, radians above its
+    /// horizon, and the distance as a multiple of that from the camera to what it looks at.
+    void setOrbit(double azimuth, double elevation, double distance);
+
+    bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
+    void getUsage(osg::ApplicationUsage& usage) const override;
+
+protected:
+    ~SpyViewHandler() override;
+
+private:
+    class Placement;
+
+    void open(osgViewer::View& view);
+    void close(osgViewer::View& view);
+    void drawFrustum(osgViewer::View& view);
+    bool orbit(const osgGA::GUIEventAdapter& event);
+
+    int _key = 'y';
+    osg::ref_ptr<osg::Camera> _camera;
+    osg::ref_ptr<osg::Group> _frustum;
+    const osg::ref_ptr<Placement> _placement;
+    float _lastX = 0.0F;
+    float _lastY = 0.0F;
+};
+
+}  // namespace osgAnalyticBin

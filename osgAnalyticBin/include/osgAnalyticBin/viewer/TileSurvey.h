@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/viewer/Export.h>
+
+#include <osg/Camera>
+#include <osg/CoordinateSystemNode>
+#include <osg/FrameStamp>
+#include <osg/Matrixd>
+#include <osg/Node>
+
+#include <cstddef>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+/// What a cull traversal found of a tile.
+enum class TileVerdict {
+    Outside,       ///< outside a plane of the frustum, too small, or behind an occluder
+    Straddling,    ///< of the frustum's planes some are undecided
+    Inside,        ///< inside all planes
+    Hidden,        ///< behind the horizon
+    ReverseCulled  ///< beyond an edge of the frustum, though outside no single plane
+};
+
+/// A tile that a camera's cull traversal came to.
+struct SurveyedTile {
+    osg::ref_ptr<osg::Node> node;
+    bool hasBin = false;     ///< whether a bin decided; otherwise verdict, bin, radii and place say nothing
+    bool isCulled = false;   ///< whether nothing below the tile was traversed
+    bool isDrawn = false;    ///< whether a mesh of its own was drawn
+    bool isRefined = false;  ///< whether tiles below it were met
+    TileVerdict verdict = TileVerdict::Straddling;
+    /// What the tile was culled by: in the present shape of the terrain, skirts included. Not valid in a map.
+    AnalyticBin bin;
+    osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;
+    osg::Matrixd ecefToWorld;
+};
+
+/// How many tiles a camera's cull traversal came to, by what became of them.
+struct TileCounts {
+    std::size_t tested = 0;
+    std::size_t kept = 0;
+    std::size_t drawn = 0;
+    std::size_t hidden = 0;         ///< of those not kept
+    std::size_t reverseCulled = 0;  ///< of those not kept
+};
+
+/// Culls a camera's scene once more, off the record, by the camera's culling view: nothing is drawn and no file is
+/// asked for. Tiles are those of TileFinder, so that counts are comparable whatever culls them; a bin's verdict is read
+/// from the counters of this traversal. Requires: a camera with a viewport, and no update or cull traversal meanwhile:
+/// call it in the event phase, where it repeats the last frame. Cost: one walk over the loaded scene, and one cull
+/// traversal.
+class OSGANALYTICBINVIEWER_EXPORT TileSurvey {
+public:
+    TileSurvey() = default;
+    TileSurvey(osg::Camera& camera, osg::FrameStamp& frameStamp);
+
+    /// In the order of the traversal: parents before children.
+    [[nodiscard]] const std::vector<SurveyedTile>& tiles() const { return _tiles; }
+
+    [[nodiscard]] TileCounts counts() const;
+
+private:
+    std::vector<SurveyedTile> _tiles;
+};
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "ForeignTraversal.h"
+
+#include <osgAnalyticBin/viewer/CameraCulling.h>
+
+#include <osgUtil/CullVisitor>
+
+namespace osgAnalyticBin {
+
+CameraCulling::CameraCulling() : _overlay(new osg::Group) {
+    // DYNAMIC meshes are drawn before they change; near and far planes are the scene's alone
+    _overlay->setCullingActive(false);
+    constexpr GLenum kDepthClamp = 0x864F;
+    _overlay->getOrCreateStateSet()->setMode(kDepthClamp, osg::StateAttribute::ON);
+    _overlay->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF | osg::StateAttribute::PROTECTED);
+}
+
+CameraCulling::~CameraCulling() = default;
+
+CameraCulling* CameraCulling::find(osg::Camera& camera) {
+    for (osg::Callback* callback = camera.getCullCallback(); callback; callback = callback->getNestedCallback()) {
+        if (auto* found = dynamic_cast<CameraCulling*>(callback)) return found;
+    }
+    return nullptr;
+}
+
+CameraCulling& CameraCulling::of(osg::Camera& camera) {
+    if (CameraCulling* known = find(camera)) return *known;
+    const osg::ref_ptr<CameraCulling> made = new CameraCulling;
+    camera.addCullCallback(made);
+    return *made;
+}
+
+std::optional<CullingView> CameraCulling::foreignView() const {
+    if (_frozen) return _frozen;
+    osg::ref_ptr<osg::Camera> followed;
+    if (_followed.lock(followed)) return cullingView(*followed);
+    return std::nullopt;
+}
+
+CullingView CameraCulling::cullingView(osg::Camera& camera) {
+    const CameraCulling* culling = find(camera);
+    const std::optional<CullingView> foreign = culling ? culling->foreignView() : std::nullopt;
+    if (foreign) return *foreign;
+    return {camera.getViewMatrix(), camera.getProjectionMatrix(), camera.getViewport()};
+}
+
+void CameraCulling::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    osgUtil::CullVisitor* visitor = nv->asCullVisitor();
+    if (!visitor) {
+        traverse(node, nv);
+        return;
+    }
+    if (const auto view = foreignView()) {
+        traverseBy(*view, *visitor, [&] { traverse(node, nv); });
+    } else {
+        traverse(node, nv);
+    }
+    drawOverlay(*visitor);
+    osg::ref_ptr<osg::Camera> followed;
+    const CameraCulling* other = _followed.lock(followed) ? find(*followed) : nullptr;
+    if (other && other != this) other->drawOverlay(*visitor);
+}
+
+void CameraCulling::drawOverlay(osgUtil::CullVisitor& visitor) const {
+    if (_overlay->getNumChildren() == 0) return;
+    const auto mode = visitor.getComputeNearFarMode();
+    visitor.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    _overlay->accept(visitor);
+    visitor.setComputeNearFarMode(mode);
+}
+
+}  // namespace osgAnalyticBin

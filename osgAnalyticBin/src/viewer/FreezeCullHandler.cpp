@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "ViewTools.h"
+
+#include <osgAnalyticBin/viewer/CameraCulling.h>
+#include <osgAnalyticBin/viewer/FreezeCullHandler.h>
+
+#include <osgViewer/View>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+constexpr const char* kFrustumName = "frozen frustum";
+
+void removeFrustum(osg::Group& overlay) {
+    for (unsigned int i = overlay.getNumChildren(); i-- > 0;) {
+        if (overlay.getChild(i)->getName() == kFrustumName) overlay.removeChildren(i, 1);
+    }
+}
+
+}  // namespace
+
+FreezeCullHandler::FreezeCullHandler() = default;
+FreezeCullHandler::~FreezeCullHandler() = default;
+
+void FreezeCullHandler::setFrozen(osgGA::GUIActionAdapter& action, bool frozen) {
+    osgViewer::View* view = viewOf(action);
+    if (!view || !view->getSceneData()) return;
+    _isFrozen = frozen;
+    const auto globe = globeOf(*view->getSceneData());
+    for (osg::Camera* camera : drawingCameras(*view)) {
+        CameraCulling& culling = CameraCulling::of(*camera);
+        culling.thaw();
+        removeFrustum(culling.overlay());
+        if (!frozen) continue;
+        CullingView seen = CameraCulling::cullingView(*camera);
+        // the window may be resized
+        seen.viewport = new osg::Viewport(*seen.viewport);
+        culling.freeze(seen);
+        const osg::ref_ptr<osg::Node> frustum = makeFrustum(seen, globe, view->getSceneData()->getBound().radius());
+        frustum->setName(kFrustumName);
+        culling.overlay().addChild(frustum);
+    }
+}
+
+bool FreezeCullHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) {
+    if (event.getHandled() || event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN || event.getKey() != _key) {
+        return false;
+    }
+    setFrozen(action, !_isFrozen);
+    action.requestRedraw();
+    return true;
+}
+
+void FreezeCullHandler::getUsage(osg::ApplicationUsage& usage) const {
+    usage.addKeyboardMouseBinding(_key, "Freeze the culling camera, to fly round what it draws.");
+}
+
+}  // namespace osgAnalyticBin

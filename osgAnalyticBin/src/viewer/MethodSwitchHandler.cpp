@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TextPanel.h"
+#include "ViewTools.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/viewer/MethodSwitchHandler.h>
+
+#include <osgViewer/View>
+
+#include <array>
+#include <string>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+constexpr std::array<Method, 6> kMethods{Method::Quadratic, Method::Exact,  Method::Paper,
+                                         Method::Corners,   Method::Sphere, Method::None};
+constexpr double kSecondsShown = 15.0;
+const osg::Vec4 kTextColour(0.9F, 0.9F, 0.9F, 1.0F);
+const osg::Vec4 kFewerColour(0.3F, 1.0F, 0.35F, 1.0F);
+const osg::Vec4 kMoreColour(1.0F, 0.6F, 0.2F, 1.0F);
+
+Method neighbour(Method method, std::size_t step) {
+    std::size_t at = 0;
+    while (at + 1 < kMethods.size() && kMethods[at] != method) ++at;
+    return kMethods[(at + step) % kMethods.size()];
+}
+
+TextPanel::Line changeLine(const std::string& what, std::size_t before, std::size_t now) {
+    const std::string difference =
+        now >= before ? "+" + std::to_string(now - before) : "-" + std::to_string(before - now);
+    const osg::Vec4 colour = now == before ? kTextColour : now < before ? kFewerColour : kMoreColour;
+    return {"tiles " + what + ": " + std::to_string(before) + " -> " + std::to_string(now) + "  (" + difference + ")",
+            colour};
+}
+
+}  // namespace
+
+MethodSwitchHandler::MethodSwitchHandler(const CullOptions& options)
+    : _options(options), _methodBefore(options.method), _panel(new TextPanel(TextPanel::Corner::BottomRight)) {}
+
+MethodSwitchHandler::~MethodSwitchHandler() = default;
+
+void MethodSwitchHandler::setMethod(osgGA::GUIActionAdapter& action, Method method) {
+    osgViewer::View* view = viewOf(action);
+    if (!view || !view->getSceneData()) return;
+    const std::vector<osg::Camera*> cameras = drawingCameras(*view);
+    _methodBefore = _options.method;
+    if (!cameras.empty()) _countsBefore = TileSurvey(*cameras.front(), *view->getFrameStamp()).counts();
+    _options.method = method;
+    setCullOptions(*view->getSceneData(), _options);
+    _shownUntil = view->getFrameStamp()->getReferenceTime() + kSecondsShown;
+}
+
+void MethodSwitchHandler::showChange(osg::Camera& camera, osg::FrameStamp& frameStamp) {
+    if (frameStamp.getReferenceTime() > _shownUntil) {
+        _panel->hide();
+        return;
+    }
+    const TileCounts now = TileSurvey(camera, frameStamp).counts();
+    _panel->show(camera, {{std::string("culling: ") + methodName(_methodBefore) + " -> " + methodName(_options.method),
+                           kTextColour},
+                          changeLine("tested", _countsBefore.tested, now.tested),
+                          changeLine("kept", _countsBefore.kept, now.kept),
+                          changeLine("drawn", _countsBefore.drawn, now.drawn)});
+}
+
+bool MethodSwitchHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) {
+    osgViewer::View* view = viewOf(action);
+    if (!view || isTaken(event)) return false;
+    if (event.getEventType() == osgGA::GUIEventAdapter::FRAME) {
+        const std::vector<osg::Camera*> cameras = drawingCameras(*view);
+        const bool isWanted = _shownUntil >= 0.0 && !cameras.empty();
+        if (isWanted) showChange(*cameras.front(), *view->getFrameStamp());
+        if (isWanted && !_panel->isShown()) _shownUntil = -1.0;
+        return false;
+    }
+    if (event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return false;
+    if (event.getKey() != _keyNext && event.getKey() != _keyPrevious) return false;
+    setMethod(action, neighbour(_options.method, event.getKey() == _keyNext ? 1 : kMethods.size() - 1));
+    return true;
+}
+
+void MethodSwitchHandler::getUsage(osg::ApplicationUsage& usage) const {
+    usage.addKeyboardMouseBinding(_keyNext, "Next culling method, and its change in tiles.");
+    usage.addKeyboardMouseBinding(_keyPrevious, "Previous culling method.");
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include <osgAnalyticBin/core/GeodeticMapping.h>
+#include <osgAnalyticBin/core/QuadraticBin.h>
+#include <osgAnalyticBin/viewer/Slab.h>
+
+#include <osg/BlendFunc>
+#include <osg/CullFace>
+#include <osg/Depth>
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/LineWidth>
+#include <osg/MatrixTransform>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+constexpr double kRadiansPerStep = 2.0 * 3.14159265358979323846 / 180.0;
+constexpr int kFewestSteps = 4;
+
+// Of a box's parameter: chords of at most two degrees.
+int stepsOf(const core::Interval& angles) {
+    return std::max(kFewestSteps, static_cast<int>(std::ceil(angles.width() / kRadiansPerStep)));
+}
+
+// Maps the unit box [-1, 1]^3 to ECEF.
+using Surface = std::function<glm::dvec3(const glm::dvec3& unit)>;
+
+class Builder {
+public:
+    Builder(const Surface& surface, const std::array<int, 3>& steps) : _surface(surface), _steps(steps) {
+        const glm::dvec3 center = surface(glm::dvec3(0.0));
+        _mesh.origin.set(center.x, center.y, center.z);
+        for (int fixed = 0; fixed < 3; ++fixed) {
+            for (const double side : {-1.0, 1.0}) addFace(fixed, side);
+            addEdges(fixed);
+        }
+    }
+
+    [[nodiscard]] const SlabMesh& mesh() const { return _mesh; }
+
+private:
+    unsigned int addVertex(const glm::dvec3& unit) {
+        const glm::dvec3 ecef = _surface(unit);
+        _mesh.vertices.emplace_back(osg::Vec3d(ecef.x, ecef.y, ecef.z) - _mesh.origin);
+        return static_cast<unsigned int>(_mesh.vertices.size() - 1);
+    }
+
+    [[nodiscard]] double unitAt(int axis, int step) const { return 2.0 * step / _steps[std::size_t(axis)] - 1.0; }
+
+    // The face where one parameter is -1 or 1.
+    void addFace(int fixed, double side) {
+        const int u = (fixed + 1) % 3;
+        const int v = (fixed + 2) % 3;
+        const int columns = _steps[std::size_t(u)];
+        const int rows = _steps[std::size_t(v)];
+        const auto first = static_cast<unsigned int>(_mesh.vertices.size());
+        for (int j = 0; j <= rows; ++j) {
+            for (int i = 0; i <= columns; ++i) {
+                glm::dvec3 unit;
+                unit[fixed] = side;
+                unit[u] = unitAt(u, i);
+                unit[v] = unitAt(v, j);
+                (void)addVertex(unit);
+            }
+        }
+        const auto width = static_cast<unsigned int>(columns + 1);
+        for (unsigned int j = 0; j < static_cast<unsigned int>(rows); ++j) {
+            for (unsigned int i = 0; i < static_cast<unsigned int>(columns); ++i) {
+                const unsigned int at = first + j * width + i;
+                for (const unsigned int index : {at, at + 1, at + width + 1, at, at + width + 1, at + width}) {
+                    _mesh.triangles.push_back(index);
+                }
+            }
+        }
+    }
+
+    // The four edges along one parameter.
+    void addEdges(int along) {
+        const int u = (along + 1) % 3;
+        const int v = (along + 2) % 3;
+        for (const double first : {-1.0, 1.0}) {
+            for (const double second : {-1.0, 1.0}) {
+                unsigned int last = 0;
+                for (int i = 0; i <= _steps[std::size_t(along)]; ++i) {
+                    glm::dvec3 unit;
+                    unit[along] = unitAt(along, i);
+                    unit[u] = first;
+                    unit[v] = second;
+                    const unsigned int vertex = addVertex(unit);
+                    if (i > 0) _mesh.lines.insert(_mesh.lines.end(), {last, vertex});
+                    last = vertex;
+                }
+            }
+        }
+    }
+
+    const Surface& _surface;
+    const std::array<int, 3> _steps;
+    SlabMesh _mesh;
+};
+
+osg::ref_ptr<osg::Geometry> makeGeometry(osg::Vec3Array& vertices, GLenum primitives,
+                                         const std::vector<unsigned int>& indices, const osg::Vec4& colour) {
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setUseVertexBufferObjects(true);
+    geometry->setVertexArray(&vertices);
+    const osg::ref_ptr<osg::Vec4Array> colours = new osg::Vec4Array(osg::Array::BIND_OVERALL, 1);
+    (*colours)[0] = colour;
+    geometry->setColorArray(colours);
+    geometry->addPrimitiveSet(
+        new osg::DrawElementsUInt(primitives, static_cast<unsigned int>(indices.size()), indices.data()));
+    return geometry;
+}
+
+}  // namespace
+
+SlabMesh slabMesh(const core::GeodeticBin& bin, const core::Ellipsoid& ellipsoid, SlabShape shape) {
+    const std::array<int, 3> steps{stepsOf(bin.latitude()), stepsOf(bin.longitude()), 1};
+    const core::GeodeticMapping mapping(ellipsoid);
+    if (shape == SlabShape::Quadratic) {
+        const core::QuadraticBin model(mapping, core::parameterBox(bin));
+        return Builder([&](const glm::dvec3& unit) { return model.modelPoint(unit); }, steps).mesh();
+    }
+    const auto at = [](const core::Interval& interval, double unit) {
+        return interval.middle() + 0.5 * unit * interval.width();
+    };
+    return Builder(
+               [&](const glm::dvec3& unit) {
+                   return mapping.value(
+                       {at(bin.latitude(), unit.x), at(bin.longitude(), unit.y), at(bin.altitude(), unit.z)});
+               },
+               steps)
+        .mesh();
+}
+
+osg::ref_ptr<osg::Node> makeSlab(const SlabMesh& mesh, const osg::Vec4& faces, const osg::Vec4& edges) {
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array(mesh.vertices.begin(), mesh.vertices.end());
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    if (faces.a() > 0.0F) {
+        const auto geometry = makeGeometry(*vertices, GL_TRIANGLES, mesh.triangles, faces);
+        osg::StateSet& state = *geometry->getOrCreateStateSet();
+        state.setMode(GL_BLEND, osg::StateAttribute::ON);
+        state.setAttributeAndModes(new osg::CullFace, osg::StateAttribute::OFF);
+        state.setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0.0, 1.0, false));
+        state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+        geode->addDrawable(geometry);
+    }
+    const auto lines = makeGeometry(*vertices, GL_LINES, mesh.lines, edges);
+    lines->getOrCreateStateSet()->setAttributeAndModes(new osg::LineWidth(1.5F));
+    lines->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
+    // after the faces of all slabs
+    lines->getOrCreateStateSet()->setRenderBinDetails(20, "RenderBin");
+    geode->addDrawable(lines);
+    osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform(osg::Matrixd::translate(mesh.origin));
+    placed->addChild(geode);
+    return placed;
+}
+
+}  // namespace osgAnalyticBin

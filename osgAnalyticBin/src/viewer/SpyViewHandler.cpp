@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "ViewTools.h"
+
+#include <osgAnalyticBin/viewer/CameraCulling.h>
+#include <osgAnalyticBin/viewer/SpyViewHandler.h>
+
+#include <osg/Notify>
+#include <osgViewer/View>
+#include <osgViewer/ViewerBase>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+constexpr double kFovDeg = 45.0;
+constexpr double kNear = 1.0;
+constexpr double kFar = 1e8;
+const double kHighest = osg::DegreesToRadians(89.0);
+
+// Pauses the viewer's threads, so that windows may come and go.
+class ThreadPause {
+public:
+    explicit ThreadPause(osgViewer::ViewerBase& viewer) : _viewer(viewer), _wasRunning(viewer.areThreadsRunning()) {
+        if (_wasRunning) _viewer.stopThreading();
+    }
+    ~ThreadPause() {
+        if (_wasRunning) _viewer.startThreading();
+    }
+    ThreadPause(const ThreadPause&) = delete;
+    ThreadPause& operator=(const ThreadPause&) = delete;
+
+private:
+    osgViewer::ViewerBase& _viewer;
+    const bool _wasRunning;
+};
+
+// A window as large as the camera's, beside it.
+osg::ref_ptr<osg::GraphicsContext> makeWindow(const osg::GraphicsContext& beside) {
+    const osg::GraphicsContext::Traits& known = *beside.getTraits();
+    const osg::ref_ptr<osg::GraphicsContext::Traits> traits =
+        new osg::GraphicsContext::Traits(osg::DisplaySettings::instance());
+    traits->readDISPLAY();
+    if (traits->displayNum < 0) traits->displayNum = 0;
+    traits->screenNum = known.screenNum;
+    traits->hostName = known.hostName;
+    traits->x = known.x + known.width;
+    traits->y = known.y;
+    traits->width = known.width;
+    traits->height = known.height;
+    traits->windowName = "what the camera culls";
+    traits->windowDecoration = known.windowDecoration;
+    traits->pbuffer = known.pbuffer;
+    traits->doubleBuffer = known.doubleBuffer;
+    traits->vsync = false;
+    return osg::GraphicsContext::createGraphicsContext(traits);
+}
+
+osg::ref_ptr<osg::Camera> makeCamera(osg::GraphicsContext& window, const osg::Camera& beside) {
+    const osg::GraphicsContext::Traits& traits = *window.getTraits();
+    osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+    camera->setCullSettings(beside);
+    camera->setComputeNearFarMode(osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES);
+    camera->setGraphicsContext(&window);
+    camera->setViewport(new osg::Viewport(0, 0, traits.width, traits.height));
+    camera->setDrawBuffer(traits.doubleBuffer ? GL_BACK : GL_FRONT);
+    camera->setReadBuffer(traits.doubleBuffer ? GL_BACK : GL_FRONT);
+    camera->setClearColor(beside.getClearColor());
+    camera->setProjectionMatrixAsPerspective(kFovDeg, double(traits.width) / traits.height, kNear, kFar);
+    camera->setAllowEventFocus(false);
+    return camera;
+}
+
+}  // namespace
+
+// Keeps the window's camera beside the culling view that it looks at.
+class SpyViewHandler::Placement : public osg::View::Slave::UpdateSlaveCallback {
+public:
+    void updateSlave(osg::View& view, osg::View::Slave& slave) override {
+        const osgViewer::View* shown = dynamic_cast<osgViewer::View*>(&view);
+        osg::ref_ptr<osg::Camera> watched;
+        if (!shown || !shown->getSceneData() || !camera.lock(watched)) return;
+        slave._camera->setViewMatrix(viewOf(*watched, *const_cast<osg::Node*>(shown->getSceneData())));
+    }
+
+    osg::observer_ptr<osg::Camera> camera;
+    std::optional<SceneGlobe> globe;
+    double azimuth = osg::DegreesToRadians(60.0);
+    double elevation = osg::DegreesToRadians(35.0);
+    double distance = 1.6;
+
+private:
+    [[nodiscard]] osg::Matrixd viewOf(osg::Camera& watched, const osg::Node& scene) const {
+        const osg::Matrixd toWorld = osg::Matrixd::inverse(CameraCulling::cullingView(watched).view);
+        const osg::Vec3d eye = osg::Vec3d() * toWorld;
+        const osg::Vec3d sight = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, -1.0), toWorld);
+        const osg::Vec3d target = targetOf(eye, sight, scene);
+        const osg::Vec3d center = (eye + target) * 0.5;
+        osg::Vec3d up = globe ? globe->vertical(center) : osg::Vec3d(0.0, 0.0, 1.0);
+        osg::Vec3d forward = sight - up * (sight * up);
+        if (forward.normalize() < 1e-3) {
+            forward = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 1.0, 0.0), toWorld);
+            forward -= up * (forward * up);
+            forward.normalize();
+        }
+        const osg::Vec3d side = forward ^ up;
+        const osg::Vec3d level = -forward * std::cos(azimuth) + side * std::sin(azimuth);
+        const osg::Vec3d away = level * std::cos(elevation) + up * std::sin(elevation);
+        return osg::Matrixd::lookAt(center + away * (distance * (target - eye).length()), center, up);
+    }
+
+    // What the camera looks at: on the globe, else as far as its horizon.
+    [[nodiscard]] osg::Vec3d targetOf(const osg::Vec3d& eye, const osg::Vec3d& sight, const osg::Node& scene) const {
+        if (!globe) return eye + sight * std::max(1.0, (osg::Vec3d(scene.getBound().center()) - eye).length());
+        if (const auto ground = globe->intersection(eye, sight)) return *ground;
+        const double radius = globe->ellipsoid->getRadiusEquator();
+        const double height = std::max(globe->altitude(eye), 1.0);
+        return eye + sight * std::sqrt(height * (2.0 * radius + height));
+    }
+};
+
+SpyViewHandler::SpyViewHandler() : _placement(new Placement) {}
+SpyViewHandler::~SpyViewHandler() = default;
+
+void SpyViewHandler::setOrbit(double azimuth, double elevation, double distance) {
+    _placement->azimuth = azimuth;
+    _placement->elevation = elevation;
+    _placement->distance = distance;
+}
+
+void SpyViewHandler::setOpen(osgViewer::View& view, bool isOpenWanted) {
+    if (isOpenWanted == isOpen()) return;
+    isOpenWanted ? open(view) : close(view);
+}
+
+void SpyViewHandler::open(osgViewer::View& view) {
+    const std::vector<osg::Camera*> cameras = drawingCameras(view);
+    if (cameras.empty() || !view.getSceneData()) return;
+    osg::Camera& watched = *cameras.front();
+    const ThreadPause pause(*view.getViewerBase());
+    const osg::ref_ptr<osg::GraphicsContext> window = makeWindow(*watched.getGraphicsContext());
+    if (!window || !window->realize()) {
+        OSG_WARN << "SpyViewHandler: no second window could be opened on this display." << std::endl;
+        return;
+    }
+    _camera = makeCamera(*window, watched);
+    _placement->camera = &watched;
+    _placement->globe = globeOf(*view.getSceneData());
+    CameraCulling& culling = CameraCulling::of(*_camera);
+    culling.follow(&watched);
+    _frustum = new osg::Group;
+    culling.overlay().addChild(_frustum);
+    view.addSlave(_camera, osg::Matrixd(), osg::Matrixd(), true);
+    view.getSlave(view.getNumSlaves() - 1)._updateSlaveCallback = _placement;
+    // arrays of the scene with a place for each window
+    view.getSceneData()->resizeGLObjectBuffers(osg::DisplaySettings::instance()->getMaxNumberOfGraphicsContexts());
+}
+
+void SpyViewHandler::close(osgViewer::View& view) {
+    const ThreadPause pause(*view.getViewerBase());
+    const unsigned int slave = view.findSlaveIndexForCamera(_camera);
+    if (slave < view.getNumSlaves()) view.removeSlave(slave);
+    const osg::ref_ptr<osg::GraphicsContext> window = _camera->getGraphicsContext();
+    _camera->setGraphicsContext(nullptr);
+    if (window) window->close();
+    _camera = nullptr;
+    _frustum = nullptr;
+}
+
+void SpyViewHandler::drawFrustum(osgViewer::View& view) {
+    osg::ref_ptr<osg::Camera> watched;
+    if (!_frustum || !_placement->camera.lock(watched) || !view.getSceneData()) return;
+    _frustum->removeChildren(0, _frustum->getNumChildren());
+    const CameraCulling* culling = CameraCulling::find(*watched);
+    // a frozen camera draws its frustum itself, and the spy draws what it draws
+    if (culling && culling->isFrozen()) return;
+    _frustum->addChild(
+        makeFrustum(CameraCulling::cullingView(*watched), _placement->globe, view.getSceneData()->getBound().radius()));
+}
+
+bool SpyViewHandler::orbit(const osgGA::GUIEventAdapter& event) {
+    constexpr double kWheelStep = 1.15;
+    switch (event.getEventType()) {
+        case osgGA::GUIEventAdapter::DRAG:
+            _placement->azimuth -= double(event.getX() - _lastX) * 0.01;
+            _placement->elevation -= double(event.getY() - _lastY) * 0.01;
+            _placement->elevation = std::clamp(_placement->elevation, -kHighest, kHighest);
+            break;
+        case osgGA::GUIEventAdapter::SCROLL:
+            if (event.getScrollingMotion() == osgGA::GUIEventAdapter::SCROLL_UP) _placement->distance /= kWheelStep;
+            if (event.getScrollingMotion() == osgGA::GUIEventAdapter::SCROLL_DOWN) _placement->distance *= kWheelStep;
+            break;
+        case osgGA::GUIEventAdapter::PUSH:
+        case osgGA::GUIEventAdapter::RELEASE:
+        case osgGA::GUIEventAdapter::MOVE:
+            break;
+        default:
+            return false;
+    }
+    _lastX = event.getX();
+    _lastY = event.getY();
+    return true;
+}
+
+bool SpyViewHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) {
+    osgViewer::View* view = viewOf(action);
+    if (!view || isTaken(event)) return false;
+    if (event.getEventType() == osgGA::GUIEventAdapter::FRAME) {
+        if (isOpen()) drawFrustum(*view);
+        return false;
+    }
+    if (event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN && event.getKey() == _key) {
+        setOpen(*view, !isOpen());
+        return true;
+    }
+    if (!isOpen() || event.getGraphicsContext() != _camera->getGraphicsContext()) return false;
+    if (event.getEventType() == osgGA::GUIEventAdapter::CLOSE_WINDOW) {
+        close(*view);
+        return true;
+    }
+    return orbit(event);
+}
+
+void SpyViewHandler::getUsage(osg::ApplicationUsage& usage) const {
+    usage.addKeyboardMouseBinding(_key, "Second window that shows from aside what the camera draws.");
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/viewer/CameraCulling.h>
+#include <osgAnalyticBin/viewer/TileSurvey.h>
+
+#include <osg/Geode>
+#include <osg/Switch>
+#include <osg/Transform>
+#include <osgUtil/CullVisitor>
+#include <osgUtil/RenderStage>
+#include <osgUtil/StateGraph>
+
+#include <algorithm>
+#include <typeinfo>
+#include <unordered_map>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+using EllipsoidOfTile = std::unordered_map<const osg::Node*, osg::ref_ptr<const osg::EllipsoidModel>>;
+
+EllipsoidOfTile tilesBelow(osg::Group& camera) {
+    EllipsoidOfTile tiles;
+    for (unsigned int i = 0; i < camera.getNumChildren(); ++i) {
+        for (const FoundTile& tile : findTiles(*camera.getChild(i))) tiles[tile.node.get()] = tile.frame.ellipsoid;
+    }
+    return tiles;
+}
+
+const AnalyticBinCullCallback* binCallbackOf(osg::Node& node) {
+    for (osg::Callback* callback = node.getCullCallback(); callback; callback = callback->getNestedCallback()) {
+        if (const auto* found = dynamic_cast<const AnalyticBinCullCallback*>(callback)) return found;
+    }
+    return nullptr;
+}
+
+// As AnalyticBinCullCallback itself takes it.
+AnalyticBin shownBin(const AnalyticBinCullCallback& callback) {
+    const auto& shape = callback.terrainShape();
+    AnalyticBin bin = shape ? callback.bin().exaggerated(shape->verticalScale) : callback.bin();
+    if (!bin.valid()) return bin;
+    const core::Interval altitude = bin.bin().altitude();
+    bin.setBin(bin.bin().withAltitude({altitude.lower - callback.skirt(), altitude.upper}));
+    return bin;
+}
+
+class Surveyor : public osgUtil::CullVisitor {
+public:
+    Surveyor(const EllipsoidOfTile& known, const osg::Matrixd& view, std::vector<SurveyedTile>& tiles)
+        : _known(known), _eyeToWorld(osg::Matrixd::inverse(view)), _tiles(tiles) {}
+
+    using osgUtil::CullVisitor::apply;
+    void apply(osg::Node& node) override { visit(node); }
+    void apply(osg::Geode& node) override { visit(node); }
+    void apply(osg::Group& node) override { visit(node); }
+    void apply(osg::LOD& node) override { visit(node); }
+    void apply(osg::Switch& node) override { visit(node); }
+    void apply(osg::Transform& node) override { visit(node); }
+    // what is drawn to textures or on top is not this camera's view
+    void apply(osg::Camera&) override {}
+    void apply(osg::Drawable& drawable) override {
+        reach(drawable);
+        const bool isTile = open(drawable);
+        const unsigned int before = _currentReuseRenderLeafIndex;
+        osgUtil::CullVisitor::apply(drawable);
+        if (_currentReuseRenderLeafIndex != before && !_open.empty()) {
+            _tiles[_open.back().index].isDrawn = true;
+            _tiles[_open.back().index].isCulled = false;
+        }
+        if (isTile) close();
+    }
+
+private:
+    struct OpenTile {
+        std::size_t index;
+        const osg::Node* tile;
+        BinCounts before;
+        bool isDecided;
+    };
+
+    template <class NodeType>
+    void visit(NodeType& node) {
+        reach(node);
+        const bool isTile = open(node);
+        osgUtil::CullVisitor::apply(node);
+        if (isTile) close();
+    }
+
+    // The tile that a node is, or stands for: installers put a group above tiles that are transforms.
+    [[nodiscard]] const osg::Node* tileOf(const osg::Node& node) const {
+        if (_known.count(&node)) return &node;
+        const osg::Group* group = node.asGroup();
+        const bool isCarrier = group && typeid(node) == typeid(osg::Group) && group->getNumChildren() == 1;
+        return isCarrier && _known.count(group->getChild(0)) ? group->getChild(0) : nullptr;
+    }
+
+    bool open(osg::Node& node) {
+        const osg::Node* tile = tileOf(node);
+        if (!tile || (!_open.empty() && _open.back().tile == tile)) return false;
+        if (!_open.empty()) _tiles[_open.back().index].isRefined = true;
+        SurveyedTile found;
+        found.node = &node;
+        found.isCulled = true;
+        if (const AnalyticBinCullCallback* callback = binCallbackOf(node)) {
+            found.bin = shownBin(*callback);
+            found.ellipsoid = _known.at(tile);
+            found.ecefToWorld = osg::Matrixd::inverse(callback->localToEcef()) * insideToWorld(node);
+        }
+        _open.push_back({_tiles.size(), tile, BinStatistics::of(*this).counts(), false});
+        _tiles.push_back(found);
+        return true;
+    }
+
+    void close() {
+        decide();
+        _open.pop_back();
+    }
+
+    // Something below the innermost tile: its own verdict is in the counters, and nothing else yet.
+    void reach(const osg::Node& node) {
+        if (_open.empty() || _open.back().tile == &node) return;
+        decide();
+        _tiles[_open.back().index].isCulled = false;
+    }
+
+    void decide() {
+        OpenTile& open = _open.back();
+        if (open.isDecided) return;
+        open.isDecided = true;
+        const BinCounts now = BinStatistics::of(*this).counts();
+        const BinCounts& before = open.before;
+        SurveyedTile& tile = _tiles[open.index];
+        tile.hasBin = now.tested != before.tested;
+        if (!tile.hasBin) return;
+        const auto grew = [&](std::uint32_t BinCounts::*counter) { return now.*counter != before.*counter; };
+        tile.isCulled = grew(&BinCounts::outside);
+        tile.verdict = grew(&BinCounts::hidden)      ? TileVerdict::Hidden
+                       : grew(&BinCounts::separated) ? TileVerdict::ReverseCulled
+                       : grew(&BinCounts::outside)   ? TileVerdict::Outside
+                       : grew(&BinCounts::inside)    ? TileVerdict::Inside
+                                                     : TileVerdict::Straddling;
+    }
+
+    // From the frame of a node's children.
+    [[nodiscard]] osg::Matrixd insideToWorld(osg::Node& node) {
+        osg::Matrixd matrix = *getModelViewMatrix();
+        if (const osg::Transform* transform = node.asTransform()) transform->computeLocalToWorldMatrix(matrix, this);
+        return matrix * _eyeToWorld;
+    }
+
+    const EllipsoidOfTile& _known;
+    const osg::Matrixd _eyeToWorld;
+    std::vector<SurveyedTile>& _tiles;
+    std::vector<OpenTile> _open;
+};
+
+}  // namespace
+
+TileSurvey::TileSurvey(osg::Camera& camera, osg::FrameStamp& frameStamp) {
+    const CullingView view = CameraCulling::cullingView(camera);
+    const EllipsoidOfTile known = tilesBelow(camera);
+    const osg::ref_ptr<osgUtil::StateGraph> graph = new osgUtil::StateGraph;
+    const osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
+    const osg::ref_ptr<Surveyor> surveyor = new Surveyor(known, view.view, _tiles);
+    stage->setViewport(view.viewport);
+    stage->setCamera(&camera);
+    surveyor->setStateGraph(graph);
+    surveyor->setRenderStage(stage);
+    surveyor->setFrameStamp(&frameStamp);
+    surveyor->setTraversalNumber(frameStamp.getFrameNumber());
+    surveyor->inheritCullSettings(camera);
+    surveyor->setTraversalMask(camera.getCullMask());
+    // counters start anew with a frame: not between this tile and that
+    BinStatistics::of(*surveyor).count(core::Side::Outside, frameStamp.getFrameNumber());
+    surveyor->pushViewport(view.viewport);
+    surveyor->pushProjectionMatrix(new osg::RefMatrix(view.projection));
+    surveyor->pushModelViewMatrix(new osg::RefMatrix(view.view), osg::Transform::ABSOLUTE_RF);
+    surveyor->traverse(camera);
+    surveyor->popModelViewMatrix();
+    surveyor->popProjectionMatrix();
+    surveyor->popViewport();
+}
+
+TileCounts TileSurvey::counts() const {
+    TileCounts counts;
+    counts.tested = _tiles.size();
+    for (const SurveyedTile& tile : _tiles) {
+        if (!tile.isCulled) ++counts.kept;
+        if (tile.isDrawn) ++counts.drawn;
+        if (tile.hasBin && tile.verdict == TileVerdict::Hidden) ++counts.hidden;
+        if (tile.hasBin && tile.verdict == TileVerdict::ReverseCulled) ++counts.reverseCulled;
+    }
+    return counts;
+}
+
+}  // namespace osgAnalyticBin
