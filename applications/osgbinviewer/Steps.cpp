@@ -4,11 +4,11 @@
 #include "Steps.h"
 
 #include "CameraView.h"
+#include "FrameCapture.h"
 
 #include <osg/Timer>
 #include <osgDB/DatabasePager>
 #include <osgDB/WriteFile>
-#include <osgViewer/ViewerEventHandlers>
 
 #include <algorithm>
 #include <cstdlib>
@@ -22,20 +22,18 @@ namespace {
 constexpr double kLongestWait = 120.0;  // seconds
 constexpr int kIdleFrames = 5;
 
-// Keeps the picture of one window.
-class Keeper : public osgViewer::ScreenCaptureHandler::CaptureOperation {
-public:
-    explicit Keeper(unsigned int context) : _context(context) {}
-
-    void operator()(const osg::Image& image, const unsigned int context) override {
-        if (context == _context) picture = new osg::Image(image);
+// The camera of a window that draws last.
+osg::Camera& lastCamera(osg::GraphicsContext& window) {
+    osg::Camera* last = nullptr;
+    for (osg::Camera* camera : window.getCameras()) {
+        const bool isLater = !last || last->getRenderOrder() < camera->getRenderOrder() ||
+                             (last->getRenderOrder() == camera->getRenderOrder() &&
+                              last->getRenderOrderNum() <= camera->getRenderOrderNum());
+        if (camera->getNodeMask() != 0 && isLater) last = camera;
     }
-
-    osg::ref_ptr<osg::Image> picture;
-
-private:
-    const unsigned int _context;
-};
+    if (!last) throw std::runtime_error("--steps: a window without a camera");
+    return *last;
+}
 
 }  // namespace
 
@@ -111,13 +109,16 @@ void Steps::drawUntilIdle() {
 }
 
 void Steps::takePicture(const std::string& fileName, osg::GraphicsContext* window) {
-    const osg::ref_ptr<Keeper> keeper = new Keeper(window->getState()->getContextID());
-    const osg::ref_ptr<osgViewer::ScreenCaptureHandler> capture = new osgViewer::ScreenCaptureHandler(keeper);
-    capture->captureNextFrame(_viewer);
-    drawFrames(2);
-    if (!keeper->picture) throw std::runtime_error("--steps: a picture was never drawn; try --SingleThreaded");
+    osg::Camera& camera = lastCamera(*window);
+    const osg::ref_ptr<flight::FrameCapture> capture = new flight::FrameCapture;
+    camera.addFinalDrawCallback(capture);
+    capture->request(_viewer.getFrameStamp()->getFrameNumber() + 1);
+    drawFrames(1);
+    camera.removeFinalDrawCallback(capture);
+    const osg::ref_ptr<osg::Image> picture = capture->take();
+    if (!picture) throw std::runtime_error("--steps: a picture was never drawn");
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("JPEG_QUALITY 88");
-    if (!osgDB::writeImageFile(*keeper->picture, fileName, options)) {
+    if (!osgDB::writeImageFile(*picture, fileName, options)) {
         throw std::runtime_error("--steps: " + fileName + " cannot be written");
     }
 }

@@ -11,6 +11,7 @@
 #include <osg/MatrixTransform>
 #include <osgViewer/View>
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -108,13 +109,14 @@ void BinDisplayHandler::showLegend(const TileSurvey& survey, osg::Camera& camera
         }
         if (tile.isDrawn) ++drawn;
     }
-    std::vector<TextPanel::Line> lines{
-        {std::to_string(survey.tiles().size()) + " tiles tested, " + std::to_string(drawn) + " drawn; bins:",
-         kTextColour}};
-    for (std::size_t i = 0; i < kVerdicts.size(); ++i) {
+    const bool hasBins = std::any_of(numbers.begin(), numbers.end(), [](std::size_t number) { return number > 0; });
+    std::vector<TextPanel::Line> lines{{std::to_string(survey.tiles().size()) + " tiles tested, " +
+                                            std::to_string(drawn) + " drawn; " + (hasBins ? "bins:" : "no bin decides"),
+                                        kTextColour}};
+    for (std::size_t i = 0; hasBins && i < kVerdicts.size(); ++i) {
         lines.push_back({std::to_string(numbers[i]) + " " + verdictName(kVerdicts[i]), verdictColour(kVerdicts[i])});
     }
-    if (_showsQuadratic) lines.push_back({"the quadratic approximation", kQuadraticColour});
+    if (hasBins && _showsQuadratic) lines.push_back({"the quadratic approximation", kQuadraticColour});
     _legend->show(camera, lines);
 }
 

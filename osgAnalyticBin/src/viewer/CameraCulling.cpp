@@ -64,6 +64,18 @@ void CameraCulling::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     if (other && other != this) other->drawOverlay(*visitor);
 }
 
+void CameraCulling::resizeGLObjectBuffers(unsigned int size) {
+    _overlay->resizeGLObjectBuffers(size);
+}
+
+// A window that closes gives its number to the next one: nothing of it may be left.
+void CameraCulling::releaseGLObjects(osg::State* state) const {
+    _overlay->releaseGLObjects(state);
+    osg::ref_ptr<osg::Camera> followed;
+    const CameraCulling* other = _followed.lock(followed) ? find(*followed) : nullptr;
+    if (other && other != this) other->_overlay->releaseGLObjects(state);
+}
+
 void CameraCulling::drawOverlay(osgUtil::CullVisitor& visitor) const {
     if (_overlay->getNumChildren() == 0) return;
     const auto mode = visitor.getComputeNearFarMode();

@@ -5,6 +5,7 @@
 #include "ViewTools.h"
 
 #include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/viewer/CameraCulling.h>
 #include <osgAnalyticBin/viewer/MethodSwitchHandler.h>
 
 #include <osgViewer/View>
@@ -16,8 +17,9 @@ namespace osgAnalyticBin {
 
 namespace {
 
-constexpr std::array<Method, 6> kMethods{Method::Quadratic, Method::Exact,  Method::Paper,
-                                         Method::Corners,   Method::Sphere, Method::None};
+// the comparison that most ask for comes first
+constexpr std::array<Method, 6> kMethods{Method::Quadratic, Method::Sphere, Method::None,
+                                         Method::Exact,     Method::Paper,  Method::Corners};
 constexpr double kSecondsShown = 15.0;
 const osg::Vec4 kTextColour(0.9F, 0.9F, 0.9F, 1.0F);
 const osg::Vec4 kFewerColour(0.3F, 1.0F, 0.35F, 1.0F);
@@ -27,6 +29,10 @@ Method neighbour(Method method, std::size_t step) {
     std::size_t at = 0;
     while (at + 1 < kMethods.size() && kMethods[at] != method) ++at;
     return kMethods[(at + step) % kMethods.size()];
+}
+
+TextPanel::Line countLine(const std::string& what, std::size_t now) {
+    return {"tiles " + what + ": " + std::to_string(now), kTextColour};
 }
 
 TextPanel::Line changeLine(const std::string& what, std::size_t before, std::size_t now) {
@@ -49,7 +55,10 @@ void MethodSwitchHandler::setMethod(osgGA::GUIActionAdapter& action, Method meth
     if (!view || !view->getSceneData()) return;
     const std::vector<osg::Camera*> cameras = drawingCameras(*view);
     _methodBefore = _options.method;
-    if (!cameras.empty()) _countsBefore = TileSurvey(*cameras.front(), *view->getFrameStamp()).counts();
+    if (!cameras.empty()) {
+        _countsBefore = TileSurvey(*cameras.front(), *view->getFrameStamp()).counts();
+        _viewBefore = CameraCulling::cullingView(*cameras.front()).view;
+    }
     _options.method = method;
     setCullOptions(*view->getSceneData(), _options);
     _shownUntil = view->getFrameStamp()->getReferenceTime() + kSecondsShown;
@@ -61,11 +70,18 @@ void MethodSwitchHandler::showChange(osg::Camera& camera, osg::FrameStamp& frame
         return;
     }
     const TileCounts now = TileSurvey(camera, frameStamp).counts();
-    _panel->show(camera, {{std::string("culling: ") + methodName(_methodBefore) + " -> " + methodName(_options.method),
-                           kTextColour},
-                          changeLine("tested", _countsBefore.tested, now.tested),
-                          changeLine("kept", _countsBefore.kept, now.kept),
-                          changeLine("drawn", _countsBefore.drawn, now.drawn)});
+    // from elsewhere the difference says nothing of the method
+    const bool isComparable = CameraCulling::cullingView(camera).view == _viewBefore;
+    std::vector<TextPanel::Line> lines{
+        {std::string("culling: ") + methodName(_methodBefore) + " -> " + methodName(_options.method), kTextColour}};
+    const auto add = [&](const char* what, std::size_t TileCounts::*count) {
+        lines.push_back(isComparable ? changeLine(what, _countsBefore.*count, now.*count)
+                                     : countLine(what, now.*count));
+    };
+    add("tested", &TileCounts::tested);
+    add("kept", &TileCounts::kept);
+    add("drawn", &TileCounts::drawn);
+    _panel->show(camera, lines);
 }
 
 bool MethodSwitchHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) {

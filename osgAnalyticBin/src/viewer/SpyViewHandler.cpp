@@ -92,7 +92,7 @@ public:
     std::optional<SceneGlobe> globe;
     double azimuth = osg::DegreesToRadians(60.0);
     double elevation = osg::DegreesToRadians(35.0);
-    double distance = 1.6;
+    double distance = 2.4;
 
 private:
     [[nodiscard]] osg::Matrixd viewOf(osg::Camera& watched, const osg::Node& scene) const {
@@ -100,7 +100,7 @@ private:
         const osg::Vec3d eye = osg::Vec3d() * toWorld;
         const osg::Vec3d sight = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, -1.0), toWorld);
         const osg::Vec3d target = targetOf(eye, sight, scene);
-        const osg::Vec3d center = (eye + target) * 0.5;
+        const osg::Vec3d center = eye * 0.4 + target * 0.6;
         osg::Vec3d up = globe ? globe->vertical(center) : osg::Vec3d(0.0, 0.0, 1.0);
         osg::Vec3d forward = sight - up * (sight * up);
         if (forward.normalize() < 1e-3) {
@@ -155,7 +155,12 @@ void SpyViewHandler::open(osgViewer::View& view) {
     culling.follow(&watched);
     _frustum = new osg::Group;
     culling.overlay().addChild(_frustum);
+    // a new slave's renderer sets the master's state to OSG's defaults: lighting switched off by a key would come back
+    osg::StateSet& state = *view.getCamera()->getOrCreateStateSet();
+    const osg::ref_ptr<osg::StateSet> before = new osg::StateSet(state);
     view.addSlave(_camera, osg::Matrixd(), osg::Matrixd(), true);
+    state.setModeList(before->getModeList());
+    state.setAttributeList(before->getAttributeList());
     view.getSlave(view.getNumSlaves() - 1)._updateSlaveCallback = _placement;
     // arrays of the scene with a place for each window
     view.getSceneData()->resizeGLObjectBuffers(osg::DisplaySettings::instance()->getMaxNumberOfGraphicsContexts());
@@ -163,11 +168,12 @@ void SpyViewHandler::open(osgViewer::View& view) {
 
 void SpyViewHandler::close(osgViewer::View& view) {
     const ThreadPause pause(*view.getViewerBase());
+    // while the camera is still there, whose scene has something in the window
+    const osg::ref_ptr<osg::GraphicsContext> window = _camera->getGraphicsContext();
+    if (window) window->close();
     const unsigned int slave = view.findSlaveIndexForCamera(_camera);
     if (slave < view.getNumSlaves()) view.removeSlave(slave);
-    const osg::ref_ptr<osg::GraphicsContext> window = _camera->getGraphicsContext();
     _camera->setGraphicsContext(nullptr);
-    if (window) window->close();
     _camera = nullptr;
     _frustum = nullptr;
 }

@@ -47,6 +47,7 @@ osg::ref_ptr<osg::Geometry> makeBackground(float left, float bottom, float width
 }  // namespace
 
 TextPanel::TextPanel(Corner corner) : _corner(corner), _hud(new osg::Camera) {
+    _hud->setNodeMask(0);
     _hud->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
     _hud->setRenderOrder(osg::Camera::POST_RENDER);
     _hud->setClearMask(0);
@@ -60,16 +61,18 @@ TextPanel::TextPanel(Corner corner) : _corner(corner), _hud(new osg::Camera) {
 
 TextPanel::~TextPanel() = default;
 
+// It stays in the overlay, to be found when a window closes.
 void TextPanel::hide() {
-    while (_hud->getNumParents() > 0) _hud->getParent(0)->removeChild(_hud);
+    _hud->setNodeMask(0);
 }
 
 void TextPanel::show(osg::Camera& camera, const std::vector<Line>& lines) {
     osg::Group& overlay = CameraCulling::of(camera).overlay();
     if (!overlay.containsNode(_hud)) {
-        hide();
+        while (_hud->getNumParents() > 0) _hud->getParent(0)->removeChild(_hud);
         overlay.addChild(_hud);
     }
+    _hud->setNodeMask(~0U);
     const double width = camera.getViewport() ? camera.getViewport()->width() : 1.0;
     if (_lines == lines && _width == width) return;
     _lines = lines;
@@ -84,7 +87,7 @@ void TextPanel::show(osg::Camera& camera, const std::vector<Line>& lines) {
         y -= kLineHeight;
     }
     texts->insertChild(0, makeBackground(kMargin, kMargin, widest - kMargin,
-                                            kLineHeight * static_cast<float>(lines.size()) + 0.5F * kMargin));
+                                         kLineHeight * static_cast<float>(lines.size()) + 0.5F * kMargin));
     const double shift = _corner == Corner::BottomRight ? width - widest - kMargin : 0.0;
     const double height = camera.getViewport() ? camera.getViewport()->height() : 1.0;
     _hud->setProjectionMatrixAsOrtho(-shift, width - shift, 0.0, height, -1.0, 1.0);

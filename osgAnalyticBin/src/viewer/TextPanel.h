@@ -32,7 +32,7 @@ public:
     void show(osg::Camera& camera, const std::vector<Line>& lines);
     void hide();
 
-    [[nodiscard]] bool isShown() const { return _hud->getNumParents() > 0; }
+    [[nodiscard]] bool isShown() const { return _hud->getNodeMask() != 0; }
 
 protected:
     ~TextPanel() override;

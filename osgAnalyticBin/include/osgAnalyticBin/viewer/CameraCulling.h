@@ -62,6 +62,9 @@ public:
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
+    void resizeGLObjectBuffers(unsigned int size) override;
+    void releaseGLObjects(osg::State* state) const override;
+
 protected:
     ~CameraCulling() override;
 

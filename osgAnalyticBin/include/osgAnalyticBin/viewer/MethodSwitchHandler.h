@@ -14,7 +14,8 @@ namespace osgAnalyticBin {
 class TextPanel;
 
 /// Keys `n` and `N`: the next and the previous culling method for the view's scene, tiles that are paged in later
-/// included; what that changes in tiles is shown for a while. One handler for each scene.
+/// included; what that changes in tiles is shown for a
+/// while, as a difference as long as the camera stands still. One handler for each scene.
 class OSGANALYTICBINVIEWER_EXPORT MethodSwitchHandler : public osgGA::GUIEventHandler {
 public:
     /// `options`: those that the scene's bins were installed with.
@@ -43,6 +44,7 @@ private:
     CullOptions _options;
     Method _methodBefore;
     TileCounts _countsBefore;
+    osg::Matrixd _viewBefore;
     double _shownUntil = -1.0;  // reference time, seconds
     const osg::ref_ptr<TextPanel> _panel;
 };

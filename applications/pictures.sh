@@ -1,0 +1,33 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+# SPDX-License-Identifier: MIT
+#
+# Takes README's pictures of osgbinviewer into osgAnalyticBin/doc, on a virtual display:
+#     sh applications/pictures.sh [DATABASE]
+# DATABASE: that of applications/demo.sh by default, which has to be there; the project has to be built.
+
+set -eu
+cd "$(dirname "$0")/.."
+
+build=build/release
+database=${1:-demo/earth.osgb}
+doc=osgAnalyticBin/doc
+
+[ -f "$database" ] || { echo "pictures.sh: $database is missing; run \"sh applications/demo.sh\" first" >&2; exit 1; }
+
+# Two windows beside each other.
+take() {
+    xvfb-run -a -s "-screen 0 2560x720x24" env LIBGL_ALWAYS_SOFTWARE=1 \
+        LD_LIBRARY_PATH="$PWD/$build/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" \
+        "$build/bin/osgbinviewer" "$database" --window 0 0 1200 675 \
+        --poses applications/osgbinviewer/pictures.csv --steps "$*"
+}
+
+# l: without lighting, so that colours are those of the legend
+take at=alps press=l press=B picture="$doc/viewer_bins.jpg" \
+    press=F at=aside picture="$doc/viewer_frozen.jpg" \
+    at=above press=Q picture="$doc/viewer_quadratic.jpg" \
+    press=B press=B press=n picture="$doc/viewer_method.jpg"
+take at=alps press=l press=B press=y spy=65,38,3 spypicture="$doc/viewer_spy.jpg"
+take at=alps press=l press=s press=s frames=25 at=peaks frames=25 at=aside frames=25 at=peaks frames=25 at=alps \
+    frames=25 picture="$doc/viewer_stats.jpg" press=s press=s press=s press=h picture="$doc/viewer_help.jpg"

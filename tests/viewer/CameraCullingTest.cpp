@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+//
+// A camera that is culled by another view than its own. Oracle: a cull traversal of that other view.
+
+#include "ViewerScene.h"
+
+#include <gtest/gtest.h>
+#include <osg/Geode>
+#include <osg/Geometry>
+
+namespace osgAnalyticBin {
+namespace {
+
+using test::ViewerScene;
+using Drawn = std::map<const osg::Drawable*, osg::Matrixd>;
+
+std::set<const osg::Drawable*> drawables(const Drawn& drawn) {
+    std::set<const osg::Drawable*> set;
+    for (const auto& [drawable, matrix] : drawn) set.insert(drawable);
+    return set;
+}
+
+// Metres by which matrices place points within 10 000 km of their origins differently, about.
+double difference(const osg::Matrixd& a, const osg::Matrixd& b) {
+    double largest = 0.0;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 3; ++j) largest = std::max(largest, std::abs(a(i, j) - b(i, j)) * (i < 3 ? 1e7 : 1.0));
+    return largest;
+}
+
+constexpr double kMillimetre = 1e-3;
+
+class FrozenCamera : public ::testing::Test {
+protected:
+    void SetUp() override {
+        _scene.lookFrom(20.0, 30.0, 300e3, 60.0, 40.0);
+        _seen = _scene.cull();
+        CameraCulling::of(_scene.camera()).freeze(CameraCulling::cullingView(_scene.camera()));
+        _scene.lookFrom(10.0, -60.0, 9e6, 20.0, 50.0);
+    }
+
+    ViewerScene _scene;
+    Drawn _seen;
+};
+
+TEST_F(FrozenCamera, DrawsPreciselyWhatItSawWhereTheFlyingViewSeesIt) {
+    const Drawn drawn = _scene.cull();
+    ASSERT_GT(_seen.size(), 1u);
+    EXPECT_EQ(drawables(drawn), drawables(_seen));
+    CameraCulling::of(_scene.camera()).thaw();
+    const Drawn own = _scene.cull();
+    EXPECT_NE(drawables(own), drawables(_seen));
+    std::size_t shared = 0;
+    for (const auto& [drawable, matrix] : drawn) {
+        if (!own.count(drawable)) continue;
+        ++shared;
+        EXPECT_LT(difference(matrix, own.at(drawable)), kMillimetre);
+    }
+    EXPECT_GT(shared, 0u);
+}
+
+TEST_F(FrozenCamera, AtItsOwnPlaceDrawsAsBefore) {
+    _scene.lookFrom(20.0, 30.0, 300e3, 60.0, 40.0);
+    const double nearBefore = (CameraCulling::of(_scene.camera()).thaw(), (void)_scene.cull(), _scene.nearPlane);
+    CameraCulling::of(_scene.camera()).freeze(CameraCulling::cullingView(_scene.camera()));
+    const Drawn drawn = _scene.cull();
+    EXPECT_EQ(drawables(drawn), drawables(_seen));
+    for (const auto& [drawable, matrix] : drawn) EXPECT_LT(difference(matrix, _seen.at(drawable)), kMillimetre);
+    EXPECT_NEAR(_scene.nearPlane, nearBefore, 1.0);
+}
+
+TEST_F(FrozenCamera, ComputesNearAndFarForTheFlyingView) {
+    (void)_scene.cull();
+    // 9000 km above the ground, the globe behind
+    EXPECT_GT(_scene.nearPlane, 5e6);
+    EXPECT_LT(_scene.farPlane, 2.5e7);
+    EXPECT_LT(_scene.nearPlane, _scene.farPlane);
+}
+
+TEST(FollowingCamera, IsCulledAsTheOtherAndDrawsItsOverlay) {
+    ViewerScene scene;
+    scene.lookFrom(20.0, 30.0, 300e3, 60.0, 40.0);
+    const osg::ref_ptr<osg::Camera> watched = new osg::Camera;
+    watched->setViewport(0, 0, 400, 400);
+    watched->setViewMatrix(scene.camera().getViewMatrix());
+    watched->setProjectionMatrix(scene.camera().getProjectionMatrix());
+    Drawn seen = scene.cull();
+    const osg::ref_ptr<osg::Geode> marker = new osg::Geode;
+    const osg::ref_ptr<osg::Geometry> triangle = osg::createTexturedQuadGeometry({}, {1e6F, 0, 0}, {0, 1e6F, 0});
+    marker->addDrawable(triangle);
+    CameraCulling::of(*watched).overlay().addChild(marker);
+    CameraCulling::of(scene.camera()).follow(watched);
+    scene.lookFrom(10.0, -60.0, 9e6, 20.0, 50.0);
+    std::set<const osg::Drawable*> expected = drawables(seen);
+    expected.insert(triangle);
+    EXPECT_EQ(drawables(scene.cull()), expected);
+    EXPECT_GT(scene.nearPlane, 5e6) << "the overlay does not count";
+    CameraCulling::of(scene.camera()).follow(nullptr);
+    EXPECT_NE(drawables(scene.cull()), expected);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin

@@ -1,0 +1,303 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+//
+// The event handlers in a whole viewer that draws into a pbuffer; keys are pressed as a user would. Needs a display
+// (Xvfb will do); skipped where no graphics context can be made.
+
+#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/viewer/BinDisplayHandler.h>
+#include <osgAnalyticBin/viewer/BinStatsHandler.h>
+#include <osgAnalyticBin/viewer/CameraCulling.h>
+#include <osgAnalyticBin/viewer/FreezeCullHandler.h>
+#include <osgAnalyticBin/viewer/MethodSwitchHandler.h>
+#include <osgAnalyticBin/viewer/PathRecorder.h>
+#include <osgAnalyticBin/viewer/SpyViewHandler.h>
+
+#include <gtest/gtest.h>
+#include <osgDB/DatabasePager>
+#include <osgDB/ReadFile>
+#include <osgGA/StateSetManipulator>
+#include <osgViewer/Viewer>
+#include <osgViewer/ViewerEventHandlers>
+
+#include <algorithm>
+#include <fstream>
+#include <support/SyntheticDatabase.h>
+#include <support/TemporaryFolder.h>
+
+namespace osgAnalyticBin {
+namespace {
+
+constexpr int kSize = 128;
+
+osg::ref_ptr<osg::GraphicsContext> makeSurface() {
+    osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
+    traits->readDISPLAY();
+    traits->setUndefinedScreenDetailsToDefaultScreen();
+    traits->width = kSize;
+    traits->height = kSize;
+    traits->pbuffer = true;
+    traits->doubleBuffer = true;
+    return osg::GraphicsContext::createGraphicsContext(traits);
+}
+
+class Picture : public osg::Camera::DrawCallback {
+public:
+    void operator()(osg::RenderInfo&) const override {
+        image->readPixels(0, 0, kSize, kSize, GL_RGB, GL_UNSIGNED_BYTE);
+    }
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+};
+
+class Handlers : public ::testing::Test {
+protected:
+    void SetUp() override {
+        _file = test::writeSyntheticDatabase(_folder.path());
+        const osg::ref_ptr<osg::GraphicsContext> surface = makeSurface();
+        if (!surface) GTEST_SKIP() << "no graphics context; run under xvfb-run";
+        setUp(_viewer, *surface, *read(Method::Quadratic));
+        _methods = new MethodSwitchHandler;
+        _freeze = new FreezeCullHandler;
+        _bins = new BinDisplayHandler;
+        _spy = new SpyViewHandler;
+        _stats = new osgViewer::StatsHandler;
+        for (osgGA::GUIEventHandler* handler : std::initializer_list<osgGA::GUIEventHandler*>{
+                 _methods, _freeze, _bins, _spy, new BinStatsHandler(*_stats), _stats}) {
+            _viewer.addEventHandler(handler);
+        }
+    }
+
+    osg::ref_ptr<osg::Node> read(Method method) const {
+        osg::ref_ptr<osg::Node> database = osgDB::readRefNodeFile(_file);
+        CullOptions options;
+        options.method = method;
+        installBins(*database, options);
+        return database;
+    }
+
+    void setUp(osgViewer::Viewer& viewer, osg::GraphicsContext& surface, osg::Node& database) {
+        viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
+        osg::Camera& camera = *viewer.getCamera();
+        camera.setGraphicsContext(&surface);
+        camera.setViewport(0, 0, kSize, kSize);
+        camera.setProjectionMatrixAsPerspective(40.0, 1.0, 1e3, 1e7);
+        camera.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+        camera.setDrawBuffer(GL_BACK);
+        camera.setReadBuffer(GL_BACK);
+        viewer.setSceneData(&database);
+        viewer.realize();
+        look(viewer, 1.0);
+    }
+
+    // 300 km above the equator, looking down at 45 degrees to the east or west.
+    static void look(osgViewer::Viewer& viewer, double side) {
+        const osg::Vec3d eye(6378137.0 + 300e3, 0.0, 0.0);
+        viewer.getCamera()->setViewMatrixAsLookAt(eye, eye + osg::Vec3d(-1.0, side, 0.0), osg::Vec3d(1.0, 0.0, 0.0));
+    }
+
+    static void drawUntilIdle(osgViewer::Viewer& viewer) {
+        constexpr int kMostFrames = 2000;
+        for (int idle = 0, frame = 0; idle < 5 && frame < kMostFrames; ++frame) {
+            viewer.frame();
+            osgDB::DatabasePager& pager = *viewer.getDatabasePager();
+            idle = pager.getRequestsInProgress() || pager.requiresUpdateSceneGraph() ? 0 : idle + 1;
+            if (idle == 0) OpenThreads::Thread::microSleep(2000);
+        }
+    }
+
+    void press(int key) {
+        _viewer.getEventQueue()->keyPress(key);
+        _viewer.getEventQueue()->keyRelease(key);
+        drawUntilIdle(_viewer);
+    }
+
+    void showOverlay(bool shown) { CameraCulling::of(*_viewer.getCamera()).overlay().setNodeMask(shown ? ~0U : 0U); }
+
+    static osg::ref_ptr<osg::Image> picture(osgViewer::Viewer& viewer) {
+        const osg::ref_ptr<Picture> reader = new Picture;
+        viewer.getCamera()->setFinalDrawCallback(reader);
+        viewer.frame();
+        viewer.getCamera()->setFinalDrawCallback(nullptr);
+        return reader->image;
+    }
+
+    static std::size_t differingBytes(const osg::Image& a, const osg::Image& b) {
+        std::size_t count = 0;
+        for (unsigned int i = 0; i < a.getTotalSizeInBytes(); ++i) count += a.data()[i] != b.data()[i] ? 1U : 0U;
+        return count;
+    }
+
+    TileCounts counts(osgViewer::Viewer& viewer) {
+        return TileSurvey(*viewer.getCamera(), *viewer.getFrameStamp()).counts();
+    }
+
+    test::TemporaryFolder _folder;
+    std::string _file;
+    osgViewer::Viewer _viewer;
+    osg::ref_ptr<MethodSwitchHandler> _methods;
+    osg::ref_ptr<FreezeCullHandler> _freeze;
+    osg::ref_ptr<BinDisplayHandler> _bins;
+    osg::ref_ptr<SpyViewHandler> _spy;
+    osg::ref_ptr<osgViewer::StatsHandler> _stats;
+};
+
+TEST_F(Handlers, SwitchToWhatAFreshViewerShowsWithTheMethod) {
+    drawUntilIdle(_viewer);
+    double side = 1.0;
+    for (int i = 0; i < 6; ++i) {
+        press('n');
+        const Method method = _methods->cullOptions().method;
+        look(_viewer, side = -side);
+        drawUntilIdle(_viewer);
+        showOverlay(false);
+        osgViewer::Viewer fresh;
+        const osg::ref_ptr<osg::GraphicsContext> surface = makeSurface();
+        setUp(fresh, *surface, *read(method));
+        look(fresh, side);
+        drawUntilIdle(fresh);
+        const TileCounts ours = counts(_viewer);
+        const TileCounts theirs = counts(fresh);
+        EXPECT_EQ(ours.tested, theirs.tested) << methodName(method);
+        EXPECT_EQ(ours.kept, theirs.kept) << methodName(method);
+        EXPECT_EQ(ours.drawn, theirs.drawn) << methodName(method);
+        EXPECT_EQ(ours.hidden, theirs.hidden) << methodName(method);
+        EXPECT_EQ(differingBytes(*picture(_viewer), *picture(fresh)), 0u) << methodName(method);
+        showOverlay(true);
+    }
+    EXPECT_EQ(_methods->cullOptions().method, Method::Quadratic);
+}
+
+TEST_F(Handlers, FreezeWhatIsDrawn) {
+    drawUntilIdle(_viewer);
+    const std::size_t drawn = counts(_viewer).drawn;
+    press('F');
+    EXPECT_TRUE(_freeze->isFrozen());
+    ASSERT_TRUE(CameraCulling::find(*_viewer.getCamera()));
+    EXPECT_EQ(CameraCulling::find(*_viewer.getCamera())->overlay().getNumChildren(), 1u);
+    look(_viewer, -1.0);
+    drawUntilIdle(_viewer);
+    EXPECT_EQ(counts(_viewer).drawn, drawn);
+    const auto frozen = picture(_viewer);
+    press('F');
+    EXPECT_EQ(CameraCulling::find(*_viewer.getCamera())->overlay().getNumChildren(), 0u);
+    EXPECT_GT(differingBytes(*frozen, *picture(_viewer)), 1000u);
+}
+
+TEST_F(Handlers, ShowASlabForEachBinThatTheTraversalEndsAt) {
+    drawUntilIdle(_viewer);
+    EXPECT_EQ(_bins->slabs().getNumChildren(), 0u);
+    press('B');
+    const TileSurvey survey(*_viewer.getCamera(), *_viewer.getFrameStamp());
+    const auto ends = std::count_if(survey.tiles().begin(), survey.tiles().end(),
+                                    [](const SurveyedTile& tile) { return tile.isCulled || tile.isDrawn; });
+    EXPECT_EQ(_bins->slabs().getNumChildren(), static_cast<unsigned int>(ends));
+    press('B');
+    EXPECT_EQ(_bins->slabs().getNumChildren(), survey.tiles().size());
+    press('Q');
+    EXPECT_EQ(_bins->slabs().getChild(0)->asGroup()->getNumChildren(), 2u);
+    press('B');
+    EXPECT_EQ(_bins->slabs().getNumChildren(), 0u);
+}
+
+TEST_F(Handlers, DoNotChangeThePictureOnceTheyAreSwitchedOff) {
+    drawUntilIdle(_viewer);
+    const auto before = picture(_viewer);
+    for (const int key : {'F', 'B', 'B', 'y'}) press(key);
+    EXPECT_GT(differingBytes(*before, *picture(_viewer)), 0u);
+    for (const int key : {'F', 'B', 'y'}) press(key);
+    EXPECT_EQ(differingBytes(*before, *picture(_viewer)), 0u);
+}
+
+TEST_F(Handlers, OpenASecondWindowThatIsCulledAsTheFirst) {
+    drawUntilIdle(_viewer);
+    const std::size_t drawn = counts(_viewer).drawn;
+    press('y');
+    ASSERT_TRUE(_spy->isOpen());
+    const TileSurvey spied(*_spy->camera(), *_viewer.getFrameStamp());
+    EXPECT_EQ(spied.counts().drawn, drawn);
+    EXPECT_NE(_spy->camera()->getViewMatrix(), _viewer.getCamera()->getViewMatrix());
+    press('y');
+    EXPECT_FALSE(_spy->isOpen());
+    EXPECT_EQ(_viewer.getNumSlaves(), 0u);
+}
+
+TEST_F(Handlers, FillOsgsStatistics) {
+    drawUntilIdle(_viewer);
+    osg::Stats& stats = *_viewer.getViewerStats();
+    double value = -1.0;
+    EXPECT_FALSE(stats.getAttribute(_viewer.getFrameStamp()->getFrameNumber() - 1, "Tiles tested", value));
+    press('s');
+    const TileCounts expected = counts(_viewer);
+    const unsigned int frame = _viewer.getFrameStamp()->getFrameNumber() - 1;
+    const auto attribute = [&](const char* name) {
+        double number = -1.0;
+        EXPECT_TRUE(stats.getAttribute(frame, name, number)) << name;
+        return number;
+    };
+    EXPECT_EQ(attribute("Tiles tested"), double(expected.tested));
+    EXPECT_EQ(attribute("Tiles kept"), double(expected.kept));
+    EXPECT_EQ(attribute("Tiles drawn"), double(expected.drawn));
+    EXPECT_EQ(attribute("Tiles hidden"), double(expected.hidden));
+    EXPECT_EQ(attribute("Tiles beyond an edge"), double(expected.reverseCulled));
+    EXPECT_GT(expected.drawn, 0u);
+}
+
+class HandlersInThreads : public Handlers,
+                          public ::testing::WithParamInterface<osgViewer::ViewerBase::ThreadingModel> {};
+
+TEST_P(HandlersInThreads, ComeBackToWhatWasDrawnBefore) {
+    drawUntilIdle(_viewer);
+    const TileCounts before = counts(_viewer);
+    const auto pictureBefore = picture(_viewer);
+    _viewer.setThreadingModel(GetParam());
+    for (const int key : {'F', 'B', 'y', 'n', 'n', 'n', 'Q', 'n', 'n', 'n', 'F', 'B', 'B', 'y'}) press(key);
+    _viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
+    EXPECT_EQ(_methods->cullOptions().method, Method::Quadratic);
+    EXPECT_EQ(_bins->shown(), BinDisplayHandler::Shown::Nothing);
+    const TileCounts after = counts(_viewer);
+    EXPECT_EQ(after.kept, before.kept);
+    EXPECT_EQ(after.drawn, before.drawn);
+    showOverlay(false);
+    EXPECT_EQ(differingBytes(*pictureBefore, *picture(_viewer)), 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, HandlersInThreads,
+                         ::testing::Values(osgViewer::ViewerBase::CullDrawThreadPerContext,
+                                           osgViewer::ViewerBase::DrawThreadPerContext,
+                                           osgViewer::ViewerBase::CullThreadPerCameraDrawThreadPerContext));
+
+TEST_F(Handlers, RecordWhileTheCameraMoves) {
+    const std::string file = _folder.path() + "/path.csv";
+    const osg::ref_ptr<PathRecorder> recorder = new PathRecorder(file, 0.0);
+    _viewer.addEventHandler(recorder);
+    press('R');
+    const std::size_t atRest = recorder->path().size();
+    EXPECT_EQ(atRest, 1u);
+    look(_viewer, -1.0);
+    drawUntilIdle(_viewer);
+    EXPECT_EQ(recorder->path().size(), 2u);
+    EXPECT_FALSE(std::ifstream(file));
+    press('R');
+    EXPECT_TRUE(std::ifstream(file));
+}
+
+TEST_F(Handlers, NameTheirKeysAndTakeNoneOfOsgs) {
+    const auto bindingsOf = [](const std::vector<osg::ref_ptr<osgGA::GUIEventHandler>>& handlers) {
+        const osg::ref_ptr<osg::ApplicationUsage> usage = new osg::ApplicationUsage;
+        for (const auto& handler : handlers) handler->getUsage(*usage);
+        return usage->getKeyboardMouseBindings();
+    };
+    const auto osgs = bindingsOf(
+        {_stats.get(), new osgViewer::HelpHandler, new osgViewer::WindowSizeHandler, new osgViewer::ThreadingHandler,
+         new osgViewer::LODScaleHandler, new osgViewer::RecordCameraPathHandler, new osgViewer::ScreenCaptureHandler,
+         new osgViewer::ToggleSyncToVBlankHandler, new osgGA::StateSetManipulator(new osg::StateSet)});
+    const auto ours =
+        bindingsOf({_methods.get(), _freeze.get(), _bins.get(), _spy.get(), new PathRecorder("none.csv")});
+    EXPECT_EQ(ours.size(), 7u);
+    EXPECT_GT(osgs.size(), 14u);
+    for (const auto& [key, text] : ours) EXPECT_EQ(osgs.count(key), 0u) << key << ": " << text;
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin

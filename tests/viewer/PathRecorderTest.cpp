@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+//
+// Recorded camera paths. Oracle: what osgbinbench makes of them.
+
+#include "CameraPath.h"
+#include "CameraView.h"
+#include "ViewerScene.h"
+
+#include <osgAnalyticBin/viewer/PathRecorder.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace osgAnalyticBin {
+namespace {
+
+using test::ViewerScene;
+
+std::vector<RecordedPose> somePath(ViewerScene& scene) {
+    std::vector<RecordedPose> path;
+    for (const double pitch : {0.5, 30.0, 65.0, 89.0}) {
+        scene.lookFrom(-33.0 + pitch, 150.0 + pitch, 1000.0 * (1.0 + pitch * pitch), pitch, 35.0);
+        const auto pose = recordedPose(scene.camera(), 0.5 * double(path.size()));
+        if (pose) path.push_back(*pose);
+    }
+    return path;
+}
+
+TEST(PathRecorder, WritesWhatIsReadBackEqual) {
+    ViewerScene scene;
+    const std::vector<RecordedPose> path = somePath(scene);
+    ASSERT_EQ(path.size(), 4u);
+    std::stringstream text;
+    writeCameraPath(text, path, PathColumns::Poses);
+    std::string error;
+    const auto read = flight::readCameraPath(text, "recorded", error);
+    ASSERT_TRUE(read) << error;
+    ASSERT_EQ(read->size(), path.size());
+    constexpr double kRounding = 1e-15;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        EXPECT_NEAR((*read)[i].eye.latitude, path[i].eye.latitude, kRounding);
+        EXPECT_NEAR((*read)[i].eye.longitude, path[i].eye.longitude, kRounding);
+        EXPECT_EQ((*read)[i].eye.altitude, path[i].eye.altitude);
+        EXPECT_NEAR((*read)[i].look.latitude, path[i].look.latitude, kRounding);
+        EXPECT_NEAR((*read)[i].look.longitude, path[i].look.longitude, 2.0 * kRounding);
+        EXPECT_EQ((*read)[i].look.altitude, path[i].look.altitude);
+        EXPECT_NEAR((*read)[i].verticalFov, path[i].verticalFov, kRounding);
+        EXPECT_EQ((*read)[i].nearPlane, path[i].nearPlane);
+        EXPECT_EQ((*read)[i].farPlane, path[i].farPlane);
+    }
+}
+
+TEST(PathRecorder, PlaysAsTheSameView) {
+    ViewerScene scene;
+    const flight::Globe globe = flight::globeOf(scene.database());
+    for (const double pitch : {1.0, 30.0, 80.0, 100.0}) {
+        scene.lookFrom(-33.0, 150.0, 20e3, pitch, 35.0);
+        const auto pose = recordedPose(scene.camera(), 0.0);
+        ASSERT_TRUE(pose);
+        EXPECT_NEAR(pose->roll, 0.0, 1e-6);
+        const flight::CameraPose played{"p", pose->eye, pose->look, pose->verticalFov, pose->nearPlane, pose->farPlane};
+        const osg::Matrixd difference =
+            osg::Matrixd::inverse(scene.camera().getViewMatrix()) * flight::viewMatrixOf(played, globe);
+        const osg::Vec3d ahead = osg::Vec3d(100.0, 200.0, -1000.0) * difference;
+        EXPECT_LT((ahead - osg::Vec3d(100.0, 200.0, -1000.0)).length(), 0.01) << pitch;
+    }
+}
+
+TEST(PathRecorder, TellsTheRoll) {
+    ViewerScene scene;
+    scene.lookFrom(10.0, 20.0, 50e3, 70.0, 35.0);
+    const osg::Matrixd level = scene.camera().getViewMatrix();
+    for (const double roll : {-2.0, -0.3, 0.4, 3.0}) {
+        // the camera turns clockwise: the picture turns the other way
+        scene.camera().setViewMatrix(level * osg::Matrixd::rotate(roll, osg::Vec3d(0.0, 0.0, 1.0)));
+        const auto pose = recordedPose(scene.camera(), 0.0);
+        ASSERT_TRUE(pose);
+        EXPECT_NEAR(pose->roll, roll, 1e-6);
+    }
+}
+
+TEST(PathRecorder, WritesTimeAndRollWhereAsked) {
+    ViewerScene scene;
+    std::stringstream text;
+    writeCameraPath(text, somePath(scene), PathColumns::PosesInTime);
+    std::string header;
+    std::getline(text, header);
+    EXPECT_EQ(header, "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg,near,far,time,rollDeg");
+    std::string line;
+    while (std::getline(text, line)) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 11);
+}
+
+TEST(PathRecorder, HasNoPoseOfAnOrthographicView) {
+    ViewerScene scene;
+    scene.camera().setProjectionMatrixAsOrtho(-1.0, 1.0, -1.0, 1.0, 1.0, 10.0);
+    EXPECT_FALSE(recordedPose(scene.camera(), 0.0));
+}
+
+TEST(PathRecorder, LeavesTheOldFileWhereTheNewCannotBeWritten) {
+    std::string error;
+    EXPECT_FALSE(writeCameraPathFile("/no/such/folder/path.csv", {}, PathColumns::Poses, error));
+    EXPECT_NE(error.find("/no/such/folder/path.csv"), std::string::npos);
+    test::TemporaryFolder folder;
+    ViewerScene scene;
+    const std::string file = folder.path() + "/path.csv";
+    EXPECT_TRUE(writeCameraPathFile(file, somePath(scene), PathColumns::Poses, error));
+    EXPECT_TRUE(flight::readCameraPathFile(file, error)) << error;
+    EXPECT_FALSE(std::ifstream(file + ".part"));
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin
