@@ -23,7 +23,8 @@ void describe(osg::ApplicationUsage& usage) {
     usage.addCommandLineOption("--poses <file.csv>", "Camera path with the poses that --steps names.");
     usage.addCommandLineOption(
         "--steps <text>",
-        "Do this and end: at=POSE, press=KEY, spy=AZIMUTH,ELEVATION,DISTANCE (degrees, and a multiple of the camera's "
+        "Do this and end: at=POSE (or home), press=KEY, spy=AZIMUTH,ELEVATION,DISTANCE (degrees, and a multiple of the "
+        "camera's "
         "distance), frames=N, picture=FILE, spypicture=FILE, parted by blanks; each waits for the database's pages.");
 }
 

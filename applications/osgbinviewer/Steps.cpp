@@ -5,6 +5,7 @@
 
 #include "CameraView.h"
 #include "FrameCapture.h"
+#include "HomeView.h"
 
 #include <osg/Timer>
 #include <osgDB/DatabasePager>
@@ -63,10 +64,15 @@ void Steps::runOne(const std::string& verb, const std::string& value) {
 }
 
 void Steps::standAt(const std::string& name) {
+    osg::Camera& camera = *_viewer.getCamera();
+    if (name == "home") {
+        const HomeView home = homeViewOf(*_viewer.getSceneData());
+        camera.setViewMatrixAsLookAt(home.eye, home.center, home.up);
+        return drawUntilIdle();
+    }
     const auto pose =
         std::find_if(_poses.begin(), _poses.end(), [&](const flight::CameraPose& each) { return each.name == name; });
     if (pose == _poses.end()) throw std::runtime_error("--steps: no pose \"" + name + "\" in the file of --poses");
-    osg::Camera& camera = *_viewer.getCamera();
     camera.setViewMatrix(flight::viewMatrixOf(*pose, flight::globeOf(*_viewer.getSceneData())));
     camera.setProjectionMatrix(flight::projectionMatrixOf(*pose, camera.getViewport()->aspectRatio()));
     drawUntilIdle();

@@ -18,7 +18,7 @@ namespace osgAnalyticBin {
 namespace {
 
 const core::Ellipsoid kEarth(6378137.0, 6356752.3142);
-constexpr double kSag = 2000.0;
+constexpr double kSag = 500.0;
 
 core::GeodeticBin binDeg(core::Interval latitude, core::Interval longitude, core::Interval altitude) {
     return core::GeodeticBin::fromDegrees(latitude, longitude, altitude);

@@ -144,8 +144,9 @@ void PathRecorder::setRecording(bool recording) {
 void PathRecorder::write() {
     if (_isWritten) return;
     std::string error;
-    _isWritten = writeCameraPathFile(_fileName, _path, _columns, error);
-    if (!_isWritten) OSG_WARN << "PathRecorder: " << error << "; choose another file." << std::endl;
+    const bool isGood = writeCameraPathFile(_fileName, _path, _columns, error);
+    _isWritten = true;
+    if (!isGood) OSG_WARN << "PathRecorder: " << error << "; choose another file." << std::endl;
 }
 
 void PathRecorder::record(osg::Camera& camera, double time) {
@@ -156,6 +157,11 @@ void PathRecorder::record(osg::Camera& camera, double time) {
     _path.push_back(*pose);
     _isWritten = false;
     _lastTime = time;
+    constexpr double kSecondsUnwritten = 5.0;
+    if (time >= _writtenAt + kSecondsUnwritten) {
+        _writtenAt = time;
+        write();
+    }
     _lastView = camera.getViewMatrix();
 }
 

@@ -22,10 +22,10 @@ namespace osgAnalyticBin {
 
 namespace {
 
-constexpr double kRadiansPerStep = 2.0 * 3.14159265358979323846 / 180.0;
+constexpr double kRadiansPerStep = 3.14159265358979323846 / 180.0;
 constexpr int kFewestSteps = 4;
 
-// Of a box's parameter: chords of at most two degrees.
+// Of a box's parameter: chords of at most a degree.
 int stepsOf(const core::Interval& angles) {
     return std::max(kFewestSteps, static_cast<int>(std::ceil(angles.width() / kRadiansPerStep)));
 }

@@ -48,7 +48,8 @@ OSGANALYTICBINVIEWER_EXPORT void writeCameraPath(std::ostream& out, const std::v
                                                                    PathColumns columns, std::string& error);
 
 /// Key `R`: starts or stops recording the view's camera into a file that osgbinbench plays: a pose every half second
-/// while it moves. The file is written whenever recording stops, and at the end. One handler for each view.
+/// while it moves. The file is written every five seconds, whenever recording stops, and at the end. One handler for
+/// each view.
 class OSGANALYTICBINVIEWER_EXPORT PathRecorder : public osgGA::GUIEventHandler {
 public:
     /// `interval`: seconds between poses.
@@ -81,6 +82,7 @@ private:
     bool _isRecording = false;
     bool _isWritten = true;
     double _lastTime = 0.0;
+    double _writtenAt = -1.0;
     osg::Matrixd _lastView;
     std::vector<RecordedPose> _path;
 };

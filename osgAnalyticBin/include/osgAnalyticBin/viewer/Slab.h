@@ -26,12 +26,12 @@ struct SlabMesh {
 /// Which surface of a bin.
 enum class SlabShape {
     Bin,       ///< the box in latitude, longitude and altitude itself
-    Quadratic  ///< its second-order Taylor model, which the quadratic bin tests
+    Quadratic  ///< its second-order Taylor model: what a quadratic bin tests; wide tiles are culled by the closed form
 };
 
-/// The six curved faces of a bin, a vertex every two degrees or finer.
+/// The six curved faces of a bin, a vertex every degree or finer.
 /// Guarantee: every vertex of SlabShape::Bin is on the bin's surface to the rounding of float; the faces leave it by
-/// 2 km at most, the sag of chords of two degrees, and that much only for bins so wide; tests: Slab.*.
+/// 500 m at most, the sag of chords of a degree both ways; tests: Slab.*.
 /// Requires: a bin that is not empty.
 [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT SlabMesh slabMesh(const core::GeodeticBin& bin,
                                                             const core::Ellipsoid& ellipsoid, SlabShape shape);
