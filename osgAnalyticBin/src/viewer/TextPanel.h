@@ -20,9 +20,7 @@ public:
         std::string text;
         osg::Vec4 colour;
 
-        [[nodiscard]] bool operator==(const Line& other) const {
-            return text == other.text && colour == other.colour;
-        }
+        [[nodiscard]] bool operator==(const Line& other) const { return text == other.text && colour == other.colour; }
     };
     enum class Corner { BottomLeft, BottomRight };
 

@@ -17,7 +17,7 @@
 namespace osgGA {
 class GUIActionAdapter;
 class GUIEventAdapter;
-}
+}  // namespace osgGA
 namespace osgViewer {
 class View;
 }
