@@ -73,8 +73,9 @@ void Steps::standAt(const std::string& name) {
     const auto pose =
         std::find_if(_poses.begin(), _poses.end(), [&](const flight::CameraPose& each) { return each.name == name; });
     if (pose == _poses.end()) throw std::runtime_error("--steps: no pose \"" + name + "\" in the file of --poses");
-    camera.setViewMatrix(flight::viewMatrixOf(*pose, flight::globeOf(*_viewer.getSceneData())));
-    camera.setProjectionMatrix(flight::projectionMatrixOf(*pose, camera.getViewport()->aspectRatio()));
+    const flight::Globe globe = flight::globeOf(*_viewer.getSceneData());
+    camera.setViewMatrix(flight::viewMatrixOf(*pose, globe));
+    camera.setProjectionMatrix(flight::projectionMatrixOf(*pose, globe, camera.getViewport()->aspectRatio()));
     drawUntilIdle();
 }
 
