@@ -74,18 +74,26 @@ private:
 };
 
 void storeBins(osg::Node& scene, const FileRecord& record, const BinIndex& index) {
-    std::map<osg::Node*, AnalyticBin> bins;
+    struct Stored {
+        AnalyticBin bin;
+        double surfaceLow;
+    };
+    std::map<osg::Node*, Stored> bins;
     for (const osgAnalyticBin::FoundTile& tile : osgAnalyticBin::findTiles(scene, frameOf(record.place, record.file))) {
         const BinIndex::Entry* entry = tile.frame.file == record.file ? index.find(record.file, tile.ordinal) : nullptr;
         if (!entry) continue;
         // a node that stands in two places has one bin for both
-        const auto [place, isNew] = bins.emplace(tile.node.get(), entry->bin);
-        if (!isNew && place->second.valid() && entry->bin.valid()) place->second.expandBy(entry->bin);
-        if (!entry->bin.valid()) place->second = AnalyticBin();
+        const auto [place, isNew] = bins.emplace(tile.node.get(), Stored{entry->bin, entry->ownLow});
+        Stored& stored = place->second;
+        stored.surfaceLow = std::min(stored.surfaceLow, entry->ownLow);
+        if (!isNew && stored.bin.valid() && entry->bin.valid()) stored.bin.expandBy(entry->bin);
+        if (!entry->bin.valid()) stored.bin = AnalyticBin();
     }
-    for (const auto& [node, bin] : bins) {
+    for (const auto& [node, stored] : bins) {
         // a tile that is not known is left to the installer, which keeps it visible
-        if (bin.valid()) setStoredBin(*node, bin);
+        if (!stored.bin.valid()) continue;
+        setStoredBin(*node, stored.bin);
+        osgAnalyticBin::setStoredSurfaceLow(*node, stored.surfaceLow);
     }
 }
 

@@ -76,14 +76,16 @@ void TileBuilder::finish(BuiltTile& tile, bool hasChildren) {
     const TileMesh mesh(tile.heights, _skirts.measure(tile.heights), _layout);
     AnalyticBin bin = sourceBin(id, tile.range);
     bin.expandBy(tile.bin);
-    bin.expandBy(binOf(mesh, _triangles, id, _layout));
+    const MeshExtent extent = extentOf(mesh, _triangles, id, _layout);
+    bin.expandBy(extent.bin);
     // What is stored is text, which may round outward: the tiles above have to hold that.
     tile.bin = AnalyticBin::fromText(bin.toText());
 
     const osg::ref_ptr<osg::Image> image = _image ? _image->texture(tile.heights) : nullptr;
     tile.geometry = makeGeometry(mesh, tile.heights, image);
     const osg::ref_ptr<osg::Node> placed = makePlaced(*tile.geometry, mesh.originEcef);
-    const TileFacts facts{tile.bin, _layout, _settings.lodFactor, hasChildren ? _folder.childrenFile(id) : ""};
+    const TileFacts facts{tile.bin, extent.surfaceLow, _layout, _settings.lodFactor,
+                          hasChildren ? _folder.childrenFile(id) : ""};
     tile.node = makeTileNode(id, *placed, facts);
 }
 

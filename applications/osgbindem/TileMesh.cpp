@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace osgbindem {
@@ -100,8 +101,8 @@ void TileMesh::placeOrigin(const HeightGrid& heights, const TileLayout& layout) 
     originEcef = rounded(layout.ellipsoid().toEcef(position), layout.quantum(heights.tile().level));
 }
 
-osgAnalyticBin::AnalyticBin binOf(const TileMesh& mesh, const std::vector<std::uint16_t>& triangles, const TileId& tile,
-                                  const TileLayout& layout) {
+MeshExtent extentOf(const TileMesh& mesh, const std::vector<std::uint16_t>& triangles, const TileId& tile,
+                    const TileLayout& layout) {
     using namespace osgAnalyticBin;
     const RectDeg rect = tile.rect();
     const double axisTolerance = tile.touchesPole() ? kAxisTolerance : 0.0;
@@ -111,12 +112,23 @@ osgAnalyticBin::AnalyticBin binOf(const TileMesh& mesh, const std::vector<std::u
     drawn.reserve(mesh.verticesEcef.size());
     for (const glm::dvec3& vertex : mesh.verticesEcef) {
         drawn.push_back(mesh.originEcef + glm::dvec3(glm::vec3(vertex - mesh.originEcef)));
-        bounds.expandByVertex(drawn.back());
     }
-    for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
-        bounds.expandByTriangle(drawn[triangles[i]], drawn[triangles[i + 1]], drawn[triangles[i + 2]]);
-    }
-    return AnalyticBin(bounds.bin(), kMargin + axisTolerance);
+    // the surface's vertices come first, and those of the skirts after them
+    const auto posts = static_cast<std::size_t>(layout.cells() + 1);
+    const std::size_t surfaceEnd = posts * posts;
+    const auto expand = [&](bool isSkirt) {
+        const std::size_t end = isSkirt ? drawn.size() : surfaceEnd;
+        for (std::size_t i = isSkirt ? surfaceEnd : 0; i < end; ++i) bounds.expandByVertex(drawn[i]);
+        for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
+            const std::size_t last = std::max({triangles[i], triangles[i + 1], triangles[i + 2]});
+            if ((last >= surfaceEnd) != isSkirt) continue;
+            bounds.expandByTriangle(drawn[triangles[i]], drawn[triangles[i + 1]], drawn[triangles[i + 2]]);
+        }
+    };
+    expand(false);
+    const double surfaceLow = bounds.bin().altitude().lower;
+    expand(true);
+    return {AnalyticBin(bounds.bin(), kMargin + axisTolerance), surfaceLow};
 }
 
 }  // namespace osgbindem

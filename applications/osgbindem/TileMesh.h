@@ -32,9 +32,16 @@ private:
     void placeOrigin(const HeightGrid& heights, const TileLayout& layout);
 };
 
-/// The bin of everything the mesh draws, as its float vertices draw it.
-/// Guarantee: holds every point of every triangle; the margin covers vertices at the axis, which have no longitude.
-[[nodiscard]] osgAnalyticBin::AnalyticBin binOf(const TileMesh& mesh, const std::vector<std::uint16_t>& triangles,
-                                                const TileId& tile, const TileLayout& layout);
+/// Where a mesh lies.
+struct MeshExtent {
+    osgAnalyticBin::AnalyticBin bin;  ///< of everything the mesh draws
+    double surfaceLow;                ///< metres; nothing but skirts is lower, the bin's margin apart
+};
+
+/// Of a mesh as its float vertices draw it.
+/// Guarantee: the bin holds every point of every triangle; the margin covers vertices at the axis, which have no
+/// longitude.
+[[nodiscard]] MeshExtent extentOf(const TileMesh& mesh, const std::vector<std::uint16_t>& triangles, const TileId& tile,
+                                  const TileLayout& layout);
 
 }  // namespace osgbindem

@@ -61,6 +61,7 @@ osg::ref_ptr<osg::Node> makeTileNode(const TileId& tile, osg::Node& placed, cons
         node = lod;
     }
     osgAnalyticBin::setStoredBin(*node, facts.bin);
+    osgAnalyticBin::setStoredSurfaceLow(*node, facts.surfaceLow);
     return node;
 }
 

@@ -23,6 +23,8 @@ namespace osgbindem {
 /// What the node of a tile needs to know.
 struct TileFacts {
     osgAnalyticBin::AnalyticBin bin;
+    /// Metres: the mesh draws nothing lower, skirts left out.
+    double surfaceLow;
     const TileLayout& layout;
     double lodFactor;
     /// Of the children, seen from the file that has the tile; empty for a tile without children.

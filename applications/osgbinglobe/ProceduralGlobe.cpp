@@ -213,7 +213,8 @@ osg::ref_ptr<osg::Node> ProceduralGlobe::tileNode(const TileId& tile, osg::DrawE
     geometry->setUseDisplayList(false);
     geometry->setUseVertexBufferObjects(true);
     const osg::ref_ptr<osg::Node> placed = osgbindem::makePlaced(*geometry, originEcef);
-    const osgbindem::TileFacts facts{binOf(tile, posts.range()), _layout, _options.lod,
+    const double surfaceLow = meshBox(tile, tile.level, posts.range()).altitude().lower + skirtDepth(tile.level);
+    const osgbindem::TileFacts facts{binOf(tile, posts.range()), surfaceLow, _layout, _options.lod,
                                      hasChildren(tile) ? childrenFileOf(tile, _options) : ""};
     osg::ref_ptr<osg::Node> node = osgbindem::makeTileNode(tile, *placed, facts);
     if (!_options.bins) node->setUserDataContainer(nullptr);

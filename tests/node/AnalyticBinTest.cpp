@@ -129,6 +129,16 @@ TEST(AnalyticBin, IsStoredWithANodeAsATypeOfOsgsOwn) {
     EXPECT_STREQ(value->className(), "StringValueObject");
 }
 
+TEST(AnalyticBin, TheLowestAltitudeOfASurfaceIsStoredBesideTheBin) {
+    const osg::ref_ptr<osg::Group> node = new osg::Group;
+    EXPECT_FALSE(storedSurfaceLow(*node));
+    setStoredSurfaceLow(*node, -1.0 / 3.0);
+    EXPECT_EQ(storedSurfaceLow(*node), -1.0 / 3.0);
+    EXPECT_FALSE(hasStoredBin(*node));
+    node->setUserValue("osgAnalyticBin.surfaceLow", std::string("nan"));
+    EXPECT_FALSE(storedSurfaceLow(*node));
+}
+
 TEST(AnalyticBin, SphereHoldsTheBinAndIsNotMuchLargerThanNeeded) {
     const osg::EllipsoidModel wgs84;
     for (const double width : {22.5, 5.625, 0.1}) {

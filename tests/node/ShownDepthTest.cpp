@@ -221,16 +221,20 @@ struct Picture {
 // Asks for the eye in a real cull traversal.
 class Asker : public osg::NodeCallback {
 public:
-    explicit Asker(double startDepth) : depth(startDepth) {}
+    Asker(double startDepth, double deepest) : depth(startDepth), _deepest(deepest) {}
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
         osg::CullStack& cullStack = *nv->asCullStack();
         const auto viewpoint = Viewpoint::of(cullStack, *nv, false);
-        if (viewpoint) eye = eyeAboveWhatIsShown(*node->asGroup(), *nv, cullStack, *viewpoint, earth(), {}, depth);
+        if (viewpoint)
+            eye = eyeAboveWhatIsShown(*node->asGroup(), *nv, cullStack, *viewpoint, earth(), {}, _deepest, depth);
     }
 
     double depth;
     std::optional<HorizonEye> eye;
+
+private:
+    double _deepest;
 };
 
 struct Answer {
@@ -238,8 +242,10 @@ struct Answer {
     double found = 0.0;  // depth of the lowest surface
 };
 
-Answer ask(osg::Group& database, const Picture& picture, double startDepth = 0.0) {
-    const osg::ref_ptr<Asker> asker = new Asker(startDepth);
+constexpr double kUndeclared = std::numeric_limits<double>::infinity();
+
+Answer ask(osg::Group& database, const Picture& picture, double startDepth = 0.0, double deepest = kUndeclared) {
+    const osg::ref_ptr<Asker> asker = new Asker(startDepth, deepest);
     database.setCullCallback(asker);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     test::cull(database, picture.view(), *visitor);
@@ -490,6 +496,28 @@ TEST_F(FlatGlobe, HasNoHorizonWhereADepthInViewIsUnknown) {
     const Answer answer = ask(*globe->root, pictureOf(40.0), 500.0);
     EXPECT_FALSE(answer.eye);
     EXPECT_EQ(answer.found, 0.0);
+}
+
+TEST_F(FlatGlobe, IsAsDeepAsDeclaredWhereADepthInViewIsUnknown) {
+    globe->start(kBelow).low = -300.0;
+    globe->build();
+    const Picture picture = pictureOf(40.0);
+    EXPECT_NEAR(ask(*globe->root, picture, 0.0, 700.0).found, 100.0, 1e-9);
+    globe->start(kBelow).callback->setSurface(AnalyticBin());
+    const Answer answer = ask(*globe->root, picture, 0.0, 700.0);
+    ASSERT_TRUE(answer.eye);
+    EXPECT_NEAR(occluderDepth(*answer.eye, picture.eye), 700.0, 0.5);
+}
+
+TEST_F(FlatGlobe, IsNeverDeeperThanDeclared) {
+    setAltitude(kBelow, -9000.0);
+    globe->build();
+    const Picture picture = pictureOf(40.0);
+    for (const double start : {0.0, 700.0, 20000.0}) {
+        const Answer answer = ask(*globe->root, picture, start, 700.0);
+        ASSERT_TRUE(answer.eye);
+        EXPECT_NEAR(occluderDepth(*answer.eye, picture.eye), 700.0, 0.5);
+    }
 }
 
 TEST_F(FlatGlobe, NeedsNoDepthWhereTheBinIsAboveTheRest) {

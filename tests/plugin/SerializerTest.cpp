@@ -99,9 +99,11 @@ TEST_P(Serializer, AStoredBinReadsBackExactly) {
     const osg::ref_ptr<osg::Group> node = new osg::Group;
     const AnalyticBin bin(GeodeticBin::fromDegrees({-11.25, 0}, {0, 11.25}, {-412.0, 1.0 / 3.0}), 0.1);
     setStoredBin(*node, bin);
+    setStoredSurfaceLow(*node, -411.0 / 3.0);
     const osg::ref_ptr<osg::Node> back = roundTrip(*node);
     ASSERT_TRUE(back);
     EXPECT_EQ(storedBin(*back), bin);
+    EXPECT_EQ(storedSurfaceLow(*back), -411.0 / 3.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, Serializer, ::testing::Values("osgt", "osgb", "osgx"),

@@ -9,6 +9,7 @@
 #include <osg/BoundingSphere>
 #include <osg/Vec3d>
 
+#include <optional>
 #include <string>
 
 namespace osg {
@@ -103,5 +104,12 @@ OSGANALYTICBIN_EXPORT void setStoredBin(osg::Node& node, const AnalyticBin& bin)
 
 /// Returns: whether the node has a stored bin, be it valid or broken.
 [[nodiscard]] OSGANALYTICBIN_EXPORT bool hasStoredBin(const osg::Node& node);
+
+/// Stores beside the bin, as "osgAnalyticBin.surfaceLow", the altitude in metres below which the tile by itself draws
+/// nothing, descendants and skirts left out: the horizon is tested against what is shown.
+OSGANALYTICBIN_EXPORT void setStoredSurfaceLow(osg::Node& node, double metres);
+
+/// Metres. Returns: nullopt when there is none, and, after a warning, when it is broken.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<double> storedSurfaceLow(const osg::Node& node);
 
 }  // namespace osgAnalyticBin

@@ -36,9 +36,9 @@ enum class Method {
 /// Whether tiles behind the horizon are culled.
 enum class HorizonUse {
     ByMethod,  ///< Off with methods for comparison, Declared with the others; the default
-    Declared,  ///< against the lowest surface that the database declares, else the lowest one shown
+    Declared,  ///< against the lowest surface shown, never below what the database declares
     Off,       ///< never
-    Given      ///< against the altitude in CullOptions::horizon
+    Given      ///< against the lowest surface shown, never below CullOptions::horizon
 };
 
 /// What of the skirts that hang from the edges of tiles a bin holds. Tiles of a map always hold all of them: at the

@@ -24,6 +24,7 @@ namespace osgAnalyticBin {
 namespace {
 
 constexpr const char* kUserValueName = "osgAnalyticBin";
+constexpr const char* kSurfaceLowName = "osgAnalyticBin.surfaceLow";
 constexpr double kDegreesPerRadian = 57.29577951308232087680;
 // The model of the bin is split so often that it hardly leaves its corners.
 constexpr int kSphereSplits = 3;
@@ -198,6 +199,20 @@ AnalyticBin storedBin(const osg::Node& node) {
 bool hasStoredBin(const osg::Node& node) {
     std::string text;
     return node.getUserValue(kUserValueName, text);
+}
+
+void setStoredSurfaceLow(osg::Node& node, double metres) {
+    node.setUserValue(kSurfaceLowName, numbersToText({metres}));
+}
+
+std::optional<double> storedSurfaceLow(const osg::Node& node) {
+    std::string text;
+    if (!node.getUserValue(kSurfaceLowName, text)) return std::nullopt;
+    const auto number = numbersFromText(text, 1);
+    if (number) return number->front();
+    OSG_WARN << "osgAnalyticBin: the stored lowest altitude \"" << text.substr(0, 80)
+             << "\" is not a number; the horizon goes by the lowest declared." << std::endl;
+    return std::nullopt;
 }
 
 }  // namespace osgAnalyticBin

@@ -13,6 +13,7 @@
 #include <osg/CullStack>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 namespace osgAnalyticBin {
@@ -29,16 +30,16 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
     if (horizonUse == HorizonUse::Declared && !isAboveTerrain) return std::nullopt;
     const auto viewpoint = Viewpoint::of(cullStack, nv, options.inheritViewpoint);
     if (!viewpoint) return std::nullopt;
-    if (horizonUse == HorizonUse::Given) {
-        return viewpoint->above(view.ellipsoid, std::max(0.0, -options.horizon));
-    }
+    const bool isGiven = horizonUse == HorizonUse::Given;
+    const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
+    if (isGiven && (!isAboveTerrain || database.hasGap())) return viewpoint->above(view.ellipsoid, deepest);
     if (database.hasGap()) return std::nullopt;
     // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: what is shown
     // shall not depend on where the camera has been.
     constexpr unsigned int kFreshStart = 16;
     double& depth = CullTraversal::of(nv).lastDepth(database);
     if (nv.getTraversalNumber() % kFreshStart == 0) depth = 0.0;
-    return eyeAboveWhatIsShown(node, nv, cullStack, *viewpoint, view.ellipsoid, view.shape, depth);
+    return eyeAboveWhatIsShown(node, nv, cullStack, *viewpoint, view.ellipsoid, view.shape, deepest, depth);
 }
 
 template <class Callback>

@@ -9,6 +9,7 @@
 #include <osg/PagedLOD>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <typeinfo>
 
@@ -38,8 +39,8 @@ osg::PagedLOD* pagedLod(osg::Node& node) {
 class LowestShown {
 public:
     LowestShown(osg::NodeVisitor& visitor, const osg::CullStack& cullStack, const core::HorizonEye& eye,
-                const TerrainShape& shape)
-        : _visitor(visitor), _eye(eye), _shape(shape) {
+                const TerrainShape& shape, double deepest)
+        : _visitor(visitor), _eye(eye), _shape(shape), _deepest(deepest) {
         const osg::CullingSet& cullingSet = cullStack.getCurrentCullingSet();
         if (!(cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING)) return;
         _planes = cullingSet.getFrustum().getPlaneList();
@@ -84,7 +85,8 @@ private:
     }
 
     void show(const AnalyticBinCullCallback& tile) {
-        _depth = std::max(_depth, isFitted(tile) ? -tile.surfaceLow() : kUnknown);
+        const double own = isFitted(tile) ? -tile.surfaceLow() : kUnknown;
+        _depth = std::max(_depth, std::min(own, _deepest));
     }
 
     // As osg::PagedLOD chooses; where that is not certain all that it may show counts.
@@ -111,6 +113,7 @@ private:
     osg::NodeVisitor& _visitor;
     const core::HorizonEye& _eye;
     const TerrainShape _shape;
+    const double _deepest;
     osg::Polytope::PlaneList _planes;
     bool _isMoved = false;  // below a transform, where OSG measures distances in another frame
     double _depth = -kUnknown;
@@ -121,32 +124,33 @@ private:
 std::optional<core::HorizonEye> eyeAboveWhatIsShown(osg::Group& database, osg::NodeVisitor& visitor,
                                                     const osg::CullStack& cullStack, const Viewpoint& viewpoint,
                                                     const core::Ellipsoid& ellipsoid, const TerrainShape& shape,
-                                                    double& depth) {
+                                                    double deepest, double& depth) {
     // A deeper occluder has a wider horizon, over which more may be seen that is deeper still. Raised from zero to what
     // is found until nothing deeper is, the depth is the least that will do.
     constexpr int kMostRounds = 16;
     constexpr int kExactRounds = 12;
     constexpr double kRoom = 1.05;
     constexpr double kStep = 500.0;
-    depth = std::max(depth, 0.0);
+    depth = std::clamp(depth, 0.0, deepest);
     for (int round = 0; round < kMostRounds; ++round) {
         const auto eye = viewpoint.above(ellipsoid, depth);
+        if (!eye && depth >= deepest) break;
         if (!eye) {
             // the eye may stand in a valley below the ellipsoid
-            depth = 2.0 * depth + kStep;
+            depth = std::min(2.0 * depth + kStep, deepest);
             continue;
         }
-        LowestShown lowest(visitor, cullStack, *eye, shape);
+        LowestShown lowest(visitor, cullStack, *eye, shape, deepest);
         lowest.search(database);
         if (lowest.depth() <= depth) {
             depth = std::max(lowest.depth(), 0.0);
             return eye;
         }
         if (lowest.depth() > 0.25 * ellipsoid.polarRadius()) break;
-        depth = (round < kExactRounds ? 1.0 : kRoom) * lowest.depth();
+        depth = std::min((round < kExactRounds ? 1.0 : kRoom) * lowest.depth(), deepest);
     }
     depth = 0.0;
-    return std::nullopt;
+    return std::isfinite(deepest) ? viewpoint.above(ellipsoid, deepest) : std::nullopt;
 }
 
 }  // namespace osgAnalyticBin

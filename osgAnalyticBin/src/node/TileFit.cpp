@@ -47,6 +47,11 @@ AnalyticBin withAltitude(const AnalyticBin& bin, core::Interval altitude, double
     return result;
 }
 
+// What a tile draws by itself, as far as its lowest altitude and its bin tell.
+AnalyticBin surfaceAbove(double low, const AnalyticBin& bin) {
+    return withAltitude(bin, {low, std::max(low, bin.bin().altitude().upper)}, 0.0);
+}
+
 // The bin of a tile of which no more is known than its surface and the declared heights.
 AnalyticBin rangedBin(const TileSurface& surface, bool hasDescendants, const Database& database,
                       const ParentTile& link) {
@@ -92,8 +97,7 @@ bool fitIndexed(const FoundTile& tile, const Database& database, const TerrainSh
     fit.isScalable = hasTerrainTile(tile);
     if (!fit.bin.valid()) return true;
     linkTo(fit.bin.bin(), link);
-    const double high = std::max(entry->ownLow, fit.bin.bin().altitude().upper);
-    fit.surface = withAltitude(fit.bin, {entry->ownLow, high}, 0.0);
+    fit.surface = surfaceAbove(entry->ownLow, fit.bin);
     // the floor of an index is that of its neighbours' edges
     const double relief = database.options().heights.width() + fit.bin.sag();
     const double dip = core::dipBehindEdge(toCore(*database.ellipsoid()), fit.bin.bin(), link.edges, relief);
@@ -128,7 +132,9 @@ TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& 
         fit.bin = storedBin(*tile.node);
         fit.isScalable = hasTerrainTile(tile);
         fit.isTerrain = true;
-        if (fit.bin.valid()) linkTo(fit.bin.bin(), link);
+        if (!fit.bin.valid()) return fit;
+        linkTo(fit.bin.bin(), link);
+        if (const auto low = storedSurfaceLow(*tile.node)) fit.surface = surfaceAbove(*low, fit.bin);
         return fit;
     }
     // an index does not know how far skirts hang, nor meshes of other sample ratios
