@@ -74,13 +74,10 @@ public:
                        "How tiles are culled. quadratic (default) and exact are sound and tight; paper, corners, box "
                        "and orientedbox are there for comparison, the first two cull visible tiles; sphere leaves "
                        "OSG's culling alone; none culls nothing.");
-        supportsOption(
-            "horizon=METRES|declared|off",
-            "Culls tiles behind the horizon of the lowest surface shown, taken to be no lower than this altitude "
-            "in a database of which nothing is drawn below it (declared: than what the database declares); "
-            "default declared, for comparison off.");
-        default declared, for "
-                       "comparison off.");
+        supportsOption("horizon=METRES|declared|off",
+                       "Culls tiles behind the horizon of the lowest surface shown, taken to be no lower than this "
+                       "altitude, below which nothing is drawn (declared: than the database declares); default "
+                       "declared, for comparison off.");
         supportsOption("inheritviewpoint=on|off",
                        "The horizon also for cameras that inherit a view point (shadow passes); default off.");
         supportsOption(
