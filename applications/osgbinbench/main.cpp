@@ -5,17 +5,13 @@
 #include "ContinuousPath.h"
 #include "Failure.h"
 #include "FlightBench.h"
+#include "ModuleFolder.h"
 #include "Output.h"
 #include "Plot.h"
 #include "PoseBench.h"
 
-#include <osgAnalyticBin/CullOptions.h>
-
-#include <osgDB/Registry>
-
 #include <algorithm>
 #include <cstdlib>
-#include <dlfcn.h>
 #include <exception>
 #include <iostream>
 #include <malloc.h>
@@ -27,17 +23,6 @@ using osgAnalyticBin::flight::CameraPose;
 
 // The exit code when figures became worse.
 constexpr int kWorse = 2;
-
-// The kit's modules stand in a folder beside its library; OpenSceneGraph has to be told, unless they are installed
-// where it looks.
-void addModuleFolder() {
-    Dl_info info{};
-    if (dladdr(reinterpret_cast<const void*>(&osgAnalyticBin::methodName), &info) == 0 || !info.dli_fname) return;
-    const std::string library = info.dli_fname;
-    const auto slash = library.rfind('/');
-    if (slash != std::string::npos)
-        osgDB::Registry::instance()->getLibraryFilePathList().push_back(library.substr(0, slash));
-}
 
 // Pages lie where their pager's thread gets its memory from. With one store for all threads they lie much alike in
 // every run, and so cull times differ less from run to run.
@@ -95,7 +80,7 @@ int main(int argc, char** argv) {
         if (!settings.compared.empty())
             return compareFiles(settings.compared[0], settings.compared[1], std::cout) ? kWorse : EXIT_SUCCESS;
         shareMemoryAmongThreads();
-        addModuleFolder();
+        osgAnalyticBin::addModuleFolder();
         measure(settings);
         return EXIT_SUCCESS;
     } catch (const std::exception& error) {

@@ -4,8 +4,8 @@
 #include "DatabaseFiles.h"
 
 #include "Failure.h"
+#include "ModuleFolder.h"
 
-#include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/TileFile.h>
 
 #include <osg/Image>
@@ -14,7 +14,6 @@
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 
-#include <dlfcn.h>
 #include <exception>
 #include <filesystem>
 #include <ios>
@@ -36,17 +35,6 @@ public:
 protected:
     ~EmptyImages() override = default;
 };
-
-/// The library's own modules stand in a folder beside the library; OpenSceneGraph has to be told, unless they are
-/// installed where it looks.
-void addModuleFolder() {
-    Dl_info info{};
-    if (dladdr(reinterpret_cast<const void*>(&osgAnalyticBin::methodName), &info) == 0 || !info.dli_fname) return;
-    const std::string library = info.dli_fname;
-    const auto slash = library.rfind('/');
-    if (slash == std::string::npos) return;
-    osgDB::Registry::instance()->getLibraryFilePathList().push_back(library.substr(0, slash));
-}
 
 }  // namespace
 
@@ -108,7 +96,7 @@ std::string DatabaseFiles::checked(const std::string& file, const std::string& n
 }
 
 void prepareReaders() {
-    addModuleFolder();
+    osgAnalyticBin::addModuleFolder();
     osgDB::Registry& registry = *osgDB::Registry::instance();
     for (const char* library : {"serializers_osg", "serializers_osgterrain", "serializers_osgsim",
                                 "serializers_osganalyticbin", "serializers_osgfx", "serializers_osgtext"}) {

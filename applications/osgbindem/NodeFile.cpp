@@ -4,6 +4,7 @@
 #include "NodeFile.h"
 
 #include "Failure.h"
+#include "ModuleFolder.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
@@ -20,7 +21,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <sstream>
 #include <unistd.h>
@@ -28,18 +28,6 @@
 namespace osgbindem {
 
 namespace {
-
-/// The library's own modules stand in a folder beside the library; OpenSceneGraph has to be told, unless they are
-/// installed where it looks.
-void addModuleFolder() {
-    Dl_info info{};
-    if (dladdr(reinterpret_cast<const void*>(&osgAnalyticBin::methodName), &info) == 0 || info.dli_fname == nullptr)
-        return;
-    const std::string library = info.dli_fname;
-    const auto slash = library.rfind('/');
-    if (slash == std::string::npos) return;
-    osgDB::Registry::instance()->getLibraryFilePathList().push_back(library.substr(0, slash));
-}
 
 osgDB::ReaderWriter& writer() {
     osgDB::ReaderWriter* found = osgDB::Registry::instance()->getReaderWriterForExtension("osgb");
@@ -92,7 +80,7 @@ private:
 }  // namespace
 
 void prepareNodeFiles() {
-    addModuleFolder();
+    osgAnalyticBin::addModuleFolder();
     const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
     root->setEllipsoidModel(new osg::EllipsoidModel);
     root->setUpdateCallback(new osgAnalyticBin::InstallBinsCallback);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "HomeView.h"
+#include "ModuleFolder.h"
 #include "Settings.h"
 #include "Steps.h"
 
@@ -15,7 +16,6 @@
 
 #include <osg/GLExtensions>
 #include <osgDB/ReadFile>
-#include <osgDB/Registry>
 #include <osgGA/AnimationPathManipulator>
 #include <osgGA/DriveManipulator>
 #include <osgGA/FirstPersonManipulator>
@@ -30,25 +30,12 @@
 #include <osgViewer/ViewerEventHandlers>
 
 #include <cstdlib>
-#include <dlfcn.h>
 #include <iostream>
 #include <stdexcept>
 
 namespace {
 
 using namespace osgAnalyticBin;
-
-// The kit's modules stand in a folder beside its library; OpenSceneGraph has to be told, unless they are installed
-// where it looks.
-void addModuleFolder() {
-    Dl_info info{};
-    if (dladdr(reinterpret_cast<const void*>(&methodName), &info) == 0 || !info.dli_fname) return;
-    const std::string library = info.dli_fname;
-    const auto slash = library.rfind('/');
-    if (slash != std::string::npos) {
-        osgDB::Registry::instance()->getLibraryFilePathList().push_back(library.substr(0, slash));
-    }
-}
 
 // Mesa's software renderer (22.3) may never come back from filtering terrain anisotropically.
 class WithoutAnisotropy : public osg::Operation {
