@@ -35,7 +35,7 @@ constexpr const char* kDescription =
 constexpr const char* kExamples =
     "Examples:\n"
     "  osgbinconv --index earth.ive             writes earth.ive.bins beside the database, which stays as it is\n"
-    "  osgbinconv earth.ive bins/earth.osgb     writes a copy of the database with the bins in its files\n"
+    "  osgbinconv earth.ive bins/earth.osgb     writes a copy with the bins in its files; the folder has to be there\n"
     "  osgbinconv --print earth.ive.bins        tells what is in an index\n"
     "  osgbinconv --check earth.ive             compares earth.ive.bins with its database\n"
     "An index that was interrupted is kept in earth.ive.bins.part; the same command goes on where it ended.";

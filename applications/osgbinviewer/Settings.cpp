@@ -5,6 +5,7 @@
 
 #include <osgDB/FileNameUtils>
 
+#include <ostream>
 #include <stdexcept>
 
 namespace osgAnalyticBin::viewer {
@@ -24,8 +25,19 @@ void describe(osg::ApplicationUsage& usage) {
     usage.addCommandLineOption(
         "--steps <text>",
         "Do this and end: at=POSE (or home), press=KEY, spy=AZIMUTH,ELEVATION,DISTANCE (degrees, and a multiple of the "
-        "camera's "
-        "distance), frames=N, picture=FILE, spypicture=FILE, parted by blanks; each waits for the database's pages.");
+        "camera's distance), frames=N, picture=FILE, spypicture=FILE, parted by blanks; each waits for the database's "
+        "pages.");
+}
+
+void printHelp(std::ostream& out, osg::ApplicationUsage& usage, unsigned int helpType) {
+    out << usage.getDescription() << '\n';
+    usage.write(out, helpType);
+    out << "Key h lists the keys. Exit code: 0; 1 when something failed: one line says what.\n\n"
+           "Examples:\n"
+           "  osgbinviewer earth.osgb\n"
+           "  osgbinviewer earth.ive --options method=exact,heights=-500..4000 --record flight.csv\n"
+           "  osgbinviewer earth.osgb --steps \"at=home press=B picture=bins.png\""
+        << std::endl;
 }
 
 Settings settingsFrom(osg::ArgumentParser& arguments) {

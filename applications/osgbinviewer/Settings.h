@@ -7,6 +7,7 @@
 
 #include <osg/ArgumentParser>
 
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct Settings {
 
 /// Names the options for --help.
 void describe(osg::ApplicationUsage& usage);
+
+/// Writes what --help says; `helpType` as OSG's ArgumentParser reads it.
+void printHelp(std::ostream& out, osg::ApplicationUsage& usage, unsigned int helpType);
 
 /// Throws: std::runtime_error with one line for what cannot be understood.
 [[nodiscard]] Settings settingsFrom(osg::ArgumentParser& arguments);

@@ -117,7 +117,7 @@ int show(osg::ArgumentParser& arguments) {
     osgViewer::Viewer viewer(arguments);
     unsigned int helpType = 0;
     if ((helpType = arguments.readHelpType()) != 0) {
-        arguments.getApplicationUsage()->write(std::cout, helpType);
+        viewer::printHelp(std::cout, *arguments.getApplicationUsage(), helpType);
         return EXIT_SUCCESS;
     }
     if (arguments.read("--version")) {
