@@ -31,6 +31,7 @@ public:
     /// the margin of it; tests: BoxBins.NeverContradictASample. A plane with NaN is Straddling.
     [[nodiscard]] Side classify(const Plane& plane) const noexcept;
 
+    /// How many faces a box has.
     static constexpr std::size_t kFaces = 6;
 
     /// Points into the box; holds the bin, margin included.
@@ -54,6 +55,7 @@ public:
     /// Guarantee: as BoxBin's.
     [[nodiscard]] Side classify(const Plane& plane) const noexcept;
 
+    /// How many faces a box has.
     static constexpr std::size_t kFaces = 6;
 
     /// Points into the box; holds the bin, margin included.
@@ -75,6 +77,7 @@ private:
 /// tests: BoxBins.ReverseTestPartsNoBinFromAPointOfIt, HullSoundness.HasNoFalseVerdict.
 /// Cost: up to six faces times eight corners; most faces end at their first corner.
 [[nodiscard]] bool isSeparated(const BoxBin& box, const FrustumHull& frustum) noexcept;
+/// As that of BoxBin.
 [[nodiscard]] bool isSeparated(const OrientedBoxBin& box, const FrustumHull& frustum) noexcept;
 
 }  // namespace osgAnalyticBin::core

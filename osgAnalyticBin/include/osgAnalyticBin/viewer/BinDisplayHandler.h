@@ -28,22 +28,33 @@ class TextPanel;
 /// Cost: while shown, a TileSurvey for each frame.
 class OSGANALYTICBINVIEWER_EXPORT BinDisplayHandler : public osgGA::GUIEventHandler {
 public:
-    enum class Shown { Nothing, Ends, All };
+    /// Which bins are drawn.
+    enum class Shown {
+        Nothing,  ///< none
+        Ends,     ///< where the cull traversal ends: tiles culled or drawn
+        All       ///< all that it came to
+    };
 
     BinDisplayHandler();
 
-    /// Defaults `B` and `Q`.
+    /// Default `B`.
     void setKeyEventBins(int key) { _keyBins = key; }
+    /// Default `Q`.
     void setKeyEventQuadratic(int key) { _keyQuadratic = key; }
 
+    /// Which bins are drawn from the next frame on, as key `B` chooses.
     void setShown(Shown shown) { _shown = shown; }
+    /// Which bins are drawn.
     [[nodiscard]] Shown shown() const { return _shown; }
+    /// Whether their quadratic approximation is, as key `Q` chooses.
     void setQuadraticShown(bool shown) { _showsQuadratic = shown; }
 
     /// What is drawn at present, in the world's frame: a child for each slab.
     [[nodiscard]] const osg::Group& slabs() const { return *_slabs; }
 
+    /// Its keys; draws anew at every frame. Returns: whether a key was its own.
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
+    /// The keys, for osgViewer::HelpHandler.
     void getUsage(osg::ApplicationUsage& usage) const override;
 
 protected:

@@ -24,6 +24,7 @@ public:
     /// Adds the lines to a StatsHandler that has not been shown yet. `mostTiles`: the graphs' top.
     explicit BinStatsHandler(osgViewer::StatsHandler& stats, unsigned int cameras = 1, float mostTiles = 200.0F);
 
+    /// Counts at every frame. Returns: false, for it has no keys.
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
 
 protected:

@@ -20,11 +20,11 @@ class CullVisitor;
 
 namespace osgAnalyticBin {
 
-/// What a cull traversal looks through: from the world to the eye, from the eye to clip space, and the pixels.
+/// What a cull traversal looks through.
 struct CullingView {
-    osg::Matrixd view;
-    osg::Matrixd projection;
-    osg::ref_ptr<osg::Viewport> viewport;
+    osg::Matrixd view;                     ///< from the world to the eye
+    osg::Matrixd projection;               ///< from the eye to clip space
+    osg::ref_ptr<osg::Viewport> viewport;  ///< pixels
 };
 
 /// The cull callback of a camera that may show what another camera sees: its scene is culled, refined and paged by a
@@ -51,18 +51,23 @@ public:
     void freeze(const CullingView& view) { _frozen = view; }
     /// Culls by the camera's own view again, or that of the followed one.
     void thaw() { _frozen.reset(); }
+    /// Whether freeze() holds.
     [[nodiscard]] bool isFrozen() const { return _frozen.has_value(); }
 
     /// Culls as that camera is culled, frame by frame, and draws its overlay too; nullptr: no longer.
     void follow(osg::Camera* camera) { _followed = camera; }
+    /// Whether another camera is followed.
     [[nodiscard]] bool isFollowing() const { return _followed.valid(); }
 
     /// What the camera draws on top of its scene, in the world's frame.
     [[nodiscard]] osg::Group& overlay() { return *_overlay; }
 
+    /// One cull traversal of the camera.
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
+    /// Of the overlay, with the camera's own.
     void resizeGLObjectBuffers(unsigned int size) override;
+    /// As resizeGLObjectBuffers().
     void releaseGLObjects(osg::State* state) const override;
 
 protected:

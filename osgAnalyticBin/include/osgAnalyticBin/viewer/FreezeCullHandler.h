@@ -24,12 +24,15 @@ public:
     /// Default `F`.
     void setKeyEventFreeze(int key) { _key = key; }
 
+    /// Whether culling stands still.
     [[nodiscard]] bool isFrozen() const { return _isFrozen; }
 
     /// Freezes or thaws the view's cameras, as the key does. Between frames only.
     void setFrozen(osgGA::GUIActionAdapter& view, bool frozen);
 
+    /// Its key. Returns: whether it was.
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
+    /// The keys, for osgViewer::HelpHandler.
     void getUsage(osg::ApplicationUsage& usage) const override;
 
 protected:

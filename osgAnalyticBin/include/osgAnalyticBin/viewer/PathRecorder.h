@@ -18,13 +18,13 @@ namespace osgAnalyticBin {
 
 /// A pose of a camera on a globe. Radians, metres and seconds; altitudes above the ellipsoid.
 struct RecordedPose {
-    double time = 0.0;
-    core::Geodetic eye;
-    core::Geodetic look;  ///< a point on the line of sight
-    double verticalFov = 0.0;
-    double nearPlane = 0.0;
-    double farPlane = 0.0;
-    double roll = 0.0;  ///< of up, clockwise about the line of sight, from the local vertical
+    double time = 0.0;         ///< of the viewer's clock, growing
+    core::Geodetic eye;        ///< where the camera stands
+    core::Geodetic look;       ///< a point on the line of sight
+    double verticalFov = 0.0;  ///< the whole angle
+    double nearPlane = 0.0;    ///< from the eye along the line of sight
+    double farPlane = 0.0;     ///< as nearPlane
+    double roll = 0.0;         ///< of up, clockwise about the line of sight, from the local vertical
 };
 
 /// How the camera stands over the globe of its scene at present; near and far planes as last drawn, with room to spare.
@@ -61,11 +61,15 @@ public:
 
     /// Starts or stops, as the key does; stopping writes the file.
     void setRecording(bool recording);
+    /// Whether poses are being recorded.
     [[nodiscard]] bool isRecording() const { return _isRecording; }
 
+    /// What has been recorded so far.
     [[nodiscard]] const std::vector<RecordedPose>& path() const { return _path; }
 
+    /// Its key; records at every frame, and writes at the end. Returns: whether it was its key.
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
+    /// The keys, for osgViewer::HelpHandler.
     void getUsage(osg::ApplicationUsage& usage) const override;
 
 protected:

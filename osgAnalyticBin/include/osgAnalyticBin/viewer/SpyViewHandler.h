@@ -29,6 +29,7 @@ public:
 
     /// Opens or closes the window, as the key does. Between frames only; a viewer that draws in threads pauses them.
     void setOpen(osgViewer::View& view, bool open);
+    /// Whether the window is there.
     [[nodiscard]] bool isOpen() const { return _camera.valid(); }
 
     /// The window's camera, a slave of the view's; null while it is closed.
@@ -38,7 +39,9 @@ public:
     /// horizon, and the distance as a multiple of that from the camera to what it looks at.
     void setOrbit(double azimuth, double elevation, double distance);
 
+    /// Its key, and the mouse in its window. Returns: whether an event was its own.
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
+    /// The keys, for osgViewer::HelpHandler.
     void getUsage(osg::ApplicationUsage& usage) const override;
 
 protected:

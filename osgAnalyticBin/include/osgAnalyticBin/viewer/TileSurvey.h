@@ -28,23 +28,23 @@ enum class TileVerdict {
 
 /// A tile that a camera's cull traversal came to.
 struct SurveyedTile {
-    osg::ref_ptr<osg::Node> node;
-    bool hasBin = false;     ///< whether a bin decided; otherwise verdict, bin, radii and place say nothing
-    bool isCulled = false;   ///< whether nothing below the tile was traversed
-    bool isDrawn = false;    ///< whether a mesh of its own was drawn
-    bool isRefined = false;  ///< whether tiles below it were met
-    TileVerdict verdict = TileVerdict::Straddling;
+    osg::ref_ptr<osg::Node> node;  ///< a PagedLOD with a mesh of its own, or a leaf
+    bool hasBin = false;           ///< whether a bin decided; otherwise verdict, bin, radii and place say nothing
+    bool isCulled = false;         ///< whether nothing below the tile was traversed
+    bool isDrawn = false;          ///< whether a mesh of its own was drawn
+    bool isRefined = false;        ///< whether tiles below it were met
+    TileVerdict verdict = TileVerdict::Straddling;  ///< the bin's
     /// What the tile was culled by: in the present shape of the terrain, skirts included. Not valid in a map.
     AnalyticBin bin;
-    osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;
-    osg::Matrixd ecefToWorld;
+    osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;  ///< the globe that the bin is on
+    osg::Matrixd ecefToWorld;                           ///< where that globe stands
 };
 
 /// How many tiles a camera's cull traversal came to, by what became of them.
 struct TileCounts {
-    std::size_t tested = 0;
-    std::size_t kept = 0;
-    std::size_t drawn = 0;
+    std::size_t tested = 0;         ///< all that it came to
+    std::size_t kept = 0;           ///< of these, that it went into
+    std::size_t drawn = 0;          ///< of those kept, with a mesh of their own drawn
     std::size_t hidden = 0;         ///< of those not kept
     std::size_t reverseCulled = 0;  ///< of those not kept
 };
@@ -56,12 +56,15 @@ struct TileCounts {
 /// traversal.
 class OSGANALYTICBINVIEWER_EXPORT TileSurvey {
 public:
+    /// Of no tiles.
     TileSurvey() = default;
+    /// Runs the cull traversal.
     TileSurvey(osg::Camera& camera, osg::FrameStamp& frameStamp);
 
     /// In the order of the traversal: parents before children.
     [[nodiscard]] const std::vector<SurveyedTile>& tiles() const { return _tiles; }
 
+    /// Sums of tiles().
     [[nodiscard]] TileCounts counts() const;
 
 private:
