@@ -5,6 +5,8 @@
 // The event handlers in a whole viewer that draws into a pbuffer; keys are pressed as a user would. Needs a display
 // (Xvfb will do); skipped where no graphics context can be made.
 
+#include "CsvTable.h"
+
 #include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/viewer/BinDisplayHandler.h>
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
@@ -23,6 +25,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <support/StockPrograms.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 
@@ -145,7 +148,7 @@ protected:
 TEST_F(Handlers, SwitchToWhatAFreshViewerShowsWithTheMethod) {
     drawUntilIdle(_viewer);
     double side = 1.0;
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 8; ++i) {
         press('n');
         const Method method = _methods->cullOptions().method;
         look(_viewer, side = -side);
@@ -251,7 +254,7 @@ TEST_P(HandlersInThreads, ComeBackToWhatWasDrawnBefore) {
     const TileCounts before = counts(_viewer);
     const auto pictureBefore = picture(_viewer);
     _viewer.setThreadingModel(GetParam());
-    for (const int key : {'F', 'B', 'y', 'n', 'n', 'n', 'Q', 'n', 'n', 'n', 'F', 'B', 'B', 'y'}) press(key);
+    for (const int key : {'F', 'B', 'y', 'n', 'n', 'n', 'Q', 'n', 'n', 'n', 'n', 'n', 'F', 'B', 'B', 'y'}) press(key);
     _viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     EXPECT_EQ(_methods->cullOptions().method, Method::Quadratic);
     EXPECT_EQ(_bins->shown(), BinDisplayHandler::Shown::Nothing);
@@ -281,6 +284,46 @@ TEST_F(Handlers, RecordWhileTheCameraMoves) {
     std::ifstream written(file);
     const auto lines = std::count(std::istreambuf_iterator<char>(written), std::istreambuf_iterator<char>(), '\n');
     EXPECT_EQ(lines, 3);
+}
+
+TEST_F(Handlers, RecordWhatOsgbinbenchDrawsAgain) {
+    const std::string file = _folder.path() + "/path.csv";
+    const osg::ref_ptr<PathRecorder> recorder = new PathRecorder(file, 0.0);
+    std::vector<TileCounts> shown;
+    for (const double side : {1.0, -1.0, 0.3}) {
+        look(_viewer, side);
+        drawUntilIdle(_viewer);
+        shown.push_back(counts(_viewer));
+        if (side == 1.0) _viewer.addEventHandler(recorder);
+        recorder->setRecording(true);
+        _viewer.frame();
+        _viewer.frame();
+        recorder->setRecording(false);
+    }
+    const std::string table = _folder.path() + "/poses.csv";
+    const test::Outcome bench = test::runStock(
+        test::quoted(BENCH_FILE) + ' ' + test::quoted(_file) + " --path " + test::quoted(file) +
+            " --methods quadratic+horizon+reverse --live 0 --repeats 1 --size 128x128 --csv " + test::quoted(table),
+        test::Modules::Absent, "LIBGL_ALWAYS_SOFTWARE=1 ASAN_OPTIONS=detect_leaks=0");
+    ASSERT_EQ(bench.code, 0) << bench.text;
+    std::string error;
+    std::ifstream input(table);
+    const auto figures = flight::readCsv(input, table, error);
+    ASSERT_TRUE(figures) << error;
+    std::vector<TileCounts> played;
+    for (const auto& row : figures->rows) {
+        const auto cell = [&](const char* name) { return row.cells.at(figures->column(name).value()); };
+        if (cell("method") == "none") continue;
+        const auto count = [&](const char* name) { return std::stoul(cell(name)); };
+        played.push_back({count("tested_tiles"), count("kept_tiles"), count("drawn_tiles")});
+    }
+    ASSERT_EQ(played.size(), shown.size());
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        EXPECT_GT(shown[i].drawn, 0u);
+        EXPECT_EQ(played[i].tested, shown[i].tested) << i;
+        EXPECT_EQ(played[i].kept, shown[i].kept) << i;
+        EXPECT_EQ(played[i].drawn, shown[i].drawn) << i;
+    }
 }
 
 TEST_F(Handlers, NameTheirKeysAndTakeNoneOfOsgs) {

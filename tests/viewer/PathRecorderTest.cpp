@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
-
 //
 // Recorded camera paths. Oracle: what osgbinbench makes of them.
 
@@ -71,7 +70,7 @@ TEST(PathRecorder, PlaysAsTheSameView) {
     }
 }
 
-TEST(PathRecorder, TellsTheRoll) {
+TEST(PathRecorder, TellsTheRollAndPlaysIt) {
     ViewerScene scene;
     scene.lookFrom(10.0, 20.0, 50e3, 70.0, 35.0);
     const osg::Matrixd level = scene.camera().getViewMatrix();
@@ -81,18 +80,30 @@ TEST(PathRecorder, TellsTheRoll) {
         const auto pose = recordedPose(scene.camera(), 0.0);
         ASSERT_TRUE(pose);
         EXPECT_NEAR(pose->roll, roll, 1e-6);
+        flight::CameraPose played{"p", pose->eye, pose->look, pose->verticalFov, pose->nearPlane, pose->farPlane};
+        played.roll = pose->roll;
+        const osg::Matrixd difference = osg::Matrixd::inverse(scene.camera().getViewMatrix()) *
+                                        flight::viewMatrixOf(played, flight::globeOf(scene.database()));
+        const osg::Vec3d ahead(100.0, 200.0, -1000.0);
+        EXPECT_LT((ahead * difference - ahead).length(), 0.01) << roll;
     }
 }
 
-TEST(PathRecorder, WritesTimeAndRollWhereAsked) {
+TEST(PathRecorder, WritesTimeAndRollThatAreReadBack) {
     ViewerScene scene;
+    std::vector<RecordedPose> path = somePath(scene);
+    for (std::size_t i = 0; i < path.size(); ++i) path[i].roll = 0.3 - 0.2 * double(i);
     std::stringstream text;
-    writeCameraPath(text, somePath(scene), PathColumns::PosesInTime);
-    std::string header;
-    std::getline(text, header);
-    EXPECT_EQ(header, "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg,near,far,time,rollDeg");
-    std::string line;
-    while (std::getline(text, line)) EXPECT_EQ(std::count(line.begin(), line.end(), ','), 11);
+    writeCameraPath(text, path, PathColumns::PosesInTime);
+    std::string error;
+    const auto read = flight::readCameraPath(text, "recorded", error);
+    ASSERT_TRUE(read) << error;
+    ASSERT_EQ(read->size(), path.size());
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        EXPECT_EQ((*read)[i].time, path[i].time);
+        EXPECT_NEAR((*read)[i].roll, path[i].roll, 1e-15);
+        EXPECT_EQ((*read)[i].eyeRight, 0.0);
+    }
 }
 
 TEST(PathRecorder, HasNoPoseOfAnOrthographicView) {
