@@ -10,7 +10,6 @@ packages="
   ca-certificates clang-format cmake doxygen g++ git help2man ninja-build pkg-config python3
   libopenscenegraph-dev openscenegraph libglm-dev
   libgdal-dev gdal-bin libcli11-dev nlohmann-json3-dev
-  gnuplot-nox
   libgtest-dev librapidcheck-dev libboost-dev libhwy-dev libbenchmark-dev libccd-dev
   xvfb xauth libgl1-mesa-dri nginx gnuplot-nox
   ferret-datasets libncarg-data
