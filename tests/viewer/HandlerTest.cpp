@@ -20,6 +20,7 @@
 #include <osgDB/DatabasePager>
 #include <osgDB/ReadFile>
 #include <osgGA/StateSetManipulator>
+#include <osgGA/TerrainManipulator>
 #include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
 
@@ -284,6 +285,22 @@ TEST_F(Handlers, RecordWhileTheCameraMoves) {
     std::ifstream written(file);
     const auto lines = std::count(std::istreambuf_iterator<char>(written), std::istreambuf_iterator<char>(), '\n');
     EXPECT_EQ(lines, 3);
+}
+
+TEST_F(Handlers, RecordFromTheFirstViewOfAManipulatorOn) {
+    osgViewer::Viewer viewer;
+    const osg::ref_ptr<osg::GraphicsContext> surface = makeSurface();
+    setUp(viewer, *surface, *read(Method::Quadratic));
+    const osg::ref_ptr<osgGA::TerrainManipulator> manipulator = new osgGA::TerrainManipulator;
+    const double altitude = 500e3;
+    manipulator->setHomePosition(osg::Vec3d(6378137.0 + altitude, 0.0, 0.0), osg::Vec3d(), osg::Vec3d(0.0, 0.0, 1.0));
+    viewer.setCameraManipulator(manipulator);
+    const osg::ref_ptr<PathRecorder> recorder = new PathRecorder(_folder.path() + "/path.csv", 0.0);
+    recorder->setRecording(true);
+    viewer.addEventHandler(recorder);
+    for (int i = 0; i < 3; ++i) viewer.frame();
+    ASSERT_FALSE(recorder->path().empty());
+    EXPECT_NEAR(recorder->path().front().eye.altitude, altitude, 1.0);
 }
 
 TEST_F(Handlers, RecordWhatOsgbinbenchDrawsAgain) {

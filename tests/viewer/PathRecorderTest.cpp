@@ -112,6 +112,13 @@ TEST(PathRecorder, HasNoPoseOfAnOrthographicView) {
     EXPECT_FALSE(recordedPose(scene.camera(), 0.0));
 }
 
+TEST(PathRecorder, HasNoPoseThatOsgbinbenchRefuses) {
+    ViewerScene scene;
+    scene.camera().setProjectionMatrixAsPerspective(35.0, 1.0, 1000.0, 1e8);
+    scene.camera().setViewMatrix(osg::Matrixd());  // at the earth's centre
+    EXPECT_FALSE(recordedPose(scene.camera(), 0.0));
+}
+
 TEST(PathRecorder, LeavesTheOldFileWhereTheNewCannotBeWritten) {
     std::string error;
     EXPECT_FALSE(writeCameraPathFile("/no/such/folder/path.csv", {}, PathColumns::Poses, error));

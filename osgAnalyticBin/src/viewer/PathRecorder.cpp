@@ -22,6 +22,8 @@ namespace osgAnalyticBin {
 namespace {
 
 const double kDegreesPerRadian = 180.0 / osg::PI;
+// Camera paths go no deeper: an eye near the earth's centre is none that somebody flies to.
+constexpr double kLowestAltitude = -6.3e6;
 // Below this sine of the angle to the vertical a view has no "up" but north: as osgbinbench takes it.
 constexpr double kStraight = 1e-4;
 
@@ -93,6 +95,7 @@ std::optional<RecordedPose> recordedPose(osg::Camera& camera, double time) {
     pose.eye = toGeodetic(*globe, eye);
     pose.look =
         toGeodetic(*globe, ground && (*ground - eye).length() > kShortestSight ? *ground : eye + sight * distance);
+    if (pose.eye.altitude < kLowestAltitude || pose.look.altitude < kLowestAltitude) return std::nullopt;
     pose.roll = rollOf(sight, up, upWithoutRoll(*globe, pose.eye, sight));
     return pose;
 }
@@ -175,8 +178,8 @@ bool PathRecorder::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionA
     }
     if (event.getEventType() != osgGA::GUIEventAdapter::FRAME || !_isRecording) return false;
     const std::vector<osg::Camera*> cameras = drawingCameras(*view);
-    // the frame before is the one that was drawn
-    if (!cameras.empty() && view->getFrameStamp()->getFrameNumber() > 0) {
+    // the frame before is the one that was drawn: in the first, number 1, the camera does not stand anywhere yet
+    if (!cameras.empty() && view->getFrameStamp()->getFrameNumber() > 1) {
         record(*cameras.front(), view->getFrameStamp()->getReferenceTime());
     }
     return false;

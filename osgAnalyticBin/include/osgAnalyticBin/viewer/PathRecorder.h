@@ -28,7 +28,7 @@ struct RecordedPose {
 };
 
 /// How the camera stands over the globe of its scene at present; near and far planes as last drawn, with room to spare.
-/// Returns: nullopt for views that are not perspective, and where there is no globe.
+/// Returns: nullopt for views that are not perspective or from near the globe's centre, and where there is no globe.
 [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<RecordedPose> recordedPose(osg::Camera& camera, double time);
 
 /// Which columns a camera path has.
