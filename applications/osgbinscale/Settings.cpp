@@ -30,7 +30,8 @@ constexpr const char* kFooter =
     "           without bins, with stored bins that nobody uses, and with those of each method.\n\n"
     "Times are first quartiles: what else the machine does only adds to them; cull_spread_ms is the distance to the\n"
     "third. Figures of the flight are sums over its poses. deepest_tiles: drawn tiles of the deepest level.\n\n"
-    "Methods: none, sphere (OSG's own), and BASE[+horizon][+reverse] with BASE quadratic, exact, paper or corners.\n"
+    "Methods: none, sphere (OSG's own), and BASE[+horizon][+reverse] with BASE quadratic, exact, box, orientedbox,\n"
+    "paper or corners.\n"
     "Exit code: 0; 1 when something failed: one line says what.\n\n"
     "Example:\n"
     "  osgbinscale --levels 8,20 --residents 1000,100000 --json scale.json --plot figures";
@@ -74,13 +75,17 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
 }
 
 // What would only be found out at the end is looked at before.
-void requireFolder(const char* option, const std::filesystem::path& folder) {
+void requireFolderOf(const char* option, const std::string& file) {
+    if (file.empty()) return;
+    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
     if (!std::filesystem::is_directory(folder))
         throw Failure(std::string(option) + ": there is no folder " + folder.string() + "; make it first");
 }
 
-void requireFolderOf(const char* option, const std::string& file) {
-    if (!file.empty()) requireFolder(option, std::filesystem::absolute(file).parent_path());
+void makeFolder(const char* option, const std::string& folder) {
+    std::error_code problem;
+    std::filesystem::create_directories(folder, problem);
+    if (problem) throw Failure(std::string(option) + ": folder " + folder + " cannot be made");
 }
 
 void takeSeries(const std::vector<std::string>& series, Settings& settings) {
@@ -109,9 +114,10 @@ ScaleMethod scaleMethodFromName(const std::string& name) {
     const bool hasBins = method && *method != Method::Sphere && *method != Method::None;
     const bool isKnown = isPlain || suffixes == "+horizon" || suffixes == "+reverse" || suffixes == "+horizon+reverse";
     if (!method || !isKnown || (!hasBins && !isPlain))
-        throw Failure("--methods: unknown method \"" + name +
-                      "\"; use none, sphere, or quadratic, exact, paper or corners with +horizon, +reverse or "
-                      "+horizon+reverse after it");
+        throw Failure(
+            "--methods: unknown method \"" + name +
+            "\"; use none, sphere, or quadratic, exact, box, orientedbox, paper or corners with +horizon, +reverse or "
+            "+horizon+reverse after it");
     if (!hasBins) return {name, "method=" + base, *method == Method::None};
     const bool usesHorizon = suffixes.find("+horizon") != std::string::npos;
     const bool usesReverse = suffixes.find("+reverse") != std::string::npos;
@@ -139,7 +145,7 @@ bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {
         throw Failure("--cells: " + std::to_string(settings.cells) + " is odd; give an even number");
     requireFolderOf("--csv", settings.csv);
     requireFolderOf("--json", settings.json);
-    if (!settings.plot.empty()) requireFolder("--plot", settings.plot);
+    if (!settings.plot.empty()) makeFolder("--plot", settings.plot);
     return true;
 }
 
