@@ -17,7 +17,9 @@ PROGRAM = re.compile(r"(sh|export|cmake|sudo|pkg-config|osgviewer|osgconv|osgbin
 # Words that stand for something, and long runs made short.
 STAND_INS = [(r"\bDATABASE\b", "earth.osgb"), (r"\bearth\.ive", "other.osgb"), (r"\bDIR\.\.\.", "none"), (r"--trials \d+", "--trials 1000"),
              (r"--cameras \d+", "--cameras 2"), (r"--size \S+ ", ""),
-             (r"(osgbinbench) ", r"\1 --size 160x90 --repeats 1 "),
+             (r"(osgbinbench) (?!--compare)", r"\1 --size 160x90 --repeats 1 --live 1 "), (r"\bold\.json new\.json", "old.json old.json"),
+             (r"(osgbinpaper) ", r"\1 globe.tif --levels 1 --cameras 2 "),
+             (r"(osgbinscale) ", r"\1 --levels 2 --poses 2 --rounds 1 --residents 100 --memory-tiles 100 "),
              (r"/usr/share/ferret-vis/data/etopo5.cdf", "globe.tif"),
              (r"/usr/share/ncarg/data/cdf/trinidad.nc", "inset.tif")]
 
@@ -73,6 +75,7 @@ def shorten_paths(source, scratch):
 def prepare(source, build, scratch, environment):
     shutil.rmtree(scratch, ignore_errors=True)
     (scratch / "build").mkdir(parents=True)
+    (scratch / "osgAnalyticBin/doc").mkdir(parents=True)
     (scratch / "build/release").symlink_to(build)
     (scratch / "applications").symlink_to(source / "applications")
     shorten_paths(source, scratch)
@@ -107,7 +110,7 @@ def main():
         if command.startswith("export "):
             exports.append(command)
             continue
-        if command.startswith("osgviewer "):
+        if re.match(r"\S*osg(bin)?viewer ", command):
             frames = "" if ".binflight" in command else "OSG_RUN_FRAME_COUNT=3 "
             display = 9000 + os.getpid() % 3000
             command = f"{frames}xvfb-run -a -n {display} -s '-screen 0 320x240x24 -noreset' {command}"
