@@ -38,8 +38,8 @@ Culls each tile of a paged terrain database by its box in latitude, longitude
 and altitude in place of a bounding sphere. A tile is culled only when it is
 proven to be out of view.
 .
-This package has the library and the plugins that osgviewer and every other
-application of OpenSceneGraph find by themselves:
+This package has the library, event handlers for viewers, and the plugins that
+osgviewer and every other application of OpenSceneGraph find by themselves:
 \"osgviewer earth.ive.analyticbin\".")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libosganalyticbin-dev)
@@ -58,11 +58,13 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME osganalyticbin-tools)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "${_same_library}")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS openscenegraph)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS "gnuplot-nox | gnuplot, ferret-datasets, xvfb")
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION
     "analytic-bin culling of paged terrain for OpenSceneGraph, programs
-Programs that make paged globes from elevation rasters (osgbindem), find the
-bins of databases made by others (osgbinconv), and measure and compare culling
-(osgbinbench, osgbinreport, osgbinassembly), with camera paths.")
+Programs that show what culling does (osgbinviewer), make paged globes from
+elevation rasters (osgbindem), find the bins of databases made by others
+(osgbinconv), and measure and compare culling (osgbinbench, osgbinscale,
+osgbinreport, osgbinassembly, osgbinpaper), with camera paths.")
 
 # What Debian wants in every package's folder of documents.
 string(TIMESTAMP _changelog_date "%a, %d %b %Y %H:%M:%S +0000" UTC)

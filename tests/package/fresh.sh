@@ -47,18 +47,29 @@ echo "== library and programs"
 inside "apt-get install -y --no-install-recommends /tmp/packages/libosganalyticbin0_*.deb /tmp/packages/osganalyticbin-tools_*.deb"
 inside "osgconv --format analyticbin"
 said "method=quadratic"
-inside "for p in osgbindem osgbinconv osgbinbench osgbinreport osgbinassembly; do \$p --version; done; ldconfig -p"
-said "osgbindem (osgAnalyticBin)"
+programs="osgbinviewer osgbindem osgbinconv osgbinbench osgbinscale osgbinreport osgbinassembly osgbinpaper"
+inside "for p in $programs; do \$p --version; done; ldconfig -p"
+for program in $programs; do said "^$program (osgAnalyticBin)"; done
 said "libosgAnalyticBin.so.0"
+said "libosgAnalyticBinViewer.so.0"
 
 # Displays of the machine itself are not seen from the new root: a number of its own.
+display="xvfb-run -a -n $((20000 + $$ % 9000)) -s '-screen 0 640x480x24 -noreset'"
+
+echo "== osgbinviewer shows a globe and records, the stock osgviewer shows it too"
+inside "cd /tmp/work; export OSG_RUN_FRAME_COUNT=5 LIBGL_ALWAYS_SOFTWARE=1
+    $display osgbinviewer 3.proceduralglobe --record flight.csv
+    $display osgviewer 3.proceduralglobe.analyticbin; cat flight.csv"
+said "^p1,"
+! grep -iE "could not find plugin|warning|error" "$root/tmp/log" || fail "something complained"
+
 echo "== development files, and the tutorial word for word"
 inside "apt-get install -y --no-install-recommends /tmp/packages/libosganalyticbin-dev_*.deb cmake make g++ pkg-config"
-inside "cd /tmp/work; export OSG_RUN_FRAME_COUNT=20 LIBGL_ALWAYS_SOFTWARE=1; xvfb-run -a -n $((20000 + $$ % 9000)) -s \"-screen 0 640x480x24 -noreset\" sh -eux commands"
+inside "cd /tmp/work; export OSG_RUN_FRAME_COUNT=20 LIBGL_ALWAYS_SOFTWARE=1; $display sh -eux commands"
 said "last frame: [1-9][0-9]* tiles tested, [1-9][0-9]* culled"
 ! grep -iE "could not find plugin|unsupported|error" "$root/tmp/log" || fail "something complained"
-inside "pkg-config --cflags --libs osgAnalyticBin"
-said "losgAnalyticBin"
+inside "pkg-config --cflags --libs osgAnalyticBinViewer"
+said "losgAnalyticBinViewer"
 
 echo "== purge"
 inside "apt-get purge -y libosganalyticbin0 libosganalyticbin-dev osganalyticbin-tools; ldconfig"

@@ -57,7 +57,7 @@ tr '\n' ' ' <"$scratch/log" | tr -s ' ' | grep -q "components kit and viewer nee
 
 echo "== pkg-config"
 export PKG_CONFIG_PATH="$moved/$libdir/pkgconfig"
-for pair in uses_core:osgAnalyticBinCore uses_kit:osgAnalyticBin; do
+for pair in uses_core:osgAnalyticBinCore uses_kit:osgAnalyticBin uses_viewer:osgAnalyticBinViewer; do
     program=${pair%:*}
     flags=$(pkg-config --cflags --libs "${pair#*:}")
     # shellcheck disable=SC2086
@@ -76,7 +76,7 @@ for program in "$moved"/bin/*; do
 done
 
 echo "== the stock osgconv finds the plugins"
-for format in analyticbin binflight; do
+for format in analyticbin binflight proceduralglobe; do
     OSG_LIBRARY_PATH="$moved/$libdir" osgconv --format "$format" 2>&1 | grep -q "=" || fail "no plugin $format"
 done
 
