@@ -65,17 +65,17 @@ protected:
         return bytesOf(indexFile());
     }
 
-    /// A run of one thread that gets a signal as soon as it keeps records.
-    Outcome endedBy(const std::string& signal) {
-        const std::string script =
-            _folder.write("run.sh",
-                          "\"$1\" --quiet --threads 1 --index \"$2\" &\n"
-                          "while [ ! -s \"$2.bins.part\" ] && kill -0 $! 2>/dev/null; do :; done\n"
-                          "kill -$3 $! 2>/dev/null\n"
-                          "wait $!\n");
-        return runStock("sh " + test::quoted(script) + ' ' + test::quoted(OSGBINCONV_PROGRAM) + ' ' +
-                            test::quoted(_database) + ' ' + signal,
-                        Modules::Present);
+    /// A run of one thread that gets a signal as soon as a file is there and not empty. In the background a shell
+    /// without job control has SIGINT ignored; our programs take it all the same.
+    Outcome endedBy(const std::string& signal, const std::string& arguments, const std::string& file) {
+        const std::string start = test::quoted(OSGBINCONV_PROGRAM) + " --quiet --threads 1 " + arguments + " &\n";
+        const std::string wait = "while [ ! -s " + test::quoted(file) + " ] && kill -0 $! 2>/dev/null; do :; done\n";
+        const std::string end = "kill -" + signal + " $! 2>/dev/null\nwait $!\n";
+        const std::string script = _folder.write("run.sh", start + wait + end);
+        return runStock("sh " + test::quoted(script), Modules::Present);
+    }
+    Outcome indexEndedBy(const std::string& signal) {
+        return endedBy(signal, "--index " + test::quoted(_database), partFile());
     }
 
     TemporaryFolder _folder;
@@ -117,7 +117,7 @@ TEST_F(Run, ARunThatIsKilledGoesOnToTheSameBytes) {
     const std::string whole = indexed();
     fs::remove(indexFile());
     int killed = 0;
-    for (int i = 0; i < 4; ++i) killed += endedBy("KILL").code == 0 ? 0 : 1;
+    for (int i = 0; i < 4; ++i) killed += indexEndedBy("KILL").code == 0 ? 0 : 1;
     EXPECT_GT(killed, 0);
     EXPECT_EQ(indexed(), whole);
 }
@@ -138,13 +138,30 @@ TEST_F(Run, FilesThatHaveChangedSinceAreReadAgain) {
     EXPECT_EQ(indexed(), changed);
 }
 
-TEST_F(Run, InterruptedRunsSayHowToGoOn) {
-    const Outcome outcome = endedBy("INT");
+TEST_F(Run, InterruptedRunsSayHowToGoOnAndDo) {
+    const std::string whole = indexed();
+    fs::remove(indexFile());
+    const Outcome outcome = indexEndedBy("INT");
     if (outcome.code == 0) GTEST_SKIP() << "too fast to interrupt";
     EXPECT_EQ(outcome.code, 130);
     expectOneLine(outcome, "goes on where it ended");
     EXPECT_TRUE(fs::exists(partFile()));
     EXPECT_FALSE(fs::exists(indexFile()));
+    EXPECT_EQ(indexed(), whole);
+}
+
+TEST_F(Run, InterruptedCopiesLeaveNothingAndTheSameCommandMakesThem) {
+    const std::string folder = _folder / "copy";
+    fs::create_directories(folder);
+    const std::string arguments = test::quoted(_database) + ' ' + test::quoted(folder + "/globe.osgb");
+    const Outcome outcome = endedBy("INT", arguments, folder + "/tiles_1_3_3.osgb");
+    if (outcome.code == 0) GTEST_SKIP() << "too fast to interrupt";
+    EXPECT_EQ(outcome.code, 130);
+    expectOneLine(outcome, "interrupted");
+    EXPECT_TRUE(fs::is_empty(folder));
+    const Outcome rerun = binconv("--quiet " + arguments);
+    EXPECT_EQ(rerun.code, 0) << rerun.text;
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 161);
 }
 
 TEST_F(Run, CheckFindsWhatHasChanged) {

@@ -144,7 +144,7 @@ TEST_F(Error, AFullDiskIsNoticedAndTheRerunCompletes) {
     EXPECT_EQ(loadDatabase(output()).deepestLevel(), 1);
 }
 
-TEST_F(Error, InterruptedRunsLeaveNothingAndASecondRunIsRefused) {
+TEST_F(Error, InterruptedRunsLeaveNothingThatHindersTheNextOne) {
     TestRaster::globe(0.5, hills).write(file("fine.tif"));
     Program program({file("fine.tif"), "--cells", "4", "-o", output()});
     while (program.isRunning() && !fs::exists(file("out/earth_tiles.partial/X00_Y0"))) {
@@ -158,6 +158,8 @@ TEST_F(Error, InterruptedRunsLeaveNothingAndASecondRunIsRefused) {
     EXPECT_EQ(outcome.exitCode, 130);
     EXPECT_NE(outcome.errors.find("interrupted"), std::string::npos);
     EXPECT_TRUE(fs::is_empty(file("out")));
+    build({good(), "--levels", "1", "--cells", "4", "-o", output()});
+    EXPECT_EQ(loadDatabase(output()).deepestLevel(), 1);
 }
 
 TEST_F(Error, WhatAKilledRunLeftIsClearedAway) {
