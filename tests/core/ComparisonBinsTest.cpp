@@ -210,6 +210,22 @@ FalseVerdicts falseVerdicts(std::uint64_t stream) {
     return wrong;
 }
 
+TEST(ComparisonBins, PlaneWithoutNumbersIsUndecided) {
+    const core::Ellipsoid wgs84(6378137.0, 6356752.3142);
+    const core::ParameterBox box =
+        core::parameterBox(core::GeodeticBin::fromDegrees({10.0, 12.0}, {20.0, 22.0}, {0.0, 9000.0}));
+    const core::PaperBin paper(core::GeodeticMapping(wgs84), box, core::PaperBin::kDefaultGrowth);
+    const core::CornersBin corners(core::GeodeticMapping(wgs84), box);
+    for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+        for (int place = 0; place < 4; ++place) {
+            Plane plane{{0.0, 0.0, 1.0}, 0.0};
+            (place < 3 ? plane.normal[place] : plane.offset) = bad;
+            EXPECT_EQ(paper.classify(plane), Side::Straddling) << bad << ' ' << place;
+            EXPECT_EQ(corners.classify(plane), Side::Straddling) << bad << ' ' << place;
+        }
+    }
+}
+
 TEST(PaperBin, IsKnownToBeUnsound) {
     const FalseVerdicts wrong = falseVerdicts<PaperBin>(83);
     std::printf("paper: %d false outside, %d false inside of 100000 nearly tangent planes\n", wrong.outside,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include <osgAnalyticBin/core/ComparisonBins.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
 
 #include <glm/matrix.hpp>
 
@@ -15,7 +16,9 @@ ParameterBox grown(const ParameterBox& box, double factor) {
     return {box.center, box.halfSize * factor};
 }
 
-Side sideOf(double lowest, double highest) {
+// A plane with a number that is not finite decides nothing.
+Side sideOf(const Plane& plane, double lowest, double highest) {
+    if (std::isnan(roundingOf(plane))) return Side::Straddling;
     if (highest < 0.0) return Side::Outside;
     if (lowest >= 0.0) return Side::Inside;
     return Side::Straddling;
@@ -54,7 +57,7 @@ Side PaperBin::classify(const Plane& plane) const noexcept {
     for (std::size_t i = 1; i < 8; ++i) take(unitCorner(i));
     const glm::dvec3 stationary = stationaryPoint(q);
     if (inUnitBox(stationary)) take(stationary);  // [JJ] section 3: the ninth point
-    return sideOf(lowest, highest);
+    return sideOf(plane, lowest, highest);
 }
 
 CornersBin::CornersBin(const AnalyticMapping& mapping, const ParameterBox& box) noexcept : _corners() {
@@ -69,7 +72,7 @@ Side CornersBin::classify(const Plane& plane) const noexcept {
         lowest = value < lowest ? value : lowest;
         highest = value > highest ? value : highest;
     }
-    return sideOf(lowest, highest);
+    return sideOf(plane, lowest, highest);
 }
 
 }  // namespace osgAnalyticBin::core

@@ -4,6 +4,7 @@
 #include "BinCulling.h"
 #include "Database.h"
 #include "GlmBridge.h"
+#include "Inverse.h"
 #include "Occluders.h"
 #include "Spheres.h"
 #include "Text.h"
@@ -184,7 +185,9 @@ void AnalyticBinCullCallback::setRadii(double equatorial, double polar) {
 void AnalyticBinCullCallback::setLocalToEcef(const osg::Matrixd& matrix) {
     _localToEcef = matrix;
     _hasLocalFrame = !matrix.isIdentity();
-    if (_hasLocalFrame && !_ecefToLocal.invert(matrix)) {
+    const auto inverse = affineInverse(matrix);
+    if (inverse) _ecefToLocal = *inverse;
+    if (!inverse) {
         OSG_WARN << "AnalyticBinCullCallback: the matrix to ECEF has no inverse; the tile is never culled."
                  << std::endl;
         _bin.init();

@@ -4,6 +4,7 @@
 #include "BinReadFileCallback.h"
 #include "Database.h"
 #include "DatabaseCallbacks.h"
+#include "Inverse.h"
 #include "MeshCulling.h"
 #include "PagingExpiry.h"
 #include "PlanarBinCullCallback.h"
@@ -318,12 +319,12 @@ void BinInstaller::installPlanar(FoundTile& tile, const PlanarFit& fit, const Te
     osg::Node& culled = culledNode(tile);
     osg::Transform* transform = culled.asTransform();
     const osg::Matrixd localToMap = transform ? frameInside(*transform, tile.frame) : tile.frame.localToEcef;
-    osg::Matrixd mapToLocal;
-    if (!mapToLocal.invert(localToMap)) return visitOther(node);
+    const auto mapToLocal = affineInverse(localToMap);
+    if (!mapToLocal) return visitOther(node);
     // what neighbours lend to edges, and what other techniques make of heights, is not known
     if (fit.isScalable && (shape.areBoundariesEqual || !shape.isKnown)) return visitOther(node);
     const osg::ref_ptr<PlanarBinCullCallback> callback = new PlanarBinCullCallback(
-        PlanarBin(fit.box, mapToLocal), fit.isScalable ? std::optional(shape) : std::nullopt, _options);
+        PlanarBin(fit.box, *mapToLocal), fit.isScalable ? std::optional(shape) : std::nullopt, _options);
     // In front: what is nested runs when the tile is kept.
     callback->setNestedCallback(culled.getCullCallback());
     culled.setCullCallback(callback.get());

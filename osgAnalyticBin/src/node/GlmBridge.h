@@ -10,6 +10,9 @@
 #include <osg/Plane>
 #include <osg/Vec3d>
 
+#include <cmath>
+#include <limits>
+
 namespace osgAnalyticBin {
 
 [[nodiscard]] inline glm::dvec3 toGlm(const osg::Vec3d& v) {
@@ -20,7 +23,12 @@ namespace osgAnalyticBin {
     return {v.x, v.y, v.z};
 }
 
+/// A plane that OSG could not bring to unit length, or that is not finite, becomes one of NaN, which decides nothing:
+/// matrices without an inverse make such.
 [[nodiscard]] inline core::Plane toCore(const osg::Plane& plane) {
+    const double length2 = plane[0] * plane[0] + plane[1] * plane[1] + plane[2] * plane[2];
+    const bool isRight = std::abs(length2 - 1.0) <= 1e-9 && std::isfinite(plane[3]);
+    if (!isRight) return {glm::dvec3(std::numeric_limits<double>::quiet_NaN()), 0.0};
     return {{plane[0], plane[1], plane[2]}, plane[3]};
 }
 

@@ -4,11 +4,13 @@
 #include "Viewpoint.h"
 
 #include "GlmBridge.h"
+#include "Inverse.h"
 
 #include <osg/Camera>
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace osgAnalyticBin {
@@ -37,6 +39,11 @@ bool isShadowPass(osg::NodeVisitor& visitor) {
         if (camera->getReferenceFrame() == osg::Transform::ABSOLUTE_RF) return false;
     }
     return false;
+}
+
+// Near and far planes in one place make numbers that are not.
+bool isFinite(const osg::Matrixd& matrix) {
+    return std::all_of(matrix.ptr(), matrix.ptr() + 16, [](double number) { return std::isfinite(number); });
 }
 
 // Projections whose lines of sight meet in the origin of eye space.
@@ -84,9 +91,10 @@ double distanceTo(const core::Ellipsoid& ellipsoid, double depth, const glm::dve
 
 std::optional<Viewpoint> Viewpoint::of(osg::CullStack& cullStack, osg::NodeVisitor& visitor, bool inShadowPasses) {
     if (!inShadowPasses && isShadowPass(visitor)) return std::nullopt;
-    osg::Matrixd eyeToWorld;
-    if (!eyeToWorld.invert(*cullStack.getModelViewMatrix())) return std::nullopt;
     const osg::Matrixd& projection = *cullStack.getProjectionMatrix();
+    const auto inverse = affineInverse(*cullStack.getModelViewMatrix());
+    if (!inverse || !isFinite(projection)) return std::nullopt;
+    const osg::Matrixd& eyeToWorld = *inverse;
     Viewpoint viewpoint;
     if (isPerspective(projection)) {
         // in double precision; the cull stack's own eye point is float

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osg/Matrixd>
+
+#include <optional>
+
+namespace osgAnalyticBin {
+
+/// The inverse of an affine matrix.
+/// Returns: nullopt for any other matrix, for one with numbers that are not finite, and for one that is singular or so
+/// close to it that rounding has a say in the inverse: osg::Matrixd::invert() gives some numbers for these.
+[[nodiscard]] std::optional<osg::Matrixd> affineInverse(const osg::Matrixd& matrix);
+
+}  // namespace osgAnalyticBin
