@@ -23,7 +23,8 @@ namespace {
 
 using core::GeodeticBin;
 
-const AnalyticBin kBin(GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100, 5000}));
+// Deep enough for the chords of a triangle twelve degrees wide.
+const AnalyticBin kBin(GeodeticBin::fromDegrees({-22.5, 22.5}, {-22.5, 22.5}, {-60000, 5000}));
 
 AnalyticBinCullCallback* callbackOf(osg::Node& node) {
     return dynamic_cast<AnalyticBinCullCallback*>(node.getCullCallback());

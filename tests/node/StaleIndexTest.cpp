@@ -141,6 +141,11 @@ TEST_F(StaleIndex, ATileThatDoesNotFitWarnsOnceAndWidensItsAncestorsAtTheNextUpd
     update();
     EXPECT_NEAR(highOf(*_root), 7000.0, 1.0);
     EXPECT_NEAR(highOf(*_north), 500.0, 1.0);
+    // which is told once, and not fitted anew in every frame
+    const osg::ref_ptr<osg::Callback> fitted = installedOn(*_root);
+    update();
+    update();
+    EXPECT_EQ(installedOn(*_root), fitted.get());
     pageSingle();
     update();
     EXPECT_NEAR(highOf(*_north), 6000.0, 1.0);

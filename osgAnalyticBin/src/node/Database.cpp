@@ -97,15 +97,35 @@ void Database::noteUnknownTechnique() {
 
 void Database::reportMisfit(const ParentTile& tile, const AnalyticBin& bin) {
     const std::lock_guard<std::mutex> lock(_mutex);
-    if (!_hasWarned) {
-        _hasWarned = true;
+    if (!_hasWarnedOfIndex) {
+        _hasWarnedOfIndex = true;
         OSG_WARN << "osgAnalyticBin: \"" << tile.file
                  << "\" is not as the index knows it; tiles are kept visible there. Run osgbinconv --index again."
                  << std::endl;
     }
+    widenFrom(tile, bin);
+}
+
+void Database::reportFalseBin(const ParentTile& tile, const AnalyticBin& bin) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    if (!_hasWarnedOfStored) {
+        _hasWarnedOfStored = true;
+        OSG_WARN
+            << "osgAnalyticBin: \"" << tile.file
+            << "\" holds a tile that is larger than the bin stored with it or above it; bins are widened there. Make "
+               "the database again."
+            << std::endl;
+    }
+    widenFrom(tile, bin);
+}
+
+// Requires: the mutex is held. The tile itself has been fitted to what is reported, and need not be widened.
+void Database::widenFrom(const ParentTile& tile, const AnalyticBin& bin) {
     for (const ParentTile* at = &tile; at; at = at->parent.get()) {
-        _corrections[{at->file, at->ordinal}].expandBy(bin);
-        _toWiden.emplace_back(at->callback, bin);
+        AnalyticBin& correction = _corrections[{at->file, at->ordinal}];
+        const bool isKnown = correction.valid() && correction.contains(bin);
+        correction.expandBy(bin);
+        if (at != &tile && !isKnown) _toWiden.emplace_back(at->callback, bin);
     }
 }
 

@@ -31,6 +31,7 @@ struct ParentTile : public osg::Referenced {
     std::size_t ordinal = 0;
     core::GeodeticBin extents;
     core::TileEdges edges;
+    AnalyticBin stored;  // what the tile is culled by, where a stored bin says so; else invalid
 
 protected:
     ~ParentTile() override = default;
@@ -82,10 +83,13 @@ public:
     /// Says that a tile does not fit the index: warns once, and widens the tile's ancestors at the next update.
     void reportMisfit(const ParentTile& tile, const AnalyticBin& bin);
 
-    /// What reportMisfit() said of a tile or its descendants; invalid: nothing.
+    /// Says that a tile is larger than the bin that is stored with it or with its parent: likewise.
+    void reportFalseBin(const ParentTile& tile, const AnalyticBin& bin);
+
+    /// What these two said of a tile or its descendants; invalid: nothing.
     [[nodiscard]] AnalyticBin correction(const std::string& file, std::size_t ordinal) const;
 
-    /// In the update traversal, before takeShapeChange(): widens the loaded tiles that reportMisfit() named.
+    /// In the update traversal, before takeShapeChange(): widens the loaded tiles that were reported.
     void update();
 
 protected:
@@ -93,6 +97,8 @@ protected:
 
 private:
     using TileKey = std::pair<std::string, std::size_t>;
+
+    void widenFrom(const ParentTile& tile, const AnalyticBin& bin);
 
     static inline std::atomic<unsigned long> _count{0};
 
@@ -111,7 +117,7 @@ private:
     unsigned int _generation = 0;
     std::vector<osg::observer_ptr<osg::Node>> _onTheirWay;  // treated by the present options
     std::vector<osg::observer_ptr<osg::Node>> _lateComers;  // treated by earlier ones
-    bool _hasWarned = false;
+    bool _hasWarnedOfIndex = false, _hasWarnedOfStored = false;
     std::map<TileKey, AnalyticBin> _corrections;
     std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, AnalyticBin>> _toWiden;
 };

@@ -10,6 +10,7 @@
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
+#include <cmath>
 
 namespace osgAnalyticBin {
 
@@ -22,10 +23,10 @@ bool hasTerrainTile(const FoundTile& tile) {
 }
 
 // Meshes of one tile are its levels of detail: any of them may be shown.
-TileSurface surfaceOf(const FoundTile& tile, double sampleRatio) {
+TileSurface surfaceOf(const FoundTile& tile, const osg::EllipsoidModel& ellipsoid, double sampleRatio) {
     TileSurface surface;
     for (const osg::ref_ptr<osg::Node>& mesh : tile.meshes) {
-        const TileSurface own = tileSurface(*mesh, *tile.frame.ellipsoid, tile.frame.localToEcef, sampleRatio);
+        const TileSurface own = tileSurface(*mesh, ellipsoid, tile.frame.localToEcef, sampleRatio);
         if (!own.bin.valid()) return {};
         surface.bin.expandBy(own.bin);
         surface.skirt = std::max(surface.skirt, own.skirt);
@@ -69,7 +70,7 @@ AnalyticBin rangedBin(const TileSurface& surface, bool hasDescendants, const Dat
 }
 
 void fitSurface(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link, TileFit& fit) {
-    const TileSurface surface = surfaceOf(tile, shape.sampleRatio);
+    const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape.sampleRatio);
     fit.isTerrain = surface.bin.valid();
     if (!fit.isTerrain) return;
     linkTo(surface.bin.bin(), link);
@@ -81,7 +82,7 @@ void fitSurface(const FoundTile& tile, Database& database, const TerrainShape& s
 
 // For a tile whose bin says nothing of skirts.
 void fitSkirt(const FoundTile& tile, const TerrainShape& shape, TileFit& fit) {
-    const TileSurface surface = surfaceOf(tile, shape.sampleRatio);
+    const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape.sampleRatio);
     fit.skirt = surface.skirt;
     if (!surface.bin.valid()) fit.bin.init();
 }
@@ -118,7 +119,7 @@ AnalyticBin withHeights(const AnalyticBin& bin, const core::Interval& heights) {
 // A terrain tile that another technique than OSG's own draws as it likes.
 TileFit unknownFit(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
     database.noteUnknownTechnique();
-    const TileSurface surface = surfaceOf(tile, shape.sampleRatio);
+    const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape.sampleRatio);
     if (surface.bin.valid()) linkTo(surface.bin.bin(), link);
     TileFit fit;
     fit.isScalable = true;
@@ -126,17 +127,82 @@ TileFit unknownFit(const FoundTile& tile, Database& database, const TerrainShape
     return fit;
 }
 
-TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
+// How far a tile may seem to leave a stored bin that is right, in metres: bounds of surfaces are rough where meshes are
+// coarse.
+struct Tolerance {
+    double below, above, aside;
+};
+
+Tolerance toleranceFor(const AnalyticBin& bin, double radius) {
+    constexpr double kShareOfWidth = 1.0 / 128.0;
+    constexpr double kShareOfSag = 1.0 / 16.0;
+    const double width = radius * std::max(bin.bin().latitude().width(), bin.bin().longitude().width());
+    const double least = 1.0 + bin.margin();
+    return {least + bin.sag(), least + kShareOfSag * bin.sag(), least + kShareOfWidth * width};
+}
+
+// Whether the outer bin holds the inner one but for the tolerance.
+bool nearlyHolds(const AnalyticBin& outer, const AnalyticBin& inner, double radius) {
+    const Tolerance tolerance = toleranceFor(inner, radius);
+    const double angle = tolerance.aside / radius;
+    // the longitudes of a cap about the pole say little
+    const double narrowest = std::max(std::cos(std::abs(inner.bin().center().latitude)), 1e-3);
+    const auto grown = [](const core::Interval& range, double below, double above) -> core::Interval {
+        return {range.lower - below, range.upper + above};
+    };
+    const core::GeodeticBin& bin = outer.bin();
+    const core::Interval altitude = grown(bin.altitude(), outer.margin(), outer.margin());
+    return core::GeodeticBin(grown(bin.latitude(), angle, angle),
+                             grown(bin.longitude(), angle / narrowest, angle / narrowest),
+                             grown(altitude, tolerance.below, tolerance.above))
+        .contains(inner.bin());
+}
+
+// A bin that is stored with a tile speaks of all that is paged below it, before that is there: what turns out to be
+// larger widens it and its ancestors. Returns: the tile's own surface, where it is known.
+AnalyticBin checkStored(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link,
+                        TileFit& fit) {
+    const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database.ellipsoid();
+    // other sample ratios make other meshes than those that the bin was made of
+    const AnalyticBin surface = shape.sampleRatio == 1.0 ? surfaceOf(tile, ellipsoid, 1.0).bin : AnalyticBin();
+    const double radius = ellipsoid.getRadiusPolar();
+    const bool isWithinBin = !surface.valid() || !fit.bin.valid() || nearlyHolds(fit.bin, surface, radius);
+    if (!isWithinBin) fit.bin.expandBy(surface);
+    const AnalyticBin& drawn = fit.bin.valid() ? fit.bin : surface;
+    const ParentTile* const parent = link.parent.get();
+    const bool isWithinParent =
+        !parent || !parent->stored.valid() || !drawn.valid() || nearlyHolds(parent->stored, drawn, radius);
+    if (!isWithinBin || !isWithinParent) database.reportFalseBin(link, drawn);
+    return surface;
+}
+
+// What is stored is closer than the bound of a mesh's sag, and believed where the mesh's vertices allow it.
+AnalyticBin shownSurface(const FoundTile& tile, const AnalyticBin& surface, const AnalyticBin& bin) {
+    constexpr double kRounding = 1.0;
+    const auto low = storedSurfaceLow(*tile.node);
+    if (!low) return surface;
+    const bool isPossible =
+        !surface.valid() || *low <= surface.bin().altitude().lower + surface.sag() + surface.margin() + kRounding;
+    return isPossible ? surfaceAbove(*low, bin) : surface;
+}
+
+TileFit fitStored(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
     TileFit fit;
-    if (hasStoredBin(*tile.node)) {
-        fit.bin = storedBin(*tile.node);
-        fit.isScalable = hasTerrainTile(tile);
-        fit.isTerrain = true;
-        if (!fit.bin.valid()) return fit;
-        linkTo(fit.bin.bin(), link);
-        if (const auto low = storedSurfaceLow(*tile.node)) fit.surface = surfaceAbove(*low, fit.bin);
-        return fit;
-    }
+    fit.bin = storedBin(*tile.node);
+    fit.isScalable = hasTerrainTile(tile);
+    fit.isTerrain = true;
+    const AnalyticBin surface = checkStored(tile, database, shape, link, fit);
+    if (!fit.bin.valid()) return fit;
+    fit.surface = shownSurface(tile, surface, fit.bin);
+    linkTo(fit.bin.bin(), link);
+    fit.bin.expandBy(database.correction(tile.frame.file, tile.ordinal));
+    link.stored = fit.bin;
+    return fit;
+}
+
+TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
+    if (hasStoredBin(*tile.node)) return fitStored(tile, database, shape, link);
+    TileFit fit;
     // an index does not know how far skirts hang, nor meshes of other sample ratios
     const bool isIndexFit = database.options().skirts == SkirtUse::Cracks && shape.sampleRatio == 1.0;
     if (!isIndexFit || !fitIndexed(tile, database, shape, link, fit)) {

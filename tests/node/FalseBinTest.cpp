@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Databases whose stored bins say less than their tiles hold: found when a tile is loaded, told once, and widened, so
+// that a tile is missing for no longer than the frame in which it appears.
+
+#include "CullFixture.h"
+#include "DatabaseFixture.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+
+#include <gtest/gtest.h>
+#include <osg/CoordinateSystemNode>
+#include <osg/ValueObject>
+#include <osgDB/ReadFile>
+#include <osgDB/WriteFile>
+#include <osgUtil/UpdateVisitor>
+
+#include <set>
+#include <string>
+#include <support/CapturedNotes.h>
+#include <support/Random.h>
+#include <support/TemporaryFolder.h>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+const std::string kWarning = "larger than the bin stored with it or above it";
+// What is said of every tile, and holds flat terrain at 200 m with the chords of its triangles.
+const core::Interval kClaimed{-40000.0, 300.0};
+
+AnalyticBin claim(core::GeodeticBin extents) {
+    return AnalyticBin(extents.withAltitude(kClaimed), 1.0);
+}
+
+class FalseBins : public ::testing::Test {
+protected:
+    // A root tile of 40 degrees; paged below it a leaf in its south, with a mesh, a height and a stored bin.
+    void write(const core::GeodeticBin& leafMesh, double leafHeight, const std::string& leafText) {
+        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+        root->setEllipsoidModel(new osg::EllipsoidModel);
+        const osg::ref_ptr<osg::PagedLOD> whole = makePaged(makeMeshTile(_whole, 200.0), "leaf.osgb", 1e9f);
+        setStoredBin(*whole, claim(_whole));
+        root->addChild(whole);
+        const osg::ref_ptr<osg::Group> leaf = new osg::Group;
+        leaf->addChild(makeMeshTile(leafMesh, leafHeight));
+        leaf->setUserValue("osgAnalyticBin", leafText);
+        ASSERT_TRUE(osgDB::writeNodeFile(*root, _folder / "root.osgb"));
+        ASSERT_TRUE(osgDB::writeNodeFile(*leaf, _folder / "leaf.osgb"));
+        _scene = osgDB::readRefNodeFile(_folder / "root.osgb");
+        ASSERT_TRUE(_scene);
+        _root = dynamic_cast<osg::PagedLOD*>(_scene->asGroup()->getChild(0));
+        ASSERT_EQ(installBins(*_scene), 1u);
+        page();
+    }
+
+    void page() {
+        _leaf = readBelow(*_root);
+        ASSERT_TRUE(_leaf);
+        putBelow(*_root, _leaf);
+    }
+
+    void update() {
+        const osg::ref_ptr<osgUtil::UpdateVisitor> visitor = new osgUtil::UpdateVisitor;
+        _scene->accept(*visitor);
+    }
+
+    [[nodiscard]] static core::Interval altitudeOf(osg::Node& node) {
+        return installedOn(node)->bin().bin().altitude();
+    }
+
+    const core::GeodeticBin _whole = extentsDeg(10, 50, 0, 40), _south = extentsDeg(10, 30, 0, 40);
+    const TemporaryFolder _folder;
+    const CapturedNotes _notes;
+    osg::ref_ptr<osg::Node> _scene, _leaf;
+    osg::ref_ptr<osg::PagedLOD> _root;
+};
+
+TEST_F(FalseBins, ThatAreTrueAreLeftAsTheyAre) {
+    write(_south, 200.0, claim(_south).toText());
+    update();
+    EXPECT_EQ(installedOn(*_root)->bin(), claim(_whole));
+    EXPECT_EQ(installedOn(*_leaf)->bin(), claim(_south));
+    EXPECT_EQ(_notes.count(""), 0u);
+}
+
+TEST_F(FalseBins, ThatAreTooLowAreWidenedOnceWithTheTilesAbove) {
+    write(_south, 7000.0, claim(_south).toText());
+    EXPECT_GE(altitudeOf(*_leaf).upper, 7000.0 - 1.0);
+    update();
+    EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0);
+    const osg::ref_ptr<osg::Callback> fitted = installedOn(*_root);
+    update();
+    update();
+    EXPECT_EQ(installedOn(*_root), fitted.get());
+    // paged out and in again, and installed anew
+    _root->removeChildren(1, 1);
+    page();
+    update();
+    EXPECT_GE(altitudeOf(*_leaf).upper, 7000.0 - 1.0);
+    EXPECT_EQ(_notes.count(kWarning), 1u);
+}
+
+TEST_F(FalseBins, ThatAreTooNarrowAreWidened) {
+    write(extentsDeg(0, 30, -30, 70), 200.0, claim(_south).toText());
+    update();
+    for (osg::Node* node : {_leaf.get(), static_cast<osg::Node*>(_root)}) {
+        const core::GeodeticBin& bin = installedOn(*node)->bin().bin();
+        for (const double longitude : {-0.52, 1.22}) EXPECT_TRUE(bin.contains(core::Geodetic{0.001, longitude, 200.0}));
+    }
+    EXPECT_EQ(_notes.count(kWarning), 1u);
+}
+
+TEST_F(FalseBins, OfATileThatOwnsUpToMoreThanItsParentWidenTheParent) {
+    AnalyticBin honest = claim(_south);
+    honest.setBin(honest.bin().withAltitude({kClaimed.lower, 8000.0}));
+    write(_south, 7000.0, honest.toText());
+    EXPECT_EQ(installedOn(*_leaf)->bin(), honest);
+    update();
+    EXPECT_EQ(altitudeOf(*_root).upper, 8000.0);
+    EXPECT_EQ(_notes.count(kWarning), 1u);
+}
+
+TEST_F(FalseBins, ThatCannotBeReadStillWidenTheParentByTheSurface) {
+    write(_south, 7000.0, "nan nan nan nan nan nan nan");
+    EXPECT_FALSE(installedOn(*_leaf)->bin().valid());
+    update();
+    EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0);
+    EXPECT_EQ(_notes.count(kWarning), 1u);
+}
+
+TEST_F(FalseBins, HideAPeakForNoLongerThanTheFrameInWhichItAppears) {
+    write(_south, 50000.0, claim(_south).toText());
+    std::set<std::string> reached;
+    installedOn(*_leaf)->setNestedCallback(new VisitRecorder("leaf", reached));
+    // along the tangent at 40 km
+    const osg::Vec3d summit = ecefDeg(20, 20, 40000);
+    const CullView view = CullView::lookAt(summit + osg::Vec3d(-1, 1, 0) * 3e5, summit, summit, 0.1);
+    update();
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    (void)cull(*_scene, view, *visitor);
+    EXPECT_EQ(reached.count("leaf"), 1u);
+}
+
+// Numbers that are finite but whose squares are not.
+TEST(StoredNumbers, OfAnySizeCullNothingThatIsSeen) {
+    const osg::EllipsoidModel wgs84;
+    const core::GeodeticBin extents = extentsDeg(10, 12, 20, 23);
+    const std::vector<osg::Vec3d> seen = samples(AnalyticBin(extents.withAltitude({0.0, 9000.0})), 5);
+    Random random(95);
+    for (const char* altitudes : {"-1e300 12 23 1e300", "-1e155 12 23 9000", "0 12 23 1e155", "-7e6 12 23 9000",
+                                  "-6.3e6 12 23 1e9", "-1e308 12 23 1e308", "0 12 23 1e18"}) {
+        for (const char* rest : {"0", "1e300", "1e155 1e155", "0 1e308", "1e308 1e308", "1e-310 1e-310"}) {
+            const std::string text = std::string("10 20 ") + altitudes + ' ' + rest;
+            const AnalyticBin bin = AnalyticBin::fromText(text);
+            for (const Method method : {Method::Quadratic, Method::Exact}) {
+                CullOptions options;
+                options.method = method;
+                options.horizonUse = HorizonUse::Given;
+                std::set<std::string> reached;
+                const osg::ref_ptr<osg::Group> tile = makeTile("tile", bin, reached, options);
+                const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+                for (int i = 0; i < 20; ++i) {
+                    const osg::Vec3d target = seen[static_cast<std::size_t>(random.integer(0, int(seen.size()) - 1))];
+                    const glm::dvec3 aside = random.direction();
+                    osg::Vec3d eye = target * random.uniform(1.001, 2.0) + osg::Vec3d(aside.x, aside.y, aside.z) * 1e3;
+                    reached.clear();
+                    (void)cull(*tile, CullView::lookAt(eye, target, {0, 0, 1}, 5.0), *visitor);
+                    EXPECT_EQ(reached.size(), 1u) << text << ' ' << methodName(method);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
