@@ -101,6 +101,24 @@ TEST_F(FalseBins, ThatAreTooLowAreWidenedOnceWithTheTilesAbove) {
     EXPECT_EQ(_notes.count(kWarning), 1u);
 }
 
+TEST(StoredSurface, IsBelievedWhereTheMeshAllowsIt) {
+    const core::GeodeticBin extents = extentsDeg(10, 11, 20, 21);
+    const auto surfaceLowWith = [&](double stored) {
+        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+        root->setEllipsoidModel(new osg::EllipsoidModel);
+        const osg::ref_ptr<osg::Group> tile = new osg::Group;
+        tile->addChild(makeMeshTile(extents, 200.0));
+        setStoredBin(*tile, claim(extents));
+        setStoredSurfaceLow(*tile, stored);
+        root->addChild(tile);
+        EXPECT_EQ(installBins(*root), 1u);
+        return installedOn(*tile)->surfaceLow();
+    };
+    EXPECT_NEAR(surfaceLowWith(-5000.0), -5000.0, 2.0);
+    // an eye that saw no deeper than this would be hidden what is seen past the tile
+    EXPECT_LT(surfaceLowWith(900.0), 200.0);
+}
+
 TEST_F(FalseBins, ThatAreTooNarrowAreWidened) {
     write(extentsDeg(0, 30, -30, 70), 200.0, claim(_south).toText());
     update();
