@@ -3,6 +3,8 @@
 
 #include "Assembly.h"
 
+#include "Angles.h"
+
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -12,7 +14,7 @@ namespace osgAnalyticBin::assembly {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using support::kPi;
 constexpr double kModuleSize = 24.0;  // metres
 constexpr int kRoutes = 2;
 constexpr int kStraights = 6;  // of a route, with a bend between any two

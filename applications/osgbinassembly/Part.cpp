@@ -3,6 +3,8 @@
 
 #include "Part.h"
 
+#include "Angles.h"
+
 #include <osgAnalyticBin/core/AutodiffMapping.h>
 #include <osgAnalyticBin/core/CylinderSegment.h>
 #include <osgAnalyticBin/core/TorusSegment.h>
@@ -14,7 +16,7 @@ namespace osgAnalyticBin::assembly {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using support::kPi;
 
 constexpr float kSampleStep = 0.5f;  // metres
 

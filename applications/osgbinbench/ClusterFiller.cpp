@@ -3,6 +3,7 @@
 
 #include "ClusterFiller.h"
 
+#include "Angles.h"
 #include "ClusterRemover.h"
 #include "GlmBridge.h"
 
@@ -25,7 +26,7 @@ namespace osgAnalyticBin::bench {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using support::kPi;
 // Tiles that reach farther from their middle than this get no callback; VirtualPlanetBuilder's number.
 constexpr double kFarthestAngle = 0.5 * kPi - 0.1;
 // Columns along a tile, narrow beside the spacing of its vertices.

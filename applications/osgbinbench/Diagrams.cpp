@@ -121,13 +121,13 @@ std::string dataOf(const BarChart& chart, const std::vector<PathGroup>& groups, 
     return text + "\n";
 }
 
-struct Range {
+struct ValueRange {
     double lowest = 1.0;
     double highest = 0.0;
 };
 
-Range rangeOf(const BarChart& chart, const std::vector<PathGroup>& groups, const Methods& methods) {
-    Range range;
+ValueRange rangeOf(const BarChart& chart, const std::vector<PathGroup>& groups, const Methods& methods) {
+    ValueRange range;
     for (const MethodFigures& method : methods) {
         for (const PathGroup& group : groups) {
             const double value = chart.value(sumOf(method, group), group.poses.size());
@@ -165,7 +165,7 @@ std::string barsOf(const BarChart& chart, const Methods& methods, std::size_t gr
 Diagram diagramOf(const BarChart& chart, const std::vector<PathGroup>& groups, const Methods& methods) {
     std::vector<std::pair<std::string, double>> labels;
     for (const PathGroup& group : groups) labels.emplace_back(group.name, static_cast<double>(labels.size()));
-    const Range range = rangeOf(chart, groups, methods);
+    const ValueRange range = rangeOf(chart, groups, methods);
     std::string script = head(chart.name, chart.title) + "set ylabel " + quoted(chart.valueLabel) + "\n" +
                          ticsOf(labels) + "set xrange [-0.6:" + textFrom(static_cast<double>(groups.size()) - 0.4) +
                          "]\nset macros\n";

@@ -22,14 +22,14 @@ constexpr double kLeastNoise = 0.05;
 constexpr std::array<const char*, 5> kNeutral{"truth_tiles", "surface_tiles", "visible_tiles", "hidden_tiles",
                                               "frames"};
 
-std::string withDecimals(double value, int decimals) {
+std::string ratioText(double value, int decimals) {
     char text[64];
     std::snprintf(text, sizeof text, "%.*f", decimals, value);
     return text;
 }
 
 std::string numberText(double value) {
-    return std::trunc(value) == value ? withDecimals(value, 0) : withDecimals(value, 4);
+    return std::trunc(value) == value ? ratioText(value, 0) : ratioText(value, 4);
 }
 
 double ratioOf(double newValue, double oldValue) {
@@ -39,7 +39,7 @@ double ratioOf(double newValue, double oldValue) {
 
 std::string ratioText(double newValue, double oldValue) {
     const double ratio = ratioOf(newValue, oldValue);
-    return std::isfinite(ratio) ? withDecimals(ratio, 3) : "-";
+    return std::isfinite(ratio) ? ratioText(ratio, 3) : "-";
 }
 
 bool isTime(const std::string& column) {
@@ -56,7 +56,7 @@ std::string spreadColumnOf(const std::string& time) {
     return time.substr(0, time.size() - 2) + "spread_ms";
 }
 
-const MeasuredMethod* find(const std::vector<MeasuredMethod>& methods, const std::string& name) {
+const MeasuredMethod* methodNamed(const std::vector<MeasuredMethod>& methods, const std::string& name) {
     const auto found = std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.name == name; });
     return found == methods.end() ? nullptr : &*found;
 }
@@ -96,7 +96,7 @@ std::string poseRange(const Pair& pair, const std::string& column) {
         least = std::min(least, ratio);
         most = std::max(most, ratio);
     }
-    const auto text = [](double ratio) { return std::isfinite(ratio) ? withDecimals(ratio, 2) : std::string("-"); };
+    const auto text = [](double ratio) { return std::isfinite(ratio) ? ratioText(ratio, 2) : std::string("-"); };
     return text(least) + " .. " + text(most);
 }
 
@@ -143,7 +143,7 @@ std::optional<double> uncertainty(const Pair& pair, const std::string& time) {
 
 void judge(FigureChange& change, double ratio, double uncertainty) {
     const double noise = std::max(kLeastNoise, uncertainty);
-    change.noise = withDecimals(noise, 3);
+    change.noise = ratioText(noise, 3);
     change.verdict = verdictOn(ratio, noise);
 }
 
@@ -177,8 +177,8 @@ FigureChange timeChange(const Pair& pair, const std::string& column, double befo
 
 std::optional<Pair> pairOf(const std::string& name, const std::vector<MeasuredMethod>& before,
                            const std::vector<MeasuredMethod>& after) {
-    const MeasuredMethod* const old = find(before, name);
-    const MeasuredMethod* const now = find(after, name);
+    const MeasuredMethod* const old = methodNamed(before, name);
+    const MeasuredMethod* const now = methodNamed(after, name);
     if (!old || !now) return std::nullopt;
     return Pair{*old, *now};
 }

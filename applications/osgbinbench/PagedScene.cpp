@@ -13,7 +13,7 @@ namespace osgAnalyticBin::bench {
 
 namespace {
 
-constexpr std::chrono::microseconds kLook{200};
+constexpr std::chrono::microseconds kIdleLook{200};
 
 // osgViewer finds a scene by its root, wherever it was made; only views make them otherwise.
 class OwnScene : public osgViewer::Scene {
@@ -90,7 +90,7 @@ bool PagedScene::isReading() const {
 
 void PagedScene::pause() {
     pager().setDatabasePagerThreadPause(true);
-    while (isThreadBusy()) std::this_thread::sleep_for(kLook);
+    while (isThreadBusy()) std::this_thread::sleep_for(kIdleLook);
 }
 
 void PagedScene::resume() {

@@ -3,6 +3,8 @@
 
 #include "ProceduralGlobe.h"
 
+#include "Angles.h"
+
 #include <osgAnalyticBin/InstallBinsCallback.h>
 #include <osgAnalyticBin/core/GeodeticGridBounds.h>
 
@@ -24,8 +26,8 @@ using osgbindem::TileId;
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRadiansPerDegree = kPi / 180.0;
+using support::kPi;
+using support::kRadiansPerDegree;
 
 // Of the relief, how much is coloured as the bottom of a sea.
 constexpr double kSea = 0.45;

@@ -3,6 +3,8 @@
 
 #include "ProceduralTerrain.h"
 
+#include "Angles.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -12,8 +14,8 @@ namespace osgAnalyticBin::globe {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRadiansPerDegree = kPi / 180.0;
+using support::kPi;
+using support::kRadiansPerDegree;
 
 constexpr double kLongestWave = 5.0e6;  // metres
 constexpr double kRadius = 6.37e6;      // metres, for the length of waves alone

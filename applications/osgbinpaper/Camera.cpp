@@ -3,6 +3,7 @@
 
 #include "Camera.h"
 
+#include "Angles.h"
 #include "SeededRandom.h"
 
 #include <glm/geometric.hpp>
@@ -13,7 +14,7 @@ namespace osgAnalyticBin::paper {
 
 namespace {
 
-constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
+using support::kRadiansPerDegree;
 
 core::Plane through(const glm::dvec3& inward, const glm::dvec3& point) {
     const glm::dvec3 normal = glm::normalize(inward);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Angles.h"
 #include "BinLines.h"
 #include "Figures.h"
 
@@ -12,7 +13,7 @@ namespace osgAnalyticBin::paper {
 
 namespace {
 
-constexpr double kDegreesPerRadian = 180.0 / 3.14159265358979323846;
+using support::kDegreesPerRadian;
 // Drawn to scale, the highest terrain is as thin as the line.
 constexpr double kExaggeration = 100.0;
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Angles.h"
 #include "Figures.h"
 
 #include <glm/geometric.hpp>
@@ -12,7 +13,7 @@ namespace osgAnalyticBin::paper {
 namespace {
 
 constexpr const char* kPale = "#E8E8E8";
-constexpr double kDegreesPerRadian = 180.0 / 3.14159265358979323846;
+using support::kDegreesPerRadian;
 
 std::string boxOf(const TileId& tile) {
     const osgbindem::RectDeg rect = tile.rect();
@@ -47,12 +48,12 @@ bool meet(const FigureScene& scene, const glm::dvec3& direction, glm::dvec3& lon
 
 // The border of the picture on the globe.
 std::vector<Polyline> footprint(const FigureScene& scene) {
-    constexpr int kSteps = 200;
+    constexpr int kCurveSteps = 200;
     std::vector<Polyline> lines(1);
     const auto edges = scene.camera.edges();
     for (std::size_t side = 0; side < 4; ++side) {
-        for (int i = 0; i <= kSteps; ++i) {
-            const double share = static_cast<double>(i) / kSteps;
+        for (int i = 0; i <= kCurveSteps; ++i) {
+            const double share = static_cast<double>(i) / kCurveSteps;
             glm::dvec3 point(0.0);
             if (meet(scene, edges[side] + share * (edges[(side + 1) % 4] - edges[side]), point)) {
                 lines.back().push_back(point);

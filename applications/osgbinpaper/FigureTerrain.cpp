@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Angles.h"
 #include "Failure.h"
 #include "Figures.h"
 #include "TerrainPicture.h"
@@ -14,7 +15,7 @@ namespace osgAnalyticBin::paper {
 
 namespace {
 
-constexpr double kDegreesPerRadian = 180.0 / 3.14159265358979323846;
+using support::kDegreesPerRadian;
 
 /// Raw pixels for gnuplot, deleted afterwards.
 class PixelFile final {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Angles.h"
 #include "BinLines.h"
 #include "Figures.h"
 
@@ -15,7 +16,7 @@ namespace osgAnalyticBin::paper {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using support::kPi;
 constexpr int kGridParts = 8;
 
 /// What the method takes for the tile.

@@ -3,6 +3,8 @@
 
 #include "Figures.h"
 
+#include "Angles.h"
+
 #include <algorithm>
 #include <iostream>
 
@@ -10,7 +12,7 @@ namespace osgAnalyticBin::paper {
 
 namespace {
 
-constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
+using support::kRadiansPerDegree;
 constexpr double kFovDeg = 50.0;
 
 struct Stand {

@@ -38,14 +38,15 @@ std::pair<glm::dvec3, glm::dvec3> boxAround(const Ellipsoid& ellipsoid, const Ge
 
 // Between the samples the distance from the middle exceeds the largest by less than a hundredth.
 double radiusAround(const glm::dvec3& center, const Ellipsoid& ellipsoid, const GeodeticBin& bin) {
-    constexpr int kSteps = 4;
+    constexpr int kGridSteps = 4;
     constexpr double kAllowance = 1.01;
     double most = 0.0;
-    for (int i = 0; i <= kSteps; ++i) {
-        for (int j = 0; j <= kSteps; ++j) {
+    for (int i = 0; i <= kGridSteps; ++i) {
+        for (int j = 0; j <= kGridSteps; ++j) {
             for (const double altitude : {bin.altitude().lower, bin.altitude().upper}) {
-                const core::Geodetic position{bin.latitude().lower + bin.latitude().width() * i / kSteps,
-                                              bin.longitude().lower + bin.longitude().width() * j / kSteps, altitude};
+                const core::Geodetic position{bin.latitude().lower + bin.latitude().width() * i / kGridSteps,
+                                              bin.longitude().lower + bin.longitude().width() * j / kGridSteps,
+                                              altitude};
                 most = std::max(most, glm::distance(ellipsoid.toEcef(position), center));
             }
         }

@@ -3,6 +3,7 @@
 
 #include "Terrain.h"
 
+#include "Angles.h"
 #include "Failure.h"
 
 #include <osg/CoordinateSystemNode>
@@ -13,7 +14,7 @@ namespace osgAnalyticBin::paper {
 
 namespace {
 
-constexpr double kDegreesPerRadian = 180.0 / 3.14159265358979323846;
+using support::kDegreesPerRadian;
 
 osgbindem::DemOptions optionsFor(const std::string& dem) {
     osgbindem::DemOptions options;

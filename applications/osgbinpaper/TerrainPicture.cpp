@@ -3,6 +3,7 @@
 
 #include "TerrainPicture.h"
 
+#include "Angles.h"
 #include "Hypsometry.h"
 
 #include <glm/geometric.hpp>
@@ -15,7 +16,7 @@ namespace osgAnalyticBin::paper {
 
 namespace {
 
-constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
+using support::kRadiansPerDegree;
 constexpr int kCells = 24;
 constexpr double kNear = 100.0;
 // Slopes are shaded as if they were this much steeper: from far away they are faint.

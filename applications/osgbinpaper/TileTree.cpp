@@ -3,6 +3,8 @@
 
 #include "TileTree.h"
 
+#include "Angles.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -12,7 +14,7 @@ namespace osgAnalyticBin::paper {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using support::kPi;
 
 // From the eye to the nearest position of the bin by latitude, longitude and altitude: close enough for a level of
 // detail.

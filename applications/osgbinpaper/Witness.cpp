@@ -13,7 +13,7 @@ namespace osgAnalyticBin::paper {
 
 namespace {
 
-constexpr int kSteps = 6;
+constexpr int kSearchSteps = 6;
 constexpr int kHalvings = 14;
 // Of the radius: what rounding may add to a line of sight that ends on the globe.
 constexpr double kGrazing = 1e-9;
@@ -41,7 +41,7 @@ struct Best {
 // Steps along the axes and along the diagonals, which a corner between two sides of the frustum needs.
 template <class Depth>
 void climb(const Depth& depth, glm::length_t axes, Best& best) {
-    double step = 0.5 / kSteps;
+    double step = 0.5 / kSearchSteps;
     for (int halving = 0; halving < kHalvings; step *= 0.5, ++halving) {
         const Shares from = best.shares;
         for (int i = -1; i <= 1; ++i) {
@@ -64,10 +64,10 @@ void climb(const Depth& depth, glm::length_t axes, Best& best) {
 template <class Depth>
 Best deepest(const Depth& depth, glm::length_t axes) {
     Best best;
-    for (int i = 0; i <= kSteps; ++i) {
-        for (int j = 0; j <= kSteps; ++j) {
+    for (int i = 0; i <= kSearchSteps; ++i) {
+        for (int j = 0; j <= kSearchSteps; ++j) {
             for (int k = 0; k <= (axes < 3 ? 0 : 1); ++k) {
-                const Shares shares{static_cast<double>(i) / kSteps, static_cast<double>(j) / kSteps, k};
+                const Shares shares{static_cast<double>(i) / kSearchSteps, static_cast<double>(j) / kSearchSteps, k};
                 const double value = depth(shares);
                 if (value > best.depth) best = {shares, value};
             }

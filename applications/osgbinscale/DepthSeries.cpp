@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Angles.h"
 #include "Failure.h"
 #include "Series.h"
 
@@ -14,8 +15,8 @@ namespace osgAnalyticBin::scale {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRadiansPerDegree = kPi / 180.0;
+using support::kPi;
+using support::kRadiansPerDegree;
 constexpr double kMetresPerDegree = 111195.0;
 constexpr osgbindem::PositionDeg kStart{46.0, 10.0};
 constexpr double kHighest = 1e7;  // metres above the terrain

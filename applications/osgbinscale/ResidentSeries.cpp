@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Angles.h"
 #include "Failure.h"
 #include "Series.h"
 
@@ -14,7 +15,7 @@ namespace osgAnalyticBin::scale {
 
 namespace {
 
-constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
+using support::kRadiansPerDegree;
 
 // Deep enough for a million tiles on half of the globe, with meshes as small as they get.
 globe::GlobeOptions smallMeshes() {

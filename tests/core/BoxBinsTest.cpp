@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <support/Numbers.h>
 #include <support/RandomBins.h>
 #include <support/RandomViews.h>
 #include <support/View.h>
@@ -29,9 +30,8 @@ using core::OrientedBoxBin;
 using core::Plane;
 using core::Side;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Documented above BoxBin.
-constexpr double kTightness = 160.0 * std::numeric_limits<double>::epsilon();
+constexpr double kBoxTightness = 160.0 * std::numeric_limits<double>::epsilon();
 
 template <class Box>
 class BoxBins : public testing::Test {};
@@ -87,7 +87,7 @@ TYPED_TEST(BoxBins, TouchTheBinOnAllSides) {
         for (std::size_t i = 0; i < TypeParam::kFaces; ++i) {
             const Real gap = oracle.distanceRange(box.face(i)).lower;
             ASSERT_GE(gap, 0) << "trial " << trial << " face " << i;
-            ASSERT_LE(gap, kTightness * farthest(oracle)) << "trial " << trial << " face " << i;
+            ASSERT_LE(gap, kBoxTightness * farthest(oracle)) << "trial " << trial << " face " << i;
         }
     }
 }

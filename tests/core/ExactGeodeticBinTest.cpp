@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <support/Numbers.h>
 #include <support/RandomBins.h>
 
 namespace osgAnalyticBin::test {
@@ -29,8 +30,6 @@ using core::Interval;
 using core::Plane;
 using core::Side;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Documented at ExactGeodeticBin::distanceRange.
 constexpr double kTightness = 64.0 * std::numeric_limits<double>::epsilon();
 

@@ -16,7 +16,7 @@
 #include <bitset>
 #include <cmath>
 #include <cstdio>
-#include <limits>
+#include <support/Numbers.h>
 #include <support/RandomBins.h>
 #include <support/RandomViews.h>
 #include <support/View.h>
@@ -35,7 +35,6 @@ using core::ReverseBin;
 using core::Side;
 
 constexpr std::size_t kMostPlanes = 6;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 PlaneMask allOf(const std::vector<Plane>& planes) {
     return (PlaneMask{1} << planes.size()) - 1;

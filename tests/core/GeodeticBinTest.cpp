@@ -11,7 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <support/Numbers.h>
 #include <support/RandomBins.h>
 
 namespace osgAnalyticBin::test {
@@ -21,8 +21,6 @@ using core::Geodetic;
 using core::GeodeticBin;
 using core::Interval;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTwoPi = 2.0 * kPi;
 constexpr double kAngleTolerance = 2e-15;  // promised by GeodeticBin::contains
 constexpr Interval kGround{0.0, 100.0};

@@ -60,7 +60,7 @@ glm::dvec3 applied(const Hessians& h, const glm::dvec3& u) {
            2.0 * (h.uv * (u.x * u.y) + h.uw * (u.x * u.z) + h.vw * (u.y * u.z));
 }
 
-double distanceBetween(const glm::dvec3& a, const RealVector& b) {
+double gapBetween(const glm::dvec3& a, const RealVector& b) {
     return static_cast<double>(length(real(a) - b));
 }
 
@@ -79,9 +79,9 @@ TEST(GeodeticMapping, JacobianIsTheFirstDerivative) {
         const GeodeticMapping mapping(ellipsoid);
         const glm::dvec3 at = anyParameters(random);
         const glm::dmat3 jacobian = mapping.jacobian(at);
-        ASSERT_LE(distanceBetween(jacobian[0], firstDerivative(ellipsoid, at, {1, 0, 0}, kStep)), kTolerance);
-        ASSERT_LE(distanceBetween(jacobian[1], firstDerivative(ellipsoid, at, {0, 1, 0}, kStep)), kTolerance);
-        ASSERT_LE(distanceBetween(jacobian[2] * 1e6, firstDerivative(ellipsoid, at, {0, 0, 1e6L}, kStep)), kTolerance);
+        ASSERT_LE(gapBetween(jacobian[0], firstDerivative(ellipsoid, at, {1, 0, 0}, kStep)), kTolerance);
+        ASSERT_LE(gapBetween(jacobian[1], firstDerivative(ellipsoid, at, {0, 1, 0}, kStep)), kTolerance);
+        ASSERT_LE(gapBetween(jacobian[2] * 1e6, firstDerivative(ellipsoid, at, {0, 0, 1e6L}, kStep)), kTolerance);
         ASSERT_NEAR(glm::length(jacobian[2]), 1.0, 1e-15);
     }
 }
@@ -99,7 +99,7 @@ TEST(GeodeticMapping, HessiansAreTheSecondDerivatives) {
              {glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, 1e6),
               glm::dvec3(1.0, 1.0, 0.0), glm::dvec3(1.0, 0.0, 1e6), glm::dvec3(0.0, 1.0, 1e6),
               glm::dvec3(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1e6, 1e6))}) {
-            ASSERT_LE(distanceBetween(applied(hessians, u), secondDerivative(ellipsoid, at, {u.x, u.y, u.z}, kStep)),
+            ASSERT_LE(gapBetween(applied(hessians, u), secondDerivative(ellipsoid, at, {u.x, u.y, u.z}, kStep)),
                       kTolerance);
         }
         ASSERT_EQ(hessians.ww, glm::dvec3(0.0));
@@ -182,7 +182,7 @@ double modelError(Random& random, const Ellipsoid& ellipsoid, const ParameterBox
     for (int i = 0; i < samples; ++i) {
         const glm::dvec3 unit = randomStep(random, glm::dvec3(1.0));
         const glm::dvec3 x = box.center + unit * box.halfSize;
-        worst = std::max(worst, distanceBetween(model.modelPoint(unit), geodeticToEcef(ellipsoid, x.x, x.y, x.z)));
+        worst = std::max(worst, gapBetween(model.modelPoint(unit), geodeticToEcef(ellipsoid, x.x, x.y, x.z)));
     }
     return worst;
 }

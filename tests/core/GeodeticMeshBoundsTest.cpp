@@ -26,7 +26,7 @@ using core::GeodeticBin;
 using core::GeodeticMeshBounds;
 using core::Interval;
 
-constexpr double kPromised = 1e-7;  // metres, by GeodeticMeshBounds
+constexpr double kMeshPromised = 1e-7;  // metres, by GeodeticMeshBounds
 
 struct Mesh {
     std::vector<glm::dvec3> vertices;
@@ -96,7 +96,7 @@ TEST(GeodeticMeshBounds, OneVertexIsAPoint) {
     const GeodeticBin bin = bounds.bin();
     EXPECT_NEAR(bin.latitude().lower, position.latitude, 1e-14);
     EXPECT_NEAR(bin.longitude().lower, position.longitude, 1e-14);
-    EXPECT_NEAR(bin.altitude().lower, position.altitude, kPromised);
+    EXPECT_NEAR(bin.altitude().lower, position.altitude, kMeshPromised);
     EXPECT_EQ(bin.latitude().width() + bin.longitude().width() + bin.altitude().width(), 0.0);
 }
 
@@ -107,7 +107,7 @@ TEST(GeodeticMeshBounds, HoldsEveryPointOfEveryTriangle) {
         const GeodeticBin bin = randomMeshBin(random);
         const Mesh mesh = gridMesh(random, ellipsoid, bin, random.integer(1, 4), random.integer(1, 4));
         const double reference = bin.longitude().middle() + random.uniform(-0.5, 0.5);
-        expectHolds(random, ellipsoid, mesh, boundsOf(ellipsoid, mesh, reference), kPromised, "grid");
+        expectHolds(random, ellipsoid, mesh, boundsOf(ellipsoid, mesh, reference), kMeshPromised, "grid");
     }
 }
 
@@ -122,7 +122,8 @@ TEST(GeodeticMeshBounds, HoldsLooseTriangles) {
         Mesh mesh;
         for (int i = 0; i < 3; ++i) mesh.vertices.push_back(ellipsoid.toEcef(randomPosition(random, bin)));
         mesh.triangles.push_back({mesh.vertices[0], mesh.vertices[1], mesh.vertices[2]});
-        expectHolds(random, ellipsoid, mesh, boundsOf(ellipsoid, mesh, bin.longitude().middle()), kPromised, "loose");
+        expectHolds(random, ellipsoid, mesh, boundsOf(ellipsoid, mesh, bin.longitude().middle()), kMeshPromised,
+                    "loose");
     }
 }
 
@@ -153,7 +154,7 @@ TEST(GeodeticMeshBounds, ChordsSagBelowTheEllipsoid) {
     const GeodeticBin bin = boundsOf(earth, {{a, b, c}, {{a, b, c}}}, 0.05);
     const double sag = earth.equatorialRadius() * (1.0 - std::cos(0.05));
     EXPECT_LE(bin.altitude().lower, -sag);
-    EXPECT_LE(bin.altitude().upper, kPromised);
+    EXPECT_LE(bin.altitude().upper, kMeshPromised);
 }
 
 TEST(GeodeticMeshBounds, HoldsMeshesAcrossTheDateLine) {
@@ -166,7 +167,7 @@ TEST(GeodeticMeshBounds, HoldsMeshesAcrossTheDateLine) {
         for (const double reference : {west + 0.2, west + 0.2 - 2.0 * kPi}) {
             const GeodeticBin found = boundsOf(wgs84(), mesh, reference);
             ASSERT_LT(found.longitude().width(), 0.4 + 1e-9) << "not the long way round";
-            expectHolds(random, wgs84(), mesh, found, kPromised, "date line");
+            expectHolds(random, wgs84(), mesh, found, kMeshPromised, "date line");
         }
     }
 }
@@ -194,7 +195,7 @@ TEST(GeodeticMeshBounds, PoleRowsHaveNoLongitude) {
         }
         const GeodeticBin found = boundsOf(wgs84(), mesh, west + 0.5 * width, kAxisTolerance);
         ASSERT_LT(found.longitude().width(), width + 1e-9);
-        expectHolds(random, wgs84(), mesh, found, kPromised + kAxisTolerance, "pole row");
+        expectHolds(random, wgs84(), mesh, found, kMeshPromised + kAxisTolerance, "pole row");
     }
 }
 
@@ -213,7 +214,7 @@ TEST(GeodeticMeshBounds, TrianglesOverThePoleCoverTheCircle) {
         const GeodeticBin bin = boundsOf(wgs84(), mesh, start);
         ASSERT_TRUE(bin.isFullCircle());
         ASSERT_TRUE(bin.contains(Geodetic{side * kHalfPi, 0.0, bin.altitude().middle()}));
-        expectHolds(random, wgs84(), mesh, bin, kPromised, "over the pole");
+        expectHolds(random, wgs84(), mesh, bin, kMeshPromised, "over the pole");
     }
 }
 
@@ -236,7 +237,7 @@ TEST(GeodeticMeshBounds, ClosedGlobesCoverTheCircle) {
             open.triangles.push_back({at(row, columns - 1), at(row, 0), at(row + 1, columns - 1)});
             open.triangles.push_back({at(row + 1, columns - 1), at(row, 0), at(row + 1, 0)});
         }
-        expectHolds(random, wgs84(), open, boundsOf(wgs84(), open, 0.0), kPromised, "closed globe");
+        expectHolds(random, wgs84(), open, boundsOf(wgs84(), open, 0.0), kMeshPromised, "closed globe");
     }
 }
 
@@ -257,7 +258,7 @@ TEST(GeodeticMeshBounds, ColumnsOnTheAntimeridianServeBothSides) {
             mesh.vertices.push_back(at(-0.5, west));
             mesh.vertices.push_back(at(0.5, west));
         }
-        expectHolds(random, earth, mesh, boundsOf(earth, mesh, 0.0), kPromised, "antimeridian column");
+        expectHolds(random, earth, mesh, boundsOf(earth, mesh, 0.0), kMeshPromised, "antimeridian column");
     }
 }
 
@@ -274,7 +275,7 @@ TEST(GeodeticMeshBounds, IsTight) {
         const double step = bin.latitude().width() / steps;
         ASSERT_NEAR(found.longitude().lower, bin.longitude().lower, 1e-13);
         ASSERT_NEAR(found.longitude().upper, bin.longitude().upper, 1e-13);
-        ASSERT_LE(found.altitude().upper, bin.altitude().upper + kPromised);
+        ASSERT_LE(found.altitude().upper, bin.altitude().upper + kMeshPromised);
         const double poleward =
             std::max(found.latitude().upper - bin.latitude().upper, bin.latitude().lower - found.latitude().lower);
         worstNorth = std::max(worstNorth, poleward / (step * step));

@@ -12,8 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <optional>
+#include <support/Numbers.h>
 #include <support/RandomBins.h>
 #include <support/RandomViews.h>
 #include <support/View.h>
@@ -27,8 +27,7 @@ using core::HorizonBin;
 using core::HorizonEye;
 using core::HorizonPoint;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDepth = 11000.0;
+constexpr double kPointDepth = 11000.0;
 
 HorizonPoint pointOf(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin = 0.0) {
     return HorizonPoint(HorizonBin(ellipsoid, bin, margin));
@@ -80,8 +79,8 @@ TEST(HorizonPoint, NeverHidesWhatTheBinItselfDoesNot) {
     int byBin = 0;
     for (int trial = 0; trial < 200000; ++trial) {
         const GeodeticBin bin = randomTile(random, random.integer(0, 6), {-500.0, 3000.0});
-        const glm::dvec3 eye = randomEye(random, wgs84(), kDepth);
-        const auto prepared = HorizonEye::fromEye(wgs84(), kDepth, eye);
+        const glm::dvec3 eye = randomEye(random, wgs84(), kPointDepth);
+        const auto prepared = HorizonEye::fromEye(wgs84(), kPointDepth, eye);
         if (!prepared) continue;
         const bool isBinHidden = prepared->hides(HorizonBin(wgs84(), bin));
         const bool isPointHidden = prepared->hides(pointOf(wgs84(), bin));
@@ -122,17 +121,17 @@ std::optional<RealVector> sampledPoint(const GeodeticBin& bin, Real scale) {
 
 TEST(HorizonPoint, IsThePublishedPoint) {
     Random random(423);
-    const Real scale = 1 - static_cast<Real>(kDepth) / wgs84().polarRadius();
+    const Real scale = 1 - static_cast<Real>(kPointDepth) / wgs84().polarRadius();
     int differences = 0;
     int hidden = 0;
     constexpr int kTrials = 20000;
     for (int trial = 0; trial < kTrials; ++trial) {
         const GeodeticBin bin = randomTile(random, random.integer(1, 6), {-500.0, 3000.0});
-        const glm::dvec3 eye = randomEye(random, wgs84(), kDepth);
-        const auto prepared = HorizonEye::fromEye(wgs84(), kDepth, eye);
+        const glm::dvec3 eye = randomEye(random, wgs84(), kPointDepth);
+        const auto prepared = HorizonEye::fromEye(wgs84(), kPointDepth, eye);
         const auto point = sampledPoint(bin, scale);
         if (!prepared || !point) continue;
-        const bool isPublishedHidden = !segmentMissesOccluder(wgs84(), kDepth, *point, real(eye));
+        const bool isPublishedHidden = !segmentMissesOccluder(wgs84(), kPointDepth, *point, real(eye));
         hidden += isPublishedHidden ? 1 : 0;
         differences += isPublishedHidden != prepared->hides(pointOf(wgs84(), bin)) ? 1 : 0;
     }
@@ -142,7 +141,7 @@ TEST(HorizonPoint, IsThePublishedPoint) {
 }
 
 TEST(HorizonPoint, MissingInformationIsVisible) {
-    const auto eye = HorizonEye::fromEye(wgs84(), kDepth, {1e7, 0.0, 0.0});
+    const auto eye = HorizonEye::fromEye(wgs84(), kPointDepth, {1e7, 0.0, 0.0});
     ASSERT_TRUE(eye);
     const auto behind = [](double halfWidthDeg, core::Interval altitude) {
         return GeodeticBin::fromDegrees({-1.0, 1.0}, {180.0 - halfWidthDeg, 180.0 + halfWidthDeg}, altitude);

@@ -13,8 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
+#include <support/Numbers.h>
 #include <support/RandomBins.h>
 #include <support/RandomViews.h>
 #include <support/View.h>
@@ -29,8 +29,6 @@ using core::HorizonBin;
 using core::HorizonEye;
 using core::Interval;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Lowest terrain on earth.
 constexpr double kDepth = 11000.0;
 

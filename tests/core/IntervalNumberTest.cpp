@@ -9,14 +9,13 @@
 
 #include <cmath>
 #include <limits>
+#include <support/Numbers.h>
 #include <support/RandomBins.h>
 
 namespace osgAnalyticBin::test {
 namespace {
 
 using core::IntervalNumber;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool holds(const IntervalNumber& x, Real value) {
     return x.lower() <= value && value <= x.upper();

@@ -26,7 +26,7 @@ using core::ParameterBox;
 constexpr double kRadius = 6378137.0;
 
 // The formula alone, without the bound it brings.
-struct Unbounded {
+struct UnboundedField {
     MercatorHeightField field;
     template <class T>
     core::Vec3<T> operator()(T u, T v, T w) const {
@@ -82,7 +82,7 @@ TEST(MercatorHeightField, IntervalBoundOfTheSameFormulaHoldsToo) {
     double loosest = 0.0;
     for (int trial = 0; trial < 60; ++trial) {
         const ParameterBox box = randomMapTile(random, random.integer(4, 8));
-        const AutodiffMapping<Unbounded> mapping({MercatorHeightField(kRadius)});
+        const AutodiffMapping<UnboundedField> mapping({MercatorHeightField(kRadius)});
         expectRemainderHolds(mapping, box);
         const double byHand = MercatorHeightField(kRadius).thirdDerivativeBound(box);
         loosest = std::max(loosest, mapping.thirdDerivativeBound(box) / byHand);

@@ -40,8 +40,8 @@ constexpr std::array<double, 4> kNoNumbers{
     -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::max()};
 
 // A bin and some planes about it: any number, of any kind, now and then with what is no number.
-struct Case {
-    explicit Case(Random& random)
+struct PlaneSetCase {
+    explicit PlaneSetCase(Random& random)
         : oracle(randomEllipsoid(random), randomBin(random)),
           exact(oracle.ellipsoid(), oracle.bin()),
           quadratic(core::GeodeticMapping(oracle.ellipsoid()), core::parameterBox(oracle.bin())),
@@ -93,7 +93,7 @@ TEST(PlaneSet, GivesTheVerdictsOfSinglePlanes) {
     Random random(120);
     std::array<int, 3> verdicts{};
     for (int trial = 0; trial < 100000; ++trial) {
-        const Case c(random);
+        const PlaneSetCase c(random);
         expectVerdictsOfSinglePlanes(c.exact, c.planes, c.undecided);
         expectVerdictsOfSinglePlanes(c.quadratic, c.planes, c.undecided);
         expectVerdictsOfSinglePlanes(c.either, c.planes, c.undecided);
@@ -144,7 +144,7 @@ TEST(PlaneKernels, EveryTargetAgreesWithTheScalarForm) {
         Random random(122);
         std::uint64_t open = 0;
         for (int trial = 0; trial < 200000; ++trial) {
-            const Case c(random);
+            const PlaneSetCase c(random);
             const PlaneMask mask = c.undecided & c.planes.all();
             const core::PlaneBlock* blocks = c.planes.blocks();
             ASSERT_TRUE(same(core::kernels::activeKernels.exact(c.exact.data(), blocks, mask),

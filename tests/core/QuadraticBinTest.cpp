@@ -14,7 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
+#include <support/Numbers.h>
 #include <support/RandomBins.h>
 
 namespace osgAnalyticBin::test {
@@ -28,8 +28,6 @@ using core::Plane;
 using core::QuadraticBin;
 using core::Side;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Two evaluations of the same geometry from other numbers differ by a few roundings of coordinates near 7e6 m.
 constexpr double kSameGeometry = 1e-7;
 
@@ -37,8 +35,8 @@ QuadraticBin quadratic(const Ellipsoid& ellipsoid, const GeodeticBin& bin, doubl
     return QuadraticBin(GeodeticMapping(ellipsoid), core::parameterBox(bin), margin);
 }
 
-struct Case {
-    explicit Case(Random& random)
+struct PlaneCase {
+    explicit PlaneCase(Random& random)
         : kind(random.pick(kBinKinds)),
           oracle(randomEllipsoid(random), randomBin(random, kind)),
           plane(randomPlane(random, oracle, random.pick(kPlaneKinds))) {}
@@ -52,7 +50,7 @@ TEST(QuadraticBin, NeverContradictsASample) {
     Random random(60);
     std::array<int, 3> verdicts{};
     for (int trial = 0; trial < 20000; ++trial) {
-        const Case c(random);
+        const PlaneCase c(random);
         const Side side = quadratic(c.oracle.ellipsoid(), c.oracle.bin()).classify(c.plane);
         ++verdicts[static_cast<std::size_t>(side)];
         if (side == Side::Straddling) continue;
@@ -73,7 +71,7 @@ TEST(QuadraticBin, NeverContradictsASample) {
 TEST(QuadraticBin, DistanceRangeHoldsTheTrueRange) {
     Random random(61);
     for (int trial = 0; trial < 300000; ++trial) {
-        const Case c(random);
+        const PlaneCase c(random);
         const Interval range = quadratic(c.oracle.ellipsoid(), c.oracle.bin()).distanceRange(c.plane);
         const RealRange truth = c.oracle.distanceRange(c.plane);
         const Real rounding = c.oracle.rounding(c.plane);
@@ -105,7 +103,7 @@ TEST(QuadraticBin, DistanceRangeHoldsTheTrueRangeBesideTheAxis) {
 TEST(QuadraticBin, DecidesWhatItsDistanceRangeDecides) {
     Random random(63);
     for (int trial = 0; trial < 100000; ++trial) {
-        const Case c(random);
+        const PlaneCase c(random);
         const QuadraticBin bin = quadratic(c.oracle.ellipsoid(), c.oracle.bin());
         const Interval range = bin.distanceRange(c.plane);
         if (std::min(std::abs(range.lower), std::abs(range.upper)) < kSameGeometry) continue;  // a tie
@@ -183,7 +181,7 @@ TEST(QuadraticBin, DecidesPlanesThatClearlyMiss) {
 TEST(QuadraticBin, MarginWidensTheRangeByItself) {
     Random random(67);
     for (int trial = 0; trial < 50000; ++trial) {
-        const Case c(random);
+        const PlaneCase c(random);
         const double margin = random.logUniform(1e-3, 1e5);
         const QuadraticBin bare = quadratic(c.oracle.ellipsoid(), c.oracle.bin());
         const QuadraticBin wide = quadratic(c.oracle.ellipsoid(), c.oracle.bin(), margin);
@@ -221,7 +219,7 @@ TEST(QuadraticBin, PlaneWithoutNumbersIsUndecided) {
 TEST(QuadraticBin, NormalsMayBeOffByTheTolerance) {
     Random random(68);
     for (int trial = 0; trial < 50000; ++trial) {
-        Case c(random);
+        PlaneCase c(random);
         c.plane.normal *= 1.0 + random.sign() * 1e-9;
         // A margin of 1000 km makes the tolerance of the normal a millimetre.
         const double margin = random.chance(0.5) ? 0.0 : 1e6;
@@ -233,7 +231,7 @@ TEST(QuadraticBin, NormalsMayBeOffByTheTolerance) {
     }
 }
 
-void expectSameRange(const Interval& a, const Interval& b, double offset) {
+void expectSameRangeBeyond(const Interval& a, const Interval& b, double offset) {
     const double tolerance = kSameGeometry + 1e-14 * std::abs(offset);
     ASSERT_NEAR(a.lower, b.lower, tolerance);
     ASSERT_NEAR(a.upper, b.upper, tolerance);
@@ -242,7 +240,7 @@ void expectSameRange(const Interval& a, const Interval& b, double offset) {
 TEST(QuadraticBin, FlippingThePlaneFlipsTheRange) {
     Random random(69);
     for (int trial = 0; trial < 50000; ++trial) {
-        const Case c(random);
+        const PlaneCase c(random);
         const QuadraticBin bin = quadratic(c.oracle.ellipsoid(), c.oracle.bin());
         const Interval range = bin.distanceRange(c.plane);
         const Interval flipped = bin.distanceRange(c.plane.flipped());
@@ -254,7 +252,7 @@ TEST(QuadraticBin, FlippingThePlaneFlipsTheRange) {
 TEST(QuadraticBin, TurnsWithTheEarth) {
     Random random(70);
     for (int trial = 0; trial < 50000; ++trial) {
-        const Case c(random);
+        const PlaneCase c(random);
         const GeodeticBin& bin = c.oracle.bin();
         const double turn = random.uniform(-kPi, kPi);
         const GeodeticBin turned(bin.latitude(), {bin.longitude().lower + turn, bin.longitude().upper + turn},
@@ -264,23 +262,23 @@ TEST(QuadraticBin, TurnsWithTheEarth) {
         const Plane plane{
             {n.x * std::cos(turn) - n.y * std::sin(turn), n.x * std::sin(turn) + n.y * std::cos(turn), n.z},
             c.plane.offset};
-        expectSameRange(quadratic(c.oracle.ellipsoid(), turned).distanceRange(plane),
-                        quadratic(c.oracle.ellipsoid(), bin).distanceRange(c.plane), plane.offset);
+        expectSameRangeBeyond(quadratic(c.oracle.ellipsoid(), turned).distanceRange(plane),
+                              quadratic(c.oracle.ellipsoid(), bin).distanceRange(c.plane), plane.offset);
     }
 }
 
 TEST(QuadraticBin, MirrorsWithTheHemispheres) {
     Random random(71);
     for (int trial = 0; trial < 50000; ++trial) {
-        const Case c(random);
+        const PlaneCase c(random);
         const GeodeticBin& bin = c.oracle.bin();
         const GeodeticBin south({-bin.latitude().upper, -bin.latitude().lower}, bin.longitude(), bin.altitude());
         const GeodeticBin west(bin.latitude(), {-bin.longitude().upper, -bin.longitude().lower}, bin.altitude());
         const Interval range = quadratic(c.oracle.ellipsoid(), bin).distanceRange(c.plane);
         const Plane downward{c.plane.normal * glm::dvec3(1.0, 1.0, -1.0), c.plane.offset};
         const Plane westward{c.plane.normal * glm::dvec3(1.0, -1.0, 1.0), c.plane.offset};
-        expectSameRange(quadratic(c.oracle.ellipsoid(), south).distanceRange(downward), range, c.plane.offset);
-        expectSameRange(quadratic(c.oracle.ellipsoid(), west).distanceRange(westward), range, c.plane.offset);
+        expectSameRangeBeyond(quadratic(c.oracle.ellipsoid(), south).distanceRange(downward), range, c.plane.offset);
+        expectSameRangeBeyond(quadratic(c.oracle.ellipsoid(), west).distanceRange(westward), range, c.plane.offset);
     }
 }
 

@@ -28,7 +28,7 @@ using Real = long double;
 using Vector = std::array<Real, 3>;
 using Matrix = std::array<Vector, 3>;
 
-constexpr double kPromised = 64.0 * std::numeric_limits<double>::epsilon();  // by exactRange
+constexpr double kRangePromised = 64.0 * std::numeric_limits<double>::epsilon();  // by exactRange
 // What the samples leave at most, relative to the magnitude: a grid point is within 0.1 of the extremum in every
 // coordinate in which it is stationary, and on the boundary in the others. Climbing mostly does far better.
 constexpr double kGridError = 0.01;
@@ -244,8 +244,8 @@ TEST(QuadraticRange, MatchesDenseSampling) {
         const Interval range = exactRange(q);
         const auto [lower, upper] = sampledRange(q);
         const double magnitude = magnitudeOf(q);
-        ASSERT_LE(range.lower, lower + kPromised * magnitude);
-        ASSERT_GE(range.upper, upper - kPromised * magnitude);
+        ASSERT_LE(range.lower, lower + kRangePromised * magnitude);
+        ASSERT_GE(range.upper, upper - kRangePromised * magnitude);
         ASSERT_GE(range.lower, lower - kGridError * magnitude);
         ASSERT_LE(range.upper, upper + kGridError * magnitude);
     }
@@ -260,7 +260,7 @@ TEST(QuadraticRange, MatchesAllStationaryPointsInLongDouble) {
         const auto [lower, upper] = solvedRange(q);
         const Real error = std::max(std::abs(range.lower - lower), std::abs(range.upper - upper));
         worst = std::max(worst, error / magnitudeOf(q));
-        ASSERT_LE(error, kPromised * magnitudeOf(q))
+        ASSERT_LE(error, kRangePromised * magnitudeOf(q))
             << "hessian " << q.hessian[0] << ' ' << q.hessian[1] << ' ' << q.hessian[2] << ' ' << q.hessian[3] << ' '
             << q.hessian[4] << ' ' << q.hessian[5];
     }
@@ -288,7 +288,7 @@ TEST(QuadraticRange, KeepsItsDigitsWhenNearlySingular) {
     const double epsilons = worst / std::numeric_limits<double>::epsilon();
     std::printf("exact range, nearly singular: off by at most %.2f epsilon times the magnitude (promised 64)\n",
                 epsilons);
-    EXPECT_LE(worst, kPromised);
+    EXPECT_LE(worst, kRangePromised);
 }
 
 TEST(QuadraticRange, FindsExtremaOfEveryKind) {
@@ -320,7 +320,7 @@ TEST(QuadraticRange, IntervalBoundHoldsTheRange) {
         const Quadratic q = randomQuadratic(random, random.pick(kShapes));
         const Interval range = exactRange(q);
         const Interval bound = intervalBound(q);
-        const double rounding = kPromised * magnitudeOf(q);
+        const double rounding = kRangePromised * magnitudeOf(q);
         ASSERT_LE(bound.lower, range.lower + rounding);
         ASSERT_GE(bound.upper, range.upper - rounding);
         ASSERT_GE(bound.lower, q.value - magnitudeOf(q));
@@ -340,7 +340,8 @@ TEST(QuadraticRange, EvaluatesThePolynomial) {
     for (int trial = 0; trial < 10000; ++trial) {
         const Quadratic q = randomQuadratic(random, Shape::General);
         const glm::dvec3 x(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-        ASSERT_NEAR(q(x.x, x.y, x.z), static_cast<double>(valueAt(q, {x.x, x.y, x.z})), kPromised * magnitudeOf(q));
+        ASSERT_NEAR(q(x.x, x.y, x.z), static_cast<double>(valueAt(q, {x.x, x.y, x.z})),
+                    kRangePromised * magnitudeOf(q));
     }
 }
 

@@ -24,7 +24,7 @@ using core::GeodeticMeshBounds;
 using core::Interval;
 using core::QuickMeshBounds;
 
-constexpr double kPromised = 1e-7;  // metres
+constexpr double kQuickPromised = 1e-7;  // metres
 constexpr double kAxisTolerance = 1.0;
 
 void addVertex(EcefMesh& mesh, const glm::dvec3& v) {
@@ -34,8 +34,8 @@ void addVertex(EcefMesh& mesh, const glm::dvec3& v) {
 }
 
 // Posts on a grid over the bin, each with its own altitude; diagonals by chance.
-EcefMesh gridMesh(Random& random, const Ellipsoid& ellipsoid, const GeodeticBin& bin, std::uint32_t rows,
-                  std::uint32_t columns) {
+EcefMesh quickGridMesh(Random& random, const Ellipsoid& ellipsoid, const GeodeticBin& bin, std::uint32_t rows,
+                       std::uint32_t columns) {
     EcefMesh mesh;
     for (std::uint32_t row = 0; row <= rows; ++row) {
         for (std::uint32_t column = 0; column <= columns; ++column) {
@@ -95,11 +95,11 @@ TEST(QuickMeshBounds, HoldsEveryPointOfEveryTriangle) {
         const Ellipsoid ellipsoid =
             random.chance(0.7) ? wgs84() : Ellipsoid(6.4e6, 6.4e6 * std::sqrt(random.uniform(0.9905, 1.0095)));
         const auto cells = static_cast<std::uint32_t>(random.integer(1, 9));
-        const EcefMesh mesh = gridMesh(random, ellipsoid, randomExtents(random), cells, cells);
+        const EcefMesh mesh = quickGridMesh(random, ellipsoid, randomExtents(random), cells, cells);
         const QuickMeshBounds bounds(ellipsoid, mesh);
         known += bounds.isKnown();
         if (!bounds.isKnown()) continue;
-        expectHolds(random, ellipsoid, mesh, bounds.bin(), bounds.touchesAxis() ? kAxisTolerance : kPromised);
+        expectHolds(random, ellipsoid, mesh, bounds.bin(), bounds.touchesAxis() ? kAxisTolerance : kQuickPromised);
     }
     EXPECT_GT(known, 900);
 }
@@ -114,7 +114,7 @@ TEST(QuickMeshBounds, HoldsLooseTriangles) {
         for (int i = 0; i < 3; ++i) addVertex(mesh, wgs84().toEcef(randomPosition(random, bin)));
         mesh.triangles = {0, 1, 2};
         const QuickMeshBounds bounds(wgs84(), mesh);
-        if (bounds.isKnown()) expectHolds(random, wgs84(), mesh, bounds.bin(), kPromised);
+        if (bounds.isKnown()) expectHolds(random, wgs84(), mesh, bounds.bin(), kQuickPromised);
     }
 }
 
@@ -127,7 +127,7 @@ TEST(QuickMeshBounds, IsHardlyLooserThanTheThoroughBounds) {
         // no steeper than terrain is: a chord that climbs is taken for one along the ground
         const double low = anyExtents.altitude().lower;
         const GeodeticBin extents = anyExtents.withAltitude({low, low + std::min(5000.0, 3e5 * step)});
-        const EcefMesh mesh = gridMesh(random, wgs84(), extents, cells, cells);
+        const EcefMesh mesh = quickGridMesh(random, wgs84(), extents, cells, cells);
         const QuickMeshBounds quick(wgs84(), mesh);
         if (!quick.isKnown()) continue;
         const GeodeticBin thorough = oracle(wgs84(), mesh, extents.longitude().middle());
@@ -152,7 +152,7 @@ TEST(QuickMeshBounds, IsHardlyLooserThanTheThoroughBounds) {
 TEST(QuickMeshBounds, KnowsTheAltitudeOfEveryVertex) {
     Random random(193);
     for (int trial = 0; trial < 300; ++trial) {
-        const EcefMesh mesh = gridMesh(random, wgs84(), randomExtents(random), 5, 5);
+        const EcefMesh mesh = quickGridMesh(random, wgs84(), randomExtents(random), 5, 5);
         const QuickMeshBounds bounds(wgs84(), mesh);
         if (!bounds.isKnown()) continue;
         ASSERT_EQ(bounds.altitudes().size(), mesh.size());
@@ -167,7 +167,7 @@ TEST(QuickMeshBounds, KnowsTheAltitudeOfEveryVertex) {
 TEST(QuickMeshBounds, LeavesTheRestToOthers) {
     Random random(194);
     const auto isKnown = [&](const Ellipsoid& ellipsoid, const GeodeticBin& extents) {
-        return QuickMeshBounds(ellipsoid, gridMesh(random, ellipsoid, extents, 8, 8)).isKnown();
+        return QuickMeshBounds(ellipsoid, quickGridMesh(random, ellipsoid, extents, 8, 8)).isKnown();
     };
     const GeodeticBin tile({0.1, 0.2}, {0.1, 0.2}, {0.0, 1000.0});
     EXPECT_TRUE(isKnown(wgs84(), tile));
@@ -175,7 +175,7 @@ TEST(QuickMeshBounds, LeavesTheRestToOthers) {
     EXPECT_FALSE(isKnown(Ellipsoid(6.4e6, 6.0e6), tile));
     EXPECT_FALSE(isKnown(wgs84(), tile.withAltitude({-300000.0, 0.0})));
     EXPECT_FALSE(isKnown(wgs84(), GeodeticBin::wholeGlobe({0.0, 0.0})));
-    EcefMesh broken = gridMesh(random, wgs84(), tile, 8, 8);
+    EcefMesh broken = quickGridMesh(random, wgs84(), tile, 8, 8);
     broken.y[40] = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(QuickMeshBounds(wgs84(), broken).isKnown());
 }

@@ -22,7 +22,7 @@ using core::ParameterBox;
 using core::TorusSegment;
 
 // The formula alone, without the bound it brings.
-struct Unbounded {
+struct UnboundedTorus {
     TorusSegment torus;
     template <class T>
     core::Vec3<T> operator()(T u, T v, T w) const {
@@ -37,7 +37,7 @@ TorusSegment randomTorus(Random& random, double farthest) {
 }
 
 // A piece of a bend, up to an eighth of a turn both ways from its middle.
-ParameterBox randomWall(Random& random) {
+ParameterBox randomTorusWall(Random& random) {
     const double radius = random.logUniform(0.05, 0.5);
     return {{random.uniform(-kPi, kPi), random.uniform(-kPi, kPi), radius},
             {random.uniform(0.02, 0.25 * kPi), random.uniform(0.02, 0.25 * kPi), radius * random.uniform(0.0, 0.3)}};
@@ -46,7 +46,7 @@ ParameterBox randomWall(Random& random) {
 TEST(TorusSegment, DerivativesMatchDifferences) {
     Random random(330);
     for (int trial = 0; trial < 200; ++trial) {
-        expectDerivativesMatchDifferences(AutodiffMapping(randomTorus(random, 1e5)), randomWall(random), random);
+        expectDerivativesMatchDifferences(AutodiffMapping(randomTorus(random, 1e5)), randomTorusWall(random), random);
     }
 }
 
@@ -54,7 +54,8 @@ TEST(TorusSegment, RemainderHoldsAndIsTight) {
     Random random(331);
     double worst = 0.0;
     for (int trial = 0; trial < 200; ++trial) {
-        worst = std::max(worst, expectRemainderHolds(AutodiffMapping(randomTorus(random, 10.0)), randomWall(random)));
+        worst =
+            std::max(worst, expectRemainderHolds(AutodiffMapping(randomTorus(random, 10.0)), randomTorusWall(random)));
     }
     std::printf("remainder at most %.2f times the model's error\n", worst);
     EXPECT_LE(worst, 3.0);
@@ -66,8 +67,8 @@ TEST(TorusSegment, IntervalBoundOfTheSameFormulaAgrees) {
     double loosest = 0.0;
     for (int trial = 0; trial < 200; ++trial) {
         const TorusSegment torus = randomTorus(random, 10.0);
-        const ParameterBox box = randomWall(random);
-        const AutodiffMapping<Unbounded> mapping({torus});
+        const ParameterBox box = randomTorusWall(random);
+        const AutodiffMapping<UnboundedTorus> mapping({torus});
         const double ratio = mapping.thirdDerivativeBound(box) / torus.thirdDerivativeBound(box);
         expectRemainderHolds(mapping, box);
         tightest = std::min(tightest, ratio);
@@ -80,7 +81,7 @@ TEST(TorusSegment, IntervalBoundOfTheSameFormulaAgrees) {
 TEST(TorusSegment, NeverContradictsASample) {
     Random random(333);
     for (int trial = 0; trial < 200; ++trial) {
-        expectNoContradiction(AutodiffMapping(randomTorus(random, 1e5)), randomWall(random), random);
+        expectNoContradiction(AutodiffMapping(randomTorus(random, 1e5)), randomTorusWall(random), random);
     }
 }
 

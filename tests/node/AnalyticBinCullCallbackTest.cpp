@@ -6,6 +6,7 @@
 // relations (a moved globe, a local frame, masks on and off), OSG's own tests for small features and occluders.
 // The verdict against a single plane is tested in core/.
 
+#include "CameraGlobe.h"
 #include "CullFixture.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
@@ -28,22 +29,22 @@ namespace {
 using core::GeodeticBin;
 using test::CullView;
 
-constexpr double kEarthRadius = 6378137.0;
+using test::kEarthRadius;
 
 osg::Vec3d randomEye(test::Random& random, double altitude) {
     const glm::dvec3 d = random.direction();
     return osg::Vec3d(d.x, d.y, d.z) * (kEarthRadius + altitude);
 }
 
-CullView randomView(test::Random& random) {
+CullView randomGlobeView(test::Random& random) {
     const osg::Vec3d eye = randomEye(random, random.logUniform(2e4, 2e7));
     const osg::Vec3d target = randomEye(random, 0.0);
     const glm::dvec3 up = random.direction();
     return CullView::lookAt(eye, target, osg::Vec3d(up.x, up.y, up.z), random.uniform(2.0, 90.0));
 }
 
-struct Globe {
-    explicit Globe(const CullOptions& options = {}) : bins(test::startTiles()) {
+struct SmallGlobe {
+    explicit SmallGlobe(const CullOptions& options = {}) : bins(test::startTiles()) {
         for (std::size_t i = 0; i < bins.size(); ++i) {
             root->addChild(test::makeTile(std::to_string(i), bins[i], visited, options));
         }
@@ -69,13 +70,13 @@ bool anyInside(const std::vector<osg::Vec3d>& points, const std::vector<osg::Pla
 }
 
 TEST(AnalyticBinCullCallback, NeverCullsATileWithAVisibleSample) {
-    Globe globe;
+    SmallGlobe globe;
     std::vector<std::vector<osg::Vec3d>> points;
     for (const AnalyticBin& bin : globe.bins) points.push_back(test::samples(bin, 13));
     test::Random random(10);
     int culled = 0;
     for (int i = 0; i < 300; ++i) {
-        const CullView view = randomView(random);
+        const CullView view = randomGlobeView(random);
         const std::set<std::string> reached = globe.reached(*globe.root, view);
         const std::vector<osg::Plane> planes = view.sidePlanes();
         for (std::size_t t = 0; t < points.size(); ++t) {
@@ -88,13 +89,13 @@ TEST(AnalyticBinCullCallback, NeverCullsATileWithAVisibleSample) {
 }
 
 TEST(AnalyticBinCullCallback, CullsWhatTheSphereKeeps) {
-    Globe globe;
+    SmallGlobe globe;
     test::Random random(11);
     const osg::EllipsoidModel wgs84;
     int byBins = 0;
     int bySpheres = 0;
     for (int i = 0; i < 200; ++i) {
-        const CullView view = randomView(random);
+        const CullView view = randomGlobeView(random);
         byBins += static_cast<int>(globe.reached(*globe.root, view).size());
         osg::Polytope frustum(view.sidePlanes());
         for (const AnalyticBin& bin : globe.bins) bySpheres += frustum.contains(bin.boundingSphere(wgs84)) ? 1 : 0;
@@ -103,13 +104,13 @@ TEST(AnalyticBinCullCallback, CullsWhatTheSphereKeeps) {
 }
 
 TEST(AnalyticBinCullCallback, AGlobeUnderATransformIsCulledLikeAGlobeAtRest) {
-    Globe globe;
+    SmallGlobe globe;
     const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
     mover->setCullingActive(false);
     mover->addChild(globe.root);
     test::Random random(12);
     for (int i = 0; i < 60; ++i) {
-        CullView view = randomView(random);
+        CullView view = randomGlobeView(random);
         const std::set<std::string> atRest = globe.reached(*globe.root, view);
         const osg::Matrixd motion = osg::Matrixd::rotate(random.uniform(0, 6), 0.3, 0.5, -0.8) *
                                     osg::Matrixd::scale(0.5, 0.5, 0.5) * osg::Matrixd::translate(1e7, -3e6, 5e5);
@@ -121,7 +122,7 @@ TEST(AnalyticBinCullCallback, AGlobeUnderATransformIsCulledLikeAGlobeAtRest) {
 
 TEST(AnalyticBinCullCallback, ATileInALocalFrameIsCulledLikeOneInEcef) {
     const std::vector<AnalyticBin> bins = test::startTiles();
-    Globe globe;
+    SmallGlobe globe;
     std::set<std::string> visited;
     const osg::ref_ptr<osg::Group> locals = new osg::Group;
     const osg::EllipsoidModel wgs84;
@@ -139,7 +140,7 @@ TEST(AnalyticBinCullCallback, ATileInALocalFrameIsCulledLikeOneInEcef) {
     }
     test::Random random(13);
     for (int i = 0; i < 60; ++i) {
-        const CullView view = randomView(random);
+        const CullView view = randomGlobeView(random);
         const std::set<std::string> inEcef = globe.reached(*globe.root, view);
         visited.clear();
         const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
@@ -207,7 +208,7 @@ TEST(AnalyticBinCullCallback, TheSameTilesAreReachedWithMasksOnAndOff) {
     }
     test::Random random(14);
     for (int i = 0; i < 100; ++i) {
-        const CullView view = randomView(random);
+        const CullView view = randomGlobeView(random);
         std::set<std::string> sets[2];
         int k = 0;
         for (const auto& scene : {nested, flat}) {
@@ -266,7 +267,7 @@ TEST(AnalyticBinCullCallback, KeepsShadowOccluderCulling) {
 }
 
 TEST(AnalyticBinCullCallback, HonoursTheCullingModeWithoutFrustumCulling) {
-    Globe globe;
+    SmallGlobe globe;
     CullView view = CullView::lookAt({kEarthRadius + 1e5, 0, 0}, {0, 0, 0}, {0, 0, 1}, 10.0);
     EXPECT_LT(globe.reached(*globe.root, view).size(), 10u);
     view.cullingMode = osg::CullSettings::NO_CULLING;
@@ -274,7 +275,7 @@ TEST(AnalyticBinCullCallback, HonoursTheCullingModeWithoutFrustumCulling) {
 }
 
 TEST(AnalyticBinCullCallback, HonoursNearAndFarPlanes) {
-    Globe globe;
+    SmallGlobe globe;
     CullView view = CullView::lookAt({kEarthRadius + 1e5, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
     view.projection = osg::Matrixd::perspective(60.0, 1.0, 1.0, 3e6);  // ends inside the earth
     const std::size_t sides = globe.reached(*globe.root, view).size();
@@ -315,7 +316,7 @@ TEST(AnalyticBinCullCallback, TheEllipsoidIsTheScenesOwn) {
 }
 
 TEST(BinStatistics, CountsEachTraversalOnce) {
-    Globe globe;
+    SmallGlobe globe;
     const CullView view = CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     EXPECT_EQ(BinStatistics::find(*visitor), nullptr);
@@ -333,7 +334,7 @@ TEST(BinStatistics, CountsEachTraversalOnce) {
 }
 
 TEST(BinStatistics, VisitorsShareNothingNotEvenClones) {
-    Globe globe;
+    SmallGlobe globe;
     const osg::ref_ptr<osgUtil::CullVisitor> a = new osgUtil::CullVisitor;
     test::cull(*globe.root, CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0), *a);
     const BinCounts before = BinStatistics::find(*a)->counts();

@@ -18,7 +18,7 @@ namespace {
 
 constexpr float kSkirt = 30000.0f;
 
-const core::Ellipsoid kEllipsoid(osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR);
+const core::Ellipsoid kBorderEllipsoid(osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR);
 
 CullOptions lowHeights() {
     CullOptions options;
@@ -54,7 +54,7 @@ TEST(Border, TilesHoldTheirSkirtsWhole) {
             const AnalyticBin bin = culledBin(*installedOn(*node));
             const DrawnTriangles drawn = drawnTriangles(*pair.tile, scale);
             ASSERT_FALSE(drawn.skirts.empty());
-            EXPECT_LE(metresOutside(bin, samplesOf(drawn.skirts), kEllipsoid), bin.margin());
+            EXPECT_LE(metresOutside(bin, samplesOf(drawn.skirts), kBorderEllipsoid), bin.margin());
         }
     }
 }

@@ -23,6 +23,10 @@ namespace osgAnalyticBin::test {
 
 inline constexpr double kEarthRadius = 6378137.0;
 
+[[nodiscard]] inline osg::Vec3d osgVector(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
 /// One traversal of the globe for one camera.
 struct Look {
     std::string camera;  // name of the innermost one in the scene; empty: the view's own

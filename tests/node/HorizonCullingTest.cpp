@@ -4,6 +4,7 @@
 // The horizon and the frustum's edges in a real cull traversal. Oracle: samples of each bin that are inside all planes
 // and whose line of sight misses the occluder, exactly. The tests of a bin themselves are tested in core/.
 
+#include "CameraGlobe.h"
 #include "CullFixture.h"
 
 #include <osgAnalyticBin/BinInstaller.h>
@@ -23,7 +24,7 @@ namespace {
 using core::GeodeticBin;
 using test::CullView;
 
-constexpr double kEarthRadius = 6378137.0;
+using test::kEarthRadius;
 constexpr double kDepth = 1000.0;
 
 CullOptions withHorizon(Method method = Method::Quadratic) {
@@ -34,8 +35,8 @@ CullOptions withHorizon(Method method = Method::Quadratic) {
     return options;
 }
 
-struct Globe {
-    explicit Globe(const CullOptions& options) : bins(test::startTiles()) {
+struct CountedGlobe {
+    explicit CountedGlobe(const CullOptions& options) : bins(test::startTiles()) {
         for (std::size_t i = 0; i < bins.size(); ++i) {
             root->addChild(test::makeTile(std::to_string(i), bins[i], visited, options));
         }
@@ -83,7 +84,7 @@ TEST(HorizonCulling, NeverCullsATileWithASampleInSight) {
     for (const Method method : {Method::Quadratic, Method::Exact, Method::Box, Method::OrientedBox}) {
         CullOptions options = withHorizon(method);
         options.reverse = true;
-        Globe globe(options);
+        CountedGlobe globe(options);
         test::Random random(30);
         unsigned int hidden = 0;
         for (int i = 0; i < 150; ++i) {
@@ -101,7 +102,7 @@ TEST(HorizonCulling, NeverCullsATileWithASampleInSight) {
 }
 
 TEST(HorizonCulling, HoldsForAGlobeThatATransformMovesTurnsAndScales) {
-    Globe globe(withHorizon());
+    CountedGlobe globe(withHorizon());
     const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
     mover->setCullingActive(false);
     mover->addChild(globe.root);
@@ -121,7 +122,7 @@ TEST(HorizonCulling, HoldsForAGlobeThatATransformMovesTurnsAndScales) {
 }
 
 TEST(HorizonCulling, ServesOrthographicCameras) {
-    Globe globe(withHorizon());
+    CountedGlobe globe(withHorizon());
     CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
     view.projection = osg::Matrixd::ortho(-8e6, 8e6, -8e6, 8e6, 1e6, 6e7);
     const std::set<std::string> reached = globe.reached(*globe.root, view);
@@ -138,8 +139,8 @@ TEST(HorizonCulling, ServesOrthographicCameras) {
 TEST(HorizonCulling, IsOffForCamerasThatInheritAViewpointUnlessAsked) {
     CullOptions asked = withHorizon();
     asked.inheritViewpoint = true;
-    Globe plain(withHorizon());
-    Globe forShadows(asked);
+    CountedGlobe plain(withHorizon());
+    CountedGlobe forShadows(asked);
     CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
     view.camera = new osg::Camera;
     view.camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF_INHERIT_VIEWPOINT);
@@ -151,19 +152,19 @@ TEST(HorizonCulling, IsOffForCamerasThatInheritAViewpointUnlessAsked) {
 
 TEST(HorizonCulling, IsOffWhereItIsNotAskedFor) {
     const CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
-    Globe undeclared({});
+    CountedGlobe undeclared({});
     undeclared.reached(*undeclared.root, view);
     EXPECT_EQ(undeclared.counts.hidden, 0u);
     for (const Method method : {Method::Paper, Method::Corners, Method::Box, Method::OrientedBox}) {
-        Globe asked(withHorizon(method));
+        CountedGlobe asked(withHorizon(method));
         asked.reached(*asked.root, view);
         EXPECT_GT(asked.counts.hidden, 40u) << methodName(method);
     }
 }
 
 TEST(HorizonCulling, OfBoxesIsThatOfAPoint) {
-    Globe corners(withHorizon(Method::Corners));
-    Globe boxes(withHorizon(Method::Box));
+    CountedGlobe corners(withHorizon(Method::Corners));
+    CountedGlobe boxes(withHorizon(Method::Box));
     test::Random random(34);
     unsigned int byBin = 0;
     unsigned int byPoint = 0;
@@ -210,8 +211,8 @@ TEST(HorizonCulling, ADatabaseDeclaresItAndTheUserHasTheLastWord) {
 TEST(EdgeCulling, CullsTilesBeyondTheEdgesOfANarrowFrustumAndNoneInSight) {
     CullOptions off;
     off.reverse = false;
-    Globe with({});
-    Globe without(off);
+    CountedGlobe with({});
+    CountedGlobe without(off);
     test::Random random(32);
     unsigned int separated = 0;
     for (int i = 0; i < 200; ++i) {
@@ -230,9 +231,9 @@ TEST(EdgeCulling, IsOffForMethodsForComparisonUnlessAskedFor) {
     for (const Method method : {Method::Paper, Method::Corners, Method::Box, Method::OrientedBox}) {
         CullOptions options;
         options.method = method;
-        Globe plain(options);
+        CountedGlobe plain(options);
         options.reverse = true;
-        Globe asked(options);
+        CountedGlobe asked(options);
         test::Random random(33);
         unsigned int separated = 0;
         for (int i = 0; i < 200; ++i) {

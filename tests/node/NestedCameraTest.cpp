@@ -20,6 +20,8 @@
 namespace osgAnalyticBin {
 namespace {
 
+using test::osgVector;
+
 using osg::Camera;
 using osg::CullSettings;
 using osg::Transform;
@@ -31,13 +33,9 @@ using test::Look;
 using test::LookTotals;
 using test::NearPlane;
 
-osg::Vec3d toOsg(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-
-osg::Matrixd randomView(test::Random& random) {
-    const osg::Vec3d eye = toOsg(random.direction()) * (kEarthRadius + random.logUniform(1e5, 2e7));
-    return osg::Matrixd::lookAt(eye, toOsg(random.direction()) * kEarthRadius, toOsg(random.direction()));
+osg::Matrixd randomMatrix(test::Random& random) {
+    const osg::Vec3d eye = osgVector(random.direction()) * (kEarthRadius + random.logUniform(1e5, 2e7));
+    return osg::Matrixd::lookAt(eye, osgVector(random.direction()) * kEarthRadius, osgVector(random.direction()));
 }
 
 osg::Matrixd randomProjection(test::Random& random) {
@@ -50,7 +48,7 @@ osg::Matrixd randomProjection(test::Random& random) {
 
 CullView randomCullView(test::Random& random) {
     CullView view;
-    view.modelView = randomView(random);
+    view.modelView = randomMatrix(random);
     view.projection = randomProjection(random);
     return view;
 }
@@ -86,9 +84,9 @@ TEST(NestedCameras, EveryFrameAndOrderCullsForItsOwnPicture) {
                 for (const auto order : {Camera::PRE_RENDER, Camera::NESTED_RENDER, Camera::POST_RENDER}) {
                     const bool relative = frame == Transform::RELATIVE_RF;
                     const osg::Matrixd turn =
-                        osg::Matrixd::rotate(random.uniform(-0.5, 0.5), toOsg(random.direction()));
+                        osg::Matrixd::rotate(random.uniform(-0.5, 0.5), osgVector(random.direction()));
                     const osg::ref_ptr<Camera> camera = test::makeCamera(
-                        "camera", globe, frame, order, relative ? turn : randomView(random),
+                        "camera", globe, frame, order, relative ? turn : randomMatrix(random),
                         relative ? osg::Matrixd::scale(random.uniform(0.5, 2), random.uniform(0.5, 2), 1.0)
                                  : randomProjection(random));
                     if (i % 2) camera->setTransformOrder(Camera::POST_MULTIPLY);
@@ -123,14 +121,14 @@ TEST(NestedCameras, CamerasWithinCamerasAndTransforms) {
     LookTotals totals;
     for (int i = 0; i < 30; ++i) {
         const osg::ref_ptr<Camera> inner = test::makeCamera("inner", globe, Transform::ABSOLUTE_RF, Camera::PRE_RENDER,
-                                                            randomView(random), randomProjection(random));
+                                                            randomMatrix(random), randomProjection(random));
         const osg::ref_ptr<Camera> relative =
             test::makeCamera("relative", globe, Transform::RELATIVE_RF, Camera::NESTED_RENDER,
-                             osg::Matrixd::rotate(0.2, toOsg(random.direction())), osg::Matrixd());
+                             osg::Matrixd::rotate(0.2, osgVector(random.direction())), osg::Matrixd());
         const osg::ref_ptr<Camera> outer = test::makeCamera("outer", globe, Transform::ABSOLUTE_RF, Camera::POST_RENDER,
-                                                            randomView(random), randomProjection(random));
+                                                            randomMatrix(random), randomProjection(random));
         const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform(
-            osg::Matrixd::rotate(random.uniform(0, 6), toOsg(random.direction())) *
+            osg::Matrixd::rotate(random.uniform(0, 6), osgVector(random.direction())) *
             osg::Matrixd::scale(0.5, i % 3 ? 0.5 : -0.5, 0.5) * osg::Matrixd::translate(1e5, -2e5, 3e5));
         mover->setCullingActive(false);
         mover->addChild(relative);

@@ -27,16 +27,16 @@ namespace {
 using test::CullView;
 using test::PagedFlight;
 
-const AnalyticBin kBin(core::GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100, 5000}));
+const AnalyticBin kCachedBin(core::GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100, 5000}));
 constexpr int kThreads = 8;
 constexpr int kReads = 25;
 
-osg::ref_ptr<osg::PagedLOD> makePagedTile(const std::string& fileName) {
+osg::ref_ptr<osg::PagedLOD> makeCachedTile(const std::string& fileName) {
     osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
     paged->addChild(new osg::Group, 1e6f, 1e10f);
     paged->setFileName(1, fileName);
     paged->setRange(1, 0.0f, 1e6f);
-    setStoredBin(*paged, kBin);
+    setStoredBin(*paged, kCachedBin);
     return paged;
 }
 
@@ -50,7 +50,7 @@ class ObjectCache : public ::testing::Test {
 protected:
     void SetUp() override {
         const osg::ref_ptr<osg::Group> children = new osg::Group;
-        children->addChild(makePagedTile("grandchildren.osgb"));
+        children->addChild(makeCachedTile("grandchildren.osgb"));
         ASSERT_TRUE(osgDB::writeNodeFile(*children, _file));
     }
     void TearDown() override { osgDB::Registry::instance()->clearObjectCache(); }
@@ -64,7 +64,7 @@ protected:
         own->setReadFileCallback(_reader);
         const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
         root->setEllipsoidModel(new osg::EllipsoidModel(ellipsoid));
-        const osg::ref_ptr<osg::PagedLOD> tile = makePagedTile("children.osgb");
+        const osg::ref_ptr<osg::PagedLOD> tile = makeCachedTile("children.osgb");
         tile->setDatabaseOptions(own);
         root->addChild(tile);
         installBins(*root, cullOptions);

@@ -22,6 +22,8 @@
 namespace osgAnalyticBin {
 namespace {
 
+using test::osgVector;
+
 using osg::Camera;
 using osg::CullSettings;
 using osg::Transform;
@@ -31,10 +33,6 @@ using test::kEarthRadius;
 using test::Look;
 
 using Corners = std::array<osg::Vec3d, 4>;
-
-osg::Vec3d toOsg(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
 
 bool passesThrough(const Corners& corners, const osg::Vec3d& from, const osg::Vec3d& to) {
     const osg::Vec3d normal = (corners[1] - corners[0]) ^ (corners[2] - corners[0]);
@@ -82,9 +80,9 @@ struct WalledView {
 
     explicit WalledView(test::Random& random) {
         altitude = random.logUniform(1e6, 1e7);
-        eye = toOsg(random.direction()) * (kEarthRadius + altitude);
-        const osg::Vec3d target = toOsg(random.direction()) * (0.5 * kEarthRadius);
-        view = CullView::lookAt(eye, target, toOsg(random.direction()), 70.0);
+        eye = osgVector(random.direction()) * (kEarthRadius + altitude);
+        const osg::Vec3d target = osgVector(random.direction()) * (0.5 * kEarthRadius);
+        view = CullView::lookAt(eye, target, osgVector(random.direction()), 70.0);
         // OSG drops occluders whose shadow is a small part of the frustum
         view.projection = osg::Matrixd::perspective(70.0, 1.0, 0.05 * altitude, altitude + 2 * kEarthRadius);
         view.cullingMode |= CullSettings::SHADOW_OCCLUSION_CULLING;
@@ -136,7 +134,7 @@ std::vector<std::size_t> wronglyCulled(const CameraGlobe& globe, const Look& loo
     return wrong;
 }
 
-std::vector<Look> looksAt(osg::Node& scene, CullView view, CameraGlobe& globe, bool withOccluders = true) {
+std::vector<Look> looksPastWalls(osg::Node& scene, CullView view, CameraGlobe& globe, bool withOccluders = true) {
     if (!withOccluders) view.cullingMode &= ~CullSettings::SHADOW_OCCLUSION_CULLING;
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     test::cull(scene, view, *visitor);
@@ -162,9 +160,9 @@ TEST(Occluders, HideTilesBehindThemAndNoOthers) {
             scene->addChild(walls.back().node());
         }
         scene->addChild(&globe.root());
-        const Look look = looksAt(*scene, walled.view, globe).at(0);
+        const Look look = looksPastWalls(*scene, walled.view, globe).at(0);
         EXPECT_TRUE(wronglyCulled(globe, look, walls).empty()) << "view " << i;
-        hidden += looksAt(*scene, walled.view, globe, false).at(0).reached.size() - look.reached.size();
+        hidden += looksPastWalls(*scene, walled.view, globe, false).at(0).reached.size() - look.reached.size();
     }
     EXPECT_GT(hidden, 20u * 3u);
 }
@@ -175,7 +173,7 @@ TEST(Occluders, HoldUnderATransformAndMirrored) {
     std::size_t hidden = 0;
     for (int i = 0; i < 20; ++i) {
         WalledView walled(random);
-        const osg::Matrixd motion = osg::Matrixd::rotate(random.uniform(0, 6), toOsg(random.direction())) *
+        const osg::Matrixd motion = osg::Matrixd::rotate(random.uniform(0, 6), osgVector(random.direction())) *
                                     osg::Matrixd::scale(i % 2 ? -0.5 : 0.5, 0.5, 0.5) *
                                     osg::Matrixd::translate(1e6, -3e6, 5e5);
         const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform(motion);
@@ -184,9 +182,9 @@ TEST(Occluders, HoldUnderATransformAndMirrored) {
         mover->addChild(wall.node());
         mover->addChild(&globe.root());
         walled.view.modelView = osg::Matrixd::inverse(motion) * walled.view.modelView;
-        const Look look = looksAt(*mover, walled.view, globe).at(0);
+        const Look look = looksPastWalls(*mover, walled.view, globe).at(0);
         EXPECT_TRUE(wronglyCulled(globe, look, {wall}).empty()) << "view " << i;
-        hidden += looksAt(*mover, walled.view, globe, false).at(0).reached.size() - look.reached.size();
+        hidden += looksPastWalls(*mover, walled.view, globe, false).at(0).reached.size() - look.reached.size();
     }
     EXPECT_GT(hidden, 20u);
 }
@@ -211,11 +209,11 @@ TEST(Occluders, HideNothingFromAnotherCamera) {
                                  i % 2 ? walled.view.projection : other.view.projection);
             camera->addChild(otherWall.node());
             scene->addChild(camera);
-            const std::vector<Look> looks = looksAt(*scene, walled.view, globe);
+            const std::vector<Look> looks = looksPastWalls(*scene, walled.view, globe);
             ASSERT_EQ(looks.size(), 2u);
             EXPECT_TRUE(wronglyCulled(globe, looks[0], walls).empty()) << "view " << i;
             EXPECT_TRUE(wronglyCulled(globe, looks[1], {otherWall}).empty()) << "other camera, view " << i;
-            hidden += looksAt(*scene, walled.view, globe, false).at(0).reached.size() - looks[0].reached.size();
+            hidden += looksPastWalls(*scene, walled.view, globe, false).at(0).reached.size() - looks[0].reached.size();
         }
     }
     EXPECT_GT(hidden, 30u);

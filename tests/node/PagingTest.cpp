@@ -33,7 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 using core::GeodeticBin;
 
-const AnalyticBin kBin(GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100, 5000}));
+const AnalyticBin kPagedBin(GeodeticBin::fromDegrees({0, 22.5}, {0, 22.5}, {-100, 5000}));
 
 osg::ref_ptr<osg::PagedLOD> makePagedTile(const std::string& fileName) {
     osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
@@ -43,7 +43,7 @@ osg::ref_ptr<osg::PagedLOD> makePagedTile(const std::string& fileName) {
     paged->addChild(geometry, 1e6f, 1e10f);
     paged->setFileName(1, fileName);
     paged->setRange(1, 0.0f, 1e6f);
-    setStoredBin(*paged, kBin);
+    setStoredBin(*paged, kPagedBin);
     return paged;
 }
 
@@ -83,7 +83,7 @@ TEST_F(Paging, TilesReadLaterGetBinsAndPassThemOn) {
     ASSERT_NE(tile, nullptr);
     auto* callback = dynamic_cast<AnalyticBinCullCallback*>(tile->getCullCallback());
     ASSERT_NE(callback, nullptr);
-    EXPECT_EQ(callback->bin(), kBin);
+    EXPECT_EQ(callback->bin(), kPagedBin);
     EXPECT_EQ(callback->cullOptions().method, Method::Paper);
     EXPECT_EQ(callback->getRadiiText(), "3396190 3376200");
     EXPECT_FALSE(tile->getCullingActive());

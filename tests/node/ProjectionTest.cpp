@@ -20,6 +20,8 @@
 namespace osgAnalyticBin {
 namespace {
 
+using test::osgVector;
+
 using test::CameraGlobe;
 using test::CullView;
 using test::kEarthRadius;
@@ -30,13 +32,9 @@ using test::NearPlane;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-osg::Vec3d toOsg(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-
 osg::Matrixd randomView(test::Random& random, double lowest = 2e4) {
-    const osg::Vec3d eye = toOsg(random.direction()) * (kEarthRadius + random.logUniform(lowest, 2e7));
-    return osg::Matrixd::lookAt(eye, toOsg(random.direction()) * kEarthRadius, toOsg(random.direction()));
+    const osg::Vec3d eye = osgVector(random.direction()) * (kEarthRadius + random.logUniform(lowest, 2e7));
+    return osg::Matrixd::lookAt(eye, osgVector(random.direction()) * kEarthRadius, osgVector(random.direction()));
 }
 
 // Clip space z -> -z.
@@ -91,7 +89,7 @@ osg::Matrixd anyView(test::Random& random) {
 
 osg::Matrixd mirroredView(test::Random& random) {
     // as for the picture of a plane mirror somewhere on the globe
-    const osg::Vec3d normal = toOsg(random.direction());
+    const osg::Vec3d normal = osgVector(random.direction());
     const double offset = random.uniform(-1.0, 1.0) * kEarthRadius;
     osg::Matrixd mirror;
     for (int i = 0; i < 3; ++i) {

@@ -64,7 +64,7 @@ struct Pipes {
     std::vector<std::vector<osg::Vec3d>> points;
 };
 
-CullView randomView(test::Random& random) {
+CullView randomPartView(test::Random& random) {
     return CullView::lookAt(vec(random.direction() * random.uniform(1.0, 200.0)),
                             vec(random.direction() * random.uniform(1.0, 50.0)), vec(random.direction()),
                             random.uniform(5.0, 80.0));
@@ -80,7 +80,7 @@ TEST(QuadraticBinCullCallback, NeverCullsAVisibleSampleAndCullsMostOfTheRest) {
     std::size_t visible = 0;
     std::size_t kept = 0;
     for (int trial = 0; trial < 200; ++trial) {
-        const CullView view = randomView(random);
+        const CullView view = randomPartView(random);
         const std::vector<osg::Plane> planes = view.sidePlanes();
         const std::set<std::string> reached = pipes.reached(*pipes.root, view);
         kept += reached.size();
@@ -104,7 +104,7 @@ TEST(QuadraticBinCullCallback, FollowsTransforms) {
     const osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(moved);
     transform->addChild(pipes.root);
     for (int trial = 0; trial < 50; ++trial) {
-        const CullView view = randomView(random);
+        const CullView view = randomPartView(random);
         CullView movedView = view;
         movedView.modelView = osg::Matrixd::inverse(moved) * view.modelView;
         EXPECT_EQ(pipes.reached(*transform, movedView), pipes.reached(*pipes.root, view));

@@ -111,7 +111,7 @@ std::set<std::size_t> casters(const CameraGlobe& globe, const Look& picture, con
     return tiles;
 }
 
-std::vector<AnalyticBin> smallTiles() {
+std::vector<AnalyticBin> shadowTiles() {
     std::vector<AnalyticBin> tiles;
     for (const AnalyticBin& tile : test::startTiles()) {
         for (const core::GeodeticBin& quarter : tile.bin().quarters()) tiles.emplace_back(quarter);
@@ -121,7 +121,7 @@ std::vector<AnalyticBin> smallTiles() {
 
 TEST(ShadowPasses, EveryCasterOfAViewDependentShadowMapIsDrawn) {
     for (const unsigned int maps : {1u, 2u}) {
-        CameraGlobe globe(test::horizonOptions(), smallTiles());
+        CameraGlobe globe(test::horizonOptions(), shadowTiles());
         test::Random random(120);
         std::size_t outside = 0, drawn = 0, passes = 0;
         for (int i = 0; i < 16; ++i) {
@@ -149,7 +149,7 @@ TEST(ShadowPasses, EveryCasterOfAViewDependentShadowMapIsDrawn) {
 }
 
 TEST(ShadowPasses, OtherTechniquesKeepWhatTheirCamerasSee) {
-    CameraGlobe globe(test::horizonOptions(), smallTiles());
+    CameraGlobe globe(test::horizonOptions(), shadowTiles());
     test::Random random(121);
     for (const bool perspective : {false, true}) {
         LookTotals totals;

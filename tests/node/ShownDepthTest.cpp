@@ -6,6 +6,7 @@
 // has not met a surface by then would see what is hidden.
 
 #include "../../osgAnalyticBin/src/node/ShownDepth.h"
+#include "CameraGlobe.h"
 #include "CullFixture.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -27,6 +28,8 @@
 namespace osgAnalyticBin {
 namespace {
 
+using test::osgVector;
+
 using core::GeodeticBin;
 using core::HorizonEye;
 using test::CullView;
@@ -44,10 +47,6 @@ core::Ellipsoid earth() {
 glm::dvec3 toUnitSpace(const glm::dvec3& v) {
     return {v.x / kRadius, v.y / kRadius, v.z / kPolarRadius};
 }
-osg::Vec3d toOsg(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-
 // A tile of the synthetic tree, with its four parts when they are loaded.
 struct Tile {
     core::Interval latitude, longitude;
@@ -78,7 +77,7 @@ osg::ref_ptr<osg::Group> nodeOf(Tile& tile, const Terrain& terrain, const osg::M
         const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
         node = paged;
         paged->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
-        paged->setCenter(toOsg(tile.center) * osg::Matrixd::inverse(localToEcef));
+        paged->setCenter(osgVector(tile.center) * osg::Matrixd::inverse(localToEcef));
         paged->setRadius(1.0f);
         paged->setRangeMode(terrain.mode);
         paged->addChild(new osg::Geode, tile.cutoff, 1e10f);
@@ -97,9 +96,9 @@ osg::ref_ptr<osg::Group> nodeOf(Tile& tile, const Terrain& terrain, const osg::M
 }
 
 // A globe of 32 start tiles, 45 degrees wide.
-class Globe {
+class DeepGlobe {
 public:
-    Globe(const Terrain& terrain, Random& random) : _terrain(terrain), _random(random) {
+    DeepGlobe(const Terrain& terrain, Random& random) : _terrain(terrain), _random(random) {
         for (int y = 0; y < 4; ++y) {
             for (int x = 0; x < 8; ++x) {
                 const GeodeticBin bin = GeodeticBin::fromDegrees({-90.0 + 45.0 * y, -45.0 + 45.0 * y},
@@ -208,7 +207,7 @@ struct Picture {
     }
 
     [[nodiscard]] CullView view() const {
-        return CullView::lookAt(toOsg(eye), toOsg(eye + forward * 1e6), toOsg(up), fov);
+        return CullView::lookAt(osgVector(eye), osgVector(eye + forward * 1e6), osgVector(up), fov);
     }
 
     // Coordinates of the picture run from -1 to 1.
@@ -297,7 +296,7 @@ std::optional<double> entry(const glm::dvec3& eye, const glm::dvec3& ray, double
 }
 
 // Whether the ray has met a shown surface when it has gone so far.
-bool isStopped(const Globe& globe, const glm::dvec3& eye, const glm::dvec3& ray, double distance) {
+bool isStopped(const DeepGlobe& globe, const glm::dvec3& eye, const glm::dvec3& ray, double distance) {
     const auto isBelow = [&](double t) {
         const core::Geodetic g = earth().toGeodetic(eye + ray * t);
         return g.altitude <= globe.shownAltitude(g.latitude, g.longitude, eye);
@@ -322,14 +321,14 @@ Picture randomPicture(Random& random, double lowestEye) {
     return Picture(eye, target, random.chance(0.5) ? direction : random.direction(), random.logUniform(0.05, 90.0));
 }
 
-struct Tally {
+struct DepthTally {
     int eyes = 0;
     int entered = 0;  // rays that entered the occluder
 };
 
 // Nothing that is seen is hidden from the eye.
-void expectNothingSeenIsHidden(const Globe& globe, const Picture& picture, const HorizonEye& eye, Random& random,
-                               Tally& tally) {
+void expectNothingSeenIsHidden(const DeepGlobe& globe, const Picture& picture, const HorizonEye& eye, Random& random,
+                               DepthTally& tally) {
     // less than what the depth is found to
     const double depth = occluderDepth(eye, picture.eye) + 0.5;
     ++tally.eyes;
@@ -343,7 +342,7 @@ void expectNothingSeenIsHidden(const Globe& globe, const Picture& picture, const
 }
 
 // The deepest surface shown on tiles that come within `room` of what the eye sees over the horizon.
-double deepestNear(const Globe& globe, const Picture& picture, double depth) {
+double deepestNear(const DeepGlobe& globe, const Picture& picture, double depth) {
     constexpr double kAngle = 0.06;
     const glm::dvec3 toEye = toUnitSpace(picture.eye);
     const double occluder = 1.0 - depth / kPolarRadius;
@@ -363,11 +362,11 @@ double deepestNear(const Globe& globe, const Picture& picture, double depth) {
     return deepest;
 }
 
-Tally fly(const Terrain& terrain, std::uint64_t stream, int globes, bool startsDeep = false) {
+DepthTally fly(const Terrain& terrain, std::uint64_t stream, int globes, bool startsDeep = false) {
     Random random(stream);
-    Tally tally;
+    DepthTally tally;
     for (int trial = 0; trial < globes; ++trial) {
-        Globe globe(terrain, random);
+        DeepGlobe globe(terrain, random);
         globe.build();
         for (int shot = 0; shot < 12; ++shot) {
             const Picture picture = randomPicture(random, -15000.0 * random.uniform());
@@ -405,7 +404,7 @@ TEST(ShownDepth, HidesNothingThatIsSeen) {
             Terrain terrain;
             terrain.deepShare = deepShare;
             terrain.airShare = airShare;
-            const Tally tally = fly(terrain, 2100, 40);
+            const DepthTally tally = fly(terrain, 2100, 40);
             EXPECT_GT(tally.eyes, 200);
             EXPECT_GT(tally.entered, 3000);
         }
@@ -443,7 +442,7 @@ protected:
         terrain.deepShare = 0.0;
         terrain.loadedShare = 0.0;
         Random random(1);
-        globe = std::make_unique<Globe>(terrain, random);
+        globe = std::make_unique<DeepGlobe>(terrain, random);
         for (std::size_t i = 0; i < 32; ++i) setAltitude(i, -100.0);
     }
 
@@ -459,7 +458,7 @@ protected:
     }
 
     static constexpr std::size_t kBelow = 20, kFarSide = 8;
-    std::unique_ptr<Globe> globe;
+    std::unique_ptr<DeepGlobe> globe;
 };
 
 TEST_F(FlatGlobe, HasItsDepthInTheFirstFrame) {
@@ -538,7 +537,7 @@ TEST_F(FlatGlobe, IsNoDeeperForAnotherDatabaseInsideIt) {
     terrain.deepShare = 0.0;
     terrain.loadedShare = 0.0;
     Random random(2);
-    Globe other(terrain, random);
+    DeepGlobe other(terrain, random);
     for (std::size_t i = 0; i < 32; ++i) other.start(i).surface = other.start(i).low = -7000.0;
     other.build();
     const osg::ref_ptr<osg::CoordinateSystemNode> inside = new osg::CoordinateSystemNode;

@@ -4,6 +4,7 @@
 // What osgTerrain::Terrain says about its tiles: vertical scale, equalised boundaries, another technique; set before
 // bins are installed, and changed while the database is shown. Oracle: the triangles that osgTerrain draws.
 
+#include "CameraGlobe.h"
 #include "DatabaseFixture.h"
 #include "TileFixture.h"
 
@@ -21,7 +22,7 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-const core::Ellipsoid kEllipsoid(osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR);
+const core::Ellipsoid kShapeEllipsoid(osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR);
 
 osg::ref_ptr<osgTerrain::TerrainTile> makeHilly(const core::GeodeticBin& extents, Random& random) {
     const double high = random.uniform(0.0, 8000.0);
@@ -77,12 +78,8 @@ void expectHeld(const Hills& hills) {
         const auto samples = drawnSamples(*hills.tiles[i]);
         ASSERT_FALSE(samples.empty());
         const AnalyticBin bin = culledBin(hills.bin(i));
-        EXPECT_LE(metresOutside(bin, samples, kEllipsoid), bin.margin()) << i;
+        EXPECT_LE(metresOutside(bin, samples, kShapeEllipsoid), bin.margin()) << i;
     }
-}
-
-osg::Vec3d toOsg(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
 }
 
 // Narrow views at points of what is drawn: the tile must be reached. The first of each tile is at the point that is
@@ -96,12 +93,13 @@ std::set<std::size_t> tilesMissed(Hills& hills) {
         const osg::Vec3d middle = hills.tiles[i]->getBound().center();
         const glm::dvec3& farthest =
             *std::max_element(samples.begin(), samples.end(), [&](const glm::dvec3& a, const glm::dvec3& b) {
-                return (toOsg(a) - middle).length2() < (toOsg(b) - middle).length2();
+                return (osgVector(a) - middle).length2() < (osgVector(b) - middle).length2();
             });
         for (int k = 0; k < 12; ++k) {
             const int last = static_cast<int>(samples.size()) - 1;
-            const osg::Vec3d at = toOsg(k == 0 ? farthest : samples[static_cast<std::size_t>(random.integer(0, last))]);
-            osg::Vec3d towardsEye = toOsg(random.direction());
+            const osg::Vec3d at =
+                osgVector(k == 0 ? farthest : samples[static_cast<std::size_t>(random.integer(0, last))]);
+            osg::Vec3d towardsEye = osgVector(random.direction());
             if (k == 0) towardsEye = towardsEye ^ (at - middle);
             towardsEye.normalize();
             const auto& names = hills.reached.in(*hills.terrain, at + towardsEye * 3e5, at, 0.1);

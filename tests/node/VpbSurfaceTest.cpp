@@ -25,8 +25,8 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-const osg::ref_ptr<osg::EllipsoidModel> kModel = new osg::EllipsoidModel;
-const core::Ellipsoid kEllipsoid(kModel->getRadiusEquator(), kModel->getRadiusPolar());
+const osg::ref_ptr<osg::EllipsoidModel> kVpbModel = new osg::EllipsoidModel;
+const core::Ellipsoid kVpbEllipsoid(kVpbModel->getRadiusEquator(), kVpbModel->getRadiusPolar());
 
 // The meshes of a file: terrain tiles and the transforms above geometry.
 class MeshFinder : public osg::NodeVisitor {
@@ -67,10 +67,10 @@ TEST(VpbSurface, HoldsEveryTerrainTile) {
     if (meshes.empty()) GTEST_SKIP() << "no sample database";
     for (const auto& mesh : meshes) {
         const auto& tile = static_cast<osgTerrain::TerrainTile&>(*mesh);
-        const TileSurface surface = tileSurface(*mesh, *kModel, osg::Matrixd());
+        const TileSurface surface = tileSurface(*mesh, *kVpbModel, osg::Matrixd());
         ASSERT_TRUE(surface.bin.valid());
         const auto samples = samplesOf(drawnTriangles(tile, 1.0f).surface, 2);
-        EXPECT_LE(metresOutside(surface.bin, samples, kEllipsoid), surface.bin.margin());
+        EXPECT_LE(metresOutside(surface.bin, samples, kVpbEllipsoid), surface.bin.margin());
         const auto& layer = static_cast<const osgTerrain::HeightFieldLayer&>(*tile.getElevationLayer());
         EXPECT_EQ(surface.skirt, static_cast<double>(layer.getHeightField()->getSkirtHeight()));
         EXPECT_GT(surface.skirt, 0.0);
@@ -101,8 +101,8 @@ SortedMesh sorted(osg::MatrixTransform& node) {
     std::vector<bool> isSkirt(ecef.size(), false);
     for (const auto& [place, same] : places) {
         if (same.size() < 2) continue;
-        const double first = kEllipsoid.toGeodetic(ecef[same[0]]).altitude;
-        const double second = kEllipsoid.toGeodetic(ecef[same[1]]).altitude;
+        const double first = kVpbEllipsoid.toGeodetic(ecef[same[0]]).altitude;
+        const double second = kVpbEllipsoid.toGeodetic(ecef[same[1]]).altitude;
         isSkirt[first < second ? same[0] : same[1]] = true;
         result.depths.lower = std::min(result.depths.lower, std::abs(first - second));
         result.depths.upper = std::max(result.depths.upper, std::abs(first - second));
@@ -110,7 +110,7 @@ SortedMesh sorted(osg::MatrixTransform& node) {
     AnalyticBin footprint;
     for (std::size_t i = 0; i < ecef.size(); ++i) {
         if (isSkirt[i]) continue;
-        core::Geodetic position = kEllipsoid.toGeodetic(ecef[i]);
+        core::Geodetic position = kVpbEllipsoid.toGeodetic(ecef[i]);
         position.altitude = 0.0;
         if (std::hypot(ecef[i].x, ecef[i].y) > 1.0) footprint.expandBy(position);
     }
@@ -118,7 +118,7 @@ SortedMesh sorted(osg::MatrixTransform& node) {
         if (!isSkirt[i]) continue;
         const AnalyticBin anyAltitude(footprint.bin().withAltitude({-1e7, 1e7}));
         if (std::hypot(ecef[i].x, ecef[i].y) > 1.0)
-            result.lean = std::max(result.lean, metresOutside(anyAltitude, ecef[i], kEllipsoid));
+            result.lean = std::max(result.lean, metresOutside(anyAltitude, ecef[i], kVpbEllipsoid));
     }
     const osg::PrimitiveSet& triangles = *geometry.getPrimitiveSet(0);
     for (unsigned int i = 0; i + 2 < triangles.getNumIndices(); i += 3) {
@@ -134,15 +134,15 @@ TEST(VpbSurface, HoldsEveryPolygonalTileWithoutItsSkirts) {
     if (meshes.empty()) GTEST_SKIP() << "no sample database";
     for (const auto& mesh : meshes) {
         auto& node = static_cast<osg::MatrixTransform&>(*mesh);
-        const TileSurface surface = tileSurface(node, *kModel, osg::Matrixd());
+        const TileSurface surface = tileSurface(node, *kVpbModel, osg::Matrixd());
         ASSERT_TRUE(surface.bin.valid());
         const SortedMesh parts = sorted(node);
         const auto samples = samplesOf(parts.surface, 4);
-        EXPECT_LE(metresOutside(surface.bin, samples, kEllipsoid), surface.bin.margin());
+        EXPECT_LE(metresOutside(surface.bin, samples, kVpbEllipsoid), surface.bin.margin());
         EXPECT_NEAR(surface.skirt, parts.depths.upper, 0.01 * surface.skirt);
         core::Interval seen{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
         for (const glm::dvec3& point : samples) {
-            const double altitude = kEllipsoid.toGeodetic(point).altitude;
+            const double altitude = kVpbEllipsoid.toGeodetic(point).altitude;
             seen = {std::min(seen.lower, altitude), std::max(seen.upper, altitude)};
         }
         const core::Interval& found = surface.bin.bin().altitude();

@@ -29,7 +29,7 @@ bool saysPlanar(const FoundTile& tile) {
 }
 
 // Meshes of one tile are its levels of detail: any of them may be shown.
-PlanarSurface surfaceOf(const FoundTile& tile, double sampleRatio) {
+PlanarSurface planarSurfaceOf(const FoundTile& tile, double sampleRatio) {
     PlanarSurface all;
     for (const osg::ref_ptr<osg::Node>& mesh : tile.meshes) {
         const PlanarSurface own = planarSurface(*mesh, tile.frame.localToEcef, sampleRatio);
@@ -68,7 +68,7 @@ osg::BoundingBoxd boxOf(const PlanarSurface& surface, double verticalScale, cons
 PlanarFit fitPlanarTile(const FoundTile& tile, const CullOptions& options, const TerrainShape& shape) {
     PlanarFit fit;
     if (!saysPlanar(tile)) return fit;
-    const PlanarSurface surface = surfaceOf(tile, shape.sampleRatio);
+    const PlanarSurface surface = planarSurfaceOf(tile, shape.sampleRatio);
     if (!surface.box.valid()) return fit;
     fit.kind = tile.frame.ellipsoid && !surface.isScalable ? PlanarFit::Contradictory : PlanarFit::Planar;
     fit.isScalable = surface.isScalable;

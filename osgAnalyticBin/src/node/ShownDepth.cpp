@@ -17,7 +17,7 @@ namespace osgAnalyticBin {
 
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::infinity();
+constexpr double kUnknownDepth = std::numeric_limits<double>::infinity();
 
 // The installer puts its callback first, others may have put theirs before it. A dynamic_cast across OSG's virtual
 // bases would be most of the search's cost.
@@ -85,7 +85,7 @@ private:
     }
 
     void show(const AnalyticBinCullCallback& tile) {
-        const double own = isFitted(tile) ? -tile.surfaceLow() : kUnknown;
+        const double own = isFitted(tile) ? -tile.surfaceLow() : kUnknownDepth;
         _depth = std::max(_depth, std::min(own, _deepest));
     }
 
@@ -116,7 +116,7 @@ private:
     const double _deepest;
     osg::Polytope::PlaneList _planes;
     bool _isMoved = false;  // below a transform, where OSG measures distances in another frame
-    double _depth = -kUnknown;
+    double _depth = -kUnknownDepth;
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace osgAnalyticBin {
 namespace {
 
 // float(x) is off by at most half a unit of 2^-23 relative; the radius takes up three such coordinates.
-constexpr double kFloatRounding = 1.2e-7;
+constexpr double kRadiusRounding = 1.2e-7;
 
 // An upper bound of what the linear part of a matrix stretches lengths by: the Frobenius norm, or exactly the scale
 // where the rows are of one length and at right angles.
@@ -34,7 +34,7 @@ double stretchOf(const osg::Matrixd& m) {
 }  // namespace
 
 osg::BoundingSphere roundedOutward(const osg::Vec3d& center, double radius) {
-    const double outward = radius + kFloatRounding * (center.length() + radius);
+    const double outward = radius + kRadiusRounding * (center.length() + radius);
     return osg::BoundingSphere(osg::Vec3(center),
                                std::nextafter(static_cast<float>(outward), std::numeric_limits<float>::infinity()));
 }

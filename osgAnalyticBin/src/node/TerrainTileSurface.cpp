@@ -25,10 +25,10 @@ constexpr unsigned int kFewestSampledPosts = 16;
 // The vertical scales up to which the sag holds, and the heights, in metres at scale 1, beyond which this is no
 // terrain.
 constexpr double kLargestScale = 10.0;
-constexpr double kLargestHeight = 5.0e4;
+constexpr double kLargestTileHeight = 5.0e4;
 constexpr double kLargestCell = 1.0;  // radians
 // Vertices are floats about the tile's middle; half a unit in the last place each, in three directions.
-constexpr double kFloatRounding = 1.1e-7;
+constexpr double kVertexRounding = 1.1e-7;
 constexpr double kSameRadius = 1e-3;  // metres
 constexpr double kPlacing = 0.01;     // metres: heights as floats, positions as doubles, radii
 
@@ -73,7 +73,7 @@ bool isSame(const osg::EllipsoidModel& a, const osg::EllipsoidModel& b) {
 
 // Metres from the tile's middle that a vertex is at most.
 double reachOf(const core::GeodeticGrid& grid, const core::Ellipsoid& ellipsoid) {
-    const double radius = std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius()) + kLargestHeight;
+    const double radius = std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius()) + kLargestTileHeight;
     return radius * std::min(2.0, 0.5 * (grid.latitude.width() + grid.longitude.width()));
 }
 
@@ -123,8 +123,8 @@ TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::Ellipso
     const bool isBroken = layer && !field && dynamic_cast<const osgTerrain::HeightFieldLayer*>(layer);
     if (isBroken || !(sampleRatio >= 0.0)) return {};
     HeightRange heights = layer ? (field ? heightRange(*layer, *field) : heightRange(*layer)) : HeightRange::flat();
-    if (!heights.isFinite || !(heights.low <= heights.high) || heights.low < -kLargestHeight ||
-        heights.high > kLargestHeight) {
+    if (!heights.isFinite || !(heights.low <= heights.high) || heights.low < -kLargestTileHeight ||
+        heights.high > kLargestTileHeight) {
         return {};
     }
     if (sampleRatio != 1.0 && columns > kFewestSampledPosts && rows > kFewestSampledPosts) {
@@ -145,7 +145,7 @@ TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::Ellipso
     // a skirt of negative height stands up
     const core::Interval altitude{heights.low - bounds.sag(), heights.high + std::max(0.0, -skirt)};
     surface.bin = AnalyticBin(core::GeodeticBin(bounds.latitude(), grid->longitude, altitude),
-                              kFloatRounding * reachOf(*grid, model) + kPlacing);
+                              kVertexRounding * reachOf(*grid, model) + kPlacing);
     surface.bin.setSag(bounds.sag());
     surface.edgeLow = edgeLows(heights, *locator, bounds);
     surface.skirt = std::max(0.0, skirt);

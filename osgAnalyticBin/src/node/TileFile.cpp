@@ -32,8 +32,8 @@ std::uint32_t readWord(std::istream& in) {
 }
 
 std::string readName(std::istream& in) {
-    constexpr std::uint32_t kLongestName = 256;
-    std::string name(std::min(readWord(in), kLongestName), '\0');
+    constexpr std::uint32_t kLongestClassName = 256;
+    std::string name(std::min(readWord(in), kLongestClassName), '\0');
     in.read(name.data(), static_cast<std::streamsize>(name.size()));
     return name;
 }

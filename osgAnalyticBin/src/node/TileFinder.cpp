@@ -29,7 +29,7 @@ bool isPagedChild(const osg::PagedLOD& node, unsigned int i) {
 }
 
 // Transforms that stay as they are once loaded; others have no fixed place on the globe.
-bool isFixed(osg::Transform& node) {
+bool hasFixedPlace(osg::Transform& node) {
     const bool known = node.asMatrixTransform() || node.asPositionAttitudeTransform();
     return known && node.getReferenceFrame() == osg::Transform::RELATIVE_RF && !node.getUpdateCallback() &&
            node.getDataVariance() != osg::Object::DYNAMIC;
@@ -43,7 +43,7 @@ public:
     void apply(osg::Node& node) override {
         const bool isTile = isTerrainTile(node) || hasStoredBin(node);
         osg::Transform* transform = node.asTransform();
-        if (isTile || node.getUpdateCallback() || (transform && !isFixed(*transform))) result = false;
+        if (isTile || node.getUpdateCallback() || (transform && !hasFixedPlace(*transform))) result = false;
         hasDrawable = hasDrawable || node.asDrawable();
         if (result) traverse(node);
     }
@@ -150,7 +150,7 @@ void TileFinder::apply(osg::CoordinateSystemNode& node) {
 
 void TileFinder::apply(osg::Transform& node) {
     const bool hasFrame = _frame.isKnown() || hasStoredBin(node);
-    if (hasFrame && !isFixed(node)) return;
+    if (hasFrame && !hasFixedPlace(node)) return;
     visit(node, isTile(node));
 }
 

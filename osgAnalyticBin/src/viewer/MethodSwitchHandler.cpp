@@ -21,7 +21,7 @@ namespace {
 constexpr std::array<Method, 8> kMethods{Method::Quadratic, Method::Sphere,      Method::None,  Method::Exact,
                                          Method::Box,       Method::OrientedBox, Method::Paper, Method::Corners};
 constexpr double kSecondsShown = 15.0;
-const osg::Vec4 kTextColour(0.9F, 0.9F, 0.9F, 1.0F);
+const osg::Vec4 kSameColour(0.9F, 0.9F, 0.9F, 1.0F);
 const osg::Vec4 kFewerColour(0.3F, 1.0F, 0.35F, 1.0F);
 const osg::Vec4 kMoreColour(1.0F, 0.6F, 0.2F, 1.0F);
 
@@ -32,13 +32,13 @@ Method neighbour(Method method, std::size_t step) {
 }
 
 TextPanel::Line countLine(const std::string& what, std::size_t now) {
-    return {"tiles " + what + ": " + std::to_string(now), kTextColour};
+    return {"tiles " + what + ": " + std::to_string(now), kSameColour};
 }
 
 TextPanel::Line changeLine(const std::string& what, std::size_t before, std::size_t now) {
     const std::string difference =
         now >= before ? "+" + std::to_string(now - before) : "-" + std::to_string(before - now);
-    const osg::Vec4 colour = now == before ? kTextColour : now < before ? kFewerColour : kMoreColour;
+    const osg::Vec4 colour = now == before ? kSameColour : now < before ? kFewerColour : kMoreColour;
     return {"tiles " + what + ": " + std::to_string(before) + " -> " + std::to_string(now) + "  (" + difference + ")",
             colour};
 }
@@ -73,7 +73,7 @@ void MethodSwitchHandler::showChange(osg::Camera& camera, osg::FrameStamp& frame
     // from elsewhere the difference says nothing of the method
     const bool isComparable = CameraCulling::cullingView(camera).view == _viewBefore;
     std::vector<TextPanel::Line> lines{
-        {std::string("culling: ") + methodName(_methodBefore) + " -> " + methodName(_options.method), kTextColour}};
+        {std::string("culling: ") + methodName(_methodBefore) + " -> " + methodName(_options.method), kSameColour}};
     const auto add = [&](const char* what, std::size_t TileCounts::*count) {
         lines.push_back(isComparable ? changeLine(what, _countsBefore.*count, now.*count)
                                      : countLine(what, now.*count));

@@ -15,11 +15,11 @@
 namespace osgAnalyticBin::bench {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 // Two poses, spheres and bins; times with a spread of a tenth.
-json measurement() {
-    return json::parse(R"({
+Json measurement() {
+    return Json::parse(R"({
         "mode": "poses", "database": "earth.osgb", "path": ["p.csv"], "options": "", "vertical_scale": 1.0,
         "width": 320, "height": 240, "threading": "SingleThreaded", "osg": "3.6.5",
         "methods": {
@@ -51,7 +51,7 @@ struct Comparison {
     }
 };
 
-Comparison compared(const json& before, const json& after) {
+Comparison compared(const Json& before, const Json& after) {
     const test::TemporaryFolder folder;
     std::ostringstream output;
     const std::string old = folder.write("old.json", before.dump());
@@ -72,8 +72,8 @@ std::string errorOf(const std::string& before, const std::string& after) {
     return "no error";
 }
 
-void setTime(json& file, const std::string& method, double factor) {
-    json& sums = file["methods"][method];
+void setTime(Json& file, const std::string& method, double factor) {
+    Json& sums = file["methods"][method];
     sums["cull_ms"] = sums["cull_ms"].get<double>() * factor;
 }
 
@@ -88,7 +88,7 @@ TEST(Compare, FindsNothingInTheSameFile) {
 }
 
 TEST(Compare, SaysEveryChangeOfACount) {
-    json after = measurement();
+    Json after = measurement();
     after["methods"]["exact"]["drawn_tiles"] = 13;
     after["by_pose"]["exact"]["drawn_tiles"] = {6, 7};
     const Comparison worse = compared(measurement(), after);
@@ -100,7 +100,7 @@ TEST(Compare, SaysEveryChangeOfACount) {
 }
 
 TEST(Compare, SaysWhatMovedFromPoseToPose) {
-    json after = measurement();
+    Json after = measurement();
     after["by_pose"]["exact"]["drawn_tiles"] = {5, 7};
     const Comparison moved = compared(measurement(), after);
     EXPECT_FALSE(moved.isWorse);
@@ -108,8 +108,8 @@ TEST(Compare, SaysWhatMovedFromPoseToPose) {
 }
 
 TEST(Compare, CountsThatWereZeroCanOnlyGrow) {
-    json before = measurement();
-    json after = measurement();
+    Json before = measurement();
+    Json after = measurement();
     before["methods"]["exact"]["false_culls"] = 0;
     after["methods"]["exact"]["false_culls"] = 1;
     EXPECT_TRUE(compared(before, after).isWorse);
@@ -117,7 +117,7 @@ TEST(Compare, CountsThatWereZeroCanOnlyGrow) {
 }
 
 TEST(Compare, DoesNotJudgeWhatBelongsToTheView) {
-    json after = measurement();
+    Json after = measurement();
     after["methods"]["exact"]["truth_tiles"] = 11;
     const Comparison comparison = compared(measurement(), after);
     EXPECT_FALSE(comparison.isWorse);
@@ -125,14 +125,14 @@ TEST(Compare, DoesNotJudgeWhatBelongsToTheView) {
 }
 
 TEST(Compare, JudgesTimesByTheSpheres) {
-    json slowMachine = measurement();
+    Json slowMachine = measurement();
     setTime(slowMachine, "sphere", 1.5);
     setTime(slowMachine, "exact", 1.5);
     const Comparison drift = compared(measurement(), slowMachine);
     EXPECT_FALSE(drift.isWorse) << drift.text;
     EXPECT_NE(drift.line("exact", "cull_ms").find("changed"), std::string::npos) << drift.text;
 
-    json slower = slowMachine;
+    Json slower = slowMachine;
     setTime(slower, "exact", 1.2);
     const Comparison worse = compared(measurement(), slower);
     EXPECT_TRUE(worse.isWorse) << worse.text;
@@ -142,9 +142,9 @@ TEST(Compare, JudgesTimesByTheSpheres) {
 }
 
 TEST(Compare, JudgesTimesAsTheyAreWithoutSpheres) {
-    json before = measurement();
+    Json before = measurement();
     before["methods"].erase("sphere");
-    json after = before;
+    Json after = before;
     setTime(after, "exact", 1.04);
     EXPECT_FALSE(compared(before, after).isWorse);
     setTime(after, "exact", 1.2);
@@ -154,9 +154,9 @@ TEST(Compare, JudgesTimesAsTheyAreWithoutSpheres) {
 }
 
 TEST(Compare, TakesAtLeastFivePercentForNoise) {
-    json before = measurement();
+    Json before = measurement();
     for (const char* const method : {"sphere", "exact"}) before["by_pose"][method]["cull_spread_ms"] = {0, 0};
-    json after = before;
+    Json after = before;
     setTime(after, "exact", 1.04);
     EXPECT_FALSE(compared(before, after).isWorse);
     setTime(after, "exact", 1.02);
@@ -164,10 +164,10 @@ TEST(Compare, TakesAtLeastFivePercentForNoise) {
 }
 
 TEST(Compare, TakesTheSumsSpreadWhereThereAreNoPoses) {
-    json before = measurement();
+    Json before = measurement();
     before.erase("pose_names");
     before.erase("by_pose");
-    json after = before;
+    Json after = before;
     setTime(after, "exact", 1.08);
     EXPECT_FALSE(compared(before, after).isWorse);  // four sums, a half spread of 0.05 each: 0.1
     setTime(after, "exact", 1.08);
@@ -175,21 +175,21 @@ TEST(Compare, TakesTheSumsSpreadWhereThereAreNoPoses) {
 }
 
 TEST(Compare, DoesNotJudgeTheLivePhaseNorAContinuousFlight) {
-    json before = measurement();
+    Json before = measurement();
     before["live"] = {{"frames", 9}, {"methods", {{"exact", {{"files_requested", 3}, {"cull_ms", 1.0}}}}}};
-    json after = before;
+    Json after = before;
     after["live"]["methods"]["exact"]["files_requested"] = 5;
     const Comparison live = compared(before, after);
     EXPECT_FALSE(live.isWorse);
     EXPECT_EQ(live.line("exact", "files_requested"), "exact files_requested 3 5 1.667 changed");
 
-    const json flight = {{"mode", "flight"}, {"methods", before["live"]["methods"]}};
-    const json other = {{"mode", "flight"}, {"methods", after["live"]["methods"]}};
+    const Json flight = {{"mode", "flight"}, {"methods", before["live"]["methods"]}};
+    const Json other = {{"mode", "flight"}, {"methods", after["live"]["methods"]}};
     EXPECT_FALSE(compared(flight, other).isWorse);
 }
 
 TEST(Compare, WarnsOnceOfOtherConditions) {
-    json after = measurement();
+    Json after = measurement();
     after["database"] = "mars.osgb";
     after["width"] = 640;
     const Comparison comparison = compared(measurement(), after);
@@ -200,7 +200,7 @@ TEST(Compare, WarnsOnceOfOtherConditions) {
 }
 
 TEST(Compare, SaysWhatOnlyOneFileHas) {
-    json after = measurement();
+    Json after = measurement();
     after["methods"]["paper"] = after["methods"]["exact"];
     after["methods"]["exact"]["new_tiles"] = 1;
     const Comparison comparison = compared(measurement(), after);
@@ -210,13 +210,13 @@ TEST(Compare, SaysWhatOnlyOneFileHas) {
 
 TEST(Compare, RefusesWhatCannotBeCompared) {
     const std::string good = measurement().dump();
-    json otherPoses = measurement();
+    Json otherPoses = measurement();
     otherPoses["pose_names"] = {"a", "c"};
     EXPECT_NE(errorOf(good, otherPoses.dump()).find("the poses are not the same"), std::string::npos);
-    json flight = measurement();
+    Json flight = measurement();
     flight["mode"] = "flight";
     EXPECT_NE(errorOf(good, flight.dump()).find("the other flew on"), std::string::npos);
-    json otherMethods = measurement();
+    Json otherMethods = measurement();
     otherMethods["methods"] = {{"paper", {{"drawn_tiles", 1}}}};
     EXPECT_NE(errorOf(good, otherMethods.dump()).find("no method is in both"), std::string::npos);
 }
@@ -226,7 +226,7 @@ TEST(Compare, NamesABrokenFileAndWhatIsWrong) {
     EXPECT_NE(errorOf(good, "{\"mode\": ").find("new.json: is no JSON"), std::string::npos);
     EXPECT_NE(errorOf("[1, 2]", good).find("old.json: has no \"mode\" or no \"methods\""), std::string::npos);
     EXPECT_NE(errorOf("", good).find("old.json: is no JSON"), std::string::npos);
-    json broken = measurement();
+    Json broken = measurement();
     broken["methods"]["exact"]["drawn_tiles"] = "many";
     EXPECT_NE(errorOf(good, broken.dump()).find("methods.exact.drawn_tiles is no number"), std::string::npos);
     broken = measurement();
@@ -247,7 +247,7 @@ TEST(Compare, NamesABrokenFileAndWhatIsWrong) {
 
 TEST(Compare, TheProgramAnswersWithItsExitCode) {
     const test::TemporaryFolder folder;
-    json after = measurement();
+    Json after = measurement();
     after["methods"]["exact"]["drawn_tiles"] = 13;
     const std::string old = test::quoted(folder.write("old.json", measurement().dump()));
     const std::string now = test::quoted(folder.write("new.json", after.dump()));

@@ -16,7 +16,7 @@ namespace {
 using test::Outcome;
 using test::TemporaryFolder;
 
-constexpr const char* kPath =
+constexpr const char* kOnePose =
     "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg,near,far\n"
     "down,20,30,10000000,20,30,0,40,1000000,20000000\n";
 
@@ -28,7 +28,7 @@ void expectOneLine(const Outcome& outcome, const std::string& part) {
 
 TEST(Errors, OfTheCommandLineNameTheOption) {
     const TemporaryFolder folder;
-    const std::string good = "none.osgb --path " + test::quoted(folder.write("p.csv", kPath));
+    const std::string good = "none.osgb --path " + test::quoted(folder.write("p.csv", kOnePose));
     expectOneLine(test::runBenchBlind("x.osgb"), "--path is required");
     expectOneLine(test::runBenchBlind(good + " --methods sphere,cube"), "unknown method \"cube\"");
     expectOneLine(test::runBenchBlind(good + " --methods sphere+horizon"), "unknown method \"sphere+horizon\"");
@@ -46,19 +46,19 @@ TEST(Errors, OfTheCommandLineNameTheOption) {
 
 TEST(Errors, OfThePathNameTheLine) {
     const TemporaryFolder folder;
-    const std::string broken = folder.write("p.csv", std::string(kPath) + "low,20,30,abc,20,30,0,40,1,2\n");
+    const std::string broken = folder.write("p.csv", std::string(kOnePose) + "low,20,30,abc,20,30,0,40,1,2\n");
     expectOneLine(test::runBenchBlind("x.osgb --path " + test::quoted(broken)), "p.csv:3: eyeAlt");
 }
 
 TEST(Errors, SayThatThereIsNoDisplay) {
     const TemporaryFolder folder;
-    expectOneLine(test::runBenchBlind("x.osgb --path " + test::quoted(folder.write("p.csv", kPath))), "no display");
+    expectOneLine(test::runBenchBlind("x.osgb --path " + test::quoted(folder.write("p.csv", kOnePose))), "no display");
 }
 
 TEST(Errors, OfTheDatabaseLeaveNoTable) {
     if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
     const TemporaryFolder folder;
-    const std::string path = test::quoted(folder.write("p.csv", kPath));
+    const std::string path = test::quoted(folder.write("p.csv", kOnePose));
     const std::string csv = folder / "poses.csv";
     const Outcome outcome =
         test::runBench(test::quoted(folder / "absent.osgb") + " --path " + path + " --csv " + test::quoted(csv));

@@ -16,7 +16,7 @@
 namespace osgAnalyticBin {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 using test::Outcome;
 using test::TemporaryFolder;
 
@@ -35,20 +35,20 @@ struct Bench {
     std::string path{folder.write("path.csv", kPath)};
 
     // Returns: the sums by method; null when the program failed.
-    [[nodiscard]] json run(const std::string& name, const std::string& arguments) const {
+    [[nodiscard]] Json run(const std::string& name, const std::string& arguments) const {
         const std::string file = folder / (name + ".json");
         const Outcome outcome = test::runBench(test::quoted(database) + " --path " + test::quoted(path) +
                                                " --size 320x240 --repeats 1 --json " + test::quoted(file) + " --csv " +
                                                test::quoted(folder / (name + ".csv")) + " " + arguments);
         EXPECT_EQ(outcome.code, 0) << outcome.text;
-        return outcome.code == 0 ? test::jsonFile(file)["methods"] : json();
+        return outcome.code == 0 ? test::jsonFile(file)["methods"] : Json();
     }
 
-    [[nodiscard]] json live(const std::string& name) const { return test::jsonFile(folder / (name + ".json"))["live"]; }
+    [[nodiscard]] Json live(const std::string& name) const { return test::jsonFile(folder / (name + ".json"))["live"]; }
 };
 
 // Times differ from run to run; nothing else may.
-json withoutTimes(json methods) {
+Json withoutTimes(Json methods) {
     for (auto& method : methods) {
         method.erase("cull_ms");
         method.erase("cull_spread_ms");
@@ -72,7 +72,7 @@ TEST(Program, CountsTheSameInEveryRunAndThreadingModel) {
     if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
-    const json first = withoutTimes(bench.run("first", "--live 0"));
+    const Json first = withoutTimes(bench.run("first", "--live 0"));
     ASSERT_EQ(first.size(), 5U);
     EXPECT_EQ(first, withoutTimes(bench.run("second", "--live 0")));
     // pose by pose too
@@ -86,12 +86,12 @@ TEST(Program, JudgesEveryMethodByTheReference) {
     if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
-    const json methods = bench.run(
+    const Json methods = bench.run(
         "sums",
         "--live 0 --methods sphere,cluster,box,orientedBox,orientedBox+horizon+reverse,corners,corners+horizon,"
         "quadratic,quadratic+horizon,exact,exact+horizon+reverse --options horizon=-6000");
     ASSERT_TRUE(methods.contains("none"));
-    const json& none = methods["none"];
+    const Json& none = methods["none"];
     EXPECT_GT(none["visible_tiles"], 0);
     EXPECT_LE(none["visible_tiles"], none["truth_tiles"]);
     EXPECT_LE(none["surface_tiles"], none["truth_tiles"]);
@@ -141,9 +141,9 @@ TEST(Program, FliesContinuously) {
     if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
-    const json methods = bench.run("flight", "--frames 30 --frame-rate 15 --methods sphere,exact");
+    const Json methods = bench.run("flight", "--frames 30 --frame-rate 15 --methods sphere,exact");
     ASSERT_EQ(methods.size(), 3U);
-    for (const json& method : methods) {
+    for (const Json& method : methods) {
         EXPECT_EQ(method["frames"], 30);
         EXPECT_GT(method["files_requested"], 0);
         EXPECT_GT(method["cull_ms"], 0.0);
@@ -155,10 +155,10 @@ TEST(Program, FliesOnceMoreWithPagingLive) {
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
     ASSERT_EQ(bench.run("live", "--live 6 --frame-rate 15 --methods sphere,exact").size(), 3U);
-    const json live = bench.live("live");
+    const Json live = bench.live("live");
     EXPECT_EQ(live["frames"], 13);
     ASSERT_EQ(live["methods"].size(), 3U);
-    for (const json& method : live["methods"]) {
+    for (const Json& method : live["methods"]) {
         EXPECT_EQ(method["frames"], 13);
         EXPECT_GT(method["files_requested"], 0);
         EXPECT_GT(method["missing_frames"], 0);

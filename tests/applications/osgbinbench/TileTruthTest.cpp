@@ -20,7 +20,7 @@ namespace {
 using core::Ellipsoid;
 using core::GeodeticBin;
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
 
 const osg::ref_ptr<const osg::EllipsoidModel> kModel = new osg::EllipsoidModel;
 
@@ -29,7 +29,7 @@ Ellipsoid earth() {
 }
 
 osg::Vec3 at(double latDeg, double lonDeg, double altitude) {
-    const glm::dvec3 p = earth().toEcef({latDeg * kDegree, lonDeg * kDegree, altitude});
+    const glm::dvec3 p = earth().toEcef({latDeg * kRadiansPerDegree, lonDeg * kRadiansPerDegree, altitude});
     return osg::Vec3(osg::Vec3d(p.x, p.y, p.z));
 }
 
@@ -49,8 +49,8 @@ DrawnTile tileAt(const std::string& key, double southDeg, double westDeg, bool t
 
 TEST(SurfaceBin, LeavesTheSkirtOut) {
     const GeodeticBin bin = surfaceBin(tileAt("t", 10, 20), earth(), osg::Matrixd());
-    EXPECT_NEAR(bin.latitude().lower, 10 * kDegree, 1e-6);
-    EXPECT_NEAR(bin.longitude().upper, 21 * kDegree, 1e-6);
+    EXPECT_NEAR(bin.latitude().lower, 10 * kRadiansPerDegree, 1e-6);
+    EXPECT_NEAR(bin.longitude().upper, 21 * kRadiansPerDegree, 1e-6);
     EXPECT_NEAR(bin.altitude().upper, 0.0, 1.0);
     EXPECT_GT(bin.altitude().lower, -1000.0);  // the sag of chords of one degree: 8 tan(1/2 degree) ... 486 m
     EXPECT_LT(bin.altitude().lower, -400.0);
@@ -120,8 +120,8 @@ osg::ref_ptr<osg::Camera> cameraOf(const test::View& view) {
     const auto toOsg = [](const glm::dvec3& v) { return osg::Vec3d(v.x, v.y, v.z); };
     osg::ref_ptr<osg::Camera> camera = new osg::Camera;
     camera->setViewMatrixAsLookAt(toOsg(view.eye), toOsg(view.eye + 1e6 * view.forward), toOsg(view.up));
-    camera->setProjectionMatrixAsPerspective(2.0 * std::atan(view.halfWidth) / kDegree, 1.0, view.nearDistance,
-                                             view.farDistance);
+    camera->setProjectionMatrixAsPerspective(2.0 * std::atan(view.halfWidth) / kRadiansPerDegree, 1.0,
+                                             view.nearDistance, view.farDistance);
     return camera;
 }
 

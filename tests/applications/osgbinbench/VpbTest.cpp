@@ -21,7 +21,7 @@ namespace {
 
 using test::TemporaryFolder;
 
-constexpr const char* kPath =
+constexpr const char* kSamplePath =
     "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg,near,far\n"
     "oblique,58,-20,100000,59,-19,0,60,20000,2000000\n"
     "level,58,-20,9000,62,-19,3000,60,500,700000\n";
@@ -41,7 +41,7 @@ TEST_P(VpbSample, StockMethodsDifferInWhatTheyDrawAndAskFor) {
     const TemporaryFolder folder;
     const std::string file = folder / "sums.json";
     const test::Outcome outcome =
-        test::runBench(test::quoted(database) + " --path " + test::quoted(folder.write("p.csv", kPath)) +
+        test::runBench(test::quoted(database) + " --path " + test::quoted(folder.write("p.csv", kSamplePath)) +
                        " --methods sphere,cluster --size 320x240 --repeats 1 --live 0 --json " + test::quoted(file));
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     const nlohmann::json methods = test::jsonFile(file)["methods"];

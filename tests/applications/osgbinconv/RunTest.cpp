@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Outcome binconv(const std::string& arguments, const std::string& before = {}) {
+Outcome runBinconv(const std::string& arguments, const std::string& before = {}) {
     return runStock(before + test::quoted(OSGBINCONV_PROGRAM) + ' ' + arguments, Modules::Present);
 }
 
@@ -43,7 +43,7 @@ void expectOneLine(const Outcome& outcome, const std::string& what) {
     EXPECT_EQ(outcome.text.find('\n'), outcome.text.size() - 1) << outcome.text;
 }
 
-void expectError(const Outcome& outcome, const std::string& what) {
+void expectFailure(const Outcome& outcome, const std::string& what) {
     EXPECT_EQ(outcome.code, 1);
     expectOneLine(outcome, what);
 }
@@ -58,7 +58,7 @@ protected:
     [[nodiscard]] std::string partFile() const { return _database + ".bins.part"; }
 
     std::string indexed(const std::string& options = {}) {
-        const Outcome outcome = binconv("--quiet --index " + options + ' ' + test::quoted(_database));
+        const Outcome outcome = runBinconv("--quiet --index " + options + ' ' + test::quoted(_database));
         EXPECT_EQ(outcome.code, 0) << outcome.text;
         EXPECT_EQ(outcome.text, "");
         EXPECT_FALSE(fs::exists(partFile()));
@@ -94,7 +94,7 @@ TEST_F(Run, GoesOnFromWhatIsWholeOfAKilledRun) {
     fs::remove(indexFile());
     // A folder in the way of the last step leaves all records, as a kill just before it does.
     fs::create_directories(indexFile() + ".tmp/in the way");
-    expectError(binconv("--quiet --index " + test::quoted(_database)), "cannot write");
+    expectFailure(runBinconv("--quiet --index " + test::quoted(_database)), "cannot write");
     const std::string part = bytesOf(partFile());
     ASSERT_GT(part.size(), 10000u);
     fs::remove_all(indexFile() + ".tmp");
@@ -108,7 +108,7 @@ TEST_F(Run, GoesOnFromWhatIsWholeOfAKilledRun) {
     }
     // all of it: nothing is read again
     writeBytes(partFile(), part);
-    const Outcome rerun = binconv("--index " + test::quoted(_database));
+    const Outcome rerun = runBinconv("--index " + test::quoted(_database));
     EXPECT_NE(rerun.text.find("(161 files from an earlier run)"), std::string::npos) << rerun.text;
     EXPECT_EQ(bytesOf(indexFile()), whole);
 }
@@ -125,7 +125,7 @@ TEST_F(Run, ARunThatIsKilledGoesOnToTheSameBytes) {
 TEST_F(Run, FilesThatHaveChangedSinceAreReadAgain) {
     const std::string whole = indexed();
     fs::create_directories(indexFile() + ".tmp/in the way");
-    (void)binconv("--quiet --index " + test::quoted(_database));
+    (void)runBinconv("--quiet --index " + test::quoted(_database));
     fs::remove_all(indexFile() + ".tmp");
     ASSERT_TRUE(fs::exists(partFile()));
     const std::string tile = _folder / "tiles_1_3_3.osgb";
@@ -166,25 +166,25 @@ TEST_F(Run, InterruptedCopiesLeaveNothingAndTheSameCommandMakesThem) {
 
 TEST_F(Run, CheckFindsWhatHasChanged) {
     (void)indexed();
-    const Outcome same = binconv("--quiet --check " + test::quoted(_database));
+    const Outcome same = runBinconv("--quiet --check " + test::quoted(_database));
     EXPECT_EQ(same.code, 0) << same.text;
     EXPECT_NE(same.text.find("672 tiles in 161 files"), std::string::npos) << same.text;
     writeSmallFile(_folder / "tiles_1_3_3.osgb", *makeSmallTile(""));
-    expectError(binconv("--quiet --check " + test::quoted(_database)), "does not agree");
+    expectFailure(runBinconv("--quiet --check " + test::quoted(_database)), "does not agree");
     fs::remove(indexFile());
-    expectError(binconv("--quiet --check " + test::quoted(_database)), ".bins");
+    expectFailure(runBinconv("--quiet --check " + test::quoted(_database)), ".bins");
 }
 
 TEST_F(Run, PrintTellsWhatIsInAnIndex) {
     (void)indexed();
-    const Outcome printed = binconv("--print " + test::quoted(indexFile()));
+    const Outcome printed = runBinconv("--print " + test::quoted(indexFile()));
     EXPECT_EQ(printed.code, 0);
     for (const char* part :
          {"globe.osgb", "672 in 161 files", "never culled 0", "degrees", "some 3 levels", "per tile"}) {
         EXPECT_NE(printed.text.find(part), std::string::npos) << printed.text;
     }
-    expectError(binconv("--print " + test::quoted(_database)), "no such thing");
-    expectError(binconv("--print " + test::quoted(_folder / "absent.bins")), "absent.bins");
+    expectFailure(runBinconv("--print " + test::quoted(_database)), "no such thing");
+    expectFailure(runBinconv("--print " + test::quoted(_folder / "absent.bins")), "absent.bins");
 }
 
 TEST_F(Run, AFullDiskIsNoticedAndTheRerunGoesOn) {
@@ -194,7 +194,7 @@ TEST_F(Run, AFullDiskIsNoticedAndTheRerunGoesOn) {
     const Outcome outcome = runStock("sh -c \"ulimit -f 40; exec " + test::quoted(OSGBINCONV_PROGRAM) +
                                          " --quiet --index " + test::quoted(_database) + '"',
                                      Modules::Present);
-    expectError(outcome, "make room");
+    expectFailure(outcome, "make room");
     EXPECT_FALSE(fs::exists(indexFile()));
     EXPECT_GT(fs::file_size(partFile()), 10000u);
     EXPECT_EQ(indexed(), whole);
@@ -202,7 +202,7 @@ TEST_F(Run, AFullDiskIsNoticedAndTheRerunGoesOn) {
 
 TEST_F(Run, WhatIsNotOursIsNotReplaced) {
     writeBytes(indexFile(), "my own notes");
-    expectError(binconv("--quiet --index " + test::quoted(_database)), "move it away");
+    expectFailure(runBinconv("--quiet --index " + test::quoted(_database)), "move it away");
     EXPECT_EQ(bytesOf(indexFile()), "my own notes");
 }
 
@@ -212,8 +212,8 @@ TEST(SmallRun, NamesThatLeaveTheFolderAreRefused) {
         const TemporaryFolder folder;
         writeSmallFile(folder / "db/earth.osgb", *makeSmallTile(name), true);
         writeSmallFile(folder / "outside.osgb", *makeSmallTile(""));
-        expectError(binconv("--quiet --index " + test::quoted(folder / "db/earth.osgb")),
-                    "outside of the database's folder");
+        expectFailure(runBinconv("--quiet --index " + test::quoted(folder / "db/earth.osgb")),
+                      "outside of the database's folder");
         EXPECT_FALSE(fs::exists(folder / "db/earth.osgb.bins"));
         EXPECT_FALSE(fs::exists(folder / "db/earth.osgb.bins.part"));
     }
@@ -224,7 +224,7 @@ TEST(SmallRun, FoldersBesideEachOtherAreFollowed) {
     writeSmallFile(folder / "earth.osgb", *makeSmallTile("earth_root_L0_X0_Y0/a.osgb"), true);
     writeSmallFile(folder / "earth_root_L0_X0_Y0/a.osgb", *makeSmallTile("../earth_subtile_L2_X0_Y0/b.osgb"));
     writeSmallFile(folder / "earth_subtile_L2_X0_Y0/b.osgb", *makeSmallTile(""));
-    EXPECT_EQ(binconv("--quiet --index " + test::quoted(folder / "earth.osgb")).text, "");
+    EXPECT_EQ(runBinconv("--quiet --index " + test::quoted(folder / "earth.osgb")).text, "");
     std::string error;
     const osg::ref_ptr<BinIndex> index = readBinIndex(folder / "earth.osgb", nullptr, error);
     ASSERT_TRUE(index) << error;
@@ -240,7 +240,7 @@ TEST(SmallRun, EveryFormatIsRead) {
         const std::string root = folder / ("earth." + extension);
         writeSmallFile(root, *makeSmallTile("tiles/a." + extension), true);
         writeSmallFile(folder / ("tiles/a." + extension), *makeSmallTile(""));
-        EXPECT_EQ(binconv("--quiet --index " + test::quoted(root)).text, "") << extension;
+        EXPECT_EQ(runBinconv("--quiet --index " + test::quoted(root)).text, "") << extension;
         std::string error;
         const osg::ref_ptr<BinIndex> index = readBinIndex(root, nullptr, error);
         ASSERT_TRUE(index) << error;
@@ -255,9 +255,9 @@ TEST(SmallRun, APathToAnotherFolderInAFileIsRefused) {
     dynamic_cast<osg::PagedLOD&>(*tile).setDatabasePath(folder / "elsewhere/");
     writeSmallFile(folder / "db/earth.osgb", *tile, true);
     writeSmallFile(folder / "db/a.osgb", *makeSmallTile(""));
-    EXPECT_EQ(binconv("--quiet --index " + test::quoted(folder / "db/earth.osgb")).text, "");  // nothing is there
+    EXPECT_EQ(runBinconv("--quiet --index " + test::quoted(folder / "db/earth.osgb")).text, "");  // nothing is there
     writeSmallFile(folder / "elsewhere/a.osgb", *makeSmallTile(""));
-    expectError(binconv("--quiet --index " + test::quoted(folder / "db/earth.osgb")), "elsewhere");
+    expectFailure(runBinconv("--quiet --index " + test::quoted(folder / "db/earth.osgb")), "elsewhere");
 }
 
 TEST(SmallRun, CyclesAreRefused) {
@@ -265,9 +265,9 @@ TEST(SmallRun, CyclesAreRefused) {
     writeSmallFile(folder / "earth.osgb", *makeSmallTile("a/a.osgb"), true);
     writeSmallFile(folder / "a/a.osgb", *makeSmallTile("b.osgb"));
     writeSmallFile(folder / "a/b.osgb", *makeSmallTile("../a/a.osgb"));
-    expectError(binconv("--quiet --index " + test::quoted(folder / "earth.osgb")), "paged below itself");
+    expectFailure(runBinconv("--quiet --index " + test::quoted(folder / "earth.osgb")), "paged below itself");
     writeSmallFile(folder / "a/b.osgb", *makeSmallTile("../earth.osgb"));
-    expectError(binconv("--quiet --index " + test::quoted(folder / "earth.osgb")), "paged below itself");
+    expectFailure(runBinconv("--quiet --index " + test::quoted(folder / "earth.osgb")), "paged below itself");
     EXPECT_FALSE(fs::exists(folder / "earth.osgb.bins"));
 }
 
@@ -276,7 +276,7 @@ TEST(SmallRun, AMissingFileLeavesItsParentWithAllThatTerrainMayBe) {
     writeSmallFile(folder / "earth.osgb", *makeSmallTile("a.osgb"), true);
     for (const bool isBroken : {false, true}) {
         if (isBroken) writeBytes(folder / "a.osgb", "no scene at all");
-        const Outcome outcome = binconv("--quiet --index " + test::quoted(folder / "earth.osgb"));
+        const Outcome outcome = runBinconv("--quiet --index " + test::quoted(folder / "earth.osgb"));
         EXPECT_EQ(outcome.code, 0);
         EXPECT_EQ(outcome.linesWith("warning"), 1) << outcome.text;
         EXPECT_NE(outcome.text.find("a.osgb"), std::string::npos) << outcome.text;
@@ -295,7 +295,7 @@ TEST(SmallRun, AnUnknownSurfaceLeavesAllTilesAboveItVisible) {
     writeSmallFile(folder / "earth.osgb", *makeSmallTile("a.osgb"), true);
     writeSmallFile(folder / "a.osgb", *makeSmallTile("b.osgb"));
     writeSmallFile(folder / "b.osgb", *odd);
-    const Outcome outcome = binconv("--quiet --index " + test::quoted(folder / "earth.osgb"));
+    const Outcome outcome = runBinconv("--quiet --index " + test::quoted(folder / "earth.osgb"));
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.linesWith("warning"), 1) << outcome.text;
     std::string error;
@@ -307,25 +307,25 @@ TEST(SmallRun, AnUnknownSurfaceLeavesAllTilesAboveItVisible) {
 
 TEST(SmallRun, BadCommandLinesAreOneLine) {
     const TemporaryFolder folder;
-    expectError(binconv(""), "FILE");
-    expectError(binconv("--index " + test::quoted(folder / "absent.osgb")), "absent.osgb");
-    expectError(binconv("--index " + test::quoted(folder.path())), "is no file");
-    expectError(binconv("--index http://host/earth.osgb"), "on a server");
-    expectError(binconv("--index --print x"), "--");
-    expectError(binconv("--index --threads 0 x"), "--threads 0");
-    expectError(binconv("--index a b"), "\"b\"");
-    expectError(binconv("a b c"), "\"c\"");
-    expectError(binconv("--frobnicate x"), "--frobnicate");
+    expectFailure(runBinconv(""), "FILE");
+    expectFailure(runBinconv("--index " + test::quoted(folder / "absent.osgb")), "absent.osgb");
+    expectFailure(runBinconv("--index " + test::quoted(folder.path())), "is no file");
+    expectFailure(runBinconv("--index http://host/earth.osgb"), "on a server");
+    expectFailure(runBinconv("--index --print x"), "--");
+    expectFailure(runBinconv("--index --threads 0 x"), "--threads 0");
+    expectFailure(runBinconv("--index a b"), "\"b\"");
+    expectFailure(runBinconv("a b c"), "\"c\"");
+    expectFailure(runBinconv("--frobnicate x"), "--frobnicate");
     writeBytes(folder / "text.osgb", "no scene");
-    expectError(binconv("--quiet --index " + test::quoted(folder / "text.osgb")), "text.osgb");
+    expectFailure(runBinconv("--quiet --index " + test::quoted(folder / "text.osgb")), "text.osgb");
     writeSmallFile(folder / "cow.osgb", *makeSmallTile(""));
-    expectError(binconv("--quiet --index " + test::quoted(folder / "cow.osgb")), "no tile of a globe");
+    expectFailure(runBinconv("--quiet --index " + test::quoted(folder / "cow.osgb")), "no tile of a globe");
     EXPECT_FALSE(fs::exists(folder / "cow.osgb.bins"));
     EXPECT_FALSE(fs::exists(folder / "cow.osgb.bins.part"));
 }
 
 TEST(SmallRun, HelpNamesUnitsAndExamples) {
-    const Outcome outcome = binconv("--help");
+    const Outcome outcome = runBinconv("--help");
     EXPECT_EQ(outcome.code, 0);
     for (const char* word : {"--index", "--check", "--print", "metres", "degrees", "Example"}) {
         EXPECT_NE(outcome.text.find(word), std::string::npos) << word;

@@ -13,7 +13,7 @@
 
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
 
 void readMesh(LoadedTile& tile) {
     auto& transform = dynamic_cast<osg::MatrixTransform&>(*tile.node->asGroup()->getChild(0));
@@ -88,7 +88,7 @@ const LoadedTile& LoadedDatabase::leafAt(double latitudeDeg, double longitudeDeg
 
 double LoadedDatabase::altitudeAt(double latitudeDeg, double longitudeDeg) const {
     const LoadedTile& tile = leafAt(latitudeDeg, longitudeDeg);
-    const auto target = ellipsoid().toEcef({latitudeDeg * kDegree, longitudeDeg * kDegree, 0.0});
+    const auto target = ellipsoid().toEcef({latitudeDeg * kRadiansPerDegree, longitudeDeg * kRadiansPerDegree, 0.0});
     double nearest = HUGE_VAL;
     double altitude = 0.0;
     for (std::size_t i = 0; i < tile.surfaceCount(); ++i) {

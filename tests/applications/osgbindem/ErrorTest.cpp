@@ -43,8 +43,6 @@ private:
     TempFolder _folder;
 };
 
-}  // namespace
-
 TEST_F(Error, MissingRaster) {
     expectBadDem(file("absent.tif"), "absent.tif");
 }
@@ -187,3 +185,5 @@ TEST(Progress, IsShownUnlessQuiet) {
     EXPECT_EQ(outcome.exitCode, 0);
     EXPECT_EQ(outcome.output, "0...10...20...30...40...50...60...70...80...90...100 - done.\n");
 }
+
+}  // namespace
