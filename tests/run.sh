@@ -2,12 +2,11 @@
 # SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 # SPDX-License-Identifier: MIT
 #
-# Installs what is missing, builds, and runs all tests: release, dev (assertions and sanitizers), scalar, and a project
-# that uses the installed package. `sh tests/run.sh quick` runs the release build alone.
+# Installs what is missing, builds, and runs all tests: release (with the installed package, as others use it), dev
+# (assertions and sanitizers) and scalar. `sh tests/run.sh quick` runs the release build alone.
 set -eu
 
 cd "$(dirname "$0")/.."
-root=$(pwd)
 jobs=$(nproc 2>/dev/null || echo 2)
 
 step() { echo "== $*"; }
@@ -37,14 +36,6 @@ git ls-files '*.cpp' '*.h' 2>/dev/null | xargs -r clang-format --dry-run --Werro
 build release
 test_preset release
 [ "${1:-}" != quick ] || exit 0
-
-step "consumer: a project that finds the installed package"
-prefix="$root/build/consumer/prefix"
-rm -rf build/consumer
-cmake --install build/release --prefix "$prefix" >build/consumer.log 2>&1 || { cat build/consumer.log >&2; exit 1; }
-cmake -S tests/consumer -B build/consumer/build -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >>build/consumer.log 2>&1 &&
-    cmake --build build/consumer/build >>build/consumer.log 2>&1 || { cat build/consumer.log >&2; exit 1; }
-ctest --test-dir build/consumer/build --output-on-failure --no-tests=error
 
 build dev
 test_preset dev -LE 'soundness|pictures'
