@@ -7,7 +7,7 @@
 set -eu
 
 packages="
-  ca-certificates clang-format cmake doxygen g++ git help2man ninja-build pkg-config python3
+  ca-certificates ccache clang-format cmake doxygen g++ git help2man ninja-build pkg-config python3
   libopenscenegraph-dev openscenegraph libglm-dev
   libgdal-dev gdal-bin libcli11-dev nlohmann-json3-dev
   libgtest-dev librapidcheck-dev libboost-dev libhwy-dev libbenchmark-dev libccd-dev

@@ -18,6 +18,14 @@ set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
+# An application that this project is part of chooses for itself.
+if(OSGANALYTICBIN_CCACHE AND PROJECT_IS_TOP_LEVEL AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+  find_program(OSGANALYTICBIN_CCACHE_PROGRAM ccache DOC "Keeps what was compiled")
+  if(OSGANALYTICBIN_CCACHE_PROGRAM)
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${OSGANALYTICBIN_CCACHE_PROGRAM}")
+  endif()
+endif()
+
 # Every target calls this once: C++17 and private warnings. Contraction of a*b+c into fused operations is
 # switched off because it would let verdicts differ between machines.
 function(osganalyticbin_defaults target)
