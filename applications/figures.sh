@@ -51,7 +51,7 @@ on_display "$build/bin/osgbinbench" "$out/earth.osgb" $paths --size 640x360 --cs
 
 step "All methods"
 on_display "$build/bin/osgbinbench" "$out/earth.osgb" --path data/paths/demo.csv --methods all --size 640x360 --live 0 \
-    --csv "$out/methods.csv" --json "$out/methods.json" --plot "$out/methods" >"$out/methods.txt"
+    --csv "$out/methods.csv" --json "$out/methods.json" >"$out/methods.txt"
 
 step "The published experiment"
 "$build/bin/osgbinpaper" --csv "$out/paper.csv" --json "$out/paper.json" --plot "$out/paper" >"$out/paper.txt"
@@ -69,7 +69,7 @@ step "Machine"
 if [ "${1:-}" = commit ]; then
     step "Pictures for results.md"
     mkdir -p osgAnalyticBin/doc/results
-    for picture in paths/drawn paths/files paths/cull methods/drawn methods/cull paper/figure1 paper/figure2 paper/figure3 \
+    for picture in paths/drawn paths/files paths/cull paper/figure1 paper/figure2 paper/figure3 \
         paper/figure4 paper/figure5 paper/wrong_cull_corners paper/wrong_cull_paper; do
         cp "$out/$picture.png" "osgAnalyticBin/doc/results/$(echo "$picture" | tr / _).png"
     done
