@@ -57,6 +57,7 @@ public:
 protected:
     void visitTile(FoundTile& tile) override;
     void visitOther(osg::Node& node) override;
+    void visitTooDeep(osg::Node& node) override;
 
 private:
     friend class BinReadFileCallback;

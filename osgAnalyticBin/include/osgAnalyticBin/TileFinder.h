@@ -74,6 +74,11 @@ protected:
     /// Another node was met. The default walks on below it.
     virtual void visitOther(osg::Node& node) { traverseBelow(node); }
 
+    /// A node was met below so many tiles and PagedLODs that stand in each other (a paged tile counts twice). It is
+    /// left out, with all below it: no database is like that, and recursion has to end before the stack does.
+    virtual void visitTooDeep(osg::Node&) {}
+    static constexpr int kDeepest = 400;
+
     /// Goes on with the children, those that are paged as content of their own files.
     void traverseBelow(osg::Node& node);
 
@@ -90,6 +95,7 @@ private:
     TileFrame _frame;
     std::size_t _ordinal = 0;
     const osg::Node* _tile = nullptr;  // the tile being visited
+    int _depth = 0;                    // of tiles and PagedLODs
 };
 
 /// The tiles below a node.

@@ -268,6 +268,17 @@ void BinInstaller::visitOther(osg::Node& node) {
     traverseBelow(node);
 }
 
+// It keeps OSG's own culling; how deep it lies is not known.
+void BinInstaller::visitTooDeep(osg::Node&) {
+    if (!installsBins()) return;
+    if (!database().hasGap()) {
+        OSG_WARN << "osgAnalyticBin: \"" << frame().file
+                 << "\" has tiles in tiles, hundreds deep; those farther in get no bins, and the horizon is not used."
+                 << std::endl;
+    }
+    database().noteGap(frame().file);
+}
+
 void BinInstaller::install(FoundTile& tile) {
     osg::Node& node = *tile.node;
     const osg::ref_ptr<ParentTile> link = new ParentTile;

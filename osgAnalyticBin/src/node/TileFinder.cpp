@@ -173,10 +173,13 @@ bool TileFinder::isTile(osg::Node& node) const {
     return _frame.isBelowTile && !isPlainGroup && !node.asDrawable() && isFixedMesh(node);
 }
 
+// Scenes may have far more groups than tiles above each other: for these it takes little stack.
 void TileFinder::visit(osg::Node& node, bool isTile) {
     if (!isTile) return visitOther(node);
+    if (_depth >= kDeepest) return visitTooDeep(node);
     FoundTile tile{&node, ownMeshes(node), _frame, _ordinal++, filesBelow(node, _frame.file)};
     const Scoped scope(_tile, static_cast<const osg::Node*>(&node));
+    const Scoped depth(_depth, _depth + 1);
     visitTile(tile);
 }
 
@@ -193,7 +196,9 @@ void TileFinder::traverseBelow(osg::Node& node) {
 }
 
 void TileFinder::traversePaged(osg::PagedLOD& node) {
+    if (_depth >= kDeepest) return visitTooDeep(node);
     const bool isTile = _tile == &node;
+    const Scoped depth(_depth, _depth + 1);
     for (unsigned int i = 0; i < node.getNumChildren(); ++i) {
         if (!isPagedChild(node, i)) {
             // a tile's own mesh is no tile beside it
