@@ -9,6 +9,8 @@
 
 namespace osgAnalyticBin::bench {
 
+using support::Failure;
+
 namespace {
 
 constexpr int kMostPictureFrames = 20;

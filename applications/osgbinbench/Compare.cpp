@@ -14,6 +14,8 @@
 
 namespace osgAnalyticBin::bench {
 
+using support::Failure;
+
 namespace {
 
 const char* wordFor(Verdict verdict) {

@@ -11,6 +11,8 @@
 
 namespace osgAnalyticBin::bench {
 
+using support::Failure;
+
 namespace {
 
 // The bases that bins stand behind, and the names that the pseudo-loader has for them.

@@ -4,15 +4,17 @@
 #include "FigureChange.h"
 
 #include "CullMethod.h"
+#include "TextFile.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 
 namespace osgAnalyticBin::bench {
+
+using support::withDecimals;
 
 namespace {
 
@@ -22,14 +24,8 @@ constexpr double kLeastNoise = 0.05;
 constexpr std::array<const char*, 5> kNeutral{"truth_tiles", "surface_tiles", "visible_tiles", "hidden_tiles",
                                               "frames"};
 
-std::string ratioText(double value, int decimals) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", decimals, value);
-    return text;
-}
-
 std::string numberText(double value) {
-    return std::trunc(value) == value ? ratioText(value, 0) : ratioText(value, 4);
+    return std::trunc(value) == value ? withDecimals(value, 0) : withDecimals(value, 4);
 }
 
 double ratioOf(double newValue, double oldValue) {
@@ -39,7 +35,7 @@ double ratioOf(double newValue, double oldValue) {
 
 std::string ratioText(double newValue, double oldValue) {
     const double ratio = ratioOf(newValue, oldValue);
-    return std::isfinite(ratio) ? ratioText(ratio, 3) : "-";
+    return std::isfinite(ratio) ? withDecimals(ratio, 3) : "-";
 }
 
 bool isTime(const std::string& column) {
@@ -96,7 +92,7 @@ std::string poseRange(const Pair& pair, const std::string& column) {
         least = std::min(least, ratio);
         most = std::max(most, ratio);
     }
-    const auto text = [](double ratio) { return std::isfinite(ratio) ? ratioText(ratio, 2) : std::string("-"); };
+    const auto text = [](double ratio) { return std::isfinite(ratio) ? withDecimals(ratio, 2) : std::string("-"); };
     return text(least) + " .. " + text(most);
 }
 
@@ -143,7 +139,7 @@ std::optional<double> uncertainty(const Pair& pair, const std::string& time) {
 
 void judge(FigureChange& change, double ratio, double uncertainty) {
     const double noise = std::max(kLeastNoise, uncertainty);
-    change.noise = ratioText(noise, 3);
+    change.noise = withDecimals(noise, 3);
     change.verdict = verdictOn(ratio, noise);
 }
 

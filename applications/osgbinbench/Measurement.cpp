@@ -11,6 +11,8 @@
 
 namespace osgAnalyticBin::bench {
 
+using support::Failure;
+
 namespace {
 
 using Json = nlohmann::ordered_json;

@@ -14,6 +14,8 @@
 
 namespace osgAnalyticBin::bench {
 
+using support::Failure;
+
 namespace {
 
 // Frames in a row that ask for nothing: what one update changes after the last merge is seen by the next cull.

@@ -4,20 +4,19 @@
 #include "Output.h"
 
 #include "CsvTable.h"
-#include "Failure.h"
 #include "PathGroups.h"
+#include "TextFile.h"
 #include "TextTable.h"
 
 #include <osg/Version>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 namespace osgAnalyticBin::bench {
+
+using support::withDecimals;
 
 namespace {
 
@@ -25,12 +24,6 @@ using Json = nlohmann::ordered_json;
 using report::TextTable;
 
 constexpr std::array<const char*, 2> kComparedWith{"sphere", "cluster"};
-
-std::string withDecimals(double value, int decimals) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", decimals, value);
-    return text;
-}
 
 std::string ratio(double value, double reference) {
     return reference > 0.0 ? withDecimals(value / reference, 3) : "-";
@@ -159,18 +152,6 @@ TextTable turned(const std::vector<std::vector<std::string>>& lines) {
 }
 
 }  // namespace
-
-void writeFile(const std::string& file, const std::string& text) {
-    const std::string unfinished = file + ".tmp";
-    std::ofstream output(unfinished, std::ios::binary);
-    output << text;
-    output.close();
-    std::error_code problem;
-    if (output) std::filesystem::rename(unfinished, file, problem);
-    if (output && !problem) return;
-    std::filesystem::remove(unfinished, problem);
-    throw Failure(file + ": cannot be written; check that its folder is there and not full");
-}
 
 std::string csvOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods) {
     std::string text = "pose,method";

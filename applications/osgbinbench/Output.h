@@ -12,9 +12,6 @@
 
 namespace osgAnalyticBin::bench {
 
-/// Throws: Failure when a file cannot be written; what is there under its name stays as it was then.
-void writeFile(const std::string& file, const std::string& text);
-
 /// One line for each pose and method, after a line of column names.
 [[nodiscard]] std::string csvOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods);
 [[nodiscard]] std::string csvOf(const std::vector<FlightFigures>& methods);

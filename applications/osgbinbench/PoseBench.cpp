@@ -14,6 +14,8 @@
 
 namespace osgAnalyticBin::bench {
 
+using support::Failure;
+
 namespace {
 
 std::uint64_t differingPixels(const osg::Image& first, const osg::Image& second) {

@@ -7,6 +7,7 @@
 #include "CullMethod.h"
 #include "Failure.h"
 #include "Figures.h"
+#include "NumberRange.h"
 
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Version.h>
@@ -20,6 +21,8 @@
 #include <utility>
 
 namespace osgAnalyticBin::bench {
+
+using support::Failure;
 
 namespace {
 
@@ -139,7 +142,7 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
         ->expected(2);
     app.add_option("--vertical-scale", settings.verticalScale,
                    "factor for the heights of an osgTerrain database (default 1)")
-        ->check(CLI::Range(0.001, 1000.0));
+        ->check(support::within(0.001, 1000.0));
     app.add_option("--size", words.size, "pixels of a picture, WIDTHxHEIGHT (default 1280x720)");
     app.add_option("--threading", words.threading,
                    "SingleThreaded (default), CullDrawThreadPerContext,\nDrawThreadPerContext or "
@@ -154,9 +157,9 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
     app.add_option("--frame-rate", settings.frameRate,
                    "frames a second of the continuous flight at most, so that\nthe pager has time: 0.1 to 10000 "
                    "(default 60)")
-        ->check(CLI::Range(0.1, 10000.0));
+        ->check(support::within(0.1, 10000.0));
     app.add_option("--timeout", settings.timeout, "seconds that one pose may take to load, to 86400 (default 120)")
-        ->check(CLI::Range(0.001, 86400.0));
+        ->check(support::within(0.001, 86400.0));
 }
 
 void check(const Settings& settings) {

@@ -9,6 +9,7 @@
 #include "Output.h"
 #include "Plot.h"
 #include "PoseBench.h"
+#include "TextFile.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -17,6 +18,9 @@
 #include <malloc.h>
 
 namespace {
+
+using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::writeFile;
 
 using namespace osgAnalyticBin::bench;
 using osgAnalyticBin::flight::CameraPose;

@@ -18,6 +18,8 @@
 
 namespace osgbinconv {
 
+using osgAnalyticBin::support::Failure;
+
 namespace fs = std::filesystem;
 
 namespace {

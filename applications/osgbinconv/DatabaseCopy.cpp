@@ -7,6 +7,7 @@
 #include "Failure.h"
 #include "FileSurvey.h"
 #include "IndexBuilder.h"
+#include "Interruption.h"
 
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
@@ -23,6 +24,9 @@
 #include <thread>
 
 namespace osgbinconv {
+
+using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::throwIfStopRequested;
 
 using osgAnalyticBin::AnalyticBin;
 using osgAnalyticBin::BinIndex;

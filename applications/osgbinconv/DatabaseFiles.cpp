@@ -21,6 +21,8 @@
 
 namespace osgbinconv {
 
+using osgAnalyticBin::support::Failure;
+
 namespace fs = std::filesystem;
 
 namespace {

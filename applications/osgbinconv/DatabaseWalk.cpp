@@ -5,6 +5,7 @@
 
 #include "Failure.h"
 #include "FileSurvey.h"
+#include "Interruption.h"
 #include "Progress.h"
 
 #include <condition_variable>
@@ -15,6 +16,9 @@
 #include <vector>
 
 namespace osgbinconv {
+
+using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::throwIfStopRequested;
 
 namespace {
 

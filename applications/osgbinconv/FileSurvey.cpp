@@ -20,6 +20,8 @@
 
 namespace osgbinconv {
 
+using osgAnalyticBin::support::Failure;
+
 using osgAnalyticBin::FoundTile;
 using osgAnalyticBin::TileFrame;
 using osgAnalyticBin::TileSurface;

@@ -16,6 +16,8 @@
 
 namespace osgbinconv {
 
+using osgAnalyticBin::support::Failure;
+
 using osgAnalyticBin::AnalyticBin;
 using osgAnalyticBin::BinIndex;
 

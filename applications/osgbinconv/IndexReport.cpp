@@ -15,6 +15,8 @@
 
 namespace osgbinconv {
 
+using osgAnalyticBin::support::Failure;
+
 using osgAnalyticBin::BinIndex;
 
 namespace {

@@ -17,6 +17,8 @@
 
 namespace osgbinconv {
 
+using osgAnalyticBin::support::Failure;
+
 namespace {
 
 constexpr std::size_t kNumberBytes = 4;

@@ -12,6 +12,8 @@
 
 namespace osgbinconv {
 
+using osgAnalyticBin::support::Failure;
+
 using osgAnalyticBin::AnalyticBin;
 using osgAnalyticBin::core::Interval;
 

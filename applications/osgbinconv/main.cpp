@@ -6,6 +6,7 @@
 #include "Failure.h"
 #include "IndexBuilder.h"
 #include "IndexReport.h"
+#include "Interruption.h"
 
 #include <osgAnalyticBin/Version.h>
 
@@ -23,8 +24,11 @@
 
 namespace {
 
+using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::Interrupted;
+using osgAnalyticBin::support::stopRequested;
+
 using osgbinconv::DatabaseFiles;
-using osgbinconv::Failure;
 
 constexpr int kInterrupted = 130;
 
@@ -95,7 +99,7 @@ int complain(const std::string& message) {
 }
 
 void requestStop(int) {
-    osgbinconv::stopRequested.store(true);
+    stopRequested.store(true);
 }
 
 void prepareProcess() {
@@ -138,7 +142,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     try {
         return run(argc, argv);
-    } catch (const osgbinconv::Interrupted&) {
+    } catch (const Interrupted&) {
         complain("interrupted; an index goes on where it ended, by the same command");
         return kInterrupted;
     } catch (const std::bad_alloc&) {

@@ -4,7 +4,7 @@
 #include "DatabaseBuilder.h"
 
 #include "DatabaseFolder.h"
-#include "Failure.h"
+#include "Interruption.h"
 #include "NodeFile.h"
 #include "TileBuilder.h"
 #include "WorkPlan.h"
@@ -24,6 +24,8 @@
 #include <thread>
 
 namespace osgbindem {
+
+using osgAnalyticBin::support::stopRequested;
 
 namespace {
 

@@ -17,6 +17,8 @@
 
 namespace osgbindem {
 
+using osgAnalyticBin::support::Failure;
+
 namespace fs = std::filesystem;
 
 namespace {

@@ -10,6 +10,8 @@
 
 namespace osgbindem {
 
+using osgAnalyticBin::support::Failure;
+
 DemMosaic::DemMosaic(const Settings& settings) {
     for (const DemInput& dem : settings.dems) {
         DemOptions options;

@@ -4,12 +4,16 @@
 #include "DemSource.h"
 
 #include "Failure.h"
+#include "Interruption.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace osgbindem {
+
+using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::throwIfStopRequested;
 
 namespace {
 

@@ -16,6 +16,8 @@
 
 namespace osgbindem {
 
+using osgAnalyticBin::support::Failure;
+
 namespace {
 
 using GeoTransform = std::array<double, 6>;

@@ -10,6 +10,8 @@
 
 namespace osgbindem {
 
+using osgAnalyticBin::support::Failure;
+
 namespace {
 
 constexpr int kSmallest = 16;

@@ -27,6 +27,8 @@
 
 namespace osgbindem {
 
+using osgAnalyticBin::support::Failure;
+
 namespace {
 
 osgDB::ReaderWriter& writer() {

@@ -3,7 +3,7 @@
 
 #include "TileBuilder.h"
 
-#include "Failure.h"
+#include "Interruption.h"
 #include "NodeFile.h"
 #include "TileGeometry.h"
 #include "TileMesh.h"
@@ -11,6 +11,8 @@
 #include "TileTopology.h"
 
 namespace osgbindem {
+
+using osgAnalyticBin::support::throwIfStopRequested;
 
 using osgAnalyticBin::AnalyticBin;
 using osgAnalyticBin::core::GeodeticBin;

@@ -3,6 +3,7 @@
 
 #include "DatabaseBuilder.h"
 #include "Failure.h"
+#include "Interruption.h"
 #include "TileLayout.h"
 
 #include <osgAnalyticBin/Version.h>
@@ -25,7 +26,10 @@
 
 namespace {
 
-using osgbindem::Failure;
+using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::Interrupted;
+using osgAnalyticBin::support::stopRequested;
+
 using osgbindem::Settings;
 
 constexpr int kInterrupted = 130;
@@ -162,7 +166,7 @@ int complain(const std::string& message) {
 }
 
 void requestStop(int) {
-    osgbindem::stopRequested.store(true);
+    stopRequested.store(true);
 }
 
 void prepareProcess() {
@@ -198,7 +202,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     try {
         return run(argc, argv);
-    } catch (const osgbindem::Interrupted&) {
+    } catch (const Interrupted&) {
         complain("interrupted; nothing was left behind");
         return kInterrupted;
     } catch (const std::bad_alloc&) {

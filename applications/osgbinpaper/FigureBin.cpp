@@ -29,7 +29,7 @@ core::GeodeticBin highestStartTile(const HeightPyramid& pyramid) {
 }
 
 std::string rangeText(double lower, double upper, int count) {
-    return "[" + decimals(lower, count) + ":" + decimals(upper, count) + "]";
+    return "[" + withDecimals(lower, count) + ":" + withDecimals(upper, count) + "]";
 }
 
 }  // namespace
@@ -80,8 +80,8 @@ set tics 1
 set xlabel 'x (1000 km)'
 set ylabel 'y (1000 km)'
 set zlabel 'z (1000 km)')"
-           << "set view 68," + decimals(std::fmod(middleDeg + 90.0 - 35.0 + 720.0, 360.0), 1) + ",1.15"
-           << "set label 1 'Mapped to ECEF: a curved slab (altitude x " + decimals(kExaggeration, 0) +
+           << "set view 68," + withDecimals(std::fmod(middleDeg + 90.0 - 35.0 + 720.0, 360.0), 1) + ",1.15"
+           << "set label 1 'Mapped to ECEF: a curved slab (altitude x " + withDecimals(kExaggeration, 0) +
                   ")' at screen 0.76,0.95 center"
            << "splot $slabGrid" + grid + ", $slabEdges" + edges + ", $slabCenter" + point;
     script.addKey(0.09, {edges + " title 'the bin'", point + " title 'its centre'"});

@@ -94,8 +94,8 @@ std::vector<std::string> rangeRows(const FigureScene& scene, std::size_t tile) {
             most = std::max(most, planes[i].distance(corner));
         }
         rows.push_back(std::string(kSideNames[i]) + " " + std::to_string(4 - i) + " " +
-                       decimals(range.lower * 1e-3, 4) + " " + decimals(range.upper * 1e-3, 4) + " " +
-                       decimals(least * 1e-3, 4) + " " + decimals(most * 1e-3, 4));
+                       withDecimals(range.lower * 1e-3, 4) + " " + withDecimals(range.upper * 1e-3, 4) + " " +
+                       withDecimals(least * 1e-3, 4) + " " + withDecimals(most * 1e-3, 4));
     }
     return rows;
 }

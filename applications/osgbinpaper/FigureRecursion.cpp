@@ -17,8 +17,8 @@ using support::kDegreesPerRadian;
 
 std::string boxOf(const TileId& tile) {
     const osgbindem::RectDeg rect = tile.rect();
-    return decimals(rect.west, 4) + " " + decimals(rect.south, 4) + " " + decimals(rect.east, 4) + " " +
-           decimals(rect.north, 4);
+    return withDecimals(rect.west, 4) + " " + withDecimals(rect.south, 4) + " " + withDecimals(rect.east, 4) + " " +
+           withDecimals(rect.north, 4);
 }
 
 // Tiles that the recursion ended at, by verdict.
@@ -110,8 +110,8 @@ set rmargin at screen 0.98
 set xtics 5
 set ytics 5
 set title 'About the eye')"
-           << "set xrange [" + decimals(eastDeg - 14.0, 2) + ":" + decimals(eastDeg + 18.0, 2) + "]"
-           << "set yrange [" + decimals(northDeg - 6.0, 2) + ":" + decimals(northDeg + 20.0, 2) + "]" << plot;
+           << "set xrange [" + withDecimals(eastDeg - 14.0, 2) + ":" + withDecimals(eastDeg + 18.0, 2) + "]"
+           << "set yrange [" + withDecimals(northDeg - 6.0, 2) + ":" + withDecimals(northDeg + 20.0, 2) + "]" << plot;
     script.addKey(0.11, {entry(kPale, "outside"), entry(colour::kOrange, "straddling"), entry(colour::kBlue, "inside"),
                          entry(colour::kSky, "within inside: not tested"),
                          footprintStyle + " title 'border of the picture'", eyeStyle + " title 'eye'"});

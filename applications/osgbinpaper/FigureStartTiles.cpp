@@ -16,9 +16,10 @@ void drawStartTilesFigure(const Gnuplot& gnuplot, const FigureScene& scene) {
             const TileId tile{0, x, y};
             const osgbindem::RectDeg rect = tile.rect();
             const core::Interval heights = scene.terrain.pyramid().heights(tile);
-            rows.push_back(
-                decimals(0.5 * (rect.west + rect.east), 3) + " " + decimals(0.5 * (rect.south + rect.north), 3) + " " +
-                std::to_string(std::lround(heights.lower)) + " " + std::to_string(std::lround(heights.upper)));
+            rows.push_back(withDecimals(0.5 * (rect.west + rect.east), 3) + " " +
+                           withDecimals(0.5 * (rect.south + rect.north), 3) + " " +
+                           std::to_string(std::lround(heights.lower)) + " " +
+                           std::to_string(std::lround(heights.upper)));
         }
     }
     for (double latitude = -89.75; latitude < 90.0; latitude += kStepDeg) {
@@ -26,7 +27,7 @@ void drawStartTilesFigure(const Gnuplot& gnuplot, const FigureScene& scene) {
         scene.terrain.prefetch({-180.0, latitude - kStepDeg, 180.0, latitude + kStepDeg});
         std::string row;
         for (double longitude = -179.75; longitude < 180.0; longitude += kStepDeg)
-            row += decimals(scene.terrain.height({latitude, longitude}), 0) + " ";
+            row += withDecimals(scene.terrain.height({latitude, longitude}), 0) + " ";
         posts.push_back(row);
     }
     PlotScript script;
@@ -48,11 +49,11 @@ void drawStartTilesFigure(const Gnuplot& gnuplot, const FigureScene& scene) {
         << "set lmargin at screen 0.09; set rmargin at screen 0.85; set tmargin at screen 0.92; set bmargin at screen "
            "0.14";
     for (int i = 1; i < TileId::kStartColumns; ++i) {
-        const std::string at = decimals(-180.0 + 22.5 * i, 1);
+        const std::string at = withDecimals(-180.0 + 22.5 * i, 1);
         script << "set arrow from " + at + ",-90 to " + at + ",90 nohead front lw 1.2 lc rgb '" + colour::kBlue + "'";
     }
     for (int i = 1; i < TileId::kStartRows; ++i) {
-        const std::string at = decimals(-90.0 + 22.5 * i, 1);
+        const std::string at = withDecimals(-90.0 + 22.5 * i, 1);
         script << "set arrow from -180," + at + " to 180," + at + " nohead front lw 1.2 lc rgb '" + colour::kBlue + "'";
     }
     script << "plot $posts matrix using ($1*0.5-179.75):($2*0.5-89.75):3 with image notitle, "

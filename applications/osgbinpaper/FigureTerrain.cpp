@@ -13,6 +13,8 @@
 
 namespace osgAnalyticBin::paper {
 
+using support::Failure;
+
 namespace {
 
 using support::kDegreesPerRadian;
@@ -24,7 +26,7 @@ public:
         std::ofstream output(_name, std::ios::binary);
         output.write(reinterpret_cast<const char*>(pixels.data()), static_cast<std::streamsize>(pixels.size()));
         output.close();
-        if (!output) throw osgbindem::Failure("cannot write \"" + _name + "\"; check that its folder is not full");
+        if (!output) throw Failure("cannot write \"" + _name + "\"; check that its folder is not full");
     }
     PixelFile(const PixelFile&) = delete;
     PixelFile& operator=(const PixelFile&) = delete;
@@ -38,7 +40,7 @@ private:
 };
 
 std::string degreesText(double degrees, const char* positive, const char* negative) {
-    return decimals(std::abs(degrees), 1) + "° " + (degrees < 0.0 ? negative : positive);
+    return withDecimals(std::abs(degrees), 1) + "° " + (degrees < 0.0 ? negative : positive);
 }
 
 }  // namespace
@@ -59,10 +61,10 @@ void drawTerrainFigure(const Gnuplot& gnuplot, const FigureScene& scene) {
     const std::string title = "The terrain of the " + std::to_string(drawn) + " tiles drawn; eye " +
                               degreesText(scene.eye.latitude * kDegreesPerRadian, "N", "S") + ", " +
                               degreesText(scene.eye.longitude * kDegreesPerRadian, "E", "W") + ", " +
-                              decimals(scene.eye.altitude * 1e-3, 0) + " km high; looking " +
-                              decimals(scene.azimuthDeg, 0) + "° from north, " + decimals(scene.pitchDeg, 0) +
-                              "° down; fov " + decimals(scene.camera.fovDeg, 0) + "°";
-    const auto share = [](double part, double whole) { return decimals(part / whole, 6); };
+                              withDecimals(scene.eye.altitude * 1e-3, 0) + " km high; looking " +
+                              withDecimals(scene.azimuthDeg, 0) + "° from north, " + withDecimals(scene.pitchDeg, 0) +
+                              "° down; fov " + withDecimals(scene.camera.fovDeg, 0) + "°";
+    const auto share = [](double part, double whole) { return withDecimals(part / whole, 6); };
     const std::string size = std::to_string(picture.width()) + "," + std::to_string(picture.height());
     PlotScript script;
     script << "unset key"
@@ -74,8 +76,10 @@ void drawTerrainFigure(const Gnuplot& gnuplot, const FigureScene& scene) {
            << "set tmargin at screen " + share(height - kTop, height)
            << "set xrange [-0.5:" + std::to_string(picture.width()) + "-0.5]"
            << "set yrange [-0.5:" + std::to_string(picture.height()) + "-0.5]"
-           << "set label " + quoted(title) + " at screen 0.5," + share(height - 0.5 * kTop, height) + " center"
-           << "plot " + quoted(file) + " binary array=(" + size + ") flipy format='%uchar' using 1:2:3 with rgbimage";
+           << "set label " + support::quotedForGnuplot(title) + " at screen 0.5," + share(height - 0.5 * kTop, height) +
+                  " center"
+           << "plot " + support::quotedForGnuplot(file) + " binary array=(" + size +
+                  ") flipy format='%uchar' using 1:2:3 with rgbimage";
     gnuplot.draw("figure5", height, script);
 }
 

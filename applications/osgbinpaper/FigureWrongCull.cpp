@@ -171,11 +171,12 @@ void drawWrongCullFigure(const Gnuplot& gnuplot, const core::Ellipsoid& ellipsoi
     script.addBlock("$eye", {{local(wrong.camera.eye)}});
     const double sizeDeg = std::ldexp(22.5, -wrong.tile.level);
     script << "set multiplot title " +
-                  quoted(std::string("A visible tile culled by ") +
-                         (method == Method::Corners ? "the test of eight corners" : "the nine-point rule") + ": " +
-                         decimals(sizeDeg, 2) + "° wide, " + decimals(wrong.depth * 1e-3, 1) +
-                         " km inside the frustum (" + kViewKinds[wrong.kind].name + ", camera " +
-                         std::to_string(wrong.number) + ")")
+                  support::quotedForGnuplot(
+                      std::string("A visible tile culled by ") +
+                      (method == Method::Corners ? "the test of eight corners" : "the nine-point rule") + ": " +
+                      withDecimals(sizeDeg, 2) + "° wide, " + withDecimals(wrong.depth * 1e-3, 1) +
+                      " km inside the frustum (" + kViewKinds[wrong.kind].name + ", camera " +
+                      std::to_string(wrong.number) + ")")
            << R"(unset key
 set xyplane relative 0
 set view equal xyz
@@ -207,7 +208,7 @@ set label 1 'inside the side' at graph 0.02, graph 0.96)"
            << "plot " + plotOf(layers, "2");
     std::vector<std::string> key{frustumStyle + " title 'frustum'", eyeStyle + " title 'eye'"};
     for (const Layer& layer : layers) {
-        if (*layer.title != '\0') key.push_back(layer.style + " title " + quoted(layer.title));
+        if (*layer.title != '\0') key.push_back(layer.style + " title " + support::quotedForGnuplot(layer.title));
     }
     script.addKey(0.11, key);
     gnuplot.draw(std::string("wrong_cull_") + kMethodNames[indexOf(method)], 600, script);

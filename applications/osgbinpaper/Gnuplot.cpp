@@ -4,29 +4,19 @@
 #include "Gnuplot.h"
 
 #include "Failure.h"
+#include "GnuplotRun.h"
 
 #include <array>
-#include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <sys/wait.h>
 
 namespace osgAnalyticBin::paper {
+
+using support::Failure;
 
 namespace {
 
 namespace fs = std::filesystem;
-using osgbindem::Failure;
-
-constexpr int kNoSuchCommand = 127;
-
-// For the shell.
-std::string shellQuoted(const std::string& text) {
-    std::string result = "'";
-    for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return result + "'";
-}
 
 // What gnuplot says after the place in the script: "PLACE: REASON".
 std::string reasonIn(const std::string& file) {
@@ -38,16 +28,6 @@ std::string reasonIn(const std::string& file) {
         if (reason != std::string::npos) return line.substr(reason);
     }
     return "gnuplot gives no reason";
-}
-
-// Returns: the exit code of gnuplot.
-int runGnuplot(const std::string& script, const std::string& messages) {
-    std::signal(SIGPIPE, SIG_IGN);  // a gnuplot that ends early is told by its exit code
-    std::FILE* const pipe = popen(("gnuplot 2>" + shellQuoted(messages)).c_str(), "w");
-    if (pipe == nullptr) return kNoSuchCommand;
-    std::fwrite(script.data(), 1, script.size(), pipe);
-    const int status = pclose(pipe);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 struct Terminal {
@@ -70,7 +50,7 @@ void PlotScript::addBlock(const std::string& name, const std::vector<Polyline>& 
     std::vector<std::string> rows;
     for (const Polyline& line : lines) {
         for (const glm::dvec3& p : line)
-            rows.push_back(decimals(p.x, 6) + " " + decimals(p.y, 6) + " " + decimals(p.z, 6));
+            rows.push_back(withDecimals(p.x, 6) + " " + withDecimals(p.y, 6) + " " + withDecimals(p.z, 6));
         rows.emplace_back();
         rows.emplace_back();
     }
@@ -101,28 +81,17 @@ set xrange [0:1]
 set yrange [0:1]
 set key center center horizontal samplen 2
 )";
-    _text += "set size 1," + decimals(part, 3) + "\nset tmargin at screen " + decimals(part, 3) + "\nplot NaN notitle";
+    _text += "set size 1," + withDecimals(part, 3) + "\nset tmargin at screen " + withDecimals(part, 3) +
+             "\nplot NaN notitle";
     for (const std::string& entry : entries) _text += ", keyentry " + entry;
     _text += "\n";
-}
-
-std::string decimals(double value, int count) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", count, value);
-    return text;
-}
-
-std::string quoted(const std::string& text) {
-    std::string result = "'";
-    for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
-    return result + "'";
 }
 
 Gnuplot::Gnuplot(const std::string& folder) : _folder(folder) {
     std::error_code problem;
     fs::create_directories(folder, problem);
     if (problem || !fs::is_directory(folder)) throw Failure("cannot make the folder \"" + folder + "\" for --plot");
-    if (std::system("gnuplot --version >/dev/null 2>&1") != 0)
+    if (support::runGnuplot({{"--version"}, "", "", "/dev/null"}) != 0)
         throw Failure("cannot run gnuplot; install the package gnuplot-nox, or leave --plot out");
 }
 
@@ -133,8 +102,9 @@ void Gnuplot::draw(const std::string& name, int height, const PlotScript& script
         const std::string messages = file(name + ".messages.tmp");
         const std::string head = std::string(terminal.command) + " size " + std::to_string(kWidth) + "," +
                                  std::to_string(height) + " font 'DejaVu Sans," + std::to_string(terminal.fontSize) +
-                                 "'\nset output " + quoted(unfinished) + "\nset encoding utf8\n";
-        const int code = runGnuplot(head + script.text() + "unset multiplot\nunset output\n", messages);
+                                 "'\nset output " + support::quotedForGnuplot(unfinished) + "\nset encoding utf8\n";
+        const auto code =
+            support::runGnuplot({{}, head + script.text() + "unset multiplot\nunset output\n", "", messages});
         const std::string reason = code == 0 ? "" : reasonIn(messages);
         std::error_code problem;
         fs::remove(messages, problem);

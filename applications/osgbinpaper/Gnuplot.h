@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include "GnuplotRun.h"
+#include "TextFile.h"
+
 #include <glm/vec3.hpp>
 
 #include <string>
@@ -10,6 +13,7 @@
 
 namespace osgAnalyticBin::paper {
 
+using support::withDecimals;
 using Polyline = std::vector<glm::dvec3>;
 
 /// Text of a gnuplot script: what a figure says, without terminal and output.
@@ -31,22 +35,16 @@ private:
     std::string _text;
 };
 
-/// The value with so many decimals.
-[[nodiscard]] std::string decimals(double value, int count);
-
-/// A string of gnuplot in single quotes.
-[[nodiscard]] std::string quoted(const std::string& text);
-
 /// Draws into a folder, which is made.
 class Gnuplot final {
 public:
     static constexpr int kWidth = 1000;
 
-    /// Throws: osgbindem::Failure when the folder cannot be made or gnuplot cannot be run.
+    /// Throws: Failure when the folder cannot be made or gnuplot cannot be run.
     explicit Gnuplot(const std::string& folder);
 
     /// Draws NAME.svg and NAME.png, `height` pixels high; both appear under their names when they are complete.
-    /// Throws: osgbindem::Failure with gnuplot's own words.
+    /// Throws: Failure with gnuplot's own words.
     void draw(const std::string& name, int height, const PlotScript& script) const;
 
     /// The name of a file of the folder.

@@ -5,26 +5,21 @@
 
 #include "Claims.h"
 #include "Failure.h"
+#include "TextFile.h"
 #include "TextTable.h"
 
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
 namespace osgAnalyticBin::paper {
 
+using support::Failure;
+using support::withDecimals;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
 using report::TextTable;
-
-std::string withDecimals(double value, int decimals) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", decimals, value);
-    return text;
-}
 
 std::vector<std::string> headLine(const std::string& first) {
     std::vector<std::string> cells{first};
@@ -93,15 +88,8 @@ Json jsonOf(const WrongCull& worst) {
 }  // namespace
 
 void writeFile(const std::string& file, const std::string& text) {
-    const std::string unfinished = file + ".tmp";
-    std::ofstream output(unfinished, std::ios::binary);
-    output << text;
-    output.close();
-    std::error_code problem;
-    if (output) std::filesystem::rename(unfinished, file, problem);
-    if (output && !problem) return;
-    std::filesystem::remove(unfinished, problem);
-    throw osgbindem::Failure("cannot write \"" + file + "\"; check that its folder is there and not full");
+    if (!support::replaceFile(file, text))
+        throw Failure("cannot write \"" + file + "\"; check that its folder is there and not full");
 }
 
 std::string csvOf(const Results& results, int levels) {

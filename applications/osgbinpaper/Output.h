@@ -10,7 +10,7 @@
 
 namespace osgAnalyticBin::paper {
 
-/// Throws: osgbindem::Failure when a file cannot be written; what is there under its name stays as it was then.
+/// Throws: Failure when a file cannot be written; what is there under its name stays as it was then.
 void writeFile(const std::string& file, const std::string& text);
 
 /// A line for each kind of view, level and method, after a line of column names; counts only, the same for the same

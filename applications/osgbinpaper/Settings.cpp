@@ -4,6 +4,7 @@
 #include "Settings.h"
 
 #include "Failure.h"
+#include "NumberRange.h"
 
 #include <osgAnalyticBin/Version.h>
 
@@ -13,6 +14,8 @@
 #include <cstdlib>
 
 namespace osgAnalyticBin::paper {
+
+using support::Failure;
 
 namespace {
 
@@ -39,20 +42,6 @@ constexpr const char* kLegend =
     "Example:\n"
     "  osgbinpaper --cameras 200 --csv paper.csv --json paper.json --plot figures\n";
 
-// As CLI::Range, which lets "nan" pass.
-CLI::Validator within(double lower, double upper) {
-    char range[64];
-    std::snprintf(range, sizeof range, "%g to %g", lower, upper);
-    const std::string complaint = std::string(" is not in ") + range;
-    return CLI::Validator(
-        [=](const std::string& word) {
-            double value = 0.0;
-            const bool isNumber = CLI::detail::lexical_cast(word, value);
-            return isNumber && value >= lower && value <= upper ? std::string() : word + complaint;
-        },
-        "FLOAT");
-}
-
 void declare(CLI::App& app, Settings& settings) {
     ExperimentSettings& experiment = settings.experiment;
     app.add_option("DEM", settings.dem,
@@ -63,11 +52,11 @@ void declare(CLI::App& app, Settings& settings) {
         ->check(CLI::Range(0, HeightPyramid::kDeepest));
     app.add_option("--floor", settings.floor,
                    "metres; lower heights are taken for this: the sea's surface (default: 0)")
-        ->check(within(-12000.0, 10000.0));
+        ->check(support::within(-12000.0, 10000.0));
     app.add_option("--factor", experiment.factor,
                    "a tile is divided while it is nearer to the eye than this many of its widths,\n0.5 to 20 "
                    "(default: 3)")
-        ->check(within(0.5, 20.0));
+        ->check(support::within(0.5, 20.0));
     app.add_option("--cameras", experiment.cameras, "cameras of each of the six kinds of view (default: 400)")
         ->check(CLI::Range(1, 100000));
     app.add_option("--seed", experiment.seed, "seed of the cameras (default: 1)");
@@ -90,7 +79,7 @@ Settings readSettings(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) std::exit(app.exit(error));
-        throw osgbindem::Failure(std::string(error.what()) + "; see osgbinpaper --help");
+        throw Failure(std::string(error.what()) + "; see osgbinpaper --help");
     }
     return settings;
 }

@@ -12,6 +12,8 @@
 
 namespace osgAnalyticBin::paper {
 
+using support::Failure;
+
 namespace {
 
 using support::kDegreesPerRadian;
@@ -40,7 +42,7 @@ Terrain::Terrain(const std::string& dem, int deepestLevel, double floor, Progres
               progress.show("heights", static_cast<std::size_t>(done), TileId::kStartColumns * TileId::kStartRows);
               _source.prefetch(start.rect());
           }) {
-    if (!_source.hasAnyData()) throw osgbindem::Failure("no heights in \"" + dem + "\", only missing data");
+    if (!_source.hasAnyData()) throw Failure("no heights in \"" + dem + "\", only missing data");
 }
 
 core::Interval Terrain::range(const TileId& tile) {

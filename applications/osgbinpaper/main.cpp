@@ -15,6 +15,8 @@
 
 namespace {
 
+using osgAnalyticBin::support::Failure;
+
 using namespace osgAnalyticBin::paper;
 
 int complain(const std::string& message) {
@@ -32,7 +34,7 @@ int run(int argc, char** argv) {
     Terrain terrain(settings.dem, settings.levels, settings.floor, progress);
     const Results results = runExperiment(terrain, settings.experiment, progress);
     printTables(std::cout, results, settings.levels);
-    if (!std::cout.flush()) throw osgbindem::Failure("cannot write the tables to standard output");
+    if (!std::cout.flush()) throw Failure("cannot write the tables to standard output");
     if (!settings.csv.empty()) writeFile(settings.csv, csvOf(results, settings.levels));
     if (!settings.json.empty()) writeFile(settings.json, jsonOf(settings, results));
     if (gnuplot) drawFigures(*gnuplot, terrain, settings.experiment.factor, results, progress);

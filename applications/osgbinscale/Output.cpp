@@ -3,14 +3,10 @@
 
 #include "Output.h"
 
-#include "Failure.h"
-
 #include <CsvTable.h>
 #include <TextTable.h>
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
@@ -162,18 +158,6 @@ void printTables(std::ostream& output, const Results& results) {
         table.print(output);
         output << '\n';
     }
-}
-
-void writeFile(const std::string& file, const std::string& text) {
-    const std::string unfinished = file + ".tmp";
-    std::ofstream output(unfinished, std::ios::binary);
-    output << text;
-    output.close();
-    std::error_code problem;
-    if (output) std::filesystem::rename(unfinished, file, problem);
-    if (output && !problem) return;
-    std::filesystem::remove(unfinished, problem);
-    throw Failure(file + ": cannot be written; check that its folder is there and not full");
 }
 
 }  // namespace osgAnalyticBin::scale

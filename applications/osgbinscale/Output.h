@@ -29,9 +29,6 @@ struct Results {
 /// For people.
 void printTables(std::ostream& output, const Results& results);
 
-/// Writes a file under another name and renames it. Throws: Failure; what is there under its name stays as it was then.
-void writeFile(const std::string& file, const std::string& text);
-
 /// Throws: Failure where gnuplot is not installed.
 void requireGnuplot();
 

@@ -2,17 +2,18 @@
 // SPDX-License-Identifier: MIT
 
 #include "Failure.h"
+#include "GnuplotRun.h"
 #include "Output.h"
 
 #include <CsvTable.h>
 #include <algorithm>
-#include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <sstream>
 
 namespace osgAnalyticBin::scale {
+
+using support::Failure;
 
 namespace {
 
@@ -76,20 +77,9 @@ std::string memoryPlot(const std::vector<MemoryRow>& rows) {
            "set boxwidth 0.6\nunset key\nset xtics rotate by -15\nplot $bars using 0:2:xtic(1) with boxes\n";
 }
 
-void runGnuplot(const std::string& script) {
-    // A program that is not there reads nothing.
-    const auto before = std::signal(SIGPIPE, SIG_IGN);
-    std::FILE* const pipe = ::popen("{ gnuplot; } >/dev/null 2>&1", "w");
-    const bool isWritten = pipe && std::fwrite(script.data(), 1, script.size(), pipe) == script.size();
-    const int code = pipe ? ::pclose(pipe) : -1;
-    (void)std::signal(SIGPIPE, before);
-    if (!isWritten || code != 0) throw Failure("--plot: gnuplot failed; install the package gnuplot-nox");
-}
-
-std::string quotedForGnuplot(const std::string& text) {
-    std::string quoted = "'";
-    for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c);
-    return quoted + "'";
+void runGnuplot(const std::string& commands) {
+    if (support::runGnuplot({{}, commands, "", "/dev/null"}) != 0)
+        throw Failure("--plot: gnuplot failed; install the package gnuplot-nox");
 }
 
 void draw(const std::string& folder, const std::string& name, const std::string& commands) {
@@ -101,8 +91,9 @@ void draw(const std::string& folder, const std::string& name, const std::string&
     for (const auto& kind : kinds) {
         const std::string file = folder + "/" + name + kind.extension;
         const std::string unfinished = file + ".tmp";
-        runGnuplot(std::string("set terminal ") + kind.terminal + "\nset output " + quotedForGnuplot(unfinished) +
-                   "\nset key bottom right\nset grid\n" + commands + "unset output\n");
+        runGnuplot(std::string("set terminal ") + kind.terminal + "\nset output " +
+                   support::quotedForGnuplot(unfinished) + "\nset key bottom right\nset grid\n" + commands +
+                   "unset output\n");
         std::error_code problem;
         std::filesystem::rename(unfinished, file, problem);
         if (problem) throw Failure(file + ": cannot be written; check that its folder is there and not full");

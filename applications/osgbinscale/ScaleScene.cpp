@@ -19,6 +19,8 @@
 
 namespace osgAnalyticBin::scale {
 
+using support::Failure;
+
 namespace {
 
 constexpr int kWidth = 1280;

@@ -14,6 +14,8 @@
 
 namespace osgAnalyticBin::scale {
 
+using support::Failure;
+
 namespace {
 
 constexpr const char* kFooter =

@@ -6,12 +6,15 @@
 #include "Output.h"
 #include "Series.h"
 #include "Settings.h"
+#include "TextFile.h"
 
 #include <cstdlib>
 #include <exception>
 #include <iostream>
 
 namespace {
+
+using osgAnalyticBin::support::writeFile;
 
 using namespace osgAnalyticBin::scale;
 

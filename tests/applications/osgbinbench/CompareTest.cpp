@@ -15,6 +15,8 @@
 namespace osgAnalyticBin::bench {
 namespace {
 
+using support::Failure;
+
 using Json = nlohmann::json;
 
 // Two poses, spheres and bins; times with a spread of a tenth.

@@ -15,6 +15,8 @@
 namespace osgAnalyticBin::bench {
 namespace {
 
+using support::Failure;
+
 std::vector<std::string> namesOf(const std::vector<CullMethod>& methods) {
     std::vector<std::string> names;
     for (const CullMethod& method : methods) names.push_back(method.name);

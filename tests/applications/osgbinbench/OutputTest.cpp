@@ -4,6 +4,7 @@
 #include "Failure.h"
 #include "Output.h"
 #include "PathGroups.h"
+#include "TextFile.h"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +15,9 @@
 
 namespace osgAnalyticBin::bench {
 namespace {
+
+using support::Failure;
+using support::writeFile;
 
 std::vector<MethodFigures> twoMethods() {
     std::vector<MethodFigures> methods{{"none", std::vector<Figures>(2)}, {"sphere", std::vector<Figures>(2)}};

@@ -18,6 +18,8 @@
 namespace osgAnalyticBin::bench {
 namespace {
 
+using support::Failure;
+
 const std::vector<std::string> kPoses{"down_1", "down_2", "far_1"};
 
 MethodFigures figuresOf(const std::string& method, std::uint64_t drawn, double cullMs) {

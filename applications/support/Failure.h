@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-namespace osgAnalyticBin::scale {
+namespace osgAnalyticBin::support {
 
 /// An error that ends the program; its text is one line: what, where, what to do.
 class Failure final : public std::runtime_error {
@@ -13,4 +13,4 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-}  // namespace osgAnalyticBin::scale
+}  // namespace osgAnalyticBin::support

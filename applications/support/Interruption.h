@@ -5,17 +5,10 @@
 
 #include <atomic>
 #include <stdexcept>
-#include <string>
 
-namespace osgbinconv {
+namespace osgAnalyticBin::support {
 
-/// An error that ends the program; its text is one line: what, where, what to do.
-class Failure final : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
-
-/// Thrown once the user has asked to stop.
+/// Thrown, in worker threads too, once the user has asked to stop.
 class Interrupted final : public std::runtime_error {
 public:
     Interrupted() : std::runtime_error("interrupted") {}
@@ -28,4 +21,4 @@ inline void throwIfStopRequested() {
     if (stopRequested.load(std::memory_order_relaxed)) throw Interrupted();
 }
 
-}  // namespace osgbinconv
+}  // namespace osgAnalyticBin::support
