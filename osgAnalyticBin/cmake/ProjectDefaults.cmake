@@ -39,6 +39,9 @@ function(osganalyticbin_defaults target)
     target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=address,undefined)
   endif()
+  if(OSGANALYTICBIN_FUZZ)
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
+  endif()
 endfunction()
 
 # A module that OpenSceneGraph loads by name: no "lib" prefix, in the plugin folder.

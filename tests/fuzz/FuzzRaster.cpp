@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Small rasters as ESRI ASCII grids, which GDAL reads from memory, and the unit and the number for missing heights in
+// the first two bytes: heights are finite, or there are none.
+
+#include "Fuzz.h"
+
+#include <cpl_error.h>
+#include <cpl_vsi.h>
+#include <gdal_priv.h>
+
+#include <DemSource.h>
+#include <Failure.h>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr const char* kFile = "/vsimem/fuzz.asc";
+
+void tryRaster(const osgbindem::DemOptions& options) {
+    osgbindem::DemSource source(options);
+    for (const double latitude : {-90.0, -0.5, 0.0, 12.25, 90.0}) {
+        for (const double longitude : {-180.0, -0.5, 0.0, 33.5, 180.0}) {
+            osgbindem::PositionDeg position{};
+            position.latitudeDeg = latitude;
+            position.longitudeDeg = longitude;
+            const auto height = source.height(position);
+            osgAnalyticBin::test::require(!height || std::isfinite(*height));
+        }
+    }
+    (void)source.hasAnyData();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    constexpr std::size_t kMostBytes = 4096;
+    if (size < 2 || size > kMostBytes) return 0;
+    GDALAllRegister();
+    CPLSetErrorHandler(CPLQuietErrorHandler);
+    std::vector<GByte> bytes(data + 2, data + size);
+    VSIFCloseL(VSIFileFromMemBuffer(kFile, bytes.data(), bytes.size(), FALSE));
+    osgbindem::DemOptions options;
+    options.raster.path = kFile;
+    options.metresPerUnit = std::ldexp(1.0, data[0] % 64 - 32);
+    if (data[1] % 2 == 1) options.raster.nodata = data[1];
+    try {
+        tryRaster(options);
+    } catch (const osgbindem::Failure& failure) {
+        osgAnalyticBin::test::require(std::string(failure.what()).find('\n') == std::string::npos);
+    }
+    VSIUnlink(kFile);
+    return 0;
+}
