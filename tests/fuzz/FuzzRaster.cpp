@@ -49,7 +49,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (data[1] % 2 == 1) options.raster.nodata = data[1];
     try {
         tryRaster(options);
-    } catch (const osgbindem::Failure& failure) {
+    } catch (const osgAnalyticBin::support::Failure& failure) {
         osgAnalyticBin::test::require(std::string(failure.what()).find('\n') == std::string::npos);
     }
     VSIUnlink(kFile);

@@ -10,13 +10,13 @@ namespace osgAnalyticBin {
 namespace {
 
 // Products of a matrix and its inverse are so close to one unless rounding has been blown up a hundred thousand times.
-constexpr double kTolerance = 1e-10;
+constexpr double kInverseTolerance = 1e-10;
 
 bool isAffine(const osg::Matrixd& m) {
     return m(0, 3) == 0.0 && m(1, 3) == 0.0 && m(2, 3) == 0.0 && m(3, 3) == 1.0;
 }
 
-bool isFinite(const osg::Matrixd& m) {
+bool hasFiniteNumbers(const osg::Matrixd& m) {
     for (int i = 0; i < 16; ++i) {
         if (!std::isfinite(m.ptr()[i])) return false;
     }
@@ -28,7 +28,7 @@ bool areInverse(const osg::Matrixd& a, const osg::Matrixd& b) {
     for (int i = 0; i < 3; ++i) {
         for (int k = 0; k < 3; ++k) {
             const double product = a(i, 0) * b(0, k) + a(i, 1) * b(1, k) + a(i, 2) * b(2, k);
-            if (!(std::abs(product - (i == k ? 1.0 : 0.0)) <= kTolerance)) return false;
+            if (!(std::abs(product - (i == k ? 1.0 : 0.0)) <= kInverseTolerance)) return false;
         }
     }
     return true;
@@ -38,8 +38,8 @@ bool areInverse(const osg::Matrixd& a, const osg::Matrixd& b) {
 
 std::optional<osg::Matrixd> affineInverse(const osg::Matrixd& matrix) {
     osg::Matrixd inverse;
-    if (!isAffine(matrix) || !isFinite(matrix) || !inverse.invert(matrix)) return std::nullopt;
-    if (!isFinite(inverse) || !areInverse(matrix, inverse) || !areInverse(inverse, matrix)) return std::nullopt;
+    if (!isAffine(matrix) || !hasFiniteNumbers(matrix) || !inverse.invert(matrix)) return std::nullopt;
+    if (!hasFiniteNumbers(inverse) || !areInverse(matrix, inverse) || !areInverse(inverse, matrix)) return std::nullopt;
     return inverse;
 }
 

@@ -77,7 +77,7 @@ TEST_P(Copy, DrawsTheSameAndCarriesTheBinsOfTheIndex) {
         const BinIndex::Entry* entry = index->find(tiles[i].file, tiles[i].ordinal);
         ASSERT_TRUE(entry);
         EXPECT_EQ(others[i].storedBin.toText(), entry->bin.toText());
-        EXPECT_LE(metresOutside(entry->bin, others[i].samples, wgs84()), entry->bin.margin());
+        EXPECT_LE(metresOutside(entry->bin, others[i].samples, ellipsoidOfTests()), entry->bin.margin());
         EXPECT_EQ(others[i].samples.size(), tiles[i].samples.size());
     }
     const CullOptions request = requestOf(copy);

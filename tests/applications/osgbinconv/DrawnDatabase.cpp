@@ -47,7 +47,7 @@ std::vector<EcefTriangle> surfaceOf(const FoundTile& tile) {
 std::vector<EcefTriangle> alongEdges(const std::vector<EcefTriangle>& triangles, const core::GeodeticBin& bin) {
     const double near = 1e-5 * std::max(bin.latitude().width(), bin.longitude().width());
     const auto isOnEdge = [&](const glm::dvec3& point) {
-        const core::Geodetic g = wgs84().toGeodetic(point);
+        const core::Geodetic g = ellipsoidOfTests().toGeodetic(point);
         return std::abs(g.latitude - bin.latitude().lower) < near ||
                std::abs(g.latitude - bin.latitude().upper) < near ||
                std::abs(g.longitude - bin.longitude().lower) < near ||
@@ -82,7 +82,7 @@ DrawnTile drawn(const FoundTile& tile) {
     for (std::size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
     result.samples = samplesOf(some, 2);
     for (const glm::dvec3& point : samplesOf(alongEdges(all, bin.bin()), 2)) {
-        result.edgeSamples.push_back(wgs84().toGeodetic(point));
+        result.edgeSamples.push_back(ellipsoidOfTests().toGeodetic(point));
     }
     return result;
 }
@@ -120,7 +120,7 @@ bool DrawnTile::isAbove(std::size_t self, const DrawnTile& other) const {
     return std::find(other.ancestors.begin(), other.ancestors.end(), self) != other.ancestors.end();
 }
 
-core::Ellipsoid wgs84() {
+core::Ellipsoid ellipsoidOfTests() {
     return {osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR};
 }
 

@@ -38,6 +38,6 @@ struct DrawnTile {
 [[nodiscard]] std::vector<DrawnTile> readAllTiles(const std::string& rootFile);
 
 /// The ellipsoid of all databases here.
-[[nodiscard]] core::Ellipsoid wgs84();
+[[nodiscard]] core::Ellipsoid ellipsoidOfTests();
 
 }  // namespace osgAnalyticBin::test

@@ -82,7 +82,7 @@ TEST_P(Index, EachEntryHoldsWhatItsTileAndAllDescendantsDraw) {
         line.insert(line.begin(), static_cast<std::size_t>(&tile - _tiles.data()));
         for (const std::size_t above : line) {
             const AnalyticBin& bin = entryOf(_tiles[above]).bin;
-            ASSERT_LE(metresOutside(bin, tile.samples, wgs84()), bin.margin())
+            ASSERT_LE(metresOutside(bin, tile.samples, ellipsoidOfTests()), bin.margin())
                 << tile.file << " in " << _tiles[above].file;
         }
     }
