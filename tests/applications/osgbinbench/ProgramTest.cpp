@@ -156,10 +156,10 @@ TEST(Program, FliesOnceMoreWithPagingLive) {
     ASSERT_FALSE(bench.database.empty());
     ASSERT_EQ(bench.run("live", "--live 6 --frame-rate 15 --methods sphere,exact").size(), 3U);
     const Json live = bench.live("live");
-    EXPECT_EQ(live["frames"], 13);
+    EXPECT_EQ(live["frames"], 19);
     ASSERT_EQ(live["methods"].size(), 3U);
     for (const Json& method : live["methods"]) {
-        EXPECT_EQ(method["frames"], 13);
+        EXPECT_EQ(method["frames"], 19);
         EXPECT_GT(method["files_requested"], 0);
         EXPECT_GT(method["missing_frames"], 0);
         EXPECT_GT(method["resident_tiles"], 32);
