@@ -23,7 +23,11 @@
 namespace osgAnalyticBin::test {
 namespace {
 
+#ifdef __SANITIZE_ADDRESS__
+constexpr int kDeep = 1500;  // each call takes several times the stack
+#else
 constexpr int kDeep = 10000;
+#endif
 
 // Nodes each below the one before, the scene at the end. They are taken apart one by one: OSG would do so recursively.
 class Chain {
