@@ -19,6 +19,12 @@ namespace osgAnalyticBin::bench {
 
 /// Counts and treats what is read for whichever scene is being shown; made once, before the first file is read.
 struct FileWatch {
+    FileWatch() = default;
+    /// A globe may come from a plugin, which the Registry unloads before its callbacks are gone.
+    ~FileWatch() { remover->setTreatment(Clusters::Keep); }
+    FileWatch(const FileWatch&) = delete;
+    FileWatch& operator=(const FileWatch&) = delete;
+
     osg::ref_ptr<ClusterRemover> remover = ClusterRemover::install();
     osg::ref_ptr<flight::ReadCounter> reads = flight::ReadCounter::install();
 };

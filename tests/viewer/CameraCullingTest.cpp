@@ -35,7 +35,7 @@ constexpr double kMillimetre = 1e-3;
 class FrozenCamera : public ::testing::Test {
 protected:
     void SetUp() override {
-        _scene.lookFrom(20.0, 30.0, 300e3, 60.0, 40.0);
+        _scene.lookFrom(20.0, 30.0, 2000e3, 70.0, 50.0);
         _seen = _scene.cull();
         CameraCulling::of(_scene.camera()).freeze(CameraCulling::cullingView(_scene.camera()));
         _scene.lookFrom(10.0, -60.0, 9e6, 20.0, 50.0);

@@ -134,8 +134,8 @@ struct Tolerance {
 };
 
 Tolerance toleranceFor(const AnalyticBin& bin, double radius) {
-    constexpr double kShareOfWidth = 1.0 / 128.0;
-    constexpr double kShareOfSag = 1.0 / 16.0;
+    constexpr double kShareOfWidth = 1.0 / 32.0;
+    constexpr double kShareOfSag = 1.0 / 4.0;
     const double width = radius * std::max(bin.bin().latitude().width(), bin.bin().longitude().width());
     const double least = 1.0 + bin.margin();
     return {least + bin.sag(), least + kShareOfSag * bin.sag(), least + kShareOfWidth * width};
