@@ -62,7 +62,7 @@ TEST_F(FrozenCamera, DrawsPreciselyWhatItSawWhereTheFlyingViewSeesIt) {
 }
 
 TEST_F(FrozenCamera, AtItsOwnPlaceDrawsAsBefore) {
-    _scene.lookFrom(20.0, 30.0, 300e3, 60.0, 40.0);
+    _scene.lookFrom(20.0, 30.0, 2000e3, 70.0, 50.0);
     const double nearBefore = (CameraCulling::of(_scene.camera()).thaw(), (void)_scene.cull(), _scene.nearPlane);
     CameraCulling::of(_scene.camera()).freeze(CameraCulling::cullingView(_scene.camera()));
     const Drawn drawn = _scene.cull();
