@@ -77,6 +77,7 @@ protected:
     /// A node was met below so many tiles and PagedLODs that stand in each other (a paged tile counts twice). It is
     /// left out, with all below it: no database is like that, and recursion has to end before the stack does.
     virtual void visitTooDeep(osg::Node&) {}
+    /// The nodes below which the search ends, tiles and PagedLODs on one path counted.
     static constexpr int kDeepest = 400;
 
     /// Goes on with the children, those that are paged as content of their own files.
