@@ -7,17 +7,34 @@
 #include "TileLayout.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace osgbindem {
 
 using osgAnalyticBin::support::Failure;
 
-DemMosaic::DemMosaic(const Settings& settings) {
+namespace {
+
+// More posts than this at once save no time.
+constexpr double kMostPosts = 3e6;
+
+// Half of the memory is GDAL's cache, the other half the windows that the threads keep.
+double postsPerThread(const Settings& settings) {
+    const double bytes = std::ldexp(0.5 * settings.memoryMib, 20) / settings.threads;
+    return std::min(bytes / sizeof(double), kMostPosts);
+}
+
+}  // namespace
+
+DemMosaic::DemMosaic(const Settings& settings) : DemMosaic(settings, 0.0) {}
+
+DemMosaic::DemMosaic(const Settings& settings, double spacingDeg) : _mostPosts(postsPerThread(settings)) {
     for (const DemInput& dem : settings.dems) {
         DemOptions options;
         options.raster.path = dem.path;
         options.raster.nodata = settings.nodata;
         options.raster.isWgs84 = settings.isWgs84;
+        options.raster.spacingDeg = settings.useOverviews ? spacingDeg : 0.0;
         options.metresPerUnit = dem.metresPerUnit;
         _sources.push_back(std::make_unique<DemSource>(options));
     }
@@ -49,7 +66,8 @@ bool DemMosaic::hasFinerData(const RectDeg& rect, double spacingDeg) {
 }
 
 void DemMosaic::prefetch(const RectDeg& rect) {
-    for (const auto& source : _sources) source->prefetch(rect);
+    double left = _mostPosts;
+    for (const auto& source : _sources) left -= source->prefetch(rect, left);
 }
 
 void DemMosaic::requireData() {

@@ -18,6 +18,9 @@ public:
     /// Throws Failure.
     explicit DemMosaic(const Settings& settings);
 
+    /// The same of the overviews that are as fine as the spacing of posts, where settings allow them. Throws Failure.
+    DemMosaic(const Settings& settings, double spacingDeg);
+
     /// Metres above the ellipsoid; the same number for the same position, whatever was read before.
     [[nodiscard]] double height(const PositionDeg& position);
 
@@ -42,6 +45,7 @@ public:
     [[nodiscard]] double posts(const RectDeg& rect) const noexcept;
 
 private:
+    double _mostPosts;
     std::vector<std::unique_ptr<DemSource>> _sources;
 };
 

@@ -17,9 +17,8 @@ using osgAnalyticBin::support::throwIfStopRequested;
 
 namespace {
 
-constexpr double kPrefetchPixels = 3e6;
-constexpr double kChunkPixels = 1e6;
 constexpr int kBlock = 256;
+constexpr double kMostAtOnce = 1e6;
 
 // No terrain is this high: a number beyond is a mark for missing data that the file does not declare.
 constexpr double kHighest = 1e5;
@@ -121,27 +120,29 @@ std::optional<double> DemSource::height(const PositionDeg& position) {
     return height;
 }
 
-void DemSource::prefetch(const RectDeg& rect) {
+double DemSource::prefetch(const RectDeg& rect, double mostPosts) {
     const std::vector<PixelWindow> windows = grid().touching(rect);
-    double pixels = 0.0;
-    bool isThere = true;
-    for (const PixelWindow& window : windows) {
-        pixels += window.area();
-        isThere = isThere && pageWith(window) != nullptr;
-    }
-    if (isThere || pixels > kPrefetchPixels) return;
+    double wanted = 0.0;
+    for (const PixelWindow& window : windows) wanted += window.area();
+    const bool isThere =
+        std::all_of(windows.begin(), windows.end(), [&](const PixelWindow& w) { return pageWith(w) != nullptr; });
+    double held = 0.0;
+    for (const Page& page : _pages) held += page.window.area();
+    if (isThere && !windows.empty() && held <= mostPosts) return held;
     _pages.clear();
+    if (windows.empty() || wanted > mostPosts) return 0.0;
     std::vector<Page> pages;
     for (const PixelWindow& window : windows) {
         pages.push_back({window, {}});
         read(_raster.dataset(), _decoder, window, pages.back().heights);
     }
     _pages = std::move(pages);
+    return wanted;
 }
 
 bool DemSource::addRange(GDALDataset& dataset, const Decoder& decoder, const PixelWindow& window, HeightRange& range) {
     bool isComplete = true;
-    const int rows = std::max(1, static_cast<int>(kChunkPixels / window.width));
+    const int rows = std::max(1, static_cast<int>(kMostAtOnce / window.width));
     for (int row = window.row; row < window.row + window.height; row += rows) {
         throwIfStopRequested();
         const int count = std::min(rows, window.row + window.height - row);

@@ -49,7 +49,8 @@ public:
     bool addRange(const RectDeg& rect, HeightRange& range);
 
     /// Reads what touches the rectangle into memory, if it is not there and is not too much.
-    void prefetch(const RectDeg& rect);
+    /// Returns: the posts now in memory, at most mostPosts.
+    double prefetch(const RectDeg& rect, double mostPosts);
 
     /// Whether the raster has any data at all.
     [[nodiscard]] bool hasAnyData();

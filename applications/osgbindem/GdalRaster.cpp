@@ -22,8 +22,15 @@ namespace {
 
 using GeoTransform = std::array<double, 6>;
 
-GdalDataset open(const std::string& path) {
-    GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+// An overview's posts are not exactly twice as far apart when the raster has an odd number of them.
+constexpr double kSlack = 1e-3;
+
+/// `overview`: its number, or -1 for the raster itself.
+GdalDataset open(const std::string& path, int overview = -1) {
+    const std::string level = "OVERVIEW_LEVEL=" + std::to_string(overview);
+    const std::array<const char*, 2> words{overview < 0 ? nullptr : level.c_str(), nullptr};
+    GdalDataset dataset(
+        GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, words.data(), nullptr));
     if (!dataset) {
         // GDAL has names that are no files, so the file system is asked only afterwards.
         const bool absent = !std::filesystem::exists(path);
@@ -114,8 +121,34 @@ void GdalRaster::TransformerFree::operator()(void* transformer) const {
 GdalRaster::GdalRaster(const RasterOptions& options)
     : _path(options.path), _source(open(options.path)), _grid({0.0, 1.0, 0.0, 0.0, 0.0, -1.0}, 1, 1) {
     if (!options.isElevation) expandPalette();
+    toLatitudeLongitude(options);
+    if (options.spacingDeg > 0.0) takeOverview(options);
+}
+
+void GdalRaster::toLatitudeLongitude(const RasterOptions& options) {
     if (needsWarp(*_source, _path)) warp(options);
     _grid = gridOf(dataset(), _path);
+}
+
+void GdalRaster::takeOverview(const RasterOptions& options) {
+    GDALRasterBand& band = *_source->GetRasterBand(1);
+    const double fullDeg = _grid.resolutionDeg();
+    int level = -1;
+    double coarsestDeg = fullDeg;
+    for (int i = 0; i < band.GetOverviewCount(); ++i) {
+        GDALRasterBand* overview = band.GetOverview(i);
+        if (overview == nullptr) continue;
+        const double deg = fullDeg * std::max(static_cast<double>(band.GetXSize()) / overview->GetXSize(),
+                                              static_cast<double>(band.GetYSize()) / overview->GetYSize());
+        if (deg <= coarsestDeg || deg > options.spacingDeg * (1.0 + kSlack)) continue;
+        coarsestDeg = deg;
+        level = i;
+    }
+    if (level < 0) return;
+    _toSource.reset();
+    _warped.reset();
+    _source = open(_path, level);
+    toLatitudeLongitude(options);
 }
 
 void GdalRaster::expandPalette() {

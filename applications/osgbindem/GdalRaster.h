@@ -30,6 +30,8 @@ struct RasterOptions {
     bool isWgs84 = true;
     /// Elevation, not colours: one band of doubles with NaN for what is missing.
     bool isElevation = true;
+    /// No finer posts are needed: the raster's coarsest overview that is as fine counts as the raster; 0 for none.
+    double spacingDeg = 0.0;
 };
 
 /// A raster opened with GDAL, seen in geographic coordinates: as it is, or through a warped virtual raster.
@@ -56,6 +58,8 @@ private:
     };
 
     void expandPalette();
+    void toLatitudeLongitude(const RasterOptions& options);
+    void takeOverview(const RasterOptions& options);
     void warp(const RasterOptions& options);
     [[nodiscard]] std::optional<PixelWindow> sourceWindow(const PixelWindow& window) const;
 

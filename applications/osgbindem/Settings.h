@@ -33,6 +33,10 @@ struct Settings {
     std::optional<int> cells;
     double lodFactor = 4.0;
     int threads = 1;
+    /// For what is read of the rasters, in MiB: GDAL's cache and the windows of all threads.
+    int memoryMib = 256;
+    /// Read a raster's overview where that is as fine as the finest tiles.
+    bool useOverviews = true;
     bool compress = false;
     bool quiet = false;
 };

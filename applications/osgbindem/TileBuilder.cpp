@@ -21,7 +21,7 @@ TileBuilder::TileBuilder(const Settings& settings, const TileLayout& layout, con
     : _settings(settings),
       _layout(layout),
       _folder(folder),
-      _mosaic(settings),
+      _mosaic(settings, layout.spacingDeg(layout.deepestLevel())),
       _depths(_mosaic, layout),
       _skirts(_mosaic, layout, _depths),
       _triangles(tileTriangles(layout.cells())) {

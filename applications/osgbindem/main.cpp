@@ -9,6 +9,7 @@
 #include <osgAnalyticBin/Version.h>
 
 #include <CLI/CLI.hpp>
+#include <cpl_conv.h>
 #include <gdal.h>
 #include <osg/CoordinateSystemNode>
 #include <osg/Notify>
@@ -33,7 +34,6 @@ using osgAnalyticBin::support::stopRequested;
 using osgbindem::Settings;
 
 constexpr int kInterrupted = 130;
-constexpr GIntBig kCacheBytes = GIntBig{128} << 20;
 
 constexpr const char* kDescription =
     "Turns elevation rasters into a paged globe for OpenSceneGraph whose tiles know their bins.\n"
@@ -128,6 +128,9 @@ void requireRanges(const Settings& settings) {
     if (settings.threads < 1 || settings.threads > 256) {
         refuse("--threads " + std::to_string(settings.threads), "give a number from 1 to 256");
     }
+    if (settings.memoryMib < 16 || settings.memoryMib > 65536) {
+        refuse("--memory " + std::to_string(settings.memoryMib), "give MiB from 16 to 65536");
+    }
     if (std::filesystem::path(settings.output).extension() != ".osgb") {
         refuse("output \"" + settings.output + "\"", "give a file name that ends in .osgb");
     }
@@ -156,6 +159,10 @@ void declare(CLI::App& app, Arguments& arguments) {
         "--lod-factor", settings.lodFactor,
         "distance at which a tile gives way to finer ones,\nin half diagonals of the tile, 3 to 100 (default 4)");
     app.add_option("--threads", settings.threads, "number of threads (default: one per core)");
+    app.add_option("--memory", settings.memoryMib,
+                   "MiB for what is read of the rasters, 16 to 65536 (default 256);\nthe tiles at work come on top");
+    app.add_flag("!--full-resolution", settings.useOverviews,
+                 "do not read a raster's overviews where --levels needs nothing finer");
     app.add_flag("--compress", settings.compress, "compress the files with zlib");
     app.add_flag("--quiet", settings.quiet, "show no progress");
 }
@@ -169,9 +176,17 @@ void requestStop(int) {
     stopRequested.store(true);
 }
 
-void prepareProcess() {
+/// A setting of GDAL's that the user's environment may have otherwise.
+void setUnlessGiven(const char* name, const char* value) {
+    if (CPLGetConfigOption(name, nullptr) == nullptr) CPLSetConfigOption(name, value);
+}
+
+void prepareProcess(const Settings& settings) {
     GDALAllRegister();
-    GDALSetCacheMax64(kCacheBytes);
+    GDALSetCacheMax64((GIntBig{settings.memoryMib} << 20) / 2);
+    setUnlessGiven("GDAL_HTTP_MAX_RETRY", "5");
+    setUnlessGiven("GDAL_HTTP_RETRY_DELAY", "1");
+    setUnlessGiven("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");
     CPLSetErrorHandler(CPLQuietErrorHandler);
     if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::ALWAYS);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, requestStop);
@@ -192,7 +207,7 @@ int run(int argc, char** argv) {
     takeDems(arguments);
     takeRadii(arguments);
     requireRanges(arguments.settings);
-    prepareProcess();
+    prepareProcess(arguments.settings);
     osgbindem::buildDatabase(arguments.settings);
     return EXIT_SUCCESS;
 }

@@ -10,23 +10,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <map>
 
 namespace {
 
 namespace fs = std::filesystem;
-
-std::map<std::string, std::string> filesBelow(const std::string& folder) {
-    std::map<std::string, std::string> files;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        if (!entry.is_regular_file()) continue;
-        std::ifstream stream(entry.path(), std::ios::binary);
-        files[fs::relative(entry.path(), folder).string()] = {std::istreambuf_iterator<char>(stream), {}};
-    }
-    return files;
-}
 
 double bottom(const LoadedTile& tile) {
     return tile.bin.bin().altitude().lower;

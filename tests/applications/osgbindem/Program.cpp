@@ -102,3 +102,13 @@ void build(const std::vector<std::string>& arguments) {
     ASSERT_EQ(outcome.errors, "");
     ASSERT_EQ(outcome.output, "");
 }
+
+Files filesBelow(const std::string& folder) {
+    Files files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (!entry.is_regular_file()) continue;
+        std::ifstream stream(entry.path(), std::ios::binary);
+        files[std::filesystem::relative(entry.path(), folder).string()] = {std::istreambuf_iterator<char>(stream), {}};
+    }
+    return files;
+}

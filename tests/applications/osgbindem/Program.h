@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <sys/types.h>
 #include <vector>
@@ -55,3 +56,7 @@ private:
 
 /// Runs osgbindem, which has to succeed in silence.
 void build(const std::vector<std::string>& arguments);
+
+/// The files below a folder by name, with what is in them.
+using Files = std::map<std::string, std::string>;
+[[nodiscard]] Files filesBelow(const std::string& folder);
