@@ -30,10 +30,10 @@ GdalDataset open(const std::string& path, int overview = -1) {
     const std::string level = "OVERVIEW_LEVEL=" + std::to_string(overview);
     const std::array<const char*, 2> words{overview < 0 ? nullptr : level.c_str(), nullptr};
     GdalDataset dataset(
-        GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, words.data(), nullptr));
+        GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, nullptr, words.data(), nullptr));
     if (!dataset) {
         // GDAL has names that are no files, so the file system is asked only afterwards.
-        const bool absent = !std::filesystem::exists(path);
+        const bool absent = path.rfind("/vsi", 0) != 0 && !std::filesystem::exists(path);
         throw Failure("cannot open \"" + path +
                       "\": " + (absent ? "no such file; check the name" : gdalMessage() + "; give a raster file"));
     }

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// osgbindem reads an elevation raster from a web server, piece by piece. Oracle: the database from the same file on
+// disk, and the server's own count of what it sent.
+
+#include "Nginx.h"
+
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <support/StockPrograms.h>
+#include <support/TemporaryFolder.h>
+
+namespace osgAnalyticBin {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Nginx;
+using test::quoted;
+
+using Database = std::map<std::string, std::string>;
+
+constexpr int kColumns = 3600;
+constexpr int kRows = 1800;
+
+/// Rough heights, a post each tenth of a degree, as a Cloud Optimized GeoTIFF with overviews.
+void writeCloudOptimized(const std::string& path) {
+    GDALAllRegister();
+    GDALDriverManager& drivers = *GetGDALDriverManager();
+    GDALDataset* memory = drivers.GetDriverByName("MEM")->Create("", kColumns, kRows, 1, GDT_Int16, nullptr);
+    double transform[6] = {-180.0, 0.1, 0.0, 90.0, 0.0, -0.1};
+    memory->SetGeoTransform(transform);
+    memory->SetProjection(SRS_WKT_WGS84_LAT_LONG);
+    std::vector<std::int16_t> heights;
+    std::uint32_t state = 1;
+    for (int i = 0; i < kColumns * kRows; ++i) {
+        state = state * 1664525U + 1013904223U;
+        heights.push_back(static_cast<std::int16_t>(state >> 22));
+    }
+    ASSERT_EQ(memory->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, kColumns, kRows, heights.data(), kColumns, kRows,
+                                                 GDT_Int16, 0, 0, nullptr),
+              CE_None);
+    GDALDataset* file =
+        drivers.GetDriverByName("COG")->CreateCopy(path.c_str(), memory, FALSE, nullptr, nullptr, nullptr);
+    ASSERT_NE(file, nullptr);
+    GDALClose(GDALDataset::ToHandle(file));
+    GDALClose(GDALDataset::ToHandle(memory));
+}
+
+std::size_t bytesSent(const Nginx& server) {
+    std::size_t sum = 0;
+    for (const Nginx::Request& request : server.requests()) sum += request.bytes;
+    return sum;
+}
+
+class RemoteSource : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (!Nginx::isInstalled()) GTEST_SKIP() << "needs nginx";
+        fs::create_directory(folder / "served");
+        writeCloudOptimized(raster);
+    }
+
+    test::Outcome build(const std::string& source, const std::string& name, const std::string& options) const {
+        fs::create_directory(folder / name);
+        return test::runStock(quoted(OSGBINDEM_FILE) + ' ' + quoted(source) + ' ' + options + " --quiet -o " +
+                                  quoted(folder / (name + "/earth.osgb")),
+                              test::Modules::Present);
+    }
+    Database files(const std::string& name) const {
+        Database result;
+        for (const auto& entry : fs::recursive_directory_iterator(folder / name)) {
+            if (!entry.is_regular_file()) continue;
+            std::ifstream stream(entry.path(), std::ios::binary);
+            result[fs::relative(entry.path(), folder / name).string()] = {std::istreambuf_iterator<char>(stream), {}};
+        }
+        return result;
+    }
+    std::string remote(const Nginx& server) const { return "/vsicurl/" + server.url("dem.tif"); }
+
+    test::TemporaryFolder folder;
+    std::string raster = folder / "served/dem.tif";
+};
+
+TEST_F(RemoteSource, GivesTheDatabaseOfTheFileOnDisk) {
+    Nginx server(folder / "served");
+    ASSERT_TRUE(server.start());
+    ASSERT_EQ(build(raster, "disk", "--levels 1 --cells 12").code, 0);
+    ASSERT_EQ(build(remote(server), "web", "--levels 1 --cells 12").code, 0);
+    EXPECT_EQ(files("web"), files("disk"));
+    EXPECT_EQ(files("web").size(), 129U);
+}
+
+TEST_F(RemoteSource, IsReadThroughItsOverviews) {
+    Nginx server(folder / "served");
+    ASSERT_TRUE(server.start());
+    ASSERT_EQ(build(remote(server), "coarse", "--levels 0 --cells 24").code, 0);
+    const std::size_t coarse = bytesSent(server);
+    ASSERT_EQ(build(remote(server), "full", "--levels 0 --cells 24 --full-resolution").code, 0);
+    const std::size_t full = bytesSent(server) - coarse;
+    EXPECT_GT(coarse, 16384U);
+    EXPECT_LT(10 * coarse, fs::file_size(raster));
+    EXPECT_GT(full, fs::file_size(raster) / 2);
+}
+
+TEST_F(RemoteSource, SurvivesAServerInTroubleForAWhile) {
+    Nginx server(folder / "served");
+    // Every connection's first request is turned away.
+    ASSERT_TRUE(server.start("if ($connection_requests = 1) { return 503; }"));
+    ASSERT_EQ(build(raster, "disk", "--levels 0 --cells 12").code, 0);
+    const test::Outcome outcome = build(remote(server), "web", "--levels 0 --cells 12");
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+    EXPECT_EQ(files("web"), files("disk"));
+    const std::vector<Nginx::Request> requests = server.requests();
+    EXPECT_GE(std::count_if(requests.begin(), requests.end(), [](const auto& r) { return r.status == 503; }), 1);
+}
+
+TEST_F(RemoteSource, IsMissedInOneLine) {
+    Nginx server(folder / "served");
+    ASSERT_TRUE(server.start());
+    const test::Outcome outcome = build("/vsicurl/" + server.url("absent.tif"), "web", "--levels 0");
+    EXPECT_NE(outcome.code, 0);
+    EXPECT_NE(outcome.text.find("absent.tif"), std::string::npos) << outcome.text;
+    EXPECT_NE(outcome.text.find("404"), std::string::npos) << outcome.text;
+    EXPECT_TRUE(files("web").empty());
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin
