@@ -1,171 +1,29 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "CommandLine.h"
 #include "DatabaseBuilder.h"
-#include "Failure.h"
 #include "Interruption.h"
-#include "TileLayout.h"
 
-#include <osgAnalyticBin/Version.h>
-
-#include <CLI/CLI.hpp>
 #include <cpl_conv.h>
 #include <gdal.h>
-#include <osg/CoordinateSystemNode>
 #include <osg/Notify>
 
-#include <algorithm>
-#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
-#include <thread>
-#include <vector>
 
 namespace {
 
-using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::Interrupted;
 using osgAnalyticBin::support::stopRequested;
 
 using osgbindem::Settings;
 
 constexpr int kInterrupted = 130;
-
-constexpr const char* kDescription =
-    "Turns elevation rasters into a paged globe for OpenSceneGraph whose tiles know their bins.\n"
-    "Where several rasters have data the finest one counts; where none has, the height is 0 m.";
-
-constexpr const char* kExamples =
-    "Example, heights of the first raster in metres and of the second in feet:\n"
-    "  osgbindem world.tif rockies.nc --scale m ft -o earth.osgb\n"
-    "writes earth.osgb and the folder earth_tiles beside it. Large rasters are read fastest when tiled\n"
-    "(gdal_translate -co TILED=YES).";
-
-/// The command line as it was typed.
-struct Arguments {
-    std::vector<std::string> dems;
-    std::vector<std::string> scales;
-    std::vector<double> radii;
-    Settings settings;
-};
-
-/// Returns: nullopt for what is no unit.
-std::optional<double> metresPerUnit(const std::string& word) {
-    constexpr double kMetresPerFoot = 0.3048;
-    if (word == "m") return 1.0;
-    if (word == "ft") return kMetresPerFoot;
-    char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    if (end == word.c_str() || *end != '\0' || !std::isfinite(value) || value == 0.0) return std::nullopt;
-    return value;
-}
-
-/// Rasters may follow the units directly: "--scale ft a.tif"; a word that is no unit but a file is one.
-std::vector<double> takeScales(Arguments& arguments) {
-    std::vector<double> scales;
-    std::vector<std::string> rasters;
-    for (const std::string& word : arguments.scales) {
-        const auto scale = rasters.empty() ? metresPerUnit(word) : std::nullopt;
-        if (scale) {
-            scales.push_back(*scale);
-        } else if (std::filesystem::exists(word)) {
-            rasters.push_back(word);
-        } else {
-            throw Failure("unknown unit \"" + word + "\" in --scale; give m, ft or metres per unit");
-        }
-    }
-    arguments.dems.insert(arguments.dems.end(), rasters.begin(), rasters.end());
-    return scales;
-}
-
-void takeDems(Arguments& arguments) {
-    const std::vector<double> scales = takeScales(arguments);
-    if (arguments.dems.empty()) throw Failure("no elevation raster on the command line; name at least one");
-    if (scales.size() > 1 && scales.size() != arguments.dems.size()) {
-        throw Failure(std::to_string(scales.size()) + " units in --scale for " + std::to_string(arguments.dems.size()) +
-                      " rasters; give one for all or one for each");
-    }
-    for (std::size_t i = 0; i < arguments.dems.size(); ++i) {
-        const double scale = scales.empty() ? 1.0 : scales[scales.size() == 1 ? 0 : i];
-        arguments.settings.dems.push_back({arguments.dems[i], scale});
-    }
-}
-
-void takeRadii(Arguments& arguments) {
-    const osg::ref_ptr<osg::EllipsoidModel> wgs84 = new osg::EllipsoidModel;
-    double a = wgs84->getRadiusEquator();
-    double b = wgs84->getRadiusPolar();
-    if (!arguments.radii.empty()) {
-        a = arguments.radii[0];
-        b = arguments.radii[1];
-        if (!(a >= 1e4 && a <= 1e9 && b >= 0.5 * a && b <= 2.0 * a)) {
-            throw Failure("radii " + std::to_string(a) + " and " + std::to_string(b) +
-                          " in --radii; give metres from 1e4 to 1e9, neither more than twice the other");
-        }
-    }
-    arguments.settings.ellipsoid = osgAnalyticBin::core::Ellipsoid(a, b);
-    arguments.settings.isWgs84 = a == wgs84->getRadiusEquator() && b == wgs84->getRadiusPolar();
-}
-
-void requireRanges(const Settings& settings) {
-    constexpr int kFewestCells = 4;
-    constexpr int kMostCells = 240;
-    const auto refuse = [](const std::string& what, const std::string& todo) { throw Failure(what + "; " + todo); };
-    if (settings.levels && (*settings.levels < 0 || *settings.levels > osgbindem::TileLayout::kDeepest)) {
-        refuse("--levels " + std::to_string(*settings.levels), "give a number from 0 to 20");
-    }
-    if (settings.cells &&
-        (*settings.cells < kFewestCells || *settings.cells > kMostCells || *settings.cells % 2 != 0)) {
-        refuse("--cells " + std::to_string(*settings.cells), "give an even number from 4 to 240");
-    }
-    if (!(settings.lodFactor >= 3.0 && settings.lodFactor <= 100.0)) {
-        refuse("--lod-factor " + std::to_string(settings.lodFactor), "give a number from 3 to 100");
-    }
-    if (settings.threads < 1 || settings.threads > 256) {
-        refuse("--threads " + std::to_string(settings.threads), "give a number from 1 to 256");
-    }
-    if (settings.memoryMib < 16 || settings.memoryMib > 65536) {
-        refuse("--memory " + std::to_string(settings.memoryMib), "give MiB from 16 to 65536");
-    }
-    if (std::filesystem::path(settings.output).extension() != ".osgb") {
-        refuse("output \"" + settings.output + "\"", "give a file name that ends in .osgb");
-    }
-}
-
-void declare(CLI::App& app, Arguments& arguments) {
-    Settings& settings = arguments.settings;
-    settings.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    app.footer(kExamples);
-    app.add_option(
-        "DEM", arguments.dems,
-        "elevation rasters that GDAL reads, in any reference system;\nwithout one, longitude and latitude in "
-        "degrees");
-    app.add_option("-o,--output", settings.output, "the root file of the database, *.osgb")->required();
-    app.add_option("--scale", arguments.scales,
-                   "unit of the heights: m, ft or metres per unit;\none for all rasters or one for each (default m)")
-        ->delimiter(',');
-    app.add_option("--nodata", settings.nodata, "number that stands for missing heights, in place of the rasters' own");
-    app.add_option("--levels", settings.levels,
-                   "levels of tiles below the 16 x 8 start tiles, 0 to 20\n(default: as fine as the finest raster)");
-    app.add_option("--image", settings.image, "image that GDAL reads, draped over the terrain");
-    app.add_option("--radii", arguments.radii, "equatorial and polar radius in metres (default: WGS 84)")->expected(2);
-    app.add_option("--cells", settings.cells,
-                   "cells along the edge of a tile, even, 4 to 240\n(default: from the rasters)");
-    app.add_option(
-        "--lod-factor", settings.lodFactor,
-        "distance at which a tile gives way to finer ones,\nin half diagonals of the tile, 3 to 100 (default 4)");
-    app.add_option("--threads", settings.threads, "number of threads (default: one per core)");
-    app.add_option("--memory", settings.memoryMib,
-                   "MiB for what is read of the rasters, 16 to 65536 (default 256);\nthe tiles at work come on top");
-    app.add_flag("!--full-resolution", settings.useOverviews,
-                 "do not read a raster's overviews where --levels needs nothing finer");
-    app.add_flag("--compress", settings.compress, "compress the files with zlib");
-    app.add_flag("--quiet", settings.quiet, "show no progress");
-}
 
 int complain(const std::string& message) {
     std::cerr << "osgbindem: " << message << std::endl;
@@ -186,7 +44,6 @@ void prepareProcess(const Settings& settings) {
     GDALSetCacheMax64((GIntBig{settings.memoryMib} << 20) / 2);
     setUnlessGiven("GDAL_HTTP_MAX_RETRY", "5");
     setUnlessGiven("GDAL_HTTP_RETRY_DELAY", "1");
-    setUnlessGiven("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");
     CPLSetErrorHandler(CPLQuietErrorHandler);
     if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::ALWAYS);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, requestStop);
@@ -194,21 +51,10 @@ void prepareProcess(const Settings& settings) {
 }
 
 int run(int argc, char** argv) {
-    Arguments arguments;
-    CLI::App app{kDescription, "osgbindem"};
-    app.set_version_flag("--version", std::string("osgbindem (osgAnalyticBin) ") + osgAnalyticBin::version());
-    declare(app, arguments);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);
-        return complain(std::string(error.what()) + "; see osgbindem --help");
-    }
-    takeDems(arguments);
-    takeRadii(arguments);
-    requireRanges(arguments.settings);
-    prepareProcess(arguments.settings);
-    osgbindem::buildDatabase(arguments.settings);
+    const std::optional<Settings> settings = osgbindem::settingsFrom(argc, argv);
+    if (!settings) return EXIT_SUCCESS;
+    prepareProcess(*settings);
+    osgbindem::buildDatabase(*settings);
     return EXIT_SUCCESS;
 }
 
