@@ -15,13 +15,10 @@ using osgAnalyticBin::support::Failure;
 
 namespace {
 
-// More posts than this at once save no time.
-constexpr double kMostPosts = 3e6;
-
 // Half of the memory is GDAL's cache, the other half the windows that the threads keep.
 double postsPerThread(const Settings& settings) {
     const double bytes = std::ldexp(0.5 * settings.memoryMib, 20) / settings.threads;
-    return std::min(bytes / sizeof(double), kMostPosts);
+    return std::min(bytes / sizeof(double), DemSource::kMostPosts);
 }
 
 }  // namespace

@@ -32,6 +32,9 @@ struct DemOptions {
 /// Not for use by several threads: each has its own.
 class DemSource final {
 public:
+    /// More posts than this in memory save no time.
+    static constexpr double kMostPosts = 3e6;
+
     /// Throws Failure.
     explicit DemSource(const DemOptions& options);
 
@@ -50,7 +53,7 @@ public:
 
     /// Reads what touches the rectangle into memory, if it is not there and is not too much.
     /// Returns: the posts now in memory, at most mostPosts.
-    double prefetch(const RectDeg& rect, double mostPosts);
+    double prefetch(const RectDeg& rect, double mostPosts = kMostPosts);
 
     /// Whether the raster has any data at all.
     [[nodiscard]] bool hasAnyData();

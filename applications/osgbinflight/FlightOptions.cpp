@@ -4,10 +4,9 @@
 #include "FlightOptions.h"
 
 #include "CsvTable.h"
+#include "ParameterReader.h"
 
-#include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace osgAnalyticBin::flight {
 
@@ -15,8 +14,6 @@ namespace {
 
 constexpr double kMostFrames = 1000.0;
 constexpr double kLongestTimeout = 86400.0;
-
-enum class Applied { Yes, Unknown, Malformed };
 
 bool setFrames(FlightOptions& options, const std::string& value) {
     const auto frames = numberFrom(value);
@@ -37,19 +34,15 @@ bool setOut(FlightOptions& options, const std::string& value) {
     return !value.empty();
 }
 
-Applied applyItem(const std::string& item, FlightOptions& options) {
-    const std::size_t equals = item.find('=');
-    const std::string key = trimmed(item.substr(0, equals));
-    const std::string value = equals == std::string::npos ? std::string() : trimmed(item.substr(equals + 1));
-    const auto applied = [](bool success) { return success ? Applied::Yes : Applied::Malformed; };
-    if (key == "out") return applied(setOut(options, value));
-    if (key == "frames") return applied(setFrames(options, value));
-    if (key == "timeout") return applied(setTimeout(options, value));
-    return Applied::Unknown;
-}
-
-std::string complaint(const std::string& item, const char* what) {
-    return std::string(what) + " parameter \"" + item + "\"; allowed are out=FOLDER, frames=1..1000, timeout=SECONDS";
+ParameterReader readerInto(FlightOptions& options) {
+    const auto apply = [&options](const std::string& key, const std::string& value) {
+        const auto applied = [](bool success) { return success ? Applied::Yes : Applied::Malformed; };
+        if (key == "out") return applied(setOut(options, value));
+        if (key == "frames") return applied(setFrames(options, value));
+        if (key == "timeout") return applied(setTimeout(options, value));
+        return Applied::Unknown;
+    };
+    return {apply, "out=FOLDER, frames=1..1000, timeout=SECONDS"};
 }
 
 }  // namespace
@@ -62,26 +55,11 @@ FlightName flightNameOf(const std::string& fileName) {
 }
 
 bool applyParameters(const std::string& parameters, FlightOptions& options, std::string& error) {
-    std::istringstream items(parameters);
-    for (std::string item; std::getline(items, item, ',');) {
-        const Applied applied = applyItem(item, options);
-        if (applied == Applied::Yes) continue;
-        error = complaint(trimmed(item), applied == Applied::Unknown ? "unknown" : "malformed");
-        return false;
-    }
-    return true;
+    return readerInto(options).readBracketed(parameters, error);
 }
 
 bool applyOptionString(const std::string& optionString, FlightOptions& options, std::string& error) {
-    std::string blanks = optionString;
-    std::replace(blanks.begin(), blanks.end(), ',', ' ');
-    std::istringstream items(blanks);
-    for (std::string item; items >> item;) {
-        if (applyItem(item, options) != Applied::Malformed) continue;
-        error = complaint(item, "malformed");
-        return false;
-    }
-    return true;
+    return readerInto(options).readOptionString(optionString, error);
 }
 
 }  // namespace osgAnalyticBin::flight

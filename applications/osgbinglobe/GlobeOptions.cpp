@@ -4,21 +4,18 @@
 #include "GlobeOptions.h"
 
 #include <CsvTable.h>
-#include <algorithm>
+#include <ParameterReader.h>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
 
 namespace osgAnalyticBin::globe {
 
 namespace {
 
+using flight::Applied;
 using flight::numberFrom;
 using flight::textFrom;
-using flight::trimmed;
 using osgbindem::TileId;
-
-enum class Applied { Yes, Unknown, Malformed };
 
 bool setWhole(int& target, const std::string& value, int least, int most) {
     const auto number = numberFrom(value);
@@ -39,46 +36,24 @@ bool setSwitch(bool& target, const std::string& value) {
     return target || value == "off";
 }
 
-Applied applyItem(const std::string& item, GlobeOptions& options) {
-    const std::size_t equals = item.find('=');
-    const std::string key = trimmed(item.substr(0, equals));
-    const std::string value = equals == std::string::npos ? std::string() : trimmed(item.substr(equals + 1));
-    const auto applied = [](bool success) { return success ? Applied::Yes : Applied::Malformed; };
-    if (key == "levels") return applied(setWhole(options.levels, value, 0, GlobeOptions::kMostLevels));
-    if (key == "cells")
-        return applied(setWhole(options.cells, value, 2, GlobeOptions::kMostCells) && options.cells % 2 == 0);
-    if (key == "relief") return applied(setNumber(options.relief, value, 0.0, GlobeOptions::kMostRelief));
-    if (key == "lod") return applied(setNumber(options.lod, value, GlobeOptions::kLeastLod, GlobeOptions::kMostLod));
-    if (key == "bins") return applied(setSwitch(options.bins, value));
-    return Applied::Unknown;
+flight::ParameterReader readerInto(GlobeOptions& options) {
+    const auto apply = [&options](const std::string& key, const std::string& value) {
+        const auto applied = [](bool success) { return success ? Applied::Yes : Applied::Malformed; };
+        if (key == "levels") return applied(setWhole(options.levels, value, 0, GlobeOptions::kMostLevels));
+        if (key == "cells")
+            return applied(setWhole(options.cells, value, 2, GlobeOptions::kMostCells) && options.cells % 2 == 0);
+        if (key == "relief") return applied(setNumber(options.relief, value, 0.0, GlobeOptions::kMostRelief));
+        if (key == "lod")
+            return applied(setNumber(options.lod, value, GlobeOptions::kLeastLod, GlobeOptions::kMostLod));
+        if (key == "bins") return applied(setSwitch(options.bins, value));
+        return Applied::Unknown;
+    };
+    return {apply, kAllowedParameters};
 }
 
-std::string complaint(const std::string& item, const char* what) {
-    return std::string(kGlobeExtension) + ": " + what + " parameter \"" + item + "\"; allowed are " +
-           kAllowedParameters;
-}
-
-bool applyParameters(const std::string& parameters, GlobeOptions& options, std::string& error) {
-    std::istringstream items(parameters);
-    for (std::string item; std::getline(items, item, ',');) {
-        const Applied applied = applyItem(item, options);
-        if (applied == Applied::Yes) continue;
-        error = complaint(trimmed(item), applied == Applied::Unknown ? "unknown" : "malformed");
-        return false;
-    }
-    return true;
-}
-
-bool applyOptionString(const std::string& optionString, GlobeOptions& options, std::string& error) {
-    std::string blanks = optionString;
-    std::replace(blanks.begin(), blanks.end(), ',', ' ');
-    std::istringstream items(blanks);
-    for (std::string item; items >> item;) {
-        if (applyItem(item, options) != Applied::Malformed) continue;
-        error = complaint(item, "malformed");
-        return false;
-    }
-    return true;
+// One line that says whose parameters they are.
+std::string ofGlobe(const std::string& message) {
+    return std::string(kGlobeExtension) + ": " + message;
 }
 
 // A name without its extension: what stands before the brackets, and in them.
@@ -123,16 +98,23 @@ std::optional<GlobeName> globeNameOf(const std::string& fileName, const std::str
     const std::string file = withoutFolder(fileName);
     const Parts parts = partsOf(file.substr(0, file.rfind('.')));
     GlobeName result;
+    const flight::ParameterReader reader = readerInto(result.options);
     result.tile = tileFrom(parts.name);
     if (!result.tile) {
-        if (!applyOptionString(optionString, result.options, error)) return std::nullopt;
-        if (!parts.name.empty() && applyItem("levels=" + parts.name, result.options) != Applied::Yes) {
+        if (!reader.readOptionString(optionString, error)) {
+            error = ofGlobe(error);
+            return std::nullopt;
+        }
+        if (!parts.name.empty() && !setWhole(result.options.levels, parts.name, 0, GlobeOptions::kMostLevels)) {
             error = std::string(kGlobeExtension) + ": \"" + parts.name +
                     "\" is no number of levels; give 0 to 24, for example 12." + kGlobeExtension;
             return std::nullopt;
         }
     }
-    if (!applyParameters(parts.parameters, result.options, error)) return std::nullopt;
+    if (!reader.readBracketed(parts.parameters, error)) {
+        error = ofGlobe(error);
+        return std::nullopt;
+    }
     if (!result.tile || hasChildren(*result.tile, result.options)) return result;
     error = std::string(kGlobeExtension) + ": tile \"" + parts.name + "\" has no children in a globe of " +
             std::to_string(result.options.levels) + " levels";

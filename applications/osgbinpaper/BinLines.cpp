@@ -30,6 +30,18 @@ void addFace(std::vector<Polyline>& lines, const SharePoint& point, double z, in
 
 }  // namespace
 
+std::vector<Polyline> frustumLines(const Camera& camera, double depth) {
+    std::vector<Polyline> lines;
+    Polyline end;
+    for (const glm::dvec3& edge : camera.edges()) {
+        lines.push_back({camera.eye, camera.eye + depth * edge});
+        end.push_back(camera.eye + depth * edge);
+    }
+    end.push_back(end.front());
+    lines.push_back(end);
+    return lines;
+}
+
 std::vector<Polyline> binEdges(const SharePoint& point) {
     std::vector<Polyline> lines;
     addFace(lines, point, 0.0, 1);

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "Camera.h"
 #include "Gnuplot.h"
 
 #include <osgAnalyticBin/core/GeodeticBin.h>
@@ -16,6 +17,9 @@ namespace osgAnalyticBin::paper {
 
 /// Where a point of a bin is drawn: its shares of the bin's latitudes, longitudes and altitudes, from 0 to 1.
 using SharePoint = std::function<glm::dvec3(const glm::dvec3& shares)>;
+
+/// The pyramid of sight of a camera: its four edges, and its end in a depth of so many metres.
+[[nodiscard]] std::vector<Polyline> frustumLines(const Camera& camera, double depth);
 
 /// The twelve edges of a bin as polylines.
 [[nodiscard]] std::vector<Polyline> binEdges(const SharePoint& point);

@@ -65,18 +65,6 @@ std::vector<Polyline> parts(const std::vector<Polyline>& lines, const std::array
     return result;
 }
 
-std::vector<Polyline> frustumLines(const Camera& camera, double depth) {
-    std::vector<Polyline> lines;
-    Polyline end;
-    for (const glm::dvec3& edge : camera.edges()) {
-        lines.push_back({camera.eye, camera.eye + depth * edge});
-        end.push_back(camera.eye + depth * edge);
-    }
-    end.push_back(end.front());
-    lines.push_back(end);
-    return lines;
-}
-
 // A row a side: name, and lowest and highest distance in km by the bin and by its eight corners.
 std::vector<std::string> rangeRows(const FigureScene& scene, std::size_t tile) {
     const auto& quadratic = std::get<indexOf(Method::Quadratic)>(scene.tree.bins)[tile];

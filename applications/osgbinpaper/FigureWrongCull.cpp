@@ -85,15 +85,7 @@ std::vector<Polyline> frustumOf(const Camera& camera, const Polyline& corners, c
     double depth = 1.1 * glm::dot(witness - camera.eye, camera.forward);
     for (const glm::dvec3& corner : corners)
         depth = std::max(depth, 0.8 * glm::dot(corner - camera.eye, camera.forward));
-    std::vector<Polyline> lines;
-    Polyline end;
-    for (const glm::dvec3& edge : camera.edges()) {
-        lines.push_back({camera.eye, camera.eye + depth * edge});
-        end.push_back(camera.eye + depth * edge);
-    }
-    end.push_back(end.front());
-    lines.push_back(end);
-    return lines;
+    return frustumLines(camera, depth);
 }
 
 Tested testedBy(Method method, const core::GeodeticMapping& mapping, const core::GeodeticBin& box) {

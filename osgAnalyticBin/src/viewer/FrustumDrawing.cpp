@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "IndexedGeometry.h"
 #include "ViewTools.h"
 
 #include <osg/CullFace>
@@ -51,14 +52,7 @@ double reachOver(const SceneGlobe& globe, const osg::Vec3d& eye) {
 
 osg::ref_ptr<osg::Geometry> makePart(osg::Vec3Array& vertices, GLenum primitives, const osg::Vec4& colour,
                                      const std::vector<unsigned int>& indices) {
-    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    geometry->setUseVertexBufferObjects(true);
-    geometry->setVertexArray(&vertices);
-    const osg::ref_ptr<osg::Vec4Array> colours = new osg::Vec4Array(osg::Array::BIND_OVERALL, 1);
-    (*colours)[0] = colour;
-    geometry->setColorArray(colours);
-    geometry->addPrimitiveSet(
-        new osg::DrawElementsUInt(primitives, static_cast<unsigned int>(indices.size()), indices.data()));
+    osg::ref_ptr<osg::Geometry> geometry = makeIndexed(vertices, primitives, indices, colour);
     osg::StateSet& state = *geometry->getOrCreateStateSet();
     state.setMode(GL_BLEND, osg::StateAttribute::ON);
     state.setAttributeAndModes(new osg::CullFace, osg::StateAttribute::OFF);

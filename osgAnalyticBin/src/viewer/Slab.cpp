@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "IndexedGeometry.h"
+
 #include <osgAnalyticBin/core/GeodeticMapping.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
 #include <osgAnalyticBin/viewer/Slab.h>
@@ -107,19 +109,6 @@ private:
     SlabMesh _mesh;
 };
 
-osg::ref_ptr<osg::Geometry> makeGeometry(osg::Vec3Array& vertices, GLenum primitives,
-                                         const std::vector<unsigned int>& indices, const osg::Vec4& colour) {
-    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    geometry->setUseVertexBufferObjects(true);
-    geometry->setVertexArray(&vertices);
-    const osg::ref_ptr<osg::Vec4Array> colours = new osg::Vec4Array(osg::Array::BIND_OVERALL, 1);
-    (*colours)[0] = colour;
-    geometry->setColorArray(colours);
-    geometry->addPrimitiveSet(
-        new osg::DrawElementsUInt(primitives, static_cast<unsigned int>(indices.size()), indices.data()));
-    return geometry;
-}
-
 }  // namespace
 
 SlabMesh slabMesh(const core::GeodeticBin& bin, const core::Ellipsoid& ellipsoid, SlabShape shape) {
@@ -145,7 +134,7 @@ osg::ref_ptr<osg::Node> makeSlab(const SlabMesh& mesh, const osg::Vec4& faces, c
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array(mesh.vertices.begin(), mesh.vertices.end());
     const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
     if (faces.a() > 0.0F) {
-        const auto geometry = makeGeometry(*vertices, GL_TRIANGLES, mesh.triangles, faces);
+        const auto geometry = makeIndexed(*vertices, GL_TRIANGLES, mesh.triangles, faces);
         osg::StateSet& state = *geometry->getOrCreateStateSet();
         state.setMode(GL_BLEND, osg::StateAttribute::ON);
         state.setAttributeAndModes(new osg::CullFace, osg::StateAttribute::OFF);
@@ -153,7 +142,7 @@ osg::ref_ptr<osg::Node> makeSlab(const SlabMesh& mesh, const osg::Vec4& faces, c
         state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
         geode->addDrawable(geometry);
     }
-    const auto lines = makeGeometry(*vertices, GL_LINES, mesh.lines, edges);
+    const auto lines = makeIndexed(*vertices, GL_LINES, mesh.lines, edges);
     lines->getOrCreateStateSet()->setAttributeAndModes(new osg::LineWidth(1.5F));
     lines->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
     // after the faces of all slabs
