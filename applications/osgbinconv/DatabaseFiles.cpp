@@ -60,7 +60,8 @@ std::string DatabaseFiles::pathOf(const std::string& file) const {
 FileStamp DatabaseFiles::stampOf(const std::string& file) const {
     struct stat status {};
     if (::stat(pathOf(file).c_str(), &status) != 0) return {};
-    return {static_cast<std::uint64_t>(status.st_size), static_cast<std::int64_t>(status.st_mtime)};
+    return {static_cast<std::uint64_t>(status.st_size), static_cast<std::int64_t>(status.st_mtim.tv_sec),
+            static_cast<std::int64_t>(status.st_mtim.tv_nsec)};
 }
 
 osg::ref_ptr<osg::Node> DatabaseFiles::read(const std::string& file, Images images, std::string& error) const {

@@ -48,8 +48,11 @@ struct TileRecord {
 struct FileStamp {
     std::uint64_t size = 0;
     std::int64_t time = 0;
+    std::int64_t nanoseconds = 0;
 
-    [[nodiscard]] bool operator==(const FileStamp& other) const { return size == other.size && time == other.time; }
+    [[nodiscard]] bool operator==(const FileStamp& other) const {
+        return size == other.size && time == other.time && nanoseconds == other.nanoseconds;
+    }
 };
 
 /// All that is kept of a file once it has been read.

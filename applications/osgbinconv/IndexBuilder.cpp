@@ -103,14 +103,18 @@ BuiltIndex builtWith(PartFile& part, const DatabaseFiles& files, const WalkOptio
 
 }  // namespace
 
-void writeIndex(const DatabaseFiles& files, const WalkOptions& options) {
+void writeIndex(const DatabaseFiles& files, const WalkOptions& options, bool keepsRecords) {
     const std::string name = osgAnalyticBin::binIndexName(files.rootFile());
     requireNothingForeign(name);
-    PartFile part(name + ".part", files.stampOf(""));
+    PartFile part(name + ".part");
     const BuiltIndex built = builtWith(part, files, options);
     std::string error;
     if (!built.index->write(name, error)) throw Failure(error);
-    part.remove();
+    if (keepsRecords) {
+        part.keepOnly(built.records);
+    } else {
+        part.remove();
+    }
 }
 
 }  // namespace osgbinconv

@@ -25,7 +25,8 @@ struct BuiltIndex {
 [[nodiscard]] BuiltIndex indexFrom(const DatabaseFiles& files, FileRecords records);
 
 /// Writes "earth.ive.bins" beside a database. Finished files are kept in "earth.ive.bins.part", from which a second run
-/// goes on; the result does not depend on it. Throws Failure or Interrupted.
-void writeIndex(const DatabaseFiles& files, const WalkOptions& options);
+/// goes on; the result does not depend on it. `keepsRecords`: it stays, so that the next run reads only the files that
+/// have changed. Throws Failure or Interrupted.
+void writeIndex(const DatabaseFiles& files, const WalkOptions& options, bool keepsRecords);
 
 }  // namespace osgbinconv

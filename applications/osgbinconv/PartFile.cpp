@@ -37,11 +37,7 @@ std::uint32_t checksumOf(const std::string& bytes) {
     return crc.checksum();
 }
 
-std::string headFor(const FileStamp& root) {
-    FileRecord head;
-    head.stamp = root;
-    return "osgBinsPart 1\n" + bytesOf(head);
-}
+constexpr const char* kHead = "osgBinsPart 2\n";
 
 /// Returns: nullopt at the end of what is whole.
 std::optional<std::uint32_t> readNumber(std::istream& in) {
@@ -62,7 +58,7 @@ std::optional<FileRecord> readRecord(std::istream& in, std::uint64_t most) {
 
 }  // namespace
 
-PartFile::PartFile(const std::string& path, const FileStamp& rootStamp) : _path(path) {
+PartFile::PartFile(const std::string& path) : _path(path) {
     _handle = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (_handle < 0) fail("write");
     if (::flock(_handle, LOCK_EX | LOCK_NB) != 0) {
@@ -70,7 +66,7 @@ PartFile::PartFile(const std::string& path, const FileStamp& rootStamp) : _path(
         throw Failure("another osgbinconv is writing \"" + path + "\"; wait for it");
     }
     try {
-        load(headFor(rootStamp));
+        load();
     } catch (...) {
         ::close(_handle);
         throw;
@@ -81,15 +77,12 @@ PartFile::~PartFile() {
     if (_handle >= 0) ::close(_handle);
 }
 
-void PartFile::load(const std::string& head) {
+void PartFile::load() {
     const off_t end = ::lseek(_handle, 0, SEEK_END);
     std::ifstream in(_path, std::ios::binary);
-    std::string found(head.size(), '\0');
+    std::string found(std::strlen(kHead), '\0');
     in.read(found.data(), static_cast<std::streamsize>(found.size()));
-    if (!in || found != head) {
-        if (::ftruncate(_handle, 0) != 0) fail("write");
-        return write(head);
-    }
+    if (!in || found != kHead) return clear();
     off_t whole = in.tellg();
     while (auto record = readRecord(in, static_cast<std::uint64_t>(end - whole))) {
         _records.push_back(std::move(*record));
@@ -101,6 +94,16 @@ void PartFile::load(const std::string& head) {
 void PartFile::append(const FileRecord& record) {
     const std::string bytes = bytesOf(record);
     write(numberBytes(static_cast<std::uint32_t>(bytes.size())) + bytes + numberBytes(checksumOf(bytes)));
+}
+
+void PartFile::clear() {
+    if (::ftruncate(_handle, 0) != 0) fail("write");
+    write(kHead);
+}
+
+void PartFile::keepOnly(const std::map<std::string, FileRecord>& records) {
+    clear();
+    for (const auto& record : records) append(record.second);
 }
 
 void PartFile::remove() {

@@ -5,17 +5,19 @@
 
 #include "FileRecord.h"
 
+#include <map>
 #include <string>
 #include <vector>
 
 namespace osgbinconv {
 
 /// The records of an index that is being made, "earth.ive.bins.part": appended one by one, each with its checksum, so
-/// that a run that was killed goes on where it ended. Locked against a second program.
+/// that a run that was killed goes on where it ended, or a later one reads only what has changed. Each record says of
+/// which file it is; whether that has changed is the reader's to see. Locked against a second program.
 class PartFile final {
 public:
-    /// Opens the file and takes what is whole in it; a file of another database is started afresh. Throws Failure.
-    PartFile(const std::string& path, const FileStamp& rootStamp);
+    /// Opens the file and takes what is whole in it. Throws Failure.
+    explicit PartFile(const std::string& path);
     PartFile(const PartFile&) = delete;
     PartFile& operator=(const PartFile&) = delete;
     ~PartFile();
@@ -29,11 +31,15 @@ public:
     /// Deletes the file: nobody needs it any more.
     void remove();
 
+    /// Has just these records from here on. Throws Failure.
+    void keepOnly(const std::map<std::string, FileRecord>& records);
+
     /// Whether the records could not be written, for want of room.
     [[nodiscard]] bool hasFailed() const { return _hasFailed; }
 
 private:
-    void load(const std::string& head);
+    void load();
+    void clear();
     void write(const std::string& bytes);
     [[noreturn]] void fail(const std::string& what);
 

@@ -139,6 +139,7 @@ void passRecord(Stream& s, Record& record) {
     s.text(record.file);
     s.number(record.stamp.size);
     s.number(record.stamp.time);
+    s.number(record.stamp.nanoseconds);
     passPlace(s, record.place);
     s.flag(record.isRead);
     s.flag(record.hasOtherContent);

@@ -49,6 +49,7 @@ struct Arguments {
     bool isIndex = false;
     bool isPrint = false;
     bool isCheck = false;
+    bool keepsRecords = false;
     std::vector<std::string> files;
     std::string cluster = "remove";
     osgbinconv::CopyOptions copy;
@@ -63,6 +64,10 @@ void declare(CLI::App& app, Arguments& arguments) {
     auto* check = app.add_flag("--check", arguments.isCheck, "compare DATABASE.bins with the database");
     index->excludes(print)->excludes(check);
     print->excludes(check);
+    app.add_flag("--keep-records", arguments.keepsRecords,
+                 "with --index: keep DATABASE.bins.part, so that the next --index reads\nonly the files that have "
+                 "changed since")
+        ->needs(index);
     app.add_option("FILE", arguments.files,
                    "the root file of a database, with --print an index;\nthen the root file of a copy, *.osgb")
         ->required();
@@ -132,7 +137,7 @@ int run(int argc, char** argv) {
         arguments.copy.keepClusters = arguments.cluster == "keep";
         osgbinconv::copyDatabase(files, arguments.files[1], arguments.copy, arguments.walk);
     }
-    if (arguments.isIndex) osgbinconv::writeIndex(files, arguments.walk);
+    if (arguments.isIndex) osgbinconv::writeIndex(files, arguments.walk, arguments.keepsRecords);
     if (arguments.isCheck) osgbinconv::checkIndex(files, arguments.walk);
     return EXIT_SUCCESS;
 }

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <osg/PagedLOD>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -135,6 +136,20 @@ TEST_F(Run, FilesThatHaveChangedSinceAreReadAgain) {
     const std::string changed = indexed();
     EXPECT_NE(changed, whole);
     fs::remove(indexFile());
+    EXPECT_EQ(indexed(), changed);
+}
+
+TEST_F(Run, KeptRecordsSpareReadingWhatHasNotChanged) {
+    const std::string command = "--index --keep-records " + test::quoted(_database);
+    ASSERT_EQ(runBinconv(command).code, 0);
+    const std::string part = bytesOf(partFile());
+    writeSmallFile(_folder / "tiles_1_3_3.osgb", *makeSmallTile(""));
+    fs::last_write_time(_database, fs::last_write_time(_database) + std::chrono::seconds(7));
+    const Outcome rerun = runBinconv(command);
+    EXPECT_NE(rerun.text.find("(159 files from an earlier run)"), std::string::npos) << rerun.text;
+    const std::string changed = bytesOf(indexFile());
+    EXPECT_LT(bytesOf(partFile()).size(), part.size() + 1000) << "what is replaced is kept";
+    fs::remove(partFile());
     EXPECT_EQ(indexed(), changed);
 }
 
