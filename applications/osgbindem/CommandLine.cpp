@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -54,6 +55,12 @@ std::optional<double> metresPerUnit(const std::string& word) {
     return value;
 }
 
+/// No name that a file system refuses is a file's.
+bool isFile(const std::string& word) {
+    std::error_code ignored;
+    return std::filesystem::exists(word, ignored);
+}
+
 /// Rasters may follow the units directly: "--scale ft a.tif"; a word that is no unit but a file is one.
 std::vector<double> takeScales(Arguments& arguments) {
     std::vector<double> scales;
@@ -62,7 +69,7 @@ std::vector<double> takeScales(Arguments& arguments) {
         const auto scale = rasters.empty() ? metresPerUnit(word) : std::nullopt;
         if (scale) {
             scales.push_back(*scale);
-        } else if (std::filesystem::exists(word) || word.rfind("/vsi", 0) == 0) {
+        } else if (isFile(word) || word.rfind("/vsi", 0) == 0) {
             rasters.push_back(word);
         } else {
             throw Failure("unknown unit \"" + word + "\" in --scale; give m, ft or metres per unit");

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <system_error>
 
 namespace osgbindem {
 
@@ -33,7 +34,8 @@ GdalDataset open(const std::string& path, int overview = -1) {
         GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, nullptr, words.data(), nullptr));
     if (!dataset) {
         // GDAL has names that are no files, so the file system is asked only afterwards.
-        const bool absent = path.rfind("/vsi", 0) != 0 && !std::filesystem::exists(path);
+        std::error_code ignored;
+        const bool absent = path.rfind("/vsi", 0) != 0 && !std::filesystem::exists(path, ignored);
         throw Failure("cannot open \"" + path +
                       "\": " + (absent ? "no such file; check the name" : gdalMessage() + "; give a raster file"));
     }
@@ -55,6 +57,22 @@ bool isPlain(const GeoTransform& t) {
     return t[2] == 0.0 && t[4] == 0.0 && t[1] > 0.0 && t[5] != 0.0;
 }
 
+// Whether all corners are at numbers that coordinates may be; GDAL brings degrees into range turn by turn.
+bool isPlausible(const GeoTransform& t, GDALDataset& dataset) {
+    constexpr double kMostDegrees = 1e4;
+    constexpr double kMostUnits = 1e11;  // of a length, be it millimetres
+    const OGRSpatialReference* reference = dataset.GetSpatialRef();
+    const double most = reference != nullptr && reference->IsGeographic() ? kMostDegrees : kMostUnits;
+    for (const double column : {0.0, static_cast<double>(dataset.GetRasterXSize())}) {
+        for (const double row : {0.0, static_cast<double>(dataset.GetRasterYSize())}) {
+            const double x = t[0] + column * t[1] + row * t[2];
+            const double y = t[3] + column * t[4] + row * t[5];
+            if (!(std::abs(x) <= most && std::abs(y) <= most)) return false;
+        }
+    }
+    return true;
+}
+
 bool needsWarp(GDALDataset& dataset, const std::string& path) {
     GeoTransform transform{};
     const bool hasTransform = dataset.GetGeoTransform(transform.data()) == CE_None;
@@ -64,6 +82,9 @@ bool needsWarp(GDALDataset& dataset, const std::string& path) {
         throw Failure("no georeferencing in \"" + path + "\"; add it, for example with gdal_edit.py -a_srs -a_ullr");
     }
     if (!hasTransform) return true;
+    if (!isPlausible(transform, dataset)) {
+        throw Failure("the coordinates of \"" + path + "\" are far from any globe; correct its georeferencing");
+    }
     if (reference != nullptr && !reference->IsGeographic()) return true;
     if (!isPlain(transform) && reference != nullptr) return true;
     if (reference == nullptr &&

@@ -1,0 +1,349 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TileScene.h"
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/LOD>
+#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+#include <osg/PositionAttitudeTransform>
+#include <osg/Switch>
+#include <osg/ValueObject>
+#include <osgDB/Registry>
+#include <osgTerrain/Layer>
+#include <osgTerrain/TerrainTile>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+namespace osgAnalyticBin::test {
+
+namespace {
+
+constexpr int kDeepest = 5;
+constexpr int kMostNodes = 40;
+
+osg::Vec3d ecefOf(double latitudeDeg, double longitudeDeg, double height) {
+    osg::Vec3d ecef;
+    osg::EllipsoidModel().convertLatLongHeightToXYZ(
+        osg::DegreesToRadians(latitudeDeg), osg::DegreesToRadians(longitudeDeg), height, ecef.x(), ecef.y(), ecef.z());
+    return ecef;
+}
+
+osg::ref_ptr<osg::PrimitiveSet> makePrimitives(Bytes& bytes, int posts) {
+    const int count = posts * posts;
+    const auto wild = [&bytes] { return static_cast<int>(bytes.byte()) << (8 * bytes.below(4)); };
+    const auto mode = [&bytes] { return static_cast<GLenum>(bytes.below(14)); };
+    // numbers in braces are taken in order, whatever the compiler
+    switch (bytes.below(8)) {
+        case 0:
+            return new osg::DrawArrays(GL_POINTS, 0, count);
+        case 1:
+            return new osg::DrawArrays(GL_TRIANGLE_STRIP, 0, count);
+        case 2:
+            return new osg::DrawArrays{mode(), wild(), wild(), bytes.below(3)};
+        case 3: {
+            const osg::ref_ptr<osg::DrawArrayLengths> lengths = new osg::DrawArrayLengths(GL_QUAD_STRIP, 0);
+            for (int i = bytes.below(4); i > 0; --i) lengths->push_back(bytes.flag() ? wild() : posts);
+            return lengths;
+        }
+        case 4: {
+            const osg::ref_ptr<osg::DrawElementsUByte> elements = new osg::DrawElementsUByte(mode());
+            for (int i = bytes.below(32); i > 0; --i) elements->push_back(bytes.byte());
+            return elements;
+        }
+        default:
+            break;
+    }
+    const osg::ref_ptr<osg::DrawElementsUInt> elements = new osg::DrawElementsUInt(GL_TRIANGLES);
+    for (int j = 0; j + 1 < posts; ++j) {
+        for (int i = 0; i + 1 < posts; ++i) {
+            const auto a = static_cast<unsigned int>(j * posts + i);
+            const auto n = static_cast<unsigned int>(posts);
+            for (const unsigned int index : {a, a + 1u, a + n + 1u, a, a + n + 1u, a + n}) elements->push_back(index);
+        }
+    }
+    if (bytes.below(16) == 15) elements->push_back(static_cast<unsigned int>(wild()));
+    return elements;
+}
+
+osg::ref_ptr<osg::Array> makeVertices(Bytes& bytes, const ScenePlace& place, int posts, const osg::Vec3d& origin) {
+    const osg::ref_ptr<osg::Vec3dArray> vertices = new osg::Vec3dArray;
+    for (int j = 0; j < posts; ++j) {
+        for (int i = 0; i < posts; ++i) {
+            const double v = j / std::max(1.0, posts - 1.0);
+            const double u = i / std::max(1.0, posts - 1.0);
+            vertices->push_back(ecefOf(place.south + v * (place.north - place.south),
+                                       place.west + u * (place.east - place.west), place.height) -
+                                origin);
+        }
+    }
+    const int odd = bytes.byte();
+    if (odd >= 240) (*vertices)[static_cast<std::size_t>(bytes.byte()) % vertices->size()][odd % 3] = bytes.number();
+    if (odd % 8 == 1) return vertices;
+    const osg::ref_ptr<osg::Vec3Array> floats = new osg::Vec3Array;
+    for (const osg::Vec3d& vertex : *vertices) floats->push_back(osg::Vec3(vertex));
+    return floats;
+}
+
+osg::ref_ptr<osg::Geometry> makeGeometry(Bytes& bytes, const ScenePlace& place, const osg::Vec3d& origin) {
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    const int kind = bytes.below(16);
+    if (kind == 15) return geometry;
+    const int posts = kind == 14 ? 1 : 2 + kind % 4;
+    if (kind != 13) geometry->setVertexArray(makeVertices(bytes, place, posts, origin));
+    for (int i = kind == 12 ? 2 : 1; i > 0; --i) geometry->addPrimitiveSet(makePrimitives(bytes, posts));
+    if (kind == 11) {
+        const osg::ref_ptr<osg::Vec2Array> coordinates = new osg::Vec2Array;
+        for (int i = 0; i < posts * posts; ++i)
+            coordinates->push_back(osg::Vec2{static_cast<float>(bytes.byte()) / 255.0f, bytes.flag() ? 0.0f : 1.0f});
+        geometry->setTexCoordArray(0, coordinates);
+    }
+    return geometry;
+}
+
+osg::Matrixd makeMatrix(Bytes& bytes, const osg::Vec3d& origin) {
+    osg::Matrixd matrix = osg::Matrixd::translate(origin);
+    switch (bytes.below(12)) {
+        case 8:
+            matrix.ptr()[bytes.below(16)] = bytes.number();
+            break;
+        case 9:
+            matrix.preMultScale(osg::Vec3d(bytes.number(), 1.0, 0.0));
+            break;
+        case 10:
+            matrix.makeScale(osg::Vec3d(0.0, 0.0, 0.0));
+            break;
+        case 11:
+            matrix.preMultRotate(osg::Quat(bytes.between(-4.0, 4.0), osg::Vec3d(0.0, 0.6, 0.8)));
+            break;
+        default:
+            break;
+    }
+    return matrix;
+}
+
+osg::ref_ptr<osg::Node> makeMesh(Bytes& bytes, const ScenePlace& place) {
+    const bool isCentred = bytes.below(4) != 3;
+    const osg::Vec3d middle = ecefOf(0.5 * (place.south + place.north), 0.5 * (place.west + place.east), place.height);
+    const osg::Vec3d origin = isCentred ? middle : osg::Vec3d();
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->addDrawable(makeGeometry(bytes, place, origin));
+    if (!isCentred) return geode;
+    const osg::ref_ptr<osg::MatrixTransform> mesh = new osg::MatrixTransform(makeMatrix(bytes, origin));
+    if (bytes.byte() == 255) mesh->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+    if (bytes.byte() == 255) mesh->setDataVariance(osg::Object::DYNAMIC);
+    mesh->addChild(geode);
+    return mesh;
+}
+
+osg::ref_ptr<osg::Node> makeTerrainTile(Bytes& bytes, const ScenePlace& place) {
+    const osg::ref_ptr<osgTerrain::Locator> locator = new osgTerrain::Locator;
+    locator->setCoordinateSystemType(static_cast<osgTerrain::Locator::CoordinateSystemType>(bytes.below(3)));
+    locator->setTransformAsExtents(osg::DegreesToRadians(place.west), osg::DegreesToRadians(place.south),
+                                   osg::DegreesToRadians(place.east), osg::DegreesToRadians(place.north));
+    if (bytes.byte() >= 240) locator->setTransform(makeMatrix(bytes, osg::Vec3d{bytes.number(), bytes.number(), 0.0}));
+    const osg::ref_ptr<osg::HeightField> field = new osg::HeightField;
+    const auto columns = static_cast<unsigned int>(bytes.below(5));
+    field->allocate(columns, static_cast<unsigned int>(bytes.below(5)));
+    for (float& height : *field->getFloatArray()) height = static_cast<float>(bytes.number());
+    field->setSkirtHeight(static_cast<float>(bytes.number()));
+    const osg::ref_ptr<osgTerrain::HeightFieldLayer> layer = new osgTerrain::HeightFieldLayer(field);
+    if (bytes.byte() != 255) layer->setLocator(locator);
+    const osg::ref_ptr<osgTerrain::TerrainTile> tile = new osgTerrain::TerrainTile;
+    if (bytes.byte() != 255) tile->setElevationLayer(layer);
+    return tile;
+}
+
+/// A part of the place, or anywhere.
+ScenePlace placeInside(Bytes& bytes, const ScenePlace& place) {
+    const int kind = bytes.byte();
+    if (kind == 255) {
+        ScenePlace odd{bytes.number(), bytes.number(), bytes.number(), bytes.number(), bytes.number()};
+        return odd;
+    }
+    ScenePlace inside = place;
+    const double latitude = 0.5 * (place.south + place.north);
+    const double longitude = 0.5 * (place.west + place.east);
+    (kind & 1 ? inside.south : inside.north) = latitude;
+    (kind & 2 ? inside.west : inside.east) = longitude;
+    inside.height = kind & 4 ? bytes.between(-9000.0, 9000.0) : place.height;
+    return inside;
+}
+
+/// What is stored with a node: of its place, with numbers that are wrong, or anything.
+void addStored(Bytes& bytes, const ScenePlace& place, osg::Node& node) {
+    const int kind = bytes.byte();
+    if (kind < 96) return;
+    std::array<double, 8> numbers{
+        place.south, place.west, place.height - 40000.0, place.north, place.east, place.height + 100.0, 1.0, 0.0};
+    for (int i = kind < 176 ? 0 : 1 + kind % 4; i > 0; --i) {
+        const auto which = static_cast<std::size_t>(bytes.below(8));
+        numbers[which] = bytes.flag() ? bytes.number() : numbers[which] * bytes.between(-2.0, 2.0);
+    }
+    std::string text;
+    for (const double number : numbers) {
+        char word[40];
+        std::snprintf(word, sizeof word, "%.17g ", number);
+        text += word;
+    }
+    if (kind >= 252)
+        node.setUserValue("osgAnalyticBin", static_cast<int>(bytes.byte()));
+    else
+        node.setUserValue("osgAnalyticBin", text.substr(0, kind >= 240 ? bytes.byte() : text.size()));
+    if (kind % 16 == 15) node.setUserValue("osgAnalyticBin.surfaceLow", std::to_string(bytes.number()));
+}
+
+struct Maker {
+    Bytes& bytes;
+    int nodes = 0;
+
+    osg::ref_ptr<osg::Node> make(const ScenePlace& place, int depth) {
+        const osg::ref_ptr<osg::Node> node = makeNode(placeInside(bytes, place), depth);
+        if (bytes.byte() == 255) node->setNodeMask(bytes.byte());
+        return node;
+    }
+
+private:
+    osg::ref_ptr<osg::Node> makeNode(const ScenePlace& place, int depth) {
+        const int kind = ++nodes >= kMostNodes || depth >= kDeepest || bytes.empty() ? 0 : bytes.below(16);
+        const osg::ref_ptr<osg::Node> node = kind < 4 ? makeMesh(bytes, place) : makeInner(kind, place, depth);
+        addStored(bytes, place, *node);
+        return node;
+    }
+
+    osg::ref_ptr<osg::Node> makeInner(int kind, const ScenePlace& place, int depth) {
+        if (kind < 8) return makePaged(place);
+        if (kind == 8) return makeTerrainTile(bytes, place);
+        const osg::ref_ptr<osg::Group> group = makeGroup(kind, place);
+        for (int i = 1 + bytes.below(4); i > 0; --i) group->addChild(make(place, depth + 1));
+        if (auto* lod = dynamic_cast<osg::LOD*>(group.get()))
+            for (unsigned int i = 0; i < lod->getNumChildren(); ++i) lod->setRange(i, 0.0f, 1e10f);
+        return group;
+    }
+
+    osg::ref_ptr<osg::Group> makeGroup(int kind, const ScenePlace& place) {
+        switch (kind) {
+            case 9:
+                return new osg::Switch;
+            case 10:
+                return new osg::LOD;
+            case 11:
+                return new osg::MatrixTransform(makeMatrix(bytes, osg::Vec3d(0, 0, bytes.between(-100.0, 100.0))));
+            case 12: {
+                const osg::ref_ptr<osg::PositionAttitudeTransform> moved = new osg::PositionAttitudeTransform;
+                moved->setScale(osg::Vec3d(1.0, 1.0, bytes.flag() ? 1.0 : bytes.number()));
+                return moved;
+            }
+            case 13: {
+                if (place.height < 1000.0) return new osg::Group;
+                const osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
+                const double equatorial = bytes.flag() ? 1.7e6 : bytes.number();
+                globe->setEllipsoidModel(new osg::EllipsoidModel(equatorial, bytes.flag() ? 1.6e6 : bytes.number()));
+                return globe;
+            }
+            default:
+                return new osg::Group;
+        }
+    }
+
+    osg::ref_ptr<osg::Node> makePaged(const ScenePlace& place) {
+        const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
+        paged->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+        paged->addChild(makeMesh(bytes, place), 0.0f, 1e10f);
+        if (bytes.below(8) == 7) paged->addChild(makeMesh(bytes, placeInside(bytes, place)), 0.0f, 1e10f);
+        const unsigned int next = paged->getNumChildren();
+        paged->setFileName(next, std::to_string(bytes.below(4)) + ".osgb");
+        paged->setRange(next, 0.0f, 1e10f);
+        return paged;
+    }
+};
+
+class TraitsFinder : public osg::NodeVisitor {
+public:
+    TraitsFinder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+
+    void apply(osg::Node& node) override {
+        // traversed, it makes its mesh, and OSG does not look whether there are heights
+        if (dynamic_cast<osgTerrain::TerrainTile*>(&node))
+            traits.hasTerrainTiles = true;
+        else
+            traverse(node);
+    }
+    void apply(osg::Transform& node) override {
+        osg::Matrixd matrix;
+        node.computeLocalToWorldMatrix(matrix, nullptr);
+        for (int i = 0; i < 16; ++i) note(matrix.ptr()[i]);
+        traverse(node);
+    }
+    void apply(osg::Geometry& geometry) override {
+        const osg::Array* vertices = geometry.getVertexArray();
+        const std::int64_t count = vertices ? vertices->getNumElements() : 0;
+        for (const auto& primitives : geometry.getPrimitiveSetList()) notePrimitives(*primitives, count);
+        if (const auto* floats = dynamic_cast<const osg::Vec3Array*>(vertices))
+            for (const osg::Vec3& v : *floats) note(static_cast<double>(v.x()) + static_cast<double>(v.y() + v.z()));
+        if (const auto* doubles = dynamic_cast<const osg::Vec3dArray*>(vertices))
+            for (const osg::Vec3d& v : *doubles) note(v.x() + v.y() + v.z());
+    }
+
+    SceneTraits traits;
+
+private:
+    void note(double number) { traits.hasOddNumbers = traits.hasOddNumbers || !(std::abs(number) < 1e30); }
+
+    void notePrimitives(const osg::PrimitiveSet& primitives, std::int64_t count) {
+        if (const auto* arrays = dynamic_cast<const osg::DrawArrays*>(&primitives)) {
+            const std::int64_t end = std::int64_t{arrays->getFirst()} + arrays->getCount();
+            return noteRange(arrays->getFirst(), arrays->getCount(), end, count);
+        }
+        if (const auto* lengths = dynamic_cast<const osg::DrawArrayLengths*>(&primitives)) {
+            std::int64_t end = lengths->getFirst();
+            for (const GLsizei length : *lengths) noteRange(end, length, end + length, count), end += length;
+            return;
+        }
+        for (unsigned int i = 0; i < primitives.getNumIndices(); ++i)
+            noteRange(primitives.index(i), 0, primitives.index(i) + 1, count);
+    }
+    void noteRange(std::int64_t first, std::int64_t length, std::int64_t end, std::int64_t count) {
+        if (first < 0 || length < 0 || end > count) traits.hasWildIndices = true;
+    }
+};
+
+}  // namespace
+
+osg::ref_ptr<osg::Node> makeFile(Bytes& bytes, const ScenePlace& place, bool isRoot) {
+    Maker maker{bytes};
+    if (!isRoot) return maker.make(place, 0);
+    const osg::ref_ptr<osg::Group> root =
+        bytes.byte() == 255 ? new osg::Group : static_cast<osg::Group*>(new osg::CoordinateSystemNode);
+    if (auto* globe = dynamic_cast<osg::CoordinateSystemNode*>(root.get()))
+        globe->setEllipsoidModel(new osg::EllipsoidModel);
+    for (int i = 1 + bytes.below(3); i > 0; --i) root->addChild(maker.make(place, 0));
+    return root;
+}
+
+osg::ref_ptr<osg::Node> writtenAndRead(const osg::Node& scene, bool asText) {
+    const char* const extension = asText ? "osgt" : "osgb";
+    osgDB::ReaderWriter* const plugin = osgDB::Registry::instance()->getReaderWriterForExtension(extension);
+    if (!plugin) return nullptr;
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("precision 17");
+    options->setPluginStringData("fileType", asText ? "Ascii" : "Binary");
+    std::stringstream stream;
+    if (!plugin->writeNode(scene, stream, options).success()) return nullptr;
+    osgDB::ReaderWriter::ReadResult result = plugin->readNode(stream, options);
+    return result.takeNode();
+}
+
+SceneTraits traitsOf(osg::Node& scene) {
+    TraitsFinder finder;
+    scene.accept(finder);
+    return finder.traits;
+}
+
+}  // namespace osgAnalyticBin::test
