@@ -26,6 +26,14 @@ if(OSGANALYTICBIN_CCACHE AND PROJECT_IS_TOP_LEVEL AND NOT DEFINED CMAKE_CXX_COMP
   endif()
 endif()
 
+if(OSGANALYTICBIN_SANITIZE STREQUAL "thread")
+  set(OSGANALYTICBIN_SANITIZERS thread)
+elseif(OSGANALYTICBIN_SANITIZE)
+  set(OSGANALYTICBIN_SANITIZERS address,undefined)
+else()
+  set(OSGANALYTICBIN_SANITIZERS "")
+endif()
+
 # Every target calls this once: C++17 and private warnings. Contraction of a*b+c into fused operations is
 # switched off because it would let verdicts differ between machines.
 function(osganalyticbin_defaults target)
@@ -35,9 +43,9 @@ function(osganalyticbin_defaults target)
   target_compile_options(
     ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -ffp-contract=off
                       $<$<BOOL:${OSGANALYTICBIN_WERROR}>:-Werror>)
-  if(OSGANALYTICBIN_SANITIZE)
-    target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-omit-frame-pointer)
-    target_link_options(${target} PRIVATE -fsanitize=address,undefined)
+  if(OSGANALYTICBIN_SANITIZERS)
+    target_compile_options(${target} PRIVATE -fsanitize=${OSGANALYTICBIN_SANITIZERS} -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=${OSGANALYTICBIN_SANITIZERS})
   endif()
   if(OSGANALYTICBIN_FUZZ)
     target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)

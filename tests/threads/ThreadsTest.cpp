@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Everything that the kit allows while a database is shown, in all of osgViewer's threading models, with a live
+// DatabasePager. Built with the thread sanitizer (preset tsan) this fails on data races; without, on crashes, hangs and
+// tiles that never come. Needs a display; skipped where no graphics context can be made.
+
+#include "PagedScenes.h"
+#include "ViewerRig.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/viewer/BinDisplayHandler.h>
+#include <osgAnalyticBin/viewer/BinStatsHandler.h>
+#include <osgAnalyticBin/viewer/FreezeCullHandler.h>
+#include <osgAnalyticBin/viewer/MethodSwitchHandler.h>
+#include <osgAnalyticBin/viewer/TileSurvey.h>
+
+#include <gtest/gtest.h>
+#include <osg/PagedLOD>
+#include <osgDB/ReadFile>
+#include <osgTerrain/Terrain>
+#include <osgUtil/SceneView>
+#include <osgViewer/Renderer>
+#include <osgViewer/ViewerEventHandlers>
+
+#include <array>
+#include <chrono>
+#include <support/Random.h>
+#include <support/TemporaryFolder.h>
+#include <thread>
+#include <tuple>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+constexpr int kFrames = 40;
+constexpr double kFrameTime = 0.05;
+
+// The databases are written once.
+const TemporaryFolder& databases() {
+    static const TemporaryFolder folder;
+    return folder;
+}
+
+const std::string& falseDatabase() {
+    static const std::string file = writeFalseDatabase(databases().makeFolder("false"));
+    return file;
+}
+
+const std::string& terrainDatabase() {
+    static const std::string file = writeTerrainDatabase(databases().makeFolder("terrain"));
+    return file;
+}
+
+class PagedCounter : public osg::NodeVisitor {
+public:
+    PagedCounter() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    using osg::NodeVisitor::apply;
+    void apply(osg::PagedLOD& node) override {
+        if (node.getNumChildren() > 1) ++count;
+        traverse(node);
+    }
+    int count = 0;
+};
+
+int pagedIn(osg::Node& scene) {
+    PagedCounter counter;
+    scene.accept(counter);
+    return counter.count;
+}
+
+// Tiles that bins culled in the last frame, over all cameras.
+unsigned int culledBy(const std::vector<osg::Camera*>& cameras) {
+    unsigned int outside = 0;
+    for (osg::Camera* camera : cameras) {
+        auto* renderer = dynamic_cast<osgViewer::Renderer*>(camera->getRenderer());
+        for (unsigned int i = 0; renderer && i < 2; ++i) {
+            const BinStatistics* statistics = BinStatistics::find(*renderer->getSceneView(i)->getCullVisitor());
+            if (statistics) outside += statistics->counts().outside;
+        }
+    }
+    return outside;
+}
+
+CullOptions optionsWith(Method method, HorizonUse horizonUse = HorizonUse::ByMethod) {
+    CullOptions options;
+    options.method = method;
+    options.horizonUse = horizonUse;
+    options.horizon = -130000.0;
+    options.expiry = 0.1;
+    return options;
+}
+
+void lookAround(ViewerRig& rig, Random& random) {
+    const double altitude = random.logUniform(2e5, 2e7);
+    rig.look(viewFrom(random.uniform(-80.0, 80.0), random.uniform(-180.0, 180.0), altitude, random.uniform(0.0, 360.0),
+                      random.uniform(0.0, 70.0)));
+}
+
+// What an application may change between frames, one thing after the other.
+class Changes {
+public:
+    Changes(ViewerRig& rig, osg::Group& scene)
+        : _rig(rig),
+          _scene(scene),
+          _stats(new osgViewer::StatsHandler),
+          _freeze(new FreezeCullHandler),
+          _switch(new MethodSwitchHandler(optionsWith(Method::Quadratic))),
+          _display(new BinDisplayHandler) {
+        _display->setShown(BinDisplayHandler::Shown::All);
+        rig.view().addEventHandler(new BinStatsHandler(*_stats));
+        rig.view().addEventHandler(_display);
+        rig.view().addEventHandler(_switch);
+        rig.viewer().getViewerStats()->collectStats("frame_rate", true);
+    }
+
+    void make(int frame) {
+        constexpr std::array<Method, 6> kMethods{Method::Quadratic, Method::Sphere, Method::Exact,
+                                                 Method::None,      Method::Box,    Method::Quadratic};
+        const auto step = static_cast<std::size_t>(frame / 4);
+        const CullOptions options =
+            optionsWith(kMethods[step % kMethods.size()], step % 2 == 0 ? HorizonUse::ByMethod : HorizonUse::Given);
+        if (frame % 8 == 3) setCullOptions(_scene, options);
+        if (frame % 8 == 7) _switch->setMethod(_rig.view(), options.method);
+        if (frame % 5 == 2) scaleTerrain(1.0f + static_cast<float>(frame % 3));
+        if (frame % 6 == 1) _freeze->setFrozen(_rig.view(), !_freeze->isFrozen());
+        if (frame % 3 == 0) culled += culledBy(_rig.cameras());
+    }
+
+    unsigned int culled = 0;
+
+private:
+    void scaleTerrain(float scale) {
+        for (unsigned int i = 0; i < _scene.getNumChildren(); ++i) {
+            if (auto* terrain = dynamic_cast<osgTerrain::Terrain*>(_scene.getChild(i)))
+                terrain->setVerticalScale(scale);
+        }
+    }
+
+    ViewerRig& _rig;
+    osg::Group& _scene;
+    const osg::ref_ptr<osgViewer::StatsHandler> _stats;
+    const osg::ref_ptr<FreezeCullHandler> _freeze;
+    const osg::ref_ptr<MethodSwitchHandler> _switch;
+    const osg::ref_ptr<BinDisplayHandler> _display;
+};
+
+osg::ref_ptr<osg::Group> readScene(const std::vector<std::string>& files) {
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    for (const std::string& file : files) {
+        const osg::ref_ptr<osg::Node> database = osgDB::readRefNodeFile(file);
+        if (!database) return nullptr;
+        installBins(*database, optionsWith(Method::Quadratic), file);
+        scene->addChild(database);
+    }
+    return scene;
+}
+
+// Flies over the scene while everything changes. Returns: the most PagedLODs that were refined at once.
+int fly(osg::Group& scene, Threading threading, Layout layout, int cameras, unsigned int& culled) {
+    ViewerRig rig(scene, threading, layout, cameras);
+    rig.setMostPagedLods(8);
+    Changes changes(rig, scene);
+    Random random(900);
+    int most = 0;
+    for (int frame = 0; frame < kFrames; ++frame) {
+        if (frame % 10 == 0) lookAround(rig, random);
+        rig.update(frame * kFrameTime);
+        changes.make(frame);
+        most = std::max(most, pagedIn(scene));
+        rig.render();
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    culled = changes.culled;
+    return most;
+}
+
+using Parameters = std::tuple<Threading, Layout, int>;
+
+std::string caseName(const testing::TestParamInfo<Parameters>& info) {
+    const auto& [threading, layout, cameras] = info.param;
+    return std::string(nameOf(threading)) + (layout == Layout::Views ? "Views" : "Slaves") + std::to_string(cameras);
+}
+
+class Threads : public testing::TestWithParam<Parameters> {};
+
+TEST_P(Threads, ChangeEverythingWhilePagingIsLive) {
+    if (!ViewerRig::canDraw()) GTEST_SKIP() << "no graphics context";
+    const osg::ref_ptr<osg::Group> scene = readScene({falseDatabase(), terrainDatabase()});
+    ASSERT_TRUE(scene);
+    const auto& [threading, layout, cameras] = GetParam();
+    unsigned int culled = 0;
+    EXPECT_GT(fly(*scene, threading, layout, cameras, culled), 0);
+    EXPECT_GT(culled, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, Threads,
+                         testing::Combine(testing::ValuesIn(kThreadingModels),
+                                          testing::Values(Layout::Views, Layout::Slaves), testing::Values(1, 2, 4)),
+                         caseName);
+
+TEST(ThreadsOnVpb, ChangeEverythingWhilePagingIsLive) {
+    if (!ViewerRig::canDraw()) GTEST_SKIP() << "no graphics context";
+    const std::string folder = std::string(SHARED_DATA_FOLDER) + "/vpb/";
+    const osg::ref_ptr<osg::Group> scene = readScene({folder + "terrain/earth.osgb", folder + "polygonal/earth.osgb"});
+    if (!scene) GTEST_SKIP() << "no samples";
+    unsigned int culled = 0;
+    EXPECT_GT(fly(*scene, Threading::CullThreadPerCameraDrawThreadPerContext, Layout::Views, 2, culled), 0);
+    EXPECT_GT(culled, 0u);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "ViewerRig.h"
+
+#include <osg/CoordinateSystemNode>
+#include <osg/GraphicsContext>
+#include <osgDB/DatabasePager>
+#include <osgViewer/CompositeViewer>
+#include <osgViewer/Viewer>
+
+namespace osgAnalyticBin::test {
+
+namespace {
+
+constexpr int kSize = 64;
+constexpr double kFovDeg = 40.0;
+
+osg::ref_ptr<osg::GraphicsContext> makeContext(int width) {
+    osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
+    traits->width = width;
+    traits->height = kSize;
+    traits->pbuffer = true;
+    traits->doubleBuffer = false;
+    traits->readDISPLAY();
+    return osg::GraphicsContext::createGraphicsContext(traits);
+}
+
+void setUp(osg::Camera& camera, osg::GraphicsContext* context, int x) {
+    camera.setGraphicsContext(context);
+    camera.setViewport(x, 0, kSize, kSize);
+    camera.setProjectionMatrixAsPerspective(kFovDeg, 1.0, 1000.0, 1e8);
+}
+
+osg::Matrixd turned(int camera) {
+    return osg::Matrixd::rotate(osg::DegreesToRadians(30.0 * camera), 0.3, 1.0, 0.0);
+}
+
+osg::ref_ptr<osgViewer::ViewerBase> makeViews(int cameras, std::vector<osgViewer::View*>& views) {
+    const osg::ref_ptr<osgViewer::CompositeViewer> viewer = new osgViewer::CompositeViewer;
+    for (int i = 0; i < cameras; ++i) {
+        const osg::ref_ptr<osgViewer::View> view = new osgViewer::View;
+        setUp(*view->getCamera(), makeContext(kSize), 0);
+        viewer->addView(view);
+        views.push_back(view);
+    }
+    return viewer;
+}
+
+osg::ref_ptr<osgViewer::ViewerBase> makeSlaves(int cameras, std::vector<osgViewer::View*>& views) {
+    const osg::ref_ptr<osgViewer::Viewer> viewer = new osgViewer::Viewer;
+    const osg::ref_ptr<osg::GraphicsContext> context = makeContext(cameras * kSize);
+    viewer->getCamera()->setProjectionMatrixAsPerspective(kFovDeg, 1.0, 1000.0, 1e8);
+    for (int i = 0; i < cameras; ++i) {
+        const osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+        setUp(*camera, context, i * kSize);
+        viewer->addSlave(camera, osg::Matrixd(), turned(i));
+    }
+    views.push_back(viewer);
+    return viewer;
+}
+
+}  // namespace
+
+const char* nameOf(Threading threading) {
+    switch (threading) {
+        case Threading::SingleThreaded:
+            return "SingleThreaded";
+        case Threading::CullDrawThreadPerContext:
+            return "CullDrawThreadPerContext";
+        case Threading::DrawThreadPerContext:
+            return "DrawThreadPerContext";
+        case Threading::CullThreadPerCameraDrawThreadPerContext:
+            return "CullThreadPerCameraDrawThreadPerContext";
+        case Threading::AutomaticSelection:
+            break;
+    }
+    return "AutomaticSelection";
+}
+
+ViewerRig::ViewerRig(osg::Node& scene, Threading threading, Layout layout, int cameras)
+    : _viewer(layout == Layout::Views ? makeViews(cameras, _views) : makeSlaves(cameras, _views)) {
+    _viewer->setThreadingModel(threading);
+    _viewer->setKeyEventSetsDone(0);
+    for (osgViewer::View* view : _views) view->setSceneData(&scene);
+    _viewer->realize();
+    _viewer->getCameras(_cameras);
+}
+
+ViewerRig::~ViewerRig() {
+    _viewer->stopThreading();
+}
+
+bool ViewerRig::canDraw() {
+    const osg::ref_ptr<osg::GraphicsContext> context = makeContext(kSize);
+    return context && context->realize();
+}
+
+void ViewerRig::setMostPagedLods(unsigned int count) {
+    view().getDatabasePager()->setTargetMaximumNumberOfPageLOD(count);
+}
+
+void ViewerRig::look(const osg::Matrixd& view) {
+    for (std::size_t i = 0; i < _views.size(); ++i) {
+        _views[i]->getCamera()->setViewMatrix(view * turned(static_cast<int>(i)));
+    }
+}
+
+void ViewerRig::update(double time) {
+    _viewer->advance(time);
+    _viewer->eventTraversal();
+    _viewer->updateTraversal();
+}
+
+void ViewerRig::render() {
+    _viewer->renderingTraversals();
+}
+
+osg::Matrixd viewFrom(double latitude, double longitude, double altitude, double heading, double pitch) {
+    osg::Matrixd toWorld;
+    osg::EllipsoidModel().computeLocalToWorldTransformFromLatLongHeight(
+        osg::DegreesToRadians(latitude), osg::DegreesToRadians(longitude), altitude, toWorld);
+    const osg::Matrixd turn = osg::Matrixd::rotate(osg::DegreesToRadians(pitch), 1.0, 0.0, 0.0) *
+                              osg::Matrixd::rotate(osg::DegreesToRadians(-heading), 0.0, 0.0, 1.0);
+    return osg::Matrixd::inverse(turn * toWorld);
+}
+
+}  // namespace osgAnalyticBin::test
