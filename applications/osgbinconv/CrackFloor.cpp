@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace osgbinconv {
 
@@ -87,9 +89,10 @@ private:
 
 class CrackFloors {
 public:
-    explicit CrackFloors(const std::vector<TreeTile>& tiles) : _tiles(tiles), _neighbours(findNeighbours(tiles)) {}
+    explicit CrackFloors(const std::vector<TreeTile>& tiles)
+        : _tiles(tiles), _beside(findNeighbours(tiles)), _lastSeenFor(tiles.size(), kNone) {}
 
-    [[nodiscard]] AnalyticBin binOf(std::uint32_t index) const {
+    [[nodiscard]] AnalyticBin binOf(std::uint32_t index) {
         const TreeTile& tile = _tiles[index];
         if (!tile.isKnown) return {};
         Floor floor{tile.united.bin().altitude().lower, tile.united.sag(), true};
@@ -105,7 +108,14 @@ public:
         return bin;
     }
 
+    /// Pairs of tiles that were looked at.
+    [[nodiscard]] std::size_t comparisons() const { return _beside.comparisons + _steps; }
+
 private:
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+    // What is looked at for one tile; quadtrees have some hundreds. Beyond, the whole skirt counts.
+    static constexpr std::size_t kMostSteps = 4096;
+
     struct Floor {
         double low;
         double sag;
@@ -113,7 +123,8 @@ private:
     };
 
     void lowerToSameDepth(std::uint32_t index, Floor& floor) const {
-        for (const Neighbour& neighbour : _neighbours[index]) {
+        floor.isKnown = floor.isKnown && !_beside.isCrowded[index];
+        for (const Neighbour& neighbour : _beside.neighbours[index]) {
             const TreeTile& other = _tiles[neighbour.tile];
             floor.isKnown = floor.isKnown && other.isKnown;
             if (!other.isKnown) return;
@@ -122,14 +133,18 @@ private:
         }
     }
 
-    void lowerToCoarser(std::uint32_t index, Floor& floor) const {
+    void lowerToCoarser(std::uint32_t index, Floor& floor) {
+        if (!floor.isKnown) return;
         const TileRect own = rectOf(_tiles[index].record->surface);
         EdgeCover cover(own);
-        for (const std::uint32_t ancestor : lineOf(index)) {
+        const auto line = lineOf(index);
+        floor.isKnown = line.has_value();
+        if (!line) return;
+        for (const std::uint32_t ancestor : *line) {
             const TileSurface& surface = _tiles[ancestor].record->surface;
             const TileRect rect = besideOf(own, rectOf(surface));
             const double turn = rect.longitude.lower - surface.bin.bin().longitude().lower;
-            for (const Neighbour& neighbour : _neighbours[ancestor]) {
+            for (const Neighbour& neighbour : _beside.neighbours[ancestor]) {
                 const TileSurface& other = _tiles[neighbour.tile].record->surface;
                 const TileRect otherRect = rectOf(other).turned(neighbour.turn + turn);
                 if (!touch(own, otherRect)) continue;
@@ -141,12 +156,21 @@ private:
         floor.isKnown = floor.isKnown && cover.isWhole();
     }
 
-    /// The tile and all its ancestors of known surface.
-    [[nodiscard]] std::vector<std::uint32_t> lineOf(std::uint32_t index) const {
+    /// The tile and all its ancestors of known surface, each once.
+    /// Returns: nullopt when they and their neighbours are too many.
+    [[nodiscard]] std::optional<std::vector<std::uint32_t>> lineOf(std::uint32_t index) {
         std::vector<std::uint32_t> line{index};
+        _lastSeenFor[index] = index;
+        std::size_t steps = 0;
         for (std::size_t i = 0; i < line.size(); ++i) {
-            for (const std::uint32_t parent : _tiles[line[i]].parents) line.push_back(parent);
+            const std::uint32_t tile = line[i];
+            steps += 1 + _tiles[tile].parents.size() + _beside.neighbours[tile].size();
+            if (steps > kMostSteps || _beside.isCrowded[tile]) return std::nullopt;
+            for (const std::uint32_t parent : _tiles[tile].parents) {
+                if (std::exchange(_lastSeenFor[parent], index) != index) line.push_back(parent);
+            }
         }
+        _steps += steps;
         const auto isUnknown = [this](std::uint32_t tile) { return !_tiles[tile].record->surface.bin.valid(); };
         line.erase(std::remove_if(line.begin(), line.end(), isUnknown), line.end());
         return line;
@@ -160,16 +184,19 @@ private:
     }
 
     const std::vector<TreeTile>& _tiles;
-    std::vector<std::vector<Neighbour>> _neighbours;
+    Neighbourhood _beside;
+    std::vector<std::uint32_t> _lastSeenFor;
+    std::size_t _steps = 0;
 };
 
 }  // namespace
 
-std::vector<AnalyticBin> binsWithCracks(const std::vector<TreeTile>& tiles) {
-    const CrackFloors floors(tiles);
+std::vector<AnalyticBin> binsWithCracks(const std::vector<TreeTile>& tiles, std::size_t* comparisons) {
+    CrackFloors floors(tiles);
     std::vector<AnalyticBin> bins;
     bins.reserve(tiles.size());
     for (std::size_t i = 0; i < tiles.size(); ++i) bins.push_back(floors.binOf(static_cast<std::uint32_t>(i)));
+    if (comparisons) *comparisons = floors.comparisons();
     for (std::size_t i = tiles.size(); i-- > 0;) {
         for (const std::uint32_t parent : tiles[i].parents) {
             if (bins[parent].valid()) bins[parent].expandBy(bins[i]);
@@ -183,12 +210,12 @@ bool coversTheGlobe(const std::vector<TreeTile>& tiles) {
     for (const TreeTile& tile : tiles) {
         if (tile.depth == 0) top.push_back(tile);
     }
-    const std::vector<std::vector<Neighbour>> neighbours = findNeighbours(top);
+    const Neighbourhood beside = findNeighbours(top);
     for (std::size_t i = 0; i < top.size(); ++i) {
-        if (!top[i].record->surface.bin.valid()) return false;
+        if (!top[i].record->surface.bin.valid() || beside.isCrowded[i]) return false;
         const TileRect rect = rectOf(top[i].record->surface);
         EdgeCover cover(rect);
-        for (const Neighbour& neighbour : neighbours[i]) {
+        for (const Neighbour& neighbour : beside.neighbours[i]) {
             cover.add(rectOf(top[neighbour.tile].record->surface).turned(neighbour.turn));
         }
         if (!cover.isWhole()) return false;

@@ -7,6 +7,7 @@
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
+#include <cstddef>
 #include <vector>
 
 namespace osgbinconv {
@@ -22,8 +23,10 @@ namespace osgbinconv {
 /// but nowhere lower than the skirts of A and its descendants reach, which needs no neighbours. No skirt grows with the
 /// vertical scale: where its end is the floor, its length counts as sag. At last each bin is made to hold those of its
 /// descendants.
-/// Returns: by tile; not valid where something is not known.
-[[nodiscard]] std::vector<osgAnalyticBin::AnalyticBin> binsWithCracks(const std::vector<TreeTile>& tiles);
+/// Where more tiles lie beside or above one than any terrain has, (4) holds: the effort is bounded for each tile.
+/// Returns: by tile; not valid where something is not known. `comparisons`: if not null, of pairs of tiles.
+[[nodiscard]] std::vector<osgAnalyticBin::AnalyticBin> binsWithCracks(const std::vector<TreeTile>& tiles,
+                                                                      std::size_t* comparisons = nullptr);
 
 /// Whether the tiles that stand below no other leave nothing of the globe out: each of their edges has a neighbour, or
 /// is a pole.

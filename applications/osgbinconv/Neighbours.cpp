@@ -8,7 +8,6 @@
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <utility>
 
@@ -48,26 +47,33 @@ TileRect shifted(TileRect rect) {
     return rect.turned(-kTwoPi * std::floor((rect.longitude.lower + 0.5 * kTwoPi) / kTwoPi));
 }
 
-std::vector<Neighbour> neighboursOf(std::uint32_t index, const std::vector<TreeTile>& tiles, const Tree& tree) {
+/// Adds the neighbours of one tile, unless there is a crowd.
+void addNeighbours(std::uint32_t index, const std::vector<TreeTile>& tiles, const Tree& tree, Neighbourhood& result) {
     const TileRect stored = rectOf(tiles[index].record->surface);
     const TileRect own = shifted(stored);
-    std::vector<Neighbour> neighbours;
+    std::vector<Neighbour>& neighbours = result.neighbours[index];
+    std::size_t compared = 0;
     for (const double turn : {-kTwoPi, 0.0, kTwoPi}) {
-        std::vector<Item> found;
-        tree.query(bgi::intersects(boxOf(own.turned(-turn))), std::back_inserter(found));
-        for (const Item& item : found) {
-            if (item.second == index && turn == 0.0) continue;
-            const TileRect other = rectOf(tiles[item.second].record->surface);
+        const auto box = bgi::intersects(boxOf(own.turned(-turn)));
+        for (auto item = tree.qbegin(box); item != tree.qend(); ++item) {
+            if (item->second == index && turn == 0.0) continue;
+            if (++compared > kMostBeside) {
+                result.isCrowded[index] = true;
+                neighbours = {};
+                break;
+            }
+            const TileRect other = rectOf(tiles[item->second].record->surface);
             const double whole = shifted(other).longitude.lower - other.longitude.lower + turn +
                                  stored.longitude.lower - own.longitude.lower;
             const TileRect beside = other.turned(whole);
-            if (touch(stored, beside) && !isCorner(stored, beside)) neighbours.push_back({item.second, whole});
+            if (touch(stored, beside) && !isCorner(stored, beside)) neighbours.push_back({item->second, whole});
         }
+        if (result.isCrowded[index]) break;
     }
+    result.comparisons += compared;
     std::sort(neighbours.begin(), neighbours.end(), [](const Neighbour& a, const Neighbour& b) {
         return a.tile != b.tile ? a.tile < b.tile : a.turn < b.turn;
     });
-    return neighbours;
 }
 
 }  // namespace
@@ -100,19 +106,21 @@ bool touch(const TileRect& a, const TileRect& b) {
            overlap(a.longitude, b.longitude) >= -(a.longitudeTolerance + b.longitudeTolerance);
 }
 
-std::vector<std::vector<Neighbour>> findNeighbours(const std::vector<TreeTile>& tiles) {
+Neighbourhood findNeighbours(const std::vector<TreeTile>& tiles) {
     std::map<std::uint32_t, std::vector<Item>> levels;
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         const osgAnalyticBin::TileSurface& surface = tiles[i].record->surface;
         if (!surface.bin.valid()) continue;
         levels[tiles[i].depth].emplace_back(boxOf(shifted(rectOf(surface))), static_cast<std::uint32_t>(i));
     }
-    std::vector<std::vector<Neighbour>> neighbours(tiles.size());
+    Neighbourhood result;
+    result.neighbours.resize(tiles.size());
+    result.isCrowded.resize(tiles.size(), false);
     for (const auto& level : levels) {
         const Tree tree(level.second.begin(), level.second.end());
-        for (const Item& item : level.second) neighbours[item.second] = neighboursOf(item.second, tiles, tree);
+        for (const Item& item : level.second) addNeighbours(item.second, tiles, tree, result);
     }
-    return neighbours;
+    return result;
 }
 
 }  // namespace osgbinconv

@@ -6,6 +6,7 @@
 #include "TileTree.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -37,8 +38,21 @@ struct Neighbour {
     double turn = 0.0;
 };
 
-/// For each tile those of the same depth that touch it along more than a corner. Tiles without known surface have none
-/// and are none.
-[[nodiscard]] std::vector<std::vector<Neighbour>> findNeighbours(const std::vector<TreeTile>& tiles);
+/// What stands beside the tiles, by their indices.
+struct Neighbourhood {
+    /// The tiles of the same depth that touch each along more than a corner.
+    std::vector<std::vector<Neighbour>> neighbours;
+    /// Whether more tiles lie there than are looked at: then none is listed.
+    std::vector<bool> isCrowded;
+    /// Pairs of tiles that were compared.
+    std::size_t comparisons = 0;
+};
+
+/// The most tiles that are looked at for one. Grids have 8, insets of finer tiles some dozens; without a bound, tiles
+/// that are stacked in one place would take the square of their number.
+inline constexpr std::size_t kMostBeside = 256;
+
+/// Tiles without known surface have no neighbours and are none.
+[[nodiscard]] Neighbourhood findNeighbours(const std::vector<TreeTile>& tiles);
 
 }  // namespace osgbinconv

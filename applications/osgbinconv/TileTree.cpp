@@ -60,29 +60,51 @@ std::vector<const FileRecord*> sorted(const FileRecords& records) {
                   "\" is paged below itself; such a database has no end");
 }
 
+// Files that are paged below many tiles, and have many, multiply; no terrain does so.
+constexpr std::size_t kMostParents = 20000000;
+
+void requireFew(std::size_t parents, const std::string& file) {
+    if (parents <= kMostParents) return;
+    throw Failure("\"" + file +
+                  "\" and others are paged below so many tiles that no index can be made; page each file " +
+                  "below one tile");
+}
+
+std::vector<std::uint32_t> withoutRepeats(std::vector<std::uint32_t> list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    return list;
+}
+
 }  // namespace
 
 TileTree::TileTree(const FileRecords& records) {
-    std::map<std::string, Parents> above;  // the tiles that a file is paged below
+    std::map<std::string, Parents> above;  // the tiles that a file is paged below, some more than once
     for (const FileRecord* record : sorted(records)) {
-        const Parents parents = above[record->file];
+        const Parents parents = withoutRepeats(std::move(above[record->file]));
+        above.erase(record->file);
         const std::size_t first = _tiles.size();
         _first[record->file] = first;
         addTiles(*record, parents);
         addGaps(*record, parents);
-        for (const FileLink& link : record->links) {
-            Parents& list = above[link.file];
-            const auto tile = static_cast<std::uint32_t>(first + static_cast<std::size_t>(std::max(link.tile, 0)));
-            if (link.tile >= 0) {
-                list.push_back(tile);
-            } else {
-                list.insert(list.end(), parents.begin(), parents.end());
-            }
-            std::sort(list.begin(), list.end());
-            list.erase(std::unique(list.begin(), list.end()), list.end());
-        }
+        addLinks(*record, parents, above);
     }
     unite();
+}
+
+void TileTree::addLinks(const FileRecord& record, const Parents& parents, std::map<std::string, Parents>& above) const {
+    const auto first = static_cast<std::uint32_t>(_first.at(record.file));
+    std::set<std::string> inherited;
+    for (const FileLink& link : record.links) {
+        Parents& list = above[link.file];
+        if (link.tile >= 0) {
+            list.push_back(first + static_cast<std::uint32_t>(link.tile));
+        } else if (inherited.insert(link.file).second) {
+            list.insert(list.end(), parents.begin(), parents.end());
+        }
+        if (list.size() > kMostParents) list = withoutRepeats(std::move(list));
+        requireFew(list.size(), link.file);
+    }
 }
 
 void TileTree::addTiles(const FileRecord& record, const Parents& above) {
@@ -93,6 +115,8 @@ void TileTree::addTiles(const FileRecord& record, const Parents& above) {
         tile.parents = source.parent < 0
                            ? above
                            : Parents{static_cast<std::uint32_t>(first + static_cast<std::size_t>(source.parent))};
+        _parentCount += tile.parents.size();
+        requireFew(_parentCount, record.file);
         for (const std::uint32_t parent : tile.parents) tile.depth = std::max(tile.depth, _tiles[parent].depth + 1);
         tile.united = source.surface.bin;
         tile.isKnown = tile.united.valid();

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,7 @@ struct TreeTile {
 /// records.
 class TileTree final {
 public:
-    /// Throws Failure when a file is paged below itself.
+    /// Throws Failure when a file is paged below itself, or tiles below more tiles than memory should be spent on.
     explicit TileTree(const FileRecords& records);
 
     /// Parents stand before their children.
@@ -55,11 +56,13 @@ public:
 private:
     using Parents = std::vector<std::uint32_t>;
 
+    void addLinks(const FileRecord& record, const Parents& parents, std::map<std::string, Parents>& above) const;
     void addTiles(const FileRecord& record, const Parents& above);
     void addGaps(const FileRecord& record, const Parents& above);
     void unite();
 
     std::vector<TreeTile> _tiles;
+    std::size_t _parentCount = 0;
     std::map<std::string, std::size_t> _first;
     Gaps _unreadFiles;
     Gaps _unknownTiles;

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <osgbinconv/CrackFloor.h>
+#include <osgbinconv/Neighbours.h>
 
 #include <algorithm>
 #include <cmath>
@@ -183,6 +184,41 @@ TEST(CrackFloor, BesideAnUnknownTileTheWholeSkirtMayBeSeen) {
         if (forest.places[i].depth > 0 || edgeBeside(forest.places[0], forest.places[i]) < 0) continue;
         EXPECT_EQ(bins[i].bin().altitude().lower, forest.tiles[i].skirtLow);
     }
+}
+
+// Ten times as many tiles take ten times as long, whatever lies in one place.
+TEST(CrackFloor, StackedTilesAreNotAllCompared) {
+    Random random(604);
+    for (const std::size_t count : {2000u, 20000u}) {
+        Forest forest;
+        for (std::size_t i = 0; i < count; ++i) forest.add(random, {0, 1, 1}, -1, 0.0);
+        forest.unite();
+        std::size_t comparisons = 0;
+        const std::vector<AnalyticBin> bins = binsWithCracks(forest.tiles, &comparisons);
+        EXPECT_LE(comparisons, count * (kMostBeside + 10));
+        for (std::size_t i = 0; i < count; ++i)
+            ASSERT_EQ(bins[i].bin().altitude().lower, forest.tiles[i].skirtLow) << i;
+        EXPECT_FALSE(coversTheGlobe(forest.tiles));
+    }
+}
+
+// Each file pages the next below both of its tiles: the ways up are as many as two to the depth.
+TEST(CrackFloor, AncestorsAreMetOnceByHoweverManyWays) {
+    constexpr std::uint32_t kDepth = 300;
+    Random random(605);
+    Forest forest;
+    for (std::uint32_t depth = 0; depth < kDepth; ++depth) {
+        for (int column = 0; column < 2; ++column) {
+            forest.add(random, {0, column, 1}, -1, 0.0);
+            forest.tiles.back().depth = depth;
+            if (depth > 0) forest.tiles.back().parents = {2 * depth - 2, 2 * depth - 1};
+        }
+    }
+    forest.unite();
+    std::size_t comparisons = 0;
+    const std::vector<AnalyticBin> bins = binsWithCracks(forest.tiles, &comparisons);
+    EXPECT_LE(comparisons, std::size_t{2 * kDepth} * 2 * kDepth * 4);
+    for (std::size_t i = 0; i < bins.size(); ++i) ASSERT_TRUE(bins[i].contains(forest.tiles[i].united)) << i;
 }
 
 }  // namespace
