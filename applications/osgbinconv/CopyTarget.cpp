@@ -3,6 +3,7 @@
 
 #include "CopyTarget.h"
 
+#include "DiskFile.h"
 #include "Failure.h"
 
 #include <osgDB/FileNameUtils>
@@ -12,9 +13,12 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
+#include <unistd.h>
 
 namespace osgbinconv {
 
@@ -44,6 +48,12 @@ void writeFile(const std::string& path, const std::string& extension, const osg:
     if (!isWritten || !out) throw Failure("cannot write \"" + path + "\"; make room or choose another folder");
 }
 
+/// What stands in the marker of a copy.
+std::string markOf(const std::string& sourceFile) {
+    std::error_code ignored;
+    return fs::weakly_canonical(sourceFile, ignored).string() + "\n";
+}
+
 }  // namespace
 
 std::string withExtension(const std::string& name, const std::string& extension) {
@@ -54,13 +64,21 @@ CopyTarget::CopyTarget(const std::string& rootFile, const DatabaseFiles& source,
                        bool overwrite)
     : _rootFile(rootFile),
       _folder(osgDB::getFilePath(rootFile)),
-      _extension(osgDB::getLowerCaseFileExtension(rootFile)) {
+      _extension(osgDB::getLowerCaseFileExtension(rootFile)),
+      _marker(rootFile + ".copying") {
     if (_folder.empty()) _folder = ".";
     if (!fileTypeOf(_extension)) {
         throw Failure("output \"" + rootFile + "\"; give a file name that ends in .osgb, .osgt or .osgx");
     }
     if (!fs::is_directory(_folder)) throw Failure("no folder \"" + _folder + "\" for the copy; create it first");
-    requireFree(source, records, overwrite);
+    lock(source.rootFile());
+    try {
+        requireFree(source, records, overwrite || _goesOn);
+        mark(source.rootFile());
+    } catch (...) {
+        unlock();
+        throw;
+    }
     // an old copy must not look whole while its files are replaced
     std::error_code ignored;
     fs::remove(rootFile, ignored);
@@ -68,6 +86,34 @@ CopyTarget::CopyTarget(const std::string& rootFile, const DatabaseFiles& source,
 
 CopyTarget::~CopyTarget() {
     for (const std::string& path : _written) std::remove(path.c_str());
+    unlock();
+}
+
+void CopyTarget::lock(const std::string& sourceFile) {
+    _lock = ::open(_marker.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (_lock < 0) {
+        throw Failure("cannot write \"" + _marker + "\": " + std::strerror(errno) + "; choose another folder");
+    }
+    if (!osgAnalyticBin::support::lockFile(_lock, _marker)) {
+        ::close(_lock);
+        throw Failure("another osgbinconv is writing \"" + _rootFile + "\"; wait for it or choose another name");
+    }
+    std::ifstream in(_marker, std::ios::binary);
+    const std::string left{std::istreambuf_iterator<char>(in), {}};
+    _goesOn = left == markOf(sourceFile);
+    _keepsMarker = !left.empty();
+}
+
+void CopyTarget::mark(const std::string& sourceFile) {
+    const std::string text = markOf(sourceFile);
+    if (::ftruncate(_lock, 0) == 0 && ::pwrite(_lock, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size()))
+        return;
+    throw Failure("cannot write \"" + _marker + "\": " + std::strerror(errno) + "; make room or choose another folder");
+}
+
+void CopyTarget::unlock() {
+    if (!_keepsMarker) ::unlink(_marker.c_str());
+    ::close(_lock);
 }
 
 void CopyTarget::requireFree(const DatabaseFiles& source, const FileRecords& records, bool overwrite) const {
@@ -104,6 +150,13 @@ void CopyTarget::write(const std::string& file, const osg::Node& scene) {
     if (std::rename(temporary.c_str(), path.c_str()) != 0) {
         throw Failure("cannot write \"" + path + "\": " + std::strerror(errno) + "; choose another folder");
     }
+}
+
+void CopyTarget::complete(const osg::Node& root) {
+    osgAnalyticBin::support::flushToDisk(_folder);  // a root file that outlives a power failure has its tiles
+    write("", root);
+    _written.clear();
+    _keepsMarker = false;
 }
 
 }  // namespace osgbinconv

@@ -18,7 +18,9 @@ namespace osgbinconv {
 [[nodiscard]] std::string withExtension(const std::string& name, const std::string& extension);
 
 /// The files of a copy, beside its root file as the originals are beside theirs. Each is written under a temporary name
-/// and renamed; what was written is removed again unless the copy is complete.
+/// and renamed, the root file last; what was written is removed again unless the copy is complete. While a copy is
+/// made, "earth.osgb.copying" stands beside it, locked against a second program; a copy of the same database may
+/// replace what the one has left that was killed.
 class CopyTarget final {
 public:
     /// Throws Failure when OpenSceneGraph cannot write such files with bins in them, when one would replace a file of
@@ -34,16 +36,25 @@ public:
     /// `file`: as the original is named. May be called by several threads. Throws Failure.
     void write(const std::string& file, const osg::Node& scene);
 
-    /// Everything is there.
-    void complete() { _written.clear(); }
+    /// Writes the root file, when all others are there. Throws Failure.
+    void complete(const osg::Node& root);
 
 private:
     [[nodiscard]] std::string pathOf(const std::string& file) const;
+    void lock(const std::string& sourceFile);
+    void mark(const std::string& sourceFile);
+    void unlock();
     void requireFree(const DatabaseFiles& source, const FileRecords& records, bool overwrite) const;
 
     std::string _rootFile;
     std::string _folder;
     std::string _extension;
+    std::string _marker;
+    int _lock = -1;
+    /// Whether an earlier copy of the same database was killed.
+    bool _goesOn = false;
+    /// Whether files of an earlier copy may be left.
+    bool _keepsMarker = false;
     std::mutex _mutex;
     std::vector<std::string> _written;
 };

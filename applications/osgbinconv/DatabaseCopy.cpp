@@ -127,12 +127,14 @@ public:
     /// Requires: the threads have ended. Throws what they threw.
     void finish() {
         if (_error) std::rethrow_exception(_error);
-        write(_built.records.at(""));
-        _target.complete();
+        _target.complete(*readyScene(_built.records.at("")));
     }
 
 private:
-    void write(const FileRecord& record) {
+    void write(const FileRecord& record) { _target.write(record.file, *readyScene(record)); }
+
+    /// The scene as it goes to the copy.
+    [[nodiscard]] osg::ref_ptr<osg::Node> readyScene(const FileRecord& record) const {
         std::string error;
         const osg::ref_ptr<osg::Node> scene = _files.read(record.file, Images::Read, error);
         if (!scene) throw Failure("\"" + _files.pathOf(record.file) + "\" " + error + "; it was there before");
@@ -140,7 +142,7 @@ private:
         Renaming renaming(_target.extension(), _options.keepClusters);
         scene->accept(renaming);
         if (record.file.empty()) requestBins(*scene);
-        _target.write(record.file, *scene);
+        return scene;
     }
 
     void requestBins(osg::Node& root) const {

@@ -3,6 +3,7 @@
 
 #include "PartFile.h"
 
+#include "DiskFile.h"
 #include "Failure.h"
 #include "RecordBytes.h"
 
@@ -12,7 +13,6 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
-#include <sys/file.h>
 #include <unistd.h>
 
 namespace osgbinconv {
@@ -61,7 +61,7 @@ std::optional<FileRecord> readRecord(std::istream& in, std::uint64_t most) {
 PartFile::PartFile(const std::string& path) : _path(path) {
     _handle = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (_handle < 0) fail("write");
-    if (::flock(_handle, LOCK_EX | LOCK_NB) != 0) {
+    if (!osgAnalyticBin::support::lockFile(_handle, path)) {
         ::close(_handle);
         throw Failure("another osgbinconv is writing \"" + path + "\"; wait for it");
     }

@@ -42,7 +42,9 @@ constexpr const char* kExamples =
     "  osgbinconv earth.ive bins/earth.osgb     writes a copy with the bins in its files; the folder has to be there\n"
     "  osgbinconv --print earth.ive.bins        tells what is in an index\n"
     "  osgbinconv --check earth.ive             compares earth.ive.bins with its database\n"
-    "An index that was interrupted is kept in earth.ive.bins.part; the same command goes on where it ended.";
+    "An index that was interrupted is kept in earth.ive.bins.part; the same command goes on where it ended.\n"
+    "A copy that was killed leaves earth.osgb.copying; the same command makes it anew.\n"
+    "Exit codes: 0 done, 1 an error or an index that does not fit, 130 interrupted.";
 
 /// The command line as it was typed.
 struct Arguments {
@@ -148,7 +150,7 @@ int main(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const Interrupted&) {
-        complain("interrupted; an index goes on where it ended, by the same command");
+        complain("interrupted; run the same command again: an index goes on where it ended, a copy starts anew");
         return kInterrupted;
     } catch (const std::bad_alloc&) {
         return complain("out of memory; use fewer --threads");

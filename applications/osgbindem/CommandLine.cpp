@@ -34,7 +34,10 @@ constexpr const char* kExamples =
     "Example, heights of the first raster in metres and of the second in feet:\n"
     "  osgbindem world.tif rockies.nc --scale m ft -o earth.osgb\n"
     "writes earth.osgb and the folder earth_tiles beside it. Large rasters are read fastest when tiled\n"
-    "(gdal_translate -co TILED=YES).";
+    "(gdal_translate -co TILED=YES).\n"
+    "A run that was interrupted, killed or out of room leaves the finished parts in earth_tiles.partial; the same\n"
+    "command goes on with them, another one starts anew. Remove the folder if you do not want them.\n"
+    "Exit codes: 0 the database is complete, 1 an error, 130 interrupted.";
 
 /// The command line as it was typed.
 struct Arguments {
@@ -161,6 +164,7 @@ void declare(CLI::App& app, Arguments& arguments) {
     app.add_flag("!--full-resolution", settings.useOverviews,
                  "do not read a raster's overviews where --levels needs nothing finer");
     app.add_flag("--compress", settings.compress, "compress the files with zlib");
+    app.add_flag("--restart", settings.restart, "do not go on with what an interrupted run has left");
     app.add_flag("--quiet", settings.quiet, "show no progress");
 }
 

@@ -3,117 +3,33 @@
 
 #include "DatabaseBuilder.h"
 
+#include "BuildSources.h"
+#include "BuildState.h"
 #include "DatabaseFolder.h"
+#include "Failure.h"
 #include "Interruption.h"
 #include "NodeFile.h"
+#include "Progress.h"
+#include "RootNode.h"
+#include "TaskBoard.h"
 #include "TileBuilder.h"
 #include "WorkPlan.h"
 
-#include <osgAnalyticBin/AnalyticBin.h>
-#include <osgAnalyticBin/InstallBinsCallback.h>
-
-#include <cpl_progress.h>
-#include <ogr_spatialref.h>
-#include <osg/CoordinateSystemNode>
-#include <osg/Material>
-
-#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <exception>
-#include <mutex>
+#include <iostream>
+#include <set>
 #include <thread>
 
 namespace osgbindem {
 
-using osgAnalyticBin::support::stopRequested;
+using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::Interrupted;
 
 namespace {
 
-/// Shows how much is done, in GDAL's manner.
-class Progress {
-public:
-    Progress(bool isShown, double total) : _isShown(isShown), _total(total) { show(0.0); }
-
-    void add(double amount) {
-        const std::lock_guard<std::mutex> guard(_mutex);
-        _done += amount;
-        show(std::min(_done / _total, 0.99));
-    }
-    void finish() { show(1.0); }
-
-private:
-    void show(double share) const {
-        if (_isShown) GDALTermProgress(share, nullptr, nullptr);
-    }
-
-    std::mutex _mutex;
-    bool _isShown;
-    double _total;
-    double _done = 0.0;
-};
-
-/// The tasks of the plan and what has become of them; shared by the threads.
-class TaskQueue {
-public:
-    explicit TaskQueue(std::vector<Task> tasks) : _tasks(std::move(tasks)) {}
-
-    /// Returns: nullptr when there is nothing left to do.
-    const Task* next() {
-        const std::lock_guard<std::mutex> guard(_mutex);
-        return _error || _next >= _tasks.size() ? nullptr : &_tasks[_next++];
-    }
-    void finish(const Task& task, std::unique_ptr<BuiltTile> tile) {
-        const std::lock_guard<std::mutex> guard(_mutex);
-        _built[task.tile] = std::move(tile);
-    }
-    void fail(std::exception_ptr error) {
-        const std::lock_guard<std::mutex> guard(_mutex);
-        if (!_error) _error = std::move(error);
-        stopRequested.store(true);  // the other threads need not go on
-    }
-    [[nodiscard]] double weight() const {
-        double sum = 0.0;
-        for (const Task& task : _tasks) sum += task.weight;
-        return sum;
-    }
-    /// Requires: the threads have ended. Throws what they threw.
-    BuiltTiles& built() {
-        if (_error) std::rethrow_exception(_error);
-        return _built;
-    }
-
-private:
-    std::mutex _mutex;
-    std::vector<Task> _tasks;
-    std::size_t _next = 0;
-    BuiltTiles _built;
-    std::exception_ptr _error;
-};
-
-void work(const Settings& settings, const TileLayout& layout, const DatabaseFolder& folder, TaskQueue& queue,
-          Progress& progress) {
-    try {
-        TileBuilder builder(settings, layout, folder);
-        BuiltTiles none;
-        while (const Task* task = queue.next()) {
-            builder.setLeafDone([&](const TileId& leaf) {
-                progress.add(std::ldexp(task->weight, 2 * (task->tile.level - leaf.level)));
-            });
-            queue.finish(*task, builder.build(task->tile, none));
-        }
-    } catch (...) {
-        queue.fail(std::current_exception());
-    }
-}
-
-void runThreads(const Settings& settings, const TileLayout& layout, const DatabaseFolder& folder, TaskQueue& queue,
-                Progress& progress) {
-    std::vector<std::thread> threads;
-    for (int i = 0; i < settings.threads; ++i) {
-        threads.emplace_back([&] { work(settings, layout, folder, queue, progress); });
-    }
-    for (std::thread& thread : threads) thread.join();
-}
+constexpr std::size_t kStartTiles = std::size_t{TileId::kStartColumns} * TileId::kStartRows;
 
 TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic) {
     const int cells = settings.cells.value_or(TileLayout::cellsFor(mosaic.finestGlobalDeg()));
@@ -121,58 +37,138 @@ TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic) {
     return TileLayout(cells, levels, settings.ellipsoid);
 }
 
-std::string wgs84Text() {
-    OGRSpatialReference reference;
-    reference.importFromEPSG(4326);
-    char* text = nullptr;
-    reference.exportToWkt(&text);
-    const std::string result(text);
-    CPLFree(text);
-    return result;
-}
+/// What the threads share that build one database.
+struct Site {
+    const Settings& settings;
+    const TileLayout& layout;
+    const TileFiles& files;
+    const BuildState& state;
+    Progress& progress;
+};
 
-osg::ref_ptr<osg::CoordinateSystemNode> makeRoot(const Settings& settings) {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-    root->setEllipsoidModel(
-        new osg::EllipsoidModel(settings.ellipsoid.equatorialRadius(), settings.ellipsoid.polarRadius()));
-    if (settings.isWgs84) {
-        root->setFormat("WKT");
-        root->setCoordinateSystem(wgs84Text());
+/// Does a task, unless an earlier run has done it and its files are whole.
+void doTask(const Task& task, const Site& site, TileBuilder& builder) {
+    const auto known = site.state.find(task.tile, site.layout);
+    if (known && known->files == site.files.sumBelow(task.tile)) {
+        site.progress.add(task.weight);
+        return;
     }
-    // Lit, with the vertices' own colours.
-    const osg::ref_ptr<osg::Material> material = new osg::Material;
-    material->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
-    root->getOrCreateStateSet()->setAttributeAndModes(material);
-    return root;
+    builder.setLeafDone(
+        [&](const TileId& leaf) { site.progress.add(std::ldexp(task.weight, 2 * (task.tile.level - leaf.level))); });
+    (void)builder.takeFileSum();
+    SurveyedTile tile = builder.survey(task.tile);
+    site.state.keep({std::move(tile), builder.takeFileSum()});
 }
 
-/// Declares below what nothing is drawn: the globe is whole, so that what lies behind it is hidden.
-void declareHorizon(osg::Group& root) {
-    double lowest = 0.0;
-    for (unsigned int i = 0; i < root.getNumChildren(); ++i) {
-        const osgAnalyticBin::AnalyticBin bin = osgAnalyticBin::storedBin(*root.getChild(i));
-        lowest = std::min(lowest, bin.bin().altitude().lower - bin.margin());
+void doTasks(const Site& site, TaskSource& tasks, TileBuilder& builder) {
+    while (const auto task = tasks.next()) {
+        doTask(*task, site, builder);
+        tasks.finish(*task);
     }
-    osgAnalyticBin::CullOptions options;
-    options.horizonUse = osgAnalyticBin::HorizonUse::Given;
-    options.horizon = std::floor(lowest);
-    root.setUpdateCallback(new osgAnalyticBin::InstallBinsCallback(options));
+    builder.setLeafDone({});
 }
 
-/// Builds what the tasks have left above them, and the root file.
-std::string finishRoot(const Settings& settings, TileBuilder& builder, BuiltTiles& ahead) {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = makeRoot(settings);
-    std::vector<osg::Geometry*> geometries;
-    for (int y = 0; y < TileId::kStartRows; ++y) {
-        for (int x = 0; x < TileId::kStartColumns; ++x) {
-            const std::unique_ptr<BuiltTile> tile = builder.build({0, x, y}, ahead);
+/// The start tiles, made of what the tasks have left of the tiles below them.
+class StartTiles {
+public:
+    StartTiles(const Site& site, const std::vector<Task>& tasks) : _site(site) {
+        for (const Task& task : tasks) _tasks.insert(task.tile);
+    }
+
+    /// Requires: all tasks are finished. May be called by several threads; they share the tiles.
+    void build(TileBuilder& builder) {
+        builder.setFinishedTasks([this](const TileId& tile) { return finished(tile); });
+        for (std::size_t i = _next++; i < kStartTiles; i = _next++) {
+            const int place = static_cast<int>(i);
+            _tiles[i] = builder.build({0, place % TileId::kStartColumns, place / TileId::kStartColumns});
+        }
+    }
+
+    /// Requires: all are built. The bytes of the root file.
+    [[nodiscard]] std::string rootBytes(TileBuilder& builder) const {
+        const osg::ref_ptr<osg::CoordinateSystemNode> root = makeRoot(_site.settings);
+        std::vector<osg::Geometry*> geometries;
+        for (const auto& tile : _tiles) {
             root->addChild(tile->node);
             geometries.push_back(tile->geometry);
         }
+        builder.finishFile(geometries, 0);
+        declareHorizon(*root);
+        return nodeFileBytes(*root, _site.settings.compress);
     }
-    builder.finishFile(geometries, 0);
-    declareHorizon(*root);
-    return nodeFileBytes(*root, settings.compress);
+
+private:
+    [[nodiscard]] std::optional<SurveyedTile> finished(const TileId& tile) const {
+        if (_tasks.count(tile) == 0) return std::nullopt;
+        auto record = _site.state.find(tile, _site.layout);
+        if (!record) throw Failure("what was done of tile " + tileName(tile) + " is gone; run the same command again");
+        return std::move(record->tile);
+    }
+
+    const Site& _site;
+    std::set<TileId> _tasks;
+    std::array<std::unique_ptr<BuiltTile>, kStartTiles> _tiles;
+    std::atomic<std::size_t> _next{0};
+};
+
+void runThreads(int count, TaskSource& tasks, const std::function<void()>& body) {
+    std::vector<std::thread> threads;
+    for (int i = 0; i < count; ++i) {
+        threads.emplace_back([&] {
+            try {
+                body();
+            } catch (...) {
+                tasks.fail(std::current_exception());
+            }
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+}
+
+/// Says what an earlier run has left, and makes the state one of this database.
+void beginOrGoOn(const Settings& settings, const std::string& sources, std::size_t parts, DatabaseFolder& folder,
+                 const BuildState& state) {
+    const bool isSame = state.isOf(sources);
+    const std::size_t done = state.count();
+    if (isSame && !settings.restart) {
+        if (done > 0 && !settings.quiet) {
+            std::cout << "goes on: " << done << " of " << parts << " parts are there" << std::endl;
+        }
+        return;
+    }
+    if (done > 0 && !settings.quiet) {
+        std::cout << "starts anew: \"" << folder.partial() << "\" was "
+                  << (isSame ? "to be removed" : "built from other settings or rasters") << std::endl;
+    }
+    folder.clear();
+    state.begin(sources);
+}
+
+/// For the user, after a message; empty when nothing is kept.
+std::string whatIsKept(const DatabaseFolder& folder, const BuildState& state, std::size_t parts) {
+    const std::size_t done = state.count();
+    if (done == 0) return {};
+    return std::to_string(done) + " of " + std::to_string(parts) + " parts are kept in \"" + folder.partial() +
+           "\"; the same command goes on with them";
+}
+
+void buildParts(const Settings& settings, const Site& site, const std::vector<Task>& plan, DatabaseFolder& folder) {
+    TaskBoard board(plan);
+    StartTiles starts(site, plan);
+    runThreads(settings.threads, board, [&] {
+        TileBuilder builder(settings, site.layout, site.files);
+        doTasks(site, board, builder);
+        if (board.isFinished()) starts.build(builder);
+    });
+    board.rethrow();
+    TileBuilder builder(settings, site.layout, site.files);
+    folder.complete(starts.rootBytes(builder));
+}
+
+double weightOf(const std::vector<Task>& tasks) {
+    double sum = 0.0;
+    for (const Task& task : tasks) sum += task.weight;
+    return sum;
 }
 
 }  // namespace
@@ -183,13 +179,24 @@ void buildDatabase(const Settings& settings) {
     mosaic.requireData();
     const TileLayout layout = layoutFor(settings, mosaic);
     DatabaseFolder folder(settings.output);
-    TileBuilder builder(settings, layout, folder);
-
-    TaskQueue queue(planTasks(builder.mosaic(), builder.depths(), layout, settings.threads));
-    Progress progress(!settings.quiet, queue.weight());
-    runThreads(settings, layout, folder, queue, progress);
-    folder.complete(finishRoot(settings, builder, queue.built()));
-    progress.finish();
+    folder.lock();
+    const BuildState state(folder.stateFolder());
+    DemMosaic built(settings, layout.spacingDeg(layout.deepestLevel()));
+    EdgeDepths depths(built, layout);
+    const std::vector<Task> plan = planTasks(built, depths, layout);
+    beginOrGoOn(settings, describeSources(settings, layout), plan.size(), folder, state);
+    try {
+        const TileFiles files = folder.files();
+        Progress progress(!settings.quiet, weightOf(plan));
+        buildParts(settings, {settings, layout, files, state, progress}, plan, folder);
+        progress.finish();
+    } catch (const Interrupted&) {
+        const std::string kept = whatIsKept(folder, state, plan.size());
+        throw Interrupted("interrupted; " + (kept.empty() ? "nothing was left behind" : kept));
+    } catch (const Failure& failure) {
+        const std::string kept = whatIsKept(folder, state, plan.size());
+        throw Failure(failure.what() + (kept.empty() ? kept : "; " + kept));
+    }
 }
 
 }  // namespace osgbindem

@@ -7,7 +7,8 @@
 
 namespace osgbindem {
 
-/// Builds the whole database. Throws Failure, Interrupted; then nothing is left behind.
+/// Builds the whole database, or what an earlier run of the same settings and rasters has left of it to do.
+/// Throws Failure, Interrupted; then what is done is kept beside the output for the next run, finished subtrees only.
 void buildDatabase(const Settings& settings);
 
 }  // namespace osgbindem

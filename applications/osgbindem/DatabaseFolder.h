@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "TileLayout.h"
+#include "TileFiles.h"
 
 #include <string>
 
@@ -12,35 +12,44 @@ namespace osgbindem {
 /// Where the files of a database stand: "earth.osgb" is the root file, its tiles are below "earth_tiles". All tiles are
 /// written below "earth_tiles.partial", which takes the place of "earth_tiles" when everything is there; the root file
 /// comes last. So a root file always belongs to a complete database, and an older database of the same name stays
-/// whole until then. The destructor removes what is not complete.
+/// whole until then. "earth_tiles.partial/state" says which of the tiles there are done.
 class DatabaseFolder final {
 public:
-    /// Locks the database against a second program and clears away what an aborted one has left. Throws Failure.
+    /// Throws Failure when no database can be there.
     explicit DatabaseFolder(const std::string& rootFile);
     DatabaseFolder(const DatabaseFolder&) = delete;
     DatabaseFolder& operator=(const DatabaseFolder&) = delete;
+    /// Removes what is not complete, unless a later run can go on with it.
     ~DatabaseFolder();
 
-    /// Name of the file with the children of a tile, seen from the file that has the tile.
-    [[nodiscard]] std::string childrenFile(const TileId& tile) const;
+    /// Locks the database against a second program. Throws Failure.
+    void lock();
 
-    /// Writes the file with the children of a tile; may be called by several threads. Throws Failure.
-    void writeChildren(const TileId& tile, const std::string& bytes) const;
+    /// Requires: locked. Removes what earlier runs have left. Throws Failure.
+    void clear();
 
-    /// Swaps the new database in. Throws Failure.
+    [[nodiscard]] const std::string& partial() const { return _partial; }
+    [[nodiscard]] std::string stateFolder() const { return _partial + "/" + kStateName; }
+    [[nodiscard]] TileFiles files() const { return {_partial, _tilesName}; }
+
+    /// Swaps the new database in, without its state. Throws Failure.
     void complete(const std::string& rootBytes);
 
 private:
-    void lock();
-    void requireOwnFolder(const std::string& folder) const;
+    static constexpr const char* kStateName = "state";
+
+    void requireOwnFolder(const std::string& folder, bool mayHaveState) const;
+    void remove(const std::string& folder) const;
 
     std::string _rootFile;
     std::string _newRoot;
     /// Without path.
     std::string _tilesName;
+    std::string _folder;
     std::string _tiles;
     std::string _partial;
     std::string _old;
+    std::string _oldState;
     std::string _lockFile;
     int _lock = -1;
 };

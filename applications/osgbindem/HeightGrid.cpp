@@ -3,6 +3,8 @@
 
 #include "HeightGrid.h"
 
+#include <utility>
+
 namespace osgbindem {
 
 HeightGrid::HeightGrid(const TileId& tile, const TileLayout& layout)
@@ -41,6 +43,12 @@ void HeightGrid::sampleRing(DemMosaic& mosaic, const TileLayout& layout) {
         samplePost(mosaic, layout, -1, i);
         samplePost(mosaic, layout, _cells + 1, i);
     }
+}
+
+bool HeightGrid::setValues(std::vector<double> values) {
+    if (values.size() != _heights.size()) return false;
+    _heights = std::move(values);
+    return true;
 }
 
 HeightRange HeightGrid::range() const noexcept {

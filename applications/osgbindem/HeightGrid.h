@@ -28,6 +28,12 @@ public:
 
     void sampleRing(DemMosaic& mosaic, const TileLayout& layout);
 
+    /// All heights with the ring, row by row from the south-west, to be stored.
+    [[nodiscard]] const std::vector<double>& values() const noexcept { return _heights; }
+
+    /// Takes heights that were stored. Returns: false when there are too many or too few.
+    [[nodiscard]] bool setValues(std::vector<double> values);
+
     /// Lowest and highest post of the tile.
     [[nodiscard]] HeightRange range() const noexcept;
 

@@ -39,6 +39,8 @@ struct Settings {
     bool useOverviews = true;
     bool compress = false;
     bool quiet = false;
+    /// Whether to forget what an earlier run has left.
+    bool restart = false;
 };
 
 }  // namespace osgbindem

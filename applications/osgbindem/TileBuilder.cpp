@@ -17,10 +17,10 @@ using osgAnalyticBin::support::throwIfStopRequested;
 using osgAnalyticBin::AnalyticBin;
 using osgAnalyticBin::core::GeodeticBin;
 
-TileBuilder::TileBuilder(const Settings& settings, const TileLayout& layout, const DatabaseFolder& folder)
+TileBuilder::TileBuilder(const Settings& settings, const TileLayout& layout, const TileFiles& files)
     : _settings(settings),
       _layout(layout),
-      _folder(folder),
+      _files(files),
       _mosaic(settings, layout.spacingDeg(layout.deepestLevel())),
       _depths(_mosaic, layout),
       _skirts(_mosaic, layout, _depths),
@@ -28,42 +28,47 @@ TileBuilder::TileBuilder(const Settings& settings, const TileLayout& layout, con
     if (!settings.image.empty()) _image = std::make_unique<ImageSource>(settings.image, settings.isWgs84);
 }
 
-std::unique_ptr<BuiltTile> TileBuilder::build(const TileId& tile, BuiltTiles& ahead) {
-    const auto found = ahead.find(tile);
-    if (found != ahead.end()) {
-        std::unique_ptr<BuiltTile> built = std::move(found->second);
-        ahead.erase(found);
-        return built;
+SurveyedTile TileBuilder::survey(const TileId& tile) {
+    if (_finished) {
+        if (auto found = _finished(tile)) return std::move(*found);
     }
     throwIfStopRequested();
-    auto built = std::make_unique<BuiltTile>(BuiltTile{HeightGrid(tile, _layout), {}, {}, {}, {}});
+    SurveyedTile surveyed{HeightGrid(tile, _layout), {}, {}, {}};
     // The border is for the ring around the heights; the subtree of the first tile that fits is served from memory.
     _mosaic.prefetch(tile.rect().grownBy(_layout.spacingDeg(tile.level)));
     const bool hasChildren = _depths.hasChildren(tile);
     if (hasChildren) {
-        buildChildren(*built, ahead);
+        buildChildren(surveyed);
     } else {
-        built->heights.sample(_mosaic, _layout);
-        built->range = _mosaic.range(tile.rect());
+        surveyed.heights.sample(_mosaic, _layout);
+        surveyed.range = _mosaic.range(tile.rect());
     }
-    finish(*built, hasChildren);
+    surveyed.heights.sampleRing(_mosaic, _layout);
+    surveyed.skirt = _skirts.measure(surveyed.heights);
     if (!hasChildren && _leafDone) _leafDone(tile);
-    return built;
+    return surveyed;
 }
 
-void TileBuilder::buildChildren(BuiltTile& tile, BuiltTiles& ahead) {
+std::unique_ptr<BuiltTile> TileBuilder::build(const TileId& tile) {
+    return meshed(survey(tile));
+}
+
+void TileBuilder::buildChildren(SurveyedTile& tile) {
+    const TileId& id = tile.heights.tile();
     const osg::ref_ptr<osg::Group> file = new osg::Group;
     std::vector<osg::Geometry*> geometries;
-    for (const TileId& id : tile.heights.tile().children()) {
-        const std::unique_ptr<BuiltTile> child = build(id, ahead);
+    for (const TileId& childId : id.children()) {
+        const std::unique_ptr<BuiltTile> child = build(childId);
         tile.heights.takeFrom(child->heights);
         tile.range.include(child->range);
-        tile.bin.expandBy(child->bin);
+        tile.below.expandBy(child->bin);
         file->addChild(child->node);
         geometries.push_back(child->geometry);
     }
-    finishFile(geometries, tile.heights.tile().level + 1);
-    _folder.writeChildren(tile.heights.tile(), nodeFileBytes(*file, _settings.compress));
+    finishFile(geometries, id.level + 1);
+    const std::string bytes = nodeFileBytes(*file, _settings.compress);
+    _files.writeChildren(id, bytes);
+    _written.add(id, bytes);
 }
 
 AnalyticBin TileBuilder::sourceBin(const TileId& tile, const HeightRange& range) const {
@@ -72,23 +77,23 @@ AnalyticBin TileBuilder::sourceBin(const TileId& tile, const HeightRange& range)
         GeodeticBin::fromDegrees({rect.south, rect.north}, {rect.west, rect.east}, {range.lower, range.upper}));
 }
 
-void TileBuilder::finish(BuiltTile& tile, bool hasChildren) {
-    const TileId& id = tile.heights.tile();
-    tile.heights.sampleRing(_mosaic, _layout);
-    const TileMesh mesh(tile.heights, _skirts.measure(tile.heights), _layout);
+std::unique_ptr<BuiltTile> TileBuilder::meshed(SurveyedTile tile) {
+    const TileId id = tile.heights.tile();
+    const TileMesh mesh(tile.heights, tile.skirt, _layout);
     AnalyticBin bin = sourceBin(id, tile.range);
-    bin.expandBy(tile.bin);
+    bin.expandBy(tile.below);
     const MeshExtent extent = extentOf(mesh, _triangles, id, _layout);
     bin.expandBy(extent.bin);
     // What is stored is text, which may round outward: the tiles above have to hold that.
-    tile.bin = AnalyticBin::fromText(bin.toText());
+    bin = AnalyticBin::fromText(bin.toText());
 
     const osg::ref_ptr<osg::Image> image = _image ? _image->texture(tile.heights) : nullptr;
-    tile.geometry = makeGeometry(mesh, tile.heights, image);
-    const osg::ref_ptr<osg::Node> placed = makePlaced(*tile.geometry, mesh.originEcef);
-    const TileFacts facts{tile.bin, extent.surfaceLow, _layout, _settings.lodFactor,
-                          hasChildren ? _folder.childrenFile(id) : ""};
-    tile.node = makeTileNode(id, *placed, facts);
+    const osg::ref_ptr<osg::Geometry> geometry = makeGeometry(mesh, tile.heights, image);
+    const osg::ref_ptr<osg::Node> placed = makePlaced(*geometry, mesh.originEcef);
+    const TileFacts facts{bin, extent.surfaceLow, _layout, _settings.lodFactor,
+                          tile.below.valid() ? _files.childrenFile(id) : ""};
+    const osg::ref_ptr<osg::Node> node = makeTileNode(id, *placed, facts);
+    return std::make_unique<BuiltTile>(BuiltTile{std::move(tile.heights), tile.range, bin, node, geometry});
 }
 
 void TileBuilder::finishFile(const std::vector<osg::Geometry*>& geometries, int level) {

@@ -3,13 +3,16 @@
 
 #include "WorkPlan.h"
 
+#include <algorithm>
+
 namespace osgbindem {
 
 namespace {
 
-// A finished task waits in memory with one tile; this bounds how many there can be.
-constexpr std::size_t kMostTasks = 1000;
-constexpr double kTasksPerThread = 16.0;
+// A whole globe without insets is just below: 128 tasks, one for each start tile.
+constexpr double kFewestTasks = 100.0;
+// Half a minute's work: as much is lost in each thread when a run is ended, and waited for at its end.
+constexpr double kMostWeight = 4096.0;
 
 Task taskFor(const TileId& tile, DemMosaic& mosaic, const TileLayout& layout) {
     return {tile, 1.0 + mosaic.posts(tile.rect()) / (static_cast<double>(layout.cells()) * layout.cells())};
@@ -17,7 +20,7 @@ Task taskFor(const TileId& tile, DemMosaic& mosaic, const TileLayout& layout) {
 
 void split(const Task& task, double most, DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout,
            std::vector<Task>& tasks) {
-    if (task.weight <= most || tasks.size() >= kMostTasks || !depths.hasChildren(task.tile)) {
+    if (task.weight <= most || !depths.hasChildren(task.tile)) {
         tasks.push_back(task);
         return;
     }
@@ -28,7 +31,7 @@ void split(const Task& task, double most, DemMosaic& mosaic, EdgeDepths& depths,
 
 }  // namespace
 
-std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout, int threads) {
+std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout) {
     std::vector<Task> starts;
     double sum = 0.0;
     for (int y = 0; y < TileId::kStartRows; ++y) {
@@ -38,7 +41,8 @@ std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLay
         }
     }
     std::vector<Task> tasks;
-    for (const Task& start : starts) split(start, sum / (kTasksPerThread * threads), mosaic, depths, layout, tasks);
+    const double most = std::min(sum / kFewestTasks, kMostWeight);
+    for (const Task& start : starts) split(start, most, mosaic, depths, layout, tasks);
     return tasks;
 }
 

@@ -17,8 +17,8 @@ struct Task {
     double weight = 0.0;
 };
 
-/// Divides the tree into subtrees of similar weight, enough to keep the threads busy to the end; neighbours follow each
-/// other. What lies above the subtrees is left for afterwards.
-[[nodiscard]] std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout, int threads);
+/// Divides the tree into subtrees of similar weight; neighbours follow each other. What lies above the subtrees is left
+/// for afterwards. The plan is the same however many threads and programs share the work, so that others can go on.
+[[nodiscard]] std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout);
 
 }  // namespace osgbindem

@@ -63,8 +63,8 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     try {
         return run(argc, argv);
-    } catch (const Interrupted&) {
-        complain("interrupted; nothing was left behind");
+    } catch (const Interrupted& interrupted) {
+        complain(interrupted.what());
         return kInterrupted;
     } catch (const std::bad_alloc&) {
         return complain("out of memory; use fewer --threads or fewer --cells");

@@ -5,13 +5,14 @@
 
 #include <atomic>
 #include <stdexcept>
+#include <string>
 
 namespace osgAnalyticBin::support {
 
 /// Thrown, in worker threads too, once the user has asked to stop.
 class Interrupted final : public std::runtime_error {
 public:
-    Interrupted() : std::runtime_error("interrupted") {}
+    explicit Interrupted(const std::string& message = "interrupted") : std::runtime_error(message) {}
 };
 
 /// Set by the signal handler of main().

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "TileLayout.h"
+
+#include <cstdint>
+#include <string_view>
+
+namespace osgbindem {
+
+/// Tells damaged bytes from whole ones; no protection against forgers. Some gigabytes a second.
+[[nodiscard]] std::uint64_t checksumOf(std::string_view bytes, std::uint64_t seed = 0) noexcept;
+
+/// What the files below a tile add up to, in whatever order they were written or read back.
+struct FileSum {
+    std::uint64_t files = 0;
+    std::uint64_t bytes = 0;
+    std::uint64_t checksum = 0;
+
+    /// The file with the children of a tile.
+    void add(const TileId& tile, std::string_view content) noexcept;
+
+    [[nodiscard]] bool operator==(const FileSum& other) const noexcept {
+        return files == other.files && bytes == other.bytes && checksum == other.checksum;
+    }
+};
+
+}  // namespace osgbindem

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "RootNode.h"
+
+#include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/InstallBinsCallback.h>
+
+#include <ogr_spatialref.h>
+#include <osg/Material>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace osgbindem {
+
+namespace {
+
+std::string wgs84Text() {
+    OGRSpatialReference reference;
+    reference.importFromEPSG(4326);
+    char* text = nullptr;
+    reference.exportToWkt(&text);
+    const std::string result(text);
+    CPLFree(text);
+    return result;
+}
+
+}  // namespace
+
+osg::ref_ptr<osg::CoordinateSystemNode> makeRoot(const Settings& settings) {
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+    root->setEllipsoidModel(
+        new osg::EllipsoidModel(settings.ellipsoid.equatorialRadius(), settings.ellipsoid.polarRadius()));
+    if (settings.isWgs84) {
+        root->setFormat("WKT");
+        root->setCoordinateSystem(wgs84Text());
+    }
+    // Lit, with the vertices' own colours.
+    const osg::ref_ptr<osg::Material> material = new osg::Material;
+    material->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
+    root->getOrCreateStateSet()->setAttributeAndModes(material);
+    return root;
+}
+
+void declareHorizon(osg::Group& root) {
+    double lowest = 0.0;
+    for (unsigned int i = 0; i < root.getNumChildren(); ++i) {
+        const osgAnalyticBin::AnalyticBin bin = osgAnalyticBin::storedBin(*root.getChild(i));
+        lowest = std::min(lowest, bin.bin().altitude().lower - bin.margin());
+    }
+    osgAnalyticBin::CullOptions options;
+    options.horizonUse = osgAnalyticBin::HorizonUse::Given;
+    options.horizon = std::floor(lowest);
+    root.setUpdateCallback(new osgAnalyticBin::InstallBinsCallback(options));
+}
+
+}  // namespace osgbindem

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TileFiles.h"
+
+#include "Failure.h"
+#include "Interruption.h"
+#include "NodeFile.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace osgbindem {
+
+using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::throwIfStopRequested;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// A folder holds the files of this many levels and one folder for each tile of the next: 341 files, 1024 folders.
+constexpr int kLevelsPerFolder = 5;
+
+std::string text(const char* format, int a, int b, int c = 0) {
+    char buffer[64];
+    std::snprintf(buffer, sizeof buffer, format, a, b, c);
+    return buffer;
+}
+
+/// The folder, below that of all tiles, with the file of a tile's children.
+std::string folderOf(const TileId& tile) {
+    std::string folder = startName(tile);
+    for (int level = kLevelsPerFolder; level <= tile.level; level += kLevelsPerFolder) {
+        folder += "/" + tileName(tile.ancestor(level));
+    }
+    return folder;
+}
+
+/// Files are named for the south-western of the four tiles in them.
+std::string fileOf(const TileId& tile) {
+    return tileName(tile.children()[0]) + ".osgb";
+}
+
+}  // namespace
+
+std::string startName(const TileId& tile) {
+    const TileId start = tile.ancestor(0);
+    return text("X%02d_Y%d", start.x, start.y);
+}
+
+bool isStartName(const std::string& name) {
+    int x = 0;
+    int y = 0;
+    return std::sscanf(name.c_str(), "X%2d_Y%1d", &x, &y) == 2 && name == startName({0, x, y});
+}
+
+std::string tileName(const TileId& tile) {
+    return text("L%02d_X%d_Y%d", tile.level, tile.x, tile.y);
+}
+
+TileFiles::TileFiles(std::string folder, std::string finalName)
+    : _folder(std::move(folder)), _finalName(std::move(finalName)) {}
+
+std::string TileFiles::childrenFile(const TileId& tile) const {
+    const std::string file = fileOf(tile);
+    if (tile.level == 0) return _finalName + "/" + folderOf(tile) + "/" + file;
+    return tile.level % kLevelsPerFolder == 0 ? tileName(tile) + "/" + file : file;
+}
+
+void TileFiles::writeChildren(const TileId& tile, const std::string& bytes) const {
+    const std::string folder = _folder + "/" + folderOf(tile);
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw Failure("cannot create \"" + folder + "\": " + error.message() + "; make room");
+    writeFile(folder + "/" + fileOf(tile), bytes);
+}
+
+FileSum TileFiles::sumBelow(const TileId& tile) const {
+    FileSum sum;
+    addBelow(tile, sum);
+    return sum;
+}
+
+void TileFiles::addBelow(const TileId& tile, FileSum& sum) const {
+    throwIfStopRequested();
+    std::ifstream in(_folder + "/" + folderOf(tile) + "/" + fileOf(tile), std::ios::binary);
+    if (!in) return;
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    sum.add(tile, bytes);
+    if (tile.level + 1 >= TileLayout::kDeepest) return;
+    for (const TileId& child : tile.children()) addBelow(child, sum);
+}
+
+}  // namespace osgbindem

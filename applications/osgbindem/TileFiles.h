@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "Checksum.h"
+#include "TileLayout.h"
+
+#include <string>
+
+namespace osgbindem {
+
+/// Name of a start tile, for what is kept apart for each of them: "X03_Y7".
+[[nodiscard]] std::string startName(const TileId& tile);
+[[nodiscard]] bool isStartName(const std::string& name);
+
+/// Name of a tile: "L07_X12_Y345".
+[[nodiscard]] std::string tileName(const TileId& tile);
+
+/// The files with tiles, below one folder. May be used by several threads and programs at once, for different tiles.
+class TileFiles final {
+public:
+    /// `folder`: where they are written; `finalName`: the name, without path, that it is going to have.
+    TileFiles(std::string folder, std::string finalName);
+
+    /// Name of the file with the children of a tile, seen from the file that has the tile.
+    [[nodiscard]] std::string childrenFile(const TileId& tile) const;
+
+    /// Writes the file with the children of a tile. Throws Failure.
+    void writeChildren(const TileId& tile, const std::string& bytes) const;
+
+    /// Reads back all files below a tile.
+    [[nodiscard]] FileSum sumBelow(const TileId& tile) const;
+
+private:
+    void addBelow(const TileId& tile, FileSum& sum) const;
+
+    std::string _folder;
+    std::string _finalName;
+};
+
+}  // namespace osgbindem

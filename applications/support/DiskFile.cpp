@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "DiskFile.h"
+
+#include "Failure.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace osgAnalyticBin::support {
+
+bool lockFile(int handle, const std::string& path) {
+    struct stat held {};
+    struct stat named {};
+    if (::flock(handle, LOCK_EX | LOCK_NB) != 0) return false;
+    // Who had it may have deleted it between opening and locking.
+    return ::fstat(handle, &held) == 0 && ::stat(path.c_str(), &named) == 0 && held.st_ino == named.st_ino &&
+           held.st_dev == named.st_dev;
+}
+
+void flushToDisk(const std::string& folder) {
+    const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const bool isFlushed = handle >= 0 && ::syncfs(handle) == 0;
+    const int error = errno;
+    if (handle >= 0) ::close(handle);
+    if (!isFlushed) throw Failure("cannot write \"" + folder + "\": " + std::strerror(error) + "; check the disk");
+}
+
+}  // namespace osgAnalyticBin::support
