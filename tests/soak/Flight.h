@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "Memory.h"
+#include "ViewerRig.h"
+#include "Watchdog.h"
+
+#include <osgAnalyticBin/CullOptions.h>
+
+#include <osg/Group>
+#include <osg/Image>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <support/Random.h>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+
+/// What a flight found at its end or on its way.
+struct Findings {
+    std::size_t frames = 0, stations = 0;
+    std::size_t tilesLoaded = 0;  ///< PagedLODs that were seen with children in the frames that were looked at
+    std::size_t differingPictures = 0, pictures = 0;
+    std::size_t differingPixels = 0;
+    std::size_t coveredPixels = 0;
+    std::size_t strayObjects = 0;    ///< of the kit, alive at stations outside of the scene
+    std::size_t undrainedTiles = 0;  ///< at stations, still loaded though out of view
+    std::size_t unloaded = 0;        ///< stations at which the pager did not come to rest
+};
+
+/// A viewer over databases, one of which stays from its beginning to its end, flown at random while everything that may
+/// change does.
+class Flight {
+public:
+    struct Setup {
+        Threading threading;
+        Layout layout;
+        int cameras;
+        bool withBins;
+    };
+
+    /// `databases`: files; the first two stay, copies of all come and go.
+    Flight(const Setup& setup, const std::vector<std::string>& databases, Random& random, Watchdog& watchdog,
+           Findings& findings);
+    ~Flight();
+
+    /// Flies that many frames; every change may happen in each.
+    void fly(std::size_t frames);
+
+    /// Compares the picture with that without culling, then returns to a state that is the same at every station: the
+    /// databases that stay, default options, nothing paged in.
+    void halt();
+
+private:
+    class Pictures;
+
+    void frame();
+    void change();
+    void changeOptions();
+    void changeDatabases();
+    void changeThreads();
+    void scaleTerrain(float scale);
+    void lookAround();
+    void addDatabase(const std::string& file);
+    bool rest();
+    void comparePictures();
+    void drain();
+    void report(const char* what);
+
+    const Setup _setup;
+    const std::vector<std::string>& _databases;
+    Random& _random;
+    Watchdog& _watchdog;
+    Findings& _findings;
+    const osg::ref_ptr<osg::Group> _scene = new osg::Group;
+    std::unique_ptr<ViewerRig> _rig;
+    std::unique_ptr<Pictures> _pictures;
+    KitObjects _objects;
+    double _time = 0.0;
+    double _latitude = 0.0, _longitude = 0.0, _altitude = 1e6, _heading = 0.0, _pitch = 30.0;
+};
+
+}  // namespace osgAnalyticBin::test

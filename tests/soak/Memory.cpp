@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Memory.h"
+
+#include "CountedNew.h"
+
+#include <osg/NodeVisitor>
+#include <osg/PagedLOD>
+#include <osgDB/Options>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <malloc.h>
+#include <typeinfo>
+#include <unistd.h>
+
+namespace osgAnalyticBin::test {
+
+namespace {
+
+constexpr double kMegabyte = 1024.0 * 1024.0;
+
+bool isOurs(const osg::Object& object) {
+    return std::strstr(typeid(object).name(), "osgAnalyticBin") != nullptr;
+}
+
+class Finder : public osg::NodeVisitor {
+public:
+    Finder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    using osg::NodeVisitor::apply;
+
+    void apply(osg::Node& node) override {
+        addChain(node.getCullCallback());
+        addChain(node.getUpdateCallback());
+        traverse(node);
+    }
+    void apply(osg::PagedLOD& node) override {
+        auto* options = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
+        if (options && options->getReadFileCallback()) found.push_back(options);
+        apply(static_cast<osg::Node&>(node));
+    }
+
+    std::vector<osg::Object*> found;
+
+private:
+    void addChain(osg::Callback* first) {
+        for (osg::Callback* at = first; at; at = at->getNestedCallback()) {
+            if (isOurs(*at)) found.push_back(at);
+        }
+    }
+};
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+}  // namespace
+
+Memory Memory::now() {
+    malloc_trim(0);
+    const struct mallinfo2 info = mallinfo2();
+    Memory memory;
+    memory.objects = static_cast<double>(bytesOfObjects()) / kMegabyte;
+    memory.heap = static_cast<double>(info.uordblks + info.hblkhd) / kMegabyte;
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages >> pages;
+    memory.resident = static_cast<double>(pages) * static_cast<double>(sysconf(_SC_PAGESIZE)) / kMegabyte;
+    return memory;
+}
+
+std::size_t KitObjects::note(osg::Node& scene) {
+    Finder finder;
+    scene.accept(finder);
+    std::sort(finder.found.begin(), finder.found.end());
+    finder.found.erase(std::unique(finder.found.begin(), finder.found.end()), finder.found.end());
+    for (osg::Object* object : finder.found) {
+        osg::observer_ptr<osg::Object>& known = _known[object];
+        if (!known.valid()) known = object;
+    }
+    return finder.found.size();
+}
+
+std::size_t KitObjects::alive() {
+    for (auto entry = _known.begin(); entry != _known.end();) {
+        entry = entry->second.valid() ? std::next(entry) : _known.erase(entry);
+    }
+    return _known.size();
+}
+
+std::string KitObjects::kinds() const {
+    std::map<std::string, int> counts;
+    for (const auto& [address, observed] : _known) {
+        osg::ref_ptr<osg::Object> object;
+        if (observed.lock(object)) ++counts[object->className()];
+    }
+    std::string text;
+    for (const auto& [name, count] : counts) text += name + " " + std::to_string(count) + "  ";
+    return text;
+}
+
+double growthPercent(const std::vector<double>& samples) {
+    if (samples.size() < 20) return 0.0;
+    const auto warm = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 5);
+    const auto tenth = static_cast<std::ptrdiff_t>(std::max<std::size_t>(samples.size() / 10, 3));
+    const double first = median({warm, warm + tenth});
+    const double last = median({samples.end() - tenth, samples.end()});
+    return 100.0 * (last - first) / first;
+}
+
+}  // namespace osgAnalyticBin::test

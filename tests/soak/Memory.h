@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osg/Callback>
+#include <osg/Node>
+#include <osg/observer_ptr>
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+
+/// Megabytes of this process.
+struct Memory {
+    double objects = 0.0;   ///< by operator new: what OpenSceneGraph and the kit hold, drivers in C left out
+    double heap = 0.0;      ///< that malloc has handed out
+    double resident = 0.0;  ///< after malloc has given back what it can
+
+    [[nodiscard]] static Memory now();
+};
+
+/// What the kit has put into a scene: callbacks, and the options that files are read with; told apart by address, and
+/// observed until they are deleted.
+class KitObjects {
+public:
+    /// Looks for those in the scene. Returns: how many there are.
+    std::size_t note(osg::Node& scene);
+
+    /// Of all that were ever noted, those that are alive.
+    [[nodiscard]] std::size_t alive();
+
+    /// The same by class, for a message.
+    [[nodiscard]] std::string kinds() const;
+
+private:
+    std::map<const osg::Object*, osg::observer_ptr<osg::Object>> _known;
+};
+
+/// Growth in percent from the median of the first tenth of samples to that of the last, where the first fifth of all
+/// was left out as a warm-up. Returns: 0 for fewer than 20 samples.
+[[nodiscard]] double growthPercent(const std::vector<double>& samples);
+
+}  // namespace osgAnalyticBin::test

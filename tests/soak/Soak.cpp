@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Flies at random for a long time while databases are paged, added and removed, and bins, options and threading models
+// change; fails when memory grows, when a tile is lost, or when something hangs. See tests/README.md.
+
+#include "Flight.h"
+#include "PagedScenes.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <iomanip>
+#include <iostream>
+#include <support/SyntheticDatabase.h>
+#include <support/TemporaryFolder.h>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+constexpr const char* kUsage =
+    "usage: osganalyticbin_soak [--frames N] [--seed N] [--bins on|off]\n"
+    "  --frames N     frames to fly, half of them with one viewer, half with many (100000)\n"
+    "  --seed N       of the flight (1)\n"
+    "  --bins on|off  off: the same flight with OpenSceneGraph alone, to tell its growth apart (on)\n"
+    "Needs a display. Exits with 1 when memory grows by more than 1 %, when the picture differs from that without\n"
+    "culling, or when objects of the kit outlive their scene; aborts when a frame takes more than 60 s.\n";
+
+struct Arguments {
+    std::size_t frames = 100000;
+    std::uint64_t seed = 1;
+    bool withBins = true;
+};
+
+// Returns: false, after a line that says why, when something is not understood.
+bool parse(int count, char** texts, Arguments& arguments) {
+    for (int i = 1; i < count; i += 2) {
+        const std::string name = texts[i];
+        const std::string value = i + 1 < count ? texts[i + 1] : "";
+        const bool isNumber = !value.empty() && value.find_first_not_of("0123456789") == std::string::npos;
+        if (name == "--frames" && isNumber) {
+            arguments.frames = std::stoul(value);
+        } else if (name == "--seed" && isNumber) {
+            arguments.seed = std::stoull(value);
+        } else if (name == "--bins" && (value == "on" || value == "off")) {
+            arguments.withBins = value == "on";
+        } else {
+            std::cerr << "osganalyticbin_soak: \"" << name << " " << value << "\" is not understood; see --help\n";
+            return false;
+        }
+    }
+    return true;
+}
+
+struct Samples {
+    std::vector<double> objects, heap, resident;
+    const std::chrono::steady_clock::time_point _start = std::chrono::steady_clock::now();
+
+    void add(const char* where, std::size_t frames) {
+        const Memory memory = Memory::now();
+        objects.push_back(memory.objects);
+        heap.push_back(memory.heap);
+        resident.push_back(memory.resident);
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - _start;
+        std::cout << std::setw(7) << std::lround(elapsed.count()) << std::setw(9) << frames << "  " << std::setw(9)
+                  << where << std::fixed << std::setprecision(3) << std::setw(12) << memory.objects << std::setw(12)
+                  << memory.heap << std::setw(12) << memory.resident << std::endl;
+    }
+};
+
+class Soak {
+public:
+    Soak(const Arguments& arguments)
+        : _arguments(arguments), _random(910, arguments.seed), _watchdog(std::chrono::seconds(60)) {}
+
+    int run() {
+        // the first two stay: what is known of a false database grows with every tile that is met for the first time
+        _databases = {writeSyntheticDatabase(_folder.makeFolder("true")),
+                      writeTerrainDatabase(_folder.makeFolder("terrain")),
+                      writeFalseDatabase(_folder.makeFolder("false"))};
+        std::cout << "seconds   frames      where  objects MB     heap MB      RSS MB\n";
+        flyWithOneViewer();
+        flyWithManyViewers();
+        return verdict();
+    }
+
+private:
+    void flyWithOneViewer() {
+        const std::size_t frames = _arguments.frames / 2;
+        const std::size_t round = std::max<std::size_t>(frames / 100, 50);
+        Flight flight({Threading::SingleThreaded, Layout::Views, 2, _arguments.withBins}, _databases, _random,
+                      _watchdog, _findings);
+        while (_findings.frames < frames) {
+            flight.fly(round);
+            flight.halt();
+            _stations.add("station", _findings.frames);
+        }
+    }
+
+    void flyWithManyViewers() {
+        const std::size_t round = std::max<std::size_t>(_arguments.frames / 200, 12);
+        constexpr int kCameras[] = {1, 2, 4};
+        for (std::size_t life = 0; _findings.frames < _arguments.frames; ++life) {
+            {
+                Flight flight({kThreadingModels[life % 4], life % 8 < 4 ? Layout::Views : Layout::Slaves,
+                               kCameras[life % 3], _arguments.withBins},
+                              _databases, _random, _watchdog, _findings);
+                flight.fly(round);
+                if (life % 4 == 0) flight.halt();
+            }
+            _watchdog.report("after a viewer");
+            _ends.add("no viewer", _findings.frames);
+        }
+    }
+
+    int verdict() {
+        const double station = growthPercent(_stations.objects);
+        const double end = growthPercent(_ends.objects);
+        std::cout << "frames " << _findings.frames << ", stations " << _findings.stations << ", PagedLODs refined "
+                  << _findings.tilesLoaded << " (every 16th frame)\n"
+                  << "objects, one viewer:   growth " << station << " %\n"
+                  << "objects, many viewers: growth " << end << " %\n"
+                  << "heap, one viewer:   growth " << growthPercent(_stations.heap) << " %\n"
+                  << "heap, many viewers: growth " << growthPercent(_ends.heap) << " %\n"
+                  << "RSS, one viewer:    growth " << growthPercent(_stations.resident) << " %\n"
+                  << "RSS, many viewers:  growth " << growthPercent(_ends.resident) << " %\n"
+                  << "pictures " << _findings.pictures << ", pixels covered " << _findings.coveredPixels
+                  << ", pictures that differ " << _findings.differingPictures << " (pixels "
+                  << _findings.differingPixels << ")\n"
+                  << "objects of the kit outside of the scene " << _findings.strayObjects << ", tiles not drained "
+                  << _findings.undrainedTiles << ", stations that did not come to rest " << _findings.unloaded
+                  << std::endl;
+        const bool grows = station > 1.0 || end > 1.0;
+        const bool isWorthIt = _findings.tilesLoaded > 0 && _findings.coveredPixels > 0;
+        const bool fails = grows || _findings.differingPictures > 0 || _findings.strayObjects > 0 ||
+                           _findings.undrainedTiles > 0 || _findings.unloaded > 0 || !isWorthIt;
+        std::cout << (fails ? "FAILED" : "passed") << std::endl;
+        return fails ? 1 : 0;
+    }
+
+    const Arguments _arguments;
+    Random _random;
+    Watchdog _watchdog;
+    Findings _findings;
+    const TemporaryFolder _folder;
+    std::vector<std::string> _databases;
+    Samples _stations, _ends;
+};
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
+
+int main(int count, char** texts) {
+    using namespace osgAnalyticBin::test;
+    if (count > 1 && std::string(texts[1]) == "--help") {
+        std::cout << kUsage;
+        return 0;
+    }
+    Arguments arguments;
+    if (!parse(count, texts, arguments)) return 2;
+    if (!ViewerRig::canDraw()) {
+        std::cerr << "osganalyticbin_soak: no graphics context; start it with xvfb-run\n";
+        return 77;
+    }
+    return Soak(arguments).run();
+}
