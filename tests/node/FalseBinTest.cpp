@@ -36,11 +36,12 @@ AnalyticBin claim(core::GeodeticBin extents) {
 class FalseBins : public ::testing::Test {
 protected:
     // A root tile of 40 degrees; paged below it a leaf in its south, with a mesh, a height and a stored bin.
-    void write(const core::GeodeticBin& leafMesh, double leafHeight, const std::string& leafText) {
+    void write(const core::GeodeticBin& leafMesh, double leafHeight, const std::string& leafText,
+               const std::string& rootText = claim(extentsDeg(10, 50, 0, 40)).toText()) {
         const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
         root->setEllipsoidModel(new osg::EllipsoidModel);
         const osg::ref_ptr<osg::PagedLOD> whole = makePaged(makeMeshTile(_whole, 200.0), "leaf.osgb", 1e9f);
-        setStoredBin(*whole, claim(_whole));
+        whole->setUserValue("osgAnalyticBin", rootText);
         root->addChild(whole);
         const osg::ref_ptr<osg::Group> leaf = new osg::Group;
         leaf->addChild(makeMeshTile(leafMesh, leafHeight));
@@ -145,6 +146,15 @@ TEST_F(FalseBins, ThatCannotBeReadStillWidenTheParentByTheSurface) {
     update();
     EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0);
     EXPECT_EQ(_notes.count(kWarning), 1u);
+}
+
+TEST_F(FalseBins, LeaveATileAboveVisibleWhoseOwnBinIsNotKnown) {
+    write(_south, 7000.0, claim(_south).toText(), "1e999 0 0 50 40 300 1");
+    ASSERT_FALSE(installedOn(*_root)->bin().valid());
+    update();
+    update();
+    EXPECT_FALSE(installedOn(*_root)->bin().valid());
+    EXPECT_GE(altitudeOf(*_leaf).upper, 7000.0 - 1.0);
 }
 
 TEST_F(FalseBins, HideAPeakForNoLongerThanTheFrameInWhichItAppears) {

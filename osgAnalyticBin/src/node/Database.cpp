@@ -149,6 +149,8 @@ void Database::update() {
             requestRefit();
             continue;
         }
+        // a bin that is not known holds everything already
+        if (!callback->bin().valid()) continue;
         AnalyticBin wider = callback->bin();
         wider.expandBy(bin);
         callback->setBin(wider);
