@@ -455,5 +455,43 @@ TEST(TileSurface, IsUnknownWhereThereIsNoTerrain) {
     EXPECT_FALSE(surfaceOf(*planar).bin.valid());
 }
 
+// A few bytes in a file may claim ranges of billions of vertices, or triangles that end in the middle.
+TEST(TileSurface, ReadsNothingBeyondVerticesAndIndices) {
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    for (int i = 0; i < 6; ++i)
+        vertices->push_back(
+            osg::Vec3(6378137.0f, 1000.0f * static_cast<float>(i / 2), 1000.0f * static_cast<float>(i % 2)));
+    geometry->setVertexArray(vertices);
+    geode->addDrawable(geometry);
+    const auto isKnownWith = [&](osg::PrimitiveSet* primitives) {
+        geometry->removePrimitiveSet(0, geometry->getNumPrimitiveSets());
+        geometry->addPrimitiveSet(primitives);
+        (void)surfaceFingerprint(*geode, osg::Matrixd());
+        return surfaceOf(*geode).bin.valid();
+    };
+    const int all = std::numeric_limits<int>::max();
+    for (GLenum mode = GL_POINTS; mode <= GL_POLYGON; ++mode) {
+        EXPECT_TRUE(isKnownWith(new osg::DrawArrays(mode, 0, 6))) << mode;
+        EXPECT_FALSE(isKnownWith(new osg::DrawArrays(mode, 0, all))) << mode;
+        EXPECT_FALSE(isKnownWith(new osg::DrawArrays(mode, all, all))) << mode;
+        EXPECT_FALSE(isKnownWith(new osg::DrawArrays(mode, -3, 6))) << mode;
+        const osg::ref_ptr<osg::DrawArrayLengths> lengths = new osg::DrawArrayLengths(mode, 2);
+        lengths->push_back(4);
+        EXPECT_TRUE(isKnownWith(lengths)) << mode;
+        const osg::ref_ptr<osg::DrawArrayLengths> more = new osg::DrawArrayLengths(mode, 2);
+        for (const int length : {4, all, all, 2}) more->push_back(length);
+        EXPECT_FALSE(isKnownWith(more)) << mode;
+        for (unsigned int count = 0; count < 6; ++count) {
+            const osg::ref_ptr<osg::DrawElementsUByte> bytes = new osg::DrawElementsUByte(mode);
+            bytes->reserveElements(count);
+            for (unsigned int i = 0; i < count; ++i) bytes->push_back(static_cast<GLubyte>(i));
+            const unsigned int least = mode <= GL_LINE_STRIP ? 1 : mode == GL_QUADS || mode == GL_QUAD_STRIP ? 4 : 3;
+            EXPECT_EQ(isKnownWith(bytes), count >= least) << mode << ' ' << count;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace osgAnalyticBin::test

@@ -126,8 +126,9 @@ private:
         }
         addArray(geometry->getVertexArray());
         addArray(geometry->getTexCoordArray(0));
+        const osg::Array* const vertices = geometry->getVertexArray();
         for (const auto& primitives : geometry->getPrimitiveSetList())
-            if (primitives) addPrimitives(*primitives);
+            if (primitives) addPrimitives(*primitives, vertices ? vertices->getNumElements() : 0);
     }
 
     void addHeights(const osg::HeightField& field) {
@@ -161,13 +162,17 @@ private:
         if (array->getDataType() == GL_FLOAT) _mixer.addArray<std::uint32_t>(array->getDataPointer(), words);
     }
 
-    void addPrimitives(const osg::PrimitiveSet& primitives) {
+    void addPrimitives(const osg::PrimitiveSet& primitives, unsigned int vertices) {
         _mixer.add((static_cast<std::uint64_t>(primitives.getMode()) << 32) | primitives.getNumIndices());
         if (const auto* shorts = dynamic_cast<const osg::DrawElementsUShort*>(&primitives))
             return _mixer.addArray<std::uint16_t>(shorts->getDataPointer(), shorts->size());
         if (const auto* ints = dynamic_cast<const osg::DrawElementsUInt*>(&primitives))
             return _mixer.addArray<std::uint32_t>(ints->getDataPointer(), ints->size());
-        for (unsigned int i = 0; i < primitives.getNumIndices(); ++i) _mixer.add(std::uint64_t{primitives.index(i)});
+        // nothing is read of ranges that go beyond the vertices, be they billions long
+        const bool isRange = primitives.getDrawElements() == nullptr;
+        const unsigned int count = primitives.getNumIndices();
+        if (isRange && count > vertices) return;
+        for (unsigned int i = 0; i < count; ++i) _mixer.add(std::uint64_t{primitives.index(i)});
     }
 
     WordMixer _mixer;

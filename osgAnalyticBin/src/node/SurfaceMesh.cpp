@@ -4,21 +4,12 @@
 #include "SurfaceMesh.h"
 
 #include <osg/TriangleFunctor>
-#include <osg/TriangleIndexFunctor>
 
 #include <algorithm>
 
 namespace osgAnalyticBin {
 
 namespace {
-
-struct IndexSink {
-    std::vector<std::uint32_t>* triangles = nullptr;
-
-    void operator()(unsigned int a, unsigned int b, unsigned int c) const {
-        triangles->insert(triangles->end(), {a, b, c});
-    }
-};
 
 struct TriangleSink {
     SurfaceMesh* mesh = nullptr;
@@ -88,8 +79,45 @@ bool isOfTriangles(GLenum mode) {
            mode == GL_QUAD_STRIP || mode == GL_POLYGON;
 }
 
-bool readPrimitives(const osg::PrimitiveSet& primitives, std::vector<std::uint32_t>& triangles) {
-    if (primitives.getNumInstances() > 0) return false;
+// Whether ranges of vertices end where the vertices do. A few bytes of a file may claim billions; indices take as much
+// room in a file as they do here.
+bool isWithinVertices(const osg::PrimitiveSet& primitives, std::int64_t vertices) {
+    std::int64_t first = 0;
+    std::int64_t count = 0;
+    if (const auto* arrays = dynamic_cast<const osg::DrawArrays*>(&primitives)) {
+        first = arrays->getFirst();
+        count = arrays->getCount();
+    } else if (const auto* lengths = dynamic_cast<const osg::DrawArrayLengths*>(&primitives)) {
+        first = lengths->getFirst();
+        for (const GLsizei length : *lengths) {
+            if (length < 0) return false;
+            count += length;
+        }
+    }
+    return count == 0 || (first >= 0 && count > 0 && first + count <= vertices);
+}
+
+// OSG's own TriangleIndexFunctor reads past the indices of an incomplete last triangle.
+template <class IndexAt>
+void addTriangles(GLenum mode, unsigned int count, const IndexAt& at, std::vector<std::uint32_t>& triangles) {
+    const auto add = [&](unsigned int a, unsigned int b, unsigned int c) {
+        triangles.insert(triangles.end(), {at(a), at(b), at(c)});
+    };
+    if (mode == GL_TRIANGLES) {
+        for (unsigned int i = 2; i < count; i += 3) add(i - 2, i - 1, i);
+    } else if (mode == GL_TRIANGLE_STRIP) {
+        for (unsigned int i = 2; i < count; ++i) i % 2 ? add(i - 2, i, i - 1) : add(i - 2, i - 1, i);
+    } else if (mode == GL_QUADS) {
+        for (unsigned int i = 3; i < count; i += 4) add(i - 3, i - 2, i - 1), add(i - 3, i - 1, i);
+    } else if (mode == GL_QUAD_STRIP) {
+        for (unsigned int i = 3; i < count; i += 2) add(i - 3, i - 2, i - 1), add(i - 2, i, i - 1);
+    } else {
+        for (unsigned int i = 2; i < count; ++i) add(0, i - 1, i);
+    }
+}
+
+bool readPrimitives(const osg::PrimitiveSet& primitives, std::int64_t vertices, std::vector<std::uint32_t>& triangles) {
+    if (primitives.getNumInstances() > 0 || !isWithinVertices(primitives, vertices)) return false;
     const GLenum mode = primitives.getMode();
     if (isOfPointsOrLines(mode)) {
         addPoints(primitives, triangles);
@@ -106,15 +134,26 @@ bool readPrimitives(const osg::PrimitiveSet& primitives, std::vector<std::uint32
             return true;
         }
     }
-    osg::TriangleIndexFunctor<IndexSink> functor;
-    functor.triangles = &triangles;
-    primitives.accept(functor);
+    const auto* lengths = dynamic_cast<const osg::DrawArrayLengths*>(&primitives);
+    if (!lengths) {
+        addTriangles(
+            mode, primitives.getNumIndices(), [&](unsigned int i) { return primitives.index(i); }, triangles);
+        return true;
+    }
+    auto first = static_cast<unsigned int>(lengths->getFirst());
+    for (const GLsizei length : *lengths) {
+        const auto count = static_cast<unsigned int>(length);
+        addTriangles(
+            mode, count, [first](unsigned int i) { return first + i; }, triangles);
+        first += count;
+    }
     return true;
 }
 
 bool readGeometry(const osg::Geometry& geometry, const osg::Matrixd& localToEcef, SurfaceMesh& mesh) {
+    const std::int64_t vertices = geometry.getVertexArray() ? geometry.getVertexArray()->getNumElements() : 0;
     for (const auto& primitives : geometry.getPrimitiveSetList())
-        if (primitives && !readPrimitives(*primitives, mesh.triangles)) return false;
+        if (primitives && !readPrimitives(*primitives, vertices, mesh.triangles)) return false;
     if (mesh.triangles.empty()) return true;
     if (!geometry.getVertexArray() || !readVertices(*geometry.getVertexArray(), localToEcef, mesh)) return false;
     const auto* texCoords = dynamic_cast<const osg::Vec2Array*>(geometry.getTexCoordArray(0));
