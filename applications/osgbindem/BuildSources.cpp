@@ -11,15 +11,22 @@
 #include <cpl_vsi.h>
 #include <osg/Version>
 
+#include <algorithm>
 #include <filesystem>
 #include <iomanip>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <system_error>
+#include <vector>
 
 namespace osgbindem {
 
 namespace {
+
+constexpr const char* kFoundLevels = "levels found ";
+constexpr const char* kElevation = "elevation ";
+constexpr const char* kArea = "  area ";
 
 // To be raised when the same settings come to make other files.
 constexpr int kFormat = 1;
@@ -29,6 +36,16 @@ std::string wholePath(const std::string& path) {
     if (!std::filesystem::exists(path, error)) return path;  // GDAL has names that are no files
     const std::filesystem::path whole = std::filesystem::canonical(path, error);
     return error ? path : whole.string();
+}
+
+/// Where heights may depend on the raster.
+RectDeg areaOf(const Settings& settings, const std::string& path) {
+    RasterOptions options;
+    options.path = path;
+    options.nodata = settings.nodata;
+    options.isWgs84 = settings.isWgs84;
+    const RasterGrid grid = GdalRaster(options).grid();
+    return grid.extent().grownBy(grid.resolutionDeg());
 }
 
 void describeFile(const std::string& path, std::ostream& out) {
@@ -54,13 +71,16 @@ std::string describeSources(const Settings& settings, const TileLayout& layout) 
     out << std::setprecision(std::numeric_limits<double>::max_digits10);
     out << "osgbindem " << osgAnalyticBin::version() << ", format " << kFormat << ", GDAL "
         << GDALVersionInfo("RELEASE_NAME") << ", OpenSceneGraph " << osgGetVersion() << '\n';
-    out << "levels " << layout.deepestLevel() << ", cells " << layout.cells() << ", lod factor " << settings.lodFactor
-        << ", compressed " << settings.compress << ", overviews " << settings.useOverviews << '\n';
+    out << (settings.levels ? "levels given " : kFoundLevels) << layout.deepestLevel() << '\n';
+    out << "cells " << layout.cells() << ", lod factor " << settings.lodFactor << ", compressed " << settings.compress
+        << ", overviews " << settings.useOverviews << '\n';
     out << "radii " << settings.ellipsoid.equatorialRadius() << ' ' << settings.ellipsoid.polarRadius() << ", WGS 84 "
         << settings.isWgs84 << '\n';
     if (settings.nodata) out << "nodata " << *settings.nodata << '\n';
     for (const DemInput& dem : settings.dems) {
-        out << "elevation " << wholePath(dem.path) << ", scale " << dem.metresPerUnit << '\n';
+        out << kElevation << wholePath(dem.path) << ", scale " << dem.metresPerUnit << '\n';
+        const RectDeg area = areaOf(settings, dem.path);
+        out << kArea << area.west << ' ' << area.south << ' ' << area.east << ' ' << area.north << '\n';
         describeRaster(dem.path, out);
     }
     if (!settings.image.empty()) {
@@ -68,6 +88,70 @@ std::string describeSources(const Settings& settings, const TileLayout& layout) 
         describeRaster(settings.image, out);
     }
     return out.str();
+}
+
+namespace {
+
+struct Raster {
+    std::string text;
+    RectDeg area;
+
+    bool operator==(const Raster& other) const { return text == other.text; }
+};
+
+/// The description of a database taken apart.
+struct Sources {
+    /// Everything but the rasters of heights, and the levels where nobody gave them.
+    std::string settings;
+    std::vector<Raster> rasters;
+};
+
+Sources sourcesFrom(const std::string& description) {
+    Sources sources;
+    bool isRaster = false;
+    std::istringstream in(description);
+    for (std::string line; std::getline(in, line);) {
+        const bool isDetail = line.rfind("  ", 0) == 0;
+        if (line.rfind(kElevation, 0) == 0) sources.rasters.emplace_back();
+        isRaster = line.rfind(kElevation, 0) == 0 || (isRaster && isDetail);
+        if (isRaster) {
+            Raster& raster = sources.rasters.back();
+            raster.text += line + '\n';
+            if (line.rfind(kArea, 0) != 0) continue;
+            std::istringstream numbers(line.substr(std::string(kArea).size()));
+            numbers >> raster.area.west >> raster.area.south >> raster.area.east >> raster.area.north;
+        } else if (line.rfind(kFoundLevels, 0) != 0) {
+            sources.settings += line + '\n';
+        }
+    }
+    return sources;
+}
+
+/// Those of the first that are not in the second.
+std::vector<Raster> without(const std::vector<Raster>& rasters, const std::vector<Raster>& others) {
+    std::vector<Raster> result;
+    std::copy_if(rasters.begin(), rasters.end(), std::back_inserter(result),
+                 [&](const Raster& raster) { return std::find(others.begin(), others.end(), raster) == others.end(); });
+    return result;
+}
+
+}  // namespace
+
+std::optional<ChangedArea> changedBetween(const std::string& before, const std::string& now) {
+    const Sources old = sourcesFrom(before);
+    const Sources current = sourcesFrom(now);
+    if (old.settings != current.settings) return std::nullopt;
+    std::vector<Raster> gone = without(old.rasters, current.rasters);
+    std::vector<Raster> added = without(current.rasters, old.rasters);
+    // Of two equally fine rasters the one named first counts.
+    if (without(old.rasters, gone) != without(current.rasters, added)) {
+        gone = old.rasters;
+        added = current.rasters;
+    }
+    ChangedArea area;
+    for (const Raster& raster : gone) area.add(raster.area);
+    for (const Raster& raster : added) area.add(raster.area);
+    return area;
 }
 
 }  // namespace osgbindem

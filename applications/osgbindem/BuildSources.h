@@ -3,9 +3,11 @@
 
 #pragma once
 
+#include "ChangedArea.h"
 #include "Settings.h"
 #include "TileLayout.h"
 
+#include <optional>
 #include <string>
 
 namespace osgbindem {
@@ -13,5 +15,9 @@ namespace osgbindem {
 /// Everything that decides the bytes of a database, as text: programs, settings, and each raster's files with their
 /// sizes and times. Two runs with the same text build the same files.
 [[nodiscard]] std::string describeSources(const Settings& settings, const TileLayout& layout);
+
+/// Where a database may differ from one that would be built now, by their descriptions.
+/// Returns: nullopt when more than rasters of heights differs.
+[[nodiscard]] std::optional<ChangedArea> changedBetween(const std::string& before, const std::string& now);
 
 }  // namespace osgbindem

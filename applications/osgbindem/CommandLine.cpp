@@ -164,7 +164,12 @@ void declare(CLI::App& app, Arguments& arguments) {
     app.add_flag("!--full-resolution", settings.useOverviews,
                  "do not read a raster's overviews where --levels needs nothing finer");
     app.add_flag("--compress", settings.compress, "compress the files with zlib");
-    app.add_flag("--restart", settings.restart, "do not go on with what an interrupted run has left");
+    auto* restart = app.add_flag("--restart", settings.restart, "do not go on with what an interrupted run has left");
+    app.add_flag(
+           "--update", settings.update,
+           "build only the tiles of the database OUTPUT that differ because rasters\nwere added, replaced or left "
+           "out since; all rasters have to be named")
+        ->excludes(restart);
     app.add_flag("--quiet", settings.quiet, "show no progress");
 }
 

@@ -31,12 +31,6 @@ namespace {
 
 constexpr std::size_t kStartTiles = std::size_t{TileId::kStartColumns} * TileId::kStartRows;
 
-TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic) {
-    const int cells = settings.cells.value_or(TileLayout::cellsFor(mosaic.finestGlobalDeg()));
-    const int levels = settings.levels.value_or(TileLayout::levelFor(mosaic.finestDeg(), cells));
-    return TileLayout(cells, levels, settings.ellipsoid);
-}
-
 /// What the threads share that build one database.
 struct Site {
     const Settings& settings;
@@ -111,20 +105,6 @@ private:
     std::atomic<std::size_t> _next{0};
 };
 
-void runThreads(int count, TaskSource& tasks, const std::function<void()>& body) {
-    std::vector<std::thread> threads;
-    for (int i = 0; i < count; ++i) {
-        threads.emplace_back([&] {
-            try {
-                body();
-            } catch (...) {
-                tasks.fail(std::current_exception());
-            }
-        });
-    }
-    for (std::thread& thread : threads) thread.join();
-}
-
 /// Says what an earlier run has left, and makes the state one of this database.
 void beginOrGoOn(const Settings& settings, const std::string& sources, std::size_t parts, DatabaseFolder& folder,
                  const BuildState& state) {
@@ -152,7 +132,8 @@ std::string whatIsKept(const DatabaseFolder& folder, const BuildState& state, st
            "\"; the same command goes on with them";
 }
 
-void buildParts(const Settings& settings, const Site& site, const std::vector<Task>& plan, DatabaseFolder& folder) {
+void buildParts(const Settings& settings, const Site& site, const std::vector<Task>& plan, DatabaseFolder& folder,
+                const std::string& sources) {
     TaskBoard board(plan);
     StartTiles starts(site, plan);
     runThreads(settings.threads, board, [&] {
@@ -162,13 +143,7 @@ void buildParts(const Settings& settings, const Site& site, const std::vector<Ta
     });
     board.rethrow();
     TileBuilder builder(settings, site.layout, site.files);
-    folder.complete(starts.rootBytes(builder));
-}
-
-double weightOf(const std::vector<Task>& tasks) {
-    double sum = 0.0;
-    for (const Task& task : tasks) sum += task.weight;
-    return sum;
+    folder.complete(starts.rootBytes(builder), sources);
 }
 
 }  // namespace
@@ -177,18 +152,19 @@ void buildDatabase(const Settings& settings) {
     prepareNodeFiles();
     DemMosaic mosaic(settings);
     mosaic.requireData();
-    const TileLayout layout = layoutFor(settings, mosaic);
+    const TileLayout layout = planLayout(settings, mosaic);
     DatabaseFolder folder(settings.output);
     folder.lock();
     const BuildState state(folder.stateFolder());
     DemMosaic built(settings, layout.spacingDeg(layout.deepestLevel()));
     EdgeDepths depths(built, layout);
     const std::vector<Task> plan = planTasks(built, depths, layout);
-    beginOrGoOn(settings, describeSources(settings, layout), plan.size(), folder, state);
+    const std::string sources = describeSources(settings, layout);
+    beginOrGoOn(settings, sources, plan.size(), folder, state);
     try {
         const TileFiles files = folder.files();
         Progress progress(!settings.quiet, weightOf(plan));
-        buildParts(settings, {settings, layout, files, state, progress}, plan, folder);
+        buildParts(settings, {settings, layout, files, state, progress}, plan, folder, sources);
         progress.finish();
     } catch (const Interrupted&) {
         const std::string kept = whatIsKept(folder, state, plan.size());

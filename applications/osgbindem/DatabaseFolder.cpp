@@ -8,9 +8,12 @@
 #include "Failure.h"
 #include "NodeFile.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <system_error>
 #include <unistd.h>
 
@@ -28,6 +31,19 @@ void moveTo(const std::string& from, const std::string& to) {
     if (error) throw Failure("cannot rename \"" + from + "\" to \"" + to + "\": " + error.message());
 }
 
+/// The files with tiles below a folder, those of the deepest levels first.
+std::vector<fs::path> finestFirst(const std::string& folder, const std::string& leftOut) {
+    std::vector<fs::path> files;
+    for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator(); ++entry) {
+        if (entry->path() == leftOut) entry.disable_recursion_pending();
+        if (entry->is_regular_file()) files.push_back(entry->path());
+    }
+    // Names begin with the level, in two digits.
+    std::sort(files.begin(), files.end(),
+              [](const fs::path& a, const fs::path& b) { return a.filename() > b.filename(); });
+    return files;
+}
+
 }  // namespace
 
 DatabaseFolder::DatabaseFolder(const std::string& rootFile) : _rootFile(rootFile) {
@@ -39,6 +55,8 @@ DatabaseFolder::DatabaseFolder(const std::string& rootFile) : _rootFile(rootFile
     _oldState = _tiles + ".state";
     _lockFile = _tiles + ".lock";
     _newRoot = rootFile + ".partial";
+    _sources = rootFile + ".sources";
+    _newSources = _sources + ".partial";
     _folder = path.has_parent_path() ? path.parent_path().string() : ".";
     std::error_code error;
     if (!fs::is_directory(_folder, error)) {
@@ -55,8 +73,11 @@ DatabaseFolder::DatabaseFolder(const std::string& rootFile) : _rootFile(rootFile
 DatabaseFolder::~DatabaseFolder() {
     if (_lock < 0) return;
     std::error_code ignored;
-    if (BuildState(stateFolder()).count() == 0) fs::remove_all(_partial, ignored);
-    fs::remove(_newRoot, ignored);
+    if (!fs::exists(mergeFile(), ignored)) {
+        if (BuildState(stateFolder()).count() == 0) fs::remove_all(_partial, ignored);
+        fs::remove(_newRoot, ignored);
+        fs::remove(_newSources, ignored);
+    }
     ::unlink(_lockFile.c_str());
     ::close(_lock);
 }
@@ -86,6 +107,7 @@ void DatabaseFolder::lock() {
         _lock = -1;
         throw Failure("another osgbindem is writing \"" + _rootFile + "\"; wait for it or choose another name");
     }
+    if (fs::exists(mergeFile())) carryMergeThrough();
 }
 
 void DatabaseFolder::remove(const std::string& folder) const {
@@ -100,8 +122,14 @@ void DatabaseFolder::clear() {
     for (const std::string& left : {_partial, _old, _oldState}) remove(left);
 }
 
-void DatabaseFolder::complete(const std::string& rootBytes) {
+std::string DatabaseFolder::standingSources() const {
+    std::ifstream in(_sources, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void DatabaseFolder::complete(const std::string& rootBytes, const std::string& sources) {
     writeFile(_newRoot, rootBytes);
+    writeFile(_newSources, sources);
     osgAnalyticBin::support::flushToDisk(_partial);
     remove(_old);
     remove(_oldState);
@@ -111,9 +139,45 @@ void DatabaseFolder::complete(const std::string& rootBytes) {
     if (error) throw Failure("cannot replace \"" + _rootFile + "\": " + error.message());
     if (fs::exists(_tiles)) moveTo(_tiles, _old);
     moveTo(_partial, _tiles);
+    moveTo(_newSources, _sources);
     moveTo(_newRoot, _rootFile);
     fs::remove_all(_oldState, error);
     fs::remove_all(_old, error);
+}
+
+void DatabaseFolder::merge(const std::string& rootBytes, const std::string& sources,
+                           const std::vector<TileId>& removed) {
+    std::string names;
+    const TileFiles files = standingFiles();
+    for (const TileId& tile : removed) names += fs::relative(files.pathOfChildren(tile), _tiles).string() + '\n';
+    std::error_code error;
+    fs::create_directories(stateFolder(), error);
+    writeFile(_newRoot, rootBytes);
+    writeFile(_newSources, sources);
+    osgAnalyticBin::support::flushToDisk(_partial);
+    writeFile(mergeFile(), names);
+    carryMergeThrough();
+}
+
+void DatabaseFolder::carryMergeThrough() {
+    for (const fs::path& file : finestFirst(_partial, stateFolder())) {
+        const fs::path target = _tiles / fs::relative(file, _partial);
+        std::error_code error;
+        fs::create_directories(target.parent_path(), error);
+        if (error) throw Failure("cannot create \"" + target.parent_path().string() + "\": " + error.message());
+        moveTo(file.string(), target.string());
+    }
+    for (const std::string& file : {_rootFile, _sources}) {
+        if (fs::exists(file + ".partial")) moveTo(file + ".partial", file);
+    }
+    std::ifstream names(mergeFile());
+    for (std::string name; std::getline(names, name);) {
+        std::error_code ignored;
+        fs::remove(_tiles + "/" + name, ignored);
+        // The folder, when that was the last of it.
+        fs::remove(fs::path(_tiles + "/" + name).parent_path(), ignored);
+    }
+    remove(_partial);
 }
 
 }  // namespace osgbindem

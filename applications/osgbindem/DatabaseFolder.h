@@ -6,13 +6,19 @@
 #include "TileFiles.h"
 
 #include <string>
+#include <vector>
 
 namespace osgbindem {
 
 /// Where the files of a database stand: "earth.osgb" is the root file, its tiles are below "earth_tiles". All tiles are
 /// written below "earth_tiles.partial", which takes the place of "earth_tiles" when everything is there; the root file
 /// comes last. So a root file always belongs to a complete database, and an older database of the same name stays
-/// whole until then. "earth_tiles.partial/state" says which of the tiles there are done.
+/// whole until then. "earth_tiles.partial/state" says which of the tiles there are done, "earth.osgb.sources" what the
+/// complete ones are built from.
+///
+/// An update moves its files one by one into "earth_tiles", so that readers always find all files that a file names:
+/// each is complete, and those with finer tiles come first. From the first on, it is carried through by whatever run
+/// comes next, should this one be ended.
 class DatabaseFolder final {
 public:
     /// Throws Failure when no database can be there.
@@ -22,7 +28,7 @@ public:
     /// Removes what is not complete, unless a later run can go on with it.
     ~DatabaseFolder();
 
-    /// Locks the database against a second program. Throws Failure.
+    /// Locks the database against a second program, and completes an update that was cut off. Throws Failure.
     void lock();
 
     /// Requires: locked. Removes what earlier runs have left. Throws Failure.
@@ -32,17 +38,31 @@ public:
     [[nodiscard]] std::string stateFolder() const { return _partial + "/" + kStateName; }
     [[nodiscard]] TileFiles files() const { return {_partial, _tilesName}; }
 
+    [[nodiscard]] const std::string& rootFile() const { return _rootFile; }
+    /// The files of the complete database.
+    [[nodiscard]] TileFiles standingFiles() const { return {_tiles, _tilesName}; }
+    /// What the complete database is built from; empty when there is none or nobody knows.
+    [[nodiscard]] std::string standingSources() const;
+
     /// Swaps the new database in, without its state. Throws Failure.
-    void complete(const std::string& rootBytes);
+    void complete(const std::string& rootBytes, const std::string& sources);
+
+    /// Moves the new files into the complete database, and removes those with the children of `removed`.
+    /// Throws Failure.
+    void merge(const std::string& rootBytes, const std::string& sources, const std::vector<TileId>& removed);
 
 private:
     static constexpr const char* kStateName = "state";
 
     void requireOwnFolder(const std::string& folder, bool mayHaveState) const;
     void remove(const std::string& folder) const;
+    [[nodiscard]] std::string mergeFile() const { return stateFolder() + "/merge"; }
+    void carryMergeThrough();
 
     std::string _rootFile;
     std::string _newRoot;
+    std::string _sources;
+    std::string _newSources;
     /// Without path.
     std::string _tilesName;
     std::string _folder;

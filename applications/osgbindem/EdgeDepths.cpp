@@ -12,7 +12,9 @@ namespace {
 // Enough for the neighbourhood of the tiles at work; the answers can be found again.
 constexpr std::size_t kMostKnown = 100000;
 
-Edge opposite(Edge edge) {
+}  // namespace
+
+Edge oppositeOf(Edge edge) {
     switch (edge) {
         case Edge::South:
             return Edge::North;
@@ -41,8 +43,6 @@ std::array<TileId, 2> childrenAlong(const TileId& tile, Edge edge) {
     return {all[1], all[3]};
 }
 
-}  // namespace
-
 bool EdgeDepths::hasChildren(const TileId& tile) {
     if (tile.level >= _layout.deepestLevel()) return false;
     const auto known = _known.find(tile);
@@ -63,7 +63,7 @@ int EdgeDepths::deepestAlong(const TileId& tile, Edge edge) {
     const int own = deepestWithin(tile, edge);
     const auto neighbour = tile.neighbour(edge);
     if (!neighbour || coarsestAcross(tile, edge) < tile.level) return own;
-    return std::max(own, deepestWithin(*neighbour, opposite(edge)));
+    return std::max(own, deepestWithin(*neighbour, oppositeOf(edge)));
 }
 
 int EdgeDepths::coarsestAcross(const TileId& tile, Edge edge) {

@@ -38,6 +38,8 @@ struct Settings {
     /// Read a raster's overview where that is as fine as the finest tiles.
     bool useOverviews = true;
     bool compress = false;
+    /// Build only what differs from the database that is there.
+    bool update = false;
     bool quiet = false;
     /// Whether to forget what an earlier run has left.
     bool restart = false;

@@ -33,20 +33,35 @@ SurveyedTile TileBuilder::survey(const TileId& tile) {
         if (auto found = _finished(tile)) return std::move(*found);
     }
     throwIfStopRequested();
+    prefetch(tile);
+    if (!_depths.hasChildren(tile)) {
+        SurveyedTile leaf = surveyAlone(tile);
+        leaf.range = _mosaic.range(tile.rect());
+        if (_leafDone) _leafDone(tile);
+        return leaf;
+    }
     SurveyedTile surveyed{HeightGrid(tile, _layout), {}, {}, {}};
+    buildChildren(surveyed);
+    finishSurvey(surveyed);
+    return surveyed;
+}
+
+SurveyedTile TileBuilder::surveyAlone(const TileId& tile) {
+    prefetch(tile);
+    SurveyedTile surveyed{HeightGrid(tile, _layout), {}, {}, {}};
+    surveyed.heights.sample(_mosaic, _layout);
+    finishSurvey(surveyed);
+    return surveyed;
+}
+
+void TileBuilder::prefetch(const TileId& tile) {
     // The border is for the ring around the heights; the subtree of the first tile that fits is served from memory.
     _mosaic.prefetch(tile.rect().grownBy(_layout.spacingDeg(tile.level)));
-    const bool hasChildren = _depths.hasChildren(tile);
-    if (hasChildren) {
-        buildChildren(surveyed);
-    } else {
-        surveyed.heights.sample(_mosaic, _layout);
-        surveyed.range = _mosaic.range(tile.rect());
-    }
-    surveyed.heights.sampleRing(_mosaic, _layout);
-    surveyed.skirt = _skirts.measure(surveyed.heights);
-    if (!hasChildren && _leafDone) _leafDone(tile);
-    return surveyed;
+}
+
+void TileBuilder::finishSurvey(SurveyedTile& tile) {
+    tile.heights.sampleRing(_mosaic, _layout);
+    tile.skirt = _skirts.measure(tile.heights);
 }
 
 std::unique_ptr<BuiltTile> TileBuilder::build(const TileId& tile) {

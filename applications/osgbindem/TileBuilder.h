@@ -56,6 +56,9 @@ public:
     /// Writes all files below the tile. Throws Failure, Interrupted.
     [[nodiscard]] SurveyedTile survey(const TileId& tile);
 
+    /// What the rasters say of a tile itself: neither what lies between its posts nor what is below it.
+    [[nodiscard]] SurveyedTile surveyAlone(const TileId& tile);
+
     /// Surveys the tile and makes its mesh. Throws Failure, Interrupted.
     [[nodiscard]] std::unique_ptr<BuiltTile> build(const TileId& tile);
 
@@ -69,6 +72,8 @@ public:
     [[nodiscard]] DemMosaic& mosaic() noexcept { return _mosaic; }
 
 private:
+    void prefetch(const TileId& tile);
+    void finishSurvey(SurveyedTile& tile);
     void buildChildren(SurveyedTile& tile);
     [[nodiscard]] osgAnalyticBin::AnalyticBin sourceBin(const TileId& tile, const HeightRange& range) const;
     [[nodiscard]] std::unique_ptr<BuiltTile> meshed(SurveyedTile tile);

@@ -71,6 +71,15 @@ std::string TileFiles::childrenFile(const TileId& tile) const {
     return tile.level % kLevelsPerFolder == 0 ? tileName(tile) + "/" + file : file;
 }
 
+std::string TileFiles::pathOfChildren(const TileId& tile) const {
+    return _folder + "/" + folderOf(tile) + "/" + fileOf(tile);
+}
+
+bool TileFiles::hasChildren(const TileId& tile) const {
+    std::error_code error;
+    return fs::exists(pathOfChildren(tile), error);
+}
+
 void TileFiles::writeChildren(const TileId& tile, const std::string& bytes) const {
     const std::string folder = _folder + "/" + folderOf(tile);
     std::error_code error;
@@ -87,7 +96,7 @@ FileSum TileFiles::sumBelow(const TileId& tile) const {
 
 void TileFiles::addBelow(const TileId& tile, FileSum& sum) const {
     throwIfStopRequested();
-    std::ifstream in(_folder + "/" + folderOf(tile) + "/" + fileOf(tile), std::ios::binary);
+    std::ifstream in(pathOfChildren(tile), std::ios::binary);
     if (!in) return;
     const std::string bytes{std::istreambuf_iterator<char>(in), {}};
     sum.add(tile, bytes);

@@ -29,6 +29,10 @@ public:
     /// Writes the file with the children of a tile. Throws Failure.
     void writeChildren(const TileId& tile, const std::string& bytes) const;
 
+    /// The path of that file.
+    [[nodiscard]] std::string pathOfChildren(const TileId& tile) const;
+    [[nodiscard]] bool hasChildren(const TileId& tile) const;
+
     /// Reads back all files below a tile.
     [[nodiscard]] FileSum sumBelow(const TileId& tile) const;
 

@@ -31,6 +31,18 @@ void split(const Task& task, double most, DemMosaic& mosaic, EdgeDepths& depths,
 
 }  // namespace
 
+TileLayout planLayout(const Settings& settings, const DemMosaic& mosaic) {
+    const int cells = settings.cells.value_or(TileLayout::cellsFor(mosaic.finestGlobalDeg()));
+    const int levels = settings.levels.value_or(TileLayout::levelFor(mosaic.finestDeg(), cells));
+    return TileLayout(cells, levels, settings.ellipsoid);
+}
+
+double weightOf(const std::vector<Task>& tasks) {
+    double sum = 0.0;
+    for (const Task& task : tasks) sum += task.weight;
+    return sum;
+}
+
 std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout) {
     std::vector<Task> starts;
     double sum = 0.0;

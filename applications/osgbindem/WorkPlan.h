@@ -17,8 +17,13 @@ struct Task {
     double weight = 0.0;
 };
 
+/// The grid of posts for all rasters, where the settings leave it open.
+[[nodiscard]] TileLayout planLayout(const Settings& settings, const DemMosaic& mosaic);
+
 /// Divides the tree into subtrees of similar weight; neighbours follow each other. What lies above the subtrees is left
 /// for afterwards. The plan is the same however many threads and programs share the work, so that others can go on.
 [[nodiscard]] std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout);
+
+[[nodiscard]] double weightOf(const std::vector<Task>& tasks);
 
 }  // namespace osgbindem

@@ -3,6 +3,7 @@
 
 #include "CommandLine.h"
 #include "DatabaseBuilder.h"
+#include "DatabaseUpdate.h"
 #include "Interruption.h"
 
 #include <cpl_conv.h>
@@ -54,7 +55,11 @@ int run(int argc, char** argv) {
     const std::optional<Settings> settings = osgbindem::settingsFrom(argc, argv);
     if (!settings) return EXIT_SUCCESS;
     prepareProcess(*settings);
-    osgbindem::buildDatabase(*settings);
+    if (settings->update) {
+        osgbindem::updateDatabase(*settings);
+    } else {
+        osgbindem::buildDatabase(*settings);
+    }
     return EXIT_SUCCESS;
 }
 

@@ -76,6 +76,7 @@ class Case:
         self.is_sound = is_sound  # of the folder after a kill
         self.expected = expected  # tree after a complete run
         self.duration = 0.0
+        self.growth = None  # bytes that it writes beside an older result, where those are fewer than all
 
     def start(self, folder, is_old):
         shutil.rmtree(folder, ignore_errors=True)
@@ -164,7 +165,7 @@ def bad_disks(case, folder, is_old):
     with small_disk(folder, "256m"):
         case.prepare(folder, is_old)
         used = allocated(folder)
-        needed = allocated(case.reference) - (0 if is_old else used)
+        needed = case.growth or allocated(case.reference) - (0 if is_old else used)
         for share in (0.02, 0.3, 0.7) if needed > 1 << 17 else (0.0,):  # pages are too coarse for small ones
             remount(folder, f"size={used + int(share * needed)}")
             fail(case.command(folder), ["No space left", "make room"])
@@ -199,6 +200,7 @@ class Cases:
         write_grid(work / "inset.asc", 40, 40, 10, 40, 0.1)
         self.old = self.built("old", 1)
         self.new = self.built("new", levels)
+        self.globe = self.built("globe", levels, ["globe.asc"])
         self.index = self.copied("index")
         # the reference has to be whole itself: nothing is missing or broken
         require(succeed(self.index_command(self.index)).stderr.find("warning") < 0, "the reference is not whole")
@@ -207,19 +209,19 @@ class Cases:
             self.copies[which] = work / f"copy_{which}"
             self.copies[which].mkdir()
             succeed([osgbinconv, source / "earth.osgb", self.copies[which] / "earth.osgb", "--quiet"])
-        self.trees = {f: tree(f) for f in (self.old, self.new, self.index, *self.copies.values())}
+        self.trees = {f: tree(f) for f in (self.old, self.new, self.globe, self.index, *self.copies.values())}
 
-    def built(self, name, levels):
+    def built(self, name, levels, rasters=("globe.asc", "inset.asc")):
         folder = self.work / name
         folder.mkdir()
-        succeed(self.build_command(folder, levels))
+        succeed(self.build_command(folder, levels, rasters))
         return folder
 
     def copied(self, name):
         return pathlib.Path(shutil.copytree(self.new, self.work / name))
 
-    def build_command(self, folder, levels=None):
-        return [self.osgbindem, self.work / "globe.asc", self.work / "inset.asc", "--cells", "16", "--levels",
+    def build_command(self, folder, levels=None, rasters=("globe.asc", "inset.asc")):
+        return [self.osgbindem, *(self.work / r for r in rasters), "--cells", "16", "--levels",
                 str(levels or self.levels), "-o", folder / "earth.osgb", "--quiet"]
 
     def index_command(self, folder):
@@ -229,8 +231,26 @@ class Cases:
         """A root file means that all files are there as a complete run wrote them."""
         if not (folder / "earth.osgb").exists():
             return
-        found = {n: c for n, c in tree(folder).items() if n == "earth.osgb" or n.startswith("earth_tiles/")}
-        require(any(found == self.trees[w] for w in wholes), f"{folder} looks complete and is not")
+        def shown(files):
+            return {n: c for n, c in files.items() if n == "earth.osgb" or n.startswith("earth_tiles/")}
+        found = shown(tree(folder))
+        require(any(found == shown(self.trees[w]) for w in wholes), f"{folder} looks complete and is not")
+
+    def old_above_new(self, folder):
+        """Each file is there as it was or as it is to be, and files that are new name none that is not there: finer ones
+        came before them."""
+        found, old, new = tree(folder), self.trees[self.globe], self.trees[self.new]
+        def order(file):
+            return "" if file == "earth.osgb" else file.split("/")[-1]
+        is_old = False
+        for file in sorted((f for f in new if f.startswith("earth_tiles/") or f == "earth.osgb"), key=order, reverse=True):
+            if new[file] == old.get(file):
+                require(found.get(file) == new[file], f"{file} is not as it was and stays")
+            elif found.get(file) == new[file]:
+                require(not is_old, f"{file} is new before a finer one")
+            else:
+                is_old = True
+                require(found.get(file) == old.get(file), f"{file} is neither old nor new")
 
     def all(self):
         build = Case("osgbindem", self.build_command,
@@ -257,7 +277,12 @@ class Cases:
                     lambda folder, is_old: shutil.copytree(copies["old"], folder, dirs_exist_ok=True),
                     lambda folder: self.whole_or_no_root(folder, (copies["old"], copies["new"])), self.trees[copies["new"]])
         over.reference = copies["new"]
-        return build, index, copy, over
+        update = Case("osgbindem --update", lambda folder: [*self.build_command(folder), "--update"],
+                      lambda folder, is_old: shutil.copytree(self.globe, folder, dirs_exist_ok=True),
+                      self.old_above_new, self.trees[self.new])
+        update.reference = self.new
+        update.growth = (self.new / "earth.osgb").stat().st_size
+        return build, update, index, copy, over
 
 
 def main():
@@ -274,9 +299,9 @@ def main():
     why_no_disks = has_own_disks()
     try:
         cases = Cases(arguments.work.resolve(), programs / "osgbindem", programs / "osgbinconv", arguments.levels)
-        build, index, copy, over = cases.all()
+        build, update, index, copy, over = cases.all()
         scratch = cases.work / "run"
-        for case in (build, index, copy, over):
+        for case in (build, update, index, copy, over):
             case.measure(scratch)
             print(f"{case.name}: {len(case.expected)} files in {case.duration:.2f} s undisturbed", flush=True)
             kills(case, scratch, arguments.kills, arguments.seed)
@@ -286,7 +311,7 @@ def main():
         if why_no_disks:
             print(f"skipped: full and read-only disks ({why_no_disks})")
         else:
-            for case, is_old in ((build, False), (build, True), (index, False), (copy, False)):
+            for case, is_old in ((build, False), (build, True), (update, True), (index, False), (copy, False)):
                 bad_disks(case, scratch, is_old)
     except Failed as failed:
         print(f"FAILED: {failed}")

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Databases that are updated where their rasters have changed. Oracle: the database built anew from the same rasters,
+// byte for byte.
+
+#include "DatabaseCheck.h"
+#include "Program.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <sys/stat.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+double bumps(double latitudeDeg, double longitudeDeg) {
+    return 900.0 + hills(9.0 * latitudeDeg, 7.0 * longitudeDeg);
+}
+
+TestRaster insetAt(double westDeg, double northDeg, double spacingDeg, int posts) {
+    return {westDeg, northDeg, spacingDeg, spacingDeg, posts, posts, bumps};
+}
+
+class Update : public ::testing::Test {
+protected:
+    void SetUp() override { TestRaster::globe(1.0, hills).write(globe()); }
+
+    [[nodiscard]] std::string globe() const { return folder.file("globe.tif"); }
+    [[nodiscard]] std::string inset(const std::string& name) const { return folder.file(name + ".tif"); }
+    [[nodiscard]] std::string root(const std::string& name) const { return folder.file(name + "/earth.osgb"); }
+
+    /// The command line for a database in a folder of its own.
+    [[nodiscard]] Words command(const std::string& name, Words words) const {
+        fs::create_directories(folder.file(name));
+        words.insert(words.begin(), {globe(), "--cells", "12"});
+        words.insert(words.end(), {"-o", root(name)});
+        return words;
+    }
+    void built(const std::string& name, const Words& words) const { build(command(name, words)); }
+    void updated(const std::string& name, Words words) const {
+        words.push_back("--update");
+        build(command(name, words));
+    }
+    [[nodiscard]] Files files(const std::string& name) const { return filesBelow(folder.file(name)); }
+
+    /// Updates the database "old" and builds the database "new" of the same rasters. Returns: the number of files that
+    /// both databases have and that were written.
+    int expectSame(const Words& words) const {
+        const std::map<std::string, ino_t> before = nodes("old");
+        updated("old", words);
+        built("new", words);
+        const Files updatedFiles = files("old");
+        const Files newFiles = files("new");
+        EXPECT_EQ(namesOf(updatedFiles), namesOf(newFiles));
+        int written = 0;
+        const std::map<std::string, ino_t> after = nodes("old");
+        for (const auto& [name, bytes] : updatedFiles) {
+            const auto same = newFiles.find(name);
+            EXPECT_TRUE(same != newFiles.end() && same->second == bytes) << name;
+            const auto was = before.find(name);
+            if (was != before.end() && was->second != after.at(name)) ++written;
+        }
+        return written;
+    }
+
+    const TempFolder folder;
+
+private:
+    [[nodiscard]] static Words namesOf(const Files& files) {
+        Words names;
+        for (const auto& file : files) names.push_back(file.first);
+        return names;
+    }
+    [[nodiscard]] std::map<std::string, ino_t> nodes(const std::string& name) const {
+        std::map<std::string, ino_t> result;
+        for (const auto& file : files(name)) {
+            struct stat status {};
+            ::stat(folder.file(name + "/" + file.first).c_str(), &status);
+            result[file.first] = status.st_ino;
+        }
+        return result;
+    }
+};
+
+TEST_F(Update, AnInsetIsAsIfItHadBeenThereFromTheBeginning) {
+    insetAt(10.3, 51.7, 0.02, 51).write(inset("alps"));
+    built("old", {});
+    expectSame({inset("alps")});
+    checkSharedPosts(loadDatabase(root("old")));
+    checkNodes(loadDatabase(root("old")));
+}
+
+TEST_F(Update, InsetsAtPolesAndAcrossTheDateLine) {
+    insetAt(-30.0, 90.0, 0.05, 81).write(inset("pole"));
+    insetAt(178.5, 0.8, 0.03, 121).write(inset("dateline"));
+    insetAt(-181.0, -45.0, 0.04, 41).write(inset("south"));
+    built("old", {});
+    expectSame({inset("pole")});
+    expectSame({inset("pole"), inset("dateline")});
+    expectSame({inset("south"), inset("pole"), inset("dateline")});
+}
+
+TEST_F(Update, InsetsBesideAndWithinOthers) {
+    insetAt(10.0, 50.0, 0.05, 61).write(inset("first"));
+    insetAt(13.0, 50.0, 0.05, 61).write(inset("beside"));
+    insetAt(11.0, 49.0, 0.01, 101).write(inset("within"));
+    insetAt(33.75, 45.0, 0.02, 31).write(inset("corner"));  // at the corner of four tiles
+    built("old", {inset("first")});
+    expectSame({inset("first"), inset("beside")});
+    expectSame({inset("first"), inset("beside"), inset("within")});
+    expectSame({inset("first"), inset("beside"), inset("within"), inset("corner")});
+}
+
+TEST_F(Update, RastersThatAreReplacedOrTakenAway) {
+    insetAt(10.0, 50.0, 0.05, 61).write(inset("first"));
+    insetAt(-70.0, -20.0, 0.02, 51).write(inset("andes"));
+    built("old", {inset("first"), inset("andes")});
+    TestRaster(10.5, 50.0, 0.04, 0.04, 41, 41, hills).write(inset("first"));
+    expectSame({inset("first"), inset("andes")});
+    expectSame({inset("andes")});
+    expectSame({});
+}
+
+TEST_F(Update, FewFilesAreWrittenForASmallInset) {
+    TestRaster::globe(0.25, hills).write(globe());
+    insetAt(7.2, 46.9, 0.005, 201).write(inset("alps"));
+    built("old", {});
+    const std::size_t before = files("old").size();
+    ASSERT_GT(before, 2500U);
+    const int written = expectSame({inset("alps")});
+    EXPECT_GT(written, 3);
+    EXPECT_LE(100 * written, static_cast<int>(before)) << written << " of " << before;
+}
+
+TEST_F(Update, NothingIsWrittenWhereNothingHasChanged) {
+    built("old", {});
+    const auto before = fs::last_write_time(root("old"));
+    const Outcome outcome = run(command("old", {"--update"}));
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.errors;
+    EXPECT_NE(outcome.output.find("nothing has changed"), std::string::npos) << outcome.output;
+    EXPECT_EQ(fs::last_write_time(root("old")), before);
+}
+
+TEST_F(Update, OtherSettingsAndUnknownDatabasesAreRefused) {
+    const auto expectRefused = [&](const Words& words, const std::string& what) {
+        Words all = command("old", words);
+        const Files before = files("old");
+        all.push_back("--update");
+        const Outcome outcome = run(all);
+        EXPECT_NE(outcome.exitCode, 0);
+        EXPECT_NE(outcome.errors.find(what), std::string::npos) << outcome.errors;
+        EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+        EXPECT_EQ(files("old"), before);
+    };
+    expectRefused({}, "without --update");
+    built("old", {});
+    expectRefused({"--lod-factor", "6"}, "other settings");
+    expectRefused({"--compress"}, "other settings");
+    expectRefused({"--levels", "3"}, "other settings");
+    fs::remove(root("old") + ".sources");
+    expectRefused({}, "without --update");
+}
+
+TEST_F(Update, ReadersAlwaysFindAWholeDatabase) {
+    insetAt(10.3, 51.7, 0.01, 101).write(inset("alps"));
+    built("old", {});
+    Words words = command("old", {inset("alps"), "--update", "--quiet"});
+    Program program(words);
+    int looks = 0;
+    while (program.isRunning()) {
+        // Throws when a file that another one names is missing or broken.
+        ASSERT_NO_THROW((void)loadDatabase(root("old")));
+        ++looks;
+    }
+    EXPECT_EQ(program.wait().exitCode, 0);
+    EXPECT_GE(looks, 1);
+}
+
+}  // namespace
