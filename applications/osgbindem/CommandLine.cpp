@@ -37,6 +37,8 @@ constexpr const char* kExamples =
     "(gdal_translate -co TILED=YES).\n"
     "A run that was interrupted, killed or out of room leaves the finished parts in earth_tiles.partial; the same\n"
     "command goes on with them, another one starts anew. Remove the folder if you do not want them.\n"
+    "Under mpirun, ranks share the parts: mpirun -n 8 osgbindem world.tif -o earth.osgb, with the output in a folder\n"
+    "that all of them see.\n"
     "Exit codes: 0 the database is complete, 1 an error, 130 interrupted.";
 
 /// The command line as it was typed.
@@ -158,7 +160,9 @@ void declare(CLI::App& app, Arguments& arguments) {
     app.add_option(
         "--lod-factor", settings.lodFactor,
         "distance at which a tile gives way to finer ones,\nin half diagonals of the tile, 3 to 100 (default 4)");
-    app.add_option("--threads", settings.threads, "number of threads (default: one per core)");
+    app.add_option(
+        "--threads", settings.threads,
+        "number of threads (default: one per core);\nunder mpirun, of each rank (default: its share of cores)");
     app.add_option("--memory", settings.memoryMib,
                    "MiB for what is read of the rasters, 16 to 65536 (default 256);\nthe tiles at work come on top");
     app.add_flag("!--full-resolution", settings.useOverviews,
@@ -187,6 +191,7 @@ std::optional<Settings> settingsFrom(int argc, const char* const* argv) {
         app.exit(error);
         return std::nullopt;
     }
+    arguments.settings.areThreadsGiven = app.count("--threads") > 0;
     takeDems(arguments);
     takeRadii(arguments);
     requireRanges(arguments.settings);

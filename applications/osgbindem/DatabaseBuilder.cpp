@@ -9,18 +9,12 @@
 #include "Failure.h"
 #include "Interruption.h"
 #include "NodeFile.h"
-#include "Progress.h"
-#include "RootNode.h"
-#include "TaskBoard.h"
-#include "TileBuilder.h"
+#include "RankWork.h"
+#include "StartTiles.h"
+#include "TaskWork.h"
 #include "WorkPlan.h"
 
-#include <atomic>
-#include <cmath>
-#include <exception>
 #include <iostream>
-#include <set>
-#include <thread>
 
 namespace osgbindem {
 
@@ -28,82 +22,6 @@ using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::Interrupted;
 
 namespace {
-
-constexpr std::size_t kStartTiles = std::size_t{TileId::kStartColumns} * TileId::kStartRows;
-
-/// What the threads share that build one database.
-struct Site {
-    const Settings& settings;
-    const TileLayout& layout;
-    const TileFiles& files;
-    const BuildState& state;
-    Progress& progress;
-};
-
-/// Does a task, unless an earlier run has done it and its files are whole.
-void doTask(const Task& task, const Site& site, TileBuilder& builder) {
-    const auto known = site.state.find(task.tile, site.layout);
-    if (known && known->files == site.files.sumBelow(task.tile)) {
-        site.progress.add(task.weight);
-        return;
-    }
-    builder.setLeafDone(
-        [&](const TileId& leaf) { site.progress.add(std::ldexp(task.weight, 2 * (task.tile.level - leaf.level))); });
-    (void)builder.takeFileSum();
-    SurveyedTile tile = builder.survey(task.tile);
-    site.state.keep({std::move(tile), builder.takeFileSum()});
-}
-
-void doTasks(const Site& site, TaskSource& tasks, TileBuilder& builder) {
-    while (const auto task = tasks.next()) {
-        doTask(*task, site, builder);
-        tasks.finish(*task);
-    }
-    builder.setLeafDone({});
-}
-
-/// The start tiles, made of what the tasks have left of the tiles below them.
-class StartTiles {
-public:
-    StartTiles(const Site& site, const std::vector<Task>& tasks) : _site(site) {
-        for (const Task& task : tasks) _tasks.insert(task.tile);
-    }
-
-    /// Requires: all tasks are finished. May be called by several threads; they share the tiles.
-    void build(TileBuilder& builder) {
-        builder.setFinishedTasks([this](const TileId& tile) { return finished(tile); });
-        for (std::size_t i = _next++; i < kStartTiles; i = _next++) {
-            const int place = static_cast<int>(i);
-            _tiles[i] = builder.build({0, place % TileId::kStartColumns, place / TileId::kStartColumns});
-        }
-    }
-
-    /// Requires: all are built. The bytes of the root file.
-    [[nodiscard]] std::string rootBytes(TileBuilder& builder) const {
-        const osg::ref_ptr<osg::CoordinateSystemNode> root = makeRoot(_site.settings);
-        std::vector<osg::Geometry*> geometries;
-        for (const auto& tile : _tiles) {
-            root->addChild(tile->node);
-            geometries.push_back(tile->geometry);
-        }
-        builder.finishFile(geometries, 0);
-        declareHorizon(*root);
-        return nodeFileBytes(*root, _site.settings.compress);
-    }
-
-private:
-    [[nodiscard]] std::optional<SurveyedTile> finished(const TileId& tile) const {
-        if (_tasks.count(tile) == 0) return std::nullopt;
-        auto record = _site.state.find(tile, _site.layout);
-        if (!record) throw Failure("what was done of tile " + tileName(tile) + " is gone; run the same command again");
-        return std::move(record->tile);
-    }
-
-    const Site& _site;
-    std::set<TileId> _tasks;
-    std::array<std::unique_ptr<BuiltTile>, kStartTiles> _tiles;
-    std::atomic<std::size_t> _next{0};
-};
 
 /// Says what an earlier run has left, and makes the state one of this database.
 void beginOrGoOn(const Settings& settings, const std::string& sources, std::size_t parts, DatabaseFolder& folder,
@@ -132,27 +50,40 @@ std::string whatIsKept(const DatabaseFolder& folder, const BuildState& state, st
            "\"; the same command goes on with them";
 }
 
-void buildParts(const Settings& settings, const Site& site, const std::vector<Task>& plan, DatabaseFolder& folder,
-                const std::string& sources) {
+std::string interruption(const DatabaseFolder& folder, const BuildState& state, std::size_t parts) {
+    const std::string kept = whatIsKept(folder, state, parts);
+    return "interrupted; " + (kept.empty() ? "nothing was left behind" : kept);
+}
+
+/// `done`: becomes how many of the other ranks are done.
+void buildParts(const Site& site, const std::vector<Task>& plan, const std::string& sources, DatabaseFolder& folder,
+                const Ranks& ranks, int& done) {
     TaskBoard board(plan);
     StartTiles starts(site, plan);
-    runThreads(settings.threads, board, [&] {
-        TileBuilder builder(settings, site.layout, site.files);
+    Threads threads(site.settings.threads, board, [&] {
+        TileBuilder builder(site.settings, site.layout, site.files);
         doTasks(site, board, builder);
         if (board.isFinished()) starts.build(builder);
     });
+    if (ranks.count() > 1) {
+        done = serveRanks(ranks, threads, board, site.progress, [&] {
+            // Others may be writing still, and mpirun has no patience: all is left as it is, as after a kill.
+            std::cerr << "osgbindem: " + interruption(folder, site.state, plan.size()) + "\n" << std::flush;
+            Ranks::leaveAfterSignal();
+        });
+    }
+    threads.join();
     board.rethrow();
-    TileBuilder builder(settings, site.layout, site.files);
+    TileBuilder builder(site.settings, site.layout, site.files);
     folder.complete(starts.rootBytes(builder), sources);
 }
 
-}  // namespace
-
-void buildDatabase(const Settings& settings) {
+/// Rank 0's part. `done`: see buildParts.
+void buildWith(const Settings& settings, const Ranks& ranks, int& done) {
     prepareNodeFiles();
     DemMosaic mosaic(settings);
     mosaic.requireData();
-    const TileLayout layout = planLayout(settings, mosaic);
+    const TileLayout layout = layoutFor(settings, mosaic);
     DatabaseFolder folder(settings.output);
     folder.lock();
     const BuildState state(folder.stateFolder());
@@ -164,15 +95,28 @@ void buildDatabase(const Settings& settings) {
     try {
         const TileFiles files = folder.files();
         Progress progress(!settings.quiet, weightOf(plan));
-        buildParts(settings, {settings, layout, files, state, progress}, plan, folder, sources);
+        buildParts({settings, layout, files, state, progress}, plan, sources, folder, ranks, done);
         progress.finish();
     } catch (const Interrupted&) {
-        const std::string kept = whatIsKept(folder, state, plan.size());
-        throw Interrupted("interrupted; " + (kept.empty() ? "nothing was left behind" : kept));
+        throw Interrupted(interruption(folder, state, plan.size()));
     } catch (const Failure& failure) {
         const std::string kept = whatIsKept(folder, state, plan.size());
         throw Failure(failure.what() + (kept.empty() ? kept : "; " + kept));
     }
+}
+
+}  // namespace
+
+void buildDatabase(const Settings& settings, const Ranks& ranks) {
+    if (!ranks.isFirst()) return workForFirstRank(settings, ranks);
+    int done = 0;
+    try {
+        buildWith(settings, ranks, done);
+    } catch (...) {
+        if (ranks.count() > 1) ranks.endOthers(done);
+        throw;
+    }
+    if (ranks.count() > 1) ranks.endOthers(done);
 }
 
 }  // namespace osgbindem

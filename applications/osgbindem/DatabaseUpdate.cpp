@@ -12,6 +12,7 @@
 #include "RootNode.h"
 #include "StandingDatabase.h"
 #include "TaskBoard.h"
+#include "TaskWork.h"
 #include "TileBuilder.h"
 #include "WorkPlan.h"
 
@@ -148,7 +149,7 @@ void updateDatabase(const Settings& settings) {
     prepareNodeFiles();
     DemMosaic mosaic(settings);
     mosaic.requireData();
-    const TileLayout layout = planLayout(settings, mosaic);
+    const TileLayout layout = layoutFor(settings, mosaic);
     DatabaseFolder folder(settings.output);
     folder.lock();
     const std::string sources = describeSources(settings, layout);
@@ -164,13 +165,14 @@ void updateDatabase(const Settings& settings) {
     const std::vector<Task> tasks = changedTasks(root, layout);
     Progress progress(!settings.quiet, weightOf(tasks));
     TaskBoard board(tasks);
-    runThreads(settings.threads, board, [&] {
+    Threads threads(settings.threads, board, [&] {
         Updater updater(settings, layout, folder, files, area, findings);
         while (const auto task = board.next()) {
             updater.update(*task, progress);
             board.finish(*task);
         }
     });
+    threads.join();
     board.rethrow();
     const std::string bytes = rootBytes(settings, root.builder());
     folder.merge(bytes, sources, findings.removed());

@@ -6,8 +6,6 @@
 #include "Interruption.h"
 
 #include <chrono>
-#include <thread>
-
 namespace osgbindem {
 
 using osgAnalyticBin::support::stopRequested;
@@ -56,20 +54,6 @@ bool TaskBoard::hasFailed() const {
 void TaskBoard::rethrow() const {
     const std::lock_guard<std::mutex> guard(_mutex);
     if (_error) std::rethrow_exception(_error);
-}
-
-void runThreads(int count, TaskSource& tasks, const std::function<void()>& body) {
-    std::vector<std::thread> threads;
-    for (int i = 0; i < count; ++i) {
-        threads.emplace_back([&] {
-            try {
-                body();
-            } catch (...) {
-                tasks.fail(std::current_exception());
-            }
-        });
-    }
-    for (std::thread& thread : threads) thread.join();
 }
 
 }  // namespace osgbindem

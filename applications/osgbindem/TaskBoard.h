@@ -7,7 +7,6 @@
 
 #include <condition_variable>
 #include <exception>
-#include <functional>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -54,8 +53,5 @@ private:
     std::size_t _finished = 0;
     std::exception_ptr _error;
 };
-
-/// Runs the body in so many threads, to their end; what one throws, it stops all with.
-void runThreads(int count, TaskSource& tasks, const std::function<void()>& body);
 
 }  // namespace osgbindem

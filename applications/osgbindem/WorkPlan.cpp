@@ -31,7 +31,7 @@ void split(const Task& task, double most, DemMosaic& mosaic, EdgeDepths& depths,
 
 }  // namespace
 
-TileLayout planLayout(const Settings& settings, const DemMosaic& mosaic) {
+TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic) {
     const int cells = settings.cells.value_or(TileLayout::cellsFor(mosaic.finestGlobalDeg()));
     const int levels = settings.levels.value_or(TileLayout::levelFor(mosaic.finestDeg(), cells));
     return TileLayout(cells, levels, settings.ellipsoid);

@@ -10,15 +10,15 @@
 
 namespace osgbindem {
 
+/// The layout that the settings ask for, or else the rasters.
+[[nodiscard]] TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic);
+
 /// A subtree that one thread builds by itself.
 struct Task {
     TileId tile;
     /// About the number of tiles without children in it.
     double weight = 0.0;
 };
-
-/// The grid of posts for all rasters, where the settings leave it open.
-[[nodiscard]] TileLayout planLayout(const Settings& settings, const DemMosaic& mosaic);
 
 /// Divides the tree into subtrees of similar weight; neighbours follow each other. What lies above the subtrees is left
 /// for afterwards. The plan is the same however many threads and programs share the work, so that others can go on.

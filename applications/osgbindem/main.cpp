@@ -4,7 +4,9 @@
 #include "CommandLine.h"
 #include "DatabaseBuilder.h"
 #include "DatabaseUpdate.h"
+#include "Failure.h"
 #include "Interruption.h"
+#include "Ranks.h"
 
 #include <cpl_conv.h>
 #include <gdal.h>
@@ -27,7 +29,8 @@ using osgbindem::Settings;
 constexpr int kInterrupted = 130;
 
 int complain(const std::string& message) {
-    std::cerr << "osgbindem: " << message << std::endl;
+    // Every rank finds the same faults in the command line, and the first one tells what goes wrong later.
+    if (osgbindem::Ranks::rankInEnvironment() == 0) std::cerr << "osgbindem: " + message + "\n" << std::flush;
     return EXIT_FAILURE;
 }
 
@@ -52,13 +55,19 @@ void prepareProcess(const Settings& settings) {
 }
 
 int run(int argc, char** argv) {
-    const std::optional<Settings> settings = osgbindem::settingsFrom(argc, argv);
+    if (osgbindem::Ranks::rankInEnvironment() != 0) std::cout.setstate(std::ios::failbit);  // only one rank speaks
+    std::optional<Settings> settings = osgbindem::settingsFrom(argc, argv);
     if (!settings) return EXIT_SUCCESS;
+    const osgbindem::Ranks ranks;
+    if (ranks.count() > 1 && settings->update) {
+        throw osgAnalyticBin::support::Failure("--update is the work of one process; run it without mpirun");
+    }
+    if (!settings->areThreadsGiven) settings->threads = osgbindem::threadsPerRank(ranks);
     prepareProcess(*settings);
     if (settings->update) {
         osgbindem::updateDatabase(*settings);
     } else {
-        osgbindem::buildDatabase(*settings);
+        osgbindem::buildDatabase(*settings, ranks);
     }
     return EXIT_SUCCESS;
 }

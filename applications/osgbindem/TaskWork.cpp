@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TaskWork.h"
+
+#include <cmath>
+#include <exception>
+
+namespace osgbindem {
+
+namespace {
+
+/// Does a task, unless an earlier run has done it and its files are whole.
+void doTask(const Task& task, const Site& site, TileBuilder& builder) {
+    const auto known = site.state.find(task.tile, site.layout);
+    if (known && known->files == site.files.sumBelow(task.tile)) {
+        site.progress.add(task.weight);
+        return;
+    }
+    builder.setLeafDone(
+        [&](const TileId& leaf) { site.progress.add(std::ldexp(task.weight, 2 * (task.tile.level - leaf.level))); });
+    (void)builder.takeFileSum();
+    SurveyedTile tile = builder.survey(task.tile);
+    site.state.keep({std::move(tile), builder.takeFileSum()});
+}
+
+}  // namespace
+
+void doTasks(const Site& site, TaskSource& tasks, TileBuilder& builder) {
+    while (const auto task = tasks.next()) {
+        doTask(*task, site, builder);
+        tasks.finish(*task);
+    }
+    builder.setLeafDone({});
+}
+
+Threads::Threads(int count, TaskSource& tasks, const std::function<void()>& body) : _running(count) {
+    for (int i = 0; i < count; ++i) {
+        _threads.emplace_back([this, &tasks, body] {
+            try {
+                body();
+            } catch (...) {
+                tasks.fail(std::current_exception());
+            }
+            --_running;
+        });
+    }
+}
+
+void Threads::join() {
+    for (std::thread& thread : _threads) {
+        if (thread.joinable()) thread.join();
+    }
+}
+
+}  // namespace osgbindem
