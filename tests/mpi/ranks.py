@@ -1,0 +1,149 @@
+# SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+# SPDX-License-Identifier: MIT
+"""Runs osgbindem under mpirun: the same bytes at any number of ranks, one line for each error, and a run that lost a
+rank or was told to stop is completed by the same command, with or without mpirun. Exit code 77: skipped."""
+
+import argparse
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "crash"))
+from crash import Failed, require, run, succeed, tree, write_grid  # noqa: E402
+
+SKIPPED = 77
+# -q: mpirun adds nothing of its own to the errors of programs
+MPIRUN = ["mpirun", "-q", "--oversubscribe", "--bind-to", "none"]
+
+
+class Ranks:
+    def __init__(self, work, osgbindem):
+        self.work, self.osgbindem = work, osgbindem
+        shutil.rmtree(work, ignore_errors=True)
+        work.mkdir(parents=True)
+        write_grid(work / "globe.asc", 360, 180, -180, -90, 1)
+        write_grid(work / "inset.asc", 40, 40, 10, 40, 0.1)
+        succeed(self.build(self.folder("alone")) + ["--quiet"])
+        self.expected = tree(work / "alone")
+        require(len(self.expected) > 100, "the database is too small to be shared")
+
+    def folder(self, name):
+        folder = self.work / name
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        return folder
+
+    def build(self, folder, *rasters):
+        rasters = rasters or (self.work / "globe.asc", self.work / "inset.asc")
+        return [str(word) for word in (self.osgbindem, *rasters, "--cells", "16", "-o", folder / "earth.osgb")]
+
+    def complete(self, folder, command):
+        done = succeed(command)
+        require(tree(folder) == self.expected, f"files differ from those of a program alone in {folder}")
+        return done.stdout
+
+    def same_bytes(self):
+        for count in (1, 2, 4):
+            folder = self.folder("ranks")
+            said = self.complete(folder, MPIRUN + ["-n", str(count)] + self.build(folder))
+            require(said.count("100 - done") == 1, f"progress is not shown once: {said}")
+        folder = self.folder("ranks")
+        self.complete(folder, MPIRUN + ["-n", "2"] + self.build(folder) + ["--threads", "2", "--quiet"])
+
+    def one_line(self, done, words):
+        require(done.returncode != 0, "an error ended with 0")
+        require(done.stderr.count("\n") == 1 and words in done.stderr, f"not one line with \"{words}\": {done.stderr}")
+
+    def errors(self):
+        folder = self.folder("errors")
+        self.one_line(run(MPIRUN + ["-n", "3"] + self.build(folder) + ["--lod-factor", "1"]), "--lod-factor")
+        self.one_line(run(MPIRUN + ["-n", "3"] + self.build(folder, "absent.tif")), "absent.tif")
+        require(not any(folder.iterdir()), "an error left something behind")
+        # a raster that one machine alone does not have
+        both = ["-n", "1"] + self.build(folder, self.work / "globe.asc") + ["--quiet", ":", "-n", "1"] + \
+            self.build(folder, "absent.tif") + ["--quiet"]
+        self.one_line(run(MPIRUN + both), "absent.tif")
+        require(not (folder / "earth.osgb").exists(), "a failed run left a root file")
+
+    def running(self, folder, parts):
+        """mpirun at work, some parts finished."""
+        process = subprocess.Popen(MPIRUN + ["-n", "3"] + self.build(folder) + ["--quiet"], stdout=subprocess.PIPE,
+                                   stderr=subprocess.STDOUT, text=True)
+        while process.poll() is None and len(list(folder.rglob("*.task"))) < parts:
+            time.sleep(0.01)
+        require(process.poll() is None, "the run was over too early")
+        return process
+
+    def stopped(self, folder, process):
+        said = process.communicate()[0]
+        require(process.returncode != 0, "a run that was stopped ended with 0")
+        require(said.count("osgbindem: ") == 1 and "the same command goes on" in said, f"not one clear message: {said}")
+        require(not (folder / "earth.osgb").exists(), "a run that was stopped left a root file")
+
+    def a_lost_rank(self):
+        folder = self.folder("lost")
+        process = self.running(folder, 10)
+        for found in pathlib.Path("/proc").glob("[0-9]*/environ"):
+            try:
+                words = found.read_bytes().split(b"\0")
+                command = (found.parent / "cmdline").read_bytes()
+            except OSError:
+                continue
+            if b"OMPI_COMM_WORLD_RANK=2" in words and str(folder).encode() in command:
+                os.kill(int(found.parent.name), signal.SIGKILL)
+        self.stopped(folder, process)
+        require("goes on: " in self.complete(folder, self.build(folder)), "a program alone does not go on")
+
+    def a_stopped_run(self):
+        folder = self.folder("stopped")
+        process = self.running(folder, 10)
+        process.send_signal(signal.SIGTERM)
+        self.stopped(folder, process)
+        require("goes on: " in self.complete(folder, MPIRUN + ["-n", "2"] + self.build(folder)), "ranks do not go on")
+
+    def two_at_once(self):
+        folder = self.folder("twice")
+        process = self.running(folder, 1)
+        self.one_line(run(MPIRUN + ["-n", "2"] + self.build(folder)), "another osgbindem")
+        require(process.wait() == 0 and tree(folder) == self.expected, "a second run disturbed the first")
+
+
+def skip_reason(osgbindem):
+    if not shutil.which("mpirun"):
+        return "no mpirun; install openmpi-bin"
+    if "built without MPI" in run(["env", "OMPI_COMM_WORLD_SIZE=2", osgbindem, "absent.tif", "-o", "absent/a.osgb"]).stderr:
+        return "osgbindem was built without MPI; install libopenmpi-dev"
+    if run(MPIRUN + ["-n", "2", "true"]).returncode != 0:
+        return "mpirun cannot start programs here"
+    return ""
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--bin", type=pathlib.Path, required=True, help="folder with the programs")
+    parser.add_argument("--work", type=pathlib.Path, required=True, help="scratch folder, emptied")
+    arguments = parser.parse_args()
+    osgbindem = arguments.bin.resolve() / "osgbindem"
+    os.environ |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    os.environ.setdefault("OSG_LIBRARY_PATH", str(arguments.bin.resolve().parent / "lib"))
+    if reason := skip_reason(osgbindem):
+        print(f"skipped: {reason}")
+        return SKIPPED
+    try:
+        ranks = Ranks(arguments.work.resolve(), osgbindem)
+        for case in (ranks.same_bytes, ranks.errors, ranks.a_lost_rank, ranks.a_stopped_run, ranks.two_at_once):
+            begin = time.monotonic()
+            case()
+            print(f"{case.__name__}: {time.monotonic() - begin:.1f} s", flush=True)
+    except Failed as failed:
+        print(f"FAILED: {failed}")
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
