@@ -43,10 +43,10 @@ public:
         const std::size_t choice = byte();
         if (choice < 128) return kOdd[choice % kOdd.size()];
         if (choice < 192) return between(-400.0, 400.0);
-        std::array<std::uint8_t, sizeof(double)> bits{};
-        for (std::uint8_t& part : bits) part = byte();
+        std::uint64_t bits = 0;
+        for (int i = 0; i < 8; ++i) bits |= std::uint64_t{byte()} << (8 * i);
         double value = 0.0;
-        std::memcpy(&value, bits.data(), sizeof value);
+        std::memcpy(&value, &bits, sizeof value);
         return value;
     }
 

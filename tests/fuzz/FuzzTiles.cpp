@@ -14,6 +14,7 @@
 #include <osg/Geometry>
 #include <osg/Notify>
 #include <osg/PagedLOD>
+#include <osg/ValueObject>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 #include <osgTerrain/TerrainTile>
@@ -22,6 +23,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <node/CullFixture.h>
 #include <string>
@@ -172,6 +174,23 @@ bool isWithin(const osg::Vec3d& point, const std::vector<osg::Plane>& planes, do
     return std::all_of(planes.begin(), planes.end(), [&](const osg::Plane& p) { return p.distance(point) > radius; });
 }
 
+/// What was culled wrongly, for whoever mends it.
+void describe(const osg::Vec3d& vertex, const Scene& scene, const osg::NodePath& path) {
+    std::fprintf(stderr, "culled, though seen: %.17g %.17g %.17g\n", vertex.x(), vertex.y(), vertex.z());
+    for (osg::Node* node : path) {
+        const auto* callback = dynamic_cast<AnalyticBinCullCallback*>(node->getCullCallback());
+        std::string stored;
+        (void)node->getUserValue("osgAnalyticBin", stored);
+        const bool isReached = callback && scene.reached.count(scene.names.at(node)) > 0;
+        std::fprintf(stderr, "%s%s, stored [%s]", node->className(), scene.tiles.count(node) > 0 ? ", tile" : "",
+                     stored.c_str());
+        if (callback)
+            std::fprintf(stderr, ", %s, bin [%s]", isReached ? "kept" : "culled", callback->getBinText().c_str());
+        if (callback) std::fprintf(stderr, ", frame [%s]", callback->getLocalToEcefText().c_str());
+        std::fprintf(stderr, "\n");
+    }
+}
+
 void requireKept(Scene& scene, const CullView& view) {
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     CullView open = view;
@@ -185,9 +204,14 @@ void requireKept(Scene& scene, const CullView& view) {
         auto& geometry = const_cast<osg::Geometry&>(*drawable->asGeometry());
         const std::vector<osg::Vec3d> vertices = drawnVertices(geometry);
         if (vertices.empty()) continue;
-        const double allowed = tolerance(scene, geometry.getParentalNodePaths().front(), vertices);
+        const osg::NodePath path = geometry.getParentalNodePaths().front();
+        const double allowed = tolerance(scene, path, vertices);
         if (allowed < 0.0) continue;
-        for (const osg::Vec3d& vertex : vertices) require(!isWithin(vertex, planes, allowed));
+        for (const osg::Vec3d& vertex : vertices) {
+            if (!isWithin(vertex, planes, allowed)) continue;
+            describe(vertex, scene, path);
+            require(false);
+        }
     }
 }
 
