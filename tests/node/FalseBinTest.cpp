@@ -35,7 +35,7 @@ AnalyticBin claim(core::GeodeticBin extents) {
 
 class FalseBins : public ::testing::Test {
 protected:
-    // A root tile of 40 degrees; paged below it a leaf in its south, with a mesh, a height and a stored bin.
+    // A root tile of 40 degrees; paged below it a leaf in its south, with a mesh, a height and a stored bin, if any.
     void write(const core::GeodeticBin& leafMesh, double leafHeight, const std::string& leafText,
                const std::string& rootText = claim(extentsDeg(10, 50, 0, 40)).toText()) {
         const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
@@ -45,7 +45,7 @@ protected:
         root->addChild(whole);
         const osg::ref_ptr<osg::Group> leaf = new osg::Group;
         leaf->addChild(makeMeshTile(leafMesh, leafHeight));
-        leaf->setUserValue("osgAnalyticBin", leafText);
+        if (!leafText.empty()) leaf->setUserValue("osgAnalyticBin", leafText);
         ASSERT_TRUE(osgDB::writeNodeFile(*root, _folder / "root.osgb"));
         ASSERT_TRUE(osgDB::writeNodeFile(*leaf, _folder / "leaf.osgb"));
         _scene = osgDB::readRefNodeFile(_folder / "root.osgb");
@@ -155,6 +155,20 @@ TEST_F(FalseBins, LeaveATileAboveVisibleWhoseOwnBinIsNotKnown) {
     update();
     EXPECT_FALSE(installedOn(*_root)->bin().valid());
     EXPECT_GE(altitudeOf(*_leaf).upper, 7000.0 - 1.0);
+}
+
+TEST_F(FalseBins, AreWidenedByTilesThatHaveNoneOfTheirOwn) {
+    write(_south, 7000.0, "");
+    update();
+    EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0);
+    EXPECT_EQ(_notes.count(kWarning), 1u);
+}
+
+TEST_F(FalseBins, StayAsTheyAreAboveTilesThatHaveNoneAndAreNotLarger) {
+    write(_south, 200.0, "");
+    update();
+    EXPECT_EQ(installedOn(*_root)->bin(), claim(_whole));
+    EXPECT_EQ(_notes.count(""), 0u);
 }
 
 TEST_F(FalseBins, HideAPeakForNoLongerThanTheFrameInWhichItAppears) {

@@ -31,7 +31,9 @@ struct ParentTile : public osg::Referenced {
     std::size_t ordinal = 0;
     core::GeodeticBin extents;
     core::TileEdges edges;
-    AnalyticBin stored;  // what the tile is culled by, where a stored bin says so; else invalid
+    // What the tile is culled by, where a stored bin says so; else that of the nearest tile above that has one.
+    // Invalid: there is none.
+    AnalyticBin stored;
 
 protected:
     ~ParentTile() override = default;

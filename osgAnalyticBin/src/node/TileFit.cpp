@@ -176,6 +176,13 @@ AnalyticBin checkStored(const FoundTile& tile, Database& database, const Terrain
     return surface;
 }
 
+// The same of a tile that has no bin of its own stored, below one that has.
+void checkUnstored(const AnalyticBin& surface, Database& database, const ParentTile& link) {
+    if (!link.stored.valid() || !surface.valid()) return;
+    if (!nearlyHolds(link.stored, surface, database.ellipsoid()->getRadiusPolar()))
+        database.reportFalseBin(link, surface);
+}
+
 // What is stored is closer than the bound of a mesh's sag, and believed where the mesh's vertices allow it.
 AnalyticBin shownSurface(const FoundTile& tile, const AnalyticBin& surface, const AnalyticBin& bin) {
     constexpr double kRounding = 1.0;
@@ -208,6 +215,7 @@ TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& 
     if (!isIndexFit || !fitIndexed(tile, database, shape, link, fit)) {
         fitSurface(tile, database, shape, link, fit);
         if (isIndexFit && database.index() && fit.isTerrain) database.reportMisfit(link, fit.bin);
+        if (shape.sampleRatio == 1.0) checkUnstored(fit.surface, database, link);
     }
     if (!fit.bin.valid()) return fit;
     fit.bin.setBin(core::withGaps(toCore(*database.ellipsoid()), fit.bin.bin(), link.edges));
@@ -218,6 +226,7 @@ TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& 
 }  // namespace
 
 TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
+    if (link.parent) link.stored = link.parent->stored;
     if (!shape.isKnown && hasTerrainTile(tile)) return unknownFit(tile, database, shape, link);
     TileFit fit = fitKnown(tile, database, shape, link);
     if (shape.areBoundariesEqual && fit.isScalable) {
