@@ -4,14 +4,17 @@
 // Counts wrong verdicts of the horizon test, the reverse test and the search for a parting plane over millions of
 // random cases that are made to be seen: a line of sight that just misses the occluder, by long double, and a frustum
 // whose planes just hold a point of the bin. Every verdict of "hidden" or "separated" is then a false one, and so is an
-// Outside of the plane tests. Fails when there is a single one.
+// Outside of the plane tests. Fails when there is a single one. With --ties the cases are on planets from the Moon to
+// Saturn and beyond, in metres, kilometres and radii, and as near to a tie as doubles come: up to 1e-9 of the radius.
 
 #include <osgAnalyticBin/core/BoxBins.h>
 #include <osgAnalyticBin/core/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/FrustumHull.h>
 #include <osgAnalyticBin/core/GeodeticMapping.h>
+#include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
 #include <osgAnalyticBin/core/Horizon.h>
 #include <osgAnalyticBin/core/HullSeparation.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
 
 #include <glm/geometric.hpp>
@@ -21,9 +24,11 @@
 #include <atomic>
 #include <chrono>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <support/Planets.h>
 #include <support/RandomBins.h>
 #include <support/RandomViews.h>
 #include <support/View.h>
@@ -38,6 +43,7 @@ using core::Ellipsoid;
 using core::ExactGeodeticBin;
 using core::FrustumHull;
 using core::GeodeticBin;
+using core::GeodeticQuadraticBin;
 using core::HorizonBin;
 using core::HorizonEye;
 using core::HorizonPoint;
@@ -53,6 +59,7 @@ struct Options {
     std::uint64_t trials = 10000000;
     std::uint64_t seedValue = seed();
     unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+    bool areTies = false;
 };
 
 enum Test : std::size_t {
@@ -122,6 +129,124 @@ void tryFrustum(Random& random, Counts& counts) {
     counts.note(kSearch, isSeparated(exact, planes, planes.size(), all, planes.size()));
 }
 
+// A globe in some unit, a bin on it, and distances that are next to nothing there.
+struct TieCase {
+    explicit TieCase(Random& random)
+        : ellipsoid(ellipsoidOf(random)),
+          bin(randomBinOn(ellipsoid, random)),
+          size(std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius())) {}
+
+    [[nodiscard]] double nearlyNothing(Random& random) const { return random.logUniform(1e-18, 1e-9) * size; }
+
+    Ellipsoid ellipsoid;
+    GeodeticBin bin;
+    double size;
+
+private:
+    static Ellipsoid ellipsoidOf(Random& random) {
+        const Planet& planet = random.pick(kPlanets);
+        return planet.in(random.pick(planet.units()));
+    }
+};
+
+// Moves a plane so that the point is on its inner side, just.
+void moveToTie(Random& random, const TieCase& tie, const RealVector& point, Plane& plane) {
+    const Real distance = exactDistance(plane, point);
+    plane.offset = static_cast<double>(plane.offset - distance + static_cast<Real>(tie.nearlyNothing(random)));
+    while (exactDistance(plane, point) < 0) plane.offset += 4e-16 * std::max(tie.size, std::abs(plane.offset));
+}
+
+// A plane that the bin just reaches over, and one that it lies wholly behind but for next to nothing.
+void tryTangent(Random& random, const TieCase& tie, Counts& counts) {
+    const ExactGeodeticBin exact(tie.ellipsoid, tie.bin);
+    const GeodeticQuadraticBin quadratic(tie.ellipsoid, tie.bin);
+    const BoxBin box(tie.ellipsoid, tie.bin);
+    const OrientedBoxBin oriented(tie.ellipsoid, tie.bin);
+    const BinOracle oracle(tie.ellipsoid, tie.bin);
+    const glm::dvec3 normal = random.direction();
+    const RealRange range = oracle.range(normal);
+    for (const bool isReached : {true, false}) {
+        const Real touched = isReached ? range.upper : range.lower;
+        const double gap = isReached ? tie.nearlyNothing(random) : -tie.nearlyNothing(random);
+        const Plane plane{normal, static_cast<double>(static_cast<Real>(gap) - touched)};
+        const RealRange truth = oracle.distanceRange(plane);
+        const Real rounding = oracle.rounding(plane);
+        const auto isWrong = [&](Side side) {
+            return (side == Side::Outside && truth.upper >= rounding) ||
+                   (side == Side::Inside && truth.lower < -rounding);
+        };
+        core::PlaneSet set;
+        for (int i = 0; i < 4; ++i) set.push_back(plane);
+        PlaneMask mask = set.all();
+        const bool isKernelWrong = core::classify(quadratic, set, mask) == Side::Outside && truth.upper >= rounding;
+        mask = set.all();
+        const bool isExactKernelWrong = core::classify(exact, set, mask) == Side::Outside && truth.upper >= rounding;
+        counts.note(kExactPlanes, isWrong(exact.classify(plane)) || isExactKernelWrong);
+        counts.note(kQuadraticPlanes, isWrong(quadratic.classify(plane)) || isKernelWrong);
+        counts.note(kBox, isWrong(box.classify(plane)));
+        counts.note(kOrientedBox, isWrong(oriented.classify(plane)));
+    }
+}
+
+// A frustum all of whose planes just hold a point of the bin.
+void tryTiedFrustum(Random& random, const TieCase& tie, Counts& counts) {
+    const ExactGeodeticBin exact(tie.ellipsoid, tie.bin);
+    const RealVector point = random.chance(0.5) ? geodeticToEcef(tie.ellipsoid, randomPosition(random, tie.bin))
+                                                : farthestPoint(tie.ellipsoid, tie.bin, real(random.direction()));
+    std::vector<Plane> planes = randomView(random, tie.ellipsoid, tie.bin, point).planes();
+    for (Plane& plane : planes) moveToTie(random, tie, point, plane);
+    const PlaneMask all = (PlaneMask{1} << planes.size()) - 1;
+    const FrustumHull frustum(planes, planes.size());
+    counts.note(kReverse, isSeparated(ReverseBin(exact, tie.bin), frustum));
+    counts.note(kSearch, isSeparated(exact, planes, planes.size(), all, planes.size()));
+    counts.note(kBox, isSeparated(BoxBin(tie.ellipsoid, tie.bin), frustum));
+    counts.note(kOrientedBox, isSeparated(OrientedBoxBin(tie.ellipsoid, tie.bin), frustum));
+}
+
+// The last of the points between two at which the condition holds, as it does at the first.
+template <class Condition>
+glm::dvec3 lastWhere(glm::dvec3 holds, glm::dvec3 fails, const Condition& condition) {
+    for (int step = 0; step < 60; ++step) {
+        const glm::dvec3 middle = 0.5 * (holds + fails);
+        (condition(middle) ? holds : fails) = middle;
+    }
+    return holds;
+}
+
+// The last eye, and the last direction, that see a point of the bin past the occluder.
+void tryTiedSight(Random& random, const TieCase& tie, Counts& counts) {
+    const double depth = random.uniform(-0.001, 0.01) * std::min(tie.size, tie.ellipsoid.polarRadius());
+    const RealVector target = geodeticToEcef(tie.ellipsoid, randomPosition(random, tie.bin));
+    const HorizonBin bin(tie.ellipsoid, tie.bin);
+    const auto sees = [&](const glm::dvec3& from) {
+        return segmentMissesOccluder(tie.ellipsoid, depth, target, real(from));
+    };
+    const glm::dvec3 top = rounded(target) * random.uniform(1.1, 5.0);
+    const glm::dvec3 far = tie.size * random.logUniform(1.2, 30.0) * random.direction();
+    if (sees(top)) {
+        const glm::dvec3 last = sees(far) ? far : lastWhere(top, far, sees);
+        const auto eye = HorizonEye::fromEye(tie.ellipsoid, depth, last);
+        counts.note(kHorizon, eye && isHidden(bin, *eye));
+        counts.note(kHorizonPoint, eye && eye->hides(HorizonPoint(bin)));
+    }
+    const auto isSeenAlong = [&](const glm::dvec3& back) {
+        return halfLineMissesOccluder(tie.ellipsoid, depth, target, real(back));
+    };
+    const glm::dvec3 up = glm::normalize(rounded(target));
+    const glm::dvec3 other = random.direction();
+    if (!isSeenAlong(up)) return;
+    const glm::dvec3 back = isSeenAlong(other) ? other : lastWhere(up, other, isSeenAlong);
+    const auto parallel = HorizonEye::fromDirection(tie.ellipsoid, depth, -back, 100.0 * tie.size * back);
+    counts.note(kParallelHorizon, parallel && isHidden(bin, *parallel));
+}
+
+void tryTies(Random& random, Counts& counts) {
+    const TieCase tie(random);
+    tryTangent(random, tie, counts);
+    tryTiedFrustum(random, tie, counts);
+    tryTiedSight(random, tie, counts);
+}
+
 // Chunks have streams of their own: the counts do not depend on the number of threads.
 void work(const Options& options, std::atomic<std::uint64_t>& nextChunk, Counts& counts) {
     const std::uint64_t chunks = (options.trials + kTrialsPerChunk - 1) / kTrialsPerChunk;
@@ -129,6 +254,10 @@ void work(const Options& options, std::atomic<std::uint64_t>& nextChunk, Counts&
         Random random(chunk + 1, options.seedValue);
         const std::uint64_t trials = std::min(kTrialsPerChunk, options.trials - chunk * kTrialsPerChunk);
         for (std::uint64_t i = 0; i < trials; ++i) {
+            if (options.areTies) {
+                tryTies(random, counts);
+                continue;
+            }
             trySight(random, counts);
             tryFrustum(random, counts);
         }
@@ -152,7 +281,7 @@ Counts runAll(const Options& options) {
 }
 
 int usage(int status) {
-    std::printf("osganalyticbin_hull_soundness [--trials N] [--seed S] [--threads T]\n");
+    std::printf("osganalyticbin_hull_soundness [--ties] [--trials N] [--seed S] [--threads T]\n");
     return status;
 }
 
@@ -161,6 +290,10 @@ int run(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) {
         const std::string name = argv[i];
         if (name == "--help") return usage(EXIT_SUCCESS);
+        if (name == "--ties") {
+            options.areTies = true;
+            continue;
+        }
         if (i + 1 == argc) return usage(EXIT_FAILURE);
         const std::uint64_t value = std::strtoull(argv[++i], nullptr, 0);
         if (name == "--trials" && value > 0) {
@@ -182,8 +315,8 @@ int run(int argc, char** argv) {
         std::printf("%-22s %12" PRIu64 " %8" PRIu64 "\n", kTestNames[t], counts.trials[t], counts.wrong[t]);
         sound = sound && counts.wrong[t] == 0 && 2 * counts.trials[t] >= options.trials;
     }
-    std::printf("%s; seed %" PRIu64 ", %u threads, %.1f s\n", sound ? "sound" : "UNSOUND", options.seedValue,
-                options.threads, seconds.count());
+    std::printf("%s%s; seed %" PRIu64 ", %u threads, %.1f s\n", options.areTies ? "ties: " : "",
+                sound ? "sound" : "UNSOUND", options.seedValue, options.threads, seconds.count());
     return sound ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 

@@ -13,16 +13,24 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <ostream>
 #include <string>
 #include <support/GeodeticOracle.h>
+#include <support/Planets.h>
 #include <support/RandomBins.h>
 #include <support/RandomViews.h>
 #include <support/View.h>
 #include <vector>
 
 namespace osgAnalyticBin::test {
+
+// found by GoogleTest
+std::ostream& operator<<(std::ostream& out, const Planet& planet) {
+    return out << planet.name;
+}
+
 namespace {
 
 using core::Ellipsoid;
@@ -35,37 +43,18 @@ using core::Interval;
 using core::Plane;
 using core::Side;
 
-struct Planet {
-    const char* name;
-    double equatorialRadius, polarRadius;  // metres
-};
-
-std::ostream& operator<<(std::ostream& out, const Planet& planet) {
-    return out << planet.name;
-}
-
-const Planet kPlanets[] = {{"Moon", 1738100.0, 1736000.0},       {"Earth", 6378137.0, 6356752.3142},
-                           {"Mars", 3396190.0, 3376200.0},       {"Jupiter", 71492000.0, 66854000.0},
-                           {"Saturn", 60268000.0, 54364000.0},   {"Vesta", 285000.0, 229000.0},
-                           {"Half", 6378137.0, 0.5 * 6378137.0}, {"Egg", 3189068.5, 6378137.0}};
 constexpr int kTrials = 2000;
 
 class Planets : public ::testing::TestWithParam<Planet> {
 protected:
-    // Units to a metre.
-    [[nodiscard]] std::vector<double> units() const { return {1.0, 1e-3, 1.0 / GetParam().equatorialRadius}; }
+    [[nodiscard]] std::array<double, 3> units() const { return GetParam().units(); }
 
     void setUnit(double unit) {
-        ellipsoid = Ellipsoid(GetParam().equatorialRadius * unit, GetParam().polarRadius * unit);
+        ellipsoid = GetParam().in(unit);
         size = std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
     }
 
-    // As on the earth, in proportion.
-    GeodeticBin randomBinHere() {
-        const GeodeticBin bin = randomBin(random);
-        const double scale = std::min(ellipsoid.equatorialRadius(), ellipsoid.polarRadius()) / 6356752.0;
-        return bin.withAltitude({bin.altitude().lower * scale, bin.altitude().upper * scale});
-    }
+    GeodeticBin randomBinHere() { return randomBinOn(ellipsoid, random); }
 
     // From a unit in the last place of the radius to the radius.
     double nearlyNothing() { return random.sign() * random.logUniform(1e-17, 1.0) * size; }
