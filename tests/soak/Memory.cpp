@@ -6,8 +6,6 @@
 #include "CountedNew.h"
 
 #include <osg/NodeVisitor>
-#include <osg/PagedLOD>
-#include <osgDB/Options>
 
 #include <algorithm>
 #include <cstring>
@@ -36,11 +34,6 @@ public:
         addChain(node.getUpdateCallback());
         traverse(node);
     }
-    void apply(osg::PagedLOD& node) override {
-        auto* options = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
-        if (options && options->getReadFileCallback()) found.push_back(options);
-        apply(static_cast<osg::Node&>(node));
-    }
 
     std::vector<osg::Object*> found;
 
@@ -51,11 +44,6 @@ private:
         }
     }
 };
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
 
 }  // namespace
 
@@ -101,13 +89,17 @@ std::string KitObjects::kinds() const {
     return text;
 }
 
-double growthPercent(const std::vector<double>& samples) {
+double median(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+double growthPercent(const std::vector<double>& samples, double whole) {
     if (samples.size() < 20) return 0.0;
     const auto warm = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 5);
     const auto tenth = static_cast<std::ptrdiff_t>(std::max<std::size_t>(samples.size() / 10, 3));
-    const double first = median({warm, warm + tenth});
-    const double last = median({samples.end() - tenth, samples.end()});
-    return 100.0 * (last - first) / first;
+    return 100.0 * (median({samples.end() - tenth, samples.end()}) - median({warm, warm + tenth})) / whole;
 }
 
 }  // namespace osgAnalyticBin::test

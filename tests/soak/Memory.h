@@ -23,8 +23,8 @@ struct Memory {
     [[nodiscard]] static Memory now();
 };
 
-/// What the kit has put into a scene: callbacks, and the options that files are read with; told apart by address, and
-/// observed until they are deleted.
+/// The callbacks that the kit has put into a scene, told apart by address and observed until they are deleted. Not the
+/// options that files are read with: OSG's PagedLODs keep those of their last request.
 class KitObjects {
 public:
     /// Looks for those in the scene. Returns: how many there are.
@@ -40,8 +40,10 @@ private:
     std::map<const osg::Object*, osg::observer_ptr<osg::Object>> _known;
 };
 
-/// Growth in percent from the median of the first tenth of samples to that of the last, where the first fifth of all
-/// was left out as a warm-up. Returns: 0 for fewer than 20 samples.
-[[nodiscard]] double growthPercent(const std::vector<double>& samples);
+[[nodiscard]] double median(std::vector<double> values);
+
+/// Growth from the median of the first tenth of samples to that of the last, in percent of `whole`, where the first
+/// fifth of all was left out as a warm-up. Returns: 0 for fewer than 20 samples.
+[[nodiscard]] double growthPercent(const std::vector<double>& samples, double whole);
 
 }  // namespace osgAnalyticBin::test

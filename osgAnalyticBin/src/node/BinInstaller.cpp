@@ -241,7 +241,7 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
 void BinInstaller::visitTile(FoundTile& tile) {
     uninstall(tile);
     if (installsBins() && !hasStoredBin(*tile.node)) {
-        const TerrainShape shape = database().shape();
+        const TerrainShape shape = database().fittedShape();
         const PlanarFit fit = fitPlanarTile(tile, _options, shape);
         if (fit.kind == PlanarFit::Planar) return installPlanar(tile, fit, shape);
         if (fit.kind == PlanarFit::Contradictory || !tile.frame.ellipsoid) return visitOther(*tile.node);
@@ -285,7 +285,7 @@ void BinInstaller::install(FoundTile& tile) {
     link->parent = _parent;
     link->file = tile.frame.file;
     link->ordinal = tile.ordinal;
-    const TerrainShape shape = database().shape();
+    const TerrainShape shape = database().fittedShape();
     const TileFit fit = fitTile(tile, database(), shape, *link);
     if (!fit.isTerrain) return visitOther(node);
 

@@ -37,8 +37,10 @@ CullOptions Database::options() const {
 }
 
 void Database::setOptions(const CullOptions& options) {
+    const TerrainShape present = shape();
     const std::lock_guard<std::mutex> lock(_mutex);
     _options = options;
+    _fittedShape = present;
     ++_generation;
     (void)takeMerged(_onTheirWay);
     _lateComers.insert(_lateComers.end(), _onTheirWay.begin(), _onTheirWay.end());
@@ -74,8 +76,14 @@ TerrainShape Database::shape() const {
     return {terrain->getVerticalScale(), terrain->getSampleRatio(), terrain->getEqualizeBoundaries(), isKnown};
 }
 
+TerrainShape Database::fittedShape() const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return _fittedShape;
+}
+
 bool Database::takeShapeChange() {
     const TerrainShape present = shape();
+    const std::lock_guard<std::mutex> lock(_mutex);
     const bool hasChanged = !(present == _fittedShape);
     _fittedShape = present;
     return _isRefitWanted.exchange(false, std::memory_order_relaxed) || hasChanged;

@@ -46,7 +46,7 @@ public:
     /// `terrain` and `index` may be null.
     Database(const CullOptions& options, const osg::EllipsoidModel* ellipsoid, osgTerrain::Terrain* terrain,
              const BinIndex* index)
-        : _ellipsoid(ellipsoid), _terrain(terrain), _index(index), _fittedShape(shape()), _options(options) {}
+        : _ellipsoid(ellipsoid), _terrain(terrain), _index(index), _options(options), _fittedShape(shape()) {}
 
     /// A number that no other database of this process has or had.
     [[nodiscard]] unsigned long number() const { return _number; }
@@ -66,8 +66,12 @@ public:
     [[nodiscard]] const osg::EllipsoidModel* ellipsoid() const { return _ellipsoid.get(); }
     [[nodiscard]] const BinIndex* index() const { return _index.get(); }
 
-    /// The shape that the Terrain, if any, gives its tiles at present.
+    /// The shape that the Terrain, if any, gives its tiles at present. Not in the pager's threads: the application may
+    /// change it meanwhile.
     [[nodiscard]] TerrainShape shape() const;
+
+    /// The shape that tiles are fitted to: that of the last update traversal. In any thread.
+    [[nodiscard]] TerrainShape fittedShape() const;
 
     /// Says that tiles were met that are not fitted to the present shape.
     void requestRefit() const { _isRefitWanted.store(true, std::memory_order_relaxed); }
@@ -113,9 +117,9 @@ private:
     mutable std::atomic<bool> _isRefitWanted{false};
     std::atomic<bool> _hasGap{false};
     std::atomic<bool> _hasUnknownTechnique{false};
-    TerrainShape _fittedShape;
     mutable std::mutex _mutex;  // guards what follows
     CullOptions _options;
+    TerrainShape _fittedShape;
     unsigned int _generation = 0;
     std::vector<osg::observer_ptr<osg::Node>> _onTheirWay;  // treated by the present options
     std::vector<osg::observer_ptr<osg::Node>> _lateComers;  // treated by earlier ones
