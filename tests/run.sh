@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # Installs what is missing, builds, and runs all tests: release (with the installed package, as others use it), dev
-# (assertions and sanitizers) and scalar. `sh tests/run.sh quick` runs the release build alone.
+# (assertions and sanitizers), tsan (those of threads) and scalar. `sh tests/run.sh quick` runs the release build alone.
 set -eu
 
 cd "$(dirname "$0")/.."
@@ -38,7 +38,9 @@ test_preset release
 [ "${1:-}" != quick ] || exit 0
 
 build dev
-test_preset dev -LE 'soundness|pictures'
+test_preset dev -LE 'soundness|pictures|threads'
+build tsan --target osganalyticbin_threads_tests osgdb_serializers_osganalyticbin
+test_preset tsan -L threads
 build scalar --target osganalyticbin_core_tests
 test_preset scalar -L core
 

@@ -145,7 +145,8 @@ void Flight::fly(std::size_t frames) {
 void Flight::frame() {
     ++_findings.frames;
     _time += kFrameTime;
-    // OSG shapes tiles in the update traversal; cull threads that find some to be shaped crash, without bins too
+    // OSG makes meshes of tiles in the update traversal; cull threads that find some without crash, bins or not
+    if (_random.chance(0.01)) changeDatabases();
     if (_random.chance(0.01)) scaleTerrain(static_cast<float>(_random.uniform(0.5, 4.0)));
     report("updates");
     _rig->update(_time);
@@ -168,7 +169,6 @@ void Flight::change() {
     _heading += _random.uniform(-4.0, 4.0);
     _rig->look(viewFrom(_latitude, _longitude, _altitude, _heading, _pitch));
     if (_random.chance(0.02)) changeOptions();
-    if (_random.chance(0.01)) changeDatabases();
     if (_random.chance(0.01)) changeThreads();
 }
 

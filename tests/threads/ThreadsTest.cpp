@@ -165,7 +165,7 @@ int fly(osg::Group& scene, Threading threading, Layout layout, int cameras, unsi
     int most = 0;
     for (int frame = 0; frame < kFrames; ++frame) {
         if (frame % 10 == 0) lookAround(rig, random);
-        // OSG shapes tiles in the update traversal; cull threads that find some to be shaped crash, without bins too
+        // OSG makes meshes of tiles in the update traversal; cull threads that find some without crash, bins or not
         if (frame % 5 == 2) changes.scaleTerrain(1.0f + static_cast<float>(frame % 3));
         rig.update(frame * kFrameTime);
         changes.make(frame);
