@@ -72,8 +72,8 @@ std::string describeSources(const Settings& settings, const TileLayout& layout) 
     out << "osgbindem " << osgAnalyticBin::version() << ", format " << kFormat << ", GDAL "
         << GDALVersionInfo("RELEASE_NAME") << ", OpenSceneGraph " << osgGetVersion() << '\n';
     out << (settings.levels ? "levels given " : kFoundLevels) << layout.deepestLevel() << '\n';
-    out << "cells " << layout.cells() << ", lod factor " << settings.lodFactor << ", compressed " << settings.compress
-        << ", overviews " << settings.useOverviews << '\n';
+    out << "cells " << layout.cells() << ", lod factor " << settings.lodFactor << ", packed " << settings.packed
+        << ", compressed " << settings.compress << ", overviews " << settings.useOverviews << '\n';
     out << "radii " << settings.ellipsoid.equatorialRadius() << ' ' << settings.ellipsoid.polarRadius() << ", WGS 84 "
         << settings.isWgs84 << '\n';
     if (settings.nodata) out << "nodata " << *settings.nodata << '\n';

@@ -168,6 +168,9 @@ void declare(CLI::App& app, Arguments& arguments) {
     app.add_flag("!--full-resolution", settings.useOverviews,
                  "do not read a raster's overviews where --levels needs nothing finer");
     app.add_flag("--compress", settings.compress, "compress the files with zlib");
+    app.add_flag("--packed", settings.packed,
+                 "store tiles as grids of heights, a fifth of the bytes or less;\nthey need this library's modules "
+                 "where they are shown");
     auto* restart = app.add_flag("--restart", settings.restart, "do not go on with what an interrupted run has left");
     app.add_flag(
            "--update", settings.update,

@@ -3,6 +3,9 @@
 
 #include "HeightGrid.h"
 
+#include <osgAnalyticBin/TerrainGrid.h>
+
+#include <cmath>
 #include <utility>
 
 namespace osgbindem {
@@ -16,7 +19,9 @@ void HeightGrid::samplePost(DemMosaic& mosaic, const TileLayout& layout, int col
     PostId post = layout.firstPost(_tile, _tile.level);
     post.column += column;
     post.row += row;
-    _heights[index(column, row)] = mosaic.height(layout.position(post));
+    // What is stored is in whole steps; posts that tiles share are rounded alike.
+    constexpr double kStep = osgAnalyticBin::TerrainGrid::kStep;
+    _heights[index(column, row)] = std::nearbyint(mosaic.height(layout.position(post)) / kStep) * kStep;
 }
 
 void HeightGrid::sample(DemMosaic& mosaic, const TileLayout& layout) {

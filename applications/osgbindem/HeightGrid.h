@@ -20,7 +20,7 @@ public:
     [[nodiscard]] int cells() const noexcept { return _cells; }
     [[nodiscard]] double at(int column, int row) const noexcept { return _heights[index(column, row)]; }
 
-    /// Takes every post of the tile from the rasters.
+    /// Takes every post of the tile from the rasters, in whole steps of osgAnalyticBin::TerrainGrid.
     void sample(DemMosaic& mosaic, const TileLayout& layout);
 
     /// Takes every other post of a child: they are this tile's posts.

@@ -47,4 +47,13 @@ Rgb hypsometricColour(double height) noexcept {
     return {mixed(a.red, b.red, share), mixed(a.green, b.green, share), mixed(a.blue, b.blue, share)};
 }
 
+std::vector<osgAnalyticBin::TerrainGrid::ColourStop> hypsometricStops() {
+    std::vector<osgAnalyticBin::TerrainGrid::ColourStop> stops;
+    for (const Stop& stop : kStops)
+        stops.push_back({static_cast<float>(stop.height),
+                         {static_cast<std::uint8_t>(stop.red), static_cast<std::uint8_t>(stop.green),
+                          static_cast<std::uint8_t>(stop.blue)}});
+    return stops;
+}
+
 }  // namespace osgbindem

@@ -8,6 +8,7 @@
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
+#include <osgAnalyticBin/PackedTerrain.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Geometry>
@@ -107,6 +108,10 @@ void prepareNodeFiles() {
     lod->addChild(transform, 0.0F, 1.0F);
     osgAnalyticBin::setStoredBin(*lod, osgAnalyticBin::AnalyticBin());
     root->addChild(lod);
+    const osg::ref_ptr<osg::Geometry> packed = new osgAnalyticBin::PackedTerrain;
+    packed->addPrimitiveSet(new osg::DrawElementsUShort(GL_TRIANGLES));
+    packed->setTexCoordArray(0, new osg::Vec2Array(osg::Array::BIND_PER_VERTEX));
+    transform->addChild(packed);
     (void)nodeFileBytes(*root, true);
 }
 

@@ -40,6 +40,8 @@ struct Settings {
     /// Read a raster's overview where that is as fine as the finest tiles.
     bool useOverviews = true;
     bool compress = false;
+    /// Tiles are stored as grids of heights, not as meshes.
+    bool packed = false;
     /// Build only what differs from the database that is there.
     bool update = false;
     bool quiet = false;

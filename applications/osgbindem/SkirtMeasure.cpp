@@ -5,6 +5,8 @@
 
 #include "TileFrame.h"
 
+#include <osgAnalyticBin/TerrainGrid.h>
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -96,10 +98,10 @@ EdgeSkirt SkirtMeasure::measureEdge(const HeightGrid& heights, Edge edge) {
     const int coarsest = std::max(0, std::min(tile.level - 1, _depths.coarsestAcross(tile, edge)));
     for (int level = tile.level - 1; level >= coarsest; --level) compareWithCoarser(own, level, skirt);
 
-    // Vertices are rounded to the quantum of their level, the coarsest most; the factor covers the bend between
-    // compared points.
+    // Vertices are rounded to the quantum of their level, the coarsest most, and heights to whole steps; the factor
+    // covers the bend between compared points.
     constexpr double kFactor = 1.05;
-    const double safety = 2.0 * _layout.quantum(coarsest);
+    const double safety = 2.0 * _layout.quantum(coarsest) + osgAnalyticBin::TerrainGrid::kStep;
     for (double& depth : skirt.depth) depth = kFactor * depth + safety;
     for (double& lean : skirt.lean) lean *= kFactor;
     return skirt;

@@ -94,17 +94,18 @@ AnalyticBin TileBuilder::sourceBin(const TileId& tile, const HeightRange& range)
 
 std::unique_ptr<BuiltTile> TileBuilder::meshed(SurveyedTile tile) {
     const TileId id = tile.heights.tile();
-    const TileMesh mesh(tile.heights, tile.skirt, _layout);
+    osgAnalyticBin::TerrainGrid grid = gridOf(tile.heights, tile.skirt, _layout);
     AnalyticBin bin = sourceBin(id, tile.range);
     bin.expandBy(tile.below);
-    const MeshExtent extent = extentOf(mesh, _triangles, id, _layout);
+    const MeshExtent extent = extentOf(grid, _triangles, id, _layout);
     bin.expandBy(extent.bin);
     // What is stored is text, which may round outward: the tiles above have to hold that.
     bin = AnalyticBin::fromText(bin.toText());
 
     const osg::ref_ptr<osg::Image> image = _image ? _image->texture(tile.heights) : nullptr;
-    const osg::ref_ptr<osg::Geometry> geometry = makeGeometry(mesh, tile.heights, image);
-    const osg::ref_ptr<osg::Node> placed = makePlaced(*geometry, mesh.originEcef);
+    colour(grid, image);
+    const osg::ref_ptr<osg::Geometry> geometry = makeGeometry(grid, image, _settings.packed);
+    const osg::ref_ptr<osg::Node> placed = makePlaced(*geometry, grid.origin);
     const TileFacts facts{bin, extent.surfaceLow, _layout, _settings.lodFactor,
                           tile.below.valid() ? _files.childrenFile(id) : ""};
     const osg::ref_ptr<osg::Node> node = makeTileNode(id, *placed, facts);
@@ -112,7 +113,9 @@ std::unique_ptr<BuiltTile> TileBuilder::meshed(SurveyedTile tile) {
 }
 
 void TileBuilder::finishFile(const std::vector<osg::Geometry*>& geometries, int level) {
-    const SharedParts shared(_triangles, _layout.cells(), _image ? _image->textureSize(level) : 0);
+    const SharedParts shared = _settings.packed
+                                   ? SharedParts(_image != nullptr)
+                                   : SharedParts(_triangles, _layout.cells(), _image ? _image->textureSize(level) : 0);
     for (osg::Geometry* geometry : geometries) shared.addTo(*geometry);
 }
 

@@ -3,17 +3,19 @@
 
 #pragma once
 
-#include "HeightGrid.h"
-#include "TileMesh.h"
+#include <osgAnalyticBin/TerrainGrid.h>
 
 #include <osg/Geometry>
 #include <osg/Image>
 
 namespace osgbindem {
 
-/// The vertices, normals and colours of a tile; the parts that tiles share are added by SharedParts.
-/// With an image the colours are in the texture.
-[[nodiscard]] osg::ref_ptr<osg::Geometry> makeGeometry(const TileMesh& mesh, const HeightGrid& heights,
-                                                       osg::Image* image);
+/// Gives the grid the colours of its heights, or those of the image.
+void colour(osgAnalyticBin::TerrainGrid& grid, const osg::Image* image);
+
+/// What is stored of a tile, with the image as its texture; the parts that tiles share are added by SharedParts.
+/// `isPacked`: the grid in place of the mesh.
+[[nodiscard]] osg::ref_ptr<osg::Geometry> makeGeometry(const osgAnalyticBin::TerrainGrid& grid, osg::Image* image,
+                                                       bool isPacked);
 
 }  // namespace osgbindem

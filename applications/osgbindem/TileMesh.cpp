@@ -3,12 +3,8 @@
 
 #include "TileMesh.h"
 
-#include "TileFrame.h"
-#include "TileTopology.h"
-
+#include <osgAnalyticBin/core/GeodeticGridBounds.h>
 #include <osgAnalyticBin/core/GeodeticMeshBounds.h>
-
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +12,8 @@
 namespace osgbindem {
 
 namespace {
+
+using osgAnalyticBin::TerrainGrid;
 
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
 
@@ -25,109 +23,119 @@ constexpr double kAxisTolerance = 1.0;
 // Covers the rounding within GeodeticMeshBounds (1e-7 m).
 constexpr double kMargin = 1e-6;
 
-glm::dvec3 rounded(const glm::dvec3& point, double quantum) {
-    return {std::nearbyint(point.x / quantum) * quantum, std::nearbyint(point.y / quantum) * quantum,
-            std::nearbyint(point.z / quantum) * quantum};
+double rounded(double value, double quantum) {
+    return std::nearbyint(value / quantum) * quantum;
 }
 
-PostId postOf(const HeightGrid& heights, const TileLayout& layout, int column, int row) {
-    PostId post = layout.firstPost(heights.tile(), heights.tile().level);
-    post.column += column;
-    post.row += row;
-    return post;
+std::vector<std::int32_t> stepsUp(const std::vector<double>& metres) {
+    std::vector<std::int32_t> steps;
+    for (const double value : metres) steps.push_back(static_cast<std::int32_t>(std::ceil(value / TerrainGrid::kStep)));
+    return steps;
 }
+
+glm::dvec3 originOf(const HeightGrid& heights, const TileLayout& layout) {
+    PostId middle = layout.firstPost(heights.tile(), heights.tile().level);
+    middle.column += layout.cells() / 2;
+    middle.row += layout.cells() / 2;
+    const HeightRange range = heights.range();
+    const glm::dvec3 point = layout.ellipsoid().toEcef(layout.geodetic(middle, 0.5 * (range.lower + range.upper)));
+    const double quantum = layout.quantum(heights.tile().level);
+    return {rounded(point.x, quantum), rounded(point.y, quantum), rounded(point.z, quantum)};
+}
+
+/// Finds which vertices and triangles of the surface can be at an end of the bin. All others are well within: in
+/// latitude and longitude those that do not stand at the border, whose neighbours are a whole cell away, and in
+/// altitude those that are higher than the lowest post by more than chords sag, and lower than the highest.
+class Extremes {
+public:
+    Extremes(const TerrainGrid& grid, const RectDeg& rect) : _grid(grid) {
+        const auto posts = static_cast<std::size_t>(grid.cells + 1);
+        for (int row = 0; row <= grid.cells; ++row)
+            for (int column = 0; column <= grid.cells; ++column) _range.include(grid.height(column, row));
+        const double reach = std::max(std::abs(_range.lower), std::abs(_range.upper));
+        const osgAnalyticBin::core::GeodeticGridBounds bounds(
+            grid.ellipsoid,
+            {{rect.south * kRadiansPerDegree, rect.north * kRadiansPerDegree},
+             {rect.west * kRadiansPerDegree, rect.east * kRadiansPerDegree},
+             posts,
+             posts},
+            reach);
+        // vertices are rounded by less than a quantum; bounds of triangles are a little deeper than these sag
+        _rounding = 2.0 * grid.quantum;
+        _sag = 1.5 * bounds.sag() + _rounding;
+    }
+
+    [[nodiscard]] bool hasVertex(int column, int row) const {
+        const double height = _grid.height(column, row);
+        return column == 0 || row == 0 || column == _grid.cells || row == _grid.cells ||
+               height <= _range.lower + _rounding || height >= _range.upper - _rounding;
+    }
+
+    /// Either triangle of a cell.
+    [[nodiscard]] bool hasCell(int column, int row) const {
+        const double lowest = std::min(std::min(_grid.height(column, row), _grid.height(column + 1, row)),
+                                       std::min(_grid.height(column, row + 1), _grid.height(column + 1, row + 1)));
+        return row == 0 || row == _grid.cells - 1 || lowest <= _range.lower + _sag;
+    }
+
+private:
+    const TerrainGrid& _grid;
+    HeightRange _range;
+    double _rounding;
+    double _sag;
+};
 
 }  // namespace
 
-TileMesh::TileMesh(const HeightGrid& heights, const Skirt& skirt, const TileLayout& layout) {
-    verticesEcef.reserve(tileVertexCount(layout.cells()));
-    normals.reserve(tileVertexCount(layout.cells()));
-    addSurface(heights, layout);
-    addSkirts(heights, skirt, layout);
-    const double quantum = layout.quantum(heights.tile().level);
-    for (glm::dvec3& vertex : verticesEcef) vertex = rounded(vertex, quantum);
-    placeOrigin(heights, layout);
+TerrainGrid gridOf(const HeightGrid& heights, const Skirt& skirt, const TileLayout& layout) {
+    const int level = heights.tile().level;
+    TerrainGrid grid;
+    grid.ellipsoid = layout.ellipsoid();
+    grid.cells = layout.cells();
+    grid.columns = static_cast<std::int64_t>(TileId::kStartColumns * layout.cells()) << level;
+    const PostId first = layout.firstPost(heights.tile(), level);
+    grid.firstColumn = first.column;
+    grid.firstRow = first.row;
+    grid.quantum = layout.quantum(level);
+    grid.origin = originOf(heights, layout);
+    grid.heights.reserve(static_cast<std::size_t>((grid.cells + 3) * (grid.cells + 3)));
+    for (int row = -1; row <= grid.cells + 1; ++row)
+        for (int column = -1; column <= grid.cells + 1; ++column)
+            grid.heights.push_back(
+                static_cast<std::int32_t>(std::nearbyint(heights.at(column, row) / TerrainGrid::kStep)));
+    for (std::size_t edge = 0; edge < kEdges.size(); ++edge)
+        grid.skirts[edge] = {stepsUp(skirt[edge].depth), stepsUp(skirt[edge].lean)};
+    return grid;
 }
 
-void TileMesh::addSurface(const HeightGrid& heights, const TileLayout& layout) {
-    const int cells = layout.cells();
-    const int width = cells + 3;
-    std::vector<glm::dvec3> points;
-    for (int row = -1; row <= cells + 1; ++row) {
-        for (int column = -1; column <= cells + 1; ++column) {
-            const auto position = layout.geodetic(postOf(heights, layout, column, row), heights.at(column, row));
-            points.push_back(layout.ellipsoid().toEcef(position));
-        }
-    }
-    const auto point = [&points, width](int column, int row) -> const glm::dvec3& {
-        return points[static_cast<std::size_t>((row + 1) * width + column + 1)];
-    };
-    const TileId& tile = heights.tile();
-    for (int row = 0; row <= cells; ++row) {
-        const bool isPole = (tile.y == 0 && row == 0) || (tile.y == tile.rows() - 1 && row == cells);
-        for (int column = 0; column <= cells; ++column) {
-            verticesEcef.push_back(point(column, row));
-            const glm::dvec3 east = point(column + 1, row) - point(column - 1, row);
-            const glm::dvec3 north = point(column, row + 1) - point(column, row - 1);
-            const glm::dvec3 normal = isPole ? glm::dvec3(0.0, 0.0, row == 0 ? -1.0 : 1.0) : glm::cross(east, north);
-            normals.push_back(glm::vec3(glm::normalize(normal)));
-        }
-    }
-}
-
-void TileMesh::addSkirts(const HeightGrid& heights, const Skirt& skirt, const TileLayout& layout) {
-    const int cells = layout.cells();
-    for (const Edge edge : kEdges) {
-        const EdgeSkirt& own = skirt[static_cast<std::size_t>(edge)];
-        const double outward = edge == Edge::North ? 1.0 : -1.0;
-        for (int i = 0; i <= cells; ++i) {
-            const std::size_t top = edgeVertex(cells, edge, i);
-            const int column = static_cast<int>(top) % (cells + 1);
-            const int row = static_cast<int>(top) / (cells + 1);
-            const TileFrame frame(layout.geodetic(postOf(heights, layout, column, row), 0.0));
-            const std::size_t place = static_cast<std::size_t>(i);
-            verticesEcef.push_back(verticesEcef[top] - own.depth[place] * frame.up +
-                                   outward * own.lean[place] * frame.north);
-            normals.push_back(normals[top]);
-        }
-    }
-}
-
-void TileMesh::placeOrigin(const HeightGrid& heights, const TileLayout& layout) {
-    const HeightRange range = heights.range();
-    const int half = layout.cells() / 2;
-    const PostId middle = postOf(heights, layout, half, half);
-    const auto position = layout.geodetic(middle, 0.5 * (range.lower + range.upper));
-    originEcef = rounded(layout.ellipsoid().toEcef(position), layout.quantum(heights.tile().level));
-}
-
-MeshExtent extentOf(const TileMesh& mesh, const std::vector<std::uint16_t>& triangles, const TileId& tile,
+MeshExtent extentOf(const TerrainGrid& grid, const std::vector<std::uint16_t>& triangles, const TileId& tile,
                     const TileLayout& layout) {
     using namespace osgAnalyticBin;
     const RectDeg rect = tile.rect();
     const double axisTolerance = tile.touchesPole() ? kAxisTolerance : 0.0;
     core::GeodeticMeshBounds bounds(layout.ellipsoid(), 0.5 * (rect.west + rect.east) * kRadiansPerDegree,
                                     axisTolerance);
-    std::vector<glm::dvec3> drawn;
-    drawn.reserve(mesh.verticesEcef.size());
-    for (const glm::dvec3& vertex : mesh.verticesEcef) {
-        drawn.push_back(mesh.originEcef + glm::dvec3(glm::vec3(vertex - mesh.originEcef)));
-    }
-    // the surface's vertices come first, and those of the skirts after them
-    const auto posts = static_cast<std::size_t>(layout.cells() + 1);
-    const std::size_t surfaceEnd = posts * posts;
-    const auto expand = [&](bool isSkirt) {
-        const std::size_t end = isSkirt ? drawn.size() : surfaceEnd;
-        for (std::size_t i = isSkirt ? surfaceEnd : 0; i < end; ++i) bounds.expandByVertex(drawn[i]);
-        for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
-            const std::size_t last = std::max({triangles[i], triangles[i + 1], triangles[i + 2]});
-            if ((last >= surfaceEnd) != isSkirt) continue;
-            bounds.expandByTriangle(drawn[triangles[i]], drawn[triangles[i + 1]], drawn[triangles[i + 2]]);
-        }
+    std::vector<glm::dvec3> drawn = verticesOf(grid);
+    for (glm::dvec3& vertex : drawn) vertex = grid.origin + glm::dvec3(glm::vec3(vertex - grid.origin));
+    const auto expandByTriangle = [&](std::size_t first) {
+        bounds.expandByTriangle(drawn[triangles[first]], drawn[triangles[first + 1]], drawn[triangles[first + 2]]);
     };
-    expand(false);
+    const Extremes extremes(grid, rect);
+    std::size_t vertex = 0;
+    for (int row = 0; row <= grid.cells; ++row)
+        for (int column = 0; column <= grid.cells; ++column, ++vertex)
+            if (extremes.hasVertex(column, row)) bounds.expandByVertex(drawn[vertex]);
+    std::size_t index = 0;
+    for (int row = 0; row < grid.cells; ++row) {
+        for (int column = 0; column < grid.cells; ++column, index += 6) {
+            if (!extremes.hasCell(column, row)) continue;
+            expandByTriangle(index);
+            expandByTriangle(index + 3);
+        }
+    }
     const double surfaceLow = bounds.bin().altitude().lower;
-    expand(true);
+    for (; vertex < drawn.size(); ++vertex) bounds.expandByVertex(drawn[vertex]);
+    for (; index + 2 < triangles.size(); index += 3) expandByTriangle(index);
     return {AnalyticBin(bounds.bin(), kMargin + axisTolerance), surfaceLow};
 }
 

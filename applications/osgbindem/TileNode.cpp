@@ -3,7 +3,7 @@
 
 #include "TileNode.h"
 
-#include "TileTopology.h"
+#include <osgAnalyticBin/TerrainGrid.h>
 
 #include <glm/geometric.hpp>
 #include <osg/CoordinateSystemNode>
@@ -66,26 +66,18 @@ osg::ref_ptr<osg::Node> makeTileNode(const TileId& tile, osg::Node& placed, cons
 }
 
 SharedParts::SharedParts(const std::vector<std::uint16_t>& triangles, int cells, int textureSize)
-    : _triangles(new osg::DrawElementsUShort(GL_TRIANGLES, triangles.begin(), triangles.end())) {
-    if (textureSize == 0) return;
-    _texCoords = new osg::Vec2Array(osg::Array::BIND_PER_VERTEX);
-    const int posts = cells + 1;
-    for (const std::size_t surface : surfaceVertices(cells)) {
-        // The middles of the outer texels lie on the tile's edges.
-        const auto coordinate = [&](int along) {
-            const float share = static_cast<float>(along) / static_cast<float>(cells);
-            return (0.5F + share * static_cast<float>(textureSize - 1)) / static_cast<float>(textureSize);
-        };
-        const int place = static_cast<int>(surface);
-        _texCoords->push_back(osg::Vec2(coordinate(place % posts), coordinate(place / posts)));
-    }
+    : SharedParts(textureSize > 0) {
+    _triangles->assign(triangles.begin(), triangles.end());
+    if (_texCoords) osgAnalyticBin::addTextureCoordinates(cells, textureSize, *_texCoords);
+}
+
+SharedParts::SharedParts(bool hasTexture) : _triangles(new osg::DrawElementsUShort(GL_TRIANGLES)) {
+    if (hasTexture) _texCoords = new osg::Vec2Array(osg::Array::BIND_PER_VERTEX);
 }
 
 void SharedParts::addTo(osg::Geometry& geometry) const {
     geometry.addPrimitiveSet(_triangles);
     if (_texCoords) geometry.setTexCoordArray(0, _texCoords);
-    geometry.setUseDisplayList(false);
-    geometry.setUseVertexBufferObjects(true);
 }
 
 }  // namespace osgbindem

@@ -40,6 +40,9 @@ public:
     /// Texture coordinates need the size of the texture, 0 without one.
     SharedParts(const std::vector<std::uint16_t>& triangles, int cells, int textureSize);
 
+    /// Empty, for packed tiles: they are filled when they are read.
+    explicit SharedParts(bool hasTexture);
+
     /// Completes the geometry.
     void addTo(osg::Geometry& geometry) const;
 

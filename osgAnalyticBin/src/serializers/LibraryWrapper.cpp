@@ -5,5 +5,6 @@
 
 USE_SERIALIZER_WRAPPER(osgAnalyticBin_AnalyticBinCullCallback)
 USE_SERIALIZER_WRAPPER(osgAnalyticBin_InstallBinsCallback)
+USE_SERIALIZER_WRAPPER(osgAnalyticBin_PackedTerrain)
 
 extern "C" __attribute__((visibility("default"))) void wrapper_serializer_library_osgAnalyticBin(void) {}

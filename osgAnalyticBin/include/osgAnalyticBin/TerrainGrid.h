@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/core/Ellipsoid.h>
+
+#include <glm/vec3.hpp>
+#include <osg/Geometry>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+/// What the mesh of a tile of terrain is made of: heights at the posts of a grid in latitude and longitude, and skirts.
+/// Its bytes are a tenth of the mesh's.
+struct TerrainGrid {
+    /// Metres; heights and skirts are whole multiples of it.
+    static constexpr double kStep = 1.0 / 64.0;
+
+    /// Of the colours by height: from this height on towards the next stop's.
+    struct ColourStop {
+        float height = 0.0F;
+        std::array<std::uint8_t, 3> colour{};
+    };
+    /// What hangs from one edge, post by post, south to north or west to east, in steps.
+    struct Skirt {
+        std::vector<std::int32_t> depth;
+        /// How far the lower end leans outward.
+        std::vector<std::int32_t> lean;
+    };
+
+    core::Ellipsoid ellipsoid{1.0, 1.0};
+    /// Along an edge of the tile.
+    std::int32_t cells = 0;
+    /// Posts of the tile's level round the globe; half as many and one stand from pole to pole.
+    std::int64_t columns = 0;
+    /// @{
+    /// The south-west post, counted from longitude -180 and latitude -90.
+    std::int64_t firstColumn = 0;
+    std::int64_t firstRow = 0;
+    /// @}
+    /// Metres: vertices are rounded to multiples of it in ECEF.
+    double quantum = 1.0;
+    /// In ECEF; vertices are stored relative to it.
+    glm::dvec3 origin{0.0};
+    /// In steps, row by row from the south-west; one ring of posts around the tile, for its normals, is among them.
+    std::vector<std::int32_t> heights;
+    /// South, north, west, east.
+    std::array<Skirt, 4> skirts;
+    /// By height; empty: white, and the texture has the colours.
+    std::vector<ColourStop> colours;
+    /// Texels along an edge of the texture, whose outer texels' middles lie on the tile's edges; 0: no texture.
+    std::int32_t textureSize = 0;
+
+    /// The height of a post in metres; column and row from -1 to cells + 1.
+    [[nodiscard]] double height(int column, int row) const noexcept {
+        return kStep * heights[static_cast<std::size_t>((row + 1) * (cells + 3) + column + 1)];
+    }
+};
+
+/// The vertices of a grid, row by row from the south-west, then the skirts' edge by edge, in ECEF metres.
+/// Guarantee: posts that two grids of one quantum share come to the very same point.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::vector<glm::dvec3> verticesOf(const TerrainGrid& grid);
+
+/// Three vertices a triangle, the surface's first.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::vector<std::uint16_t> trianglesOf(int cells);
+
+/// The mesh as OSG draws it; but for the triangles and the texture coordinates, which tiles may share.
+OSGANALYTICBIN_EXPORT void fillGeometry(const TerrainGrid& grid, osg::Geometry& geometry);
+
+/// One for each vertex, behind what is there already.
+OSGANALYTICBIN_EXPORT void addTextureCoordinates(int cells, int textureSize, osg::Vec2Array& coordinates);
+
+/// The bytes of a grid: what neighbours foretell of each height is left out. The same on every machine.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::string packed(const TerrainGrid& grid);
+
+/// Returns: nullopt for what packed() has not made.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<TerrainGrid> unpacked(const std::string& bytes);
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include <osgAnalyticBin/TerrainGrid.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
+
+struct Turn {
+    double sine;
+    double cosine;
+};
+
+Turn turnOf(double degrees) {
+    const double angle = degrees * kRadiansPerDegree;
+    return {std::sin(angle), std::cos(angle)};
+}
+
+glm::dvec3 rounded(const glm::dvec3& point, double quantum) {
+    return {std::nearbyint(point.x / quantum) * quantum, std::nearbyint(point.y / quantum) * quantum,
+            std::nearbyint(point.z / quantum) * quantum};
+}
+
+// The posts of a grid in space; sines and cosines are those of whole rows and columns.
+class Posts {
+public:
+    explicit Posts(const TerrainGrid& grid) : _grid(grid) {
+        const double columns = static_cast<double>(grid.columns);
+        const std::int64_t rows = grid.columns / 2;
+        for (int i = -1; i <= grid.cells + 1; ++i) {
+            const std::int64_t row = std::clamp<std::int64_t>(grid.firstRow + i, 0, rows);
+            _latitudes.push_back(turnOf(-90.0 + 180.0 * static_cast<double>(row) / static_cast<double>(rows)));
+            _radii.push_back(grid.ellipsoid.primeVerticalRadius(_latitudes.back().sine));
+            _longitudes.push_back(turnOf(-180.0 + 360.0 * static_cast<double>(grid.firstColumn + i) / columns));
+        }
+    }
+
+    [[nodiscard]] glm::dvec3 ecef(int column, int row) const {
+        const Turn& lat = latitude(row);
+        const Turn& lon = longitude(column);
+        const double n = _radii[static_cast<std::size_t>(row + 1)];
+        const double altitude = _grid.height(column, row);
+        const double rho = (n + altitude) * lat.cosine;
+        return {rho * lon.cosine, rho * lon.sine,
+                (n * (1.0 - _grid.ellipsoid.eccentricitySquared()) + altitude) * lat.sine};
+    }
+    [[nodiscard]] glm::dvec3 up(int column, int row) const {
+        const Turn& lat = latitude(row);
+        return {lat.cosine * longitude(column).cosine, lat.cosine * longitude(column).sine, lat.sine};
+    }
+    [[nodiscard]] glm::dvec3 north(int column, int row) const {
+        const Turn& lat = latitude(row);
+        return {-lat.sine * longitude(column).cosine, -lat.sine * longitude(column).sine, lat.cosine};
+    }
+
+private:
+    [[nodiscard]] const Turn& latitude(int row) const { return _latitudes[static_cast<std::size_t>(row + 1)]; }
+    [[nodiscard]] const Turn& longitude(int column) const { return _longitudes[static_cast<std::size_t>(column + 1)]; }
+
+    const TerrainGrid& _grid;
+    std::vector<Turn> _latitudes;
+    std::vector<Turn> _longitudes;
+    std::vector<double> _radii;
+};
+
+// South, north, west, east: the post at a distance along an edge.
+struct EdgePost {
+    EdgePost(int cells, std::size_t edge, int along)
+        : column(edge < 2 ? along : (edge == 2 ? 0 : cells)), row(edge < 2 ? (edge == 0 ? 0 : cells) : along) {}
+    int column;
+    int row;
+};
+
+std::size_t surfaceIndex(int cells, int column, int row) {
+    return static_cast<std::size_t>(row * (cells + 1) + column);
+}
+
+template <typename Function>
+void forSkirtPosts(int cells, const Function& function) {
+    for (std::size_t edge = 0; edge < 4; ++edge) {
+        for (int along = 0; along <= cells; ++along) {
+            const EdgePost post(cells, edge, along);
+            function(edge, static_cast<std::size_t>(along), post.column, post.row);
+        }
+    }
+}
+
+// Of a surface's vertices, those of the skirts repeat what stands above them.
+template <typename Array>
+void repeatAtSkirts(int cells, Array& array) {
+    forSkirtPosts(cells, [&](std::size_t, std::size_t, int column, int row) {
+        array.push_back(typename Array::value_type(array[surfaceIndex(cells, column, row)]));
+    });
+}
+
+osg::ref_ptr<osg::Vec3Array> normalsOf(const TerrainGrid& grid) {
+    const int width = grid.cells + 3;
+    const Posts posts(grid);
+    std::vector<glm::dvec3> points;
+    points.reserve(grid.heights.size());
+    for (int row = -1; row <= grid.cells + 1; ++row)
+        for (int column = -1; column <= grid.cells + 1; ++column) points.push_back(posts.ecef(column, row));
+    const auto point = [&](int column, int row) -> const glm::dvec3& {
+        return points[static_cast<std::size_t>((row + 1) * width + column + 1)];
+    };
+    const osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
+    normals->reserve(static_cast<std::size_t>((grid.cells + 1) * (grid.cells + 5)));
+    for (int row = 0; row <= grid.cells; ++row) {
+        const bool isSouthPole = grid.firstRow + row == 0;
+        const bool isNorthPole = grid.firstRow + row == grid.columns / 2;
+        for (int column = 0; column <= grid.cells; ++column) {
+            const glm::dvec3 east = point(column + 1, row) - point(column - 1, row);
+            const glm::dvec3 north = point(column, row + 1) - point(column, row - 1);
+            const glm::dvec3 normal = isSouthPole   ? glm::dvec3(0.0, 0.0, -1.0)
+                                      : isNorthPole ? glm::dvec3(0.0, 0.0, 1.0)
+                                                    : glm::normalize(glm::cross(east, north));
+            normals->push_back(osg::Vec3f(osg::Vec3d(normal.x, normal.y, normal.z)));
+        }
+    }
+    repeatAtSkirts(grid.cells, *normals);
+    return normals;
+}
+
+osg::Vec4ub colourAt(const std::vector<TerrainGrid::ColourStop>& stops, double height) {
+    const double clamped =
+        std::clamp(height, static_cast<double>(stops.front().height), static_cast<double>(stops.back().height));
+    std::size_t i = 1;
+    while (i + 1 < stops.size() && stops[i].height < clamped) ++i;
+    const TerrainGrid::ColourStop& a = stops[i - 1];
+    const TerrainGrid::ColourStop& b = stops[i];
+    const double share = (clamped - a.height) / (static_cast<double>(b.height) - a.height);
+    // half is added and cut off: numbers are positive
+    const auto mixed = [&](std::size_t c) {
+        return static_cast<unsigned char>(a.colour[c] + share * (b.colour[c] - a.colour[c]) + 0.5);
+    };
+    return {mixed(0), mixed(1), mixed(2), 255};
+}
+
+osg::ref_ptr<osg::Vec4ubArray> coloursOf(const TerrainGrid& grid) {
+    const bool isPlain = grid.colours.size() < 2;
+    const osg::ref_ptr<osg::Vec4ubArray> colours =
+        new osg::Vec4ubArray(isPlain ? osg::Array::BIND_OVERALL : osg::Array::BIND_PER_VERTEX);
+    colours->setNormalize(true);
+    if (isPlain) {
+        colours->push_back(osg::Vec4ub(255, 255, 255, 255));
+        return colours;
+    }
+    colours->reserve(static_cast<std::size_t>((grid.cells + 1) * (grid.cells + 5)));
+    for (int row = 0; row <= grid.cells; ++row)
+        for (int column = 0; column <= grid.cells; ++column)
+            colours->push_back(colourAt(grid.colours, grid.height(column, row)));
+    repeatAtSkirts(grid.cells, *colours);
+    return colours;
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> verticesOf(const TerrainGrid& grid) {
+    const int cells = grid.cells;
+    const Posts posts(grid);
+    std::vector<glm::dvec3> vertices;
+    vertices.reserve(static_cast<std::size_t>((cells + 1) * (cells + 5)));
+    for (int row = 0; row <= cells; ++row)
+        for (int column = 0; column <= cells; ++column) vertices.push_back(posts.ecef(column, row));
+    forSkirtPosts(cells, [&](std::size_t edge, std::size_t along, int column, int row) {
+        const TerrainGrid::Skirt& skirt = grid.skirts[edge];
+        const double outward = edge == 1 ? TerrainGrid::kStep : -TerrainGrid::kStep;
+        vertices.push_back(vertices[surfaceIndex(cells, column, row)] -
+                           TerrainGrid::kStep * skirt.depth[along] * posts.up(column, row) +
+                           outward * skirt.lean[along] * posts.north(column, row));
+    });
+    for (glm::dvec3& vertex : vertices) vertex = rounded(vertex, grid.quantum);
+    return vertices;
+}
+
+std::vector<std::uint16_t> trianglesOf(int cells) {
+    std::vector<std::uint16_t> indices;
+    const auto add = [&indices](std::size_t a, std::size_t b, std::size_t c) {
+        for (const std::size_t i : {a, b, c}) indices.push_back(static_cast<std::uint16_t>(i));
+    };
+    for (int row = 0; row < cells; ++row) {
+        for (int column = 0; column < cells; ++column) {
+            const std::size_t southWest = surfaceIndex(cells, column, row);
+            const std::size_t northEast = surfaceIndex(cells, column + 1, row + 1);
+            add(southWest, southWest + 1, northEast);
+            add(southWest, northEast, northEast - 1);
+        }
+    }
+    for (std::size_t edge = 0; edge < 4; ++edge) {
+        const bool runsRight = edge == 0 || edge == 3;  // as seen from outside the tile
+        const auto top = [&](int along) {
+            const EdgePost post(cells, edge, along);
+            return surfaceIndex(cells, post.column, post.row);
+        };
+        const std::size_t foot = static_cast<std::size_t>(cells + 1) * (static_cast<std::size_t>(cells + 1) + edge);
+        for (int i = 0; i < cells; ++i) {
+            const int left = runsRight ? i : i + 1;
+            const int right = runsRight ? i + 1 : i;
+            add(foot + static_cast<std::size_t>(left), foot + static_cast<std::size_t>(right), top(right));
+            add(foot + static_cast<std::size_t>(left), top(right), top(left));
+        }
+    }
+    return indices;
+}
+
+void addTextureCoordinates(int cells, int textureSize, osg::Vec2Array& coordinates) {
+    const auto coordinate = [&](int along) {
+        const float share = static_cast<float>(along) / static_cast<float>(cells);
+        return (0.5F + share * static_cast<float>(textureSize - 1)) / static_cast<float>(textureSize);
+    };
+    for (int row = 0; row <= cells; ++row)
+        for (int column = 0; column <= cells; ++column)
+            coordinates.push_back(osg::Vec2(coordinate(column), coordinate(row)));
+    forSkirtPosts(cells, [&](std::size_t, std::size_t, int column, int row) {
+        coordinates.push_back(osg::Vec2(coordinate(column), coordinate(row)));
+    });
+}
+
+void fillGeometry(const TerrainGrid& grid, osg::Geometry& geometry) {
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    const std::vector<glm::dvec3> ecef = verticesOf(grid);
+    vertices->reserve(ecef.size());
+    for (const glm::dvec3& vertex : ecef) {
+        const glm::dvec3 local = vertex - grid.origin;
+        vertices->push_back(osg::Vec3f(osg::Vec3d(local.x, local.y, local.z)));
+    }
+    geometry.setVertexArray(vertices);
+    geometry.setNormalArray(normalsOf(grid));
+    geometry.setColorArray(coloursOf(grid));
+    geometry.setUseDisplayList(false);
+    geometry.setUseVertexBufferObjects(true);
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include <osgAnalyticBin/PackedTerrain.h>
+
+#include <osgDB/InputStream>
+#include <osgDB/ObjectWrapper>
+#include <osgDB/OutputStream>
+
+namespace {
+
+using osgAnalyticBin::PackedTerrain;
+using osgAnalyticBin::TerrainGrid;
+
+constexpr unsigned int kMostBytes = 4U << 20;
+constexpr const char* kDigits = "0123456789abcdef";
+
+std::string toDigits(const std::string& bytes) {
+    std::string text;
+    for (const char byte : bytes) {
+        const auto value = static_cast<unsigned char>(byte);
+        text += {kDigits[value >> 4], kDigits[value & 15]};
+    }
+    return text;
+}
+
+std::string fromDigits(const std::string& text) {
+    std::string bytes;
+    const std::string digits(kDigits);
+    for (std::size_t i = 0; i + 1 < text.size(); i += 2) {
+        const std::size_t high = digits.find(text[i]);
+        const std::size_t low = digits.find(text[i + 1]);
+        if (high == std::string::npos || low == std::string::npos) return {};
+        bytes.push_back(static_cast<char>(16 * high + low));
+    }
+    return bytes;
+}
+
+std::string readBytes(osgDB::InputStream& is) {
+    std::string bytes;
+    if (!is.isBinary()) {
+        is.readWrappedString(bytes);
+        return fromDigits(bytes);
+    }
+    unsigned int size = 0;
+    is >> size;
+    if (size > kMostBytes) return {};
+    bytes.resize(size);
+    is.readCharArray(bytes.data(), size);
+    return bytes;
+}
+
+// What tiles of a file share is stored empty, once, and filled by the first of them.
+void readShared(osgDB::InputStream& is, const TerrainGrid& grid, osg::Geometry& geometry) {
+    const osg::ref_ptr<osg::DrawElementsUShort> triangles = is.readObjectOfType<osg::DrawElementsUShort>();
+    if (!triangles) return is.throwException("osgAnalyticBin::PackedTerrain: no triangles");
+    if (triangles->empty()) {
+        const std::vector<std::uint16_t> indices = osgAnalyticBin::trianglesOf(grid.cells);
+        triangles->assign(indices.begin(), indices.end());
+    }
+    // of other tiles of the file, with more vertices
+    const std::size_t count = geometry.getVertexArray()->getNumElements();
+    for (const GLushort index : *triangles)
+        if (index >= count) return is.throwException("osgAnalyticBin::PackedTerrain: vertices are missing");
+    geometry.addPrimitiveSet(triangles);
+    if (grid.textureSize == 0) return;
+    const osg::ref_ptr<osg::Vec2Array> coordinates = is.readObjectOfType<osg::Vec2Array>();
+    if (!coordinates) return is.throwException("osgAnalyticBin::PackedTerrain: no texture coordinates");
+    if (coordinates->empty()) osgAnalyticBin::addTextureCoordinates(grid.cells, grid.textureSize, *coordinates);
+    if (coordinates->size() == count) geometry.setTexCoordArray(0, coordinates, osg::Array::BIND_PER_VERTEX);
+}
+
+}  // namespace
+
+static bool checkGrid(const osg::Geometry& geometry) {
+    return dynamic_cast<const PackedTerrain*>(&geometry) != nullptr;
+}
+
+static bool readGrid(osgDB::InputStream& is, osg::Geometry& geometry) {
+    const auto grid = osgAnalyticBin::unpacked(readBytes(is));
+    if (!grid) {
+        is.throwException("osgAnalyticBin::PackedTerrain: broken grid");
+        return false;
+    }
+    osgAnalyticBin::fillGeometry(*grid, geometry);
+    readShared(is, *grid, geometry);
+    return is.getException() == nullptr;
+}
+
+static bool writeGrid(osgDB::OutputStream& os, const osg::Geometry& geometry) {
+    const std::string& bytes = dynamic_cast<const PackedTerrain&>(geometry).bytes();
+    if (os.isBinary()) {
+        os << static_cast<unsigned int>(bytes.size());
+        os.writeCharArray(bytes.data(), static_cast<unsigned int>(bytes.size()));
+    } else {
+        os.writeWrappedString(toDigits(bytes));
+        os << std::endl;
+    }
+    os.writeObject(geometry.getPrimitiveSet(0));
+    if (geometry.getTexCoordArray(0) != nullptr) os.writeObject(geometry.getTexCoordArray(0));
+    return true;
+}
+
+REGISTER_OBJECT_WRAPPER2(osgAnalyticBin_PackedTerrain, new osg::Geometry, osg::Geometry,
+                         "osgAnalyticBin::PackedTerrain",
+                         "osg::Object osg::Node osg::Drawable osgAnalyticBin::PackedTerrain") {
+    ADD_USER_SERIALIZER(Grid);
+}
