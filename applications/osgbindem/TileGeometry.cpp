@@ -4,6 +4,7 @@
 #include "TileGeometry.h"
 
 #include "Hypsometry.h"
+#include "TextureBlocks.h"
 
 #include <osgAnalyticBin/PackedTerrain.h>
 
@@ -41,7 +42,10 @@ osg::ref_ptr<osg::Geometry> makeGeometry(const osgAnalyticBin::TerrainGrid& grid
         geometry = new osg::Geometry;
         osgAnalyticBin::fillGeometry(grid, *geometry);
     }
-    if (image != nullptr) drape(*geometry, *image);
+    if (image != nullptr) {
+        const osg::ref_ptr<osg::Image> stored = isPacked ? inBlocks(*image) : osg::ref_ptr<osg::Image>(image);
+        drape(*geometry, *stored);
+    }
     return geometry;
 }
 

@@ -14,7 +14,7 @@ namespace osgbindem {
 void colour(osgAnalyticBin::TerrainGrid& grid, const osg::Image* image);
 
 /// What is stored of a tile, with the image as its texture; the parts that tiles share are added by SharedParts.
-/// `isPacked`: the grid in place of the mesh.
+/// `isPacked`: the grid in place of the mesh, and the image in blocks (DXT1).
 [[nodiscard]] osg::ref_ptr<osg::Geometry> makeGeometry(const osgAnalyticBin::TerrainGrid& grid, osg::Image* image,
                                                        bool isPacked);
 

@@ -18,7 +18,7 @@
 namespace osgAnalyticBin {
 
 /// What the mesh of a tile of terrain is made of: heights at the posts of a grid in latitude and longitude, and skirts.
-/// Its bytes are a tenth of the mesh's.
+/// Its bytes are a fifth of the mesh's, or less.
 struct TerrainGrid {
     /// Metres; heights and skirts are whole multiples of it.
     static constexpr double kStep = 1.0 / 64.0;

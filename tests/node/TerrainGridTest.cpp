@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// The bytes of a grid: all of it comes back, and broken bytes are refused. That the mesh is right is tested on whole
+// databases: tests/applications/osgbindem.
+
+#include <osgAnalyticBin/TerrainGrid.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using osgAnalyticBin::packed;
+using osgAnalyticBin::TerrainGrid;
+using osgAnalyticBin::unpacked;
+
+TerrainGrid rough() {
+    TerrainGrid grid;
+    grid.ellipsoid = osgAnalyticBin::core::Ellipsoid(6378137.0, 6356752.3142);
+    grid.cells = 6;
+    grid.columns = std::int64_t{16} * 6 << 20;
+    grid.firstColumn = grid.columns - 6;
+    grid.firstRow = 12345678;
+    grid.quantum = 1.0 / 1024.0;
+    grid.origin = {-1234567.125, 7654321.0, -0.0009765625};
+    // from one end of what terrain can be to the other
+    for (int i = 0; i < 81; ++i) grid.heights.push_back((i * 7919 % 13 - 6) * 1000000 + i);
+    for (TerrainGrid::Skirt& skirt : grid.skirts) {
+        for (int i = 0; i < 7; ++i) {
+            skirt.depth.push_back(i * 1000 % 3001);
+            skirt.lean.push_back(i % 2);
+        }
+    }
+    grid.colours = {{-10.5F, {1, 2, 3}}, {20.0F, {255, 254, 253}}};
+    grid.textureSize = 256;
+    return grid;
+}
+
+}  // namespace
+
+TEST(TerrainGrid, AllOfItComesBack) {
+    const TerrainGrid grid = rough();
+    const auto again = unpacked(packed(grid));
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->ellipsoid.equatorialRadius(), grid.ellipsoid.equatorialRadius());
+    EXPECT_EQ(again->ellipsoid.polarRadius(), grid.ellipsoid.polarRadius());
+    EXPECT_EQ(again->cells, grid.cells);
+    EXPECT_EQ(again->columns, grid.columns);
+    EXPECT_EQ(again->firstColumn, grid.firstColumn);
+    EXPECT_EQ(again->firstRow, grid.firstRow);
+    EXPECT_EQ(again->quantum, grid.quantum);
+    EXPECT_EQ(again->origin, grid.origin);
+    EXPECT_EQ(again->heights, grid.heights);
+    EXPECT_EQ(again->textureSize, grid.textureSize);
+    for (std::size_t edge = 0; edge < 4; ++edge) {
+        EXPECT_EQ(again->skirts[edge].depth, grid.skirts[edge].depth);
+        EXPECT_EQ(again->skirts[edge].lean, grid.skirts[edge].lean);
+    }
+    ASSERT_EQ(again->colours.size(), 2U);
+    EXPECT_EQ(again->colours[0].height, -10.5F);
+    EXPECT_EQ(again->colours[1].colour, grid.colours[1].colour);
+    EXPECT_EQ(packed(*again), packed(grid));
+}
+
+TEST(TerrainGrid, EveryBeginningAndEveryAdditionIsRefused) {
+    const std::string bytes = packed(rough());
+    for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(unpacked(bytes.substr(0, size))) << size;
+    EXPECT_FALSE(unpacked(bytes + '\0'));
+    EXPECT_FALSE(unpacked(std::string(100000, '\xff')));
+}
+
+TEST(TerrainGrid, WhateverTheBytesTheMeshIsOfItsSize) {
+    // Changed bytes may be a grid of other heights: then it has all the vertices that its triangles name.
+    const std::string bytes = packed(rough());
+    std::size_t accepted = 0;
+    for (std::size_t place = 0; place < bytes.size(); ++place) {
+        for (const int change : {0x01, 0x40, 0x80, 0xff}) {
+            std::string changed = bytes;
+            changed[place] = static_cast<char>(changed[place] ^ change);
+            const auto grid = unpacked(changed);
+            if (!grid) continue;
+            ++accepted;
+            const std::size_t count = osgAnalyticBin::verticesOf(*grid).size();
+            for (const std::uint16_t index : osgAnalyticBin::trianglesOf(grid->cells)) ASSERT_LT(index, count);
+        }
+    }
+    EXPECT_GT(accepted, 100U);
+}
+
+TEST(TerrainGrid, SharedPostsComeToTheSamePoint) {
+    TerrainGrid west = rough();
+    west.firstColumn = 960;
+    TerrainGrid east = west;
+    east.firstColumn += west.cells;
+    const int width = west.cells + 3;
+    for (int row = 0; row < width; ++row) {
+        for (int column = 0; column < 3; ++column) {
+            const auto from = static_cast<std::size_t>(row * width + west.cells + column);
+            east.heights[static_cast<std::size_t>(row * width + column)] = west.heights[from];
+        }
+    }
+    const auto a = osgAnalyticBin::verticesOf(west);
+    const auto b = osgAnalyticBin::verticesOf(east);
+    for (std::size_t row = 0; row <= 6; ++row) EXPECT_EQ(a[row * 7 + 6], b[row * 7]);
+}
