@@ -4,9 +4,10 @@
 #
 # Builds the same globes with VirtualPlanetBuilder's osgdem and with osgbindem, and compares time, memory, bytes and
 # pictures; "Against osgdem" in osgAnalyticBin/doc/results.md says how osgdem was built.
-#     sh applications/compare_osgdem.sh OSGDEM [ROUNDS]
+#     sh applications/compare_osgdem.sh OSGDEM [ROUNDS [more]]
 # OSGDEM: the program; its libraries have to be found (LD_LIBRARY_PATH). Without it nothing is done.
-# ROUNDS: how often every program runs, one after the other in turn (default 3); the table has the medians.
+# ROUNDS: how often every program runs, one after the other in turn (default 3); the table has the medians. With "more"
+# they are added to those of the runs before.
 # Everything goes to the folder figures/osgdem; the table to figures/osgdem/table.txt.
 
 set -eu
@@ -111,7 +112,7 @@ line() {
 
 machine() {
     sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1
-    echo "$(nproc) cores, Linux $(uname -r), g++ $(g++ -dumpfullversion); $rounds rounds, load $(cut -d' ' -f1 /proc/loadavg)"
+    echo "$(nproc) cores, Linux $(uname -r), g++ $(g++ -dumpfullversion); $(wc -l <"$out/real_osgbindem_mesh.runs") rounds, load $(cut -d' ' -f1 /proc/loadavg)"
 }
 
 [ -f "$out/synthetic.tif" ] || make_synthetic
@@ -119,7 +120,7 @@ machine() {
 for globe in synthetic real; do
     [ -f "$out/${globe}_image.tif" ] || make_image "$out/$globe.tif" "$out/${globe}_image.tif"
 done
-rm -f "$out"/*.runs
+[ "${3:-}" = more ] || rm -f "$out"/*.runs
 
 # Both go down to the same tiles of 2.8 degrees (terrain) and 5.6 degrees (polygonal): osgdem's seventh and sixth level
 # are osgbindem's second and first below its start tiles.

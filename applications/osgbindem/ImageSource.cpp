@@ -49,8 +49,12 @@ int ImageSource::textureSize(int level) const noexcept {
 }
 
 const std::uint8_t* ImageSource::Patch::pixel(int column, int row) const noexcept {
-    const int x = static_cast<int>(static_cast<std::int64_t>(column - window.column) * width / window.width);
-    const int y = static_cast<int>(static_cast<std::int64_t>(row - window.row) * height / window.height);
+    // divisions would take most of the time where nothing is reduced
+    const auto reduced = [](int place, int size, int from) {
+        return size == from ? place : static_cast<int>(static_cast<std::int64_t>(place) * size / from);
+    };
+    const int x = reduced(column - window.column, width, window.width);
+    const int y = reduced(row - window.row, height, window.height);
     return pixels.data() + 4 * (static_cast<std::ptrdiff_t>(y) * width + x);
 }
 
@@ -96,7 +100,7 @@ bool ImageSource::sample(const PositionDeg& position, Rgb& colour) const noexcep
         for (std::size_t channel = 0; channel < 3; ++channel) sum[channel] += weights[i] * pixels[i][channel];
     }
     for (std::size_t channel = 0; channel < 3; ++channel) {
-        colour[channel] = static_cast<std::uint8_t>(std::lround(sum[channel]));
+        colour[channel] = static_cast<std::uint8_t>(sum[channel] + 0.5);
     }
     return true;
 }
@@ -109,6 +113,7 @@ osg::ref_ptr<osg::Image> ImageSource::texture(const HeightGrid& heights) {
 
     const osg::ref_ptr<osg::Image> image = new osg::Image;
     image->allocateImage(size, size, 1, GL_RGB, GL_UNSIGNED_BYTE, 1);
+    unsigned char* target = image->data();
     for (int row = 0; row < size; ++row) {
         const double northShare = static_cast<double>(row) / (size - 1);
         const double latitudeDeg = rect.south + northShare * (rect.north - rect.south);
@@ -118,8 +123,7 @@ osg::ref_ptr<osg::Image> ImageSource::texture(const HeightGrid& heights) {
             if (!sample({latitudeDeg, rect.west + eastShare * (rect.east - rect.west)}, colour)) {
                 colour = hypsometricColour(heightAt(heights, eastShare, northShare));
             }
-            std::copy(colour.begin(), colour.end(),
-                      image->data(static_cast<unsigned>(column), static_cast<unsigned>(row)));
+            target = std::copy(colour.begin(), colour.end(), target);
         }
     }
     return image;

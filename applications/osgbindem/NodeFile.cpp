@@ -23,7 +23,8 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
-#include <sstream>
+#include <ostream>
+#include <streambuf>
 #include <unistd.h>
 
 namespace osgbindem {
@@ -38,6 +39,59 @@ osgDB::ReaderWriter& writer() {
         throw Failure("OpenSceneGraph's plugin for .osgb is missing; install it or set OSG_LIBRARY_PATH");
     return *found;
 }
+
+/// Sums up what the arrays of meshes take, most of a file by far.
+class ArrayBytes final : public osg::NodeVisitor {
+public:
+    ArrayBytes() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Geometry& geometry) override {
+        osg::Geometry::ArrayList arrays;
+        geometry.getArrayList(arrays);
+        for (const auto& array : arrays) _sum += array->getTotalDataSize();
+    }
+    [[nodiscard]] std::size_t sum() const noexcept { return _sum; }
+
+private:
+    std::size_t _sum = 0;
+};
+
+/// What is written, without the copy that a std::ostringstream gives out: the root file alone is some megabytes. The
+/// writer goes back to fill sizes in.
+class ByteBuffer final : public std::streambuf {
+public:
+    explicit ByteBuffer(std::size_t expected) { _bytes.reserve(expected); }
+
+    [[nodiscard]] std::string take() { return std::move(_bytes); }
+
+protected:
+    int_type overflow(int_type value) override {
+        if (traits_type::eq_int_type(value, traits_type::eof())) return traits_type::not_eof(value);
+        const char byte = traits_type::to_char_type(value);
+        return xsputn(&byte, 1) == 1 ? value : traits_type::eof();
+    }
+    std::streamsize xsputn(const char* source, std::streamsize count) override {
+        const auto size = static_cast<std::size_t>(count);
+        if (_place + size > _bytes.size()) _bytes.resize(_place + size);
+        std::memcpy(_bytes.data() + _place, source, size);
+        _place += size;
+        return count;
+    }
+    pos_type seekoff(off_type offset, std::ios_base::seekdir way, std::ios_base::openmode) override {
+        const std::size_t from = way == std::ios_base::beg ? 0 : way == std::ios_base::cur ? _place : _bytes.size();
+        return seekpos(static_cast<off_type>(from) + offset, std::ios_base::out);
+    }
+    pos_type seekpos(pos_type position, std::ios_base::openmode) override {
+        const off_type place = position;
+        if (place < 0 || static_cast<std::size_t>(place) > _bytes.size()) return pos_type(off_type(-1));
+        _place = static_cast<std::size_t>(place);
+        return position;
+    }
+
+private:
+    std::string _bytes;
+    std::size_t _place = 0;
+};
 
 /// A file that is open for writing, removed again unless it is kept.
 class OpenFile {
@@ -120,10 +174,14 @@ std::string nodeFileBytes(const osg::Node& node, bool compress) {
     options->setPluginStringData("fileType", "Binary");
     options->setPluginStringData("WriteImageHint", "IncludeData");
     if (compress) options->setPluginStringData("Compressor", "zlib");
-    std::ostringstream stream(std::ios::out | std::ios::binary);
+    ArrayBytes arrays;
+    const_cast<osg::Node&>(node).accept(arrays);  // which changes nothing
+    constexpr std::size_t kRest = 100000;
+    ByteBuffer buffer(compress ? 0 : arrays.sum() + arrays.sum() / 8 + kRest);
+    std::ostream stream(&buffer);
     const osgDB::ReaderWriter::WriteResult result = writer().writeNode(node, stream, options);
     if (!result.success() || !stream) throw Failure("OpenSceneGraph cannot store a tile: " + result.message());
-    return stream.str();
+    return buffer.take();
 }
 
 void writeFile(const std::string& path, const std::string& bytes) {

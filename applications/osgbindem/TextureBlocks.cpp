@@ -21,8 +21,7 @@ constexpr std::array<int, 3> kBits{5, 6, 5};
 Block blockAt(const osg::Image& image, int column, int row) {
     Block block;
     for (int i = 0; i < 16; ++i) {
-        const unsigned char* texel =
-            image.data(static_cast<unsigned>(column + i % 4), static_cast<unsigned>(row + i / 4));
+        const unsigned char* texel = image.data() + 3 * ((row + i / 4) * image.s() + column + i % 4);
         block[static_cast<std::size_t>(i)] = {texel[0], texel[1], texel[2]};
     }
     return block;

@@ -10,9 +10,12 @@
 #include <gtest/gtest.h>
 #include <osg/Texture2D>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <tuple>
@@ -30,10 +33,19 @@ public:
     ~PackedEnvironment() { ::unsetenv("OSGBINDEM_PACKED"); }
 };
 
-std::uintmax_t bytesBelow(const std::string& folder) {
-    std::uintmax_t sum = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (entry.is_regular_file()) sum += entry.file_size();
+std::map<std::string, std::string> packedFilesBelow(const std::string& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (!entry.is_regular_file()) continue;
+        std::ifstream stream(entry.path(), std::ios::binary);
+        files[fs::relative(entry.path(), folder).string()] = {std::istreambuf_iterator<char>(stream), {}};
+    }
+    return files;
+}
+
+std::size_t bytesBelow(const std::string& folder) {
+    std::size_t sum = 0;
+    for (const auto& [name, bytes] : packedFilesBelow(folder)) sum += bytes.size();
     return sum;
 }
 
@@ -118,4 +130,19 @@ TEST(Packed, TilesOfAFileShareWhatIsTheSame) {
     const LoadedDatabase database = loadDatabase(folder.file("packed/earth.osgb"));
     for (const LoadedTile& tile : database.tiles) shared.insert(tile.geometry->getPrimitiveSet(0));
     EXPECT_EQ(shared.size(), 1U);
+}
+
+TEST(Packed, IsTheSameWithAnyNumberOfThreads) {
+    const TempFolder folder;
+    TestRaster::globe(1.0, hills).write(folder.file("globe.tif"));
+    TestRaster(10.0, 50.0, 0.1, 0.1, 40, 40, hills).write(folder.file("inset.tif"));
+    const PackedEnvironment environment;
+    for (const auto& [name, threads] : {std::pair{"a", "1"}, std::pair{"b", "3"}}) {
+        fs::create_directory(folder.file(name));
+        build({folder.file("globe.tif"), folder.file("inset.tif"), "--image", folder.file("globe.tif"), "--threads",
+               threads, "-o", folder.file(std::string(name) + "/earth.osgb")});
+    }
+    const auto a = packedFilesBelow(folder.file("a"));
+    EXPECT_GE(a.size(), 10U);
+    EXPECT_TRUE(a == packedFilesBelow(folder.file("b")));
 }
