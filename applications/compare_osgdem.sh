@@ -88,9 +88,8 @@ dem() {
 
 bindem() {
     name=$1
-    packed=$2
-    shift 2
-    run "$name" env OSGBINDEM_PACKED="$packed" "$build/bin/osgbindem" "$@" --cells 64 --threads 1 --quiet -o earth.osgb
+    shift
+    run "$name" "$build/bin/osgbindem" "$@" --cells 64 --threads 1 --quiet -o earth.osgb
 }
 
 # The tiles follow from the files: each has four, but osgdem's first two have one and two, and osgbindem's first 128.
@@ -130,11 +129,11 @@ for round in $(seq "$rounds"); do
         source=$out/$globe.tif
         image=$out/${globe}_image.tif
         dem "${globe}_osgdem_terrain" -d "$source" -l 7 --TERRAIN
-        bindem "${globe}_osgbindem_packed" 1 "$source" --levels 2
+        bindem "${globe}_osgbindem_packed" --packed "$source" --levels 2
         dem "${globe}_osgdem_terrain_image" -d "$source" -t "$image" -l 7 --TERRAIN --tile-image-size 128
-        bindem "${globe}_osgbindem_packed_image" 1 "$source" --levels 2 --image "$image"
+        bindem "${globe}_osgbindem_packed_image" --packed "$source" --levels 2 --image "$image"
         dem "${globe}_osgdem_polygonal" -d "$source" -l 6 --POLYGONAL --no-terrain-simplification
-        bindem "${globe}_osgbindem_mesh" 0 "$source" --levels 1
+        bindem "${globe}_osgbindem_mesh" "$source" --levels 1
     done
 done
 

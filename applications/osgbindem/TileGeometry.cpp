@@ -10,7 +10,6 @@
 
 #include <osg/Texture2D>
 
-#include <cstdlib>
 #include <string>
 
 namespace osgbindem {

@@ -11,11 +11,8 @@
 #include <osg/Texture2D>
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 #include <tuple>
@@ -24,28 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Asks the programs that are run for packed tiles.
-class PackedEnvironment {
-public:
-    PackedEnvironment() { ::setenv("OSGBINDEM_PACKED", "1", 1); }
-    PackedEnvironment(const PackedEnvironment&) = delete;
-    PackedEnvironment& operator=(const PackedEnvironment&) = delete;
-    ~PackedEnvironment() { ::unsetenv("OSGBINDEM_PACKED"); }
-};
-
-std::map<std::string, std::string> packedFilesBelow(const std::string& folder) {
-    std::map<std::string, std::string> files;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        if (!entry.is_regular_file()) continue;
-        std::ifstream stream(entry.path(), std::ios::binary);
-        files[fs::relative(entry.path(), folder).string()] = {std::istreambuf_iterator<char>(stream), {}};
-    }
-    return files;
-}
-
 std::size_t bytesBelow(const std::string& folder) {
     std::size_t sum = 0;
-    for (const auto& [name, bytes] : packedFilesBelow(folder)) sum += bytes.size();
+    for (const auto& [name, bytes] : filesBelow(folder)) sum += bytes.size();
     return sum;
 }
 
@@ -76,12 +54,8 @@ void buildBoth(const TempFolder& folder, std::vector<std::string> arguments) {
         fs::create_directory(folder.file(name));
         std::vector<std::string> all = arguments;
         all.insert(all.end(), {"-o", folder.file(std::string(name) + "/earth.osgb")});
-        if (std::string(name) == "mesh") {
-            build(all);
-        } else {
-            const PackedEnvironment environment;
-            build(all);
-        }
+        if (std::string(name) == "packed") all.emplace_back("--packed");
+        build(all);
     }
 }
 
@@ -136,13 +110,12 @@ TEST(Packed, IsTheSameWithAnyNumberOfThreads) {
     const TempFolder folder;
     TestRaster::globe(1.0, hills).write(folder.file("globe.tif"));
     TestRaster(10.0, 50.0, 0.1, 0.1, 40, 40, hills).write(folder.file("inset.tif"));
-    const PackedEnvironment environment;
     for (const auto& [name, threads] : {std::pair{"a", "1"}, std::pair{"b", "3"}}) {
         fs::create_directory(folder.file(name));
-        build({folder.file("globe.tif"), folder.file("inset.tif"), "--image", folder.file("globe.tif"), "--threads",
-               threads, "-o", folder.file(std::string(name) + "/earth.osgb")});
+        build({folder.file("globe.tif"), folder.file("inset.tif"), "--packed", "--image", folder.file("globe.tif"),
+               "--threads", threads, "-o", folder.file(std::string(name) + "/earth.osgb")});
     }
-    const auto a = packedFilesBelow(folder.file("a"));
+    const auto a = filesBelow(folder.file("a"));
     EXPECT_GE(a.size(), 10U);
-    EXPECT_TRUE(a == packedFilesBelow(folder.file("b")));
+    EXPECT_TRUE(a == filesBelow(folder.file("b")));
 }
