@@ -15,9 +15,11 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstddef>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <pthread.h>
 #include <string>
 #include <thread>
 #include <vector>
@@ -144,9 +146,7 @@ int run(int argc, char** argv) {
     return EXIT_SUCCESS;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int runAndComplain(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const Interrupted&) {
@@ -157,4 +157,25 @@ int main(int argc, char** argv) {
     } catch (const std::exception& error) {
         return complain(error.what());
     }
+}
+
+// OSG reads, walks and deletes scenes recursively: files that are nested thousands deep need more stack than threads
+// have by default. What is not used takes no memory.
+void enlargeStacks() {
+#if defined(__GLIBC__)
+    constexpr std::size_t kStackBytes = std::size_t{256} << 20;
+    pthread_attr_t attributes;
+    if (pthread_attr_init(&attributes) != 0) return;
+    if (pthread_attr_setstacksize(&attributes, kStackBytes) == 0) (void)pthread_setattr_default_np(&attributes);
+    (void)pthread_attr_destroy(&attributes);
+#endif
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    enlargeStacks();
+    int code = EXIT_FAILURE;
+    std::thread([&] { code = runAndComplain(argc, argv); }).join();
+    return code;
 }

@@ -223,7 +223,8 @@ TEST_F(Run, WhatIsNotOursIsNotReplaced) {
 
 TEST(SmallRun, NamesThatLeaveTheFolderAreRefused) {
     for (const char* name :
-         {"../outside.osgb", "a/../../outside.osgb", "/etc/outside.osgb", "http://host/outside.osgb"}) {
+         {"../outside.osgb", "a/../../outside.osgb", "..\\outside.osgb", "..", "/etc/outside.osgb",
+          "//etc/outside.osgb", "http://host/outside.osgb", "file:///etc/outside.osgb", "C:/outside.osgb"}) {
         const TemporaryFolder folder;
         writeSmallFile(folder / "db/earth.osgb", *makeSmallTile(name), true);
         writeSmallFile(folder / "outside.osgb", *makeSmallTile(""));
@@ -231,6 +232,61 @@ TEST(SmallRun, NamesThatLeaveTheFolderAreRefused) {
                       "outside of the database's folder");
         EXPECT_FALSE(fs::exists(folder / "db/earth.osgb.bins"));
         EXPECT_FALSE(fs::exists(folder / "db/earth.osgb.bins.part"));
+        fs::create_directories(folder / "copy");
+        expectFailure(runBinconv("--quiet " + test::quoted(folder / "db/earth.osgb") + ' ' +
+                                 test::quoted(folder / "copy/e.osgb")),
+                      "outside of the database's folder");
+        EXPECT_TRUE(fs::is_empty(folder / "copy"));
+    }
+}
+
+// Pseudo-loaders would open other files, or change what is read.
+TEST(SmallRun, NamesWithPseudoLoadersAreNoFiles) {
+    const TemporaryFolder folder;
+    writeSmallFile(folder / "earth.osgb", *makeSmallTile("a.osgb.90,0,0.rot"), true);
+    writeSmallFile(folder / "a.osgb", *makeSmallTile(""));
+    const Outcome outcome = runBinconv("--quiet --index " + test::quoted(folder / "earth.osgb"));
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.linesWith("missing or broken"), 1) << outcome.text;
+}
+
+/// A globe of groups in groups, deeper than OSG could write them with its own stack.
+std::string nestedGroups(int depth) {
+    std::string text = "#Ascii Scene \n#Version 161 \n#Generator OpenSceneGraph 3.6.5 \n\n";
+    for (int i = 1; i <= depth; ++i) {
+        text += i == 1 ? "osg::CoordinateSystemNode {\n" : "osg::Group {\n";
+        text += "UniqueID " + std::to_string(i) + " \nChildren 1 {\n";
+    }
+    text += "osg::Group {\nUniqueID " + std::to_string(depth + 1) + " \n}\n";
+    for (int i = 0; i < depth; ++i) text += "}\n}\n";
+    return text;
+}
+
+// As wide and as deep as no database is, and many tiles in one place; `timeout` ends what does not end by itself.
+TEST(SmallRun, HugeFilesEnd) {
+#ifdef __SANITIZE_ADDRESS__
+    constexpr int kWide = 20000, kDeep = 500, kStacked = 500;
+#else
+    constexpr int kWide = 200000, kDeep = 10000, kStacked = 20000;
+#endif
+    const TemporaryFolder folder;
+    const osg::ref_ptr<osg::Group> wide = new osg::Group;
+    for (int i = 0; i < kWide; ++i) wide->addChild(new osg::Group);
+    wide->addChild(makeSmallTile(""));
+    writeSmallFile(folder / "wide.osgb", *wide, true);
+    writeBytes(folder / "deep.osgt", nestedGroups(kDeep));
+    const osg::ref_ptr<osg::Group> stacked = new osg::Group;
+    const osg::ref_ptr<osg::Node> tile = makeSmallTile("a.osgb");
+    for (int i = 0; i < kStacked; ++i) stacked->addChild(tile);
+    writeSmallFile(folder / "stacked.osgb", *stacked, true);
+    writeSmallFile(folder / "a.osgb", *makeSmallTile(""));
+    for (const char* name : {"wide.osgb", "deep.osgt", "stacked.osgb"}) {
+        for (const std::string& output : {std::string(), ' ' + test::quoted(folder / "copy.osgb") + " --overwrite"}) {
+            const std::string mode = output.empty() ? "--quiet --index " : "--quiet ";
+            const Outcome outcome = runBinconv(mode + test::quoted(folder / name) + output, "timeout 120 ");
+            EXPECT_NE(outcome.code, 124) << name << " takes too long";
+            EXPECT_LT(outcome.code, 2) << name << ' ' << outcome.text;
+        }
     }
 }
 
