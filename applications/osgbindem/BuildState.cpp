@@ -7,12 +7,15 @@
 #include "NodeFile.h"
 #include "TileFiles.h"
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string_view>
 #include <system_error>
 #include <type_traits>
+#include <vector>
 
 namespace osgbindem {
 
@@ -142,6 +145,8 @@ std::optional<TaskRecord> recordFrom(std::string_view bytes, const TileId& tile,
     for (EdgeSkirt& edge : record.tile.skirt) {
         edge.depth = in.takeAll();
         edge.lean = in.takeAll();
+        const auto posts = static_cast<std::size_t>(layout.posts());
+        if (edge.depth.size() != posts || edge.lean.size() != posts) return std::nullopt;
     }
     return record;
 }

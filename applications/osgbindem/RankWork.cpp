@@ -10,8 +10,13 @@
 #include "NodeFile.h"
 #include "WorkPlan.h"
 
+#include <chrono>
+#include <condition_variable>
 #include <cstdio>
 #include <exception>
+#include <mutex>
+#include <new>
+#include <vector>
 
 namespace osgbindem {
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <iterator>
 #include <sched.h>
 #include <thread>
 
@@ -28,6 +29,9 @@ constexpr int kInterrupted = 130;
 constexpr const char* kSizeVariables[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"};
 constexpr const char* kRankVariables[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"};
 
+// What MPI says counts more than the environment: launcher and library may not know each other.
+std::optional<int> startedRank;
+
 bool isLaunched() {
     return std::any_of(std::begin(kSizeVariables), std::end(kSizeVariables),
                        [](const char* name) { return std::getenv(name) != nullptr; });
@@ -35,11 +39,12 @@ bool isLaunched() {
 
 }  // namespace
 
-int Ranks::rankInEnvironment() {
+bool Ranks::isSpeaker() {
+    if (startedRank) return *startedRank == 0;
     for (const char* name : kRankVariables) {
-        if (const char* value = std::getenv(name)) return std::atoi(value);
+        if (const char* value = std::getenv(name)) return std::atoi(value) == 0;
     }
-    return 0;
+    return true;
 }
 
 void Ranks::sendToOthers(Word word) const {
@@ -75,6 +80,7 @@ Ranks::Ranks() {
     MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
     MPI_Comm_rank(MPI_COMM_WORLD, &_rank);
     MPI_Comm_size(MPI_COMM_WORLD, &_count);
+    startedRank = _rank;
     MPI_Comm here = MPI_COMM_NULL;
     MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
     MPI_Comm_size(here, &_countHere);

@@ -38,8 +38,9 @@ public:
     Ranks& operator=(const Ranks&) = delete;
     ~Ranks();
 
-    /// This program's number as mpirun's environment tells it, before MPI has started; 0 without mpirun.
-    [[nodiscard]] static int rankInEnvironment();
+    /// Whether this program is the one that speaks to the user: rank 0, as the environment tells before MPI has
+    /// started.
+    [[nodiscard]] static bool isSpeaker();
 
     [[nodiscard]] int rank() const { return _rank; }
     [[nodiscard]] int count() const { return _count; }

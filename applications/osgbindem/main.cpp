@@ -30,7 +30,7 @@ constexpr int kInterrupted = 130;
 
 int complain(const std::string& message) {
     // Every rank finds the same faults in the command line, and the first one tells what goes wrong later.
-    if (osgbindem::Ranks::rankInEnvironment() == 0) std::cerr << "osgbindem: " + message + "\n" << std::flush;
+    if (osgbindem::Ranks::isSpeaker()) std::cerr << "osgbindem: " + message + "\n" << std::flush;
     return EXIT_FAILURE;
 }
 
@@ -55,7 +55,7 @@ void prepareProcess(const Settings& settings) {
 }
 
 int run(int argc, char** argv) {
-    if (osgbindem::Ranks::rankInEnvironment() != 0) std::cout.setstate(std::ios::failbit);  // only one rank speaks
+    if (!osgbindem::Ranks::isSpeaker()) std::cout.setstate(std::ios::failbit);  // only one rank speaks
     std::optional<Settings> settings = osgbindem::settingsFrom(argc, argv);
     if (!settings) return EXIT_SUCCESS;
     const osgbindem::Ranks ranks;

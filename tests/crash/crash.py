@@ -292,6 +292,7 @@ def main():
     parser.add_argument("--kills", type=int, default=50, help="of each program and way to use it (default 50)")
     parser.add_argument("--levels", type=int, default=3, help="of the database; each makes runs four times as long (default 3)")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", default="", help="kills of the cases alone whose name has this")
     arguments = parser.parse_args()
     programs = arguments.bin.resolve()
     os.environ.setdefault("OSG_LIBRARY_PATH", str(programs.parent / "lib"))
@@ -301,7 +302,9 @@ def main():
         cases = Cases(arguments.work.resolve(), programs / "osgbindem", programs / "osgbinconv", arguments.levels)
         build, update, index, copy, over = cases.all()
         scratch = cases.work / "run"
-        for case in (build, update, index, copy, over):
+        chosen = [case for case in (build, update, index, copy, over) if arguments.only in case.name]
+        require(chosen, f"no case is named {arguments.only}")
+        for case in chosen:
             case.measure(scratch)
             print(f"{case.name}: {len(case.expected)} files in {case.duration:.2f} s undisturbed", flush=True)
             kills(case, scratch, arguments.kills, arguments.seed)
