@@ -156,16 +156,17 @@ def remount(folder, options):
     subprocess.run(["mount", "-o", f"remount,{options}", str(folder)], check=True)
 
 
-def allocated(folder):
-    return sum(p.stat().st_blocks * 512 for p in folder.rglob("*"))
+def pages(folder):
+    """Bytes that the files take on a tmpfs, wherever they are now."""
+    return sum(-(-p.stat().st_size // 4096) * 4096 for p in folder.rglob("*") if p.is_file())
 
 
 def bad_disks(case, folder, is_old):
     """A full disk at several sizes, then one that cannot be written to, then a good one."""
     with small_disk(folder, "256m"):
         case.prepare(folder, is_old)
-        used = allocated(folder)
-        needed = case.growth or allocated(case.reference) - (0 if is_old else used)
+        used = pages(folder)
+        needed = case.growth or pages(case.reference) - (0 if is_old else used)
         for share in (0.02, 0.3, 0.7) if needed > 1 << 17 else (0.0,):  # pages are too coarse for small ones
             remount(folder, f"size={used + int(share * needed)}")
             fail(case.command(folder), ["No space left", "make room"])
