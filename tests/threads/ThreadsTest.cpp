@@ -14,6 +14,7 @@
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
 #include <osgAnalyticBin/viewer/FreezeCullHandler.h>
 #include <osgAnalyticBin/viewer/MethodSwitchHandler.h>
+#include <osgAnalyticBin/viewer/SpyViewHandler.h>
 #include <osgAnalyticBin/viewer/TileSurvey.h>
 
 #include <gtest/gtest.h>
@@ -107,11 +108,13 @@ public:
           _stats(new osgViewer::StatsHandler),
           _freeze(new FreezeCullHandler),
           _switch(new MethodSwitchHandler(optionsWith(Method::Quadratic))),
-          _display(new BinDisplayHandler) {
+          _display(new BinDisplayHandler),
+          _spy(new SpyViewHandler) {
         _display->setShown(BinDisplayHandler::Shown::All);
         rig.view().addEventHandler(new BinStatsHandler(*_stats));
         rig.view().addEventHandler(_display);
         rig.view().addEventHandler(_switch);
+        rig.view().addEventHandler(_spy);
         rig.viewer().getViewerStats()->collectStats("frame_rate", true);
     }
 
@@ -124,6 +127,8 @@ public:
         if (frame % 8 == 3) setCullOptions(_scene, options);
         if (frame % 8 == 7) _switch->setMethod(_rig.view(), options.method);
         if (frame % 6 == 1) _freeze->setFrozen(_rig.view(), !_freeze->isFrozen());
+        // a second window draws what is drawn over the first
+        if (frame == 12 || frame == 30) _spy->setOpen(_rig.view(), !_spy->isOpen());
         if (frame % 3 == 0) culled += culledBy(_rig.cameras());
     }
 
@@ -143,6 +148,7 @@ private:
     const osg::ref_ptr<FreezeCullHandler> _freeze;
     const osg::ref_ptr<MethodSwitchHandler> _switch;
     const osg::ref_ptr<BinDisplayHandler> _display;
+    const osg::ref_ptr<SpyViewHandler> _spy;
 };
 
 osg::ref_ptr<osg::Group> readScene(const std::vector<std::string>& files) {
@@ -196,9 +202,13 @@ TEST_P(Threads, ChangeEverythingWhilePagingIsLive) {
     EXPECT_GT(culled, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, Threads,
-                         testing::Combine(testing::ValuesIn(kThreadingModels),
-                                          testing::Values(Layout::Views, Layout::Slaves), testing::Values(1, 2, 4)),
+INSTANTIATE_TEST_SUITE_P(Views, Threads,
+                         testing::Combine(testing::ValuesIn(kThreadingModels), testing::Values(Layout::Views),
+                                          testing::Values(1, 2, 4)),
+                         caseName);
+INSTANTIATE_TEST_SUITE_P(Slaves, Threads,
+                         testing::Combine(testing::ValuesIn(kThreadingModels), testing::Values(Layout::Slaves),
+                                          testing::Values(2, 4)),
                          caseName);
 
 TEST(ThreadsOnVpb, ChangeEverythingWhilePagingIsLive) {

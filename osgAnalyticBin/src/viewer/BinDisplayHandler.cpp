@@ -148,6 +148,7 @@ bool BinDisplayHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIAc
     const TileSurvey survey(camera, *view->getFrameStamp());
     draw(survey);
     showLegend(survey, camera);
+    computeBounds(overlay);
     return false;
 }
 

@@ -42,6 +42,7 @@ void FreezeCullHandler::setFrozen(osgGA::GUIActionAdapter& action, bool frozen) 
         const osg::ref_ptr<osg::Node> frustum = makeFrustum(seen, globe, view->getSceneData()->getBound().radius());
         frustum->setName(kFrustumName);
         culling.overlay().addChild(frustum);
+        computeBounds(*frustum);
     }
 }
 

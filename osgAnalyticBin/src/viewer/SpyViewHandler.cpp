@@ -187,6 +187,7 @@ void SpyViewHandler::drawFrustum(osgViewer::View& view) {
     if (culling && culling->isFrozen()) return;
     _frustum->addChild(
         makeFrustum(CameraCulling::cullingView(*watched), _placement->globe, view.getSceneData()->getBound().radius()));
+    computeBounds(*_frustum);
 }
 
 bool SpyViewHandler::orbit(const osgGA::GUIEventAdapter& event) {

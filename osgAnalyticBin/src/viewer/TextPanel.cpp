@@ -3,6 +3,8 @@
 
 #include "TextPanel.h"
 
+#include "ViewTools.h"
+
 #include <osgAnalyticBin/viewer/CameraCulling.h>
 
 #include <osg/Geometry>
@@ -93,6 +95,7 @@ void TextPanel::show(osg::Camera& camera, const std::vector<Line>& lines) {
     _hud->setProjectionMatrixAsOrtho(-shift, width - shift, 0.0, height, -1.0, 1.0);
     _hud->removeChildren(0, _hud->getNumChildren());
     _hud->addChild(texts);
+    computeBounds(*_hud);
 }
 
 }  // namespace osgAnalyticBin

@@ -31,12 +31,27 @@ public:
     std::optional<SceneGlobe> found;
 };
 
+class BoundsComputer : public osg::NodeVisitor {
+public:
+    BoundsComputer() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0U); }
+
+    void apply(osg::Node& node) override {
+        traverse(node);
+        (void)node.getBound();
+    }
+};
+
 bool draws(osg::Camera& camera) {
     const CameraCulling* culling = CameraCulling::find(camera);
     return camera.getGraphicsContext() && camera.getViewport() && !(culling && culling->isFollowing());
 }
 
 }  // namespace
+
+void computeBounds(osg::Node& node) {
+    BoundsComputer computer;
+    node.accept(computer);
+}
 
 osgViewer::View* viewOf(osgGA::GUIActionAdapter& action) {
     return dynamic_cast<osgViewer::View*>(action.asView());

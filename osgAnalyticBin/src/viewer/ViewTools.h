@@ -51,6 +51,10 @@ struct SceneGlobe {
 /// That of the first CoordinateSystemNode with an ellipsoid below a node. Returns: nullopt for scenes without.
 [[nodiscard]] std::optional<SceneGlobe> globeOf(osg::Node& scene);
 
+/// Computes the bounds of all that is below a node, hidden or not. OSG does so at the first need, which for an overlay
+/// that two cameras draw comes in two cull threads at once. Between frames.
+void computeBounds(osg::Node& node);
+
 /// A view's frustum: edges and translucent sides from the eye to the globe, or as far as the eye sees past it.
 /// `reach`: metres that it is drawn where there is no globe.
 [[nodiscard]] osg::ref_ptr<osg::Node> makeFrustum(const CullingView& view, const std::optional<SceneGlobe>& globe,
