@@ -147,7 +147,10 @@ void Flight::frame() {
     _time += kFrameTime;
     // OSG makes meshes of tiles in the update traversal; cull threads that find some without crash, bins or not
     if (_random.chance(0.01)) changeDatabases();
-    if (_random.chance(0.01)) scaleTerrain(static_cast<float>(_random.uniform(0.5, 4.0)));
+    const float scale = static_cast<float>(_random.uniform(0.5, 4.0));
+    // what the pager's threads read they make meshes of too, while OSG marks all tiles to be made anew
+    const bool isPagerBusy = _rig->view().getDatabasePager()->getRequestsInProgress();
+    if (_random.chance(0.01) && !isPagerBusy) scaleTerrain(scale);
     report("updates");
     _rig->update(_time);
     change();
@@ -264,6 +267,7 @@ void Flight::drain() {
     report("drains");
     lookAround();
     _scene->removeChildren(kStaying, _scene->getNumChildren() - static_cast<unsigned int>(kStaying));
+    (void)rest();
     scaleTerrain(1.0f);
     if (_setup.withBins) osgAnalyticBin::setCullOptions(*_scene, defaultOptions());
     _rig->setMostPagedLods(0);

@@ -36,8 +36,13 @@ CameraCulling& CameraCulling::of(osg::Camera& camera) {
 std::optional<CullingView> CameraCulling::foreignView() const {
     if (_frozen) return _frozen;
     osg::ref_ptr<osg::Camera> followed;
-    if (_followed.lock(followed)) return cullingView(*followed);
-    return std::nullopt;
+    if (!_followed.lock(followed)) return std::nullopt;
+    return _followedView ? *_followedView : cullingView(*followed);
+}
+
+void CameraCulling::updateFollowed() {
+    osg::ref_ptr<osg::Camera> followed;
+    if (_followed.lock(followed)) _followedView = cullingView(*followed);
 }
 
 CullingView CameraCulling::cullingView(osg::Camera& camera) {

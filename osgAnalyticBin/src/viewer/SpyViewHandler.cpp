@@ -86,6 +86,7 @@ public:
         osg::ref_ptr<osg::Camera> watched;
         if (!shown || !shown->getSceneData() || !camera.lock(watched)) return;
         slave._camera->setViewMatrix(viewOf(*watched, *const_cast<osg::Node*>(shown->getSceneData())));
+        CameraCulling::of(*slave._camera).updateFollowed();
     }
 
     osg::observer_ptr<osg::Camera> camera;

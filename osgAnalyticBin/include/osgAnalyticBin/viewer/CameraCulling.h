@@ -55,7 +55,14 @@ public:
     [[nodiscard]] bool isFrozen() const { return _frozen.has_value(); }
 
     /// Culls as that camera is culled, frame by frame, and draws its overlay too; nullptr: no longer.
-    void follow(osg::Camera* camera) { _followed = camera; }
+    void follow(osg::Camera* camera) {
+        _followed = camera;
+        _followedView.reset();
+    }
+    /// Takes down what the followed camera is culled by, for the cull traversals to come. Between frames: cull threads
+    /// write to their cameras' projections. Where it is never called the other camera itself is asked in each
+    /// traversal.
+    void updateFollowed();
     /// Whether another camera is followed.
     [[nodiscard]] bool isFollowing() const { return _followed.valid(); }
 
@@ -77,7 +84,7 @@ private:
     [[nodiscard]] std::optional<CullingView> foreignView() const;
     void drawOverlay(osgUtil::CullVisitor& visitor) const;
 
-    std::optional<CullingView> _frozen;
+    std::optional<CullingView> _frozen, _followedView;
     osg::observer_ptr<osg::Camera> _followed;
     const osg::ref_ptr<osg::Group> _overlay;
 };
