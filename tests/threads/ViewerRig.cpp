@@ -6,6 +6,8 @@
 #include <osg/CoordinateSystemNode>
 #include <osg/GraphicsContext>
 #include <osgDB/DatabasePager>
+#include <osgTerrain/Terrain>
+#include <osgTerrain/TerrainTile>
 #include <osgViewer/CompositeViewer>
 #include <osgViewer/Viewer>
 
@@ -60,6 +62,30 @@ osg::ref_ptr<osgViewer::ViewerBase> makeSlaves(int cameras, std::vector<osgViewe
     return viewer;
 }
 
+// OSG leaves tiles of osgTerrain that are new or changed, and that the update traversal does not come to, to the cull
+// traversals; where several threads cull they all make the mesh at once, and crash, bins or not.
+class MeshMaker : public osg::NodeVisitor {
+public:
+    MeshMaker() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Node& node) override {
+        auto* tile = dynamic_cast<osgTerrain::TerrainTile*>(&node);
+        if (!tile) return traverse(node);
+        if (_terrain && !tile->getTerrain()) tile->setTerrain(_terrain);
+        if (tile->getDirtyMask() != 0) tile->init(tile->getDirtyMask(), true);
+    }
+
+    void apply(osg::CoordinateSystemNode& node) override {
+        auto* outer = _terrain;
+        if (auto* terrain = dynamic_cast<osgTerrain::Terrain*>(&node)) _terrain = terrain;
+        apply(static_cast<osg::Node&>(node));
+        _terrain = outer;
+    }
+
+private:
+    osgTerrain::Terrain* _terrain = nullptr;
+};
+
 }  // namespace
 
 const char* nameOf(Threading threading) {
@@ -110,6 +136,8 @@ void ViewerRig::update(double time) {
     _viewer->advance(time);
     _viewer->eventTraversal();
     _viewer->updateTraversal();
+    MeshMaker maker;
+    view().getSceneData()->accept(maker);
 }
 
 void ViewerRig::render() {

@@ -154,6 +154,7 @@ void SpyViewHandler::open(osgViewer::View& view) {
     _placement->globe = globeOf(*view.getSceneData());
     CameraCulling& culling = CameraCulling::of(*_camera);
     culling.follow(&watched);
+    culling.updateFollowed();
     _frustum = new osg::Group;
     culling.overlay().addChild(_frustum);
     // a new slave's renderer sets the master's state to OSG's defaults: lighting switched off by a key would come back
