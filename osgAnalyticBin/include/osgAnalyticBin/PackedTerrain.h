@@ -15,18 +15,24 @@ namespace osgAnalyticBin {
 /// besides the grid.
 class PackedTerrain final : public osg::Geometry {
 public:
+    /// Of no grid: it cannot be read again.
     PackedTerrain() = default;
+    /// Packs the grid at once.
     explicit PackedTerrain(const TerrainGrid& grid) : _bytes(packed(grid)) {
         setUseDisplayList(false);
         setUseVertexBufferObjects(true);
     }
+    /// As osg::Geometry, with the bytes.
     PackedTerrain(const PackedTerrain& other, const osg::CopyOp& copy)
         : osg::Geometry(other, copy), _bytes(other._bytes) {}
 
+    /// @{
+    /// As every osg::Object.
     osg::Object* cloneType() const override { return new PackedTerrain; }
     osg::Object* clone(const osg::CopyOp& copy) const override { return new PackedTerrain(*this, copy); }
     const char* libraryName() const override { return "osgAnalyticBin"; }
     const char* className() const override { return "PackedTerrain"; }
+    /// @}
 
     /// The bytes of the grid.
     [[nodiscard]] const std::string& bytes() const noexcept { return _bytes; }

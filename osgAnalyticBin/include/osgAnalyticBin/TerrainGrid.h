@@ -25,16 +25,20 @@ struct TerrainGrid {
 
     /// Of the colours by height: from this height on towards the next stop's.
     struct ColourStop {
+        /// Metres.
         float height = 0.0F;
+        /// Red, green, blue.
         std::array<std::uint8_t, 3> colour{};
     };
     /// What hangs from one edge, post by post, south to north or west to east, in steps.
     struct Skirt {
+        /// How far it hangs down.
         std::vector<std::int32_t> depth;
         /// How far the lower end leans outward.
         std::vector<std::int32_t> lean;
     };
 
+    /// Below the heights.
     core::Ellipsoid ellipsoid{1.0, 1.0};
     /// Along an edge of the tile.
     std::int32_t cells = 0;
