@@ -97,7 +97,9 @@ std::unique_ptr<BuiltTile> TileBuilder::meshed(SurveyedTile tile) {
     osgAnalyticBin::TerrainGrid grid = gridOf(tile.heights, tile.skirt, _layout);
     AnalyticBin bin = sourceBin(id, tile.range);
     bin.expandBy(tile.below);
-    const MeshExtent extent = extentOf(grid, _triangles, id, _layout);
+    MeshExtent extent = extentOf(grid, _triangles, id, _layout);
+    // Where a packed tile is read, vertices may be rounded to the next step, for sines differ in their last bits.
+    if (_settings.packed) extent.bin.setMargin(extent.bin.margin() + 2.0 * grid.quantum);
     bin.expandBy(extent.bin);
     // What is stored is text, which may round outward: the tiles above have to hold that.
     bin = AnalyticBin::fromText(bin.toText());
