@@ -8,7 +8,6 @@
 #include <osg/PagedLOD>
 #include <osgDB/DatabasePager>
 #include <osgDB/ReadFile>
-#include <osgTerrain/Terrain>
 
 #include <algorithm>
 #include <array>
@@ -145,12 +144,7 @@ void Flight::fly(std::size_t frames) {
 void Flight::frame() {
     ++_findings.frames;
     _time += kFrameTime;
-    // OSG makes meshes of tiles in the update traversal; cull threads that find some without crash, bins or not
     if (_random.chance(0.01)) changeDatabases();
-    const float scale = static_cast<float>(_random.uniform(0.5, 4.0));
-    // what the pager's threads read they make meshes of too, while OSG marks all tiles to be made anew
-    const bool isPagerBusy = _rig->view().getDatabasePager()->getRequestsInProgress();
-    if (_random.chance(0.01) && !isPagerBusy) scaleTerrain(scale);
     report("updates");
     _rig->update(_time);
     change();
@@ -209,12 +203,6 @@ void Flight::changeThreads() {
     _rig->viewer().startThreading();
 }
 
-void Flight::scaleTerrain(float scale) {
-    for (unsigned int i = 0; i < _scene->getNumChildren(); ++i) {
-        if (auto* terrain = dynamic_cast<osgTerrain::Terrain*>(_scene->getChild(i))) terrain->setVerticalScale(scale);
-    }
-}
-
 // Frames from where the camera is until nothing more is read or merged.
 bool Flight::rest() {
     constexpr int kMostFrames = 2000;
@@ -267,8 +255,6 @@ void Flight::drain() {
     report("drains");
     lookAround();
     _scene->removeChildren(kStaying, _scene->getNumChildren() - static_cast<unsigned int>(kStaying));
-    (void)rest();
-    scaleTerrain(1.0f);
     if (_setup.withBins) osgAnalyticBin::setCullOptions(*_scene, defaultOptions());
     _rig->setMostPagedLods(0);
     _rig->look(viewFrom(30.0, 10.0, 6e7, 0.0, 0.0));

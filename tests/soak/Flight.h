@@ -63,7 +63,6 @@ private:
     void changeOptions();
     void changeDatabases();
     void changeThreads();
-    void scaleTerrain(float scale);
     void lookAround();
     void addDatabase(const std::string& file);
     bool rest();

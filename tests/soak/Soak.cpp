@@ -75,8 +75,8 @@ public:
 
     int run() {
         // the first two stay: what is known of a false database grows with every tile that is met for the first time
-        _databases = {writeSyntheticDatabase(_folder.makeFolder("true")),
-                      writeTerrainDatabase(_folder.makeFolder("terrain")),
+        _databases = {writeSyntheticDatabase(_folder.makeFolder("one")),
+                      writeSyntheticDatabase(_folder.makeFolder("two")),
                       writeFalseDatabase(_folder.makeFolder("false"))};
         std::cout << "seconds   frames      where  objects MB     heap MB      RSS MB\n";
         flyWithOneViewer();
