@@ -90,7 +90,7 @@ double DemMosaic::posts(const RectDeg& rect) const noexcept {
     double sum = 0.0;
     for (const auto& source : _sources) {
         const double resolution = source->grid().resolutionDeg();
-        sum += source->grid().overlap(rect) / (resolution * resolution);
+        sum += source->grid().overlap(rect) / resolution / resolution;  // whose square may be too small for a number
     }
     return sum;
 }

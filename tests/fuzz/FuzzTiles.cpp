@@ -116,8 +116,12 @@ std::vector<osg::Vec3d> drawnVertices(osg::Geometry& geometry) {
     return result;
 }
 
-bool isOurs(osg::Node& node) {
-    return dynamic_cast<AnalyticBinCullCallback*>(node.getCullCallback()) != nullptr;
+/// That which culls a node, be it behind others.
+AnalyticBinCullCallback* binOf(osg::Node& node) {
+    for (osg::Callback* callback = node.getCullCallback(); callback; callback = callback->getNestedCallback()) {
+        if (auto* found = dynamic_cast<AnalyticBinCullCallback*>(callback)) return found;
+    }
+    return nullptr;
 }
 
 struct Scene {
@@ -130,7 +134,7 @@ struct Scene {
 /// From here on only bins cull, and it is noted which of them do not.
 void watch(Scene& scene) {
     for (osg::Node* node : nodesOf(*scene.root)) {
-        if (auto* callback = dynamic_cast<AnalyticBinCullCallback*>(node->getCullCallback())) {
+        if (AnalyticBinCullCallback* callback = binOf(*node)) {
             const std::string& name = scene.names[node] = std::to_string(scene.names.size());
             callback->setNestedCallback(new VisitRecorder(name, scene.reached));
         }
@@ -151,7 +155,7 @@ bool isSurfaceKnown(const FoundTile& tile) {
 double tolerance(const Scene& scene, const osg::NodePath& path, const std::vector<osg::Vec3d>& vertices) {
     constexpr double kRounding = 0.1;
     std::size_t culprit = 0;
-    while (culprit < path.size() && (!isOurs(*path[culprit]) || scene.reached.count(scene.names.at(path[culprit])) > 0))
+    while (culprit < path.size() && (!binOf(*path[culprit]) || scene.reached.count(scene.names.at(path[culprit])) > 0))
         ++culprit;
     require(culprit < path.size());
     bool isStored = false, isStoredAbove = false;
@@ -178,7 +182,7 @@ bool isWithin(const osg::Vec3d& point, const std::vector<osg::Plane>& planes, do
 void describe(const osg::Vec3d& vertex, const Scene& scene, const osg::NodePath& path) {
     std::fprintf(stderr, "culled, though seen: %.17g %.17g %.17g\n", vertex.x(), vertex.y(), vertex.z());
     for (osg::Node* node : path) {
-        const auto* callback = dynamic_cast<AnalyticBinCullCallback*>(node->getCullCallback());
+        const AnalyticBinCullCallback* callback = binOf(*node);
         std::string stored;
         (void)node->getUserValue("osgAnalyticBin", stored);
         const bool isReached = callback && scene.reached.count(scene.names.at(node)) > 0;

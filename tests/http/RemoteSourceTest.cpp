@@ -76,7 +76,7 @@ protected:
     Database files(const std::string& name) const {
         Database result;
         for (const auto& entry : fs::recursive_directory_iterator(folder / name)) {
-            if (!entry.is_regular_file()) continue;
+            if (!entry.is_regular_file() || entry.path().extension() == ".sources") continue;
             std::ifstream stream(entry.path(), std::ios::binary);
             result[fs::relative(entry.path(), folder / name).string()] = {std::istreambuf_iterator<char>(stream), {}};
         }

@@ -204,7 +204,7 @@ TEST(Database, ARerunReplacesTheOldDatabase) {
     TestRaster::globe(2.0, [](double, double) { return 5.0; }).write(folder.file("flat.tif"));
     build({folder.file("globe.tif"), "--cells", "4", "--levels", "2", "-o", folder.file("earth.osgb")});
     build({folder.file("flat.tif"), "--cells", "4", "--levels", "1", "-o", folder.file("earth.osgb")});
-    const std::vector<std::string> expected{"earth.osgb", "earth_tiles", "flat.tif", "globe.tif"};
+    const std::vector<std::string> expected{"earth.osgb", "earth.osgb.sources", "earth_tiles", "flat.tif", "globe.tif"};
     EXPECT_EQ(folder.names(), expected);
     const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
     EXPECT_EQ(database.deepestLevel(), 1);
