@@ -90,6 +90,7 @@ protected:
 
 private:
     void visit(osg::Node& node, bool isTile);
+    void traverseTransform(osg::Transform& node);
     void traversePaged(osg::PagedLOD& node);
     [[nodiscard]] bool isTile(osg::Node& node) const;
 

@@ -187,11 +187,15 @@ void TileFinder::traverseBelow(osg::Node& node) {
     // A terrain tile that is traversed before it has its Terrain never finds it afterwards.
     if (isTerrainTile(node)) return;
     if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) return traversePaged(*paged);
-    TileFrame inside = _frame;
-    if (node.asTransform()) inside.localToEcef = frameInside(*node.asTransform(), _frame);
     // parts of a leaf are no leaves
-    if (_tile == &node) inside.isBelowTile = false;
-    const Scoped scope(_frame, inside);
+    const Scoped below(_frame.isBelowTile, _frame.isBelowTile && _tile != &node);
+    if (node.asTransform()) return traverseTransform(*node.asTransform());
+    traverse(node);
+}
+
+// By itself, and the matrix alone, to leave stack for scenes that are nested deep.
+void TileFinder::traverseTransform(osg::Transform& node) {
+    const Scoped matrix(_frame.localToEcef, frameInside(node, _frame));
     traverse(node);
 }
 
