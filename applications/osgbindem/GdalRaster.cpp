@@ -118,6 +118,10 @@ std::vector<char*> argumentsOf(std::vector<std::string>& words) {
 RasterGrid gridOf(GDALDataset& dataset, const std::string& path) {
     GeoTransform transform{};
     dataset.GetGeoTransform(transform.data());
+    constexpr double kFinestDeg = 1e-9;  // a tenth of a millimetre
+    if (!(std::abs(transform[1]) >= kFinestDeg && std::abs(transform[5]) >= kFinestDeg)) {
+        throw Failure("the pixels of \"" + path + "\" have no size on a globe; correct its georeferencing");
+    }
     const RasterGrid grid(transform, dataset.GetRasterXSize(), dataset.GetRasterYSize());
     const RectDeg extent = grid.extent();
     if (!(extent.south < 90.0 && extent.north > -90.0)) {

@@ -38,8 +38,12 @@ protected:
     // A root tile of 40 degrees; paged below it a leaf in its south, with a mesh, a height and a stored bin, if any.
     void write(const core::GeodeticBin& leafMesh, double leafHeight, const std::string& leafText,
                const std::string& rootText = claim(extentsDeg(10, 50, 0, 40)).toText()) {
-        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
-        root->setEllipsoidModel(new osg::EllipsoidModel);
+        osg::ref_ptr<osg::Group> root = new osg::Group;
+        if (_hasGlobe) {
+            const osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
+            globe->setEllipsoidModel(new osg::EllipsoidModel);
+            root = globe;
+        }
         const osg::ref_ptr<osg::PagedLOD> whole = makePaged(makeMeshTile(_whole, 200.0), "leaf.osgb", 1e9f);
         whole->setUserValue("osgAnalyticBin", rootText);
         root->addChild(whole);
@@ -71,6 +75,7 @@ protected:
     }
 
     const core::GeodeticBin _whole = extentsDeg(10, 50, 0, 40), _south = extentsDeg(10, 30, 0, 40);
+    bool _hasGlobe = true;
     const TemporaryFolder _folder;
     const CapturedNotes _notes;
     osg::ref_ptr<osg::Node> _scene, _leaf;
@@ -100,6 +105,17 @@ TEST_F(FalseBins, ThatAreTooLowAreWidenedOnceWithTheTilesAbove) {
     update();
     EXPECT_GE(altitudeOf(*_leaf).upper, 7000.0 - 1.0);
     EXPECT_EQ(_notes.count(kWarning), 1u);
+}
+
+TEST_F(FalseBins, WithoutAGlobeAboveThemAreWidenedToo) {
+    _hasGlobe = false;
+    write(_south, 7000.0, claim(_south).toText());
+    EXPECT_LT(altitudeOf(*_root).upper, 301.0);
+    update();
+    EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0);
+    ASSERT_EQ(installBins(*_scene), 2u);
+    EXPECT_NE(_scene->getUpdateCallback(), nullptr);
+    EXPECT_EQ(_scene->getUpdateCallback()->getNestedCallback(), nullptr) << "one for each installation";
 }
 
 TEST(StoredSurface, IsBelievedWhereTheMeshAllowsIt) {

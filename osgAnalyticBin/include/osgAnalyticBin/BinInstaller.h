@@ -63,6 +63,9 @@ private:
     friend class BinReadFileCallback;
     friend class DatabaseUpdateCallback;
     friend OSGANALYTICBIN_EXPORT std::size_t setCullOptions(osg::Node& node, const CullOptions& options);
+    friend OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions& options,
+                                                         const std::string& databaseFileName,
+                                                         const osgDB::Options* readOptions);
 
     // What PagedLODs get for the options that they came with (null: none).
     struct Paging {

@@ -417,7 +417,11 @@ std::size_t installBins(osg::Node& node, const CullOptions& options, const std::
         if (!error.empty()) OSG_WARN << "osgAnalyticBin: " << error << std::endl;
         installer.setIndex(index.get());
     }
+    const bool isGlobe = dynamic_cast<osg::CoordinateSystemNode*>(&node) != nullptr;
+    if (!isGlobe) detachDatabase(node);
     node.accept(installer);
+    // Tiles that no CoordinateSystemNode stands above are brought up to date from here.
+    if (!isGlobe && installer._installed > 0 && installer._database) attachUpdate(node, *installer._database);
     OSG_INFO << "osgAnalyticBin: " << installer.installed() << " tiles with " << toText(options) << std::endl;
     return installer.installed();
 }

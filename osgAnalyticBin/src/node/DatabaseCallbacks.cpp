@@ -10,6 +10,7 @@
 
 #include <osgAnalyticBin/BinInstaller.h>
 
+#include <osg/CoordinateSystemNode>
 #include <osg/CullStack>
 
 #include <algorithm>
@@ -75,7 +76,8 @@ void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
 
 void DatabaseUpdateCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     _database->update();
-    if (_database->takeShapeChange()) {
+    // Only a globe has a shape that changes.
+    if (_database->takeShapeChange() && dynamic_cast<osg::CoordinateSystemNode*>(node) != nullptr) {
         BinInstaller installer(_database->options());
         installer.refit(*node, *_database);
     }
