@@ -166,8 +166,8 @@ double tolerance(const Scene& scene, const osg::NodePath& path, const std::vecto
     }
     if (innermost == path.size() || !isSurfaceKnown(scene.tiles.at(path[innermost]))) return -1.0;
     isStored = isStored || isStoredAbove;
-    // bins of tiles above that have none stored hold what is within their extents
-    if (!isStored) return innermost <= culprit ? kRounding : -1.0;
+    // bins of tiles that have none stored hold what is within their extents, whatever is stored above them
+    if (!isStored || !hasStoredBin(*path[culprit])) return innermost <= culprit ? kRounding : -1.0;
     if (!isStoredAbove) return -1.0;
     double extent = 0.0;
     for (const osg::Vec3d& vertex : vertices) extent = std::max(extent, (vertex - vertices.front()).length());
