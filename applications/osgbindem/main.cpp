@@ -29,8 +29,10 @@ using osgbindem::Settings;
 constexpr int kInterrupted = 130;
 
 int complain(const std::string& message) {
-    // Every rank finds the same faults in the command line, and the first one tells what goes wrong later.
-    if (osgbindem::Ranks::isSpeaker()) std::cerr << "osgbindem: " + message + "\n" << std::flush;
+    // Every rank finds the same faults in the command line, and the first one tells what goes wrong later. The others
+    // end in peace: mpirun would end the first before it has spoken.
+    if (!osgbindem::Ranks::isSpeaker()) return EXIT_SUCCESS;
+    std::cerr << "osgbindem: " + message + "\n" << std::flush;
     return EXIT_FAILURE;
 }
 

@@ -32,8 +32,14 @@ Outcome runStock(const std::string& command, Modules modules, const std::string&
     }
     const TemporaryFolder folder;
     const std::string log = folder / "log.txt";
-    const int status = std::system((line + ' ' + command + " >" + quoted(log) + " 2>&1").c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOfFile(log)};
+    Outcome outcome;
+    // xvfb-run itself may fail, where several displays come and go at once.
+    for (int attempt = 0; attempt < 3; ++attempt) {
+        const int status = std::system((line + ' ' + command + " >" + quoted(log) + " 2>&1").c_str());
+        outcome = {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOfFile(log)};
+        if (outcome.linesWith("xvfb-run: error") == 0) break;
+    }
+    return outcome;
 }
 
 bool canRunViewer() {
