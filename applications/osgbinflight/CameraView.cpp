@@ -3,6 +3,8 @@
 
 #include "CameraView.h"
 
+#include <osgAnalyticBin/TileFinder.h>
+
 #include <osg/NodeVisitor>
 #include <osg/Transform>
 
@@ -21,7 +23,7 @@ public:
 
     using osg::NodeVisitor::apply;
     void apply(osg::CoordinateSystemNode& node) override {
-        if (_globe.ellipsoid || !node.getEllipsoidModel()) return;
+        if (_globe.ellipsoid || !node.getEllipsoidModel() || !hasValidRadii(*node.getEllipsoidModel())) return;
         _globe.ellipsoid = node.getEllipsoidModel();
         _globe.localToWorld = osg::computeLocalToWorld(getNodePath());
     }

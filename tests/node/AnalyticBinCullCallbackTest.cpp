@@ -296,9 +296,10 @@ TEST(AnalyticBinCullCallback, DoubtIsVisible) {
     osg::ref_ptr<osg::Group> singular = test::makeTile("singular frame", bin, visited);
     dynamic_cast<AnalyticBinCullCallback&>(*singular->getCullCallback()).setLocalToEcef(osg::Matrixd::scale(0, 1, 1));
     root->addChild(singular);
+    root->addChild(test::makeTile("no radius", bin, visited, {}, osg::EllipsoidModel(std::nan(""), 6.4e6)));
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     test::cull(*root, away, *visitor);
-    EXPECT_EQ(visited, (std::set<std::string>{"invalid bin", "no culling", "singular frame"}));
+    EXPECT_EQ(visited, (std::set<std::string>{"invalid bin", "no culling", "no radius", "singular frame"}));
 }
 
 TEST(AnalyticBinCullCallback, TheEllipsoidIsTheScenesOwn) {

@@ -17,6 +17,7 @@
 #include <osgUtil/UpdateVisitor>
 
 #include <cmath>
+#include <support/CapturedNotes.h>
 
 namespace osgAnalyticBin {
 namespace {
@@ -81,6 +82,20 @@ TEST(BinInstaller, TakesTheRadiiOfTheCoordinateSystemNode) {
     db.root->setEllipsoidModel(new osg::EllipsoidModel(3396190.0, 3376200.0));
     installBins(*db.root);
     EXPECT_EQ(callbackOf(*db.tile)->getRadiiText(), "3396190 3376200");
+}
+
+TEST(BinInstaller, LeavesAGlobeWithoutRightRadiiToOsgAndSaysSoOnce) {
+    Database db;
+    ASSERT_EQ(installBins(*db.root), 1u);
+    db.root->setEllipsoidModel(new osg::EllipsoidModel(std::nan(""), 3376200.0));
+    const test::CapturedNotes notes;
+    EXPECT_EQ(installBins(*db.root), 0u);
+    EXPECT_EQ(callbackOf(*db.tile), nullptr);
+    EXPECT_TRUE(db.tile->getCullingActive());
+    EXPECT_EQ(db.root->getUpdateCallback(), nullptr);
+    EXPECT_EQ(notes.count("radii"), 1u);
+    db.root->setEllipsoidModel(new osg::EllipsoidModel);
+    EXPECT_EQ(installBins(*db.root), 1u);
 }
 
 TEST(BinInstaller, KeepsCallbacksThatWereThereAndRunsThem) {

@@ -15,6 +15,8 @@
 #include <osgTerrain/Terrain>
 #include <osgTerrain/TerrainTile>
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -130,6 +132,18 @@ TEST(TileFinder, ATerrainWithoutEllipsoidIsOnWgs84AndAMapIsNoGlobe) {
     ASSERT_EQ(findTiles(*terrain).size(), 1u);
     EXPECT_FALSE(findTiles(*terrain)[0].frame.ellipsoid);
     EXPECT_TRUE(findTiles(*terrain)[0].frame.isProjected);
+}
+
+TEST(TileFinder, BelowAGlobeWithoutRightRadiiIsNoTile) {
+    for (const double radius : {std::nan(""), std::numeric_limits<double>::infinity(), 0.0, -6.4e6}) {
+        for (const bool isPolar : {false, true}) {
+            const osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
+            globe->setEllipsoidModel(new osg::EllipsoidModel(isPolar ? 6.4e6 : radius, isPolar ? radius : 6.4e6));
+            globe->addChild(makePaged(new osgTerrain::TerrainTile, "c.osgb"));
+            EXPECT_FALSE(hasValidRadii(*globe->getEllipsoidModel()));
+            EXPECT_TRUE(findTiles(*globe).empty()) << radius;
+        }
+    }
 }
 
 TEST(TileFinder, PathsOfPagedFilesAreRelativeToTheRoot) {

@@ -455,6 +455,12 @@ TEST(TileSurface, IsUnknownWhereThereIsNoTerrain) {
     EXPECT_FALSE(surfaceOf(*planar).bin.valid());
 }
 
+TEST(TileSurface, IsUnknownOnAGlobeWithoutRightRadii) {
+    const osg::ref_ptr<osg::Node> tile = makeMeshTile(extentsDeg(10, 11, 20, 21), 200.0);
+    EXPECT_TRUE(tileSurface(*tile, osg::EllipsoidModel(), osg::Matrixd::identity()).bin.valid());
+    EXPECT_FALSE(tileSurface(*tile, osg::EllipsoidModel(std::nan(""), 6.4e6), osg::Matrixd::identity()).bin.valid());
+}
+
 // A few bytes in a file may claim ranges of billions of vertices, or triangles that end in the middle.
 TEST(TileSurface, ReadsNothingBeyondVerticesAndIndices) {
     const osg::ref_ptr<osg::Geode> geode = new osg::Geode;

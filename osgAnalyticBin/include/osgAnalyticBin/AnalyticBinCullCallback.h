@@ -83,7 +83,8 @@ public:
     /// Default: CullOptions().
     [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
 
-    /// Metres; default: those of a default osg::EllipsoidModel.
+    /// Metres; default: those of a default osg::EllipsoidModel. With radii that are not finite and positive the tile is
+    /// never culled.
     void setRadii(double equatorial, double polar);
 
     /// From the frame of the node's children to ECEF; default identity. Has to be rigid or a uniform scale for

@@ -48,6 +48,10 @@ struct FoundTile {
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::string pagedFilePath(const std::string& referringFile,
                                                               const std::string& name);
 
+/// Whether an ellipsoid's radii, metres, are finite and positive. A CoordinateSystemNode with others has no globe, and
+/// what is below it is no tile of one.
+[[nodiscard]] OSGANALYTICBIN_EXPORT bool hasValidRadii(const osg::EllipsoidModel& ellipsoid);
+
 /// The frame of a transform's children, where the transform stands in `frame`.
 [[nodiscard]] OSGANALYTICBIN_EXPORT osg::Matrixd frameInside(const osg::Transform& node, const TileFrame& frame);
 

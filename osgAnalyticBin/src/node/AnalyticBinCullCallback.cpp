@@ -10,6 +10,7 @@
 #include "Text.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/core/ComparisonBins.h>
 #include <osgAnalyticBin/core/GeodeticMapping.h>
 #include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
@@ -117,7 +118,8 @@ void AnalyticBinCullCallback::prepare() {
     _prepared.reset();
     const AnalyticBin shown = shownBin();
     _binLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
-    if (!shown.valid() || _options.method == Method::None || _options.method == Method::Sphere) return;
+    if (!shown.valid() || !hasValidRadii(*_ellipsoid)) return;
+    if (_options.method == Method::None || _options.method == Method::Sphere) return;
     osg::BoundingSphere sphere = shown.boundingSphere(*_ellipsoid);
     if (_hasLocalFrame) sphere = movedSphere(sphere, _ecefToLocal);
     const core::Ellipsoid ellipsoid = toCore(*_ellipsoid);

@@ -125,6 +125,10 @@ osg::ref_ptr<Database> databaseOf(osg::Node& node) {
     return finder.found();
 }
 
+bool isGlobeBroken(const osg::CoordinateSystemNode& node) {
+    return node.getEllipsoidModel() && !hasValidRadii(*node.getEllipsoidModel());
+}
+
 osgDB::ReadFileCallback* previousCallback(const osgDB::Options& options) {
     osgDB::ReadFileCallback* callback = options.getReadFileCallback();
     auto* ours = dynamic_cast<BinReadFileCallback*>(callback);
@@ -213,6 +217,11 @@ void BinInstaller::apply(osg::PagedLOD& node) {
 
 void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const Scoped options(_options, settled(node, _options));
+    if (installsBins() && isGlobeBroken(node)) {
+        OSG_WARN << "osgAnalyticBin: the radii of the globe \"" << node.getName() << "\" in \"" << frame().file
+                 << "\" are not two positive numbers; what is below it gets no bins." << std::endl;
+        _options.method = Method::Sphere;
+    }
     const bool isRefit = _refitted.valid();
     osg::ref_ptr<Database> own = isRefit || !_keepsDatabases ? _refitted : databaseOf(node);
     const bool isKept = !isRefit && own;
@@ -221,7 +230,7 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     if (!isRefit) detachDatabase(node);
     if (!own) {
         const osg::ref_ptr<osg::EllipsoidModel> ellipsoid =
-            node.getEllipsoidModel() ? node.getEllipsoidModel() : new osg::EllipsoidModel;
+            node.getEllipsoidModel() && !isGlobeBroken(node) ? node.getEllipsoidModel() : new osg::EllipsoidModel;
         own = new Database(_options, ellipsoid.get(), dynamic_cast<osgTerrain::Terrain*>(&node), _index.get());
     }
     const Scoped index(_index, isKept ? osg::ref_ptr<const BinIndex>(own->index()) : _index);

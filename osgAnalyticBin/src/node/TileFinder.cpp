@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <typeinfo>
 
 namespace osgAnalyticBin {
@@ -122,6 +123,11 @@ std::string pagedFilePath(const std::string& referringFile, const std::string& n
     return path;
 }
 
+bool hasValidRadii(const osg::EllipsoidModel& ellipsoid) {
+    const auto isValid = [](double radius) { return std::isfinite(radius) && radius > 0.0; };
+    return isValid(ellipsoid.getRadiusEquator()) && isValid(ellipsoid.getRadiusPolar());
+}
+
 osg::Matrixd frameInside(const osg::Transform& node, const TileFrame& frame) {
     osg::Matrixd inside;
     // Without a CoordinateSystemNode above, a tile's own frame is ECEF, whatever moves the globe.
@@ -143,7 +149,9 @@ void TileFinder::apply(osg::CoordinateSystemNode& node) {
     inside.localToEcef.makeIdentity();
     inside.ellipsoid = node.getEllipsoidModel();
     inside.isProjected = isProjected(node);
+    const bool isBroken = inside.ellipsoid && !hasValidRadii(*inside.ellipsoid);
     if (!inside.isKnown()) inside.ellipsoid = new osg::EllipsoidModel;
+    if (isBroken) inside.ellipsoid = nullptr;
     const Scoped scope(_frame, inside);
     visit(node, hasStoredBin(node));
 }

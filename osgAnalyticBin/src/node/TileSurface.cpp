@@ -6,6 +6,8 @@
 #include "SurfaceWalk.h"
 #include "TerrainTileSurface.h"
 
+#include <osgAnalyticBin/TileFinder.h>
+
 #include <algorithm>
 
 namespace osgAnalyticBin {
@@ -57,6 +59,7 @@ private:
 
 TileSurface tileSurface(osg::Node& node, const osg::EllipsoidModel& ellipsoid, const osg::Matrixd& localToEcef,
                         double sampleRatio) {
+    if (!hasValidRadii(ellipsoid)) return {};
     SurfaceUnion surface(ellipsoid, localToEcef, sampleRatio);
     node.accept(surface);
     return surface.result();

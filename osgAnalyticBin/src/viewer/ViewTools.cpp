@@ -3,6 +3,8 @@
 
 #include "ViewTools.h"
 
+#include <osgAnalyticBin/TileFinder.h>
+
 #include <osgGA/GUIActionAdapter>
 #include <osgGA/GUIEventAdapter>
 #include <osgViewer/View>
@@ -22,7 +24,7 @@ public:
         if (!found) traverse(node);
     }
     void apply(osg::CoordinateSystemNode& node) override {
-        if (!found && node.getEllipsoidModel()) {
+        if (!found && node.getEllipsoidModel() && hasValidRadii(*node.getEllipsoidModel())) {
             found = SceneGlobe{node.getEllipsoidModel(), osg::computeLocalToWorld(getNodePath())};
         }
         apply(static_cast<osg::Node&>(node));
