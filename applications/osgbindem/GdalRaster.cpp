@@ -4,6 +4,7 @@
 #include "GdalRaster.h"
 
 #include "Failure.h"
+#include "Interruption.h"
 
 #include <gdal_alg.h>
 #include <gdal_utils.h>
@@ -13,11 +14,13 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 
 namespace osgbindem {
 
 using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::throwIfStopRequested;
 
 namespace {
 
@@ -25,6 +28,24 @@ using GeoTransform = std::array<double, 6>;
 
 // An overview's posts are not exactly twice as far apart when the raster has an odd number of them.
 constexpr double kSlack = 1e-3;
+
+// Drivers of text that find a row by reading those above it. GDAL tries rows that cannot be read anew for each row
+// below: 2^rows times in a file that was cut short, unless it is read from the top.
+bool isRowsOfText(GDALDataset& dataset) {
+    const std::array<std::string_view, 3> drivers{"AAIGrid", "GRASSASCIIGrid", "ISG"};
+    const GDALDriver* driver = dataset.GetDriver();
+    return driver != nullptr && std::find(drivers.begin(), drivers.end(), driver->GetDescription()) != drivers.end();
+}
+
+void requireAllRows(GDALDataset& dataset, const std::string& path) {
+    for (int row = 0; row < dataset.GetRasterYSize(); ++row) {
+        throwIfStopRequested();
+        double post = 0.0;
+        const CPLErr error =
+            dataset.GetRasterBand(1)->RasterIO(GF_Read, 0, row, 1, 1, &post, 1, 1, GDT_Float64, 0, 0, nullptr);
+        if (error != CE_None) throw Failure("cannot read \"" + path + "\": " + gdalMessage());
+    }
+}
 
 /// `overview`: its number, or -1 for the raster itself.
 GdalDataset open(const std::string& path, int overview = -1) {
@@ -42,6 +63,7 @@ GdalDataset open(const std::string& path, int overview = -1) {
     if (dataset->GetRasterCount() == 0) {
         throw Failure("no raster band in \"" + path + "\"; name one of its subdatasets as gdalinfo lists them");
     }
+    if (isRowsOfText(*dataset)) requireAllRows(*dataset, path);
     return dataset;
 }
 

@@ -58,6 +58,15 @@ TEST_F(Error, TruncatedRaster) {
     expectBadDem(file("short.tif"), "short.tif");
 }
 
+// GDAL itself would search such a file for its rows without end.
+TEST_F(Error, TruncatedRasterOfText) {
+    std::ofstream text(file("short.asc"));
+    text << "ncols 4\nnrows 80000\nxllcorner 10\nyllcorner 0\ncellsize 0.001\n";
+    for (int row = 0; row < 2000; ++row) text << "1 2 3 4\n";
+    text.close();
+    expectBadDem(file("short.asc"), "short.asc");
+}
+
 TEST_F(Error, RasterWithoutGeoreferencing) {
     GDALAllRegister();
     GDALClose(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(file("plain.tif").c_str(), 10, 10, 1,
