@@ -69,6 +69,12 @@ TEST(TerrainGrid, EveryBeginningAndEveryAdditionIsRefused) {
     EXPECT_FALSE(unpacked(std::string(100000, '\xff')));
 }
 
+TEST(TerrainGrid, AGlobeWithoutHeightIsRefused) {
+    TerrainGrid grid = rough();
+    grid.ellipsoid = osgAnalyticBin::core::Ellipsoid(1e12, 1e-3);
+    EXPECT_FALSE(unpacked(packed(grid)));
+}
+
 TEST(TerrainGrid, WhateverTheBytesTheMeshIsOfItsSize) {
     // Changed bytes may be a grid of other heights: then it has all the vertices that its triangles name.
     const std::string bytes = packed(rough());

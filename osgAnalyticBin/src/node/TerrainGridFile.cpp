@@ -126,10 +126,11 @@ void writeHead(Writer& writer, const TerrainGrid& grid) {
 TerrainGrid readHead(Reader& reader) {
     constexpr double kLeastRadius = 1e-3;
     constexpr double kMostRadius = 1e12;
+    constexpr double kMostFlat = 100.0;  // one radius over the other; beyond, the poles have no finite place
     constexpr double kLeastQuantum = 1e-9;
     TerrainGrid grid;
     const double equatorial = reader.real(kLeastRadius, kMostRadius);
-    const double polar = reader.real(kLeastRadius, kMostRadius);
+    const double polar = reader.real(equatorial / kMostFlat, equatorial * kMostFlat);
     grid.ellipsoid = core::Ellipsoid(equatorial, polar);
     grid.cells = static_cast<std::int32_t>(reader.whole(1, kMostCells));
     grid.columns = reader.whole(2, kMostColumns);
