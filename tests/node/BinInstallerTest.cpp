@@ -5,6 +5,7 @@
 // AnalyticBinCullCallbackTest.cpp; what it does to paged files in PagingTest.cpp.
 
 #include "CullFixture.h"
+#include "DatabaseFixture.h"
 
 #include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
@@ -179,6 +180,20 @@ TEST(BinInstaller, WithoutACoordinateSystemATilesOwnFrameIsEcef) {
     mover->addChild(tile);
     EXPECT_EQ(installBins(*mover), 1u);
     EXPECT_TRUE(callbackOf(*tile)->localToEcef().isIdentity());
+}
+
+TEST(BinInstaller, WithoutACoordinateSystemATransformThatIsATileStandsInEcef) {
+    const osg::Vec3d origin = test::ecefDeg(0, 0, 0);
+    const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform(osg::Matrixd::translate(5, 5, 5));
+    const osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform(osg::Matrixd::translate(origin));
+    const osg::ref_ptr<osg::MatrixTransform> leaf = new osg::MatrixTransform(osg::Matrixd::translate(0, 0, 7));
+    setStoredBin(*tile, kBin);
+    setStoredBin(*leaf, kBin);
+    mover->addChild(tile);
+    tile->addChild(leaf);
+    EXPECT_EQ(installBins(*mover), 2u);
+    EXPECT_EQ(callbackOf(*tile)->localToEcef(), osg::Matrixd::translate(origin));
+    EXPECT_EQ(callbackOf(*leaf)->localToEcef(), osg::Matrixd::translate(origin + osg::Vec3d(0, 0, 7)));
 }
 
 TEST(BinInstaller, ABrokenStoredBinMeansVisible) {

@@ -97,6 +97,7 @@ private:
     void traverseTransform(osg::Transform& node);
     void traversePaged(osg::PagedLOD& node);
     [[nodiscard]] bool isTile(osg::Node& node) const;
+    [[nodiscard]] bool hasFrame() const;
 
     TileFrame _frame;
     std::size_t _ordinal = 0;

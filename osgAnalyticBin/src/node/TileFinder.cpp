@@ -130,8 +130,6 @@ bool hasValidRadii(const osg::EllipsoidModel& ellipsoid) {
 
 osg::Matrixd frameInside(const osg::Transform& node, const TileFrame& frame) {
     osg::Matrixd inside;
-    // Without a CoordinateSystemNode above, a tile's own frame is ECEF, whatever moves the globe.
-    if (!frame.isKnown()) return inside;
     node.computeLocalToWorldMatrix(inside, nullptr);
     return inside * frame.localToEcef;
 }
@@ -157,8 +155,7 @@ void TileFinder::apply(osg::CoordinateSystemNode& node) {
 }
 
 void TileFinder::apply(osg::Transform& node) {
-    const bool hasFrame = _frame.isKnown() || hasStoredBin(node);
-    if (hasFrame && !hasFixedPlace(node)) return;
+    if ((hasFrame() || hasStoredBin(node)) && !hasFixedPlace(node)) return;
     visit(node, isTile(node));
 }
 
@@ -201,9 +198,14 @@ void TileFinder::traverseBelow(osg::Node& node) {
     traverse(node);
 }
 
+// Without a CoordinateSystemNode above, the outermost tile stands in ECEF, whatever moves the globe.
+bool TileFinder::hasFrame() const {
+    return _frame.isKnown() || _frame.isBelowTile || _tile;
+}
+
 // By itself, and the matrix alone, to leave stack for scenes that are nested deep.
 void TileFinder::traverseTransform(osg::Transform& node) {
-    const Scoped matrix(_frame.localToEcef, frameInside(node, _frame));
+    const Scoped matrix(_frame.localToEcef, hasFrame() ? frameInside(node, _frame) : _frame.localToEcef);
     traverse(node);
 }
 
