@@ -16,7 +16,7 @@ constexpr double kWidth = 45.0;
 
 // 8 x 4 tiles of a globe, as roots or paged below one that covers it.
 struct Globe {
-    explicit Globe(bool isBelowATile, int left = 32, const CullOptions& options = {}) {
+    explicit Globe(bool isBelowATile, int left = 32, const CullOptions& options = {}, osg::Node* more = nullptr) {
         const osg::ref_ptr<osg::Group> tiles = new osg::Group;
         for (int i = 0; i < left; ++i) {
             const double south = -90.0 + kWidth * (i / 8);
@@ -32,6 +32,7 @@ struct Globe {
         } else {
             terrain->addChild(tiles);
         }
+        if (more) terrain->addChild(more);
         installBins(*terrain, options);
     }
 
@@ -60,6 +61,15 @@ TEST(ForeignHorizon, IsNotUsedWhereTilesLeaveAGap) {
         EXPECT_EQ(globe.seen().count("19"), 1u);
         EXPECT_EQ(globe.seen().count(kAntipode), 1u);
     }
+}
+
+TEST(ForeignHorizon, AnotherGlobeInsideDoesNotHideThatTilesLeaveAGap) {
+    const osg::ref_ptr<osg::CoordinateSystemNode> inside = new osg::CoordinateSystemNode;
+    inside->setEllipsoidModel(new osg::EllipsoidModel);
+    Globe gap(false, 31, {}, inside);
+    EXPECT_EQ(gap.seen().count(kAntipode), 1u);
+    Globe whole(false, 32, {}, inside);
+    EXPECT_EQ(whole.seen().count(kAntipode), 0u);
 }
 
 TEST(ForeignHorizon, IsNotUsedWhereAllSkirtsCountOrWhereItIsOff) {

@@ -236,6 +236,7 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const Scoped index(_index, isKept ? osg::ref_ptr<const BinIndex>(own->index()) : _index);
     const Scoped database(_database, own);
     const Scoped paging(_paging, PagingByOptions());
+    const Scoped coverage(_coverage, std::map<std::string, Coverage>());
     _coverage[frame().file].expected = 2.0 * kPi * kPi;
     _coverage[frame().file].isVisited = true;
     const std::size_t before = _installed;
