@@ -5,7 +5,6 @@
 
 #include <osgAnalyticBin/BinInstaller.h>
 
-#include <osg/PagedLOD>
 #include <osgDB/DatabasePager>
 #include <osgDB/ReadFile>
 
@@ -43,23 +42,6 @@ CullOptions randomOptions(Random& random) {
     options.expiry = random.chance(0.5) ? 0.1 : 1.0;
     options.skirts = random.chance(0.2) ? SkirtUse::All : SkirtUse::Cracks;
     return options;
-}
-
-class PagedCounter : public osg::NodeVisitor {
-public:
-    PagedCounter() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    using osg::NodeVisitor::apply;
-    void apply(osg::PagedLOD& node) override {
-        if (node.getNumChildren() > 1) ++count;
-        traverse(node);
-    }
-    std::size_t count = 0;
-};
-
-std::size_t pagedIn(osg::Node& scene) {
-    PagedCounter counter;
-    scene.accept(counter);
-    return counter.count;
 }
 
 }  // namespace

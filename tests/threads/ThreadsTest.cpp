@@ -18,7 +18,6 @@
 #include <osgAnalyticBin/viewer/TileSurvey.h>
 
 #include <gtest/gtest.h>
-#include <osg/PagedLOD>
 #include <osgDB/ReadFile>
 #include <osgTerrain/Terrain>
 #include <osgUtil/SceneView>
@@ -52,23 +51,6 @@ const std::string& falseDatabase() {
 const std::string& terrainDatabase() {
     static const std::string file = writeTerrainDatabase(databases().makeFolder("terrain"));
     return file;
-}
-
-class PagedCounter : public osg::NodeVisitor {
-public:
-    PagedCounter() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    using osg::NodeVisitor::apply;
-    void apply(osg::PagedLOD& node) override {
-        if (node.getNumChildren() > 1) ++count;
-        traverse(node);
-    }
-    int count = 0;
-};
-
-int pagedIn(osg::Node& scene) {
-    PagedCounter counter;
-    scene.accept(counter);
-    return counter.count;
 }
 
 // Tiles that bins culled in the last frame, over all cameras.
@@ -163,12 +145,12 @@ osg::ref_ptr<osg::Group> readScene(const std::vector<std::string>& files) {
 }
 
 // Flies over the scene while everything changes. Returns: the most PagedLODs that were refined at once.
-int fly(osg::Group& scene, Threading threading, Layout layout, int cameras, unsigned int& culled) {
+std::size_t fly(osg::Group& scene, Threading threading, Layout layout, int cameras, unsigned int& culled) {
     ViewerRig rig(scene, threading, layout, cameras);
     rig.setMostPagedLods(8);
     Changes changes(rig, scene);
     Random random(900);
-    int most = 0;
+    std::size_t most = 0;
     for (int frame = 0; frame < kFrames; ++frame) {
         if (frame % 10 == 0) lookAround(rig, random);
         // OSG makes meshes of tiles in the update traversal; cull threads that find some without crash, bins or not
@@ -198,7 +180,7 @@ TEST_P(Threads, ChangeEverythingWhilePagingIsLive) {
     ASSERT_TRUE(scene);
     const auto& [threading, layout, cameras] = GetParam();
     unsigned int culled = 0;
-    EXPECT_GT(fly(*scene, threading, layout, cameras, culled), 0);
+    EXPECT_GT(fly(*scene, threading, layout, cameras, culled), 0u);
     EXPECT_GT(culled, 0u);
 }
 
@@ -217,7 +199,7 @@ TEST(ThreadsOnVpb, ChangeEverythingWhilePagingIsLive) {
     const osg::ref_ptr<osg::Group> scene = readScene({folder + "terrain/earth.osgb", folder + "polygonal/earth.osgb"});
     if (!scene) GTEST_SKIP() << "no samples";
     unsigned int culled = 0;
-    EXPECT_GT(fly(*scene, Threading::CullThreadPerCameraDrawThreadPerContext, Layout::Views, 2, culled), 0);
+    EXPECT_GT(fly(*scene, Threading::CullThreadPerCameraDrawThreadPerContext, Layout::Views, 2, culled), 0u);
     EXPECT_GT(culled, 0u);
 }
 

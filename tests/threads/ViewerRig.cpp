@@ -5,6 +5,7 @@
 
 #include <osg/CoordinateSystemNode>
 #include <osg/GraphicsContext>
+#include <osg/PagedLOD>
 #include <osgDB/DatabasePager>
 #include <osgTerrain/Terrain>
 #include <osgTerrain/TerrainTile>
@@ -86,6 +87,17 @@ private:
     osgTerrain::Terrain* _terrain = nullptr;
 };
 
+class PagedCounter : public osg::NodeVisitor {
+public:
+    PagedCounter() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    using osg::NodeVisitor::apply;
+    void apply(osg::PagedLOD& node) override {
+        if (node.getNumChildren() > 1) ++count;
+        traverse(node);
+    }
+    std::size_t count = 0;
+};
+
 }  // namespace
 
 const char* nameOf(Threading threading) {
@@ -151,6 +163,12 @@ osg::Matrixd viewFrom(double latitude, double longitude, double altitude, double
     const osg::Matrixd turn = osg::Matrixd::rotate(osg::DegreesToRadians(pitch), 1.0, 0.0, 0.0) *
                               osg::Matrixd::rotate(osg::DegreesToRadians(-heading), 0.0, 0.0, 1.0);
     return osg::Matrixd::inverse(turn * toWorld);
+}
+
+std::size_t pagedIn(osg::Node& scene) {
+    PagedCounter counter;
+    scene.accept(counter);
+    return counter.count;
 }
 
 }  // namespace osgAnalyticBin::test

@@ -9,6 +9,7 @@
 #include <osgViewer/View>
 #include <osgViewer/ViewerBase>
 
+#include <cstddef>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -70,5 +71,8 @@ private:
 /// A view from a place on WGS 84 (degrees, metres), turned by `heading` and `pitch` (degrees; pitch 0 looks straight
 /// down, 90 to the horizon).
 [[nodiscard]] osg::Matrixd viewFrom(double latitude, double longitude, double altitude, double heading, double pitch);
+
+/// Number of PagedLODs below a node that more than their first child is loaded of.
+[[nodiscard]] std::size_t pagedIn(osg::Node& scene);
 
 }  // namespace osgAnalyticBin::test
