@@ -30,17 +30,13 @@ using core::GeodeticBin;
 using test::CullView;
 
 using test::kEarthRadius;
-
-osg::Vec3d randomEye(test::Random& random, double altitude) {
-    const glm::dvec3 d = random.direction();
-    return osg::Vec3d(d.x, d.y, d.z) * (kEarthRadius + altitude);
-}
+using test::osgVector;
 
 CullView randomGlobeView(test::Random& random) {
-    const osg::Vec3d eye = randomEye(random, random.logUniform(2e4, 2e7));
-    const osg::Vec3d target = randomEye(random, 0.0);
-    const glm::dvec3 up = random.direction();
-    return CullView::lookAt(eye, target, osg::Vec3d(up.x, up.y, up.z), random.uniform(2.0, 90.0));
+    const osg::Vec3d eye = test::randomEyeAbove(random, 2e4);
+    const osg::Vec3d target = osgVector(random.direction()) * kEarthRadius;
+    const osg::Vec3d up = osgVector(random.direction());
+    return CullView::lookAt(eye, target, up, random.uniform(2.0, 90.0));
 }
 
 struct SmallGlobe {

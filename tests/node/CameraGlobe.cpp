@@ -29,6 +29,15 @@ RealVector real(const osg::Vec3d& v) {
 
 }  // namespace
 
+osg::Vec3d randomEyeAbove(Random& random, double lowest) {
+    return osgVector(random.direction()) * (kEarthRadius + random.logUniform(lowest, 2e7));
+}
+
+osg::Matrixd randomViewMatrix(Random& random, double lowest) {
+    const osg::Vec3d eye = randomEyeAbove(random, lowest);
+    return osg::Matrixd::lookAt(eye, osgVector(random.direction()) * kEarthRadius, osgVector(random.direction()));
+}
+
 class LookRecorder : public osg::NodeCallback {
 public:
     explicit LookRecorder(CameraGlobe& globe) : _globe(globe) {}

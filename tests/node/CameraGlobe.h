@@ -17,6 +17,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <support/Random.h>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -26,6 +27,12 @@ inline constexpr double kEarthRadius = 6378137.0;
 [[nodiscard]] inline osg::Vec3d osgVector(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
+
+/// A point from `lowest` to 20000 km above a sphere of the earth's radius, in any direction.
+[[nodiscard]] osg::Vec3d randomEyeAbove(Random& random, double lowest);
+
+/// A view matrix from such an eye to any point of that sphere, rolled at random.
+[[nodiscard]] osg::Matrixd randomViewMatrix(Random& random, double lowest = 2e4);
 
 /// One traversal of the globe for one camera.
 struct Look {

@@ -23,23 +23,15 @@ namespace {
 
 using test::CameraGlobe;
 using test::CullView;
-using test::kEarthRadius;
 using test::kOccluderDepth;
 using test::Look;
 using test::LookTotals;
 using test::NearPlane;
+using test::osgVector;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kViews = 20;
-
-osg::Vec3d toOsg(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-
-osg::Vec3d randomEye(test::Random& random) {
-    return toOsg(random.direction()) * (kEarthRadius + random.logUniform(2e4, 2e7));
-}
 
 osg::Vec3d anySample(const CameraGlobe& globe, test::Random& random) {
     const auto& samples = globe.samplesOf(static_cast<std::size_t>(random.integer(0, int(globe.size()) - 1)));
@@ -48,7 +40,8 @@ osg::Vec3d anySample(const CameraGlobe& globe, test::Random& random) {
 
 // A view at a sample, so that even the narrowest picture shows one.
 osg::Matrixd viewAtSample(const CameraGlobe& globe, test::Random& random) {
-    return osg::Matrixd::lookAt(randomEye(random), anySample(globe, random), toOsg(random.direction()));
+    return osg::Matrixd::lookAt(test::randomEyeAbove(random, 2e4), anySample(globe, random),
+                                osgVector(random.direction()));
 }
 
 osg::Matrixd homogeneous(osg::Matrixd matrix, double factor) {
@@ -57,7 +50,7 @@ osg::Matrixd homogeneous(osg::Matrixd matrix, double factor) {
 }
 
 osg::Matrixd turned(test::Random& random) {
-    return osg::Matrixd::rotate(osg::Vec3d(0, 0, 1), toOsg(random.direction()));
+    return osg::Matrixd::rotate(osg::Vec3d(0, 0, 1), osgVector(random.direction()));
 }
 
 Look lookOf(CameraGlobe& globe, const CullView& view) {
@@ -115,12 +108,13 @@ const Kind kTrue[] = {
     {"tiny homogeneous", withProjection(homogeneous(kPlain, 1e-150))},
     {"near 1e-30", withProjection(osg::Matrixd::perspective(40.0, 1.0, 1e-30, 1e8))},
     {"eye in the centre", withView([](test::Random& random) {
-         return osg::Matrixd::lookAt(osg::Vec3d(), toOsg(random.direction()), toOsg(random.direction()));
+         return osg::Matrixd::lookAt(osg::Vec3d(), osgVector(random.direction()), osgVector(random.direction()));
      })},
     {"eye in a bin",
      [](const CameraGlobe& globe, test::Random& random) {
          const osg::Vec3d eye = anySample(globe, random);
-         return viewOf(osg::Matrixd::lookAt(eye, eye + toOsg(random.direction()), toOsg(random.direction())), kPlain);
+         return viewOf(osg::Matrixd::lookAt(eye, eye + osgVector(random.direction()), osgVector(random.direction())),
+                       kPlain);
      }},
 };
 

@@ -25,6 +25,7 @@ using core::GeodeticBin;
 using test::CullView;
 
 using test::kEarthRadius;
+using test::osgVector;
 constexpr double kDepth = 1000.0;
 
 CullOptions withHorizon(Method method = Method::Quadratic) {
@@ -73,11 +74,10 @@ bool isSeen(const AnalyticBin& bin, const CullView& view, const osg::Vec3d& eye)
 }
 
 CullView randomView(test::Random& random, osg::Vec3d& eye) {
-    const glm::dvec3 from = random.direction() * (kEarthRadius + random.logUniform(1e3, 2e7));
-    const glm::dvec3 to = random.direction() * kEarthRadius;
-    const glm::dvec3 up = random.direction();
-    eye.set(from.x, from.y, from.z);
-    return CullView::lookAt(eye, {to.x, to.y, to.z}, {up.x, up.y, up.z}, random.uniform(5.0, 90.0));
+    eye = test::randomEyeAbove(random, 1e3);
+    const osg::Vec3d target = osgVector(random.direction()) * kEarthRadius;
+    const osg::Vec3d up = osgVector(random.direction());
+    return CullView::lookAt(eye, target, up, random.uniform(5.0, 90.0));
 }
 
 TEST(HorizonCulling, NeverCullsATileWithASampleInSight) {

@@ -32,11 +32,7 @@ using test::kOccluderDepth;
 using test::Look;
 using test::LookTotals;
 using test::NearPlane;
-
-osg::Matrixd randomMatrix(test::Random& random) {
-    const osg::Vec3d eye = osgVector(random.direction()) * (kEarthRadius + random.logUniform(1e5, 2e7));
-    return osg::Matrixd::lookAt(eye, osgVector(random.direction()) * kEarthRadius, osgVector(random.direction()));
-}
+using test::randomViewMatrix;
 
 osg::Matrixd randomProjection(test::Random& random) {
     if (random.uniform(0, 1) < 0.3) {
@@ -48,7 +44,7 @@ osg::Matrixd randomProjection(test::Random& random) {
 
 CullView randomCullView(test::Random& random) {
     CullView view;
-    view.modelView = randomMatrix(random);
+    view.modelView = randomViewMatrix(random, 1e5);
     view.projection = randomProjection(random);
     return view;
 }
@@ -86,7 +82,7 @@ TEST(NestedCameras, EveryFrameAndOrderCullsForItsOwnPicture) {
                     const osg::Matrixd turn =
                         osg::Matrixd::rotate(random.uniform(-0.5, 0.5), osgVector(random.direction()));
                     const osg::ref_ptr<Camera> camera = test::makeCamera(
-                        "camera", globe, frame, order, relative ? turn : randomMatrix(random),
+                        "camera", globe, frame, order, relative ? turn : randomViewMatrix(random, 1e5),
                         relative ? osg::Matrixd::scale(random.uniform(0.5, 2), random.uniform(0.5, 2), 1.0)
                                  : randomProjection(random));
                     if (i % 2) camera->setTransformOrder(Camera::POST_MULTIPLY);
@@ -121,12 +117,12 @@ TEST(NestedCameras, CamerasWithinCamerasAndTransforms) {
     LookTotals totals;
     for (int i = 0; i < 30; ++i) {
         const osg::ref_ptr<Camera> inner = test::makeCamera("inner", globe, Transform::ABSOLUTE_RF, Camera::PRE_RENDER,
-                                                            randomMatrix(random), randomProjection(random));
+                                                            randomViewMatrix(random, 1e5), randomProjection(random));
         const osg::ref_ptr<Camera> relative =
             test::makeCamera("relative", globe, Transform::RELATIVE_RF, Camera::NESTED_RENDER,
                              osg::Matrixd::rotate(0.2, osgVector(random.direction())), osg::Matrixd());
         const osg::ref_ptr<Camera> outer = test::makeCamera("outer", globe, Transform::ABSOLUTE_RF, Camera::POST_RENDER,
-                                                            randomMatrix(random), randomProjection(random));
+                                                            randomViewMatrix(random, 1e5), randomProjection(random));
         const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform(
             osg::Matrixd::rotate(random.uniform(0, 6), osgVector(random.direction())) *
             osg::Matrixd::scale(0.5, i % 3 ? 0.5 : -0.5, 0.5) * osg::Matrixd::translate(1e5, -2e5, 3e5));

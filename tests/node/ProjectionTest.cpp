@@ -29,13 +29,9 @@ using test::kOccluderDepth;
 using test::Look;
 using test::LookTotals;
 using test::NearPlane;
+using test::randomViewMatrix;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-osg::Matrixd randomView(test::Random& random, double lowest = 2e4) {
-    const osg::Vec3d eye = osgVector(random.direction()) * (kEarthRadius + random.logUniform(lowest, 2e7));
-    return osg::Matrixd::lookAt(eye, osgVector(random.direction()) * kEarthRadius, osgVector(random.direction()));
-}
 
 // Clip space z -> -z.
 osg::Matrixd reversed(const osg::Matrixd& projection) {
@@ -84,7 +80,7 @@ struct Kind {
 };
 
 osg::Matrixd anyView(test::Random& random) {
-    return randomView(random);
+    return randomViewMatrix(random);
 }
 
 osg::Matrixd mirroredView(test::Random& random) {
@@ -96,7 +92,7 @@ osg::Matrixd mirroredView(test::Random& random) {
         for (int k = 0; k < 3; ++k) mirror(i, k) -= 2.0 * normal[i] * normal[k];
         mirror(3, i) = 2.0 * offset * normal[i];
     }
-    return mirror * randomView(random);
+    return mirror * randomViewMatrix(random);
 }
 
 const Kind kKinds[] = {
@@ -224,7 +220,7 @@ TEST(Projections, WithInfiniteFarTheFarPlaneDecidesNothing) {
     test::Random random(73);
     for (int i = 0; i < kViews; ++i) {
         CullView view;
-        view.modelView = randomView(random);
+        view.modelView = randomViewMatrix(random);
         view.projection = infiniteFar(0.5, 1.0);
         const std::set<std::size_t> sides = lookOf(globe, view).reached;
         view.cullingMode |= osg::CullSettings::FAR_PLANE_CULLING;
@@ -270,7 +266,7 @@ TEST(Projections, ZeroAspectDoesNoHarm) {
     for (const double aspect : {0.0, -0.0, kNaN, std::numeric_limits<double>::infinity(), 1e-300}) {
         for (int i = 0; i < 10; ++i) {
             CullView view;
-            view.modelView = randomView(random);
+            view.modelView = randomViewMatrix(random);
             view.projection = osg::Matrixd::perspective(40.0, aspect, 1.0, 1e8);
             view.cullingMode = osg::CullSettings::ENABLE_ALL_CULLING;
             LookTotals totals;

@@ -54,14 +54,6 @@ struct Stereo {
     osg::ref_ptr<osgUtil::SceneView> view = new osgUtil::SceneView;
 };
 
-osg::Matrixd randomMatrixOfPair(test::Random& random) {
-    const glm::dvec3 eye = random.direction() * (kEarthRadius + random.logUniform(2e5, 2e7));
-    const glm::dvec3 target = random.direction() * kEarthRadius;
-    const glm::dvec3 up = random.direction();
-    return osg::Matrixd::lookAt(osg::Vec3d(eye.x, eye.y, eye.z), osg::Vec3d(target.x, target.y, target.z),
-                                osg::Vec3d(up.x, up.y, up.z));
-}
-
 const DisplaySettings::StereoMode kModes[] = {DisplaySettings::QUAD_BUFFER,       DisplaySettings::ANAGLYPHIC,
                                               DisplaySettings::HORIZONTAL_SPLIT,  DisplaySettings::VERTICAL_SPLIT,
                                               DisplaySettings::LEFT_EYE,          DisplaySettings::RIGHT_EYE,
@@ -76,7 +68,7 @@ TEST(Stereo, EachEyeKeepsWhatItSees) {
             LookTotals totals;
             std::size_t different = 0;
             for (int i = 0; i < 6; ++i) {
-                const osg::Matrixd modelView = randomMatrixOfPair(random);
+                const osg::Matrixd modelView = test::randomViewMatrix(random, 2e5);
                 const osg::Matrixd projection = osg::Matrixd::perspective(random.uniform(20, 60), 1.3, 1.0, 1e8);
                 const std::vector<Look> looks = stereo.cull(modelView, projection);
                 const bool oneEye = mode == DisplaySettings::LEFT_EYE || mode == DisplaySettings::RIGHT_EYE;
