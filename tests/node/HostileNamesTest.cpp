@@ -74,6 +74,17 @@ protected:
         return installed;
     }
 
+    // Reads the root file, and goes down from it: one tile with bins and one file read for each level.
+    void expectFollowedAsFarAsThePagerGoes() {
+        constexpr int kLevels = 6;
+        const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_folder / "root.osgb");
+        ASSERT_TRUE(scene);
+        ASSERT_EQ(installBins(*scene), 1u);
+        _reads->names.clear();
+        EXPECT_EQ(followDown(*scene, kLevels), kLevels);
+        EXPECT_EQ(_reads->names.size(), static_cast<std::size_t>(kLevels));
+    }
+
     static inline const core::GeodeticBin kExtents = extentsDeg(10, 12, 20, 22);
     const TemporaryFolder _folder;
     const osg::ref_ptr<NotedReads> _reads = new NotedReads;
@@ -99,30 +110,18 @@ TEST_F(HostileNames, AreNotReadUntilThePagerAsks) {
 }
 
 TEST_F(HostileNames, OfTheFileItselfAreFollowedAsFarAsThePagerGoes) {
-    constexpr int kLevels = 6;
     for (const bool isGlobe : {true, false}) {
         write("root.osgb", isGlobe ? "root.osgb" : "tile.osgb", true);
         write("tile.osgb", "tile.osgb", false);
-        const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_folder / "root.osgb");
-        ASSERT_TRUE(scene);
-        ASSERT_EQ(installBins(*scene), 1u);
-        _reads->names.clear();
-        EXPECT_EQ(followDown(*scene, kLevels), kLevels);
-        EXPECT_EQ(_reads->names.size(), static_cast<std::size_t>(kLevels));
+        expectFollowedAsFarAsThePagerGoes();
     }
 }
 
 TEST_F(HostileNames, OfFilesThatNameEachOtherAreFollowedLikewise) {
-    constexpr int kLevels = 6;
     write("root.osgb", "a.osgb", true);
     write("a.osgb", "b.osgb", false);
     write("b.osgb", "a.osgb", false);
-    const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_folder / "root.osgb");
-    ASSERT_TRUE(scene);
-    ASSERT_EQ(installBins(*scene), 1u);
-    _reads->names.clear();
-    EXPECT_EQ(followDown(*scene, kLevels), kLevels);
-    EXPECT_EQ(_reads->names.size(), static_cast<std::size_t>(kLevels));
+    expectFollowedAsFarAsThePagerGoes();
 }
 
 }  // namespace
