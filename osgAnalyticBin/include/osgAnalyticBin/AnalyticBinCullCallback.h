@@ -151,11 +151,11 @@ protected:
     ~AnalyticBinCullCallback() override;
 
 private:
+    using PreparedBin = std::variant<core::GeodeticQuadraticBin, core::ExactGeodeticBin, core::PaperBin,
+                                     core::CornersBin, core::BoxBin, core::OrientedBoxBin>;
     // What a cull traversal reads, made once per bin.
     struct Prepared {
-        std::variant<core::GeodeticQuadraticBin, core::ExactGeodeticBin, core::PaperBin, core::CornersBin, core::BoxBin,
-                     core::OrientedBoxBin>
-            bin;
+        PreparedBin bin;
         std::optional<core::ExactGeodeticBin>
             separable;  // for the test against edges, where `bin` is not the exact one
         std::optional<core::HorizonBin> horizon;
@@ -168,6 +168,7 @@ private:
 
     void prepare();
     [[nodiscard]] AnalyticBin shownBin() const;
+    [[nodiscard]] PreparedBin preparedBin(const AnalyticBin& shown, const core::Ellipsoid& ellipsoid) const;
     [[nodiscard]] const core::HorizonEye* eyeOn(osg::CullStack& cullStack, osg::NodeVisitor& nv,
                                                 CullTraversal& traversal) const;
     [[nodiscard]] bool isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const;

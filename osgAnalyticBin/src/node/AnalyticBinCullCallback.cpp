@@ -29,33 +29,6 @@ namespace {
 
 constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
-using PreparedBin = std::variant<core::GeodeticQuadraticBin, core::ExactGeodeticBin, core::PaperBin, core::CornersBin,
-                                 core::BoxBin, core::OrientedBoxBin>;
-
-PreparedBin preparedBin(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid, const CullOptions& options) {
-    const core::ParameterBox box = core::parameterBox(bin.bin());
-    switch (options.method) {
-        case Method::Paper:
-            return core::PaperBin(core::GeodeticMapping(ellipsoid), box, options.growth);
-        case Method::Corners:
-            return core::CornersBin(core::GeodeticMapping(ellipsoid), box);
-        case Method::Box:
-            return core::BoxBin(ellipsoid, bin.bin(), bin.margin());
-        case Method::OrientedBox:
-            return core::OrientedBoxBin(ellipsoid, bin.bin(), bin.margin());
-        case Method::Exact:
-            if (core::ExactGeodeticBin::holds(ellipsoid, bin.bin())) {
-                return core::ExactGeodeticBin(ellipsoid, bin.bin(), bin.margin());
-            }
-            break;
-        case Method::Quadratic:
-        case Method::Sphere:
-        case Method::None:
-            break;
-    }
-    return core::GeodeticQuadraticBin(ellipsoid, bin.bin(), bin.margin());
-}
-
 bool isBox(Method method) {
     return method == Method::Box || method == Method::OrientedBox;
 }
@@ -114,6 +87,31 @@ AnalyticBin AnalyticBinCullCallback::shownBin() const {
     return bin;
 }
 
+AnalyticBinCullCallback::PreparedBin AnalyticBinCullCallback::preparedBin(const AnalyticBin& shown,
+                                                                          const core::Ellipsoid& ellipsoid) const {
+    const core::ParameterBox box = core::parameterBox(shown.bin());
+    switch (_options.method) {
+        case Method::Paper:
+            return core::PaperBin(core::GeodeticMapping(ellipsoid), box, _options.growth);
+        case Method::Corners:
+            return core::CornersBin(core::GeodeticMapping(ellipsoid), box);
+        case Method::Box:
+            return core::BoxBin(ellipsoid, shown.bin(), shown.margin());
+        case Method::OrientedBox:
+            return core::OrientedBoxBin(ellipsoid, shown.bin(), shown.margin());
+        case Method::Exact:
+            if (core::ExactGeodeticBin::holds(ellipsoid, shown.bin())) {
+                return core::ExactGeodeticBin(ellipsoid, shown.bin(), shown.margin());
+            }
+            break;
+        case Method::Quadratic:
+        case Method::Sphere:
+        case Method::None:
+            break;
+    }
+    return core::GeodeticQuadraticBin(ellipsoid, shown.bin(), shown.margin());
+}
+
 void AnalyticBinCullCallback::prepare() {
     _prepared.reset();
     const AnalyticBin shown = shownBin();
@@ -123,7 +121,7 @@ void AnalyticBinCullCallback::prepare() {
     osg::BoundingSphere sphere = shown.boundingSphere(*_ellipsoid);
     if (_hasLocalFrame) sphere = movedSphere(sphere, _ecefToLocal);
     const core::Ellipsoid ellipsoid = toCore(*_ellipsoid);
-    _prepared = Prepared{preparedBin(shown, ellipsoid, _options),
+    _prepared = Prepared{preparedBin(shown, ellipsoid),
                          std::nullopt,
                          std::nullopt,
                          ellipsoid,
