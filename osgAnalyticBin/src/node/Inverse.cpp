@@ -3,6 +3,7 @@
 
 #include "Inverse.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace osgAnalyticBin {
@@ -14,13 +15,6 @@ constexpr double kInverseTolerance = 1e-10;
 
 bool isAffine(const osg::Matrixd& m) {
     return m(0, 3) == 0.0 && m(1, 3) == 0.0 && m(2, 3) == 0.0 && m(3, 3) == 1.0;
-}
-
-bool hasFiniteNumbers(const osg::Matrixd& m) {
-    for (int i = 0; i < 16; ++i) {
-        if (!std::isfinite(m.ptr()[i])) return false;
-    }
-    return true;
 }
 
 // Without the translations, which are as large as the earth. Written so that NaN is no inverse.
@@ -35,6 +29,10 @@ bool areInverse(const osg::Matrixd& a, const osg::Matrixd& b) {
 }
 
 }  // namespace
+
+bool hasFiniteNumbers(const osg::Matrixd& matrix) {
+    return std::all_of(matrix.ptr(), matrix.ptr() + 16, [](double number) { return std::isfinite(number); });
+}
 
 std::optional<osg::Matrixd> affineInverse(const osg::Matrixd& matrix) {
     osg::Matrixd inverse;

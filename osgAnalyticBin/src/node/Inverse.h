@@ -9,6 +9,9 @@
 
 namespace osgAnalyticBin {
 
+/// Whether no number of the matrix is infinite or NaN.
+[[nodiscard]] bool hasFiniteNumbers(const osg::Matrixd& matrix);
+
 /// The inverse of an affine matrix.
 /// Returns: nullopt for any other matrix, for one with numbers that are not finite, and for one that is singular or so
 /// close to it that rounding has a say in the inverse: osg::Matrixd::invert() gives some numbers for these.

@@ -10,7 +10,6 @@
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace osgAnalyticBin {
@@ -39,11 +38,6 @@ bool isShadowPass(osg::NodeVisitor& visitor) {
         if (camera->getReferenceFrame() == osg::Transform::ABSOLUTE_RF) return false;
     }
     return false;
-}
-
-// Near and far planes in one place make numbers that are not.
-bool isFinite(const osg::Matrixd& matrix) {
-    return std::all_of(matrix.ptr(), matrix.ptr() + 16, [](double number) { return std::isfinite(number); });
 }
 
 // Projections whose lines of sight meet in the origin of eye space.
@@ -93,7 +87,8 @@ std::optional<Viewpoint> Viewpoint::of(osg::CullStack& cullStack, osg::NodeVisit
     if (!inShadowPasses && isShadowPass(visitor)) return std::nullopt;
     const osg::Matrixd& projection = *cullStack.getProjectionMatrix();
     const auto inverse = affineInverse(*cullStack.getModelViewMatrix());
-    if (!inverse || !isFinite(projection)) return std::nullopt;
+    // near and far planes in one place make numbers that are not finite
+    if (!inverse || !hasFiniteNumbers(projection)) return std::nullopt;
     const osg::Matrixd& eyeToWorld = *inverse;
     Viewpoint viewpoint;
     if (isPerspective(projection)) {
