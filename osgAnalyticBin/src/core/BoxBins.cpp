@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "LocalFrame.h"
+
 #include <osgAnalyticBin/core/BoxBins.h>
 #include <osgAnalyticBin/core/ExactGeodeticBin.h>
 
@@ -54,11 +56,8 @@ const Axes& ecefAxes() {
 }
 
 Axes eastNorthUp(const Geodetic& position) {
-    const double sine = std::sin(position.latitude);
-    const double cosine = std::cos(position.latitude);
-    const glm::dvec3 radial(std::cos(position.longitude), std::sin(position.longitude), 0.0);
-    const glm::dvec3 pole(0.0, 0.0, 1.0);
-    return {glm::dvec3(-radial.y, radial.x, 0.0), cosine * pole - sine * radial, cosine * radial + sine * pole};
+    const LocalFrame frame(position.latitude, position.longitude);
+    return {frame.east, frame.north, frame.up};
 }
 
 // `radius`: half of what the box measures across the plane. A number that is not finite decides nothing.

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "LocalFrame.h"
+
 #include <osgAnalyticBin/core/GeodeticMapping.h>
 
 #include <algorithm>
@@ -15,20 +17,6 @@ namespace {
 constexpr double kHalfPi = 1.57079632679489661923;
 // The bounds below are sums and products of some twenty rounded terms.
 constexpr double kRoundUp = 1.0 + 1e-13;
-
-// Sine, cosine and the unit vectors of doc/derivation.md, section 2, at a latitude and longitude.
-struct LocalFrame {
-    LocalFrame(double latitude, double longitude)
-        : sinLat(std::sin(latitude)),
-          cosLat(std::cos(latitude)),
-          radial(std::cos(longitude), std::sin(longitude), 0.0),
-          east(-radial.y, radial.x, 0.0),
-          north(-sinLat * radial.x, -sinLat * radial.y, cosLat),
-          up(cosLat * radial.x, cosLat * radial.y, sinLat) {}
-
-    double sinLat, cosLat;
-    glm::dvec3 radial, east, north, up;
-};
 
 // Upper bounds of the factors of the third derivatives over a range of latitudes.
 struct LatitudeBounds {

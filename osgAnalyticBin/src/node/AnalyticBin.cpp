@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "../core/LocalFrame.h"
 #include "GlmBridge.h"
 #include "Spheres.h"
 #include "Text.h"
@@ -69,16 +70,10 @@ constexpr double kWidestBox = 1.0;
 
 // The box about a bin along the east, north and up of its middle hardly leaves the bin's corners.
 osg::BoundingSphere sphereOfBox(const core::ExactGeodeticBin& bin, const core::Geodetic& middle) {
-    const double sinLat = std::sin(middle.latitude);
-    const double cosLat = std::cos(middle.latitude);
-    const double sinLon = std::sin(middle.longitude);
-    const double cosLon = std::cos(middle.longitude);
-    const glm::dvec3 axes[] = {{-sinLon, cosLon, 0.0},
-                               {-sinLat * cosLon, -sinLat * sinLon, cosLat},
-                               {cosLat * cosLon, cosLat * sinLon, sinLat}};
+    const core::LocalFrame frame(middle.latitude, middle.longitude);
     glm::dvec3 center(0.0);
     double squaredRadius = 0.0;
-    for (const glm::dvec3& axis : axes) {
+    for (const glm::dvec3& axis : {frame.east, frame.north, frame.up}) {
         const core::Interval range = bin.distanceRange({axis, 0.0});
         center += range.middle() * axis;
         squaredRadius += 0.25 * range.width() * range.width();
