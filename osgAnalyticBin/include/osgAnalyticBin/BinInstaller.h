@@ -85,6 +85,9 @@ private:
     [[nodiscard]] Database& database();
     void install(FoundTile& tile);
     void installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape);
+    [[nodiscard]] osg::ref_ptr<ParentTile> linkTo(const FoundTile& tile) const;
+    void noteCovered(const FoundTile& tile, double area);
+    void goOnBelow(const FoundTile& tile, const ParentTile& link);
     void uninstall(FoundTile& tile);
     void followPaging(osg::PagedLOD& node, const ParentTile* tile);
 

@@ -10,6 +10,7 @@
 #include "PlanarBinCullCallback.h"
 #include "PlanarFit.h"
 #include "Scoped.h"
+#include "TileCallback.h"
 #include "TileFit.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -25,7 +26,6 @@
 #include <algorithm>
 #include <optional>
 #include <string>
-#include <typeinfo>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -33,47 +33,6 @@ namespace osgAnalyticBin {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-// The options that a callback of ours was made with. Returns: nullptr for any other callback.
-const CullOptions* optionsOf(const osg::Callback& callback) {
-    if (const auto* geocentric = dynamic_cast<const AnalyticBinCullCallback*>(&callback)) {
-        return &geocentric->cullOptions();
-    }
-    const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(&callback);
-    return planar ? &planar->cullOptions() : nullptr;
-}
-
-osg::Callback* installedCallback(osg::Node& node) {
-    osg::Callback* callback = node.getCullCallback();
-    while (callback && !optionsOf(*callback)) callback = callback->getNestedCallback();
-    return callback;
-}
-
-// Whether a group stands for its only child.
-bool isCarrier(const osg::Group& group) {
-    return typeid(group) == typeid(osg::Group) && group.getNumChildren() == 1 && !hasStoredBin(group);
-}
-
-// The node that is culled for a tile. OSG enters the frame of a transform before it asks the transform's callbacks,
-// which costs more than the bin's test: in files of tiles a transform gets a group above it.
-osg::Node& culledNode(const FoundTile& tile) {
-    osg::Node& node = *tile.node;
-    if (!node.asTransform() || !tile.frame.isBelowTile || node.getNumParents() != 1) return node;
-    osg::Group& parent = *node.getParent(0);
-    if (isCarrier(parent)) return parent;
-    const osg::ref_ptr<osg::Group> carrier = new osg::Group;
-    carrier->addChild(&node);
-    parent.replaceChild(&node, carrier);
-    return *carrier;
-}
-
-// The node that carries a tile's callback: it, or the group that was put above it.
-osg::Node* installedNode(osg::Node& node) {
-    if (installedCallback(node)) return &node;
-    if (!node.asTransform() || node.getNumParents() != 1) return nullptr;
-    osg::Group& parent = *node.getParent(0);
-    return isCarrier(parent) && installedCallback(parent) ? &parent : nullptr;
-}
 
 // A database's own request to install bins is settled by the installer; what it declares counts where the installer was
 // told nothing else. Returns: the options for the node and what is below it.
@@ -290,102 +249,77 @@ void BinInstaller::visitTooDeep(osg::Node&) {
 }
 
 void BinInstaller::install(FoundTile& tile) {
-    osg::Node& node = *tile.node;
-    const osg::ref_ptr<ParentTile> link = new ParentTile;
-    link->parent = _parent;
-    link->file = tile.frame.file;
-    link->ordinal = tile.ordinal;
+    const osg::ref_ptr<ParentTile> link = linkTo(tile);
     const TerrainShape shape = database().fittedShape();
     const TileFit fit = fitTile(tile, database(), shape, *link);
-    if (!fit.isTerrain) return visitOther(node);
+    if (!fit.isTerrain) return visitOther(*tile.node);
 
     const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database().ellipsoid();
     const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);
     osg::Node& culled = culledNode(tile);
-    osg::Transform* transform = culled.asTransform();
-    const osg::Matrixd localToEcef = transform ? frameInside(*transform, tile.frame) : tile.frame.localToEcef;
+    const osg::Matrixd localToEcef = culledFrame(tile, culled);
     if (!localToEcef.isIdentity()) callback->setLocalToEcef(localToEcef);
     if (fit.isScalable) callback->setTerrainShape(shape);
     if (fit.skirt > 0.0) callback->setSkirt(fit.skirt);
     callback->setSurface(fit.surface);
-    // In front: what is nested runs when the tile is kept.
-    callback->setNestedCallback(culled.getCullCallback());
-    culled.setCullCallback(callback.get());
-    culled.setCullingActive(false);
-    node.setCullingActive(false);
-    for (const auto& mesh : tile.meshes) setSphereCulling(*mesh, false);
+    placeCallback(tile, culled, *callback);
+    ++_installed;
     if (_options.cluster == ClusterUse::Replace) {
-        suspendClusterCullingOf(node);
+        suspendClusterCullingOf(*tile.node);
         for (const auto& mesh : tile.meshes) suspendClusterCulling(*mesh);
     }
     link->callback = callback.get();
+    noteCovered(tile, areaOf(link->extents));
+    goOnBelow(tile, *link);
+}
+
+void BinInstaller::installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape) {
+    osg::Node& culled = culledNode(tile);
+    const auto mapToLocal = affineInverse(culledFrame(tile, culled));
+    if (!mapToLocal) return visitOther(*tile.node);
+    // what neighbours lend to edges, and what other techniques make of heights, is not known
+    if (fit.isScalable && (shape.areBoundariesEqual || !shape.isKnown)) return visitOther(*tile.node);
+    const osg::ref_ptr<PlanarBinCullCallback> callback = new PlanarBinCullCallback(
+        PlanarBin(fit.box, *mapToLocal), fit.isScalable ? std::optional(shape) : std::nullopt, _options);
+    placeCallback(tile, culled, *callback);
     ++_installed;
-    const double area = areaOf(link->extents);
+    goOnBelow(tile, *linkTo(tile));
+}
+
+osg::ref_ptr<ParentTile> BinInstaller::linkTo(const FoundTile& tile) const {
+    osg::ref_ptr<ParentTile> link = new ParentTile;
+    link->parent = _parent;
+    link->file = tile.frame.file;
+    link->ordinal = tile.ordinal;
+    return link;
+}
+
+void BinInstaller::noteCovered(const FoundTile& tile, double area) {
     Coverage& coverage = _coverage[tile.frame.file];
     coverage.isVisited = true;
     coverage.tiles += area;
     coverage.smallest = std::min(coverage.smallest, area);
     for (const std::string& file : tile.pagedFiles) _coverage[file].expected = area;
-
-    if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) {
-        raiseExpiry(*paged, _options.expiry);
-        followPaging(*paged, link.get());
-    }
-    const Scoped below(_parent, osg::ref_ptr<const ParentTile>(link));
-    traverseBelow(node);
 }
 
-void BinInstaller::installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape) {
-    osg::Node& node = *tile.node;
-    osg::Node& culled = culledNode(tile);
-    osg::Transform* transform = culled.asTransform();
-    const osg::Matrixd localToMap = transform ? frameInside(*transform, tile.frame) : tile.frame.localToEcef;
-    const auto mapToLocal = affineInverse(localToMap);
-    if (!mapToLocal) return visitOther(node);
-    // what neighbours lend to edges, and what other techniques make of heights, is not known
-    if (fit.isScalable && (shape.areBoundariesEqual || !shape.isKnown)) return visitOther(node);
-    const osg::ref_ptr<PlanarBinCullCallback> callback = new PlanarBinCullCallback(
-        PlanarBin(fit.box, *mapToLocal), fit.isScalable ? std::optional(shape) : std::nullopt, _options);
-    // In front: what is nested runs when the tile is kept.
-    callback->setNestedCallback(culled.getCullCallback());
-    culled.setCullCallback(callback.get());
-    culled.setCullingActive(false);
-    node.setCullingActive(false);
-    for (const auto& mesh : tile.meshes) setSphereCulling(*mesh, false);
-    ++_installed;
-
-    const osg::ref_ptr<ParentTile> link = new ParentTile;
-    link->parent = _parent;
-    link->file = tile.frame.file;
-    link->ordinal = tile.ordinal;
-    if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) {
+void BinInstaller::goOnBelow(const FoundTile& tile, const ParentTile& link) {
+    if (auto* paged = dynamic_cast<osg::PagedLOD*>(tile.node.get())) {
         raiseExpiry(*paged, _options.expiry);
-        followPaging(*paged, link.get());
+        followPaging(*paged, &link);
     }
-    const Scoped below(_parent, osg::ref_ptr<const ParentTile>(link));
-    traverseBelow(node);
+    const Scoped below(_parent, osg::ref_ptr<const ParentTile>(&link));
+    traverseBelow(*tile.node);
 }
 
 void BinInstaller::uninstall(FoundTile& tile) {
-    osg::Node& node = *tile.node;
-    bool wasInstalled = false;
-    while (osg::Node* culled = installedNode(node)) {
-        const osg::ref_ptr<osg::Callback> ours = installedCallback(*culled);
-        if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) restoreExpiry(*paged, optionsOf(*ours)->expiry);
-        culled->removeCullCallback(ours.get());
-        culled->setCullingActive(true);
-        wasInstalled = true;
-    }
+    removeCallbacks(tile);
     // Method::None suspends without a callback of ours
-    resumeCullingOf(node);
-    resumeClusterCullingOf(node);
+    resumeCullingOf(*tile.node);
+    resumeClusterCullingOf(*tile.node);
     for (const auto& mesh : tile.meshes) {
         resumeCulling(*mesh);
         resumeClusterCulling(*mesh);
     }
-    if (!wasInstalled) return;
-    node.setCullingActive(true);
-    for (const auto& mesh : tile.meshes) setSphereCulling(*mesh, true);
 }
 
 void BinInstaller::followPaging(osg::PagedLOD& node, const ParentTile* tile) {
