@@ -6,6 +6,7 @@
 #include "DatabaseCallbacks.h"
 #include "Inverse.h"
 #include "MeshCulling.h"
+#include "PagedFiles.h"
 #include "PagingExpiry.h"
 #include "PlanarBinCullCallback.h"
 #include "PlanarFit.h"
@@ -21,7 +22,6 @@
 #include <osg/PagedLOD>
 #include <osgDB/Registry>
 #include <osgTerrain/Terrain>
-#include <osgTerrain/TerrainTile>
 
 #include <algorithm>
 #include <optional>
@@ -51,69 +51,13 @@ CullOptions settled(osg::Node& node, const CullOptions& options) {
     return effective;
 }
 
-BinReadFileCallback* readCallbackOf(osg::PagedLOD& node) {
-    const auto* options = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
-    return options ? dynamic_cast<BinReadFileCallback*>(options->getReadFileCallback()) : nullptr;
-}
-
-// Looks for the database that the pages below a node belong to.
-class DatabaseFinder : public osg::NodeVisitor {
-public:
-    DatabaseFinder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-
-    void apply(osg::Node& node) override {
-        if (!_found && !dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
-    }
-    void apply(osg::PagedLOD& node) override {
-        BinReadFileCallback* callback = readCallbackOf(node);
-        if (callback && !_found) _found = callback->database();
-        apply(static_cast<osg::Node&>(node));
-    }
-
-    [[nodiscard]] Database* found() const { return _found.get(); }
-
-private:
-    osg::ref_ptr<Database> _found;
-};
-
-// Returns: null when no installer has been here.
-osg::ref_ptr<Database> databaseOf(osg::Node& node) {
-    if (Database* attached = attachedDatabase(node)) return attached;
-    DatabaseFinder finder;
-    node.accept(finder);
-    return finder.found();
-}
-
 bool isGlobeBroken(const osg::CoordinateSystemNode& node) {
     return node.getEllipsoidModel() && !hasValidRadii(*node.getEllipsoidModel());
-}
-
-osgDB::ReadFileCallback* previousCallback(const osgDB::Options& options) {
-    osgDB::ReadFileCallback* callback = options.getReadFileCallback();
-    auto* ours = dynamic_cast<BinReadFileCallback*>(callback);
-    return ours ? ours->previous() : callback;
 }
 
 // Square radians.
 double areaOf(const core::GeodeticBin& extents) {
     return extents.empty() ? 0.0 : extents.latitude().width() * extents.longitude().width();
-}
-
-struct PagedFile {
-    std::string name;  // as the pager asks for it
-    TileFrame frame;
-};
-
-std::vector<PagedFile> filesPagedBy(const osg::PagedLOD& node, const TileFrame& frame, bool isTile) {
-    std::vector<PagedFile> files;
-    for (unsigned int i = 0; i < node.getNumFileNames(); ++i) {
-        if (node.getFileName(i).empty()) continue;
-        TileFrame inside = frame;
-        inside.file = pagedFilePath(frame.file, node.getFileName(i));
-        inside.isBelowTile = inside.isBelowTile || isTile;
-        files.push_back({node.getDatabasePath() + node.getFileName(i), inside});
-    }
-    return files;
 }
 
 }  // namespace

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// What PagedLODs have the DatabasePager read, and the read callbacks that are told of it.
+
+#pragma once
+
+#include "Database.h"
+
+#include <osgAnalyticBin/TileFinder.h>
+
+#include <osg/Node>
+#include <osg/PagedLOD>
+#include <osgDB/Options>
+#include <osgDB/ReadFile>
+
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+struct PagedFile {
+    std::string name;  ///< as the pager asks for it
+    TileFrame frame;   ///< where its content stands
+};
+
+/// The files of a PagedLOD that stands in `frame`; `isTile`: and is a tile.
+[[nodiscard]] std::vector<PagedFile> filesPagedBy(const osg::PagedLOD& node, const TileFrame& frame, bool isTile);
+
+/// The read callback of options, or the one that ours among them hands on to. May be null.
+[[nodiscard]] osgDB::ReadFileCallback* previousCallback(const osgDB::Options& options);
+
+/// The database that the node carries, or that the files paged below it belong to. Null when no installer has been
+/// here.
+[[nodiscard]] osg::ref_ptr<Database> databaseOf(osg::Node& node);
+
+}  // namespace osgAnalyticBin
