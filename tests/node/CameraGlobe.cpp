@@ -117,8 +117,7 @@ bool isSeen(const osg::Vec3d& sample, const Sight& sight) {
     if (!sight.occluderDepth) return true;
     const double start = sight.nearPlane == NearPlane::AtPlusOne ? 1.0 : -1.0;
     const osg::Vec3d end = (fromEye ? osg::Vec3d() : osg::Vec3d(clip.x() / w, clip.y() / w, start)) * sight.back;
-    return segmentMissesOccluder(core::Ellipsoid(kEarthRadius, 6356752.3142), *sight.occluderDepth, real(sample),
-                                 real(end));
+    return segmentMissesOccluder(earth(), *sight.occluderDepth, real(sample), real(end));
 }
 
 }  // namespace

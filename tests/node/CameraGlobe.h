@@ -22,7 +22,13 @@
 
 namespace osgAnalyticBin::test {
 
+/// Metres, as OSG has WGS 84.
 inline constexpr double kEarthRadius = 6378137.0;
+inline constexpr double kPolarRadius = 6356752.3142;
+
+[[nodiscard]] inline core::Ellipsoid earth() {
+    return {kEarthRadius, kPolarRadius};
+}
 
 [[nodiscard]] inline osg::Vec3d osgVector(const glm::dvec3& v) {
     return {v.x, v.y, v.z};

@@ -64,12 +64,11 @@ test::RealVector real(const osg::Vec3d& v) {
 
 bool isSeen(const AnalyticBin& bin, const CullView& view, const osg::Vec3d& eye) {
     const std::vector<osg::Plane> planes = view.sidePlanes();
-    const core::Ellipsoid earth(kEarthRadius, 6356752.3142);
     const std::vector<osg::Vec3d> points = test::samples(bin, 9);
     return std::any_of(points.begin(), points.end(), [&](const osg::Vec3d& point) {
         const bool inside = std::all_of(planes.begin(), planes.end(),
                                         [&](const osg::Plane& plane) { return plane.distance(point) >= 0.0; });
-        return inside && test::segmentMissesOccluder(earth, kDepth, real(point), real(eye));
+        return inside && test::segmentMissesOccluder(test::earth(), kDepth, real(point), real(eye));
     });
 }
 

@@ -103,12 +103,11 @@ bool isInSight(const osg::Vec3d& point, const CullView& view) {
     const auto real = [](const osg::Vec3d& v) {
         return test::RealVector{test::Real{v.x()}, test::Real{v.y()}, test::Real{v.z()}};
     };
-    const core::Ellipsoid earth(kEarthRadius, 6356752.3142);
     if (view.projection(2, 3) == 0.0) {
         const osg::Vec3d towardEye = osg::Matrixd::transform3x3(osg::Vec3d(0, 0, 1), toWorld);
-        return test::halfLineMissesOccluder(earth, kOccluderDepth, real(point), real(towardEye));
+        return test::halfLineMissesOccluder(test::earth(), kOccluderDepth, real(point), real(towardEye));
     }
-    return test::segmentMissesOccluder(earth, kOccluderDepth, real(point), real(osg::Vec3d() * toWorld));
+    return test::segmentMissesOccluder(test::earth(), kOccluderDepth, real(point), real(osg::Vec3d() * toWorld));
 }
 
 class NearFar : public testing::TestWithParam<CullSettings::ComputeNearFarMode> {};
