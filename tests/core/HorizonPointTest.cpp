@@ -4,6 +4,8 @@
 // Oracles: the exact intersection of a line of sight with the occluder in long double; the point itself, found from
 // samples of the bin, whose own line of sight is tested. Ten million more trials: HullSoundness.cpp.
 
+#include "HorizonChecks.h"
+
 #include <osgAnalyticBin/core/Horizon.h>
 
 #include <glm/geometric.hpp>
@@ -33,44 +35,19 @@ HorizonPoint pointOf(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double 
     return HorizonPoint(HorizonBin(ellipsoid, bin, margin));
 }
 
+bool hidesPointOf(const HorizonEye& eye, const HorizonBin& bin) {
+    return eye.hides(HorizonPoint(bin));
+}
+
 TEST(HorizonPoint, HidesNoVisiblePoint) {
     Random random(420);
-    int hidden = 0;
-    for (int trial = 0; trial < 60000; ++trial) {
-        const Ellipsoid ellipsoid = randomEllipsoid(random);
-        const GeodeticBin bin = randomBin(random);
-        const double depth = randomDepth(random);
-        const glm::dvec3 eye = randomEye(random, ellipsoid, depth);
-        const auto prepared = HorizonEye::fromEye(ellipsoid, depth, eye);
-        if (!prepared || !prepared->hides(pointOf(ellipsoid, bin))) continue;
-        ++hidden;
-        for (int i = 0; i < 40; ++i) {
-            const RealVector point = geodeticToEcef(ellipsoid, randomPosition(random, bin));
-            ASSERT_FALSE(segmentMissesOccluder(ellipsoid, depth, point, real(eye))) << "trial " << trial;
-        }
-    }
-    EXPECT_GT(hidden, 10000) << "nothing is tested";
+    expectNoVisiblePointToBeHidden(random, hidesPointOf);
 }
 
 TEST(HorizonPoint, SeesEveryPointWhoseLineOfSightJustMisses) {
     Random random(421);
-    int seen = 0;
-    for (int trial = 0; trial < 300000; ++trial) {
-        const LineOfSight line = randomLineOfSight(random);
-        const HorizonPoint point = pointOf(line.ellipsoid, line.bin, line.margin);
-        if (segmentMissesOccluder(line.ellipsoid, line.depth, line.target, real(line.eye))) {
-            ++seen;
-            const auto eye = HorizonEye::fromEye(line.ellipsoid, line.depth, line.eye);
-            ASSERT_FALSE(eye && eye->hides(point)) << "trial " << trial;
-        }
-        const glm::dvec3 direction = glm::normalize(rounded(line.target) - line.eye);
-        if (halfLineMissesOccluder(line.ellipsoid, line.depth, line.target, real(-direction))) {
-            const auto eye =
-                HorizonEye::fromDirection(line.ellipsoid, line.depth, direction, line.eye - 4e7 * direction);
-            ASSERT_FALSE(eye && eye->hides(point)) << "trial " << trial;
-        }
-    }
-    EXPECT_GT(seen, 100000) << "nothing is tested";
+    expectLinesOfSightThatJustMissToBeSeen(random, hidesPointOf);
+    expectParallelRaysThatJustMissToBeSeen(random, hidesPointOf);
 }
 
 TEST(HorizonPoint, NeverHidesWhatTheBinItselfDoesNot) {

@@ -5,6 +5,8 @@
 // at points made so that the line of sight just misses; relations. Ten million more trials: HullSoundness.cpp. Views as
 // in flight: Tightness.cpp.
 
+#include "HorizonChecks.h"
+
 #include <osgAnalyticBin/core/Horizon.h>
 
 #include <glm/geometric.hpp>
@@ -36,6 +38,10 @@ glm::dvec3 onWgs84(double latitudeDeg, double longitudeDeg, double altitude) {
     return wgs84().toEcef({latitudeDeg * kRadiansPerDegree, longitudeDeg * kRadiansPerDegree, altitude});
 }
 
+bool hidesBin(const HorizonEye& eye, const HorizonBin& bin) {
+    return isHidden(bin, eye);
+}
+
 bool hides(const glm::dvec3& eye, const GeodeticBin& bin, double depth = kDepth, double margin = 0.0) {
     const auto prepared = HorizonEye::fromEye(wgs84(), depth, eye);
     return prepared && isHidden(HorizonBin(wgs84(), bin, margin), *prepared);
@@ -47,54 +53,17 @@ GeodeticBin square(double southDeg, double westDeg, double sizeDeg, Interval alt
 
 TEST(Horizon, HidesNoVisiblePoint) {
     Random random(300);
-    int hidden = 0;
-    for (int trial = 0; trial < 60000; ++trial) {
-        const Ellipsoid ellipsoid = randomEllipsoid(random);
-        const GeodeticBin bin = randomBin(random);
-        const double depth = randomDepth(random);
-        const glm::dvec3 eye = randomEye(random, ellipsoid, depth);
-        const auto prepared = HorizonEye::fromEye(ellipsoid, depth, eye);
-        if (!prepared || !isHidden(HorizonBin(ellipsoid, bin), *prepared)) continue;
-        ++hidden;
-        for (int i = 0; i < 40; ++i) {
-            const RealVector point = geodeticToEcef(ellipsoid, randomPosition(random, bin));
-            ASSERT_FALSE(segmentMissesOccluder(ellipsoid, depth, point, real(eye))) << "trial " << trial;
-        }
-    }
-    EXPECT_GT(hidden, 10000) << "nothing is tested";
+    expectNoVisiblePointToBeHidden(random, hidesBin);
 }
 
 TEST(Horizon, SeesEveryPointWhoseLineOfSightJustMisses) {
     Random random(301);
-    int seen = 0;
-    for (int trial = 0; trial < 300000; ++trial) {
-        const LineOfSight line = randomLineOfSight(random);
-        if (!segmentMissesOccluder(line.ellipsoid, line.depth, line.target, real(line.eye))) continue;
-        ++seen;
-        const auto prepared = HorizonEye::fromEye(line.ellipsoid, line.depth, line.eye);
-        if (!prepared) continue;
-        ASSERT_FALSE(isHidden(HorizonBin(line.ellipsoid, line.bin, line.margin), *prepared)) << "trial " << trial;
-    }
-    EXPECT_GT(seen, 100000) << "nothing is tested";
+    expectLinesOfSightThatJustMissToBeSeen(random, hidesBin);
 }
 
 TEST(Horizon, SeesEveryPointThatAParallelRayReaches) {
     Random random(302);
-    int seen = 0;
-    int active = 0;
-    for (int trial = 0; trial < 200000; ++trial) {
-        const LineOfSight line = randomLineOfSight(random);
-        const glm::dvec3 direction = glm::normalize(rounded(line.target) - line.eye);
-        if (!halfLineMissesOccluder(line.ellipsoid, line.depth, line.target, real(-direction))) continue;
-        ++seen;
-        const glm::dvec3 nearPoint = line.eye - 4e7 * direction;
-        const auto prepared = HorizonEye::fromDirection(line.ellipsoid, line.depth, direction, nearPoint);
-        if (!prepared) continue;
-        ++active;
-        ASSERT_FALSE(isHidden(HorizonBin(line.ellipsoid, line.bin, line.margin), *prepared)) << "trial " << trial;
-    }
-    EXPECT_GT(seen, 50000);
-    EXPECT_GT(active, 50000);
+    expectParallelRaysThatJustMissToBeSeen(random, hidesBin);
 }
 
 // The share of truly hidden tiles that are found; truth by dense sampling, which calls too many hidden, if anything.
