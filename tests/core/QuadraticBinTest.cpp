@@ -4,6 +4,8 @@
 // Oracles: the closed form of the bin's range (tested itself in GeodeticOracleTest), samples of the bin, relations.
 // Ten million more pairs of bin and plane: Soundness.cpp. The range of the polynomial: QuadraticRangeTest.
 
+#include "BinChecks.h"
+
 #include <osgAnalyticBin/core/GeodeticMapping.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
 
@@ -35,37 +37,14 @@ QuadraticBin quadratic(const Ellipsoid& ellipsoid, const GeodeticBin& bin, doubl
     return QuadraticBin(GeodeticMapping(ellipsoid), core::parameterBox(bin), margin);
 }
 
-struct PlaneCase {
-    explicit PlaneCase(Random& random)
-        : kind(random.pick(kBinKinds)),
-          oracle(randomEllipsoid(random), randomBin(random, kind)),
-          plane(randomPlane(random, oracle, random.pick(kPlaneKinds))) {}
-
-    BinKind kind;
-    BinOracle oracle;
-    Plane plane;
-};
+// The same, where planes are far away besides.
+double sameRange(const PlaneCase& c) {
+    return kSameGeometry + 1e-14 * std::abs(c.plane.offset);
+}
 
 TEST(QuadraticBin, NeverContradictsASample) {
     Random random(60);
-    std::array<int, 3> verdicts{};
-    for (int trial = 0; trial < 20000; ++trial) {
-        const PlaneCase c(random);
-        const Side side = quadratic(c.oracle.ellipsoid(), c.oracle.bin()).classify(c.plane);
-        ++verdicts[static_cast<std::size_t>(side)];
-        if (side == Side::Straddling) continue;
-        for (int i = 0; i < 30; ++i) {
-            const Real distance =
-                exactDistance(c.plane, geodeticToEcef(c.oracle.ellipsoid(), randomPosition(random, c.oracle.bin())));
-            if (side == Side::Outside) {
-                ASSERT_LT(distance, 0) << nameOf(c.kind);
-            }
-            if (side == Side::Inside) {
-                ASSERT_GE(distance, 0) << nameOf(c.kind);
-            }
-        }
-    }
-    for (const int count : verdicts) EXPECT_GT(count, 1000) << "every verdict must occur, or nothing is tested";
+    expectNoContradictionOfASample(random, quadratic);
 }
 
 TEST(QuadraticBin, DistanceRangeHoldsTheTrueRange) {
@@ -180,40 +159,19 @@ TEST(QuadraticBin, DecidesPlanesThatClearlyMiss) {
 
 TEST(QuadraticBin, MarginWidensTheRangeByItself) {
     Random random(67);
+    expectMarginToWidenTheRangeByItself(
+        random, quadratic, [](const PlaneCase& c) { return 1e-15 * std::abs(c.plane.offset) + kSameGeometry; });
     for (int trial = 0; trial < 50000; ++trial) {
-        const PlaneCase c(random);
+        const Ellipsoid ellipsoid = randomEllipsoid(random);
+        const GeodeticBin bin = randomBin(random);
         const double margin = random.logUniform(1e-3, 1e5);
-        const QuadraticBin bare = quadratic(c.oracle.ellipsoid(), c.oracle.bin());
-        const QuadraticBin wide = quadratic(c.oracle.ellipsoid(), c.oracle.bin(), margin);
-        const double tolerance = 2e-9 * margin + 1e-15 * std::abs(c.plane.offset) + kSameGeometry;
-        ASSERT_NEAR(wide.remainder() - bare.remainder(), margin, tolerance);
-        ASSERT_NEAR(bare.distanceRange(c.plane).lower - wide.distanceRange(c.plane).lower, margin, tolerance);
-        ASSERT_NEAR(wide.distanceRange(c.plane).upper - bare.distanceRange(c.plane).upper, margin, tolerance);
-        const Side side = wide.classify(c.plane);
-        if (side == Side::Straddling) continue;
-        const RealVector point = geodeticToEcef(c.oracle.ellipsoid(), randomPosition(random, c.oracle.bin())) +
-                                 real(margin * 0.999999 * random.direction());
-        if (side == Side::Outside) {
-            ASSERT_LT(exactDistance(c.plane, point), 0);
-        }
-        if (side == Side::Inside) {
-            ASSERT_GE(exactDistance(c.plane, point), 0);
-        }
+        const double widened = quadratic(ellipsoid, bin, margin).remainder() - quadratic(ellipsoid, bin).remainder();
+        ASSERT_NEAR(widened, margin, 2e-9 * margin + kSameGeometry);
     }
 }
 
 TEST(QuadraticBin, PlaneWithoutNumbersIsUndecided) {
-    const QuadraticBin bin = quadratic(wgs84(), GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0}));
-    for (int broken = 0; broken < 4; ++broken) {
-        Plane plane{{1.0, 0.0, 0.0}, -1e9};
-        ASSERT_EQ(bin.classify(plane), Side::Outside);
-        (broken < 3 ? plane.normal[broken] : plane.offset) = kNaN;
-        EXPECT_EQ(bin.classify(plane), Side::Straddling) << broken;
-        EXPECT_EQ(bin.classify(plane.flipped()), Side::Straddling) << broken;
-    }
-    for (const double offset : {kInfinity, -kInfinity}) {
-        EXPECT_EQ(bin.classify({{1.0, 0.0, 0.0}, offset}), Side::Straddling);
-    }
+    expectPlanesWithoutNumbersToBeUndecided(quadratic);
 }
 
 TEST(QuadraticBin, NormalsMayBeOffByTheTolerance) {
@@ -231,55 +189,19 @@ TEST(QuadraticBin, NormalsMayBeOffByTheTolerance) {
     }
 }
 
-void expectSameRangeBeyond(const Interval& a, const Interval& b, double offset) {
-    const double tolerance = kSameGeometry + 1e-14 * std::abs(offset);
-    ASSERT_NEAR(a.lower, b.lower, tolerance);
-    ASSERT_NEAR(a.upper, b.upper, tolerance);
-}
-
 TEST(QuadraticBin, FlippingThePlaneFlipsTheRange) {
     Random random(69);
-    for (int trial = 0; trial < 50000; ++trial) {
-        const PlaneCase c(random);
-        const QuadraticBin bin = quadratic(c.oracle.ellipsoid(), c.oracle.bin());
-        const Interval range = bin.distanceRange(c.plane);
-        const Interval flipped = bin.distanceRange(c.plane.flipped());
-        ASSERT_EQ(flipped.lower, -range.upper);
-        ASSERT_EQ(flipped.upper, -range.lower);
-    }
+    expectFlippedPlanesToFlipTheRange(random, quadratic);
 }
 
 TEST(QuadraticBin, TurnsWithTheEarth) {
     Random random(70);
-    for (int trial = 0; trial < 50000; ++trial) {
-        const PlaneCase c(random);
-        const GeodeticBin& bin = c.oracle.bin();
-        const double turn = random.uniform(-kPi, kPi);
-        const GeodeticBin turned(bin.latitude(), {bin.longitude().lower + turn, bin.longitude().upper + turn},
-                                 bin.altitude());
-        if (turned.isFullCircle() || bin.isFullCircle()) continue;  // its middle is fixed
-        const glm::dvec3& n = c.plane.normal;
-        const Plane plane{
-            {n.x * std::cos(turn) - n.y * std::sin(turn), n.x * std::sin(turn) + n.y * std::cos(turn), n.z},
-            c.plane.offset};
-        expectSameRangeBeyond(quadratic(c.oracle.ellipsoid(), turned).distanceRange(plane),
-                              quadratic(c.oracle.ellipsoid(), bin).distanceRange(c.plane), plane.offset);
-    }
+    expectRangesToTurnWithTheEarth(random, quadratic, sameRange, false);
 }
 
 TEST(QuadraticBin, MirrorsWithTheHemispheres) {
     Random random(71);
-    for (int trial = 0; trial < 50000; ++trial) {
-        const PlaneCase c(random);
-        const GeodeticBin& bin = c.oracle.bin();
-        const GeodeticBin south({-bin.latitude().upper, -bin.latitude().lower}, bin.longitude(), bin.altitude());
-        const GeodeticBin west(bin.latitude(), {-bin.longitude().upper, -bin.longitude().lower}, bin.altitude());
-        const Interval range = quadratic(c.oracle.ellipsoid(), bin).distanceRange(c.plane);
-        const Plane downward{c.plane.normal * glm::dvec3(1.0, 1.0, -1.0), c.plane.offset};
-        const Plane westward{c.plane.normal * glm::dvec3(1.0, -1.0, 1.0), c.plane.offset};
-        expectSameRangeBeyond(quadratic(c.oracle.ellipsoid(), south).distanceRange(downward), range, c.plane.offset);
-        expectSameRangeBeyond(quadratic(c.oracle.ellipsoid(), west).distanceRange(westward), range, c.plane.offset);
-    }
+    expectRangesToMirrorWithTheHemispheres(random, quadratic, sameRange);
 }
 
 TEST(QuadraticBin, SmallerBoxesHaveSmallerRanges) {
@@ -301,14 +223,7 @@ TEST(QuadraticBin, SmallerBoxesHaveSmallerRanges) {
 
 TEST(QuadraticBin, CameraInsideTheBinKeepsIt) {
     Random random(73);
-    for (int trial = 0; trial < 50000; ++trial) {
-        const Ellipsoid ellipsoid = randomEllipsoid(random);
-        const GeodeticBin bin = randomBin(random);
-        const glm::dvec3 eye = rounded(geodeticToEcef(ellipsoid, randomPosition(random, bin)));
-        const glm::dvec3 normal = random.direction();
-        const Side side = quadratic(ellipsoid, bin).classify({normal, -glm::dot(normal, eye)});
-        ASSERT_EQ(side, Side::Straddling);
-    }
+    expectACameraInsideToKeepTheBin(random, quadratic);
 }
 
 TEST(QuadraticBin, APointHasNoRange) {
