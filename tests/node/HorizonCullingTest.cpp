@@ -23,18 +23,10 @@ namespace {
 
 using core::GeodeticBin;
 using test::CullView;
-
+using test::horizonOptions;
 using test::kEarthRadius;
+using test::kOccluderDepth;
 using test::osgVector;
-constexpr double kDepth = 1000.0;
-
-CullOptions withHorizon(Method method = Method::Quadratic) {
-    CullOptions options;
-    options.method = method;
-    options.horizonUse = HorizonUse::Given;
-    options.horizon = -kDepth;
-    return options;
-}
 
 struct CountedGlobe {
     explicit CountedGlobe(const CullOptions& options) : bins(test::startTiles()) {
@@ -68,7 +60,7 @@ bool isSeen(const AnalyticBin& bin, const CullView& view, const osg::Vec3d& eye)
     return std::any_of(points.begin(), points.end(), [&](const osg::Vec3d& point) {
         const bool inside = std::all_of(planes.begin(), planes.end(),
                                         [&](const osg::Plane& plane) { return plane.distance(point) >= 0.0; });
-        return inside && test::segmentMissesOccluder(test::earth(), kDepth, real(point), real(eye));
+        return inside && test::segmentMissesOccluder(test::earth(), kOccluderDepth, real(point), real(eye));
     });
 }
 
@@ -81,7 +73,7 @@ CullView randomView(test::Random& random, osg::Vec3d& eye) {
 
 TEST(HorizonCulling, NeverCullsATileWithASampleInSight) {
     for (const Method method : {Method::Quadratic, Method::Exact, Method::Box, Method::OrientedBox}) {
-        CullOptions options = withHorizon(method);
+        CullOptions options = horizonOptions(method);
         options.reverse = true;
         CountedGlobe globe(options);
         test::Random random(30);
@@ -101,7 +93,7 @@ TEST(HorizonCulling, NeverCullsATileWithASampleInSight) {
 }
 
 TEST(HorizonCulling, HoldsForAGlobeThatATransformMovesTurnsAndScales) {
-    CountedGlobe globe(withHorizon());
+    CountedGlobe globe(horizonOptions());
     const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
     mover->setCullingActive(false);
     mover->addChild(globe.root);
@@ -121,7 +113,7 @@ TEST(HorizonCulling, HoldsForAGlobeThatATransformMovesTurnsAndScales) {
 }
 
 TEST(HorizonCulling, ServesOrthographicCameras) {
-    CountedGlobe globe(withHorizon());
+    CountedGlobe globe(horizonOptions());
     CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
     view.projection = osg::Matrixd::ortho(-8e6, 8e6, -8e6, 8e6, 1e6, 6e7);
     const std::set<std::string> reached = globe.reached(*globe.root, view);
@@ -136,9 +128,9 @@ TEST(HorizonCulling, ServesOrthographicCameras) {
 }
 
 TEST(HorizonCulling, IsOffForCamerasThatInheritAViewpointUnlessAsked) {
-    CullOptions asked = withHorizon();
+    CullOptions asked = horizonOptions();
     asked.inheritViewpoint = true;
-    CountedGlobe plain(withHorizon());
+    CountedGlobe plain(horizonOptions());
     CountedGlobe forShadows(asked);
     CullView view = CullView::lookAt({3e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
     view.camera = new osg::Camera;
@@ -155,15 +147,15 @@ TEST(HorizonCulling, IsOffWhereItIsNotAskedFor) {
     undeclared.reached(*undeclared.root, view);
     EXPECT_EQ(undeclared.counts.hidden, 0u);
     for (const Method method : {Method::Paper, Method::Corners, Method::Box, Method::OrientedBox}) {
-        CountedGlobe asked(withHorizon(method));
+        CountedGlobe asked(horizonOptions(method));
         asked.reached(*asked.root, view);
         EXPECT_GT(asked.counts.hidden, 40u) << methodName(method);
     }
 }
 
 TEST(HorizonCulling, OfBoxesIsThatOfAPoint) {
-    CountedGlobe corners(withHorizon(Method::Corners));
-    CountedGlobe boxes(withHorizon(Method::Box));
+    CountedGlobe corners(horizonOptions(Method::Corners));
+    CountedGlobe boxes(horizonOptions(Method::Box));
     test::Random random(34);
     unsigned int byBin = 0;
     unsigned int byPoint = 0;
@@ -187,13 +179,13 @@ TEST(HorizonCulling, ADatabaseDeclaresItAndTheUserHasTheLastWord) {
     const osg::ref_ptr<osg::Group> tile = new osg::Group;
     setStoredBin(*tile, AnalyticBin(GeodeticBin::fromDegrees({0, 1}, {0, 1}, {0, 100})));
     root->addChild(tile);
-    root->setUpdateCallback(new InstallBinsCallback(withHorizon()));
+    root->setUpdateCallback(new InstallBinsCallback(horizonOptions()));
     const auto installed = [&](const CullOptions& options) {
         installBins(*root, options);
         return dynamic_cast<AnalyticBinCullCallback&>(*tile->getCullCallback()).cullOptions();
     };
     EXPECT_EQ(installed({}).horizonUse, HorizonUse::Given);
-    EXPECT_EQ(installed({}).horizon, -kDepth);
+    EXPECT_EQ(installed({}).horizon, -kOccluderDepth);
     CullOptions off;
     off.horizonUse = HorizonUse::Off;
     EXPECT_EQ(installed(off).horizonUse, HorizonUse::Off);
@@ -202,7 +194,7 @@ TEST(HorizonCulling, ADatabaseDeclaresItAndTheUserHasTheLastWord) {
     EXPECT_EQ(installed(box).effectiveHorizonUse(), HorizonUse::Off);
     box.horizonUse = HorizonUse::Declared;
     EXPECT_EQ(installed(box).horizonUse, HorizonUse::Given);
-    CullOptions other = withHorizon();
+    CullOptions other = horizonOptions();
     other.horizon = -9.0;
     EXPECT_EQ(installed(other).horizon, -9.0);
 }
