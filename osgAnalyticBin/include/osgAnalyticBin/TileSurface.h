@@ -34,7 +34,7 @@ struct TileSurface {
 /// The surface of a tile's own mesh: an osgTerrain::TerrainTile (read, neither traversed nor changed) as
 /// osgTerrain::GeometryTechnique draws it, or any subgraph of fixed transforms and geometry. Children of LODs and
 /// switches all count, whatever is chosen. Below a paged or moving node nothing is known: not valid();
-/// neither on an ellipsoid without hasValidRadii().
+/// neither on an ellipsoid without hasValidRadii(), nor where a matrix is not affine.
 /// `node` stands in a frame that `localToEcef` takes to ECEF. `sampleRatio` is osgTerrain::Terrain's.
 /// Skirts are told by the texture coordinates and the depth that VirtualPlanetBuilder gives them; any doubt and they
 /// count as surface.

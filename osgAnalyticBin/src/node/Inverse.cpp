@@ -13,10 +13,6 @@ namespace {
 // Products of a matrix and its inverse are so close to one unless rounding has been blown up a hundred thousand times.
 constexpr double kInverseTolerance = 1e-10;
 
-bool isAffine(const osg::Matrixd& m) {
-    return m(0, 3) == 0.0 && m(1, 3) == 0.0 && m(2, 3) == 0.0 && m(3, 3) == 1.0;
-}
-
 // Without the translations, which are as large as the earth. Written so that NaN is no inverse.
 bool areInverse(const osg::Matrixd& a, const osg::Matrixd& b) {
     for (int i = 0; i < 3; ++i) {
@@ -29,6 +25,10 @@ bool areInverse(const osg::Matrixd& a, const osg::Matrixd& b) {
 }
 
 }  // namespace
+
+bool isAffine(const osg::Matrixd& m) {
+    return m(0, 3) == 0.0 && m(1, 3) == 0.0 && m(2, 3) == 0.0 && m(3, 3) == 1.0;
+}
 
 bool hasFiniteNumbers(const osg::Matrixd& matrix) {
     return std::all_of(matrix.ptr(), matrix.ptr() + 16, [](double number) { return std::isfinite(number); });

@@ -9,6 +9,9 @@
 
 namespace osgAnalyticBin {
 
+/// Whether the matrix moves points without dividing by anything.
+[[nodiscard]] bool isAffine(const osg::Matrixd& matrix);
+
 /// Whether no number of the matrix is infinite or NaN.
 [[nodiscard]] bool hasFiniteNumbers(const osg::Matrixd& matrix);
 

@@ -3,6 +3,8 @@
 
 #include "SurfaceWalk.h"
 
+#include "Inverse.h"
+
 #include <osg/Billboard>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
@@ -23,7 +25,7 @@ bool isFixed(osg::Transform& node) {
 }  // namespace
 
 SurfaceWalk::SurfaceWalk(const osg::Matrixd& localToEcef)
-    : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _localToEcef(localToEcef) {
+    : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _localToEcef(localToEcef), _isKnown(isAffine(localToEcef)) {
     setNodeMaskOverride(~0u);
 }
 
@@ -51,6 +53,7 @@ void SurfaceWalk::apply(osg::Transform& node) {
     if (!isFixed(node)) return giveUp();
     const osg::Matrixd outer = _localToEcef;
     node.computeLocalToWorldMatrix(_localToEcef, this);
+    if (!isAffine(_localToEcef)) giveUp();
     traverse(node);
     _localToEcef = outer;
 }

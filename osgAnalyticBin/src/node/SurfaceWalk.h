@@ -34,7 +34,7 @@ protected:
 
 private:
     osg::Matrixd _localToEcef;
-    bool _isKnown = true;
+    bool _isKnown;
 };
 
 }  // namespace osgAnalyticBin
