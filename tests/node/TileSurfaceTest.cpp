@@ -421,12 +421,13 @@ TEST(TileSurface, FollowsFixedTransformsOnly) {
     above->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
     EXPECT_FALSE(tileSurface(*above, *kModel, frame).bin.valid());
     above->setReferenceFrame(osg::Transform::RELATIVE_RF);
-    osg::Matrixd dividing = above->getMatrix();
+    const osg::Matrixd affine = above->getMatrix();
+    osg::Matrixd dividing = affine;
     dividing(1, 3) = 165.0;
     above->setMatrix(dividing);
     EXPECT_FALSE(tileSurface(*above, *kModel, frame).bin.valid());
     EXPECT_FALSE(tileSurface(*tile, *kModel, dividing).bin.valid());
-    above->setMatrix(osg::Matrixd::identity());
+    above->setMatrix(affine);
     EXPECT_TRUE(tileSurface(*above, *kModel, frame).bin.valid());
     const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
     above->addChild(paged);

@@ -21,6 +21,12 @@ namespace osgAnalyticBin {
 
 namespace {
 
+// The globe of tiles with stored bins that no CoordinateSystemNode stands above, and of what is below them.
+const osg::ref_ptr<const osg::EllipsoidModel>& wgs84() {
+    static const osg::ref_ptr<const osg::EllipsoidModel> ellipsoid = new osg::EllipsoidModel;
+    return ellipsoid;
+}
+
 bool isTerrainTile(osg::Node& node) {
     return dynamic_cast<osgTerrain::TerrainTile*>(&node) != nullptr;
 }
@@ -130,6 +136,8 @@ bool hasValidRadii(const osg::EllipsoidModel& ellipsoid) {
 
 osg::Matrixd frameInside(const osg::Transform& node, const TileFrame& frame) {
     osg::Matrixd inside;
+    // Without a CoordinateSystemNode above, a tile's own frame is ECEF, whatever moves the globe.
+    if (!frame.isKnown()) return inside;
     node.computeLocalToWorldMatrix(inside, nullptr);
     return inside * frame.localToEcef;
 }
@@ -155,7 +163,8 @@ void TileFinder::apply(osg::CoordinateSystemNode& node) {
 }
 
 void TileFinder::apply(osg::Transform& node) {
-    if ((hasFrame() || hasStoredBin(node)) && !hasFixedPlace(node)) return;
+    const bool hasFrame = _frame.isKnown() || hasStoredBin(node);
+    if (hasFrame && !hasFixedPlace(node)) return;
     visit(node, isTile(node));
 }
 
@@ -182,6 +191,7 @@ bool TileFinder::isTile(osg::Node& node) const {
 void TileFinder::visit(osg::Node& node, bool isTile) {
     if (!isTile) return visitOther(node);
     if (_depth >= kDeepest) return visitTooDeep(node);
+    const Scoped globe(_frame.ellipsoid, _frame.isKnown() ? _frame.ellipsoid : wgs84());
     FoundTile tile{&node, ownMeshes(node), _frame, _ordinal++, filesBelow(node, _frame.file)};
     const Scoped scope(_tile, static_cast<const osg::Node*>(&node));
     const Scoped depth(_depth, _depth + 1);
@@ -198,14 +208,9 @@ void TileFinder::traverseBelow(osg::Node& node) {
     traverse(node);
 }
 
-// Without a CoordinateSystemNode above, the outermost tile stands in ECEF, whatever moves the globe.
-bool TileFinder::hasFrame() const {
-    return _frame.isKnown() || _frame.isBelowTile || _tile;
-}
-
 // By itself, and the matrix alone, to leave stack for scenes that are nested deep.
 void TileFinder::traverseTransform(osg::Transform& node) {
-    const Scoped matrix(_frame.localToEcef, hasFrame() ? frameInside(node, _frame) : _frame.localToEcef);
+    const Scoped matrix(_frame.localToEcef, frameInside(node, _frame));
     traverse(node);
 }
 
