@@ -57,10 +57,10 @@ private:
 /// One thread's way through the tiles: builds those that change, takes the others from the database.
 class Updater {
 public:
-    Updater(const Settings& settings, const TileLayout& layout, const DatabaseFolder& folder, const TileFiles& files,
-            const ChangedArea& area, Findings& findings)
+    Updater(const Settings& settings, const TileLayout& layout, const StandingDatabase& standing,
+            const TileFiles& files, const ChangedArea& area, Findings& findings)
         : _builder(settings, layout, files),
-          _standing(folder.rootFile(), folder.standingFiles()),
+          _standing(standing),
           _changed(area, _builder.depths(), layout, [this](const TileId& tile) { return _standing.hasChildren(tile); }),
           _findings(findings) {
         _builder.setFinishedTasks([this](const TileId& tile) { return known(tile); });
@@ -161,12 +161,13 @@ void updateDatabase(const Settings& settings) {
     folder.clear();
     const TileFiles files = folder.files();
     Findings findings;
-    Updater root(settings, layout, folder, files, area, findings);
+    const StandingDatabase standing(folder.rootFile(), folder.standingFiles());
+    Updater root(settings, layout, standing, files, area, findings);
     const std::vector<Task> tasks = changedTasks(root, layout);
     Progress progress(!settings.quiet, weightOf(tasks));
     TaskBoard board(tasks);
     Threads threads(settings.threads, board, [&] {
-        Updater updater(settings, layout, folder, files, area, findings);
+        Updater updater(settings, layout, standing, files, area, findings);
         while (const auto task = board.next()) {
             updater.update(*task, progress);
             board.finish(*task);

@@ -5,6 +5,7 @@
 
 #include "Failure.h"
 
+#include <osg/Group>
 #include <osgDB/ReadFile>
 
 #include <algorithm>
@@ -16,42 +17,46 @@ using osgAnalyticBin::support::Failure;
 
 namespace {
 
-osg::ref_ptr<osg::Group> groupFrom(const std::string& file, unsigned int tiles) {
+std::vector<AnalyticBin> binsFrom(const std::string& file, unsigned int tiles) {
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
     options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
     const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file, options);
-    osg::ref_ptr<osg::Group> group = node ? node->asGroup() : nullptr;
-    if (!group || group->getNumChildren() != tiles) {
+    const osg::Group* group = node ? node->asGroup() : nullptr;
+    if (group == nullptr || group->getNumChildren() != tiles) {
         throw Failure("\"" + file + "\" is not as osgbindem wrote it; build the database anew, without --update");
     }
-    return group;
+    std::vector<AnalyticBin> bins;
+    for (unsigned int i = 0; i < tiles; ++i) bins.push_back(osgAnalyticBin::storedBin(*group->getChild(i)));
+    return bins;
 }
 
 }  // namespace
 
-const osg::Group& StandingDatabase::fileWith(const TileId& tile) {
-    if (tile.level == 0) {
-        if (!_root) _root = groupFrom(_rootFile, TileId::kStartColumns * TileId::kStartRows);
-        return *_root;
-    }
+const StandingDatabase::Bins& StandingDatabase::Start::bins() {
+    const std::lock_guard<std::mutex> guard(_mutex);
+    if (_bins.empty()) _bins = binsFrom(_file, TileId::kStartColumns * TileId::kStartRows);
+    return _bins;
+}
+
+const StandingDatabase::Bins& StandingDatabase::binsBeside(const TileId& tile) {
+    if (tile.level == 0) return _start->bins();
     const TileId parent = tile.ancestor(tile.level - 1);
-    if (!_siblings || !(_parent == parent)) {
-        _siblings = groupFrom(_files.pathOfChildren(parent), 4);
+    if (!(_parent == parent)) {
+        _siblings = binsFrom(_files.pathOfChildren(parent), 4);
         _parent = parent;
     }
-    return *_siblings;
+    return _siblings;
 }
 
 AnalyticBin StandingDatabase::bin(const TileId& tile) {
-    const osg::Group& file = fileWith(tile);
-    unsigned int place = static_cast<unsigned int>(tile.y * TileId::kStartColumns + tile.x);
+    const Bins& bins = binsBeside(tile);
+    auto place = static_cast<std::size_t>(tile.y * TileId::kStartColumns + tile.x);
     if (tile.level > 0) {
         const auto siblings = tile.ancestor(tile.level - 1).children();
-        place = static_cast<unsigned int>(std::find(siblings.begin(), siblings.end(), tile) - siblings.begin());
+        place = static_cast<std::size_t>(std::find(siblings.begin(), siblings.end(), tile) - siblings.begin());
     }
-    const AnalyticBin result = osgAnalyticBin::storedBin(*file.getChild(place));
-    if (!result.valid()) throw Failure("tile " + tileName(tile) + " has no bin; build the database anew");
-    return result;
+    if (!bins[place].valid()) throw Failure("tile " + tileName(tile) + " has no bin; build the database anew");
+    return bins[place];
 }
 
 }  // namespace osgbindem

@@ -8,19 +8,20 @@
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
-#include <osg/Group>
-#include <osg/ref_ptr>
-
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace osgbindem {
 
-/// A finished database that is to be updated. Not for use by several threads: each has its own.
+/// A finished database that is to be updated. Not for use by several threads: each has its own copy. The root file is
+/// large: the copies read it once together, when one of them needs it.
 class StandingDatabase final {
 public:
     StandingDatabase(std::string rootFile, TileFiles files)
-        : _rootFile(std::move(rootFile)), _files(std::move(files)) {}
+        : _start(std::make_shared<Start>(std::move(rootFile))), _files(std::move(files)) {}
 
     [[nodiscard]] bool hasChildren(const TileId& tile) const { return _files.hasChildren(tile); }
 
@@ -28,14 +29,29 @@ public:
     [[nodiscard]] osgAnalyticBin::AnalyticBin bin(const TileId& tile);
 
 private:
-    /// Of the file with the tile.
-    [[nodiscard]] const osg::Group& fileWith(const TileId& tile);
+    using Bins = std::vector<osgAnalyticBin::AnalyticBin>;
 
-    std::string _rootFile;
+    /// The start tiles; may be used by several threads.
+    class Start {
+    public:
+        explicit Start(std::string file) : _file(std::move(file)) {}
+
+        /// Reads them when asked first. Throws Failure.
+        [[nodiscard]] const Bins& bins();
+
+    private:
+        std::string _file;
+        std::mutex _mutex;
+        Bins _bins;
+    };
+
+    /// Of the tiles in the file with the tile.
+    [[nodiscard]] const Bins& binsBeside(const TileId& tile);
+
+    std::shared_ptr<Start> _start;
     TileFiles _files;
-    osg::ref_ptr<osg::Group> _root;
     std::optional<TileId> _parent;
-    osg::ref_ptr<osg::Group> _siblings;
+    Bins _siblings;
 };
 
 }  // namespace osgbindem
