@@ -59,11 +59,14 @@ std::string interruption(const DatabaseFolder& folder, const BuildState& state, 
 void buildParts(const Site& site, const std::vector<Task>& plan, const std::string& sources, DatabaseFolder& folder,
                 const Ranks& ranks, int& done) {
     TaskBoard board(plan);
-    StartTiles starts(site, plan);
+    StartTiles starts(site.settings);
+    const FinishedTasks finished = finishedTasks(site, plan);
     Threads threads(site.settings.threads, board, [&] {
         TileBuilder builder(site.settings, site.layout, site.files);
         doTasks(site, board, builder);
-        if (board.isFinished()) starts.build(builder);
+        if (!board.isFinished()) return;
+        builder.setFinishedTasks(finished);
+        starts.build(builder);
     });
     if (ranks.count() > 1) {
         done = serveRanks(ranks, threads, board, site.progress, [&] {

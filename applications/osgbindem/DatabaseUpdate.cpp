@@ -9,8 +9,8 @@
 #include "Failure.h"
 #include "NodeFile.h"
 #include "Progress.h"
-#include "RootNode.h"
 #include "StandingDatabase.h"
+#include "StartTiles.h"
 #include "TaskBoard.h"
 #include "TaskWork.h"
 #include "TileBuilder.h"
@@ -113,21 +113,6 @@ std::vector<Task> changedTasks(Updater& updater, const TileLayout& layout) {
     return tasks;
 }
 
-std::string rootBytes(const Settings& settings, TileBuilder& builder) {
-    const osg::ref_ptr<osg::CoordinateSystemNode> root = makeRoot(settings);
-    std::vector<osg::Geometry*> geometries;
-    for (int y = 0; y < TileId::kStartRows; ++y) {
-        for (int x = 0; x < TileId::kStartColumns; ++x) {
-            const std::unique_ptr<BuiltTile> tile = builder.build({0, x, y});
-            root->addChild(tile->node);
-            geometries.push_back(tile->geometry);
-        }
-    }
-    builder.finishFile(geometries, 0);
-    declareHorizon(*root);
-    return nodeFileBytes(*root, settings.compress);
-}
-
 ChangedArea requireUpdatable(const DatabaseFolder& folder, const std::string& sources) {
     const std::string before = folder.standingSources();
     if (before.empty()) {
@@ -166,17 +151,18 @@ void updateDatabase(const Settings& settings) {
     const std::vector<Task> tasks = changedTasks(root, layout);
     Progress progress(!settings.quiet, weightOf(tasks));
     TaskBoard board(tasks);
+    StartTiles starts(settings);
     Threads threads(settings.threads, board, [&] {
         Updater updater(settings, layout, standing, files, area, findings);
         while (const auto task = board.next()) {
             updater.update(*task, progress);
             board.finish(*task);
         }
+        if (board.isFinished()) starts.build(updater.builder());
     });
     threads.join();
     board.rethrow();
-    const std::string bytes = rootBytes(settings, root.builder());
-    folder.merge(bytes, sources, findings.removed());
+    folder.merge(starts.rootBytes(root.builder()), sources, findings.removed());
     progress.finish();
 }
 

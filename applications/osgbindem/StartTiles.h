@@ -3,12 +3,12 @@
 
 #pragma once
 
-#include "TaskWork.h"
+#include "Settings.h"
+#include "TileBuilder.h"
 
 #include <array>
 #include <atomic>
 #include <memory>
-#include <set>
 #include <string>
 
 namespace osgbindem {
@@ -16,9 +16,10 @@ namespace osgbindem {
 /// The start tiles, made of what the tasks have left of the tiles below them.
 class StartTiles final {
 public:
-    StartTiles(const Site& site, const std::vector<Task>& tasks);
+    explicit StartTiles(const Settings& settings) : _settings(settings) {}
 
-    /// Requires: all tasks are finished. May be called by several threads; they share the tiles.
+    /// Requires: all tasks are finished, and the builder finds what they have left. May be called by several threads;
+    /// they share the tiles.
     void build(TileBuilder& builder);
 
     /// Requires: all are built. The bytes of the root file.
@@ -27,10 +28,7 @@ public:
 private:
     static constexpr std::size_t kCount = std::size_t{TileId::kStartColumns} * TileId::kStartRows;
 
-    [[nodiscard]] std::optional<SurveyedTile> finished(const TileId& tile) const;
-
-    const Site& _site;
-    std::set<TileId> _tasks;
+    const Settings& _settings;
     std::array<std::unique_ptr<BuiltTile>, kCount> _tiles;
     std::atomic<std::size_t> _next{0};
 };

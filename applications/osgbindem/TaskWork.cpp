@@ -3,10 +3,15 @@
 
 #include "TaskWork.h"
 
+#include "Failure.h"
+
 #include <cmath>
 #include <exception>
+#include <set>
 
 namespace osgbindem {
+
+using osgAnalyticBin::support::Failure;
 
 namespace {
 
@@ -32,6 +37,17 @@ void doTasks(const Site& site, TaskSource& tasks, TileBuilder& builder) {
         tasks.finish(*task);
     }
     builder.setLeafDone({});
+}
+
+FinishedTasks finishedTasks(const Site& site, const std::vector<Task>& tasks) {
+    std::set<TileId> tiles;
+    for (const Task& task : tasks) tiles.insert(task.tile);
+    return [&site, tiles](const TileId& tile) -> std::optional<SurveyedTile> {
+        if (tiles.count(tile) == 0) return std::nullopt;
+        auto record = site.state.find(tile, site.layout);
+        if (!record) throw Failure("what was done of tile " + tileName(tile) + " is gone; run the same command again");
+        return std::move(record->tile);
+    };
 }
 
 Threads::Threads(int count, TaskSource& tasks, const std::function<void()>& body) : _running(count) {
