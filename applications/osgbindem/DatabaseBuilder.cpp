@@ -55,6 +55,12 @@ std::string interruption(const DatabaseFolder& folder, const BuildState& state, 
     return "interrupted; " + (kept.empty() ? "nothing was left behind" : kept);
 }
 
+std::vector<Task> planFor(const Settings& settings, const TileLayout& layout) {
+    DemMosaic mosaic(settings, layout.spacingDeg(layout.deepestLevel()));
+    EdgeDepths depths(mosaic, layout);
+    return planTasks(mosaic, depths, layout);
+}
+
 /// `done`: becomes how many of the other ranks are done.
 void buildParts(const Site& site, const std::vector<Task>& plan, const std::string& sources, DatabaseFolder& folder,
                 const Ranks& ranks, int& done) {
@@ -84,15 +90,11 @@ void buildParts(const Site& site, const std::vector<Task>& plan, const std::stri
 /// Rank 0's part. `done`: see buildParts.
 void buildWith(const Settings& settings, const Ranks& ranks, int& done) {
     prepareNodeFiles();
-    DemMosaic mosaic(settings);
-    mosaic.requireData();
-    const TileLayout layout = layoutFor(settings, mosaic);
+    const TileLayout layout = checkedLayoutFor(settings);
     DatabaseFolder folder(settings.output);
     folder.lock();
     const BuildState state(folder.stateFolder());
-    DemMosaic built(settings, layout.spacingDeg(layout.deepestLevel()));
-    EdgeDepths depths(built, layout);
-    const std::vector<Task> plan = planTasks(built, depths, layout);
+    const std::vector<Task> plan = planFor(settings, layout);
     const std::string sources = describeSources(settings, layout);
     beginOrGoOn(settings, sources, plan.size(), folder, state);
     try {

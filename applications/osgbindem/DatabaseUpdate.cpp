@@ -132,9 +132,7 @@ ChangedArea requireUpdatable(const DatabaseFolder& folder, const std::string& so
 
 void updateDatabase(const Settings& settings) {
     prepareNodeFiles();
-    DemMosaic mosaic(settings);
-    mosaic.requireData();
-    const TileLayout layout = layoutFor(settings, mosaic);
+    const TileLayout layout = checkedLayoutFor(settings);
     DatabaseFolder folder(settings.output);
     folder.lock();
     const std::string sources = describeSources(settings, layout);

@@ -124,8 +124,7 @@ bool listen(const Ranks& ranks, HandedTasks& tasks) {
 
 void work(const Settings& settings, const Ranks& ranks) {
     prepareNodeFiles();
-    DemMosaic mosaic(settings);
-    const TileLayout layout = layoutFor(settings, mosaic);
+    const TileLayout layout = layoutFor(settings, DemMosaic(settings));
     const DatabaseFolder folder(settings.output);
     const TileFiles files = folder.files();
     const BuildState state(folder.stateFolder());

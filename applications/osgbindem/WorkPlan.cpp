@@ -37,6 +37,12 @@ TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic) {
     return TileLayout(cells, levels, settings.ellipsoid);
 }
 
+TileLayout checkedLayoutFor(const Settings& settings) {
+    DemMosaic mosaic(settings);
+    mosaic.requireData();
+    return layoutFor(settings, mosaic);
+}
+
 double weightOf(const std::vector<Task>& tasks) {
     double sum = 0.0;
     for (const Task& task : tasks) sum += task.weight;

@@ -13,6 +13,9 @@ namespace osgbindem {
 /// The layout that the settings ask for, or else the rasters.
 [[nodiscard]] TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic);
 
+/// The same once every raster is known to have heights; the rasters are closed again. Throws Failure.
+[[nodiscard]] TileLayout checkedLayoutFor(const Settings& settings);
+
 /// A subtree that one thread builds by itself.
 struct Task {
     TileId tile;
