@@ -38,16 +38,6 @@ std::string wholePath(const std::string& path) {
     return error ? path : whole.string();
 }
 
-/// Where heights may depend on the raster.
-RectDeg areaOf(const Settings& settings, const std::string& path) {
-    RasterOptions options;
-    options.path = path;
-    options.nodata = settings.nodata;
-    options.isWgs84 = settings.isWgs84;
-    const RasterGrid grid = GdalRaster(options).grid();
-    return grid.extent().grownBy(grid.resolutionDeg());
-}
-
 void describeFile(const std::string& path, std::ostream& out) {
     VSIStatBufL status{};
     const bool isThere = VSIStatL(path.c_str(), &status) == 0;
@@ -57,11 +47,29 @@ void describeFile(const std::string& path, std::ostream& out) {
 }
 
 /// A raster may be made of many files: a mosaic, or one with overviews beside it.
-void describeRaster(const std::string& path, std::ostream& out) {
-    const GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-    char** files = dataset ? dataset->GetFileList() : nullptr;
+void describeFiles(GDALDataset& dataset, std::ostream& out) {
+    char** files = dataset.GetFileList();
     for (int i = 0; i < CSLCount(files); ++i) describeFile(files[i], out);
     CSLDestroy(files);
+}
+
+void describeElevation(const Settings& settings, const DemInput& dem, std::ostream& out) {
+    RasterOptions options;
+    options.path = dem.path;
+    options.nodata = settings.nodata;
+    options.isWgs84 = settings.isWgs84;
+    const GdalRaster raster(options);
+    // Where heights may depend on the raster.
+    const RectDeg area = raster.grid().extent().grownBy(raster.grid().resolutionDeg());
+    out << kElevation << wholePath(dem.path) << ", scale " << dem.metresPerUnit << '\n';
+    out << kArea << area.west << ' ' << area.south << ' ' << area.east << ' ' << area.north << '\n';
+    describeFiles(raster.warpSource() != nullptr ? *raster.warpSource() : raster.dataset(), out);
+}
+
+void describeImage(const std::string& path, std::ostream& out) {
+    out << "image " << wholePath(path) << '\n';
+    const GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+    if (dataset) describeFiles(*dataset, out);
 }
 
 }  // namespace
@@ -77,16 +85,8 @@ std::string describeSources(const Settings& settings, const TileLayout& layout) 
     out << "radii " << settings.ellipsoid.equatorialRadius() << ' ' << settings.ellipsoid.polarRadius() << ", WGS 84 "
         << settings.isWgs84 << '\n';
     if (settings.nodata) out << "nodata " << *settings.nodata << '\n';
-    for (const DemInput& dem : settings.dems) {
-        out << kElevation << wholePath(dem.path) << ", scale " << dem.metresPerUnit << '\n';
-        const RectDeg area = areaOf(settings, dem.path);
-        out << kArea << area.west << ' ' << area.south << ' ' << area.east << ' ' << area.north << '\n';
-        describeRaster(dem.path, out);
-    }
-    if (!settings.image.empty()) {
-        out << "image " << wholePath(settings.image) << '\n';
-        describeRaster(settings.image, out);
-    }
+    for (const DemInput& dem : settings.dems) describeElevation(settings, dem, out);
+    if (!settings.image.empty()) describeImage(settings.image, out);
     return out.str();
 }
 
