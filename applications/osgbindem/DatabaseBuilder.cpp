@@ -83,8 +83,7 @@ void buildParts(const Site& site, const std::vector<Task>& plan, const std::stri
     }
     threads.join();
     board.rethrow();
-    TileBuilder builder(site.settings, site.layout, site.files);
-    folder.complete(starts.rootBytes(builder), sources);
+    folder.complete(starts.rootBytes(), sources);
 }
 
 /// Rank 0's part. `done`: see buildParts.

@@ -160,7 +160,7 @@ void updateDatabase(const Settings& settings) {
     });
     threads.join();
     board.rethrow();
-    folder.merge(starts.rootBytes(root.builder()), sources, findings.removed());
+    folder.merge(starts.rootBytes(), sources, findings.removed());
     progress.finish();
 }
 

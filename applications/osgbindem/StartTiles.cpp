@@ -10,19 +10,18 @@ namespace osgbindem {
 
 void StartTiles::build(TileBuilder& builder) {
     for (std::size_t i = _next++; i < kCount; i = _next++) {
+        if (i == 0) _shared = builder.sharedParts(0);  // which are the same for all builders
         const int place = static_cast<int>(i);
         _tiles[i] = builder.build({0, place % TileId::kStartColumns, place / TileId::kStartColumns});
     }
 }
 
-std::string StartTiles::rootBytes(TileBuilder& builder) const {
+std::string StartTiles::rootBytes() const {
     const osg::ref_ptr<osg::CoordinateSystemNode> root = makeRoot(_settings);
-    std::vector<osg::Geometry*> geometries;
     for (const auto& tile : _tiles) {
         root->addChild(tile->node);
-        geometries.push_back(tile->geometry);
+        _shared->addTo(*tile->geometry);
     }
-    builder.finishFile(geometries, 0);
     declareHorizon(*root);
     return nodeFileBytes(*root, _settings.compress);
 }

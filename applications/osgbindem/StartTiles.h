@@ -9,6 +9,7 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace osgbindem {
@@ -23,13 +24,14 @@ public:
     void build(TileBuilder& builder);
 
     /// Requires: all are built. The bytes of the root file.
-    [[nodiscard]] std::string rootBytes(TileBuilder& builder) const;
+    [[nodiscard]] std::string rootBytes() const;
 
 private:
     static constexpr std::size_t kCount = std::size_t{TileId::kStartColumns} * TileId::kStartRows;
 
     const Settings& _settings;
     std::array<std::unique_ptr<BuiltTile>, kCount> _tiles;
+    std::optional<SharedParts> _shared;
     std::atomic<std::size_t> _next{0};
 };
 

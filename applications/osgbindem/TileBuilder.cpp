@@ -7,7 +7,6 @@
 #include "NodeFile.h"
 #include "TileGeometry.h"
 #include "TileMesh.h"
-#include "TileNode.h"
 #include "TileTopology.h"
 
 namespace osgbindem {
@@ -80,7 +79,8 @@ void TileBuilder::buildChildren(SurveyedTile& tile) {
         file->addChild(child->node);
         geometries.push_back(child->geometry);
     }
-    finishFile(geometries, id.level + 1);
+    const SharedParts shared = sharedParts(id.level + 1);
+    for (osg::Geometry* geometry : geometries) shared.addTo(*geometry);
     const std::string bytes = nodeFileBytes(*file, _settings.compress);
     _files.writeChildren(id, bytes);
     _written.add(id, bytes);
@@ -114,11 +114,9 @@ std::unique_ptr<BuiltTile> TileBuilder::meshed(SurveyedTile tile) {
     return std::make_unique<BuiltTile>(BuiltTile{std::move(tile.heights), tile.range, bin, node, geometry});
 }
 
-void TileBuilder::finishFile(const std::vector<osg::Geometry*>& geometries, int level) {
-    const SharedParts shared = _settings.packed
-                                   ? SharedParts(_image != nullptr)
-                                   : SharedParts(_triangles, _layout.cells(), _image ? _image->textureSize(level) : 0);
-    for (osg::Geometry* geometry : geometries) shared.addTo(*geometry);
+SharedParts TileBuilder::sharedParts(int level) const {
+    if (_settings.packed) return SharedParts(_image != nullptr);
+    return SharedParts(_triangles, _layout.cells(), _image ? _image->textureSize(level) : 0);
 }
 
 }  // namespace osgbindem

@@ -12,6 +12,7 @@
 #include "SkirtMeasure.h"
 #include "SurveyedTile.h"
 #include "TileFiles.h"
+#include "TileNode.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
@@ -65,8 +66,8 @@ public:
     /// The files written since the last call.
     [[nodiscard]] FileSum takeFileSum() { return std::exchange(_written, {}); }
 
-    /// Adds what the tiles of one file share. Requires: tiles of one level.
-    void finishFile(const std::vector<osg::Geometry*>& geometries, int level);
+    /// What the tiles of a file with tiles of this level share.
+    [[nodiscard]] SharedParts sharedParts(int level) const;
 
     [[nodiscard]] EdgeDepths& depths() noexcept { return _depths; }
     [[nodiscard]] DemMosaic& mosaic() noexcept { return _mosaic; }
