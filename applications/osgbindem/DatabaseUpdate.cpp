@@ -105,7 +105,7 @@ private:
     Findings& _findings;
 };
 
-std::vector<Task> changedTasks(Updater& updater, const TileLayout& layout) {
+std::vector<Task> changedTasks(Updater updater, const TileLayout& layout) {
     std::vector<Task> tasks = planTasks(updater.builder().mosaic(), updater.builder().depths(), layout);
     tasks.erase(
         std::remove_if(tasks.begin(), tasks.end(), [&](const Task& task) { return !updater.hasChanged(task.tile); }),
@@ -145,8 +145,7 @@ void updateDatabase(const Settings& settings) {
     const TileFiles files = folder.files();
     Findings findings;
     const StandingDatabase standing(folder.rootFile(), folder.standingFiles());
-    Updater root(settings, layout, standing, files, area, findings);
-    const std::vector<Task> tasks = changedTasks(root, layout);
+    const std::vector<Task> tasks = changedTasks(Updater(settings, layout, standing, files, area, findings), layout);
     Progress progress(!settings.quiet, weightOf(tasks));
     TaskBoard board(tasks);
     StartTiles starts(settings);
