@@ -4,6 +4,7 @@
 #include "CommandLine.h"
 
 #include "Failure.h"
+#include "GdalRaster.h"
 #include "TileLayout.h"
 
 #include <osgAnalyticBin/Version.h>
@@ -16,7 +17,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -60,12 +60,6 @@ std::optional<double> metresPerUnit(const std::string& word) {
     return value;
 }
 
-/// No name that a file system refuses is a file's.
-bool isFile(const std::string& word) {
-    std::error_code ignored;
-    return std::filesystem::exists(word, ignored);
-}
-
 /// Rasters may follow the units directly: "--scale ft a.tif"; a word that is no unit but a file is one.
 std::vector<double> takeScales(Arguments& arguments) {
     std::vector<double> scales;
@@ -74,7 +68,7 @@ std::vector<double> takeScales(Arguments& arguments) {
         const auto scale = rasters.empty() ? metresPerUnit(word) : std::nullopt;
         if (scale) {
             scales.push_back(*scale);
-        } else if (isFile(word) || word.rfind("/vsi", 0) == 0) {
+        } else if (mayExist(word)) {
             rasters.push_back(word);
         } else {
             throw Failure("unknown unit \"" + word + "\" in --scale; give m, ft or metres per unit");

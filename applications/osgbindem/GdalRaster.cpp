@@ -55,10 +55,9 @@ GdalDataset open(const std::string& path, int overview = -1) {
         GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, nullptr, words.data(), nullptr));
     if (!dataset) {
         // GDAL has names that are no files, so the file system is asked only afterwards.
-        std::error_code ignored;
-        const bool absent = path.rfind("/vsi", 0) != 0 && !std::filesystem::exists(path, ignored);
-        throw Failure("cannot open \"" + path +
-                      "\": " + (absent ? "no such file; check the name" : gdalMessage() + "; give a raster file"));
+        const std::string reason =
+            mayExist(path) ? gdalMessage() + "; give a raster file" : "no such file; check the name";
+        throw Failure("cannot open \"" + path + "\": " + reason);
     }
     if (dataset->GetRasterCount() == 0) {
         throw Failure("no raster band in \"" + path + "\"; name one of its subdatasets as gdalinfo lists them");
@@ -159,6 +158,11 @@ std::string gdalMessage() {
     if (text.empty()) text = "not a raster that GDAL reads";
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
+}
+
+bool mayExist(const std::string& path) {
+    std::error_code ignored;
+    return path.rfind("/vsi", 0) == 0 || std::filesystem::exists(path, ignored);
 }
 
 void GdalRaster::TransformerFree::operator()(void* transformer) const {

@@ -17,6 +17,10 @@ namespace osgbindem {
 /// The last message of GDAL on one line.
 [[nodiscard]] std::string gdalMessage();
 
+/// Whether there is a file of this name; of names that begin with /vsi only GDAL knows, so there may be one.
+/// No name that the file system refuses is a file's.
+[[nodiscard]] bool mayExist(const std::string& path);
+
 struct GdalClose {
     void operator()(GDALDataset* dataset) const { GDALClose(GDALDataset::ToHandle(dataset)); }
 };
