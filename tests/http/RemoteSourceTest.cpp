@@ -11,9 +11,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <map>
 #include <support/StockPrograms.h>
 #include <support/TemporaryFolder.h>
 
@@ -23,8 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 using test::Nginx;
 using test::quoted;
-
-using Database = std::map<std::string, std::string>;
 
 constexpr int kColumns = 3600;
 constexpr int kRows = 1800;
@@ -73,13 +68,9 @@ protected:
                                   quoted(folder / (name + "/earth.osgb")),
                               test::Modules::Present);
     }
-    Database files(const std::string& name) const {
-        Database result;
-        for (const auto& entry : fs::recursive_directory_iterator(folder / name)) {
-            if (!entry.is_regular_file() || entry.path().extension() == ".sources") continue;
-            std::ifstream stream(entry.path(), std::ios::binary);
-            result[fs::relative(entry.path(), folder / name).string()] = {std::istreambuf_iterator<char>(stream), {}};
-        }
+    test::Files files(const std::string& name) const {
+        test::Files result = test::filesBelow(folder / name);
+        result.erase("earth.osgb.sources");  // which names the raster
         return result;
     }
     std::string remote(const Nginx& server) const { return "/vsicurl/" + server.url("dem.tif"); }

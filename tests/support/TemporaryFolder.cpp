@@ -38,4 +38,13 @@ std::string textOfFile(const std::string& file) {
     return text.str();
 }
 
+Files filesBelow(const std::string& folder) {
+    Files files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        if (!entry.is_regular_file()) continue;
+        files[std::filesystem::relative(entry.path(), folder).string()] = textOfFile(entry.path().string());
+    }
+    return files;
+}
+
 }  // namespace osgAnalyticBin::test

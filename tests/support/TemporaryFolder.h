@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <map>
 #include <string>
 
 namespace osgAnalyticBin::test {
@@ -30,5 +31,10 @@ private:
 
 /// The whole file; empty when it cannot be read.
 [[nodiscard]] std::string textOfFile(const std::string& file);
+
+/// Files by name, seen from their folder, with what is in them.
+using Files = std::map<std::string, std::string>;
+/// All files below a folder.
+[[nodiscard]] Files filesBelow(const std::string& folder);
 
 }  // namespace osgAnalyticBin::test

@@ -9,19 +9,14 @@
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace {
+using osgAnalyticBin::test::textOfFile;
 
-std::string content(const std::string& path) {
-    std::ifstream stream(path);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
+namespace {
 
 [[noreturn]] void becomeProgram(std::vector<char*>& arguments, const std::string& errors, const std::string& output,
                                 unsigned long fileSizeLimit) {
@@ -86,8 +81,8 @@ bool Program::isRunning() {
 Outcome Program::wait() {
     if (!_isOver) waitpid(_process, &_status, 0);
     _isOver = true;
-    return {WIFEXITED(_status) ? WEXITSTATUS(_status) : -1, content(_folder.file("errors")),
-            content(_folder.file("output"))};
+    return {WIFEXITED(_status) ? WEXITSTATUS(_status) : -1, textOfFile(_folder.file("errors")),
+            textOfFile(_folder.file("output"))};
 }
 
 Outcome run(const std::vector<std::string>& arguments, unsigned long fileSizeLimit) {
@@ -101,14 +96,4 @@ void build(const std::vector<std::string>& arguments) {
     ASSERT_EQ(outcome.exitCode, 0) << outcome.errors;
     ASSERT_EQ(outcome.errors, "");
     ASSERT_EQ(outcome.output, "");
-}
-
-Files filesBelow(const std::string& folder) {
-    Files files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-        if (!entry.is_regular_file()) continue;
-        std::ifstream stream(entry.path(), std::ios::binary);
-        files[std::filesystem::relative(entry.path(), folder).string()] = {std::istreambuf_iterator<char>(stream), {}};
-    }
-    return files;
 }

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
+#include <support/TemporaryFolder.h>
 #include <sys/types.h>
 #include <vector>
 
@@ -57,6 +57,5 @@ private:
 /// Runs osgbindem, which has to succeed in silence.
 void build(const std::vector<std::string>& arguments);
 
-/// The files below a folder by name, with what is in them.
-using Files = std::map<std::string, std::string>;
-[[nodiscard]] Files filesBelow(const std::string& folder);
+using osgAnalyticBin::test::Files;
+using osgAnalyticBin::test::filesBelow;

@@ -10,7 +10,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <map>
 
 namespace {
 
@@ -47,19 +46,11 @@ protected:
         return outcome.output.substr(0, outcome.output.find('\n'));
     }
 
-    void expectTheSameFiles() { EXPECT_TRUE(filesOf("out") == filesOf("undisturbed")); }
-
-private:
-    [[nodiscard]] std::map<std::string, std::string> filesOf(const std::string& folder) const {
-        std::map<std::string, std::string> files;
-        for (const auto& entry : fs::recursive_directory_iterator(_folder.file(folder))) {
-            if (!entry.is_regular_file()) continue;
-            std::ifstream in(entry.path(), std::ios::binary);
-            files[fs::relative(entry.path(), _folder.file(folder)).string()] = {std::istreambuf_iterator<char>(in), {}};
-        }
-        return files;
+    void expectTheSameFiles() {
+        EXPECT_TRUE(filesBelow(_folder.file("out")) == filesBelow(_folder.file("undisturbed")));
     }
 
+private:
     TempFolder _folder;
 };
 
