@@ -180,6 +180,23 @@ TEST_F(FalseBins, AreWidenedByTilesThatHaveNoneOfTheirOwn) {
     EXPECT_EQ(_notes.count(kWarning), 1u);
 }
 
+TEST_F(FalseBins, AreWidenedByWhatIsPagedBelowANodeWithoutABin) {
+    for (const bool hasGlobe : {true, false}) {
+        _hasGlobe = hasGlobe;
+        write(_south, 200.0, "");
+        ASSERT_TRUE(osgDB::writeNodeFile(*makePaged(new osg::Group, "deep.osgb", 1e9f), _folder / "leaf.osgb"));
+        ASSERT_TRUE(osgDB::writeNodeFile(*makeMeshTile(_south, 7000.0), _folder / "deep.osgb"));
+        _root->removeChildren(1, 1);
+        page();
+        auto* const between = dynamic_cast<osg::PagedLOD*>(_leaf.get());
+        ASSERT_TRUE(between);
+        EXPECT_FALSE(installedOn(*between));
+        putBelow(*between, readBelow(*between));
+        update();
+        EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0);
+    }
+}
+
 TEST_F(FalseBins, StayAsTheyAreAboveTilesThatHaveNoneAndAreNotLarger) {
     write(_south, 200.0, "");
     update();

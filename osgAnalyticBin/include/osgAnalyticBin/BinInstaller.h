@@ -89,7 +89,10 @@ private:
     void noteCovered(const FoundTile& tile, double area);
     void goOnBelow(const FoundTile& tile, const ParentTile& link);
     void uninstall(FoundTile& tile);
-    void followPaging(osg::PagedLOD& node, const ParentTile* tile);
+    // What is paged below a node without a bin still has to fit into what is stored above. Returns: null where nothing
+    // is.
+    [[nodiscard]] osg::ref_ptr<const ParentTile> linkBetween() const;
+    void followPaging(osg::PagedLOD& node, const ParentTile* parent, bool isTile);
 
     CullOptions _options;
     bool _keepsDatabases = false;

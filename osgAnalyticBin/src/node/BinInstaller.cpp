@@ -170,7 +170,7 @@ void BinInstaller::visitTile(FoundTile& tile) {
 }
 
 void BinInstaller::visitOther(osg::Node& node) {
-    if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) followPaging(*paged, nullptr);
+    if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) followPaging(*paged, linkBetween().get(), false);
     if (_options.method == Method::None) {
         suspendCullingOf(node);
         suspendClusterCullingOf(node);
@@ -235,6 +235,17 @@ osg::ref_ptr<ParentTile> BinInstaller::linkTo(const FoundTile& tile) const {
     link->parent = _parent;
     link->file = tile.frame.file;
     link->ordinal = tile.ordinal;
+    if (_parent) link->stored = _parent->stored;
+    return link;
+}
+
+osg::ref_ptr<const ParentTile> BinInstaller::linkBetween() const {
+    if (!_parent || !_parent->stored.valid()) return nullptr;
+    const osg::ref_ptr<ParentTile> link = new ParentTile;
+    link->isTile = false;
+    link->parent = _parent;
+    link->file = frame().file;
+    link->stored = _parent->stored;
     return link;
 }
 
@@ -249,7 +260,7 @@ void BinInstaller::noteCovered(const FoundTile& tile, double area) {
 void BinInstaller::goOnBelow(const FoundTile& tile, const ParentTile& link) {
     if (auto* paged = dynamic_cast<osg::PagedLOD*>(tile.node.get())) {
         raiseExpiry(*paged, _options.expiry);
-        followPaging(*paged, &link);
+        followPaging(*paged, &link, true);
     }
     const Scoped below(_parent, osg::ref_ptr<const ParentTile>(&link));
     traverseBelow(*tile.node);
@@ -266,13 +277,13 @@ void BinInstaller::uninstall(FoundTile& tile) {
     }
 }
 
-void BinInstaller::followPaging(osg::PagedLOD& node, const ParentTile* tile) {
+void BinInstaller::followPaging(osg::PagedLOD& node, const ParentTile* parent, bool isTile) {
     const osg::ref_ptr<osgDB::Options> own = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
-    const std::vector<PagedFile> files = filesPagedBy(node, frame(), tile != nullptr);
+    const std::vector<PagedFile> files = filesPagedBy(node, frame(), isTile);
     Paging& paging = _paging[own];
     // One file may be paged in several places.
     const bool isTaken = paging.callback && std::any_of(files.begin(), files.end(), [&](const PagedFile& file) {
-                             return paging.callback->expectsOtherwise(file.name, file.frame, tile);
+                             return paging.callback->expectsOtherwise(file.name, file.frame, parent);
                          });
     if (!paging.callback || isTaken) {
         const osgDB::Options* base = own ? own.get() : osgDB::Registry::instance()->getOptions();
@@ -280,7 +291,7 @@ void BinInstaller::followPaging(osg::PagedLOD& node, const ParentTile* tile) {
         paging.callback = new BinReadFileCallback(_options, &database(), frame(), previousCallback(*paging.options));
         paging.options->setReadFileCallback(paging.callback);
     }
-    for (const PagedFile& file : files) paging.callback->expect(file.name, file.frame, tile);
+    for (const PagedFile& file : files) paging.callback->expect(file.name, file.frame, parent);
     node.setDatabaseOptions(paging.options.get());
 }
 

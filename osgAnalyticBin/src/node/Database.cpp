@@ -130,6 +130,7 @@ void Database::reportFalseBin(const ParentTile& tile, const AnalyticBin& bin) {
 // Requires: the mutex is held. The tile itself has been fitted to what is reported, and need not be widened.
 void Database::widenFrom(const ParentTile& tile, const AnalyticBin& bin) {
     for (const ParentTile* at = &tile; at; at = at->parent.get()) {
+        if (!at->isTile) continue;
         AnalyticBin& correction = _corrections[{at->file, at->ordinal}];
         const bool isKnown = correction.valid() && correction.contains(bin);
         correction.expandBy(bin);

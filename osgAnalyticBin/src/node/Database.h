@@ -27,6 +27,7 @@ namespace osgAnalyticBin {
 struct ParentTile : public osg::Referenced {
     osg::ref_ptr<const ParentTile> parent;  // null: a tile of the root file
     osg::observer_ptr<AnalyticBinCullCallback> callback;
+    bool isTile = true;  // false: a node without a bin, between tiles; it has neither number nor extents
     std::string file;
     std::size_t ordinal = 0;
     core::GeodeticBin extents;

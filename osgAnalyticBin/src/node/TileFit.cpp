@@ -226,7 +226,6 @@ TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& 
 }  // namespace
 
 TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
-    if (link.parent) link.stored = link.parent->stored;
     if (!shape.isKnown && hasTerrainTile(tile)) return unknownFit(tile, database, shape, link);
     TileFit fit = fitKnown(tile, database, shape, link);
     if (shape.areBoundariesEqual && fit.isScalable) {

@@ -26,7 +26,7 @@ struct TileFit {
 /// From, in this order: the bin stored with it; the database's index; its surface and the range of heights that the
 /// options declare. A tile that is not as the index knows it is reported to the database.
 /// `shape` is what the database is drawn in; the application may change that meanwhile.
-/// `link.parent`, `link.file` and `link.ordinal` have to be set; its extents and edges are set here.
+/// `link.parent`, `link.file`, `link.ordinal` and what is stored above have to be set in `link`; the rest is set here.
 /// Source: doc/databases.md, sections 2 and 4.
 [[nodiscard]] TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link);
 
