@@ -151,6 +151,13 @@ bool isSurfaceKnown(const FoundTile& tile) {
     });
 }
 
+/// What moves by itself is culled with the tile that it is in, wherever it is.
+bool mayMove(osg::Node& node) {
+    const osg::Transform* transform = node.asTransform();
+    const bool isStatic = node.getDataVariance() != osg::Object::DYNAMIC && !node.getUpdateCallback();
+    return transform && (!isStatic || transform->getReferenceFrame() != osg::Transform::RELATIVE_RF);
+}
+
 /// By how far terrain may leave bins that hide it, in metres; negative: bins say more about it than the kit can check.
 double tolerance(const Scene& scene, const osg::NodePath& path, const std::vector<osg::Vec3d>& vertices) {
     constexpr double kRounding = 0.1;
@@ -165,6 +172,9 @@ double tolerance(const Scene& scene, const osg::NodePath& path, const std::vecto
         if (scene.tiles.count(path[i]) > 0) innermost = i;
     }
     if (innermost == path.size() || !isSurfaceKnown(scene.tiles.at(path[innermost]))) return -1.0;
+    if (std::any_of(path.begin() + static_cast<std::ptrdiff_t>(innermost) + 1, path.end(),
+                    [](osg::Node* node) { return mayMove(*node); }))
+        return -1.0;
     isStored = isStored || isStoredAbove;
     // bins of tiles that have none stored hold what is within their extents, whatever is stored above them
     if (!isStored || !hasStoredBin(*path[culprit])) return innermost <= culprit ? kRounding : -1.0;
