@@ -16,6 +16,7 @@
 #include <osgDB/WriteFile>
 #include <osgUtil/UpdateVisitor>
 
+#include <cmath>
 #include <set>
 #include <string>
 #include <support/CapturedNotes.h>
@@ -195,6 +196,18 @@ TEST_F(FalseBins, AreWidenedByWhatIsPagedBelowANodeWithoutABin) {
         update();
         EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0);
     }
+}
+
+TEST_F(FalseBins, AreWidenedToAllThereIsByAGlobeWithoutRightRadii) {
+    write(_south, 200.0, "");
+    const osg::ref_ptr<osg::CoordinateSystemNode> broken = new osg::CoordinateSystemNode;
+    broken->setEllipsoidModel(new osg::EllipsoidModel(std::nan(""), 1.0));
+    broken->addChild(makeMeshTile(extentsDeg(-30, -20, 100, 120), 200.0));
+    ASSERT_TRUE(osgDB::writeNodeFile(*broken, _folder / "leaf.osgb"));
+    _root->removeChildren(1, 1);
+    page();
+    update();
+    EXPECT_TRUE(installedOn(*_root)->bin().contains(claim(extentsDeg(-90, 90, -180, 180))));
 }
 
 TEST_F(FalseBins, StayAsTheyAreAboveTilesThatHaveNoneAndAreNotLarger) {

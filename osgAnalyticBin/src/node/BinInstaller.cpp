@@ -55,6 +55,11 @@ bool isGlobeBroken(const osg::CoordinateSystemNode& node) {
     return node.getEllipsoidModel() && !hasValidRadii(*node.getEllipsoidModel());
 }
 
+// Holds what any view of a globe may show.
+AnalyticBin everywhere() {
+    return AnalyticBin(core::GeodeticBin::wholeGlobe({-6.3e6, 1e9}));
+}
+
 // Square radians.
 double areaOf(const core::GeodeticBin& extents) {
     return extents.empty() ? 0.0 : extents.latitude().width() * extents.longitude().width();
@@ -123,6 +128,8 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     if (installsBins() && isGlobeBroken(node)) {
         OSG_WARN << "osgAnalyticBin: the radii of the globe \"" << node.getName() << "\" in \"" << frame().file
                  << "\" are not two positive numbers; what is below it gets no bins." << std::endl;
+        // where that stands nobody knows
+        if (const auto link = linkBetween()) database().reportFalseBin(*link, everywhere());
         _options.method = Method::Sphere;
     }
     const bool isRefit = _refitted.valid();
