@@ -198,6 +198,23 @@ TEST_F(FalseBins, AreWidenedByWhatIsPagedBelowANodeWithoutABin) {
     }
 }
 
+TEST_F(FalseBins, OfAFileThatIsPagedInSeveralPlacesAreWidenedInEach) {
+    write(_south, 200.0, "");
+    const osg::ref_ptr<osg::PagedLOD> middle = makePaged(makeMeshTile(_south, 200.0), "deep.osgb", 1e9f);
+    middle->setUserValue("osgAnalyticBin", claim(_south).toText());
+    ASSERT_TRUE(osgDB::writeNodeFile(*middle, _folder / "leaf.osgb"));
+    ASSERT_TRUE(osgDB::writeNodeFile(*makeMeshTile(_south, 7000.0), _folder / "deep.osgb"));
+    _root->removeChildren(1, 1);
+    std::vector<osg::ref_ptr<osg::Node>> copies{readBelow(*_root), readBelow(*_root)};
+    for (const auto& copy : copies) {
+        auto* const paged = dynamic_cast<osg::PagedLOD*>(copy.get());
+        ASSERT_TRUE(paged);
+        putBelow(*paged, readBelow(*paged));
+        update();
+    }
+    for (const auto& copy : copies) EXPECT_GE(altitudeOf(*copy).upper, 7000.0 - 1.0);
+}
+
 TEST_F(FalseBins, AreWidenedToAllThereIsByAGlobeWithoutRightRadii) {
     write(_south, 200.0, "");
     const osg::ref_ptr<osg::CoordinateSystemNode> broken = new osg::CoordinateSystemNode;

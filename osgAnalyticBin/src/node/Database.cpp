@@ -131,10 +131,12 @@ void Database::reportFalseBin(const ParentTile& tile, const AnalyticBin& bin) {
 void Database::widenFrom(const ParentTile& tile, const AnalyticBin& bin) {
     for (const ParentTile* at = &tile; at; at = at->parent.get()) {
         if (!at->isTile) continue;
-        AnalyticBin& correction = _corrections[{at->file, at->ordinal}];
-        const bool isKnown = correction.valid() && correction.contains(bin);
-        correction.expandBy(bin);
-        if (at != &tile && !isKnown) _toWiden.emplace_back(at->callback, bin);
+        _corrections[{at->file, at->ordinal}].expandBy(bin);
+        // one file may be paged in several places, and below itself
+        const bool isKnown = at == &tile || (at->widening.valid() && at->widening.contains(bin));
+        if (isKnown) continue;
+        at->widening.expandBy(bin);
+        _toWiden.emplace_back(at->callback, bin);
     }
 }
 

@@ -35,6 +35,8 @@ struct ParentTile : public osg::Referenced {
     // What the tile is culled by, where a stored bin says so; else that of the nearest tile above that has one.
     // Invalid: there is none.
     AnalyticBin stored;
+    // What its callback has been asked to be widened by; guarded by the database.
+    mutable AnalyticBin widening;
 
 protected:
     ~ParentTile() override = default;

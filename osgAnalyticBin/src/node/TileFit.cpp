@@ -177,10 +177,16 @@ AnalyticBin checkStored(const FoundTile& tile, Database& database, const Terrain
 }
 
 // The same of a tile that has no bin of its own stored, below one that has.
-void checkUnstored(const AnalyticBin& surface, Database& database, const ParentTile& link) {
-    if (!link.stored.valid() || !surface.valid()) return;
-    if (!nearlyHolds(link.stored, surface, database.ellipsoid()->getRadiusPolar()))
-        database.reportFalseBin(link, surface);
+void checkUnstored(const AnalyticBin& shown, Database& database, const ParentTile& link) {
+    if (!link.stored.valid() || !shown.valid()) return;
+    if (!nearlyHolds(link.stored, shown, database.ellipsoid()->getRadiusPolar())) database.reportFalseBin(link, shown);
+}
+
+// By what was found of the tile before. That may have been in another place, below other tiles.
+void correct(const FoundTile& tile, Database& database, const ParentTile& link, TileFit& fit) {
+    const AnalyticBin correction = database.correction(tile.frame.file, tile.ordinal);
+    checkUnstored(correction, database, link);
+    fit.bin.expandBy(correction);
 }
 
 // What is stored is closer than the bound of a mesh's sag, and believed where the mesh's vertices allow it.
@@ -202,7 +208,7 @@ TileFit fitStored(const FoundTile& tile, Database& database, const TerrainShape&
     if (!fit.bin.valid()) return fit;
     fit.surface = shownSurface(tile, surface, fit.bin);
     linkTo(fit.bin.bin(), link);
-    fit.bin.expandBy(database.correction(tile.frame.file, tile.ordinal));
+    correct(tile, database, link, fit);
     link.stored = fit.bin;
     return fit;
 }
@@ -219,7 +225,7 @@ TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& 
     }
     if (!fit.bin.valid()) return fit;
     fit.bin.setBin(core::withGaps(toCore(*database.ellipsoid()), fit.bin.bin(), link.edges));
-    fit.bin.expandBy(database.correction(tile.frame.file, tile.ordinal));
+    correct(tile, database, link, fit);
     return fit;
 }
 
