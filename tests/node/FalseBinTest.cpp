@@ -181,6 +181,25 @@ TEST_F(FalseBins, AreWidenedByTilesThatHaveNoneOfTheirOwn) {
     EXPECT_EQ(_notes.count(kWarning), 1u);
 }
 
+TEST_F(FalseBins, ThatArePagedInWhereNothingWasInstalledAreWidenedToo) {
+    _hasGlobe = false;
+    write(_south, 7000.0, claim(_south).toText());
+    ASSERT_TRUE(osgDB::writeNodeFile(*makePaged(new osg::Group, "root.osgb", 1e9f), _folder / "above.osgb"));
+    _scene = osgDB::readRefNodeFile(_folder / "above.osgb");
+    ASSERT_EQ(installBins(*_scene), 0u);
+    auto* const above = dynamic_cast<osg::PagedLOD*>(_scene.get());
+    ASSERT_TRUE(above);
+    const osg::ref_ptr<osg::Node> paged = readBelow(*above);
+    putBelow(*above, paged);
+    _root = dynamic_cast<osg::PagedLOD*>(paged->asGroup()->getChild(0));
+    page();
+    update();
+    EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0);
+    EXPECT_EQ(setCullOptions(*_scene, {}), 2u);
+    update();
+    EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0);
+}
+
 TEST_F(FalseBins, AreWidenedByWhatIsPagedBelowANodeWithoutABin) {
     for (const bool hasGlobe : {true, false}) {
         _hasGlobe = hasGlobe;

@@ -82,6 +82,7 @@ private:
     void finish();
 
     [[nodiscard]] bool installsBins() const;
+    void installAt(osg::Node& root);
     [[nodiscard]] Database& database();
     void install(FoundTile& tile);
     void installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape);

@@ -108,6 +108,17 @@ Database& BinInstaller::database() {
     return *_database;
 }
 
+// Tiles that no CoordinateSystemNode stands above, and those that are paged in later, are brought up to date from the
+// root.
+void BinInstaller::installAt(osg::Node& root) {
+    const bool isGlobe = dynamic_cast<osg::CoordinateSystemNode*>(&root) != nullptr;
+    if (!isGlobe && _keepsDatabases) _database = attachedDatabase(root);
+    if (!isGlobe && !_keepsDatabases) detachDatabase(root);
+    if (_database) _database->setOptions(_options);
+    root.accept(*this);
+    if (!isGlobe && _database && installsBins()) attachUpdate(root, *_database);
+}
+
 void BinInstaller::apply(osg::Node& node) {
     const Scoped options(_options, settled(node, _options));
     TileFinder::apply(node);

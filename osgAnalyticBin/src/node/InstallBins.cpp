@@ -1,12 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Database.h"
-#include "DatabaseCallbacks.h"
-
 #include <osgAnalyticBin/BinInstaller.h>
 
-#include <osg/CoordinateSystemNode>
 #include <osg/Notify>
 
 namespace osgAnalyticBin {
@@ -14,7 +10,7 @@ namespace osgAnalyticBin {
 std::size_t setCullOptions(osg::Node& node, const CullOptions& options) {
     BinInstaller installer(options);
     installer._keepsDatabases = true;
-    node.accept(installer);
+    installer.installAt(node);
     return installer.installed();
 }
 
@@ -32,11 +28,7 @@ std::size_t installBins(osg::Node& node, const CullOptions& options, const std::
         if (!error.empty()) OSG_WARN << "osgAnalyticBin: " << error << std::endl;
         installer.setIndex(index.get());
     }
-    const bool isGlobe = dynamic_cast<osg::CoordinateSystemNode*>(&node) != nullptr;
-    if (!isGlobe) detachDatabase(node);
-    node.accept(installer);
-    // Tiles that no CoordinateSystemNode stands above are brought up to date from here.
-    if (!isGlobe && installer._installed > 0 && installer._database) attachUpdate(node, *installer._database);
+    installer.installAt(node);
     OSG_INFO << "osgAnalyticBin: " << installer.installed() << " tiles with " << toText(options) << std::endl;
     return installer.installed();
 }
