@@ -19,7 +19,7 @@ namespace osgAnalyticBin {
 
 /// Where the content of a file stands, and whose it is.
 struct TileFrame {
-    osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;  ///< null: not below a geocentric CoordinateSystemNode, nor a stored bin
+    osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;  ///< null: below no globe and no stored bin
     osg::Matrixd localToEcef;                           ///< in a map: to the map
     /// Whether the coordinate system's text names a map projection. Without an ellipsoid the tiles stand in that map;
     /// with one, what they look like has to tell.
