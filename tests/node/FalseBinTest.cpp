@@ -181,6 +181,16 @@ TEST_F(FalseBins, AreWidenedByTilesThatHaveNoneOfTheirOwn) {
     EXPECT_EQ(_notes.count(kWarning), 1u);
 }
 
+TEST_F(FalseBins, AreFoundWhateverTheyClaimOfMarginAndSag) {
+    for (const char* claimed : {"1e30 0", "0 1e30"}) {
+        const std::string bin = "10 0 -40000 30 40 7100 " + std::string(claimed);
+        ASSERT_TRUE(AnalyticBin::fromText(bin).valid()) << bin;
+        write(_south, 7000.0, bin);
+        update();
+        EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0) << claimed;
+    }
+}
+
 TEST_F(FalseBins, ThatArePagedInWhereNothingWasInstalledAreWidenedToo) {
     _hasGlobe = false;
     write(_south, 7000.0, claim(_south).toText());

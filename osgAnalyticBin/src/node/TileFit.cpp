@@ -133,17 +133,18 @@ struct Tolerance {
     double below, above, aside;
 };
 
-Tolerance toleranceFor(const AnalyticBin& bin, double radius) {
+Tolerance toleranceFor(const AnalyticBin& bin, double sag, double radius) {
+    constexpr double kMostMargin = 100.0;  // a stored one may be anything
     constexpr double kShareOfWidth = 1.0 / 32.0;
     constexpr double kShareOfSag = 1.0 / 4.0;
     const double width = radius * std::max(bin.bin().latitude().width(), bin.bin().longitude().width());
-    const double least = 1.0 + bin.margin();
-    return {least + bin.sag(), least + kShareOfSag * bin.sag(), least + kShareOfWidth * width};
+    const double least = 1.0 + std::min(bin.margin(), kMostMargin);
+    return {least + sag, least + kShareOfSag * sag, least + kShareOfWidth * width};
 }
 
-// Whether the outer bin holds the inner one but for the tolerance.
-bool nearlyHolds(const AnalyticBin& outer, const AnalyticBin& inner, double radius) {
-    const Tolerance tolerance = toleranceFor(inner, radius);
+// Whether the outer bin holds the inner one but for the tolerance. `sag`: of what is known to be drawn.
+bool nearlyHolds(const AnalyticBin& outer, const AnalyticBin& inner, double sag, double radius) {
+    const Tolerance tolerance = toleranceFor(inner, sag, radius);
     const double angle = tolerance.aside / radius;
     // the longitudes of a cap about the pole say little
     const double narrowest = std::max(std::cos(std::abs(inner.bin().center().latitude)), 1e-3);
@@ -166,26 +167,29 @@ AnalyticBin checkStored(const FoundTile& tile, Database& database, const Terrain
     // other sample ratios make other meshes than those that the bin was made of
     const AnalyticBin surface = shape.sampleRatio == 1.0 ? surfaceOf(tile, ellipsoid, 1.0).bin : AnalyticBin();
     const double radius = ellipsoid.getRadiusPolar();
-    const bool isWithinBin = !surface.valid() || !fit.bin.valid() || nearlyHolds(fit.bin, surface, radius);
+    const bool isWithinBin =
+        !surface.valid() || !fit.bin.valid() || nearlyHolds(fit.bin, surface, surface.sag(), radius);
     if (!isWithinBin) fit.bin.expandBy(surface);
     const AnalyticBin& drawn = fit.bin.valid() ? fit.bin : surface;
+    const double sag = surface.valid() ? std::min(surface.sag(), drawn.sag()) : drawn.sag();
     const ParentTile* const parent = link.parent.get();
     const bool isWithinParent =
-        !parent || !parent->stored.valid() || !drawn.valid() || nearlyHolds(parent->stored, drawn, radius);
+        !parent || !parent->stored.valid() || !drawn.valid() || nearlyHolds(parent->stored, drawn, sag, radius);
     if (!isWithinBin || !isWithinParent) database.reportFalseBin(link, drawn);
     return surface;
 }
 
 // The same of a tile that has no bin of its own stored, below one that has.
-void checkUnstored(const AnalyticBin& shown, Database& database, const ParentTile& link) {
+void checkUnstored(const AnalyticBin& shown, double sag, Database& database, const ParentTile& link) {
     if (!link.stored.valid() || !shown.valid()) return;
-    if (!nearlyHolds(link.stored, shown, database.ellipsoid()->getRadiusPolar())) database.reportFalseBin(link, shown);
+    if (!nearlyHolds(link.stored, shown, sag, database.ellipsoid()->getRadiusPolar()))
+        database.reportFalseBin(link, shown);
 }
 
 // By what was found of the tile before. That may have been in another place, below other tiles.
 void correct(const FoundTile& tile, Database& database, const ParentTile& link, TileFit& fit) {
     const AnalyticBin correction = database.correction(tile.frame.file, tile.ordinal);
-    checkUnstored(correction, database, link);
+    checkUnstored(correction, 0.0, database, link);
     fit.bin.expandBy(correction);
 }
 
@@ -221,7 +225,7 @@ TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& 
     if (!isIndexFit || !fitIndexed(tile, database, shape, link, fit)) {
         fitSurface(tile, database, shape, link, fit);
         if (isIndexFit && database.index() && fit.isTerrain) database.reportMisfit(link, fit.bin);
-        if (shape.sampleRatio == 1.0) checkUnstored(fit.surface, database, link);
+        if (shape.sampleRatio == 1.0) checkUnstored(fit.surface, fit.surface.sag(), database, link);
     }
     if (!fit.bin.valid()) return fit;
     fit.bin.setBin(core::withGaps(toCore(*database.ellipsoid()), fit.bin.bin(), link.edges));
