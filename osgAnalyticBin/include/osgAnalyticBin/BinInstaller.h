@@ -84,6 +84,7 @@ private:
     [[nodiscard]] bool installsBins() const;
     void installAt(osg::Node& root);
     [[nodiscard]] Database& database();
+    void passBy(osg::Node& node, bool isTile);
     void install(FoundTile& tile);
     void installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape);
     [[nodiscard]] osg::ref_ptr<ParentTile> linkTo(const FoundTile& tile) const;

@@ -175,7 +175,7 @@ void BinInstaller::visitTile(FoundTile& tile) {
         const TerrainShape shape = database().fittedShape();
         const PlanarFit fit = fitPlanarTile(tile, _options, shape);
         if (fit.kind == PlanarFit::Planar) return installPlanar(tile, fit, shape);
-        if (fit.kind == PlanarFit::Contradictory || !tile.frame.ellipsoid) return visitOther(*tile.node);
+        if (fit.kind == PlanarFit::Contradictory || !tile.frame.ellipsoid) return passBy(*tile.node, true);
     }
     if (installsBins()) return install(tile);
     if (_options.method == Method::None) {
@@ -184,11 +184,15 @@ void BinInstaller::visitTile(FoundTile& tile) {
             suspendClusterCulling(*mesh);
         }
     }
-    visitOther(*tile.node);
+    passBy(*tile.node, true);
 }
 
 void BinInstaller::visitOther(osg::Node& node) {
-    if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) followPaging(*paged, linkBetween().get(), false);
+    passBy(node, false);
+}
+
+void BinInstaller::passBy(osg::Node& node, bool isTile) {
+    if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) followPaging(*paged, linkBetween().get(), isTile);
     if (_options.method == Method::None) {
         suspendCullingOf(node);
         suspendClusterCullingOf(node);
@@ -214,7 +218,7 @@ void BinInstaller::install(FoundTile& tile) {
     const osg::ref_ptr<ParentTile> link = linkTo(tile);
     const TerrainShape shape = database().fittedShape();
     const TileFit fit = fitTile(tile, database(), shape, *link);
-    if (!fit.isTerrain) return visitOther(*tile.node);
+    if (!fit.isTerrain) return passBy(*tile.node, true);
 
     const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database().ellipsoid();
     const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);
@@ -238,9 +242,9 @@ void BinInstaller::install(FoundTile& tile) {
 void BinInstaller::installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape) {
     osg::Node& culled = culledNode(tile);
     const auto mapToLocal = affineInverse(culledFrame(tile, culled));
-    if (!mapToLocal) return visitOther(*tile.node);
+    if (!mapToLocal) return passBy(*tile.node, true);
     // what neighbours lend to edges, and what other techniques make of heights, is not known
-    if (fit.isScalable && (shape.areBoundariesEqual || !shape.isKnown)) return visitOther(*tile.node);
+    if (fit.isScalable && (shape.areBoundariesEqual || !shape.isKnown)) return passBy(*tile.node, true);
     const osg::ref_ptr<PlanarBinCullCallback> callback = new PlanarBinCullCallback(
         PlanarBin(fit.box, *mapToLocal), fit.isScalable ? std::optional(shape) : std::nullopt, _options);
     placeCallback(tile, culled, *callback);
