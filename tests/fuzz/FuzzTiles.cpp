@@ -151,6 +151,12 @@ bool isSurfaceKnown(const FoundTile& tile) {
     });
 }
 
+bool isOwnMesh(const FoundTile& tile, const osg::NodePath& path) {
+    return std::any_of(tile.meshes.begin(), tile.meshes.end(), [&](const osg::ref_ptr<osg::Node>& mesh) {
+        return std::find(path.begin(), path.end(), mesh.get()) != path.end();
+    });
+}
+
 /// What moves by itself is culled with the tile that it is in, wherever it is.
 bool mayMove(osg::Node& node) {
     const osg::Transform* transform = node.asTransform();
@@ -177,7 +183,8 @@ double tolerance(const Scene& scene, const osg::NodePath& path, const std::vecto
         return -1.0;
     isStored = isStored || isStoredAbove;
     // bins of tiles that have none stored hold what is within their extents, whatever is stored above them
-    if (!isStored || !hasStoredBin(*path[culprit])) return innermost <= culprit ? kRounding : -1.0;
+    if (!isStored || !hasStoredBin(*path[culprit]))
+        return innermost <= culprit && isOwnMesh(scene.tiles.at(path[innermost]), path) ? kRounding : -1.0;
     if (!isStoredAbove) return -1.0;
     double extent = 0.0;
     for (const osg::Vec3d& vertex : vertices) extent = std::max(extent, (vertex - vertices.front()).length());
