@@ -15,7 +15,6 @@
 
 #include <array>
 #include <cmath>
-#include <ostream>
 #include <string>
 #include <support/GeodeticOracle.h>
 #include <support/Planets.h>
@@ -25,11 +24,6 @@
 #include <vector>
 
 namespace osgAnalyticBin::test {
-
-// found by GoogleTest
-std::ostream& operator<<(std::ostream& out, const Planet& planet) {
-    return out << planet.name;
-}
 
 namespace {
 

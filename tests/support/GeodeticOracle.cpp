@@ -70,13 +70,42 @@ RealVector geodeticToEcef(const core::Ellipsoid& ellipsoid, Real latitude, Real 
     return {rho * std::cos(longitude), rho * std::sin(longitude), (n * (1 - e2) + altitude) * sine};
 }
 
+namespace {
+
+// Of an ellipsoid far from a sphere, by Newton's steps within a shrinking bracket: in the quadrant of the point, the
+// reduced latitude t of its foot is the only zero of a rho sin t - b z cos t - (a2 - b2) sin t cos t.
+Real latitudeByBracket(const core::Ellipsoid& ellipsoid, Real rho, Real z) noexcept {
+    const Real a = ellipsoid.equatorialRadius();
+    const Real b = ellipsoid.polarRadius();
+    Real south = 0;
+    Real north = std::atan2(Real(1), Real(0));
+    Real t = std::atan2(b * std::abs(z), a * rho);
+    for (int i = 0; i < 100; ++i) {
+        const Real sine = std::sin(t);
+        const Real cosine = std::cos(t);
+        const Real value = a * rho * sine - b * std::abs(z) * cosine - (a * a - b * b) * sine * cosine;
+        const Real slope =
+            a * rho * cosine + b * std::abs(z) * sine - (a * a - b * b) * (cosine - sine) * (cosine + sine);
+        (value > 0 ? north : south) = t;
+        Real next = t - value / slope;
+        if (!(next >= south && next <= north)) next = (south + north) / 2;
+        if (next == t) break;
+        t = next;
+    }
+    return std::copysign(std::atan2(a * std::sin(t), b * std::cos(t)), z);
+}
+
+}  // namespace
+
 // Fixed point of tan(latitude) = (z + N e2 sin(latitude)) / rho; not the iteration of the core.
 RealGeodetic ecefToGeodetic(const core::Ellipsoid& ellipsoid, const RealVector& point) noexcept {
     const Real e2 = squaredEccentricity(ellipsoid);
     const Real a = ellipsoid.equatorialRadius();
     const Real rho = std::hypot(point.x, point.y);
     Real latitude = std::atan2(point.z, rho * (1 - e2));
-    for (int i = 0; i < 200; ++i) {
+    const bool converges = std::abs(e2) < Real(0.3);
+    if (!converges) latitude = latitudeByBracket(ellipsoid, rho, point.z);
+    for (int i = 0; i < 200 && converges; ++i) {
         const Real sine = std::sin(latitude);
         const Real next = std::atan2(point.z + a / std::sqrt(1 - e2 * sine * sine) * e2 * sine, rho);
         if (next == latitude) break;

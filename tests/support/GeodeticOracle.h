@@ -54,7 +54,7 @@ struct RealGeodetic {
     Real latitude = 0, longitude = 0, altitude = 0;
 };
 
-/// The inverse, iterated until it stands still; longitude 0 on the axis.
+/// The inverse, to the nearest point of the ellipsoid, iterated until it stands still; longitude 0 on the axis.
 [[nodiscard]] RealGeodetic ecefToGeodetic(const core::Ellipsoid& ellipsoid, const RealVector& point) noexcept;
 
 /// normal.x + offset without the rounding of double.

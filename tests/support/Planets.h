@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <ostream>
 #include <support/RandomBins.h>
 
 namespace osgAnalyticBin::test {
@@ -22,13 +23,19 @@ struct Planet {
     [[nodiscard]] core::Ellipsoid in(double unit) const { return {equatorialRadius * unit, polarRadius * unit}; }
 };
 
-/// From the Moon to Saturn, with an oblate and a prolate extreme.
-inline constexpr std::array<Planet, 8> kPlanets{{{"Moon", 1738100.0, 1736000.0},
+/// Found by GoogleTest.
+inline std::ostream& operator<<(std::ostream& out, const Planet& planet) {
+    return out << planet.name;
+}
+
+/// From Phobos to Saturn, with an oblate and a prolate extreme.
+inline constexpr std::array<Planet, 9> kPlanets{{{"Moon", 1738100.0, 1736000.0},
                                                  {"Earth", 6378137.0, 6356752.3142},
                                                  {"Mars", 3396190.0, 3376200.0},
                                                  {"Jupiter", 71492000.0, 66854000.0},
                                                  {"Saturn", 60268000.0, 54364000.0},
                                                  {"Vesta", 285000.0, 229000.0},
+                                                 {"Phobos", 11080.0, 11080.0},
                                                  {"Half", 6378137.0, 0.5 * 6378137.0},
                                                  {"Egg", 3189068.5, 6378137.0}}};
 
