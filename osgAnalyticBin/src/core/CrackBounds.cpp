@@ -10,8 +10,10 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-// Posts stand on the terrain, a little farther from the centre than the ellipsoid.
+// Posts stand on the terrain, a little farther from the centre than the ellipsoid; of the largest radius of curvature.
 constexpr double kRoomForAltitude = 1.01;
+// Nor are they deeper than this part of the smallest radius of curvature.
+constexpr double kDeepest = 0.5;
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -44,19 +46,41 @@ TileEdges::Border borderOfRoot(const GeodeticBin& tile) noexcept {
 // Of the series of a chord's poleward run, cut after its first term, for chords up to a seventh of half a turn.
 constexpr double kRoomForRun = 1.1;
 
+// The flattest curve of the surface has the largest radius of curvature; posts as high as `altitude` stand above it.
+double largestRadius(const Ellipsoid& ellipsoid, double altitude) noexcept {
+    const double a = ellipsoid.equatorialRadius();
+    const double b = ellipsoid.polarRadius();
+    const double largest = std::max({a * a / b, b * b / a, a});
+    return std::max(kRoomForAltitude * largest, largest + altitude);
+}
+
+// What a run towards the axis is in latitude, at most, where posts may be as low as `altitude`.
+double mostTurn(const Ellipsoid& ellipsoid, double altitude) noexcept {
+    const double a = ellipsoid.equatorialRadius();
+    const double flattening = std::max(1.0, a / ellipsoid.polarRadius());
+    const double meridional = a / (flattening * flattening);
+    const double below = std::clamp(-altitude - (kRoomForAltitude - 1.0) * a, 0.0, kDeepest * meridional);
+    return below > 0.0 ? (a - below) / (meridional - below) : flattening * flattening;
+}
+
+double sagBelow(const Ellipsoid& ellipsoid, double angle, double altitude) noexcept {
+    if (!(angle < kPi)) return 2.0 * std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+    return largestRadius(ellipsoid, altitude) * (1.0 - std::cos(0.5 * angle));
+}
+
 // The poleward run of a chord between two posts `angle` apart on a parallel: source doc/databases.md, (4.3).
-double polewardRun(const Ellipsoid& ellipsoid, double angle, double latitude) noexcept {
+double polewardRun(const Ellipsoid& ellipsoid, double angle, double latitude, double lowest) noexcept {
     const double half = std::min(0.5 * angle, 1.0);
-    const double flattening = std::max(1.0, ellipsoid.equatorialRadius() / ellipsoid.polarRadius());
-    return 0.5 * kRoomForRun * flattening * flattening * half * half *
+    return 0.5 * kRoomForRun * mostTurn(ellipsoid, lowest) * half * half *
            std::abs(std::sin(latitude) * std::cos(latitude));
 }
 
 // The arc that sags as far as a neighbour `width` wide does along a parallel: its edge, and its triangles within the
 // edge's poleward run. `slope`: the height of tiles over their width. Source: doc/databases.md, (4.2).
-double arcAlongParallel(const Ellipsoid& ellipsoid, double width, double latitude, double slope) noexcept {
+double arcAlongParallel(const Ellipsoid& ellipsoid, double width, double latitude, double slope,
+                        double lowest) noexcept {
     const double cell = width / kFewestCells;
-    const double across = 2.0 * std::sqrt(polewardRun(ellipsoid, cell, latitude) * cell * slope);
+    const double across = 2.0 * std::sqrt(polewardRun(ellipsoid, cell, latitude, lowest) * cell * slope);
     return std::hypot(cell * std::cos(latitude), across);
 }
 
@@ -87,18 +111,16 @@ TileEdges TileEdges::of(const GeodeticBin& tile, const GeodeticBin* parentTile, 
 }
 
 double sagOfArc(const Ellipsoid& ellipsoid, double angle) noexcept {
-    // the flattest curve of the surface has the largest radius of curvature
-    const double a = ellipsoid.equatorialRadius();
-    const double b = ellipsoid.polarRadius();
-    const double largest = kRoomForAltitude * std::max({a * a / b, b * b / a, a});
-    return angle < kPi ? largest * (1.0 - std::cos(0.5 * angle)) : 2.0 * std::max(a, b);
+    return sagBelow(ellipsoid, angle, 0.0);
 }
 
 double crackDepth(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const TileEdges& edges) noexcept {
     const double slope = tile.latitude().width() / tile.longitude().width();
-    const double southArc = arcAlongParallel(ellipsoid, edges.south, tile.latitude().lower, slope);
-    const double northArc = arcAlongParallel(ellipsoid, edges.north, tile.latitude().upper, slope);
-    return sagOfArc(ellipsoid, std::max({southArc, northArc, edges.west / kFewestCells, edges.east / kFewestCells}));
+    const double low = tile.altitude().lower;
+    const double southArc = arcAlongParallel(ellipsoid, edges.south, tile.latitude().lower, slope, low);
+    const double northArc = arcAlongParallel(ellipsoid, edges.north, tile.latitude().upper, slope, low);
+    const double arc = std::max({southArc, northArc, edges.west / kFewestCells, edges.east / kFewestCells});
+    return sagBelow(ellipsoid, arc, tile.altitude().upper);
 }
 
 double dipBehindEdge(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const TileEdges& edges,
@@ -106,18 +128,20 @@ double dipBehindEdge(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const 
     const double slope = tile.latitude().width() / tile.longitude().width();
     const auto behind = [&](double width, double latitude) {
         const double cell = width / kFewestCells;
-        const double run = polewardRun(ellipsoid, cell, latitude);
+        const double run = polewardRun(ellipsoid, cell, latitude, tile.altitude().lower);
         const double height = cell * slope;
         // as in the arc of a crack's depth: a chord of height d dips by (R / 2) r d at r from its end
-        return sagOfArc(ellipsoid, 2.0 * std::sqrt(run * height)) + relief * std::min(1.0, run / height);
+        const double arc = 2.0 * std::sqrt(run * height);
+        return sagBelow(ellipsoid, arc, tile.altitude().upper) + relief * std::min(1.0, run / height);
     };
     return std::max(behind(edges.south, tile.latitude().lower), behind(edges.north, tile.latitude().upper));
 }
 
 GeodeticBin withGaps(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const TileEdges& edges) noexcept {
     Interval latitude = tile.latitude();
-    if (latitude.upper > 0.0) latitude.upper += polewardRun(ellipsoid, edges.north / kFewestCells, latitude.upper);
-    if (latitude.lower < 0.0) latitude.lower -= polewardRun(ellipsoid, edges.south / kFewestCells, latitude.lower);
+    const double low = tile.altitude().lower;
+    if (latitude.upper > 0.0) latitude.upper += polewardRun(ellipsoid, edges.north / kFewestCells, latitude.upper, low);
+    if (latitude.lower < 0.0) latitude.lower -= polewardRun(ellipsoid, edges.south / kFewestCells, latitude.lower, low);
     return GeodeticBin(latitude, tile.longitude(), tile.altitude());
 }
 
@@ -128,7 +152,7 @@ double sagOfFinerMeshes(const Ellipsoid& ellipsoid, const GeodeticBin& tile, boo
     const bool isWide = tile.longitude().width() > kWide * latitude.width();
     const double height = isWide ? latitude.width() : 0.5 * latitude.width();
     const double diagonal = std::hypot(0.5 * tile.longitude().width() * std::cos(nearest), height);
-    return sagOfArc(ellipsoid, areGrids ? diagonal / kFewestCells : diagonal);
+    return sagBelow(ellipsoid, areGrids ? diagonal / kFewestCells : diagonal, tile.altitude().upper);
 }
 
 }  // namespace osgAnalyticBin::core

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "EarthScale.h"
+
 #include <osgAnalyticBin/core/GeodeticGridBounds.h>
 
 #include <algorithm>
@@ -16,7 +18,10 @@ constexpr double kHalfPi = 1.57079632679489661923;
 // Sines are taken for angles in the bound of the poleward run, and the last bits of its own evaluation are covered.
 constexpr double kRunSlack = 1.01;
 constexpr double kAngleRounding = 1e-15;
-constexpr double kLengthRounding = 1e-7;
+constexpr double kLengthRounding = 1e-7;     // metres on the earth
+constexpr double kLatitudeRounding = 1e-14;  // of Ellipsoid::toGeodetic
+// Posts are at most so deep, of the smallest radius of curvature.
+constexpr double kDeepest = 0.5;
 
 double squared(double value) {
     return value * value;
@@ -38,27 +43,60 @@ double haversine(double angle) {
     return squared(std::sin(0.5 * angle));
 }
 
+// Where the closed forms are tight; elsewhere others are taken, which hold for all ellipsoids.
+bool isEarthLike(const Ellipsoid& ellipsoid, double reach) {
+    const double smaller = std::min(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+    return reach < 0.1 * smaller && std::abs(ellipsoid.eccentricitySquared()) < 0.1;
+}
+
+// The lowest posts run farthest.
+double latitudeOfLowestRun(const Ellipsoid& ellipsoid, double latitude, double cosHalfColumn, double reach) {
+    const double depth = std::min(reach, kDeepest * smallestCurvatureRadius(ellipsoid));
+    const double n = ellipsoid.primeVerticalRadius(std::sin(latitude));
+    const double z = (n * (1.0 - ellipsoid.eccentricitySquared()) - depth) * std::sin(latitude);
+    const double rho = (n - depth) * std::cos(latitude) * cosHalfColumn;
+    return ellipsoid.toGeodetic({rho, 0.0, z}).latitude + kLatitudeRounding;
+}
+
 // The latitude up to which chords between posts of the parallel `latitude` >= 0 run, `halfColumn` radians either way.
 double polewardLimit(const Ellipsoid& ellipsoid, double latitude, double cosHalfColumn, double reach) {
     const double fromAxis = std::atan2(std::sin(latitude), std::cos(latitude) * cosHalfColumn);
     const double e2 = ellipsoid.eccentricitySquared();
     const double a = ellipsoid.equatorialRadius();
     const double b = ellipsoid.polarRadius();
+    if (e2 > 0.0 && !isEarthLike(ellipsoid, reach)) {
+        const double lowest = latitudeOfLowestRun(ellipsoid, latitude, cosHalfColumn, reach);
+        return std::min(kHalfPi, std::max(lowest, fromAxis + kAngleRounding));
+    }
     const double lag = e2 > 0.0 ? kRunSlack * e2 * (a / b) * (a / b) * a * a / (b * (a - reach) * cosHalfColumn) : 0.0;
     const double run = std::max(0.0, fromAxis - latitude) / (1.0 - lag);
     return std::min(kHalfPi, latitude + run + kAngleRounding);
+}
+
+// What sags are measured by.
+struct SagTerms {
+    double radius;
+    double stretch;            // of half a row, its root
+    double equatorial, polar;  // radii of the reduced latitude whose cosine counts beside the geodetic one's
+};
+
+SagTerms sagTerms(const Ellipsoid& ellipsoid, double reach) {
+    const double a = ellipsoid.equatorialRadius();
+    const double b = ellipsoid.polarRadius();
+    // Geodetic and reduced latitudes change by a/b and b/a of each other at most: twice, for a middle in reduced
+    // latitude as seen in geodetic ones.
+    const double oblateness = std::max(a / b, b / a);
+    if (isEarthLike(ellipsoid, reach)) return {std::max(a, b) + reach, oblateness, a, b};
+    return {std::max({a, a * (a / b), b * (b / a)}) + reach, 1.0, 1.0, 1.0};
 }
 
 }  // namespace
 
 GeodeticGridBounds::GeodeticGridBounds(const Ellipsoid& ellipsoid, const GeodeticGrid& grid, double reach) noexcept
     : _latitude(grid.latitude) {
-    const double a = ellipsoid.equatorialRadius();
-    const double b = ellipsoid.polarRadius();
     const double row = grid.latitude.width() / static_cast<double>(grid.rows - 1);
     const double column = grid.longitude.width() / static_cast<double>(grid.columns - 1);
-    assert(grid.columns >= 2 && grid.rows >= 2 && row <= kMaxCell && column <= kMaxCell);
-    assert(reach >= 0.0 && reach < 0.1 * std::min(a, b) && std::abs(ellipsoid.eccentricitySquared()) < 0.1);
+    assert(grid.columns >= 2 && grid.rows >= 2 && row <= kMaxCell && column <= kMaxCell && reach >= 0.0);
 
     const double cosHalfColumn = std::cos(0.5 * column);
     if (grid.latitude.upper > 0.0)
@@ -66,15 +104,15 @@ GeodeticGridBounds::GeodeticGridBounds(const Ellipsoid& ellipsoid, const Geodeti
     if (grid.latitude.lower < 0.0)
         _latitude.lower = -polewardLimit(ellipsoid, -grid.latitude.lower, cosHalfColumn, reach);
 
-    // Geodetic and reduced latitudes change by a/b and b/a of each other at most: twice, for a middle in reduced
-    // latitude as seen in geodetic ones.
-    const double oblateness = std::max(a / b, b / a);
-    const HalfCell half{haversine(0.5 * row * oblateness * oblateness), haversine(0.5 * column)};
-    const auto cosAt = [a, b](double latitude) {
-        const double reduced = std::cos(std::atan2(b * std::sin(latitude), a * std::cos(latitude)));
+    const SagTerms terms = sagTerms(ellipsoid, reach);
+    const HalfCell half{haversine(0.5 * row * terms.stretch * terms.stretch), haversine(0.5 * column)};
+    const auto cosAt = [&terms](double latitude) {
+        const double sine = terms.polar * std::sin(latitude);
+        const double reduced = std::cos(std::atan2(sine, terms.equatorial * std::cos(latitude)));
         return std::max(reduced, std::cos(latitude));
     };
-    const auto sagOf = [a, b, reach](double versine) { return (std::max(a, b) + reach) * versine + kLengthRounding; };
+    const double rounding = kLengthRounding * earthScale(ellipsoid);
+    const auto sagOf = [&](double versine) { return terms.radius * versine + rounding; };
     const double cosSouth = cosAt(grid.latitude.lower);
     const double cosNorth = cosAt(grid.latitude.upper);
     const bool acrossEquator = grid.latitude.lower <= 0.0 && grid.latitude.upper >= 0.0;

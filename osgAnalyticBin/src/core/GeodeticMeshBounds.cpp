@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "EarthScale.h"
+
 #include <osgAnalyticBin/core/GeodeticMeshBounds.h>
 
 #include <glm/geometric.hpp>
@@ -110,17 +112,19 @@ bool GeodeticMeshBounds::LatitudeCone::holds(double axisDistance, double absZ) c
 }
 
 void GeodeticMeshBounds::raiseNorth(double latitude) noexcept {
-    _latitude.upper = std::max(_latitude.upper, latitude);
+    _latitude.upper = std::max(_latitude.upper, std::min(latitude, kHalfPi));
     _northCone = LatitudeCone(_ellipsoid, _latitude.upper);
 }
 
 void GeodeticMeshBounds::lowerSouth(double latitude) noexcept {
-    _latitude.lower = std::min(_latitude.lower, latitude);
+    _latitude.lower = std::min(_latitude.lower, std::max(latitude, -kHalfPi));
     _southCone = LatitudeCone(_ellipsoid, -_latitude.lower);
 }
 
 GeodeticBin GeodeticMeshBounds::bin() const noexcept {
     if (!(_latitude.lower <= _latitude.upper)) return {};
+    // deeper, latitudes leap from one side of the equator or the axis to the other
+    if (!(_altitude.lower > -smallestCurvatureRadius(_ellipsoid))) return {};
     if (_fullCircle || !(_relativeLongitude.lower <= _relativeLongitude.upper)) {
         return GeodeticBin(_latitude, {-kPi, kPi}, _altitude);
     }

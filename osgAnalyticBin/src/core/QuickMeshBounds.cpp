@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "EarthScale.h"
+
 #include <osgAnalyticBin/core/QuickMeshBounds.h>
 
 #include <algorithm>
@@ -14,26 +16,37 @@ namespace {
 constexpr double kHalfPi = 1.57079632679489661923;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Where the closed forms of altitude hold, as derived: |a2/b2 - 1|, metres above or below the ellipsoid.
+// Where the closed forms of altitude hold, as derived: |a2/b2 - 1|.
 constexpr double kMostFlattened = 0.01;
-constexpr double kFarthest = 1.0e5;
-// Vertices so near to the axis have no longitude of their own; a mesh nearer than the second is taken to end at the
-// pole.
-constexpr double kAxisTolerance = 1.0;
-constexpr double kPolarCap = 1000.0;
 // Tangent of half the width in longitude that a mesh may have.
 constexpr double kWidest = 20.0;
-// Metres: chords so long sag no deeper than that below their ends.
-constexpr double kLongestChord = 1.5e6;
-constexpr double kDeepestChord = 7.0e4;
 constexpr double kRunSlack = 1.001;  // for the ellipsoid's not being a sphere
 // Chords come that much nearer to the axis than vertices.
 constexpr double kNearerChords = 0.9;
 // A function with this much of second derivative leaves its chords by that of 12 squared radii.
 constexpr double kPerCircle = 1.0 / 24.0;
 constexpr double kAngleRounding = 1e-14;
-constexpr double kLengthRounding = 1e-6;
 constexpr std::size_t kLanes = 16;
+
+// Lengths in the unit of the ellipsoid; the numbers are those of the earth in metres.
+struct Lengths {
+    explicit Lengths(double scale)
+        : farthest(1.0e5 * scale),
+          axisTolerance(1.0 * scale),
+          polarCap(1000.0 * scale),
+          longestChord(1.5e6 * scale),
+          deepestChord(7.0e4 * scale),
+          rounding(1e-6 * scale) {}
+
+    // Where the closed forms of altitude hold, above or below the ellipsoid.
+    double farthest;
+    // Vertices so near to the axis have no longitude of their own; a mesh nearer than the second is taken to end at the
+    // pole.
+    double axisTolerance, polarCap;
+    // Chords so long sag no deeper than that below their ends.
+    double longestChord, deepestChord;
+    double rounding;
+};
 
 // Largest and smallest of several numbers, in lanes for the compiler to make vectors of. NaN is passed over.
 struct Extremes {
@@ -82,8 +95,12 @@ struct EllipsoidTerms {
 
 class VertexPass {
 public:
-    VertexPass(const EllipsoidTerms& terms, const EcefMesh& mesh, double reference)
-        : _terms(terms), _mesh(mesh), _cos(std::cos(reference)), _sin(std::sin(reference)) {}
+    VertexPass(const EllipsoidTerms& terms, const EcefMesh& mesh, double reference, double axisTolerance)
+        : _terms(terms),
+          _mesh(mesh),
+          _axisTolerance(axisTolerance),
+          _cos(std::cos(reference)),
+          _sin(std::sin(reference)) {}
 
     VertexRanges run(std::vector<double>& altitudes, std::vector<double>& axisDistances) {
         const std::size_t count = _mesh.size();
@@ -112,6 +129,7 @@ private:
     }
 
     void work() {
+        const double axisTolerance = _axisTolerance;
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
             const double rho2 = _x[lane] * _x[lane] + _y[lane] * _y[lane];
             const double polar2 = _z[lane] * _z[lane] * _terms.inverseB2;
@@ -122,7 +140,7 @@ private:
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
             const double front = _x[lane] * _cos + _y[lane] * _sin;
             const double side = _y[lane] * _cos - _x[lane] * _sin;
-            const bool hasLongitude = _rho[lane] > kAxisTolerance;
+            const bool hasLongitude = _rho[lane] > axisTolerance;
             const double tangent = side / front;
             _tangents.add(lane, hasLongitude ? tangent : 0.0);
             _fronts[lane] = hasLongitude && front < _fronts[lane] ? front : _fronts[lane];
@@ -143,6 +161,7 @@ private:
 
     const EllipsoidTerms& _terms;
     const EcefMesh& _mesh;
+    double _axisTolerance;
     double _cos, _sin;
     double _x[kLanes], _y[kLanes], _z[kLanes], _rho[kLanes], _altitude[kLanes];
     double _poison[kLanes] = {};
@@ -254,9 +273,9 @@ TriangleRanges trianglePass(const EcefMesh& mesh, const std::vector<double>& alt
 
 // Radians from the equator towards the end's pole. An excess of so many metres is so much latitude at least, and at
 // most.
-double latitudeLimit(const PolewardEnd& end, double chordExcess, const Interval& metresPerRadian) {
+double latitudeLimit(const PolewardEnd& end, double chordExcess, const Interval& metresPerRadian, double rounding) {
     if (end.atPole) return kHalfPi;
-    const double excess = std::max(end.excess, chordExcess) + kLengthRounding;
+    const double excess = std::max(end.excess, chordExcess) + rounding;
     const double beyond = excess >= 0.0 ? kRunSlack * std::asin(std::min(1.0, excess / metresPerRadian.lower))
                                         : excess / metresPerRadian.upper;
     return std::min(kHalfPi, end.guess * end.pole + beyond + kAngleRounding);
@@ -276,16 +295,18 @@ void QuickMeshBounds::find(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
     const EllipsoidTerms terms(ellipsoid);
     if (mesh.size() == 0 || !(std::abs(terms.flattening) <= kMostFlattened)) return;
 
+    const Lengths lengths(earthScale(ellipsoid));
     const double reference = referenceLongitude(mesh);
-    const VertexRanges ranges = VertexPass(terms, mesh, reference).run(_altitudes, _axisDistances);
+    const VertexRanges ranges =
+        VertexPass(terms, mesh, reference, lengths.axisTolerance).run(_altitudes, _axisDistances);
     const double farthest = std::max(std::abs(ranges.altitude.lower), std::abs(ranges.altitude.upper));
     const double widest = std::max(std::abs(ranges.tangent.lower), std::abs(ranges.tangent.upper));
-    if (!(farthest <= kFarthest) || !(widest <= kWidest) || !ranges.isInFront || !ranges.isFinite) return;
-    _touchesAxis = ranges.axisDistance.lower <= kAxisTolerance;
+    if (!(farthest <= lengths.farthest) || !(widest <= kWidest) || !ranges.isInFront || !ranges.isFinite) return;
+    _touchesAxis = ranges.axisDistance.lower <= lengths.axisTolerance;
     const double flattening = std::abs(terms.flattening);
-    _altitudeError = farthest * flattening * (0.5 * flattening + 1.05 * farthest / terms.b) + kLengthRounding;
+    _altitudeError = farthest * flattening * (0.5 * flattening + 1.05 * farthest / terms.b) + lengths.rounding;
 
-    const bool nearAxis = ranges.axisDistance.lower < kPolarCap;
+    const bool nearAxis = ranges.axisDistance.lower < lengths.polarCap;
     PolewardEnd ends[2] = {endOf(ellipsoid, 1.0, ranges.slope.upper, nearAxis),
                            endOf(ellipsoid, -1.0, ranges.slope.lower, nearAxis)};
     bool runs[2] = {false, false};
@@ -298,21 +319,21 @@ void QuickMeshBounds::find(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
     }
 
     const Interval radius = terms.radius();
-    const double smallest = radius.lower + std::min(0.0, ranges.altitude.lower) - kDeepestChord;
+    const double smallest = radius.lower + std::min(0.0, ranges.altitude.lower) - lengths.deepestChord;
     const double nearest = kNearerChords * ranges.axisDistance.lower;
     Curvatures curvatures{kPerCircle / smallest, {0.0, 0.0}};
     for (int side = 0; side < 2; ++side)
         if (runs[side]) curvatures.excess[side] = kPerCircle * std::sin(std::abs(ends[side].guess)) / nearest;
     const TriangleRanges chords = trianglePass(mesh, _altitudes, _excess, curvatures);
-    const bool areShort = chords.longest2 <= kLongestChord * kLongestChord;
+    const bool areShort = chords.longest2 <= lengths.longestChord * lengths.longestChord;
     const bool areFarFromAxis = !(runs[0] || runs[1]) || chords.longest2 <= 0.5 * nearest * nearest;
     if (!areShort || !areFarFromAxis) return;
     _sag = chords.widestCircle * curvatures.altitude;
     const double low = std::min(chords.low, ranges.altitude.lower);
 
     const Interval metresPerRadian{smallest, radius.upper + farthest};
-    _bin = GeodeticBin({-latitudeLimit(ends[1], chords.excess[1], metresPerRadian),
-                        latitudeLimit(ends[0], chords.excess[0], metresPerRadian)},
+    _bin = GeodeticBin({-latitudeLimit(ends[1], chords.excess[1], metresPerRadian, lengths.rounding),
+                        latitudeLimit(ends[0], chords.excess[0], metresPerRadian, lengths.rounding)},
                        {reference + std::atan(ranges.tangent.lower) - kAngleRounding,
                         reference + std::atan(ranges.tangent.upper) + kAngleRounding},
                        {low - _altitudeError, ranges.altitude.upper + _altitudeError});

@@ -52,9 +52,9 @@ constexpr int kFewestCells = 7;
 
 /// How far below its posts a coarser neighbour can dip where it meets the tile's edges, metres: to that depth an eye
 /// above the terrain can see the tile's skirts. Zero or more.
-/// Assumes: neighbours have kFewestCells cells along an edge or more, and the tile's proportions; posts within 60 km of
-/// the ellipsoid, per 6378 km of its radius.
-/// Guarantee: tests: CrackBounds.*.
+/// Assumes: neighbours have kFewestCells cells along an edge or more, and the tile's proportions; posts within a
+/// hundredth of the radii of the ellipsoid, 60 km on the earth, or within the tile's altitudes.
+/// Guarantee: on any ellipsoid in any unit; tests: CrackBounds.*.
 [[nodiscard]] double crackDepth(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const TileEdges& edges) noexcept;
 
 /// Metres by which the triangles of a coarser neighbour, within its edge's poleward run, dip below the lowest point of

@@ -10,15 +10,16 @@ namespace osgAnalyticBin::core {
 
 /// Finds the bin of a triangle mesh in ECEF, with what the triangles do between their vertices: chords sag below the
 /// ellipsoid, and a chord between two posts of one parallel runs poleward of it.
-/// Guarantee: bin() holds every point of every triangle added, up to 1e-7 m;
-/// tests: GeodeticMeshBounds.HoldsEveryPointOfEveryTriangle.
+/// Guarantee: on any ellipsoid in any unit, bin() holds every point of every triangle added, up to 1.6e-14 of the
+/// larger radius (1e-7 m on the earth), or is empty, which means not known: for a mesh that may reach deeper than the
+/// ellipsoid's smallest radius of curvature; tests: GeodeticMeshBounds.HoldsEveryPointOfEveryTriangle, PlanetMeshes.*.
 /// A mesh that crosses the meridian opposite the reference longitude, or the axis, gets the full circle.
 /// Source: doc/derivation.md, section 5.
 class GeodeticMeshBounds final {
 public:
     /// Longitudes are measured from the reference, which should be near the middle of the mesh.
-    /// Vertices closer to the axis than `axisTolerance` (metres) have no longitude of their own and are taken at that
-    /// of the others; the caller's margin has to cover the tolerance.
+    /// Vertices closer to the axis than `axisTolerance` (in the ellipsoid's unit) have no longitude of their own and
+    /// are taken at that of the others; the caller's margin has to cover the tolerance.
     GeodeticMeshBounds(const Ellipsoid& ellipsoid, double referenceLongitude, double axisTolerance = 0.0) noexcept;
 
     /// Every vertex of the mesh has to be added, each once.
@@ -27,7 +28,7 @@ public:
     /// Every triangle has to be added, after its vertices.
     void expandByTriangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) noexcept;
 
-    /// Empty before the first vertex.
+    /// Empty before the first vertex, and for meshes that are too deep.
     [[nodiscard]] GeodeticBin bin() const noexcept;
 
 private:

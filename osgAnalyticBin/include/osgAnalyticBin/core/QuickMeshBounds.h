@@ -28,9 +28,10 @@ struct EcefMesh {
 };
 
 /// The bin that GeodeticMeshBounds finds, some 0.5 m deeper and higher and 1e-7 radians wider, in a small part of the
-/// time: no iteration, and no trigonometry but for the whole mesh.
-/// Guarantee: bin() holds every point of every triangle; vertices within 1 m of the axis may leave it by that much;
-/// tests: QuickMeshBounds.*.
+/// time: no iteration, and no trigonometry but for the whole mesh. Lengths here are those of the earth in metres; on
+/// another globe, or in another unit, they are to be multiplied by its equatorial radius over the earth's, 6378137.
+/// Guarantee: on any ellipsoid in any unit, bin() holds every point of every triangle, or is empty, which means not
+/// known; vertices within 1 m of the axis may leave it by that much; tests: QuickMeshBounds.*, PlanetMeshes.*.
 /// Cost: some 10 nanoseconds for each vertex and each triangle. One object for many meshes keeps its memory.
 /// Source: doc/derivation.md, section 11.
 class QuickMeshBounds final {
@@ -42,8 +43,8 @@ public:
     /// In place of what was found before. Requires: indices within the vertices.
     void find(const Ellipsoid& ellipsoid, const EcefMesh& mesh);
 
-    /// False: the mesh is too large, reaches altitudes that terrain does not have, or the ellipsoid is not like the
-    /// earth's; bin() is empty then, and GeodeticMeshBounds is to be asked.
+    /// False: sides of more than 1500 km, altitudes beyond 100 km, a mesh that wraps half the globe, or an ellipsoid
+    /// that is not nearly a sphere, |a2/b2 - 1| > 0.01; bin() is empty then, and GeodeticMeshBounds is to be asked.
     [[nodiscard]] bool isKnown() const noexcept { return !_bin.empty(); }
 
     /// Empty unless isKnown().

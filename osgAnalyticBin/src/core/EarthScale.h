@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/Ellipsoid.h>
+
+#include <algorithm>
+
+namespace osgAnalyticBin::core {
+
+/// What lengths that were found for the earth in metres are to be multiplied by on another globe, or in another unit.
+/// Exactly 1 for WGS 84.
+[[nodiscard]] inline double earthScale(const Ellipsoid& ellipsoid) noexcept {
+    constexpr double kEarth = 6378137.0;
+    return ellipsoid.equatorialRadius() / kEarth;
+}
+
+/// The smallest radius of curvature: deeper below the ellipsoid, altitude and latitude are no longer one to one with
+/// points.
+[[nodiscard]] inline double smallestCurvatureRadius(const Ellipsoid& ellipsoid) noexcept {
+    const double a = ellipsoid.equatorialRadius();
+    const double b = ellipsoid.polarRadius();
+    return std::min(a * (a / b), b * (b / a));
+}
+
+}  // namespace osgAnalyticBin::core

@@ -1,0 +1,383 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Bounds of meshes and of grids on ellipsoids from an 11 km body to Saturn, oblate and prolate extremes, each of them
+// in metres, in kilometres and with an equatorial radius of one. Oracle: points of the triangles, taken back to
+// latitude, longitude and altitude in long double.
+
+#include "TriangleSamples.h"
+
+#include <osgAnalyticBin/core/CrackBounds.h>
+#include <osgAnalyticBin/core/GeodeticGridBounds.h>
+#include <osgAnalyticBin/core/GeodeticMeshBounds.h>
+#include <osgAnalyticBin/core/QuickMeshBounds.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <support/Planets.h>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+
+namespace {
+
+using core::EcefMesh;
+using core::Ellipsoid;
+using core::GeodeticBin;
+using core::GeodeticGrid;
+using core::GeodeticGridBounds;
+using core::GeodeticMeshBounds;
+using core::Interval;
+using core::QuickMeshBounds;
+
+constexpr double kPromised = 1.6e-14;               // of the larger radius
+constexpr double kAxisTolerance = 1.0 / 6378137.0;  // of the equatorial radius
+constexpr double kRound = 0.01;                     // |a2/b2 - 1| up to which there are quick bounds
+
+double smaller(const Ellipsoid& e) {
+    return std::min(e.equatorialRadius(), e.polarRadius());
+}
+
+double larger(const Ellipsoid& e) {
+    return std::max(e.equatorialRadius(), e.polarRadius());
+}
+
+bool isRound(const Ellipsoid& e) {
+    const double ratio = e.equatorialRadius() / e.polarRadius();
+    return std::abs(ratio * ratio - 1.0) <= kRound;
+}
+
+// Posts on a grid over the extents, each with its own altitude; diagonals by chance.
+EcefMesh meshOver(Random& random, const Ellipsoid& ellipsoid, const GeodeticBin& extents, std::uint32_t cells) {
+    EcefMesh mesh;
+    for (std::uint32_t row = 0; row <= cells; ++row) {
+        for (std::uint32_t column = 0; column <= cells; ++column) {
+            const glm::dvec3 post =
+                ellipsoid.toEcef({extents.latitude().lower + extents.latitude().width() * row / cells,
+                                  extents.longitude().lower + extents.longitude().width() * column / cells,
+                                  random.uniform(extents.altitude().lower, extents.altitude().upper)});
+            mesh.x.push_back(post.x);
+            mesh.y.push_back(post.y);
+            mesh.z.push_back(post.z);
+        }
+    }
+    for (std::uint32_t row = 0; row < cells; ++row) {
+        for (std::uint32_t column = 0; column < cells; ++column) {
+            const std::uint32_t a = row * (cells + 1) + column, b = a + 1, c = a + cells + 1, d = c + 1;
+            if (random.chance(0.5)) {
+                mesh.triangles.insert(mesh.triangles.end(), {a, b, c, c, b, d});
+            } else {
+                mesh.triangles.insert(mesh.triangles.end(), {a, b, d, a, d, c});
+            }
+        }
+    }
+    return mesh;
+}
+
+Triangle triangleAt(const EcefMesh& mesh, std::size_t first) {
+    return {mesh.vertex(mesh.triangles[first]), mesh.vertex(mesh.triangles[first + 1]),
+            mesh.vertex(mesh.triangles[first + 2])};
+}
+
+GeodeticBin thoroughBounds(const Ellipsoid& ellipsoid, const EcefMesh& mesh, double reference) {
+    GeodeticMeshBounds bounds(ellipsoid, reference, kAxisTolerance * ellipsoid.equatorialRadius());
+    for (std::size_t i = 0; i < mesh.size(); ++i) bounds.expandByVertex(mesh.vertex(i));
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+        const Triangle t = triangleAt(mesh, i);
+        bounds.expandByTriangle(t.a, t.b, t.c);
+    }
+    return bounds.bin();
+}
+
+void expectHolds(Random& random, const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& bin,
+                 double allowance) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+        const Triangle triangle = triangleAt(mesh, i);
+        for (int k = 0; k < 10; ++k)
+            ASSERT_LE(distanceOutside(ellipsoid, bin, randomPointOf(random, triangle)), allowance);
+    }
+}
+
+// Where the points of a mesh are, by a dense lattice on every triangle.
+struct Truth {
+    double lowest = 1e300;
+    double northernmost = -1e300;
+
+    Truth(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
+        constexpr int kSteps = 8;
+        for (std::size_t first = 0; first < mesh.triangles.size(); first += 3) {
+            const Triangle t = triangleAt(mesh, first);
+            for (int i = 0; i <= kSteps; ++i) {
+                for (int j = 0; i + j <= kSteps; ++j) {
+                    const RealVector point = Real(i) / kSteps * real(t.a) + Real(j) / kSteps * real(t.b) +
+                                             Real(kSteps - i - j) / kSteps * real(t.c);
+                    const RealGeodetic at = ecefToGeodetic(ellipsoid, point);
+                    lowest = std::min(lowest, static_cast<double>(at.altitude));
+                    northernmost = std::max(northernmost, static_cast<double>(at.latitude));
+                }
+            }
+        }
+    }
+};
+
+class PlanetMeshes : public ::testing::TestWithParam<Planet> {
+protected:
+    [[nodiscard]] std::array<double, 3> units() const { return GetParam().units(); }
+    [[nodiscard]] Ellipsoid in(double unit) const { return GetParam().in(unit); }
+
+    // Up to `size` radians, at the poles often, with altitudes up to `relief` of the smaller radius either way.
+    GeodeticBin randomExtents(const Ellipsoid& ellipsoid, double size, double relief) {
+        const double height = random.logUniform(1e-5, size);
+        const double south = random.chance(0.1)   ? -kHalfPi
+                             : random.chance(0.1) ? kHalfPi - height
+                                                  : random.uniform(-kHalfPi, kHalfPi - height);
+        const double west = random.uniform(-kPi, kPi);
+        const double low = random.uniform(-relief, relief);
+        const double high = random.chance(0.3) ? low : random.uniform(low, relief);
+        return GeodeticBin({south, south + height}, {west, west + height * random.uniform(0.5, 2.0)},
+                           {low * smaller(ellipsoid), high * smaller(ellipsoid)});
+    }
+
+    Random random{1201};
+};
+
+TEST_P(PlanetMeshes, ThoroughBoundsHoldEveryPoint) {
+    for (const double unit : units()) {
+        const Ellipsoid ellipsoid = in(unit);
+        for (int trial = 0; trial < 150; ++trial) {
+            const GeodeticBin extents = randomExtents(ellipsoid, 0.6, random.chance(0.5) ? 0.002 : 0.08);
+            const auto cells = static_cast<std::uint32_t>(random.integer(2, 5));
+            const EcefMesh mesh = meshOver(random, ellipsoid, extents, cells);
+            const GeodeticBin bin = thoroughBounds(ellipsoid, mesh, extents.longitude().middle());
+            ASSERT_FALSE(bin.empty());
+            const bool isPolar = extents.latitude().lower == -kHalfPi || extents.latitude().upper == kHalfPi;
+            const double offset = isPolar ? kAxisTolerance * ellipsoid.equatorialRadius() : 0.0;
+            expectHolds(random, ellipsoid, mesh, bin, offset + kPromised * larger(ellipsoid));
+            if (HasFatalFailure()) return;
+        }
+    }
+}
+
+TEST_P(PlanetMeshes, QuickBoundsHoldEveryPoint) {
+    for (const double unit : units()) {
+        const Ellipsoid ellipsoid = in(unit);
+        int known = 0;
+        for (int trial = 0; trial < 150; ++trial) {
+            const GeodeticBin extents = randomExtents(ellipsoid, 0.6, 0.0017);
+            const auto cells = static_cast<std::uint32_t>(random.integer(2, 9));
+            const EcefMesh mesh = meshOver(random, ellipsoid, extents, cells);
+            const QuickMeshBounds bounds(ellipsoid, mesh);
+            if (!bounds.isKnown()) continue;
+            ++known;
+            const double offset = bounds.touchesAxis() ? kAxisTolerance * ellipsoid.equatorialRadius() : 0.0;
+            expectHolds(random, ellipsoid, mesh, bounds.bin(), offset + kPromised * larger(ellipsoid));
+            if (trial % 5 != 0) continue;
+            const double lowestPost = *std::min_element(bounds.altitudes().begin(), bounds.altitudes().end());
+            EXPECT_LE(lowestPost - Truth(ellipsoid, mesh).lowest, bounds.sag() + 2.0 * bounds.altitudeError());
+            if (HasFatalFailure()) return;
+        }
+        if (isRound(ellipsoid)) {
+            EXPECT_GT(known, 130);
+        } else {
+            EXPECT_EQ(known, 0);
+        }
+    }
+}
+
+// A triangle may sag as a chord as long as two thirds of its longest side does, and be found out for the whole.
+TEST_P(PlanetMeshes, BoundsOfFlatMeshesAreTight) {
+    for (const double unit : units()) {
+        const Ellipsoid ellipsoid = in(unit);
+        const double a = ellipsoid.equatorialRadius();
+        const double flattening = std::max(1.0, a / ellipsoid.polarRadius());
+        for (int trial = 0; trial < 10; ++trial) {
+            const double size = random.logUniform(0.01, 0.4);
+            const double south = random.uniform(0.0, 1.1);
+            const GeodeticBin extents({south, south + size}, {0.5, 0.5 + size}, {0.0, 0.0});
+            const EcefMesh mesh = meshOver(random, ellipsoid, extents, 8);
+            const Truth truth(ellipsoid, mesh);
+            const GeodeticBin bin = thoroughBounds(ellipsoid, mesh, 0.5);
+            EXPECT_LE(-bin.altitude().lower, 1.8 * -truth.lowest);
+            EXPECT_LE(bin.altitude().upper, kPromised * larger(ellipsoid));
+            const double step = size / 8.0;
+            const double turn = step * step * flattening * flattening;
+            EXPECT_LE(bin.latitude().upper - truth.northernmost, 0.25 * turn);
+
+            const QuickMeshBounds quick(ellipsoid, mesh);
+            EXPECT_EQ(quick.isKnown(), isRound(ellipsoid));
+            if (!quick.isKnown()) continue;
+            const double rounding = 1e-12 * a;
+            EXPECT_LE(-quick.bin().altitude().lower, 1.2 * -truth.lowest + rounding);
+            EXPECT_LE(quick.sag(), 1.2 * -truth.lowest + rounding);
+            EXPECT_LE(quick.bin().altitude().upper, rounding);
+            EXPECT_LE(quick.bin().latitude().upper - truth.northernmost, turn);
+        }
+    }
+}
+
+// A power of two is no rounding: nothing else may depend on the unit.
+TEST_P(PlanetMeshes, BoundsAreTheSameInEveryUnit) {
+    const Ellipsoid metres = in(1.0);
+    for (const double unit : {0x1p-10, 0x1p-22, 0x1p-30, 0x1p7}) {
+        const Ellipsoid ellipsoid = in(unit);
+        for (int trial = 0; trial < 40; ++trial) {
+            const GeodeticBin extents = randomExtents(metres, 0.3, 0.05);
+            const EcefMesh mesh = meshOver(random, metres, extents, 7);
+            EcefMesh scaled = mesh;
+            for (std::vector<double>* axis : {&scaled.x, &scaled.y, &scaled.z})
+                for (double& x : *axis) x *= unit;
+            const auto expectSame = [&](const GeodeticBin& expected, const GeodeticBin& found) {
+                EXPECT_EQ(found.empty(), expected.empty());
+                if (expected.empty()) return;
+                EXPECT_EQ(found.latitude(), expected.latitude());
+                EXPECT_EQ(found.longitude(), expected.longitude());
+                EXPECT_EQ(found.altitude().lower, unit * expected.altitude().lower);
+                EXPECT_EQ(found.altitude().upper, unit * expected.altitude().upper);
+            };
+            const double reference = extents.longitude().middle();
+            expectSame(thoroughBounds(metres, mesh, reference), thoroughBounds(ellipsoid, scaled, reference));
+            const QuickMeshBounds expected(metres, mesh);
+            const QuickMeshBounds found(ellipsoid, scaled);
+            expectSame(expected.bin(), found.bin());
+            EXPECT_EQ(found.touchesAxis(), expected.touchesAxis());
+            if (expected.isKnown()) {
+                EXPECT_EQ(found.sag(), unit * expected.sag());
+            }
+
+            const GeodeticGrid grid{extents.latitude(), extents.longitude(), 9, 9};
+            const double reach = random.uniform(0.0, 0.2) * smaller(metres);
+            const GeodeticGridBounds gridExpected(metres, grid, reach);
+            const GeodeticGridBounds gridFound(ellipsoid, grid, unit * reach);
+            EXPECT_EQ(gridFound.latitude(), gridExpected.latitude());
+            EXPECT_EQ(gridFound.sag(), unit * gridExpected.sag());
+
+            const Interval& altitude = extents.altitude();
+            const GeodeticBin tile = extents.withAltitude({unit * altitude.lower, unit * altitude.upper});
+            const core::TileEdges edges{0.4, 0.3, 0.2, 0.1, {}};
+            EXPECT_EQ(crackDepth(ellipsoid, tile, edges), unit * crackDepth(metres, extents, edges));
+            expectSame(withGaps(metres, extents, edges), withGaps(ellipsoid, tile, edges));
+        }
+    }
+}
+
+// Through the middle of the globe there are no latitudes that a bound could hold: such meshes are unknown.
+TEST_P(PlanetMeshes, AnyTriangleIsHeldOrUnknown) {
+    for (const double unit : units()) {
+        const Ellipsoid ellipsoid = in(unit);
+        int known = 0;
+        for (int trial = 0; trial < 1500; ++trial) {
+            const double size = random.logUniform(0.05, 2.0);
+            const glm::dvec3 middle = random.direction() * random.uniform(0.0, 1.2);
+            EcefMesh mesh;
+            for (int i = 0; i < 3; ++i) {
+                const glm::dvec3 corner = middle + random.direction() * size;
+                mesh.x.push_back(corner.x * ellipsoid.equatorialRadius());
+                mesh.y.push_back(corner.y * ellipsoid.equatorialRadius());
+                mesh.z.push_back((random.chance(0.1) ? 0.0 : corner.z) * ellipsoid.polarRadius());
+            }
+            mesh.triangles = {0, 1, 2};
+            const double reference = std::atan2(middle.y, middle.x);
+            const GeodeticBin thorough = thoroughBounds(ellipsoid, mesh, reference);
+            const double offset = 1e-12 * larger(ellipsoid) + kAxisTolerance * ellipsoid.equatorialRadius();
+            known += thorough.empty() ? 0 : 1;
+            if (!thorough.empty()) expectHolds(random, ellipsoid, mesh, thorough, offset);
+            const QuickMeshBounds quick(ellipsoid, mesh);
+            if (quick.isKnown()) expectHolds(random, ellipsoid, mesh, quick.bin(), offset);
+            if (HasFatalFailure()) return;
+        }
+        EXPECT_GT(known, 150);
+    }
+}
+
+// The four corners of a random cell, those of the edges often, at altitudes within the interval.
+struct GridCell {
+    std::array<glm::dvec3, 4> corners;
+
+    GridCell(Random& random, const Ellipsoid& ellipsoid, const GeodeticGrid& grid, const Interval& altitude) {
+        const auto pick = [&random](std::size_t posts) {
+            const int last = static_cast<int>(posts) - 2;
+            return random.chance(0.3) ? 0 : random.chance(0.4) ? last : random.integer(0, last);
+        };
+        const auto at = [](const Interval& range, int i, std::size_t posts) {
+            return range.lower + range.width() * i / static_cast<double>(posts - 1);
+        };
+        const int column = pick(grid.columns);
+        const int row = pick(grid.rows);
+        for (int i = 0; i < 4; ++i) {
+            const double height = random.chance(0.3)   ? altitude.lower
+                                  : random.chance(0.3) ? altitude.upper
+                                                       : random.uniform(altitude.lower, altitude.upper);
+            corners[static_cast<std::size_t>(i)] = ellipsoid.toEcef(
+                {at(grid.latitude, row + i / 2, grid.rows), at(grid.longitude, column + i % 2, grid.columns), height});
+        }
+    }
+
+    [[nodiscard]] std::array<Triangle, 4> triangles() const {
+        const auto& c = corners;
+        return {Triangle{c[0], c[1], c[2]}, Triangle{c[1], c[2], c[3]}, Triangle{c[0], c[1], c[3]},
+                Triangle{c[0], c[2], c[3]}};
+    }
+};
+
+TEST_P(PlanetMeshes, GridBoundsHoldEveryPoint) {
+    for (const double unit : units()) {
+        const Ellipsoid ellipsoid = in(unit);
+        const double a = ellipsoid.equatorialRadius();
+        const double b = ellipsoid.polarRadius();
+        const double deepest = 0.5 * std::min(a * a / b, b * b / a);
+        for (int trial = 0; trial < 100; ++trial) {
+            const GeodeticBin extents = randomExtents(ellipsoid, 1.5, 0.0);
+            const auto posts = static_cast<std::size_t>(random.integer(5, 33));
+            const GeodeticGrid grid{extents.latitude(), extents.longitude(), posts, posts};
+            const double reach = smaller(ellipsoid) * (random.chance(0.2) ? 0.0 : random.logUniform(1e-6, 0.3));
+            const GeodeticGridBounds bounds(ellipsoid, grid, reach);
+            const double low = random.uniform(-std::min(reach, deepest), reach);
+            const Interval altitude{low, random.uniform(low, reach)};
+            const GeodeticBin bin(bounds.latitude(), grid.longitude, {altitude.lower - bounds.sag(), altitude.upper});
+            for (int i = 0; i < 10; ++i) {
+                for (const Triangle& triangle : GridCell(random, ellipsoid, grid, altitude).triangles()) {
+                    for (int k = 0; k < 5; ++k) {
+                        const RealVector point = randomPointOf(random, triangle);
+                        ASSERT_LE(distanceOutside(ellipsoid, bin, point), kPromised * larger(ellipsoid)) << trial;
+                    }
+                }
+            }
+        }
+    }
+}
+
+// Where the surface is as flat as anywhere, or as curved along the meridian as anywhere: what the bounds go by.
+TEST_P(PlanetMeshes, GridBoundsAreTight) {
+    for (const double unit : units()) {
+        const Ellipsoid ellipsoid = in(unit);
+        const double axes = larger(ellipsoid) / smaller(ellipsoid);
+        for (const double south : {0.1, 0.5, 0.9, 1.3}) {
+            const GeodeticGrid grid{{south, south + 0.1}, {0.0, 0.1}, 11, 11};
+            const GeodeticGridBounds bounds(ellipsoid, grid, 0.0);
+            const auto altitudeBetween = [&](const glm::dvec3& p, const glm::dvec3& q) {
+                return static_cast<double>(ecefToGeodetic(ellipsoid, Real(0.5L) * (real(p) + real(q))).altitude);
+            };
+            const glm::dvec3 southWest = ellipsoid.toEcef({south, 0.0, 0.0});
+            const glm::dvec3 northEast = ellipsoid.toEcef({south + 0.01, 0.01, 0.0});
+            const double worst = axes * axes * axes;
+            EXPECT_LE(bounds.sag(), 1.05 * worst * -altitudeBetween(southWest, northEast));
+            const glm::dvec3 northWest = ellipsoid.toEcef({south + 0.1, 0.0, 0.0});
+            const glm::dvec3 next = ellipsoid.toEcef({south + 0.1, 0.01, 0.0});
+            EXPECT_LE(bounds.edgeSag()[2], 1.05 * worst * -altitudeBetween(northWest, next));
+            const RealGeodetic middle = ecefToGeodetic(ellipsoid, Real(0.5L) * (real(northWest) + real(next)));
+            const double run = static_cast<double>(middle.latitude) - (south + 0.1);
+            EXPECT_LE(bounds.latitude().upper - (south + 0.1), 1.1 * std::max(1.0, axes * axes) * run + 1e-13);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PlanetMeshes, ::testing::ValuesIn(kPlanets),
+                         [](const auto& planet) { return std::string(planet.param.name); });
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
