@@ -38,8 +38,12 @@ struct TileSurface {
 /// `node` stands in a frame that `localToEcef` takes to ECEF. `sampleRatio` is osgTerrain::Terrain's.
 /// Skirts are told by the texture coordinates and the depth that VirtualPlanetBuilder gives them; any doubt and they
 /// count as surface.
-/// Guarantee: the bin holds every point of every triangle that is drawn, skirts left out, and of terrain tiles at any
-/// vertical scale from -10 to 10 once exaggerated(); tests: TileSurface.*. Terrain whose boundaries are equalised
+/// What is higher than 50 km on the earth, or deeper than 1000 km, is taken for no terrain: not valid(). On another
+/// globe, or in another unit, the depth is in proportion to the equatorial radius, and so is the height but for 50 000
+/// units at least, where that is no more than a tenth of the radius.
+/// Guarantee: on any ellipsoid in any unit, the bin holds every point of every triangle that is drawn, skirts left out,
+/// and of terrain tiles once exaggerated(), at any vertical scale from -10 to 10 that leaves no post deeper than half
+/// the smallest radius of curvature; tests: TileSurface.*, PlanetSurface.*. Terrain whose boundaries are equalised
 /// (Terrain::setEqualizeBoundaries(), off by default) takes heights of its neighbours at its edges, which are not in
 /// here.
 /// Cost: one pass over heights or vertices and triangles.

@@ -4,6 +4,7 @@
 #include "MeshSurface.h"
 
 #include "Skirts.h"
+#include "TerrainLimits.h"
 
 #include <osgAnalyticBin/core/GeodeticMeshBounds.h>
 
@@ -17,13 +18,11 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// Float vertices about the axis are that far off at most; they get no longitude of their own.
+// Metres on the earth, in proportion elsewhere: float vertices about the axis are that far off at most; they get no
+// longitude of their own.
 constexpr double kAxisTolerance = 1.0;
-// What float vertices lose once more on their way to the screen.
+// What float vertices lose once more on their way to the screen; metres on the earth.
 constexpr double kDrawing = 0.01;
-// Coarse meshes sag far below the ellipsoid; what leaves these altitudes is no terrain.
-constexpr double kLowestMesh = -1.0e6;
-constexpr double kHighestMesh = 5.0e4;
 constexpr std::size_t kEdges = 4;
 
 // Puts any other vertex in place of those that no triangle uses.
@@ -63,7 +62,7 @@ MeshBounds thoroughBounds(const SurfaceMesh& mesh, const MeshSkirts& skirts, con
     for (std::size_t i = 0; i < mesh.size(); ++i) sum += mesh.vertex(i);
     if (!std::isfinite(sum.x + sum.y + sum.z)) return {};
     MeshBounds result;
-    core::GeodeticMeshBounds bounds(ellipsoid, std::atan2(sum.y, sum.x), kAxisTolerance);
+    core::GeodeticMeshBounds bounds(ellipsoid, std::atan2(sum.y, sum.x), kAxisTolerance * core::earthScale(ellipsoid));
     std::vector<double> altitudes;
     altitudes.reserve(mesh.size());
     for (std::size_t i = 0; i < mesh.size(); ++i) {
@@ -94,7 +93,7 @@ MeshBounds boundsOf(const SurfaceMesh& mesh, const MeshSkirts& skirts, const cor
 double chordSag(double length2, const core::Ellipsoid& ellipsoid) {
     const double a = ellipsoid.equatorialRadius();
     const double b = ellipsoid.polarRadius();
-    const double smallestRadius = std::min(a * a / b, b * b / a) + kLowestMesh;
+    const double smallestRadius = std::min(a * a / b, b * b / a) + lowestMesh(ellipsoid);
     return length2 / (8.0 * smallestRadius);
 }
 
@@ -113,10 +112,12 @@ TileSurface meshSurface(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
     dropUnusedVertices(mesh);
     const MeshBounds bounds = boundsOf(mesh, skirts, ellipsoid);
     const core::Interval& altitude = bounds.bin.altitude();
-    if (bounds.bin.empty() || altitude.lower <= kLowestMesh || altitude.upper >= kHighestMesh) return {};
+    const bool isTerrain = altitude.lower > lowestMesh(ellipsoid) && altitude.upper < highestTerrain(ellipsoid);
+    if (bounds.bin.empty() || !isTerrain) return {};
 
     TileSurface result;
-    result.bin = AnalyticBin(bounds.bin, kDrawing + (bounds.touchesAxis ? kAxisTolerance : 0.0));
+    const double offset = kDrawing + (bounds.touchesAxis ? kAxisTolerance : 0.0);
+    result.bin = AnalyticBin(bounds.bin, core::earthScale(ellipsoid) * offset);
     result.bin.setSag(bounds.sag);
     result.edgeLow = edgeLows(bounds, chordSag(skirts.borderChord2, ellipsoid));
     result.skirt = skirts.depth;

@@ -3,6 +3,7 @@
 
 #include "ShownDepth.h"
 
+#include "../core/EarthScale.h"
 #include "Scoped.h"
 
 #include <osg/CoordinateSystemNode>
@@ -130,14 +131,14 @@ std::optional<core::HorizonEye> eyeAboveWhatIsShown(osg::Group& database, osg::N
     constexpr int kMostRounds = 16;
     constexpr int kExactRounds = 12;
     constexpr double kRoom = 1.05;
-    constexpr double kStep = 500.0;
+    const double step = 500.0 * core::earthScale(ellipsoid);
     depth = std::clamp(depth, 0.0, deepest);
     for (int round = 0; round < kMostRounds; ++round) {
         const auto eye = viewpoint.above(ellipsoid, depth);
         if (!eye && depth >= deepest) break;
         if (!eye) {
             // the eye may stand in a valley below the ellipsoid
-            depth = std::min(2.0 * depth + kStep, deepest);
+            depth = std::min(2.0 * depth + step, deepest);
             continue;
         }
         LowestShown lowest(visitor, cullStack, *eye, shape, deepest);

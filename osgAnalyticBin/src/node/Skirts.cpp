@@ -3,6 +3,8 @@
 
 #include "Skirts.h"
 
+#include "../core/EarthScale.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -15,10 +17,11 @@ namespace osgAnalyticBin {
 namespace {
 
 constexpr float kBorder = 1e-6f;  // of texture coordinates
-// Skirts of one tile are equally deep to this part of their depth and this many metres (float vertices of large tiles).
+// Skirts of one tile are equally deep to this part of their depth and this many metres on the earth, in proportion
+// elsewhere (float vertices of large tiles).
 constexpr double kDepthTolerance = 0.02;
 constexpr double kDepthRounding = 4.0;
-constexpr double kShallowest = 1.0;  // metres
+constexpr double kShallowest = 1.0;  // metres on the earth
 // How far from straight down a skirt may hang: the geocentric vertical is 0.2 degrees off.
 constexpr double kPlumbCosine = 0.999;
 
@@ -73,12 +76,13 @@ struct Pair {
     std::uint32_t lower;
 };
 
-// Square metres: the distance of two vertices, one straight below the other; NaN when it is not.
+// The squared distance of two vertices, one straight below the other; NaN when it is not.
 class DepthMeasure {
 public:
     explicit DepthMeasure(const core::Ellipsoid& ellipsoid)
         : _equatorial(1.0 / (ellipsoid.equatorialRadius() * ellipsoid.equatorialRadius())),
-          _polar(1.0 / (ellipsoid.polarRadius() * ellipsoid.polarRadius())) {}
+          _polar(1.0 / (ellipsoid.polarRadius() * ellipsoid.polarRadius())),
+          _shallowest2(kShallowest * kShallowest * core::earthScale(ellipsoid) * core::earthScale(ellipsoid)) {}
 
     [[nodiscard]] double depth2(const glm::dvec3& upper, const glm::dvec3& lower) const {
         const glm::dvec3 hanging = upper - lower;
@@ -86,11 +90,11 @@ public:
         const double depth2 = glm::dot(hanging, hanging);
         const double along = glm::dot(hanging, up);
         const bool plumb = along > 0.0 && along * along >= kPlumbCosine * kPlumbCosine * depth2 * glm::dot(up, up);
-        return plumb && depth2 >= kShallowest * kShallowest ? depth2 : std::numeric_limits<double>::quiet_NaN();
+        return plumb && depth2 >= _shallowest2 ? depth2 : std::numeric_limits<double>::quiet_NaN();
     }
 
 private:
-    double _equatorial, _polar;
+    double _equatorial, _polar, _shallowest2;
 };
 
 // Returns: no pairs unless every border vertex has exactly one partner.
@@ -193,7 +197,8 @@ MeshSkirts foldSkirts(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
         skirts.marks[pair.lower] |= kSkirtVertex;
     }
     skirts.depth = std::sqrt(deepest2);
-    const bool equal = skirts.depth <= std::sqrt(shallowest2) * (1.0 + kDepthTolerance) + kDepthRounding;
+    const double rounding = kDepthRounding * core::earthScale(ellipsoid);
+    const bool equal = skirts.depth <= std::sqrt(shallowest2) * (1.0 + kDepthTolerance) + rounding;
     if (!plumb || !equal) return {};
     const HangingTriangles hanging = hangingTriangles(mesh, skirts.marks);
     if (!hanging.areSkirts) return {};

@@ -5,6 +5,7 @@
 
 #include "GlmBridge.h"
 #include "HeightRange.h"
+#include "TerrainLimits.h"
 
 #include <osgAnalyticBin/core/GeodeticGridBounds.h>
 
@@ -22,15 +23,13 @@ namespace {
 // osgTerrain::GeometryTechnique: the grid of a tile without heights, and the coarsest that a sample ratio makes.
 constexpr unsigned int kDefaultPosts = 20;
 constexpr unsigned int kFewestSampledPosts = 16;
-// The vertical scales up to which the sag holds, and the heights, in metres at scale 1, beyond which this is no
-// terrain.
+// The vertical scales up to which the sag holds.
 constexpr double kLargestScale = 10.0;
-constexpr double kLargestTileHeight = 5.0e4;
 constexpr double kLargestCell = 1.0;  // radians
 // Vertices are floats about the tile's middle; half a unit in the last place each, in three directions.
 constexpr double kVertexRounding = 1.1e-7;
-constexpr double kSameRadius = 1e-3;  // metres
-constexpr double kPlacing = 0.01;     // metres: heights as floats, positions as doubles, radii
+constexpr double kSameRadius = 1e-3;  // metres on the earth
+constexpr double kPlacing = 0.01;     // metres on the earth: heights as floats, positions as doubles, radii
 
 unsigned int sampledPosts(unsigned int posts, double sampleRatio) {
     const float scaled = static_cast<float>(posts) * std::sqrt(static_cast<float>(sampleRatio));
@@ -67,13 +66,14 @@ bool isOnTheGlobe(const core::GeodeticGrid& grid) {
 }
 
 bool isSame(const osg::EllipsoidModel& a, const osg::EllipsoidModel& b) {
-    return std::abs(a.getRadiusEquator() - b.getRadiusEquator()) <= kSameRadius &&
-           std::abs(a.getRadiusPolar() - b.getRadiusPolar()) <= kSameRadius;
+    const double same = kSameRadius * core::earthScale(toCore(b));
+    return std::abs(a.getRadiusEquator() - b.getRadiusEquator()) <= same &&
+           std::abs(a.getRadiusPolar() - b.getRadiusPolar()) <= same;
 }
 
 // Metres from the tile's middle that a vertex is at most.
 double reachOf(const core::GeodeticGrid& grid, const core::Ellipsoid& ellipsoid) {
-    const double radius = std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius()) + kLargestTileHeight;
+    const double radius = std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius()) + highestTerrain(ellipsoid);
     return radius * std::min(2.0, 0.5 * (grid.latitude.width() + grid.longitude.width()));
 }
 
@@ -123,10 +123,9 @@ TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::Ellipso
     const bool isBroken = layer && !field && dynamic_cast<const osgTerrain::HeightFieldLayer*>(layer);
     if (isBroken || !(sampleRatio >= 0.0)) return {};
     HeightRange heights = layer ? (field ? heightRange(*layer, *field) : heightRange(*layer)) : HeightRange::flat();
-    if (!heights.isFinite || !(heights.low <= heights.high) || heights.low < -kLargestTileHeight ||
-        heights.high > kLargestTileHeight) {
-        return {};
-    }
+    const core::Ellipsoid model = toCore(ellipsoid);
+    const double most = highestTerrain(model);
+    if (!heights.isFinite || !(heights.low <= heights.high) || heights.low < -most || heights.high > most) return {};
     if (sampleRatio != 1.0 && columns > kFewestSampledPosts && rows > kFewestSampledPosts) {
         columns = sampledPosts(columns, sampleRatio);
         rows = sampledPosts(rows, sampleRatio);
@@ -135,17 +134,18 @@ TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::Ellipso
     grid->rows = rows;
     if (!isOnTheGlobe(*grid)) return {};
 
-    const core::Ellipsoid model = toCore(ellipsoid);
     const double reach = kLargestScale * std::max(std::abs(heights.low), std::abs(heights.high));
     const core::GeodeticGridBounds bounds(model, *grid, reach);
     const double skirt = field ? static_cast<double>(field->getSkirtHeight()) : 0.0;
     if (!std::isfinite(skirt)) return {};
 
+    if (!(heights.low - bounds.sag() > -0.5 * core::smallestCurvatureRadius(model))) return {};
+
     TileSurface surface;
     // a skirt of negative height stands up
     const core::Interval altitude{heights.low - bounds.sag(), heights.high + std::max(0.0, -skirt)};
     surface.bin = AnalyticBin(core::GeodeticBin(bounds.latitude(), grid->longitude, altitude),
-                              kVertexRounding * reachOf(*grid, model) + kPlacing);
+                              kVertexRounding * reachOf(*grid, model) + kPlacing * core::earthScale(model));
     surface.bin.setSag(bounds.sag());
     surface.edgeLow = edgeLows(heights, *locator, bounds);
     surface.skirt = std::max(0.0, skirt);

@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Surfaces of tiles on ellipsoids from an 11 km body to Saturn, oblate and prolate extremes, each of them in metres, in
+// kilometres and with an equatorial radius of one. Oracle: samples of the triangles that are drawn, taken back to
+// latitude, longitude and altitude.
+
+#include "TileFixture.h"
+
+#include <osgAnalyticBin/TileSurface.h>
+
+#include <gtest/gtest.h>
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osgTerrain/Layer>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <support/Planets.h>
+#include <support/Random.h>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::Ellipsoid;
+using core::GeodeticBin;
+
+constexpr unsigned int kMeshPosts = 9;
+constexpr unsigned int kMeshTriangles = 2 * (kMeshPosts - 1) * (kMeshPosts - 1);
+// Of the equatorial radius.
+constexpr double kDeepSkirt = 0.005;
+constexpr double kRelief = 0.001;
+
+class PlanetSurface : public ::testing::TestWithParam<Planet> {
+protected:
+    void setUnit(double unit) {
+        ellipsoid = GetParam().in(unit);
+        radius = ellipsoid.equatorialRadius();
+        model = new osg::EllipsoidModel(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+    }
+
+    Random random{2300};
+    Ellipsoid ellipsoid{1.0, 1.0};
+    double radius = 1.0;
+    osg::ref_ptr<osg::EllipsoidModel> model;
+};
+
+// A grid of posts about its middle, with the texture coordinates of a tile, and skirts as VirtualPlanetBuilder hangs
+// them.
+class MeshMaker {
+public:
+    MeshMaker(const Ellipsoid& ellipsoid, const GeodeticBin& extents) : _ellipsoid(ellipsoid), _extents(extents) {
+        const glm::dvec3 middle = ellipsoid.toEcef({extents.latitude().middle(), extents.longitude().middle(), 0.0});
+        _middle = osg::Vec3d(middle.x, middle.y, middle.z);
+    }
+
+    osg::ref_ptr<osg::MatrixTransform> make(const std::vector<double>& altitudes, double skirt) {
+        for (unsigned int p = 0; p < kMeshPosts * kMeshPosts; ++p) addVertex(p, altitudes[p]);
+        for (unsigned int row = 0; row + 1 < kMeshPosts; ++row)
+            for (unsigned int i = row * kMeshPosts; i + 1 < (row + 1) * kMeshPosts; ++i)
+                addQuad(i, i + 1, i + kMeshPosts, i + kMeshPosts + 1);
+        const std::vector<unsigned int> border = borderPosts();
+        const auto bottom = static_cast<unsigned int>(_vertices->size());
+        const auto count = static_cast<unsigned int>(border.size());
+        for (const unsigned int p : border) addVertex(p, altitudes[p] - skirt);
+        for (unsigned int i = 0; i < count; ++i)
+            addQuad(bottom + i, bottom + (i + 1) % count, border[i], border[(i + 1) % count]);
+        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+        geometry->setVertexArray(_vertices);
+        geometry->setTexCoordArray(0, _texCoords);
+        geometry->addPrimitiveSet(_triangles);
+        const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+        geode->addDrawable(geometry);
+        osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform(osg::Matrixd::translate(_middle));
+        tile->addChild(geode);
+        return tile;
+    }
+
+private:
+    static std::vector<unsigned int> borderPosts() {
+        constexpr unsigned int kLast = kMeshPosts - 1;
+        std::vector<unsigned int> border;
+        for (unsigned int i = 0; i < kLast; ++i) border.push_back(i);
+        for (unsigned int j = 0; j < kLast; ++j) border.push_back(j * kMeshPosts + kLast);
+        for (unsigned int i = kLast; i > 0; --i) border.push_back(kLast * kMeshPosts + i);
+        for (unsigned int j = kLast; j > 0; --j) border.push_back(j * kMeshPosts);
+        return border;
+    }
+
+    void addVertex(unsigned int post, double altitude) {
+        const double u = static_cast<double>(post % kMeshPosts) / (kMeshPosts - 1);
+        const double v = static_cast<double>(post / kMeshPosts) / (kMeshPosts - 1);
+        const glm::dvec3 ecef =
+            _ellipsoid.toEcef({_extents.latitude().lower + v * _extents.latitude().width(),
+                               _extents.longitude().lower + u * _extents.longitude().width(), altitude});
+        _vertices->push_back(osg::Vec3(osg::Vec3d(ecef.x, ecef.y, ecef.z) - _middle));
+        _texCoords->push_back(osg::Vec2(static_cast<float>(u), static_cast<float>(v)));
+    }
+
+    void addQuad(unsigned int a, unsigned int b, unsigned int c, unsigned int d) {
+        for (const unsigned int i : {a, b, d, a, d, c}) _triangles->push_back(i);
+    }
+
+    const Ellipsoid& _ellipsoid;
+    const GeodeticBin _extents;
+    osg::Vec3d _middle;
+    osg::ref_ptr<osg::Vec3Array> _vertices = new osg::Vec3Array;
+    osg::ref_ptr<osg::Vec2Array> _texCoords = new osg::Vec2Array;
+    osg::ref_ptr<osg::DrawElementsUInt> _triangles = new osg::DrawElementsUInt(GL_TRIANGLES);
+};
+
+core::Interval altitudesOf(const Ellipsoid& ellipsoid, const std::vector<glm::dvec3>& points) {
+    core::Interval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const glm::dvec3& point : points) {
+        const double altitude = ellipsoid.toGeodetic(point).altitude;
+        range = {std::min(range.lower, altitude), std::max(range.upper, altitude)};
+    }
+    return range;
+}
+
+// South, east, north, west: the lowest of the chords between the posts of an edge.
+std::array<double, 4> edgeTruth(const Ellipsoid& ellipsoid, const std::vector<EcefTriangle>& triangles) {
+    constexpr unsigned int kCells = kMeshPosts - 1;
+    std::array<double, 4> lows;
+    lows.fill(std::numeric_limits<double>::infinity());
+    const auto chord = [&](double& low, const glm::dvec3& p, const glm::dvec3& q) {
+        for (int k = 0; k <= 8; ++k) low = std::min(low, ellipsoid.toGeodetic(p + k / 8.0 * (q - p)).altitude);
+    };
+    for (unsigned int i = 0; i < kCells; ++i) {
+        const EcefTriangle& south = triangles[2 * i];                                // a, b, d
+        const EcefTriangle& east = triangles[2 * (i * kCells + kCells - 1)];         // a, b, d
+        const EcefTriangle& north = triangles[2 * ((kCells - 1) * kCells + i) + 1];  // a, d, c
+        const EcefTriangle& west = triangles[2 * (i * kCells) + 1];                  // a, d, c
+        chord(lows[0], south[0], south[1]);
+        chord(lows[1], east[1], east[2]);
+        chord(lows[2], north[1], north[2]);
+        chord(lows[3], west[0], west[2]);
+    }
+    return lows;
+}
+
+TEST_P(PlanetSurface, HoldsMeshes) {
+    for (const double unit : GetParam().units()) {
+        setUnit(unit);
+        for (const double south : {-70.0, -10.0, 0.0, 35.0, 69.0}) {
+            const GeodeticBin extents = GeodeticBin::fromDegrees({south, south + 20.0}, {170.0, 190.0}, {0.0, 0.0});
+            const double low = random.uniform(-kRelief, kRelief) * radius;
+            const double relief = random.chance(0.5) ? 0.0 : kRelief * radius;
+            std::vector<double> altitudes(kMeshPosts * kMeshPosts);
+            for (double& altitude : altitudes) altitude = low + random.uniform() * relief;
+            const auto tile = MeshMaker(ellipsoid, extents).make(altitudes, kDeepSkirt * radius);
+            const TileSurface surface = tileSurface(*tile, *model, osg::Matrixd());
+            ASSERT_TRUE(surface.bin.valid()) << unit << " at " << south;
+            EXPECT_NEAR(surface.skirt, kDeepSkirt * radius, 1e-6 * radius);
+            EXPECT_LE(surface.bin.margin(), 2e-7 * radius);
+
+            std::vector<EcefTriangle> triangles = drawnTriangles(*tile).surface;
+            triangles.resize(kMeshTriangles);
+            const auto samples = samplesOf(triangles, 8);
+            EXPECT_LE(metresOutside(surface.bin, samples, ellipsoid), surface.bin.margin()) << unit << " at " << south;
+            const core::Interval truth = altitudesOf(ellipsoid, samples);
+            const double rounding = 1e-5 * radius;
+            const core::Interval& bound = surface.bin.bin().altitude();
+            EXPECT_LE(bound.upper, truth.upper + rounding);
+            EXPECT_GE(bound.lower, truth.lower - surface.bin.sag() - rounding);
+            EXPECT_LE(surface.bin.sag(), 1.8 * (low + relief - truth.lower) + rounding);
+
+            const std::array<double, 4> edges = edgeTruth(ellipsoid, triangles);
+            for (std::size_t edge = 0; edge < edges.size(); ++edge) {
+                EXPECT_LE(surface.edgeLow[edge], edges[edge] + 1e-8 * radius) << unit << " edge " << edge;
+                EXPECT_GE(surface.edgeLow[edge], bound.lower);
+            }
+        }
+    }
+}
+
+TEST_P(PlanetSurface, HoldsTerrainTiles) {
+    for (const double unit : GetParam().units()) {
+        setUnit(unit);
+        for (const double south : {-90.0, -45.0, 0.0, 35.0}) {
+            for (const float scale : {1.0f, 3.0f, 0.25f, -2.0f}) {
+                const GeodeticBin extents = GeodeticBin::fromDegrees({south, south + 45.0}, {-45.0, 0.0}, {0.0, 0.0});
+                const double low = random.uniform(-0.002, 0.002) * radius;
+                const auto tile = makeTerrainTile(extents, 17, 17, [&](unsigned int, unsigned int) {
+                    return static_cast<float>(low + random.uniform() * kRelief * radius);
+                });
+                tile->getElevationLayer()->getLocator()->setEllipsoidModel(model);
+                const TileSurface surface = tileSurface(*tile, *model, osg::Matrixd());
+                ASSERT_TRUE(surface.bin.valid()) << unit << " at " << south;
+                EXPECT_LE(surface.bin.margin(), 2e-7 * std::max(radius, ellipsoid.polarRadius()));
+                const auto samples = samplesOf(drawnTriangles(*tile, scale).surface, 4);
+                ASSERT_FALSE(samples.empty());
+                const AnalyticBin bin = surface.bin.exaggerated(static_cast<double>(scale));
+                EXPECT_LE(metresOutside(bin, samples, ellipsoid), bin.margin())
+                    << unit << " at " << south << " scale " << scale;
+                if (scale != 1.0f) continue;
+                const double truth = altitudesOf(ellipsoid, samples).lower;
+                EXPECT_GE(bin.bin().altitude().lower, truth - surface.bin.sag() - bin.margin());
+            }
+        }
+    }
+}
+
+// Mountains of small bodies are a tenth of their radius high; what is far above any is no terrain, in any unit.
+TEST_P(PlanetSurface, TellsTerrainFromWhatIsNone) {
+    for (const double unit : GetParam().units()) {
+        setUnit(unit);
+        const GeodeticBin extents = GeodeticBin::fromDegrees({10.0, 15.0}, {20.0, 25.0}, {0.0, 0.0});
+        const auto isKnown = [&](double altitude) {
+            const std::vector<double> altitudes(kMeshPosts * kMeshPosts, altitude);
+            const auto tile = MeshMaker(ellipsoid, extents).make(altitudes, kDeepSkirt * radius);
+            return tileSurface(*tile, *model, osg::Matrixd()).bin.valid();
+        };
+        const double metres = radius / GetParam().equatorialRadius;
+        const double mountain = std::min(22000.0 * metres, 0.09 * std::min(radius, ellipsoid.polarRadius()));
+        EXPECT_TRUE(isKnown(mountain));
+        EXPECT_TRUE(isKnown(-std::min(mountain, 0.05 * ellipsoid.polarRadius())));
+        EXPECT_FALSE(isKnown(0.12 * std::max(radius, ellipsoid.polarRadius())));
+        EXPECT_FALSE(isKnown(-0.2 * std::max(radius, ellipsoid.polarRadius())));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PlanetSurface, ::testing::ValuesIn(kPlanets),
+                         [](const auto& planet) { return std::string(planet.param.name); });
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
