@@ -113,6 +113,26 @@ void Flight::report(const char* what) {
                      std::to_string(_setup.cameras) + " cameras: " + what);
 }
 
+void Flight::warmUp() {
+    report("draws everything at once");
+    for (std::size_t i = kStaying; i < kMostDatabases; ++i) addDatabase(_databases.back());
+    _rig->setMostPagedLods(100000);
+    const osg::CullSettings::CullingMode mode = _rig->cameras().front()->getCullingMode();
+    for (osg::Camera* camera : _rig->cameras()) {
+        camera->setCullingMode(osg::CullSettings::NO_CULLING);
+        camera->setLODScale(0.0F);
+    }
+    for (const Threading model : kThreadingModels) {
+        _rig->viewer().setThreadingModel(model);
+        if (!rest()) ++_findings.unloaded;
+    }
+    for (osg::Camera* camera : _rig->cameras()) {
+        camera->setCullingMode(mode);
+        camera->setLODScale(1.0F);
+    }
+    drain();
+}
+
 void Flight::fly(std::size_t frames) {
     if (_findings.stations > 0) changeThreads();
     for (std::size_t i = 0; i < frames; ++i) {

@@ -48,6 +48,10 @@ public:
            Findings& findings);
     ~Flight();
 
+    /// Draws the most that the scene can ever hold, in every threading model: what OpenSceneGraph's visitors keep from
+    /// frame to frame has its full size afterwards, and all that can be known of false databases is known.
+    void warmUp();
+
     /// Flies that many frames; every change may happen in each.
     void fly(std::size_t frames);
 

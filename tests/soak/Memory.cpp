@@ -97,7 +97,7 @@ double median(std::vector<double> values) {
 
 double growthPercent(const std::vector<double>& samples, double whole) {
     if (samples.size() < 20) return 0.0;
-    const auto warm = samples.begin() + static_cast<std::ptrdiff_t>(3 * samples.size() / 5);
+    const auto warm = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 5);
     const auto tenth = static_cast<std::ptrdiff_t>(std::max<std::size_t>(samples.size() / 10, 3));
     return 100.0 * (median({samples.end() - tenth, samples.end()}) - median({warm, warm + tenth})) / whole;
 }

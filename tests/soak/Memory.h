@@ -43,7 +43,7 @@ private:
 [[nodiscard]] double median(std::vector<double> values);
 
 /// Growth from the median of the first tenth of samples to that of the last, in percent of `whole`, where the first
-/// three fifths of all were left out as a warm-up. Returns: 0 for fewer than 20 samples.
+/// fifth of all was left out as a warm-up. Returns: 0 for fewer than 20 samples.
 [[nodiscard]] double growthPercent(const std::vector<double>& samples, double whole);
 
 }  // namespace osgAnalyticBin::test
