@@ -72,6 +72,11 @@ void putBelow(osg::PagedLOD& paged, osg::Node* content) {
     paged.addChild(content);
 }
 
+void pageOut(osg::PagedLOD& paged) {
+    // its own removeChildren() forgets the file's name as well
+    paged.osg::Group::removeChildren(1, paged.getNumChildren() - 1);
+}
+
 std::string writeMeshDatabase(const std::string& folder, double leafHeight, double singleHeight) {
     const auto whole = extentsDeg(10, 50, 0, 40);
     const auto south = extentsDeg(10, 30, 0, 40);

@@ -33,6 +33,9 @@ namespace osgAnalyticBin::test {
 /// Puts content in the place where the pager would put that of the PagedLOD's file.
 void putBelow(osg::PagedLOD& paged, osg::Node* content);
 
+/// Takes what was paged in out again, as the DatabasePager does.
+void pageOut(osg::PagedLOD& paged);
+
 /// Writes a database of meshes 200 m high in three files: "root.osgb", 40 degrees wide; below it "children.osgb" with a
 /// leaf in the south and a PagedLOD in the north; below that "single.osgb", a leaf that is the file's root.
 /// `leafHeight` and `singleHeight`: of the leaves. Returns: the root's file; empty when it cannot be written.

@@ -101,7 +101,7 @@ TEST_F(FalseBins, ThatAreTooLowAreWidenedOnceWithTheTilesAbove) {
     update();
     EXPECT_EQ(installedOn(*_root), fitted.get());
     // paged out and in again, and installed anew
-    _root->removeChildren(1, 1);
+    pageOut(*_root);
     page();
     update();
     EXPECT_GE(altitudeOf(*_leaf).upper, 7000.0 - 1.0);
@@ -216,7 +216,7 @@ TEST_F(FalseBins, AreWidenedByWhatIsPagedBelowANodeWithoutABin) {
         write(_south, 200.0, "");
         ASSERT_TRUE(osgDB::writeNodeFile(*makePaged(new osg::Group, "deep.osgb", 1e9f), _folder / "leaf.osgb"));
         ASSERT_TRUE(osgDB::writeNodeFile(*makeMeshTile(_south, 7000.0), _folder / "deep.osgb"));
-        _root->removeChildren(1, 1);
+        pageOut(*_root);
         page();
         auto* const between = dynamic_cast<osg::PagedLOD*>(_leaf.get());
         ASSERT_TRUE(between);
@@ -233,7 +233,7 @@ TEST_F(FalseBins, OfAFileThatIsPagedInSeveralPlacesAreWidenedInEach) {
     middle->setUserValue("osgAnalyticBin", claim(_south).toText());
     ASSERT_TRUE(osgDB::writeNodeFile(*middle, _folder / "leaf.osgb"));
     ASSERT_TRUE(osgDB::writeNodeFile(*makeMeshTile(_south, 7000.0), _folder / "deep.osgb"));
-    _root->removeChildren(1, 1);
+    pageOut(*_root);
     std::vector<osg::ref_ptr<osg::Node>> copies{readBelow(*_root), readBelow(*_root)};
     for (const auto& copy : copies) {
         auto* const paged = dynamic_cast<osg::PagedLOD*>(copy.get());
@@ -244,16 +244,69 @@ TEST_F(FalseBins, OfAFileThatIsPagedInSeveralPlacesAreWidenedInEach) {
     for (const auto& copy : copies) EXPECT_GE(altitudeOf(*copy).upper, 7000.0 - 1.0);
 }
 
-TEST_F(FalseBins, AreWidenedToAllThereIsByAGlobeWithoutRightRadii) {
-    write(_south, 200.0, "");
-    const osg::ref_ptr<osg::CoordinateSystemNode> broken = new osg::CoordinateSystemNode;
-    broken->setEllipsoidModel(new osg::EllipsoidModel(std::nan(""), 1.0));
-    broken->addChild(makeMeshTile(extentsDeg(-30, -20, 100, 120), 200.0));
-    ASSERT_TRUE(osgDB::writeNodeFile(*broken, _folder / "leaf.osgb"));
-    _root->removeChildren(1, 1);
-    page();
-    update();
-    EXPECT_TRUE(installedOn(*_root)->bin().contains(claim(extentsDeg(-90, 90, -180, 180))));
+// Nobody can tell whether such tiles fit into what is stored above.
+TEST_F(FalseBins, AboveAGlobeThatStandsElsewhereAreKeptVisible) {
+    const auto globe = [](double equator, double polar) {
+        osg::ref_ptr<osg::CoordinateSystemNode> node = new osg::CoordinateSystemNode;
+        node->setEllipsoidModel(new osg::EllipsoidModel(equator, polar));
+        node->addChild(makeMeshTile(extentsDeg(12, 28, 5, 35), 200.0));
+        return node;
+    };
+    const osg::ref_ptr<osg::CoordinateSystemNode> earth = globe(osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR);
+    const osg::ref_ptr<osg::CoordinateSystemNode> map = globe(osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR);
+    map->setCoordinateSystem("PROJCS[\"map\"]");
+    const osg::ref_ptr<osg::MatrixTransform> turned = new osg::MatrixTransform(osg::Matrixd::rotate(1.0, 0, 0, 1));
+    turned->addChild(earth);
+    const auto readBelowRoot = [&](osg::Node& content) {
+        write(_south, 200.0, "");
+        ASSERT_TRUE(osgDB::writeNodeFile(content, _folder / "leaf.osgb"));
+        pageOut(*_root);
+        page();
+        update();
+    };
+    readBelowRoot(*earth);
+    EXPECT_EQ(installedOn(*_root)->bin(), claim(_whole)) << "the same globe";
+    EXPECT_EQ(_notes.count(""), 0u);
+    const std::vector<osg::ref_ptr<osg::Node>> others{turned, globe(2e7, 2e7), globe(std::nan(""), 1.0), map};
+    for (std::size_t i = 0; i < others.size(); ++i) {
+        readBelowRoot(*others[i]);
+        EXPECT_FALSE(installedOn(*_root)->bin().valid()) << i;
+        EXPECT_EQ(_notes.count("cannot be compared"), i + 1) << "once for each installation";
+    }
+}
+
+// Above terrain that reaches that high no surface is known.
+TEST_F(FalseBins, OfTilesWhoseMeshCannotBeToldAreKeptVisible) {
+    for (const std::string& text : {claim(_south).toText(), std::string(), std::string("nan nan nan nan nan nan")}) {
+        write(_south, 60000.0, text);
+        EXPECT_TRUE(text.empty() || !installedOn(*_leaf)->bin().valid()) << text;
+        update();
+        EXPECT_FALSE(installedOn(*_root)->bin().valid()) << text;
+        // paged in again, and installed anew
+        pageOut(*_root);
+        page();
+        update();
+        EXPECT_FALSE(installedOn(*_root)->bin().valid()) << text;
+        EXPECT_EQ(setCullOptions(*_scene, {}), text.empty() ? 1u : 2u);
+        EXPECT_FALSE(installedOn(*_root)->bin().valid()) << text;
+    }
+    EXPECT_EQ(_notes.count("cannot be compared"), 3u);
+}
+
+TEST_F(FalseBins, ReportedByATileThatWasOnItsWayWhenOptionsChangedAreWidened) {
+    for (const bool hasGlobe : {true, false}) {
+        _hasGlobe = hasGlobe;
+        write(_south, 7000.0, claim(_south).toText());
+        pageOut(*_root);
+        const osg::ref_ptr<osg::Node> onItsWay = readBelow(*_root);
+        ASSERT_TRUE(onItsWay);
+        CullOptions exact;
+        exact.method = Method::Exact;
+        EXPECT_EQ(setCullOptions(*_scene, exact), 1u);
+        putBelow(*_root, onItsWay);
+        update();
+        EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0) << hasGlobe;
+    }
 }
 
 TEST_F(FalseBins, StayAsTheyAreAboveTilesThatHaveNoneAndAreNotLarger) {
@@ -264,16 +317,38 @@ TEST_F(FalseBins, StayAsTheyAreAboveTilesThatHaveNoneAndAreNotLarger) {
 }
 
 TEST_F(FalseBins, HideAPeakForNoLongerThanTheFrameInWhichItAppears) {
-    write(_south, 50000.0, claim(_south).toText());
+    write(_south, 40000.0, claim(_south).toText());
     std::set<std::string> reached;
     installedOn(*_leaf)->setNestedCallback(new VisitRecorder("leaf", reached));
-    // along the tangent at 40 km
-    const osg::Vec3d summit = ecefDeg(20, 20, 40000);
-    const CullView view = CullView::lookAt(summit + osg::Vec3d(-1, 1, 0) * 3e5, summit, summit, 0.1);
-    update();
+    // level, from the height of the peak, through an angle that ends above what is claimed
+    const osg::Vec3d summit = ecefDeg(20, 20, 39990), eye = ecefDeg(20, 18, 42000);
+    const CullView view = CullView::lookAt(eye, summit, eye, 0.1);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     (void)cull(*_scene, view, *visitor);
+    EXPECT_EQ(reached.count("leaf"), 0u) << "the claim would not have hidden it";
+    update();
+    (void)cull(*_scene, view, *visitor);
     EXPECT_EQ(reached.count("leaf"), 1u);
+}
+
+// On a globe in another unit a tile is as much too large as on earth.
+TEST(FalseBinsOfOtherGlobes, AreFoundWhateverTheirUnit) {
+    for (const double metre : {1.0, 1e-3, 1.0 / 6.4e6}) {
+        const CapturedNotes notes;
+        const core::GeodeticBin extents = extentsDeg(10, 12, 20, 22);
+        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+        root->setEllipsoidModel(
+            new osg::EllipsoidModel(osg::WGS_84_RADIUS_EQUATOR * metre, osg::WGS_84_RADIUS_POLAR * metre));
+        const osg::ref_ptr<osg::MatrixTransform> tile = makeMeshTile(extents, 7000.0);
+        tile->postMult(osg::Matrixd::scale(metre, metre, metre));
+        const osg::ref_ptr<osg::Group> stored = new osg::Group;
+        stored->addChild(tile);
+        setStoredBin(*stored, AnalyticBin(extents.withAltitude({-4000.0 * metre, 300.0 * metre})));
+        root->addChild(stored);
+        EXPECT_EQ(installBins(*root), 1u);
+        EXPECT_GE(installedOn(*stored)->bin().bin().altitude().upper, 6999.0 * metre) << metre;
+        EXPECT_EQ(notes.count(kWarning), 1u) << metre;
+    }
 }
 
 // Numbers that are finite but whose squares are not.

@@ -39,7 +39,6 @@ osg::ref_ptr<osg::PagedLOD> makePagedTile(const std::string& fileName) {
     osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     geometry->setVertexArray(new osg::Vec3Array(300));
-    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 300));
     paged->addChild(geometry, 1e6f, 1e10f);
     paged->setFileName(1, fileName);
     paged->setRange(1, 0.0f, 1e6f);

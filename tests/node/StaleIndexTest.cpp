@@ -162,7 +162,7 @@ TEST_F(StaleIndex, TilesStayWideWhenTheyComeBack) {
     load();
     page();
     pageSingle();
-    _root->removeChildren(1, 1);
+    pageOut(*_root);
     page();
     EXPECT_NEAR(highOf(*_north), 6000.0, 1.0);
     EXPECT_EQ(notes.count(kWarning), 1u);

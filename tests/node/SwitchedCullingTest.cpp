@@ -188,8 +188,7 @@ TEST_F(SwitchedCulling, FindsNoTileOfAnEarlierMethodInTheObjectCache) {
         EXPECT_EQ(test::installedOn(pagedIn(*page))->cullOptions().method, method);
         test::putBelow(pagedIn(*scene), page);
         setCullOptions(*scene, by(Method::Quadratic));
-        // as the pager does: the file's name stays
-        pagedIn(*scene).osg::Group::removeChildren(1, 1);
+        test::pageOut(pagedIn(*scene));
     }
     osgDB::Registry::instance()->clearObjectCache();
 }

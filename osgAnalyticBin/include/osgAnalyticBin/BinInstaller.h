@@ -87,12 +87,13 @@ private:
     void passBy(osg::Node& node, bool isTile);
     void install(FoundTile& tile);
     void installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape);
-    [[nodiscard]] osg::ref_ptr<ParentTile> linkTo(const FoundTile& tile) const;
+    [[nodiscard]] osg::ref_ptr<ParentTile> linkTo(const FoundTile& tile);
     void noteCovered(const FoundTile& tile, double area);
     void goOnBelow(const FoundTile& tile, const ParentTile& link);
     void uninstall(FoundTile& tile);
-    // What is paged below a node without a bin still has to fit into what is stored above. Returns: null where nothing
-    // is.
+    // Whether what is visited has to fit into a bin that is stored above.
+    [[nodiscard]] bool isBelowStored() const;
+    // For what is below a node without a bin, which still has to fit into what is stored above. Requires: _parent.
     [[nodiscard]] osg::ref_ptr<const ParentTile> linkBetween() const;
     void followPaging(osg::PagedLOD& node, const ParentTile* parent, bool isTile);
 

@@ -89,6 +89,8 @@ protected:
 
     /// The frame of the node that is being visited.
     [[nodiscard]] const TileFrame& frame() const { return _frame; }
+    /// The frame of a CoordinateSystemNode's children, where that is visited.
+    [[nodiscard]] TileFrame frameInside(const osg::CoordinateSystemNode& node) const;
     /// Changes the frame for what is visited from here on.
     void setFrame(const TileFrame& frame) { _frame = frame; }
 

@@ -27,6 +27,8 @@ struct TileSurface {
     /// Metres that skirts hang below the surface at most, whatever the vertical scale; 0: none, or none that can be
     /// told from the surface, which `bin` holds then.
     double skirt = 0.0;
+    /// Nothing is drawn at all; `bin` is not valid then.
+    bool isEmpty = false;
     /// An osgTerrain tile, whose heights follow osgTerrain::Terrain's vertical scale.
     bool isScalable = false;
 };

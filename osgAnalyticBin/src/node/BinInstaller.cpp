@@ -55,9 +55,12 @@ bool isGlobeBroken(const osg::CoordinateSystemNode& node) {
     return node.getEllipsoidModel() && !hasValidRadii(*node.getEllipsoidModel());
 }
 
-// Holds what any view of a globe may show.
-AnalyticBin everywhere() {
-    return AnalyticBin(core::GeodeticBin::wholeGlobe({-6.3e6, 1e9}));
+// Whether a globe is the one that what is above it stands on.
+bool isSameGlobe(const TileFrame& above, const TileFrame& inside) {
+    if (!above.ellipsoid || !inside.ellipsoid || above.isProjected || inside.isProjected) return false;
+    return above.localToEcef.isIdentity() &&
+           above.ellipsoid->getRadiusEquator() == inside.ellipsoid->getRadiusEquator() &&
+           above.ellipsoid->getRadiusPolar() == inside.ellipsoid->getRadiusPolar();
 }
 
 // Square radians.
@@ -82,8 +85,14 @@ void BinInstaller::continueBelow(Database* database, const TileFrame& frame, con
 }
 
 void BinInstaller::refit(osg::Node& node, Database& database) {
-    _refitted = &database;
     _index = database.index();
+    // globes keep their databases
+    _keepsDatabases = true;
+    if (dynamic_cast<osg::CoordinateSystemNode*>(&node)) {
+        _refitted = &database;
+    } else {
+        _database = &database;
+    }
     node.accept(*this);
     _refitted = nullptr;
 }
@@ -136,13 +145,14 @@ void BinInstaller::apply(osg::PagedLOD& node) {
 
 void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const Scoped options(_options, settled(node, _options));
+    const bool isForeign = _parent && !isSameGlobe(frame(), frameInside(node));
+    if (isForeign && installsBins()) database().reportUntold(*linkBetween());
     if (installsBins() && isGlobeBroken(node)) {
         OSG_WARN << "osgAnalyticBin: the radii of the globe \"" << node.getName() << "\" in \"" << frame().file
                  << "\" are not two positive numbers; what is below it gets no bins." << std::endl;
-        // where that stands nobody knows
-        if (const auto link = linkBetween()) database().reportFalseBin(*link, everywhere());
         _options.method = Method::Sphere;
     }
+    const Scoped parent(_parent, isForeign ? nullptr : _parent);
     const bool isRefit = _refitted.valid();
     osg::ref_ptr<Database> own = isRefit || !_keepsDatabases ? _refitted : databaseOf(node);
     const bool isKept = !isRefit && own;
@@ -174,6 +184,8 @@ void BinInstaller::visitTile(FoundTile& tile) {
     if (installsBins() && !hasStoredBin(*tile.node)) {
         const TerrainShape shape = database().fittedShape();
         const PlanarFit fit = fitPlanarTile(tile, _options, shape);
+        const bool isOnGlobe = fit.kind == PlanarFit::NotPlanar && tile.frame.ellipsoid;
+        if (!isOnGlobe && isBelowStored()) database().reportUntold(*linkBetween());
         if (fit.kind == PlanarFit::Planar) return installPlanar(tile, fit, shape);
         if (fit.kind == PlanarFit::Contradictory || !tile.frame.ellipsoid) return passBy(*tile.node, true);
     }
@@ -192,7 +204,8 @@ void BinInstaller::visitOther(osg::Node& node) {
 }
 
 void BinInstaller::passBy(osg::Node& node, bool isTile) {
-    if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) followPaging(*paged, linkBetween().get(), isTile);
+    if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node))
+        followPaging(*paged, isBelowStored() ? linkBetween().get() : nullptr, isTile);
     if (_options.method == Method::None) {
         suspendCullingOf(node);
         suspendClusterCullingOf(node);
@@ -252,8 +265,9 @@ void BinInstaller::installPlanar(FoundTile& tile, const PlanarFit& fit, const Te
     goOnBelow(tile, *linkTo(tile));
 }
 
-osg::ref_ptr<ParentTile> BinInstaller::linkTo(const FoundTile& tile) const {
+osg::ref_ptr<ParentTile> BinInstaller::linkTo(const FoundTile& tile) {
     osg::ref_ptr<ParentTile> link = new ParentTile;
+    link->database = &database();
     link->parent = _parent;
     link->file = tile.frame.file;
     link->ordinal = tile.ordinal;
@@ -261,8 +275,11 @@ osg::ref_ptr<ParentTile> BinInstaller::linkTo(const FoundTile& tile) const {
     return link;
 }
 
+bool BinInstaller::isBelowStored() const {
+    return _parent && _parent->stored.valid();
+}
+
 osg::ref_ptr<const ParentTile> BinInstaller::linkBetween() const {
-    if (!_parent || !_parent->stored.valid()) return nullptr;
     const osg::ref_ptr<ParentTile> link = new ParentTile;
     link->isTile = false;
     link->parent = _parent;

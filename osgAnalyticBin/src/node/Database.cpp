@@ -8,12 +8,17 @@
 
 #include <algorithm>
 #include <typeinfo>
+#include <utility>
 
 namespace osgAnalyticBin {
 
 namespace {
 
 using Contents = std::vector<osg::observer_ptr<osg::Node>>;
+
+std::string nameOf(const ParentTile& tile) {
+    return tile.file.empty() ? "the root file" : '"' + tile.file + '"';
+}
 
 // Forgets what is in the scene or deleted. Returns: whether some of it is in the scene.
 bool takeMerged(Contents& contents) {
@@ -30,6 +35,23 @@ bool takeMerged(Contents& contents) {
 }
 
 }  // namespace
+
+bool Widening::contains(const Widening& other) const {
+    if (isBoundless || !other.any()) return true;
+    return !other.isBoundless && bin.valid() && bin.contains(other.bin);
+}
+
+void Widening::expandBy(const Widening& other) {
+    isBoundless = isBoundless || other.isBoundless;
+    bin.expandBy(other.bin);
+}
+
+AnalyticBin Widening::widened(const AnalyticBin& known) const {
+    if (isBoundless || !known.valid()) return {};
+    AnalyticBin wider = known;
+    wider.expandBy(bin);
+    return wider;
+}
 
 CullOptions Database::options() const {
     const std::lock_guard<std::mutex> lock(_mutex);
@@ -103,68 +125,78 @@ void Database::noteUnknownTechnique() {
              << std::endl;
 }
 
-void Database::reportMisfit(const ParentTile& tile, const AnalyticBin& bin) {
+bool Database::isFirst(bool& hasWarned) {
     const std::lock_guard<std::mutex> lock(_mutex);
-    if (!_hasWarnedOfIndex) {
-        _hasWarnedOfIndex = true;
-        OSG_WARN << "osgAnalyticBin: \"" << tile.file
-                 << "\" is not as the index knows it; tiles are kept visible there. Run osgbinconv --index again."
+    return !std::exchange(hasWarned, true);
+}
+
+void Database::reportMisfit(const ParentTile& tile, const AnalyticBin& bin) {
+    if (isFirst(_hasWarnedOfIndex)) {
+        OSG_WARN << "osgAnalyticBin: " << nameOf(tile)
+                 << " is not as the index knows it; tiles are kept visible there. Run osgbinconv --index again."
                  << std::endl;
     }
-    widenFrom(tile, bin);
+    widenFrom(tile, {bin});
 }
 
 void Database::reportFalseBin(const ParentTile& tile, const AnalyticBin& bin) {
-    const std::lock_guard<std::mutex> lock(_mutex);
-    if (!_hasWarnedOfStored) {
-        _hasWarnedOfStored = true;
+    if (isFirst(_hasWarnedOfStored)) {
         OSG_WARN
-            << "osgAnalyticBin: \"" << tile.file
-            << "\" holds a tile that is larger than the bin stored with it or above it; bins are widened there. Make "
+            << "osgAnalyticBin: " << nameOf(tile)
+            << " holds a tile that is larger than the bin stored with it or above it; bins are widened there. Make "
                "the database again."
             << std::endl;
     }
-    widenFrom(tile, bin);
+    widenFrom(tile, {bin});
 }
 
-// Requires: the mutex is held. The tile itself has been fitted to what is reported, and need not be widened.
-void Database::widenFrom(const ParentTile& tile, const AnalyticBin& bin) {
+void Database::reportUntold(const ParentTile& tile) {
+    if (isFirst(_hasWarnedOfUntold)) {
+        OSG_WARN << "osgAnalyticBin: " << nameOf(tile)
+                 << " holds what cannot be compared with the bin stored with it or above it: it stands on another "
+                    "globe, or its mesh cannot be told; tiles are kept visible there."
+                 << std::endl;
+    }
+    widenFrom(tile, {{}, true});
+}
+
+// The tile itself has been fitted to what is reported, and need not be widened.
+void Database::widenFrom(const ParentTile& tile, const Widening& by) {
     for (const ParentTile* at = &tile; at; at = at->parent.get()) {
-        if (!at->isTile) continue;
-        _corrections[{at->file, at->ordinal}].expandBy(bin);
-        // one file may be paged in several places, and below itself
-        const bool isKnown = at == &tile || (at->widening.valid() && at->widening.contains(bin));
-        if (isKnown) continue;
-        at->widening.expandBy(bin);
-        _toWiden.emplace_back(at->callback, bin);
+        if (at->isTile) at->database->widen(*at, by, at == &tile);
     }
 }
 
-AnalyticBin Database::correction(const std::string& file, std::size_t ordinal) const {
+void Database::widen(const ParentTile& tile, const Widening& by, bool isFitted) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    _corrections[{tile.file, tile.ordinal}].expandBy(by);
+    // one file may be paged in several places, and below itself
+    if (isFitted || tile.widening.contains(by)) return;
+    tile.widening.expandBy(by);
+    _toWiden.emplace_back(tile.callback, by);
+}
+
+Widening Database::correction(const std::string& file, std::size_t ordinal) const {
     const std::lock_guard<std::mutex> lock(_mutex);
     const auto known = _corrections.find({file, ordinal});
-    return known == _corrections.end() ? AnalyticBin() : known->second;
+    return known == _corrections.end() ? Widening() : known->second;
 }
 
 void Database::update() {
     refitLateComers();
-    std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, AnalyticBin>> toWiden;
+    std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, Widening>> toWiden;
     {
         const std::lock_guard<std::mutex> lock(_mutex);
         toWiden.swap(_toWiden);
     }
-    for (const auto& [observed, bin] : toWiden) {
+    for (const auto& [observed, widening] : toWiden) {
         osg::ref_ptr<AnalyticBinCullCallback> callback;
         if (!observed.lock(callback)) {
             // paged out, or fitted anew while the tile was on its way
             requestRefit();
             continue;
         }
-        // a bin that is not known holds everything already
-        if (!callback->bin().valid()) continue;
-        AnalyticBin wider = callback->bin();
-        wider.expandBy(bin);
-        callback->setBin(wider);
+        callback->setBin(widening.widened(callback->bin()));
     }
 }
 

@@ -23,23 +23,18 @@
 
 namespace osgAnalyticBin {
 
-/// A tile as those that are paged below it see it.
-struct ParentTile : public osg::Referenced {
-    osg::ref_ptr<const ParentTile> parent;  // null: a tile of the root file
-    osg::observer_ptr<AnalyticBinCullCallback> callback;
-    bool isTile = true;  // false: a node without a bin, between tiles; it has neither number nor extents
-    std::string file;
-    std::size_t ordinal = 0;
-    core::GeodeticBin extents;
-    core::TileEdges edges;
-    // What the tile is culled by, where a stored bin says so; else that of the nearest tile above that has one.
-    // Invalid: there is none.
-    AnalyticBin stored;
-    // What its callback has been asked to be widened by; guarded by the database.
-    mutable AnalyticBin widening;
+struct ParentTile;
 
-protected:
-    ~ParentTile() override = default;
+/// What a tile's bin has to be widened by.
+struct Widening {
+    AnalyticBin bin;
+    bool isBoundless = false;  ///< what was found cannot be told
+
+    [[nodiscard]] bool any() const { return isBoundless || bin.valid(); }
+    [[nodiscard]] bool contains(const Widening& other) const;
+    void expandBy(const Widening& other);
+    /// The wider bin; one that is not known stays so.
+    [[nodiscard]] AnalyticBin widened(const AnalyticBin& bin) const;
 };
 
 /// What the tiles of one installed database share: those that are loaded, and those that the DatabasePager will load.
@@ -95,8 +90,12 @@ public:
     /// Says that a tile is larger than the bin that is stored with it or with its parent: likewise.
     void reportFalseBin(const ParentTile& tile, const AnalyticBin& bin);
 
-    /// What these two said of a tile or its descendants; invalid: nothing.
-    [[nodiscard]] AnalyticBin correction(const std::string& file, std::size_t ordinal) const;
+    /// Says that nobody can tell whether a tile fits into the bins that are stored with it and above it: warns once,
+    /// and has the tile's ancestors kept visible from the next update on.
+    void reportUntold(const ParentTile& tile);
+
+    /// What these said of a tile or its descendants.
+    [[nodiscard]] Widening correction(const std::string& file, std::size_t ordinal) const;
 
     /// In the update traversal, before takeShapeChange(): widens the loaded tiles that were reported.
     void update();
@@ -107,7 +106,9 @@ protected:
 private:
     using TileKey = std::pair<std::string, std::size_t>;
 
-    void widenFrom(const ParentTile& tile, const AnalyticBin& bin);
+    void widen(const ParentTile& tile, const Widening& by, bool isFitted);
+    static void widenFrom(const ParentTile& tile, const Widening& by);
+    [[nodiscard]] bool isFirst(bool& hasWarned);
 
     static inline std::atomic<unsigned long> _count{0};
 
@@ -126,9 +127,30 @@ private:
     unsigned int _generation = 0;
     std::vector<osg::observer_ptr<osg::Node>> _onTheirWay;  // treated by the present options
     std::vector<osg::observer_ptr<osg::Node>> _lateComers;  // treated by earlier ones
-    bool _hasWarnedOfIndex = false, _hasWarnedOfStored = false;
-    std::map<TileKey, AnalyticBin> _corrections;
-    std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, AnalyticBin>> _toWiden;
+    bool _hasWarnedOfIndex = false, _hasWarnedOfStored = false, _hasWarnedOfUntold = false;
+    std::map<TileKey, Widening> _corrections;
+    std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, Widening>> _toWiden;
+};
+
+/// A tile as those that are paged below it see it.
+struct ParentTile : public osg::Referenced {
+    osg::ref_ptr<const ParentTile> parent;  // null: a tile of the root file
+    osg::observer_ptr<AnalyticBinCullCallback> callback;
+    bool isTile = true;  // false: a node without a bin, between tiles; it has neither number nor extents
+    std::string file;
+    std::size_t ordinal = 0;
+    core::GeodeticBin extents;
+    core::TileEdges edges;
+    // What the tile is culled by, where a stored bin says so; else that of the nearest tile above that has one.
+    // Invalid: there is none.
+    AnalyticBin stored;
+    // Of the tile: a globe inside another has its own.
+    osg::ref_ptr<Database> database;
+    // What its callback has been asked to be widened by; guarded by the database.
+    mutable Widening widening;
+
+protected:
+    ~ParentTile() override = default;
 };
 
 }  // namespace osgAnalyticBin

@@ -76,8 +76,7 @@ void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
 
 void DatabaseUpdateCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     _database->update();
-    // Only a globe has a shape that changes.
-    if (_database->takeShapeChange() && dynamic_cast<osg::CoordinateSystemNode*>(node) != nullptr) {
+    if (_database->takeShapeChange()) {
         BinInstaller installer(_database->options());
         installer.refit(*node, *_database);
     }

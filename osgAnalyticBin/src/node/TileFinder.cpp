@@ -150,7 +150,7 @@ void TileFinder::apply(osg::Node& node) {
     visit(node, isTile(node));
 }
 
-void TileFinder::apply(osg::CoordinateSystemNode& node) {
+TileFrame TileFinder::frameInside(const osg::CoordinateSystemNode& node) const {
     TileFrame inside = _frame;
     inside.localToEcef.makeIdentity();
     inside.ellipsoid = node.getEllipsoidModel();
@@ -158,7 +158,11 @@ void TileFinder::apply(osg::CoordinateSystemNode& node) {
     const bool isBroken = inside.ellipsoid && !hasValidRadii(*inside.ellipsoid);
     if (!inside.isKnown()) inside.ellipsoid = new osg::EllipsoidModel;
     if (isBroken) inside.ellipsoid = nullptr;
-    const Scoped scope(_frame, inside);
+    return inside;
+}
+
+void TileFinder::apply(osg::CoordinateSystemNode& node) {
+    const Scoped scope(_frame, frameInside(node));
     visit(node, hasStoredBin(node));
 }
 
@@ -210,7 +214,7 @@ void TileFinder::traverseBelow(osg::Node& node) {
 
 // By itself, and the matrix alone, to leave stack for scenes that are nested deep.
 void TileFinder::traverseTransform(osg::Transform& node) {
-    const Scoped matrix(_frame.localToEcef, frameInside(node, _frame));
+    const Scoped matrix(_frame.localToEcef, osgAnalyticBin::frameInside(node, _frame));
     traverse(node);
 }
 

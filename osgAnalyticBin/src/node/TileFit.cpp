@@ -25,9 +25,12 @@ bool hasTerrainTile(const FoundTile& tile) {
 // Meshes of one tile are its levels of detail: any of them may be shown.
 TileSurface surfaceOf(const FoundTile& tile, const osg::EllipsoidModel& ellipsoid, double sampleRatio) {
     TileSurface surface;
+    surface.isEmpty = true;
     for (const osg::ref_ptr<osg::Node>& mesh : tile.meshes) {
         const TileSurface own = tileSurface(*mesh, ellipsoid, tile.frame.localToEcef, sampleRatio);
+        if (own.isEmpty) continue;
         if (!own.bin.valid()) return {};
+        surface.isEmpty = false;
         surface.bin.expandBy(own.bin);
         surface.skirt = std::max(surface.skirt, own.skirt);
         surface.isScalable = surface.isScalable || own.isScalable;
@@ -72,6 +75,7 @@ AnalyticBin rangedBin(const TileSurface& surface, bool hasDescendants, const Dat
 void fitSurface(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link, TileFit& fit) {
     const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape.sampleRatio);
     fit.isTerrain = surface.bin.valid();
+    if (!fit.isTerrain && !surface.isEmpty && link.stored.valid()) database.reportUntold(link);
     if (!fit.isTerrain) return;
     linkTo(surface.bin.bin(), link);
     fit.surface = surface.bin;
@@ -133,12 +137,19 @@ struct Tolerance {
     double below, above, aside;
 };
 
+// A metre on earth, on a globe of any size and in any unit.
+double metreOn(double radius) {
+    constexpr double kEarth = 6.35e6;
+    return radius / kEarth;
+}
+
 Tolerance toleranceFor(const AnalyticBin& bin, double sag, double radius) {
-    constexpr double kMostMargin = 100.0;  // a stored one may be anything
+    const double metre = metreOn(radius);
+    const double mostMargin = 100.0 * metre;  // a stored one may be anything
     constexpr double kShareOfWidth = 1.0 / 32.0;
     constexpr double kShareOfSag = 1.0 / 4.0;
     const double width = radius * std::max(bin.bin().latitude().width(), bin.bin().longitude().width());
-    const double least = 1.0 + std::min(bin.margin(), kMostMargin);
+    const double least = metre + std::min(bin.margin(), mostMargin);
     return {least + sag, least + kShareOfSag * sag, least + kShareOfWidth * width};
 }
 
@@ -164,14 +175,20 @@ bool nearlyHolds(const AnalyticBin& outer, const AnalyticBin& inner, double sag,
 AnalyticBin checkStored(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link,
                         TileFit& fit) {
     const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database.ellipsoid();
+    const TileSurface own = surfaceOf(tile, ellipsoid, shape.sampleRatio);
+    if (!own.bin.valid() && !own.isEmpty) {
+        fit.bin.init();
+        database.reportUntold(link);
+        return {};
+    }
     // other sample ratios make other meshes than those that the bin was made of
-    const AnalyticBin surface = shape.sampleRatio == 1.0 ? surfaceOf(tile, ellipsoid, 1.0).bin : AnalyticBin();
+    const AnalyticBin surface = own.isScalable && shape.sampleRatio != 1.0 ? AnalyticBin() : own.bin;
     const double radius = ellipsoid.getRadiusPolar();
     const bool isWithinBin =
         !surface.valid() || !fit.bin.valid() || nearlyHolds(fit.bin, surface, surface.sag(), radius);
     if (!isWithinBin) fit.bin.expandBy(surface);
     const AnalyticBin& drawn = fit.bin.valid() ? fit.bin : surface;
-    const double sag = surface.valid() ? std::min(surface.sag(), drawn.sag()) : drawn.sag();
+    const double sag = surface.valid() ? std::min(surface.sag(), drawn.sag()) : 0.0;
     const ParentTile* const parent = link.parent.get();
     const bool isWithinParent =
         !parent || !parent->stored.valid() || !drawn.valid() || nearlyHolds(parent->stored, drawn, sag, radius);
@@ -188,18 +205,19 @@ void checkUnstored(const AnalyticBin& shown, double sag, Database& database, con
 
 // By what was found of the tile before. That may have been in another place, below other tiles.
 void correct(const FoundTile& tile, Database& database, const ParentTile& link, TileFit& fit) {
-    const AnalyticBin correction = database.correction(tile.frame.file, tile.ordinal);
-    checkUnstored(correction, 0.0, database, link);
-    fit.bin.expandBy(correction);
+    const Widening correction = database.correction(tile.frame.file, tile.ordinal);
+    if (correction.isBoundless && link.stored.valid()) database.reportUntold(link);
+    checkUnstored(correction.bin, 0.0, database, link);
+    if (correction.any()) fit.bin = correction.widened(fit.bin);
 }
 
 // What is stored is closer than the bound of a mesh's sag, and believed where the mesh's vertices allow it.
-AnalyticBin shownSurface(const FoundTile& tile, const AnalyticBin& surface, const AnalyticBin& bin) {
-    constexpr double kRounding = 1.0;
+AnalyticBin shownSurface(const FoundTile& tile, const AnalyticBin& surface, const AnalyticBin& bin, double radius) {
+    const double rounding = metreOn(radius);
     const auto low = storedSurfaceLow(*tile.node);
     if (!low) return surface;
     const bool isPossible =
-        !surface.valid() || *low <= surface.bin().altitude().lower + surface.sag() + surface.margin() + kRounding;
+        !surface.valid() || *low <= surface.bin().altitude().lower + surface.sag() + surface.margin() + rounding;
     return isPossible ? surfaceAbove(*low, bin) : surface;
 }
 
@@ -210,7 +228,7 @@ TileFit fitStored(const FoundTile& tile, Database& database, const TerrainShape&
     fit.isTerrain = true;
     const AnalyticBin surface = checkStored(tile, database, shape, link, fit);
     if (!fit.bin.valid()) return fit;
-    fit.surface = shownSurface(tile, surface, fit.bin);
+    fit.surface = shownSurface(tile, surface, fit.bin, database.ellipsoid()->getRadiusPolar());
     linkTo(fit.bin.bin(), link);
     correct(tile, database, link, fit);
     link.stored = fit.bin;
@@ -225,7 +243,9 @@ TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& 
     if (!isIndexFit || !fitIndexed(tile, database, shape, link, fit)) {
         fitSurface(tile, database, shape, link, fit);
         if (isIndexFit && database.index() && fit.isTerrain) database.reportMisfit(link, fit.bin);
-        if (shape.sampleRatio == 1.0) checkUnstored(fit.surface, fit.surface.sag(), database, link);
+        if (!fit.isScalable || shape.sampleRatio == 1.0) checkUnstored(fit.surface, fit.surface.sag(), database, link);
+    } else {
+        checkUnstored(fit.bin, fit.bin.sag(), database, link);
     }
     if (!fit.bin.valid()) return fit;
     fit.bin.setBin(core::withGaps(toCore(*database.ellipsoid()), fit.bin.bin(), link.edges));

@@ -20,7 +20,12 @@ public:
     SurfaceUnion(const osg::EllipsoidModel& ellipsoid, const osg::Matrixd& localToEcef, double sampleRatio)
         : SurfaceWalk(localToEcef), _model(ellipsoid), _ellipsoid(toCore(ellipsoid)), _sampleRatio(sampleRatio) {}
 
-    [[nodiscard]] TileSurface result() const { return isKnown() && _result.bin.valid() ? _result : TileSurface{}; }
+    [[nodiscard]] TileSurface result() const {
+        if (!isKnown()) return {};
+        TileSurface surface = _result;
+        surface.isEmpty = !surface.bin.valid();
+        return surface;
+    }
 
 private:
     void visit(osgTerrain::TerrainTile& tile) override {
