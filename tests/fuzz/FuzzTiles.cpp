@@ -146,8 +146,9 @@ void watch(Scene& scene) {
 bool isSurfaceKnown(const FoundTile& tile) {
     const osg::ref_ptr<const osg::EllipsoidModel> wgs84 = new osg::EllipsoidModel;
     return std::all_of(tile.meshes.begin(), tile.meshes.end(), [&](const osg::ref_ptr<osg::Node>& mesh) {
-        return tileSurface(*mesh, tile.frame.ellipsoid ? *tile.frame.ellipsoid : *wgs84, tile.frame.localToEcef)
-            .bin.valid();
+        const TileSurface surface =
+            tileSurface(*mesh, tile.frame.ellipsoid ? *tile.frame.ellipsoid : *wgs84, tile.frame.localToEcef);
+        return surface.isEmpty || surface.bin.valid();
     });
 }
 
@@ -177,7 +178,10 @@ double tolerance(const Scene& scene, const osg::NodePath& path, const std::vecto
         if (hasStoredBin(*path[i])) (i <= culprit ? isStoredAbove : isStored) = true;
         if (scene.tiles.count(path[i]) > 0) innermost = i;
     }
-    if (innermost == path.size() || !isSurfaceKnown(scene.tiles.at(path[innermost]))) return -1.0;
+    if (innermost == path.size()) return -1.0;
+    // what cannot be told keeps the stored bins above it open
+    if (!isSurfaceKnown(scene.tiles.at(path[innermost])))
+        return hasStoredBin(*path[culprit]) && isOwnMesh(scene.tiles.at(path[innermost]), path) ? kRounding : -1.0;
     if (std::any_of(path.begin() + static_cast<std::ptrdiff_t>(innermost) + 1, path.end(),
                     [](osg::Node* node) { return mayMove(*node); }))
         return -1.0;
