@@ -18,14 +18,19 @@
 #include <osgAnalyticBin/viewer/TileSurvey.h>
 
 #include <gtest/gtest.h>
+#include <osg/CoordinateSystemNode>
 #include <osgDB/ReadFile>
+#include <osgDB/WriteFile>
 #include <osgTerrain/Terrain>
 #include <osgUtil/SceneView>
+#include <osgUtil/UpdateVisitor>
 #include <osgViewer/Renderer>
 #include <osgViewer/ViewerEventHandlers>
 
 #include <array>
 #include <chrono>
+#include <node/DatabaseFixture.h>
+#include <support/CapturedNotes.h>
 #include <support/Random.h>
 #include <support/TemporaryFolder.h>
 #include <thread>
@@ -201,6 +206,44 @@ TEST(ThreadsOnVpb, ChangeEverythingWhilePagingIsLive) {
     unsigned int culled = 0;
     EXPECT_GT(fly(*scene, Threading::CullThreadPerCameraDrawThreadPerContext, Layout::Views, 2, culled), 0u);
     EXPECT_GT(culled, 0u);
+}
+
+// A globe inside another has a database of its own, whose tiles widen the tiles of the outer one.
+TEST(ThreadsOnNestedGlobes, WidenTheSameTileAtOnce) {
+    const CapturedNotes notes;
+    const TemporaryFolder folder;
+    const core::GeodeticBin extents = extentsDeg(10, 30, 0, 40);
+    const AnalyticBin claimed(extents.withAltitude({-40000.0, 300.0}), 1.0);
+    const auto globe = [](osg::Node* tile) {
+        osg::ref_ptr<osg::CoordinateSystemNode> node = new osg::CoordinateSystemNode;
+        node->setEllipsoidModel(new osg::EllipsoidModel);
+        node->addChild(tile);
+        return node;
+    };
+    const osg::ref_ptr<osg::PagedLOD> whole = makePaged(makeMeshTile(extents, 200.0), "inner.osgb", 1e9f);
+    setStoredBin(*whole, claimed);
+    const osg::ref_ptr<osg::Node> outer = globe(whole);
+    ASSERT_TRUE(osgDB::writeNodeFile(*outer, folder / "outer.osgb"));
+    ASSERT_TRUE(osgDB::writeNodeFile(*globe(makeMeshTile(extents, 7000.0)), folder / "inner.osgb"));
+    whole->setDatabasePath(folder / "");
+    ASSERT_EQ(installBins(*outer), 1u);
+
+    constexpr int kReaders = 4;
+    constexpr int kReads = 8;
+    std::array<osg::ref_ptr<osg::Node>, kReaders> contents;
+    std::vector<std::thread> readers;
+    for (auto& content : contents) {
+        readers.emplace_back([&content, &whole] {
+            for (int i = 0; i < kReads; ++i) content = readBelow(*whole);
+        });
+    }
+    for (std::thread& reader : readers) reader.join();
+    const osg::ref_ptr<osgUtil::UpdateVisitor> update = new osgUtil::UpdateVisitor;
+    outer->accept(*update);
+    EXPECT_GE(installedOn(*whole)->bin().bin().altitude().upper, 6999.0);
+    // what was found is known where the tile is fitted anew
+    EXPECT_EQ(setCullOptions(*outer, {}), 1u);
+    EXPECT_GE(installedOn(*whole)->bin().bin().altitude().upper, 6999.0);
 }
 
 }  // namespace
