@@ -4,6 +4,7 @@
 // Oracle: samples of the triangles that osgTerrain::GeometryTechnique itself makes of a tile, or of the mesh's own,
 // taken back to latitude, longitude and altitude.
 
+#include "DatabaseFixture.h"
 #include "TileFixture.h"
 
 #include <osgAnalyticBin/TileSurface.h>
