@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
 #include <osg/ValueObject>
+#include <osgDB/Options>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 #include <osgUtil/UpdateVisitor>
@@ -298,14 +299,17 @@ TEST_F(FalseBins, ReportedByATileThatWasOnItsWayWhenOptionsChangedAreWidened) {
         _hasGlobe = hasGlobe;
         write(_south, 7000.0, claim(_south).toText());
         pageOut(*_root);
-        const osg::ref_ptr<osg::Node> onItsWay = readBelow(*_root);
-        ASSERT_TRUE(onItsWay);
+        const osg::ref_ptr<osgDB::Options> asked = dynamic_cast<osgDB::Options*>(_root->getDatabaseOptions());
         CullOptions exact;
         exact.method = Method::Exact;
-        EXPECT_EQ(setCullOptions(*_scene, exact), 1u);
-        putBelow(*_root, onItsWay);
+        ASSERT_EQ(setCullOptions(*_scene, exact), 1u);
+        ASSERT_NE(_root->getDatabaseOptions(), asked.get());
+        _leaf = osgDB::readRefNodeFile(_folder / "leaf.osgb", asked);
+        ASSERT_TRUE(_leaf);
+        putBelow(*_root, _leaf);
         update();
         EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0) << hasGlobe;
+        EXPECT_EQ(installedOn(*_leaf)->cullOptions().method, Method::Exact) << hasGlobe;
     }
 }
 

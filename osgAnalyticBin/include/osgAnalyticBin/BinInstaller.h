@@ -129,8 +129,6 @@ OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions
 /// for those that the DatabasePager is reading just now, and for those that it reads later. What was known of the
 /// database (its index, tiles that did not fit it) stays known. On a database without bins: installBins().
 /// Call it between frames, in the event or update phase, where no cull traversal runs; the pager may work meanwhile.
-/// Without a CoordinateSystemNode in the scene, files that are being read keep the options that they were asked for
-/// with.
 /// Guarantee: the same tiles are drawn as after reading anew; tests: SwitchedCulling.*.
 /// Returns: the number of callbacks installed. Cost: as installing bins on what is loaded.
 OSGANALYTICBIN_EXPORT std::size_t setCullOptions(osg::Node& node, const CullOptions& options);
