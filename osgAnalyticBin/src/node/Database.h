@@ -109,12 +109,11 @@ private:
     void widen(const ParentTile& tile, const Widening& by, bool isFitted);
     static void widenFrom(const ParentTile& tile, const Widening& by);
     [[nodiscard]] bool isFirst(bool& hasWarned);
+    void refitLateComers();
 
     static inline std::atomic<unsigned long> _count{0};
 
     const unsigned long _number = ++_count;
-    void refitLateComers();
-
     const osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;
     const osg::observer_ptr<osgTerrain::Terrain> _terrain;
     const osg::ref_ptr<const BinIndex> _index;
