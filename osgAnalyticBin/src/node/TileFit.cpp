@@ -3,6 +3,7 @@
 
 #include "TileFit.h"
 
+#include "../core/EarthScale.h"
 #include "GlmBridge.h"
 
 #include <osgAnalyticBin/TileSurface.h>
@@ -56,12 +57,20 @@ AnalyticBin surfaceAbove(double low, const AnalyticBin& bin) {
     return withAltitude(bin, {low, std::max(low, bin.bin().altitude().upper)}, 0.0);
 }
 
+// On a globe that is larger than the earth, or in smaller units, undeclared heights hold as much.
+core::Interval heightsIn(const Database& database) {
+    const core::Interval heights = database.options().heights;
+    if (!(heights == CullOptions::kTerrainOnEarth)) return heights;
+    const double scale = std::max(1.0, core::earthScale(toCore(*database.ellipsoid())));
+    return {heights.lower * scale, heights.upper * scale};
+}
+
 // The bin of a tile of which no more is known than its surface and the declared heights.
 AnalyticBin rangedBin(const TileSurface& surface, bool hasDescendants, const Database& database,
                       const ParentTile& link) {
     const core::Ellipsoid ellipsoid = toCore(*database.ellipsoid());
     const core::GeodeticBin& extents = surface.bin.bin();
-    const core::Interval heights = database.options().heights;
+    const core::Interval heights = heightsIn(database);
     double sag = core::crackDepth(ellipsoid, extents, link.edges);
     core::Interval altitude = extents.altitude();
     if (hasDescendants) {
@@ -104,7 +113,7 @@ bool fitIndexed(const FoundTile& tile, const Database& database, const TerrainSh
     linkTo(fit.bin.bin(), link);
     fit.surface = surfaceAbove(entry->ownLow, fit.bin);
     // the floor of an index is that of its neighbours' edges
-    const double relief = database.options().heights.width() + fit.bin.sag();
+    const double relief = heightsIn(database).width() + fit.bin.sag();
     const double dip = core::dipBehindEdge(toCore(*database.ellipsoid()), fit.bin.bin(), link.edges, relief);
     const core::Interval& altitude = fit.bin.bin().altitude();
     fit.bin = withAltitude(fit.bin, {altitude.lower - dip, altitude.upper}, fit.bin.sag() + dip);
@@ -131,32 +140,26 @@ TileFit unknownFit(const FoundTile& tile, Database& database, const TerrainShape
     return fit;
 }
 
-// How far a tile may seem to leave a stored bin that is right, in metres: bounds of surfaces are rough where meshes are
-// coarse.
+// How far a tile may seem to leave a stored bin that is right: bounds of surfaces are rough where meshes are coarse.
 struct Tolerance {
     double below, above, aside;
 };
 
-// A metre on earth, on a globe of any size and in any unit.
-double metreOn(double radius) {
-    constexpr double kEarth = 6.35e6;
-    return radius / kEarth;
-}
-
-Tolerance toleranceFor(const AnalyticBin& bin, double sag, double radius) {
-    const double metre = metreOn(radius);
+Tolerance toleranceFor(const AnalyticBin& bin, double sag, const core::Ellipsoid& ellipsoid) {
+    const double metre = core::earthScale(ellipsoid);
     const double mostMargin = 100.0 * metre;  // a stored one may be anything
     constexpr double kShareOfWidth = 1.0 / 32.0;
     constexpr double kShareOfSag = 1.0 / 4.0;
-    const double width = radius * std::max(bin.bin().latitude().width(), bin.bin().longitude().width());
+    const double width =
+        ellipsoid.polarRadius() * std::max(bin.bin().latitude().width(), bin.bin().longitude().width());
     const double least = metre + std::min(bin.margin(), mostMargin);
     return {least + sag, least + kShareOfSag * sag, least + kShareOfWidth * width};
 }
 
 // Whether the outer bin holds the inner one but for the tolerance. `sag`: of what is known to be drawn.
-bool nearlyHolds(const AnalyticBin& outer, const AnalyticBin& inner, double sag, double radius) {
-    const Tolerance tolerance = toleranceFor(inner, sag, radius);
-    const double angle = tolerance.aside / radius;
+bool nearlyHolds(const AnalyticBin& outer, const AnalyticBin& inner, double sag, const core::Ellipsoid& ellipsoid) {
+    const Tolerance tolerance = toleranceFor(inner, sag, ellipsoid);
+    const double angle = tolerance.aside / ellipsoid.polarRadius();
     // the longitudes of a cap about the pole say little
     const double narrowest = std::max(std::cos(std::abs(inner.bin().center().latitude)), 1e-3);
     const auto grown = [](const core::Interval& range, double below, double above) -> core::Interval {
@@ -174,8 +177,8 @@ bool nearlyHolds(const AnalyticBin& outer, const AnalyticBin& inner, double sag,
 // larger widens it and its ancestors. Returns: the tile's own surface, where it is known.
 AnalyticBin checkStored(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link,
                         TileFit& fit) {
-    const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database.ellipsoid();
-    const TileSurface own = surfaceOf(tile, ellipsoid, shape.sampleRatio);
+    const osg::EllipsoidModel& model = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database.ellipsoid();
+    const TileSurface own = surfaceOf(tile, model, shape.sampleRatio);
     if (!own.bin.valid() && !own.isEmpty) {
         fit.bin.init();
         database.reportUntold(link);
@@ -183,15 +186,15 @@ AnalyticBin checkStored(const FoundTile& tile, Database& database, const Terrain
     }
     // other sample ratios make other meshes than those that the bin was made of
     const AnalyticBin surface = own.isScalable && shape.sampleRatio != 1.0 ? AnalyticBin() : own.bin;
-    const double radius = ellipsoid.getRadiusPolar();
+    const core::Ellipsoid ellipsoid = toCore(model);
     const bool isWithinBin =
-        !surface.valid() || !fit.bin.valid() || nearlyHolds(fit.bin, surface, surface.sag(), radius);
+        !surface.valid() || !fit.bin.valid() || nearlyHolds(fit.bin, surface, surface.sag(), ellipsoid);
     if (!isWithinBin) fit.bin.expandBy(surface);
     const AnalyticBin& drawn = fit.bin.valid() ? fit.bin : surface;
     const double sag = surface.valid() ? std::min(surface.sag(), drawn.sag()) : 0.0;
     const ParentTile* const parent = link.parent.get();
     const bool isWithinParent =
-        !parent || !parent->stored.valid() || !drawn.valid() || nearlyHolds(parent->stored, drawn, sag, radius);
+        !parent || !parent->stored.valid() || !drawn.valid() || nearlyHolds(parent->stored, drawn, sag, ellipsoid);
     if (!isWithinBin || !isWithinParent) database.reportFalseBin(link, drawn);
     return surface;
 }
@@ -199,8 +202,7 @@ AnalyticBin checkStored(const FoundTile& tile, Database& database, const Terrain
 // The same of a tile that has no bin of its own stored, below one that has.
 void checkUnstored(const AnalyticBin& shown, double sag, Database& database, const ParentTile& link) {
     if (!link.stored.valid() || !shown.valid()) return;
-    if (!nearlyHolds(link.stored, shown, sag, database.ellipsoid()->getRadiusPolar()))
-        database.reportFalseBin(link, shown);
+    if (!nearlyHolds(link.stored, shown, sag, toCore(*database.ellipsoid()))) database.reportFalseBin(link, shown);
 }
 
 // By what was found of the tile before. That may have been in another place, below other tiles.
@@ -212,8 +214,9 @@ void correct(const FoundTile& tile, Database& database, const ParentTile& link, 
 }
 
 // What is stored is closer than the bound of a mesh's sag, and believed where the mesh's vertices allow it.
-AnalyticBin shownSurface(const FoundTile& tile, const AnalyticBin& surface, const AnalyticBin& bin, double radius) {
-    const double rounding = metreOn(radius);
+AnalyticBin shownSurface(const FoundTile& tile, const AnalyticBin& surface, const AnalyticBin& bin,
+                         const core::Ellipsoid& ellipsoid) {
+    const double rounding = core::earthScale(ellipsoid);
     const auto low = storedSurfaceLow(*tile.node);
     if (!low) return surface;
     const bool isPossible =
@@ -228,7 +231,7 @@ TileFit fitStored(const FoundTile& tile, Database& database, const TerrainShape&
     fit.isTerrain = true;
     const AnalyticBin surface = checkStored(tile, database, shape, link, fit);
     if (!fit.bin.valid()) return fit;
-    fit.surface = shownSurface(tile, surface, fit.bin, database.ellipsoid()->getRadiusPolar());
+    fit.surface = shownSurface(tile, surface, fit.bin, toCore(*database.ellipsoid()));
     linkTo(fit.bin.bin(), link);
     correct(tile, database, link, fit);
     link.stored = fit.bin;
@@ -259,8 +262,8 @@ TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& s
     if (!shape.isKnown && hasTerrainTile(tile)) return unknownFit(tile, database, shape, link);
     TileFit fit = fitKnown(tile, database, shape, link);
     if (shape.areBoundariesEqual && fit.isScalable) {
-        fit.bin = withHeights(fit.bin, database.options().heights);
-        fit.surface = withHeights(fit.surface, database.options().heights);
+        fit.bin = withHeights(fit.bin, heightsIn(database));
+        fit.surface = withHeights(fit.surface, heightsIn(database));
     }
     return fit;
 }
