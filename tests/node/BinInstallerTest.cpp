@@ -222,6 +222,21 @@ TEST(BinInstaller, FindsTheBinOfAPagedLodFromItsGeometryAndKnowsNoHeightsBelow) 
     EXPECT_LT(bin.bin().longitude().upper, 0.1005);
 }
 
+TEST(BinInstaller, UndeclaredHeightsHoldAllTerrainOnEarthInSmallerUnitsToo) {
+    constexpr double kFeet = 1.0 / 0.3048;
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+    root->setEllipsoidModel(
+        new osg::EllipsoidModel(osg::WGS_84_RADIUS_EQUATOR * kFeet, osg::WGS_84_RADIUS_POLAR * kFeet));
+    const osg::ref_ptr<osg::MatrixTransform> mesh = test::makeMeshTile(test::extentsDeg(10, 12, 20, 22), 100.0);
+    mesh->postMult(osg::Matrixd::scale(kFeet, kFeet, kFeet));
+    const osg::ref_ptr<osg::PagedLOD> tile = test::makePaged(mesh, "finer.osgb", 1e9f);
+    root->addChild(tile);
+    ASSERT_EQ(installBins(*root), 1u);
+    const core::Interval altitude = callbackOf(*tile)->bin().bin().altitude();
+    EXPECT_GE(altitude.upper, 8849.0 * kFeet);
+    EXPECT_LE(altitude.lower, -10935.0 * kFeet);
+}
+
 TEST(BinInstaller, LeavesGeometryThatIsNoTerrainAlone) {
     Database db;
     const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
