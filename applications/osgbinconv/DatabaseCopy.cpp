@@ -14,6 +14,7 @@
 #include <osg/ClusterCullingCallback>
 #include <osg/Drawable>
 #include <osg/PagedLOD>
+#include <osg/ProxyNode>
 #include <osgTerrain/TerrainTile>
 
 #include <atomic>
@@ -69,6 +70,12 @@ public:
             if (!name.empty()) node.setFileName(i, withExtension(name, _extension));
         }
         node.setDatabasePath("");
+        apply(static_cast<osg::Node&>(node));
+    }
+
+    /// What was read in place of a name goes to the copy, for the file does not.
+    void apply(osg::ProxyNode& node) override {
+        for (unsigned int i = 0; i < node.getNumFileNames() && i < node.getNumChildren(); ++i) node.setFileName(i, "");
         apply(static_cast<osg::Node&>(node));
     }
 
@@ -170,8 +177,10 @@ private:
 
 void copyDatabase(const DatabaseFiles& files, const std::string& output, const CopyOptions& options,
                   const WalkOptions& walk) {
+    WalkOptions survey = walk;
+    survey.images = Images::Checked;  // what is refused must not cost an older copy its files
     const BuiltIndex built = indexFrom(files, walkDatabase(
-                                                  files, {}, [](const FileRecord&) {}, walk));
+                                                  files, {}, [](const FileRecord&) {}, survey));
     CopyTarget target(output, files, built.records, options.overwrite);
     Copy copy(files, built, target, options);
     std::vector<std::thread> threads;

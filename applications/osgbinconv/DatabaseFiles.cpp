@@ -5,13 +5,12 @@
 
 #include "Failure.h"
 #include "ModuleFolder.h"
+#include "NestedReads.h"
 
 #include <osgAnalyticBin/TileFile.h>
 
-#include <osg/Image>
 #include <osgDB/FileNameUtils>
 #include <osgDB/Options>
-#include <osgDB/ReadFile>
 #include <osgDB/Registry>
 
 #include <exception>
@@ -25,20 +24,11 @@ using osgAnalyticBin::support::Failure;
 
 namespace fs = std::filesystem;
 
-namespace {
-
-/// Images are no part of a bin: an empty one stands for each that is a file of its own.
-class EmptyImages : public osgDB::ReadFileCallback {
-public:
-    osgDB::ReaderWriter::ReadResult readImage(const std::string&, const osgDB::Options*) override {
-        return new osg::Image;
-    }
-
-protected:
-    ~EmptyImages() override = default;
-};
-
-}  // namespace
+bool leavesFolder(const std::string& file) {
+    const bool climbs = file == ".." || file.rfind("../", 0) == 0;
+    const bool isElsewhere = osgDB::isAbsolutePath(file) || file.find(":/") != std::string::npos;
+    return climbs || isElsewhere || file.empty();
+}
 
 DatabaseFiles::DatabaseFiles(const std::string& rootFile)
     : _rootFile(rootFile), _rootName(osgDB::getSimpleFileName(rootFile)), _folder(osgDB::getFilePath(rootFile)) {
@@ -74,32 +64,30 @@ osg::ref_ptr<osg::Node> DatabaseFiles::read(const std::string& file, Images imag
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
     options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
     options->getDatabasePathList().push_front(osgDB::getFilePath(path));
-    if (images == Images::Left) options->setReadFileCallback(new EmptyImages);
+    const NestedReads nested(*this, file, images);
+    osg::ref_ptr<osg::Node> node;
     try {
         osgDB::ReaderWriter::ReadResult result = osgAnalyticBin::readTileFile(path, options);
-        if (osg::Node* node = result.getNode()) return node;
+        node = result.getNode();
         error = result.message().empty() ? "cannot be read" : "cannot be read: " + result.message();
     } catch (const std::ios_base::failure&) {
         error = "ends too early";
     } catch (const std::exception& failure) {
         error = std::string("cannot be read: ") + failure.what();
     }
+    if (!nested.refusal().empty()) throw Failure(nested.refusal());
     error = error.substr(0, error.find('\n'));
-    return nullptr;
+    return node;
 }
 
 std::string DatabaseFiles::checked(const std::string& file, const std::string& namedBy) const {
-    const bool climbs = file == ".." || file.rfind("../", 0) == 0;
-    const bool isElsewhere = osgDB::isAbsolutePath(file) || file.find(":/") != std::string::npos;
-    if (climbs || isElsewhere || file.empty()) {
-        throw Failure("\"" + pathOf(namedBy) + "\" names \"" + file +
-                      "\", which is outside of the database's folder; name its files by paths below that folder");
-    }
+    if (leavesFolder(file)) throw Failure("\"" + pathOf(namedBy) + "\" names \"" + file + "\", " + kIsOutside);
     return file == _rootName ? std::string() : file;
 }
 
 void prepareReaders() {
     osgAnalyticBin::addModuleFolder();
+    NestedReads::prepare();
     osgDB::Registry& registry = *osgDB::Registry::instance();
     for (const char* library : {"serializers_osg", "serializers_osgterrain", "serializers_osgsim",
                                 "serializers_osganalyticbin", "serializers_osgfx", "serializers_osgtext"}) {

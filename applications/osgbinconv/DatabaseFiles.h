@@ -12,8 +12,16 @@
 
 namespace osgbinconv {
 
-/// Whether images are read too, or stand-ins for those that are files of their own.
-enum class Images { Left, Read };
+/// What becomes of images, shaders and fonts that are files of their own: stand-ins, whatever they are called; the
+/// same, but names that lead out of the folder are refused; read, or refused.
+enum class Images { Left, Checked, Read };
+
+/// Whether a name, made relative to the root file's folder already, leads elsewhere.
+[[nodiscard]] bool leavesFolder(const std::string& file);
+
+/// What is said of such a file, and what to do.
+constexpr const char* kIsOutside =
+    "which is outside of the database's folder; name its files by paths below that folder";
 
 /// The files of a database, named by their paths relative to the root file's folder; "" is the root file.
 class DatabaseFiles final {
@@ -30,6 +38,7 @@ public:
 
     /// The scene of a file, as the pager would get it. May be called by several threads.
     /// Returns: null, with the reason in `error`, for a file that is missing or broken.
+    /// Throws Failure when something that has to be read with it is outside of the folder.
     [[nodiscard]] osg::ref_ptr<osg::Node> read(const std::string& file, Images images, std::string& error) const;
 
     /// The name of a paged file, made relative to the root file's folder already. The root file becomes "".

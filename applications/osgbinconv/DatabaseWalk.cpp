@@ -32,7 +32,7 @@ class Walk {
 public:
     Walk(const DatabaseFiles& files, std::vector<FileRecord> known, const std::function<void(const FileRecord&)>& keep,
          const WalkOptions& options)
-        : _files(files), _keep(keep), _progress(options.isQuiet) {
+        : _files(files), _images(options.images), _keep(keep), _progress(options.isQuiet) {
         for (FileRecord& record : known) _known[record.file] = std::move(record);
     }
 
@@ -83,7 +83,7 @@ private:
         }
         FileRecord record;
         std::string error;
-        if (const osg::ref_ptr<osg::Node> scene = _files.read(job.file, Images::Left, error)) {
+        if (const osg::ref_ptr<osg::Node> scene = _files.read(job.file, _images, error)) {
             record = surveyFile(*scene, job.file, job.place, _files);
         } else if (job.file.empty()) {
             throw Failure("\"" + _files.rootFile() + "\" " + error + "; name the root file of a database");
@@ -122,6 +122,7 @@ private:
     }
 
     const DatabaseFiles& _files;
+    const Images _images;
     const std::function<void(const FileRecord&)>& _keep;
     std::map<std::string, FileRecord> _known;
     std::mutex _keepMutex;

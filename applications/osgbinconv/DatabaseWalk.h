@@ -15,6 +15,7 @@ namespace osgbinconv {
 struct WalkOptions {
     int threads = 1;
     bool isQuiet = false;
+    Images images = Images::Left;
 };
 
 /// The records of a database's files, by their names.
