@@ -19,6 +19,8 @@
 #include <Failure.h>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -104,13 +106,24 @@ void georeference(GDALDataset& dataset, Bytes& bytes) {
     if (code != 0 && reference.importFromEPSG(code) == OGRERR_NONE) dataset.SetSpatialRef(&reference);
 }
 
+void setNodata(GDALRasterBand& band, Bytes& bytes) {
+#if GDAL_VERSION_NUM >= GDAL_COMPUTE_VERSION(3, 5, 0)
+    // a double is refused there
+    constexpr std::array<std::int64_t, 4> kOdd{0, -1, std::numeric_limits<std::int64_t>::min(),
+                                               std::numeric_limits<std::int64_t>::max()};
+    if (band.GetRasterDataType() == GDT_Int64) band.SetNoDataValueAsInt64(bytes.pick(kOdd));
+    if (band.GetRasterDataType() == GDT_UInt64) {
+        band.SetNoDataValueAsUInt64(static_cast<std::uint64_t>(bytes.pick(kOdd)));
+    }
+    if (band.GetRasterDataType() == GDT_Int64 || band.GetRasterDataType() == GDT_UInt64) return;
+#endif
+    band.SetNoDataValue(bytes.number());
+}
+
 /// Returns: whether there is a raster.
 bool writeRaster(Bytes& bytes) {
     GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
-    constexpr std::array<GDALDataType, 11> kTypes{GDT_Byte,   GDT_UInt16,   GDT_Int16,   GDT_UInt32,
-                                                  GDT_Int32,  GDT_Float32,  GDT_Float64, GDT_CInt16,
-                                                  GDT_CInt32, GDT_CFloat32, GDT_CFloat64};
-    const GDALDataType type = kTypes[static_cast<std::size_t>(bytes.below(static_cast<int>(kTypes.size())))];
+    const auto type = static_cast<GDALDataType>(1 + bytes.below(GDT_TypeCount - 1));  // all that GDAL knows
     const int width = 1 + bytes.below(16);
     const int height = 1 + bytes.below(16);
     GDALDataset* const dataset = driver->Create(kFile, width, height, 1, type, nullptr);
@@ -118,7 +131,7 @@ bool writeRaster(Bytes& bytes) {
     georeference(*dataset, bytes);
     GDALRasterBand& band = *dataset->GetRasterBand(1);
     const int marks = bytes.byte();
-    if (marks & 1) band.SetNoDataValue(bytes.number());
+    if (marks & 1) setNodata(band, bytes);
     if (marks & 2) band.SetScale(bytes.number());
     if (marks & 4) band.SetOffset(bytes.number());
     const int pixelSize = GDALGetDataTypeSizeBytes(type);

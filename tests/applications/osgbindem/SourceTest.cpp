@@ -17,6 +17,20 @@ double north(double latitudeDeg, double) {
     return latitudeDeg * 10.0;
 }
 
+void writeAs(GDALDataType type, const std::string& from, const std::string& to) {
+    std::vector<std::string> words{"-ot", GDALGetDataTypeName(type), "-a_nodata", "127"};
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    GDALTranslateOptions* options = GDALTranslateOptionsNew(arguments.data(), nullptr);
+    GDALDatasetH source = GDALOpen(from.c_str(), GA_ReadOnly);
+    GDALDatasetH target = GDALTranslate(to.c_str(), source, options, nullptr);
+    GDALTranslateOptionsFree(options);
+    GDALClose(target);
+    GDALClose(source);
+    ASSERT_TRUE(target) << GDALGetDataTypeName(type);
+}
+
 SourceRange rangeOf(const TestRaster& raster) {
     return [&raster](const Rect& rect) { return raster.range(rect); };
 }
@@ -134,6 +148,23 @@ TEST(Source, MissingHeightsFallThroughToTheNextRasterAndToZero) {
         EXPECT_LT(tile.bin.bin().altitude().upper, 901.0);
         EXPECT_GT(tile.bin.bin().altitude().lower, -2000.0);
     });
+}
+
+TEST(Source, NumbersOfAnyTypeAreHeights) {
+    const TempFolder folder;
+    TestRaster::globe(5.0, [](double, double longitudeDeg) {
+        return longitudeDeg < 0.0 ? 100.0 : 127.0;
+    }).write(folder.file("globe.tif"));
+    for (int i = 1; i < GDT_TypeCount; ++i) {
+        const auto type = static_cast<GDALDataType>(i);
+        if (GDALDataTypeIsComplex(type)) continue;  // no format of heights has them
+        const std::string name = GDALGetDataTypeName(type);
+        writeAs(type, folder.file("globe.tif"), folder.file(name + ".tif"));
+        build({folder.file(name + ".tif"), "--cells", "4", "--levels", "0", "-o", folder.file(name + ".osgb")});
+        const LoadedDatabase database = loadDatabase(folder.file(name + ".osgb"));
+        EXPECT_NEAR(database.altitudeAt(22.5, -90.0), 100.0, 0.1) << name;
+        EXPECT_NEAR(database.altitudeAt(22.5, 90.0), 0.0, 0.1) << name;
+    }
 }
 
 TEST(Source, NodataCanBeNamed) {
