@@ -25,8 +25,10 @@ namespace {
 
 #ifdef __SANITIZE_ADDRESS__
 constexpr int kDeep = 1500;  // each call takes several times the stack
+constexpr int kWide = 2000;
 #else
 constexpr int kDeep = 10000;
+constexpr int kWide = 20000;
 #endif
 
 // Nodes each below the one before, the scene at the end. They are taken apart one by one: OSG would do so recursively.
@@ -56,31 +58,72 @@ private:
 
 const core::GeodeticBin kExtents = extentsDeg(10, 12, 20, 22);
 
-void installTwice(osg::Node& scene) {
-    CullOptions options;
-    for (const Method method : {Method::Quadratic, Method::None, Method::Sphere}) {
-        options.method = method;
-        (void)installBins(scene, options);
+/// What is asked of a mesh in a scene of a strange shape: seen from above with every method, and culled with bins where
+/// the camera looks at it no more.
+class WatchedMesh {
+public:
+    WatchedMesh() : mesh(makeMeshTile(kExtents, 100.0)) { _reached.watch(*mesh, "mesh"); }
+
+    /// Returns: how many tiles have bins at last.
+    std::size_t installOften(osg::Node& scene) {
+        CullOptions options;
+        for (const Method method : {Method::Quadratic, Method::None, Method::Sphere}) {
+            options.method = method;
+            (void)installBins(scene, options);
+            EXPECT_TRUE(isReached(scene, 21.0)) << static_cast<int>(method);
+        }
+        options.method = Method::Quadratic;
+        const std::size_t bins = installBins(scene, options);
+        const osg::ref_ptr<osgUtil::UpdateVisitor> update = new osgUtil::UpdateVisitor;
+        scene.accept(*update);
+        EXPECT_TRUE(isReached(scene, 21.0));
+        EXPECT_FALSE(isReached(scene, 60.0));
+        return bins;
     }
-    options.method = Method::Quadratic;
-    (void)installBins(scene, options);
-    const osg::ref_ptr<osgUtil::UpdateVisitor> update = new osgUtil::UpdateVisitor;
-    scene.accept(*update);
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    (void)cull(scene, CullView::lookAt(ecefDeg(11, 21, 1e5), ecefDeg(11, 21, 0), {0, 0, 1}, 60.0), *visitor);
-}
+
+    const osg::ref_ptr<osg::Node> mesh;
+
+    /// One like it, that is watched too.
+    [[nodiscard]] osg::ref_ptr<osg::Node> another() const {
+        return osg::clone(mesh.get(), osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_DRAWABLES);
+    }
+
+    /// Returns: how many drawables are left to draw where the camera looks at it.
+    [[nodiscard]] static std::size_t drawnIn(osg::Node& scene) {
+        const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+        return cull(scene, CullView::lookAt(ecefDeg(11, 21, 1e5), ecefDeg(11, 21, 0), {0, 0, 1}, 60.0), *visitor)
+            .drawn.size();
+    }
+
+private:
+    bool isReached(osg::Node& scene, double longitudeDeg) {
+        return _reached.in(scene, ecefDeg(11, longitudeDeg, 1e5), ecefDeg(11, longitudeDeg, 0), 60.0).count("mesh") > 0;
+    }
+
+    ReachedTiles _reached;
+};
 
 TEST(HugeScenes, GroupsMayBeDeep) {
-    Chain chain([](int) { return new osg::Group; }, makeMeshTile(kExtents, 100.0));
-    installTwice(*chain.root);
+    WatchedMesh watched;
+    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(watched.mesh, "none.osgb");
+    Chain chain([](int) { return new osg::Group; }, tile);
+    EXPECT_EQ(watched.installOften(*chain.root), 1u);
+    EXPECT_TRUE(installedOn(*tile));
 }
 
+// Above a tile, and below one.
 TEST(HugeScenes, TransformsMayBeDeep) {
-    Chain chain([](int) { return new osg::MatrixTransform; }, makeMeshTile(kExtents, 100.0));
-    const osg::ref_ptr<osg::PagedLOD> paged = makePaged(makeMeshTile(kExtents, 100.0), "none.osgb");
-    putBelow(*paged, chain.root->getChild(0));
-    chain.root->addChild(paged);
-    installTwice(*chain.root);
+    WatchedMesh watched;
+    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(watched.mesh, "none.osgb");
+    Chain chain([](int) { return new osg::MatrixTransform; }, tile);
+    WatchedMesh below;
+    Chain chainBelow([](int) { return new osg::MatrixTransform; }, below.mesh);
+    const osg::ref_ptr<osg::PagedLOD> above = makePaged(makeMeshTile(kExtents, 100.0), "none.osgb");
+    putBelow(*above, chainBelow.root->getChild(0));
+    chain.root->addChild(above);
+    EXPECT_EQ(watched.installOften(*chain.root), 3u);
+    EXPECT_EQ(below.installOften(*chain.root), 3u);
+    EXPECT_TRUE(installedOn(*tile) && installedOn(*above) && installedOn(*chainBelow.root->getChild(0)));
 }
 
 TEST(HugeScenes, TilesMayBeDeep) {
@@ -99,21 +142,26 @@ TEST(HugeScenes, TilesMayBeDeep) {
     }
 }
 
+// A million groups, and as many tiles as fit into some seconds. They share vertices and no nodes: OSG tells every
+// parent of a node that its culling changes.
 TEST(HugeScenes, MayBeAMillionWide) {
     const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
     root->setEllipsoidModel(new osg::EllipsoidModel);
-    const osg::ref_ptr<osg::Node> shared = makeMeshTile(kExtents, 100.0);
-    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(shared, "none.osgb");
+    WatchedMesh watched;
     const osg::ref_ptr<osg::Group> wide = new osg::Group;
     for (int i = 0; i < 1000000; ++i) wide->addChild(new osg::Group);
-    putBelow(*tile, wide);
-    root->addChild(tile);
-    installTwice(*root);
+    for (int i = 0; i < kWide; ++i) wide->addChild(makePaged(watched.another(), "none.osgb"));
+    const osg::ref_ptr<osg::PagedLOD> above = makePaged(watched.mesh, "none.osgb");
+    putBelow(*above, wide);
+    root->addChild(above);
+    EXPECT_EQ(watched.installOften(*root), static_cast<std::size_t>(kWide) + 1);
+    EXPECT_EQ(WatchedMesh::drawnIn(*root), static_cast<std::size_t>(kWide));  // in place of the coarser one
 }
 
 // Every node twice below the one above: as many paths as there are bits.
 TEST(HugeScenes, PathsAreAsManyAsTheSceneHas) {
-    osg::ref_ptr<osg::Node> node = makeMeshTile(kExtents, 100.0);
+    WatchedMesh watched;
+    osg::ref_ptr<osg::Node> node = watched.mesh;
     for (int i = 0; i < 12; ++i) {
         const osg::ref_ptr<osg::Group> above = i % 2 ? new osg::Group : new osg::MatrixTransform;
         above->addChild(node);
@@ -124,7 +172,9 @@ TEST(HugeScenes, PathsAreAsManyAsTheSceneHas) {
     putBelow(*tile, node);
     const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
     root->addChild(tile);
-    installTwice(*root);
+    // the tile, and what is below it: a transform that stands in two places
+    EXPECT_EQ(watched.installOften(*root), 3u);
+    EXPECT_TRUE(installedOn(*tile));
 }
 
 }  // namespace
