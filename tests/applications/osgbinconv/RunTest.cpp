@@ -290,6 +290,42 @@ TEST(SmallRun, HugeFilesEnd) {
     }
 }
 
+// Each file pages the next one; the last is the widest, and so are all bins above it.
+TEST(SmallRun, FilesMayBePagedDeep) {
+#ifdef __SANITIZE_ADDRESS__
+    constexpr int kDeep = 500;
+#else
+    constexpr int kDeep = 2000;
+#endif
+    const TemporaryFolder folder;
+    const auto name = [](int i) { return std::to_string(100000 + i) + ".osgb"; };  // all of one length
+    writeSmallFile(folder / "earth.osgb", *makeSmallTile(name(1)), true);
+    writeSmallFile(folder / name(1), *makeSmallTile(name(2)));
+    const std::string tile = bytesOf(folder / name(1));
+    const std::size_t at = tile.find(name(2));
+    ASSERT_NE(at, std::string::npos);
+    for (int i = 2; i < kDeep; ++i) {
+        writeBytes(folder / name(i), std::string(tile).replace(at, name(i).size(), name(i + 1)));
+    }
+    writeSmallFile(folder / name(kDeep), *makeSmallTile("", 10.0));
+    const Outcome outcome = runBinconv("--quiet --index " + test::quoted(folder / "earth.osgb"), "timeout 120 ");
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    std::string error;
+    const osg::ref_ptr<BinIndex> index = readBinIndex(folder / "earth.osgb", nullptr, error);
+    ASSERT_TRUE(index) << error;
+    EXPECT_EQ(index->tileCount(), static_cast<std::size_t>(kDeep) + 1);
+    for (const std::string& file : {std::string(), name(1), name(kDeep / 2)}) {
+        ASSERT_TRUE(index->find(file, 0)) << file;
+        EXPECT_GT(index->find(file, 0)->bin.bin().longitude().upper, osg::DegreesToRadians(10.9)) << file;
+    }
+    fs::create_directories(folder / "copy");
+    const Outcome copy =
+        runBinconv("--quiet " + test::quoted(folder / "earth.osgb") + ' ' + test::quoted(folder / "copy/earth.osgb"),
+                   "timeout 120 ");
+    EXPECT_EQ(copy.code, 0) << copy.text;
+    EXPECT_TRUE(fs::exists(folder / ("copy/" + name(kDeep))));
+}
+
 TEST(SmallRun, FoldersBesideEachOtherAreFollowed) {
     const TemporaryFolder folder;
     writeSmallFile(folder / "earth.osgb", *makeSmallTile("earth_root_L0_X0_Y0/a.osgb"), true);
