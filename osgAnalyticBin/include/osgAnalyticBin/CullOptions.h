@@ -86,8 +86,8 @@ struct CullOptions {
     /// What becomes of ClusterCullingCallbacks.
     ClusterUse cluster = ClusterUse::Replace;
     /// Altitudes in metres that no terrain of the database leaves, at any level of detail: for tiles whose descendants
-    /// are known neither from a stored bin nor from an index. The default holds all terrain on earth, on a globe of more
-    /// units in proportion. In a map: heights in its own units; left at the default, all terrain on earth in feet.
+    /// are known neither from a stored bin nor from an index. The default holds all terrain on earth, on a globe of
+    /// more units in proportion. In a map: heights in its own units; left at the default, all terrain on earth in feet.
     core::Interval heights = kTerrainOnEarth;
     /// Whether an index beside the database is used.
     bool index = true;
