@@ -143,12 +143,22 @@ void watch(Scene& scene) {
     for (const FoundTile& tile : findTiles(*scene.root)) scene.tiles[tile.node.get()] = tile;
 }
 
-bool isSurfaceKnown(const FoundTile& tile) {
+TileSurface surfaceOf(osg::Node& mesh, const FoundTile& tile) {
     const osg::ref_ptr<const osg::EllipsoidModel> wgs84 = new osg::EllipsoidModel;
+    return tileSurface(mesh, tile.frame.ellipsoid ? *tile.frame.ellipsoid : *wgs84, tile.frame.localToEcef);
+}
+
+bool isSurfaceKnown(const FoundTile& tile) {
     return std::all_of(tile.meshes.begin(), tile.meshes.end(), [&](const osg::ref_ptr<osg::Node>& mesh) {
-        const TileSurface surface =
-            tileSurface(*mesh, tile.frame.ellipsoid ? *tile.frame.ellipsoid : *wgs84, tile.frame.localToEcef);
+        const TileSurface surface = surfaceOf(*mesh, tile);
         return surface.isEmpty || surface.bin.valid();
+    });
+}
+
+/// Primitives may have too few vertices to be drawn.
+bool drawsNothing(const FoundTile& tile, const osg::NodePath& path) {
+    return std::any_of(tile.meshes.begin(), tile.meshes.end(), [&](const osg::ref_ptr<osg::Node>& mesh) {
+        return std::find(path.begin(), path.end(), mesh.get()) != path.end() && surfaceOf(*mesh, tile).isEmpty;
     });
 }
 
@@ -178,7 +188,7 @@ double tolerance(const Scene& scene, const osg::NodePath& path, const std::vecto
         if (hasStoredBin(*path[i])) (i <= culprit ? isStoredAbove : isStored) = true;
         if (scene.tiles.count(path[i]) > 0) innermost = i;
     }
-    if (innermost == path.size()) return -1.0;
+    if (innermost == path.size() || drawsNothing(scene.tiles.at(path[innermost]), path)) return -1.0;
     // what cannot be told keeps the stored bins above it open
     if (!isSurfaceKnown(scene.tiles.at(path[innermost])))
         return hasStoredBin(*path[culprit]) && isOwnMesh(scene.tiles.at(path[innermost]), path) ? kRounding : -1.0;
