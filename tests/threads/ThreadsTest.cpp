@@ -241,6 +241,7 @@ TEST(ThreadsOnNestedGlobes, WidenTheSameTileAtOnce) {
     const osg::ref_ptr<osgUtil::UpdateVisitor> update = new osgUtil::UpdateVisitor;
     outer->accept(*update);
     EXPECT_GE(installedOn(*whole)->bin().bin().altitude().upper, 6999.0);
+    EXPECT_EQ(notes.count("larger than the bin"), 1u);
     // what was found is known where the tile is fitted anew
     EXPECT_EQ(setCullOptions(*outer, {}), 1u);
     EXPECT_GE(installedOn(*whole)->bin().bin().altitude().upper, 6999.0);

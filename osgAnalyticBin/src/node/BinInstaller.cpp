@@ -146,7 +146,7 @@ void BinInstaller::apply(osg::PagedLOD& node) {
 void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const Scoped options(_options, settled(node, _options));
     const bool isForeign = _parent && !isSameGlobe(frame(), frameInside(node));
-    if (isForeign && installsBins()) database().reportUntold(*linkBetween());
+    if (isForeign && installsBins()) Database::reportUntold(*linkBetween());
     if (installsBins() && isGlobeBroken(node)) {
         OSG_WARN << "osgAnalyticBin: the radii of the globe \"" << node.getName() << "\" in \"" << frame().file
                  << "\" are not two positive numbers; what is below it gets no bins." << std::endl;
@@ -185,7 +185,7 @@ void BinInstaller::visitTile(FoundTile& tile) {
         const TerrainShape shape = database().fittedShape();
         const PlanarFit fit = fitPlanarTile(tile, _options, shape);
         const bool isOnGlobe = fit.kind == PlanarFit::NotPlanar && tile.frame.ellipsoid;
-        if (!isOnGlobe && isBelowStored()) database().reportUntold(*linkBetween());
+        if (!isOnGlobe && isBelowStored()) Database::reportUntold(*linkBetween());
         if (fit.kind == PlanarFit::Planar) return installPlanar(tile, fit, shape);
         if (fit.kind == PlanarFit::Contradictory || !tile.frame.ellipsoid) return passBy(*tile.node, true);
     }

@@ -125,38 +125,38 @@ void Database::noteUnknownTechnique() {
              << std::endl;
 }
 
-bool Database::isFirst(bool& hasWarned) {
-    const std::lock_guard<std::mutex> lock(_mutex);
-    return !std::exchange(hasWarned, true);
+// Once for a database, whatever globes are inside it.
+void Database::warn(const ParentTile& tile, bool Database::*hasWarned, const char* what) {
+    const ParentTile* outermost = &tile;
+    while (outermost->parent) outermost = outermost->parent.get();
+    Database& database = *outermost->database;
+    {
+        const std::lock_guard<std::mutex> lock(database._mutex);
+        if (std::exchange(database.*hasWarned, true)) return;
+    }
+    // OSG's stream is one for all threads
+    static std::mutex printing;
+    const std::lock_guard<std::mutex> lock(printing);
+    OSG_WARN << "osgAnalyticBin: " << nameOf(tile) << what << std::endl;
 }
 
 void Database::reportMisfit(const ParentTile& tile, const AnalyticBin& bin) {
-    if (isFirst(_hasWarnedOfIndex)) {
-        OSG_WARN << "osgAnalyticBin: " << nameOf(tile)
-                 << " is not as the index knows it; tiles are kept visible there. Run osgbinconv --index again."
-                 << std::endl;
-    }
+    warn(tile, &Database::_hasWarnedOfIndex,
+         " is not as the index knows it; tiles are kept visible there. Run osgbinconv --index again.");
     widenFrom(tile, {bin});
 }
 
 void Database::reportFalseBin(const ParentTile& tile, const AnalyticBin& bin) {
-    if (isFirst(_hasWarnedOfStored)) {
-        OSG_WARN
-            << "osgAnalyticBin: " << nameOf(tile)
-            << " holds a tile that is larger than the bin stored with it or above it; bins are widened there. Make "
-               "the database again."
-            << std::endl;
-    }
+    warn(tile, &Database::_hasWarnedOfStored,
+         " holds a tile that is larger than the bin stored with it or above it; bins are widened there. Make the "
+         "database again.");
     widenFrom(tile, {bin});
 }
 
 void Database::reportUntold(const ParentTile& tile) {
-    if (isFirst(_hasWarnedOfUntold)) {
-        OSG_WARN << "osgAnalyticBin: " << nameOf(tile)
-                 << " holds what cannot be compared with the bin stored with it or above it: it stands on another "
-                    "globe, or its mesh cannot be told; tiles are kept visible there."
-                 << std::endl;
-    }
+    warn(tile, &Database::_hasWarnedOfUntold,
+         " holds what cannot be compared with the bin stored with it or above it: it stands on another globe, or its "
+         "mesh cannot be told; tiles are kept visible there.");
     widenFrom(tile, {{}, true});
 }
 

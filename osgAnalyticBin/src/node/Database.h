@@ -85,14 +85,14 @@ public:
     void noteUnknownTechnique();
 
     /// Says that a tile does not fit the index: warns once, and widens the tile's ancestors at the next update.
-    void reportMisfit(const ParentTile& tile, const AnalyticBin& bin);
+    static void reportMisfit(const ParentTile& tile, const AnalyticBin& bin);
 
     /// Says that a tile is larger than the bin that is stored with it or with its parent: likewise.
-    void reportFalseBin(const ParentTile& tile, const AnalyticBin& bin);
+    static void reportFalseBin(const ParentTile& tile, const AnalyticBin& bin);
 
     /// Says that nobody can tell whether a tile fits into the bins that are stored with it and above it: warns once,
     /// and has the tile's ancestors kept visible from the next update on.
-    void reportUntold(const ParentTile& tile);
+    static void reportUntold(const ParentTile& tile);
 
     /// What these said of a tile or its descendants.
     [[nodiscard]] Widening correction(const std::string& file, std::size_t ordinal) const;
@@ -108,7 +108,7 @@ private:
 
     void widen(const ParentTile& tile, const Widening& by, bool isFitted);
     static void widenFrom(const ParentTile& tile, const Widening& by);
-    [[nodiscard]] bool isFirst(bool& hasWarned);
+    static void warn(const ParentTile& tile, bool Database::*hasWarned, const char* what);
     void refitLateComers();
 
     static inline std::atomic<unsigned long> _count{0};

@@ -84,7 +84,7 @@ AnalyticBin rangedBin(const TileSurface& surface, bool hasDescendants, const Dat
 void fitSurface(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link, TileFit& fit) {
     const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape.sampleRatio);
     fit.isTerrain = surface.bin.valid();
-    if (!fit.isTerrain && !surface.isEmpty && link.stored.valid()) database.reportUntold(link);
+    if (!fit.isTerrain && !surface.isEmpty && link.stored.valid()) Database::reportUntold(link);
     if (!fit.isTerrain) return;
     linkTo(surface.bin.bin(), link);
     fit.surface = surface.bin;
@@ -181,7 +181,7 @@ AnalyticBin checkStored(const FoundTile& tile, Database& database, const Terrain
     const TileSurface own = surfaceOf(tile, model, shape.sampleRatio);
     if (!own.bin.valid() && !own.isEmpty) {
         fit.bin.init();
-        database.reportUntold(link);
+        Database::reportUntold(link);
         return {};
     }
     // other sample ratios make other meshes than those that the bin was made of
@@ -195,20 +195,20 @@ AnalyticBin checkStored(const FoundTile& tile, Database& database, const Terrain
     const ParentTile* const parent = link.parent.get();
     const bool isWithinParent =
         !parent || !parent->stored.valid() || !drawn.valid() || nearlyHolds(parent->stored, drawn, sag, ellipsoid);
-    if (!isWithinBin || !isWithinParent) database.reportFalseBin(link, drawn);
+    if (!isWithinBin || !isWithinParent) Database::reportFalseBin(link, drawn);
     return surface;
 }
 
 // The same of a tile that has no bin of its own stored, below one that has.
 void checkUnstored(const AnalyticBin& shown, double sag, Database& database, const ParentTile& link) {
     if (!link.stored.valid() || !shown.valid()) return;
-    if (!nearlyHolds(link.stored, shown, sag, toCore(*database.ellipsoid()))) database.reportFalseBin(link, shown);
+    if (!nearlyHolds(link.stored, shown, sag, toCore(*database.ellipsoid()))) Database::reportFalseBin(link, shown);
 }
 
 // By what was found of the tile before. That may have been in another place, below other tiles.
 void correct(const FoundTile& tile, Database& database, const ParentTile& link, TileFit& fit) {
     const Widening correction = database.correction(tile.frame.file, tile.ordinal);
-    if (correction.isBoundless && link.stored.valid()) database.reportUntold(link);
+    if (correction.isBoundless && link.stored.valid()) Database::reportUntold(link);
     checkUnstored(correction.bin, 0.0, database, link);
     if (correction.any()) fit.bin = correction.widened(fit.bin);
 }
@@ -245,7 +245,7 @@ TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& 
     const bool isIndexFit = database.options().skirts == SkirtUse::Cracks && shape.sampleRatio == 1.0;
     if (!isIndexFit || !fitIndexed(tile, database, shape, link, fit)) {
         fitSurface(tile, database, shape, link, fit);
-        if (isIndexFit && database.index() && fit.isTerrain) database.reportMisfit(link, fit.bin);
+        if (isIndexFit && database.index() && fit.isTerrain) Database::reportMisfit(link, fit.bin);
         if (!fit.isScalable || shape.sampleRatio == 1.0) checkUnstored(fit.surface, fit.surface.sag(), database, link);
     } else {
         checkUnstored(fit.bin, fit.bin.sag(), database, link);
