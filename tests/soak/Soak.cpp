@@ -92,7 +92,9 @@ private:
                       _watchdog, _findings);
         flight.halt();
         _cold.add("cold", 0);
-        flight.warmUp();
+        // shorter flights have too few stations to tell growth
+        constexpr std::size_t kFewestFrames = 2000;
+        if (_arguments.frames >= kFewestFrames) flight.warmUp();
         while (_findings.frames < frames) {
             flight.fly(round);
             flight.halt();
