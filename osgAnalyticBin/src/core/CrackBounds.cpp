@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "EarthScale.h"
+
 #include <osgAnalyticBin/core/CrackBounds.h>
 
 #include <algorithm>
@@ -12,8 +14,6 @@ namespace {
 
 // Posts stand on the terrain, a little farther from the centre than the ellipsoid; of the largest radius of curvature.
 constexpr double kRoomForAltitude = 1.01;
-// Nor are they deeper than this part of the smallest radius of curvature.
-constexpr double kDeepest = 0.5;
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -48,9 +48,7 @@ constexpr double kRoomForRun = 1.1;
 
 // The flattest curve of the surface has the largest radius of curvature; posts as high as `altitude` stand above it.
 double largestRadius(const Ellipsoid& ellipsoid, double altitude) noexcept {
-    const double a = ellipsoid.equatorialRadius();
-    const double b = ellipsoid.polarRadius();
-    const double largest = std::max({a * a / b, b * b / a, a});
+    const double largest = largestCurvatureRadius(ellipsoid);
     return std::max(kRoomForAltitude * largest, largest + altitude);
 }
 
@@ -59,13 +57,8 @@ double mostTurn(const Ellipsoid& ellipsoid, double altitude) noexcept {
     const double a = ellipsoid.equatorialRadius();
     const double flattening = std::max(1.0, a / ellipsoid.polarRadius());
     const double meridional = a / (flattening * flattening);
-    const double below = std::clamp(-altitude - (kRoomForAltitude - 1.0) * a, 0.0, kDeepest * meridional);
+    const double below = std::clamp(-altitude - (kRoomForAltitude - 1.0) * a, 0.0, kDeepestPost * meridional);
     return below > 0.0 ? (a - below) / (meridional - below) : flattening * flattening;
-}
-
-double sagBelow(const Ellipsoid& ellipsoid, double angle, double altitude) noexcept {
-    if (!(angle < kPi)) return 2.0 * std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
-    return largestRadius(ellipsoid, altitude) * (1.0 - std::cos(0.5 * angle));
 }
 
 // The poleward run of a chord between two posts `angle` apart on a parallel: source doc/databases.md, (4.3).
@@ -110,8 +103,9 @@ TileEdges TileEdges::of(const GeodeticBin& tile, const GeodeticBin* parentTile, 
     return edges;
 }
 
-double sagOfArc(const Ellipsoid& ellipsoid, double angle) noexcept {
-    return sagBelow(ellipsoid, angle, 0.0);
+double sagOfArc(const Ellipsoid& ellipsoid, double angle, double altitude) noexcept {
+    if (!(angle < kPi)) return 2.0 * std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+    return largestRadius(ellipsoid, altitude) * (1.0 - std::cos(0.5 * angle));
 }
 
 double crackDepth(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const TileEdges& edges) noexcept {
@@ -120,7 +114,7 @@ double crackDepth(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const Til
     const double southArc = arcAlongParallel(ellipsoid, edges.south, tile.latitude().lower, slope, low);
     const double northArc = arcAlongParallel(ellipsoid, edges.north, tile.latitude().upper, slope, low);
     const double arc = std::max({southArc, northArc, edges.west / kFewestCells, edges.east / kFewestCells});
-    return sagBelow(ellipsoid, arc, tile.altitude().upper);
+    return sagOfArc(ellipsoid, arc, tile.altitude().upper);
 }
 
 double dipBehindEdge(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const TileEdges& edges,
@@ -132,7 +126,7 @@ double dipBehindEdge(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const 
         const double height = cell * slope;
         // as in the arc of a crack's depth: a chord of height d dips by (R / 2) r d at r from its end
         const double arc = 2.0 * std::sqrt(run * height);
-        return sagBelow(ellipsoid, arc, tile.altitude().upper) + relief * std::min(1.0, run / height);
+        return sagOfArc(ellipsoid, arc, tile.altitude().upper) + relief * std::min(1.0, run / height);
     };
     return std::max(behind(edges.south, tile.latitude().lower), behind(edges.north, tile.latitude().upper));
 }
@@ -152,7 +146,7 @@ double sagOfFinerMeshes(const Ellipsoid& ellipsoid, const GeodeticBin& tile, boo
     const bool isWide = tile.longitude().width() > kWide * latitude.width();
     const double height = isWide ? latitude.width() : 0.5 * latitude.width();
     const double diagonal = std::hypot(0.5 * tile.longitude().width() * std::cos(nearest), height);
-    return sagBelow(ellipsoid, areGrids ? diagonal / kFewestCells : diagonal, tile.altitude().upper);
+    return sagOfArc(ellipsoid, areGrids ? diagonal / kFewestCells : diagonal, tile.altitude().upper);
 }
 
 }  // namespace osgAnalyticBin::core

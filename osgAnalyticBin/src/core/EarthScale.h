@@ -24,4 +24,19 @@ namespace osgAnalyticBin::core {
     return std::min(a * (a / b), b * (b / a));
 }
 
+/// The largest radius of curvature, that of the flattest curve of the surface.
+[[nodiscard]] inline double largestCurvatureRadius(const Ellipsoid& ellipsoid) noexcept {
+    const double a = ellipsoid.equatorialRadius();
+    const double b = ellipsoid.polarRadius();
+    return std::max({a * a / b, b * b / a, a});
+}
+
+/// Terrain is nowhere deeper than this part of the smallest radius of curvature.
+inline constexpr double kDeepestPost = 0.5;
+
+/// As a depth below the ellipsoid.
+[[nodiscard]] inline double deepestPost(const Ellipsoid& ellipsoid) noexcept {
+    return kDeepestPost * smallestCurvatureRadius(ellipsoid);
+}
+
 }  // namespace osgAnalyticBin::core

@@ -20,8 +20,6 @@ constexpr double kRunSlack = 1.01;
 constexpr double kAngleRounding = 1e-15;
 constexpr double kLengthRounding = 1e-7;     // metres on the earth
 constexpr double kLatitudeRounding = 1e-14;  // of Ellipsoid::toGeodetic
-// Posts are at most so deep, of the smallest radius of curvature.
-constexpr double kDeepest = 0.5;
 
 double squared(double value) {
     return value * value;
@@ -51,7 +49,7 @@ bool isEarthLike(const Ellipsoid& ellipsoid, double reach) {
 
 // The lowest posts run farthest.
 double latitudeOfLowestRun(const Ellipsoid& ellipsoid, double latitude, double cosHalfColumn, double reach) {
-    const double depth = std::min(reach, kDeepest * smallestCurvatureRadius(ellipsoid));
+    const double depth = std::min(reach, deepestPost(ellipsoid));
     const double n = ellipsoid.primeVerticalRadius(std::sin(latitude));
     const double z = (n * (1.0 - ellipsoid.eccentricitySquared()) - depth) * std::sin(latitude);
     const double rho = (n - depth) * std::cos(latitude) * cosHalfColumn;
@@ -87,7 +85,7 @@ SagTerms sagTerms(const Ellipsoid& ellipsoid, double reach) {
     // latitude as seen in geodetic ones.
     const double oblateness = std::max(a / b, b / a);
     if (isEarthLike(ellipsoid, reach)) return {std::max(a, b) + reach, oblateness, a, b};
-    return {std::max({a, a * (a / b), b * (b / a)}) + reach, 1.0, 1.0, 1.0};
+    return {largestCurvatureRadius(ellipsoid) + reach, 1.0, 1.0, 1.0};
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "EarthScale.h"
+
 #include <osgAnalyticBin/core/Horizon.h>
 
 #include <glm/geometric.hpp>
@@ -23,8 +25,6 @@ constexpr double kDown = 1.0 - 16.0 * kEpsilon;
 constexpr double kCosineSlack = 64.0 * kEpsilon;
 // Of the cosine that a point's spread is made from; doc/horizon.md, section 9.
 constexpr double kSpreadSlack = 16.0 * kEpsilon;
-// Deeper, the geometry of altitudes is no longer one to one, and there is no use in it.
-constexpr double kDeepest = 0.5;
 
 glm::dvec3 toUnitSpace(const Ellipsoid& ellipsoid, const glm::dvec3& v) {
     const double a = ellipsoid.equatorialRadius();
@@ -44,7 +44,7 @@ bool isFinite(const glm::dvec3& v) {
 
 // The factor of the occluder, rounded down: doc/horizon.md, section 1. Zero when there is none.
 double occluderScale(const Ellipsoid& ellipsoid, double depth) {
-    if (!(std::abs(depth) <= kDeepest * smallerRadius(ellipsoid))) return 0.0;
+    if (!(std::abs(depth) <= kDeepestPost * smallerRadius(ellipsoid))) return 0.0;
     const double radius = depth >= 0.0 ? smallerRadius(ellipsoid) : largerRadius(ellipsoid);
     return (1.0 - depth / radius) * kDown;
 }
@@ -73,8 +73,7 @@ Interval squaredRadii(const Ellipsoid& ellipsoid, const Interval& sin2, double h
 
 HorizonBin::HorizonBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept {
     if (bin.empty()) return;
-    const double smallestCurvature = smallerRadius(ellipsoid) * (smallerRadius(ellipsoid) / largerRadius(ellipsoid));
-    if (!(bin.altitude().lower - margin >= -kDeepest * smallestCurvature)) return;
+    if (!(bin.altitude().lower - margin >= -deepestPost(ellipsoid))) return;
     setLongitude(bin);
     setLatitude(ellipsoid, bin);
     setRadius(ellipsoid, bin, margin);

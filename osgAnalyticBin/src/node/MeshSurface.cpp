@@ -91,9 +91,7 @@ MeshBounds boundsOf(const SurfaceMesh& mesh, const MeshSkirts& skirts, const cor
 
 // Metres that a chord of this length, squared, sags at most below its lower end.
 double chordSag(double length2, const core::Ellipsoid& ellipsoid) {
-    const double a = ellipsoid.equatorialRadius();
-    const double b = ellipsoid.polarRadius();
-    const double smallestRadius = std::min(a * a / b, b * b / a) + lowestMesh(ellipsoid);
+    const double smallestRadius = core::smallestCurvatureRadius(ellipsoid) + lowestMesh(ellipsoid);
     return length2 / (8.0 * smallestRadius);
 }
 

@@ -21,7 +21,7 @@ namespace osgAnalyticBin {
 /// other globes, and half of the smallest radius of curvature at most.
 [[nodiscard]] inline double lowestMesh(const core::Ellipsoid& ellipsoid) {
     constexpr double kLowest = 1.0e6;
-    return -std::min(kLowest * core::earthScale(ellipsoid), 0.5 * core::smallestCurvatureRadius(ellipsoid));
+    return -std::min(kLowest * core::earthScale(ellipsoid), core::deepestPost(ellipsoid));
 }
 
 }  // namespace osgAnalyticBin

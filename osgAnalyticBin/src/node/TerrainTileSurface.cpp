@@ -139,7 +139,7 @@ TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::Ellipso
     const double skirt = field ? static_cast<double>(field->getSkirtHeight()) : 0.0;
     if (!std::isfinite(skirt)) return {};
 
-    if (!(heights.low - bounds.sag() > -0.5 * core::smallestCurvatureRadius(model))) return {};
+    if (!(heights.low - bounds.sag() > -core::deepestPost(model))) return {};
 
     TileSurface surface;
     // a skirt of negative height stands up

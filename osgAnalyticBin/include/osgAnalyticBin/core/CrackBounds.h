@@ -46,9 +46,10 @@ struct TileEdges {
 /// VirtualPlanetBuilder's flat tiles have as few.
 constexpr int kFewestCells = 7;
 
-/// Metres by which the chord of an arc of `angle` radians sags below its ends at most.
+/// Metres by which the chord of an arc of `angle` radians sags below its ends at most, where these are no higher than
+/// `altitude` or a hundredth of the radii.
 /// Source: doc/databases.md, (4.1).
-[[nodiscard]] double sagOfArc(const Ellipsoid& ellipsoid, double angle) noexcept;
+[[nodiscard]] double sagOfArc(const Ellipsoid& ellipsoid, double angle, double altitude = 0.0) noexcept;
 
 /// How far below its posts a coarser neighbour can dip where it meets the tile's edges, metres: to that depth an eye
 /// above the terrain can see the tile's skirts. Zero or more.
