@@ -4,7 +4,7 @@
 // Oracle: points of the triangles of random cells of a grid, diagonals either way, taken back to latitude, longitude
 // and altitude in long double.
 
-#include "TriangleSamples.h"
+#include "MeshSamples.h"
 
 #include <osgAnalyticBin/core/GeodeticGridBounds.h>
 
@@ -39,39 +39,6 @@ GeodeticGrid randomGrid(Random& random) {
     return grid;
 }
 
-double at(const Interval& interval, int i, std::size_t posts) {
-    return interval.lower + interval.width() * i / static_cast<double>(posts - 1);
-}
-
-struct Cell {
-    std::array<glm::dvec3, 4> corners;  // south-west, south-east, north-west, north-east
-};
-
-// Cells by the edges of the grid come often.
-Cell randomCell(Random& random, const Ellipsoid& ellipsoid, const GeodeticGrid& grid, const Interval& altitude) {
-    const auto pick = [&random](std::size_t posts) {
-        const int last = static_cast<int>(posts) - 2;
-        return random.chance(0.3) ? 0 : random.chance(0.4) ? last : random.integer(0, last);
-    };
-    const int column = pick(grid.columns);
-    const int row = pick(grid.rows);
-    Cell cell;
-    for (int i = 0; i < 4; ++i) {
-        const double height = random.chance(0.3)   ? altitude.lower
-                              : random.chance(0.3) ? altitude.upper
-                                                   : random.uniform(altitude.lower, altitude.upper);
-        cell.corners[static_cast<std::size_t>(i)] = ellipsoid.toEcef(
-            {at(grid.latitude, row + i / 2, grid.rows), at(grid.longitude, column + i % 2, grid.columns), height});
-    }
-    return cell;
-}
-
-std::array<Triangle, 4> trianglesOf(const Cell& cell) {
-    const auto& c = cell.corners;
-    return {Triangle{c[0], c[1], c[2]}, Triangle{c[1], c[2], c[3]}, Triangle{c[0], c[1], c[3]},
-            Triangle{c[0], c[2], c[3]}};
-}
-
 TEST(GeodeticGridBounds, HoldsEveryPointOfEveryTriangle) {
     Random random(180);
     for (int trial = 0; trial < 1000; ++trial) {
@@ -85,7 +52,7 @@ TEST(GeodeticGridBounds, HoldsEveryPointOfEveryTriangle) {
         const Interval altitude{low, random.uniform(low, reach)};
         const GeodeticBin bin(bounds.latitude(), grid.longitude, {altitude.lower - bounds.sag(), altitude.upper});
         for (int i = 0; i < 20; ++i) {
-            for (const Triangle& triangle : trianglesOf(randomCell(random, ellipsoid, grid, altitude))) {
+            for (const Triangle& triangle : GridCell(random, ellipsoid, grid, altitude).triangles()) {
                 for (int k = 0; k < 5; ++k) {
                     const RealVector point = randomPointOf(random, triangle);
                     ASSERT_LE(distanceOutside(ellipsoid, bin, point), kPromised) << trial;
@@ -113,9 +80,9 @@ TEST(GeodeticGridBounds, HoldsTheChordsOfEveryEdge) {
             const double upper = random.uniform(lower, 9000.0);
             const auto [i, j, k, l] = chords[edge];
             const glm::dvec3 a =
-                wgs84().toEcef({at(grid.latitude, j, grid.rows), at(grid.longitude, i, grid.columns), lower});
+                wgs84().toEcef({postAt(grid.latitude, j, grid.rows), postAt(grid.longitude, i, grid.columns), lower});
             const glm::dvec3 b =
-                wgs84().toEcef({at(grid.latitude, l, grid.rows), at(grid.longitude, k, grid.columns), upper});
+                wgs84().toEcef({postAt(grid.latitude, l, grid.rows), postAt(grid.longitude, k, grid.columns), upper});
             for (int step = 0; step <= 8; ++step) {
                 const Real t = step / Real(8);
                 const RealVector point = (1 - t) * real(a) + t * real(b);

@@ -5,11 +5,10 @@
 // in metres, in kilometres and with an equatorial radius of one. Oracle: points of the triangles, taken back to
 // latitude, longitude and altitude in long double.
 
-#include "TriangleSamples.h"
+#include "MeshSamples.h"
 
 #include <osgAnalyticBin/core/CrackBounds.h>
 #include <osgAnalyticBin/core/GeodeticGridBounds.h>
-#include <osgAnalyticBin/core/GeodeticMeshBounds.h>
 #include <osgAnalyticBin/core/QuickMeshBounds.h>
 
 #include <gtest/gtest.h>
@@ -31,13 +30,11 @@ using core::Ellipsoid;
 using core::GeodeticBin;
 using core::GeodeticGrid;
 using core::GeodeticGridBounds;
-using core::GeodeticMeshBounds;
 using core::Interval;
 using core::QuickMeshBounds;
 
-constexpr double kPromised = 1.6e-14;               // of the larger radius
-constexpr double kAxisTolerance = 1.0 / 6378137.0;  // of the equatorial radius
-constexpr double kRound = 0.01;                     // |a2/b2 - 1| up to which there are quick bounds
+constexpr double kPromised = 1.6e-14;  // of the larger radius
+constexpr double kRound = 0.01;        // |a2/b2 - 1| up to which there are quick bounds
 
 double smaller(const Ellipsoid& e) {
     return std::min(e.equatorialRadius(), e.polarRadius());
@@ -47,60 +44,14 @@ double larger(const Ellipsoid& e) {
     return std::max(e.equatorialRadius(), e.polarRadius());
 }
 
+// A metre on the earth.
+double axisTolerance(const Ellipsoid& e) {
+    return e.equatorialRadius() / 6378137.0;
+}
+
 bool isRound(const Ellipsoid& e) {
     const double ratio = e.equatorialRadius() / e.polarRadius();
     return std::abs(ratio * ratio - 1.0) <= kRound;
-}
-
-// Posts on a grid over the extents, each with its own altitude; diagonals by chance.
-EcefMesh meshOver(Random& random, const Ellipsoid& ellipsoid, const GeodeticBin& extents, std::uint32_t cells) {
-    EcefMesh mesh;
-    for (std::uint32_t row = 0; row <= cells; ++row) {
-        for (std::uint32_t column = 0; column <= cells; ++column) {
-            const glm::dvec3 post =
-                ellipsoid.toEcef({extents.latitude().lower + extents.latitude().width() * row / cells,
-                                  extents.longitude().lower + extents.longitude().width() * column / cells,
-                                  random.uniform(extents.altitude().lower, extents.altitude().upper)});
-            mesh.x.push_back(post.x);
-            mesh.y.push_back(post.y);
-            mesh.z.push_back(post.z);
-        }
-    }
-    for (std::uint32_t row = 0; row < cells; ++row) {
-        for (std::uint32_t column = 0; column < cells; ++column) {
-            const std::uint32_t a = row * (cells + 1) + column, b = a + 1, c = a + cells + 1, d = c + 1;
-            if (random.chance(0.5)) {
-                mesh.triangles.insert(mesh.triangles.end(), {a, b, c, c, b, d});
-            } else {
-                mesh.triangles.insert(mesh.triangles.end(), {a, b, d, a, d, c});
-            }
-        }
-    }
-    return mesh;
-}
-
-Triangle triangleAt(const EcefMesh& mesh, std::size_t first) {
-    return {mesh.vertex(mesh.triangles[first]), mesh.vertex(mesh.triangles[first + 1]),
-            mesh.vertex(mesh.triangles[first + 2])};
-}
-
-GeodeticBin thoroughBounds(const Ellipsoid& ellipsoid, const EcefMesh& mesh, double reference) {
-    GeodeticMeshBounds bounds(ellipsoid, reference, kAxisTolerance * ellipsoid.equatorialRadius());
-    for (std::size_t i = 0; i < mesh.size(); ++i) bounds.expandByVertex(mesh.vertex(i));
-    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
-        const Triangle t = triangleAt(mesh, i);
-        bounds.expandByTriangle(t.a, t.b, t.c);
-    }
-    return bounds.bin();
-}
-
-void expectHolds(Random& random, const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& bin,
-                 double allowance) {
-    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
-        const Triangle triangle = triangleAt(mesh, i);
-        for (int k = 0; k < 10; ++k)
-            ASSERT_LE(distanceOutside(ellipsoid, bin, randomPointOf(random, triangle)), allowance);
-    }
 }
 
 // Where the points of a mesh are, by a dense lattice on every triangle.
@@ -152,11 +103,12 @@ TEST_P(PlanetMeshes, ThoroughBoundsHoldEveryPoint) {
         for (int trial = 0; trial < 150; ++trial) {
             const GeodeticBin extents = randomExtents(ellipsoid, 0.6, random.chance(0.5) ? 0.002 : 0.08);
             const auto cells = static_cast<std::uint32_t>(random.integer(2, 5));
-            const EcefMesh mesh = meshOver(random, ellipsoid, extents, cells);
-            const GeodeticBin bin = thoroughBounds(ellipsoid, mesh, extents.longitude().middle());
+            const EcefMesh mesh = gridMesh(random, ellipsoid, extents, cells);
+            const GeodeticBin bin =
+                thoroughBounds(ellipsoid, mesh, extents.longitude().middle(), axisTolerance(ellipsoid));
             ASSERT_FALSE(bin.empty());
             const bool isPolar = extents.latitude().lower == -kHalfPi || extents.latitude().upper == kHalfPi;
-            const double offset = isPolar ? kAxisTolerance * ellipsoid.equatorialRadius() : 0.0;
+            const double offset = isPolar ? axisTolerance(ellipsoid) : 0.0;
             expectHolds(random, ellipsoid, mesh, bin, offset + kPromised * larger(ellipsoid));
             if (HasFatalFailure()) return;
         }
@@ -170,11 +122,11 @@ TEST_P(PlanetMeshes, QuickBoundsHoldEveryPoint) {
         for (int trial = 0; trial < 150; ++trial) {
             const GeodeticBin extents = randomExtents(ellipsoid, 0.6, 0.0017);
             const auto cells = static_cast<std::uint32_t>(random.integer(2, 9));
-            const EcefMesh mesh = meshOver(random, ellipsoid, extents, cells);
+            const EcefMesh mesh = gridMesh(random, ellipsoid, extents, cells);
             const QuickMeshBounds bounds(ellipsoid, mesh);
             if (!bounds.isKnown()) continue;
             ++known;
-            const double offset = bounds.touchesAxis() ? kAxisTolerance * ellipsoid.equatorialRadius() : 0.0;
+            const double offset = bounds.touchesAxis() ? axisTolerance(ellipsoid) : 0.0;
             expectHolds(random, ellipsoid, mesh, bounds.bin(), offset + kPromised * larger(ellipsoid));
             if (trial % 5 != 0) continue;
             const double lowestPost = *std::min_element(bounds.altitudes().begin(), bounds.altitudes().end());
@@ -199,9 +151,9 @@ TEST_P(PlanetMeshes, BoundsOfFlatMeshesAreTight) {
             const double size = random.logUniform(0.01, 0.4);
             const double south = random.uniform(0.0, 1.1);
             const GeodeticBin extents({south, south + size}, {0.5, 0.5 + size}, {0.0, 0.0});
-            const EcefMesh mesh = meshOver(random, ellipsoid, extents, 8);
+            const EcefMesh mesh = gridMesh(random, ellipsoid, extents, 8);
             const Truth truth(ellipsoid, mesh);
-            const GeodeticBin bin = thoroughBounds(ellipsoid, mesh, 0.5);
+            const GeodeticBin bin = thoroughBounds(ellipsoid, mesh, 0.5, axisTolerance(ellipsoid));
             EXPECT_LE(-bin.altitude().lower, 1.8 * -truth.lowest);
             EXPECT_LE(bin.altitude().upper, kPromised * larger(ellipsoid));
             const double step = size / 8.0;
@@ -227,7 +179,7 @@ TEST_P(PlanetMeshes, BoundsAreTheSameInEveryUnit) {
         const Ellipsoid ellipsoid = in(unit);
         for (int trial = 0; trial < 40; ++trial) {
             const GeodeticBin extents = randomExtents(metres, 0.3, 0.05);
-            const EcefMesh mesh = meshOver(random, metres, extents, 7);
+            const EcefMesh mesh = gridMesh(random, metres, extents, 7);
             EcefMesh scaled = mesh;
             for (std::vector<double>* axis : {&scaled.x, &scaled.y, &scaled.z})
                 for (double& x : *axis) x *= unit;
@@ -240,7 +192,8 @@ TEST_P(PlanetMeshes, BoundsAreTheSameInEveryUnit) {
                 EXPECT_EQ(found.altitude().upper, unit * expected.altitude().upper);
             };
             const double reference = extents.longitude().middle();
-            expectSame(thoroughBounds(metres, mesh, reference), thoroughBounds(ellipsoid, scaled, reference));
+            expectSame(thoroughBounds(metres, mesh, reference, axisTolerance(metres)),
+                       thoroughBounds(ellipsoid, scaled, reference, axisTolerance(ellipsoid)));
             const QuickMeshBounds expected(metres, mesh);
             const QuickMeshBounds found(ellipsoid, scaled);
             expectSame(expected.bin(), found.bin());
@@ -282,8 +235,8 @@ TEST_P(PlanetMeshes, AnyTriangleIsHeldOrUnknown) {
             }
             mesh.triangles = {0, 1, 2};
             const double reference = std::atan2(middle.y, middle.x);
-            const GeodeticBin thorough = thoroughBounds(ellipsoid, mesh, reference);
-            const double offset = 1e-12 * larger(ellipsoid) + kAxisTolerance * ellipsoid.equatorialRadius();
+            const GeodeticBin thorough = thoroughBounds(ellipsoid, mesh, reference, axisTolerance(ellipsoid));
+            const double offset = 1e-12 * larger(ellipsoid) + axisTolerance(ellipsoid);
             known += thorough.empty() ? 0 : 1;
             if (!thorough.empty()) expectHolds(random, ellipsoid, mesh, thorough, offset);
             const QuickMeshBounds quick(ellipsoid, mesh);
@@ -293,36 +246,6 @@ TEST_P(PlanetMeshes, AnyTriangleIsHeldOrUnknown) {
         EXPECT_GT(known, 150);
     }
 }
-
-// The four corners of a random cell, those of the edges often, at altitudes within the interval.
-struct GridCell {
-    std::array<glm::dvec3, 4> corners;
-
-    GridCell(Random& random, const Ellipsoid& ellipsoid, const GeodeticGrid& grid, const Interval& altitude) {
-        const auto pick = [&random](std::size_t posts) {
-            const int last = static_cast<int>(posts) - 2;
-            return random.chance(0.3) ? 0 : random.chance(0.4) ? last : random.integer(0, last);
-        };
-        const auto at = [](const Interval& range, int i, std::size_t posts) {
-            return range.lower + range.width() * i / static_cast<double>(posts - 1);
-        };
-        const int column = pick(grid.columns);
-        const int row = pick(grid.rows);
-        for (int i = 0; i < 4; ++i) {
-            const double height = random.chance(0.3)   ? altitude.lower
-                                  : random.chance(0.3) ? altitude.upper
-                                                       : random.uniform(altitude.lower, altitude.upper);
-            corners[static_cast<std::size_t>(i)] = ellipsoid.toEcef(
-                {at(grid.latitude, row + i / 2, grid.rows), at(grid.longitude, column + i % 2, grid.columns), height});
-        }
-    }
-
-    [[nodiscard]] std::array<Triangle, 4> triangles() const {
-        const auto& c = corners;
-        return {Triangle{c[0], c[1], c[2]}, Triangle{c[1], c[2], c[3]}, Triangle{c[0], c[1], c[3]},
-                Triangle{c[0], c[2], c[3]}};
-    }
-};
 
 TEST_P(PlanetMeshes, GridBoundsHoldEveryPoint) {
     for (const double unit : units()) {

@@ -4,9 +4,8 @@
 // Oracles: points of the triangles, taken back to latitude, longitude and altitude in long double; and
 // GeodeticMeshBounds.
 
-#include "TriangleSamples.h"
+#include "MeshSamples.h"
 
-#include <osgAnalyticBin/core/GeodeticMeshBounds.h>
 #include <osgAnalyticBin/core/QuickMeshBounds.h>
 
 #include <gtest/gtest.h>
@@ -20,62 +19,11 @@ namespace {
 using core::EcefMesh;
 using core::Ellipsoid;
 using core::GeodeticBin;
-using core::GeodeticMeshBounds;
 using core::Interval;
 using core::QuickMeshBounds;
 
 constexpr double kQuickPromised = 1e-7;  // metres
 constexpr double kAxisTolerance = 1.0;
-
-void addVertex(EcefMesh& mesh, const glm::dvec3& v) {
-    mesh.x.push_back(v.x);
-    mesh.y.push_back(v.y);
-    mesh.z.push_back(v.z);
-}
-
-// Posts on a grid over the bin, each with its own altitude; diagonals by chance.
-EcefMesh quickGridMesh(Random& random, const Ellipsoid& ellipsoid, const GeodeticBin& bin, std::uint32_t rows,
-                       std::uint32_t columns) {
-    EcefMesh mesh;
-    for (std::uint32_t row = 0; row <= rows; ++row) {
-        for (std::uint32_t column = 0; column <= columns; ++column) {
-            addVertex(mesh, ellipsoid.toEcef({bin.latitude().lower + bin.latitude().width() * row / rows,
-                                              bin.longitude().lower + bin.longitude().width() * column / columns,
-                                              random.uniform(bin.altitude().lower, bin.altitude().upper)}));
-        }
-    }
-    for (std::uint32_t row = 0; row < rows; ++row) {
-        for (std::uint32_t column = 0; column < columns; ++column) {
-            const std::uint32_t a = row * (columns + 1) + column, b = a + 1, c = a + columns + 1, d = c + 1;
-            if (random.chance(0.5)) {
-                mesh.triangles.insert(mesh.triangles.end(), {a, b, c, c, b, d});
-            } else {
-                mesh.triangles.insert(mesh.triangles.end(), {a, b, d, a, d, c});
-            }
-        }
-    }
-    return mesh;
-}
-
-GeodeticBin oracle(const Ellipsoid& ellipsoid, const EcefMesh& mesh, double reference) {
-    GeodeticMeshBounds bounds(ellipsoid, reference, kAxisTolerance);
-    for (std::size_t i = 0; i < mesh.size(); ++i) bounds.expandByVertex(mesh.vertex(i));
-    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
-        bounds.expandByTriangle(mesh.vertex(mesh.triangles[i]), mesh.vertex(mesh.triangles[i + 1]),
-                                mesh.vertex(mesh.triangles[i + 2]));
-    }
-    return bounds.bin();
-}
-
-void expectHolds(Random& random, const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& bin,
-                 double allowance) {
-    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
-        const Triangle triangle{mesh.vertex(mesh.triangles[i]), mesh.vertex(mesh.triangles[i + 1]),
-                                mesh.vertex(mesh.triangles[i + 2])};
-        for (int k = 0; k < 10; ++k)
-            ASSERT_LE(distanceOutside(ellipsoid, bin, randomPointOf(random, triangle)), allowance);
-    }
-}
 
 GeodeticBin randomExtents(Random& random) {
     const double size = random.logUniform(1e-5, 0.8);
@@ -95,7 +43,7 @@ TEST(QuickMeshBounds, HoldsEveryPointOfEveryTriangle) {
         const Ellipsoid ellipsoid =
             random.chance(0.7) ? wgs84() : Ellipsoid(6.4e6, 6.4e6 * std::sqrt(random.uniform(0.9905, 1.0095)));
         const auto cells = static_cast<std::uint32_t>(random.integer(1, 9));
-        const EcefMesh mesh = quickGridMesh(random, ellipsoid, randomExtents(random), cells, cells);
+        const EcefMesh mesh = gridMesh(random, ellipsoid, randomExtents(random), cells);
         const QuickMeshBounds bounds(ellipsoid, mesh);
         known += bounds.isKnown();
         if (!bounds.isKnown()) continue;
@@ -127,10 +75,10 @@ TEST(QuickMeshBounds, IsHardlyLooserThanTheThoroughBounds) {
         // no steeper than terrain is: a chord that climbs is taken for one along the ground
         const double low = anyExtents.altitude().lower;
         const GeodeticBin extents = anyExtents.withAltitude({low, low + std::min(5000.0, 3e5 * step)});
-        const EcefMesh mesh = quickGridMesh(random, wgs84(), extents, cells, cells);
+        const EcefMesh mesh = gridMesh(random, wgs84(), extents, cells);
         const QuickMeshBounds quick(wgs84(), mesh);
         if (!quick.isKnown()) continue;
-        const GeodeticBin thorough = oracle(wgs84(), mesh, extents.longitude().middle());
+        const GeodeticBin thorough = thoroughBounds(wgs84(), mesh, extents.longitude().middle(), kAxisTolerance);
         const double sag = 6.4e6 * 0.5 * step * step;
         EXPECT_LE(quick.bin().altitude().upper - thorough.altitude().upper, 0.6);
         EXPECT_LE(thorough.altitude().lower - quick.bin().altitude().lower, 0.6 + 0.2 * sag);
@@ -152,7 +100,7 @@ TEST(QuickMeshBounds, IsHardlyLooserThanTheThoroughBounds) {
 TEST(QuickMeshBounds, KnowsTheAltitudeOfEveryVertex) {
     Random random(193);
     for (int trial = 0; trial < 300; ++trial) {
-        const EcefMesh mesh = quickGridMesh(random, wgs84(), randomExtents(random), 5, 5);
+        const EcefMesh mesh = gridMesh(random, wgs84(), randomExtents(random), 5);
         const QuickMeshBounds bounds(wgs84(), mesh);
         if (!bounds.isKnown()) continue;
         ASSERT_EQ(bounds.altitudes().size(), mesh.size());
@@ -167,7 +115,7 @@ TEST(QuickMeshBounds, KnowsTheAltitudeOfEveryVertex) {
 TEST(QuickMeshBounds, LeavesTheRestToOthers) {
     Random random(194);
     const auto isKnown = [&](const Ellipsoid& ellipsoid, const GeodeticBin& extents) {
-        return QuickMeshBounds(ellipsoid, quickGridMesh(random, ellipsoid, extents, 8, 8)).isKnown();
+        return QuickMeshBounds(ellipsoid, gridMesh(random, ellipsoid, extents, 8)).isKnown();
     };
     const GeodeticBin tile({0.1, 0.2}, {0.1, 0.2}, {0.0, 1000.0});
     EXPECT_TRUE(isKnown(wgs84(), tile));
@@ -175,7 +123,7 @@ TEST(QuickMeshBounds, LeavesTheRestToOthers) {
     EXPECT_FALSE(isKnown(Ellipsoid(6.4e6, 6.0e6), tile));
     EXPECT_FALSE(isKnown(wgs84(), tile.withAltitude({-300000.0, 0.0})));
     EXPECT_FALSE(isKnown(wgs84(), GeodeticBin::wholeGlobe({0.0, 0.0})));
-    EcefMesh broken = quickGridMesh(random, wgs84(), tile, 8, 8);
+    EcefMesh broken = gridMesh(random, wgs84(), tile, 8);
     broken.y[40] = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(QuickMeshBounds(wgs84(), broken).isKnown());
 }

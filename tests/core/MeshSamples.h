@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "TriangleSamples.h"
+
+#include <osgAnalyticBin/core/GeodeticGridBounds.h>
+#include <osgAnalyticBin/core/QuickMeshBounds.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace osgAnalyticBin::test {
+
+void addVertex(core::EcefMesh& mesh, const glm::dvec3& v);
+
+/// Posts on a grid over the extents, each with its own altitude; diagonals by chance.
+[[nodiscard]] core::EcefMesh gridMesh(Random& random, const core::Ellipsoid& ellipsoid,
+                                      const core::GeodeticBin& extents, std::uint32_t cells);
+
+/// The triangle whose first index is number `first` of the mesh's.
+[[nodiscard]] Triangle triangleAt(const core::EcefMesh& mesh, std::size_t first);
+
+/// By GeodeticMeshBounds.
+[[nodiscard]] core::GeodeticBin thoroughBounds(const core::Ellipsoid& ellipsoid, const core::EcefMesh& mesh,
+                                               double reference, double axisTolerance);
+
+/// That random points of all triangles are in the bin, but for the allowance.
+void expectHolds(Random& random, const core::Ellipsoid& ellipsoid, const core::EcefMesh& mesh,
+                 const core::GeodeticBin& bin, double allowance);
+
+/// Where post number `i` of so many over an interval is.
+[[nodiscard]] double postAt(const core::Interval& interval, int i, std::size_t posts);
+
+/// The corners of a random cell, south-west, south-east, north-west, north-east, at altitudes within the interval.
+/// Those by the edges of the grid come often.
+struct GridCell {
+    GridCell(Random& random, const core::Ellipsoid& ellipsoid, const core::GeodeticGrid& grid,
+             const core::Interval& altitude);
+
+    /// With diagonals either way.
+    [[nodiscard]] std::array<Triangle, 4> triangles() const;
+
+    std::array<glm::dvec3, 4> corners;
+};
+
+}  // namespace osgAnalyticBin::test
