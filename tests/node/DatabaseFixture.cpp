@@ -6,6 +6,8 @@
 #include "CullFixture.h"
 #include "TileFixture.h"
 
+#include <osgAnalyticBin/BinInstaller.h>
+
 #include <osg/Geode>
 #include <osg/Geometry>
 #include <osgDB/ReadFile>
@@ -112,7 +114,9 @@ AnalyticBin culledBin(const AnalyticBinCullCallback& callback) {
 }
 
 void ReachedTiles::watch(osg::Node& node, const std::string& name) {
-    node.setCullCallback(new VisitRecorder(name, _names));
+    const osg::ref_ptr<VisitRecorder> recorder = new VisitRecorder(name, _names);
+    setTraversesAlways(*recorder);
+    node.setCullCallback(recorder);
 }
 
 const std::set<std::string>& ReachedTiles::in(osg::Node& scene, const osg::Vec3d& eye, const osg::Vec3d& center,

@@ -84,6 +84,10 @@ double DeepGlobe::shownAltitude(double latitude, double longitude, const glm::dv
     return shownAt(*tileAt(_tiles, latitude, longitude), latitude, longitude, eye);
 }
 
+double DeepGlobe::mostAltitude(double latitude, double longitude, const glm::dvec3& eye) const {
+    return mostAt(*tileAt(_tiles, latitude, longitude), latitude, longitude, eye);
+}
+
 DeepTile DeepGlobe::made(const core::GeodeticBin& extents, int level, bool isUncertain) {
     DeepTile tile;
     tile.latitude = extents.latitude();
@@ -109,6 +113,13 @@ DeepTile DeepGlobe::made(const core::GeodeticBin& extents, int level, bool isUnc
 
 bool DeepGlobe::isFine(const DeepTile& tile, const glm::dvec3& eye) {
     return !tile.parts.empty() && glm::distance(eye, tile.center) < static_cast<double>(tile.cutoff);
+}
+
+double DeepGlobe::mostAt(const DeepTile& tile, double latitude, double longitude, const glm::dvec3& eye) {
+    if (tile.parts.empty()) return tile.surface;
+    const double fine = mostAt(*tileAt(tile.parts, latitude, longitude), latitude, longitude, eye);
+    if (tile.isUncertain) return std::max(tile.surface, fine);
+    return isFine(tile, eye) ? fine : tile.surface;
 }
 
 double DeepGlobe::shownAt(const DeepTile& tile, double latitude, double longitude, const glm::dvec3& eye) {

@@ -49,6 +49,9 @@ public:
     /// The altitude of the surface that OSG shows there from the eye; the lowest where that is uncertain.
     [[nodiscard]] double shownAltitude(double latitude, double longitude, const glm::dvec3& eye) const;
 
+    /// The altitude of the highest surface that OSG may show there.
+    [[nodiscard]] double mostAltitude(double latitude, double longitude, const glm::dvec3& eye) const;
+
     [[nodiscard]] DeepTile& start(std::size_t i) { return _tiles[i]; }
 
     template <class Visit>
@@ -61,6 +64,7 @@ public:
 private:
     [[nodiscard]] DeepTile made(const core::GeodeticBin& extents, int level, bool isUncertain);
     [[nodiscard]] static bool isFine(const DeepTile& tile, const glm::dvec3& eye);
+    [[nodiscard]] static double mostAt(const DeepTile& tile, double latitude, double longitude, const glm::dvec3& eye);
     [[nodiscard]] static double shownAt(const DeepTile& tile, double latitude, double longitude, const glm::dvec3& eye);
 
     template <class Visit>

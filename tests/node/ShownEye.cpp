@@ -24,7 +24,7 @@ public:
         osg::CullStack& cullStack = *nv->asCullStack();
         const auto viewpoint = Viewpoint::of(cullStack, *nv, false);
         if (viewpoint)
-            eye = eyeAboveWhatIsShown(*node->asGroup(), *nv, cullStack, *viewpoint, earth(), {}, _deepest, depth);
+            eye = eyeAboveWhatIsShown({*node->asGroup(), *nv, cullStack, earth(), {}}, *viewpoint, _deepest, depth);
     }
 
     double depth;

@@ -4,6 +4,8 @@
 // The classes that OSG loads by name, through .osgt and .osgb files and the serializer module.
 // Needs OSG_LIBRARY_PATH to name the folder above osgPlugins-3.6.5.
 
+#include "CullFixture.h"
+
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
@@ -56,6 +58,55 @@ TEST_P(Serializer, TheCullCallbackReadsBackExactly) {
     EXPECT_EQ(read->cullOptions().growth, options.growth);
     EXPECT_EQ(read->getRadiiText(), written->getRadiiText());
     EXPECT_EQ(read->localToEcef(), frame);
+}
+
+TEST_P(Serializer, AllThatATileWasFittedToReadsBackExactly) {
+    const osg::ref_ptr<AnalyticBinCullCallback> written =
+        new AnalyticBinCullCallback(awkwardBin(), osg::EllipsoidModel());
+    AnalyticBin surface = awkwardBin();
+    surface.setSag(1.0 / 7.0);
+    written->setSurface(surface);
+    written->setSkirt(100.0 / 3.0);
+    written->setTerrainShape(TerrainShape{10.0 / 3.0, 0.5, true, true});
+    const osg::ref_ptr<osg::Group> node = new osg::Group;
+    node->setCullCallback(written.get());
+    const osg::ref_ptr<osg::Node> back = roundTrip(*node);
+    ASSERT_TRUE(back);
+    const auto& read = dynamic_cast<AnalyticBinCullCallback&>(*back->getCullCallback());
+    ASSERT_TRUE(read.terrainShape().has_value());
+    EXPECT_TRUE(*read.terrainShape() == *written->terrainShape());
+    EXPECT_EQ(read.skirt(), written->skirt());
+    EXPECT_TRUE(read.surface().contains(surface));
+    EXPECT_EQ(read.surface().sag(), surface.sag());
+}
+
+TEST_P(Serializer, AnInstalledTerrainStaysVisibleWhenItComesBackWithoutItsDatabase) {
+    const osg::ref_ptr<osg::Group> node = new osg::Group;
+    const osg::ref_ptr<AnalyticBinCullCallback> written = new AnalyticBinCullCallback(
+        AnalyticBin(GeodeticBin::fromDegrees({10, 20}, {10, 20}, {0, 5000})), osg::EllipsoidModel());
+    written->setTerrainShape(TerrainShape{10.0, 1.0, false, true});
+    node->setCullCallback(written.get());
+    node->setCullingActive(false);
+    const osg::ref_ptr<osg::Group> below = new osg::Group;
+    node->addChild(below);
+    const osg::ref_ptr<osg::Node> back = roundTrip(*node);
+    ASSERT_TRUE(back);
+    std::set<std::string> visited;
+    back->asGroup()->getChild(0)->setCullCallback(new test::VisitRecorder("below", visited));
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    (void)test::cull(*back, test::CullView::lookAt({-1e7, 0, 0}, {-2e7, 0, 0}, {0, 0, 1}, 10.0), *visitor);
+    EXPECT_EQ(visited.size(), 1u);
+}
+
+TEST(SerializedText, WithABrokenItemIsNeverCulled) {
+    const std::string bin = AnalyticBin(GeodeticBin::fromDegrees({10, 20}, {10, 20}, {0, 5000})).toText();
+    for (const char* item : {"; skirt x", "; surface 1 2", "; terrain 1 2 3", "; other 1"}) {
+        const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback;
+        callback->setBinText(bin);
+        EXPECT_TRUE(callback->bin().valid());
+        callback->setBinText(bin + item);
+        EXPECT_FALSE(callback->bin().valid()) << item;
+    }
 }
 
 TEST_P(Serializer, ABinThatIsNoQuadtreeCellReadsBackHoldingIt) {

@@ -30,6 +30,8 @@ namespace core {
 class PlaneSet;
 }
 class CullTraversal;
+class InstalledTile;
+struct DatabaseView;
 struct Verdict;
 
 /// What osgTerrain::Terrain says about the meshes of its tiles while they are shown.
@@ -94,7 +96,8 @@ public:
     [[nodiscard]] const osg::Matrixd& localToEcef() const { return _localToEcef; }
 
     /// For an osgTerrain tile: the shape that its bin is to be for; the bin set is that at vertical scale 1. While its
-    /// database is shown in another shape the tile is never culled. nullopt: a mesh that no Terrain shapes.
+    /// database is shown in another shape, or no installed database is above it, the tile is never culled. nullopt: a
+    /// mesh that no Terrain shapes.
     void setTerrainShape(const std::optional<TerrainShape>& shape);
     /// See setTerrainShape().
     [[nodiscard]] const std::optional<TerrainShape>& terrainShape() const { return _shape; }
@@ -114,6 +117,12 @@ public:
     /// known. For eyes that are to be looked past the tile.
     [[nodiscard]] double surfaceLow() const { return _surfaceLow; }
 
+    /// Altitude in metres above which the tile draws nothing by itself, likewise; infinity when not known.
+    [[nodiscard]] double surfaceHigh() const { return _surfaceHigh; }
+
+    /// Altitude in metres above which neither the tile nor a descendant of it draws anything; infinity when not known.
+    [[nodiscard]] double binHigh() const { return _binHigh; }
+
     /// Altitude in metres below which neither the tile nor a descendant of it draws anything, skirts left out unless
     /// they count; minus infinity when not known.
     [[nodiscard]] double binLow() const { return _binLow; }
@@ -127,9 +136,11 @@ public:
     /// Whether the eye sees nothing of the bin's column for the horizon. Requires: an eye on the bin's ellipsoid.
     [[nodiscard]] bool isColumnHiddenFrom(const core::HorizonEye& eye) const;
 
-    /// The same properties as text, exact in every file format; what the serializer stores.
+    /// The same properties as text, exact in every file format; what the serializer stores. The bin as
+    /// AnalyticBin::toText() has it, and after semicolons what is set of "skirt METRES", "surface BIN", "terrain
+    /// VERTICALSCALE SAMPLERATIO AREBOUNDARIESEQUAL ISKNOWN". Malformed: a warning, and the tile is never culled.
     void setBinText(const std::string& text);
-    /// AnalyticBin::toText() of the bin.
+    /// As setBinText() reads it; empty without a valid bin.
     [[nodiscard]] std::string getBinText() const;
     /// As cullOptionsFromText() reads it; the default, after a warning, when it is malformed.
     void setOptionsText(const std::string& text);
@@ -143,6 +154,12 @@ public:
     void setLocalToEcefText(const std::string& text);
     /// The matrix as setLocalToEcefText() reads it.
     [[nodiscard]] std::string getLocalToEcefText() const;
+
+    /// What an installer keeps beside the callback; nullptr: the application's own callback. A copy of an installed
+    /// callback culls nothing: its bin was made for the node that the original stands on.
+    [[nodiscard]] InstalledTile* installedTile() const;
+    /// See installedTile(); for installers.
+    void setInstalledTile(InstalledTile* tile);
 
     /// Called by OSG's cull traversal: goes on below the node unless the tile is culled.
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
@@ -167,17 +184,21 @@ private:
     };
 
     void prepare();
+    void refuse(const char* why);
+    [[nodiscard]] bool readItem(const std::string& item);
     [[nodiscard]] AnalyticBin shownBin() const;
     [[nodiscard]] PreparedBin preparedBin(const AnalyticBin& shown, const core::Ellipsoid& ellipsoid) const;
     [[nodiscard]] const core::HorizonEye* eyeOn(osg::CullStack& cullStack, osg::NodeVisitor& nv,
                                                 CullTraversal& traversal) const;
-    [[nodiscard]] bool isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
+    [[nodiscard]] bool standsAsInstalled(osg::CullStack& cullStack, const DatabaseView& database) const;
+    [[nodiscard]] bool isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
     [[nodiscard]] Verdict classify(osg::CullStack& cullStack, osg::NodeVisitor& nv, CullTraversal& traversal,
                                    const core::PlaneSet& planes, core::PlaneMask& undecided) const;
     [[nodiscard]] bool isHiddenFrom(const core::HorizonEye& eye) const;
     [[nodiscard]] bool isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,
                                       core::PlaneMask undecided) const;
 
+    osg::ref_ptr<InstalledTile> _installed;
     std::optional<Prepared> _prepared;
     bool _hasLocalFrame = false;
     bool _testsEdges = false;
@@ -188,7 +209,9 @@ private:
     AnalyticBin _bin;
     AnalyticBin _surface;
     double _surfaceLow;
+    double _surfaceHigh;
     double _binLow;
+    double _binHigh;
     std::optional<TerrainShape> _shape;
     double _skirt = 0.0;
     osg::ref_ptr<osg::EllipsoidModel> _ellipsoid;

@@ -13,11 +13,13 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <string>
 
 namespace osgAnalyticBin {
 
 class BinReadFileCallback;
+class Coverage;
 class Database;
 struct ParentTile;
 struct PlanarFit;
@@ -28,7 +30,15 @@ struct TerrainShape;
 /// pager's thread. Which nodes are tiles is TileFinder's matter; their bins come from what is stored with them, from
 /// the database's index, or from their own surface and the heights that the options declare. Tiles of a map get boxes
 /// in its coordinates, by callbacks of their own that files do not keep. Everything else is left
-/// as it is. Method::Sphere installs nothing. Running it again replaces what it installed before.
+/// as it is. Method::Sphere installs no bins, and takes off those that are there, but keeps following what is paged so
+/// that setCullOptions() can switch; removeBins() takes everything off. Running it again replaces what it installed
+/// before.
+/// A tile that is drawn in several places, and a drawable with a stored bin, are left to OSG.
+/// Content of the application's: what is added below a tile while bins are installed is noticed with the next frame, be
+/// it static or moving: the tile and those above are kept visible, and their bins grow to hold it in the next update
+/// traversal. Content that is to be independent of tiles belongs beside them, on the CoordinateSystemNode or above it.
+/// OSG's bounds tell of additions and moves, so geometry whose vertices are changed needs its dirtyBound() called, as
+/// OSG's own culling does. Tiles whose mesh the application replaces need installBins() again.
 class OSGANALYTICBIN_EXPORT BinInstaller : public TileFinder {
 public:
     /// Installs by these options.
@@ -88,7 +98,7 @@ private:
     void install(FoundTile& tile);
     void installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape);
     [[nodiscard]] osg::ref_ptr<ParentTile> linkTo(const FoundTile& tile);
-    void noteCovered(const FoundTile& tile, double area);
+    void noteCovered(const FoundTile& tile, const core::GeodeticBin& extents);
     void goOnBelow(const FoundTile& tile, const ParentTile& link);
     void uninstall(FoundTile& tile);
     // Whether what is visited has to fit into a bin that is stored above.
@@ -99,19 +109,14 @@ private:
 
     CullOptions _options;
     bool _keepsDatabases = false;
+    bool _isInMesh = false;          // within a tile's own mesh
+    bool _isBelowSelection = false;  // below a node that may leave out some of its children
     osg::ref_ptr<const BinIndex> _index;
     osg::ref_ptr<Database> _database;        // that is visited
     osg::ref_ptr<Database> _refitted;        // that is about to be visited again
     osg::ref_ptr<const ParentTile> _parent;  // below which the visited node is
     PagingByOptions _paging;
-    // Square radians.
-    struct Coverage {
-        double tiles = 0.0;     // that the tiles of a file cover
-        double smallest = 1e9;  // of them
-        double expected = 0.0;  // that the tile covers which the file is paged below; 0: not known
-        bool isVisited = false;
-    };
-    std::map<std::string, Coverage> _coverage;
+    std::shared_ptr<std::map<std::string, Coverage>> _coverage;  // by file
     std::size_t _installed = 0;
 };
 
@@ -123,6 +128,19 @@ OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions
 OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions& options,
                                               const std::string& databaseFileName,
                                               const osgDB::Options* readOptions = nullptr);
+
+/// Says of a cull callback of the application's that it always goes on to what is nested in it or below its node, as a
+/// user value "osgAnalyticBin.traversesAlways" of the callback. One that does not say so may leave out terrain, and so
+/// the horizon is not used while it stands on a tile in view.
+OSGANALYTICBIN_EXPORT void setTraversesAlways(osg::Callback& callback);
+
+/// Returns: whether setTraversesAlways() was called for the callback, or it is a plain osg::NodeCallback.
+[[nodiscard]] OSGANALYTICBIN_EXPORT bool traversesAlways(const osg::Callback& callback);
+
+/// Takes bins off a node and all below it, and restores what installers changed: callbacks, culling flags, expiry
+/// times, the pager's options, and groups that were put above tiles. Call it between frames. What the DatabasePager is
+/// reading just now may still arrive with bins, which go on culling it rightly.
+OSGANALYTICBIN_EXPORT void removeBins(osg::Node& node);
 
 /// Culls databases by other options while they are shown, Method::Sphere and Method::None among them: from the next
 /// frame on, tiles are culled as if the database had been read with these options. That goes for tiles that are loaded,

@@ -33,7 +33,8 @@ struct TileFrame {
     [[nodiscard]] bool isKnown() const { return ellipsoid || isProjected; }
 };
 
-/// A tile: a node with a stored bin, a PagedLOD with a mesh of its own, an osgTerrain tile, or a mesh beside them.
+/// A tile: a node with a stored bin (no drawable), a PagedLOD with a mesh of its own, an osgTerrain tile, or a mesh
+/// beside them.
 struct FoundTile {
     osg::ref_ptr<osg::Node> node;                 ///< the node that is culled
     std::vector<osg::ref_ptr<osg::Node>> meshes;  ///< what it draws itself: children that are not paged, or the node

@@ -4,6 +4,7 @@
 #include "BinCulling.h"
 #include "Database.h"
 #include "GlmBridge.h"
+#include "InstalledTile.h"
 #include "Inverse.h"
 #include "Occluders.h"
 #include "Spheres.h"
@@ -20,7 +21,9 @@
 #include <osg/CullStack>
 #include <osg/Notify>
 
+#include <algorithm>
 #include <limits>
+#include <sstream>
 #include <variant>
 
 namespace osgAnalyticBin {
@@ -47,14 +50,20 @@ core::PlaneSet ecefPlanes(const osg::Polytope& frustum, const osg::Matrixd& ecef
 }  // namespace
 
 AnalyticBinCullCallback::AnalyticBinCullCallback()
-    : _surfaceLow(kUnknown), _binLow(kUnknown), _ellipsoid(new osg::EllipsoidModel) {}
+    : _surfaceLow(kUnknown),
+      _surfaceHigh(-kUnknown),
+      _binLow(kUnknown),
+      _binHigh(-kUnknown),
+      _ellipsoid(new osg::EllipsoidModel) {}
 
 AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBin& bin, const osg::EllipsoidModel& ellipsoid,
                                                  const CullOptions& options)
     : _options(options),
       _bin(bin),
       _surfaceLow(kUnknown),
+      _surfaceHigh(-kUnknown),
       _binLow(kUnknown),
+      _binHigh(-kUnknown),
       _ellipsoid(new osg::EllipsoidModel(ellipsoid.getRadiusEquator(), ellipsoid.getRadiusPolar())) {
     prepare();
 }
@@ -63,6 +72,7 @@ AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& 
     : osg::Object(other, copyop),
       osg::Callback(other, copyop),
       osg::NodeCallback(other, copyop),
+      _installed(other._installed ? new InstalledTile(nullptr, other._installed->database()) : nullptr),
       _prepared(other._prepared),
       _hasLocalFrame(other._hasLocalFrame),
       _testsEdges(other._testsEdges),
@@ -73,7 +83,9 @@ AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& 
       _bin(other._bin),
       _surface(other._surface),
       _surfaceLow(other._surfaceLow),
+      _surfaceHigh(other._surfaceHigh),
       _binLow(other._binLow),
+      _binHigh(other._binHigh),
       _shape(other._shape),
       _skirt(other._skirt),
       _ellipsoid(other._ellipsoid) {}
@@ -116,6 +128,7 @@ void AnalyticBinCullCallback::prepare() {
     _prepared.reset();
     const AnalyticBin shown = shownBin();
     _binLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
+    _binHigh = shown.valid() ? shown.bin().altitude().upper + shown.margin() : -kUnknown;
     if (!shown.valid() || !hasValidRadii(*_ellipsoid)) return;
     if (_options.method == Method::None || _options.method == Method::Sphere) return;
     osg::BoundingSphere sphere = shown.boundingSphere(*_ellipsoid);
@@ -165,6 +178,7 @@ void AnalyticBinCullCallback::setSurface(const AnalyticBin& surface) {
     _surface = surface;
     const AnalyticBin shown = _shape ? surface.exaggerated(_shape->verticalScale) : surface;
     _surfaceLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
+    _surfaceHigh = shown.valid() ? shown.bin().altitude().upper + shown.margin() : -kUnknown;
 }
 
 bool AnalyticBinCullCallback::isColumnHiddenFrom(const core::HorizonEye& eye) const {
@@ -197,18 +211,27 @@ void AnalyticBinCullCallback::setLocalToEcef(const osg::Matrixd& matrix) {
 
 void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     cullOrTraverse(
-        *nv, [&](osg::CullStack& cullStack) { return isCulled(cullStack, *nv); }, [&] { traverse(node, nv); });
+        *nv, [&](osg::CullStack& cullStack) { return isCulled(*node, cullStack, *nv); }, [&] { traverse(node, nv); });
 }
 
-bool AnalyticBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
+InstalledTile* AnalyticBinCullCallback::installedTile() const {
+    return _installed.get();
+}
+
+void AnalyticBinCullCallback::setInstalledTile(InstalledTile* tile) {
+    _installed = tile;
+}
+
+bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
     if (_options.method == Method::None) {
         cullStack.getCurrentCullingSet().getFrustum().getCurrentMask() = 0;
         return false;
     }
-    if (!_prepared) return false;
+    if (!_prepared || (_installed && !_installed->mayCull(&node))) return false;
     CullTraversal& traversal = CullTraversal::of(nv);
     const DatabaseView* database = traversal.databaseView();
-    if (_shape && database && !(database->shape == *_shape)) {
+    if (_shape && !database) return false;
+    if (_shape && !(database->shape == *_shape)) {
         database->database->requestRefit();
         return false;
     }
@@ -221,12 +244,21 @@ bool AnalyticBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisit
                          });
 }
 
+// A tile may have several parents, and transforms above it may have changed: the planes follow, the globe does not.
+bool AnalyticBinCullCallback::standsAsInstalled(osg::CullStack& cullStack, const DatabaseView& database) const {
+    const osg::RefMatrix* const modelView = cullStack.getModelViewMatrix();
+    if (modelView == database.modelView && !_hasLocalFrame) return true;
+    const double reach = database.modelView->getTrans().length() + _localToEcef.getTrans().length();
+    return areNearlyEqual(*modelView, _localToEcef * *database.modelView, reach);
+}
+
 const core::HorizonEye* AnalyticBinCullCallback::eyeOn(osg::CullStack& cullStack, osg::NodeVisitor& nv,
                                                        CullTraversal& traversal) const {
     if (const DatabaseView* database = traversal.databaseView()) {
         // a camera between the database's root and the tile sees with other eyes
-        const bool isSame =
-            database->ellipsoid == _prepared->ellipsoid && database->projection == cullStack.getProjectionMatrix();
+        const bool isSame = database->ellipsoid == _prepared->ellipsoid &&
+                            database->projection == cullStack.getProjectionMatrix() && database->eye &&
+                            standsAsInstalled(cullStack, *database);
         return isSame ? database->eye : nullptr;
     }
     // In a frame of its own the eye would have to be prepared anew for every tile.
@@ -268,11 +300,49 @@ bool AnalyticBinCullCallback::isBeyondAnEdge(CullTraversal& traversal, const cor
 }
 
 void AnalyticBinCullCallback::setBinText(const std::string& text) {
-    setBin(AnalyticBin::fromText(text));
+    std::istringstream items(text);
+    std::string item;
+    std::getline(items, item, ';');
+    AnalyticBin bin = AnalyticBin::fromText(item);
+    while (std::getline(items, item, ';')) {
+        if (readItem(item)) continue;
+        refuse("an item beside the bin is malformed");
+        return;
+    }
+    setBin(bin);
+}
+
+// One of "skirt 100", "surface BIN", "terrain 1 1 0 1".
+bool AnalyticBinCullCallback::readItem(const std::string& item) {
+    const std::size_t begin = std::min(item.find_first_not_of(' '), item.size());
+    const std::size_t end = std::min(item.find(' ', begin), item.size());
+    const std::string name = item.substr(begin, end - begin);
+    const std::string value = item.substr(end);
+    if (name == "skirt") {
+        const auto metres = numbersFromText(value, 1);
+        if (metres) _skirt = metres->front();
+        return metres.has_value();
+    }
+    if (name == "surface") {
+        setSurface(AnalyticBin::fromText(value));
+        return _surface.valid();
+    }
+    const auto shape = name == "terrain" ? numbersFromText(value, 4) : std::nullopt;
+    if (shape) setTerrainShape(TerrainShape{(*shape)[0], (*shape)[1], (*shape)[2] != 0.0, (*shape)[3] != 0.0});
+    return shape.has_value();
 }
 
 std::string AnalyticBinCullCallback::getBinText() const {
-    return _bin.toText();
+    std::string text = _bin.toText();
+    if (!_bin.valid()) return text;
+    if (_skirt != 0.0) text += "; skirt " + numberToText(_skirt);
+    if (_surface.valid()) text += "; surface " + _surface.toText();
+    const auto number = [](bool is) { return is ? 1.0 : 0.0; };
+    if (_shape) {
+        text += "; terrain " + numbersToText({_shape->verticalScale, _shape->sampleRatio,
+                                              number(_shape->areBoundariesEqual), number(_shape->isKnown)});
+    }
+    return text;
 }
 
 void AnalyticBinCullCallback::setOptionsText(const std::string& text) {
@@ -310,8 +380,11 @@ void AnalyticBinCullCallback::setLocalToEcefText(const std::string& text) {
         setLocalToEcef(osg::Matrixd(values->data()));
         return;
     }
-    OSG_WARN << "AnalyticBinCullCallback: the matrix to ECEF is not sixteen numbers; the tile is never culled."
-             << std::endl;
+    refuse("the matrix to ECEF is not sixteen numbers");
+}
+
+void AnalyticBinCullCallback::refuse(const char* why) {
+    OSG_WARN << "AnalyticBinCullCallback: " << why << "; the tile is never culled." << std::endl;
     setBin(AnalyticBin());
 }
 

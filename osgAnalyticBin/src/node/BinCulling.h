@@ -28,7 +28,8 @@ struct Verdict {
 [[nodiscard]] bool isSmall(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere);
 
 /// Whether a node is culled: by its bin against the undecided planes, as a small feature, or behind an occluder. Planes
-/// that have the bin inside are cleared from the frustum's mask, and the verdict is counted.
+/// that have the bin inside are cleared from the frustum's masks, so that they are not tested again below the node, as
+/// far as the next transform: OSG begins there with all planes. The verdict is counted.
 /// `classify(const osg::Polytope& frustum, core::PlaneMask& undecided)` tests the bin.
 template <class Classify>
 [[nodiscard]] bool isCulledByBin(osg::CullStack& cullStack, osg::NodeVisitor& nv, CullTraversal& traversal,
@@ -39,8 +40,10 @@ template <class Classify>
     if (cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING) {
         core::PlaneMask undecided = frustum.getCurrentMask();
         verdict = classify(frustum, undecided);
-        // OSG pops this mask after the subgraph: a plane cleared here stays cleared just there.
+        // OSG pops this mask after the subgraph: a plane cleared here stays cleared just there. The result mask is what
+        // children without a sphere test begin with.
         frustum.getCurrentMask() = undecided;
+        frustum.setResultMask(undecided);
     }
     const bool culled = verdict.side == core::Side::Outside || isSmall(cullingSet, sphere) ||
                         isOccluded(cullStack, nv.getNodePath(), sphere);
@@ -60,9 +63,14 @@ void cullOrTraverse(osg::NodeVisitor& nv, const IsCulled& isCulled, const Traver
         traverse();
         return;
     }
-    if (isCulled(*cullStack)) return;
-    const OccluderScope occluders(*cullStack);
-    traverse();
+    osg::Polytope& frustum = cullStack->getCurrentCullingSet().getFrustum();
+    const osg::Polytope::ClippingMask before = frustum.getCurrentMask();
+    if (!isCulled(*cullStack)) {
+        const OccluderScope occluders(*cullStack);
+        traverse();
+    }
+    // siblings without a sphere test begin with it, too
+    cullStack->getCurrentCullingSet().getFrustum().setResultMask(before);
 }
 
 }  // namespace osgAnalyticBin

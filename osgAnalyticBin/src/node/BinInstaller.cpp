@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 #include "BinReadFileCallback.h"
+#include "ContentWatch.h"
+#include "Coverage.h"
 #include "Database.h"
 #include "DatabaseCallbacks.h"
 #include "Inverse.h"
@@ -11,6 +13,7 @@
 #include "PlanarBinCullCallback.h"
 #include "PlanarFit.h"
 #include "Scoped.h"
+#include "ShownDepth.h"
 #include "TileCallback.h"
 #include "TileFit.h"
 
@@ -32,6 +35,8 @@ namespace osgAnalyticBin {
 
 namespace {
 
+using CoverageByFile = std::map<std::string, Coverage>;
+
 constexpr double kPi = 3.14159265358979323846;
 
 // A database's own request to install bins is settled by the installer; what it declares counts where the installer was
@@ -51,6 +56,16 @@ CullOptions settled(osg::Node& node, const CullOptions& options) {
     return effective;
 }
 
+// OSG draws a drawable whatever its callbacks say.
+void warnOfDrawable(const osg::Node& node) {
+    OSG_WARN << "osgAnalyticBin: the drawable \"" << node.getName()
+             << "\" has a stored bin; drawables are not culled by bins. Store it with the group above." << std::endl;
+}
+
+bool carriesTile(const osg::Node& node) {
+    return dynamic_cast<const Carrier*>(&node) != nullptr;
+}
+
 bool isGlobeBroken(const osg::CoordinateSystemNode& node) {
     return node.getEllipsoidModel() && !hasValidRadii(*node.getEllipsoidModel());
 }
@@ -63,14 +78,41 @@ bool isSameGlobe(const TileFrame& above, const TileFrame& inside) {
            above.ellipsoid->getRadiusPolar() == inside.ellipsoid->getRadiusPolar();
 }
 
-// Square radians.
-double areaOf(const core::GeodeticBin& extents) {
-    return extents.empty() ? 0.0 : extents.latitude().width() * extents.longitude().width();
+// The most ways from a node up to its globe that are looked at.
+constexpr int kMostPaths = 64;
+
+// Whether a way from the node up to a globe leads through other transforms than those of `localToEcef`. Ways that end
+// without a globe have no horizon, and do not matter. `nodeToHere`: from the node's frame to that of this ancestor.
+bool hasOtherFrame(const osg::Node& ancestor, const osg::Matrixd& nodeToHere, const osg::Matrixd& localToEcef,
+                   int& paths) {
+    if (dynamic_cast<const osg::CoordinateSystemNode*>(&ancestor)) {
+        const double reach = nodeToHere.getTrans().length() + localToEcef.getTrans().length();
+        return !areNearlyEqual(nodeToHere, localToEcef, reach) || --paths < 0;
+    }
+    for (const osg::Group* const parent : ancestor.getParents()) {
+        osg::Matrixd matrix;
+        const osg::Transform* const transform = parent->asTransform();
+        const bool isGlobe = dynamic_cast<const osg::CoordinateSystemNode*>(parent) != nullptr;
+        if (transform && !isGlobe) transform->computeLocalToWorldMatrix(matrix, nullptr);
+        if (hasOtherFrame(*parent, nodeToHere * matrix, localToEcef, paths)) return true;
+    }
+    return false;
+}
+
+// Whether a tile is drawn in several places: no bin holds for all of them.
+bool isInstanced(const osg::Node& node, const TileFrame& frame) {
+    if (!frame.isKnown()) return false;
+    const osg::Node* shared = &node;
+    while (shared->getNumParents() == 1) shared = shared->getParent(0);
+    if (shared->getNumParents() == 0) return false;
+    int paths = kMostPaths;
+    return hasOtherFrame(node, osg::Matrixd(), frame.localToEcef, paths);
 }
 
 }  // namespace
 
-BinInstaller::BinInstaller(const CullOptions& options) : _options(options) {}
+BinInstaller::BinInstaller(const CullOptions& options)
+    : _options(options), _coverage(std::make_shared<CoverageByFile>()) {}
 
 BinInstaller::~BinInstaller() = default;
 
@@ -80,8 +122,8 @@ void BinInstaller::continueBelow(Database* database, const TileFrame& frame, con
     _index = database->index();
     _parent = parent;
     if (!parent) return;
-    _coverage[frame.file].expected = areaOf(parent->extents);
-    _coverage[frame.file].isVisited = true;
+    (*_coverage)[frame.file].expect(Coverage::areaOf(parent->extents));
+    (*_coverage)[frame.file].setVisited();
 }
 
 void BinInstaller::refit(osg::Node& node, Database& database) {
@@ -98,14 +140,10 @@ void BinInstaller::refit(osg::Node& node, Database& database) {
 }
 
 void BinInstaller::finish() {
-    // Tiles run a little over their lines; that is less than half of a tile, which would be missed.
-    if (!installsBins()) return _coverage.clear();
-    for (const auto& [file, coverage] : _coverage) {
-        const double missing = coverage.expected - coverage.tiles;
-        const bool isWhole = missing < 0.5 * std::min(coverage.smallest, coverage.expected);
-        if (coverage.isVisited && coverage.expected > 0.0 && !isWhole) database().noteGap(file);
+    for (const auto& [file, coverage] : *_coverage) {
+        if (installsBins() && coverage.hasGap()) database().noteGap(file);
     }
-    _coverage.clear();
+    _coverage->clear();
 }
 
 bool BinInstaller::installsBins() const {
@@ -140,6 +178,7 @@ void BinInstaller::apply(osg::Transform& node) {
 
 void BinInstaller::apply(osg::PagedLOD& node) {
     const Scoped options(_options, settled(node, _options));
+    const Scoped inMesh(_isInMesh, false);
     TileFinder::apply(node);
 }
 
@@ -167,9 +206,9 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const Scoped index(_index, isKept ? osg::ref_ptr<const BinIndex>(own->index()) : _index);
     const Scoped database(_database, own);
     const Scoped paging(_paging, PagingByOptions());
-    const Scoped coverage(_coverage, std::map<std::string, Coverage>());
-    _coverage[frame().file].expected = 2.0 * kPi * kPi;
-    _coverage[frame().file].isVisited = true;
+    const Scoped coverage(_coverage, std::make_shared<CoverageByFile>());
+    (*_coverage)[frame().file].expect(2.0 * kPi * kPi);
+    (*_coverage)[frame().file].setVisited();
     const std::size_t before = _installed;
     TileFinder::apply(node);
     finish();
@@ -181,6 +220,7 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
 
 void BinInstaller::visitTile(FoundTile& tile) {
     uninstall(tile);
+    if (isInstanced(*tile.node, tile.frame)) return passBy(*tile.node, true);
     if (installsBins() && !hasStoredBin(*tile.node)) {
         const TerrainShape shape = database().fittedShape();
         const PlanarFit fit = fitPlanarTile(tile, _options, shape);
@@ -200,6 +240,14 @@ void BinInstaller::visitTile(FoundTile& tile) {
 }
 
 void BinInstaller::visitOther(osg::Node& node) {
+    if (node.asDrawable() && hasStoredBin(node)) warnOfDrawable(node);
+    // clones have plain groups in place of ours
+    if (installedTileOf(node) && !carriesTile(node)) removeCallbacks({&node, {}, frame(), 0, {}});
+    if (_parent && !_isInMesh && installsBins() && node.asGroup()) {
+        ContentWatch::place(node, {});
+    } else {
+        ContentWatch::remove(node);
+    }
     passBy(node, false);
 }
 
@@ -213,6 +261,7 @@ void BinInstaller::passBy(osg::Node& node, bool isTile) {
         resumeCullingOf(node);
         resumeClusterCullingOf(node);
     }
+    const Scoped selective(_isBelowSelection, _isBelowSelection || (!isTile && !drawsAllChildren(node)));
     traverseBelow(node);
 }
 
@@ -241,14 +290,14 @@ void BinInstaller::install(FoundTile& tile) {
     if (fit.isScalable) callback->setTerrainShape(shape);
     if (fit.skirt > 0.0) callback->setSkirt(fit.skirt);
     callback->setSurface(fit.surface);
-    placeCallback(tile, culled, *callback);
+    placeCallback(tile, culled, *callback, database());
     ++_installed;
     if (_options.cluster == ClusterUse::Replace) {
         suspendClusterCullingOf(*tile.node);
         for (const auto& mesh : tile.meshes) suspendClusterCulling(*mesh);
     }
     link->callback = callback.get();
-    noteCovered(tile, areaOf(link->extents));
+    noteCovered(tile, link->extents);
     goOnBelow(tile, *link);
 }
 
@@ -260,7 +309,7 @@ void BinInstaller::installPlanar(FoundTile& tile, const PlanarFit& fit, const Te
     if (fit.isScalable && (shape.areBoundariesEqual || !shape.isKnown)) return passBy(*tile.node, true);
     const osg::ref_ptr<PlanarBinCullCallback> callback = new PlanarBinCullCallback(
         PlanarBin(fit.box, *mapToLocal), fit.isScalable ? std::optional(shape) : std::nullopt, _options);
-    placeCallback(tile, culled, *callback);
+    placeCallback(tile, culled, *callback, database());
     ++_installed;
     goOnBelow(tile, *linkTo(tile));
 }
@@ -288,12 +337,12 @@ osg::ref_ptr<const ParentTile> BinInstaller::linkBetween() const {
     return link;
 }
 
-void BinInstaller::noteCovered(const FoundTile& tile, double area) {
-    Coverage& coverage = _coverage[tile.frame.file];
-    coverage.isVisited = true;
-    coverage.tiles += area;
-    coverage.smallest = std::min(coverage.smallest, area);
-    for (const std::string& file : tile.pagedFiles) _coverage[file].expected = area;
+// Tiles within the mesh of another cover nothing beside it.
+void BinInstaller::noteCovered(const FoundTile& tile, const core::GeodeticBin& extents) {
+    Coverage& coverage = (*_coverage)[tile.frame.file];
+    coverage.setVisited();
+    if (!_isBelowSelection && !_isInMesh) coverage.add(extents);
+    for (const std::string& file : tile.pagedFiles) (*_coverage)[file].expect(Coverage::areaOf(extents));
 }
 
 void BinInstaller::goOnBelow(const FoundTile& tile, const ParentTile& link) {
@@ -301,6 +350,7 @@ void BinInstaller::goOnBelow(const FoundTile& tile, const ParentTile& link) {
         raiseExpiry(*paged, _options.expiry);
         followPaging(*paged, &link, true);
     }
+    const Scoped inMesh(_isInMesh, !dynamic_cast<osg::PagedLOD*>(tile.node.get()));
     const Scoped below(_parent, osg::ref_ptr<const ParentTile>(&link));
     traverseBelow(*tile.node);
 }
@@ -328,6 +378,7 @@ void BinInstaller::followPaging(osg::PagedLOD& node, const ParentTile* parent, b
         const osgDB::Options* base = own ? own.get() : osgDB::Registry::instance()->getOptions();
         paging.options = base ? base->cloneOptions() : new osgDB::Options;
         paging.callback = new BinReadFileCallback(_options, &database(), frame(), previousCallback(*paging.options));
+        paging.callback->setReplaced(optionsWithoutBins(own.get()));
         paging.options->setReadFileCallback(paging.callback);
     }
     for (const PagedFile& file : files) paging.callback->expect(file.name, file.frame, parent);

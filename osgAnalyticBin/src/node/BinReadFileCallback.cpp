@@ -5,6 +5,7 @@
 
 #include "SharedTiles.h"
 #include "Text.h"
+#include "TileCallback.h"
 
 #include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/TileFile.h>
@@ -26,12 +27,6 @@ osgDB::ReaderWriter::ReadResult unreadable(const std::string& fileName, const ch
     OSG_WARN << "osgAnalyticBin: \"" << fileName << "\" could not be read: " << why
              << "; its parent tile stays visible." << std::endl;
     return osgDB::ReaderWriter::ReadResult(osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE);
-}
-
-osg::ref_ptr<osg::Node> groupAbove(osg::Node& node) {
-    const osg::ref_ptr<osg::Group> group = new osg::Group;
-    group->addChild(&node);
-    return group;
 }
 
 // Which installation, and where on its globe. A tile's bin holds for one Database alone: another may have other
@@ -141,7 +136,11 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readTreated(const std::stri
     const Expected& known = expected(fileName, options);
     if (node->referenceCount() == 1) {
         // a tile that is a transform gets a group above it
-        const osg::ref_ptr<osg::Node> root = node->asTransform() ? groupAbove(*node) : osg::ref_ptr<osg::Node>(node);
+        osg::ref_ptr<osg::Node> root = node;
+        if (node->asTransform()) {
+            root = new Carrier;
+            root->asGroup()->addChild(node);
+        }
         treat(*root, known);
         return ReadResult(root.get(), result.status());
     }
@@ -152,6 +151,7 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readTreated(const std::stri
 }
 
 void BinReadFileCallback::treat(osg::Node& node, const Expected& expected) const {
+    if (_database->isRemoved()) return;
     BinInstaller installer(_options);
     installer.continueBelow(_database.get(), expected.frame, expected.parent.get());
     node.accept(installer);

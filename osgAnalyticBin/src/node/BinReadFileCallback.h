@@ -40,6 +40,10 @@ public:
     [[nodiscard]] osgDB::ReadFileCallback* previous() { return _previous.get(); }
     [[nodiscard]] Database* database() { return _database.get(); }
 
+    /// The options that the PagedLOD came with; null: none.
+    void setReplaced(osgDB::Options* options) { _replaced = options; }
+    [[nodiscard]] osgDB::Options* replaced() const { return _replaced.get(); }
+
 protected:
     ~BinReadFileCallback() override;
 
@@ -65,6 +69,7 @@ private:
     const Expected _unexpected;
     std::map<std::string, Expected> _expected;
     const osg::ref_ptr<osgDB::ReadFileCallback> _previous;
+    osg::ref_ptr<osgDB::Options> _replaced;
     FailedReads _failures;
 };
 

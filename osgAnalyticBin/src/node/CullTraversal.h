@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "GroundBelow.h"
+
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/core/FrustumHull.h>
@@ -83,6 +85,9 @@ public:
     /// The depth of the lowest surface that this visitor last found a database to show: where it looks next time.
     [[nodiscard]] double& lastDepth(const Database& database);
 
+    /// What this visitor last found below its eye.
+    [[nodiscard]] GroundBelow& ground() { return _ground; }
+
 protected:
     ~CullTraversal() override = default;
 
@@ -94,6 +99,7 @@ private:
 
     const DatabaseView* _databaseView = nullptr;
     std::vector<std::pair<const Database*, double>> _lastDepths;
+    GroundBelow _ground;
 
     core::PlaneSet _planes;
     Coefficients _coefficients{};

@@ -3,6 +3,8 @@
 
 #include "Database.h"
 
+#include "InstalledTile.h"
+
 #include <osg/Notify>
 #include <osgTerrain/GeometryTechnique>
 
@@ -176,6 +178,13 @@ void Database::widen(const ParentTile& tile, const Widening& by, bool isFitted) 
     _toWiden.emplace_back(tile.callback, by);
 }
 
+void Database::noteContent(const AnalyticBinCullCallback& tile, const Widening& by) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    // where no update traversal ever comes, tiles stay visible
+    constexpr std::size_t kMostToWiden = 65536;
+    if (_toWiden.size() < kMostToWiden) _toWiden.emplace_back(const_cast<AnalyticBinCullCallback*>(&tile), by);
+}
+
 Widening Database::correction(const std::string& file, std::size_t ordinal) const {
     const std::lock_guard<std::mutex> lock(_mutex);
     const auto known = _corrections.find({file, ordinal});
@@ -197,6 +206,7 @@ void Database::update() {
             continue;
         }
         callback->setBin(widening.widened(callback->bin()));
+        if (callback->installedTile()) callback->installedTile()->keepVisible(false);
     }
 }
 

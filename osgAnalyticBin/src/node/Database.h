@@ -58,6 +58,10 @@ public:
     /// How often setOptions() was called.
     [[nodiscard]] unsigned int generation() const;
 
+    /// Says that bins are taken off: what is read from now on gets none.
+    void setRemoved() { _isRemoved.store(true, std::memory_order_relaxed); }
+    [[nodiscard]] bool isRemoved() const { return _isRemoved.load(std::memory_order_relaxed); }
+
     /// Says that a file's content is on its way into the scene, treated by the options of that generation.
     void noteRead(osg::Node& content, unsigned int generation);
 
@@ -94,7 +98,11 @@ public:
     /// and has the tile's ancestors kept visible from the next update on.
     static void reportUntold(const ParentTile& tile);
 
-    /// What these said of a tile or its descendants.
+    /// Says that something stands below a tile, now or from now on, that its bin does not hold. The tile is kept
+    /// visible until the next update widens the bin.
+    void noteContent(const AnalyticBinCullCallback& tile, const Widening& by);
+
+    /// What the reports said of a tile or its descendants.
     [[nodiscard]] Widening correction(const std::string& file, std::size_t ordinal) const;
 
     /// In the update traversal, before takeShapeChange(): widens the loaded tiles that were reported.
@@ -118,6 +126,7 @@ private:
     const osg::observer_ptr<osgTerrain::Terrain> _terrain;
     const osg::ref_ptr<const BinIndex> _index;
     mutable std::atomic<bool> _isRefitWanted{false};
+    std::atomic<bool> _isRemoved{false};
     std::atomic<bool> _hasGap{false};
     std::atomic<bool> _hasUnknownTechnique{false};
     mutable std::mutex _mutex;  // guards what follows

@@ -5,7 +5,9 @@
 
 #include "CullTraversal.h"
 #include "GlmBridge.h"
+#include "SeeThrough.h"
 #include "ShownDepth.h"
+#include "TileCallback.h"
 #include "Viewpoint.h"
 
 #include <osgAnalyticBin/BinInstaller.h>
@@ -14,6 +16,7 @@
 #include <osg/CullStack>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -25,22 +28,31 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
                                         Database& database, const DatabaseView& view) {
     const CullOptions options = database.options();
     const HorizonUse horizonUse = options.effectiveHorizonUse();
-    if (horizonUse == HorizonUse::Off) return std::nullopt;
+    const bool isGiven = horizonUse == HorizonUse::Given;
     // an eye below the terrain looks through the backs of the faces that would hide
     const bool isAboveTerrain = options.skirts == SkirtUse::Cracks;
-    if (horizonUse == HorizonUse::Declared && !isAboveTerrain) return std::nullopt;
+    const bool isUsed = isGiven || (horizonUse == HorizonUse::Declared && isAboveTerrain && !database.hasGap());
+    if (!isUsed || isStateSeeThrough(nv)) return std::nullopt;
     const auto viewpoint = Viewpoint::of(cullStack, nv, options.inheritViewpoint);
     if (!viewpoint) return std::nullopt;
-    const bool isGiven = horizonUse == HorizonUse::Given;
     const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
-    if (isGiven && (!isAboveTerrain || database.hasGap())) return viewpoint->above(view.ellipsoid, deepest);
-    if (database.hasGap()) return std::nullopt;
+    const ShownDatabase shown{node, nv, cullStack, view.ellipsoid, view.shape};
+    if (isGiven && (!isAboveTerrain || database.hasGap())) return eyeAboveDepth(shown, *viewpoint, deepest);
     // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: what is shown
     // shall not depend on where the camera has been.
     constexpr unsigned int kFreshStart = 16;
     double& depth = CullTraversal::of(nv).lastDepth(database);
     if (nv.getTraversalNumber() % kFreshStart == 0) depth = 0.0;
-    return eyeAboveWhatIsShown(node, nv, cullStack, *viewpoint, view.ellipsoid, view.shape, deepest, depth);
+    return eyeAboveWhatIsShown(shown, *viewpoint, deepest, depth);
+}
+
+// Culled or kept siblings before the database leave a part of the planes behind.
+void beginWithAllPlanes(osg::CullStack& cullStack) {
+    osg::Polytope& frustum = cullStack.getCurrentCullingSet().getFrustum();
+    const auto planes =
+        static_cast<osg::Polytope::ClippingMask>((std::uint64_t{1} << frustum.getPlaneList().size()) - 1);
+    frustum.getCurrentMask() = planes;
+    frustum.setResultMask(planes);
 }
 
 template <class Callback>
@@ -53,13 +65,23 @@ Callback* findCallback(osg::Callback* first) {
 
 }  // namespace
 
+DatabaseCullCallback::DatabaseCullCallback(const DatabaseCullCallback& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop),
+      osg::Callback(other, copyop),
+      osg::NodeCallback(other, copyop),
+      _database(other._database),
+      _node(nullptr) {}
+
 void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     osg::CullStack* cullStack = nv->asCullStack();
     osg::Group* group = node->asGroup();
-    if (!cullStack || !group) {
+    if (!cullStack || !group || node != _node) {
         traverse(node, nv);
         return;
     }
+    // has tiles notice what was added below them
+    (void)node->getBound();
+    beginWithAllPlanes(*cullStack);
     CullTraversal& traversal = CullTraversal::of(*nv);
     DatabaseView view{_database.get(),
                       toCore(*_database->ellipsoid()),
@@ -74,7 +96,32 @@ void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     traverse(node, nv);
 }
 
+DatabaseUpdateCallback::DatabaseUpdateCallback(const DatabaseUpdateCallback& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop),
+      osg::Callback(other, copyop),
+      osg::NodeCallback(other, copyop),
+      _database(other._database),
+      _node(nullptr) {}
+
+// A copied callback gives its node a database of its own, and another callback in its place. One that is shared belongs
+// to the original.
+void DatabaseUpdateCallback::runOnClone(osg::Node& node, osg::NodeVisitor& nv) {
+    const osg::ref_ptr<DatabaseUpdateCallback> self(this);
+    const osg::ref_ptr<osg::Callback> nested = getNestedCallback();
+    if (!_node) {
+        BinInstaller installer(_database->options());
+        installer.setIndex(_database->index());
+        installer.installAt(node);
+    }
+    if (nested) {
+        nested->run(&node, &nv);
+    } else {
+        nv.traverse(node);
+    }
+}
+
 void DatabaseUpdateCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    if (node != _node) return runOnClone(*node, *nv);
     _database->update();
     if (_database->takeShapeChange()) {
         BinInstaller installer(_database->options());
@@ -86,14 +133,14 @@ void DatabaseUpdateCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
 void attachDatabase(osg::Node& node, Database& database) {
     attachUpdate(node, database);
     // in front: what is nested runs in the scope of the database
-    const osg::ref_ptr<DatabaseCullCallback> cull = new DatabaseCullCallback(&database);
+    const osg::ref_ptr<DatabaseCullCallback> cull = new DatabaseCullCallback(&database, &node);
     cull->setNestedCallback(node.getCullCallback());
     node.setCullCallback(cull);
 }
 
 void attachUpdate(osg::Node& node, Database& database) {
     detachDatabase(node);
-    const osg::ref_ptr<DatabaseUpdateCallback> update = new DatabaseUpdateCallback(&database);
+    const osg::ref_ptr<DatabaseUpdateCallback> update = new DatabaseUpdateCallback(&database, &node);
     node.addUpdateCallback(update);
 }
 
@@ -104,11 +151,14 @@ Database* attachedDatabase(osg::Node& node) {
 
 void detachDatabase(osg::Node& node) {
     if (const osg::ref_ptr<osg::Callback> cull = findCallback<DatabaseCullCallback>(node.getCullCallback())) {
-        node.removeCullCallback(cull.get());
+        takeOff(node, *cull);
     }
-    if (const osg::ref_ptr<osg::Callback> update = findCallback<DatabaseUpdateCallback>(node.getUpdateCallback())) {
-        node.removeUpdateCallback(update.get());
-    }
+    const osg::ref_ptr<osg::Callback> update = findCallback<DatabaseUpdateCallback>(node.getUpdateCallback());
+    if (!update) return;
+    const osg::ref_ptr<osg::Callback> nested = update->getNestedCallback();
+    const bool isFirst = node.getUpdateCallback() == update;
+    if (isFirst && update->referenceCount() > 2) return node.setUpdateCallback(nested.get());
+    node.removeUpdateCallback(update.get());
 }
 
 }  // namespace osgAnalyticBin

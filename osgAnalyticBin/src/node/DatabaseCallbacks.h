@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // What stands on the CoordinateSystemNode of an installed database. Both say of themselves that they are plain
-// osg::NodeCallbacks: a scene that is saved holds nothing of them.
+// osg::NodeCallbacks: a scene that is saved holds nothing of them. On a clone of the node the update callback installs
+// bins anew; until then all tiles there are visible.
 
 #pragma once
 
@@ -16,7 +17,9 @@ namespace osgAnalyticBin {
 /// Tells the tiles below, for the length of a cull traversal, how the terrain is shaped and what its horizon is.
 class DatabaseCullCallback : public osg::NodeCallback {
 public:
-    explicit DatabaseCullCallback(Database* database) : _database(database) {}
+    DatabaseCullCallback(Database* database, const osg::Node* node) : _database(database), _node(node) {}
+    DatabaseCullCallback(const DatabaseCullCallback& other, const osg::CopyOp& copyop);
+    osg::Object* clone(const osg::CopyOp& copyop) const override { return new DatabaseCullCallback(*this, copyop); }
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
@@ -25,12 +28,15 @@ protected:
 
 private:
     const osg::ref_ptr<Database> _database;
+    const osg::Node* const _node;  // that it was attached to
 };
 
 /// Brings the loaded tiles up to date: when the Terrain's shape has changed, and when a tile did not fit the index.
 class DatabaseUpdateCallback : public osg::NodeCallback {
 public:
-    explicit DatabaseUpdateCallback(Database* database) : _database(database) {}
+    DatabaseUpdateCallback(Database* database, const osg::Node* node) : _database(database), _node(node) {}
+    DatabaseUpdateCallback(const DatabaseUpdateCallback& other, const osg::CopyOp& copyop);
+    osg::Object* clone(const osg::CopyOp& copyop) const override { return new DatabaseUpdateCallback(*this, copyop); }
 
     [[nodiscard]] Database* database() const { return _database.get(); }
 
@@ -40,7 +46,10 @@ protected:
     ~DatabaseUpdateCallback() override = default;
 
 private:
+    void runOnClone(osg::Node& node, osg::NodeVisitor& nv);
+
     const osg::ref_ptr<Database> _database;
+    const osg::Node* const _node;  // that it was attached to
 };
 
 /// Puts both on the node, in place of those that are there.

@@ -3,9 +3,19 @@
 
 #include <osgAnalyticBin/BinInstaller.h>
 
+#include <osg/NodeCallback>
 #include <osg/Notify>
+#include <osg/ValueObject>
+
+#include <typeinfo>
 
 namespace osgAnalyticBin {
+
+namespace {
+
+constexpr const char* kTraversesAlways = "osgAnalyticBin.traversesAlways";
+
+}  // namespace
 
 std::size_t setCullOptions(osg::Node& node, const CullOptions& options) {
     BinInstaller installer(options);
@@ -31,6 +41,16 @@ std::size_t installBins(osg::Node& node, const CullOptions& options, const std::
     installer.installAt(node);
     OSG_INFO << "osgAnalyticBin: " << installer.installed() << " tiles with " << toText(options) << std::endl;
     return installer.installed();
+}
+
+void setTraversesAlways(osg::Callback& callback) {
+    callback.setUserValue(kTraversesAlways, true);
+}
+
+bool traversesAlways(const osg::Callback& callback) {
+    bool does = typeid(callback) == typeid(osg::NodeCallback);
+    if (!does) (void)callback.getUserValue(kTraversesAlways, does);
+    return does;
 }
 
 }  // namespace osgAnalyticBin

@@ -41,4 +41,15 @@ std::optional<osg::Matrixd> affineInverse(const osg::Matrixd& matrix) {
     return inverse;
 }
 
+bool areNearlyEqual(const osg::Matrixd& a, const osg::Matrixd& b, double reach) {
+    constexpr double kRounding = 1e-13;  // a micrometre on the earth
+    double largest = 0.0;
+    for (int i = 0; i < 9; ++i) largest = std::max(largest, std::abs(a(i / 3, i % 3)));
+    for (int i = 0; i < 12; ++i) {
+        const double tolerance = kRounding * (i < 9 ? largest : reach);
+        if (!(std::abs(a(i / 3, i % 3) - b(i / 3, i % 3)) <= tolerance)) return false;
+    }
+    return isAffine(a) && isAffine(b);
+}
+
 }  // namespace osgAnalyticBin

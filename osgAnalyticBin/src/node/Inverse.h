@@ -20,4 +20,8 @@ namespace osgAnalyticBin {
 /// close to it that rounding has a say in the inverse: osg::Matrixd::invert() gives some numbers for these.
 [[nodiscard]] std::optional<osg::Matrixd> affineInverse(const osg::Matrixd& matrix);
 
+/// Whether two affine matrices are the same but for the rounding of products of matrices whose translations are up to
+/// `reach`. Written so that NaN is not the same.
+[[nodiscard]] bool areNearlyEqual(const osg::Matrixd& a, const osg::Matrixd& b, double reach);
+
 }  // namespace osgAnalyticBin

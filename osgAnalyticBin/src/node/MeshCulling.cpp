@@ -3,6 +3,9 @@
 
 #include "MeshCulling.h"
 
+#include "InstalledTile.h"
+#include "SeeThrough.h"
+
 #include <osg/ClusterCullingCallback>
 #include <osg/Drawable>
 #include <osg/NodeVisitor>
@@ -11,6 +14,7 @@
 #include <osgTerrain/TerrainTile>
 
 #include <functional>
+#include <typeinfo>
 #include <utility>
 
 namespace osgAnalyticBin {
@@ -40,25 +44,31 @@ void forEachNode(osg::Node& root, std::function<void(osg::Node&)> action) {
     root.accept(visitor);
 }
 
-// Says of itself that it is an osg::ClusterCullingCallback, and holds what the original held: it is saved as that.
+// Says of itself that it is an osg::ClusterCullingCallback, and holds what the original held: it is saved and cloned as
+// that.
 class SuspendedCluster final : public osg::ClusterCullingCallback {
 public:
-    explicit SuspendedCluster(const osg::ClusterCullingCallback& original)
+    explicit SuspendedCluster(osg::ClusterCullingCallback& original)
         : osg::Object(original),
           osg::Callback(original),
-          osg::ClusterCullingCallback(original, osg::CopyOp::SHALLOW_COPY) {}
+          osg::ClusterCullingCallback(original, osg::CopyOp::SHALLOW_COPY),
+          _original(&original) {}
+
+    [[nodiscard]] osg::ClusterCullingCallback* original() const { return _original.get(); }
 
     bool cull(osg::NodeVisitor*, osg::Drawable*, osg::State*) const override { return false; }
 
 protected:
     ~SuspendedCluster() override = default;
+
+private:
+    const osg::ref_ptr<osg::ClusterCullingCallback> _original;
 };
 
-// Puts one callback of a node in the place of another.
+// Puts one callback of a node in the place of another. The other keeps what is nested in it: it may stand on several
+// nodes.
 void exchange(osg::Node& node, osg::Callback* old, osg::Callback* fresh) {
-    osg::Callback* nested = old->getNestedCallback();
-    fresh->setNestedCallback(nested);
-    old->setNestedCallback(nullptr);
+    fresh->setNestedCallback(old->getNestedCallback());
     if (node.getCullCallback() == old) {
         node.setCullCallback(fresh);
         return;
@@ -76,10 +86,33 @@ std::vector<osg::ref_ptr<osg::Callback>> cullCallbacks(osg::Node& node) {
 
 }  // namespace
 
-void setSphereCulling(osg::Node& mesh, bool active) {
-    forEachNode(mesh, [active](osg::Node& node) {
-        if (!node.asDrawable()) node.setCullingActive(active);
+void suspendSpheres(osg::Node& mesh, InstalledTile& tile) {
+    forEachNode(mesh, [&tile](osg::Node& node) {
+        if (!node.asDrawable()) tile.suspendSphere(node);
     });
+}
+
+void resumeSpheres(osg::Node& mesh) {
+    forEachNode(mesh, [](osg::Node& node) {
+        if (!node.asDrawable()) node.setCullingActive(true);
+    });
+}
+
+bool isSeeThroughMesh(osg::Node& mesh) {
+    bool isFound = false;
+    forEachNode(mesh, [&isFound](osg::Node& node) {
+        const osg::StateSet* const state = node.getStateSet();
+        const auto* const terrain = dynamic_cast<osgTerrain::TerrainTile*>(&node);
+        isFound = isFound || (state && isSeeThrough(*state)) || (terrain && isSeeThrough(*terrain));
+    });
+    return isFound;
+}
+
+void forgetEmptyValues(osg::Node& node) {
+    const osg::UserDataContainer* const values = node.getUserDataContainer();
+    const bool isEmpty =
+        values && values->getNumUserObjects() == 0 && !values->getUserData() && values->getNumDescriptions() == 0;
+    if (isEmpty) node.setUserDataContainer(nullptr);
 }
 
 void suspendCullingOf(osg::Node& node) {
@@ -93,6 +126,7 @@ void resumeCullingOf(osg::Node& node) {
     const unsigned int index = values ? values->getUserObjectIndex(kWasCulling) : 0;
     if (!values || index >= values->getNumUserObjects()) return;
     values->removeUserObject(index);
+    forgetEmptyValues(node);
     node.setCullingActive(true);
 }
 
@@ -102,6 +136,10 @@ void suspendCulling(osg::Node& mesh) {
 
 void resumeCulling(osg::Node& mesh) {
     forEachNode(mesh, resumeCullingOf);
+}
+
+bool isClusterCulling(const osg::Callback& callback) {
+    return typeid(callback) == typeid(SuspendedCluster) || typeid(callback) == typeid(osg::ClusterCullingCallback);
 }
 
 void suspendClusterCullingOf(osg::Node& node) {
@@ -117,9 +155,7 @@ void suspendClusterCullingOf(osg::Node& node) {
 void resumeClusterCullingOf(osg::Node& node) {
     for (const auto& callback : cullCallbacks(node)) {
         if (auto* suspended = dynamic_cast<SuspendedCluster*>(callback.get())) {
-            const osg::ref_ptr<osg::Callback> cluster =
-                new osg::ClusterCullingCallback(*suspended, osg::CopyOp::SHALLOW_COPY);
-            exchange(node, suspended, cluster.get());
+            exchange(node, suspended, suspended->original());
         }
     }
 }

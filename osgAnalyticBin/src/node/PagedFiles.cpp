@@ -13,11 +13,6 @@ namespace osgAnalyticBin {
 
 namespace {
 
-BinReadFileCallback* readCallbackOf(osg::PagedLOD& node) {
-    const auto* options = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
-    return options ? dynamic_cast<BinReadFileCallback*>(options->getReadFileCallback()) : nullptr;
-}
-
 // Looks for the database that the pages below a node belong to.
 class DatabaseFinder : public osg::NodeVisitor {
 public:
@@ -56,6 +51,16 @@ osgDB::ReadFileCallback* previousCallback(const osgDB::Options& options) {
     osgDB::ReadFileCallback* callback = options.getReadFileCallback();
     auto* ours = dynamic_cast<BinReadFileCallback*>(callback);
     return ours ? ours->previous() : callback;
+}
+
+BinReadFileCallback* readCallbackOf(osg::PagedLOD& node) {
+    const auto* options = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
+    return options ? dynamic_cast<BinReadFileCallback*>(options->getReadFileCallback()) : nullptr;
+}
+
+osgDB::Options* optionsWithoutBins(osgDB::Options* options) {
+    auto* const ours = options ? dynamic_cast<BinReadFileCallback*>(options->getReadFileCallback()) : nullptr;
+    return ours ? ours->replaced() : options;
 }
 
 osg::ref_ptr<Database> databaseOf(osg::Node& node) {

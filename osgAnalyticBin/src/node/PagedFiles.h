@@ -19,6 +19,8 @@
 
 namespace osgAnalyticBin {
 
+class BinReadFileCallback;
+
 struct PagedFile {
     std::string name;  ///< as the pager asks for it
     TileFrame frame;   ///< where its content stands
@@ -29,6 +31,12 @@ struct PagedFile {
 
 /// The read callback of options, or the one that ours among them hands on to. May be null.
 [[nodiscard]] osgDB::ReadFileCallback* previousCallback(const osgDB::Options& options);
+
+/// The read callback of ours that a PagedLOD's options have; null: none.
+[[nodiscard]] BinReadFileCallback* readCallbackOf(osg::PagedLOD& node);
+
+/// Options as they were before an installer replaced them. Both may be null.
+[[nodiscard]] osgDB::Options* optionsWithoutBins(osgDB::Options* options);
 
 /// The database that the node carries, or that the files paged below it belong to. Null when no installer has been
 /// here.

@@ -3,6 +3,8 @@
 
 #include "PagingExpiry.h"
 
+#include "MeshCulling.h"
+
 #include <osg/PagedLOD>
 #include <osg/UserDataContainer>
 #include <osg/ValueObject>
@@ -24,7 +26,9 @@ bool isPaged(const osg::PagedLOD& node, unsigned int child) {
 
 void forget(osg::PagedLOD& node, const std::string& key) {
     osg::UserDataContainer* values = node.getUserDataContainer();
-    if (values && values->getUserObject(key)) values->removeUserObject(values->getUserObjectIndex(key));
+    if (!values || !values->getUserObject(key)) return;
+    values->removeUserObject(values->getUserObjectIndex(key));
+    forgetEmptyValues(node);
 }
 
 }  // namespace

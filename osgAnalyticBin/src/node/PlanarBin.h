@@ -36,6 +36,9 @@ public:
     /// No point is farther from the origin.
     [[nodiscard]] double reach() const noexcept { return _reach; }
 
+    /// Whether a sphere lies in the bin; false in doubt.
+    [[nodiscard]] bool holds(const osg::BoundingSphere& sphere) const noexcept;
+
     /// A sphere that holds the bin.
     [[nodiscard]] osg::BoundingSphere boundingSphere() const;
 

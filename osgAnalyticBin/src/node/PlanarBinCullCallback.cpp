@@ -12,13 +12,15 @@ namespace osgAnalyticBin {
 
 void PlanarBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     cullOrTraverse(
-        *nv, [&](osg::CullStack& cullStack) { return isCulled(cullStack, *nv); }, [&] { traverse(node, nv); });
+        *nv, [&](osg::CullStack& cullStack) { return isCulled(*node, cullStack, *nv); }, [&] { traverse(node, nv); });
 }
 
-bool PlanarBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
+bool PlanarBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
+    if (_installed && !_installed->mayCull(&node)) return false;
     CullTraversal& traversal = CullTraversal::of(nv);
     const DatabaseView* database = traversal.databaseView();
-    if (_shape && database && !(database->shape == *_shape)) {
+    if (_shape && !database) return false;
+    if (_shape && !(database->shape == *_shape)) {
         database->database->requestRefit();
         return false;
     }

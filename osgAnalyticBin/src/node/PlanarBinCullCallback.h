@@ -4,6 +4,7 @@
 #pragma once
 
 #include "CullTraversal.h"
+#include "InstalledTile.h"
 #include "PlanarBin.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -27,6 +28,11 @@ public:
         : _bin(bin), _sphere(bin.boundingSphere()), _shape(shape), _options(options) {}
 
     [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
+    [[nodiscard]] const PlanarBin& bin() const { return _bin; }
+
+    /// See AnalyticBinCullCallback::installedTile().
+    [[nodiscard]] InstalledTile* installedTile() const { return _installed.get(); }
+    void setInstalledTile(InstalledTile* tile) { _installed = tile; }
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
@@ -34,8 +40,9 @@ protected:
     ~PlanarBinCullCallback() override = default;
 
 private:
-    [[nodiscard]] bool isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
+    [[nodiscard]] bool isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
 
+    osg::ref_ptr<InstalledTile> _installed;
     const PlanarBin _bin;
     const osg::BoundingSphere _sphere;
     const std::optional<TerrainShape> _shape;

@@ -4,15 +4,27 @@
 #include "ShownDepth.h"
 
 #include "../core/EarthScale.h"
+#include "CullTraversal.h"
+#include "InstalledTile.h"
+#include "MeshCulling.h"
 #include "Scoped.h"
+#include "SeeThrough.h"
+#include "TileCallback.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
 
 #include <osg/CoordinateSystemNode>
+#include <osg/Geode>
+#include <osg/MatrixTransform>
 #include <osg/PagedLOD>
+#include <osg/PositionAttitudeTransform>
+#include <osgTerrain/Terrain>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <typeinfo>
+#include <vector>
 
 namespace osgAnalyticBin {
 
@@ -31,18 +43,33 @@ const AnalyticBinCullCallback* binCallback(const osg::Node& node) {
     return nullptr;
 }
 
+// Callbacks of others may leave out what is below them.
+bool hasForeignCallback(const osg::Node& node) {
+    for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
+        const bool isBin = typeid(*at) == typeid(AnalyticBinCullCallback);
+        if (!isBin && !isClusterCulling(*at) && !traversesAlways(*at)) return true;
+    }
+    return false;
+}
+
 osg::PagedLOD* pagedLod(osg::Node& node) {
     if (typeid(node) == typeid(osg::PagedLOD)) return static_cast<osg::PagedLOD*>(&node);
     return dynamic_cast<osg::PagedLOD*>(&node);
 }
 
+// A surface that is shown about the place of the eye, no lower than the eye by its bounds.
+struct NearGround {
+    const AnalyticBinCullCallback* tile;
+    osg::Node* mesh;
+};
+
 // Looks for the lowest surface among the tiles that an eye sees over its horizon.
 class LowestShown {
 public:
-    LowestShown(osg::NodeVisitor& visitor, const osg::CullStack& cullStack, const core::HorizonEye& eye,
-                const TerrainShape& shape, double deepest)
-        : _visitor(visitor), _eye(eye), _shape(shape), _deepest(deepest) {
-        const osg::CullingSet& cullingSet = cullStack.getCurrentCullingSet();
+    LowestShown(const ShownDatabase& database, const core::HorizonEye& eye, const std::optional<core::Geodetic>& place,
+                double deepest)
+        : _visitor(database.visitor), _eye(eye), _place(place), _shape(database.shape), _deepest(deepest) {
+        const osg::CullingSet& cullingSet = database.cullStack.getCurrentCullingSet();
         if (!(cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING)) return;
         _planes = cullingSet.getFrustum().getPlaneList();
     }
@@ -52,18 +79,43 @@ public:
     }
 
     [[nodiscard]] double depth() const { return _depth; }
+    // Whether the terrain in view may be left out somewhere, or be seen through.
+    [[nodiscard]] bool hasHole() const { return _hasHole; }
+    [[nodiscard]] const std::vector<NearGround>& nearGround() const { return _nearGround; }
 
 private:
     void searchNode(osg::Node& node) {
         const AnalyticBinCullCallback* tile = binCallback(node);
-        if (tile && (isAbove(*tile) || isBesideFrustum(*tile) || tile->isColumnHiddenFrom(_eye))) return;
+        const Scoped doubtful(_isDoubtful, _isDoubtful || !isSurelyDrawn(node, tile));
+        const bool isAboutEye = tile && isAbout(*tile);
+        if (tile && !isAboutEye && (isBesideFrustum(*tile) || tile->isColumnHiddenFrom(_eye))) return;
+        if (tile && (_isDoubtful || isSeenThrough(*tile))) _hasHole = true;
+        if (tile && !isAboutEye && isAbove(*tile)) return;
         osg::PagedLOD* paged = tile ? pagedLod(node) : nullptr;
         if (paged) return searchPaged(*paged, *tile);
-        if (tile) return show(*tile);
+        if (tile) return show(*tile, node);
         // another database is on a globe of its own
         if (dynamic_cast<osg::CoordinateSystemNode*>(&node)) return;
         const Scoped moved(_isMoved, _isMoved || node.asTransform());
         if (osg::Group* group = node.asGroup()) search(*group);
+    }
+
+    [[nodiscard]] bool isSurelyDrawn(const osg::Node& node, const AnalyticBinCullCallback* tile) const {
+        const osg::StateSet* const state = node.getStateSet();
+        return _visitor.validNodeMask(node) && !hasForeignCallback(node) && !(state && isSeeThrough(*state)) &&
+               (tile || drawsAllChildren(node));
+    }
+
+    [[nodiscard]] static bool isSeenThrough(const AnalyticBinCullCallback& tile) {
+        return tile.installedTile() && tile.installedTile()->isSeeThrough();
+    }
+
+    // Whether the eye may be within or below what the tile or its descendants draw.
+    [[nodiscard]] bool isAbout(const AnalyticBinCullCallback& tile) const {
+        if (!_place || _place->altitude > tile.binHigh()) return false;
+        const core::GeodeticBin& bin = tile.bin().bin();
+        if (_place->latitude < bin.latitude().lower || _place->latitude > bin.latitude().upper) return false;
+        return bin.contains({_place->latitude, _place->longitude, bin.altitude().middle()});
     }
 
     [[nodiscard]] bool isFitted(const AnalyticBinCullCallback& tile) const {
@@ -85,7 +137,9 @@ private:
         });
     }
 
-    void show(const AnalyticBinCullCallback& tile) {
+    void show(const AnalyticBinCullCallback& tile, osg::Node& mesh) {
+        if (isAbout(tile) && _place->altitude <= tile.surfaceHigh()) _nearGround.push_back({&tile, &mesh});
+        if (isBesideFrustum(tile)) return;
         const double own = isFitted(tile) ? -tile.surfaceLow() : kUnknownDepth;
         _depth = std::max(_depth, std::min(own, _deepest));
     }
@@ -96,41 +150,68 @@ private:
         const float range = byDistance ? _visitor.getDistanceToViewPoint(node.getCenter(), true) : 0.0f;
         const unsigned int children = node.getNumChildren();
         bool isOneAwaited = !byDistance;
+        bool isShown = isOneAwaited;
         for (unsigned int i = 0; i < node.getNumRanges(); ++i) {
             if (byDistance && (range < node.getMinRange(i) || range >= node.getMaxRange(i))) continue;
+            isShown = true;
             if (i < children) searchChild(node, i, tile);
             isOneAwaited = isOneAwaited || i >= children;
         }
         // the last child stands in for one that is awaited
         if (isOneAwaited && children > 0) searchChild(node, children - 1, tile);
+        if ((!isShown || children == 0) && !isBesideFrustum(tile)) _hasHole = true;
     }
 
     void searchChild(osg::PagedLOD& node, unsigned int i, const AnalyticBinCullCallback& tile) {
         const bool isPaged = i < node.getNumFileNames() && !node.getFileName(i).empty();
-        if (!isPaged) return show(tile);
+        if (!isPaged) return show(tile, *node.getChild(i));
         searchNode(*node.getChild(i));
     }
 
     osg::NodeVisitor& _visitor;
     const core::HorizonEye& _eye;
+    const std::optional<core::Geodetic> _place;  // of the eye
     const TerrainShape _shape;
     const double _deepest;
     osg::Polytope::PlaneList _planes;
-    bool _isMoved = false;  // below a transform, where OSG measures distances in another frame
+    bool _isMoved = false;     // below a transform, where OSG measures distances in another frame
+    bool _isDoubtful = false;  // below something that may not be drawn
+    bool _hasHole = false;
+    std::vector<NearGround> _nearGround;
     double _depth = -kUnknownDepth;
 };
 
+std::optional<core::Geodetic> placeOf(const Viewpoint& viewpoint, const core::Ellipsoid& ellipsoid) {
+    if (!viewpoint.eye()) return std::nullopt;
+    return ellipsoid.toGeodetic(*viewpoint.eye());
+}
+
+// Whether all that hides is drawn, and the eye is above it.
+bool isTrusted(const ShownDatabase& database, const LowestShown& lowest, const std::optional<core::Geodetic>& place) {
+    const std::vector<NearGround>& ground = lowest.nearGround();
+    return !lowest.hasHole() && std::all_of(ground.begin(), ground.end(), [&](const NearGround& near) {
+        return CullTraversal::of(database.visitor).ground().isBelow(*place, *near.mesh, *near.tile, database.ellipsoid);
+    });
+}
+
 }  // namespace
 
-std::optional<core::HorizonEye> eyeAboveWhatIsShown(osg::Group& database, osg::NodeVisitor& visitor,
-                                                    const osg::CullStack& cullStack, const Viewpoint& viewpoint,
-                                                    const core::Ellipsoid& ellipsoid, const TerrainShape& shape,
+bool drawsAllChildren(const osg::Node& node) {
+    const std::type_info& type = typeid(node);
+    return type == typeid(osg::Group) || type == typeid(Carrier) || type == typeid(osg::MatrixTransform) ||
+           type == typeid(osg::PositionAttitudeTransform) || type == typeid(osg::Geode) ||
+           type == typeid(osg::CoordinateSystemNode) || type == typeid(osgTerrain::Terrain) || !node.asGroup();
+}
+
+std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& database, const Viewpoint& viewpoint,
                                                     double deepest, double& depth) {
     // A deeper occluder has a wider horizon, over which more may be seen that is deeper still. Raised from zero to what
     // is found until nothing deeper is, the depth is the least that will do.
     constexpr int kMostRounds = 16;
     constexpr int kExactRounds = 12;
     constexpr double kRoom = 1.05;
+    const core::Ellipsoid& ellipsoid = database.ellipsoid;
+    const std::optional<core::Geodetic> place = placeOf(viewpoint, ellipsoid);
     const double step = 500.0 * core::earthScale(ellipsoid);
     depth = std::clamp(depth, 0.0, deepest);
     for (int round = 0; round < kMostRounds; ++round) {
@@ -141,17 +222,27 @@ std::optional<core::HorizonEye> eyeAboveWhatIsShown(osg::Group& database, osg::N
             depth = std::min(2.0 * depth + step, deepest);
             continue;
         }
-        LowestShown lowest(visitor, cullStack, *eye, shape, deepest);
-        lowest.search(database);
+        LowestShown lowest(database, *eye, place, deepest);
+        lowest.search(database.root);
+        if (lowest.hasHole()) return std::nullopt;
         if (lowest.depth() <= depth) {
             depth = std::max(lowest.depth(), 0.0);
-            return eye;
+            return isTrusted(database, lowest, place) ? eye : std::nullopt;
         }
         if (lowest.depth() > 0.25 * ellipsoid.polarRadius()) break;
         depth = std::min((round < kExactRounds ? 1.0 : kRoom) * lowest.depth(), deepest);
     }
     depth = 0.0;
-    return std::isfinite(deepest) ? viewpoint.above(ellipsoid, deepest) : std::nullopt;
+    return std::isfinite(deepest) ? eyeAboveDepth(database, viewpoint, deepest) : std::nullopt;
+}
+
+std::optional<core::HorizonEye> eyeAboveDepth(const ShownDatabase& database, const Viewpoint& viewpoint, double depth) {
+    const auto eye = viewpoint.above(database.ellipsoid, depth);
+    if (!eye) return std::nullopt;
+    const std::optional<core::Geodetic> place = placeOf(viewpoint, database.ellipsoid);
+    LowestShown lowest(database, *eye, place, depth);
+    lowest.search(database.root);
+    return isTrusted(database, lowest, place) ? eye : std::nullopt;
 }
 
 }  // namespace osgAnalyticBin

@@ -3,6 +3,8 @@
 
 #include "TileCallback.h"
 
+#include "ContentWatch.h"
+#include "InstalledTile.h"
 #include "MeshCulling.h"
 #include "PagingExpiry.h"
 #include "PlanarBinCullCallback.h"
@@ -34,34 +36,49 @@ osg::Callback* installedCallback(osg::Node& node) {
     return callback;
 }
 
-// Whether a group stands for its only child.
-bool isCarrier(const osg::Group& group) {
-    return typeid(group) == typeid(osg::Group) && group.getNumChildren() == 1 && !hasStoredBin(group);
-}
-
 // The node that carries a tile's callback: it, or the group that was put above it.
 osg::Node* installedNode(osg::Node& node) {
     if (installedCallback(node)) return &node;
-    if (!node.asTransform() || node.getNumParents() != 1) return nullptr;
-    osg::Group& parent = *node.getParent(0);
-    return isCarrier(parent) && installedCallback(parent) ? &parent : nullptr;
+    Carrier* const carrier = carrierOf(node);
+    return carrier && installedCallback(*carrier) ? carrier : nullptr;
 }
 
-void setSphereCullingOf(const FoundTile& tile, bool active) {
-    tile.node->setCullingActive(active);
-    for (const auto& mesh : tile.meshes) setSphereCulling(*mesh, active);
+// A scene that was saved with bins does not say where OSG's sphere test was on before.
+void resumeAllSpheres(osg::Node& culled, const FoundTile& tile) {
+    culled.setCullingActive(true);
+    tile.node->setCullingActive(true);
+    for (const auto& mesh : tile.meshes) resumeSpheres(*mesh);
 }
 
 }  // namespace
+
+InstalledTile* installedTileOf(const osg::Node& node) {
+    for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
+        if (const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(at)) return bin->installedTile();
+        if (const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(at)) return planar->installedTile();
+    }
+    return nullptr;
+}
+
+void takeOff(osg::Node& node, osg::Callback& callback) {
+    if (node.getCullCallback() != &callback) return node.removeCullCallback(&callback);
+    const osg::ref_ptr<osg::Callback> nested = callback.getNestedCallback();
+    node.setCullCallback(nested.get());
+    if (callback.referenceCount() == 1) callback.setNestedCallback(nullptr);
+}
+
+Carrier* carrierOf(osg::Node& node) {
+    return node.getNumParents() == 1 ? dynamic_cast<Carrier*>(node.getParent(0)) : nullptr;
+}
 
 // OSG enters the frame of a transform before it asks the transform's callbacks, which costs more than the bin's test:
 // in files of tiles a transform gets a group above it.
 osg::Node& culledNode(const FoundTile& tile) {
     osg::Node& node = *tile.node;
     if (!node.asTransform() || !tile.frame.isBelowTile || node.getNumParents() != 1) return node;
+    if (Carrier* const carrier = carrierOf(node)) return *carrier;
     osg::Group& parent = *node.getParent(0);
-    if (isCarrier(parent)) return parent;
-    const osg::ref_ptr<osg::Group> carrier = new osg::Group;
+    const osg::ref_ptr<Carrier> carrier = new Carrier;
     carrier->addChild(&node);
     parent.replaceChild(&node, carrier);
     return *carrier;
@@ -72,25 +89,41 @@ osg::Matrixd culledFrame(const FoundTile& tile, osg::Node& culled) {
     return transform ? frameInside(*transform, tile.frame) : tile.frame.localToEcef;
 }
 
-void placeCallback(const FoundTile& tile, osg::Node& culled, osg::NodeCallback& callback) {
+template <class Callback>
+void placeCallback(const FoundTile& tile, osg::Node& culled, Callback& callback, Database& database) {
+    const osg::ref_ptr<InstalledTile> installed = new InstalledTile(&culled, database);
+    callback.setInstalledTile(installed);
     // In front: what is nested runs when the tile is kept.
     callback.setNestedCallback(culled.getCullCallback());
     culled.setCullCallback(&callback);
-    culled.setCullingActive(false);
-    setSphereCullingOf(tile, false);
+    installed->suspendSphere(culled);
+    installed->suspendSphere(*tile.node);
+    for (const auto& mesh : tile.meshes) {
+        suspendSpheres(*mesh, *installed);
+        if (isSeeThroughMesh(*mesh)) installed->setSeeThrough();
+    }
+    if (&culled != tile.node) ContentWatch::place(culled, {});
+    ContentWatch::place(*tile.node, tile.meshes);
 }
+
+template void placeCallback(const FoundTile&, osg::Node&, AnalyticBinCullCallback&, Database&);
+template void placeCallback(const FoundTile&, osg::Node&, PlanarBinCullCallback&, Database&);
 
 void removeCallbacks(const FoundTile& tile) {
     osg::Node& node = *tile.node;
-    bool wasInstalled = false;
     while (osg::Node* culled = installedNode(node)) {
         const osg::ref_ptr<osg::Callback> ours = installedCallback(*culled);
+        const osg::ref_ptr<InstalledTile> installed = installedTileOf(*culled);
         if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) restoreExpiry(*paged, optionsOf(*ours)->expiry);
-        culled->removeCullCallback(ours.get());
-        culled->setCullingActive(true);
-        wasInstalled = true;
+        takeOff(*culled, *ours);
+        ContentWatch::remove(*culled);
+        ContentWatch::remove(node);
+        if (installed && installed->isFor(culled)) {
+            installed->resumeSpheres(*culled);
+        } else {
+            resumeAllSpheres(*culled, tile);
+        }
     }
-    if (wasInstalled) setSphereCullingOf(tile, true);
 }
 
 }  // namespace osgAnalyticBin

@@ -7,11 +7,28 @@
 
 #include <osgAnalyticBin/TileFinder.h>
 
+#include <osg/Group>
 #include <osg/Matrixd>
 #include <osg/Node>
-#include <osg/NodeCallback>
 
 namespace osgAnalyticBin {
+
+class Database;
+class InstalledTile;
+
+/// A group that the kit puts above a tile, and that the tile's callback stands on. It says of itself that it is a plain
+/// osg::Group: it is saved and cloned as that.
+class Carrier final : public osg::Group {
+protected:
+    ~Carrier() override = default;
+};
+
+/// The carrier above a node. Returns: nullptr when there is none.
+[[nodiscard]] Carrier* carrierOf(osg::Node& node);
+
+/// What the callback of a bin on the node keeps. Returns: nullptr without such a callback, and for an application's
+/// own.
+[[nodiscard]] InstalledTile* installedTileOf(const osg::Node& node);
 
 /// The node that is culled for a tile: its own, or a group that is put above it.
 [[nodiscard]] osg::Node& culledNode(const FoundTile& tile);
@@ -20,8 +37,14 @@ namespace osgAnalyticBin {
 /// map.
 [[nodiscard]] osg::Matrixd culledFrame(const FoundTile& tile, osg::Node& culled);
 
-/// Puts the callback in front of those of `culled`, and switches OSG's sphere test off there and on the tile.
-void placeCallback(const FoundTile& tile, osg::Node& culled, osg::NodeCallback& callback);
+/// Puts the callback (of a geodetic or a planar bin) in front of those of `culled`, and switches OSG's sphere test off
+/// there and on the tile. From then on the tile notices what is added below it.
+template <class Callback>
+void placeCallback(const FoundTile& tile, osg::Node& culled, Callback& callback, Database& database);
+
+/// Takes a cull callback off a node. What is nested in it stays there while it stands on other nodes, too: clones of a
+/// scene may share callbacks.
+void takeOff(osg::Node& node, osg::Callback& callback);
 
 /// Takes off all callbacks of bins, and what came with them: the sphere test is on again, and expiry times are as they
 /// were. A tile without such a callback stays as it is.

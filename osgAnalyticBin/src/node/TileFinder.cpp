@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "Scoped.h"
+#include "TileCallback.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/TileFinder.h>
@@ -177,7 +178,8 @@ void TileFinder::apply(osg::PagedLOD& node) {
 }
 
 bool TileFinder::isTile(osg::Node& node) const {
-    if (hasStoredBin(node)) return true;
+    // OSG culls a drawable after its callbacks, whatever these say
+    if (hasStoredBin(node)) return !node.asDrawable();
     if (!_frame.isKnown()) return false;
     if (isTerrainTile(node)) return true;
     if (dynamic_cast<osg::PagedLOD*>(&node)) {
@@ -187,7 +189,7 @@ bool TileFinder::isTile(osg::Node& node) const {
         }
         return !meshes.empty();
     }
-    const bool isPlainGroup = typeid(node) == typeid(osg::Group);
+    const bool isPlainGroup = typeid(node) == typeid(osg::Group) || typeid(node) == typeid(Carrier);
     return _frame.isBelowTile && !isPlainGroup && !node.asDrawable() && isFixedMesh(node);
 }
 

@@ -8,6 +8,7 @@
 
 #include <osgAnalyticBin/TileSurface.h>
 
+#include <osg/PagedLOD>
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
@@ -17,10 +18,18 @@ namespace osgAnalyticBin {
 
 namespace {
 
+bool hasTerrainTile(osg::Node& mesh) {
+    if (dynamic_cast<osgTerrain::TerrainTile*>(&mesh)) return true;
+    osg::Group* const group = dynamic_cast<osg::PagedLOD*>(&mesh) ? nullptr : mesh.asGroup();
+    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
+        if (hasTerrainTile(*group->getChild(i))) return true;
+    }
+    return false;
+}
+
 bool hasTerrainTile(const FoundTile& tile) {
-    return std::any_of(tile.meshes.begin(), tile.meshes.end(), [](const osg::ref_ptr<osg::Node>& mesh) {
-        return dynamic_cast<osgTerrain::TerrainTile*>(mesh.get()) != nullptr;
-    });
+    return std::any_of(tile.meshes.begin(), tile.meshes.end(),
+                       [](const osg::ref_ptr<osg::Node>& mesh) { return hasTerrainTile(*mesh); });
 }
 
 // Meshes of one tile are its levels of detail: any of them may be shown.

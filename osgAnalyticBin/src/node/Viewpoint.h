@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <osgAnalyticBin/Export.h>
 #include <osgAnalyticBin/core/Horizon.h>
 
 #include <osg/CullStack>
@@ -13,7 +14,7 @@
 namespace osgAnalyticBin {
 
 /// Where a cull visitor looks from, in the frame of its current planes: what horizons are made for.
-class Viewpoint final {
+class OSGANALYTICBIN_EXPORT Viewpoint final {
 public:
     /// Returns: nullopt for projections that have no horizon, and, unless `inShadowPasses`, for cameras that inherit
     /// their view point or draw depth alone: what casts a shadow may lie behind it.
@@ -23,6 +24,9 @@ public:
     /// See core::HorizonEye; depth in metres below the ellipsoid. Nothing is hidden when the near plane may reach the
     /// occluder.
     [[nodiscard]] std::optional<core::HorizonEye> above(const core::Ellipsoid& ellipsoid, double depth) const noexcept;
+
+    /// The eye. Returns: nullptr for orthographic cameras.
+    [[nodiscard]] const glm::dvec3* eye() const noexcept { return _isDirection ? nullptr : &_point; }
 
 private:
     bool _isDirection = false;

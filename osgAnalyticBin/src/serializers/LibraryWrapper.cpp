@@ -4,6 +4,7 @@
 #include <osgDB/Registry>
 
 USE_SERIALIZER_WRAPPER(osgAnalyticBin_AnalyticBinCullCallback)
+USE_SERIALIZER_WRAPPER(osgAnalyticBin_ContentWatch)
 USE_SERIALIZER_WRAPPER(osgAnalyticBin_InstallBinsCallback)
 USE_SERIALIZER_WRAPPER(osgAnalyticBin_PackedTerrain)
 

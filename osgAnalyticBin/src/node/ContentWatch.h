@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/Export.h>
+
+#include <osg/Node>
+
+#include <cstdint>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+/// Notices what is added below a tile, or changes there, after its bin was made. OSG computes the bound of a node anew
+/// when something below it was added, removed or moved, and asks this on the way: it compares the content with the
+/// content that the bins above were fitted to. What is new has to lie in the bins of all tiles above; else these are
+/// kept visible at once, and their databases widen them in the next update traversal.
+/// It stands on every tile, and on groups between tiles; each looks after its own children, up to the next that is
+/// watched. The meshes that a tile was fitted to are known.
+/// Bounds are computed before tiles are culled: by osgViewer in every frame, and by DatabaseCullCallback.
+class OSGANALYTICBIN_EXPORT ContentWatch final : public osg::Node::ComputeBoundingSphereCallback {
+public:
+    ContentWatch() = default;
+    /// A copy knows nothing, and so finds nothing new.
+    ContentWatch(const ContentWatch& other, const osg::CopyOp& copyop);
+    META_Object(osgAnalyticBin, ContentWatch)
+
+        /// Puts a watch on the node, in front of a callback that is there. `fitted`: the children, or the node itself,
+        /// that the node's bin was fitted to.
+        static void place(osg::Node& node, const std::vector<osg::ref_ptr<osg::Node>>& fitted);
+
+    /// Takes it off again.
+    static void remove(osg::Node& node);
+
+    osg::BoundingSphere computeBound(const osg::Node& node) const override;
+
+protected:
+    ~ContentWatch() override = default;
+
+private:
+    struct Fitted {
+        const osg::Node* node;
+        std::uint64_t signature;
+    };
+
+    [[nodiscard]] bool isFitted(const osg::Node& child) const;
+    void check(const osg::Node& node) const;
+
+    const osg::Node* _node = nullptr;  // that it was placed on
+    std::vector<Fitted> _fitted;
+    mutable bool _isPending = false;  // whether content has not been looked at from all tiles above: the file is not
+                                      // merged yet
+    osg::ref_ptr<osg::Node::ComputeBoundingSphereCallback> _previous;
+};
+
+}  // namespace osgAnalyticBin

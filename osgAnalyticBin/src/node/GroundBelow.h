@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/core/Ellipsoid.h>
+
+#include <glm/vec3.hpp>
+#include <osg/Node>
+
+#include <array>
+
+namespace osgAnalyticBin {
+
+/// The triangle of the shown terrain that an eye was last above: in the next frames it mostly still is.
+class GroundBelow {
+public:
+    /// Whether the mesh, a tile's own, is below the eye along the ellipsoid's normal. False in doubt: where the normal
+    /// meets no triangle, and for terrain tiles that have no mesh yet.
+    /// Cost: a search through the mesh's triangles, or some ten products of vectors while the eye stays above the same
+    /// triangle.
+    [[nodiscard]] bool isBelow(const core::Geodetic& eye, osg::Node& mesh, const AnalyticBinCullCallback& tile,
+                               const core::Ellipsoid& ellipsoid);
+
+private:
+    [[nodiscard]] bool isTriangleBelow(const glm::dvec3& eye, const glm::dvec3& up) const;
+
+    // Not owned: compared only.
+    const osg::Node* _mesh = nullptr;
+    const AnalyticBinCullCallback* _tile = nullptr;
+    std::array<glm::dvec3, 3> _triangle{};  // ECEF
+};
+
+}  // namespace osgAnalyticBin

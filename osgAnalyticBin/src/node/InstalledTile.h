@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osg/Node>
+#include <osg/Referenced>
+#include <osg/ref_ptr>
+
+#include <atomic>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+class Database;
+
+/// What the installer keeps beside a tile's cull callback: the node that the bin was made for, whether the bin may be
+/// believed at present, and the nodes whose sphere test was switched off.
+/// Threads: mayCull() and keepVisible() at any time; the rest where no cull traversal runs.
+class InstalledTile final : public osg::Referenced {
+public:
+    /// `culled`: the node that carries the callback. nullptr: none, as for a copied callback.
+    InstalledTile(const osg::Node* culled, Database& database);
+
+    [[nodiscard]] Database& database() const { return *_database; }
+
+    /// Whether `node` is the one that the bin was made for. A clone of a scene may share the callback.
+    [[nodiscard]] bool isFor(const osg::Node* node) const { return node == _culled; }
+
+    /// Whether the callback may cull this node: it is the bin's own, and nothing stands below it that the bin does not
+    /// hold.
+    [[nodiscard]] bool mayCull(const osg::Node* node) const {
+        return isFor(node) && !_isKeptVisible.load(std::memory_order_relaxed);
+    }
+
+    /// Keeps the tile visible until this is called with false.
+    void keepVisible(bool kept) { _isKeptVisible.store(kept, std::memory_order_relaxed); }
+
+    /// Says that what the tile draws can be seen through, so that the horizon must not rely on it.
+    void setSeeThrough() { _isSeeThrough = true; }
+    [[nodiscard]] bool isSeeThrough() const { return _isSeeThrough; }
+
+    /// Switches OSG's sphere test off on a node where it is on.
+    void suspendSphere(osg::Node& node);
+
+    /// Switches the sphere test on again on the nodes where it was on. Requires: isFor(&culled).
+    void resumeSpheres(osg::Node& culled);
+
+protected:
+    ~InstalledTile() override;
+
+private:
+    const osg::Node* const _culled;
+    const osg::ref_ptr<Database> _database;
+    std::atomic<bool> _isKeptVisible{false};
+    bool _isSeeThrough = false;
+    bool _wasCulledActive = false;                    // of the culled node, which owns this and must not be owned by it
+    std::vector<osg::ref_ptr<osg::Node>> _suspended;  // other nodes
+};
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "SeeThrough.h"
+
+#include <osg/ClipPlane>
+#include <osg/CullFace>
+#include <osg/Depth>
+#include <osg/Image>
+#include <osg/PolygonMode>
+#include <osg/Texture>
+#include <osgTerrain/Terrain>
+#include <osgUtil/CullVisitor>
+
+#include <algorithm>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+using Attribute = osg::StateAttribute;
+
+template <class Type>
+const Type* attribute(const osg::StateSet& state, Attribute::Type type) {
+    return dynamic_cast<const Type*>(state.getAttribute(type));
+}
+
+bool drawsNoFaces(const osg::StateSet& state) {
+    const auto* mode = attribute<osg::PolygonMode>(state, Attribute::POLYGONMODE);
+    return mode && (mode->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL ||
+                    mode->getMode(osg::PolygonMode::BACK) != osg::PolygonMode::FILL);
+}
+
+bool leavesOutFrontFaces(const osg::StateSet& state) {
+    const auto* face = attribute<osg::CullFace>(state, Attribute::CULLFACE);
+    return face && face->getMode() != osg::CullFace::BACK && (state.getMode(GL_CULL_FACE) & Attribute::ON);
+}
+
+bool ignoresDepth(const osg::StateSet& state) {
+    const auto* depth = attribute<osg::Depth>(state, Attribute::DEPTH);
+    if (!depth) return false;
+    switch (depth->getFunction()) {
+        case osg::Depth::LESS:
+        case osg::Depth::LEQUAL:
+        case osg::Depth::GREATER:  // reversed depth
+        case osg::Depth::GEQUAL:
+            return !depth->getWriteMask();
+        default:
+            return true;
+    }
+}
+
+bool isSeeThroughMode(const osg::StateSet::ModeList::value_type& mode) {
+    const auto [name, value] = mode;
+    const bool isOn = value & Attribute::ON;
+    const bool isInherited = value & Attribute::INHERIT;
+    if (name == GL_DEPTH_TEST) return !isOn && !isInherited;
+    return isOn && (name == GL_ALPHA_TEST || (name >= GL_CLIP_PLANE0 && name <= GL_CLIP_PLANE5));
+}
+
+// OSG takes some textures without alpha for translucent.
+bool hasAlpha(const osg::Image& image) {
+    return image.getPixelFormat() != GL_COMPRESSED_RGB_S3TC_DXT1_EXT && image.isImageTranslucent();
+}
+
+}  // namespace
+
+bool isSeeThrough(const osg::StateSet& state) {
+    if (state.getRenderingHint() == osg::StateSet::TRANSPARENT_BIN) return true;
+    const osg::StateSet::ModeList& modes = state.getModeList();
+    return std::any_of(modes.begin(), modes.end(), isSeeThroughMode) || drawsNoFaces(state) ||
+           leavesOutFrontFaces(state) || ignoresDepth(state);
+}
+
+// As osgTerrain::GeometryTechnique decides, by the first image.
+bool isSeeThrough(const osgTerrain::TerrainTile& tile) {
+    using Tile = osgTerrain::TerrainTile;
+    Tile::BlendingPolicy policy = tile.getBlendingPolicy();
+    if (policy == Tile::INHERIT && tile.getTerrain()) policy = tile.getTerrain()->getBlendingPolicy();
+    if (policy == Tile::DO_NOT_SET_BLENDING) return false;
+    if (policy == Tile::ENABLE_BLENDING) return true;
+    for (unsigned int i = 0; i < tile.getNumColorLayers(); ++i) {
+        const osgTerrain::Layer* const layer = tile.getColorLayer(i);
+        const osg::Image* const image = layer ? layer->getImage() : nullptr;
+        if (image) return hasAlpha(*image);
+    }
+    return false;
+}
+
+bool isStateSeeThrough(osg::NodeVisitor& visitor) {
+    osgUtil::CullVisitor* const cullVisitor = visitor.asCullVisitor();
+    const osgUtil::StateGraph* graph = cullVisitor ? cullVisitor->getCurrentStateGraph() : nullptr;
+    for (; graph; graph = graph->_parent) {
+        if (graph->_stateset && isSeeThrough(*graph->_stateset)) return true;
+    }
+    return false;
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// What is drawn without hiding what is behind it: the horizon must not rely on such terrain.
+
+#pragma once
+
+#include <osg/NodeVisitor>
+#include <osg/StateSet>
+#include <osgTerrain/TerrainTile>
+
+namespace osgAnalyticBin {
+
+/// Whether what is drawn in this state may show what is behind it: lines or points in place of faces, transparency,
+/// alpha tests, clip planes, front faces left out, no depth test or no depth written. State that replaces it farther
+/// down does not count.
+/// Shaders that discard fragments are not known.
+[[nodiscard]] bool isSeeThrough(const osg::StateSet& state);
+
+/// The same of the image layers of a terrain tile, by its own and its Terrain's blending policy.
+[[nodiscard]] bool isSeeThrough(const osgTerrain::TerrainTile& tile);
+
+/// Whether one of the states that a cull traversal has met from its camera down to here is such. False for visitors
+/// that collect no state.
+[[nodiscard]] bool isStateSeeThrough(osg::NodeVisitor& visitor);
+
+}  // namespace osgAnalyticBin
