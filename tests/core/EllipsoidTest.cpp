@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -26,6 +27,9 @@ constexpr double kMappingRounding = 16.0 * kEpsilon;
 constexpr double kRoundTripError = 1e-8;  // promised by Ellipsoid::toGeodetic
 // Far away the rounding of the angles themselves, an ulp of pi and one of pi/2, is more than that.
 constexpr double kRoundTripAngle = 3.0 * kEpsilon;
+
+// Polar radius over equatorial radius, as far as toGeodetic() promises anything.
+constexpr std::array<double, 2> kEndsOfRatio{0.01, 100.0};
 
 double distanceBetween(const glm::dvec3& a, const RealVector& b) {
     return static_cast<double>(length(real(a) - b));
@@ -104,6 +108,82 @@ TEST(Ellipsoid, ReturnsToTheSamePoint) {
     EXPECT_LE(worstFar, kRoundTripAngle);
 }
 
+// From disks to needles, at any depth: where normals cross, the nearest of several positions is taken.
+Ellipsoid flatOrLong(Random& random) {
+    const double ratio = random.chance(0.2) ? random.pick(kEndsOfRatio) : random.logUniform(0.01, 100.0);
+    return Ellipsoid(6378137.0, 6378137.0 * ratio);
+}
+
+double largestCurvatureRadius(const Ellipsoid& ellipsoid) {
+    const double a = ellipsoid.equatorialRadius();
+    const double b = ellipsoid.polarRadius();
+    return std::max({a, a * a / b, b * b / a});
+}
+
+double smallestCurvatureRadius(const Ellipsoid& ellipsoid) {
+    const double a = ellipsoid.equatorialRadius();
+    const double b = ellipsoid.polarRadius();
+    return std::min(a * a / b, b * b / a);
+}
+
+TEST(Ellipsoid, ConvertsLikeLongDoubleOnDisksAndNeedles) {
+    Random random(14);
+    for (int trial = 0; trial < 100000; ++trial) {
+        const Ellipsoid ellipsoid = flatOrLong(random);
+        const double larger = std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+        const double latitude = random.sign() * (random.chance(0.5) ? random.uniform(0.0, kHalfPi)
+                                                                    : kHalfPi - random.logUniform(1e-9, 1.0));
+        const Geodetic position{latitude, random.uniform(-kPi, kPi), random.uniform(-1.0, 1.0) * larger};
+        ASSERT_LE(distanceBetween(ellipsoid.toEcef(position), geodeticToEcef(ellipsoid, position)),
+                  kMappingRounding * (larger + std::abs(position.altitude)));
+    }
+}
+
+TEST(Ellipsoid, ReturnsToTheSamePointOnDisksAndNeedles) {
+    Random random(15);
+    double worst = 0.0;
+    for (int trial = 0; trial < 200000; ++trial) {
+        const Ellipsoid ellipsoid = flatOrLong(random);
+        const double larger = std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+        glm::dvec3 point = random.direction();
+        if (random.chance(0.5))
+            point *= glm::dvec3(ellipsoid.equatorialRadius(), 1.0, ellipsoid.polarRadius()) / larger;
+        if (random.chance(0.1)) point.z *= random.logUniform(1e-300, 1.0);
+        if (random.chance(0.1)) point *= glm::dvec3(random.logUniform(1e-300, 1.0), 1e-300, 1.0);
+        if (random.chance(0.1)) point[random.integer(0, 2)] = 0.0;
+        point *= larger * (random.chance(0.5) ? random.uniform(0.0, 1.5) : random.logUniform(1e-12, 1e3));
+        const Geodetic position = ellipsoid.toGeodetic(point);
+        const double error = distanceBetween(point, geodeticToEcef(ellipsoid, position));
+        worst = std::max(worst, error / (largestCurvatureRadius(ellipsoid) + glm::length(point)));
+        // the nearest point of the surface is as far away as the surface is deep there
+        const glm::dvec3 onSurface =
+            larger * random.direction() *
+            glm::dvec3(ellipsoid.equatorialRadius() / larger, ellipsoid.equatorialRadius() / larger,
+                       ellipsoid.polarRadius() / larger);
+        ASSERT_LE(std::abs(position.altitude), glm::distance(point, onSurface) * (1.0 + 1e-12) + 1e-8) << trial;
+    }
+    std::printf("round trip from disks to needles: %.2g of the distance and the largest radius of curvature\n", worst);
+    EXPECT_LE(worst, kRoundTripAngle);
+}
+
+// Down to the centres of curvature a position is one of its own, and comes back.
+TEST(Ellipsoid, ReturnsToTheSamePositionAboveTheCentresOfCurvature) {
+    Random random(16);
+    for (int trial = 0; trial < 100000; ++trial) {
+        const Ellipsoid ellipsoid = flatOrLong(random);
+        const double smallest = smallestCurvatureRadius(ellipsoid);
+        const double above = random.chance(0.5) ? random.logUniform(1e-9, 1.0) : random.uniform(0.0, 3.0);
+        const Geodetic position{random.uniform(-kHalfPi, kHalfPi), random.uniform(-3.0, 3.0), smallest * (above - 1.0)};
+        const RealVector exact = geodeticToEcef(ellipsoid, position);
+        const Geodetic returned = ellipsoid.toGeodetic(rounded(exact));
+        const double room = 4.0 * kEpsilon * (largestCurvatureRadius(ellipsoid) + static_cast<double>(length(exact)));
+        ASSERT_NEAR(returned.altitude, position.altitude, room) << trial;
+        const double sine = std::sin(position.latitude);
+        const double height = ellipsoid.meridionalRadius(sine, std::cos(position.latitude)) + position.altitude;
+        ASSERT_LE(std::abs(returned.latitude - position.latitude) * height, 2.0 * room) << trial;
+    }
+}
+
 TEST(Ellipsoid, RadiiOfCurvatureAreThoseOfTheSurface) {
     Random random(12);
     constexpr Real kStep = 1e-4L;
@@ -115,8 +195,9 @@ TEST(Ellipsoid, RadiiOfCurvatureAreThoseOfTheSurface) {
                                   geodeticToEcef(ellipsoid, latitude - kStep, 0, 0)) /
                            (2 * kStep);
         const double sine = std::sin(latitude);
-        ASSERT_NEAR(ellipsoid.meridionalRadius(sine) / static_cast<double>(along), 1.0, 1e-8);
-        ASSERT_NEAR(ellipsoid.primeVerticalRadius(sine) * std::cos(latitude), static_cast<double>(at.x), 1e-8);
+        const double cosine = std::cos(latitude);
+        ASSERT_NEAR(ellipsoid.meridionalRadius(sine, cosine) / static_cast<double>(along), 1.0, 1e-8);
+        ASSERT_NEAR(ellipsoid.primeVerticalRadius(sine, cosine) * cosine, static_cast<double>(at.x), 1e-8);
     }
 }
 

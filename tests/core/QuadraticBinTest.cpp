@@ -7,6 +7,7 @@
 #include "BinChecks.h"
 
 #include <osgAnalyticBin/core/GeodeticMapping.h>
+#include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
 
 #include <glm/geometric.hpp>
@@ -236,6 +237,41 @@ TEST(QuadraticBin, APointHasNoRange) {
         const Real at = exactDistance(plane, geodeticToEcef(wgs84(), bin.center()));
         ASSERT_NEAR(range.middle(), static_cast<double>(at), kSameGeometry);
     }
+}
+
+// Where N + h or M + h cancels, the bin is small beside the numbers that it is made of. Positions as deep have no
+// closed form: the oracle is the corners of bins so small that nothing of them is farther out by more than rounding.
+TEST(QuadraticBin, HoldsNearTheCentresOfCurvature) {
+    constexpr double kThickness = 1e-3;
+    Random random(75);
+    std::array<int, 3> verdicts{};
+    for (int trial = 0; trial < 200000; ++trial) {
+        const Ellipsoid ellipsoid = randomEllipsoid(random);
+        const double latitude = random.uniform(-kHalfPi, kHalfPi);
+        const double sine = std::sin(latitude);
+        const double cosine = std::cos(latitude);
+        const double radius =
+            random.chance(0.5) ? ellipsoid.primeVerticalRadius(sine, cosine) : ellipsoid.meridionalRadius(sine, cosine);
+        const double altitude = random.sign() * random.logUniform(1e-9, 1e3) - radius;
+        const double width = random.logUniform(1e-16, 1e-10);
+        const double longitude = random.uniform(-kPi, kPi);
+        const GeodeticBin bin({latitude, std::min(kHalfPi, latitude + width)}, {longitude, longitude + width},
+                              {altitude, altitude + random.uniform() * kThickness});
+        const auto corner = [&] {
+            return geodeticToEcef(ellipsoid, random.chance(0.5) ? bin.latitude().lower : bin.latitude().upper,
+                                  random.chance(0.5) ? bin.longitude().lower : bin.longitude().upper,
+                                  random.chance(0.5) ? bin.altitude().lower : bin.altitude().upper);
+        };
+        Plane plane{random.direction(), 0.0};
+        plane.offset =
+            static_cast<double>(-exactDistance(plane, corner())) + random.sign() * random.logUniform(1e-12, 1e-6);
+        const core::GeodeticQuadraticBin made(ellipsoid, bin);
+        for (const Side side : {quadratic(ellipsoid, bin).classify(plane), made.classify(plane)}) {
+            ++verdicts[static_cast<std::size_t>(side)];
+            for (int i = 0; i < 10; ++i) ASSERT_NO_FATAL_FAILURE(expectSideOf(plane, corner(), side, BinKind::Tiny));
+        }
+    }
+    for (const int count : verdicts) EXPECT_GT(count, 1000) << "every verdict must occur, or nothing is tested";
 }
 
 }  // namespace

@@ -17,9 +17,14 @@ constexpr int kMostSteps = 1000;
 // Wider than this, longitudes are cut into parts.
 constexpr double kWidestPart = 3.0;
 
-Real squaredEccentricity(const core::Ellipsoid& ellipsoid) {
+Real squaredRatio(const core::Ellipsoid& ellipsoid) {
     const Real ratio = static_cast<Real>(ellipsoid.polarRadius()) / ellipsoid.equatorialRadius();
-    return (1 - ratio) * (1 + ratio);
+    return ratio * ratio;
+}
+
+// The radius of curvature across the meridian, without the differences that cancel on flat ellipsoids.
+Real primeVerticalRadius(const core::Ellipsoid& ellipsoid, Real sine, Real cosine) {
+    return ellipsoid.equatorialRadius() / std::sqrt(cosine * cosine + squaredRatio(ellipsoid) * sine * sine);
 }
 
 // Pattern search: the best of the neighbours at shrinking steps, within the bin.
@@ -63,11 +68,11 @@ glm::dvec3 rounded(const RealVector& v) noexcept {
 }
 
 RealVector geodeticToEcef(const core::Ellipsoid& ellipsoid, Real latitude, Real longitude, Real altitude) noexcept {
-    const Real e2 = squaredEccentricity(ellipsoid);
     const Real sine = std::sin(latitude);
-    const Real n = ellipsoid.equatorialRadius() / std::sqrt(1 - e2 * sine * sine);
-    const Real rho = (n + altitude) * std::cos(latitude);
-    return {rho * std::cos(longitude), rho * std::sin(longitude), (n * (1 - e2) + altitude) * sine};
+    const Real cosine = std::cos(latitude);
+    const Real n = primeVerticalRadius(ellipsoid, sine, cosine);
+    const Real rho = (n + altitude) * cosine;
+    return {rho * std::cos(longitude), rho * std::sin(longitude), (n * squaredRatio(ellipsoid) + altitude) * sine};
 }
 
 namespace {
@@ -99,7 +104,7 @@ Real latitudeByBracket(const core::Ellipsoid& ellipsoid, Real rho, Real z) noexc
 
 // Fixed point of tan(latitude) = (z + N e2 sin(latitude)) / rho; not the iteration of the core.
 RealGeodetic ecefToGeodetic(const core::Ellipsoid& ellipsoid, const RealVector& point) noexcept {
-    const Real e2 = squaredEccentricity(ellipsoid);
+    const Real e2 = 1 - squaredRatio(ellipsoid);
     const Real a = ellipsoid.equatorialRadius();
     const Real rho = std::hypot(point.x, point.y);
     Real latitude = std::atan2(point.z, rho * (1 - e2));
@@ -112,7 +117,8 @@ RealGeodetic ecefToGeodetic(const core::Ellipsoid& ellipsoid, const RealVector& 
         latitude = next;
     }
     const Real sine = std::sin(latitude);
-    const Real altitude = rho * std::cos(latitude) + point.z * sine - a * std::sqrt(1 - e2 * sine * sine);
+    const Real cosine = std::cos(latitude);
+    const Real altitude = rho * cosine + point.z * sine - a * a / primeVerticalRadius(ellipsoid, sine, cosine);
     return {latitude, rho > 0 ? std::atan2(point.y, point.x) : 0, altitude};
 }
 
@@ -137,13 +143,12 @@ BinOracle::BinOracle(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& 
         const Real longitude = west + width * static_cast<Real>(i) / static_cast<Real>(_parts);
         _longitudes[i] = {std::sin(longitude), std::cos(longitude)};
     }
-    const Real e2 = squaredEccentricity(ellipsoid);
     const std::array<Real, 2> edges{bin.latitude().lower, bin.latitude().upper};
     for (std::size_t i = 0; i < 2; ++i) {
         _latitudes[i] = {std::sin(edges[i]), std::cos(edges[i])};
-        const Real n = ellipsoid.equatorialRadius() / std::sqrt(1 - e2 * _latitudes[i].sine * _latitudes[i].sine);
+        const Real n = primeVerticalRadius(ellipsoid, _latitudes[i].sine, _latitudes[i].cosine);
         _rho[i] = n * _latitudes[i].cosine;
-        _height[i] = n * (1 - e2) * _latitudes[i].sine;
+        _height[i] = n * squaredRatio(ellipsoid) * _latitudes[i].sine;
     }
 }
 

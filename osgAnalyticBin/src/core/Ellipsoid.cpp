@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -12,56 +13,105 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-// Each step gains about three digits on earth-like ellipsoids; the loop ends when nothing changes any more.
-constexpr int kMaxLatitudeSteps = 12;
+// Two or three steps do near the surface of the earth. Each makes a root that is still far away half as large again,
+// so that after the last nothing is left of what is on the way: doc/derivation.md, section 1.
+constexpr int kMostSteps = 100;
+// Of the smaller radius: of a distance that counts as none.
+constexpr double kNothing = 1e-100;
+
+// A point of a meridian plane; lengths along the smaller and the larger semi-axis, neither negative.
+struct MeridianAxes {
+    double smaller, larger;  // semi-axes
+    double alongSmaller, alongLarger;
+};
+
+// Root of (R / (u + k))^2 + (Z / u)^2 = 1, u > 0: the only one, and where the left side falls and is convex. Newton's
+// steps from anywhere below it rise to it and never pass it.
+double footParameter(double r, double z, double k, double guess) noexcept {
+    const double least = std::max(z, r - k);
+    double u = guess > least ? std::min(guess, std::hypot(r, z)) : least;
+    for (int i = 0; i < kMostSteps; ++i) {
+        const double along = r / (u + k);
+        const double across = z / u;
+        const double value = along * along + across * across - 1.0;
+        const double slope = 2.0 * (along * along / (u + k) + across * across / u);
+        const double next = std::max(least, u + value / slope);
+        if (i > 0 && !(next > u)) break;  // the first step may come from above
+        u = next;
+    }
+    return u;
+}
+
+struct Direction {
+    double alongSmaller, alongLarger;
+};
+
+// The outward normal at the nearest point of the ellipse, of any length.
+Direction normalAtFoot(const MeridianAxes& p) noexcept {
+    const double ratio = p.larger / p.smaller;
+    const double k = (ratio - 1.0) * (ratio + 1.0);
+    const double r = p.alongLarger / p.smaller * ratio;
+    const double z = p.alongSmaller / p.smaller;
+    if (!(z > kNothing) && r <= k) {
+        // Between the centres of curvature two feet are equally near, or all of a parallel.
+        const double share = k > 0.0 ? r / k : 1.0;
+        return {ratio * std::sqrt((1.0 - share) * (1.0 + share)), share};
+    }
+    // As if the point were as far from the surface as the ellipsoid through it is.
+    const double x = p.alongLarger / p.larger;
+    const double scaled2 = x * x + z * z;
+    const double inverse = scaled2 / (x * x / (ratio * ratio) + z * z);
+    const double u = footParameter(r, z, k, 1.0 + (std::sqrt(scaled2) - 1.0) * inverse);
+    return {z / u, p.alongLarger / p.smaller / (u + k)};
+}
 
 }  // namespace
 
 Ellipsoid::Ellipsoid(double equatorialRadius, double polarRadius) noexcept
     : _a(equatorialRadius),
       _b(polarRadius),
-      _e2(1.0 - (polarRadius / equatorialRadius) * (polarRadius / equatorialRadius)) {
+      _squaredRatio((polarRadius / equatorialRadius) * (polarRadius / equatorialRadius)),
+      _e2((1.0 - polarRadius / equatorialRadius) * (1.0 + polarRadius / equatorialRadius)) {
     assert(std::isfinite(equatorialRadius) && equatorialRadius > 0.0);
     assert(std::isfinite(polarRadius) && polarRadius > 0.0);
 }
 
-double Ellipsoid::primeVerticalRadius(double sinLatitude) const noexcept {
-    return _a / std::sqrt(1.0 - _e2 * sinLatitude * sinLatitude);
+double Ellipsoid::primeVerticalRadius(double sinLatitude, double cosLatitude) const noexcept {
+    return _a / std::sqrt(curvatureTerm(sinLatitude, cosLatitude));
 }
 
-double Ellipsoid::meridionalRadius(double sinLatitude) const noexcept {
-    const double w = 1.0 - _e2 * sinLatitude * sinLatitude;
-    return _a * (1.0 - _e2) / (w * std::sqrt(w));
+double Ellipsoid::meridionalRadius(double sinLatitude, double cosLatitude) const noexcept {
+    const double w = curvatureTerm(sinLatitude, cosLatitude);
+    return _a * _squaredRatio / (w * std::sqrt(w));
 }
 
 glm::dvec3 Ellipsoid::toEcef(const Geodetic& position) const noexcept {
     const double sinLat = std::sin(position.latitude);
     const double cosLat = std::cos(position.latitude);
-    const double n = primeVerticalRadius(sinLat);
+    const double n = primeVerticalRadius(sinLat, cosLat);
     const double rho = (n + position.altitude) * cosLat;
     return {rho * std::cos(position.longitude), rho * std::sin(position.longitude),
-            (n * (1.0 - _e2) + position.altitude) * sinLat};
+            (n * _squaredRatio + position.altitude) * sinLat};
 }
 
 Geodetic Ellipsoid::toGeodetic(const glm::dvec3& ecef) const noexcept {
     const double rho = std::hypot(ecef.x, ecef.y);
-    const double ePrime2 = _e2 / (1.0 - _e2);
-    // [B85]: tan(latitude) = (z + e'2 b sin3 beta) / (rho - e2 a cos3 beta), tan(beta) = (b/a) tan(latitude)
-    double beta = std::atan2(_a * ecef.z, _b * rho);
-    double latitude = beta;
-    for (int i = 0; i < kMaxLatitudeSteps; ++i) {
-        const double s = std::sin(beta);
-        const double c = std::cos(beta);
-        const double next = std::atan2(ecef.z + ePrime2 * _b * s * s * s, rho - _e2 * _a * c * c * c);
-        const bool settled = next == latitude;
-        latitude = next;
-        if (settled) break;
-        beta = std::atan2(_b * std::sin(latitude), _a * std::cos(latitude));
+    const double z = std::abs(ecef.z);
+    double sine = 0.0;
+    double cosine = 0.0;
+    if (_b <= _a) {
+        const Direction normal = normalAtFoot({_b, _a, z, rho});
+        sine = normal.alongSmaller;
+        cosine = normal.alongLarger;
+    } else {
+        const Direction normal = normalAtFoot({_a, _b, rho, z});
+        sine = normal.alongLarger;
+        cosine = normal.alongSmaller;
     }
-    const double sinLat = std::sin(latitude);
-    const double altitude = rho * std::cos(latitude) + ecef.z * sinLat - _a * std::sqrt(1.0 - _e2 * sinLat * sinLat);
+    const double length = std::hypot(sine, cosine);
+    const double altitude = (rho * cosine + z * sine - std::hypot(_a * cosine, _b * sine)) / length;
     const double longitude = rho > 0.0 ? std::atan2(ecef.y, ecef.x) : 0.0;
-    return {latitude, longitude, altitude};
+    return {std::copysign(std::atan2(sine, cosine), ecef.z), longitude, altitude};
 }
 
 double Ellipsoid::support(const glm::dvec3& direction) const noexcept {

@@ -27,11 +27,11 @@ constexpr double kNormalTolerance = 1.0 + 1e-9;
 // Bounds over all latitudes, by doc/derivation.md, section 2.
 struct CurvatureBounds {
     explicit CurvatureBounds(const Ellipsoid& ellipsoid) noexcept
-        : smallestRadius(std::min(ellipsoid.meridionalRadius(0.0), ellipsoid.meridionalRadius(1.0))),
-          largestRadius(std::max(ellipsoid.meridionalRadius(0.0), ellipsoid.meridionalRadius(1.0))),
+        : smallestRadius(std::min(ellipsoid.meridionalRadius(0.0, 1.0), ellipsoid.meridionalRadius(1.0, 0.0))),
+          largestRadius(std::max(ellipsoid.meridionalRadius(0.0, 1.0), ellipsoid.meridionalRadius(1.0, 0.0))),
           // M' = 3 M e2 sp cp / w with |sp cp| <= 1/2
           slope(1.5 * largestRadius * std::abs(ellipsoid.eccentricitySquared()) /
-                std::min(1.0, 1.0 - ellipsoid.eccentricitySquared())) {}
+                std::min(1.0, ellipsoid.squaredRatio())) {}
 
     double smallestRadius, largestRadius, slope;
 };
@@ -86,8 +86,8 @@ void ExactGeodeticBin::setMeridian(const Ellipsoid& ellipsoid, const GeodeticBin
     _data.sinNorth = std::sin(bin.latitude().upper);
     _data.cosNorth = std::cos(bin.latitude().upper);
     const auto point = [&](double sine, double cosine, double altitude) -> MeridianPoint {
-        const double n = ellipsoid.primeVerticalRadius(sine);
-        return {(n + altitude) * cosine, (n * (1.0 - ellipsoid.eccentricitySquared()) + altitude) * sine};
+        const double n = ellipsoid.primeVerticalRadius(sine, cosine);
+        return {(n + altitude) * cosine, (n * ellipsoid.squaredRatio() + altitude) * sine};
     };
     _data.topSouth = point(_data.sinSouth, _data.cosSouth, bin.altitude().upper);
     _data.bottomSouth = point(_data.sinSouth, _data.cosSouth, bin.altitude().lower);

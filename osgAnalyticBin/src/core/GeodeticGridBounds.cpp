@@ -50,9 +50,11 @@ bool isEarthLike(const Ellipsoid& ellipsoid, double reach) {
 // The lowest posts run farthest.
 double latitudeOfLowestRun(const Ellipsoid& ellipsoid, double latitude, double cosHalfColumn, double reach) {
     const double depth = std::min(reach, deepestPost(ellipsoid));
-    const double n = ellipsoid.primeVerticalRadius(std::sin(latitude));
-    const double z = (n * (1.0 - ellipsoid.eccentricitySquared()) - depth) * std::sin(latitude);
-    const double rho = (n - depth) * std::cos(latitude) * cosHalfColumn;
+    const double sine = std::sin(latitude);
+    const double cosine = std::cos(latitude);
+    const double n = ellipsoid.primeVerticalRadius(sine, cosine);
+    const double z = (n * ellipsoid.squaredRatio() - depth) * sine;
+    const double rho = (n - depth) * cosine * cosHalfColumn;
     return ellipsoid.toGeodetic({rho, 0.0, z}).latitude + kLatitudeRounding;
 }
 

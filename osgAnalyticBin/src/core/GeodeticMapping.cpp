@@ -27,29 +27,28 @@ struct LatitudeBounds {
     double meridionalCurvature;  // of |M''|
 };
 
-Interval squaredSineRange(double south, double north) {
-    const double s0 = std::sin(south) * std::sin(south);
-    const double s1 = std::sin(north) * std::sin(north);
-    return {south <= 0.0 && north >= 0.0 ? 0.0 : std::min(s0, s1), std::max(s0, s1)};
-}
-
 LatitudeBounds latitudeBounds(const Ellipsoid& ellipsoid, const ParameterBox& box) {
     const double south = std::max(box.center.x - box.halfSize.x, -kHalfPi);
     const double north = std::min(box.center.x + box.halfSize.x, kHalfPi);
-    const Interval sin2 = squaredSineRange(south, north);
+    const bool crossesEquator = south <= 0.0 && north >= 0.0;
+    // Latitudes nearest to the equator and farthest from it: all that follows is monotone between them.
+    const double nearest = crossesEquator ? 0.0 : std::min(std::abs(south), std::abs(north));
+    const double farthest = std::max(std::abs(south), std::abs(north));
     const double e2 = ellipsoid.eccentricitySquared();
     const double a = ellipsoid.equatorialRadius();
-    const double wMin = 1.0 - std::max(e2 * sin2.lower, e2 * sin2.upper);
-    const double rootW = std::sqrt(wMin);
+    const double sinLow = std::sin(nearest);
 
     LatitudeBounds bounds{};
-    bounds.sinLat = std::sqrt(sin2.upper);
-    // not from 1 - sin2, which loses the small cosines beside the poles
-    bounds.cosLat = south <= 0.0 && north >= 0.0 ? 1.0 : std::max(std::cos(south), std::cos(north));
+    bounds.sinLat = std::sin(farthest);
+    bounds.cosLat = std::cos(nearest);
+    const double wMin = std::min(ellipsoid.curvatureTerm(sinLow, bounds.cosLat),
+                                 ellipsoid.curvatureTerm(bounds.sinLat, std::cos(farthest)));
+    const double rootW = std::sqrt(wMin);
     bounds.primeVertical = a / rootW;
-    bounds.meridional = a * (1.0 - e2) / (wMin * rootW);
+    bounds.meridional = a * ellipsoid.squaredRatio() / (wMin * rootW);
     const double sinCos = std::min(0.5, bounds.sinLat * bounds.cosLat);
-    const double cos2p = std::max(std::abs(1.0 - 2.0 * sin2.lower), std::abs(1.0 - 2.0 * sin2.upper));
+    const double cos2p =
+        std::max(std::abs(1.0 - 2.0 * sinLow * sinLow), std::abs(1.0 - 2.0 * bounds.sinLat * bounds.sinLat));
     // doc/derivation.md, section 3: M' = 3 M e2 sp cp / w, M'' = 3 a (1-e2) e2 (cos 2p + 5 e2 sp2 cp2 / w) / w^(5/2)
     bounds.meridionalSlope = 3.0 * bounds.meridional * std::abs(e2) * sinCos / wMin;
     bounds.meridionalCurvature =
@@ -66,8 +65,8 @@ glm::dvec3 GeodeticMapping::value(const glm::dvec3& parameters) const noexcept {
 glm::dmat3 GeodeticMapping::jacobian(const glm::dvec3& parameters) const noexcept {
     const LocalFrame frame(parameters.x, parameters.y);
     const double h = parameters.z;
-    const double m = _ellipsoid.meridionalRadius(frame.sinLat);
-    const double n = _ellipsoid.primeVerticalRadius(frame.sinLat);
+    const double m = _ellipsoid.meridionalRadius(frame.sinLat, frame.cosLat);
+    const double n = _ellipsoid.primeVerticalRadius(frame.sinLat, frame.cosLat);
     return glm::dmat3((m + h) * frame.north,                // f_p
                       (n + h) * frame.cosLat * frame.east,  // f_l
                       frame.up);                            // f_h
@@ -77,9 +76,10 @@ Hessians GeodeticMapping::hessians(const glm::dvec3& parameters) const noexcept 
     const LocalFrame frame(parameters.x, parameters.y);
     const double h = parameters.z;
     const double e2 = _ellipsoid.eccentricitySquared();
-    const double m = _ellipsoid.meridionalRadius(frame.sinLat);
-    const double n = _ellipsoid.primeVerticalRadius(frame.sinLat);
-    const double mSlope = 3.0 * m * e2 * frame.sinLat * frame.cosLat / (1.0 - e2 * frame.sinLat * frame.sinLat);
+    const double m = _ellipsoid.meridionalRadius(frame.sinLat, frame.cosLat);
+    const double n = _ellipsoid.primeVerticalRadius(frame.sinLat, frame.cosLat);
+    const double mSlope =
+        3.0 * m * e2 * frame.sinLat * frame.cosLat / _ellipsoid.curvatureTerm(frame.sinLat, frame.cosLat);
     Hessians result;
     result.uu = mSlope * frame.north - (m + h) * frame.up;  // f_pp
     result.vv = -(n + h) * frame.cosLat * frame.radial;     // f_ll
@@ -104,6 +104,24 @@ double GeodeticMapping::thirdDerivativeBound(const ParameterBox& box) const noex
     const double meridian = (bound.meridionalCurvature + mh) * p * p * p + 2.0 * bound.meridionalSlope * p * p * p +
                             3.0 * mh * bound.sinLat * p * l * l + 3.0 * p * p * dh + 3.0 * bound.cosLat * l * l * dh;
     return std::hypot(east, meridian) * kRoundUp;
+}
+
+double GeodeticMapping::termMagnitude(const ParameterBox& box) const noexcept {
+    const double sinLat = std::abs(std::sin(box.center.x));
+    const double cosLat = std::abs(std::cos(box.center.x));
+    const double h = std::abs(box.center.z);
+    const double n = _ellipsoid.primeVerticalRadius(sinLat, cosLat);
+    const double m = _ellipsoid.meridionalRadius(sinLat, cosLat);
+    const double mSlope = 3.0 * m * std::abs(_ellipsoid.eccentricitySquared()) * sinLat * cosLat /
+                          _ellipsoid.curvatureTerm(sinLat, cosLat);
+    const double p = box.halfSize.x;
+    const double l = box.halfSize.y;
+    const double across = (n + h) * cosLat;
+    const double value = std::hypot(across, (n * _ellipsoid.squaredRatio() + h) * sinLat);
+    const double first = (m + h) * p + across * l + box.halfSize.z;
+    const double second = std::hypot(mSlope, m + h) * p * p + across * l * l + (m + h) * sinLat * p * l +
+                          (p + cosLat * l) * box.halfSize.z;
+    return value + first + second;
 }
 
 ParameterBox parameterBox(const GeodeticBin& bin) noexcept {

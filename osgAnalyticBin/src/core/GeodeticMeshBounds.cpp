@@ -104,7 +104,7 @@ void GeodeticMeshBounds::noteCrossing(const glm::dvec3 (&corners)[3]) noexcept {
 GeodeticMeshBounds::LatitudeCone::LatitudeCone(const Ellipsoid& ellipsoid, double latitude) noexcept
     : sinLatitude(std::sin(latitude)),
       cosLatitude(std::cos(latitude)),
-      offset(ellipsoid.eccentricitySquared() * ellipsoid.primeVerticalRadius(sinLatitude) * sinLatitude * cosLatitude) {
+      offset(ellipsoid.eccentricitySquared() * ellipsoid.primeVerticalRadius(sinLatitude, cosLatitude) * sinLatitude * cosLatitude) {
 }
 
 bool GeodeticMeshBounds::LatitudeCone::holds(double axisDistance, double absZ) const noexcept {

@@ -5,6 +5,7 @@
 
 #include <osgAnalyticBin/core/Horizon.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
@@ -49,24 +50,31 @@ double occluderScale(const Ellipsoid& ellipsoid, double depth) {
     return (1.0 - depth / radius) * kDown;
 }
 
-// The squares of the sine of the latitude that occur in the bin.
-Interval squaredSines(const Interval& latitude) {
-    const double south = std::sin(latitude.lower) * std::sin(latitude.lower);
-    const double north = std::sin(latitude.upper) * std::sin(latitude.upper);
+// The latitudes of the bin nearest to the equator and farthest from it.
+Interval distancesFromEquator(const Interval& latitude) {
+    const double south = std::abs(latitude.lower);
+    const double north = std::abs(latitude.upper);
     const bool crossesEquator = latitude.lower <= 0.0 && latitude.upper >= 0.0;
     return {crossesEquator ? 0.0 : std::min(south, north), std::max(south, north)};
 }
 
 // Squared radii in unit space of the positions at one altitude, 1 + 2 h N / a2 + h2 (cp2 / a2 + sp2 / b2): both terms
-// are monotonous in sp2.
-Interval squaredRadii(const Ellipsoid& ellipsoid, const Interval& sin2, double h) {
-    const double a2 = ellipsoid.equatorialRadius() * ellipsoid.equatorialRadius();
-    const double b2 = ellipsoid.polarRadius() * ellipsoid.polarRadius();
-    const auto linear = [&](double s2) { return 2.0 * h * ellipsoid.primeVerticalRadius(std::sqrt(s2)) / a2; };
-    const auto square = [&](double s2) { return h * h * ((1.0 - s2) / a2 + s2 / b2); };
-    const auto [low1, high1] = std::minmax({linear(sin2.lower), linear(sin2.upper)});
-    const auto [low2, high2] = std::minmax({square(sin2.lower), square(sin2.upper)});
-    return {(1.0 + low1 + low2) * kDown, (1.0 + high1 + high2) * kUp};
+// are monotonous from the equator to a pole.
+Interval squaredRadii(const Ellipsoid& ellipsoid, const Interval& latitude, double h) {
+    const double a = ellipsoid.equatorialRadius();
+    const auto terms = [&](double p) {
+        const double sine = std::sin(p);
+        const double cosine = std::cos(p);
+        const double across = h * cosine / a;
+        const double along = h * sine / ellipsoid.polarRadius();
+        return glm::dvec2(2.0 * h * ellipsoid.primeVerticalRadius(sine, cosine) / (a * a),
+                          across * across + along * along);
+    };
+    const glm::dvec2 nearest = terms(latitude.lower);
+    const glm::dvec2 farthest = terms(latitude.upper);
+    const glm::dvec2 low = glm::min(nearest, farthest);
+    const glm::dvec2 high = glm::max(nearest, farthest);
+    return {(1.0 + low.x + low.y) * kDown, (1.0 + high.x + high.y) * kUp};
 }
 
 }  // namespace
@@ -93,9 +101,10 @@ void HorizonBin::setLatitude(const Ellipsoid& ellipsoid, const GeodeticBin& bin)
     // tan(psi) = (N (1-e2) + h) sp a / ((N + h) cp b); it is monotonous in the latitude and in the altitude.
     const auto direction = [&](double latitude, double h) {
         const double sine = std::sin(latitude);
-        const double n = ellipsoid.primeVerticalRadius(sine);
-        const double r = (n + h) * std::max(0.0, std::cos(latitude)) / ellipsoid.equatorialRadius();
-        const double z = (n * (1.0 - ellipsoid.eccentricitySquared()) + h) * sine / ellipsoid.polarRadius();
+        const double cosine = std::max(0.0, std::cos(latitude));
+        const double n = ellipsoid.primeVerticalRadius(sine, cosine);
+        const double r = (n + h) * cosine / ellipsoid.equatorialRadius();
+        const double z = (n * ellipsoid.squaredRatio() + h) * sine / ellipsoid.polarRadius();
         const double length = std::sqrt(r * r + z * z);
         return glm::dvec2(r / length, z / length);
     };
@@ -113,9 +122,9 @@ void HorizonBin::setLatitude(const Ellipsoid& ellipsoid, const GeodeticBin& bin)
 }
 
 void HorizonBin::setRadius(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept {
-    const Interval sin2 = squaredSines(bin.latitude());
-    const double highest = std::sqrt(squaredRadii(ellipsoid, sin2, bin.altitude().upper).upper);
-    const double lowest = std::sqrt(squaredRadii(ellipsoid, sin2, bin.altitude().lower).lower);
+    const Interval latitude = distancesFromEquator(bin.latitude());
+    const double highest = std::sqrt(squaredRadii(ellipsoid, latitude, bin.altitude().upper).upper);
+    const double lowest = std::sqrt(squaredRadii(ellipsoid, latitude, bin.altitude().lower).lower);
     const double step = margin / smallerRadius(ellipsoid) * kUp;
     _sinMargin = step / lowest * kUp;
     if (!(_sinMargin < 1.0)) return;  // the margin holds the centre

@@ -48,6 +48,7 @@ QuadraticBin::QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& b
     double magnitude = glm::length(value());
     for (std::size_t i = 0; i < 3; ++i) magnitude += glm::length(first(i));
     for (std::size_t i = 0; i < 6; ++i) magnitude += glm::length(second(i));
+    magnitude = std::max(magnitude, mapping.termMagnitude(box));
     // Taylor's theorem with the Lagrange remainder, doc/derivation.md, section 3; rounding, section 7
     _data.remainder = (mapping.thirdDerivativeBound(box) / 6.0 + margin) * kNormalTolerance + kRounding * magnitude;
     _data.sphere.reach = roundedUp((farthestCorner() + bulge()) * kNormalTolerance + _data.remainder);

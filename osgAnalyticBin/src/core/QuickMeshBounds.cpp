@@ -175,7 +175,7 @@ public:
     Cone(const Ellipsoid& ellipsoid, double latitude, double pole)
         : _pole(pole), _sin(std::sin(latitude) * pole), _cos(std::cos(latitude)) {
         const double e2 = ellipsoid.eccentricitySquared();
-        _offset = e2 * ellipsoid.primeVerticalRadius(_sin) * _sin * _cos;
+        _offset = e2 * ellipsoid.primeVerticalRadius(_sin, _cos) * _sin * _cos;
     }
 
     // Metres polewards, negative within.
@@ -283,7 +283,7 @@ double latitudeLimit(const PolewardEnd& end, double chordExcess, const Interval&
 
 // A cone stands at the latitude that the steepest vertex would have on the ellipsoid.
 PolewardEnd endOf(const Ellipsoid& ellipsoid, double pole, double steepest, bool nearAxis) {
-    const double guess = std::atan(steepest / (1.0 - ellipsoid.eccentricitySquared()));
+    const double guess = std::atan(steepest / ellipsoid.squaredRatio());
     // what is near the axis is steep, on its own side; float vertices on the equator are on both
     return {pole, guess, -kInfinity, nearAxis && steepest * pole > 1.0};
 }

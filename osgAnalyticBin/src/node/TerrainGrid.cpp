@@ -29,6 +29,17 @@ glm::dvec3 rounded(const glm::dvec3& point, double quantum) {
             std::nearbyint(point.z / quantum) * quantum};
 }
 
+// Part of the format: vertices are rounded to quanta, and an index knows them by their bits. Ellipsoid's own formula
+// differs from this one in the last bit.
+double squaredEccentricity(const core::Ellipsoid& ellipsoid) {
+    const double ratio = ellipsoid.polarRadius() / ellipsoid.equatorialRadius();
+    return 1.0 - ratio * ratio;
+}
+
+double primeVerticalRadius(const core::Ellipsoid& ellipsoid, double sinLatitude) {
+    return ellipsoid.equatorialRadius() / std::sqrt(1.0 - squaredEccentricity(ellipsoid) * sinLatitude * sinLatitude);
+}
+
 // The posts of a grid in space; sines and cosines are those of whole rows and columns.
 class Posts {
 public:
@@ -38,7 +49,7 @@ public:
         for (int i = -1; i <= grid.cells + 1; ++i) {
             const std::int64_t row = std::clamp<std::int64_t>(grid.firstRow + i, 0, rows);
             _latitudes.push_back(turnOf(-90.0 + 180.0 * static_cast<double>(row) / static_cast<double>(rows)));
-            _radii.push_back(grid.ellipsoid.primeVerticalRadius(_latitudes.back().sine));
+            _radii.push_back(primeVerticalRadius(grid.ellipsoid, _latitudes.back().sine));
             _longitudes.push_back(turnOf(-180.0 + 360.0 * static_cast<double>(grid.firstColumn + i) / columns));
         }
     }
@@ -50,7 +61,7 @@ public:
         const double altitude = _grid.height(column, row);
         const double rho = (n + altitude) * lat.cosine;
         return {rho * lon.cosine, rho * lon.sine,
-                (n * (1.0 - _grid.ellipsoid.eccentricitySquared()) + altitude) * lat.sine};
+                (n * (1.0 - squaredEccentricity(_grid.ellipsoid)) + altitude) * lat.sine};
     }
     [[nodiscard]] glm::dvec3 up(int column, int row) const {
         const Turn& lat = latitude(row);

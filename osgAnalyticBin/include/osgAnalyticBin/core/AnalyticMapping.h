@@ -44,6 +44,12 @@ public:
     /// Source: doc/derivation.md, section 3.
     [[nodiscard]] virtual double thirdDerivativeBound(const ParameterBox& box) const noexcept = 0;
 
+    /// An upper bound of the magnitudes of all terms that value and derivatives times half sizes are sums of, at the
+    /// middle of the box: what their rounding is in proportion to where the terms cancel. The default stands for a
+    /// mapping whose terms do not cancel, or whose thirdDerivativeBound() covers the rounding by itself.
+    /// Source: doc/derivation.md, section 7.
+    [[nodiscard]] virtual double termMagnitude(const ParameterBox& /*box*/) const noexcept { return 0.0; }
+
 protected:
     /// For derived classes alone, as are copies.
     AnalyticMapping() = default;

@@ -33,21 +33,34 @@ public:
     /// e2 = 1 - b2/a2: zero for a sphere, negative for a prolate ellipsoid.
     [[nodiscard]] double eccentricitySquared() const noexcept { return _e2; }
 
-    /// N, the radius of curvature across the meridian, at the latitude with the given sine.
-    [[nodiscard]] double primeVerticalRadius(double sinLatitude) const noexcept;
+    /// b2/a2. It keeps its digits on flat ellipsoids, where 1 - e2 loses them.
+    [[nodiscard]] double squaredRatio() const noexcept { return _squaredRatio; }
 
-    /// M, the radius of curvature along the meridian, at the latitude with the given sine.
-    [[nodiscard]] double meridionalRadius(double sinLatitude) const noexcept;
+    /// w = cos2 + b2/a2 sin2, which is 1 - e2 sin2 without the difference: N = a / sqrt(w), M = b2/a / sqrt(w)3.
+    [[nodiscard]] double curvatureTerm(double sinLatitude, double cosLatitude) const noexcept {
+        return cosLatitude * cosLatitude + _squaredRatio * (sinLatitude * sinLatitude);
+    }
+
+    /// N, the radius of curvature across the meridian, at the latitude with the given sine and cosine.
+    [[nodiscard]] double primeVerticalRadius(double sinLatitude, double cosLatitude) const noexcept;
+
+    /// M, the radius of curvature along the meridian, at the latitude with the given sine and cosine.
+    [[nodiscard]] double meridionalRadius(double sinLatitude, double cosLatitude) const noexcept;
 
     /// Converts to ECEF metres.
     /// Source: [DMA] geodetic to rectangular; doc/derivation.md, section 1.
+    /// Guarantee: within 16 epsilon of the larger radius plus the altitude, for b/a from 0.01 to 100;
+    /// tests: Ellipsoid.ConvertsLikeLongDouble*.
     [[nodiscard]] glm::dvec3 toEcef(const Geodetic& position) const noexcept;
 
-    /// Converts from ECEF metres; longitude in [-pi, pi], on the axis 0.
-    /// Source: [B85], iterated; doc/derivation.md, section 1.
-    /// Guarantee: toEcef(result) within 1e-8 m of the input up to 7000 km from the centre, within 3 epsilon of the
-    /// distance beyond, for altitudes -5000 km .. 1e8 m on earth-like ellipsoids (|e2| < 0.01);
-    /// tests: Ellipsoid.ReturnsToTheSamePoint.
+    /// Converts from ECEF metres; longitude in [-pi, pi], on the axis 0. A point deeper than the centres of curvature
+    /// has several positions: the result is one nearest to the surface, on the equator's plane the northern one.
+    /// Source: [E13]; doc/derivation.md, section 1.
+    /// Guarantee: toEcef(result) within 3 epsilon of the point's distance from the centre plus the largest radius of
+    /// curvature, max(a, a2/b, b2/a), for every finite point and b/a from 0.01 to 100; on earth-like ellipsoids
+    /// (|e2| < 0.01) within 1e-8 m up to 7000 km from the centre, within 3 epsilon of the distance beyond;
+    /// tests: Ellipsoid.ReturnsToTheSamePoint*, Ellipsoid.ReturnsToTheSamePosition*.
+    /// Cost: two or three steps of four divisions near the surface, a hundred at most; two arctangents.
     [[nodiscard]] Geodetic toGeodetic(const glm::dvec3& ecef) const noexcept;
 
     /// The largest value of n.x over the solid ellipsoid: sqrt(a2 (nx2 + ny2) + b2 nz2).
@@ -61,6 +74,7 @@ public:
 private:
     double _a;
     double _b;
+    double _squaredRatio;
     double _e2;
 };
 

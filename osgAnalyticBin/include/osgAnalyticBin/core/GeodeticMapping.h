@@ -30,6 +30,9 @@ public:
     /// tests: GeodeticMapping.ThirdDerivativeBoundHolds.
     [[nodiscard]] double thirdDerivativeBound(const ParameterBox& box) const noexcept override;
 
+    /// N + h and M + h cancel near the centres of curvature; tests: QuadraticBin.HoldsNearTheCentresOfCurvature.
+    [[nodiscard]] double termMagnitude(const ParameterBox& box) const noexcept override;
+
 private:
     Ellipsoid _ellipsoid;
 };
