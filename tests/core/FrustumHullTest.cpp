@@ -177,6 +177,22 @@ TEST(HullSeparation, NeedsTwoPlanesAndNumbers) {
     EXPECT_FALSE(isSeparated(exact, slab, 2, 3u));
 }
 
+TEST(HullSeparation, NeedsUnitNormals) {
+    const GeodeticBin bin = GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0});
+    const ExactGeodeticBin exact(wgs84(), bin);
+    View view;
+    view.eye = {6.4e6, 0.0, 0.0};
+    view.halfWidth = 3.0;
+    Random random(326);
+    view.lookAlong({1.0, 0.0, 0.0}, random);
+    std::vector<Plane> planes = view.planes();
+    ASSERT_TRUE(isSeparated(exact, planes, 4, allOf(planes), kMostPlanes));
+    ASSERT_TRUE(isSeparated(ReverseBin(exact, bin), FrustumHull(planes, 4)));
+    for (Plane& plane : planes) plane.normal *= 1.0 + 1e-6;
+    EXPECT_DEBUG_DEATH(EXPECT_FALSE(isSeparated(exact, planes, 4, allOf(planes), kMostPlanes)), "hasUnitNormal");
+    EXPECT_DEBUG_DEATH(EXPECT_EQ(FrustumHull(planes, 4).cornerCount(), 0u), "hasUnitNormal");
+}
+
 TEST(ReverseBin, FacesHoldTheBin) {
     Random random(325);
     for (int trial = 0; trial < 20000; ++trial) {

@@ -4,6 +4,8 @@
 // Oracles: the tests of one bin against one plane (tested in ExactGeodeticBinTest and QuadraticBinTest), and the scalar
 // kernels bit for bit.
 
+#include <osgAnalyticBin/core/BoxBins.h>
+#include <osgAnalyticBin/core/ComparisonBins.h>
 #include <osgAnalyticBin/core/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/GeodeticMapping.h>
 #include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
@@ -129,6 +131,76 @@ TEST(PlaneSet, PlanesThatAreNotThereStayUndecided) {
     EXPECT_EQ(undecided, PlaneMask{0b100});
     undecided = 0;
     EXPECT_EQ(core::classify(bin, planes, undecided), Side::Inside);
+}
+
+// Debug builds stop at such planes; others must not cull by them.
+template <class Bin>
+void expectUndecided(const Bin& bin, const Plane& plane) {
+    EXPECT_DEBUG_DEATH(EXPECT_EQ(bin.classify(plane), Side::Straddling), "hasUnitNormal");
+    EXPECT_DEBUG_DEATH(EXPECT_EQ(bin.classify(plane.flipped()), Side::Straddling), "hasUnitNormal");
+}
+
+template <class Bin>
+void expectUndecidedInASet(const Bin& bin, const Plane& plane) {
+    expectUndecided(bin, plane);
+    const auto classifyInASet = [&] {
+        PlaneSet planes;
+        planes.push_back(plane);
+        PlaneMask undecided = planes.all();
+        EXPECT_EQ(core::classify(bin, planes, undecided), Side::Straddling);
+        EXPECT_EQ(undecided, planes.all());
+    };
+    EXPECT_DEBUG_DEATH(classifyInASet(), "hasUnitNormal");
+}
+
+TEST(PlaneSet, PlanesWithoutAUnitNormalDecideNothing) {
+    const core::GeodeticBin box = core::GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0});
+    const core::GeodeticBin wide = core::GeodeticBin::fromDegrees({0.0, 40.0}, {0.0, 40.0}, {0.0, 1000.0});
+    const core::GeodeticMapping mapping(wgs84());
+    for (const double factor : {0.0, 1e-3, 1.0 - 1e-8, 1.0 + 1e-8, 2.0, 1e6}) {
+        for (const double offset : {-1e13, 1e13}) {
+            const Plane plane{factor * glm::dvec3(0.6, 0.0, 0.8), offset};
+            expectUndecidedInASet(ExactGeodeticBin(wgs84(), box), plane);
+            expectUndecidedInASet(QuadraticBin(mapping, core::parameterBox(box)), plane);
+            expectUndecidedInASet(core::GeodeticQuadraticBin(wgs84(), box), plane);
+            expectUndecidedInASet(core::GeodeticQuadraticBin(wgs84(), wide), plane);
+            expectUndecidedInASet(core::BoxBin(wgs84(), box), plane);
+            expectUndecidedInASet(core::OrientedBoxBin(wgs84(), box), plane);
+            expectUndecided(core::PaperBin(mapping, core::parameterBox(box), 1.1), plane);
+            expectUndecided(core::CornersBin(mapping, core::parameterBox(box)), plane);
+        }
+    }
+    // to the tolerance they do
+    for (const double factor : {1.0 - 0.99e-9, 1.0 + 0.99e-9}) {
+        const Plane away{factor * glm::dvec3(0.6, 0.0, 0.8), -1e8};
+        EXPECT_EQ(ExactGeodeticBin(wgs84(), box).classify(away), Side::Outside);
+        EXPECT_EQ(core::BoxBin(wgs84(), box).classify(away), Side::Outside);
+    }
+}
+
+TEST(PlaneSet, NothingIsInsideOfMorePlanesThanItHolds) {
+    const ExactGeodeticBin bin(wgs84(), core::GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0}));
+    const core::BoxBin box(wgs84(), core::GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0}));
+    const Plane around{{1.0, 0.0, 0.0}, 1e9};
+    const Plane away{{1.0, 0.0, 0.0}, -1e9};
+    PlaneSet full;
+    for (std::size_t i = 0; i < core::kMaxPlanes; ++i) full.push_back(around);
+    PlaneMask undecided = full.all();
+    EXPECT_EQ(core::classify(bin, full, undecided), Side::Inside);
+    const auto overflow = [&](const Plane& first) {
+        PlaneSet planes;
+        planes.push_back(first);
+        while (planes.size() < core::kMaxPlanes) planes.push_back(around);
+        for (int i = 0; i < 3; ++i) planes.push_back(around);
+        EXPECT_EQ(planes.size(), core::kMaxPlanes);
+        PlaneMask left = planes.all();
+        EXPECT_EQ(core::classify(bin, planes, left), first.offset < 0.0 ? Side::Outside : Side::Straddling);
+        EXPECT_NE(left, PlaneMask{0}) << "what is below the bin is not inside either";
+        left = planes.all();
+        EXPECT_EQ(core::classify(box, planes, left), first.offset < 0.0 ? Side::Outside : Side::Straddling);
+    };
+    EXPECT_DEBUG_DEATH(overflow(around), "kMaxPlanes");
+    EXPECT_DEBUG_DEATH(overflow(away), "kMaxPlanes");
 }
 
 #ifdef OSGANALYTICBIN_SIMD

@@ -89,12 +89,17 @@ TEST(Classify, NoPlanesIsInsideAndStrayBitsStayUndecided) {
     EXPECT_EQ(undecided, PlaneMask{0b100});
 }
 
-TEST(Classify, PlanesBeyondTheMaskAreIgnored) {
+TEST(Classify, NothingIsInsideOfMorePlanesThanTheMaskNames) {
     const ScriptedBin bin;
     std::vector<Plane> planes(kMaxPlanes, answering(Side::Inside));
-    planes.push_back(answering(Side::Outside));
     PlaneMask undecided = ~PlaneMask{0};
     EXPECT_EQ(classify(bin, planes, planes.size(), undecided), Side::Inside);
+    planes.push_back(answering(Side::Outside));
+    undecided = ~PlaneMask{0};
+    EXPECT_EQ(classify(bin, planes, planes.size(), undecided), Side::Straddling);
+    planes.front() = answering(Side::Outside);
+    undecided = ~PlaneMask{0};
+    EXPECT_EQ(classify(bin, planes, planes.size(), undecided), Side::Outside);
 }
 
 TEST(Classify, AgreesWithThePlanesOneByOne) {

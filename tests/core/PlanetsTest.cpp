@@ -154,6 +154,8 @@ TEST_P(Planets, HideNoPointThatALineOfSightReaches) {
 
 INSTANTIATE_TEST_SUITE_P(All, Planets, ::testing::ValuesIn(kPlanets),
                          [](const auto& planet) { return std::string(planet.param.name); });
+INSTANTIATE_TEST_SUITE_P(Flat, Planets, ::testing::ValuesIn(kFlatPlanets),
+                         [](const auto& planet) { return std::string(planet.param.name); });
 
 }  // namespace
 }  // namespace osgAnalyticBin::test

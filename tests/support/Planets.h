@@ -39,6 +39,14 @@ inline constexpr std::array<Planet, 9> kPlanets{{{"Moon", 1738100.0, 1736000.0},
                                                  {"Half", 6378137.0, 0.5 * 6378137.0},
                                                  {"Egg", 3189068.5, 6378137.0}}};
 
+/// Flatter and longer than any planet, to the ends of what is promised.
+inline constexpr std::array<Planet, 6> kFlatPlanets{{{"TwoFifths", 6378137.0, 0.4 * 6378137.0},
+                                                     {"Fifth", 6378137.0, 0.2 * 6378137.0},
+                                                     {"Plate", 6378137.0, 0.05 * 6378137.0},
+                                                     {"Disk", 6378137.0, 0.01 * 6378137.0},
+                                                     {"Rod", 0.2 * 6378137.0, 6378137.0},
+                                                     {"Needle", 0.15 * 6378137.0, 6378137.0}}};
+
 /// A bin as on the earth, with altitudes in proportion to the globe.
 [[nodiscard]] inline core::GeodeticBin randomBinOn(const core::Ellipsoid& ellipsoid, Random& random) {
     const core::GeodeticBin bin = randomBin(random);

@@ -62,6 +62,7 @@ Axes eastNorthUp(const Geodetic& position) {
 
 // `radius`: half of what the box measures across the plane. A number that is not finite decides nothing.
 Side sideOf(double distance, double radius, double slack, const Plane& plane) {
+    if (!isUsable(plane)) return Side::Straddling;
     const double reach = radius + slack + kOffsetRounding * std::abs(plane.offset);
     if (distance + reach < 0.0) return Side::Outside;
     return distance - reach >= 0.0 ? Side::Inside : Side::Straddling;

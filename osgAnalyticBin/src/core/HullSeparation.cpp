@@ -15,16 +15,24 @@ namespace {
 // Rounding of a mixture of two planes, in units of epsilon times its terms; doc/horizon.md, section 7.
 constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
 
+// Mixtures are of unit normals and distances in space: shorter ones are nothing but rounding.
+constexpr double kShortest = 1e-100;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
 }  // namespace
 
 WedgeSearch::WedgeSearch(const Plane& first, const Plane& second, double reach) noexcept
-    : _planes{first, second}, _rounding(kRounding * (std::abs(first.offset) + std::abs(second.offset) + reach)) {}
+    : _planes{first, second}, _rounding(kRounding * (std::abs(first.offset) + std::abs(second.offset) + reach)) {
+    // of which nothing can be known
+    if (!isUsable(first) || !isUsable(second)) _rounding = kNaN;
+}
 
 Plane WedgeSearch::candidate() const noexcept {
     const glm::dvec3 normal = _weights[0] * _planes[0].normal + _weights[1] * _planes[1].normal;
     const double offset = _weights[0] * _planes[0].offset + _weights[1] * _planes[1].offset;
     const double rounding = _rounding * (_weights[0] + _weights[1]);
     const double length = glm::length(normal);
+    if (!(length > kShortest)) return {glm::dvec3(kNaN), kNaN};
     return {normal / length, (offset + rounding) / length};
 }
 

@@ -26,11 +26,13 @@ public:
     /// Of six planes.
     static constexpr std::size_t kMostCorners = 8;
 
-    /// Planes above kMostPlanes, and corners above kMostCorners, are left out, which is sound. `planes` is anything
-    /// whose planes[i] gives a Plane, in any order.
+    /// Planes above kMostPlanes, planes without a unit normal, and corners above kMostCorners are left out, which is
+    /// sound. `planes` is anything whose planes[i] gives a Plane, in any order.
     template <class Planes>
     FrustumHull(const Planes& planes, std::size_t count) noexcept {
-        for (std::size_t i = 0; i < count && i < kMostPlanes; ++i) _planes[_planeCount++] = planes[i];
+        for (std::size_t i = 0; i < count && i < kMostPlanes; ++i) {
+            if (isUsable(planes[i])) _planes[_planeCount++] = planes[i];
+        }
         findCorners();
     }
 

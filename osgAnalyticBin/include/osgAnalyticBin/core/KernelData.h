@@ -23,7 +23,7 @@ struct PlaneBlock {
     alignas(32) double normalZ[kLanes];
     /// Metres.
     alignas(32) double offset[kLanes];
-    alignas(32) double rounding[kLanes];  ///< 128 epsilon |offset|; NaN if the plane is not finite
+    alignas(32) double rounding[kLanes];  ///< 128 epsilon |offset|; NaN if the plane is not usable
 };
 
 /// A point of a meridian plane.

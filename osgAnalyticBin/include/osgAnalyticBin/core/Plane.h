@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -16,6 +18,8 @@ namespace osgAnalyticBin::core {
 enum class Side { Outside, Straddling, Inside };
 
 /// The plane normal.x + offset = 0 with a unit normal that points into the frustum: a positive distance is inside.
+/// A plane whose normal is not of unit length to 1e-9, and one with NaN or infinite numbers, decides nothing: every bin
+/// straddles it; tests: PlaneSet.PlanesWithoutAUnitNormalDecideNothing.
 struct Plane {
     /// Of unit length, pointing inside.
     glm::dvec3 normal{0.0, 0.0, 1.0};
@@ -28,6 +32,19 @@ struct Plane {
     [[nodiscard]] Plane flipped() const noexcept { return {-normal, -offset}; }
 };
 
+/// Whether the normal is of unit length to 1e-9, and its own rounding.
+[[nodiscard]] inline bool hasUnitNormal(const Plane& plane) noexcept {
+    constexpr double kTolerance = 2.000001e-9;  // of the square
+    return std::abs(glm::dot(plane.normal, plane.normal) - 1.0) <= kTolerance;
+}
+
+/// Whether anything may be decided by the normal. Requires: a unit normal, or one that is not finite (asserted).
+[[nodiscard]] inline bool isUsable(const Plane& plane) noexcept {
+    const bool isUnit = hasUnitNormal(plane);
+    assert(hasUnitNormal(plane) || !std::isfinite(glm::dot(plane.normal, plane.normal)));
+    return isUnit;
+}
+
 /// One bit a plane; a set bit means that the plane is still undecided.
 using PlaneMask = std::uint32_t;
 
@@ -37,7 +54,8 @@ inline constexpr std::size_t kMaxPlanes = 32;
 /// Tests a bin (anything with `Side classify(const Plane&) const`) against the undecided planes. `planes` is anything
 /// whose planes[i] gives a Plane: an array, or a view that converts on the way.
 /// Returns: Outside at the first plane that proves it; Inside when no undecided plane is left; else Straddling. The
-/// bits of planes that have the whole bin inside are cleared from `undecided`, also when the result is Outside.
+/// bits of planes that have the whole bin inside are cleared from `undecided`, also when the result is Outside. Planes
+/// above kMaxPlanes are not tested, and nothing is Inside then.
 /// Cost: one classification for each set bit at most; no allocation.
 template <class Bin, class Planes>
 [[nodiscard]] Side classify(const Bin& bin, const Planes& planes, std::size_t count, PlaneMask& undecided) noexcept {
@@ -48,7 +66,7 @@ template <class Bin, class Planes>
         if (side == Side::Outside) return Side::Outside;
         if (side == Side::Inside) undecided &= ~bit;
     }
-    return undecided == 0 ? Side::Inside : Side::Straddling;
+    return undecided == 0 && count <= kMaxPlanes ? Side::Inside : Side::Straddling;
 }
 
 }  // namespace osgAnalyticBin::core

@@ -18,7 +18,7 @@ class GeodeticQuadraticBin;
 class QuadraticBin;
 
 /// What the signed distance to the plane may be off by because of its offset; doc/derivation.md, section 7.
-/// Returns: NaN when a number of the plane is not finite.
+/// Returns: NaN, which decides nothing, when a number of the plane is not finite or its normal not of unit length.
 [[nodiscard]] double roundingOf(const Plane& plane) noexcept;
 
 /// The planes of a frustum, laid out so that one bin is tested against four of them at once.
@@ -27,7 +27,8 @@ class PlaneSet final {
 public:
     PlaneSet() noexcept {}  // NOLINT: the blocks are left as they are
 
-    /// Requires: size() < kMaxPlanes (asserted).
+    /// Requires: size() < kMaxPlanes (asserted). One plane more is left out, and takes the last place in the set with a
+    /// plane that decides nothing: what is inside of all planes that are left is still not Inside.
     void push_back(const Plane& plane) noexcept;
 
     /// Planes in the set.
@@ -44,6 +45,8 @@ public:
     }
 
 private:
+    void set(std::size_t i, const Plane& plane) noexcept;
+
     std::size_t _size = 0;
     std::array<PlaneBlock, kMaxPlanes / PlaneBlock::kLanes> _blocks;
 };
@@ -68,22 +71,27 @@ template <class Bin>
 
 inline double roundingOf(const Plane& plane) noexcept {
     constexpr double kRounding = 128.0 * std::numeric_limits<double>::epsilon();
-    // Zero for a finite plane; NaN, which decides nothing, for any other.
-    const double finite = 0.0 * (plane.normal.x + plane.normal.y + plane.normal.z + plane.offset);
+    if (!isUsable(plane)) return std::numeric_limits<double>::quiet_NaN();
+    // Zero for a finite offset, NaN for any other.
+    const double finite = 0.0 * plane.offset;
     return kRounding * std::abs(plane.offset) + finite;
 }
 
 inline void PlaneSet::push_back(const Plane& plane) noexcept {
     assert(_size < kMaxPlanes);
-    PlaneBlock& block = _blocks[_size / PlaneBlock::kLanes];
-    const std::size_t lane = _size % PlaneBlock::kLanes;
-    if (lane == 0) block = PlaneBlock{};
+    if (_size == kMaxPlanes) return set(_size - 1, {glm::dvec3(std::numeric_limits<double>::quiet_NaN()), 0.0});
+    if (_size % PlaneBlock::kLanes == 0) _blocks[_size / PlaneBlock::kLanes] = PlaneBlock{};
+    set(_size++, plane);
+}
+
+inline void PlaneSet::set(std::size_t i, const Plane& plane) noexcept {
+    PlaneBlock& block = _blocks[i / PlaneBlock::kLanes];
+    const std::size_t lane = i % PlaneBlock::kLanes;
     block.normalX[lane] = plane.normal.x;
     block.normalY[lane] = plane.normal.y;
     block.normalZ[lane] = plane.normal.z;
     block.offset[lane] = plane.offset;
     block.rounding[lane] = roundingOf(plane);
-    ++_size;
 }
 
 inline Plane PlaneSet::operator[](std::size_t i) const noexcept {
