@@ -126,6 +126,21 @@ TEST(ExactGeodeticBin, SphereHoldsTheBin) {
     }
 }
 
+TEST(ExactGeodeticBin, ReachHoldsTheBin) {
+    Random random(113);
+    for (int trial = 0; trial < 50000; ++trial) {
+        const PlaneCase c(random);
+        const double margin = random.chance(0.5) ? 0.0 : random.logUniform(1e-3, 1e5);
+        const ExactGeodeticBin made(c.oracle.ellipsoid(), c.oracle.bin(), margin);
+        const ExactGeodeticBin copied(made.data());
+        const RealVector point = geodeticToEcef(c.oracle.ellipsoid(), randomPosition(random, c.oracle.bin())) +
+                                 real(margin * random.direction());
+        ASSERT_LE(length(point), made.reach()) << nameOf(c.kind);
+        ASSERT_LE(length(point), copied.reach()) << nameOf(c.kind);
+        ASSERT_LE(copied.reach(), 3.0 * made.reach()) << nameOf(c.kind);
+    }
+}
+
 TEST(ExactGeodeticBin, SphereIsNoLargerThanTheCornersNeed) {
     Random random(106);
     for (int level = 0; level <= kDeepestLevel; ++level) {

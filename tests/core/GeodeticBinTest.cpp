@@ -122,6 +122,74 @@ TEST(GeodeticBin, HoldsItsOwnPositionsAfterATurn) {
     }
 }
 
+// The edges, turned: what they lose is made up for by the tolerance alone.
+TEST(GeodeticBin, HoldsItsEdgesAfterATurn) {
+    Random random(33);
+    for (int trial = 0; trial < 100000; ++trial) {
+        const double west = random.uniform(-kPi, kPi);
+        const GeodeticBin bin({0.0, 1.0}, {west, west + random.logUniform(1e-6, 3.0)}, kGround);
+        for (const double edge : {bin.longitude().lower, bin.longitude().upper}) {
+            for (const double turn : {-kTwoPi, kTwoPi}) {
+                const double turned = edge + turn;
+                if (std::abs(turned) > 7.0) continue;
+                ASSERT_TRUE(bin.contains(Geodetic{0.5, turned, 1.0})) << trial;
+                const GeodeticBin narrow({0.0, 1.0}, {turned, turned}, kGround);
+                ASSERT_TRUE(bin.contains(narrow)) << trial;
+            }
+        }
+        const double shift = random.sign() * kTwoPi;
+        const GeodeticBin turned({0.0, 1.0}, {bin.longitude().lower + shift, bin.longitude().upper + shift}, kGround);
+        if (turned.longitude().width() <= bin.longitude().width()) {
+            ASSERT_TRUE(bin.contains(turned)) << trial;
+        }
+    }
+}
+
+// The angle in [-pi, pi], without the rounding of 2 pi to a long double.
+Real withoutTurns(double longitude) {
+    constexpr Real kTurn = 6.28318530717958647692528676655900577L;
+    constexpr Real kTooMuch = 1.0033115225336664047e-19L;  // by which that constant exceeds 2 pi
+    const Real rest = std::remainder(static_cast<Real>(longitude), kTurn);
+    return rest + std::nearbyint((static_cast<Real>(longitude) - rest) / kTurn) * kTooMuch;
+}
+
+TEST(GeodeticBin, UnionHoldsBinsManyTurnsAway) {
+    constexpr Real kTurn = 6.28318530717958647692528676655900577L;
+    constexpr Real kOracleRounding = 1e-17L;
+    Random random(34);
+    for (int trial = 0; trial < 100000; ++trial) {
+        const double far = random.sign() * random.logUniform(1.0, 1e6);
+        const double near = random.uniform(-10.0, 10.0);
+        const GeodeticBin away({0.0, 1.0}, {far, far + random.logUniform(1e-9, 1.0)}, kGround);
+        const GeodeticBin here({0.0, 1.0}, {near, near + random.logUniform(1e-9, 1.0)}, kGround);
+        for (const GeodeticBin& both : {away.united(here), here.united(away)}) {
+            ASSERT_TRUE(both.contains(away)) << far;
+            ASSERT_TRUE(both.contains(here)) << far;
+            if (both.isFullCircle()) continue;
+            const Real west = withoutTurns(both.longitude().lower);
+            const Real width = static_cast<Real>(both.longitude().upper) - both.longitude().lower;
+            for (const double edge : {far, away.longitude().upper, near, here.longitude().upper}) {
+                Real offset = withoutTurns(edge) - west;
+                while (offset < -kOracleRounding) offset += kTurn;
+                while (offset > kTurn - kOracleRounding) offset -= kTurn;
+                ASSERT_LE(offset, width + kOracleRounding) << far << " " << edge;
+            }
+        }
+    }
+}
+
+TEST(GeodeticBin, LongitudesThatAreTooFarAwayAreAll) {
+    constexpr double kLimit = 1e6;
+    const auto at = [](double west) { return GeodeticBin({0.0, 1.0}, {west, west + 0.1}, kGround); };
+    for (const double side : {1.0, -1.0}) {
+        EXPECT_FALSE(at(side * (kLimit - 1.0)).isFullCircle());
+        EXPECT_TRUE(at(side * (kLimit + 1.0)).isFullCircle());
+        EXPECT_EQ(at(side * 1e300).longitude(), (Interval{-kPi, kPi}));
+        EXPECT_TRUE(at(side * 1e8).contains(Geodetic{0.5, 0.0, 1.0}));
+        EXPECT_TRUE(at(side * 1e8).contains(Geodetic{0.5, side * 1e8, 1.0}));
+    }
+}
+
 TEST(GeodeticBin, RejectsPositionsBesideIt) {
     Random random(32);
     for (int trial = 0; trial < 100000; ++trial) {

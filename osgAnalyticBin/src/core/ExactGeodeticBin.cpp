@@ -79,6 +79,12 @@ ExactGeodeticBin::ExactGeodeticBin(const Ellipsoid& ellipsoid, const GeodeticBin
     setSphere(ellipsoid, bin);
 }
 
+ExactGeodeticBin::ExactGeodeticBin(const ExactBinData& data) noexcept
+    : _data(data),
+      _farthest((std::hypot(data.sphere.center[0], data.sphere.center[1], data.sphere.center[2]) +
+                 static_cast<double>(data.sphere.reach)) *
+                kNormalTolerance) {}
+
 void ExactGeodeticBin::setMeridian(const Ellipsoid& ellipsoid, const GeodeticBin& bin) noexcept {
     // Never negative: the latitudes end at the doubles nearest to the poles, which lie before them.
     _data.sinSouth = std::sin(bin.latitude().lower);

@@ -17,11 +17,19 @@ constexpr double kHalfPi = 0.5 * kPi;
 constexpr double kRadiansPerDegree = kPi / 180.0;
 // A few units in the last place of an angle near 2 pi: what adding or taking away a turn may lose.
 constexpr double kAngleTolerance = 2e-15;
+// Farther from zero a turn more or less is 2e-10 radians, and soon nothing at all.
+constexpr double kFarthestLongitude = 1e6;
 
 constexpr Interval kEmptyInterval{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
 bool isProper(const Interval& interval) {
     return std::isfinite(interval.lower) && std::isfinite(interval.upper) && interval.lower <= interval.upper;
+}
+
+// What is lost by moving an angle by `shift`, whole turns as doubles have them, to `angle`: of each more than an
+// epsilon where they are large.
+double turningTolerance(double shift, double angle) {
+    return kAngleTolerance * std::max(1.0, (std::abs(shift) + std::abs(angle)) / 8.0 - 1.0);
 }
 
 // The offset of an angle east of a start, in [0, 2 pi).
@@ -35,20 +43,24 @@ Interval turnedToStartAfter(const Interval& interval, double from) {
     const double turns = std::floor((interval.lower - from) / kTwoPi);
     if (turns == 0.0) return interval;
     const double shift = turns * kTwoPi;
-    return {interval.lower - shift - kAngleTolerance, interval.upper - shift + kAngleTolerance};
+    const Interval turned{interval.lower - shift, interval.upper - shift};
+    const double tolerance = turningTolerance(shift, std::max(std::abs(turned.lower), std::abs(turned.upper)));
+    return {turned.lower - tolerance, turned.upper + tolerance};
 }
 
 bool holdsLongitude(const Interval& interval, double longitude) {
     if (interval.contains(longitude)) return true;
     const double offset = eastwardOffset(interval.lower, longitude);
-    return offset <= interval.width() + kAngleTolerance || offset >= kTwoPi - kAngleTolerance;
+    const double tolerance = turningTolerance(longitude - interval.lower, longitude);
+    return offset <= interval.width() + tolerance || offset >= kTwoPi - tolerance;
 }
 
 bool holdsLongitudes(const Interval& outer, const Interval& inner) {
     if (outer.width() >= kTwoPi || outer.contains(inner)) return true;
     double offset = eastwardOffset(outer.lower, inner.lower);
-    if (offset >= kTwoPi - kAngleTolerance) offset = 0.0;
-    return offset + inner.width() <= outer.width() + kAngleTolerance;
+    const double tolerance = turningTolerance(inner.lower - outer.lower, inner.lower);
+    if (offset >= kTwoPi - tolerance) offset = 0.0;
+    return offset + inner.width() <= outer.width() + tolerance;
 }
 
 Interval hullOf(const Interval& a, const Interval& b) {
@@ -72,7 +84,8 @@ GeodeticBin::GeodeticBin() noexcept
 GeodeticBin::GeodeticBin(Interval latitude, Interval longitude, Interval altitude) noexcept : GeodeticBin() {
     if (!isProper(latitude) || !isProper(longitude) || !isProper(altitude)) return;
     _latitude = {std::clamp(latitude.lower, -kHalfPi, kHalfPi), std::clamp(latitude.upper, -kHalfPi, kHalfPi)};
-    _longitude = longitude.width() >= kTwoPi ? Interval{-kPi, kPi} : longitude;
+    const bool isTooFar = std::max(std::abs(longitude.lower), std::abs(longitude.upper)) > kFarthestLongitude;
+    _longitude = isTooFar || longitude.width() >= kTwoPi ? Interval{-kPi, kPi} : longitude;
     _altitude = altitude;
 }
 

@@ -23,8 +23,8 @@ public:
     /// Cost: the sines and cosines of five angles.
     ExactGeodeticBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin = 0.0) noexcept;
 
-    /// The bin that these are the data of.
-    explicit ExactGeodeticBin(const ExactBinData& data) noexcept : _data(data) {}
+    /// The bin that these are the data of. Its reach() is that of the sphere about it.
+    explicit ExactGeodeticBin(const ExactBinData& data) noexcept;
 
     /// Guarantee: Outside only if distance(x) < 0, Inside only if >= 0, for every x in the bin and every point within
     /// the margin of it; tests: ExactGeodeticBin.NeverContradictsASample, Soundness.HasNoFalseVerdict. Requires:
@@ -33,12 +33,12 @@ public:
     [[nodiscard]] Side classify(const Plane& plane) const noexcept;
 
     /// An interval that holds the signed distance of every point of the bin, margin included.
-    /// Guarantee: without margin, exceeds the true range on each side by at most 64 epsilon times the distance of the
-    /// bin's farthest point from the earth's centre plus the plane's, for bins wider than 1e-14 radians or of no width;
-    /// tests: ExactGeodeticBin.IsTightToRounding.
+    /// Guarantee: without margin, exceeds the true range on each side by at most 64 epsilon times the sum of the larger
+    /// radius, the largest altitude either way and the plane's offset, for bins wider than 1e-14 radians or of no
+    /// width; tests: ExactGeodeticBin.IsTightToRounding, Planets.HaveSoundAndTightVerdicts.
     [[nodiscard]] Interval distanceRange(const Plane& plane) const noexcept;
 
-    /// The largest n.x over the bin, without margin, to 64 epsilon times the distance from the earth's centre.
+    /// The largest n.x over the bin, without margin, to 64 epsilon times the larger radius and altitude.
     [[nodiscard]] double support(const glm::dvec3& direction) const noexcept;
 
     /// A point of the bin, without margin, where n.x is largest, to rounding: where a search goes on, no proof.

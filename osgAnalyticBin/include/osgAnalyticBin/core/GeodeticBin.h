@@ -43,7 +43,9 @@ public:
     GeodeticBin() noexcept;
 
     /// Latitudes are clamped to the poles, a longitude width to 2 pi. An interval with NaN, with infinite bounds, or
-    /// with lower > upper makes the bin empty.
+    /// with lower > upper makes the bin empty. Longitudes beyond 1e6 radians, which tell too little of where they are,
+    /// become the whole circle: such a bin holds what it should, and verdicts of it are proofs;
+    /// tests: GeodeticBin.LongitudesThatAreTooFarAwayAreAll.
     GeodeticBin(Interval latitude, Interval longitude, Interval altitude) noexcept;
 
     /// Angles in degrees, altitude in metres. The conversion is monotone: bins that share an edge in degrees share
@@ -70,13 +72,14 @@ public:
     [[nodiscard]] Geodetic center() const noexcept;
 
     /// Guarantee: true for every position of the bin; longitudes are compared modulo 2 pi with a tolerance of 2e-15
-    /// (13 nanometres on earth).
+    /// (13 nanometres on earth), and of 1.2 epsilon of both longitudes where these are far apart or far from zero.
     [[nodiscard]] bool contains(const Geodetic& position) const noexcept;
 
     /// True when every position of the other bin lies in this one; every bin contains the empty one.
     [[nodiscard]] bool contains(const GeodeticBin& other) const noexcept;
 
-    /// The smallest bin that holds both; of the two ways round the globe the shorter one.
+    /// The smallest bin that holds both; of the two ways round the globe the shorter one. Wider by the tolerance above
+    /// where one of them had to be turned; tests: GeodeticBin.UnionHoldsBinsManyTurnsAway.
     [[nodiscard]] GeodeticBin united(const GeodeticBin& other) const noexcept;
 
     /// Grows to hold the position or the other bin.
