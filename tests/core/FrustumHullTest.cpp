@@ -78,6 +78,32 @@ TEST(HullSeparation, NeverPartsABinFromAPointOfIt) {
     }
 }
 
+// Two planes that nearly face each other and meet in a point of the bin, above all others: only what a mixture of the
+// two is moved inward by keeps its rounding, which their difference enlarges, from parting them.
+TEST(HullSeparation, NeverPartsABinFromAPointWhereTwoPlanesNearlyCancel) {
+    Random random(327);
+    for (int trial = 0; trial < 200000; ++trial) {
+        const Ellipsoid ellipsoid = randomEllipsoid(random);
+        const GeodeticBin bin = randomTile(random, random.integer(4, kDeepestLevel), randomAltitude(random));
+        core::Geodetic position = randomPosition(random, bin);
+        position.altitude = bin.altitude().upper;
+        const RealVector point = geodeticToEcef(ellipsoid, position);
+        const glm::dvec3 up = glm::normalize(glm::dvec3(std::cos(position.latitude) * std::cos(position.longitude),
+                                                        std::cos(position.latitude) * std::sin(position.longitude),
+                                                        std::sin(position.latitude)));
+        const glm::dvec3 along = glm::normalize(glm::cross(up, random.direction()));
+        const double slope = random.logUniform(1e-9, 1e-1);
+        std::vector<Plane> planes(2);
+        planes[0].normal = glm::normalize(slope * random.uniform() * up + along);
+        planes[1].normal = glm::normalize(slope * random.uniform() * up - along);
+        for (Plane& plane : planes) {
+            plane.offset = -glm::dot(plane.normal, rounded(point));
+            while (exactDistance(plane, point) < 0) plane.offset += 1e-16 * ellipsoid.equatorialRadius();
+        }
+        ASSERT_FALSE(isSeparated(ExactGeodeticBin(ellipsoid, bin), planes, 2, 3u)) << "trial " << trial;
+    }
+}
+
 TEST(FrustumHull, FindsTheCorners) {
     Random random(322);
     for (int trial = 0; trial < 1000; ++trial) {
