@@ -9,6 +9,7 @@
 
 #include <osgAnalyticBin/core/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/GeodeticMapping.h>
+#include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
 
 #include <glm/geometric.hpp>
@@ -213,6 +214,37 @@ TEST(ExactGeodeticBin, LiesWithinTheQuadraticRange) {
 TEST(ExactGeodeticBin, CameraInsideTheBinKeepsIt) {
     Random random(112);
     expectACameraInsideToKeepTheBin(random, exactWithMargin);
+}
+
+// As deep as it may be taken, on ellipsoids of any flattening; the model holds below as well.
+TEST(ExactGeodeticBin, HoldsDownToTheCentresOfCurvature) {
+    Random random(114);
+    for (int trial = 0; trial < 100000; ++trial) {
+        const Ellipsoid ellipsoid = random.chance(0.5)
+                                        ? randomEllipsoid(random)
+                                        : Ellipsoid(6378137.0, 6378137.0 * random.logUniform(0.01, 10.0));
+        const double a = ellipsoid.equatorialRadius();
+        const double b = ellipsoid.polarRadius();
+        const double smallest = std::min(a * a / b, b * b / a);
+        const double low = -smallest * (1.0 - random.logUniform(1e-16, 1.0));
+        const double high = low + (random.chance(0.3) ? random.logUniform(1e-9, 1.0) : random.uniform()) * smallest;
+        const GeodeticBin bin = randomBin(random).withAltitude({low, high});
+        if (!ExactGeodeticBin::holds(ellipsoid, bin)) continue;
+        const BinOracle oracle(ellipsoid, bin);
+        const Plane plane = randomPlane(random, oracle, random.pick(kPlaneKinds));
+        const RealRange truth = oracle.distanceRange(plane);
+        const Real rounding = oracle.rounding(plane);
+        const ExactGeodeticBin exact(ellipsoid, bin);
+        const core::GeodeticQuadraticBin quadratic(ellipsoid, bin);
+        for (const Side side : {exact.classify(plane), quadratic.classify(plane)}) {
+            ASSERT_FALSE(side == Side::Outside && truth.upper >= rounding) << trial;
+            ASSERT_FALSE(side == Side::Inside && truth.lower < -rounding) << trial;
+        }
+        for (const Interval& range : {exact.distanceRange(plane), quadratic.distanceRange(plane)}) {
+            ASSERT_LE(range.lower, truth.lower + rounding) << trial;
+            ASSERT_GE(range.upper, truth.upper - rounding) << trial;
+        }
+    }
 }
 
 TEST(ExactGeodeticBin, HoldsOnlyAboveTheCentresOfCurvature) {

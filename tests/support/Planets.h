@@ -45,7 +45,7 @@ inline constexpr std::array<Planet, 6> kFlatPlanets{{{"TwoFifths", 6378137.0, 0.
                                                      {"Plate", 6378137.0, 0.05 * 6378137.0},
                                                      {"Disk", 6378137.0, 0.01 * 6378137.0},
                                                      {"Rod", 0.2 * 6378137.0, 6378137.0},
-                                                     {"Needle", 0.15 * 6378137.0, 6378137.0}}};
+                                                     {"Needle", 0.1 * 6378137.0, 6378137.0}}};
 
 /// A bin as on the earth, with altitudes in proportion to the globe.
 [[nodiscard]] inline core::GeodeticBin randomBinOn(const core::Ellipsoid& ellipsoid, Random& random) {

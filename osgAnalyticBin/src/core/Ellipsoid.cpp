@@ -13,10 +13,10 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-// Two or three steps do near the surface of the earth. Each makes a root that is still far away half as large again,
-// so that after the last nothing is left of what is on the way: doc/derivation.md, section 1.
+// Near the surface of the earth three or four steps suffice. Beside the centres of curvature each step multiplies u by
+// up to 1.5; after a hundred of them the rest does not change the latitude: doc/derivation.md, section 1.
 constexpr int kMostSteps = 100;
-// Of the smaller radius: of a distance that counts as none.
+// In smaller radii: distances below this count as zero.
 constexpr double kNothing = 1e-100;
 
 // A point of a meridian plane; lengths along the smaller and the larger semi-axis, neither negative.
@@ -25,8 +25,8 @@ struct MeridianAxes {
     double alongSmaller, alongLarger;
 };
 
-// Root of (R / (u + k))^2 + (Z / u)^2 = 1, u > 0: the only one, and where the left side falls and is convex. Newton's
-// steps from anywhere below it rise to it and never pass it.
+// The only root u > 0 of (R / (u + k))^2 + (Z / u)^2 = 1 [E13]. The left side falls and is convex, so that Newton's
+// steps from below rise to the root and never pass it.
 double footParameter(double r, double z, double k, double guess) noexcept {
     const double least = std::max(z, r - k);
     double u = guess > least ? std::min(guess, std::hypot(r, z)) : least;
@@ -53,11 +53,11 @@ Direction normalAtFoot(const MeridianAxes& p) noexcept {
     const double r = p.alongLarger / p.smaller * ratio;
     const double z = p.alongSmaller / p.smaller;
     if (!(z > kNothing) && r <= k) {
-        // Between the centres of curvature two feet are equally near, or all of a parallel.
+        // Between the centres of curvature two points, or all of a parallel, are equally near.
         const double share = k > 0.0 ? r / k : 1.0;
         return {ratio * std::sqrt((1.0 - share) * (1.0 + share)), share};
     }
-    // As if the point were as far from the surface as the ellipsoid through it is.
+    // The guess is exact on the surface and has an error of second order beside it.
     const double x = p.alongLarger / p.larger;
     const double scaled2 = x * x + z * z;
     const double inverse = scaled2 / (x * x / (ratio * ratio) + z * z);

@@ -17,7 +17,7 @@ constexpr double kHalfPi = 0.5 * kPi;
 constexpr double kRadiansPerDegree = kPi / 180.0;
 // A few units in the last place of an angle near 2 pi: what adding or taking away a turn may lose.
 constexpr double kAngleTolerance = 2e-15;
-// Farther from zero a turn more or less is 2e-10 radians, and soon nothing at all.
+// There doubles are 1e-10 radians apart, a millimetre on the earth.
 constexpr double kFarthestLongitude = 1e6;
 
 constexpr Interval kEmptyInterval{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
@@ -26,8 +26,8 @@ bool isProper(const Interval& interval) {
     return std::isfinite(interval.lower) && std::isfinite(interval.upper) && interval.lower <= interval.upper;
 }
 
-// What is lost by moving an angle by `shift`, whole turns as doubles have them, to `angle`: of each more than an
-// epsilon where they are large.
+// What moving an angle by `shift`, whole turns as doubles have them, to `angle` loses at most: where they are
+// large, 1.1 epsilon of both.
 double turningTolerance(double shift, double angle) {
     return kAngleTolerance * std::max(1.0, (std::abs(shift) + std::abs(angle)) / 8.0 - 1.0);
 }

@@ -18,6 +18,7 @@ constexpr double kHalfPi = 1.57079632679489661923;
 // Sines are taken for angles in the bound of the poleward run, and the last bits of its own evaluation are covered.
 constexpr double kRunSlack = 1.01;
 constexpr double kAngleRounding = 1e-15;
+constexpr double kAboveTheCentres = 1.0 - 1e-9;
 constexpr double kLengthRounding = 1e-7;     // metres on the earth
 constexpr double kLatitudeRounding = 1e-14;  // of Ellipsoid::toGeodetic
 
@@ -117,6 +118,8 @@ GeodeticGridBounds::GeodeticGridBounds(const Ellipsoid& ellipsoid, const Geodeti
     const double cosNorth = cosAt(grid.latitude.upper);
     const bool acrossEquator = grid.latitude.lower <= 0.0 && grid.latitude.upper >= 0.0;
     _sag = sagOf(versine(half, acrossEquator ? 1.0 : std::max(cosSouth, cosNorth)));
+    const double lowest = std::min(reach, deepestPost(ellipsoid)) + _sag;
+    _isKnown = lowest < smallestCurvatureRadius(ellipsoid) * kAboveTheCentres;
     const double meridian = sagOf(2.0 * half.latitude);
     const HalfCell alongParallel{0.0, half.longitude};
     _edgeSag = {sagOf(versine(alongParallel, cosSouth)), meridian, sagOf(versine(alongParallel, cosNorth)), meridian};

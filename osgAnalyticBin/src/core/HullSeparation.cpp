@@ -15,7 +15,7 @@ namespace {
 // Rounding of a mixture of two planes, in units of epsilon times its terms; doc/horizon.md, section 7.
 constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
 
-// Mixtures are of unit normals and distances in space: shorter ones are nothing but rounding.
+// Mixtures of unit normals that are shorter than this are nothing but rounding.
 constexpr double kShortest = 1e-100;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -23,7 +23,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 WedgeSearch::WedgeSearch(const Plane& first, const Plane& second, double reach) noexcept
     : _planes{first, second}, _rounding(kRounding * (std::abs(first.offset) + std::abs(second.offset) + reach)) {
-    // of which nothing can be known
+    // A plane without a unit normal proves nothing.
     if (!isUsable(first) || !isUsable(second)) _rounding = kNaN;
 }
 

@@ -136,6 +136,7 @@ TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::Ellipso
 
     const double reach = kLargestScale * std::max(std::abs(heights.low), std::abs(heights.high));
     const core::GeodeticGridBounds bounds(model, *grid, reach);
+    if (!bounds.isKnown()) return {};
     const double skirt = field ? static_cast<double>(field->getSkirtHeight()) : 0.0;
     if (!std::isfinite(skirt)) return {};
 

@@ -60,7 +60,7 @@ public:
     /// curvature, max(a, a2/b, b2/a), for every finite point and b/a from 0.01 to 100; on earth-like ellipsoids
     /// (|e2| < 0.01) within 1e-8 m up to 7000 km from the centre, within 3 epsilon of the distance beyond;
     /// tests: Ellipsoid.ReturnsToTheSamePoint*, Ellipsoid.ReturnsToTheSamePosition*.
-    /// Cost: two or three steps of four divisions near the surface, a hundred at most; two arctangents.
+    /// Cost: three or four steps of five divisions near the surface, a hundred at most; two arctangents.
     [[nodiscard]] Geodetic toGeodetic(const glm::dvec3& ecef) const noexcept;
 
     /// The largest value of n.x over the solid ellipsoid: sqrt(a2 (nx2 + ny2) + b2 nz2).

@@ -58,10 +58,14 @@ private:
 /// An eye, or the viewing direction of an orthographic camera, together with the body that hides: the ellipsoid scaled
 /// about its centre so that it lies `depth` or more below the surface. Prepared once per camera and frame.
 /// Frame: the ellipsoid's own; a globe that is moved, turned or scaled uniformly needs its eye brought there.
+/// Requires: the eye is above the drawn surface (not checked: ellipsoid and depth do not tell where that is). The
+/// occluder stands for this surface, which encloses it. For an eye between the two nearly every bin is hidden, although
+/// nothing is drawn in front of it; the caller has to know.
 /// Source: doc/horizon.md, sections 1, 3 and 4.
 class HorizonEye final {
 public:
     /// `depth` (metres, positive down) is that of the lowest surface that can be drawn: terrain and sag of its meshes.
+    /// Requires: the eye is above the drawn surface, as the class says (not checked).
     /// Returns: nullopt when nothing can be said to be hidden: eye inside the occluder, a depth of more than half of
     /// the smaller radius, values that are not finite.
     [[nodiscard]] static std::optional<HorizonEye> fromEye(const Ellipsoid& ellipsoid, double depth,
@@ -75,8 +79,8 @@ public:
                                                                  const glm::dvec3& nearPointEcef) noexcept;
 
     /// Guarantee: true only if the segment from every point of the bin, margin included, to the eye (the half line
-    /// against the viewing direction) meets the occluder;
-    /// tests: Horizon.HidesNoVisiblePoint, HullSoundness.HasNoFalseVerdict.
+    /// against the viewing direction) meets the occluder, for b/a from 0.01 to 10;
+    /// tests: Horizon.HidesNoVisiblePoint, Planets.HideNoPointThatALineOfSightReaches, HullSoundness.HasNoFalseVerdict.
     /// Requires: a bin prepared for the same ellipsoid.
     /// Cost: about 35 multiplications and two or three square roots; no trigonometry.
     [[nodiscard]] bool hides(const HorizonBin& bin) const noexcept;
