@@ -42,7 +42,8 @@ struct TileSurface {
 /// count as surface.
 /// What is higher than 50 km on the earth, or deeper than 1000 km, is taken for no terrain: not valid(). On another
 /// globe, or in another unit, the depth is in proportion to the equatorial radius, and so is the height but for 50 000
-/// units at least, where that is no more than a tenth of the radius.
+/// units at least, where that is no more than a tenth of the radius. Nor is a terrain tile valid() where its chords may
+/// sag below the centres of curvature, which only those of wide cells on flat ellipsoids do.
 /// Guarantee: on any ellipsoid in any unit, the bin holds every point of every triangle that is drawn, skirts left out,
 /// and of terrain tiles once exaggerated(), at any vertical scale from -10 to 10 that leaves no post deeper than half
 /// the smallest radius of curvature; tests: TileSurface.*, PlanetSurface.*. Terrain whose boundaries are equalised
