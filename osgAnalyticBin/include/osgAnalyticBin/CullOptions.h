@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace osgAnalyticBin {
 
@@ -110,6 +111,9 @@ struct CullOptions {
 /// is allowed.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<CullOptions> cullOptionsFromText(const std::string& text,
                                                                                    std::string& error);
+
+/// What may stand before the "=" in cullOptionsFromText(): "method", "growth" and so on.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::vector<std::string> cullOptionKeys();
 
 /// The text that cullOptionsFromText() reads back to the same options.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::string toText(const CullOptions& options);

@@ -117,21 +117,49 @@ bool applyCluster(const std::string& value, CullOptions& options, std::string& e
     return true;
 }
 
+bool applyReverse(const std::string& value, CullOptions& options, std::string& error) {
+    return applySwitch("reverse", value, options.reverse, error);
+}
+
+bool applyIndex(const std::string& value, CullOptions& options, std::string& error) {
+    return applySwitch("index", value, options.index, error);
+}
+
+bool applyInheritViewpoint(const std::string& value, CullOptions& options, std::string& error) {
+    return applySwitch("inheritviewpoint", value, options.inheritViewpoint, error);
+}
+
+struct KnownItem {
+    const char* key;
+    const char* values;
+    bool (*apply)(const std::string& value, CullOptions& options, std::string& error);
+};
+
+constexpr std::array<KnownItem, 10> kItems{{{"method", "NAME", applyMethod},
+                                            {"growth", "FACTOR", applyGrowth},
+                                            {"horizon", "METRES|declared|off", applyHorizon},
+                                            {"inheritviewpoint", "on|off", applyInheritViewpoint},
+                                            {"reverse", "on|off", applyReverse},
+                                            {"expiry", "SECONDS", applyExpiry},
+                                            {"skirts", "cracks|all", applySkirts},
+                                            {"cluster", "replace|keep", applyCluster},
+                                            {"heights", "LOW..HIGH", applyHeights},
+                                            {"index", "on|off", applyIndex}}};
+
+std::string usage() {
+    std::string text;
+    for (std::size_t i = 0; i < kItems.size(); ++i) {
+        if (i > 0) text += i + 1 < kItems.size() ? ", " : " or ";
+        text += std::string(kItems[i].key) + '=' + kItems[i].values;
+    }
+    return text;
+}
+
 bool applyItem(const std::string& key, const std::string& value, CullOptions& options, std::string& error) {
-    if (key == "method") return applyMethod(value, options, error);
-    if (key == "growth") return applyGrowth(value, options, error);
-    if (key == "horizon") return applyHorizon(value, options, error);
-    if (key == "expiry") return applyExpiry(value, options, error);
-    if (key == "reverse") return applySwitch(key, value, options.reverse, error);
-    if (key == "index") return applySwitch(key, value, options.index, error);
-    if (key == "skirts") return applySkirts(value, options, error);
-    if (key == "cluster") return applyCluster(value, options, error);
-    if (key == "heights") return applyHeights(value, options, error);
-    if (key == "inheritviewpoint") return applySwitch(key, value, options.inheritViewpoint, error);
-    error = "unknown parameter \"" + key +
-            "\" (use method=NAME, growth=FACTOR, horizon=METRES|declared|off, inheritviewpoint=on|off, "
-            "reverse=on|off, expiry=SECONDS, skirts=cracks|all, cluster=replace|keep, heights=LOW..HIGH or "
-            "index=on|off)";
+    for (const KnownItem& item : kItems) {
+        if (key == item.key) return item.apply(value, options, error);
+    }
+    error = "unknown parameter \"" + key + "\" (use " + usage() + ")";
     return false;
 }
 
@@ -163,6 +191,12 @@ HorizonUse CullOptions::effectiveHorizonUse() const noexcept {
 
 bool CullOptions::effectiveReverse() const noexcept {
     return reverse.value_or(!isForComparison(method));
+}
+
+std::vector<std::string> cullOptionKeys() {
+    std::vector<std::string> keys;
+    for (const KnownItem& item : kItems) keys.emplace_back(item.key);
+    return keys;
 }
 
 std::optional<CullOptions> cullOptionsFromText(const std::string& text, std::string& error) {

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "OptionString.h"
+
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/CullOptions.h>
@@ -10,7 +12,6 @@
 #include <osgDB/FileUtils>
 #include <osgDB/Registry>
 
-#include <algorithm>
 #include <fstream>
 #include <optional>
 #include <string>
@@ -31,22 +32,6 @@ NameAndParameters parted(const std::string& text) {
     const std::size_t open = text.rfind(".(");
     if (open == std::string::npos) return {text, {}};
     return {text.substr(0, open), text.substr(open + 2, text.size() - open - 3)};
-}
-
-// Of a plugin option string only items that are ours: other plugins read the same string.
-std::string ownItems(const std::string& optionString) {
-    std::string items;
-    std::size_t begin = 0;
-    while (begin < optionString.size()) {
-        const std::size_t end = std::min(optionString.find_first_of(" ,;", begin), optionString.size());
-        const std::string item = optionString.substr(begin, end - begin);
-        for (const char* own : {"method=", "growth=", "horizon=", "inheritviewpoint=", "reverse=", "expiry=", "skirts=",
-                                "cluster=", "heights=", "index="}) {
-            if (item.rfind(own, 0) == 0) items += item + ' ';
-        }
-        begin = end + 1;
-    }
-    return items;
 }
 
 // The database under its own name stays as it is in OSG's object cache: without bins. With them it is kept there by OSG
@@ -136,21 +121,41 @@ public:
         if (request.name.empty()) return ReadResult::FILE_NOT_HANDLED;
 
         std::string error;
-        const std::string text = (options ? ownItems(options->getOptionString()) : std::string()) + request.parameters;
-        const std::optional<osgAnalyticBin::CullOptions> cullOptions = osgAnalyticBin::cullOptionsFromText(text, error);
+        const auto shared = osgAnalyticBin::plugin::parsedOptionString(options ? options->getOptionString() : "");
         // OSG prints the message of a failed read; a second line would say no more.
+        if (!shared.nearMisses.empty()) return ReadResult("analyticbin: " + complaint(shared));
+        const std::string text = shared.items + request.parameters;
+        const std::optional<osgAnalyticBin::CullOptions> cullOptions = osgAnalyticBin::cullOptionsFromText(text, error);
         if (!cullOptions) return ReadResult("analyticbin: " + error);
         const osg::ref_ptr<osgDB::Options> uncached = withoutNodeCache(options);
         ReadResult result = osgDB::Registry::instance()->readNode(request.name, uncached.get());
         const osg::ref_ptr<osg::Node> node = result.getNode();
         if (!node) return result;
         report(osgAnalyticBin::installBins(*node, *cullOptions, request.name, options), *cullOptions, request.name);
+        // the plugins that the database needs are loaded now, and have said what they know
+        if (options) reportUnknown(osgAnalyticBin::plugin::parsedOptionString(options->getOptionString()));
         return node.get();
     }
 
 private:
     static bool isIndex(const std::string& fileName) {
         return osgDB::getLowerCaseFileExtension(fileName) == kIndexExtension;
+    }
+
+    static std::string complaint(const osgAnalyticBin::plugin::OptionString& shared) {
+        const auto& [item, meant] = shared.nearMisses.front();
+        const bool isKey = item == meant;
+        return "the option string has \"" + item + "\"; " +
+               (isKey ? "give it a value, as in " : "if it is for the bins, write ") + meant + "=...";
+    }
+
+    static void reportUnknown(const osgAnalyticBin::plugin::OptionString& shared) {
+        for (const std::string& item : shared.unknown) {
+            OSG_WARN << "analyticbin: \"" << item
+                     << "\" in the option string is known neither to osgAnalyticBin nor to another plugin that is "
+                        "loaded."
+                     << std::endl;
+        }
     }
 
     static void report(std::size_t installed, const osgAnalyticBin::CullOptions& options, const std::string& name) {
