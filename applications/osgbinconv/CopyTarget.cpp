@@ -48,6 +48,10 @@ void writeFile(const std::string& path, const std::string& extension, const osg:
     if (!isWritten || !out) throw Failure("cannot write \"" + path + "\"; make room or choose another folder");
 }
 
+std::string markerOf(const std::string& rootFile) {
+    return rootFile + ".copying";
+}
+
 /// What stands in the marker of a copy.
 std::string markOf(const std::string& sourceFile) {
     std::error_code ignored;
@@ -60,17 +64,33 @@ std::string withExtension(const std::string& name, const std::string& extension)
     return osgDB::getNameLessExtension(name) + "." + extension;
 }
 
+void requireCopyName(const std::string& rootFile, const std::string& sourceFile, bool overwrite) {
+    if (!fileTypeOf(osgDB::getLowerCaseFileExtension(rootFile))) {
+        throw Failure("output \"" + rootFile + "\"; give a file name that ends in .osgb, .osgt or .osgx");
+    }
+    const std::string folder = osgDB::getFilePath(rootFile);
+    if (!folder.empty() && !fs::is_directory(folder)) {
+        throw Failure("no folder \"" + folder + "\" for the copy; create it first");
+    }
+    std::error_code ignored;
+    if (fs::is_directory(rootFile, ignored)) {
+        throw Failure("the output \"" + rootFile + "\" is a folder; name a file that ends in .osgb, .osgt or .osgx");
+    }
+    // an interrupted copy, which the same command makes anew, leaves its marker
+    if (!fs::exists(rootFile, ignored) || fs::exists(markerOf(rootFile), ignored)) return;
+    if (fs::weakly_canonical(rootFile, ignored) == fs::weakly_canonical(sourceFile, ignored)) {
+        throw Failure("\"" + rootFile + "\" is a file of the database itself; give another folder or extension");
+    }
+    if (!overwrite) throw Failure("\"" + rootFile + "\" is there already; give --overwrite or another name");
+}
+
 CopyTarget::CopyTarget(const std::string& rootFile, const DatabaseFiles& source, const FileRecords& records,
                        bool overwrite)
     : _rootFile(rootFile),
       _folder(osgDB::getFilePath(rootFile)),
       _extension(osgDB::getLowerCaseFileExtension(rootFile)),
-      _marker(rootFile + ".copying") {
+      _marker(markerOf(rootFile)) {
     if (_folder.empty()) _folder = ".";
-    if (!fileTypeOf(_extension)) {
-        throw Failure("output \"" + rootFile + "\"; give a file name that ends in .osgb, .osgt or .osgx");
-    }
-    if (!fs::is_directory(_folder)) throw Failure("no folder \"" + _folder + "\" for the copy; create it first");
     lock(source.rootFile());
     try {
         requireFree(source, records, overwrite || _goesOn);

@@ -17,14 +17,19 @@ namespace osgbinconv {
 /// A name with another extension: "../a/b.ive" -> "../a/b.osgb".
 [[nodiscard]] std::string withExtension(const std::string& name, const std::string& extension);
 
+/// What a copy's name must be, as far as it can be told before the database is read.
+/// Throws Failure when OpenSceneGraph cannot write such files with bins in them, when there is no such folder, or when
+/// the file is there already and `overwrite` is not given.
+void requireCopyName(const std::string& rootFile, const std::string& sourceFile, bool overwrite);
+
 /// The files of a copy, beside its root file as the originals are beside theirs. Each is written under a temporary name
 /// and renamed, the root file last; what was written is removed again unless the copy is complete. While a copy is
 /// made, "earth.osgb.copying" stands beside it, locked against a second program; a copy of the same database may
 /// replace what the one has left that was killed.
 class CopyTarget final {
 public:
-    /// Throws Failure when OpenSceneGraph cannot write such files with bins in them, when one would replace a file of
-    /// the original or take the name of another one, or when one is there already and `overwrite` is not given.
+    /// Requires: requireCopyName(). Throws Failure when a file would replace one of the original or take the name of
+    /// another one, or when one is there already and `overwrite` is not given.
     CopyTarget(const std::string& rootFile, const DatabaseFiles& source, const FileRecords& records, bool overwrite);
     CopyTarget(const CopyTarget&) = delete;
     CopyTarget& operator=(const CopyTarget&) = delete;

@@ -177,6 +177,7 @@ private:
 
 void copyDatabase(const DatabaseFiles& files, const std::string& output, const CopyOptions& options,
                   const WalkOptions& walk) {
+    requireCopyName(output, files.rootFile(), options.overwrite);
     WalkOptions survey = walk;
     survey.images = Images::Checked;  // what is refused must not cost an older copy its files
     const BuiltIndex built = indexFrom(files, walkDatabase(

@@ -64,7 +64,7 @@ Settings settingsFrom(osg::ArgumentParser& arguments) {
             throw std::runtime_error(std::string("unknown option ") + arguments[i] + "; see --help");
         const std::string name = arguments[i];
         const bool isWhole = osgDB::getLowerCaseFileExtension(name) == "analyticbin";
-        settings.databases.push_back(isWhole ? name : name + ".(" + toText(*options) + ").analyticbin");
+        settings.databases.push_back({name, isWhole ? name : name + ".(" + toText(*options) + ").analyticbin"});
     }
     if (settings.databases.empty()) throw std::runtime_error("no database given; see --help");
     return settings;

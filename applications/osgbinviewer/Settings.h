@@ -13,9 +13,15 @@
 
 namespace osgAnalyticBin::viewer {
 
+/// A database on the command line.
+struct NamedDatabase {
+    std::string given;   ///< as the user wrote it
+    std::string loaded;  ///< as the pseudo-loader takes it
+};
+
 /// What the command line says beside what osgViewer itself reads from it.
 struct Settings {
-    std::vector<std::string> databases;  ///< as the pseudo-loader takes them
+    std::vector<NamedDatabase> databases;
     CullOptions cullOptions;
     std::string record;
     std::string poses;

@@ -15,7 +15,7 @@
 #include <osgAnalyticBin/viewer/SpyViewHandler.h>
 
 #include <osg/GLExtensions>
-#include <osgDB/ReadFile>
+#include <osgDB/Registry>
 #include <osgGA/AnimationPathManipulator>
 #include <osgGA/DriveManipulator>
 #include <osgGA/FirstPersonManipulator>
@@ -97,6 +97,45 @@ osg::ref_ptr<SpyViewHandler> addHandlers(osgViewer::Viewer& viewer, const viewer
     return spy;
 }
 
+// A display that cannot be opened is one line of ours; OSG's own would come before it.
+class WithoutNotes {
+public:
+    WithoutNotes() : _before(osg::getNotifyHandler()) { osg::setNotifyHandler(new Nothing); }
+    ~WithoutNotes() { osg::setNotifyHandler(_before); }
+    WithoutNotes(const WithoutNotes&) = delete;
+    WithoutNotes& operator=(const WithoutNotes&) = delete;
+
+private:
+    struct Nothing : public osg::NotifyHandler {
+        void notify(osg::NotifySeverity, const char*) override {}
+    };
+    const osg::ref_ptr<osg::NotifyHandler> _before;
+};
+
+void requireDisplay() {
+    osg::GraphicsContext::ScreenIdentifier screen;
+    screen.readDISPLAY();
+    screen.setUndefinedScreenDetailsToDefaultScreen();
+    osg::GraphicsContext::WindowingSystemInterface* const system = osg::GraphicsContext::getWindowingSystemInterface();
+    const WithoutNotes silence;
+    if (!system || system->getNumScreens(screen) == 0)
+        throw std::runtime_error("display " + screen.displayName() +
+                                 " cannot be opened; set DISPLAY, or run it under xvfb-run");
+}
+
+void realize(osgViewer::Viewer& viewer) {
+    viewer.realize();
+    if (!viewer.isRealized()) throw std::runtime_error("no window can be opened on this display");
+}
+
+// Named as the user named it.
+osg::ref_ptr<osg::Node> readDatabase(const viewer::NamedDatabase& database) {
+    osgDB::Registry& registry = *osgDB::Registry::instance();
+    osgDB::ReaderWriter::ReadResult result = registry.readNode(database.loaded, registry.getOptions());
+    if (result.validNode()) return result.getNode();
+    throw std::runtime_error(database.given + ": " + result.statusMessage());
+}
+
 int runSteps(osgViewer::Viewer& viewer, const viewer::Settings& settings, SpyViewHandler& spy) {
     std::vector<flight::CameraPose> poses;
     if (!settings.poses.empty()) {
@@ -107,7 +146,7 @@ int runSteps(osgViewer::Viewer& viewer, const viewer::Settings& settings, SpyVie
     }
     viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer.setRealizeOperation(new WithoutAnisotropy);
-    viewer.realize();
+    realize(viewer);
     viewer::Steps(viewer, spy, poses).run(settings.steps);
     return EXIT_SUCCESS;
 }
@@ -126,15 +165,13 @@ int show(osg::ArgumentParser& arguments) {
     }
     const viewer::Settings settings = viewer::settingsFrom(arguments);
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
-    for (const std::string& name : settings.databases) {
-        const osg::ref_ptr<osg::Node> database = osgDB::readRefNodeFile(name);
-        if (!database) throw std::runtime_error(name + ": cannot be read");
-        scene->addChild(database);
-    }
+    for (const viewer::NamedDatabase& database : settings.databases) scene->addChild(readDatabase(database));
+    requireDisplay();
     viewer.setSceneData(scene->getNumChildren() == 1 ? scene->getChild(0) : scene.get());
     const osg::ref_ptr<SpyViewHandler> spy = addHandlers(viewer, settings, *arguments.getApplicationUsage());
     if (!settings.steps.empty()) return runSteps(viewer, settings, *spy);
     viewer.setCameraManipulator(makeManipulator(settings, *viewer.getSceneData()));
+    realize(viewer);
     return viewer.run();
 }
 

@@ -431,6 +431,24 @@ TEST(SmallRun, BadCommandLinesAreOneLine) {
     EXPECT_FALSE(fs::exists(folder / "cow.osgb.bins.part"));
 }
 
+TEST(SmallRun, ABadOutputNameIsRefusedBeforeTheDatabaseIsRead) {
+    const TemporaryFolder folder;
+    // reading it comes to another failure
+    writeBytes(folder / "text.osgb", "no scene");
+    writeBytes(folder / "there.osgb", "somebody's");
+    const auto copyTo = [&](const std::string& output) {
+        return runBinconv("--quiet " + test::quoted(folder / "text.osgb") + ' ' + test::quoted(folder / output));
+    };
+    expectFailure(copyTo("copy.ive"), ".osgb, .osgt or .osgx");
+    expectFailure(copyTo("absent/copy.osgb"), "create it first");
+    expectFailure(copyTo("there.osgb"), "--overwrite");
+    expectFailure(copyTo("text.osgb"), "a file of the database itself");
+    fs::create_directory(folder / "folder.osgb");
+    expectFailure(copyTo("folder.osgb"), "is a folder");
+    expectFailure(copyTo("copy.osgb"), "text.osgb");
+    EXPECT_EQ(bytesOf(folder / "there.osgb"), "somebody's");
+}
+
 TEST(SmallRun, HelpNamesUnitsAndExamples) {
     const Outcome outcome = runBinconv("--help");
     EXPECT_EQ(outcome.code, 0);
