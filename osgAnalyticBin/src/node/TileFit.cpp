@@ -165,6 +165,15 @@ Tolerance toleranceFor(const AnalyticBin& bin, double sag, const core::Ellipsoid
     return {least + sag, least + kShareOfSag * sag, least + kShareOfWidth * width};
 }
 
+// Radians that the bound of a mesh may run beyond an end of the latitudes, poleward of it: in proportion to its sag
+// over the distance of the vertices from the axis. Those of a mesh within a right bin are no nearer than the bin's end.
+double runBeyond(double polewardLatitude, double sag, const core::Ellipsoid& ellipsoid) {
+    constexpr double kNearerChords = 1.25;
+    if (polewardLatitude <= 0.0) return 0.0;
+    const double nearest = ellipsoid.equatorialRadius() * std::max(std::cos(polewardLatitude), 1e-9);
+    return std::min(kNearerChords * sag / nearest, 0.5);
+}
+
 // Whether the outer bin holds the inner one but for the tolerance. `sag`: of what is known to be drawn.
 bool nearlyHolds(const AnalyticBin& outer, const AnalyticBin& inner, double sag, const core::Ellipsoid& ellipsoid) {
     const Tolerance tolerance = toleranceFor(inner, sag, ellipsoid);
@@ -176,7 +185,9 @@ bool nearlyHolds(const AnalyticBin& outer, const AnalyticBin& inner, double sag,
     };
     const core::GeodeticBin& bin = outer.bin();
     const core::Interval altitude = grown(bin.altitude(), outer.margin(), outer.margin());
-    return core::GeodeticBin(grown(bin.latitude(), angle, angle),
+    const core::Interval& latitude = bin.latitude();
+    return core::GeodeticBin(grown(latitude, std::max(angle, runBeyond(-latitude.lower, sag, ellipsoid)),
+                                   std::max(angle, runBeyond(latitude.upper, sag, ellipsoid))),
                              grown(bin.longitude(), angle / narrowest, angle / narrowest),
                              grown(altitude, tolerance.below, tolerance.above))
         .contains(inner.bin());

@@ -3,16 +3,19 @@
 
 #include "ProceduralGlobe.h"
 
+#include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
+#include <osgDB/ReadFile>
 
 #include <TileFixture.h>
 #include <TileTopology.h>
 #include <algorithm>
+#include <support/CapturedNotes.h>
 #include <support/Random.h>
 
 namespace osgAnalyticBin::globe {
@@ -67,6 +70,26 @@ std::vector<TileId> someTiles(test::Random& random, int level) {
     return tiles;
 }
 
+// Of a level, in the three rows next to each pole.
+std::vector<TileId> tilesAtThePoles(int level) {
+    const int rows = TileId{level, 0, 0}.rows();
+    std::vector<TileId> tiles;
+    for (const int y : {0, 1, 2, rows - 3, rows - 2, rows - 1})
+        for (const int x : {0, 1}) tiles.push_back({level, x, y});
+    return tiles;
+}
+
+// Pages in what is below a tile at the outermost or innermost rows, as deep as it goes.
+void followPoles(osg::Node& tile, int level, int deepest) {
+    auto* const paged = dynamic_cast<osg::PagedLOD*>(&tile);
+    if (!paged || level == deepest) return;
+    const osg::ref_ptr<osg::Node> below =
+        osgDB::readRefNodeFile(paged->getFileName(1), dynamic_cast<const osgDB::Options*>(paged->getDatabaseOptions()));
+    ASSERT_TRUE(below) << paged->getFileName(1);
+    // two of four: one in each row
+    for (const unsigned int child : {0U, 3U}) followPoles(*below->asGroup()->getChild(child), level + 1, deepest);
+}
+
 TEST(ProceduralGlobe, NeighboursShareTheirEdgesToTheLastBit) {
     const ProceduralGlobe globe(deepGlobe());
     test::Random random(8201);
@@ -96,6 +119,38 @@ TEST(ProceduralGlobe, BinsHoldEveryTriangleSkirtsIncluded) {
                 test::metresOutside(bin, test::samplesOf(drawn.surface, 4), globe.layout().ellipsoid());
             EXPECT_LE(outside, bin.margin()) << level << ' ' << tile.x << ' ' << tile.y;
         }
+    }
+}
+
+TEST(ProceduralGlobe, BinsOfCoarseTilesHoldEveryTriangle) {
+    GlobeOptions options;
+    options.levels = 9;
+    options.cells = 2;
+    const ProceduralGlobe globe(options);
+    for (int level = 0; level <= options.levels; ++level) {
+        for (const TileId& tile : tilesAtThePoles(level)) {
+            const osg::ref_ptr<osg::Node> node = nodeOf(globe, tile);
+            const AnalyticBin bin = storedBin(*node);
+            const test::DrawnTriangles drawn = test::drawnTriangles(placedMeshOf(*node));
+            const double outside =
+                test::metresOutside(bin, test::samplesOf(drawn.surface, 8), globe.layout().ellipsoid());
+            EXPECT_LE(outside, bin.margin()) << level << ' ' << tile.x << ' ' << tile.y;
+        }
+    }
+}
+
+// Tiles beside the poles were called larger than their stored bins, which hold them as the test above shows.
+TEST(ProceduralGlobe, CoarseTilesAtThePolesAreNoFalseBins) {
+    for (const int cells : {2, 4, 8}) {
+        GlobeOptions options;
+        options.levels = 9;
+        options.cells = cells;
+        const ProceduralGlobe globe(options);
+        const test::CapturedNotes notes;
+        const osg::ref_ptr<osg::Node> root = globe.root();
+        EXPECT_EQ(installBins(*root), 128U);
+        for (unsigned int tile : {0U, 7U, 15U, 16U, 112U, 127U}) followPoles(*root->asGroup()->getChild(tile), 0, 6);
+        EXPECT_EQ(notes.count("larger than the bin stored"), 0U) << cells;
     }
 }
 
