@@ -36,7 +36,7 @@ if [ -n "$(find "$out/earth.done" -newer "$build/bin/osgbindem" 2>/dev/null)" ];
 else
     step "Database of the earth"
     "$build/bin/osgbindem" /usr/share/ferret-vis/data/etopo5.cdf /usr/share/ncarg/data/cdf/trinidad.nc --scale m ft \
-        -o "$out/earth.osgb"
+        --overwrite -o "$out/earth.osgb"
 fi
 
 paths=""

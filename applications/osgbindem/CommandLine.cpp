@@ -37,6 +37,7 @@ constexpr const char* kExamples =
     "(gdal_translate -co TILED=YES).\n"
     "A run that was interrupted, killed or out of room leaves the finished parts in earth_tiles.partial; the same\n"
     "command goes on with them, another one starts anew. Remove the folder if you do not want them.\n"
+    "A finished database is replaced only with --overwrite, and brought up to date with --update.\n"
     "Under mpirun, ranks share the parts: mpirun -n 8 osgbindem world.tif -o earth.osgb, with the output in a folder\n"
     "that all of them see.\n"
     "Exit codes: 0 the database is complete, 1 an error, 130 interrupted.";
@@ -165,12 +166,15 @@ void declare(CLI::App& app, Arguments& arguments) {
     app.add_flag("--packed", settings.packed,
                  "store tiles as grids of heights, a fifth of the bytes or less;\nthey need this library's modules "
                  "where they are shown");
+    auto* overwrite = app.add_flag("--overwrite", settings.overwrite,
+                                   "replace a finished database OUTPUT; until the new one is complete it stays");
     auto* restart = app.add_flag("--restart", settings.restart, "do not go on with what an interrupted run has left");
     app.add_flag(
            "--update", settings.update,
            "build only the tiles of the database OUTPUT that differ because rasters\nwere added, replaced or left "
            "out since; all rasters have to be named")
-        ->excludes(restart);
+        ->excludes(restart)
+        ->excludes(overwrite);
     app.add_flag("--quiet", settings.quiet, "show no progress");
 }
 

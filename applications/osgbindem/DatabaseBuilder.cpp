@@ -92,6 +92,7 @@ void buildWith(const Settings& settings, const Ranks& ranks, int& done) {
     const TileLayout layout = checkedLayoutFor(settings);
     DatabaseFolder folder(settings.output);
     folder.lock();
+    if (!settings.overwrite) folder.requireNone();
     const BuildState state(folder.stateFolder());
     const std::vector<Task> plan = planFor(settings, layout);
     const std::string sources = describeSources(settings, layout);

@@ -110,6 +110,12 @@ void DatabaseFolder::lock() {
     if (fs::exists(mergeFile())) carryMergeThrough();
 }
 
+void DatabaseFolder::requireNone() const {
+    std::error_code ignored;
+    if (!fs::exists(_rootFile, ignored)) return;
+    throw Failure("\"" + _rootFile + "\" is there already; give --overwrite, --update or another name");
+}
+
 void DatabaseFolder::remove(const std::string& folder) const {
     std::error_code error;
     fs::remove_all(folder, error);

@@ -31,6 +31,9 @@ public:
     /// Locks the database against a second program, and completes an update that was cut off. Throws Failure.
     void lock();
 
+    /// Requires: locked. Throws Failure when there is a root file already: it belongs to a complete database.
+    void requireNone() const;
+
     /// Requires: locked. Removes what earlier runs have left. Throws Failure.
     void clear();
 

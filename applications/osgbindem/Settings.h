@@ -45,6 +45,8 @@ struct Settings {
     /// Build only what differs from the database that is there.
     bool update = false;
     bool quiet = false;
+    /// Whether a finished database of the output's name may be replaced.
+    bool overwrite = false;
     /// Whether to forget what an earlier run has left.
     bool restart = false;
 };

@@ -262,7 +262,7 @@ class Cases:
                 require(found.get(file) == old.get(file), f"{file} is neither old nor new")
 
     def all(self):
-        build = Case("osgbindem", self.build_command,
+        build = Case("osgbindem", lambda folder: [*self.build_command(folder), "--overwrite"],
                      lambda folder, is_old: is_old and shutil.copytree(self.old, folder, dirs_exist_ok=True),
                      lambda folder: self.whole_or_no_root(folder, (self.old, self.new)), self.trees[self.new])
         build.reference = self.new

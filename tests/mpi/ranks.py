@@ -40,7 +40,7 @@ class Ranks:
 
     def build(self, folder, *rasters):
         rasters = rasters or (self.work / "globe.asc", self.work / "inset.asc")
-        return [str(word) for word in (self.osgbindem, *rasters, "--cells", "16", "-o", folder / "earth.osgb")]
+        return [str(word) for word in (self.osgbindem, *rasters, "--cells", "16", "-o", folder / "earth.osgb", "--overwrite")]
 
     def complete(self, folder, command):
         done = succeed(command)

@@ -124,5 +124,15 @@ TEST_F(OptionString, EveryOptionIsListedAndEveryListedOneIsKnown) {
     for (const std::string& key : listed) EXPECT_NE(error.find(key + '='), std::string::npos) << error;
 }
 
+TEST_F(OptionString, TheListedDefaultOfHeightsIsTheDefault) {
+    osgDB::ReaderWriter* reader = osgDB::Registry::instance()->getReaderWriterForExtension("analyticbin");
+    ASSERT_NE(reader, nullptr);
+    const auto listed = reader->supportedOptions().find("heights=LOW..HIGH");
+    ASSERT_NE(listed, reader->supportedOptions().end());
+    const std::string low = std::to_string(static_cast<int>(CullOptions::kTerrainOnEarth.lower));
+    const std::string high = std::to_string(static_cast<int>(CullOptions::kTerrainOnEarth.upper));
+    EXPECT_NE(listed->second.find(low + ".." + high), std::string::npos) << listed->second;
+}
+
 }  // namespace
 }  // namespace osgAnalyticBin

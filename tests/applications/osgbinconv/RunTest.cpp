@@ -174,7 +174,7 @@ TEST_F(Run, InterruptedCopiesLeaveNothingAndTheSameCommandMakesThem) {
     EXPECT_EQ(outcome.code, 130);
     expectOneLine(outcome, "interrupted");
     EXPECT_TRUE(fs::is_empty(folder));
-    const Outcome rerun = binconv("--quiet " + arguments);
+    const Outcome rerun = runBinconv("--quiet " + arguments);
     EXPECT_EQ(rerun.code, 0) << rerun.text;
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 161);
 }

@@ -198,12 +198,21 @@ TEST(Database, TheDefaultDepthFitsTheRaster) {
     EXPECT_EQ(database.tiles[0].cells, 46);
 }
 
-TEST(Database, ARerunReplacesTheOldDatabase) {
+TEST(Database, ARerunReplacesTheOldDatabaseWhenItIsToldTo) {
     const TempFolder folder;
     TestRaster::globe(2.0, hills).write(folder.file("globe.tif"));
     TestRaster::globe(2.0, [](double, double) { return 5.0; }).write(folder.file("flat.tif"));
     build({folder.file("globe.tif"), "--cells", "4", "--levels", "2", "-o", folder.file("earth.osgb")});
-    build({folder.file("flat.tif"), "--cells", "4", "--levels", "1", "-o", folder.file("earth.osgb")});
+    const std::vector<std::string> rerun{folder.file("flat.tif"),    "--cells", "4", "--levels", "1", "-o",
+                                         folder.file("earth.osgb")};
+    const auto before = filesBelow(folder.file("earth_tiles"));
+    const Outcome refused = run(rerun);
+    EXPECT_EQ(refused.exitCode, 1);
+    EXPECT_NE(refused.errors.find("is there already; give --overwrite"), std::string::npos) << refused.errors;
+    EXPECT_TRUE(filesBelow(folder.file("earth_tiles")) == before);
+    std::vector<std::string> overwriting = rerun;
+    overwriting.emplace_back("--overwrite");
+    build(overwriting);
     const std::vector<std::string> expected{"earth.osgb", "earth.osgb.sources", "earth_tiles", "flat.tif", "globe.tif"};
     EXPECT_EQ(folder.names(), expected);
     const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));

@@ -143,10 +143,10 @@ TEST_F(Error, AFullDiskIsNoticedAndTheRerunCompletes) {
     expectError({good(), "--levels", "2", "--cells", "4", "-o", output()}, "cannot write", 4000);
     build({good(), "--levels", "2", "--cells", "4", "-o", output()});
     // The old database survives a failing run.
-    const Outcome outcome = run({good(), "--levels", "1", "--cells", "4", "-o", output()}, 30000);
+    const Outcome outcome = run({good(), "--levels", "1", "--cells", "4", "-o", output(), "--overwrite"}, 30000);
     EXPECT_NE(outcome.exitCode, 0);
     EXPECT_EQ(loadDatabase(output()).deepestLevel(), 2);
-    build({good(), "--levels", "1", "--cells", "4", "-o", output()});
+    build({good(), "--levels", "1", "--cells", "4", "-o", output(), "--overwrite"});
     EXPECT_EQ(loadDatabase(output()).deepestLevel(), 1);
 }
 

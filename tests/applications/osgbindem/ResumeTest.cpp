@@ -50,7 +50,6 @@ protected:
         EXPECT_TRUE(filesBelow(_folder.file("out")) == filesBelow(_folder.file("undisturbed")));
     }
 
-private:
     TempFolder _folder;
 };
 
@@ -75,6 +74,20 @@ TEST_F(Resume, PartsThatAreMissingOrDamagedAreDoneAgain) {
     std::ofstream(partial("X06_Y0/L01_X12_Y0.osgb.tmp")) << "half";
     fs::remove(partial("state/X06_Y0/L00_X6_Y0.task"));
     EXPECT_EQ(firstLine({"--threads", "3"}), "goes on: 126 of 128 parts are there");
+    expectTheSameFiles();
+}
+
+TEST_F(Resume, OverAFinishedDatabaseOnlyWhenItIsToldTo) {
+    // as a run with --overwrite leaves it: the finished database, and parts of the new one
+    fs::copy(partial(""), out("kept"), fs::copy_options::recursive);
+    (void)firstLine();
+    const auto finished = filesBelow(_folder.file("out/earth_tiles"));
+    fs::rename(out("kept"), partial(""));
+    const Outcome refused = run(command("out"));
+    EXPECT_EQ(refused.exitCode, 1);
+    EXPECT_NE(refused.errors.find("--overwrite"), std::string::npos) << refused.errors;
+    EXPECT_TRUE(filesBelow(_folder.file("out/earth_tiles")) == finished);
+    EXPECT_EQ(firstLine({"--overwrite"}), "goes on: 128 of 128 parts are there");
     expectTheSameFiles();
 }
 

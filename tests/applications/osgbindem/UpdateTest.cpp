@@ -42,7 +42,10 @@ protected:
         words.insert(words.end(), {"-o", root(name)});
         return words;
     }
-    void built(const std::string& name, const Words& words) const { build(command(name, words)); }
+    void built(const std::string& name, Words words) const {
+        words.push_back("--overwrite");
+        build(command(name, words));
+    }
     void updated(const std::string& name, Words words) const {
         words.push_back("--update");
         build(command(name, words));
