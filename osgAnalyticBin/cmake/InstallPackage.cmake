@@ -21,10 +21,14 @@ install(
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
 install(DIRECTORY include/osgAnalyticBin DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development)
 
+# The same in the build folder: find_package finds it there as soon as the folder of the programs is on PATH.
 foreach(_part IN ITEMS Core Kit Viewer)
   install(EXPORT osgAnalyticBin${_part}Targets NAMESPACE osgAnalyticBin:: DESTINATION "${_package_dir}"
           COMPONENT development)
+  export(EXPORT osgAnalyticBin${_part}Targets NAMESPACE osgAnalyticBin::
+         FILE "${CMAKE_CURRENT_BINARY_DIR}/osgAnalyticBin${_part}Targets.cmake")
 endforeach()
+configure_file(cmake/OsgTargets.cmake OsgTargets.cmake COPYONLY)
 configure_package_config_file(cmake/osgAnalyticBinConfig.cmake.in osgAnalyticBinConfig.cmake
                               INSTALL_DESTINATION "${_package_dir}")
 write_basic_package_version_file(osgAnalyticBinConfigVersion.cmake COMPATIBILITY SameMinorVersion)
