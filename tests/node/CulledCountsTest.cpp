@@ -16,7 +16,7 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-constexpr double kRadius = 6.4e6;
+constexpr double kGlobeRadius = 6.4e6;
 
 class CulledCounts : public ::testing::Test {
 protected:
@@ -42,7 +42,7 @@ protected:
     const osg::ref_ptr<osg::Group> _scene = new osg::Group;
     std::set<std::string> _visited;
     std::uint32_t _tiles = 0;
-    CullView _view = CullView::lookAt({5 * kRadius, 0, 0}, {0, 0, 0}, {0, 0, 1}, 50.0);
+    CullView _view = CullView::lookAt({5 * kGlobeRadius, 0, 0}, {0, 0, 0}, {0, 0, 1}, 50.0);
     float _pixels = 2.0F;
 };
 
@@ -63,9 +63,9 @@ TEST_F(CulledCounts, SmallFeaturesAreOutside) {
 
 TEST_F(CulledCounts, TilesBehindOccludersAreOutside) {
     const osg::ref_ptr<osg::ConvexPlanarOccluder> wall = new osg::ConvexPlanarOccluder;
-    const double x = 3 * kRadius;
+    const double x = 3 * kGlobeRadius;
     for (const auto& [y, z] : {std::pair{-0.45, -0.45}, {0.45, -0.45}, {0.45, 0.45}, {-0.45, 0.45}})
-        wall->getOccluder().add(osg::Vec3(osg::Vec3d(x, y * kRadius, z * kRadius)));
+        wall->getOccluder().add(osg::Vec3(osg::Vec3d(x, y * kGlobeRadius, z * kGlobeRadius)));
     const osg::ref_ptr<osg::OccluderNode> occluder = new osg::OccluderNode;
     occluder->setOccluder(wall);
     occluder->setCullingActive(false);

@@ -19,7 +19,7 @@ namespace osgAnalyticBin::test {
 namespace {
 
 // Counts, and goes on only where it is told to.
-class Gate : public osg::NodeCallback {
+class PruningCallback : public osg::NodeCallback {
 public:
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
         ++runs;
@@ -68,7 +68,7 @@ protected:
     }
 
     const osg::ref_ptr<osg::CoordinateSystemNode> _root = new osg::CoordinateSystemNode;
-    const osg::ref_ptr<Gate> _gate = new Gate;
+    const osg::ref_ptr<PruningCallback> _gate = new PruningCallback;
     ReachedTiles _tiles;
 };
 
@@ -89,14 +89,14 @@ TEST_P(NestedDatabaseCallback, OutlivesUpdatesAndFurtherInstallations) {
     }
 }
 
-std::string nameOf(const ::testing::TestParamInfo<Place>& suite) {
+std::string placeName(const ::testing::TestParamInfo<Place>& suite) {
     const char* const names[] = {"BehindBeforeInstalling", "BehindAfterInstalling", "InFront"};
     return names[static_cast<int>(suite.param)];
 }
 
 INSTANTIATE_TEST_SUITE_P(Places, NestedDatabaseCallback,
                          ::testing::Values(Place::BehindBeforeInstalling, Place::BehindAfterInstalling, Place::InFront),
-                         nameOf);
+                         placeName);
 
 }  // namespace
 }  // namespace osgAnalyticBin::test

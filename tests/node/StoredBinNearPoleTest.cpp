@@ -21,9 +21,9 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-const std::string kWarning = "larger than the bin stored with it or above it";
-constexpr int kPosts = 3;
-constexpr double kMargin = 0.01 / 6.4e6;  // metres, as an angle
+const std::string kTooSmall = "larger than the bin stored with it or above it";
+constexpr int kCoarsePosts = 3;
+constexpr double kMarginAngle = 0.01 / 6.4e6;  // metres, as an angle
 
 struct CoarseTile {
     osg::ref_ptr<osg::Group> node;
@@ -31,21 +31,21 @@ struct CoarseTile {
 };
 
 CoarseTile makeCoarseTile(const core::GeodeticBin& extents) {
-    std::array<osg::Vec3d, kPosts * kPosts> posts;
+    std::array<osg::Vec3d, kCoarsePosts * kCoarsePosts> posts;
     const core::Ellipsoid wgs84(6378137.0, 6356752.314245);
-    for (int j = 0; j < kPosts; ++j) {
-        for (int i = 0; i < kPosts; ++i) {
-            const double v = j / (kPosts - 1.0);
-            const double u = i / (kPosts - 1.0);
+    for (int j = 0; j < kCoarsePosts; ++j) {
+        for (int i = 0; i < kCoarsePosts; ++i) {
+            const double v = j / (kCoarsePosts - 1.0);
+            const double u = i / (kCoarsePosts - 1.0);
             const glm::dvec3 ecef = wgs84.toEcef({extents.latitude().lower + v * extents.latitude().width(),
                                                   extents.longitude().lower + u * extents.longitude().width(), 0.0});
-            posts[static_cast<std::size_t>(j * kPosts + i)] = {ecef.x, ecef.y, ecef.z};
+            posts[static_cast<std::size_t>(j * kCoarsePosts + i)] = {ecef.x, ecef.y, ecef.z};
         }
     }
     const osg::Vec3d center = posts[posts.size() / 2];
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
     core::GeodeticMeshBounds bounds(wgs84, extents.center().longitude);
-    std::array<glm::dvec3, kPosts * kPosts> drawn;
+    std::array<glm::dvec3, kCoarsePosts * kCoarsePosts> drawn;
     for (std::size_t i = 0; i < posts.size(); ++i) {
         vertices->push_back(osg::Vec3(posts[i] - center));
         const osg::Vec3d point = osg::Vec3d(vertices->back()) + center;
@@ -53,11 +53,12 @@ CoarseTile makeCoarseTile(const core::GeodeticBin& extents) {
         bounds.expandByVertex(drawn[i]);
     }
     const osg::ref_ptr<osg::DrawElementsUShort> triangles = new osg::DrawElementsUShort(GL_TRIANGLES);
-    for (unsigned int j = 0; j + 1 < kPosts; ++j) {
-        for (unsigned int i = 0; i + 1 < kPosts; ++i) {
-            const unsigned int a = j * kPosts + i;
+    for (unsigned int j = 0; j + 1 < kCoarsePosts; ++j) {
+        for (unsigned int i = 0; i + 1 < kCoarsePosts; ++i) {
+            const unsigned int a = j * kCoarsePosts + i;
             for (const std::array<unsigned int, 3>& corners :
-                 {std::array{a, a + 1U, a + kPosts + 1U}, std::array{a, a + kPosts + 1U, a + kPosts}}) {
+                 {std::array{a, a + 1U, a + kCoarsePosts + 1U},
+                  std::array{a, a + kCoarsePosts + 1U, a + kCoarsePosts}}) {
                 bounds.expandByTriangle(drawn[corners[0]], drawn[corners[1]], drawn[corners[2]]);
                 for (const unsigned int corner : corners) triangles->push_back(static_cast<GLushort>(corner));
             }
@@ -101,7 +102,7 @@ TEST(StoredBinNearPole, ThatIsRightIsNoFalseAlarm) {
             }
         }
     }
-    EXPECT_EQ(notes.count(kWarning), 0U);
+    EXPECT_EQ(notes.count(kTooSmall), 0U);
 }
 
 TEST(StoredBinNearPole, ThatEndsTooEarlyIsWidened) {
@@ -116,9 +117,9 @@ TEST(StoredBinNearPole, ThatEndsTooEarlyIsWidened) {
                     const CapturedNotes notes;
                     const AnalyticBin stored(core::GeodeticBin(range, tile.bin.longitude(), tile.bin.altitude()), 0.01);
                     const core::Interval widened = installedWith(tile, stored).bin().latitude();
-                    EXPECT_LE(widened.lower - latitude.lower, kMargin) << isNorth << ' ' << width;
-                    EXPECT_LE(latitude.upper - widened.upper, kMargin) << isNorth << ' ' << width;
-                    EXPECT_EQ(notes.count(kWarning), 1U) << isNorth << ' ' << width << ' ' << rows;
+                    EXPECT_LE(widened.lower - latitude.lower, kMarginAngle) << isNorth << ' ' << width;
+                    EXPECT_LE(latitude.upper - widened.upper, kMarginAngle) << isNorth << ' ' << width;
+                    EXPECT_EQ(notes.count(kTooSmall), 1U) << isNorth << ' ' << width << ' ' << rows;
                 }
             }
         }

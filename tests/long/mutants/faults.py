@@ -1,0 +1,161 @@
+# SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+# SPDX-License-Identifier: MIT
+"""Faults that tests have to notice. Each is a text that stands in one place of one file, what stands there instead, and
+the tests that are expected to fail then. The texts are short, so that they outlive changes round about."""
+
+from dataclasses import dataclass
+
+CORE = "osganalyticbin_core_tests"
+NODE = "osganalyticbin_node_tests"
+PLUGIN = "osganalyticbin_plugin_tests"
+
+
+@dataclass(frozen=True)
+class Fault:
+    name: str
+    file: str  # below osgAnalyticBin/
+    text: str
+    instead: str
+    target: str
+    tests: str = "*"  # as --gtest_filter takes them
+
+
+FAULTS = [
+    # those that no test noticed once
+    Fault("database callback drops what is nested in it", "src/node/DatabaseCallbacks.cpp",
+          "cull->setNestedCallback(node.getCullCallback());", "", NODE, "*NestedDatabaseCallback*"),
+    Fault("statistics count the bin's verdict alone", "src/node/BinCulling.h",
+          "traversal.count(culled ? core::Side::Outside : verdict.side,", "traversal.count(verdict.side,", NODE, "CulledCounts.*"),
+    Fault("no rounding in the edge search", "src/core/HullSeparation.cpp",
+          "kRounding = 16.0 *", "kRounding = 0.0 *", CORE),
+    Fault("no tolerance of longitudes", "src/core/GeodeticBin.cpp",
+          "kAngleTolerance = 2e-15", "kAngleTolerance = 0.0", CORE, "GeodeticBin*:TurnedBins*"),
+    Fault("terrain on earth up to 8000 m", "include/osgAnalyticBin/CullOptions.h",
+          "kTerrainOnEarth{-11500.0, 9000.0}", "kTerrainOnEarth{-11500.0, 8000.0}", NODE, "HeightsOnEarth.*"),
+    Fault("an option is not listed", "src/plugin/ReaderWriterAnalyticBin.cpp",
+          'supportsOption("skirts=cracks|all",', 'supportsOption("index=on|off",', PLUGIN, "OptionString.*"),
+
+    # the polynomial and its proof
+    Fault("no remainder", "src/core/QuadraticBin.cpp", "(mapping.thirdDerivativeBound(box) / 6.0 + margin)", "(margin)",
+          CORE, "*QuadraticBin*"),
+    Fault("no margin", "src/core/QuadraticBin.cpp", "/ 6.0 + margin)", "/ 6.0)", CORE, "*QuadraticBin*"),
+    Fault("no rounding of the polynomial", "src/core/QuadraticBin.cpp", "kRounding = 128.0 *", "kRounding = 0.0 *", CORE),
+    Fault("mixed derivatives swapped", "src/core/QuadraticBin.cpp", "hessians.uw * (e.x * e.z)", "hessians.vw * (e.x * e.z)",
+          CORE, "*QuadraticBin*"),
+    Fault("sign of a second derivative", "src/core/GeodeticMapping.cpp", "- (m + h) * frame.up;  // f_pp",
+          "+ (m + h) * frame.up;", CORE, "GeodeticMapping*:*QuadraticBin*"),
+    Fault("no extremum inside the cube", "src/core/QuadraticRange.cpp",
+          "acceptOntoBox(v) && acceptOntoBox(w)) include(range, q(u, v, w))",
+          "acceptOntoBox(v) && acceptOntoBox(w)) range.lower = range.lower", CORE, "QuadraticRange*"),
+    Fault("sign of the extremum on an edge", "src/core/QuadraticRange.cpp", "q.a - 0.5 * q.b", "q.a + 0.5 * q.b", CORE,
+          "QuadraticRange*"),
+
+    # the closed form
+    Fault("a corner of the bottom in place of one of the top", "src/core/ExactGeodeticBin.cpp",
+          "_data.topNorth = point(_data.sinNorth, _data.cosNorth, bin.altitude().upper)",
+          "_data.topNorth = point(_data.sinNorth, _data.cosNorth, bin.altitude().lower)", CORE, "ExactGeodeticBin*"),
+    Fault("no rounding of the closed form", "src/core/ExactGeodeticBin.cpp", "kRounding = 32.0 *", "kRounding = 0.0 *",
+          CORE),
+    Fault("wide bins are taken for narrow ones", "src/core/ExactGeodeticBin.cpp", ": ExactBinData::Wide", ": ExactBinData::Narrow",
+          CORE, "ExactGeodeticBin*"),
+    Fault("a sphere that is a tenth too small", "src/core/ExactGeodeticBin.cpp",
+          "(convex ? farthest : farthest + sag) * kNormalTolerance", "(convex ? farthest : farthest + sag) * 0.9", CORE,
+          "ExactGeodeticBin*"),
+
+    # kernels
+    Fault("scalar kernel: a wide bin's dip is missed", "src/core/kernels/ScalarKernels.cpp",
+          "|| (middleSlope < 0.0 && eastSlope > 0.0);", ";", CORE, "ExactGeodeticBin*:PlaneSet*"),
+    Fault("scalar kernel: no rounding of the sphere's test", "src/core/kernels/ScalarKernels.cpp",
+          "static_cast<double>(sphere.reach) + plane.rounding", "static_cast<double>(sphere.reach)", CORE),
+    Fault("scalar kernel: smallest corner of three", "src/core/kernels/ScalarKernels.cpp",
+          "smaller(alongPoint(bin.topNorth, c, nz), alongPoint(bin.bottomNorth, c, nz))", "alongPoint(bin.topNorth, c, nz)",
+          CORE, "ExactGeodeticBin*:PlaneSet*"),
+    Fault("vector kernel: no bulge above", "src/core/kernels/VectorKernels.cpp", "hn::Add(upper, bulge)", "upper", CORE,
+          "PlaneSet*"),
+    Fault("planes that are decided stay undecided", "src/core/PlaneSet.cpp", "undecided &= ~verdict.inside();", "", CORE,
+          "PlaneSet*"),
+
+    # the horizon
+    Fault("occluder higher than the deepest terrain", "src/core/Horizon.cpp", "(1.0 - depth / radius) * kDown",
+          "(1.0 + depth / radius) * kDown", CORE, "Horizon*"),
+    Fault("radii of the occluder swapped", "src/core/Horizon.cpp", "depth >= 0.0 ? smallerRadius", "depth < 0.0 ? smallerRadius",
+          CORE, "Horizon*:Planets*"),
+    Fault("a corner of the bin's latitudes swapped", "src/core/Horizon.cpp",
+          "isNorthOf(southLow, southHigh) ? southHigh : southLow", "isNorthOf(southLow, southHigh) ? southLow : southHigh",
+          CORE, "Horizon*"),
+    Fault("dip and radius beyond half a turn", "src/core/Horizon.cpp",
+          "if (!(cosC > 0.0)) return -std::numeric_limits<double>::infinity();", "", CORE, "Horizon*"),
+    Fault("the spread of a wide point", "src/core/Horizon.cpp", "if (falls && rises) return;", "", CORE, "Horizon*"),
+    Fault("the bin's margin does not spread its directions", "src/core/Horizon.cpp",
+          "_sinMargin = step / lowest * kUp;", "_sinMargin = 0.0 * step / lowest;", CORE, "Horizon*"),
+
+    # bounds of meshes
+    Fault("meshes across the date line", "src/core/GeodeticMeshBounds.cpp", "    noteCrossing(corners);\n", "", CORE,
+          "GeodeticMeshBounds*:*Planet*"),
+    Fault("chords do not run poleward", "src/core/GeodeticMeshBounds.cpp",
+          "corner.z >= 0.0 ? raiseNorth(latitude) : lowerSouth(latitude);", "(void)latitude;", CORE,
+          "GeodeticMeshBounds*:*Planet*"),
+    Fault("chords do not run poleward, quick form", "src/core/QuickMeshBounds.cpp", "runs[side] = end.guess * end.pole > 0.0;",
+          "runs[side] = false;", CORE, "QuickMeshBounds*:*Planet*"),
+    Fault("chords of grids sag half as far", "src/core/GeodeticGridBounds.cpp", "return terms.radius * versine + rounding;",
+          "return 0.5 * terms.radius * versine + rounding;", CORE, "GeodeticGridBounds*:*Planet*"),
+    Fault("cracks along southern edges", "src/core/CrackBounds.cpp", "std::max({southArc, northArc,", "std::max({0.0 * southArc, northArc,",
+          CORE, "*Crack*"),
+
+    # a node's test
+    Fault("planes that are decided stay set for the subgraph", "src/node/BinCulling.h",
+          "frustum.getCurrentMask() = undecided;", "", NODE, "AnalyticBinCullCallback*"),
+    Fault("no small features", "src/node/BinCulling.h", "isSmall(cullingSet, sphere) ||", "", NODE,
+          "AnalyticBinCullCallback*:CulledCounts*"),
+    Fault("no occluders", "src/node/BinCulling.h", "isOccluded(cullStack, nv.getNodePath(), sphere)", "false", NODE,
+          "AnalyticBinCullCallback*:CulledCounts*:Occluders*"),
+    Fault("occluders are asked again below a tile", "src/node/BinCulling.h", "const OccluderScope occluders(*cullStack);", "",
+          NODE, "Occluders*:AnalyticBinCullCallback*"),
+    Fault("holes that OSG has dropped", "src/node/Occluders.cpp", "|| !hasAllHoles(occluder)", "", NODE, "Occluders*"),
+    Fault("occluders hide what is below them", "src/node/Occluders.cpp", "isBelow(path, occluder.getNodePath()) ||", "", NODE,
+          "Occluders*"),
+    Fault("horizon in shadow passes", "src/node/Viewpoint.cpp",
+          "if (!inShadowPasses && isShadowPass(visitor)) return std::nullopt;", "(void)visitor, (void)inShadowPasses, (void)&isShadowPass;",
+          NODE, "*Shadow*:NestedCameras*"),
+    Fault("a near plane behind the horizon's eye", "src/node/Viewpoint.cpp",
+          "if (_nearReach > 0.0 && !(_nearReach < distanceTo(ellipsoid, depth, _point))) return std::nullopt;",
+          "(void)&distanceTo;", NODE, "*NearFar*:Projections*:HorizonCulling*"),
+    Fault("skirts are not in the bin", "src/node/AnalyticBinCullCallback.cpp", "altitude.lower - _skirt", "altitude.lower",
+          NODE, "*Skirt*:Border*:*Surface*"),
+    Fault("eyes of other cameras", "src/node/AnalyticBinCullCallback.cpp",
+          " && database->projection == cullStack.getProjectionMatrix()", "", NODE,
+          "NestedCameras*:CameraSettings*:*Shadow*:Projections*"),
+    Fault("planes of the frustum before", "src/node/CullTraversal.cpp",
+          "if (list[i][k] != _coefficients[4 * i + k]) return false;", "", NODE),
+    Fault("chords of flattened meshes", "src/node/AnalyticBin.cpp", "verticalScale * h.lower - unscaledSag", "verticalScale * h.lower",
+          NODE, "AnalyticBin.*:VerticalScale*:*Surface*"),
+
+    # databases
+    Fault("descendants are no higher than their tile", "src/node/TileFit.cpp",
+          "altitude.upper = std::max(altitude.upper, heights.upper);", "", NODE),
+    Fault("false stored bins are not widened", "src/node/TileFit.cpp", "if (!isWithinBin) fit.bin.expandBy(surface);", "",
+          NODE, "FalseBins*:StoredBinNearPole*"),
+    Fault("coarse meshes beside poles", "src/node/TileFit.cpp", "runBeyond(-latitude.lower, sag, ellipsoid)", "0.0", NODE,
+          "StoredBinNearPole*"),
+    Fault("a PagedLOD's stand-in is not looked at", "src/node/ShownDepth.cpp",
+          "if (isOneAwaited && children > 0) searchChild(node, children - 1, tile);", "(void)isOneAwaited;", NODE, "ShownDepth*"),
+    Fault("own expiry times are forgotten", "src/node/PagingExpiry.cpp",
+          "if (own != 0.0 && seconds != 0.0) node.setUserValue(keyOf(i), own);", "", NODE, "PagingExpiry*"),
+    Fault("culling that was suspended stays off", "src/node/MeshCulling.cpp", "node.setUserValue(kWasCulling, true);", "", NODE,
+          "SwitchedCulling*:BinInstaller*"),
+    Fault("damaged indexes are read", "src/node/BinIndexFile.cpp",
+          "if (in.number<std::uint32_t>() != checksum) throw Refusal{kDamaged};", "(void)in.number<std::uint32_t>();", NODE,
+          "BinIndex*"),
+
+    # files
+    Fault("a tile's frame is not saved", "src/serializers/AnalyticBinCullCallback.cpp",
+          "    ADD_USER_SERIALIZER(LocalToEcef);\n", "", PLUGIN, "*Serializer*"),
+    Fault("a database's request forgets its options", "src/serializers/InstallBinsCallback.cpp",
+          "    ADD_USER_SERIALIZER(Options);\n", "", PLUGIN, "*Serializer*:Plugin*"),
+    Fault("the option string wins over the file name", "src/plugin/ReaderWriterAnalyticBin.cpp",
+          "shared.items + request.parameters", "request.parameters + ' ' + shared.items", PLUGIN, "Plugin.*"),
+    Fault("a database is cached with its bins", "src/plugin/ReaderWriterAnalyticBin.cpp",
+          "~osgDB::Options::CACHE_NODES", "~osgDB::Options::CACHE_NONE", PLUGIN, "Plugin.*"),
+    Fault("keys that look like ours pass", "src/plugin/OptionString.cpp", "const std::size_t most = key.size() < 6 ? 1 : 2;",
+          "const std::size_t most = 0;", PLUGIN, "OptionString.*"),
+]

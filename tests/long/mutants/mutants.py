@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+# SPDX-License-Identifier: MIT
+"""Puts one fault after the other into a copy of the sources and says whether the tests notice it. The faults are in
+faults.py. The sources themselves stay as they are. Exit code: 0; 1 when tests fail without a fault, when a fault was
+not noticed, or when one could not be put in, because its text is gone or it does not compile; 2 for a wrong command
+line."""
+
+import argparse
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+
+from faults import FAULTS
+
+SOURCES = pathlib.Path(__file__).resolve().parents[3]
+# what a build needs; documents, data and programs are not looked at
+PARTS = ("CMakeLists.txt", "LICENSE", "osgAnalyticBin", "tests", "data")
+LONGEST_RUN = 900  # seconds; a fault may make a test loop
+
+
+def run(command, log, **more):
+    with open(log, "w", encoding="utf-8") as out:
+        try:
+            return subprocess.run(command, stdout=out, stderr=subprocess.STDOUT, check=False, **more).returncode
+        except subprocess.TimeoutExpired:
+            return -1
+
+
+def tail(log, lines=25):
+    return "\n".join(log.read_text(encoding="utf-8", errors="replace").splitlines()[-lines:])
+
+
+def copy_sources(to):
+    shutil.rmtree(to, ignore_errors=True)
+    to.mkdir(parents=True)
+    for part in PARTS:
+        source = SOURCES / part
+        if source.is_dir():
+            shutil.copytree(source, to / part, ignore=shutil.ignore_patterns("__pycache__", "build"))
+        elif source.exists():
+            shutil.copy2(source, to / part)
+
+
+class Scratch:
+    def __init__(self, work, jobs):
+        self.sources, self.build, self.jobs = work / "source", work / "build", jobs
+        self.log = work / "log.txt"
+
+    def configure(self):
+        copy_sources(self.sources)
+        options = ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", "-DCMAKE_UNITY_BUILD=OFF",
+                   "-DOSGANALYTICBIN_WERROR=OFF", "-DOSGANALYTICBIN_APPLICATIONS=OFF", "-DOSGANALYTICBIN_BENCHMARKS=OFF"]
+        return run(["cmake", "-S", self.sources, "-B", self.build, "-G", "Ninja", *options], self.log)
+
+    def make(self, target):
+        return run(["cmake", "--build", self.build, "--target", target, "--", "-j", str(self.jobs)], self.log)
+
+    def test(self, fault):
+        """Returns: whether all tests passed, and their names that did not."""
+        environment = dict(os.environ, OSG_LIBRARY_PATH=str(self.build / "lib"), RC_PARAMS="seed=20260101")
+        code = run([self.build / "bin" / fault.target, f"--gtest_filter={fault.tests}", "--gtest_brief=1"], self.log,
+                   timeout=LONGEST_RUN, env=environment, cwd=self.build)
+        text = self.log.read_text(encoding="utf-8", errors="replace")
+        if code == 0 and "[==========] 0 tests" in text:
+            return None, []
+        failed = [line.split("]", 1)[1].split()[0].rstrip(",") for line in text.splitlines() if line.startswith("[  FAILED  ]")]
+        return code == 0, sorted(set(failed))
+
+
+def put_in(fault, sources):
+    """Returns: the file and its text as it was; None when the fault's text is not there just once."""
+    file = sources / "osgAnalyticBin" / fault.file
+    if not file.exists():
+        return None
+    before = file.read_text(encoding="utf-8")
+    if before.count(fault.text) != 1:
+        return None
+    file.write_text(before.replace(fault.text, fault.instead), encoding="utf-8")
+    return file, before
+
+
+def trial(fault, scratch):
+    """Returns: a word for what became of the fault, and what there is to say of it."""
+    placed = put_in(fault, scratch.sources)
+    if not placed:
+        return "TEXT GONE", f"its text does not stand once in osgAnalyticBin/{fault.file}"
+    file, before = placed
+    try:
+        if scratch.make(fault.target) != 0:
+            return "NOT BUILT", tail(scratch.log)
+        passed, failed = scratch.test(fault)
+        if passed:
+            return "UNNOTICED", f"{fault.target} --gtest_filter='{fault.tests}' passed"
+        return "noticed", ", ".join(failed[:3]) + (f" and {len(failed) - 3} more" if len(failed) > 3 else "") or "it crashed"
+    finally:
+        file.write_text(before, encoding="utf-8")
+
+
+def sound_without_faults(scratch, faults):
+    """Whether the tests that are to fail pass as long as nothing is wrong."""
+    for target in sorted({fault.target for fault in faults}):
+        if scratch.make(target) != 0:
+            print(f"{target} cannot be built:\n{tail(scratch.log, 60)}")
+            return False
+    for fault in {(fault.target, fault.tests): fault for fault in faults}.values():
+        passed, failed = scratch.test(fault)
+        if passed is None:
+            print(f"{fault.target} has no test {fault.tests}")
+        elif not passed:
+            print(f"{fault.target} --gtest_filter='{fault.tests}' fails without a fault: {', '.join(failed)}\n{tail(scratch.log)}")
+        if not passed:
+            return False
+    return True
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--work", type=pathlib.Path, default=SOURCES / "build" / "mutants",
+                        help="scratch folder for the copy and its build (default build/mutants)")
+    parser.add_argument("--only", default="", help="the faults alone whose name or file has this")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="compilers at once (default: one per core)")
+    parser.add_argument("--list", action="store_true", help="name the faults, and do nothing")
+    arguments = parser.parse_args()
+    faults = [fault for fault in FAULTS if arguments.only in fault.name or arguments.only in fault.file]
+    if not faults:
+        parser.error(f"no fault has \"{arguments.only}\" in its name or file")
+    if arguments.list:
+        for fault in faults:
+            print(f"{fault.file}: {fault.name}")
+        return 0
+    begin = time.monotonic()
+    arguments.work.mkdir(parents=True, exist_ok=True)
+    scratch = Scratch(arguments.work.resolve(), arguments.jobs)
+    if scratch.configure() != 0:
+        print(f"the copy cannot be configured:\n{tail(scratch.log, 60)}")
+        return 1
+    if not sound_without_faults(scratch, faults):
+        return 1
+    print(f"{len(faults)} faults; without them all tests pass ({time.monotonic() - begin:.0f} s)", flush=True)
+    bad = 0
+    for fault in faults:
+        start = time.monotonic()
+        word, detail = trial(fault, scratch)
+        bad += word != "noticed"
+        print(f"{word:9} {fault.name} ({time.monotonic() - start:.0f} s): {detail}", flush=True)
+    print(f"{len(faults) - bad} of {len(faults)} noticed in {time.monotonic() - begin:.0f} s")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
