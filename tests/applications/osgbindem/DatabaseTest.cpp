@@ -203,7 +203,7 @@ TEST(Database, ARerunReplacesTheOldDatabaseWhenItIsToldTo) {
     TestRaster::globe(2.0, hills).write(folder.file("globe.tif"));
     TestRaster::globe(2.0, [](double, double) { return 5.0; }).write(folder.file("flat.tif"));
     build({folder.file("globe.tif"), "--cells", "4", "--levels", "2", "-o", folder.file("earth.osgb")});
-    const std::vector<std::string> rerun{folder.file("flat.tif"),    "--cells", "4", "--levels", "1", "-o",
+    const std::vector<std::string> rerun{folder.file("flat.tif"),  "--cells", "4", "--levels", "1", "-o",
                                          folder.file("earth.osgb")};
     const auto before = filesBelow(folder.file("earth_tiles"));
     const Outcome refused = run(rerun);
