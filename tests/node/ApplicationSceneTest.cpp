@@ -343,6 +343,21 @@ TEST(HoledGlobe, IsSeenThrough) {
     }
 }
 
+TEST(HoledGlobe, IsSeenThroughBelowTilesThatAreHigherThanTheOccluder) {
+    MeshGlobe globe(40000.0);
+    const osg::ref_ptr<osg::PagedLOD> finer =
+        makePaged(makeMeshTile(extentsDeg(0, 45, -45, 0), 40000.0), "no.osgb", 1.0f);
+    globe.tiles[19]->setRange(0, 1e9f, 1e10f);
+    globe.tiles[19]->setRange(1, 0.0f, 1e9f);
+    putBelow(*globe.tiles[19], finer);
+    CullOptions options;
+    options.heights = {30000.0, 50000.0};
+    installBins(*globe.root, options);
+    EXPECT_FALSE(globe.drawsAntipode());
+    finer->setNodeMask(0);
+    EXPECT_TRUE(globe.drawsAntipode());
+}
+
 TEST(HoledGlobe, IsNotOneWithCallbacksThatPromiseToTraverse) {
     MeshGlobe globe;
     std::set<std::string> visited;

@@ -37,8 +37,6 @@ namespace {
 
 using CoverageByFile = std::map<std::string, Coverage>;
 
-constexpr double kPi = 3.14159265358979323846;
-
 // A database's own request to install bins is settled by the installer; what it declares counts where the installer was
 // told nothing else. Returns: the options for the node and what is below it.
 CullOptions settled(osg::Node& node, const CullOptions& options) {
@@ -207,7 +205,7 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const Scoped database(_database, own);
     const Scoped paging(_paging, PagingByOptions());
     const Scoped coverage(_coverage, std::make_shared<CoverageByFile>());
-    (*_coverage)[frame().file].expect(2.0 * kPi * kPi);
+    (*_coverage)[frame().file].expectGlobe();
     (*_coverage)[frame().file].setVisited();
     const std::size_t before = _installed;
     TileFinder::apply(node);

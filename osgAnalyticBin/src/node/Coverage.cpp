@@ -31,6 +31,10 @@ double Coverage::areaOf(const core::GeodeticBin& extents) {
     return extents.empty() ? 0.0 : extents.latitude().width() * extents.longitude().width();
 }
 
+void Coverage::expectGlobe() {
+    _expected = 2.0 * kPi * kPi;
+}
+
 void Coverage::add(const core::GeodeticBin& tile) {
     if (tile.empty()) return;
     _smallest = std::min(_smallest, areaOf(tile));

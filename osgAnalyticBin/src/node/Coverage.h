@@ -18,6 +18,7 @@ public:
 
     /// What the tiles have to cover; 0: not known.
     void expect(double area) { _expected = area; }
+    void expectGlobe();
     /// Says that the file is loaded.
     void setVisited() { _isVisited = true; }
     void add(const core::GeodeticBin& tile);

@@ -90,7 +90,6 @@ private:
         const bool isAboutEye = tile && isAbout(*tile);
         if (tile && !isAboutEye && (isBesideFrustum(*tile) || tile->isColumnHiddenFrom(_eye))) return;
         if (tile && (_isDoubtful || isSeenThrough(*tile))) _hasHole = true;
-        if (tile && !isAboutEye && isAbove(*tile)) return;
         osg::PagedLOD* paged = tile ? pagedLod(node) : nullptr;
         if (paged) return searchPaged(*paged, *tile);
         if (tile) return show(*tile, node);
@@ -120,11 +119,6 @@ private:
 
     [[nodiscard]] bool isFitted(const AnalyticBinCullCallback& tile) const {
         return !tile.terrainShape() || *tile.terrainShape() == _shape;
-    }
-
-    // Whether the tile and its descendants cannot change the result.
-    [[nodiscard]] bool isAbove(const AnalyticBinCullCallback& tile) const {
-        return isFitted(tile) && tile.binLow() >= -_depth;
     }
 
     // Rays that are seen do not enter the occluder there: it lies below the ellipsoid, but it may lie above the tile.
