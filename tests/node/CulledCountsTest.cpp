@@ -61,20 +61,44 @@ TEST_F(CulledCounts, SmallFeaturesAreOutside) {
     EXPECT_EQ(counted().outside, _tiles);
 }
 
-TEST_F(CulledCounts, TilesBehindOccludersAreOutside) {
+// A wall before the middle of the globe.
+osg::ref_ptr<osg::OccluderNode> makeWall() {
     const osg::ref_ptr<osg::ConvexPlanarOccluder> wall = new osg::ConvexPlanarOccluder;
-    const double x = 3 * kGlobeRadius;
     for (const auto& [y, z] : {std::pair{-0.45, -0.45}, {0.45, -0.45}, {0.45, 0.45}, {-0.45, 0.45}})
-        wall->getOccluder().add(osg::Vec3(osg::Vec3d(x, y * kGlobeRadius, z * kGlobeRadius)));
-    const osg::ref_ptr<osg::OccluderNode> occluder = new osg::OccluderNode;
+        wall->getOccluder().add(osg::Vec3(osg::Vec3d(3.0, y, z) * kGlobeRadius));
+    osg::ref_ptr<osg::OccluderNode> occluder = new osg::OccluderNode;
     occluder->setOccluder(wall);
     occluder->setCullingActive(false);
-    _scene->addChild(occluder);
+    return occluder;
+}
+
+TEST_F(CulledCounts, TilesBehindOccludersAreOutside) {
+    _scene->addChild(makeWall());
     const BinCounts all = counted();
     _view.cullingMode |= osg::CullSettings::SHADOW_OCCLUSION_CULLING;
     const BinCounts behind = counted();
     EXPECT_GT(behind.outside, all.outside + 4);
     EXPECT_LT(behind.outside, _tiles);
+}
+
+// A fault that no test noticed.
+TEST_F(CulledCounts, WhatIsBelowAnOccluderIsNotHiddenByIt) {
+    const osg::ref_ptr<osg::OccluderNode> wall = makeWall();
+    _scene->addChild(wall);
+    (void)counted();
+    const std::set<std::string> inView = _visited;
+    _view.cullingMode |= osg::CullSettings::SHADOW_OCCLUSION_CULLING;
+    (void)counted();
+    const std::vector<AnalyticBin> bins = startTiles();
+    std::size_t hidden = 0;
+    while (hidden < bins.size() &&
+           (inView.count(std::to_string(hidden)) == 0 || _visited.count(std::to_string(hidden))))
+        ++hidden;
+    ASSERT_LT(hidden, bins.size());
+    wall->addChild(makeTile("below", bins[hidden], _visited));
+    ++_tiles;
+    (void)counted();
+    EXPECT_EQ(_visited.count("below"), 1U);
 }
 
 }  // namespace

@@ -85,7 +85,8 @@ FAULTS = [
           CORE, "Horizon*"),
     Fault("dip and radius beyond half a turn", "src/core/Horizon.cpp",
           "if (!(cosC > 0.0)) return -std::numeric_limits<double>::infinity();", "", CORE, "Horizon*"),
-    Fault("the spread of a wide point", "src/core/Horizon.cpp", "if (falls && rises) return;", "", CORE, "Horizon*"),
+    Fault("a point spreads to the nearer end of its bin", "src/core/Horizon.cpp", "std::min(radial * bin._cosSouth",
+          "std::max(radial * bin._cosSouth", CORE, "HorizonPoint*"),
     Fault("the bin's margin does not spread its directions", "src/core/Horizon.cpp",
           "_sinMargin = step / lowest * kUp;", "_sinMargin = 0.0 * step / lowest;", CORE, "Horizon*"),
 
@@ -113,7 +114,7 @@ FAULTS = [
           NODE, "Occluders*:AnalyticBinCullCallback*"),
     Fault("holes that OSG has dropped", "src/node/Occluders.cpp", "|| !hasAllHoles(occluder)", "", NODE, "Occluders*"),
     Fault("occluders hide what is below them", "src/node/Occluders.cpp", "isBelow(path, occluder.getNodePath()) ||", "", NODE,
-          "Occluders*"),
+          "Occluders*:CulledCounts*"),
     Fault("horizon in shadow passes", "src/node/Viewpoint.cpp",
           "if (!inShadowPasses && isShadowPass(visitor)) return std::nullopt;", "(void)visitor, (void)inShadowPasses, (void)&isShadowPass;",
           NODE, "*Shadow*:NestedCameras*"),
