@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// A scene in numbers: what it is built of, what happens in which frame, and what looks at it. Everything random is in
+// here, so that a part can be left out and the rest stays as it was.
+
+#pragma once
+
+#include <osgAnalyticBin/CullOptions.h>
+
+#include <osg/CullSettings>
+#include <osg/Matrixd>
+#include <osg/Vec3d>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+
+/// A tile of one of the scene's databases. Tiles of level n + 1 are a quarter of those of level n.
+struct TileKey {
+    int database = 0;
+    int level = 0;
+    int column = 0;
+    int row = 0;
+
+    [[nodiscard]] bool operator==(const TileKey& other) const;
+    /// "database.level.column.row".
+    [[nodiscard]] std::string text() const;
+    /// Whether this tile is the other one, or above it.
+    [[nodiscard]] bool holds(const TileKey& other) const;
+    [[nodiscard]] TileKey parent() const { return {database, level - 1, column / 2, row / 2}; }
+    [[nodiscard]] TileKey quarter(int i) const { return {database, level + 1, 2 * column + i % 2, 2 * row + i / 2}; }
+};
+
+enum class MeshKind {
+    Local,   ///< float vertices below a static MatrixTransform
+    Ecef,    ///< float vertices in ECEF
+    Terrain  ///< osgTerrain::TerrainTile
+};
+
+/// How the content of a file stands in it.
+enum class FileShape {
+    Tiles,  ///< a group of four tiles
+    Slots,  ///< a group of four groups with one tile each
+    Whole   ///< one tile of the same extents, without a group
+};
+
+/// A database: a globe of tiles, or a map.
+struct DatabaseSpec {
+    double equatorial = 6378137.0, polar = 6356752.3142;
+    bool isMap = false;
+    int columns = 8, rows = 4;
+    int shownColumns = 8;  ///< fewer: a region, not the whole globe
+    int levels = 1;        ///< finer ones, in files
+    int posts = 5;
+    MeshKind mesh = MeshKind::Local;
+    FileShape fileShape = FileShape::Tiles;
+    bool storesBins = false;
+    bool hasSkirts = true;
+    bool isLoaded = false;        ///< the files' content is there from the beginning
+    bool leavesArePaged = false;  ///< tiles of the last level are PagedLODs without files
+    bool requestsBins = false;    ///< bins are installed by an InstallBinsCallback, and not by installBins()
+    double relief = 3000.0;       ///< heights are within plus and minus this, metres
+    double verticalScale = 1.0;
+    double range = 3.0;  ///< tiles are refined nearer than this many of their radii
+    CullOptions options;
+    osg::Vec3d position;  ///< of the centre
+    double turn = 0.0;    ///< radians about its own axis
+    osg::Vec3d drift;     ///< metres a frame
+
+    /// Whether the tiles cover the whole globe.
+    [[nodiscard]] bool isWhole() const { return !isMap && shownColumns == columns; }
+    [[nodiscard]] double scale() const { return equatorial / 6378137.0; }
+    /// Radians; in a map, metres.
+    [[nodiscard]] double tileWidth(int level) const;
+    /// From the database's own frame to the world's in a frame.
+    [[nodiscard]] osg::Matrixd toWorld(int frame) const;
+};
+
+/// What else a scene is made of, and what happens to it.
+enum class PartKind {
+    // built in: between tiles
+    Switch,
+    Sequence,
+    Lod,
+    Paged,
+    Proxy,
+    PlainGroup,
+    Turned,    // a static transform with a tile in its own frame below it
+    Instance,  // a tile is the one of another column under a transform
+    Again,     // the whole database a second time, elsewhere
+    MovingTiles,
+    // on nodes
+    CullingOff,
+    UserCull,
+    UserUpdate,
+    DrawableBin,
+    Outline,  // polygon mode
+    // models
+    Tower,
+    Vehicle,
+    // cameras in the scene
+    Camera,
+    // events
+    Toggle,
+    SetOptions,
+    Install,
+    Uninstall,
+    SetScale,
+    Clone,
+    SaveAndLoad,
+    Expire,
+    Move
+};
+
+/// Where in the scene a part is.
+enum class Hook { Root, Globe, Tile, Own, Mesh, Geode, File, Slot };
+
+/// One ingredient or event.
+struct Part {
+    PartKind kind = PartKind::Tower;
+    int id = 0;     ///< tells parts of one scene apart
+    int frame = 0;  ///< 0: from the beginning
+    int until = 0;  ///< the frame that takes it away again; 0: none
+    Hook hook = Hook::Globe;
+    TileKey tile;
+    int variant = 0;
+    double latitude = 0.0, longitude = 0.0;  ///< radians; in a map, metres
+    double low = 0.0, high = 0.0;            ///< metres
+    double amount = 0.0;
+    osg::Matrixd view, projection;
+    CullOptions options;
+};
+
+/// What is culled for in one frame.
+struct ViewSpec {
+    bool isActive = true;
+    osg::Matrixd view, projection;
+    osg::CullSettings::CullingMode cullingMode = osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING;
+    osg::CullSettings::ComputeNearFarMode computeNearFar = osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
+    double smallFeaturePixels = 2.0;
+};
+
+struct Description {
+    std::uint64_t seed = 0;
+    std::vector<DatabaseSpec> databases;
+    std::vector<Part> parts;
+    std::vector<ViewSpec> views;  ///< one a frame; the first frame is 1
+
+    /// Radians by which the frame of a tile is turned about the axis of its database.
+    [[nodiscard]] double turnOf(const TileKey& tile) const;
+};
+
+/// The name of the node that a hook is.
+[[nodiscard]] std::string nodeName(Hook hook, const TileKey& tile);
+
+/// "a tower of 12 km on the globe, from frame 2".
+[[nodiscard]] std::string inWords(const Part& part);
+[[nodiscard]] std::string inWords(const Description& description);
+
+}  // namespace osgAnalyticBin::test

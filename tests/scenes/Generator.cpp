@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Generator.h"
+
+#include "Meshes.h"
+#include "RandomDatabases.h"
+#include "SceneViews.h"
+
+#include <algorithm>
+#include <array>
+
+namespace osgAnalyticBin::test {
+
+namespace {
+
+constexpr std::uint64_t kStream = 15;
+constexpr double kTwoPi = 6.28318530717958647692;
+
+/// Adds random parts to a description that has databases.
+class PartMaker {
+public:
+    PartMaker(Random& random, Description& description, int frames)
+        : _random(random), _description(description), _frames(frames) {}
+
+    void addAll() {
+        for (std::size_t i = 0; i < _description.databases.size(); ++i) {
+            _number = static_cast<int>(i);
+            addBetweenTiles();
+            addInstances();
+            addOnNodes();
+            addModels();
+            addEvents();
+        }
+        addCameras();
+    }
+
+private:
+    [[nodiscard]] const DatabaseSpec& database() const {
+        return _description.databases[static_cast<std::size_t>(_number)];
+    }
+    [[nodiscard]] int anyFrame() { return _random.integer(1, _frames); }
+    [[nodiscard]] int anyLevel() { return _random.chance(0.6) ? 0 : _random.integer(0, 2); }
+
+    Part& add(PartKind kind, Hook hook = Hook::Globe) {
+        Part part;
+        part.kind = kind;
+        part.id = static_cast<int>(_description.parts.size());
+        part.hook = hook;
+        part.tile = randomTile(_random, database(), _number, anyLevel());
+        _description.parts.push_back(part);
+        return _description.parts.back();
+    }
+
+    void addBetweenTiles() {
+        static constexpr std::array<PartKind, 8> kKinds{PartKind::Switch, PartKind::Sequence,   PartKind::Lod,
+                                                        PartKind::Paged,  PartKind::Proxy,      PartKind::PlainGroup,
+                                                        PartKind::Turned, PartKind::MovingTiles};
+        for (int count = _random.integer(-1, 3); count > 0; --count) {
+            const PartKind kind = _random.pick(kKinds);
+            if (kind == PartKind::MovingTiles && _random.chance(0.6)) continue;
+            Part& part = add(kind, Hook::Tile);
+            // what moves below a tile is culled with it
+            if (kind == PartKind::MovingTiles) part.tile = randomTile(_random, database(), _number, 0);
+            part.variant = kind == PartKind::Switch ? _random.integer(0, 2) : _random.integer(0, 1);
+            part.amount = _random.uniform(0.0, kTwoPi);
+            if (kind == PartKind::MovingTiles) part.amount = _random.uniform(0.0, 3000.0);
+            if (kind != PartKind::Switch) continue;
+            Part toggle = part;
+            toggle.kind = PartKind::Toggle;
+            toggle.id = static_cast<int>(_description.parts.size());
+            toggle.frame = anyFrame();
+            if (_random.chance(0.6)) _description.parts.push_back(toggle);
+        }
+    }
+
+    void addInstances() {
+        if (!_random.chance(0.2) || database().shownColumns < 2) return;
+        Part& part = add(PartKind::Instance, Hook::Tile);
+        part.tile = randomTile(_random, database(), _number, 0);
+        part.variant = (part.tile.column + _random.integer(1, database().shownColumns - 1)) % database().shownColumns;
+    }
+
+    void addOnNodes() {
+        static constexpr std::array<Hook, 5> kHooks{Hook::Tile, Hook::Own, Hook::Mesh, Hook::Geode, Hook::Globe};
+        if (_random.chance(0.25)) add(PartKind::CullingOff, _random.pick(kHooks));
+        if (_random.chance(0.25)) {
+            Part& part = add(PartKind::UserCull, _random.pick(kHooks));
+            part.variant = _random.integer(0, 3);
+            if (_random.chance(0.5)) part.frame = anyFrame();
+        }
+        if (_random.chance(0.1)) add(PartKind::UserUpdate, _random.pick(kHooks));
+        if (_random.chance(0.04)) add(PartKind::DrawableBin, Hook::Geode);
+        if (_random.chance(0.12)) {
+            static constexpr std::array<Hook, 4> kAbove{Hook::Root, Hook::Globe, Hook::Globe, Hook::Tile};
+            Part& part = add(PartKind::Outline, _random.pick(kAbove));
+            if (_random.chance(0.5)) part.frame = anyFrame();
+        }
+    }
+
+    void addModels() {
+        for (int count = _random.integer(0, 3); count > 0; --count) addModel();
+    }
+
+    void addModel() {
+        static constexpr std::array<Hook, 8> kForTowers{Hook::Globe, Hook::Root, Hook::Own,  Hook::Own,
+                                                        Hook::Mesh,  Hook::Slot, Hook::File, Hook::Geode};
+        static constexpr std::array<Hook, 5> kForVehicles{Hook::Globe, Hook::Root, Hook::Slot, Hook::Slot, Hook::File};
+        const bool isVehicle = _random.chance(0.4);
+        Part& part = add(isVehicle ? PartKind::Vehicle : PartKind::Tower,
+                         isVehicle ? _random.pick(kForVehicles) : _random.pick(kForTowers));
+        const bool isInFile = part.hook == Hook::Slot || part.hook == Hook::File;
+        if (part.hook == Hook::Slot) part.tile = randomTile(_random, database(), _number, 1 + _random.integer(0, 1));
+        if (_random.chance(0.65)) part.frame = anyFrame();
+        if (_random.chance(0.2)) part.until = part.frame + _random.integer(1, 3);
+        const Extents e = extentsOf(database(), part.tile);
+        part.latitude = e.south + _random.uniform(0.2, 0.8) * (e.north - e.south);
+        part.longitude = e.west + _random.uniform(0.2, 0.8) * (e.east - e.west);
+        const bool isBelowTile = isInFile || part.tile.level > 0;
+        const double highest = isBelowTile && part.hook != Hook::Globe && part.hook != Hook::Root
+                                   ? highestWithinBins(database())
+                                   : 6e4 * (database().isMap ? 0.1 : database().scale());
+        part.high = highest * _random.uniform(0.3, 1.0);
+        part.low = isVehicle ? part.high * _random.uniform(0.7, 0.95) : -0.5 * database().relief;
+        // a vehicle crosses a small part of its tile in the frames of a scene
+        const double across = (e.north - e.south) * (database().isMap ? 1.0 : database().polar);
+        if (isVehicle) part.amount = 0.01 * across * _random.uniform(0.0, 1.0);
+        // the heights of bins are scaled
+        const bool isFlattened = database().mesh == MeshKind::Terrain;
+        if (isBelowTile && isFlattened && part.hook != Hook::Globe && part.hook != Hook::Root)
+            _description.parts.pop_back();
+    }
+
+    void addEvents() {
+        if (_random.chance(0.15)) {
+            Part& part = add(PartKind::SetOptions);
+            part.frame = anyFrame();
+            part.options = anyOptions();
+        }
+        if (_random.chance(0.25) && database().mesh == MeshKind::Terrain) {
+            static constexpr std::array<double, 5> kScales{1.0, 3.0, 10.0, 0.3, -2.0};
+            Part& part = add(PartKind::SetScale);
+            part.frame = anyFrame();
+            part.amount = _random.pick(kScales);
+        }
+        if (_random.chance(0.15)) {
+            Part& part = add(PartKind::Expire, Hook::Tile);
+            part.frame = anyFrame();
+        }
+        if (_random.chance(0.05)) {
+            Part& part = add(PartKind::Move);
+            part.frame = anyFrame();
+            part.amount = _random.uniform(-1e6, 1e6);
+        }
+        if (_number > 0) return;
+        addEventsOnAll();
+    }
+
+    void addEventsOnAll() {
+        if (_random.chance(0.12)) {
+            Part& part = add(PartKind::Clone);
+            part.frame = anyFrame();
+            part.variant = _random.chance(0.6) ? 0 : _random.integer(1, 3);
+        }
+        if (_random.chance(0.1)) {
+            Part& part = add(PartKind::SaveAndLoad);
+            part.frame = anyFrame();
+            part.variant = _random.chance(0.2) ? 1 : 0;
+        }
+        if (_random.chance(0.25)) add(PartKind::Uninstall).frame = anyFrame();
+        if (_random.chance(0.12)) {
+            Part& part = add(PartKind::Install);
+            part.frame = anyFrame();
+            part.options = anyOptions();
+        }
+    }
+
+    // They are for all databases of the scene: what they declare has to hold for each.
+    CullOptions anyOptions() {
+        CullOptions options = randomOptions(_random, database());
+        if (_description.databases.size() > 1) {
+            if (options.horizonUse == HorizonUse::Given) options.horizonUse = HorizonUse::ByMethod;
+            options.heights = CullOptions::kTerrainOnEarth;
+        }
+        if (_random.chance(0.15)) options.method = Method::Sphere;
+        return options;
+    }
+
+    void addCameras() {
+        _number = 0;
+        if (_random.chance(0.08)) {
+            Part& part = add(PartKind::Again);
+            const glm::dvec3 at = _random.direction() * 3.0 * database().equatorial;
+            part.view = osg::Matrixd::translate(at.x, at.y, at.z);
+        }
+        if (!_random.chance(0.15)) return;
+        Part& part = add(PartKind::Camera);
+        part.variant = _random.integer(0, 8);
+        const bool isRelative = part.variant % 3 == 0;
+        const ViewSpec own = randomView(_random, _description, 1);
+        part.view = isRelative ? osg::Matrixd::rotate(_random.uniform(-0.5, 0.5), osg::Vec3d(0.1, 1.0, 0.2)) : own.view;
+        part.projection = isRelative ? osg::Matrixd::translate(_random.uniform(-1.0, 1.0), 0.0, 0.0) : own.projection;
+    }
+
+    Random& _random;
+    Description& _description;
+    const int _frames;
+    int _number = 0;
+};
+
+}  // namespace
+
+Description randomDescription(std::uint64_t seed) {
+    Random random(kStream, seed);
+    Description description;
+    description.seed = seed;
+    const int databases = random.chance(0.12) ? 2 : 1;
+    for (int i = 0; i < databases; ++i) description.databases.push_back(randomDatabase(random, i));
+    const int frames = random.integer(3, 6);
+    PartMaker(random, description, frames).addAll();
+    for (int frame = 1; frame <= frames; ++frame) description.views.push_back(randomView(random, description, frame));
+    return description;
+}
+
+}  // namespace osgAnalyticBin::test

@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Meshes.h"
+
+#include "Callbacks.h"
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osgTerrain/Layer>
+#include <osgTerrain/Locator>
+#include <osgTerrain/TerrainTile>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace osgAnalyticBin::test {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+// Skirts are as deep as this part of a tile's width.
+constexpr double kSkirtRatio = 0.2;
+
+double heightAt(const DatabaseSpec& database, double latitude, double longitude) {
+    const double unit = database.isMap ? 1e-4 : 5.0;
+    return database.relief * std::sin(unit * latitude + 1.0) * std::cos(1.7 * unit * longitude);
+}
+
+double skirtOf(const DatabaseSpec& database, int level) {
+    const double width = database.tileWidth(level) * (database.isMap ? 1.0 : database.equatorial);
+    return kSkirtRatio * width;
+}
+
+osg::ref_ptr<osg::DrawElementsUInt> surfaceOf(unsigned int posts) {
+    const osg::ref_ptr<osg::DrawElementsUInt> triangles = new osg::DrawElementsUInt(GL_TRIANGLES);
+    for (unsigned int j = 0; j + 1 < posts; ++j) {
+        for (unsigned int i = 0; i + 1 < posts; ++i) {
+            const unsigned int a = j * posts + i;
+            for (const unsigned int k : {a, a + 1, a + posts + 1, a, a + posts + 1, a + posts}) triangles->push_back(k);
+        }
+    }
+    return triangles;
+}
+
+/// The vertices around a tile, counter-clockwise, the first one again at the end.
+std::vector<unsigned int> borderOf(unsigned int posts) {
+    const unsigned int last = posts - 1;
+    std::vector<unsigned int> border;
+    for (unsigned int i = 0; i < last; ++i) border.push_back(i);
+    for (unsigned int j = 0; j < last; ++j) border.push_back(j * posts + last);
+    for (unsigned int i = last; i > 0; --i) border.push_back(last * posts + i);
+    for (unsigned int j = last; j > 0; --j) border.push_back(j * posts);
+    border.push_back(0);
+    return border;
+}
+
+/// Fills a geometry with a grid of posts, and skirts below its border.
+struct MeshMaker {
+    const DatabaseSpec& database;
+    const TileKey& tile;
+    double turn;
+    int posts;
+    osg::Vec3d origin;
+    osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    osg::ref_ptr<osg::Vec2Array> texCoords = new osg::Vec2Array;
+
+    void add(double v, double u, double lower) {
+        const Extents e = extentsOf(database, tile);
+        const double latitude = e.south + v * (e.north - e.south);
+        const double longitude = e.west + u * (e.east - e.west);
+        const double height = heightAt(database, latitude, longitude) * database.verticalScale;
+        vertices->push_back(osg::Vec3(place(database, latitude, longitude - turn, height - lower) - origin));
+        texCoords->push_back(osg::Vec2(static_cast<float>(u), static_cast<float>(v)));
+    }
+
+    osg::ref_ptr<osg::Geometry> make() {
+        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+        for (int j = 0; j < posts; ++j)
+            for (int i = 0; i < posts; ++i) add(j / (posts - 1.0), i / (posts - 1.0), 0.0);
+        geometry->setVertexArray(vertices);
+        geometry->setTexCoordArray(0, texCoords);
+        geometry->addPrimitiveSet(surfaceOf(static_cast<unsigned int>(posts)));
+        if (database.hasSkirts) addSkirt(*geometry);
+        return geometry;
+    }
+
+    void addSkirt(osg::Geometry& geometry) {
+        const osg::ref_ptr<osg::DrawElementsUInt> skirt = new osg::DrawElementsUInt(GL_QUAD_STRIP);
+        const std::vector<unsigned int> border = borderOf(static_cast<unsigned int>(posts));
+        const auto first = static_cast<unsigned int>(vertices->size());
+        const auto across = static_cast<unsigned int>(posts);
+        for (std::size_t i = 0; i + 1 < border.size(); ++i)
+            add((border[i] / across) / (posts - 1.0), (border[i] % across) / (posts - 1.0),
+                skirtOf(database, tile.level));
+        for (std::size_t i = 0; i < border.size(); ++i) {
+            skirt->push_back(border[i]);
+            skirt->push_back(first + static_cast<unsigned int>(i % (border.size() - 1)));
+        }
+        geometry.addPrimitiveSet(skirt);
+    }
+};
+
+osg::ref_ptr<osg::Node> makeTerrain(const DatabaseSpec& database, const TileKey& tile, double turn, int posts) {
+    const Extents e = extentsOf(database, tile);
+    const osg::ref_ptr<osgTerrain::Locator> locator = new osgTerrain::Locator;
+    locator->setEllipsoidModel(new osg::EllipsoidModel(database.equatorial, database.polar));
+    locator->setCoordinateSystemType(database.isMap ? osgTerrain::Locator::PROJECTED : osgTerrain::Locator::GEOCENTRIC);
+    locator->setTransformAsExtents(e.west - turn, e.south, e.east - turn, e.north);
+    const osg::ref_ptr<osg::HeightField> field = new osg::HeightField;
+    const auto count = static_cast<unsigned int>(posts);
+    field->allocate(count, count);
+    for (unsigned int j = 0; j < count; ++j) {
+        for (unsigned int i = 0; i < count; ++i) {
+            const double latitude = e.south + j * (e.north - e.south) / (count - 1);
+            const double longitude = e.west + i * (e.east - e.west) / (count - 1);
+            field->setHeight(i, j, static_cast<float>(heightAt(database, latitude, longitude)));
+        }
+    }
+    if (database.hasSkirts) field->setSkirtHeight(static_cast<float>(skirtOf(database, tile.level)));
+    const osg::ref_ptr<osgTerrain::HeightFieldLayer> layer = new osgTerrain::HeightFieldLayer(field);
+    layer->setLocator(locator);
+    const osg::ref_ptr<osgTerrain::TerrainTile> node = new osgTerrain::TerrainTile;
+    node->setLocator(locator);
+    node->setElevationLayer(layer);
+    return node;
+}
+
+/// A tapered tower of several storeys, so that there are vertices all along it.
+osg::ref_ptr<osg::Geometry> makeTower(double height, double width) {
+    constexpr int kStoreys = 6;
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    const osg::ref_ptr<osg::DrawElementsUInt> triangles = new osg::DrawElementsUInt(GL_TRIANGLES);
+    for (int storey = 0; storey <= kStoreys; ++storey) {
+        const double z = height * storey / kStoreys;
+        for (const auto& [x, y] : {std::array{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}})
+            vertices->push_back(osg::Vec3d(0.5 * x * width, 0.5 * y * width, z));
+        if (storey == 0) continue;
+        const auto below = static_cast<unsigned int>(4 * (storey - 1));
+        for (unsigned int i = 0; i < 4; ++i) {
+            const unsigned int a = below + i, b = below + (i + 1) % 4;
+            for (const unsigned int k : {a, b, b + 4, a, b + 4, a + 4}) triangles->push_back(k);
+        }
+    }
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(vertices);
+    geometry->addPrimitiveSet(triangles);
+    return geometry;
+}
+
+}  // namespace
+
+Extents extentsOf(const DatabaseSpec& database, const TileKey& tile) {
+    const double width = database.tileWidth(tile.level);
+    const double south = database.isMap ? 0.0 : -0.5 * kPi;
+    const double west = database.isMap ? 0.0 : -kPi;
+    return {south + width * tile.row, south + width * (tile.row + 1), west + width * tile.column,
+            west + width * (tile.column + 1)};
+}
+
+osg::Vec3d place(const DatabaseSpec& database, double latitude, double longitude, double altitude) {
+    if (database.isMap) return {longitude, latitude, altitude};
+    osg::Vec3d result;
+    const osg::EllipsoidModel model(database.equatorial, database.polar);
+    model.convertLatLongHeightToXYZ(latitude, longitude, altitude, result.x(), result.y(), result.z());
+    return result;
+}
+
+osg::Matrixd localFrame(const DatabaseSpec& database, double latitude, double longitude, double altitude) {
+    const osg::Vec3d at = place(database, latitude, longitude, altitude);
+    if (database.isMap) return osg::Matrixd::translate(at);
+    const osg::Vec3d up(std::cos(latitude) * std::cos(longitude), std::cos(latitude) * std::sin(longitude),
+                        std::sin(latitude));
+    const osg::Vec3d east(-std::sin(longitude), std::cos(longitude), 0.0);
+    const osg::Vec3d north = up ^ east;
+    return {east.x(), east.y(), east.z(), 0.0, north.x(), north.y(), north.z(), 0.0,
+            up.x(),   up.y(),   up.z(),   0.0, at.x(),    at.y(),    at.z(),    1.0};
+}
+
+osg::Matrixd turned(const DatabaseSpec& database, double amount) {
+    return database.isMap ? osg::Matrixd::translate(amount, 0.0, 0.0)
+                          : osg::Matrixd::rotate(amount, osg::Vec3d(0.0, 0.0, 1.0));
+}
+
+double sagOf(const DatabaseSpec& database, int level) {
+    if (database.isMap) return 0.0;
+    // the diagonal of a cell
+    const double angle = 1.4143 * database.tileWidth(level) / (database.posts - 1);
+    const double radius =
+        std::max(database.equatorial, database.polar) * std::max(1.0, database.equatorial / database.polar);
+    return 1.1 * radius * (1.0 - std::cos(std::min(0.5 * angle, 1.5)));
+}
+
+osg::ref_ptr<osg::Node> makeMesh(const DatabaseSpec& database, const TileKey& tile, double turn, int posts,
+                                 const std::string& name) {
+    if (database.mesh == MeshKind::Terrain) {
+        const osg::ref_ptr<osg::Node> terrain = makeTerrain(database, tile, turn, posts);
+        terrain->setName(name + "mesh " + tile.text());
+        return terrain;
+    }
+    const Extents e = extentsOf(database, tile);
+    const bool isLocal = database.mesh == MeshKind::Local;
+    const osg::Vec3d middle = place(database, 0.5 * (e.south + e.north), 0.5 * (e.west + e.east) - turn, 0.0);
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->setName(name + "geode " + tile.text());
+    geode->addDrawable(MeshMaker{database, tile, turn, posts, isLocal ? middle : osg::Vec3d()}.make());
+    if (!isLocal) return geode;
+    const osg::ref_ptr<osg::MatrixTransform> mesh = new osg::MatrixTransform(osg::Matrixd::translate(middle));
+    mesh->setDataVariance(osg::Object::STATIC);
+    mesh->setName(name + "mesh " + tile.text());
+    mesh->addChild(geode);
+    return mesh;
+}
+
+osg::ref_ptr<osg::Node> makeModel(const DatabaseSpec& database, const Part& part, const osg::Matrixd& toDatabase) {
+    const double height = part.high - part.low;
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->addDrawable(makeTower(height, std::max(0.05 * height, 300.0 * database.scale())));
+    const osg::Matrixd here =
+        localFrame(database, part.latitude, part.longitude, part.low) * osg::Matrixd::inverse(toDatabase);
+    const osg::ref_ptr<osg::MatrixTransform> model = new osg::MatrixTransform(here);
+    model->setName("#model " + std::to_string(part.id));
+    model->addChild(geode);
+    const bool isMoving = part.kind == PartKind::Vehicle;
+    model->setDataVariance(isMoving ? osg::Object::DYNAMIC : osg::Object::STATIC);
+    if (isMoving) model->setUpdateCallback(new Mover(here, osg::Vec3d(part.amount, 0.0, 0.0), part.frame));
+    return model;
+}
+
+}  // namespace osgAnalyticBin::test

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "Description.h"
+#include "Recorder.h"
+
+#include <optional>
+#include <string>
+
+namespace osgAnalyticBin::test {
+
+/// A database of which the documentation says that something hidden below it may be culled, though no face that is
+/// drawn hides it.
+struct AllowedOccluder {
+    int database = 0;
+    /// Metres above the ellipsoid: above it, an eye sees the database's faces from in front.
+    double highest = 0.0;
+    /// Metres: nothing of the surface is lower, chords between posts included.
+    double lowest = 0.0;
+    /// Whether it hides from every eye, and not only from those below the highest terrain.
+    bool fromEverywhere = false;
+};
+
+/// What a drawable was lost to.
+struct FalseCull {
+    std::string key;
+    osg::Vec3d pointInEyeSpace;
+    osg::Vec3d pointInPicture;
+};
+
+/// Looks for a point of a drawable that one traversal delivered and the other did not, that is in the picture and
+/// behind nothing that is drawn. Drawables smaller than `smallestPixels` do not count.
+[[nodiscard]] std::optional<FalseCull> findFalseCull(const Description& description, const Delivery& without,
+                                                     const Delivery& with, const std::vector<AllowedOccluder>& allowed,
+                                                     double smallestPixels);
+
+}  // namespace osgAnalyticBin::test

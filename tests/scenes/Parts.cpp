@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Parts.h"
+
+#include "Callbacks.h"
+#include "Meshes.h"
+
+#include <osgAnalyticBin/AnalyticBin.h>
+
+#include <osg/Geode>
+#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+#include <osg/PolygonMode>
+#include <osg/Switch>
+#include <osgTerrain/Terrain>
+#include <osgTerrain/TerrainTile>
+
+#include <string>
+
+namespace osgAnalyticBin::test {
+
+namespace {
+
+class NameFinder : public osg::NodeVisitor {
+public:
+    explicit NameFinder(const std::string& name) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _name(name) {
+        setNodeMaskOverride(~0u);
+    }
+    void apply(osg::Node& node) override {
+        if (found) return;
+        if (node.getName() == _name) {
+            found = &node;
+            return;
+        }
+        // a terrain tile that is traversed before it has its Terrain never finds it afterwards
+        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
+    }
+    osg::Node* found = nullptr;
+
+private:
+    const std::string& _name;
+};
+
+/// From the frame of a hook's children to the database's own.
+osg::Matrixd frameOf(const Part& part, const Description& description, const osg::Node& node) {
+    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
+    const osg::Matrixd turn = turned(database, description.turnOf(part.tile));
+    switch (part.hook) {
+        case Hook::Root:
+            return osg::Matrixd::inverse(database.toWorld(part.frame));
+        case Hook::Globe:
+            return {};
+        case Hook::Mesh:
+        case Hook::Geode: {
+            const osg::Transform* mesh = node.asTransform();
+            if (!mesh && node.getNumParents() > 0) mesh = node.getParent(0)->asTransform();
+            const osg::MatrixTransform* transform = mesh ? mesh->asMatrixTransform() : nullptr;
+            return transform ? transform->getMatrix() * turn : turn;
+        }
+        case Hook::File:
+            return turned(database, description.turnOf(part.tile));
+        case Hook::Slot:
+            return turned(database, description.turnOf(part.tile.parent()));
+        default:
+            return turn;
+    }
+}
+
+void addModel(const Part& part, const Description& description, osg::Node& node) {
+    osg::Group* group = node.asGroup();
+    if (!group) return;
+    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
+    group->addChild(makeModel(database, part, frameOf(part, description, node)));
+}
+
+void addCullCallback(const Part& part, osg::Node& node) {
+    const osg::ref_ptr<Passer> passer = new Passer(part.variant >= 2);
+    if (part.variant % 2 == 0) {
+        node.addCullCallback(passer);
+        return;
+    }
+    passer->setNestedCallback(node.getCullCallback());
+    node.setCullCallback(passer);
+}
+
+void storeBinOnDrawable(const Part& part, const Description& description, osg::Node& node) {
+    osg::Geode* geode = node.asGeode();
+    if (!geode || geode->getNumDrawables() == 0) return;
+    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
+    const Extents e = extentsOf(database, part.tile);
+    const double depth = database.relief + sagOf(database, part.tile.level);
+    setStoredBin(*geode->getDrawable(0),
+                 AnalyticBin(core::GeodeticBin({e.south, e.north}, {e.west, e.east}, {-depth, database.relief})));
+}
+
+void outline(osg::Node& node) {
+    node.getOrCreateStateSet()->setAttribute(
+        new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
+}
+
+void expire(osg::Node& node) {
+    auto* paged = dynamic_cast<osg::PagedLOD*>(&node);
+    osg::NodeList removed;
+    constexpr double kLate = 1e10;
+    constexpr unsigned int kLateFrame = 1000000;
+    if (paged) paged->removeExpiredChildren(kLate, kLateFrame, removed);
+}
+
+void toggle(osg::Node& node) {
+    auto* above = dynamic_cast<osg::Switch*>(&node);
+    if (!above) return;
+    for (unsigned int i = 0; i < above->getNumChildren(); ++i) above->setValue(i, !above->getValue(i));
+}
+
+std::string targetOf(const Part& part) {
+    if (part.kind == PartKind::Toggle) return "#switch " + part.tile.text();
+    if (part.kind == PartKind::Move) return "#place " + std::to_string(part.tile.database);
+    return nodeName(part.hook, part.tile);
+}
+
+}  // namespace
+
+osg::Node* findNode(osg::Node& subgraph, const std::string& name) {
+    NameFinder finder(name);
+    subgraph.accept(finder);
+    return finder.found;
+}
+
+void applyPart(const Part& part, const Description& description, osg::Node& subgraph) {
+    osg::Node* const node = findNode(subgraph, targetOf(part));
+    if (!node) return;
+    switch (part.kind) {
+        case PartKind::CullingOff:
+            return node->setCullingActive(false);
+        case PartKind::UserCull:
+            return addCullCallback(part, *node);
+        case PartKind::UserUpdate:
+            return node->addUpdateCallback(new Passer);
+        case PartKind::DrawableBin:
+            return storeBinOnDrawable(part, description, *node);
+        case PartKind::Outline:
+            return outline(*node);
+        case PartKind::Tower:
+        case PartKind::Vehicle:
+            return addModel(part, description, *node);
+        case PartKind::Toggle:
+            return toggle(*node);
+        case PartKind::SetScale:
+            if (auto* terrain = dynamic_cast<osgTerrain::Terrain*>(node))
+                terrain->setVerticalScale(static_cast<float>(part.amount));
+            return;
+        case PartKind::Expire:
+            return expire(*node);
+        case PartKind::Move:
+            if (auto* above = dynamic_cast<osg::MatrixTransform*>(node))
+                above->setMatrix(above->getMatrix() * osg::Matrixd::translate(part.amount, 0.0, 0.0));
+            return;
+        default:
+            return;
+    }
+}
+
+void removePart(const Part& part, osg::Node& scene) {
+    osg::Node* const found = findNode(scene, "#model " + std::to_string(part.id));
+    if (!found) return;
+    const osg::ref_ptr<osg::Node> model = found;
+    while (model->getNumParents() > 0) model->getParent(0)->removeChild(model.get());
+}
+
+}  // namespace osgAnalyticBin::test

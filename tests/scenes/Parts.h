@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Parts that are put on, or happen to, a scene that is built already.
+
+#pragma once
+
+#include "Description.h"
+
+#include <osg/Node>
+
+namespace osgAnalyticBin::test {
+
+/// The first node of this name, whatever is switched off. Returns: nullptr when there is none.
+[[nodiscard]] osg::Node* findNode(osg::Node& subgraph, const std::string& name);
+
+/// Does to a subgraph what a part says, if the node that it is for is in there. Parts that are for the whole scene, or
+/// built in, are left alone.
+void applyPart(const Part& part, const Description& description, osg::Node& subgraph);
+
+/// Takes a model out again.
+void removePart(const Part& part, osg::Node& scene);
+
+}  // namespace osgAnalyticBin::test

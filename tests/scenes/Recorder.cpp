@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Recorder.h"
+
+#include <osg/Camera>
+#include <osg/CoordinateSystemNode>
+#include <osg/PolygonMode>
+
+#include <cstdlib>
+
+namespace osgAnalyticBin::test {
+
+namespace {
+
+std::string pathText(const osg::NodePath& path) {
+    std::string text;
+    for (const osg::Node* node : path) {
+        if (!node->getName().empty() && node->getName().front() == '#') text += node->getName();
+    }
+    return text;
+}
+
+std::string cameraText(const osg::NodePath& path) {
+    std::string text;
+    for (osg::Node* node : path) {
+        if (node->asCamera()) text += node->getName();
+    }
+    return text;
+}
+
+// As osg::State would have it at the end of the path.
+bool isFilled(const osg::NodePath& path) {
+    bool result = true;
+    bool isFixed = false;
+    for (const osg::Node* node : path) {
+        const osg::StateSet* states = node->getStateSet();
+        const auto* pair = states ? states->getAttributePair(osg::StateAttribute::POLYGONMODE) : nullptr;
+        if (!pair || (isFixed && !(pair->second & osg::StateAttribute::PROTECTED))) continue;
+        const auto* mode = static_cast<const osg::PolygonMode*>(pair->first.get());
+        result = mode->getMode(osg::PolygonMode::FRONT) == osg::PolygonMode::FILL &&
+                 mode->getMode(osg::PolygonMode::BACK) == osg::PolygonMode::FILL;
+        isFixed = (pair->second & osg::StateAttribute::OVERRIDE) != 0;
+    }
+    return result;
+}
+
+}  // namespace
+
+void Requests::requestNodeFile(const std::string& fileName, osg::NodePath& /*path*/, float /*priority*/,
+                               const osg::FrameStamp* /*stamp*/, osg::ref_ptr<osg::Referenced>& /*request*/,
+                               const osg::Referenced* /*options*/) {
+    names.insert(fileName);
+}
+
+Recorder::Recorder() {
+    setDatabaseRequestHandler(_requests);
+}
+
+void Recorder::apply(osg::Drawable& drawable) {
+    const unsigned int before = _currentReuseRenderLeafIndex;
+    osgUtil::CullVisitor::apply(drawable);
+    if (_currentReuseRenderLeafIndex == before) return;
+    const osg::NodePath& path = getNodePath();
+    Delivered delivered{cameraText(path), &drawable, *getModelViewMatrix(), getProjectionMatrix(), isFilled(path)};
+    std::string key = pathText(path);
+    // several drawables of one node
+    while (_delivery.drawables.count(key) > 0) key += '+';
+    _delivery.drawables.emplace(key, std::move(delivered));
+}
+
+void Recorder::apply(osg::CoordinateSystemNode& node) {
+    const std::string start = "#globe ";
+    if (node.getName().rfind(start, 0) == 0)
+        _delivery.databases.push_back(
+            {std::atoi(node.getName().c_str() + start.size()), cameraText(getNodePath()), *getModelViewMatrix()});
+    osgUtil::CullVisitor::apply(node);
+}
+
+}  // namespace osgAnalyticBin::test

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// What a cull traversal delivers, and which files it asks for.
+
+#pragma once
+
+#include <osg/Drawable>
+#include <osg/Matrixd>
+#include <osg/NodeVisitor>
+#include <osgUtil/CullVisitor>
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+
+/// A drawable at one place in the scene, that a cull traversal delivered.
+struct Delivered {
+    std::string camera;  ///< names of the cameras in the scene that it is drawn by
+    osg::ref_ptr<const osg::Drawable> drawable;
+    osg::Matrixd modelView;
+    osg::ref_ptr<const osg::RefMatrix> projection;  ///< after the traversal, with its near and far planes
+    bool isFilled = true;                           ///< whether its polygons are
+};
+
+/// A database that a cull traversal met.
+struct MetDatabase {
+    int number = 0;
+    std::string camera;
+    osg::Matrixd modelView;
+};
+
+/// What one cull traversal delivers.
+struct Delivery {
+    /// By names of nodes on the way to the drawable: nodes that the kit puts in have none.
+    std::map<std::string, Delivered> drawables;
+    std::vector<MetDatabase> databases;
+};
+
+/// Notes the files that a cull traversal asks for.
+class Requests : public osg::NodeVisitor::DatabaseRequestHandler {
+public:
+    void requestNodeFile(const std::string& fileName, osg::NodePath& path, float priority, const osg::FrameStamp* stamp,
+                         osg::ref_ptr<osg::Referenced>& request, const osg::Referenced* options) override;
+
+    std::set<std::string> names;
+};
+
+/// A cull visitor that notes what it delivers.
+class Recorder : public osgUtil::CullVisitor {
+public:
+    Recorder();
+
+    using osgUtil::CullVisitor::apply;
+    void apply(osg::Drawable& drawable) override;
+    void apply(osg::CoordinateSystemNode& node) override;
+
+    [[nodiscard]] Delivery takeDelivery() { return std::exchange(_delivery, {}); }
+    [[nodiscard]] std::set<std::string> takeRequests() { return std::exchange(_requests->names, {}); }
+
+private:
+    const osg::ref_ptr<Requests> _requests = new Requests;
+    Delivery _delivery;
+};
+
+}  // namespace osgAnalyticBin::test

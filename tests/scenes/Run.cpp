@@ -1,0 +1,352 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Run.h"
+
+#include "Builder.h"
+#include "Difference.h"
+#include "Meshes.h"
+#include "Oracle.h"
+#include "Parts.h"
+#include "Recorder.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBinsCallback.h>
+
+#include <osg/CopyOp>
+#include <osg/FrameStamp>
+#include <osg/PagedLOD>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+#include <osgTerrain/TerrainTile>
+#include <osgUtil/UpdateVisitor>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <node/CullFixture.h>
+#include <sstream>
+#include <stdexcept>
+
+namespace osgAnalyticBin::test {
+
+namespace {
+
+constexpr double kFrameTime = 1.0;
+
+/// The files of the scene that runs, instead of those of a folder.
+class FilesInMemory : public osgDB::ReadFileCallback {
+public:
+    osgDB::ReaderWriter::ReadResult readNode(const std::string& name, const osgDB::Options*) override {
+        const osg::ref_ptr<osg::Node> node = builder ? builder->file(name) : nullptr;
+        return node ? osgDB::ReaderWriter::ReadResult(node.get())
+                    : osgDB::ReaderWriter::ReadResult(osgDB::ReaderWriter::ReadResult::FILE_NOT_FOUND);
+    }
+    const Builder* builder = nullptr;
+};
+
+FilesInMemory& filesInMemory() {
+    static const osg::ref_ptr<FilesInMemory> files = [] {
+        const osg::ref_ptr<FilesInMemory> made = new FilesInMemory;
+        osgDB::Registry::instance()->setReadFileCallback(made);
+        return made;
+    }();
+    return *files;
+}
+
+osg::ref_ptr<osg::Group> writtenAndRead(const osg::Node& scene, bool asText) {
+    const char* const extension = asText ? "osgt" : "osgb";
+    osgDB::ReaderWriter* const plugin = osgDB::Registry::instance()->getReaderWriterForExtension(extension);
+    if (!plugin) throw std::runtime_error("no plugin for osgb");
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("precision 17");
+    options->setPluginStringData("fileType", asText ? "Ascii" : "Binary");
+    std::stringstream stream;
+    if (!plugin->writeNode(scene, stream, options).success()) throw std::runtime_error("the scene cannot be saved");
+    osgDB::ReaderWriter::ReadResult result = plugin->readNode(stream, options);
+    osg::Node* const node = result.getNode();
+    if (!node || !node->asGroup()) throw std::runtime_error("the scene cannot be loaded");
+    return node->asGroup();
+}
+
+osg::ref_ptr<osg::Group> clonedScene(const osg::Group& scene, int variant) {
+    constexpr osg::CopyOp::CopyFlags kFlags[] = {osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_CALLBACKS,
+                                                 osg::CopyOp::SHALLOW_COPY, osg::CopyOp::DEEP_COPY_ALL,
+                                                 osg::CopyOp::DEEP_COPY_NODES};
+    return osg::clone(&scene, osg::CopyOp(kFlags[variant % 4]));
+}
+
+/// PagedLODs by the file that they page.
+class PagedFinder : public osg::NodeVisitor {
+public:
+    PagedFinder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+    void apply(osg::Node& node) override {
+        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
+    }
+    void apply(osg::PagedLOD& node) override {
+        const unsigned int count = node.getNumChildren();
+        const bool isAwaited = count < node.getNumFileNames() && !node.getFileName(count).empty();
+        if (isAwaited) waiting[node.getFileName(count)].insert(&node);
+        traverse(node);
+    }
+    std::map<std::string, std::set<osg::PagedLOD*>> waiting;
+};
+
+/// One of the two scenes, and the visitors that go with it.
+class Scene {
+public:
+    explicit Scene(const Builder& builder) : root(builder.scene()) {}
+
+    void update(osg::FrameStamp& stamp) {
+        _update->setFrameStamp(&stamp);
+        _update->setTraversalNumber(stamp.getFrameNumber());
+        root->accept(*_update);
+    }
+
+    Delivery deliver(const ViewSpec& spec, const osg::FrameStamp& stamp) {
+        CullView view;
+        view.modelView = spec.view;
+        view.projection = spec.projection;
+        view.cullingMode = spec.cullingMode;
+        view.computeNearFar = spec.computeNearFar;
+        _recorder->setSmallFeatureCullingPixelSize(static_cast<float>(spec.smallFeaturePixels));
+        root->getBound();
+        cull(*root, view, *_recorder, stamp.getFrameNumber(), stamp.getReferenceTime());
+        return _recorder->takeDelivery();
+    }
+
+    [[nodiscard]] std::set<std::string> takeRequests() { return _recorder->takeRequests(); }
+
+    [[nodiscard]] std::map<std::string, std::set<osg::PagedLOD*>> waiting() {
+        PagedFinder finder;
+        root->accept(finder);
+        return finder.waiting;
+    }
+
+    osg::ref_ptr<osg::Group> root;
+
+private:
+    const osg::ref_ptr<Recorder> _recorder = new Recorder;
+    const osg::ref_ptr<osgUtil::UpdateVisitor> _update = new osgUtil::UpdateVisitor;
+};
+
+/// The run of one description.
+class Runner {
+public:
+    Runner(const Description& description, RunTotals& totals)
+        : _description(description), _builder(description), _without(_builder), _with(_builder), _totals(totals) {
+        filesInMemory().builder = &_builder;
+    }
+    ~Runner() { filesInMemory().builder = nullptr; }
+    Runner(const Runner&) = delete;
+    Runner& operator=(const Runner&) = delete;
+
+    std::optional<Failure> run() {
+        installAll(nullptr);
+        for (std::size_t i = 0; i < _description.views.size(); ++i) {
+            if (auto failure = runFrame(static_cast<int>(i) + 1, _description.views[i])) return failure;
+        }
+        return std::nullopt;
+    }
+
+private:
+    [[nodiscard]] osg::Node* globe(const Scene& scene, int number) const {
+        return findNode(*scene.root, nodeName(Hook::Globe, {number, 0, 0, 0}));
+    }
+
+    void installAll(const CullOptions* options) {
+        for (std::size_t i = 0; i < _description.databases.size(); ++i) {
+            const DatabaseSpec& spec = _description.databases[i];
+            osg::Node* const node = globe(_with, static_cast<int>(i));
+            if (!node) continue;
+            if (!options && spec.requestsBins)
+                node->addUpdateCallback(new InstallBinsCallback(spec.options));
+            else
+                (void)installBins(*node, options ? *options : spec.options);
+        }
+    }
+
+    std::optional<Failure> runFrame(int frame, const ViewSpec& view) {
+        _stamp->setFrameNumber(static_cast<unsigned int>(frame));
+        _stamp->setReferenceTime(frame * kFrameTime);
+        _stamp->setSimulationTime(frame * kFrameTime);
+        for (const Part& part : _description.parts) {
+            if (part.until == frame) remove(part);
+            if (part.frame != frame) continue;
+            if (auto failure = happen(part)) return failure;
+        }
+        _without.update(*_stamp);
+        _with.update(*_stamp);
+        if (!view.isActive) return std::nullopt;
+        const Delivery without = _without.deliver(view, *_stamp);
+        const Delivery with = _with.deliver(view, *_stamp);
+        count(without, with);
+        const bool isSmallCulled = (view.cullingMode & osg::CullSettings::SMALL_FEATURE_CULLING) != 0;
+        const auto found = findFalseCull(_description, without, with, allowed(frame),
+                                         isSmallCulled ? 4.0 * view.smallFeaturePixels : 0.0);
+        if (found) return failed(*found, frame);
+        page();
+        return std::nullopt;
+    }
+
+    static Failure failed(const FalseCull& found, int frame) {
+        std::ostringstream text;
+        text.precision(10);
+        text << "lost: " << found.key << ", a visible point is at " << found.pointInPicture.x() << " "
+             << found.pointInPicture.y() << " in the picture, " << found.pointInEyeSpace.length() << " m from the eye";
+        return {Failure::Culled, frame, text.str()};
+    }
+
+    void count(const Delivery& without, const Delivery& with) {
+        _totals.delivered += without.drawables.size();
+        for (const auto& [key, delivered] : without.drawables)
+            if (with.drawables.count(key) == 0) ++_totals.lost;
+    }
+
+    void remove(const Part& part) {
+        removePart(part, *_without.root);
+        removePart(part, *_with.root);
+    }
+
+    std::optional<Failure> happen(const Part& part) {
+        switch (part.kind) {
+            case PartKind::SetOptions:
+                (void)setCullOptions(*_with.root, part.options);
+                break;
+            case PartKind::Install:
+                installAll(&part.options);
+                break;
+            case PartKind::Uninstall:
+                return uninstall(part);
+            case PartKind::Clone:
+                _without.root = clonedScene(*_without.root, part.variant);
+                _with.root = clonedScene(*_with.root, part.variant);
+                break;
+            case PartKind::SaveAndLoad:
+                _without.root = writtenAndRead(*_without.root, part.variant % 2 == 1);
+                _with.root = writtenAndRead(*_with.root, part.variant % 2 == 1);
+                _wasSaved = true;
+                break;
+            default:
+                applyPart(part, _description, *_without.root);
+                applyPart(part, _description, *_with.root);
+        }
+        return std::nullopt;
+    }
+
+    std::optional<Failure> uninstall(const Part& part) {
+        CullOptions options = part.options;
+        options.method = Method::Sphere;
+        installAll(&options);
+        removeRequests();
+        // README: "A stored scene with bins installed (...) keeps OSG's culling switched off on tiles."
+        if (_wasSaved) return std::nullopt;
+        ++_totals.undone;
+        const auto difference = firstDifference(*_without.root, *_with.root, false);
+        if (!difference) return std::nullopt;
+        return Failure{Failure::NotUndone, part.frame, "not undone: " + *difference};
+    }
+
+    // The application's own wish for bins.
+    void removeRequests() {
+        for (std::size_t i = 0; i < _description.databases.size(); ++i) {
+            osg::Node* const node = globe(_with, static_cast<int>(i));
+            if (!node) continue;
+            osg::ref_ptr<osg::Callback> callback = node->getUpdateCallback();
+            while (callback && !dynamic_cast<InstallBinsCallback*>(callback.get()))
+                callback = callback->getNestedCallback();
+            if (callback) node->removeUpdateCallback(callback.get());
+        }
+    }
+
+    // Both scenes get what either of them has asked for.
+    void page() {
+        std::set<std::string> names = _without.takeRequests();
+        for (const std::string& name : _with.takeRequests()) names.insert(name);
+        auto without = _without.waiting();
+        auto with = _with.waiting();
+        for (const std::string& name : names) {
+            for (osg::PagedLOD* paged : without[name]) load(*paged, name);
+            for (osg::PagedLOD* paged : with[name]) load(*paged, name);
+        }
+    }
+
+    static void load(osg::PagedLOD& paged, const std::string& name) {
+        const osg::ref_ptr<osg::Node> content =
+            osgDB::readRefNodeFile(name, dynamic_cast<osgDB::Options*>(paged.getDatabaseOptions()));
+        if (!content) throw std::runtime_error("no content for " + name);
+        paged.addChild(content);
+    }
+
+    [[nodiscard]] std::vector<AllowedOccluder> allowed(int frame) const;
+    [[nodiscard]] double largestScale(const DatabaseSpec& database, int number) const;
+    [[nodiscard]] bool hasHole(int number, int frame) const;
+    [[nodiscard]] bool holdsAllSkirts(const DatabaseSpec& database) const;
+
+    const Description& _description;
+    const Builder _builder;
+    Scene _without, _with;
+    RunTotals& _totals;
+    const osg::ref_ptr<osg::FrameStamp> _stamp = new osg::FrameStamp;
+    bool _wasSaved = false;
+};
+
+double Runner::largestScale(const DatabaseSpec& database, int number) const {
+    double largest = std::abs(database.verticalScale);
+    for (const Part& part : _description.parts) {
+        if (part.kind == PartKind::SetScale && part.tile.database == number)
+            largest = std::max(largest, std::abs(part.amount));
+    }
+    return std::max(largest, 1.0);
+}
+
+// Whether the application has taken tiles away.
+bool Runner::hasHole(int number, int frame) const {
+    return std::any_of(_description.parts.begin(), _description.parts.end(), [&](const Part& part) {
+        const bool isOpened = part.kind == PartKind::Switch && part.variant == 2;
+        return isOpened && part.tile.database == number && part.frame <= frame;
+    });
+}
+
+bool Runner::holdsAllSkirts(const DatabaseSpec& database) const {
+    return database.options.skirts == SkirtUse::All &&
+           std::all_of(_description.parts.begin(), _description.parts.end(), [](const Part& part) {
+               const bool setsOptions = part.kind == PartKind::SetOptions || part.kind == PartKind::Install;
+               return !setsOptions || part.options.skirts == SkirtUse::All;
+           });
+}
+
+// What the documentation excludes. README, Limits:
+// - "Bins hold of skirts what an eye above the terrain can see through cracks. Where the camera may go below it:
+//   skirts=all." and "The horizon needs (...) a near plane that does not cut visible terrain away": lines of sight that
+//   begin below the highest terrain.
+// - "The horizon needs a database that covers the whole globe": tiles that the application has switched off.
+// - "Through the slit between tiles of different levels a fraction of a pixel at the picture's border may differ",
+//   doc/databases.md: "up to cracks, which skirts cover": databases without skirts.
+// - "What moves by itself below a tile (...) is culled with the tile: let it stay within its bin", "Transforms between
+//   the CoordinateSystemNode and a tile must not change", "With OccluderNodes in the scene, OSG itself may cull visible
+//   nodes beside tiles": the generator makes no such scenes.
+std::vector<AllowedOccluder> Runner::allowed(int frame) const {
+    std::vector<AllowedOccluder> result;
+    for (std::size_t i = 0; i < _description.databases.size(); ++i) {
+        const DatabaseSpec& database = _description.databases[i];
+        if (database.isMap) continue;
+        const int number = static_cast<int>(i);
+        const double relief = database.relief * largestScale(database, number);
+        const bool fromEverywhere = hasHole(number, frame) || (!database.hasSkirts && database.levels > 0);
+        if (!fromEverywhere && holdsAllSkirts(database)) continue;
+        result.push_back({number, relief, -relief - sagOf(database, 0) - 1.0, fromEverywhere});
+    }
+    return result;
+}
+
+}  // namespace
+
+std::optional<Failure> run(const Description& description, RunTotals& totals) {
+    try {
+        return Runner(description, totals).run();
+    } catch (const std::exception& error) {
+        return Failure{Failure::Thrown, 0, std::string("exception: ") + error.what()};
+    }
+}
+
+}  // namespace osgAnalyticBin::test

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "Description.h"
+
+#include <optional>
+#include <string>
+
+namespace osgAnalyticBin::test {
+
+struct Failure {
+    enum Kind { Culled, NotUndone, Thrown };
+    Kind kind = Culled;
+    int frame = 0;
+    std::string text;
+};
+
+/// What a run came across, to tell that it looked at something.
+struct RunTotals {
+    std::size_t delivered = 0;  ///< drawables, without bins
+    std::size_t lost = 0;       ///< of them, not delivered with bins
+    std::size_t undone = 0;     ///< comparisons after bins were taken off
+};
+
+/// Builds the scene twice, installs bins on one, and runs the frames of both: events, update and cull traversals,
+/// paging. Returns: the first fault.
+[[nodiscard]] std::optional<Failure> run(const Description& description, RunTotals& totals);
+
+}  // namespace osgAnalyticBin::test

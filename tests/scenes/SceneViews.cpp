@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "SceneViews.h"
+
+#include "Meshes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace osgAnalyticBin::test {
+
+namespace {
+
+/// Where to look from and at, in the world.
+struct Look {
+    osg::Vec3d eye, center;
+    double altitude;  // above all terrain
+};
+
+double sizeOf(const DatabaseSpec& database) {
+    return database.isMap ? 64000.0 : database.equatorial;
+}
+
+double highestOf(const DatabaseSpec& database) {
+    return database.relief * std::max(1.0, std::abs(database.verticalScale)) + 1.0;
+}
+
+osg::Vec3d vectorOf(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+std::vector<const Part*> partsOf(const Description& description, bool areModels, int frame) {
+    std::vector<const Part*> parts;
+    for (const Part& part : description.parts) {
+        const bool isModel = part.kind == PartKind::Tower || part.kind == PartKind::Vehicle;
+        if (isModel == areModels && part.frame <= frame) parts.push_back(&part);
+    }
+    return parts;
+}
+
+const Part* pickPart(Random& random, const std::vector<const Part*>& parts) {
+    return parts.empty() ? nullptr
+                         : parts[static_cast<std::size_t>(random.integer(0, static_cast<int>(parts.size()) - 1))];
+}
+
+/// At the upper part of a model, from a little above to far away.
+Look lookAtModel(Random& random, const Description& description, const Part& part, int frame) {
+    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
+    const int frames = part.kind == PartKind::Vehicle ? frame - part.frame : 0;
+    const double altitude = part.low + random.uniform(0.3, 1.0) * (part.high - part.low);
+    const osg::Matrixd frameThere =
+        localFrame(database, part.latitude, part.longitude, altitude) * database.toWorld(frame);
+    const osg::Vec3d center = osg::Vec3d(part.amount * frames, 0.0, 0.0) * frameThere;
+    const double bearing = random.uniform(0.0, 6.28);
+    const double distance = random.logUniform(0.5, 300.0) * (part.high - part.low);
+    const double slope = random.uniform(-0.1, 0.5);
+    const double drop = database.isMap ? 0.0 : 0.5 * distance * distance / database.equatorial;
+    // from the target; not below the terrain, if possible
+    const double up = std::max(slope * distance, highestOf(database) - altitude + 10.0 + drop);
+    const osg::Vec3d eye =
+        osg::Vec3d(distance * std::cos(bearing) + part.amount * frames, distance * std::sin(bearing), up) * frameThere;
+    return {eye, center, std::max(1.0, altitude + up - highestOf(database))};
+}
+
+/// At a tile, from above the database.
+Look lookAtTile(Random& random, const Description& description, const TileKey& tile, int frame) {
+    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(tile.database)];
+    const Extents e = extentsOf(database, tile);
+    const double latitude = e.south + random.uniform() * (e.north - e.south);
+    const double longitude = e.west + random.uniform() * (e.east - e.west);
+    const double size = sizeOf(database);
+    const double altitude = random.logUniform(1e-6, 3.0) * size;
+    const double away = std::min(1.5, std::sqrt(2.0 * altitude / size) * random.uniform(0.0, 1.5));
+    const double bearing = random.uniform(0.0, 6.28);
+    const double unit = database.isMap ? size : 1.0;
+    const osg::Vec3d center = place(database, latitude, longitude, database.relief * random.uniform(-1.0, 1.0));
+    const double eyeLatitude = latitude + unit * away * std::cos(bearing);
+    const double eyeLongitude =
+        longitude + unit * away * std::sin(bearing) / (database.isMap ? 1.0 : std::max(0.1, std::cos(latitude)));
+    const osg::Vec3d eye = place(database, eyeLatitude, eyeLongitude, highestOf(database) + altitude);
+    const osg::Matrixd world = database.toWorld(frame);
+    return {eye * world, center * world, altitude};
+}
+
+Look anyLook(Random& random, const Description& description, int frame) {
+    const double kind = random.uniform();
+    if (kind < 0.4) {
+        if (const Part* model = pickPart(random, partsOf(description, true, frame)))
+            return lookAtModel(random, description, *model, frame);
+    }
+    const int number = random.integer(0, static_cast<int>(description.databases.size()) - 1);
+    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(number)];
+    TileKey tile{number, 0, random.integer(0, database.shownColumns - 1), random.integer(0, database.rows - 1)};
+    if (random.chance(0.6)) {
+        if (const Part* part = pickPart(random, partsOf(description, false, frame))) {
+            tile = part->tile;
+            if (part->kind == PartKind::Instance && random.chance(0.5)) tile.column = part->variant;
+        }
+    }
+    Look look = lookAtTile(random, description, tile, frame);
+    const double size = sizeOf(database);
+    if (random.chance(0.07)) look.eye += vectorOf(random.direction()) * random.logUniform(0.01, 1.0) * size;
+    if (random.chance(0.1)) look.center += vectorOf(random.direction()) * random.logUniform(0.001, 1.0) * size;
+    return look;
+}
+
+osg::Matrixd anyProjection(Random& random, const Look& look, double farthest) {
+    const double distance = (look.center - look.eye).length();
+    const double nearest = 0.01 * std::min(look.altitude, distance);
+    if (random.chance(0.06)) {
+        const double half = distance * random.logUniform(0.01, 2.0);
+        return osg::Matrixd::ortho(-half, half, -half, half, nearest, farthest);
+    }
+    const double half = nearest * std::tan(0.5 * osg::DegreesToRadians(random.logUniform(0.5, 110.0)));
+    double x = 0.0, y = 0.0;
+    if (random.chance(0.15)) {
+        x = half * random.uniform(-2.0, 2.0);
+        y = half * random.uniform(-2.0, 2.0);
+    }
+    const double aspect = random.uniform(0.5, 2.0);
+    return osg::Matrixd::frustum(x - half * aspect, x + half * aspect, y - half, y + half, nearest, farthest);
+}
+
+}  // namespace
+
+ViewSpec randomView(Random& random, const Description& description, int frame) {
+    const Look look = anyLook(random, description, frame);
+    double farthest = 0.0;
+    for (const DatabaseSpec& database : description.databases)
+        farthest =
+            std::max(farthest, (look.eye - osg::Vec3d() * database.toWorld(frame)).length() + 2.0 * sizeOf(database));
+    ViewSpec view;
+    view.view = osg::Matrixd::lookAt(look.eye, look.center, vectorOf(random.direction()));
+    view.projection = anyProjection(random, look, farthest);
+    if (random.chance(0.15)) view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
+    const double mode = random.uniform();
+    if (mode > 0.8) view.cullingMode = osg::CullSettings::VIEW_FRUSTUM_CULLING;
+    if (mode > 0.88) view.cullingMode = osg::CullSettings::NO_CULLING;
+    if (mode > 0.91) view.cullingMode = osg::CullSettings::DEFAULT_CULLING;
+    view.smallFeaturePixels = random.logUniform(0.5, 20.0);
+    return view;
+}
+
+}  // namespace osgAnalyticBin::test

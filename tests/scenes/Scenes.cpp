@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Random scenes, culled with bins and without: what is seen without bins is drawn with them, and bins that are taken
+// off leave nothing behind. tests/README.md tells how to run it.
+
+#include "Generator.h"
+#include "Shrinker.h"
+
+#include <osg/Notify>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <unistd.h>
+
+using namespace osgAnalyticBin::test;
+
+namespace {
+
+struct Arguments {
+    std::uint64_t scenes = 500;
+    std::uint64_t seed = 1;
+    std::uint64_t mostFailures = 10;
+    bool isOnly = false;
+    bool describes = false;
+    bool shrinks = true;
+    bool isValid = true;
+};
+
+constexpr const char* kUsage =
+    "osganalyticbin_scenes [--scenes N] [--seed S] [--only SEED] [--describe] [--failures N] [--no-shrink]\n"
+    "  --scenes N    runs N scenes (default 500), with seeds S, S + 1, ...\n"
+    "  --seed S      the first seed (default 1)\n"
+    "  --only SEED   runs one scene\n"
+    "  --describe    says what is in the scenes\n"
+    "  --failures N  ends after N failures (default 10)\n"
+    "  --no-shrink   prints scenes that fail as they are\n"
+    "Exit code: 0 when no scene fails, 1 when one does, 2 for wrong arguments.\n";
+
+Arguments parse(int count, char** values) {
+    Arguments result;
+    for (int i = 1; i < count; ++i) {
+        const std::string name = values[i];
+        const auto number = [&] {
+            if (i + 1 >= count) result.isValid = false;
+            return i + 1 < count ? std::strtoull(values[++i], nullptr, 0) : 0;
+        };
+        if (name == "--scenes") {
+            result.scenes = number();
+        } else if (name == "--seed") {
+            result.seed = number();
+        } else if (name == "--only") {
+            result.seed = number();
+            result.isOnly = true;
+        } else if (name == "--failures") {
+            result.mostFailures = number();
+        } else if (name == "--describe") {
+            result.describes = true;
+        } else if (name == "--no-shrink") {
+            result.shrinks = false;
+        } else {
+            result.isValid = false;
+        }
+    }
+    if (result.isOnly) result.scenes = 1;
+    return result;
+}
+
+// What a crash prints.
+char presentScene[64] = "";
+
+void onCrash(int signal) {
+    const char* const name = signal == SIGABRT ? "aborted in scene " : "crashed in scene ";
+    (void)!write(STDERR_FILENO, name, std::strlen(name));
+    (void)!write(STDERR_FILENO, presentScene, std::strlen(presentScene));
+    std::signal(signal, SIG_DFL);
+    (void)std::raise(signal);
+}
+
+void report(const Description& description, const Failure& failure, bool shrinks) {
+    const char* const program = "osganalyticbin_scenes";
+    std::printf("seed %llu FAILS in frame %d: %s\n", static_cast<unsigned long long>(description.seed), failure.frame,
+                failure.text.c_str());
+    std::fflush(stdout);
+    const Shrunk shrunk = shrinks ? shrink(description, failure) : Shrunk{description, failure};
+    std::printf("%s", inWords(shrunk.description).c_str());
+    if (shrinks) std::printf("  shrunk, it fails in frame %d: %s\n", shrunk.failure.frame, shrunk.failure.text.c_str());
+    std::printf("  again: %s --only %llu\n\n", program, static_cast<unsigned long long>(description.seed));
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const Arguments arguments = parse(argc, argv);
+    if (!arguments.isValid) {
+        std::fputs(kUsage, stderr);
+        return 2;
+    }
+    for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL}) std::signal(signal, onCrash);
+    osg::setNotifyLevel(osg::ALWAYS);
+    const auto start = std::chrono::steady_clock::now();
+    RunTotals totals;
+    std::uint64_t failures = 0;
+    std::uint64_t scenes = 0;
+    for (; scenes < arguments.scenes && failures < arguments.mostFailures; ++scenes) {
+        const std::uint64_t seed = arguments.seed + scenes;
+        std::snprintf(presentScene, sizeof presentScene, "%llu\n", static_cast<unsigned long long>(seed));
+        const Description description = randomDescription(seed);
+        if (arguments.describes)
+            std::printf("seed %llu\n%s", static_cast<unsigned long long>(seed), inWords(description).c_str());
+        const auto failure = run(description, totals);
+        if (!failure) continue;
+        ++failures;
+        report(description, *failure, arguments.shrinks);
+    }
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    std::printf(
+        "%llu scenes in %.1f s, %llu failures; %zu drawables delivered without bins, %zu of them not with "
+        "bins; bins taken off and compared %zu times\n",
+        static_cast<unsigned long long>(scenes), seconds.count(), static_cast<unsigned long long>(failures),
+        totals.delivered, totals.lost, totals.undone);
+    return failures == 0 ? 0 : 1;
+}

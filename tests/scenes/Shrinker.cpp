@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Shrinker.h"
+
+#include <functional>
+#include <utility>
+
+namespace osgAnalyticBin::test {
+
+namespace {
+
+/// Takes what still fails.
+class Shrinker {
+public:
+    Shrinker(Description description, Failure failure) : _best{std::move(description), std::move(failure)} {}
+
+    Shrunk shrink() {
+        cutFrames();
+        for (int round = 0; round < kMostRounds; ++round) {
+            _hasChanged = false;
+            dropParts();
+            dropFrames();
+            simplifyParts();
+            simplifyDatabases();
+            if (!_hasChanged) break;
+        }
+        return _best;
+    }
+
+private:
+    static constexpr int kMostRounds = 4;
+    using Change = std::function<void(Description&)>;
+
+    bool attempt(const Change& change) {
+        Description candidate = _best.description;
+        change(candidate);
+        RunTotals totals;
+        const auto failure = run(candidate, totals);
+        if (!failure || failure->kind != _best.failure.kind) return false;
+        _best = {std::move(candidate), *failure};
+        _hasChanged = true;
+        return true;
+    }
+
+    // What comes after the failure.
+    void cutFrames() {
+        const auto frames = static_cast<std::size_t>(_best.failure.frame);
+        if (frames == 0 || frames >= _best.description.views.size()) return;
+        attempt([&](Description& d) { d.views.resize(frames); });
+    }
+
+    void dropParts() {
+        for (std::size_t i = _best.description.parts.size(); i-- > 0;)
+            attempt([&](Description& d) { d.parts.erase(d.parts.begin() + static_cast<std::ptrdiff_t>(i)); });
+    }
+
+    void dropFrames() {
+        for (std::size_t i = 0; i + 1 < _best.description.views.size(); ++i) {
+            if (_best.description.views[i].isActive) attempt([&](Description& d) { d.views[i].isActive = false; });
+        }
+    }
+
+    template <class Value>
+    void reset(Value DatabaseSpec::*member, std::size_t i, const Value& plain) {
+        if (_best.description.databases[i].*member == plain) return;
+        attempt([&](Description& d) { d.databases[i].*member = plain; });
+    }
+
+    template <class Value>
+    static void resetOption(Value CullOptions::*member, CullOptions& options) {
+        options.*member = CullOptions().*member;
+    }
+
+    // One option after the other, then all.
+    void simplifyOptions(const std::function<CullOptions&(Description&)>& of) {
+        const std::vector<std::function<void(CullOptions&)>> changes{
+            [](CullOptions& o) { o = CullOptions(); },
+            [](CullOptions& o) { resetOption(&CullOptions::method, o); },
+            [](CullOptions& o) { resetOption(&CullOptions::horizonUse, o); },
+            [](CullOptions& o) { resetOption(&CullOptions::inheritViewpoint, o); },
+            [](CullOptions& o) { resetOption(&CullOptions::reverse, o); },
+            [](CullOptions& o) { resetOption(&CullOptions::expiry, o); },
+            [](CullOptions& o) { resetOption(&CullOptions::skirts, o); },
+            [](CullOptions& o) { resetOption(&CullOptions::heights, o); }};
+        for (const auto& change : changes) {
+            Description probe = _best.description;
+            const std::string before = toText(of(probe));
+            change(of(probe));
+            if (toText(of(probe)) != before) attempt([&](Description& d) { change(of(d)); });
+        }
+    }
+
+    void simplifyParts() {
+        for (std::size_t i = 0; i < _best.description.parts.size(); ++i) {
+            simplifyOptions([i](Description& d) -> CullOptions& { return d.parts[i].options; });
+            if (_best.description.parts[i].until > 0) attempt([&](Description& d) { d.parts[i].until = 0; });
+        }
+    }
+
+    void simplifyDatabases() {
+        if (_best.description.databases.size() > 1) attempt([](Description& d) { dropLastDatabase(d); });
+        for (std::size_t i = 0; i < _best.description.databases.size(); ++i) {
+            reset(&DatabaseSpec::levels, i, 0);
+            reset(&DatabaseSpec::levels, i, 1);
+            reset(&DatabaseSpec::isLoaded, i, false);
+            reset(&DatabaseSpec::requestsBins, i, false);
+            reset(&DatabaseSpec::leavesArePaged, i, false);
+            reset(&DatabaseSpec::storesBins, i, false);
+            reset(&DatabaseSpec::hasSkirts, i, true);
+            reset(&DatabaseSpec::fileShape, i, FileShape::Tiles);
+            reset(&DatabaseSpec::mesh, i, MeshKind::Local);
+            reset(&DatabaseSpec::verticalScale, i, 1.0);
+            reset(&DatabaseSpec::drift, i, osg::Vec3d());
+            reset(&DatabaseSpec::turn, i, 0.0);
+            reset(&DatabaseSpec::position, i, osg::Vec3d());
+            reset(&DatabaseSpec::relief, i, 1000.0);
+            reset(&DatabaseSpec::polar, i, _best.description.databases[i].equatorial);
+            simplifyOptions([i](Description& d) -> CullOptions& { return d.databases[i].options; });
+        }
+    }
+
+    static void dropLastDatabase(Description& d) {
+        d.databases.pop_back();
+        const int count = static_cast<int>(d.databases.size());
+        std::vector<Part> kept;
+        for (const Part& part : d.parts) {
+            if (part.tile.database < count) kept.push_back(part);
+        }
+        d.parts = kept;
+    }
+
+    Shrunk _best;
+    bool _hasChanged = false;
+};
+
+}  // namespace
+
+Shrunk shrink(const Description& description, const Failure& failure) {
+    return Shrinker(description, failure).shrink();
+}
+
+}  // namespace osgAnalyticBin::test
