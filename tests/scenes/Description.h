@@ -143,8 +143,12 @@ struct ViewSpec {
     double smallFeaturePixels = 2.0;
 };
 
+/// What a scene has more of than others.
+enum class Theme { Anything, Models, ScaledTerrain };
+
 struct Description {
     std::uint64_t seed = 0;
+    Theme theme = Theme::Anything;
     std::vector<DatabaseSpec> databases;
     std::vector<Part> parts;
     std::vector<ViewSpec> views;  ///< one a frame; the first frame is 1

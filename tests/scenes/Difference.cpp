@@ -9,6 +9,8 @@
 #include <osg/ValueObject>
 #include <osgTerrain/TerrainTile>
 
+#include <algorithm>
+#include <array>
 #include <set>
 #include <utility>
 
@@ -41,60 +43,71 @@ std::string expiryOf(const osg::Node& node) {
     return times;
 }
 
+/// In the order in which they are told.
+enum Kind { Culling, CullCallbacks, UpdateCallbacks, EventCallbacks, UserValues, Expiry, Structure, Kinds };
+constexpr std::array<const char*, Kinds> kKindNames{"culling active",  "cull callbacks", "update callbacks",
+                                                    "event callbacks", "user values",    "expiry times",
+                                                    "structure"};
+
 class Comparison {
 public:
-    explicit Comparison(bool ignoresUpdate) : _ignoresUpdate(ignoresUpdate) {}
-
-    std::optional<std::string> compare(osg::Node& without, osg::Node& with) {
-        if (!_compared.insert({&without, &with}).second) return std::nullopt;
-        if (auto difference = compareNodes(without, with)) return difference;
+    void compare(osg::Node& without, osg::Node& with) {
+        if (!_compared.insert({&without, &with}).second) return;
+        osg::Node& counterpart = belowAdded(without, with);
+        compareNodes(without, counterpart);
         // the children of a terrain tile are its technique's own
-        if (dynamic_cast<osgTerrain::TerrainTile*>(&without) || !without.asGroup()) return std::nullopt;
+        if (dynamic_cast<osgTerrain::TerrainTile*>(&without) || !without.asGroup() || !counterpart.asGroup()) return;
         osg::Group& a = *without.asGroup();
-        osg::Group& b = *with.asGroup();
-        for (unsigned int i = 0; i < a.getNumChildren(); ++i)
-            if (auto difference = compare(*a.getChild(i), *b.getChild(i))) return difference;
+        osg::Group& b = *counterpart.asGroup();
+        note(Structure, without, std::to_string(a.getNumChildren()) + " children",
+             std::to_string(b.getNumChildren()) + " children");
+        for (unsigned int i = 0; i < std::min(a.getNumChildren(), b.getNumChildren()); ++i)
+            compare(*a.getChild(i), *b.getChild(i));
+    }
+
+    [[nodiscard]] std::optional<Difference> first() const {
+        for (std::size_t kind = 0; kind < Kinds; ++kind) {
+            if (!_texts[kind].empty()) return Difference{kKindNames[kind], _texts[kind]};
+        }
         return std::nullopt;
     }
 
 private:
-    std::optional<std::string> compareNodes(osg::Node& a, osg::Node& b) {
-        const auto differ = [&](const char* what, const std::string& before, const std::string& after) {
-            return std::string(what) + " of a " + a.className() + " \"" + a.getName() + "\": before <" + before +
-                   ">, after <" + after + ">";
-        };
-        const auto differing = [&](const char* what, const std::string& before,
-                                   const std::string& after) -> std::optional<std::string> {
-            return before == after ? std::nullopt : std::optional(differ(what, before, after));
-        };
-        const auto children = [](osg::Node& node) {
-            return std::to_string(node.asGroup() ? node.asGroup()->getNumChildren() : 0);
-        };
-        if (auto d = differing("the class", a.className(), b.className())) return d;
-        if (auto d = differing("the name", a.getName(), b.getName())) return d;
-        if (auto d = differing("the number of children", children(a), children(b))) return d;
-        if (auto d =
-                differing("culling active", std::to_string(a.getCullingActive()), std::to_string(b.getCullingActive())))
-            return d;
-        if (auto d = differing("cull callbacks", namesOf(a.getCullCallback()), namesOf(b.getCullCallback()))) return d;
-        if (auto d = differing("event callbacks", namesOf(a.getEventCallback()), namesOf(b.getEventCallback())))
-            return d;
-        if (!_ignoresUpdate) {
-            if (auto d = differing("update callbacks", namesOf(a.getUpdateCallback()), namesOf(b.getUpdateCallback())))
-                return d;
-        }
-        if (auto d = differing("user values", userValuesOf(a), userValuesOf(b))) return d;
-        return differing("expiry times", expiryOf(a), expiryOf(b));
+    // A group without a name may have been put in; what is below it is compared all the same.
+    osg::Node& belowAdded(osg::Node& without, osg::Node& with) {
+        const bool isAdded = with.getName().empty() && !without.getName().empty() && with.asGroup() &&
+                             with.asGroup()->getNumChildren() == 1;
+        if (!isAdded) return with;
+        note(Structure, without, "no group above", "a group above");
+        return *with.asGroup()->getChild(0);
     }
 
-    const bool _ignoresUpdate;
+    void compareNodes(osg::Node& a, osg::Node& b) {
+        note(Culling, a, std::to_string(a.getCullingActive()), std::to_string(b.getCullingActive()));
+        note(CullCallbacks, a, namesOf(a.getCullCallback()), namesOf(b.getCullCallback()));
+        note(UpdateCallbacks, a, namesOf(a.getUpdateCallback()), namesOf(b.getUpdateCallback()));
+        note(EventCallbacks, a, namesOf(a.getEventCallback()), namesOf(b.getEventCallback()));
+        note(UserValues, a, userValuesOf(a), userValuesOf(b));
+        note(Expiry, a, expiryOf(a), expiryOf(b));
+        note(Structure, a, a.className() + (' ' + a.getName()), b.className() + (' ' + b.getName()));
+    }
+
+    void note(Kind kind, const osg::Node& node, const std::string& before, const std::string& after) {
+        if (before == after || !_texts[kind].empty()) return;
+        _texts[kind] = std::string("of a ") + node.className() + " \"" + node.getName() + "\": without bins <" +
+                       before + ">, after them <" + after + ">";
+    }
+
+    std::array<std::string, Kinds> _texts;
     std::set<std::pair<const osg::Node*, const osg::Node*>> _compared;
 };
 
 }  // namespace
 
-std::optional<std::string> firstDifference(osg::Node& without, osg::Node& with, bool ignoresUpdate) {
-    return Comparison(ignoresUpdate).compare(without, with);
+std::optional<Difference> findDifference(osg::Node& without, osg::Node& with) {
+    Comparison comparison;
+    comparison.compare(without, with);
+    return comparison.first();
 }
 
 }  // namespace osgAnalyticBin::test

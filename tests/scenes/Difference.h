@@ -10,9 +10,15 @@
 
 namespace osgAnalyticBin::test {
 
-/// Compares a scene that never had bins with one that they were taken off again: structure, culling flags, callbacks,
-/// user values and expiry times. `ignoresUpdate`: update callbacks may differ.
-/// Returns: the first difference in words, nullopt when there is none.
-[[nodiscard]] std::optional<std::string> firstDifference(osg::Node& without, osg::Node& with, bool ignoresUpdate);
+/// How two nodes differ.
+struct Difference {
+    std::string what;
+    std::string text;
+};
+
+/// Compares a scene that never had bins with one that they were taken off again: culling flags, callbacks, user values,
+/// expiry times and structure.
+/// Returns: the first difference of the first of these kinds in which they differ, nullopt when there is none.
+[[nodiscard]] std::optional<Difference> findDifference(osg::Node& without, osg::Node& with);
 
 }  // namespace osgAnalyticBin::test

@@ -99,7 +99,8 @@ private:
     }
 
     void addModels() {
-        for (int count = _random.integer(0, 3); count > 0; --count) addModel();
+        const bool isTheme = _description.theme == Theme::Models;
+        for (int count = isTheme ? _random.integer(2, 4) : _random.integer(0, 3); count > 0; --count) addModel();
     }
 
     void addModel() {
@@ -110,7 +111,9 @@ private:
         Part& part = add(isVehicle ? PartKind::Vehicle : PartKind::Tower,
                          isVehicle ? _random.pick(kForVehicles) : _random.pick(kForTowers));
         const bool isInFile = part.hook == Hook::Slot || part.hook == Hook::File;
-        if (part.hook == Hook::Slot) part.tile = randomTile(_random, database(), _number, 1 + _random.integer(0, 1));
+        // of the level that is seen
+        if (part.hook == Hook::Own && _random.chance(0.7)) part.tile = randomTile(_random, database(), _number, 0);
+        if (part.hook == Hook::Slot) part.tile = randomTile(_random, database(), _number, _random.chance(0.8) ? 1 : 2);
         if (_random.chance(0.65)) part.frame = anyFrame();
         if (_random.chance(0.2)) part.until = part.frame + _random.integer(1, 3);
         const Extents e = extentsOf(database(), part.tile);
@@ -137,8 +140,9 @@ private:
             part.frame = anyFrame();
             part.options = anyOptions();
         }
-        if (_random.chance(0.25) && database().mesh == MeshKind::Terrain) {
-            static constexpr std::array<double, 5> kScales{1.0, 3.0, 10.0, 0.3, -2.0};
+        const bool isScaled = _description.theme == Theme::ScaledTerrain;
+        if (_random.chance(isScaled ? 0.8 : 0.25) && database().mesh == MeshKind::Terrain) {
+            static constexpr std::array<double, 6> kScales{1.0, 3.0, 10.0, 10.0, 0.3, -2.0};
             Part& part = add(PartKind::SetScale);
             part.frame = anyFrame();
             part.amount = _random.pick(kScales);
@@ -157,12 +161,13 @@ private:
     }
 
     void addEventsOnAll() {
-        if (_random.chance(0.12)) {
+        const double more = _description.theme == Theme::ScaledTerrain ? 0.3 : 0.0;
+        if (_random.chance(0.12 + more)) {
             Part& part = add(PartKind::Clone);
             part.frame = anyFrame();
             part.variant = _random.chance(0.6) ? 0 : _random.integer(1, 3);
         }
-        if (_random.chance(0.1)) {
+        if (_random.chance(0.1 + more)) {
             Part& part = add(PartKind::SaveAndLoad);
             part.frame = anyFrame();
             part.variant = _random.chance(0.2) ? 1 : 0;
@@ -210,12 +215,36 @@ private:
 
 }  // namespace
 
+namespace {
+
+void chooseTheme(Random& random, Description& description) {
+    const double theme = random.uniform();
+    DatabaseSpec& database = description.databases.front();
+    if (theme < 0.2) {
+        description.theme = Theme::Models;
+        if (database.mesh == MeshKind::Terrain) database.mesh = MeshKind::Local;
+        database.verticalScale = 1.0;
+        database.levels = random.integer(0, 1);
+        database.isLoaded = database.columns <= 8;
+    } else if (theme < 0.3 && !database.isMap) {
+        description.theme = Theme::ScaledTerrain;
+        database.mesh = MeshKind::Terrain;
+        database.relief = random.uniform(2000.0, 5000.0) * database.scale();
+        if (random.chance(0.5)) database.verticalScale = 10.0;
+        if (database.options.horizonUse == HorizonUse::Given) database.options.horizonUse = HorizonUse::ByMethod;
+        database.options.heights = CullOptions::kTerrainOnEarth;
+    }
+}
+
+}  // namespace
+
 Description randomDescription(std::uint64_t seed) {
     Random random(kStream, seed);
     Description description;
     description.seed = seed;
     const int databases = random.chance(0.12) ? 2 : 1;
     for (int i = 0; i < databases; ++i) description.databases.push_back(randomDatabase(random, i));
+    chooseTheme(random, description);
     const int frames = random.integer(3, 6);
     PartMaker(random, description, frames).addAll();
     for (int frame = 1; frame <= frames; ++frame) description.views.push_back(randomView(random, description, frame));

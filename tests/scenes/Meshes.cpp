@@ -25,11 +25,6 @@ constexpr double kPi = 3.14159265358979323846;
 // Skirts are as deep as this part of a tile's width.
 constexpr double kSkirtRatio = 0.2;
 
-double heightAt(const DatabaseSpec& database, double latitude, double longitude) {
-    const double unit = database.isMap ? 1e-4 : 5.0;
-    return database.relief * std::sin(unit * latitude + 1.0) * std::cos(1.7 * unit * longitude);
-}
-
 double skirtOf(const DatabaseSpec& database, int level) {
     const double width = database.tileWidth(level) * (database.isMap ? 1.0 : database.equatorial);
     return kSkirtRatio * width;
@@ -72,7 +67,7 @@ struct MeshMaker {
         const Extents e = extentsOf(database, tile);
         const double latitude = e.south + v * (e.north - e.south);
         const double longitude = e.west + u * (e.east - e.west);
-        const double height = heightAt(database, latitude, longitude) * database.verticalScale;
+        const double height = surfaceHeight(database, latitude, longitude) * database.verticalScale;
         vertices->push_back(osg::Vec3(place(database, latitude, longitude - turn, height - lower) - origin));
         texCoords->push_back(osg::Vec2(static_cast<float>(u), static_cast<float>(v)));
     }
@@ -117,7 +112,7 @@ osg::ref_ptr<osg::Node> makeTerrain(const DatabaseSpec& database, const TileKey&
         for (unsigned int i = 0; i < count; ++i) {
             const double latitude = e.south + j * (e.north - e.south) / (count - 1);
             const double longitude = e.west + i * (e.east - e.west) / (count - 1);
-            field->setHeight(i, j, static_cast<float>(heightAt(database, latitude, longitude)));
+            field->setHeight(i, j, static_cast<float>(surfaceHeight(database, latitude, longitude)));
         }
     }
     if (database.hasSkirts) field->setSkirtHeight(static_cast<float>(skirtOf(database, tile.level)));
@@ -159,6 +154,11 @@ Extents extentsOf(const DatabaseSpec& database, const TileKey& tile) {
     const double west = database.isMap ? 0.0 : -kPi;
     return {south + width * tile.row, south + width * (tile.row + 1), west + width * tile.column,
             west + width * (tile.column + 1)};
+}
+
+double surfaceHeight(const DatabaseSpec& database, double latitude, double longitude) {
+    const double unit = database.isMap ? 1e-4 : 5.0;
+    return database.relief * std::sin(unit * latitude + 1.0) * std::cos(1.7 * unit * longitude);
 }
 
 osg::Vec3d place(const DatabaseSpec& database, double latitude, double longitude, double altitude) {

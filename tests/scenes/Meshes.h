@@ -18,6 +18,9 @@ struct Extents {
 
 [[nodiscard]] Extents extentsOf(const DatabaseSpec& database, const TileKey& tile);
 
+/// Metres, of a post, at vertical scale 1.
+[[nodiscard]] double surfaceHeight(const DatabaseSpec& database, double latitude, double longitude);
+
 /// A place in the database's own frame.
 [[nodiscard]] osg::Vec3d place(const DatabaseSpec& database, double latitude, double longitude, double altitude);
 

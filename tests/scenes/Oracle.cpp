@@ -65,10 +65,13 @@ private:
             return osg::Vec3d(p.x() / (database.equatorial + altitude), p.y() / (database.equatorial + altitude),
                               p.z() / (database.polar + altitude));
         };
-        const bool isBelow = scaled(sight.start, occluder.highest).length() < 1.001;
+        const bool isBelow = scaled(sight.start, occluder.highest).length() < 1.0;
         if (!isBelow && !occluder.fromEverywhere) return false;
-        const osg::Vec3d from = scaled(sight.start, occluder.lowest);
-        const osg::Vec3d along = scaled(sight.end, occluder.lowest) - from;
+        // from below the terrain, whatever is lower than the eye
+        const double altitude =
+            isBelow ? (scaled(sight.start, 0.0).length() - 1.0) * database.polar - 1.0 : occluder.lowest;
+        const osg::Vec3d from = scaled(sight.start, altitude);
+        const osg::Vec3d along = scaled(sight.end, altitude) - from;
         const double square = along.length2();
         const double t = square > 0.0 ? std::clamp(-(from * along) / square, 0.0, 1.0) : 0.0;
         return (from + along * t).length2() < 1.0;
@@ -124,13 +127,15 @@ std::vector<osg::Vec3d> samplesOf(const Triangles& triangles, bool isFilled) {
 }
 
 std::optional<FalseCull> findVisiblePoint(const std::string& key, const Delivered& lost, Picture& picture,
-                                          double smallestPixels) {
+                                          const WhatCounts& counts) {
     const Triangles triangles(*lost.drawable, lost.modelView);
     const Projector projector(*lost.projection);
-    if (projector.pixels(triangles) < smallestPixels) return std::nullopt;
+    if (projector.pixels(triangles) < counts.smallestPixels) return std::nullopt;
+    const Projector given(lost.givenProjection);
     for (const osg::Vec3d& sample : samplesOf(triangles, lost.isFilled)) {
         const auto sight = projector.sightTo(sample);
-        if (sight && !picture.isHidden(*sight)) return FalseCull{key, sample, sight->inPicture};
+        const bool isInPicture = sight && (!counts.onlyBetweenGivenPlanes || given.sightTo(sample));
+        if (isInPicture && !picture.isHidden(*sight)) return FalseCull{key, sample, sight->inPicture};
     }
     return std::nullopt;
 }
@@ -138,7 +143,7 @@ std::optional<FalseCull> findVisiblePoint(const std::string& key, const Delivere
 }  // namespace
 
 std::optional<FalseCull> findFalseCull(const Description& description, const Delivery& without, const Delivery& with,
-                                       const std::vector<AllowedOccluder>& allowed, double smallestPixels) {
+                                       const std::vector<AllowedOccluder>& allowed, const WhatCounts& counts) {
     std::map<std::string, Picture> pictures;
     for (const auto& [key, delivered] : without.drawables) {
         if (with.drawables.count(key) > 0) continue;
@@ -148,7 +153,7 @@ std::optional<FalseCull> findFalseCull(const Description& description, const Del
             known->second.add(without);
             known->second.add(with);
         }
-        if (auto found = findVisiblePoint(key, delivered, known->second, smallestPixels)) return found;
+        if (auto found = findVisiblePoint(key, delivered, known->second, counts)) return found;
     }
     return std::nullopt;
 }

@@ -30,10 +30,16 @@ struct FalseCull {
     osg::Vec3d pointInPicture;
 };
 
+/// What may be culled although it is in the picture.
+struct WhatCounts {
+    double smallestPixels = 0.0;          ///< drawables that are smaller may be
+    bool onlyBetweenGivenPlanes = false;  ///< near and far planes cull, before they are computed
+};
+
 /// Looks for a point of a drawable that one traversal delivered and the other did not, that is in the picture and
-/// behind nothing that is drawn. Drawables smaller than `smallestPixels` do not count.
+/// behind nothing that is drawn.
 [[nodiscard]] std::optional<FalseCull> findFalseCull(const Description& description, const Delivery& without,
                                                      const Delivery& with, const std::vector<AllowedOccluder>& allowed,
-                                                     double smallestPixels);
+                                                     const WhatCounts& counts);
 
 }  // namespace osgAnalyticBin::test

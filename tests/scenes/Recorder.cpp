@@ -62,7 +62,8 @@ void Recorder::apply(osg::Drawable& drawable) {
     osgUtil::CullVisitor::apply(drawable);
     if (_currentReuseRenderLeafIndex == before) return;
     const osg::NodePath& path = getNodePath();
-    Delivered delivered{cameraText(path), &drawable, *getModelViewMatrix(), getProjectionMatrix(), isFilled(path)};
+    Delivered delivered{cameraText(path),       &drawable,     *getModelViewMatrix(), getProjectionMatrix(),
+                        *getProjectionMatrix(), isFilled(path)};
     std::string key = pathText(path);
     // several drawables of one node
     while (_delivery.drawables.count(key) > 0) key += '+';

@@ -23,6 +23,7 @@ struct Delivered {
     osg::ref_ptr<const osg::Drawable> drawable;
     osg::Matrixd modelView;
     osg::ref_ptr<const osg::RefMatrix> projection;  ///< after the traversal, with its near and far planes
+    osg::Matrixd givenProjection;                   ///< before
     bool isFilled = true;                           ///< whether its polygons are
 };
 

@@ -180,9 +180,12 @@ private:
         const Delivery without = _without.deliver(view, *_stamp);
         const Delivery with = _with.deliver(view, *_stamp);
         count(without, with);
-        const bool isSmallCulled = (view.cullingMode & osg::CullSettings::SMALL_FEATURE_CULLING) != 0;
-        const auto found = findFalseCull(_description, without, with, allowed(frame),
-                                         isSmallCulled ? 4.0 * view.smallFeaturePixels : 0.0);
+        WhatCounts counts;
+        if (view.cullingMode & osg::CullSettings::SMALL_FEATURE_CULLING)
+            counts.smallestPixels = 4.0 * view.smallFeaturePixels;
+        constexpr int kPlanes = osg::CullSettings::NEAR_PLANE_CULLING | osg::CullSettings::FAR_PLANE_CULLING;
+        counts.onlyBetweenGivenPlanes = (view.cullingMode & kPlanes) != 0;
+        const auto found = findFalseCull(_description, without, with, allowed(frame), counts);
         if (found) return failed(*found, frame);
         page();
         return std::nullopt;
@@ -191,9 +194,11 @@ private:
     static Failure failed(const FalseCull& found, int frame) {
         std::ostringstream text;
         text.precision(10);
-        text << "lost: " << found.key << ", a visible point is at " << found.pointInPicture.x() << " "
-             << found.pointInPicture.y() << " in the picture, " << found.pointInEyeSpace.length() << " m from the eye";
-        return {Failure::Culled, frame, text.str()};
+        const bool isModel = found.key.find("#model") != std::string::npos;
+        text << found.key << ", a visible point is at " << found.pointInPicture.x() << " " << found.pointInPicture.y()
+             << " in the picture, in eye space at " << found.pointInEyeSpace.x() << " " << found.pointInEyeSpace.y()
+             << " " << found.pointInEyeSpace.z();
+        return {frame, isModel ? "a model is lost" : "a tile is lost", text.str()};
     }
 
     void count(const Delivery& without, const Delivery& with) {
@@ -236,14 +241,14 @@ private:
     std::optional<Failure> uninstall(const Part& part) {
         CullOptions options = part.options;
         options.method = Method::Sphere;
-        installAll(&options);
+        (void)installBins(*_with.root, options);
         removeRequests();
         // README: "A stored scene with bins installed (...) keeps OSG's culling switched off on tiles."
         if (_wasSaved) return std::nullopt;
         ++_totals.undone;
-        const auto difference = firstDifference(*_without.root, *_with.root, false);
+        const auto difference = findDifference(*_without.root, *_with.root);
         if (!difference) return std::nullopt;
-        return Failure{Failure::NotUndone, part.frame, "not undone: " + *difference};
+        return Failure{part.frame, "not undone: " + difference->what, difference->text};
     }
 
     // The application's own wish for bins.
@@ -302,8 +307,9 @@ double Runner::largestScale(const DatabaseSpec& database, int number) const {
 // Whether the application has taken tiles away.
 bool Runner::hasHole(int number, int frame) const {
     return std::any_of(_description.parts.begin(), _description.parts.end(), [&](const Part& part) {
-        const bool isOpened = part.kind == PartKind::Switch && part.variant == 2;
-        return isOpened && part.tile.database == number && part.frame <= frame;
+        const bool isOff = part.kind == PartKind::Switch && part.variant == 2;
+        const bool isSkipped = part.kind == PartKind::UserCull && part.variant >= 2;
+        return (isOff || isSkipped) && part.tile.database == number && part.frame <= frame;
     });
 }
 
@@ -319,7 +325,8 @@ bool Runner::holdsAllSkirts(const DatabaseSpec& database) const {
 // - "Bins hold of skirts what an eye above the terrain can see through cracks. Where the camera may go below it:
 //   skirts=all." and "The horizon needs (...) a near plane that does not cut visible terrain away": lines of sight that
 //   begin below the highest terrain.
-// - "The horizon needs a database that covers the whole globe": tiles that the application has switched off.
+// - "The horizon needs a database that covers the whole globe": tiles that the application has switched off, or leaves
+//   out by a cull callback of its own.
 // - "Through the slit between tiles of different levels a fraction of a pixel at the picture's border may differ",
 //   doc/databases.md: "up to cracks, which skirts cover": databases without skirts.
 // - "What moves by itself below a tile (...) is culled with the tile: let it stay within its bin", "Transforms between
@@ -345,7 +352,7 @@ std::optional<Failure> run(const Description& description, RunTotals& totals) {
     try {
         return Runner(description, totals).run();
     } catch (const std::exception& error) {
-        return Failure{Failure::Thrown, 0, std::string("exception: ") + error.what()};
+        return Failure{0, "exception", error.what()};
     }
 }
 

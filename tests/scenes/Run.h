@@ -11,10 +11,9 @@
 namespace osgAnalyticBin::test {
 
 struct Failure {
-    enum Kind { Culled, NotUndone, Thrown };
-    Kind kind = Culled;
     int frame = 0;
-    std::string text;
+    std::string signature;  ///< of what kind it is
+    std::string text;       ///< what was lost or found
 };
 
 /// What a run came across, to tell that it looked at something.

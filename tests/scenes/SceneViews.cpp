@@ -16,7 +16,8 @@ namespace {
 /// Where to look from and at, in the world.
 struct Look {
     osg::Vec3d eye, center;
-    double altitude;  // above all terrain
+    double altitude;           // above all terrain
+    double widestDeg = 110.0;  // field of view
 };
 
 double sizeOf(const DatabaseSpec& database) {
@@ -35,7 +36,8 @@ std::vector<const Part*> partsOf(const Description& description, bool areModels,
     std::vector<const Part*> parts;
     for (const Part& part : description.parts) {
         const bool isModel = part.kind == PartKind::Tower || part.kind == PartKind::Vehicle;
-        if (isModel == areModels && part.frame <= frame) parts.push_back(&part);
+        const bool isThere = part.frame <= frame && (part.until == 0 || part.until > frame);
+        if (isModel == areModels && isThere) parts.push_back(&part);
     }
     return parts;
 }
@@ -45,23 +47,33 @@ const Part* pickPart(Random& random, const std::vector<const Part*>& parts) {
                          : parts[static_cast<std::size_t>(random.integer(0, static_cast<int>(parts.size()) - 1))];
 }
 
-/// At the upper part of a model, from a little above to far away.
+/// At the upper part of a model, as often from below it as from above.
 Look lookAtModel(Random& random, const Description& description, const Part& part, int frame) {
     const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
     const int frames = part.kind == PartKind::Vehicle ? frame - part.frame : 0;
     const double altitude = part.low + random.uniform(0.3, 1.0) * (part.high - part.low);
-    const osg::Matrixd frameThere =
-        localFrame(database, part.latitude, part.longitude, altitude) * database.toWorld(frame);
-    const osg::Vec3d center = osg::Vec3d(part.amount * frames, 0.0, 0.0) * frameThere;
+    const osg::Matrixd there = localFrame(database, part.latitude, part.longitude, altitude);
+    const osg::Vec3d center = osg::Vec3d(part.amount * frames, 0.0, 0.0) * there;
+    // often from so low that there is nothing but sky behind it
+    const double higher = altitude - highestOf(database);
+    const bool isBelow = higher > 100.0 && random.chance(0.6);
+    const double distance = random.logUniform(0.5, isBelow ? 6.0 : 100.0) * std::max(part.high, part.high - part.low);
+    double above = random.logUniform(10.0, isBelow ? 0.5 * higher : 2.0 * distance + 20.0);
+    // the eye may have to be above all that the bins hold
+    const double overBins = CullOptions::kTerrainOnEarth.upper * database.scale() - highestOf(database);
+    if (isBelow && overBins < 0.9 * higher && random.chance(0.7))
+        above = random.uniform(std::max(overBins, 10.0), 0.95 * higher);
     const double bearing = random.uniform(0.0, 6.28);
-    const double distance = random.logUniform(0.5, 300.0) * (part.high - part.low);
-    const double slope = random.uniform(-0.1, 0.5);
-    const double drop = database.isMap ? 0.0 : 0.5 * distance * distance / database.equatorial;
-    // from the target; not below the terrain, if possible
-    const double up = std::max(slope * distance, highestOf(database) - altitude + 10.0 + drop);
-    const osg::Vec3d eye =
-        osg::Vec3d(distance * std::cos(bearing) + part.amount * frames, distance * std::sin(bearing), up) * frameThere;
-    return {eye, center, std::max(1.0, altitude + up - highestOf(database))};
+    const double north = distance * std::cos(bearing);
+    const double east = distance * std::sin(bearing) + part.amount * frames;
+    const double unit = database.isMap ? 1.0 : database.polar;
+    const double latitude = part.latitude + north / unit;
+    const double longitude =
+        part.longitude + east / unit / (database.isMap ? 1.0 : std::max(0.1, std::cos(part.latitude)));
+    const osg::Matrixd world = database.toWorld(frame);
+    Look look{place(database, latitude, longitude, highestOf(database) + above) * world, center * world, above};
+    if (isBelow) look.widestDeg = 0.6 * osg::RadiansToDegrees(std::atan2(higher - above, distance));
+    return look;
 }
 
 /// At a tile, from above the database.
@@ -84,9 +96,30 @@ Look lookAtTile(Random& random, const Description& description, const TileKey& t
     return {eye * world, center * world, altitude};
 }
 
+/// From a plain at a high place of scaled terrain.
+Look lookAtSummit(Random& random, const Description& description, const TileKey& tile, int frame) {
+    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(tile.database)];
+    double scale = database.verticalScale;
+    for (const Part& part : description.parts) {
+        const bool isScaled = part.kind == PartKind::SetScale && part.tile.database == tile.database;
+        if (isScaled && part.frame <= frame) scale = part.amount;
+    }
+    const Extents e = extentsOf(database, tile);
+    const double latitude = e.south + random.uniform() * (e.north - e.south);
+    const double longitude = e.west + random.uniform() * (e.east - e.west);
+    const double top = scale * surfaceHeight(database, latitude, longitude);
+    const double distance = random.logUniform(2.0, 40.0) * database.relief * std::max(1.0, std::abs(scale));
+    const double bearing = random.uniform(0.0, 6.28);
+    const osg::Vec3d eye =
+        place(database, latitude + distance * std::cos(bearing) / database.polar,
+              longitude + distance * std::sin(bearing) / database.polar, top * random.uniform(0.2, 1.1));
+    const osg::Matrixd world = database.toWorld(frame);
+    return {eye * world, place(database, latitude, longitude, top) * world, distance, 10.0};
+}
+
 Look anyLook(Random& random, const Description& description, int frame) {
     const double kind = random.uniform();
-    if (kind < 0.4) {
+    if (kind < (description.theme == Theme::Models ? 0.8 : 0.4)) {
         if (const Part* model = pickPart(random, partsOf(description, true, frame)))
             return lookAtModel(random, description, *model, frame);
     }
@@ -99,7 +132,9 @@ Look anyLook(Random& random, const Description& description, int frame) {
             if (part->kind == PartKind::Instance && random.chance(0.5)) tile.column = part->variant;
         }
     }
-    Look look = lookAtTile(random, description, tile, frame);
+    const bool isSummit = description.theme == Theme::ScaledTerrain && number == 0 && random.chance(0.6);
+    Look look =
+        isSummit ? lookAtSummit(random, description, tile, frame) : lookAtTile(random, description, tile, frame);
     const double size = sizeOf(database);
     if (random.chance(0.07)) look.eye += vectorOf(random.direction()) * random.logUniform(0.01, 1.0) * size;
     if (random.chance(0.1)) look.center += vectorOf(random.direction()) * random.logUniform(0.001, 1.0) * size;
@@ -113,7 +148,9 @@ osg::Matrixd anyProjection(Random& random, const Look& look, double farthest) {
         const double half = distance * random.logUniform(0.01, 2.0);
         return osg::Matrixd::ortho(-half, half, -half, half, nearest, farthest);
     }
-    const double half = nearest * std::tan(0.5 * osg::DegreesToRadians(random.logUniform(0.5, 110.0)));
+    const double half =
+        nearest *
+        std::tan(0.5 * osg::DegreesToRadians(random.logUniform(std::min(0.5, 0.5 * look.widestDeg), look.widestDeg)));
     double x = 0.0, y = 0.0;
     if (random.chance(0.15)) {
         x = half * random.uniform(-2.0, 2.0);

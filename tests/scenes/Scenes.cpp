@@ -83,8 +83,8 @@ void onCrash(int signal) {
 
 void report(const Description& description, const Failure& failure, bool shrinks) {
     const char* const program = "osganalyticbin_scenes";
-    std::printf("seed %llu FAILS in frame %d: %s\n", static_cast<unsigned long long>(description.seed), failure.frame,
-                failure.text.c_str());
+    std::printf("seed %llu FAILS in frame %d: %s: %s\n", static_cast<unsigned long long>(description.seed),
+                failure.frame, failure.signature.c_str(), failure.text.c_str());
     std::fflush(stdout);
     const Shrunk shrunk = shrinks ? shrink(description, failure) : Shrunk{description, failure};
     std::printf("%s", inWords(shrunk.description).c_str());

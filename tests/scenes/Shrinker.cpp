@@ -3,6 +3,7 @@
 
 #include "Shrinker.h"
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 
@@ -37,7 +38,7 @@ private:
         change(candidate);
         RunTotals totals;
         const auto failure = run(candidate, totals);
-        if (!failure || failure->kind != _best.failure.kind) return false;
+        if (!failure || failure->signature != _best.failure.signature) return false;
         _best = {std::move(candidate), *failure};
         _hasChanged = true;
         return true;
@@ -101,8 +102,8 @@ private:
     void simplifyDatabases() {
         if (_best.description.databases.size() > 1) attempt([](Description& d) { dropLastDatabase(d); });
         for (std::size_t i = 0; i < _best.description.databases.size(); ++i) {
-            reset(&DatabaseSpec::levels, i, 0);
-            reset(&DatabaseSpec::levels, i, 1);
+            for (int levels = 0; levels < _best.description.databases[i].levels; ++levels)
+                reset(&DatabaseSpec::levels, i, levels);
             reset(&DatabaseSpec::isLoaded, i, false);
             reset(&DatabaseSpec::requestsBins, i, false);
             reset(&DatabaseSpec::leavesArePaged, i, false);
@@ -110,12 +111,7 @@ private:
             reset(&DatabaseSpec::hasSkirts, i, true);
             reset(&DatabaseSpec::fileShape, i, FileShape::Tiles);
             reset(&DatabaseSpec::mesh, i, MeshKind::Local);
-            reset(&DatabaseSpec::verticalScale, i, 1.0);
-            reset(&DatabaseSpec::drift, i, osg::Vec3d());
-            reset(&DatabaseSpec::turn, i, 0.0);
-            reset(&DatabaseSpec::position, i, osg::Vec3d());
-            reset(&DatabaseSpec::relief, i, 1000.0);
-            reset(&DatabaseSpec::polar, i, _best.description.databases[i].equatorial);
+            reset(&DatabaseSpec::relief, i, std::min(1000.0, _best.description.databases[i].relief));
             simplifyOptions([i](Description& d) -> CullOptions& { return d.databases[i].options; });
         }
     }
