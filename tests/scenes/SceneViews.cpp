@@ -16,6 +16,7 @@ namespace {
 /// Where to look from and at, in the world.
 struct Look {
     osg::Vec3d eye, center;
+    osg::Vec3d up;
     double altitude;           // above all terrain
     double widestDeg = 110.0;  // field of view
 };
@@ -47,6 +48,11 @@ const Part* pickPart(Random& random, const std::vector<const Part*>& parts) {
                          : parts[static_cast<std::size_t>(random.integer(0, static_cast<int>(parts.size()) - 1))];
 }
 
+osg::Vec3d upAt(const DatabaseSpec& database, double latitude, double longitude, int frame) {
+    return osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, 1.0),
+                                      localFrame(database, latitude, longitude, 0.0) * database.toWorld(frame));
+}
+
 /// At the upper part of a model, as often from below it as from above.
 Look lookAtModel(Random& random, const Description& description, const Part& part, int frame) {
     const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
@@ -71,7 +77,8 @@ Look lookAtModel(Random& random, const Description& description, const Part& par
     const double longitude =
         part.longitude + east / unit / (database.isMap ? 1.0 : std::max(0.1, std::cos(part.latitude)));
     const osg::Matrixd world = database.toWorld(frame);
-    Look look{place(database, latitude, longitude, highestOf(database) + above) * world, center * world, above};
+    const osg::Vec3d up = upAt(database, latitude, longitude, frame);
+    Look look{place(database, latitude, longitude, highestOf(database) + above) * world, center * world, up, above};
     if (isBelow) look.widestDeg = 0.6 * osg::RadiansToDegrees(std::atan2(higher - above, distance));
     return look;
 }
@@ -93,7 +100,7 @@ Look lookAtTile(Random& random, const Description& description, const TileKey& t
         longitude + unit * away * std::sin(bearing) / (database.isMap ? 1.0 : std::max(0.1, std::cos(latitude)));
     const osg::Vec3d eye = place(database, eyeLatitude, eyeLongitude, highestOf(database) + altitude);
     const osg::Matrixd world = database.toWorld(frame);
-    return {eye * world, center * world, altitude};
+    return {eye * world, center * world, upAt(database, eyeLatitude, eyeLongitude, frame), altitude};
 }
 
 /// From a plain at a high place of scaled terrain.
@@ -114,7 +121,8 @@ Look lookAtSummit(Random& random, const Description& description, const TileKey&
         place(database, latitude + distance * std::cos(bearing) / database.polar,
               longitude + distance * std::sin(bearing) / database.polar, top * random.uniform(0.2, 1.1));
     const osg::Matrixd world = database.toWorld(frame);
-    return {eye * world, place(database, latitude, longitude, top) * world, distance, 10.0};
+    return {eye * world, place(database, latitude, longitude, top) * world, upAt(database, latitude, longitude, frame),
+            distance, 10.0};
 }
 
 Look anyLook(Random& random, const Description& description, int frame) {
@@ -169,7 +177,9 @@ ViewSpec randomView(Random& random, const Description& description, int frame) {
         farthest =
             std::max(farthest, (look.eye - osg::Vec3d() * database.toWorld(frame)).length() + 2.0 * sizeOf(database));
     ViewSpec view;
-    view.view = osg::Matrixd::lookAt(look.eye, look.center, vectorOf(random.direction()));
+    const osg::Vec3d along = look.center - look.eye;
+    const bool isUpright = (along ^ look.up).length() > 0.01 * along.length() && random.chance(0.7);
+    view.view = osg::Matrixd::lookAt(look.eye, look.center, isUpright ? look.up : vectorOf(random.direction()));
     view.projection = anyProjection(random, look, farthest);
     if (random.chance(0.15)) view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
     const double mode = random.uniform();
