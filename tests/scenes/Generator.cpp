@@ -217,6 +217,15 @@ private:
 
 namespace {
 
+// Plain groups with one mesh each, in files.
+void chooseSlots(DatabaseSpec& database) {
+    database.mesh = MeshKind::Local;
+    database.fileShape = FileShape::Slots;
+    database.levels = 1;
+    database.storesBins = false;
+    database.leavesArePaged = false;
+}
+
 void chooseTheme(Random& random, Description& description) {
     const double theme = random.uniform();
     DatabaseSpec& database = description.databases.front();
@@ -226,6 +235,7 @@ void chooseTheme(Random& random, Description& description) {
         database.verticalScale = 1.0;
         database.levels = random.integer(0, 1);
         database.isLoaded = database.columns <= 8;
+        if (random.chance(0.5)) chooseSlots(database);
     } else if (theme < 0.3 && !database.isMap) {
         description.theme = Theme::ScaledTerrain;
         database.mesh = MeshKind::Terrain;

@@ -112,9 +112,14 @@ Look lookAtSummit(Random& random, const Description& description, const TileKey&
         if (isScaled && part.frame <= frame) scale = part.amount;
     }
     const Extents e = extentsOf(database, tile);
-    const double latitude = e.south + random.uniform() * (e.north - e.south);
-    const double longitude = e.west + random.uniform() * (e.east - e.west);
-    const double top = scale * surfaceHeight(database, latitude, longitude);
+    double latitude = 0.0, longitude = 0.0, top = 0.0;
+    for (int attempt = 0; attempt < 8; ++attempt) {
+        const double p = e.south + random.uniform() * (e.north - e.south);
+        const double l = e.west + random.uniform() * (e.east - e.west);
+        const double height = scale * surfaceHeight(database, p, l);
+        if (attempt > 0 && height < top) continue;
+        latitude = p, longitude = l, top = height;
+    }
     const double distance = random.logUniform(2.0, 40.0) * database.relief * std::max(1.0, std::abs(scale));
     const double bearing = random.uniform(0.0, 6.28);
     const osg::Vec3d eye =
