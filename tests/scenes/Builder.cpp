@@ -185,7 +185,8 @@ osg::ref_ptr<osg::Node> Builder::tile(const TileKey& key) const {
     const bool hasFile = key.level < database.levels;
     const bool isTerrain = database.mesh == MeshKind::Terrain;
     const bool isPaged = hasFile || database.leavesArePaged || (key.level == 0 && !database.storesBins && !isTerrain);
-    if (!isPaged && !database.storesBins) return own;
+    if (!isPaged && database.storesBins && !database.groupsLeaves) setStoredBin(*own, binOf(database, key));
+    if (!isPaged && (!database.storesBins || !database.groupsLeaves)) return own;
     if (!isTerrain) {
         const osg::ref_ptr<osg::Group> group = named<osg::Group>(nodeName(Hook::Own, key));
         group->addChild(own);

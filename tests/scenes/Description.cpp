@@ -100,7 +100,7 @@ void describe(const DatabaseSpec& d, std::ostream& out) {
         << kMeshes[static_cast<int>(d.mesh)] << " of " << d.posts << " posts, relief " << d.relief << " m";
     if (d.levels > 0) out << ", files are " << kShapes[static_cast<int>(d.fileShape)];
     if (!d.isMap) out << ", radii " << d.equatorial << " " << d.polar;
-    if (d.storesBins) out << ", stored bins";
+    if (d.storesBins) out << ", stored bins" << (d.groupsLeaves ? " (groups above leaves)" : "");
     if (!d.hasSkirts) out << ", no skirts";
     if (d.leavesArePaged) out << ", leaves are PagedLODs";
     if (d.requestsBins) out << ", InstallBinsCallback";

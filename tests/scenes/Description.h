@@ -58,6 +58,7 @@ struct DatabaseSpec {
     MeshKind mesh = MeshKind::Local;
     FileShape fileShape = FileShape::Tiles;
     bool storesBins = false;
+    bool groupsLeaves = true;  ///< stored bins of the last level are on a group above the mesh, and not on the mesh
     bool hasSkirts = true;
     bool isLoaded = false;        ///< the files' content is there from the beginning
     bool leavesArePaged = false;  ///< tiles of the last level are PagedLODs without files

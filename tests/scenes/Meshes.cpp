@@ -67,7 +67,7 @@ struct MeshMaker {
         const Extents e = extentsOf(database, tile);
         const double latitude = e.south + v * (e.north - e.south);
         const double longitude = e.west + u * (e.east - e.west);
-        const double height = surfaceHeight(database, latitude, longitude) * database.verticalScale;
+        const double height = surfaceHeight(database, latitude, longitude);
         vertices->push_back(osg::Vec3(place(database, latitude, longitude - turn, height - lower) - origin));
         texCoords->push_back(osg::Vec2(static_cast<float>(u), static_cast<float>(v)));
     }

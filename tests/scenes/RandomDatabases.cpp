@@ -40,6 +40,7 @@ void chooseTiles(Random& random, DatabaseSpec& database) {
     const double shape = random.uniform();
     database.fileShape = shape < 0.4 ? FileShape::Tiles : shape < 0.85 ? FileShape::Slots : FileShape::Whole;
     database.storesBins = random.chance(0.3);
+    database.groupsLeaves = random.chance(database.mesh == MeshKind::Terrain ? 0.1 : 0.5);
     database.hasSkirts = random.chance(0.75);
     database.isLoaded = random.chance(0.3) && database.columns << database.levels <= 16;
     database.leavesArePaged = random.chance(0.25);

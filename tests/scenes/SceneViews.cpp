@@ -113,9 +113,11 @@ Look lookAtSummit(Random& random, const Description& description, const TileKey&
     }
     const Extents e = extentsOf(database, tile);
     double latitude = 0.0, longitude = 0.0, top = 0.0;
+    // meshes are lower between their posts
     for (int attempt = 0; attempt < 8; ++attempt) {
-        const double p = e.south + random.uniform() * (e.north - e.south);
-        const double l = e.west + random.uniform() * (e.east - e.west);
+        const int last = database.posts - 1;
+        const double p = e.south + random.integer(0, last) * (e.north - e.south) / last;
+        const double l = e.west + random.integer(0, last) * (e.east - e.west) / last;
         const double height = scale * surfaceHeight(database, p, l);
         if (attempt > 0 && height < top) continue;
         latitude = p, longitude = l, top = height;
