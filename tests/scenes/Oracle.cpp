@@ -68,8 +68,8 @@ private:
         const bool isBelow = scaled(sight.start, occluder.highest).length() < 1.0;
         if (!isBelow && !occluder.fromEverywhere) return false;
         // from below the terrain, whatever is lower than the eye
-        const double altitude =
-            isBelow ? (scaled(sight.start, 0.0).length() - 1.0) * database.polar - 1.0 : occluder.lowest;
+        const double own = (scaled(sight.start, 0.0).length() - 1.0) * database.polar - 1.0;
+        const double altitude = isBelow ? std::min(own, 0.0) : 0.0;
         const osg::Vec3d from = scaled(sight.start, altitude);
         const osg::Vec3d along = scaled(sight.end, altitude) - from;
         const double square = along.length2();

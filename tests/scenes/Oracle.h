@@ -17,9 +17,8 @@ struct AllowedOccluder {
     int database = 0;
     /// Metres above the ellipsoid: above it, an eye sees the database's faces from in front.
     double highest = 0.0;
-    /// Metres: nothing of the surface is lower, chords between posts included.
-    double lowest = 0.0;
-    /// Whether it hides from every eye, and not only from those below the highest terrain.
+    /// Whether it hides from every eye, and not only from those below the highest terrain. It is as large as the kit
+    /// may take it to be: the ellipsoid.
     bool fromEverywhere = false;
 };
 

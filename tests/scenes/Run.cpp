@@ -341,7 +341,7 @@ std::vector<AllowedOccluder> Runner::allowed(int frame) const {
         const double relief = database.relief * largestScale(database, number);
         const bool fromEverywhere = hasHole(number, frame) || (!database.hasSkirts && database.levels > 0);
         if (!fromEverywhere && holdsAllSkirts(database)) continue;
-        result.push_back({number, relief, -relief - sagOf(database, 0) - 1.0, fromEverywhere});
+        result.push_back({number, relief, fromEverywhere});
     }
     return result;
 }

@@ -8,6 +8,8 @@
 #include "Shrinker.h"
 
 #include <osg/Notify>
+#include <osgDB/ObjectWrapper>
+#include <osgDB/Registry>
 
 #include <chrono>
 #include <csignal>
@@ -103,6 +105,13 @@ int main(int argc, char** argv) {
     }
     for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL}) std::signal(signal, onCrash);
     osg::setNotifyLevel(osg::ALWAYS);
+    // bins are saved and loaded, too
+    osgDB::Registry::instance()->getLibraryFilePathList().push_front(LIBRARY_FOLDER);
+    if (!osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper(
+            "osgAnalyticBin::AnalyticBinCullCallback")) {
+        std::fputs("the serializers of osgAnalyticBin are not in " LIBRARY_FOLDER "\n", stderr);
+        return 2;
+    }
     const auto start = std::chrono::steady_clock::now();
     RunTotals totals;
     std::uint64_t failures = 0;
