@@ -47,7 +47,9 @@ const char* kindName(PartKind kind) {
         case PartKind::DrawableBin:
             return "a stored bin on the drawable of";
         case PartKind::Outline:
-            return "polygon mode LINE on";
+            return "polygon mode LINE or POINT on";
+        case PartKind::Fill:
+            return "polygon mode FILL on";
         case PartKind::Tower:
             return "a static tower in";
         case PartKind::Vehicle:

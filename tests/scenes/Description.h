@@ -98,7 +98,8 @@ enum class PartKind {
     UserCull,
     UserUpdate,
     DrawableBin,
-    Outline,  // polygon mode
+    Outline,  // polygon modes
+    Fill,
     // models
     Tower,
     Vehicle,

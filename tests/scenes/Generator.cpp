@@ -94,7 +94,12 @@ private:
         if (_random.chance(0.12)) {
             static constexpr std::array<Hook, 4> kAbove{Hook::Root, Hook::Globe, Hook::Globe, Hook::Tile};
             Part& part = add(PartKind::Outline, _random.pick(kAbove));
+            part.variant = _random.chance(0.4) ? 0 : _random.integer(0, 11);
             if (_random.chance(0.5)) part.frame = anyFrame();
+            if (!_random.chance(0.3)) return;
+            Part& fill = add(PartKind::Fill, _random.pick(kAbove));
+            fill.variant = 4 * _random.integer(0, 2);
+            if (_random.chance(0.5)) fill.frame = anyFrame();
         }
     }
 

@@ -94,9 +94,19 @@ void storeBinOnDrawable(const Part& part, const Description& description, osg::N
                  AnalyticBin(core::GeodeticBin({e.south, e.north}, {e.west, e.east}, {-depth, database.relief})));
 }
 
-void outline(osg::Node& node) {
+// Variants: mode and faces, and whether states below may say otherwise.
+void setPolygonMode(const Part& part, osg::Node& node) {
+    const bool isFill = part.kind == PartKind::Fill;
+    const osg::PolygonMode::Mode mode = isFill                  ? osg::PolygonMode::FILL
+                                        : part.variant % 4 == 3 ? osg::PolygonMode::POINT
+                                                                : osg::PolygonMode::LINE;
+    const bool isFrontOnly = !isFill && part.variant % 4 == 2;
+    constexpr osg::StateAttribute::GLModeValue kValues[] = {osg::StateAttribute::ON,
+                                                            osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE,
+                                                            osg::StateAttribute::ON | osg::StateAttribute::PROTECTED};
     node.getOrCreateStateSet()->setAttribute(
-        new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
+        new osg::PolygonMode(isFrontOnly ? osg::PolygonMode::FRONT : osg::PolygonMode::FRONT_AND_BACK, mode),
+        kValues[part.variant / 4 % 3]);
 }
 
 void expire(osg::Node& node) {
@@ -140,7 +150,8 @@ void applyPart(const Part& part, const Description& description, osg::Node& subg
         case PartKind::DrawableBin:
             return storeBinOnDrawable(part, description, *node);
         case PartKind::Outline:
-            return outline(*node);
+        case PartKind::Fill:
+            return setPolygonMode(part, *node);
         case PartKind::Tower:
         case PartKind::Vehicle:
             return addModel(part, description, *node);

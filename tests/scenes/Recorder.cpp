@@ -3,6 +3,8 @@
 
 #include "Recorder.h"
 
+#include <osgAnalyticBin/BinStatistics.h>
+
 #include <osg/Camera>
 #include <osg/CoordinateSystemNode>
 #include <osg/PolygonMode>
@@ -45,6 +47,11 @@ bool isFilled(const osg::NodePath& path) {
     return result;
 }
 
+std::uint32_t culledBins(const osg::NodeVisitor& visitor) {
+    const BinStatistics* statistics = BinStatistics::find(visitor);
+    return statistics ? statistics->counts().outside : 0;
+}
+
 }  // namespace
 
 void Requests::requestNodeFile(const std::string& fileName, osg::NodePath& /*path*/, float /*priority*/,
@@ -59,11 +66,14 @@ Recorder::Recorder() {
 
 void Recorder::apply(osg::Drawable& drawable) {
     const unsigned int before = _currentReuseRenderLeafIndex;
+    const bool hasCallback = drawable.getCullCallback() != nullptr;
+    const std::uint32_t culledBefore = hasCallback ? culledBins(*this) : 0;
     osgUtil::CullVisitor::apply(drawable);
     if (_currentReuseRenderLeafIndex == before) return;
+    const bool isCountedCulled = hasCallback && culledBins(*this) != culledBefore;
     const osg::NodePath& path = getNodePath();
-    Delivered delivered{cameraText(path),       &drawable,     *getModelViewMatrix(), getProjectionMatrix(),
-                        *getProjectionMatrix(), isFilled(path)};
+    Delivered delivered{cameraText(path),       &drawable,      *getModelViewMatrix(), getProjectionMatrix(),
+                        *getProjectionMatrix(), isFilled(path), isCountedCulled};
     std::string key = pathText(path);
     // several drawables of one node
     while (_delivery.drawables.count(key) > 0) key += '+';

@@ -25,6 +25,7 @@ struct Delivered {
     osg::ref_ptr<const osg::RefMatrix> projection;  ///< after the traversal, with its near and far planes
     osg::Matrixd givenProjection;                   ///< before
     bool isFilled = true;                           ///< whether its polygons are
+    bool isCountedCulled = false;                   ///< whether a bin on it was counted as culled all the same
 };
 
 /// A database that a cull traversal met.

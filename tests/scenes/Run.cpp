@@ -187,6 +187,9 @@ private:
         counts.onlyBetweenGivenPlanes = (view.cullingMode & kPlanes) != 0;
         const auto found = findFalseCull(_description, without, with, allowed(frame), counts);
         if (found) return failed(*found, frame);
+        for (const auto& [key, delivered] : with.drawables) {
+            if (delivered.isCountedCulled) return Failure{frame, "counted as culled, and drawn", key};
+        }
         page();
         return std::nullopt;
     }
