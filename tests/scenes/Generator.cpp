@@ -115,6 +115,8 @@ private:
         const bool isVehicle = _random.chance(0.4);
         Part& part = add(isVehicle ? PartKind::Vehicle : PartKind::Tower,
                          isVehicle ? _random.pick(kForVehicles) : _random.pick(kForTowers));
+        const bool hasSlots = database().fileShape == FileShape::Slots && database().levels > 0;
+        if (_description.theme == Theme::Models && hasSlots && _random.chance(0.6)) part.hook = Hook::Slot;
         const bool isInFile = part.hook == Hook::Slot || part.hook == Hook::File;
         // of the level that is seen
         if (part.hook == Hook::Own && _random.chance(0.7)) part.tile = randomTile(_random, database(), _number, 0);
