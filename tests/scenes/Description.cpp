@@ -3,18 +3,14 @@
 
 #include "Description.h"
 
+#include <osg/Math>
+
 #include <cmath>
 #include <sstream>
 
 namespace osgAnalyticBin::test {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-double degrees(double radians) {
-    return radians * 180.0 / kPi;
-}
 
 const char* kindName(PartKind kind) {
     switch (kind) {
@@ -122,7 +118,7 @@ void describe(const ViewSpec& v, std::ostream& out) {
     if (v.projection(3, 3) != 0.0) {
         out << ", orthographic, half width " << 1.0 / v.projection(0, 0);
     } else {
-        out << ", fov " << degrees(2.0 * std::atan(1.0 / v.projection(1, 1)));
+        out << ", fov " << osg::RadiansToDegrees(2.0 * std::atan(1.0 / v.projection(1, 1)));
         if (v.projection(2, 0) != 0.0 || v.projection(2, 1) != 0.0) out << ", off axis";
     }
     out << ", culling mode " << v.cullingMode;
@@ -146,7 +142,7 @@ bool TileKey::holds(const TileKey& other) const {
 }
 
 double DatabaseSpec::tileWidth(int level) const {
-    return (isMap ? 64000.0 : 2.0 * kPi) / columns / (1 << level);
+    return (isMap ? 64000.0 : 2.0 * osg::PI) / columns / (1 << level);
 }
 
 osg::Matrixd DatabaseSpec::toWorld(int frame) const {
@@ -189,8 +185,8 @@ std::string inWords(const Part& part) {
     out << "#" << part.id << ": " << kindName(part.kind);
     if (isSomewhere(part.kind)) out << " " << nodeName(part.hook, part.tile);
     if (part.kind == PartKind::Tower || part.kind == PartKind::Vehicle)
-        out << " at " << degrees(part.latitude) << " " << degrees(part.longitude) << ", " << part.low << " to "
-            << part.high << " m";
+        out << " at " << osg::RadiansToDegrees(part.latitude) << " " << osg::RadiansToDegrees(part.longitude) << ", "
+            << part.low << " to " << part.high << " m";
     if (part.kind == PartKind::SetOptions || part.kind == PartKind::Install)
         out << " \"" << toText(part.options) << "\"";
     if (part.variant != 0) out << ", variant " << part.variant;

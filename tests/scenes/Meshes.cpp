@@ -21,7 +21,6 @@ namespace osgAnalyticBin::test {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 // Skirts are as deep as this part of a tile's width.
 constexpr double kSkirtRatio = 0.2;
 
@@ -150,8 +149,8 @@ osg::ref_ptr<osg::Geometry> makeTower(double height, double width) {
 
 Extents extentsOf(const DatabaseSpec& database, const TileKey& tile) {
     const double width = database.tileWidth(tile.level);
-    const double south = database.isMap ? 0.0 : -0.5 * kPi;
-    const double west = database.isMap ? 0.0 : -kPi;
+    const double south = database.isMap ? 0.0 : -0.5 * osg::PI;
+    const double west = database.isMap ? 0.0 : -osg::PI;
     return {south + width * tile.row, south + width * (tile.row + 1), west + width * tile.column,
             west + width * (tile.column + 1)};
 }
