@@ -20,6 +20,7 @@ constexpr double kPixels = 512.0;
 /// The line of sight to a point, in eye space: from the near plane.
 struct Sight {
     osg::Vec3d start, end, inPicture;
+    bool isPerspective;  ///< the eye is at the origin
 };
 
 /// All that both traversals delivered for one camera.
@@ -66,7 +67,9 @@ private:
                               p.z() / (database.polar + altitude));
         };
         const bool isBelow = scaled(sight.start, occluder.highest).length() < 1.0;
-        if (!isBelow && !occluder.fromEverywhere) return false;
+        const bool isEyeBelow = sight.isPerspective && scaled(osg::Vec3d(), occluder.highest).length() < 1.0;
+        const bool isAllowed = isBelow && (occluder.fromBelow || !isEyeBelow);
+        if (!isAllowed && !occluder.fromEverywhere) return false;
         // from below the terrain, whatever is lower than the eye
         const double own = (scaled(sight.start, 0.0).length() - 1.0) * database.polar - 1.0;
         const double altitude = isBelow ? std::min(own, 0.0) : 0.0;
@@ -101,7 +104,8 @@ public:
             _isUsable && w > 0.0 && std::abs(clip.x()) <= most && std::abs(clip.y()) <= most && std::abs(clip.z()) <= w;
         if (!isInside) return std::nullopt;
         const osg::Vec3d inPicture(clip.x() / w, clip.y() / w, clip.z() / w);
-        return Sight{osg::Vec3d(inPicture.x(), inPicture.y(), -1.0) * _unproject, point, inPicture};
+        return Sight{osg::Vec3d(inPicture.x(), inPicture.y(), -1.0) * _unproject, point, inPicture,
+                     _projection(3, 3) == 0.0};
     }
 
     /// How large the drawable is in the picture at most.

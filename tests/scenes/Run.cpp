@@ -326,8 +326,8 @@ bool Runner::holdsAllSkirts(const DatabaseSpec& database) const {
 
 // What the documentation excludes. README, Limits:
 // - "Bins hold of skirts what an eye above the terrain can see through cracks. Where the camera may go below it:
-//   skirts=all." and "The horizon needs (...) a near plane that does not cut visible terrain away": lines of sight that
-//   begin below the highest terrain.
+//   skirts=all.": eyes below the highest terrain.
+// - "The horizon needs (...) a near plane that does not cut visible terrain away": lines of sight that begin below it.
 // - "The horizon needs a database that covers the whole globe": tiles that the application has switched off, or leaves
 //   out by a cull callback of its own.
 // - "Through the slit between tiles of different levels a fraction of a pixel at the picture's border may differ",
@@ -343,8 +343,7 @@ std::vector<AllowedOccluder> Runner::allowed(int frame) const {
         const int number = static_cast<int>(i);
         const double relief = database.relief * largestScale(database, number);
         const bool fromEverywhere = hasHole(number, frame) || (!database.hasSkirts && database.levels > 0);
-        if (!fromEverywhere && holdsAllSkirts(database)) continue;
-        result.push_back({number, relief, fromEverywhere});
+        result.push_back({number, relief, !holdsAllSkirts(database), fromEverywhere});
     }
     return result;
 }

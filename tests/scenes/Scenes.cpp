@@ -11,6 +11,7 @@
 #include <osgDB/ObjectWrapper>
 #include <osgDB/Registry>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -18,6 +19,7 @@
 #include <cstring>
 #include <string>
 #include <unistd.h>
+#include <vector>
 
 using namespace osgAnalyticBin::test;
 
@@ -30,16 +32,19 @@ struct Arguments {
     bool isOnly = false;
     bool describes = false;
     bool shrinks = true;
+    std::vector<std::string> leftOut;
     bool isValid = true;
 };
 
 constexpr const char* kUsage =
-    "osganalyticbin_scenes [--scenes N] [--seed S] [--only SEED] [--describe] [--failures N] [--no-shrink]\n"
+    "osganalyticbin_scenes [--scenes N] [--seed S] [--only SEED] [--describe] [--failures N] [--leave-out TEXT]\n"
+    "                      [--no-shrink]\n"
     "  --scenes N    runs N scenes (default 500), with seeds S, S + 1, ...\n"
     "  --seed S      the first seed (default 1)\n"
     "  --only SEED   runs one scene\n"
     "  --describe    says what is in the scenes\n"
     "  --failures N  ends after N failures (default 10)\n"
+    "  --leave-out TEXT  leaves out all parts in whose description TEXT is; may be given several times\n"
     "  --no-shrink   prints scenes that fail as they are\n"
     "Exit code: 0 when no scene fails, 1 when one does, 2 for wrong arguments.\n";
 
@@ -60,6 +65,8 @@ Arguments parse(int count, char** values) {
             result.isOnly = true;
         } else if (name == "--failures") {
             result.mostFailures = number();
+        } else if (name == "--leave-out" && i + 1 < count) {
+            result.leftOut.emplace_back(values[++i]);
         } else if (name == "--describe") {
             result.describes = true;
         } else if (name == "--no-shrink") {
@@ -81,6 +88,16 @@ void onCrash(int signal) {
     (void)!write(STDERR_FILENO, presentScene, std::strlen(presentScene));
     std::signal(signal, SIG_DFL);
     (void)std::raise(signal);
+}
+
+void leaveOut(const std::vector<std::string>& texts, Description& description) {
+    const auto isLeftOut = [&](const Part& part) {
+        const std::string words = inWords(part);
+        return std::any_of(texts.begin(), texts.end(),
+                           [&](const std::string& text) { return words.find(text) != std::string::npos; });
+    };
+    std::vector<Part>& parts = description.parts;
+    parts.erase(std::remove_if(parts.begin(), parts.end(), isLeftOut), parts.end());
 }
 
 void report(const Description& description, const Failure& failure, bool shrinks) {
@@ -119,7 +136,8 @@ int main(int argc, char** argv) {
     for (; scenes < arguments.scenes && failures < arguments.mostFailures; ++scenes) {
         const std::uint64_t seed = arguments.seed + scenes;
         std::snprintf(presentScene, sizeof presentScene, "%llu\n", static_cast<unsigned long long>(seed));
-        const Description description = randomDescription(seed);
+        Description description = randomDescription(seed);
+        leaveOut(arguments.leftOut, description);
         if (arguments.describes)
             std::printf("seed %llu\n%s", static_cast<unsigned long long>(seed), inWords(description).c_str());
         const auto failure = run(description, totals);
