@@ -187,10 +187,21 @@ private:
         counts.onlyBetweenGivenPlanes = (view.cullingMode & kPlanes) != 0;
         const auto found = findFalseCull(_description, without, with, allowed(frame), counts);
         if (found) return failed(*found, frame);
+        if (auto failure = checkDrawn(without, with, view, frame)) return failure;
+        page();
+        return std::nullopt;
+    }
+
+    // What is drawn with bins.
+    static std::optional<Failure> checkDrawn(const Delivery& without, const Delivery& with, const ViewSpec& view,
+                                             int frame) {
+        const bool isCulled = view.cullingMode != osg::CullSettings::NO_CULLING;
         for (const auto& [key, delivered] : with.drawables) {
             if (delivered.isCountedCulled) return Failure{frame, "counted as culled, and drawn", key};
+            // spheres may cull what bins keep, but only the application culls where nothing else does
+            if (!isCulled && without.drawables.count(key) == 0)
+                return Failure{frame, "drawn, though the application leaves it out", key};
         }
-        page();
         return std::nullopt;
     }
 

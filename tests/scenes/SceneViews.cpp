@@ -192,7 +192,7 @@ ViewSpec randomView(Random& random, const Description& description, int frame) {
     const double mode = random.uniform();
     if (mode > 0.8) view.cullingMode = osg::CullSettings::VIEW_FRUSTUM_CULLING;
     if (mode > 0.88) view.cullingMode = osg::CullSettings::NO_CULLING;
-    if (mode > 0.91) view.cullingMode = osg::CullSettings::DEFAULT_CULLING;
+    if (mode > 0.93) view.cullingMode = osg::CullSettings::DEFAULT_CULLING;
     view.smallFeaturePixels = random.logUniform(0.5, 20.0);
     return view;
 }
