@@ -8,11 +8,9 @@
 #include "Parts.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
-#include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <osg/Camera>
 #include <osg/CoordinateSystemNode>
-#include <osg/Geode>
 #include <osg/LOD>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>

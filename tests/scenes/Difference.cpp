@@ -6,7 +6,6 @@
 #include <osg/Group>
 #include <osg/PagedLOD>
 #include <osg/UserDataContainer>
-#include <osg/ValueObject>
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
