@@ -59,7 +59,7 @@ const char* kindName(PartKind kind) {
         case PartKind::Install:
             return "installBins() again";
         case PartKind::Uninstall:
-            return "installBins() with method sphere";
+            return "removeBins()";
         case PartKind::SetScale:
             return "setVerticalScale()";
         case PartKind::Clone:

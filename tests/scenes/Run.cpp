@@ -253,9 +253,7 @@ private:
     }
 
     std::optional<Failure> uninstall(const Part& part) {
-        CullOptions options = part.options;
-        options.method = Method::Sphere;
-        (void)installBins(*_with.root, options);
+        removeBins(*_with.root);
         removeRequests();
         // README: "A stored scene with bins installed (...) keeps OSG's culling switched off on tiles."
         if (_wasSaved) return std::nullopt;
