@@ -127,7 +127,9 @@ private:
         part.latitude = e.south + _random.uniform(0.2, 0.8) * (e.north - e.south);
         part.longitude = e.west + _random.uniform(0.2, 0.8) * (e.east - e.west);
         const bool isBelowTile = isInFile || part.tile.level > 0;
-        const double highest = isBelowTile && part.hook != Hook::Globe && part.hook != Hook::Root
+        // what a bin is stored for is in it
+        const bool isBuiltIn = part.frame == 0 && database().storesBins;
+        const double highest = (isBelowTile || isBuiltIn) && part.hook != Hook::Globe && part.hook != Hook::Root
                                    ? highestWithinBins(database())
                                    : 6e4 * (database().isMap ? 0.1 : database().scale());
         part.high = highest * _random.uniform(0.3, 1.0);

@@ -13,6 +13,7 @@
 #include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
+#include <osg/CoordinateSystemNode>
 #include <osg/CopyOp>
 #include <osg/FrameStamp>
 #include <osg/PagedLOD>
@@ -89,6 +90,21 @@ public:
         traverse(node);
     }
     std::map<std::string, std::set<osg::PagedLOD*>> waiting;
+};
+
+/// Takes InstallBinsCallbacks off globes.
+class RequestRemover : public osg::NodeVisitor {
+public:
+    RequestRemover() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+    void apply(osg::Node& node) override {
+        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
+    }
+    void apply(osg::CoordinateSystemNode& node) override {
+        osg::ref_ptr<osg::Callback> callback = node.getUpdateCallback();
+        while (callback && !dynamic_cast<InstallBinsCallback*>(callback.get()))
+            callback = callback->getNestedCallback();
+        if (callback) node.removeUpdateCallback(callback.get());
+    }
 };
 
 /// One of the two scenes, and the visitors that go with it.
@@ -263,16 +279,10 @@ private:
         return Failure{part.frame, "not undone: " + difference->what, difference->text};
     }
 
-    // The application's own wish for bins.
+    // The application's own wish for bins, on copies of globes too.
     void removeRequests() {
-        for (std::size_t i = 0; i < _description.databases.size(); ++i) {
-            osg::Node* const node = globe(_with, static_cast<int>(i));
-            if (!node) continue;
-            osg::ref_ptr<osg::Callback> callback = node->getUpdateCallback();
-            while (callback && !dynamic_cast<InstallBinsCallback*>(callback.get()))
-                callback = callback->getNestedCallback();
-            if (callback) node->removeUpdateCallback(callback.get());
-        }
+        RequestRemover remover;
+        _with.root->accept(remover);
     }
 
     // Both scenes get what either of them has asked for.
