@@ -15,6 +15,7 @@
 #include <osg/Geometry>
 #include <osg/PolygonMode>
 #include <osg/Switch>
+#include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 #include <osgUtil/UpdateVisitor>
 
@@ -209,6 +210,38 @@ TEST(AddedContent, ThatCameWithAFileIsDrawn) {
     EXPECT_TRUE(globe.draws(tower, beside(place)));
 }
 
+TEST(AddedContent, IsHeldByBinsThatAreInstalledAgain) {
+    FiledGlobe globe;
+    osg::Node& leaf = *globe.group->getChild(0)->asGroup()->getChild(0);
+    setStoredBin(*globe.tile, AnalyticBin(extentsDeg(10, 50, 0, 40).withAltitude({-40000, 300})));
+    installBins(*globe.root);
+    // within what coarse meshes are allowed to leave a stored bin by
+    const osg::Vec3d place = ecefDeg(20, 20, 2000.0);
+    const osg::ref_ptr<osg::Node> tower = makeTower(place * osg::Matrixd::inverse(leaf.getWorldMatrices()[0]));
+    leaf.asGroup()->addChild(tower);
+    for (int round = 0; round < 2; ++round) {
+        installBins(*globe.root);
+        update(*globe.root);
+        const osg::Vec3d up = place / place.length();
+        osg::Vec3d east = osg::Vec3d(0, 0, 1) ^ up;
+        east.normalize();
+        // from below, so that the terrain is outside
+        const CullView view = CullView::lookAt(place - east * 5000.0 - up * 300.0, place, up, 2.0);
+        EXPECT_TRUE(globe.draws(*tower, view)) << round;
+    }
+}
+
+TEST(AddedContent, IsKnownToASceneThatIsSavedAtOnce) {
+    FiledGlobe globe;
+    const osg::Vec3d place = ecefDeg(20, 20, 30000.0);
+    globe.group->addChild(makeTower(place));
+    ASSERT_TRUE(osgDB::writeNodeFile(*globe.root, globe.folder / "saved.osgb"));
+    const osg::ref_ptr<osg::Node> back = osgDB::readRefNodeFile(globe.folder / "saved.osgb");
+    ASSERT_TRUE(back);
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    EXPECT_EQ(cull(*back, beside(place), *visitor).drawn.size(), 1u);
+}
+
 // A Terrain of 32 flat osgTerrain tiles below PagedLODs.
 osg::ref_ptr<osgTerrain::Terrain> makeTerrain() {
     osg::ref_ptr<osgTerrain::Terrain> terrain = new osgTerrain::Terrain;
@@ -367,6 +400,36 @@ TEST(HoledGlobe, IsNotOneWithCallbacksThatPromiseToTraverse) {
     installBins(*globe.root);
     EXPECT_FALSE(globe.drawsAntipode());
     EXPECT_EQ(visited.size(), 1u);
+}
+
+TEST(UndergroundEyes, AreFoundWhereAGeodeHoldsATransform) {
+    MeshGlobe globe(40000.0);
+    osg::Geode* const geode = drawableOf(*globe.tiles[19])->getParent(0)->asGeode();
+    geode->addChild(makeTower(osg::Vec3d(0, 0, 0)));
+    installBins(*globe.root);
+    const osg::Vec3d eye = ecefDeg(21.3, -21.7, 30000.0);
+    EXPECT_TRUE(globe.draws(*globe.tiles[15], CullView::lookAt(eye, {0, 0, 0}, {0, 0, 1}, 100.0)));
+}
+
+TEST(SavedScenes, HideNothingBehindTheHorizonWithoutTheirDatabase) {
+    CullOptions options;
+    options.horizonUse = HorizonUse::Given;
+    options.horizon = -50000.0;
+    MeshGlobe globe;
+    installBins(*globe.root, options);
+    AnalyticBinCullCallback& callback = *installedOn(*globe.tiles[15]);
+    const osg::ref_ptr<AnalyticBinCullCallback> read = new AnalyticBinCullCallback;
+    read->setOptionsText(callback.getOptionsText());
+    read->setBinText(callback.getBinText());
+    EXPECT_TRUE(read->bin().valid());
+    const osg::ref_ptr<osg::CoordinateSystemNode> back = new osg::CoordinateSystemNode;
+    const osg::ref_ptr<osg::Group> tile = new osg::Group;
+    tile->addChild(makeMeshTile(extentsDeg(-45, 0, 135, 180), 0.0));
+    tile->setCullCallback(read);
+    tile->setCullingActive(false);
+    back->addChild(tile);
+    globe.scene = back;
+    EXPECT_TRUE(globe.draws(*tile, MeshGlobe::fromAbove()));
 }
 
 TEST(UndergroundEyes, HaveNoHorizon) {

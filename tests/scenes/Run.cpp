@@ -201,7 +201,7 @@ private:
             counts.smallestPixels = 4.0 * view.smallFeaturePixels;
         constexpr int kPlanes = osg::CullSettings::NEAR_PLANE_CULLING | osg::CullSettings::FAR_PLANE_CULLING;
         counts.onlyBetweenGivenPlanes = (view.cullingMode & kPlanes) != 0;
-        const auto found = findFalseCull(_description, without, with, allowed(frame), counts);
+        const auto found = findFalseCull(_description, without, with, allowed(), counts);
         if (found) return failed(*found, frame);
         if (auto failure = checkDrawn(without, with, view, frame)) return failure;
         page();
@@ -304,9 +304,8 @@ private:
         paged.addChild(content);
     }
 
-    [[nodiscard]] std::vector<AllowedOccluder> allowed(int frame) const;
+    [[nodiscard]] std::vector<AllowedOccluder> allowed() const;
     [[nodiscard]] double largestScale(const DatabaseSpec& database, int number) const;
-    [[nodiscard]] bool hasHole(int number, int frame) const;
     [[nodiscard]] bool holdsAllSkirts(const DatabaseSpec& database) const;
 
     const Description& _description;
@@ -327,14 +326,6 @@ double Runner::largestScale(const DatabaseSpec& database, int number) const {
 }
 
 // Whether the application has taken tiles away.
-bool Runner::hasHole(int number, int frame) const {
-    return std::any_of(_description.parts.begin(), _description.parts.end(), [&](const Part& part) {
-        const bool isOff = part.kind == PartKind::Switch && part.variant == 2;
-        const bool isSkipped = part.kind == PartKind::UserCull && part.variant >= 2;
-        return (isOff || isSkipped) && part.tile.database == number && part.frame <= frame;
-    });
-}
-
 bool Runner::holdsAllSkirts(const DatabaseSpec& database) const {
     return database.options.skirts == SkirtUse::All &&
            std::all_of(_description.parts.begin(), _description.parts.end(), [](const Part& part) {
@@ -347,21 +338,18 @@ bool Runner::holdsAllSkirts(const DatabaseSpec& database) const {
 // - "Bins hold of skirts what an eye above the terrain can see through cracks. Where the camera may go below it:
 //   skirts=all.": eyes below the highest terrain.
 // - "The horizon needs (...) a near plane that does not cut visible terrain away": lines of sight that begin below it.
-// - "The horizon needs a database that covers the whole globe": tiles that the application has switched off, or leaves
-//   out by a cull callback of its own.
 // - "Through the slit between tiles of different levels a fraction of a pixel at the picture's border may differ",
 //   doc/databases.md: "up to cracks, which skirts cover": databases without skirts.
-// - "What moves by itself below a tile (...) is culled with the tile: let it stay within its bin", "Transforms between
-//   the CoordinateSystemNode and a tile must not change", "With OccluderNodes in the scene, OSG itself may cull visible
-//   nodes beside tiles": the generator makes no such scenes.
-std::vector<AllowedOccluder> Runner::allowed(int frame) const {
+// - "Nodes with an absolute reference frame below a tile are culled with it", "With OccluderNodes in the scene, OSG
+//   itself may cull visible nodes beside tiles": the generator makes no such scenes.
+std::vector<AllowedOccluder> Runner::allowed() const {
     std::vector<AllowedOccluder> result;
     for (std::size_t i = 0; i < _description.databases.size(); ++i) {
         const DatabaseSpec& database = _description.databases[i];
         if (database.isMap) continue;
         const int number = static_cast<int>(i);
         const double relief = database.relief * largestScale(database, number);
-        const bool fromEverywhere = hasHole(number, frame) || (!database.hasSkirts && database.levels > 0);
+        const bool fromEverywhere = !database.hasSkirts && database.levels > 0;
         result.push_back({number, relief, !holdsAllSkirts(database), fromEverywhere});
     }
     return result;

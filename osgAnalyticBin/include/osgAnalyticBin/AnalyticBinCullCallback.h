@@ -137,10 +137,12 @@ public:
     [[nodiscard]] bool isColumnHiddenFrom(const core::HorizonEye& eye) const;
 
     /// The same properties as text, exact in every file format; what the serializer stores. The bin as
-    /// AnalyticBin::toText() has it, and after semicolons what is set of "skirt METRES", "surface BIN", "terrain
+    /// AnalyticBin::toText() has it, and after semicolons what is set of "installed" (by
+    /// an installer, without which the tile is never culled), "skirt METRES", "surface BIN", "terrain
     /// VERTICALSCALE SAMPLERATIO AREBOUNDARIESEQUAL ISKNOWN". Malformed: a warning, and the tile is never culled.
     void setBinText(const std::string& text);
-    /// As setBinText() reads it; empty without a valid bin.
+    /// As setBinText() reads it; empty without a valid bin, and while something stands below the tile that the bin does
+    /// not hold.
     [[nodiscard]] std::string getBinText() const;
     /// As cullOptionsFromText() reads it; the default, after a warning, when it is malformed.
     void setOptionsText(const std::string& text);
@@ -198,6 +200,7 @@ private:
     [[nodiscard]] bool isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,
                                       core::PlaneMask undecided) const;
 
+    bool _wasInstalled = false;  // in a scene that was saved
     osg::ref_ptr<InstalledTile> _installed;
     std::optional<Prepared> _prepared;
     bool _hasLocalFrame = false;

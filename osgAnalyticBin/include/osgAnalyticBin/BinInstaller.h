@@ -95,7 +95,7 @@ private:
     void installAt(osg::Node& root);
     [[nodiscard]] Database& database();
     void passBy(osg::Node& node, bool isTile);
-    void install(FoundTile& tile);
+    void install(FoundTile& tile, bool hasNewContent);
     void installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape);
     [[nodiscard]] osg::ref_ptr<ParentTile> linkTo(const FoundTile& tile);
     void noteCovered(const FoundTile& tile, const core::GeodeticBin& extents);
@@ -109,6 +109,7 @@ private:
 
     CullOptions _options;
     bool _keepsDatabases = false;
+    bool _isReading = false;         // what the pager reads, before it is in the scene
     bool _isInMesh = false;          // within a tile's own mesh
     bool _isBelowSelection = false;  // below a node that may leave out some of its children
     osg::ref_ptr<const BinIndex> _index;

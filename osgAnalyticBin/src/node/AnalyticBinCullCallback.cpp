@@ -72,7 +72,8 @@ AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& 
     : osg::Object(other, copyop),
       osg::Callback(other, copyop),
       osg::NodeCallback(other, copyop),
-      _installed(other._installed ? new InstalledTile(nullptr, other._installed->database()) : nullptr),
+      _wasInstalled(other._wasInstalled),
+      _installed(other._installed ? new InstalledTile(*other._installed) : nullptr),
       _prepared(other._prepared),
       _hasLocalFrame(other._hasLocalFrame),
       _testsEdges(other._testsEdges),
@@ -227,7 +228,9 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
         cullStack.getCurrentCullingSet().getFrustum().getCurrentMask() = 0;
         return false;
     }
-    if (!_prepared || (_installed && !_installed->mayCull(&node))) return false;
+    // without its database nobody notices what is added below the tile, or how the terrain is shown
+    const bool isAbandoned = _installed ? !_installed->mayCull(&node) : _wasInstalled;
+    if (!_prepared || isAbandoned) return false;
     CullTraversal& traversal = CullTraversal::of(nv);
     const DatabaseView* database = traversal.databaseView();
     if (_shape && !database) return false;
@@ -261,6 +264,7 @@ const core::HorizonEye* AnalyticBinCullCallback::eyeOn(osg::CullStack& cullStack
                             standsAsInstalled(cullStack, *database);
         return isSame ? database->eye : nullptr;
     }
+    if (_installed) return nullptr;
     // In a frame of its own the eye would have to be prepared anew for every tile.
     if (_options.horizonUse != HorizonUse::Given || _hasLocalFrame) return nullptr;
     const Occluder occluder{_prepared->ellipsoid, std::max(0.0, -_options.horizon), _options.inheritViewpoint};
@@ -312,12 +316,13 @@ void AnalyticBinCullCallback::setBinText(const std::string& text) {
     setBin(bin);
 }
 
-// One of "skirt 100", "surface BIN", "terrain 1 1 0 1".
+// One of "installed", "skirt 100", "surface BIN", "terrain 1 1 0 1".
 bool AnalyticBinCullCallback::readItem(const std::string& item) {
     const std::size_t begin = std::min(item.find_first_not_of(' '), item.size());
     const std::size_t end = std::min(item.find(' ', begin), item.size());
     const std::string name = item.substr(begin, end - begin);
     const std::string value = item.substr(end);
+    if (name == "installed") return _wasInstalled = true;
     if (name == "skirt") {
         const auto metres = numbersFromText(value, 1);
         if (metres) _skirt = metres->front();
@@ -333,8 +338,9 @@ bool AnalyticBinCullCallback::readItem(const std::string& item) {
 }
 
 std::string AnalyticBinCullCallback::getBinText() const {
+    if (!_bin.valid() || (_installed && _installed->isKeptVisible())) return {};
     std::string text = _bin.toText();
-    if (!_bin.valid()) return text;
+    if (_installed || _wasInstalled) text += "; installed";
     if (_skirt != 0.0) text += "; skirt " + numberToText(_skirt);
     if (_surface.valid()) text += "; surface " + _surface.toText();
     const auto number = [](bool is) { return is ? 1.0 : 0.0; };

@@ -60,10 +60,6 @@ void warnOfDrawable(const osg::Node& node) {
              << "\" has a stored bin; drawables are not culled by bins. Store it with the group above." << std::endl;
 }
 
-bool carriesTile(const osg::Node& node) {
-    return dynamic_cast<const Carrier*>(&node) != nullptr;
-}
-
 bool isGlobeBroken(const osg::CoordinateSystemNode& node) {
     return node.getEllipsoidModel() && !hasValidRadii(*node.getEllipsoidModel());
 }
@@ -116,6 +112,7 @@ BinInstaller::~BinInstaller() = default;
 
 void BinInstaller::continueBelow(Database* database, const TileFrame& frame, const ParentTile* parent) {
     setFrame(frame);
+    _isReading = true;
     _database = database;
     _index = database->index();
     _parent = parent;
@@ -217,6 +214,7 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
 }
 
 void BinInstaller::visitTile(FoundTile& tile) {
+    const bool hasNewContent = ContentWatch::hasNewContent(*tile.node);
     uninstall(tile);
     if (isInstanced(*tile.node, tile.frame)) return passBy(*tile.node, true);
     if (installsBins() && !hasStoredBin(*tile.node)) {
@@ -227,7 +225,7 @@ void BinInstaller::visitTile(FoundTile& tile) {
         if (fit.kind == PlanarFit::Planar) return installPlanar(tile, fit, shape);
         if (fit.kind == PlanarFit::Contradictory || !tile.frame.ellipsoid) return passBy(*tile.node, true);
     }
-    if (installsBins()) return install(tile);
+    if (installsBins()) return install(tile, hasNewContent);
     if (_options.method == Method::None) {
         for (const auto& mesh : tile.meshes) {
             suspendCulling(*mesh);
@@ -239,8 +237,6 @@ void BinInstaller::visitTile(FoundTile& tile) {
 
 void BinInstaller::visitOther(osg::Node& node) {
     if (node.asDrawable() && hasStoredBin(node)) warnOfDrawable(node);
-    // clones have plain groups in place of ours
-    if (installedTileOf(node) && !carriesTile(node)) removeCallbacks({&node, {}, frame(), 0, {}});
     if (_parent && !_isInMesh && installsBins() && node.asGroup()) {
         ContentWatch::place(node, {});
     } else {
@@ -274,15 +270,16 @@ void BinInstaller::visitTooDeep(osg::Node&) {
     database().noteGap(frame().file);
 }
 
-void BinInstaller::install(FoundTile& tile) {
+void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     const osg::ref_ptr<ParentTile> link = linkTo(tile);
+    link->hasNewContent = hasNewContent;
     const TerrainShape shape = database().fittedShape();
     const TileFit fit = fitTile(tile, database(), shape, *link);
     if (!fit.isTerrain) return passBy(*tile.node, true);
 
     const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database().ellipsoid();
     const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);
-    osg::Node& culled = culledNode(tile);
+    osg::Node& culled = culledNode(tile, _isReading);
     const osg::Matrixd localToEcef = culledFrame(tile, culled);
     if (!localToEcef.isIdentity()) callback->setLocalToEcef(localToEcef);
     if (fit.isScalable) callback->setTerrainShape(shape);
@@ -300,7 +297,7 @@ void BinInstaller::install(FoundTile& tile) {
 }
 
 void BinInstaller::installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape) {
-    osg::Node& culled = culledNode(tile);
+    osg::Node& culled = culledNode(tile, _isReading);
     const auto mapToLocal = affineInverse(culledFrame(tile, culled));
     if (!mapToLocal) return passBy(*tile.node, true);
     // what neighbours lend to edges, and what other techniques make of heights, is not known

@@ -10,14 +10,18 @@
 #include "Spheres.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/TileSurface.h>
 
+#include <osg/ComputeBoundsVisitor>
 #include <osg/CoordinateSystemNode>
 #include <osg/Transform>
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 namespace osgAnalyticBin {
 
@@ -54,21 +58,32 @@ void mixFrame(std::uint64_t& hash, const osg::Transform& transform) {
     }
 }
 
-// What changes when a part of a mesh is added, removed, moved or replaced by one with other bounds. Tiles inside look
-// after themselves; a terrain tile draws nothing of what is below it.
-void addSignature(const osg::Node& node, std::uint64_t& hash) {
-    mix(hash, reinterpret_cast<std::uintptr_t>(&node));
+// Visits a mesh. Tiles inside look after themselves; a terrain tile draws nothing of what is below it.
+template <class Visit>
+void forEachPart(const osg::Node& node, const Visit& visit) {
+    visit(node);
     if (watchOf(node) || dynamic_cast<const osgTerrain::TerrainTile*>(&node)) return;
-    if (node.asDrawable()) mixBound(hash, node.getBound());
-    if (node.asTransform()) mixFrame(hash, *node.asTransform());
     const osg::Group* const group = node.asGroup();
-    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) addSignature(*group->getChild(i), hash);
+    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) forEachPart(*group->getChild(i), visit);
 }
 
-std::uint64_t signatureOf(const osg::Node& node) {
+// What changes when a part of a mesh is added, removed, moved or replaced.
+std::uint64_t structureOf(const osg::Node& mesh) {
     std::uint64_t hash = 1;
-    addSignature(node, hash);
+    forEachPart(mesh, [&hash](const osg::Node& part) {
+        mix(hash, reinterpret_cast<std::uintptr_t>(&part));
+        if (part.asTransform()) mixFrame(hash, *part.asTransform());
+    });
     return hash;
+}
+
+// What changes when vertices do. Never 0.
+std::uint64_t boundsOf(const osg::Node& mesh) {
+    std::uint64_t hash = 1;
+    forEachPart(mesh, [&hash](const osg::Node& part) {
+        if (part.asDrawable()) mixBound(hash, part.getBound());
+    });
+    return hash | 1;
 }
 
 // The content as the box of latitudes, longitudes and altitudes about its sphere. Not valid: it has none.
@@ -89,40 +104,80 @@ AnalyticBin binAbout(const osg::BoundingSphere& sphere, const core::Ellipsoid& e
                                          {middle.altitude - radius, middle.altitude + radius}));
 }
 
-void fitInto(const AnalyticBinCullCallback& callback, const osg::BoundingSphere& sphere) {
-    InstalledTile* const tile = callback.installedTile();
-    if (!tile || !callback.bin().valid()) return;
-    // the bin is that of the terrain before it is exaggerated, the content is not
-    const bool isScaled = callback.terrainShape() && callback.terrainShape()->verticalScale != 1.0;
-    const core::Ellipsoid ellipsoid = toCore(*tile->database().ellipsoid());
-    const AnalyticBin content =
-        isScaled ? AnalyticBin() : binAbout(movedSphere(sphere, callback.localToEcef()), ellipsoid);
-    if (content.valid() && callback.bin().bin().contains(content.bin())) return;
-    tile->keepVisible(true);
-    tile->database().noteContent(callback, {content, !content.valid()});
-}
+// Something that stands below tiles, on its way up from one to the next.
+class Content {
+public:
+    explicit Content(osg::Node& node) : _node(node), _sphere(node.getBound()) {
+        osg::ComputeBoundsVisitor bounds;
+        node.accept(bounds);
+        for (unsigned int i = 0; i < _corners.size(); ++i) _corners[i] = bounds.getBoundingBox().corner(i);
+    }
 
-void fitInto(const PlanarBinCullCallback& callback, const osg::BoundingSphere& sphere) {
-    if (callback.installedTile() && !callback.bin().holds(sphere)) callback.installedTile()->keepVisible(true);
-}
+    // Goes from the frame inside a transform to the one outside.
+    void leave(const osg::Transform& transform) {
+        osg::Matrixd matrix;
+        transform.computeLocalToWorldMatrix(matrix, nullptr);
+        _sphere = movedSphere(_sphere, matrix);
+        for (osg::Vec3d& corner : _corners) corner = corner * matrix;
+        _toHere = _toHere * matrix;
+    }
+
+    void fitInto(const AnalyticBinCullCallback& callback) {
+        InstalledTile* const tile = callback.installedTile();
+        if (!tile || !callback.bin().valid()) return;
+        // the bin is that of the terrain before it is exaggerated, the content is not
+        const bool isScaled = callback.terrainShape() && callback.terrainShape()->verticalScale != 1.0;
+        const osg::EllipsoidModel& model = *tile->database().ellipsoid();
+        const AnalyticBin about = binAbout(movedSphere(_sphere, callback.localToEcef()), toCore(model));
+        if (!isScaled && isHeld(about, callback.bin())) return;
+        const AnalyticBin& own = surfaceOn(model, callback.localToEcef());
+        if (!isScaled && isHeld(own, callback.bin())) return;
+        const AnalyticBin& content = own.valid() ? own : about;
+        tile->keepVisible(true);
+        tile->database().noteContent(callback, {content, isScaled || !content.valid()});
+    }
+
+    void fitInto(const PlanarBinCullCallback& callback) const {
+        const bool isHeld = std::all_of(_corners.begin(), _corners.end(),
+                                        [&](const osg::Vec3d& corner) { return callback.bin().holds(corner); });
+        if (callback.installedTile() && !isHeld) callback.installedTile()->keepVisible(true);
+    }
+
+private:
+    // A mesh that was fitted may stand there in another form, as osgUtil::Optimizer leaves it: its posts tell.
+    static bool isHeld(const AnalyticBin& content, const AnalyticBin& bin) {
+        if (!content.valid()) return false;
+        const core::Interval& altitude = content.bin().altitude();
+        const double posts = std::min(altitude.lower + content.sag(), altitude.upper);
+        const core::Interval room{bin.bin().altitude().lower - bin.margin(), bin.bin().altitude().upper + bin.margin()};
+        return bin.bin().withAltitude(room).contains(content.bin().withAltitude({posts, altitude.upper}));
+    }
+
+    // Read once, for all tiles above.
+    const AnalyticBin& surfaceOn(const osg::EllipsoidModel& model, const osg::Matrixd& localToEcef) {
+        if (!_surface) _surface = tileSurface(_node, model, _toHere * localToEcef).bin;
+        return *_surface;
+    }
+
+    osg::Node& _node;
+    osg::BoundingSphere _sphere;
+    std::array<osg::Vec3d, 8> _corners;
+    osg::Matrixd _toHere;
+    std::optional<AnalyticBin> _surface;
+};
 
 // Looks whether all tiles from the node upwards hold what stands among the node's children. Returns: whether this got
 // to the database's root.
-bool fitIntoTilesFrom(const osg::Node& node, const osg::BoundingSphere& sphere) {
+bool fitIntoTilesFrom(const osg::Node& node, Content content) {
     if (dynamic_cast<const osg::CoordinateSystemNode*>(&node)) return true;
     for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
-        if (const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(at)) fitInto(*bin, sphere);
-        if (const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(at)) fitInto(*planar, sphere);
+        if (const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(at)) content.fitInto(*bin);
+        if (const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(at)) content.fitInto(*planar);
     }
-    osg::BoundingSphere moved = sphere;
-    if (const osg::Transform* const transform = node.asTransform()) {
-        osg::Matrixd matrix;
-        transform->computeLocalToWorldMatrix(matrix, nullptr);
-        moved = movedSphere(sphere, matrix);
-    }
+    if (node.asTransform()) content.leave(*node.asTransform());
     bool isComplete = node.getNumParents() > 0;
     for (const osg::Group* const parent : node.getParents()) {
-        isComplete = fitIntoTilesFrom(*parent, moved) && isComplete;
+        isComplete = fitIntoTilesFrom(*parent, content) && isComplete;
     }
     return isComplete;
 }
@@ -143,12 +198,12 @@ void ContentWatch::place(osg::Node& node, const std::vector<osg::ref_ptr<osg::No
     watch->_node = &node;
     watch->_previous = node.getComputeBoundingSphereCallback();
     for (const auto& mesh : fitted) {
-        if (mesh != &node) watch->_fitted.push_back({mesh, signatureOf(*mesh)});
+        if (mesh != &node) watch->_fitted.push_back({mesh, structureOf(*mesh), 0});
     }
     const bool isMesh = std::find(fitted.begin(), fitted.end(), &node) != fitted.end();
     const osg::Group* const group = isMesh ? node.asGroup() : nullptr;
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
-        watch->_fitted.push_back({group->getChild(i), signatureOf(*group->getChild(i))});
+        watch->_fitted.push_back({group->getChild(i), structureOf(*group->getChild(i)), 0});
     }
     node.setComputeBoundingSphereCallback(watch);
     // what is there already, beside meshes, is looked at with the next bound
@@ -161,15 +216,39 @@ void ContentWatch::remove(osg::Node& node) {
     }
 }
 
+void ContentWatch::look() const {
+    if (_node) (void)_node->getBound();
+}
+
 osg::BoundingSphere ContentWatch::computeBound(const osg::Node& node) const {
     if (&node == _node) check(node);
     return _previous ? _previous->computeBound(node) : node.computeBound();
 }
 
-bool ContentWatch::isFitted(const osg::Node& child) const {
+bool ContentWatch::hasNewContent(const osg::Node& node) {
+    const ContentWatch* const watch = watchOf(node);
+    const osg::Group* const group = dynamic_cast<const osgTerrain::TerrainTile*>(&node) ? nullptr : node.asGroup();
+    for (unsigned int i = 0; watch && watch->_node == &node && group && i < group->getNumChildren(); ++i) {
+        const osg::Node& child = *group->getChild(i);
+        if (!ownWatchOf(child) && !watch->isFitted(child, false)) return true;
+    }
+    return false;
+}
+
+const ContentWatch* ContentWatch::ownWatchOf(const osg::Node& node) {
+    const ContentWatch* const watch = node.getNumParents() == 1 ? watchOf(node) : nullptr;
+    return watch && watch->_node == &node ? watch : nullptr;
+}
+
+// Bounds are left to the time when OSG computes them: it may not survive those of broken meshes.
+bool ContentWatch::isFitted(const osg::Node& child, bool withBounds) const {
     const auto known =
         std::find_if(_fitted.begin(), _fitted.end(), [&](const Fitted& fitted) { return fitted.node == &child; });
-    return known != _fitted.end() && known->signature == signatureOf(child);
+    if (known == _fitted.end() || known->structure != structureOf(child)) return false;
+    if (!withBounds && known->bounds == 0) return true;
+    const std::uint64_t bounds = boundsOf(child);
+    if (known->bounds == 0) known->bounds = bounds;
+    return known->bounds == bounds;
 }
 
 void ContentWatch::check(const osg::Node& node) const {
@@ -179,12 +258,11 @@ void ContentWatch::check(const osg::Node& node) const {
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
         const osg::BoundingSphere& sphere = child.getBound();  // has others look at what is below it, too
-        const ContentWatch* const watch = child.getNumParents() == 1 ? watchOf(child) : nullptr;
-        if (watch && watch->_node == &child) {
+        if (const ContentWatch* const watch = ownWatchOf(child)) {
             if (watch->_isPending) watch->check(child);
             _isPending = _isPending || watch->_isPending;
-        } else if (sphere.valid() && !isAbsolute(child) && !isFitted(child)) {
-            _isPending = !fitIntoTilesFrom(node, sphere) || _isPending;
+        } else if (sphere.valid() && !isAbsolute(child) && !isFitted(child, true)) {
+            _isPending = !fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child))) || _isPending;
         }
     }
 }

@@ -33,6 +33,12 @@ public:
     /// Takes it off again.
     static void remove(osg::Node& node);
 
+    /// Whether a watch stands on the node, and has found content among its children that the bin was not fitted to.
+    [[nodiscard]] static bool hasNewContent(const osg::Node& node);
+
+    /// Looks for new content now. Requires: the node that it was placed on is alive.
+    void look() const;
+
     osg::BoundingSphere computeBound(const osg::Node& node) const override;
 
 protected:
@@ -41,10 +47,13 @@ protected:
 private:
     struct Fitted {
         const osg::Node* node;
-        std::uint64_t signature;
+        std::uint64_t structure;
+        mutable std::uint64_t bounds;  // 0: not known yet
     };
 
-    [[nodiscard]] bool isFitted(const osg::Node& child) const;
+    // That of a node in one place.
+    [[nodiscard]] static const ContentWatch* ownWatchOf(const osg::Node& node);
+    [[nodiscard]] bool isFitted(const osg::Node& child, bool withBounds) const;
     void check(const osg::Node& node) const;
 
     const osg::Node* _node = nullptr;  // that it was placed on

@@ -94,6 +94,9 @@ public:
     /// Says that a tile is larger than the bin that is stored with it or with its parent: likewise.
     static void reportFalseBin(const ParentTile& tile, const AnalyticBin& bin);
 
+    /// Says that what a tile draws may leave the bins of the tiles above it, for good reasons: these are widened.
+    static void noteLarger(const ParentTile& tile, const AnalyticBin& bin) { widenFrom(tile, {bin}); }
+
     /// Says that nobody can tell whether a tile fits into the bins that are stored with it and above it: warns once,
     /// and has the tile's ancestors kept visible from the next update on.
     static void reportUntold(const ParentTile& tile);
@@ -147,6 +150,7 @@ struct ParentTile : public osg::Referenced {
     bool isTile = true;  // false: a node without a bin, between tiles; it has neither number nor extents
     std::string file;
     std::size_t ordinal = 0;
+    bool hasNewContent = false;  // since bins were last installed on it
     core::GeodeticBin extents;
     core::TileEdges edges;
     // What the tile is culled by, where a stored bin says so; else that of the nearest tile above that has one.

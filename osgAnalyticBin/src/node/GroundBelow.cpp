@@ -8,6 +8,7 @@
 #include "Inverse.h"
 
 #include <glm/geometric.hpp>
+#include <osg/Geode>
 #include <osg/Geometry>
 #include <osgTerrain/TerrainTile>
 #include <osgUtil/IntersectionVisitor>
@@ -21,6 +22,14 @@ namespace osgAnalyticBin {
 namespace {
 
 using Intersector = osgUtil::LineSegmentIntersector;
+
+// OSG's own takes all children of a Geode for drawables.
+class MeshIntersection : public osgUtil::IntersectionVisitor {
+public:
+    using osgUtil::IntersectionVisitor::apply;
+    using osgUtil::IntersectionVisitor::IntersectionVisitor;
+    void apply(osg::Geode& geode) override { apply(static_cast<osg::Group&>(geode)); }
+};
 
 // Made in the update traversal, and not to be made here, where others may cull the same tile.
 bool hasMesh(const osg::Node& node) {
@@ -73,7 +82,7 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, osg::Node& mesh, const Anal
         return toOsg(ellipsoid.toEcef({eye.latitude, eye.longitude, altitude})) * *ecefToLocal;
     };
     const osg::ref_ptr<Intersector> intersector = new Intersector(at(top), at(bottom));
-    osgUtil::IntersectionVisitor visitor(intersector);
+    MeshIntersection visitor(intersector);
     mesh.accept(visitor);
     if (!intersector->containsIntersections()) return false;
     // the first is the highest

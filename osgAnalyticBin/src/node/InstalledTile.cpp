@@ -7,12 +7,16 @@
 
 namespace osgAnalyticBin {
 
-InstalledTile::InstalledTile(const osg::Node* culled, Database& database) : _culled(culled), _database(&database) {}
+InstalledTile::InstalledTile(const osg::Node& culled, Database& database) : _culled(&culled), _database(&database) {}
+
+InstalledTile::InstalledTile(const InstalledTile& other)
+    : osg::Referenced(other), _culled(nullptr), _database(other._database), _wasActive(other._wasActive) {}
 
 InstalledTile::~InstalledTile() = default;
 
 void InstalledTile::suspendSphere(osg::Node& node) {
-    if (!node.getCullingActive()) return;
+    _wasActive.push_back(node.getCullingActive());
+    if (!_wasActive.back()) return;
     node.setCullingActive(false);
     if (isFor(&node)) {
         _wasCulledActive = true;

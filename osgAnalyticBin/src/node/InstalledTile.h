@@ -8,6 +8,7 @@
 #include <osg/ref_ptr>
 
 #include <atomic>
+#include <cstddef>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -19,8 +20,11 @@ class Database;
 /// Threads: mayCull() and keepVisible() at any time; the rest where no cull traversal runs.
 class InstalledTile final : public osg::Referenced {
 public:
-    /// `culled`: the node that carries the callback. nullptr: none, as for a copied callback.
-    InstalledTile(const osg::Node* culled, Database& database);
+    /// `culled`: the node that carries the callback.
+    InstalledTile(const osg::Node& culled, Database& database);
+
+    /// That of a copied callback: for no node.
+    InstalledTile(const InstalledTile& other);
 
     [[nodiscard]] Database& database() const { return *_database; }
 
@@ -36,6 +40,8 @@ public:
     /// Keeps the tile visible until this is called with false.
     void keepVisible(bool kept) { _isKeptVisible.store(kept, std::memory_order_relaxed); }
 
+    [[nodiscard]] bool isKeptVisible() const { return _isKeptVisible.load(std::memory_order_relaxed); }
+
     /// Says that what the tile draws can be seen through, so that the horizon must not rely on it.
     void setSeeThrough() { _isSeeThrough = true; }
     [[nodiscard]] bool isSeeThrough() const { return _isSeeThrough; }
@@ -45,6 +51,9 @@ public:
 
     /// Switches the sphere test on again on the nodes where it was on. Requires: isFor(&culled).
     void resumeSpheres(osg::Node& culled);
+
+    /// Whether the test was on at the i-th call of suspendSphere(): what a clone of the nodes has to go back to.
+    [[nodiscard]] bool wasActive(std::size_t i) const { return i < _wasActive.size() && _wasActive[i]; }
 
 protected:
     ~InstalledTile() override;
@@ -56,6 +65,7 @@ private:
     bool _isSeeThrough = false;
     bool _wasCulledActive = false;                    // of the culled node, which owns this and must not be owned by it
     std::vector<osg::ref_ptr<osg::Node>> _suspended;  // other nodes
+    std::vector<bool> _wasActive;
 };
 
 }  // namespace osgAnalyticBin

@@ -3,7 +3,6 @@
 
 #include "MeshCulling.h"
 
-#include "InstalledTile.h"
 #include "SeeThrough.h"
 
 #include <osg/ClusterCullingCallback>
@@ -38,11 +37,6 @@ public:
 private:
     const std::function<void(osg::Node&)> _action;
 };
-
-void forEachNode(osg::Node& root, std::function<void(osg::Node&)> action) {
-    ForEachNode visitor(std::move(action));
-    root.accept(visitor);
-}
 
 // Says of itself that it is an osg::ClusterCullingCallback, and holds what the original held: it is saved and cloned as
 // that.
@@ -86,16 +80,9 @@ std::vector<osg::ref_ptr<osg::Callback>> cullCallbacks(osg::Node& node) {
 
 }  // namespace
 
-void suspendSpheres(osg::Node& mesh, InstalledTile& tile) {
-    forEachNode(mesh, [&tile](osg::Node& node) {
-        if (!node.asDrawable()) tile.suspendSphere(node);
-    });
-}
-
-void resumeSpheres(osg::Node& mesh) {
-    forEachNode(mesh, [](osg::Node& node) {
-        if (!node.asDrawable()) node.setCullingActive(true);
-    });
+void forEachNode(osg::Node& root, std::function<void(osg::Node&)> action) {
+    ForEachNode visitor(std::move(action));
+    root.accept(visitor);
 }
 
 bool isSeeThroughMesh(osg::Node& mesh) {
@@ -108,6 +95,14 @@ bool isSeeThroughMesh(osg::Node& mesh) {
     return isFound;
 }
 
+// Clones share user data with their original: what is noted of one node is not to be noted of the other.
+void ownValues(osg::Node& node) {
+    const osg::UserDataContainer* const values = node.getUserDataContainer();
+    if (!values || values->referenceCount() == 1) return;
+    const osg::ref_ptr<osg::UserDataContainer> own = osg::clone(values, osg::CopyOp::SHALLOW_COPY);
+    node.setUserDataContainer(own);
+}
+
 void forgetEmptyValues(osg::Node& node) {
     const osg::UserDataContainer* const values = node.getUserDataContainer();
     const bool isEmpty =
@@ -118,6 +113,7 @@ void forgetEmptyValues(osg::Node& node) {
 void suspendCullingOf(osg::Node& node) {
     if (!node.getCullingActive()) return;
     node.setCullingActive(false);
+    ownValues(node);
     node.setUserValue(kWasCulling, true);
 }
 
@@ -125,7 +121,8 @@ void resumeCullingOf(osg::Node& node) {
     osg::UserDataContainer* values = node.getUserDataContainer();
     const unsigned int index = values ? values->getUserObjectIndex(kWasCulling) : 0;
     if (!values || index >= values->getNumUserObjects()) return;
-    values->removeUserObject(index);
+    ownValues(node);
+    node.getUserDataContainer()->removeUserObject(index);
     forgetEmptyValues(node);
     node.setCullingActive(true);
 }

@@ -7,18 +7,18 @@
 
 #include <osg/Node>
 
+#include <functional>
+
 namespace osgAnalyticBin {
 
-class InstalledTile;
-
-/// Switches OSG's sphere test off on the mesh's nodes; the tile remembers where it was on. Drawables keep their boxes.
-void suspendSpheres(osg::Node& mesh, InstalledTile& tile);
-
-/// Switches it on on all of them, where nothing says which had it on: in a scene that was saved with bins.
-void resumeSpheres(osg::Node& mesh);
+/// Visits all nodes of a mesh, but nothing below osgTerrain tiles, the same way every time.
+void forEachNode(osg::Node& root, std::function<void(osg::Node&)> action);
 
 /// Whether a part of the mesh has state that shows what is behind it: isSeeThrough().
 [[nodiscard]] bool isSeeThroughMesh(osg::Node& mesh);
+
+/// Gives a node that shares its user data a copy of its own.
+void ownValues(osg::Node& node);
 
 /// Takes the user data off a node when the last value of ours was all that they held.
 void forgetEmptyValues(osg::Node& node);

@@ -27,6 +27,8 @@ bool isPaged(const osg::PagedLOD& node, unsigned int child) {
 void forget(osg::PagedLOD& node, const std::string& key) {
     osg::UserDataContainer* values = node.getUserDataContainer();
     if (!values || !values->getUserObject(key)) return;
+    ownValues(node);
+    values = node.getUserDataContainer();
     values->removeUserObject(values->getUserObjectIndex(key));
     forgetEmptyValues(node);
 }
@@ -37,7 +39,10 @@ void raiseExpiry(osg::PagedLOD& node, double seconds) {
     for (unsigned int i = 0; i < node.getNumMinimumExpiryTimes(); ++i) {
         const double own = node.getMinimumExpiryTime(i);
         if (!isPaged(node, i) || own > seconds) continue;
-        if (own != 0.0 && seconds != 0.0) node.setUserValue(keyOf(i), own);
+        if (own != 0.0 && seconds != 0.0) {
+            ownValues(node);
+            node.setUserValue(keyOf(i), own);
+        }
         node.setMinimumExpiryTime(i, seconds);
     }
 }

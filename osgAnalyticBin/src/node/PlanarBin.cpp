@@ -44,13 +44,14 @@ glm::dvec3 PlanarBin::supportPoint(const glm::dvec3& direction) const noexcept {
     return point;
 }
 
-bool PlanarBin::holds(const osg::BoundingSphere& sphere) const noexcept {
+bool PlanarBin::holds(const osg::Vec3d& point) const noexcept {
+    constexpr double kTolerance = 1e-6;
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec3 across = glm::cross(_halfAxes[(i + 1) % 3], _halfAxes[(i + 2) % 3]);
-        const double away = std::abs(glm::dot(across, toGlm(osg::Vec3d(sphere.center())) - _center));
+        const double away = std::abs(glm::dot(across, toGlm(point) - _center));
         const double room = std::abs(glm::dot(across, _halfAxes[i]));
         // written so that NaN is not held
-        if (!(away + (sphere.radius() + _rounding) * glm::length(across) <= room)) return false;
+        if (!(away <= room + (kTolerance * _radius + _rounding) * glm::length(across))) return false;
     }
     return true;
 }

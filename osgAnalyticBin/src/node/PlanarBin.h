@@ -36,8 +36,8 @@ public:
     /// No point is farther from the origin.
     [[nodiscard]] double reach() const noexcept { return _reach; }
 
-    /// Whether a sphere lies in the bin; false in doubt.
-    [[nodiscard]] bool holds(const osg::BoundingSphere& sphere) const noexcept;
+    /// Whether a point lies in the bin, up to a millionth of its size.
+    [[nodiscard]] bool holds(const osg::Vec3d& point) const noexcept;
 
     /// A sphere that holds the bin.
     [[nodiscard]] osg::BoundingSphere boundingSphere() const;

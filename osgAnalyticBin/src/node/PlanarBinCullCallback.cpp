@@ -10,6 +10,16 @@
 
 namespace osgAnalyticBin {
 
+PlanarBinCullCallback::PlanarBinCullCallback(const PlanarBinCullCallback& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop),
+      osg::Callback(other, copyop),
+      osg::NodeCallback(other, copyop),
+      _installed(other._installed ? new InstalledTile(*other._installed) : nullptr),
+      _bin(other._bin),
+      _sphere(other._sphere),
+      _shape(other._shape),
+      _options(other._options) {}
+
 void PlanarBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     cullOrTraverse(
         *nv, [&](osg::CullStack& cullStack) { return isCulled(*node, cullStack, *nv); }, [&] { traverse(node, nv); });

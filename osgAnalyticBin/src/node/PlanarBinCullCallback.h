@@ -27,6 +27,10 @@ public:
     PlanarBinCullCallback(const PlanarBin& bin, const std::optional<TerrainShape>& shape, const CullOptions& options)
         : _bin(bin), _sphere(bin.boundingSphere()), _shape(shape), _options(options) {}
 
+    /// A copy culls nothing, as that of an AnalyticBinCullCallback.
+    PlanarBinCullCallback(const PlanarBinCullCallback& other, const osg::CopyOp& copyop);
+    osg::Object* clone(const osg::CopyOp& copyop) const override { return new PlanarBinCullCallback(*this, copyop); }
+
     [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
     [[nodiscard]] const PlanarBin& bin() const { return _bin; }
 

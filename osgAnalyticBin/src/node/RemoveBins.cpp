@@ -44,9 +44,12 @@ public:
     void removeCarriers() {
         for (const auto& carrier : _carriers) {
             const osg::Node::ParentList parents = carrier->getParents();
-            // what the application has added to it stays with it
-            if (carrier->getNumChildren() != 1) continue;
-            for (osg::Group* const parent : parents) parent->replaceChild(carrier, carrier->getChild(0));
+            const unsigned int children = carrier->getNumChildren();
+            for (osg::Group* const parent : parents) {
+                // its tile may have been taken away; what the application has added to it stays with it
+                if (children == 0) parent->removeChild(carrier);
+                if (children == 1) parent->replaceChild(carrier, carrier->getChild(0));
+            }
         }
     }
 

@@ -19,6 +19,7 @@
 #include <osg/PagedLOD>
 #include <osg/PositionAttitudeTransform>
 #include <osgTerrain/Terrain>
+#include <osgTerrain/TerrainTile>
 
 #include <algorithm>
 #include <cmath>
@@ -105,6 +106,18 @@ private:
                (tile || drawsAllChildren(node));
     }
 
+    // Whether all of a tile's own mesh is drawn. Its state was asked for when bins were installed.
+    [[nodiscard]] bool isDrawnWhole(const osg::Node& part) const {
+        if (!_visitor.validNodeMask(part) || hasForeignCallback(part)) return false;
+        if (dynamic_cast<const osgTerrain::TerrainTile*>(&part)) return true;
+        if (!drawsAllChildren(part)) return false;
+        const osg::Group* const group = part.asGroup();
+        for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
+            if (!isDrawnWhole(*group->getChild(i))) return false;
+        }
+        return true;
+    }
+
     [[nodiscard]] static bool isSeenThrough(const AnalyticBinCullCallback& tile) {
         return tile.installedTile() && tile.installedTile()->isSeeThrough();
     }
@@ -134,6 +147,9 @@ private:
     void show(const AnalyticBinCullCallback& tile, osg::Node& mesh) {
         if (isAbout(tile) && _place->altitude <= tile.surfaceHigh()) _nearGround.push_back({&tile, &mesh});
         if (isBesideFrustum(tile)) return;
+        if (!isDrawnWhole(mesh)) _hasHole = true;
+        // what a tile draws by itself is in its bin
+        if (isFitted(tile) && tile.binLow() >= -_depth) return;
         const double own = isFitted(tile) ? -tile.surfaceLow() : kUnknownDepth;
         _depth = std::max(_depth, std::min(own, _deepest));
     }

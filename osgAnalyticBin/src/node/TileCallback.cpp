@@ -43,11 +43,25 @@ osg::Node* installedNode(osg::Node& node) {
     return carrier && installedCallback(*carrier) ? carrier : nullptr;
 }
 
-// A scene that was saved with bins does not say where OSG's sphere test was on before.
-void resumeAllSpheres(osg::Node& culled, const FoundTile& tile) {
-    culled.setCullingActive(true);
-    tile.node->setCullingActive(true);
-    for (const auto& mesh : tile.meshes) resumeSpheres(*mesh);
+// The nodes of a tile that have no sphere test while bins cull it, some of them more than once. Drawables keep their
+// boxes.
+template <class Action>
+void forEachSphere(const FoundTile& tile, osg::Node& culled, const Action& action) {
+    action(culled);
+    action(*tile.node);
+    for (const auto& mesh : tile.meshes) {
+        forEachNode(*mesh, [&](osg::Node& node) {
+            if (!node.asDrawable()) action(node);
+        });
+    }
+}
+
+// Of a clone, as the original's were. A scene that was saved with bins does not say where they were on before.
+void resumeSpheres(const FoundTile& tile, osg::Node& culled, const InstalledTile* original) {
+    std::size_t i = 0;
+    forEachSphere(tile, culled, [&](osg::Node& node) {
+        if (!original || original->wasActive(i++)) node.setCullingActive(true);
+    });
 }
 
 }  // namespace
@@ -72,11 +86,12 @@ Carrier* carrierOf(osg::Node& node) {
 }
 
 // OSG enters the frame of a transform before it asks the transform's callbacks, which costs more than the bin's test:
-// in files of tiles a transform gets a group above it.
-osg::Node& culledNode(const FoundTile& tile) {
+// in files of tiles a transform gets a group above it, while no application has seen it.
+osg::Node& culledNode(const FoundTile& tile, bool isNew) {
     osg::Node& node = *tile.node;
     if (!node.asTransform() || !tile.frame.isBelowTile || node.getNumParents() != 1) return node;
     if (Carrier* const carrier = carrierOf(node)) return *carrier;
+    if (!isNew) return node;
     osg::Group& parent = *node.getParent(0);
     const osg::ref_ptr<Carrier> carrier = new Carrier;
     carrier->addChild(&node);
@@ -91,15 +106,13 @@ osg::Matrixd culledFrame(const FoundTile& tile, osg::Node& culled) {
 
 template <class Callback>
 void placeCallback(const FoundTile& tile, osg::Node& culled, Callback& callback, Database& database) {
-    const osg::ref_ptr<InstalledTile> installed = new InstalledTile(&culled, database);
+    const osg::ref_ptr<InstalledTile> installed = new InstalledTile(culled, database);
     callback.setInstalledTile(installed);
     // In front: what is nested runs when the tile is kept.
     callback.setNestedCallback(culled.getCullCallback());
     culled.setCullCallback(&callback);
-    installed->suspendSphere(culled);
-    installed->suspendSphere(*tile.node);
+    forEachSphere(tile, culled, [&](osg::Node& node) { installed->suspendSphere(node); });
     for (const auto& mesh : tile.meshes) {
-        suspendSpheres(*mesh, *installed);
         if (isSeeThroughMesh(*mesh)) installed->setSeeThrough();
     }
     if (&culled != tile.node) ContentWatch::place(culled, {});
@@ -110,18 +123,18 @@ template void placeCallback(const FoundTile&, osg::Node&, AnalyticBinCullCallbac
 template void placeCallback(const FoundTile&, osg::Node&, PlanarBinCullCallback&, Database&);
 
 void removeCallbacks(const FoundTile& tile) {
-    osg::Node& node = *tile.node;
-    while (osg::Node* culled = installedNode(node)) {
+    while (osg::Node* culled = installedNode(*tile.node)) {
         const osg::ref_ptr<osg::Callback> ours = installedCallback(*culled);
         const osg::ref_ptr<InstalledTile> installed = installedTileOf(*culled);
-        if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) restoreExpiry(*paged, optionsOf(*ours)->expiry);
+        if (auto* paged = dynamic_cast<osg::PagedLOD*>(tile.node.get()))
+            restoreExpiry(*paged, optionsOf(*ours)->expiry);
         takeOff(*culled, *ours);
         ContentWatch::remove(*culled);
-        ContentWatch::remove(node);
+        ContentWatch::remove(*tile.node);
         if (installed && installed->isFor(culled)) {
             installed->resumeSpheres(*culled);
         } else {
-            resumeAllSpheres(*culled, tile);
+            resumeSpheres(tile, *culled, installed);
         }
     }
 }

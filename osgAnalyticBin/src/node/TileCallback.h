@@ -17,8 +17,14 @@ class Database;
 class InstalledTile;
 
 /// A group that the kit puts above a tile, and that the tile's callback stands on. It says of itself that it is a plain
-/// osg::Group: it is saved and cloned as that.
+/// osg::Group: it is saved as that.
 class Carrier final : public osg::Group {
+public:
+    Carrier() = default;
+    Carrier(const Carrier& other, const osg::CopyOp& copyop) : osg::Group(other, copyop) {}
+    osg::Object* cloneType() const override { return new Carrier; }
+    osg::Object* clone(const osg::CopyOp& copyop) const override { return new Carrier(*this, copyop); }
+
 protected:
     ~Carrier() override = default;
 };
@@ -30,8 +36,9 @@ protected:
 /// own.
 [[nodiscard]] InstalledTile* installedTileOf(const osg::Node& node);
 
-/// The node that is culled for a tile: its own, or a group that is put above it.
-[[nodiscard]] osg::Node& culledNode(const FoundTile& tile);
+/// The node that is culled for a tile: its own, or a group above it, which is put there where the tile has just been
+/// read (`isNew`) and is not in the scene.
+[[nodiscard]] osg::Node& culledNode(const FoundTile& tile, bool isNew);
 
 /// What the bin of `culled`, the tile's culled node, is moved by: the frame that OSG tests it in, to ECEF or to the
 /// map.

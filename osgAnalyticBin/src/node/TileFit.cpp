@@ -209,7 +209,7 @@ AnalyticBin checkStored(const FoundTile& tile, Database& database, const Terrain
     const core::Ellipsoid ellipsoid = toCore(model);
     const bool isWithinBin =
         !surface.valid() || !fit.bin.valid() || nearlyHolds(fit.bin, surface, surface.sag(), ellipsoid);
-    if (!isWithinBin) fit.bin.expandBy(surface);
+    if (!isWithinBin || (link.hasNewContent && surface.valid())) fit.bin.expandBy(surface);
     const AnalyticBin& drawn = fit.bin.valid() ? fit.bin : surface;
     const double sag = surface.valid() ? std::min(surface.sag(), drawn.sag()) : 0.0;
     const ParentTile* const parent = link.parent.get();
@@ -276,11 +276,21 @@ TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& 
     return fit;
 }
 
+// Whether tiles above it whose bins hold the declared heights may be too low for a surface, or not deep enough.
+bool leavesHeights(const AnalyticBin& surface, const Database& database) {
+    const core::Interval heights = heightsIn(database);
+    const core::Interval& altitude = surface.bin().altitude();
+    return altitude.upper > heights.upper || altitude.lower + surface.sag() < heights.lower;
+}
+
 }  // namespace
 
 TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
     if (!shape.isKnown && hasTerrainTile(tile)) return unknownFit(tile, database, shape, link);
     TileFit fit = fitKnown(tile, database, shape, link);
+    if (fit.surface.valid() && (link.hasNewContent || leavesHeights(fit.surface, database))) {
+        Database::noteLarger(link, fit.surface);
+    }
     if (shape.areBoundariesEqual && fit.isScalable) {
         fit.bin = withHeights(fit.bin, heightsIn(database));
         fit.surface = withHeights(fit.surface, heightsIn(database));

@@ -3,10 +3,31 @@
 
 #include "../node/ContentWatch.h"
 
+#undef OBJECT_CAST
+#define OBJECT_CAST dynamic_cast
+
 #include <osgDB/InputStream>
 #include <osgDB/ObjectWrapper>
 #include <osgDB/OutputStream>
 
+using osgAnalyticBin::ContentWatch;
+
+// Nothing is stored: OSG asks before it writes the node's cull callback, which is to know what was added meanwhile.
+static bool checkContent(const ContentWatch& watch) {
+    watch.look();
+    return false;
+}
+
+static bool readContent(osgDB::InputStream&, ContentWatch&) {
+    return true;
+}
+
+static bool writeContent(osgDB::OutputStream&, const ContentWatch&) {
+    return true;
+}
+
 // A scene that is saved with bins keeps the object, without what it knew.
 REGISTER_OBJECT_WRAPPER(osgAnalyticBin_ContentWatch, new osgAnalyticBin::ContentWatch, osgAnalyticBin::ContentWatch,
-                        "osg::Object osg::ComputeBoundingSphereCallback osgAnalyticBin::ContentWatch") {}
+                        "osg::Object osg::ComputeBoundingSphereCallback osgAnalyticBin::ContentWatch") {
+    ADD_USER_SERIALIZER(Content);
+}
