@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "ApplicationGlobe.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+
+#include <gtest/gtest.h>
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osgDB/WriteFile>
+#include <osgUtil/UpdateVisitor>
+
+namespace osgAnalyticBin::test {
+
+osg::Drawable* drawableOf(osg::Node& node) {
+    if (osg::Drawable* drawable = node.asDrawable()) return drawable;
+    osg::Group* group = node.asGroup();
+    return group && group->getNumChildren() > 0 ? drawableOf(*group->getChild(0)) : nullptr;
+}
+
+void update(osg::Node& scene) {
+    const osg::ref_ptr<osgUtil::UpdateVisitor> visitor = new osgUtil::UpdateVisitor;
+    scene.accept(*visitor);
+}
+
+osg::ref_ptr<osg::MatrixTransform> makeTower(const osg::Vec3d& place, float size) {
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    for (const osg::Vec3& v : {osg::Vec3(-1, 0, 0), osg::Vec3(1, 0, 0), osg::Vec3(0, 1, 1)}) {
+        vertices->push_back(v * size);
+    }
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(vertices);
+    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 3));
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->addDrawable(geometry);
+    osg::ref_ptr<osg::MatrixTransform> tower = new osg::MatrixTransform(osg::Matrixd::translate(place));
+    tower->addChild(geode);
+    return tower;
+}
+
+CullView downTo(double latitude, double longitude, double altitude, double fovDeg) {
+    return CullView::lookAt(ecefDeg(latitude, longitude, altitude), ecefDeg(latitude, longitude, 0), {0, 0, 1}, fovDeg);
+}
+
+CullView beside(const osg::Vec3d& place) {
+    const osg::Vec3d up = place / place.length();
+    osg::Vec3d east = osg::Vec3d(0, 0, 1) ^ up;
+    east.normalize();
+    return CullView::lookAt(place - east * 5000.0, place, up, 2.0);
+}
+
+MeshGlobe::MeshGlobe(double altitude) {
+    root->setEllipsoidModel(new osg::EllipsoidModel);
+    for (int i = 0; i < 32; ++i) {
+        const double south = -90.0 + 45.0 * (i / 8);
+        const double west = -180.0 + 45.0 * (i % 8);
+        tiles.push_back(makePaged(makeMeshTile(extentsDeg(south, south + 45, west, west + 45), altitude), "no.osgb"));
+        root->addChild(tiles.back());
+    }
+}
+
+bool MeshGlobe::draws(osg::Node& content, const CullView& view) {
+    return cull(*scene, view, *visitor, ++frame).drawn.count(drawableOf(content)) > 0;
+}
+
+CullView MeshGlobe::fromAbove(double altitude) {
+    return CullView::lookAt(ecefDeg(22.5, -22.5, altitude), {0, 0, 0}, {0, 0, 1}, 100.0);
+}
+
+FiledGlobe::FiledGlobe() {
+    const osg::ref_ptr<osg::Group> file = new osg::Group;
+    file->addChild(makeMeshTile(extentsDeg(10, 30, 0, 40), 200.0));
+    EXPECT_TRUE(osgDB::writeNodeFile(*file, folder / "group.osgb"));
+    tile = makePaged(makeMeshTile(extentsDeg(10, 50, 0, 40), 200.0), "group.osgb", 1e9f);
+    tile->setDatabasePath(std::string(folder / ""));
+    root->removeChildren(0, root->getNumChildren());
+    root->addChild(tile);
+    installBins(*root);
+    group = readBelow(*tile)->asGroup();
+    putBelow(*tile, group);
+    update(*root);
+}
+
+}  // namespace osgAnalyticBin::test

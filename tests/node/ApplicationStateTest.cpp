@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// How applications show a globe on which bins are installed: state, masks, callbacks, eyes below the ground; and what
+// is left when bins are taken off. Content: ApplicationContentTest.cpp.
+
+#include "ApplicationGlobe.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+
+#include <gtest/gtest.h>
+#include <osg/AlphaFunc>
+#include <osg/Geode>
+#include <osg/PolygonMode>
+#include <osg/Switch>
+
+#include <functional>
+#include <set>
+#include <string>
+#include <support/CapturedNotes.h>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+TEST(SeeThroughTerrain, HidesNothing) {
+    const auto setPolygonMode = [](osg::StateSet& state) {
+        state.setAttributeAndModes(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
+    };
+    const auto setTransparent = [](osg::StateSet& state) { state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN); };
+    const auto setAlphaTest = [](osg::StateSet& state) { state.setAttributeAndModes(new osg::AlphaFunc); };
+    const auto setNoDepthTest = [](osg::StateSet& state) { state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF); };
+    const auto setClipPlane = [](osg::StateSet& state) { state.setMode(GL_CLIP_PLANE2, osg::StateAttribute::ON); };
+    const std::vector<std::function<void(osg::StateSet&)>> states{setPolygonMode, setTransparent, setAlphaTest,
+                                                                  setNoDepthTest, setClipPlane};
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        MeshGlobe globe;
+        globe.scene = new osg::Group;
+        globe.scene->addChild(globe.root);
+        installBins(*globe.root);
+        EXPECT_FALSE(globe.drawsAntipode());
+        // above the database, on it, and on a tile
+        for (osg::Node* node : {static_cast<osg::Node*>(globe.scene), static_cast<osg::Node*>(globe.root),
+                                static_cast<osg::Node*>(globe.tiles[19])}) {
+            states[i](*node->getOrCreateStateSet());
+            EXPECT_TRUE(globe.drawsAntipode()) << i;
+            node->setStateSet(nullptr);
+            EXPECT_FALSE(globe.drawsAntipode()) << i;
+        }
+        // in a mesh that bins are installed on
+        states[i](*drawableOf(*globe.tiles[19])->getOrCreateStateSet());
+        installBins(*globe.root);
+        EXPECT_TRUE(globe.drawsAntipode()) << i;
+    }
+}
+
+TEST(SeeThroughTerrain, IsNotWhatIsFilled) {
+    MeshGlobe globe;
+    osg::StateSet& state = *globe.root->getOrCreateStateSet();
+    state.setAttributeAndModes(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::FILL));
+    state.setMode(GL_DEPTH_TEST, osg::StateAttribute::ON);
+    state.setMode(GL_ALPHA_TEST, osg::StateAttribute::OFF);
+    installBins(*globe.root);
+    EXPECT_FALSE(globe.drawsAntipode());
+}
+
+// Leaves its node out.
+struct Pruner : osg::NodeCallback {
+    void operator()(osg::Node*, osg::NodeVisitor*) override {}
+};
+
+TEST(HoledGlobe, IsSeenThrough) {
+    const auto mask = [](MeshGlobe& globe) { globe.tiles[19]->setNodeMask(0); };
+    const auto prune = [](MeshGlobe& globe) { globe.tiles[19]->addCullCallback(new Pruner); };
+    const auto shrink = [](MeshGlobe& globe) {
+        for (unsigned int i = 0; i < globe.tiles[19]->getNumRanges(); ++i) globe.tiles[19]->setRange(i, 0.0f, 1.0f);
+    };
+    const auto switchOff = [](MeshGlobe& globe) {
+        const osg::ref_ptr<osg::Switch> off = new osg::Switch;
+        globe.root->replaceChild(globe.tiles[19], off);
+        off->addChild(globe.tiles[19], false);
+    };
+    const std::vector<std::function<void(MeshGlobe&)>> ways{mask, prune, shrink, switchOff};
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        for (const bool isDeclared : {false, true}) {
+            CullOptions options;
+            if (isDeclared) options.horizonUse = HorizonUse::Given;
+            if (isDeclared) options.horizon = -50000.0;
+            MeshGlobe globe;
+            installBins(*globe.root, options);
+            EXPECT_FALSE(globe.drawsAntipode());
+            ways[i](globe);
+            EXPECT_TRUE(globe.drawsAntipode()) << i << isDeclared;
+            installBins(*globe.root, options);
+            EXPECT_TRUE(globe.drawsAntipode()) << i << isDeclared;
+        }
+    }
+}
+
+TEST(HoledGlobe, IsSeenThroughBelowTilesThatAreHigherThanTheOccluder) {
+    MeshGlobe globe(40000.0);
+    const osg::ref_ptr<osg::PagedLOD> finer =
+        makePaged(makeMeshTile(extentsDeg(0, 45, -45, 0), 40000.0), "no.osgb", 1.0f);
+    globe.tiles[19]->setRange(0, 1e9f, 1e10f);
+    globe.tiles[19]->setRange(1, 0.0f, 1e9f);
+    putBelow(*globe.tiles[19], finer);
+    CullOptions options;
+    options.heights = {30000.0, 50000.0};
+    installBins(*globe.root, options);
+    EXPECT_FALSE(globe.drawsAntipode());
+    finer->setNodeMask(0);
+    EXPECT_TRUE(globe.drawsAntipode());
+}
+
+TEST(HoledGlobe, IsNotOneWithCallbacksThatPromiseToTraverse) {
+    MeshGlobe globe;
+    std::set<std::string> visited;
+    const osg::ref_ptr<osg::NodeCallback> callback = new VisitRecorder("tile", visited);
+    setTraversesAlways(*callback);
+    globe.tiles[19]->setCullCallback(callback);
+    installBins(*globe.root);
+    EXPECT_FALSE(globe.drawsAntipode());
+    EXPECT_EQ(visited.size(), 1u);
+}
+
+TEST(UndergroundEyes, AreFoundWhereAGeodeHoldsATransform) {
+    MeshGlobe globe(40000.0);
+    osg::Geode* const geode = drawableOf(*globe.tiles[19])->getParent(0)->asGeode();
+    geode->addChild(makeTower(osg::Vec3d(0, 0, 0)));
+    installBins(*globe.root);
+    const osg::Vec3d eye = ecefDeg(21.3, -21.7, 30000.0);
+    EXPECT_TRUE(globe.draws(*globe.tiles[15], CullView::lookAt(eye, {0, 0, 0}, {0, 0, 1}, 100.0)));
+}
+
+TEST(SavedScenes, HideNothingBehindTheHorizonWithoutTheirDatabase) {
+    CullOptions options;
+    options.horizonUse = HorizonUse::Given;
+    options.horizon = -50000.0;
+    MeshGlobe globe;
+    installBins(*globe.root, options);
+    AnalyticBinCullCallback& callback = *installedOn(*globe.tiles[15]);
+    const osg::ref_ptr<AnalyticBinCullCallback> read = new AnalyticBinCullCallback;
+    read->setOptionsText(callback.getOptionsText());
+    read->setBinText(callback.getBinText());
+    EXPECT_TRUE(read->bin().valid());
+    const osg::ref_ptr<osg::CoordinateSystemNode> back = new osg::CoordinateSystemNode;
+    const osg::ref_ptr<osg::Group> tile = new osg::Group;
+    tile->addChild(makeMeshTile(extentsDeg(-45, 0, 135, 180), 0.0));
+    tile->setCullCallback(read);
+    tile->setCullingActive(false);
+    back->addChild(tile);
+    globe.scene = back;
+    EXPECT_TRUE(globe.draws(*tile, MeshGlobe::fromAbove()));
+}
+
+TEST(UndergroundEyes, HaveNoHorizon) {
+    for (const bool isDeclared : {false, true}) {
+        CullOptions options;
+        if (isDeclared) options.horizonUse = HorizonUse::Given;
+        if (isDeclared) options.horizon = -50000.0;
+        MeshGlobe globe(40000.0);
+        installBins(*globe.root, options);
+        const auto drawsAntipode = [&](double altitude) {
+            const osg::Vec3d eye = ecefDeg(21.3, -21.7, altitude);
+            return globe.draws(*globe.tiles[15], CullView::lookAt(eye, {0, 0, 0}, {0, 0, 1}, 100.0));
+        };
+        EXPECT_FALSE(drawsAntipode(41000.0));
+        EXPECT_TRUE(drawsAntipode(20000.0)) << isDeclared;
+        // again, with what was found below the eye before
+        EXPECT_FALSE(drawsAntipode(41000.0));
+        EXPECT_FALSE(drawsAntipode(40900.0));
+        EXPECT_TRUE(drawsAntipode(20000.0)) << isDeclared;
+    }
+}
+
+TEST(Undo, RestoresAllThatWasChanged) {
+    MeshGlobe globe;
+    osg::PagedLOD& tile = *globe.tiles[19];
+    osg::Node& mesh = *tile.getChild(0);
+    mesh.setCullingActive(false);
+    globe.tiles[18]->setCullingActive(false);
+    const osg::ref_ptr<osgDB::Options> own = new osgDB::Options("own");
+    tile.setDatabaseOptions(own);
+    const osg::ref_ptr<osg::NodeCallback> user = new osg::NodeCallback;
+    tile.setCullCallback(user);
+    tile.setMinimumExpiryTime(1, 2.0);
+    struct Bound : osg::Node::ComputeBoundingSphereCallback {
+        osg::BoundingSphere computeBound(const osg::Node& node) const override { return node.computeBound(); }
+    };
+    const osg::ref_ptr<Bound> bound = new Bound;
+    tile.setComputeBoundingSphereCallback(bound);
+
+    for (int round = 0; round < 3; ++round) {
+        installBins(*globe.root);
+        installBins(*globe.root);
+        EXPECT_FALSE(tile.getCullingActive());
+        const osg::ref_ptr<osg::Node> tower = makeTower(ecefDeg(20, -20, 1000.0));
+        tower->setCullingActive(false);
+        if (round == 2) mesh.asGroup()->addChild(tower);
+        removeBins(*globe.root);
+        EXPECT_FALSE(mesh.getCullingActive());
+        EXPECT_FALSE(tower->getCullingActive());
+        EXPECT_FALSE(globe.tiles[18]->getCullingActive());
+        EXPECT_TRUE(globe.tiles[18]->getChild(0)->getCullingActive());
+        EXPECT_TRUE(tile.getCullingActive());
+        EXPECT_EQ(tile.getDatabaseOptions(), own);
+        EXPECT_EQ(globe.tiles[18]->getDatabaseOptions(), nullptr);
+        EXPECT_EQ(tile.getCullCallback(), user);
+        EXPECT_EQ(user->getNestedCallback(), nullptr);
+        EXPECT_EQ(tile.getMinimumExpiryTime(1), 2.0);
+        EXPECT_EQ(tile.getComputeBoundingSphereCallback(), bound);
+        EXPECT_EQ(tile.getUserDataContainer(), nullptr);
+        EXPECT_EQ(globe.root->getCullCallback(), nullptr);
+        EXPECT_EQ(globe.root->getUpdateCallback(), nullptr);
+    }
+}
+
+TEST(Undo, TakesGroupsAboveTilesAway) {
+    FiledGlobe globe;
+    ASSERT_NE(globe.group->getChild(0)->asTransform(), globe.group->getChild(0)) << "a group is above the leaf";
+    removeBins(*globe.root);
+    EXPECT_NE(globe.group->getChild(0)->asTransform(), nullptr);
+    EXPECT_EQ(globe.group->getNumChildren(), 1u);
+}
+
+TEST(StoredBins, OfDrawablesAreRefused) {
+    MeshGlobe globe;
+    const osg::ref_ptr<osg::Node> tower = makeTower(ecefDeg(22.5, -22.5, 1000.0));
+    osg::Drawable* const drawable = drawableOf(*tower);
+    setStoredBin(*drawable, AnalyticBin(extentsDeg(-30, -20, 90, 100)));
+    globe.root->addChild(tower);
+    const CapturedNotes notes;
+    EXPECT_EQ(installBins(*globe.root), 32u);
+    EXPECT_EQ(notes.count("drawables are not culled by bins"), 1u);
+    EXPECT_EQ(drawable->getCullCallback(), nullptr);
+    EXPECT_TRUE(globe.draws(*tower, downTo(22.5, -22.5)));
+}
+
+// Notes the planes that are undecided where it stands.
+struct MaskReader : osg::NodeCallback {
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        mask = nv->asCullStack()->getCurrentCullingSet().getFrustum().getCurrentMask();
+        traverse(node, nv);
+    }
+    osg::Polytope::ClippingMask mask = 99;
+};
+
+TEST(DecidedPlanes, AreInheritedByChildrenAndNotBySiblings) {
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+    root->setEllipsoidModel(new osg::EllipsoidModel);
+    // a model in view before the tiles: OSG leaves its decided planes behind
+    root->addChild(makeTower(ecefDeg(0.5, 0.5, 1000.0)));
+    std::vector<osg::ref_ptr<MaskReader>> readers;
+    for (const auto& extents : {extentsDeg(0, 1, 0, 1), extentsDeg(0, 1, 20, 60)}) {
+        const osg::ref_ptr<osg::Group> tile = new osg::Group;
+        const osg::ref_ptr<osg::Group> child = new osg::Group;
+        readers.push_back(new MaskReader);
+        child->setCullCallback(readers.back());
+        child->setCullingActive(false);
+        tile->addChild(child);
+        tile->addChild(makeTower(ecefDeg(0.5, 0.5, 0.0)));
+        setStoredBin(*tile, AnalyticBin(extents.withAltitude({-100, 100})));
+        root->addChild(tile);
+    }
+    ASSERT_EQ(installBins(*root), 2u);
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    const CullView view = CullView::lookAt(ecefDeg(0.5, 0.5, 5e6), ecefDeg(0.5, 0.5, 0), {0, 0, 1}, 60.0);
+    (void)cull(*root, view, *visitor);
+    EXPECT_EQ(readers[0]->mask, 0u) << "the first tile is inside all planes";
+    EXPECT_NE(readers[1]->mask, 0u) << "the second is not";
+    EXPECT_NE(readers[1]->mask, 99u);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
