@@ -104,8 +104,8 @@ void GeodeticMeshBounds::noteCrossing(const glm::dvec3 (&corners)[3]) noexcept {
 GeodeticMeshBounds::LatitudeCone::LatitudeCone(const Ellipsoid& ellipsoid, double latitude) noexcept
     : sinLatitude(std::sin(latitude)),
       cosLatitude(std::cos(latitude)),
-      offset(ellipsoid.eccentricitySquared() * ellipsoid.primeVerticalRadius(sinLatitude, cosLatitude) * sinLatitude * cosLatitude) {
-}
+      offset(ellipsoid.eccentricitySquared() * ellipsoid.primeVerticalRadius(sinLatitude, cosLatitude) * sinLatitude *
+             cosLatitude) {}
 
 bool GeodeticMeshBounds::LatitudeCone::holds(double axisDistance, double absZ) const noexcept {
     return absZ * cosLatitude - axisDistance * sinLatitude + offset <= 0.0;
