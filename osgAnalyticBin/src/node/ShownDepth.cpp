@@ -22,6 +22,7 @@
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <typeinfo>
@@ -33,25 +34,22 @@ namespace {
 
 constexpr double kUnknownDepth = std::numeric_limits<double>::infinity();
 
-// The installer puts its callback first, others may have put theirs before it. A dynamic_cast across OSG's virtual
-// bases would be most of the search's cost.
-const AnalyticBinCullCallback* binCallback(const osg::Node& node) {
-    for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
-        const osg::NodeCallback* callback = at->asNodeCallback();
-        const bool isBin = callback && typeid(*callback) == typeid(AnalyticBinCullCallback);
-        if (isBin) return static_cast<const AnalyticBinCullCallback*>(callback);
+// The cull callbacks of a node: the bin's, and whether others may leave out what is below them.
+struct CullCallbacks {
+    explicit CullCallbacks(const osg::Node& node) {
+        // A dynamic_cast across OSG's virtual bases would be most of the search's cost.
+        for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
+            if (!bin && typeid(*at) == typeid(AnalyticBinCullCallback)) {
+                bin = static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback());
+            } else if (!isClusterCulling(*at) && !traversesAlways(*at)) {
+                mayLeaveOut = true;
+            }
+        }
     }
-    return nullptr;
-}
 
-// Callbacks of others may leave out what is below them.
-bool hasForeignCallback(const osg::Node& node) {
-    for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
-        const bool isBin = typeid(*at) == typeid(AnalyticBinCullCallback);
-        if (!isBin && !isClusterCulling(*at) && !traversesAlways(*at)) return true;
-    }
-    return false;
-}
+    const AnalyticBinCullCallback* bin = nullptr;
+    bool mayLeaveOut = false;
+};
 
 osg::PagedLOD* pagedLod(osg::Node& node) {
     if (typeid(node) == typeid(osg::PagedLOD)) return static_cast<osg::PagedLOD*>(&node);
@@ -86,10 +84,12 @@ public:
 
 private:
     void searchNode(osg::Node& node) {
-        const AnalyticBinCullCallback* tile = binCallback(node);
-        const Scoped doubtful(_isDoubtful, _isDoubtful || !isSurelyDrawn(node, tile));
+        if (_hasHole) return;
+        const CullCallbacks callbacks(node);
+        const AnalyticBinCullCallback* const tile = callbacks.bin;
         const bool isAboutEye = tile && isAbout(*tile);
         if (tile && !isAboutEye && (isBesideFrustum(*tile) || tile->isColumnHiddenFrom(_eye))) return;
+        const Scoped doubtful(_isDoubtful, _isDoubtful || !isSurelyDrawn(node, callbacks));
         if (tile && (_isDoubtful || isSeenThrough(*tile))) _hasHole = true;
         osg::PagedLOD* paged = tile ? pagedLod(node) : nullptr;
         if (paged) return searchPaged(*paged, *tile);
@@ -100,16 +100,16 @@ private:
         if (osg::Group* group = node.asGroup()) search(*group);
     }
 
-    [[nodiscard]] bool isSurelyDrawn(const osg::Node& node, const AnalyticBinCullCallback* tile) const {
+    [[nodiscard]] bool isSurelyDrawn(const osg::Node& node, const CullCallbacks& callbacks) const {
         const osg::StateSet* const state = node.getStateSet();
-        return _visitor.validNodeMask(node) && !hasForeignCallback(node) && !(state && isSeeThrough(*state)) &&
-               (tile || drawsAllChildren(node));
+        return _visitor.validNodeMask(node) && !callbacks.mayLeaveOut && !(state && isSeeThrough(*state)) &&
+               (callbacks.bin || drawsAllChildren(node));
     }
 
     // Whether all of a tile's own mesh is drawn. Its state was asked for when bins were installed.
     [[nodiscard]] bool isDrawnWhole(const osg::Node& part) const {
-        if (!_visitor.validNodeMask(part) || hasForeignCallback(part)) return false;
-        if (dynamic_cast<const osgTerrain::TerrainTile*>(&part)) return true;
+        if (!_visitor.validNodeMask(part) || CullCallbacks(part).mayLeaveOut) return false;
+        if (typeid(part) == typeid(osgTerrain::TerrainTile)) return true;
         if (!drawsAllChildren(part)) return false;
         const osg::Group* const group = part.asGroup();
         for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
@@ -207,10 +207,15 @@ bool isTrusted(const ShownDatabase& database, const LowestShown& lowest, const s
 }  // namespace
 
 bool drawsAllChildren(const osg::Node& node) {
+    static const std::array<const std::type_info*, 7> known{
+        &typeid(osg::Group),           &typeid(Carrier),
+        &typeid(osg::MatrixTransform), &typeid(osg::PositionAttitudeTransform),
+        &typeid(osg::Geode),           &typeid(osg::CoordinateSystemNode),
+        &typeid(osgTerrain::Terrain)};
     const std::type_info& type = typeid(node);
-    return type == typeid(osg::Group) || type == typeid(Carrier) || type == typeid(osg::MatrixTransform) ||
-           type == typeid(osg::PositionAttitudeTransform) || type == typeid(osg::Geode) ||
-           type == typeid(osg::CoordinateSystemNode) || type == typeid(osgTerrain::Terrain) || !node.asGroup();
+    // by address first: comparing names takes longer
+    return !node.asGroup() || std::find(known.begin(), known.end(), &type) != known.end() ||
+           std::any_of(known.begin(), known.end(), [&type](const std::type_info* one) { return *one == type; });
 }
 
 std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& database, const Viewpoint& viewpoint,
