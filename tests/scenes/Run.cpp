@@ -242,6 +242,11 @@ private:
         removePart(part, *_with.root);
     }
 
+    void applyToBoth(const Part& part) {
+        applyPart(part, _description, *_without.root);
+        applyPart(part, _description, *_with.root);
+    }
+
     std::optional<Failure> happen(const Part& part) {
         switch (part.kind) {
             case PartKind::SetOptions:
@@ -255,6 +260,12 @@ private:
             case PartKind::Clone:
                 _without.root = clonedScene(*_without.root, part.variant);
                 _with.root = clonedScene(*_with.root, part.variant);
+                _sharesCallbacks = true;
+                break;
+            case PartKind::UserCull:
+            case PartKind::UserUpdate:
+                // Copies of a globe may share its callbacks: what is nested in one of ours then runs on all of them.
+                if (!_sharesCallbacks) applyToBoth(part);
                 break;
             case PartKind::SaveAndLoad:
                 _without.root = writtenAndRead(*_without.root, part.variant % 2 == 1);
@@ -262,8 +273,7 @@ private:
                 _wasSaved = true;
                 break;
             default:
-                applyPart(part, _description, *_without.root);
-                applyPart(part, _description, *_with.root);
+                applyToBoth(part);
         }
         return std::nullopt;
     }
@@ -314,6 +324,7 @@ private:
     RunTotals& _totals;
     const osg::ref_ptr<osg::FrameStamp> _stamp = new osg::FrameStamp;
     bool _wasSaved = false;
+    bool _sharesCallbacks = false;  // a part of the scene is a clone
 };
 
 double Runner::largestScale(const DatabaseSpec& database, int number) const {

@@ -189,6 +189,7 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const Scoped parent(_parent, isForeign ? nullptr : _parent);
     const bool isRefit = _refitted.valid();
     osg::ref_ptr<Database> own = isRefit || !_keepsDatabases ? _refitted : databaseOf(node);
+    if (own && !own->isAttachedTo(node)) own = nullptr;
     const bool isKept = !isRefit && own;
     _refitted = nullptr;
     if (isKept) own->setOptions(_options);
@@ -197,6 +198,7 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
         const osg::ref_ptr<osg::EllipsoidModel> ellipsoid =
             node.getEllipsoidModel() && !isGlobeBroken(node) ? node.getEllipsoidModel() : new osg::EllipsoidModel;
         own = new Database(_options, ellipsoid.get(), dynamic_cast<osgTerrain::Terrain*>(&node), _index.get());
+        own->setRoot(node);
     }
     const Scoped index(_index, isKept ? osg::ref_ptr<const BinIndex>(own->index()) : _index);
     const Scoped database(_database, own);

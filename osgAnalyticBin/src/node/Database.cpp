@@ -55,6 +55,12 @@ AnalyticBin Widening::widened(const AnalyticBin& known) const {
     return wider;
 }
 
+bool Database::isAttachedTo(const osg::Node& node) const {
+    osg::ref_ptr<osgTerrain::Terrain> terrain;
+    (void)_terrain.lock(terrain);
+    return _root == &node && terrain == dynamic_cast<const osgTerrain::Terrain*>(&node);
+}
+
 CullOptions Database::options() const {
     const std::lock_guard<std::mutex> lock(_mutex);
     return _options;

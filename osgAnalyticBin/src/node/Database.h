@@ -46,6 +46,11 @@ public:
              const BinIndex* index)
         : _ellipsoid(ellipsoid), _terrain(terrain), _index(index), _options(options), _fittedShape(shape()) {}
 
+    /// The node that the database is attached to: the CoordinateSystemNode, or, without one, the root of the scene.
+    void setRoot(const osg::Node& node) { _root = &node; }
+    /// Whether it is attached to this node, and follows its Terrain. Clones of a scene share what names databases.
+    [[nodiscard]] bool isAttachedTo(const osg::Node& node) const;
+
     /// A number that no other database of this process has or had.
     [[nodiscard]] unsigned long number() const { return _number; }
 
@@ -127,6 +132,7 @@ private:
     const unsigned long _number = ++_count;
     const osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;
     const osg::observer_ptr<osgTerrain::Terrain> _terrain;
+    const osg::Node* _root = nullptr;
     const osg::ref_ptr<const BinIndex> _index;
     mutable std::atomic<bool> _isRefitWanted{false};
     std::atomic<bool> _isRemoved{false};

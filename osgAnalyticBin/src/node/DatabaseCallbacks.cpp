@@ -140,13 +140,14 @@ void attachDatabase(osg::Node& node, Database& database) {
 
 void attachUpdate(osg::Node& node, Database& database) {
     detachDatabase(node);
+    database.setRoot(node);
     const osg::ref_ptr<DatabaseUpdateCallback> update = new DatabaseUpdateCallback(&database, &node);
     node.addUpdateCallback(update);
 }
 
 Database* attachedDatabase(osg::Node& node) {
     const auto* update = findCallback<DatabaseUpdateCallback>(node.getUpdateCallback());
-    return update ? update->database() : nullptr;
+    return update && update->database()->isAttachedTo(node) ? update->database() : nullptr;
 }
 
 void detachDatabase(osg::Node& node) {
