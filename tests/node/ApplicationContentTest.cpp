@@ -10,6 +10,8 @@
 #include <osgAnalyticBin/BinInstaller.h>
 
 #include <gtest/gtest.h>
+#include <osg/Geometry>
+#include <osg/LOD>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 
@@ -111,6 +113,48 @@ TEST(AddedContent, ThatCameWithAFileIsDrawn) {
     EXPECT_TRUE(globe.draws(tower, beside(place)));
     update(*globe.root);
     EXPECT_TRUE(globe.draws(tower, beside(place)));
+}
+
+TEST(AddedContent, ThatMakesATileNoneLeavesItToOsg) {
+    FiledGlobe globe;
+    const osg::ref_ptr<osg::MatrixTransform> vehicle = makeTower(ecefDeg(20, 20, 100.0));
+    vehicle->setDataVariance(osg::Object::DYNAMIC);
+    globe.tile->addChild(vehicle, 0.0f, 1e10f);
+    setCullOptions(*globe.root, {});
+    EXPECT_EQ(installedOn(*globe.tile), nullptr);
+    EXPECT_TRUE(globe.tile->getCullingActive());
+    vehicle->setMatrix(osg::Matrixd::translate(ecefDeg(20, 100.0, 100.0)));
+    EXPECT_TRUE(globe.draws(*vehicle, downTo(20, 100.0, 3000.0, 5.0)));
+}
+
+TEST(AddedContent, IsNoticedBelowLevelsOfDetailThatTellTheirOwnBound) {
+    MeshGlobe globe;
+    const osg::ref_ptr<osg::LOD> level = new osg::LOD;
+    level->setCenter(osg::Vec3(0, 0, 0));
+    level->setRadius(7e6f);
+    globe.root->replaceChild(globe.tiles[19], level);
+    level->addChild(globe.tiles[19], 0.0f, 1e10f);
+    installBins(*globe.root);
+    EXPECT_TRUE(globe.drawsAntipode()) << "a level of detail may leave a hole";
+    const osg::Vec3d place = ecefDeg(20, -20, 30000.0);
+    const osg::ref_ptr<osg::Node> tower = makeTower(place);
+    globe.tiles[19]->addChild(tower, 0.0f, 1e10f);
+    EXPECT_TRUE(globe.draws(*tower, beside(place)));
+}
+
+TEST(AddedContent, IsNoticedWhereVerticesRiseWithinTheBoxOfTheMesh) {
+    FiledGlobe globe;
+    auto* const vertices = dynamic_cast<osg::Vec3Array*>(drawableOf(*globe.group)->asGeometry()->getVertexArray());
+    ASSERT_NE(vertices, nullptr);
+    (void)globe.root->getBound();
+    // a post in the middle, towards the corner of the tile's box
+    const osg::Vec3d up = ecefDeg(20, 20, 1.0) / ecefDeg(20, 20, 1.0).length();
+    (*vertices)[40] += osg::Vec3(up * 12000.0);
+    vertices->dirty();
+    drawableOf(*globe.group)->dirtyBound();
+    (void)globe.root->getBound();
+    update(*globe.root);
+    EXPECT_GE(installedOn(*globe.tile)->bin().bin().altitude().upper, 12000.0);
 }
 
 TEST(AddedContent, IsHeldByBinsThatAreInstalledAgain) {

@@ -37,8 +37,8 @@ struct TerrainShape;
 /// Content of the application's: what is added below a tile while bins are installed is noticed with the next frame, be
 /// it static or moving: the tile and those above are kept visible, and their bins grow to hold it in the next update
 /// traversal. Content that is to be independent of tiles belongs beside them, on the CoordinateSystemNode or above it.
-/// OSG's bounds tell of additions and moves, so geometry whose vertices are changed needs its dirtyBound() called, as
-/// OSG's own culling does. Tiles whose mesh the application replaces need installBins() again.
+/// The kit learns of additions and moves from OSG's bounds. When vertices change, call dirty() of the vertex array and
+/// dirtyBound() of the drawable. Tiles whose mesh the application replaces need installBins() again.
 class OSGANALYTICBIN_EXPORT BinInstaller : public TileFinder {
 public:
     /// Installs by these options.
@@ -68,6 +68,7 @@ protected:
     void visitTile(FoundTile& tile) override;
     void visitOther(osg::Node& node) override;
     void visitTooDeep(osg::Node& node) override;
+    void visitMoving(osg::Transform& node) override;
 
 private:
     friend class BinReadFileCallback;
@@ -140,7 +141,7 @@ OSGANALYTICBIN_EXPORT void setTraversesAlways(osg::Callback& callback);
 
 /// Takes bins off a node and all below it, and restores what installers changed: callbacks, culling flags, expiry
 /// times, the pager's options, and groups that were put above tiles. Call it between frames. What the DatabasePager is
-/// reading just now may still arrive with bins, which go on culling it rightly.
+/// reading just now may still arrive with bins, which still cull it correctly.
 OSGANALYTICBIN_EXPORT void removeBins(osg::Node& node);
 
 /// Culls databases by other options while they are shown, Method::Sphere and Method::None among them: from the next

@@ -85,6 +85,9 @@ protected:
     /// The nodes below which the search ends, tiles and PagedLODs on one path counted.
     static constexpr int kDeepest = 400;
 
+    /// A transform was met that may move. It is left out, with all below it.
+    virtual void visitMoving(osg::Transform&) {}
+
     /// Goes on with the children, those that are paged as content of their own files.
     void traverseBelow(osg::Node& node);
 

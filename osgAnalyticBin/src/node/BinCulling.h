@@ -41,7 +41,7 @@ template <class Classify>
         core::PlaneMask undecided = frustum.getCurrentMask();
         verdict = classify(frustum, undecided);
         // OSG pops this mask after the subgraph: a plane cleared here stays cleared just there. The result mask is what
-        // children without a sphere test begin with.
+        // a child with a sphere test begins with when no plane is left.
         frustum.getCurrentMask() = undecided;
         frustum.setResultMask(undecided);
     }
@@ -69,7 +69,7 @@ void cullOrTraverse(osg::NodeVisitor& nv, const IsCulled& isCulled, const Traver
         const OccluderScope occluders(*cullStack);
         traverse();
     }
-    // siblings without a sphere test begin with it, too
+    // not for siblings
     cullStack->getCurrentCullingSet().getFrustum().setResultMask(before);
 }
 

@@ -239,7 +239,11 @@ void BinInstaller::visitTile(FoundTile& tile) {
 
 void BinInstaller::visitOther(osg::Node& node) {
     if (node.asDrawable() && hasStoredBin(node)) warnOfDrawable(node);
-    if (_parent && !_isInMesh && installsBins() && node.asGroup()) {
+    // it may have been a tile when bins were last installed
+    if (installedTileOf(node) && !dynamic_cast<Carrier*>(&node)) removeCallbacks({&node, {}, frame(), 0, {}});
+    // some groups tell their bounds without asking their children
+    const bool mayKeepSilent = !drawsAllChildren(node) || node.getComputeBoundingSphereCallback();
+    if (installsBins() && node.asGroup() && !_isInMesh && (_parent || mayKeepSilent)) {
         ContentWatch::place(node, {});
     } else {
         ContentWatch::remove(node);
@@ -259,6 +263,10 @@ void BinInstaller::passBy(osg::Node& node, bool isTile) {
     }
     const Scoped selective(_isBelowSelection, _isBelowSelection || (!isTile && !drawsAllChildren(node)));
     traverseBelow(node);
+}
+
+void BinInstaller::visitMoving(osg::Transform& node) {
+    removeCallbacksBelow(node);
 }
 
 // It keeps OSG's own culling; how deep it lies is not known.

@@ -4,6 +4,7 @@
 #include "ContentWatch.h"
 
 #include "Database.h"
+#include "DatabaseCallbacks.h"
 #include "GlmBridge.h"
 #include "InstalledTile.h"
 #include "PlanarBinCullCallback.h"
@@ -14,11 +15,11 @@
 
 #include <osg/ComputeBoundsVisitor>
 #include <osg/CoordinateSystemNode>
+#include <osg/Geometry>
 #include <osg/Transform>
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -82,6 +83,13 @@ std::uint64_t boundsOf(const osg::Node& mesh) {
     std::uint64_t hash = 1;
     forEachPart(mesh, [&hash](const osg::Node& part) {
         if (part.asDrawable()) mixBound(hash, part.getBound());
+        const osg::Geometry* const geometry = part.asGeometry();
+        const osg::Array* const vertices = geometry ? geometry->getVertexArray() : nullptr;
+        if (!vertices) return;
+        mix(hash, reinterpret_cast<std::uintptr_t>(vertices));
+        mix(hash, std::uint64_t{vertices->getNumElements()});
+        mix(hash, std::uint64_t{vertices->getModifiedCount()});
+        mix(hash, std::uint64_t{geometry->getNumPrimitiveSets()});
     });
     return hash | 1;
 }
@@ -104,21 +112,38 @@ AnalyticBin binAbout(const osg::BoundingSphere& sphere, const core::Ellipsoid& e
                                          {middle.altitude - radius, middle.altitude + radius}));
 }
 
+// The box about a mesh, masked parts included. A terrain tile that is traversed before it has its Terrain never finds
+// it afterwards.
+class BoxOfMesh : public osg::ComputeBoundsVisitor {
+public:
+    BoxOfMesh() { setNodeMaskOverride(~0u); }
+    using osg::ComputeBoundsVisitor::apply;
+    void apply(osg::Group& node) override {
+        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) return traverse(node);
+        const osg::Matrixd matrix = _matrixStack.empty() ? osg::Matrixd() : osg::Matrixd(_matrixStack.back());
+        _bb.expandBy(movedSphere(node.getBound(), matrix));
+    }
+};
+
+// Whether a node is in the scene of a database.
+bool isBelowDatabase(const osg::Node& node) {
+    const bool isRoot = dynamic_cast<const osg::CoordinateSystemNode*>(&node) ||
+                        attachedDatabase(const_cast<osg::Node&>(node)) != nullptr;
+    return isRoot || std::any_of(node.getParents().begin(), node.getParents().end(),
+                                 [](const osg::Group* parent) { return isBelowDatabase(*parent); });
+}
+
 // Something that stands below tiles, on its way up from one to the next.
 class Content {
 public:
-    explicit Content(osg::Node& node) : _node(node), _sphere(node.getBound()) {
-        osg::ComputeBoundsVisitor bounds;
-        node.accept(bounds);
-        for (unsigned int i = 0; i < _corners.size(); ++i) _corners[i] = bounds.getBoundingBox().corner(i);
-    }
+    // `isMerged`: it is in the scene, and what it does not fit into may be widened.
+    Content(osg::Node& node, bool isMerged) : _node(node), _sphere(node.getBound()), _isMerged(isMerged) {}
 
     // Goes from the frame inside a transform to the one outside.
     void leave(const osg::Transform& transform) {
         osg::Matrixd matrix;
         transform.computeLocalToWorldMatrix(matrix, nullptr);
         _sphere = movedSphere(_sphere, matrix);
-        for (osg::Vec3d& corner : _corners) corner = corner * matrix;
         _toHere = _toHere * matrix;
     }
 
@@ -134,13 +159,18 @@ public:
         if (!isScaled && isHeld(own, callback.bin())) return;
         const AnalyticBin& content = own.valid() ? own : about;
         tile->keepVisible(true);
-        tile->database().noteContent(callback, {content, isScaled || !content.valid()});
+        if (_isMerged) tile->database().noteContent(callback, {content, isScaled || !content.valid()});
     }
 
     void fitInto(const PlanarBinCullCallback& callback) const {
-        const bool isHeld = std::all_of(_corners.begin(), _corners.end(),
-                                        [&](const osg::Vec3d& corner) { return callback.bin().holds(corner); });
-        if (callback.installedTile() && !isHeld) callback.installedTile()->keepVisible(true);
+        if (!callback.installedTile()) return;
+        BoxOfMesh box;
+        _node.accept(box);
+        bool isHeld = true;
+        for (unsigned int i = 0; i < 8 && isHeld; ++i) {
+            isHeld = callback.bin().holds(osg::Vec3d(box.getBoundingBox().corner(i)) * _toHere);
+        }
+        if (!isHeld) callback.installedTile()->keepVisible(true);
     }
 
 private:
@@ -161,25 +191,19 @@ private:
 
     osg::Node& _node;
     osg::BoundingSphere _sphere;
-    std::array<osg::Vec3d, 8> _corners;
+    bool _isMerged;
     osg::Matrixd _toHere;
     std::optional<AnalyticBin> _surface;
 };
 
-// Looks whether all tiles from the node upwards hold what stands among the node's children. Returns: whether this got
-// to the database's root.
-bool fitIntoTilesFrom(const osg::Node& node, Content content) {
-    if (dynamic_cast<const osg::CoordinateSystemNode*>(&node)) return true;
+// Looks whether all tiles from the node upwards hold what stands among the node's children.
+void fitIntoTilesFrom(const osg::Node& node, Content content) {
     for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
         if (const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(at)) content.fitInto(*bin);
         if (const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(at)) content.fitInto(*planar);
     }
     if (node.asTransform()) content.leave(*node.asTransform());
-    bool isComplete = node.getNumParents() > 0;
-    for (const osg::Group* const parent : node.getParents()) {
-        isComplete = fitIntoTilesFrom(*parent, content) && isComplete;
-    }
-    return isComplete;
+    for (const osg::Group* const parent : node.getParents()) fitIntoTilesFrom(*parent, content);
 }
 
 bool isAbsolute(const osg::Node& node) {
@@ -262,7 +286,9 @@ void ContentWatch::check(const osg::Node& node) const {
             if (watch->_isPending) watch->check(child);
             _isPending = _isPending || watch->_isPending;
         } else if (sphere.valid() && !isAbsolute(child) && !isFitted(child, true)) {
-            _isPending = !fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child))) || _isPending;
+            const bool isMerged = isBelowDatabase(node);
+            fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), isMerged));
+            _isPending = _isPending || !isMerged;
         }
     }
 }

@@ -6,6 +6,7 @@
 #include "../core/LocalFrame.h"
 #include "GlmBridge.h"
 #include "Inverse.h"
+#include "MeshCulling.h"
 
 #include <glm/geometric.hpp>
 #include <osg/Geode>
@@ -32,9 +33,13 @@ public:
 };
 
 // Made in the update traversal, and not to be made here, where others may cull the same tile.
-bool hasMesh(const osg::Node& node) {
-    const auto* const tile = dynamic_cast<const osgTerrain::TerrainTile*>(&node);
-    return !tile || (tile->getTerrainTechnique() && tile->getDirtyMask() == 0);
+bool hasMesh(osg::Node& mesh) {
+    bool has = true;
+    forEachNode(mesh, [&has](osg::Node& node) {
+        const auto* const tile = dynamic_cast<const osgTerrain::TerrainTile*>(&node);
+        has = has && (!tile || (tile->getTerrainTechnique() && tile->getDirtyMask() == 0));
+    });
+    return has;
 }
 
 // The corners of the triangle that was met, in ECEF; all zero where OSG does not say.
@@ -69,7 +74,10 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, osg::Node& mesh, const Anal
                           const core::Ellipsoid& ellipsoid) {
     const glm::dvec3 point = ellipsoid.toEcef(eye);
     const glm::dvec3 up = core::LocalFrame(eye.latitude, eye.longitude).up;
-    if (_mesh == &mesh && _tile == &tile && isTriangleBelow(point, up)) return true;
+    // meshes may change: what was found is not believed for long
+    constexpr int kMostUses = 16;
+    const bool isSame = _mesh.get() == &mesh && _tile.get() == &tile && ++_uses < kMostUses;
+    if (isSame && isTriangleBelow(point, up)) return true;
     _mesh = nullptr;
     const auto ecefToLocal = affineInverse(tile.localToEcef());
     if (!ecefToLocal || !hasMesh(mesh)) return false;
@@ -92,6 +100,7 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, osg::Node& mesh, const Anal
     _triangle = triangleOf(highest, tile.localToEcef());
     _mesh = &mesh;
     _tile = &tile;
+    _uses = 0;
     return true;
 }
 

@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 #include <osg/Node>
+#include <osg/observer_ptr>
 
 #include <array>
 
@@ -26,9 +27,9 @@ public:
 private:
     [[nodiscard]] bool isTriangleBelow(const glm::dvec3& eye, const glm::dvec3& up) const;
 
-    // Not owned: compared only.
-    const osg::Node* _mesh = nullptr;
-    const AnalyticBinCullCallback* _tile = nullptr;
+    osg::observer_ptr<const osg::Node> _mesh;
+    osg::observer_ptr<const AnalyticBinCullCallback> _tile;
+    int _uses = 0;
     std::array<glm::dvec3, 3> _triangle{};  // ECEF
 };
 

@@ -15,8 +15,8 @@ namespace osgAnalyticBin {
 
 class Database;
 
-/// What the installer keeps beside a tile's cull callback: the node that the bin was made for, whether the bin may be
-/// believed at present, and the nodes whose sphere test was switched off.
+/// What the installer keeps beside a tile's cull callback: the node that the bin was made for, whether the bin holds
+/// everything below the node at present, and the nodes whose sphere test was switched off.
 /// Threads: mayCull() and keepVisible() at any time; the rest where no cull traversal runs.
 class InstalledTile final : public osg::Referenced {
 public:

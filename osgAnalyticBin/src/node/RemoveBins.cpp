@@ -26,6 +26,7 @@ public:
     BinRemover() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
 
     void apply(osg::Node& node) override {
+        if (installedTileOf(node)) removeCallbacks({&node, {}, {}, 0, {}});
         ContentWatch::remove(node);
         if (Database* const database = attachedDatabase(node)) database->setRemoved();
         detachDatabase(node);

@@ -7,6 +7,7 @@
 #include <osg/CullFace>
 #include <osg/Depth>
 #include <osg/Image>
+#include <osg/Multisample>
 #include <osg/PolygonMode>
 #include <osg/Texture>
 #include <osgTerrain/Terrain>
@@ -55,7 +56,10 @@ bool isSeeThroughMode(const osg::StateSet::ModeList::value_type& mode) {
     const bool isOn = value & Attribute::ON;
     const bool isInherited = value & Attribute::INHERIT;
     if (name == GL_DEPTH_TEST) return !isOn && !isInherited;
-    return isOn && (name == GL_ALPHA_TEST || (name >= GL_CLIP_PLANE0 && name <= GL_CLIP_PLANE5));
+    constexpr GLenum kMostClipPlanes = 16;
+    const bool isClipPlane = name >= GL_CLIP_PLANE0 && name < GL_CLIP_PLANE0 + kMostClipPlanes;
+    return isOn && (isClipPlane || name == GL_BLEND || name == GL_ALPHA_TEST || name == GL_STENCIL_TEST ||
+                    name == GL_POLYGON_STIPPLE || name == GL_SAMPLE_ALPHA_TO_COVERAGE_ARB);
 }
 
 // OSG takes some textures without alpha for translucent.

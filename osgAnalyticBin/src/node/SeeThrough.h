@@ -11,10 +11,9 @@
 
 namespace osgAnalyticBin {
 
-/// Whether what is drawn in this state may show what is behind it: lines or points in place of faces, transparency,
-/// alpha tests, clip planes, front faces left out, no depth test or no depth written. State that replaces it farther
-/// down does not count.
-/// Shaders that discard fragments are not known.
+/// Whether what is drawn in this state may show what is behind it: lines or points in place of faces, blending,
+/// alpha and stencil tests, stipples, clip planes, front faces left out, no depth test or no depth written. State that
+/// replaces it farther down does not count. Shaders that discard fragments are not known.
 [[nodiscard]] bool isSeeThrough(const osg::StateSet& state);
 
 /// The same of the image layers of a terrain tile, by its own and its Terrain's blending policy.

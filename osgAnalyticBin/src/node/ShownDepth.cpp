@@ -126,6 +126,7 @@ private:
     [[nodiscard]] bool isAbout(const AnalyticBinCullCallback& tile) const {
         if (!_place || _place->altitude > tile.binHigh()) return false;
         const core::GeodeticBin& bin = tile.bin().bin();
+        if (bin.empty()) return true;
         if (_place->latitude < bin.latitude().lower || _place->latitude > bin.latitude().upper) return false;
         return bin.contains({_place->latitude, _place->longitude, bin.altitude().middle()});
     }

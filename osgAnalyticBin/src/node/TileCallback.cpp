@@ -122,6 +122,13 @@ void placeCallback(const FoundTile& tile, osg::Node& culled, Callback& callback,
 template void placeCallback(const FoundTile&, osg::Node&, AnalyticBinCullCallback&, Database&);
 template void placeCallback(const FoundTile&, osg::Node&, PlanarBinCullCallback&, Database&);
 
+void removeCallbacksBelow(osg::Node& subgraph) {
+    forEachNode(subgraph, [](osg::Node& node) {
+        if (installedTileOf(node)) removeCallbacks({&node, {}, {}, 0, {}});
+        ContentWatch::remove(node);
+    });
+}
+
 void removeCallbacks(const FoundTile& tile) {
     while (osg::Node* culled = installedNode(*tile.node)) {
         const osg::ref_ptr<osg::Callback> ours = installedCallback(*culled);

@@ -53,6 +53,9 @@ void placeCallback(const FoundTile& tile, osg::Node& culled, Callback& callback,
 /// scene may share callbacks.
 void takeOff(osg::Node& node, osg::Callback& callback);
 
+/// Takes everything of tiles off a subgraph, whatever is a tile there now: callbacks, watches, and what came with them.
+void removeCallbacksBelow(osg::Node& subgraph);
+
 /// Takes off all callbacks of bins, and what came with them: the sphere test is on again, and expiry times are as they
 /// were. A tile without such a callback stays as it is.
 void removeCallbacks(const FoundTile& tile);

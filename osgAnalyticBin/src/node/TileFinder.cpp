@@ -169,7 +169,7 @@ void TileFinder::apply(osg::CoordinateSystemNode& node) {
 
 void TileFinder::apply(osg::Transform& node) {
     const bool hasFrame = _frame.isKnown() || hasStoredBin(node);
-    if (hasFrame && !hasFixedPlace(node)) return;
+    if (hasFrame && !hasFixedPlace(node)) return visitMoving(node);
     visit(node, isTile(node));
 }
 
