@@ -82,9 +82,7 @@ void AnalyticBinCullCallback::setRadiiText(const std::string& text) {
         setRadii((*radii)[0], (*radii)[1]);
         return;
     }
-    OSG_WARN << "AnalyticBinCullCallback: the radii \"" << text.substr(0, 80)
-             << "\" are not two positive numbers; the tile is never culled." << std::endl;
-    setBin(AnalyticBin());
+    refuse(("the radii \"" + text.substr(0, 80) + "\" are not two positive numbers").c_str());
 }
 
 std::string AnalyticBinCullCallback::getRadiiText() const {

@@ -3,6 +3,7 @@
 
 #include "ContentWatch.h"
 
+#include "../core/EarthScale.h"
 #include "Database.h"
 #include "DatabaseCallbacks.h"
 #include "GlmBridge.h"
@@ -100,10 +101,8 @@ AnalyticBin binAbout(const osg::BoundingSphere& sphere, const core::Ellipsoid& e
     const double radius = sphere.radius() * 1.001;
     const core::Geodetic middle = ellipsoid.toGeodetic(center);
     const double fromAxis = std::hypot(center.x, center.y);
-    const double a = ellipsoid.equatorialRadius();
-    const double b = ellipsoid.polarRadius();
-    // of the smallest circle of curvature that a meridian has at this altitude
-    const double fromCurvature = std::min(a * (a / b), b * (b / a)) + middle.altitude - radius;
+    // from the nearest centre of curvature
+    const double fromCurvature = core::smallestCurvatureRadius(ellipsoid) + middle.altitude - radius;
     if (!std::isfinite(fromAxis + radius) || !(fromCurvature > radius) || !(fromAxis > radius)) return {};
     const double north = std::asin(radius / fromCurvature);
     const double east = std::asin(radius / fromAxis);
