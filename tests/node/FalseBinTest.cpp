@@ -109,6 +109,14 @@ TEST_F(FalseBins, ThatAreTooLowAreWidenedOnceWithTheTilesAbove) {
     EXPECT_EQ(_notes.count(kWarning), 1u);
 }
 
+// The mesh sags by kilometres: how far it does says nothing of how high it is.
+TEST_F(FalseBins, ThatAreTooLowByLessThanTheSagAreWidened) {
+    write(_south, 800.0, claim(_south).toText());
+    EXPECT_GE(altitudeOf(*_leaf).upper, 800.0 - 1.0);
+    update();
+    EXPECT_GE(altitudeOf(*_root).upper, 800.0 - 1.0);
+}
+
 TEST_F(FalseBins, WithoutAGlobeAboveThemAreWidenedToo) {
     _hasGlobe = false;
     write(_south, 7000.0, claim(_south).toText());

@@ -158,11 +158,10 @@ Tolerance toleranceFor(const AnalyticBin& bin, double sag, const core::Ellipsoid
     const double metre = core::earthScale(ellipsoid);
     const double mostMargin = 100.0 * metre;  // a stored one may be anything
     constexpr double kShareOfWidth = 1.0 / 32.0;
-    constexpr double kShareOfSag = 1.0 / 4.0;
     const double width =
         ellipsoid.polarRadius() * std::max(bin.bin().latitude().width(), bin.bin().longitude().width());
     const double least = metre + std::min(bin.margin(), mostMargin);
-    return {least + sag, least + kShareOfSag * sag, least + kShareOfWidth * width};
+    return {least + sag, least, least + kShareOfWidth * width};
 }
 
 // Radians that the bound of a mesh may run beyond an end of the latitudes, poleward of it: in proportion to its sag
