@@ -53,7 +53,7 @@ TEST(Instances, ThatAreMadeLaterAreDrawnInAllOfTheirPlaces) {
 
 TEST(AddedContent, OfAnApplicationsGroupIsDrawnAtOnce) {
     FiledGlobe globe;
-    EXPECT_EQ(globe.group->getCullCallback(), nullptr) << "the application's group is no tile";
+    EXPECT_EQ(installedOn(*globe.group), nullptr) << "the application's group is no tile";
     const osg::ref_ptr<osg::Node> vehicle = makeTower(ecefDeg(20, 20, 30000.0));
     globe.group->addChild(vehicle);
     EXPECT_TRUE(globe.draws(*vehicle, beside(ecefDeg(20, 20, 30000.0))));

@@ -3,6 +3,7 @@
 
 #include "ShownEye.h"
 
+#include "../../osgAnalyticBin/src/node/CullTraversal.h"
 #include "../../osgAnalyticBin/src/node/ShownDepth.h"
 #include "CameraGlobe.h"
 
@@ -23,8 +24,10 @@ public:
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
         osg::CullStack& cullStack = *nv->asCullStack();
         const auto viewpoint = Viewpoint::of(cullStack, *nv, false);
-        if (viewpoint)
-            eye = eyeAboveWhatIsShown({*node->asGroup(), *nv, cullStack, earth(), {}}, *viewpoint, _deepest, depth);
+        if (!viewpoint) return;
+        const DatabaseView view{
+            nullptr, earth(), {}, nullptr, cullStack.getModelViewMatrix(), cullStack.getProjectionMatrix(), {}};
+        eye = eyeAboveWhatIsShown({*node->asGroup(), *nv, cullStack, view}, *viewpoint, _deepest, depth);
     }
 
     double depth;

@@ -31,6 +31,7 @@ class PlaneSet;
 }
 class CullTraversal;
 class InstalledTile;
+class TileFamily;
 struct DatabaseView;
 struct Verdict;
 
@@ -170,6 +171,8 @@ protected:
     ~AnalyticBinCullCallback() override;
 
 private:
+    friend class TileFamily;
+
     using PreparedBin = std::variant<core::GeodeticQuadraticBin, core::ExactGeodeticBin, core::PaperBin,
                                      core::CornersBin, core::BoxBin, core::OrientedBoxBin>;
     // What a cull traversal reads, made once per bin.
@@ -186,6 +189,9 @@ private:
     };
 
     void prepare();
+    void prepareBin();
+    void leaveFamily();
+    void fillSlot() const;
     void refuse(const char* why);
     [[nodiscard]] bool readItem(const std::string& item);
     [[nodiscard]] AnalyticBin shownBin() const;
@@ -194,8 +200,8 @@ private:
                                                 CullTraversal& traversal) const;
     [[nodiscard]] bool standsAsInstalled(osg::CullStack& cullStack, const DatabaseView& database) const;
     [[nodiscard]] bool isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
-    [[nodiscard]] Verdict classify(osg::CullStack& cullStack, osg::NodeVisitor& nv, CullTraversal& traversal,
-                                   const core::PlaneSet& planes, core::PlaneMask& undecided) const;
+    [[nodiscard]] Verdict classify(const core::PlaneSet& planes, core::PlaneMask& undecided,
+                                   const core::HorizonEye* eye, CullTraversal& traversal) const;
     [[nodiscard]] bool isHiddenFrom(const core::HorizonEye& eye) const;
     [[nodiscard]] bool isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,
                                       core::PlaneMask undecided) const;

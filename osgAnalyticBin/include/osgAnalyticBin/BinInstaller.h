@@ -91,6 +91,7 @@ private:
     void refit(osg::Node& node, Database& database);
     // Looks whether the tiles of each file cover what they are paged below.
     void finish();
+    void placeFamilies();
 
     [[nodiscard]] bool installsBins() const;
     void installAt(osg::Node& root);
@@ -120,6 +121,7 @@ private:
     PagingByOptions _paging;
     std::shared_ptr<std::map<std::string, Coverage>> _coverage;  // by file
     std::size_t _installed = 0;
+    std::vector<osg::Node*> _groups;  // that may get families
 };
 
 /// Installs bins below the node. Returns: the number of callbacks installed.

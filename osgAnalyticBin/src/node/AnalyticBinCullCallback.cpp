@@ -34,6 +34,20 @@ bool isBox(Method method) {
     return method == Method::Box || method == Method::OrientedBox;
 }
 
+// The sphere that the test of a bin begins with. Bins for comparison have none: infinite reach.
+template <class Bin>
+core::SphereData sphereOf(const Bin&) {
+    core::SphereData unknown{};
+    unknown.reach = std::numeric_limits<float>::infinity();
+    return unknown;
+}
+core::SphereData sphereOf(const core::GeodeticQuadraticBin& bin) {
+    return bin.data().sphere();
+}
+core::SphereData sphereOf(const core::ExactGeodeticBin& bin) {
+    return bin.data().sphere;
+}
+
 // The planes of a frustum, moved to ECEF.
 core::PlaneSet ecefPlanes(const osg::Polytope& frustum, const osg::Matrixd& ecefToLocal) {
     core::PlaneSet planes;
@@ -124,6 +138,11 @@ AnalyticBinCullCallback::PreparedBin AnalyticBinCullCallback::preparedBin(const 
 }
 
 void AnalyticBinCullCallback::prepare() {
+    prepareBin();
+    fillSlot();
+}
+
+void AnalyticBinCullCallback::prepareBin() {
     _prepared.reset();
     const AnalyticBin shown = shownBin();
     _binLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
@@ -157,12 +176,28 @@ void AnalyticBinCullCallback::prepare() {
     if (!_hasLocalFrame) _prepared->columnSphere = column.boundingSphere(*_ellipsoid);
 }
 
+// The members of a family have their frame, their globe and their terrain's shape in common.
+void AnalyticBinCullCallback::leaveFamily() {
+    if (_installed) _installed->leaveFamily();
+}
+
+void AnalyticBinCullCallback::fillSlot() const {
+    if (!_installed) return;
+    if (!_prepared) return _installed->emptySlot();
+    const auto sphere = std::visit([](const auto& bin) { return sphereOf(bin); }, _prepared->bin);
+    const core::HorizonBin* const horizon = _prepared->horizon ? &*_prepared->horizon : nullptr;
+    _installed->fillSlot(
+        {sphere, _prepared->sphere, _prepared->columnSphere, _binHigh, _binLow, _surfaceHigh, _surfaceLow},
+        {_hidesByPoint ? nullptr : horizon, _prepared->columnHorizon ? &*_prepared->columnHorizon : horizon});
+}
+
 void AnalyticBinCullCallback::setBin(const AnalyticBin& bin) {
     _bin = bin;
     prepare();
 }
 
 void AnalyticBinCullCallback::setTerrainShape(const std::optional<TerrainShape>& shape) {
+    leaveFamily();
     _shape = shape;
     setSurface(_surface);
     prepare();
@@ -178,6 +213,7 @@ void AnalyticBinCullCallback::setSurface(const AnalyticBin& surface) {
     const AnalyticBin shown = _shape ? surface.exaggerated(_shape->verticalScale) : surface;
     _surfaceLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
     _surfaceHigh = shown.valid() ? shown.bin().altitude().upper + shown.margin() : -kUnknown;
+    fillSlot();
 }
 
 bool AnalyticBinCullCallback::isColumnHiddenFrom(const core::HorizonEye& eye) const {
@@ -191,11 +227,13 @@ void AnalyticBinCullCallback::setCullOptions(const CullOptions& options) {
 }
 
 void AnalyticBinCullCallback::setRadii(double equatorial, double polar) {
+    leaveFamily();
     _ellipsoid = new osg::EllipsoidModel(equatorial, polar);
     prepare();
 }
 
 void AnalyticBinCullCallback::setLocalToEcef(const osg::Matrixd& matrix) {
+    leaveFamily();
     _localToEcef = matrix;
     _hasLocalFrame = !matrix.isIdentity();
     const auto inverse = affineInverse(matrix);
@@ -209,6 +247,11 @@ void AnalyticBinCullCallback::setLocalToEcef(const osg::Matrixd& matrix) {
 }
 
 void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    if (nv->asCullStack() && CullTraversal::of(*nv).isKept(*node)) {
+        // its family has tested it
+        traverse(node, nv);
+        return;
+    }
     cullOrTraverse(
         *nv, [&](osg::CullStack& cullStack) { return isCulled(*node, cullStack, *nv); }, [&] { traverse(node, nv); });
 }
@@ -238,10 +281,10 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
     }
     return isCulledByBin(cullStack, nv, traversal, _prepared->sphere,
                          [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
-                             if (!_hasLocalFrame) {
-                                 return classify(cullStack, nv, traversal, traversal.planes(cullStack), undecided);
-                             }
-                             return classify(cullStack, nv, traversal, ecefPlanes(frustum, _ecefToLocal), undecided);
+                             const core::PlaneSet& planes = traversal.planes(cullStack);
+                             const core::HorizonEye* const eye = eyeOn(cullStack, nv, traversal);
+                             if (!_hasLocalFrame) return classify(planes, undecided, eye, traversal);
+                             return classify(ecefPlanes(frustum, _ecefToLocal), undecided, eye, traversal);
                          });
 }
 
@@ -255,6 +298,7 @@ bool AnalyticBinCullCallback::standsAsInstalled(osg::CullStack& cullStack, const
 
 const core::HorizonEye* AnalyticBinCullCallback::eyeOn(osg::CullStack& cullStack, osg::NodeVisitor& nv,
                                                        CullTraversal& traversal) const {
+    if (!_prepared->horizon) return nullptr;
     if (const DatabaseView* database = traversal.databaseView()) {
         // a camera between the database's root and the tile sees with other eyes
         const bool isSame = database->ellipsoid == _prepared->ellipsoid &&
@@ -269,15 +313,12 @@ const core::HorizonEye* AnalyticBinCullCallback::eyeOn(osg::CullStack& cullStack
     return traversal.horizonEye(cullStack, nv, occluder);
 }
 
-Verdict AnalyticBinCullCallback::classify(osg::CullStack& cullStack, osg::NodeVisitor& nv, CullTraversal& traversal,
-                                          const core::PlaneSet& planes, core::PlaneMask& undecided) const {
+Verdict AnalyticBinCullCallback::classify(const core::PlaneSet& planes, core::PlaneMask& undecided,
+                                          const core::HorizonEye* eye, CullTraversal& traversal) const {
     const core::Side side =
         std::visit([&](const auto& bin) { return core::classify(bin, planes, undecided); }, _prepared->bin);
     if (side == core::Side::Outside) return {side, Verdict::Plane};
-    if (_prepared->horizon) {
-        const core::HorizonEye* eye = eyeOn(cullStack, nv, traversal);
-        if (eye && isHiddenFrom(*eye)) return {core::Side::Outside, Verdict::Horizon};
-    }
+    if (eye && isHiddenFrom(*eye)) return {core::Side::Outside, Verdict::Horizon};
     if (side == core::Side::Straddling && _testsEdges && isBeyondAnEdge(traversal, planes, undecided)) {
         return {core::Side::Outside, Verdict::Edge};
     }

@@ -14,4 +14,11 @@ bool isSmall(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere) {
     return culled;
 }
 
+void count(CullTraversal& traversal, const osg::NodeVisitor& nv, const Verdict& verdict, bool culled) {
+    if (nv.getVisitorType() != osg::NodeVisitor::CULL_VISITOR) return;
+    traversal.count(culled ? core::Side::Outside : verdict.side, nv.getTraversalNumber());
+    if (verdict.reason == Verdict::Horizon) traversal.countHidden();
+    if (verdict.reason == Verdict::Edge) traversal.countSeparated();
+}
+
 }  // namespace osgAnalyticBin

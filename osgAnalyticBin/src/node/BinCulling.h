@@ -27,6 +27,9 @@ struct Verdict {
 /// OSG's own small-feature test, and nothing else of CullingSet::isCulled(BoundingSphere).
 [[nodiscard]] bool isSmall(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere);
 
+/// Counts a tile that was tested, in cull traversals. `culled`: by its bin or otherwise.
+void count(CullTraversal& traversal, const osg::NodeVisitor& nv, const Verdict& verdict, bool culled);
+
 /// Whether a node is culled: by its bin against the undecided planes, as a small feature, or behind an occluder. Planes
 /// that have the bin inside are cleared from the frustum's masks, so that they are not tested again below the node, as
 /// far as the next transform: OSG begins there with all planes. The verdict is counted.
@@ -47,11 +50,7 @@ template <class Classify>
     }
     const bool culled = verdict.side == core::Side::Outside || isSmall(cullingSet, sphere) ||
                         isOccluded(cullStack, nv.getNodePath(), sphere);
-    if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR) {
-        traversal.count(culled ? core::Side::Outside : verdict.side, nv.getTraversalNumber());
-        if (verdict.reason == Verdict::Horizon) traversal.countHidden();
-        if (verdict.reason == Verdict::Edge) traversal.countSeparated();
-    }
+    count(traversal, nv, verdict, culled);
     return culled;
 }
 

@@ -15,6 +15,7 @@
 #include "Scoped.h"
 #include "ShownDepth.h"
 #include "TileCallback.h"
+#include "TileFamily.h"
 #include "TileFit.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -131,6 +132,7 @@ void BinInstaller::refit(osg::Node& node, Database& database) {
         _database = &database;
     }
     node.accept(*this);
+    placeFamilies();
     _refitted = nullptr;
 }
 
@@ -139,6 +141,13 @@ void BinInstaller::finish() {
         if (installsBins() && coverage.hasGap()) database().noteGap(file);
     }
     _coverage->clear();
+    placeFamilies();
+}
+
+// When all tiles are treated: on the way, the stack of deep scenes would have to hold more.
+void BinInstaller::placeFamilies() {
+    for (osg::Node* const group : _groups) TileFamily::place(*group);
+    _groups.clear();
 }
 
 bool BinInstaller::installsBins() const {
@@ -158,6 +167,7 @@ void BinInstaller::installAt(osg::Node& root) {
     if (!isGlobe && !_keepsDatabases) detachDatabase(root);
     if (_database) _database->setOptions(_options);
     root.accept(*this);
+    placeFamilies();
     if (!isGlobe && _database && installsBins()) attachUpdate(root, *_database);
 }
 
@@ -248,6 +258,8 @@ void BinInstaller::visitOther(osg::Node& node) {
     } else {
         ContentWatch::remove(node);
     }
+    TileFamily::remove(node);
+    if (installsBins() && TileFamily::isPossibleOn(node)) _groups.emplace_back(&node);
     passBy(node, false);
 }
 

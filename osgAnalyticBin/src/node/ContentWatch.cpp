@@ -10,6 +10,7 @@
 #include "InstalledTile.h"
 #include "PlanarBinCullCallback.h"
 #include "Spheres.h"
+#include "TileCallback.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/TileSurface.h>
@@ -205,6 +206,14 @@ void fitIntoTilesFrom(const osg::Node& node, Content content) {
     for (const osg::Group* const parent : node.getParents()) fitIntoTilesFrom(*parent, content);
 }
 
+// Says that the tile which a watched node belongs to has lost or changed a part of its mesh.
+void doubtMeshOf(const osg::Node& node) {
+    InstalledTile* tile = installedTileOf(node);
+    Carrier* const carrier = tile ? nullptr : carrierOf(const_cast<osg::Node&>(node));
+    if (carrier) tile = installedTileOf(*carrier);
+    if (tile) tile->doubtMesh();
+}
+
 bool isAbsolute(const osg::Node& node) {
     const osg::Transform* const transform = node.asTransform();
     return transform && transform->getReferenceFrame() != osg::Transform::RELATIVE_RF;
@@ -278,18 +287,22 @@ void ContentWatch::check(const osg::Node& node) const {
     _isPending = false;
     // osgTerrain draws nothing of what is below its tiles
     const osg::Group* const group = dynamic_cast<const osgTerrain::TerrainTile*>(&node) ? nullptr : node.asGroup();
+    std::size_t fitted = 0;
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
         const osg::BoundingSphere& sphere = child.getBound();  // has others look at what is below it, too
         if (const ContentWatch* const watch = ownWatchOf(child)) {
             if (watch->_isPending) watch->check(child);
             _isPending = _isPending || watch->_isPending;
-        } else if (sphere.valid() && !isAbsolute(child) && !isFitted(child, true)) {
+        } else if (isFitted(child, true)) {
+            ++fitted;
+        } else if (sphere.valid() && !isAbsolute(child)) {
             const bool isMerged = isBelowDatabase(node);
             fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), isMerged));
             _isPending = _isPending || !isMerged;
         }
     }
+    if (group && fitted < _fitted.size()) doubtMeshOf(node);
 }
 
 }  // namespace osgAnalyticBin

@@ -85,6 +85,10 @@ public:
     /// The depth of the lowest surface that this visitor last found a database to show: where it looks next time.
     [[nodiscard]] double& lastDepth(const Database& database);
 
+    /// Says that the bin of a node about to be entered has been tested, and keeps it; null: none.
+    void setKept(const osg::Node* node) { _kept = node; }
+    [[nodiscard]] bool isKept(const osg::Node& node) const { return _kept == &node; }
+
     /// What this visitor last found below its eye.
     [[nodiscard]] GroundBelow& ground() { return _ground; }
 
@@ -99,6 +103,7 @@ private:
 
     const DatabaseView* _databaseView = nullptr;
     std::vector<std::pair<const Database*, double>> _lastDepths;
+    const osg::Node* _kept = nullptr;
     GroundBelow _ground;
 
     core::PlaneSet _planes;

@@ -14,6 +14,44 @@ InstalledTile::InstalledTile(const InstalledTile& other)
 
 InstalledTile::~InstalledTile() = default;
 
+void InstalledTile::keepVisible(bool kept) {
+    _isKeptVisible.store(kept, std::memory_order_relaxed);
+    tellFamily();
+}
+
+void InstalledTile::doubtMesh() {
+    _isMeshDoubted.store(true, std::memory_order_relaxed);
+    tellFamily();
+}
+
+void InstalledTile::tellFamily() {
+    const bool isDoubted = _isMeshDoubted.load(std::memory_order_relaxed);
+    if (_block) _block->believe(_slot, _isSlotFilled && !isKeptVisible() && !isDoubted);
+}
+
+void InstalledTile::joinFamily(TileBlock& block, std::size_t slot) {
+    leaveFamily();
+    _block = &block;
+    _slot = slot;
+}
+
+void InstalledTile::leaveFamily() {
+    emptySlot();
+    _block = nullptr;
+}
+
+void InstalledTile::fillSlot(const TileBlock::Slot& tile, const TileBlock::Horizons& horizons) {
+    if (!_block) return;
+    _block->set(_slot, tile, horizons);
+    _isSlotFilled = true;
+    tellFamily();
+}
+
+void InstalledTile::emptySlot() {
+    _isSlotFilled = false;
+    tellFamily();
+}
+
 void InstalledTile::suspendSphere(osg::Node& node) {
     _wasActive.push_back(node.getCullingActive());
     if (!_wasActive.back()) return;

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "TileBlock.h"
+
 #include <osg/Node>
 #include <osg/Referenced>
 #include <osg/ref_ptr>
@@ -38,9 +40,19 @@ public:
     }
 
     /// Keeps the tile visible until this is called with false.
-    void keepVisible(bool kept) { _isKeptVisible.store(kept, std::memory_order_relaxed); }
+    void keepVisible(bool kept);
 
     [[nodiscard]] bool isKeptVisible() const { return _isKeptVisible.load(std::memory_order_relaxed); }
+
+    /// Puts the tile's bin into a slot of the family that it belongs to from now on. Its callback fills it.
+    void joinFamily(TileBlock& block, std::size_t slot);
+    /// Says that the family must not cull it any more.
+    void leaveFamily();
+    /// Says that the tile's mesh is not the one that it was fitted to: its family leaves it to its callback.
+    void doubtMesh();
+    /// What the family, if any, is to cull it by.
+    void fillSlot(const TileBlock::Slot& tile, const TileBlock::Horizons& horizons);
+    void emptySlot();
 
     /// Says that what the tile draws can be seen through, so that the horizon must not rely on it.
     void setSeeThrough() { _isSeeThrough = true; }
@@ -59,9 +71,15 @@ protected:
     ~InstalledTile() override;
 
 private:
+    void tellFamily();
+
     const osg::Node* const _culled;
     const osg::ref_ptr<Database> _database;
     std::atomic<bool> _isKeptVisible{false};
+    std::atomic<bool> _isMeshDoubted{false};
+    osg::ref_ptr<TileBlock> _block;
+    std::size_t _slot = 0;
+    bool _isSlotFilled = false;
     bool _isSeeThrough = false;
     bool _wasCulledActive = false;                    // of the culled node, which owns this and must not be owned by it
     std::vector<osg::ref_ptr<osg::Node>> _suspended;  // other nodes

@@ -14,12 +14,6 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// By the camera's settings: the masks of the culling sets are without occluders below a tile.
-bool isActive(osg::CullStack& cullStack) {
-    return (cullStack.getCullingMode() & osg::CullSettings::SHADOW_OCCLUSION_CULLING) &&
-           !cullStack.getOccluderList().empty();
-}
-
 const osg::Camera* innermostCamera(const osg::NodePath& path) {
     for (auto node = path.rbegin(); node != path.rend(); ++node) {
         if (const osg::Camera* camera = (*node)->asCamera()) return camera;
@@ -53,8 +47,14 @@ bool isBelow(const osg::NodePath& path, const osg::NodePath& occluder) {
 
 }  // namespace
 
+// By the camera's settings: the masks of the culling sets are without occluders below a tile.
+bool hasActiveOccluders(osg::CullStack& cullStack) {
+    return (cullStack.getCullingMode() & osg::CullSettings::SHADOW_OCCLUSION_CULLING) &&
+           !cullStack.getOccluderList().empty();
+}
+
 bool isOccluded(osg::CullStack& cullStack, const osg::NodePath& path, const osg::BoundingSphere& sphere) {
-    if (!isActive(cullStack) || !sphere.valid()) return false;
+    if (!hasActiveOccluders(cullStack) || !sphere.valid()) return false;
     // The stack's own list is in eye coordinates and has never been masked.
     const osg::BoundingSphere inEyeFrame = movedSphere(sphere, *cullStack.getModelViewMatrix());
     // Two cameras may have the same projection.
@@ -73,7 +73,8 @@ bool isOccluded(osg::CullStack& cullStack, const osg::NodePath& path, const osg:
     return false;
 }
 
-OccluderScope::OccluderScope(osg::CullStack& cullStack) : _cullStack(cullStack), _active(isActive(cullStack)) {
+OccluderScope::OccluderScope(osg::CullStack& cullStack)
+    : _cullStack(cullStack), _active(hasActiveOccluders(cullStack)) {
     if (!_active) return;
     // Culling sets of transforms below are made from that of the projection.
     osg::CullingSet& current = _cullStack.getCurrentCullingSet();

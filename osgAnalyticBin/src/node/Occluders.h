@@ -10,6 +10,9 @@
 
 namespace osgAnalyticBin {
 
+/// Whether the camera that is culled for has occluders.
+[[nodiscard]] bool hasActiveOccluders(osg::CullStack& cullStack);
+
 /// Whether a sphere in the current frame lies in the shadow of one of the active occluders, holes considered.
 /// OSG's own test of a culling set starts from masks that a node without sphere culling inherits from whatever was
 /// tested before it, and may then leave planes out; this one tests all planes, and leaves occluders of other cameras

@@ -6,6 +6,7 @@
 #include "DatabaseCallbacks.h"
 #include "PagedFiles.h"
 #include "TileCallback.h"
+#include "TileFamily.h"
 
 #include <osgAnalyticBin/BinInstaller.h>
 
@@ -27,6 +28,7 @@ public:
 
     void apply(osg::Node& node) override {
         if (installedTileOf(node)) removeCallbacks({&node, {}, {}, 0, {}});
+        TileFamily::remove(node);
         ContentWatch::remove(node);
         if (Database* const database = attachedDatabase(node)) database->setRemoved();
         detachDatabase(node);

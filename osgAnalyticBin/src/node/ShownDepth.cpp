@@ -10,6 +10,7 @@
 #include "Scoped.h"
 #include "SeeThrough.h"
 #include "TileCallback.h"
+#include "TileFamily.h"
 
 #include <osgAnalyticBin/BinInstaller.h>
 
@@ -36,11 +37,14 @@ constexpr double kUnknownDepth = std::numeric_limits<double>::infinity();
 
 // The cull callbacks of a node: the bin's, and whether others may leave out what is below them.
 struct CullCallbacks {
+    CullCallbacks() = default;
     explicit CullCallbacks(const osg::Node& node) {
         // A dynamic_cast across OSG's virtual bases would be most of the search's cost.
         for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
             if (!bin && typeid(*at) == typeid(AnalyticBinCullCallback)) {
                 bin = static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback());
+            } else if (typeid(*at) == typeid(TileFamily)) {
+                family = static_cast<const TileFamily*>(at->asNodeCallback());
             } else if (!isClusterCulling(*at) && !traversesAlways(*at)) {
                 mayLeaveOut = true;
             }
@@ -48,6 +52,7 @@ struct CullCallbacks {
     }
 
     const AnalyticBinCullCallback* bin = nullptr;
+    const TileFamily* family = nullptr;
     bool mayLeaveOut = false;
 };
 
@@ -55,6 +60,35 @@ osg::PagedLOD* pagedLod(osg::Node& node) {
     if (typeid(node) == typeid(osg::PagedLOD)) return static_cast<osg::PagedLOD*>(&node);
     return dynamic_cast<osg::PagedLOD*>(&node);
 }
+
+// What the search reads of a tile: most of it is side by side in its family's block.
+struct SearchedTile {
+    SearchedTile(const AnalyticBinCullCallback& tile, bool hasShownShape)
+        : callback(tile),
+          columnSphere(tile.ecefColumnSphere()),
+          binLow(tile.binLow()),
+          surfaceHigh(tile.surfaceHigh()),
+          surfaceLow(tile.surfaceLow()),
+          isFitted(hasShownShape),
+          isSeenThrough(tile.installedTile() && tile.installedTile()->isSeeThrough()) {}
+    SearchedTile(const TileFamily::Member& member, const TileBlock::Slot& slot)
+        : callback(*member.tile),
+          columnSphere(&slot.column),
+          binLow(slot.binLow),
+          surfaceHigh(slot.surfaceHigh),
+          surfaceLow(slot.surfaceLow),
+          isFitted(true),
+          isSeenThrough(member.isSeeThrough),
+          meshParts(&member.meshParts) {}
+
+    const AnalyticBinCullCallback& callback;
+    const osg::BoundingSphere* columnSphere;
+    double binLow, surfaceHigh, surfaceLow;
+    bool isFitted;  // to the shape in which the terrain is shown
+    bool isSeenThrough;
+    bool isAboutEye = false;
+    const std::vector<osg::ref_ptr<const osg::Node>>* meshParts = nullptr;  // null: not known
+};
 
 // A surface that is shown about the place of the eye, no lower than the eye by its bounds.
 struct NearGround {
@@ -67,14 +101,15 @@ class LowestShown {
 public:
     LowestShown(const ShownDatabase& database, const core::HorizonEye& eye, const std::optional<core::Geodetic>& place,
                 double deepest)
-        : _visitor(database.visitor), _eye(eye), _place(place), _shape(database.shape), _deepest(deepest) {
+        : _database(database), _visitor(database.visitor), _eye(eye), _place(place), _deepest(deepest) {
         const osg::CullingSet& cullingSet = database.cullStack.getCurrentCullingSet();
         if (!(cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING)) return;
         _planes = cullingSet.getFrustum().getPlaneList();
     }
 
     void search(osg::Group& group) {
-        for (unsigned int i = 0; i < group.getNumChildren(); ++i) searchNode(*group.getChild(i));
+        const CullCallbacks callbacks(group);
+        searchChildren(group, callbacks.family);
     }
 
     [[nodiscard]] double depth() const { return _depth; }
@@ -83,21 +118,55 @@ public:
     [[nodiscard]] const std::vector<NearGround>& nearGround() const { return _nearGround; }
 
 private:
+    void searchChildren(osg::Group& group, const TileFamily* family) {
+        const bool isFamily = family && family->culls(group, _database.cullStack, _database.view) && !_isMoved;
+        for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) {
+            osg::Node& child = *group.getChild(i);
+            const TileFamily::Member* const member = isFamily ? family->member(i, child) : nullptr;
+            if (member) {
+                searchMember(child, *member, family->block(), i);
+            } else {
+                searchNode(child);
+            }
+        }
+    }
+
+    // As searchNode(): a tile that is not seen is not touched.
+    void searchMember(osg::Node& node, const TileFamily::Member& member, const TileBlock& block, std::size_t slot) {
+        const TileBlock::Slot& numbers = block[slot];
+        const bool isAboutEye = _place && _place->altitude <= numbers.binHigh && isAbout(*member.tile);
+        if (!isAboutEye && (isBesideFrustum(&numbers.column) || block.isColumnHidden(slot, _eye))) return;
+        SearchedTile tile(member, numbers);
+        tile.isAboutEye = isAboutEye;
+        const bool isAlone = node.getCullCallback() == member.tile && !member.tile->getNestedCallback();
+        CullCallbacks callbacks = isAlone ? CullCallbacks() : CullCallbacks(node);
+        callbacks.bin = member.tile;
+        searchTile(node, tile, callbacks);
+    }
+
     void searchNode(osg::Node& node) {
-        if (_hasHole) return;
         const CullCallbacks callbacks(node);
-        const AnalyticBinCullCallback* const tile = callbacks.bin;
-        const bool isAboutEye = tile && isAbout(*tile);
-        if (tile && !isAboutEye && (isBesideFrustum(*tile) || tile->isColumnHiddenFrom(_eye))) return;
-        const Scoped doubtful(_isDoubtful, _isDoubtful || !isSurelyDrawn(node, callbacks));
-        if (tile && (_isDoubtful || isSeenThrough(*tile))) _hasHole = true;
-        osg::PagedLOD* paged = tile ? pagedLod(node) : nullptr;
-        if (paged) return searchPaged(*paged, *tile);
-        if (tile) return show(*tile, node);
+        if (callbacks.bin) {
+            const AnalyticBinCullCallback& bin = *callbacks.bin;
+            const bool isFitted = !bin.terrainShape() || *bin.terrainShape() == _database.view.shape;
+            SearchedTile tile(bin, isFitted);
+            tile.isAboutEye = isAbout(bin);
+            if (!tile.isAboutEye && (isBeside(tile) || bin.isColumnHiddenFrom(_eye))) return;
+            return searchTile(node, tile, callbacks);
+        }
         // another database is on a globe of its own
         if (dynamic_cast<osg::CoordinateSystemNode*>(&node)) return;
+        const Scoped doubtful(_isDoubtful, _isDoubtful || !isSurelyDrawn(node, callbacks));
         const Scoped moved(_isMoved, _isMoved || node.asTransform());
-        if (osg::Group* group = node.asGroup()) search(*group);
+        if (osg::Group* group = node.asGroup()) searchChildren(*group, callbacks.family);
+    }
+
+    void searchTile(osg::Node& node, const SearchedTile& tile, const CullCallbacks& callbacks) {
+        const Scoped doubtful(_isDoubtful, _isDoubtful || !isSurelyDrawn(node, callbacks));
+        if (_isDoubtful || tile.isSeenThrough) _hasHole = true;
+        osg::PagedLOD* paged = pagedLod(node);
+        if (paged) return searchPaged(*paged, tile);
+        show(tile, node);
     }
 
     [[nodiscard]] bool isSurelyDrawn(const osg::Node& node, const CullCallbacks& callbacks) const {
@@ -107,6 +176,14 @@ private:
     }
 
     // Whether all of a tile's own mesh is drawn. Its state was asked for when bins were installed.
+    [[nodiscard]] bool isDrawnWhole(const osg::Node& mesh, const SearchedTile& tile) const {
+        const bool isKnown = tile.meshParts && !tile.meshParts->empty() && tile.meshParts->front() == &mesh;
+        if (!isKnown) return isDrawnWhole(mesh);
+        return std::all_of(tile.meshParts->begin(), tile.meshParts->end(), [this](const auto& part) {
+            return _visitor.validNodeMask(*part) && !(part->getCullCallback() && CullCallbacks(*part).mayLeaveOut);
+        });
+    }
+
     [[nodiscard]] bool isDrawnWhole(const osg::Node& part) const {
         if (!_visitor.validNodeMask(part) || CullCallbacks(part).mayLeaveOut) return false;
         if (typeid(part) == typeid(osgTerrain::TerrainTile)) return true;
@@ -118,10 +195,6 @@ private:
         return true;
     }
 
-    [[nodiscard]] static bool isSeenThrough(const AnalyticBinCullCallback& tile) {
-        return tile.installedTile() && tile.installedTile()->isSeeThrough();
-    }
-
     // Whether the eye may be within or below what the tile or its descendants draw.
     [[nodiscard]] bool isAbout(const AnalyticBinCullCallback& tile) const {
         if (!_place || _place->altitude > tile.binHigh()) return false;
@@ -131,32 +204,32 @@ private:
         return bin.contains({_place->latitude, _place->longitude, bin.altitude().middle()});
     }
 
-    [[nodiscard]] bool isFitted(const AnalyticBinCullCallback& tile) const {
-        return !tile.terrainShape() || *tile.terrainShape() == _shape;
+    // Rays that are seen do not enter the occluder there: it lies below the ellipsoid, but it may lie above the tile.
+    [[nodiscard]] bool isBeside(const SearchedTile& tile) const {
+        return tile.isFitted && isBesideFrustum(tile.columnSphere);
     }
 
-    // Rays that are seen do not enter the occluder there: it lies below the ellipsoid, but it may lie above the tile.
-    [[nodiscard]] bool isBesideFrustum(const AnalyticBinCullCallback& tile) const {
-        const osg::BoundingSphere* sphere = tile.ecefColumnSphere();
-        if (!sphere || !isFitted(tile)) return false;
+    [[nodiscard]] bool isBesideFrustum(const osg::BoundingSphere* sphere) const {
+        if (!sphere) return false;
         const osg::Vec3d center = sphere->center();
         return std::any_of(_planes.begin(), _planes.end(), [&](const osg::Plane& plane) {
             return plane.distance(center) < -static_cast<double>(sphere->radius());
         });
     }
 
-    void show(const AnalyticBinCullCallback& tile, osg::Node& mesh) {
-        if (isAbout(tile) && _place->altitude <= tile.surfaceHigh()) _nearGround.push_back({&tile, &mesh});
-        if (isBesideFrustum(tile)) return;
-        if (!isDrawnWhole(mesh)) _hasHole = true;
+    void show(const SearchedTile& tile, osg::Node& mesh) {
+        if (tile.isAboutEye && _place->altitude <= tile.surfaceHigh) _nearGround.push_back({&tile.callback, &mesh});
+        // tiles about the eye are looked at wherever they are
+        if (tile.isAboutEye && isBeside(tile)) return;
+        if (!isDrawnWhole(mesh, tile)) _hasHole = true;
         // what a tile draws by itself is in its bin
-        if (isFitted(tile) && tile.binLow() >= -_depth) return;
-        const double own = isFitted(tile) ? -tile.surfaceLow() : kUnknownDepth;
+        if (tile.isFitted && tile.binLow >= -_depth) return;
+        const double own = tile.isFitted ? -tile.surfaceLow : kUnknownDepth;
         _depth = std::max(_depth, std::min(own, _deepest));
     }
 
     // As osg::PagedLOD chooses; where that is not certain all that it may show counts.
-    void searchPaged(osg::PagedLOD& node, const AnalyticBinCullCallback& tile) {
+    void searchPaged(osg::PagedLOD& node, const SearchedTile& tile) {
         const bool byDistance = node.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT && !_isMoved;
         const float range = byDistance ? _visitor.getDistanceToViewPoint(node.getCenter(), true) : 0.0f;
         const unsigned int children = node.getNumChildren();
@@ -170,19 +243,19 @@ private:
         }
         // the last child stands in for one that is awaited
         if (isOneAwaited && children > 0) searchChild(node, children - 1, tile);
-        if ((!isShown || children == 0) && !isBesideFrustum(tile)) _hasHole = true;
+        if ((!isShown || children == 0) && !isBeside(tile)) _hasHole = true;
     }
 
-    void searchChild(osg::PagedLOD& node, unsigned int i, const AnalyticBinCullCallback& tile) {
+    void searchChild(osg::PagedLOD& node, unsigned int i, const SearchedTile& tile) {
         const bool isPaged = i < node.getNumFileNames() && !node.getFileName(i).empty();
         if (!isPaged) return show(tile, *node.getChild(i));
         searchNode(*node.getChild(i));
     }
 
+    const ShownDatabase& _database;
     osg::NodeVisitor& _visitor;
     const core::HorizonEye& _eye;
     const std::optional<core::Geodetic> _place;  // of the eye
-    const TerrainShape _shape;
     const double _deepest;
     osg::Polytope::PlaneList _planes;
     bool _isMoved = false;     // below a transform, where OSG measures distances in another frame
@@ -201,7 +274,9 @@ std::optional<core::Geodetic> placeOf(const Viewpoint& viewpoint, const core::El
 bool isTrusted(const ShownDatabase& database, const LowestShown& lowest, const std::optional<core::Geodetic>& place) {
     const std::vector<NearGround>& ground = lowest.nearGround();
     return !lowest.hasHole() && std::all_of(ground.begin(), ground.end(), [&](const NearGround& near) {
-        return CullTraversal::of(database.visitor).ground().isBelow(*place, *near.mesh, *near.tile, database.ellipsoid);
+        return CullTraversal::of(database.visitor)
+            .ground()
+            .isBelow(*place, *near.mesh, *near.tile, database.view.ellipsoid);
     });
 }
 
@@ -226,7 +301,7 @@ std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& databas
     constexpr int kMostRounds = 16;
     constexpr int kExactRounds = 12;
     constexpr double kRoom = 1.05;
-    const core::Ellipsoid& ellipsoid = database.ellipsoid;
+    const core::Ellipsoid& ellipsoid = database.view.ellipsoid;
     const std::optional<core::Geodetic> place = placeOf(viewpoint, ellipsoid);
     const double step = 500.0 * core::earthScale(ellipsoid);
     depth = std::clamp(depth, 0.0, deepest);
@@ -253,9 +328,9 @@ std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& databas
 }
 
 std::optional<core::HorizonEye> eyeAboveDepth(const ShownDatabase& database, const Viewpoint& viewpoint, double depth) {
-    const auto eye = viewpoint.above(database.ellipsoid, depth);
+    const auto eye = viewpoint.above(database.view.ellipsoid, depth);
     if (!eye) return std::nullopt;
-    const std::optional<core::Geodetic> place = placeOf(viewpoint, database.ellipsoid);
+    const std::optional<core::Geodetic> place = placeOf(viewpoint, database.view.ellipsoid);
     LowestShown lowest(database, *eye, place, depth);
     lowest.search(database.root);
     return isTrusted(database, lowest, place) ? eye : std::nullopt;

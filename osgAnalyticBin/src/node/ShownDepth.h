@@ -16,17 +16,18 @@
 
 namespace osgAnalyticBin {
 
+struct DatabaseView;
+
 /// Whether a node is known to draw all of its children: switches, levels of detail, sequences and classes of others may
 /// leave some out.
 [[nodiscard]] bool drawsAllChildren(const osg::Node& node);
 
-/// A database in the cull traversal that is about to begin below its root. `shape` is the one that it is shown in.
+/// A database in the cull traversal that is about to begin below its root.
 struct ShownDatabase {
     osg::Group& root;
     osg::NodeVisitor& visitor;
-    const osg::CullStack& cullStack;
-    core::Ellipsoid ellipsoid;
-    TerrainShape shape;
+    osg::CullStack& cullStack;
+    const DatabaseView& view;
 };
 
 /// The eye over a database: the occluder lies just below the lowest surface that the traversal shows, by levels of

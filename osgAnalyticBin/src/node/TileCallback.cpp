@@ -8,6 +8,7 @@
 #include "MeshCulling.h"
 #include "PagingExpiry.h"
 #include "PlanarBinCullCallback.h"
+#include "TileFamily.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 
@@ -74,6 +75,14 @@ InstalledTile* installedTileOf(const osg::Node& node) {
     return nullptr;
 }
 
+const AnalyticBinCullCallback* installedBinOf(const osg::Node& node) {
+    for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
+        const auto* const bin = dynamic_cast<const AnalyticBinCullCallback*>(at);
+        if (bin && bin->installedTile() && bin->installedTile()->isFor(&node)) return bin;
+    }
+    return nullptr;
+}
+
 void takeOff(osg::Node& node, osg::Callback& callback) {
     if (node.getCullCallback() != &callback) return node.removeCullCallback(&callback);
     const osg::ref_ptr<osg::Callback> nested = callback.getNestedCallback();
@@ -125,6 +134,7 @@ template void placeCallback(const FoundTile&, osg::Node&, PlanarBinCullCallback&
 void removeCallbacksBelow(osg::Node& subgraph) {
     forEachNode(subgraph, [](osg::Node& node) {
         if (installedTileOf(node)) removeCallbacks({&node, {}, {}, 0, {}});
+        TileFamily::remove(node);
         ContentWatch::remove(node);
     });
 }
@@ -136,6 +146,7 @@ void removeCallbacks(const FoundTile& tile) {
         if (auto* paged = dynamic_cast<osg::PagedLOD*>(tile.node.get()))
             restoreExpiry(*paged, optionsOf(*ours)->expiry);
         takeOff(*culled, *ours);
+        if (installed) installed->leaveFamily();
         ContentWatch::remove(*culled);
         ContentWatch::remove(*tile.node);
         if (installed && installed->isFor(culled)) {

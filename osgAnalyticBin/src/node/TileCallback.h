@@ -13,6 +13,7 @@
 
 namespace osgAnalyticBin {
 
+class AnalyticBinCullCallback;
 class Database;
 class InstalledTile;
 
@@ -35,6 +36,9 @@ protected:
 /// What the callback of a bin on the node keeps. Returns: nullptr without such a callback, and for an application's
 /// own.
 [[nodiscard]] InstalledTile* installedTileOf(const osg::Node& node);
+
+/// The callback of a geodetic bin that an installer made for this very node. Returns: nullptr when there is none.
+[[nodiscard]] const AnalyticBinCullCallback* installedBinOf(const osg::Node& node);
 
 /// The node that is culled for a tile: its own, or a group above it, which is put there where the tile has just been
 /// read (`isNew`) and is not in the scene.
