@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "EarthScale.h"
+#include "kernels/ScalarTests.h"
 
 #include <osgAnalyticBin/core/Horizon.h>
 
@@ -22,8 +23,6 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // Outward rounding of products and quotients of a few factors; doc/horizon.md, section 5.
 constexpr double kUp = 1.0 + 16.0 * kEpsilon;
 constexpr double kDown = 1.0 - 16.0 * kEpsilon;
-// Of one cosine that is compared; doc/horizon.md, section 5.
-constexpr double kCosineSlack = 64.0 * kEpsilon;
 // Of the cosine that a point's spread is made from; doc/horizon.md, section 9.
 constexpr double kSpreadSlack = 16.0 * kEpsilon;
 
@@ -91,10 +90,10 @@ void HorizonBin::setLongitude(const GeodeticBin& bin) noexcept {
     const double middle = bin.longitude().middle();
     const double half = std::max(bin.longitude().upper - middle, middle - bin.longitude().lower) * kUp;
     if (bin.isFullCircle() || half >= kPi) return;
-    _cosMiddle = std::cos(middle);
-    _sinMiddle = std::sin(middle);
-    _cosHalf = std::cos(half);
-    _sinHalf = std::sin(half);
+    _rows[row::CosMiddleLongitude] = std::cos(middle);
+    _rows[row::SinMiddleLongitude] = std::sin(middle);
+    _rows[row::CosHalfWidth] = std::cos(half);
+    _rows[row::SinHalfWidth] = std::sin(half);
 }
 
 void HorizonBin::setLatitude(const Ellipsoid& ellipsoid, const GeodeticBin& bin) noexcept {
@@ -115,10 +114,10 @@ void HorizonBin::setLatitude(const Ellipsoid& ellipsoid, const GeodeticBin& bin)
     const glm::dvec2 northHigh = direction(bin.latitude().upper, bin.altitude().upper);
     const glm::dvec2 south = isNorthOf(southLow, southHigh) ? southHigh : southLow;
     const glm::dvec2 north = isNorthOf(northLow, northHigh) ? northLow : northHigh;
-    _cosSouth = south.x;
-    _sinSouth = south.y;
-    _cosNorth = north.x;
-    _sinNorth = north.y;
+    _rows[row::CosSouthern] = south.x;
+    _rows[row::SinSouthern] = south.y;
+    _rows[row::CosNorthern] = north.x;
+    _rows[row::SinNorthern] = north.y;
 }
 
 void HorizonBin::setRadius(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept {
@@ -126,31 +125,33 @@ void HorizonBin::setRadius(const Ellipsoid& ellipsoid, const GeodeticBin& bin, d
     const double highest = std::sqrt(squaredRadii(ellipsoid, latitude, bin.altitude().upper).upper);
     const double lowest = std::sqrt(squaredRadii(ellipsoid, latitude, bin.altitude().lower).lower);
     const double step = margin / smallerRadius(ellipsoid) * kUp;
-    _sinMargin = step / lowest * kUp;
-    if (!(_sinMargin < 1.0)) return;  // the margin holds the centre
-    _cosMargin = std::sqrt(1.0 - _sinMargin * _sinMargin);
-    _inverseRadius = kDown / (highest + step);
+    _rows[row::SinMargin] = step / lowest * kUp;
+    if (!(_rows[row::SinMargin] < 1.0)) return;  // the margin holds the centre
+    _rows[row::CosMargin] = std::sqrt(1.0 - _rows[row::SinMargin] * _rows[row::SinMargin]);
+    _rows[row::InverseRadius] = kDown / (highest + step);
 }
 
 HorizonPoint::HorizonPoint(const HorizonBin& bin) noexcept {
-    const glm::dvec2 sum(bin._cosSouth + bin._cosNorth, bin._sinSouth + bin._sinNorth);
+    const auto& rows = bin.rows();
+    const glm::dvec2 sum(rows[row::CosSouthern] + rows[row::CosNorthern],
+                         rows[row::SinSouthern] + rows[row::SinNorthern]);
     const glm::dvec2 middle = glm::length(sum) > 0.0 ? glm::normalize(sum) : glm::dvec2(1.0, 0.0);
     // In longitude the cosine is least at the ends; along them it is least at the south or the north end, unless it
     // falls and rises again, which it does beyond a quarter turn only.
-    const double radial = middle.x * bin._cosHalf;
-    const bool falls = middle.y * bin._cosSouth - radial * bin._sinSouth < 0.0;
-    const bool rises = middle.y * bin._cosNorth - radial * bin._sinNorth > 0.0;
+    const double radial = middle.x * rows[row::CosHalfWidth];
+    const bool falls = middle.y * rows[row::CosSouthern] - radial * rows[row::SinSouthern] < 0.0;
+    const bool rises = middle.y * rows[row::CosNorthern] - radial * rows[row::SinNorthern] > 0.0;
     if (falls && rises) return;
-    const double cosine =
-        std::min(radial * bin._cosSouth + middle.y * bin._sinSouth, radial * bin._cosNorth + middle.y * bin._sinNorth) -
-        kSpreadSlack;
+    const double cosine = std::min(radial * rows[row::CosSouthern] + middle.y * rows[row::SinSouthern],
+                                   radial * rows[row::CosNorthern] + middle.y * rows[row::SinNorthern]) -
+                          kSpreadSlack;
     if (!(cosine > 0.0)) return;
     const double sine = std::sqrt((1.0 - cosine) * (1.0 + cosine));
-    _cosSpread = cosine * bin._cosMargin - sine * bin._sinMargin;
-    _sinSpread = sine * bin._cosMargin + cosine * bin._sinMargin;
+    _cosSpread = cosine * rows[row::CosMargin] - sine * rows[row::SinMargin];
+    _sinSpread = sine * rows[row::CosMargin] + cosine * rows[row::SinMargin];
     if (!(_cosSpread > 0.0)) return;
-    _direction = {middle.x * bin._cosMiddle, middle.x * bin._sinMiddle, middle.y};
-    _inverseRadius = bin._inverseRadius;
+    _direction = {middle.x * rows[row::CosMiddleLongitude], middle.x * rows[row::SinMiddleLongitude], middle.y};
+    _inverseRadius = rows[row::InverseRadius];
 }
 
 std::optional<HorizonEye> HorizonEye::fromEye(const Ellipsoid& ellipsoid, double depth,
@@ -181,46 +182,20 @@ std::optional<HorizonEye> HorizonEye::fromDirection(const Ellipsoid& ellipsoid, 
     return HorizonEye(glm::normalize(-toUnitSpace(ellipsoid, view)), 0.0, 1.0, scale);
 }
 
-// The largest cosine between the eye's direction and the bin's: section 8 of doc/derivation.md on the unit sphere.
-double HorizonEye::largestCosine(const HorizonBin& bin) const noexcept {
-    const double along = _direction.x * bin._cosMiddle + _direction.y * bin._sinMiddle;
-    const double across = std::abs(_direction.y * bin._cosMiddle - _direction.x * bin._sinMiddle);
-    // The eye's longitude differs from the middle by an angle of [0, pi]; is it at most the half width?
-    const bool holdsLongitude = along * bin._sinHalf - across * bin._cosHalf >= 0.0;
-    const double c = holdsLongitude ? std::sqrt(_direction.x * _direction.x + _direction.y * _direction.y)
-                                    : along * bin._cosHalf + across * bin._sinHalf;
-    const double z = _direction.z;
-    const double rise = bin._cosSouth * z - bin._sinSouth * c;
-    const double fall = bin._cosNorth * z - bin._sinNorth * c;
-    if (rise > 0.0 && fall < 0.0) return std::sqrt(c * c + z * z);
-    return std::max(c * bin._cosSouth + z * bin._sinSouth, c * bin._cosNorth + z * bin._sinNorth);
-}
+HorizonEye::HorizonEye(const glm::dvec3& direction, double cosDip, double sinDip, double scale) noexcept
+    : _data{direction.x, direction.y, direction.z, std::sqrt(direction.x * direction.x + direction.y * direction.y),
+            cosDip,      sinDip,      scale} {}
 
 bool HorizonEye::hides(const HorizonBin& bin) const noexcept {
-    // A direction of the bin before the horizon is seen: most tiles that are in view end here.
-    const double toward = bin._cosMiddle * _direction.x + bin._sinMiddle * _direction.y;
-    const double south = bin._cosSouth * toward + bin._sinSouth * _direction.z;
-    const double north = bin._cosNorth * toward + bin._sinNorth * _direction.z;
-    if (south >= _cosDip || north >= _cosDip) return false;
-    return largestCosine(bin) < hiddenBelow(bin._inverseRadius, bin._cosMargin, bin._sinMargin);
-}
-
-// The cosine of the angle from the eye beyond which a direction is hidden, of points at the radius or nearer; the
-// spread is added to it. Minus infinity: nothing is hidden.
-double HorizonEye::hiddenBelow(double inverseRadius, double cosSpread, double sinSpread) const noexcept {
-    // B, the angle at the centre between the bin's farthest point and its horizon
-    const double cosB = std::min(1.0, _scale * inverseRadius * kDown);
-    const double sinB = std::sqrt(1.0 - cosB * cosB + 4.0 * kEpsilon);
-    const double cosC = cosB * cosSpread - sinB * sinSpread;
-    const double sinC = sinB * cosSpread + cosB * sinSpread;
-    if (!(cosC > 0.0)) return -std::numeric_limits<double>::infinity();  // so that dip + C stays below half a turn
-    return _cosDip * cosC - _sinDip * sinC - kCosineSlack;
+    const double* rows = bin.rows().data();
+    return !kernels::scalar::showsAnEnd<double>(rows, _data) && kernels::scalar::isBehindHorizon<double>(rows, _data);
 }
 
 bool HorizonEye::hides(const HorizonPoint& point) const noexcept {
-    const double cosine = glm::dot(_direction, point._direction);
-    if (cosine >= _cosDip) return false;
-    return cosine < hiddenBelow(point._inverseRadius, point._cosSpread, point._sinSpread);
+    const double cosine = glm::dot({_data.x, _data.y, _data.z}, point._direction);
+    if (cosine >= _data.cosDip) return false;
+    const kernels::scalar::HiddenBelow<double> below(_data, point._inverseRadius, point._cosSpread, point._sinSpread);
+    return below.isAny && cosine < below.cosine;
 }
 
 }  // namespace osgAnalyticBin::core

@@ -83,12 +83,13 @@ FAULTS = [
     Fault("a corner of the bin's latitudes swapped", "src/core/Horizon.cpp",
           "isNorthOf(southLow, southHigh) ? southHigh : southLow", "isNorthOf(southLow, southHigh) ? southLow : southHigh",
           CORE, "Horizon*"),
-    Fault("dip and radius beyond half a turn", "src/core/Horizon.cpp",
-          "if (!(cosC > 0.0)) return -std::numeric_limits<double>::infinity();", "", CORE, "Horizon*"),
-    Fault("a point spreads to the nearer end of its bin", "src/core/Horizon.cpp", "std::min(radial * bin._cosSouth",
-          "std::max(radial * bin._cosSouth", CORE, "HorizonPoint*"),
+    Fault("dip and radius beyond half a turn", "src/core/kernels/HorizonTest.inl",
+          "return both(below.isAny, both(south, north));", "return both(south, north);", CORE, "Horizon*"),
+    Fault("a point spreads to the nearer end of its bin", "src/core/Horizon.cpp", "std::min(radial * rows[row::CosSouthern]",
+          "std::max(radial * rows[row::CosSouthern]", CORE, "HorizonPoint*"),
     Fault("the bin's margin does not spread its directions", "src/core/Horizon.cpp",
-          "_sinMargin = step / lowest * kUp;", "_sinMargin = 0.0 * step / lowest;", CORE, "Horizon*"),
+          "_rows[row::SinMargin] = step / lowest * kUp;",
+          "_rows[row::SinMargin] = 0.0 * step / lowest;", CORE, "Horizon*"),
 
     # bounds of meshes
     Fault("meshes across the date line", "src/core/GeodeticMeshBounds.cpp", "    noteCrossing(corners);\n", "", CORE,

@@ -3,11 +3,13 @@
 
 #pragma once
 
+#include <osgAnalyticBin/core/BinRows.h>
 #include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <optional>
 
 namespace osgAnalyticBin::core {
@@ -23,19 +25,17 @@ public:
     /// Cost: the sines and cosines of the bin's edges.
     HorizonBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin = 0.0) noexcept;
 
-private:
-    friend class HorizonEye;
-    friend class HorizonPoint;
+    /// What the test reads.
+    [[nodiscard]] const std::array<double, row::kHorizonRows>& rows() const noexcept { return _rows; }
 
+private:
     void setLongitude(const GeodeticBin& bin) noexcept;
     void setLatitude(const Ellipsoid& ellipsoid, const GeodeticBin& bin) noexcept;
     void setRadius(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept;
 
-    // Longitudes within `half` of `middle`, scaled latitudes from south to north.
-    double _cosMiddle = 1.0, _sinMiddle = 0.0, _cosHalf = -1.0, _sinHalf = 0.0;
-    double _cosSouth = 0.0, _sinSouth = -1.0, _cosNorth = 0.0, _sinNorth = 1.0;
-    double _inverseRadius = 0.0;                // of the farthest point, rounded down; zero: never hidden
-    double _cosMargin = 1.0, _sinMargin = 0.0;  // the angle that the margin turns a direction by at most
+    // Longitudes within the half width of the middle, scaled latitudes from south to north. At first the whole globe,
+    // which is never hidden.
+    std::array<double, row::kHorizonRows> _rows{1.0, 0.0, 0.0, -1.0, 0.0, 1.0, -1.0, 0.0, 0.0, 1.0, 0.0};
 };
 
 /// One point in the place of a bin, as Cesium's horizon culling point: straight above the bin's middle in unit space,
@@ -90,16 +90,13 @@ public:
     /// Cost: about a dozen multiplications and a square root.
     [[nodiscard]] bool hides(const HorizonPoint& point) const noexcept;
 
+    /// What the test reads.
+    [[nodiscard]] const HorizonEyeData& data() const noexcept { return _data; }
+
 private:
-    HorizonEye(const glm::dvec3& direction, double cosDip, double sinDip, double scale) noexcept
-        : _direction(direction), _cosDip(cosDip), _sinDip(sinDip), _scale(scale) {}
+    HorizonEye(const glm::dvec3& direction, double cosDip, double sinDip, double scale) noexcept;
 
-    [[nodiscard]] double largestCosine(const HorizonBin& bin) const noexcept;
-    [[nodiscard]] double hiddenBelow(double inverseRadius, double cosSpread, double sinSpread) const noexcept;
-
-    glm::dvec3 _direction;    // to the eye, unit length in unit space
-    double _cosDip, _sinDip;  // the angle at the centre between the eye and its horizon
-    double _scale;            // of the occluder
+    HorizonEyeData _data;
 };
 
 /// The third stage by itself: see HorizonEye::hides.

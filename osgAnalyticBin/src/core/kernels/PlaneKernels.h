@@ -3,12 +3,14 @@
 
 #pragma once
 
+#include <osgAnalyticBin/core/BinRows.h>
 #include <osgAnalyticBin/core/KernelData.h>
 
+#include <cstddef>
 #include <cstdint>
 
-/// One bin against all undecided planes. The scalar form is the definition; the vector form does the same operations in
-/// the same order, with the planes in its lanes.
+/// One bin, or a family of bins, against all undecided planes. The scalar form is the definition; the vector form does
+/// the same operations in the same order, with the planes in its lanes.
 namespace osgAnalyticBin::core::kernels {
 
 /// One bit a plane; the masks do not overlap. Two registers: masks of 32 bits that are stored one by one and read
@@ -25,17 +27,43 @@ struct Verdict {
     [[nodiscard]] constexpr std::uint32_t inside() const noexcept { return static_cast<std::uint32_t>(sides >> 32); }
 };
 
+/// The number of the lowest bit. Requires: one is set.
+[[nodiscard]] inline unsigned firstBit(std::uint64_t bits) noexcept {
+    return static_cast<unsigned>(__builtin_ctzll(bits));
+}
+
+/// The rows of a family: kBinRows, then kHorizonRows. Slots up to the next multiple of four may be read; those without
+/// a bin have a sphere that is outside of every plane.
+struct FamilyData {
+    const double* numbers;
+    std::size_t stride;   ///< from one row to the next: a multiple of four
+    std::uint64_t exact;  ///< the slots in exact form
+};
+
+/// What a family's kernel leaves to the exact range of the polynomial.
+struct OpenPlanes {
+    std::uint64_t slots;  ///< that have such planes
+    std::uint32_t planes[kMostSlots];
+};
+
 /// A function for each kind of bin; it takes the mask of the planes to test. Tests run in stages over all planes: the
 /// sphere, the hull, the full form. When one finds a plane outside, or leaves none open, the next is left out.
 struct PlaneKernels {
     Verdict (*exact)(const ExactBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
     Verdict (*quadratic)(const QuadraticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
     Verdict (*geodetic)(const GeodeticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
+    /// `tested` are the planes to test, of those that are undecided.
+    void (*family)(const FamilyData& family, const PlaneBlock* blocks, std::uint32_t tested, std::uint32_t undecided,
+                   FamilyVerdict& verdict, OpenPlanes& open);
+    std::uint64_t (*hidden)(const FamilyData& family, const HorizonEyeData& eye, std::uint64_t candidates);
 };
 
 [[nodiscard]] Verdict exactScalar(const ExactBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
 [[nodiscard]] Verdict quadraticScalar(const QuadraticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
 [[nodiscard]] Verdict geodeticScalar(const GeodeticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
+void familyScalar(const FamilyData& family, const PlaneBlock* blocks, std::uint32_t tested, std::uint32_t undecided,
+                  FamilyVerdict& verdict, OpenPlanes& open);
+[[nodiscard]] std::uint64_t hiddenScalar(const FamilyData& family, const HorizonEyeData& eye, std::uint64_t candidates);
 
 /// The scalar form until static initialisation has chosen the widest that this machine runs: they agree bit for bit.
 extern PlaneKernels activeKernels;

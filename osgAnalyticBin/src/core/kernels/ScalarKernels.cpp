@@ -4,6 +4,7 @@
 #include "ScalarKernels.h"
 
 #include "PlaneKernels.h"
+#include "ScalarTests.h"
 
 #include <cmath>
 
@@ -141,6 +142,29 @@ Verdict inStages(const Bin& bin, const SphereData& sphere, const PlaneBlock* blo
 
 }  // namespace
 
+namespace scalar {
+
+#define INLINE inline
+#define NOINLINE inline
+#include "FamilyStages.inl"
+#undef INLINE
+#undef NOINLINE
+
+}  // namespace scalar
+
+void familyScalar(const FamilyData& data, const PlaneBlock* blocks, std::uint32_t tested, std::uint32_t undecided,
+                  FamilyVerdict& verdict, OpenPlanes& open) {
+    for (std::size_t i = 0; i < data.stride; ++i) {
+        scalar::classifySlots<double>(data, i, blocks, tested, undecided, verdict, open);
+    }
+}
+
+std::uint64_t hiddenScalar(const FamilyData& data, const HorizonEyeData& eye, std::uint64_t candidates) {
+    std::uint64_t hidden = 0;
+    for (std::size_t i = 0; i < data.stride; ++i) hidden |= scalar::hiddenSlots<double>(data, i, eye, candidates);
+    return hidden;
+}
+
 Range supportRange(const ExactBinData& bin, double nx, double ny, double nz) noexcept {
     const Range c = rangeAlongParallel(bin, nx, ny);
     return {smallestAlongMeridian(bin, c.lower, nz), largestAlongMeridian(bin, c.upper, nz)};
@@ -230,7 +254,7 @@ Verdict geodeticScalar(const GeodeticBinData& bin, const PlaneBlock* blocks, std
 }
 
 #ifndef OSGANALYTICBIN_SIMD
-PlaneKernels activeKernels{exactScalar, quadraticScalar, geodeticScalar};
+PlaneKernels activeKernels{exactScalar, quadraticScalar, geodeticScalar, familyScalar, hiddenScalar};
 
 void chooseKernels() noexcept {}
 #endif

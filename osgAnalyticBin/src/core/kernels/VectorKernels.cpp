@@ -6,7 +6,8 @@
 
 #include "core/kernels/PlaneKernels.h"
 
-// clang-format off: the order matters, and the first of the two includes this file again.
+// In this order: the first of the two includes this file again.
+// clang-format off
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/kernels/VectorKernels.cpp"
 #include <hwy/foreach_target.h>
@@ -364,6 +365,51 @@ Verdict geodeticVector(const GeodeticBinData& bin, const PlaneBlock* blocks, std
     return inStages(bin, bin.sphere(), blocks, undecided);
 }
 
+namespace family {
+
+// In this order.
+// clang-format off
+#include "core/kernels/VectorNumbers.inl"
+#include "core/kernels/QuadraticTest.inl"
+#include "core/kernels/ExactTest.inl"
+#include "core/kernels/HorizonTest.inl"
+#include "core/kernels/FamilyStages.inl"
+// clang-format on
+#undef INLINE
+#undef NOINLINE
+
+using Wide = hn::CappedTag<double, 8>;
+using Narrow = hn::CappedTag<double, 4>;
+
+}  // namespace family
+
+void familyVector(const FamilyData& data, const PlaneBlock* blocks, std::uint32_t tested, std::uint32_t undecided,
+                  FamilyVerdict& verdict, OpenPlanes& open) {
+    using family::Narrow;
+    using family::Wide;
+    std::size_t i = 0;
+    for (; i + hn::MaxLanes(Wide()) <= data.stride; i += hn::MaxLanes(Wide())) {
+        family::classifySlots<hn::Vec<Wide>>(data, i, blocks, tested, undecided, verdict, open);
+    }
+    for (; i < data.stride; i += hn::MaxLanes(Narrow())) {
+        family::classifySlots<hn::Vec<Narrow>>(data, i, blocks, tested, undecided, verdict, open);
+    }
+}
+
+std::uint64_t hiddenVector(const FamilyData& data, const HorizonEyeData& eye, std::uint64_t candidates) {
+    using family::Narrow;
+    using family::Wide;
+    std::uint64_t hidden = 0;
+    std::size_t i = 0;
+    for (; i + hn::MaxLanes(Wide()) <= data.stride; i += hn::MaxLanes(Wide())) {
+        hidden |= family::hiddenSlots<hn::Vec<Wide>>(data, i, eye, candidates);
+    }
+    for (; i < data.stride; i += hn::MaxLanes(Narrow())) {
+        hidden |= family::hiddenSlots<hn::Vec<Narrow>>(data, i, eye, candidates);
+    }
+    return hidden;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace osgAnalyticBin::core::kernels
 HWY_AFTER_NAMESPACE();
@@ -374,6 +420,8 @@ namespace osgAnalyticBin::core::kernels {
 HWY_EXPORT(exactVector);
 HWY_EXPORT(quadraticVector);
 HWY_EXPORT(geodeticVector);
+HWY_EXPORT(familyVector);
+HWY_EXPORT(hiddenVector);
 
 namespace {
 
@@ -384,13 +432,14 @@ struct ChooseAtStart {
 }  // namespace
 
 // Constant initialisation first: whoever classifies before this file's turn gets the scalar form.
-PlaneKernels activeKernels{exactScalar, quadraticScalar, geodeticScalar};
+PlaneKernels activeKernels{exactScalar, quadraticScalar, geodeticScalar, familyScalar, hiddenScalar};
 const ChooseAtStart kChooseAtStart;
 
 void chooseKernels() noexcept {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     activeKernels = {&HWY_DYNAMIC_DISPATCH(exactVector), &HWY_DYNAMIC_DISPATCH(quadraticVector),
-                     &HWY_DYNAMIC_DISPATCH(geodeticVector)};
+                     &HWY_DYNAMIC_DISPATCH(geodeticVector), &HWY_DYNAMIC_DISPATCH(familyVector),
+                     &HWY_DYNAMIC_DISPATCH(hiddenVector)};
 }
 
 }  // namespace osgAnalyticBin::core::kernels

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/BinRows.h>
+#include <osgAnalyticBin/core/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
+#include <osgAnalyticBin/core/Horizon.h>
+#include <osgAnalyticBin/core/Plane.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace osgAnalyticBin::core {
+
+namespace kernels {
+struct FamilyData;
+struct OpenPlanes;
+}  // namespace kernels
+
+/// The bins of sibling tiles, tested together: as many bins as a vector has lanes at once. It keeps copies of the bins'
+/// numbers, one row for each number with the bins side by side, those that are read first in front. A slot without a
+/// bin straddles every plane and is never hidden. Guarantee: verdicts are those of the bins by themselves, bit for bit,
+/// on every instruction set and in builds without SIMD; tests: BinFamily.*. Memory: 352 bytes a slot, horizon included,
+/// for a multiple of four slots.
+class BinFamily final {
+public:
+    /// The most bins of a family.
+    static constexpr std::size_t kMostSlots = core::kMostSlots;
+
+    /// All slots are without a bin. Requires: count <= kMostSlots (asserted); slots above are not there.
+    explicit BinFamily(std::size_t count);
+
+    /// Slots with and without a bin.
+    [[nodiscard]] std::size_t size() const noexcept { return _size; }
+    /// The slots that have a bin, one bit each.
+    [[nodiscard]] std::uint64_t filled() const noexcept { return _filled; }
+
+    /// Gives the slot a bin, in the form that the bin has. Its horizon stays as it is. Requires: i < size().
+    void set(std::size_t i, const GeodeticQuadraticBin& bin) noexcept;
+    /// Likewise.
+    void set(std::size_t i, const ExactGeodeticBin& bin) noexcept;
+    /// Likewise; the bin may be one of any mapping.
+    void set(std::size_t i, const QuadraticBin& bin) noexcept;
+    /// Lets the slot be hidden. Requires: i < size().
+    void setHorizon(std::size_t i, const HorizonBin& bin) noexcept;
+    /// Takes the bin and its horizon away. Requires: i < size().
+    void clear(std::size_t i) noexcept;
+
+    /// Tests all slots against the planes of a set that are undecided.
+    /// Guarantee: outside, insideAll and undecided are what classify(bin, planes, undecided) gives for each bin, all
+    /// bits of the masks included; tests: BinFamily.GivesTheVerdictsOfItsBins.
+    /// Cost: one sphere test for all bins and planes together; the linear part, or the corners, only for planes that
+    /// are open for a bin; no allocation, no trigonometry.
+    void classify(const PlaneSet& planes, PlaneMask undecided, FamilyVerdict& verdict) const noexcept;
+
+    /// Those of the candidates that the horizon hides, by the verdicts of HorizonEye::hides().
+    /// Cost: for slots in view some ten multiplications for all lanes together; no allocation, no trigonometry.
+    [[nodiscard]] std::uint64_t hiddenFrom(const HorizonEye& eye, std::uint64_t candidates) const noexcept;
+
+private:
+    // A cache line.
+    struct alignas(64) Line {
+        double numbers[8];
+    };
+
+    [[nodiscard]] double* slot(std::size_t i) noexcept { return _lines.data()->numbers + i; }
+    [[nodiscard]] std::uint64_t slots() const noexcept;
+    [[nodiscard]] kernels::FamilyData data() const noexcept;
+    [[nodiscard]] QuadraticBin quadraticBin(std::size_t i) const noexcept;
+    void fill(std::size_t i, const double* rows, std::size_t count, bool isExact) noexcept;
+    void decideByExactRange(const PlaneSet& planes, const kernels::OpenPlanes& open,
+                            FamilyVerdict& verdict) const noexcept;
+
+    std::size_t _size;
+    std::size_t _stride;
+    std::uint64_t _filled = 0;
+    std::uint64_t _exact = 0;
+    std::vector<Line> _lines;
+};
+
+}  // namespace osgAnalyticBin::core

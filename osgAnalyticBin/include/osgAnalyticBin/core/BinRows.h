@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// The numbers of a bin in the order in which its tests read them. A family of bins keeps one row for each number, with
+/// the bins side by side. Plain data, so that a kernel can be compiled for several instruction sets without carrying a
+/// class along. Lengths in metres; ECEF, or the frame of the mapping.
+namespace osgAnalyticBin::core::row {
+
+/// The sphere about the bin, which both forms begin with: no point of the bin, margin included, is farther than Reach
+/// from the centre.
+enum Sphere : std::size_t { CenterX, CenterY, CenterZ, Reach, SphereEnd };
+
+/// The quadratic form: value at the centre, and derivatives times half sizes.
+enum Quadratic : std::size_t {
+    Remainder = SphereEnd,  ///< Taylor remainder, margin, and the rounding that does not depend on the plane
+    Curvature,              ///< terms of second order change the distance to any plane by no more
+    First,                  ///< x, y, z by u, then by v, w
+    Second = First + 9,     ///< x, y, z by uu, then by vv, ww, uv, uw, vw
+    QuadraticEnd = Second + 18
+};
+
+/// The exact form of a geodetic bin.
+enum Exact : std::size_t {
+    Slack = SphereEnd,  ///< margin, and the rounding that does not depend on the plane
+    Bulge,              ///< no point of the bin is farther from the hull of its corners; infinite if it is not narrow
+    CosWest,
+    SinWest,
+    CosEast,
+    SinEast,
+    Corners,  ///< distance from the axis and z: top and bottom in the south, top and bottom in the north
+    CosSouth = Corners + 8,
+    SinSouth,
+    CosNorth,
+    SinNorth,
+    SquaredEquatorialRadius,
+    SquaredPolarRadius,
+    TopAltitude,
+    Longitudes,  ///< how the bin lies about the axis: see below
+    CosMiddle,   ///< of the longitude in the middle
+    SinMiddle,
+    ExactEnd
+};
+
+/// Values of Longitudes.
+inline constexpr double kNarrow = 0.0;      ///< at most half a turn: west and east
+inline constexpr double kWide = 1.0;        ///< two arcs of at most half a turn, which meet in the middle
+inline constexpr double kFullCircle = 2.0;  ///< all longitudes
+
+/// Rows of a bin in either form.
+inline constexpr std::size_t kBinRows = QuadraticEnd;
+static_assert(static_cast<std::size_t>(ExactEnd) <= kBinRows, "both forms share the rows");
+
+/// What the horizon test reads, counted from its own first row. Unit space: ECEF divided by the ellipsoid's radii.
+enum Horizon : std::size_t {
+    CosMiddleLongitude,
+    SinMiddleLongitude,
+    CosSouthern,  ///< of the scaled latitudes
+    SinSouthern,
+    CosNorthern,
+    SinNorthern,
+    CosHalfWidth,
+    SinHalfWidth,
+    InverseRadius,  ///< of the farthest point, rounded down; zero: never hidden
+    CosMargin,      ///< of the angle that the margin turns a direction by at most
+    SinMargin,
+    HorizonEnd
+};
+
+/// Rows that the horizon test reads.
+inline constexpr std::size_t kHorizonRows = HorizonEnd;
+
+}  // namespace osgAnalyticBin::core::row
+
+namespace osgAnalyticBin::core {
+
+/// What the horizon test reads of an eye.
+struct HorizonEyeData {
+    double x, y, z;         ///< to the eye, unit length in unit space
+    double equatorial;      ///< the length of x and y
+    double cosDip, sinDip;  ///< the angle at the centre between the eye and its horizon
+    double scale;           ///< of the occluder
+};
+
+/// The most bins that a family has: one bit each.
+inline constexpr std::size_t kMostSlots = 64;
+
+/// What a family's bins are to a set of planes. Bits are slots of the family.
+struct FamilyVerdict {
+    std::uint64_t outside;    ///< outside of one plane at least
+    std::uint64_t insideAll;  ///< inside of all planes that were undecided
+    /// For each slot the planes that are still undecided. Slots above the family's are not meaningful.
+    std::uint32_t undecided[kMostSlots];
+};
+
+}  // namespace osgAnalyticBin::core

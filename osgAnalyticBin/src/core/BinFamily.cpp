@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "kernels/PlaneKernels.h"
+
+#include <osgAnalyticBin/core/BinFamily.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <limits>
+
+namespace osgAnalyticBin::core {
+
+namespace {
+
+constexpr std::size_t kRows = row::kBinRows + row::kHorizonRows;
+constexpr std::size_t kLanes = 4;
+constexpr std::uint64_t kFirst = 1;
+
+// A slot without a bin: outside of every plane at the first look, so that it makes no work; what is said of it is
+// replaced afterwards.
+void makeEmpty(double* slot, std::size_t stride) {
+    for (std::size_t i = 0; i < row::kBinRows; ++i) slot[i * stride] = 0.0;
+    slot[row::Reach * stride] = -std::numeric_limits<double>::infinity();
+}
+
+std::array<double, row::QuadraticEnd> rowsOf(const QuadraticBinData& data) {
+    std::array<double, row::QuadraticEnd> rows{data.sphere.center[0], data.sphere.center[1], data.sphere.center[2],
+                                               data.sphere.reach,     data.remainder,        data.sphere.curvature};
+    for (std::size_t i = 0; i < 9; ++i) rows[row::First + i] = data.first[i / 3][i % 3];
+    for (std::size_t i = 0; i < 18; ++i) rows[row::Second + i] = data.second[i / 3][i % 3];
+    return rows;
+}
+
+std::array<double, row::ExactEnd> rowsOf(const ExactBinData& data) {
+    return {data.sphere.center[0],
+            data.sphere.center[1],
+            data.sphere.center[2],
+            data.sphere.reach,
+            data.slack,
+            data.bulge,
+            data.cosWest,
+            data.sinWest,
+            data.cosEast,
+            data.sinEast,
+            data.topSouth.axisDistance,
+            data.topSouth.z,
+            data.bottomSouth.axisDistance,
+            data.bottomSouth.z,
+            data.topNorth.axisDistance,
+            data.topNorth.z,
+            data.bottomNorth.axisDistance,
+            data.bottomNorth.z,
+            data.cosSouth,
+            data.sinSouth,
+            data.cosNorth,
+            data.sinNorth,
+            data.squaredEquatorialRadius,
+            data.squaredPolarRadius,
+            data.topAltitude,
+            static_cast<double>(data.longitudes),
+            data.cosMiddle,
+            data.sinMiddle};
+}
+
+}  // namespace
+
+BinFamily::BinFamily(std::size_t count)
+    : _size(std::min(count, kMostSlots)),
+      _stride((_size + kLanes - 1) / kLanes * kLanes),
+      _lines(_stride * kRows * sizeof(double) / sizeof(Line)) {
+    assert(count <= kMostSlots);
+    // The horizon's rows are zero: an inverse radius of zero is never hidden.
+    for (std::size_t i = 0; i < _stride; ++i) makeEmpty(slot(i), _stride);
+}
+
+std::uint64_t BinFamily::slots() const noexcept {
+    return _size == kMostSlots ? ~std::uint64_t{0} : (kFirst << _size) - 1;
+}
+
+kernels::FamilyData BinFamily::data() const noexcept {
+    return {_lines.empty() ? nullptr : _lines.data()->numbers, _stride, _exact};
+}
+
+void BinFamily::fill(std::size_t i, const double* rows, std::size_t count, bool isExact) noexcept {
+    assert(i < _size);
+    for (std::size_t r = 0; r < count; ++r) slot(i)[r * _stride] = rows[r];
+    const std::uint64_t bit = kFirst << i;
+    _filled |= bit;
+    _exact = isExact ? _exact | bit : _exact & ~bit;
+}
+
+void BinFamily::set(std::size_t i, const QuadraticBin& bin) noexcept {
+    const auto rows = rowsOf(bin.data());
+    fill(i, rows.data(), rows.size(), false);
+}
+
+void BinFamily::set(std::size_t i, const ExactGeodeticBin& bin) noexcept {
+    const auto rows = rowsOf(bin.data());
+    fill(i, rows.data(), rows.size(), true);
+}
+
+void BinFamily::set(std::size_t i, const GeodeticQuadraticBin& bin) noexcept {
+    if (bin.isExact()) return set(i, ExactGeodeticBin(bin.data().exact));
+    set(i, QuadraticBin(bin.data().quadratic));
+}
+
+void BinFamily::setHorizon(std::size_t i, const HorizonBin& bin) noexcept {
+    assert(i < _size);
+    double* first = slot(i) + row::kBinRows * _stride;
+    for (std::size_t r = 0; r < row::kHorizonRows; ++r) first[r * _stride] = bin.rows()[r];
+}
+
+QuadraticBin BinFamily::quadraticBin(std::size_t i) const noexcept {
+    const auto number = [&](std::size_t r) { return data().numbers[r * _stride + i]; };
+    QuadraticBinData rows{};
+    for (std::size_t k = 0; k < 3; ++k) rows.sphere.center[k] = number(row::CenterX + k);
+    rows.sphere.reach = static_cast<float>(number(row::Reach));
+    rows.remainder = number(row::Remainder);
+    for (std::size_t k = 0; k < 9; ++k) rows.first[k / 3][k % 3] = number(row::First + k);
+    for (std::size_t k = 0; k < 18; ++k) rows.second[k / 3][k % 3] = number(row::Second + k);
+    return QuadraticBin(rows);
+}
+
+void BinFamily::clear(std::size_t i) noexcept {
+    assert(i < _size);
+    for (std::size_t r = 0; r < kRows; ++r) slot(i)[r * _stride] = 0.0;
+    makeEmpty(slot(i), _stride);
+    const std::uint64_t bit = kFirst << i;
+    _filled &= ~bit;
+    _exact &= ~bit;
+}
+
+void BinFamily::classify(const PlaneSet& planes, PlaneMask undecided, FamilyVerdict& verdict) const noexcept {
+    kernels::OpenPlanes open;
+    open.slots = 0;
+    verdict.outside = 0;
+    verdict.insideAll = 0;
+    kernels::activeKernels.family(data(), planes.blocks(), undecided & planes.all(), undecided, verdict, open);
+    if (open.slots != 0) decideByExactRange(planes, open, verdict);
+    verdict.outside &= _filled;
+    verdict.insideAll &= _filled;
+    for (std::uint64_t left = slots() & ~_filled; left != 0; left &= left - 1) {
+        verdict.undecided[kernels::firstBit(left)] = undecided;
+    }
+}
+
+std::uint64_t BinFamily::hiddenFrom(const HorizonEye& eye, std::uint64_t candidates) const noexcept {
+    return kernels::activeKernels.hidden(data(), eye.data(), candidates & _filled);
+}
+
+// One plane in a thousand: kept out of line.
+[[gnu::noinline]] void BinFamily::decideByExactRange(const PlaneSet& planes, const kernels::OpenPlanes& open,
+                                                     FamilyVerdict& verdict) const noexcept {
+    for (std::uint64_t slots = open.slots; slots != 0; slots &= slots - 1) {
+        const std::size_t i = kernels::firstBit(slots);
+        const QuadraticBin bin = quadraticBin(i);
+        for (std::uint64_t left = open.planes[i]; left != 0; left &= left - 1) {
+            const unsigned plane = kernels::firstBit(left);
+            const Side side = bin.classifyByExactRange(planes[plane]);
+            if (side == Side::Outside) verdict.outside |= kFirst << i;
+            if (side == Side::Inside) verdict.undecided[i] &= ~(PlaneMask{1} << plane);
+        }
+        const bool isOutside = (verdict.outside >> i & 1) != 0;
+        if (verdict.undecided[i] == 0 && !isOutside) verdict.insideAll |= kFirst << i;
+    }
+}
+
+}  // namespace osgAnalyticBin::core

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// The horizon test: doc/horizon.md, section 4. `bin[row]` counts from the first row of the horizon.
+// Included behind a namespace's numbers.
+
+// Of one cosine that is compared; doc/horizon.md, section 5.
+constexpr double kCosineSlack = 64.0 * 2.220446049250313e-16;
+// Outward rounding of products and quotients of a few factors; doc/horizon.md, section 5.
+constexpr double kRoundDown = 1.0 - 16.0 * 2.220446049250313e-16;
+
+// A direction of the bin before the horizon is seen: most tiles that are in view end here.
+template <class Real, class Bin>
+INLINE Truth<Real> showsAnEnd(const Bin& bin, const HorizonEyeData& eye) {
+    const Real z = broadcast<Real>(eye.z);
+    const Real cosDip = broadcast<Real>(eye.cosDip);
+    const Real toward =
+        bin[row::CosMiddleLongitude] * broadcast<Real>(eye.x) + bin[row::SinMiddleLongitude] * broadcast<Real>(eye.y);
+    return either(bin[row::CosSouthern] * toward + bin[row::SinSouthern] * z >= cosDip,
+                  bin[row::CosNorthern] * toward + bin[row::SinNorthern] * z >= cosDip);
+}
+
+// The cosine of the angle from the eye beyond which a direction is hidden, of points at the radius or nearer; the
+// spread is added to it.
+template <class Real>
+struct HiddenBelow {
+    INLINE HiddenBelow(const HorizonEyeData& eye, Real inverseRadius, Real cosSpread, Real sinSpread) {
+        const Real one = broadcast<Real>(1.0);
+        // B, the angle at the centre between the bin's farthest point and its horizon
+        const Real cosB = smaller(one, broadcast<Real>(eye.scale) * inverseRadius * broadcast<Real>(kRoundDown));
+        const Real sinB = root(one - cosB * cosB + broadcast<Real>(4.0 * 2.220446049250313e-16));
+        const Real cosC = cosB * cosSpread - sinB * sinSpread;
+        const Real sinC = sinB * cosSpread + cosB * sinSpread;
+        isAny = cosC > broadcast<Real>(0.0);  // so that dip + C stays below half a turn
+        cosine =
+            broadcast<Real>(eye.cosDip) * cosC - broadcast<Real>(eye.sinDip) * sinC - broadcast<Real>(kCosineSlack);
+    }
+    Truth<Real> isAny;
+    Real cosine;
+};
+
+// Whether all of the bin is behind the horizon, by the largest cosine between the eye's direction and the bin's:
+// section 8 of doc/derivation.md on the unit sphere. Written so that NaN is not hidden.
+template <class Real, class Bin>
+INLINE Truth<Real> isBehindHorizon(const Bin& bin, const HorizonEyeData& eye) {
+    const Real zero = broadcast<Real>(0.0);
+    const Real x = broadcast<Real>(eye.x);
+    const Real y = broadcast<Real>(eye.y);
+    const Real z = broadcast<Real>(eye.z);
+    const Real cosHalf = bin[row::CosHalfWidth];
+    const Real sinHalf = bin[row::SinHalfWidth];
+    const Real along = x * bin[row::CosMiddleLongitude] + y * bin[row::SinMiddleLongitude];
+    const Real across = magnitude(y * bin[row::CosMiddleLongitude] - x * bin[row::SinMiddleLongitude]);
+    // The eye's longitude differs from the middle by an angle of [0, pi]; is it at most the half width?
+    const Truth<Real> holdsLongitude = along * sinHalf - across * cosHalf >= zero;
+    const Real c = select(holdsLongitude, broadcast<Real>(eye.equatorial), along * cosHalf + across * sinHalf);
+    const Real cosSouth = bin[row::CosSouthern];
+    const Real sinSouth = bin[row::SinSouthern];
+    const Real cosNorth = bin[row::CosNorthern];
+    const Real sinNorth = bin[row::SinNorthern];
+    const Truth<Real> peak = both(cosSouth * z - sinSouth * c > zero, cosNorth * z - sinNorth * c < zero);
+    const Real within = root(c * c + z * z);
+    const HiddenBelow<Real> below(eye, bin[row::InverseRadius], bin[row::CosMargin], bin[row::SinMargin]);
+    const Truth<Real> south = select(peak, within, c * cosSouth + z * sinSouth) < below.cosine;
+    const Truth<Real> north = select(peak, within, c * cosNorth + z * sinNorth) < below.cosine;
+    return both(below.isAny, both(south, north));
+}

@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Oracles: classify() of a bin by itself (tested in PlaneSetTest) and HorizonEye::hides() (HorizonTest), bit for bit.
+
+#include "FamilySamples.h"
+
+#include <osgAnalyticBin/core/BinFamily.h>
+
+#include <gtest/gtest.h>
+
+#include <core/kernels/PlaneKernels.h>
+#ifdef OSGANALYTICBIN_SIMD
+#include <hwy/highway.h>
+#endif
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <support/RandomBins.h>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::BinFamily;
+using core::ExactGeodeticBin;
+using core::FamilyVerdict;
+using core::GeodeticBin;
+using core::HorizonBin;
+using core::HorizonEye;
+using core::PlaneMask;
+using core::PlaneSet;
+using core::Side;
+
+bool has(std::uint64_t slots, std::size_t i) {
+    return (slots >> i & 1) != 0;
+}
+
+// How often the families of a run came to which end: a test that never saw one says nothing about it.
+struct Seen {
+    std::array<int, 3> sides{};
+    int hidden = 0;
+    int shown = 0;
+};
+
+template <class Bin>
+void expectVerdictOf(const Bin& bin, const FamilyCase& c, const FamilyVerdict& verdict, std::size_t i, Seen& seen) {
+    PlaneMask undecided = c.undecided;
+    const Side side = core::classify(bin, c.planes, undecided);
+    ASSERT_EQ(has(verdict.outside, i), side == Side::Outside);
+    ASSERT_EQ(has(verdict.insideAll, i), side == Side::Inside);
+    ASSERT_EQ(verdict.undecided[i], undecided);
+    ++seen.sides[static_cast<std::size_t>(side)];
+}
+
+void expectVerdictsOfItsBins(const FamilyCase& c, Seen& seen) {
+    FamilyVerdict verdict{};
+    c.family.classify(c.planes, c.undecided, verdict);
+    for (std::size_t i = 0; i < c.slots.size(); ++i) {
+        switch (c.slots[i].kind) {
+            case SlotKind::Either:
+                expectVerdictOf(c.slots[i].either, c, verdict, i, seen);
+                break;
+            case SlotKind::Exact:
+                expectVerdictOf(c.slots[i].exact, c, verdict, i, seen);
+                break;
+            case SlotKind::Quadratic:
+                expectVerdictOf(c.slots[i].quadratic, c, verdict, i, seen);
+                break;
+            case SlotKind::Empty:
+                ASSERT_FALSE(has(verdict.outside, i));
+                ASSERT_FALSE(has(verdict.insideAll, i));
+                ASSERT_EQ(verdict.undecided[i], c.undecided);
+                break;
+        }
+        if (testing::Test::HasFatalFailure()) return;
+    }
+    const std::uint64_t above = c.slots.size() == BinFamily::kMostSlots ? 0 : ~std::uint64_t{0} << c.slots.size();
+    ASSERT_EQ((verdict.outside | verdict.insideAll) & above, 0u);
+}
+
+void expectHorizonOfItsBins(const FamilyCase& c, Seen& seen) {
+    if (!c.eye) return;
+    const std::uint64_t hidden = c.family.hiddenFrom(*c.eye, c.candidates);
+    ASSERT_EQ(hidden & ~c.candidates, 0u);
+    for (std::size_t i = 0; i < c.slots.size(); ++i) {
+        if (!has(c.candidates, i)) continue;
+        const Slot& slot = c.slots[i];
+        const bool expected = slot.hasHorizon && slot.kind != SlotKind::Empty && c.eye->hides(slot.horizon);
+        ASSERT_EQ(has(hidden, i), expected);
+        ++(expected ? seen.hidden : seen.shown);
+    }
+}
+
+Seen expectAllVerdictsOfItsBins(std::uint64_t stream, int trials) {
+    Random random(stream);
+    Seen seen;
+    for (int trial = 0; trial < trials; ++trial) {
+        const FamilyCase c(random);
+        expectVerdictsOfItsBins(c, seen);
+        if (!testing::Test::HasFatalFailure()) expectHorizonOfItsBins(c, seen);
+        if (testing::Test::HasFatalFailure()) {
+            ADD_FAILURE() << "trial " << trial << ", " << c.slots.size() << " slots, " << c.planes.size() << " planes";
+            break;
+        }
+    }
+    for (const int count : seen.sides) EXPECT_GT(count, trials / 20);
+    EXPECT_GT(seen.hidden, trials / 20);
+    EXPECT_GT(seen.shown, trials / 20);
+    return seen;
+}
+
+TEST(BinFamily, GivesTheVerdictsOfItsBins) {
+    expectAllVerdictsOfItsBins(130, 40000);
+}
+
+#ifdef OSGANALYTICBIN_SIMD
+
+TEST(BinFamily, GivesTheVerdictsOfItsBinsOnEveryTarget) {
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        SCOPED_TRACE(hwy::TargetName(target));
+        hwy::SetSupportedTargetsForTest(target);
+        core::kernels::chooseKernels();
+        expectAllVerdictsOfItsBins(131, 20000);
+        if (testing::Test::HasFatalFailure()) break;
+        std::printf("%s: the same\n", hwy::TargetName(target));
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    core::kernels::chooseKernels();
+}
+
+// The bins' own verdicts come from the same instruction set above. Here those of the scalar form are the measure.
+TEST(BinFamily, EveryTargetAgreesWithTheScalarForm) {
+    struct Result {
+        FamilyVerdict verdict{};
+        std::uint64_t hidden = 0;
+    };
+    std::vector<Result> expected;
+    const auto resultOf = [](const FamilyCase& c) {
+        Result result;
+        c.family.classify(c.planes, c.undecided, result.verdict);
+        if (c.eye) result.hidden = c.family.hiddenFrom(*c.eye, c.candidates);
+        return result;
+    };
+    constexpr std::size_t kTrials = 20000;
+    {
+        core::kernels::PlaneKernels& active = core::kernels::activeKernels;
+        active.family = core::kernels::familyScalar;
+        active.hidden = core::kernels::hiddenScalar;
+        Random random(132);
+        for (std::size_t trial = 0; trial < kTrials; ++trial) expected.push_back(resultOf(FamilyCase(random)));
+    }
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        hwy::SetSupportedTargetsForTest(target);
+        core::kernels::chooseKernels();
+        Random random(132);
+        for (std::size_t trial = 0; trial < kTrials; ++trial) {
+            const FamilyCase c(random);
+            const Result result = resultOf(c);
+            ASSERT_EQ(result.verdict.outside, expected[trial].verdict.outside) << hwy::TargetName(target);
+            ASSERT_EQ(result.verdict.insideAll, expected[trial].verdict.insideAll) << hwy::TargetName(target);
+            ASSERT_EQ(result.hidden, expected[trial].hidden) << hwy::TargetName(target);
+            for (std::size_t i = 0; i < c.slots.size(); ++i) {
+                ASSERT_EQ(result.verdict.undecided[i], expected[trial].verdict.undecided[i]) << hwy::TargetName(target);
+            }
+        }
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    core::kernels::chooseKernels();
+}
+
+#endif
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+TEST(BinFamily, SlotsWithoutABinAreNeverDecided) {
+    const GeodeticBin box = GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0});
+    BinFamily family(5);
+    family.set(1, ExactGeodeticBin(wgs84(), box));
+    family.setHorizon(1, HorizonBin(wgs84(), box));
+    family.setHorizon(2, HorizonBin(wgs84(), box));
+    const auto eye = HorizonEye::fromEye(wgs84(), 0.0, {-1e8, 0.0, 0.0});
+    ASSERT_TRUE(eye);
+    EXPECT_EQ(family.filled(), 0b10u);
+    EXPECT_EQ(family.hiddenFrom(*eye, ~std::uint64_t{0}), 0b10u);
+    for (const double offset : {-1e9, 1e9, kNaN}) {
+        PlaneSet planes;
+        planes.push_back({{1.0, 0.0, 0.0}, offset});
+        FamilyVerdict verdict{};
+        family.classify(planes, planes.all(), verdict);
+        EXPECT_EQ(verdict.outside, offset < 0.0 ? 0b10u : 0u);
+        EXPECT_EQ(verdict.insideAll, offset > 0.0 ? 0b10u : 0u);
+        for (const std::size_t i : {0u, 2u, 3u, 4u}) EXPECT_EQ(verdict.undecided[i], planes.all());
+    }
+    family.clear(1);
+    PlaneSet planes;
+    planes.push_back({{1.0, 0.0, 0.0}, -1e9});
+    FamilyVerdict verdict{};
+    family.classify(planes, planes.all(), verdict);
+    EXPECT_EQ(family.filled(), 0u);
+    EXPECT_EQ(verdict.outside, 0u);
+    EXPECT_EQ(verdict.undecided[1], planes.all());
+    EXPECT_EQ(family.hiddenFrom(*eye, ~std::uint64_t{0}), 0u);
+}
+
+TEST(BinFamily, ABinThatIsSetAgainIsTheNewOne) {
+    const GeodeticBin wide = GeodeticBin::fromDegrees({0.0, 40.0}, {0.0, 40.0}, {0.0, 1000.0});
+    const GeodeticBin small = GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0});
+    BinFamily family(1);
+    family.set(0, core::GeodeticQuadraticBin(wgs84(), wide));
+    family.set(0, core::GeodeticQuadraticBin(wgs84(), small));
+    PlaneSet planes;
+    planes.push_back({{1.0, 0.0, 0.0}, -6.3e6});  // only the small one is wholly beyond
+    FamilyVerdict verdict{};
+    family.classify(planes, planes.all(), verdict);
+    EXPECT_EQ(verdict.insideAll, 1u);
+    family.set(0, core::GeodeticQuadraticBin(wgs84(), wide));
+    family.classify(planes, planes.all(), verdict);
+    EXPECT_EQ(verdict.insideAll, 0u);
+}
+
+TEST(BinFamily, MayHaveNoSlotAndNoPlane) {
+    const BinFamily none(0);
+    FamilyVerdict verdict{};
+    PlaneSet planes;
+    none.classify(planes, 0, verdict);
+    EXPECT_EQ(verdict.outside | verdict.insideAll, 0u);
+    BinFamily one(1);
+    one.set(0, ExactGeodeticBin(wgs84(), GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0})));
+    one.classify(planes, 0, verdict);
+    EXPECT_EQ(verdict.insideAll, 1u);
+    one.classify(planes, 0b10, verdict);
+    EXPECT_EQ(verdict.insideAll, 0u);
+    EXPECT_EQ(verdict.undecided[0], 0b10u);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
