@@ -80,7 +80,14 @@ TEST(HoledGlobe, IsSeenThrough) {
         globe.root->replaceChild(globe.tiles[19], off);
         off->addChild(globe.tiles[19], false);
     };
-    const std::vector<std::function<void(MeshGlobe&)>> ways{mask, prune, shrink, switchOff};
+    const auto remove = [](MeshGlobe& globe) { globe.root->removeChild(globe.tiles[19]); };
+    const auto replace = [](MeshGlobe& globe) { globe.root->replaceChild(globe.tiles[19], new osg::Group); };
+    const auto empty = [](MeshGlobe& globe) {
+        osg::Drawable* const drawable = drawableOf(*globe.tiles[19]);
+        drawable->getParent(0)->removeChild(drawable);
+    };
+    const std::vector<std::function<void(MeshGlobe&)>> ways{mask, prune, shrink, switchOff, remove, replace, empty};
+    constexpr std::size_t kFirstMissing = 4;
     for (std::size_t i = 0; i < ways.size(); ++i) {
         for (const bool isDeclared : {false, true}) {
             CullOptions options;
@@ -91,6 +98,8 @@ TEST(HoledGlobe, IsSeenThrough) {
             EXPECT_FALSE(globe.drawsAntipode());
             ways[i](globe);
             EXPECT_TRUE(globe.drawsAntipode()) << i << isDeclared;
+            // that a tile is missing is known to the installer, but who declares a horizon says that none is
+            if (isDeclared && i >= kFirstMissing) continue;
             installBins(*globe.root, options);
             EXPECT_TRUE(globe.drawsAntipode()) << i << isDeclared;
         }

@@ -16,6 +16,14 @@ namespace osgAnalyticBin::test {
 
 namespace {
 
+core::PlaneSet planesOf(osg::CullStack& cullStack) {
+    core::PlaneSet planes;
+    for (const osg::Plane& plane : cullStack.getCurrentCullingSet().getFrustum().getPlaneList()) {
+        planes.push_back({{plane[0], plane[1], plane[2]}, plane[3]});
+    }
+    return planes;
+}
+
 // Asks for the eye in a real cull traversal.
 class Asker : public osg::NodeCallback {
 public:
@@ -25,8 +33,13 @@ public:
         osg::CullStack& cullStack = *nv->asCullStack();
         const auto viewpoint = Viewpoint::of(cullStack, *nv, false);
         if (!viewpoint) return;
-        const DatabaseView view{
-            nullptr, earth(), {}, nullptr, cullStack.getModelViewMatrix(), cullStack.getProjectionMatrix(), {}};
+        const DatabaseView view{nullptr,
+                                earth(),
+                                {},
+                                nullptr,
+                                cullStack.getModelViewMatrix(),
+                                cullStack.getProjectionMatrix(),
+                                planesOf(cullStack)};
         eye = eyeAboveWhatIsShown({*node->asGroup(), *nv, cullStack, view}, *viewpoint, _deepest, depth);
     }
 

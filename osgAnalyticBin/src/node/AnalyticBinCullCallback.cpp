@@ -34,20 +34,6 @@ bool isBox(Method method) {
     return method == Method::Box || method == Method::OrientedBox;
 }
 
-// The sphere that the test of a bin begins with. Bins for comparison have none: infinite reach.
-template <class Bin>
-core::SphereData sphereOf(const Bin&) {
-    core::SphereData unknown{};
-    unknown.reach = std::numeric_limits<float>::infinity();
-    return unknown;
-}
-core::SphereData sphereOf(const core::GeodeticQuadraticBin& bin) {
-    return bin.data().sphere();
-}
-core::SphereData sphereOf(const core::ExactGeodeticBin& bin) {
-    return bin.data().sphere;
-}
-
 // The planes of a frustum, moved to ECEF.
 core::PlaneSet ecefPlanes(const osg::Polytope& frustum, const osg::Matrixd& ecefToLocal) {
     core::PlaneSet planes;
@@ -184,11 +170,14 @@ void AnalyticBinCullCallback::leaveFamily() {
 void AnalyticBinCullCallback::fillSlot() const {
     if (!_installed) return;
     if (!_prepared) return _installed->emptySlot();
-    const auto sphere = std::visit([](const auto& bin) { return sphereOf(bin); }, _prepared->bin);
-    const core::HorizonBin* const horizon = _prepared->horizon ? &*_prepared->horizon : nullptr;
+    TileBlock::Bins bins{std::get_if<core::GeodeticQuadraticBin>(&_prepared->bin),
+                         std::get_if<core::ExactGeodeticBin>(&_prepared->bin)};
+    const bool isForComparison = !bins.quadratic && !bins.exact;
+    if (_prepared->horizon) bins.column = _prepared->columnHorizon ? &*_prepared->columnHorizon : &*_prepared->horizon;
+    if (_prepared->horizon && !isForComparison) bins.horizon = &*_prepared->horizon;
+    const bool hasOwnColumn = isForComparison || _prepared->columnHorizon.has_value();
     _installed->fillSlot(
-        {sphere, _prepared->sphere, _prepared->columnSphere, _binHigh, _binLow, _surfaceHigh, _surfaceLow},
-        {_hidesByPoint ? nullptr : horizon, _prepared->columnHorizon ? &*_prepared->columnHorizon : horizon});
+        {_prepared->sphere, _prepared->columnSphere, _binHigh, _binLow, _surfaceHigh, _surfaceLow, hasOwnColumn}, bins);
 }
 
 void AnalyticBinCullCallback::setBin(const AnalyticBin& bin) {

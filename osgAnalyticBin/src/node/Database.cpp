@@ -4,6 +4,7 @@
 #include "Database.h"
 
 #include "InstalledTile.h"
+#include "TileFamily.h"
 
 #include <osg/Notify>
 #include <osgTerrain/GeometryTechnique>
@@ -197,8 +198,27 @@ Widening Database::correction(const std::string& file, std::size_t ordinal) cons
     return known == _corrections.end() ? Widening() : known->second;
 }
 
+void Database::noteChanged(osg::Group& group) const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    constexpr std::size_t kMostGroups = 4096;  // where no update traversal ever comes
+    if (_changedGroups.size() < kMostGroups) _changedGroups.emplace_back(&group);
+}
+
+void Database::renewFamilies() {
+    std::vector<osg::observer_ptr<osg::Group>> changed;
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        changed.swap(_changedGroups);
+    }
+    for (const auto& observed : changed) {
+        osg::ref_ptr<osg::Group> group;
+        if (observed.lock(group)) TileFamily::renew(*group);
+    }
+}
+
 void Database::update() {
     refitLateComers();
+    renewFamilies();
     std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, Widening>> toWiden;
     {
         const std::lock_guard<std::mutex> lock(_mutex);

@@ -83,6 +83,9 @@ public:
     /// Says that tiles were met that are not fitted to the present shape.
     void requestRefit() const { _isRefitWanted.store(true, std::memory_order_relaxed); }
 
+    /// Says that a group with a family of tiles has other children than it had: the next update makes the family anew.
+    void noteChanged(osg::Group& group) const;
+
     /// In the update traversal: whether the loaded tiles have to be fitted anew, told once.
     [[nodiscard]] bool takeShapeChange();
 
@@ -126,6 +129,7 @@ private:
     static void widenFrom(const ParentTile& tile, const Widening& by);
     static void warn(const ParentTile& tile, bool Database::*hasWarned, const char* what);
     void refitLateComers();
+    void renewFamilies();
 
     static inline std::atomic<unsigned long> _count{0};
 
@@ -147,6 +151,7 @@ private:
     bool _hasWarnedOfIndex = false, _hasWarnedOfStored = false, _hasWarnedOfUntold = false;
     std::map<TileKey, Widening> _corrections;
     std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, Widening>> _toWiden;
+    mutable std::vector<osg::observer_ptr<osg::Group>> _changedGroups;
 };
 
 /// A tile as those that are paged below it see it.

@@ -25,8 +25,7 @@ void InstalledTile::doubtMesh() {
 }
 
 void InstalledTile::tellFamily() {
-    const bool isDoubted = _isMeshDoubted.load(std::memory_order_relaxed);
-    if (_block) _block->believe(_slot, _isSlotFilled && !isKeptVisible() && !isDoubted);
+    if (_block) _block->believe(_slot, _isSlotFilled && !isKeptVisible() && !isMeshDoubted());
 }
 
 void InstalledTile::joinFamily(TileBlock& block, std::size_t slot) {
@@ -40,9 +39,9 @@ void InstalledTile::leaveFamily() {
     _block = nullptr;
 }
 
-void InstalledTile::fillSlot(const TileBlock::Slot& tile, const TileBlock::Horizons& horizons) {
+void InstalledTile::fillSlot(const TileBlock::Slot& tile, const TileBlock::Bins& bins) {
     if (!_block) return;
-    _block->set(_slot, tile, horizons);
+    _block->set(_slot, tile, bins);
     _isSlotFilled = true;
     tellFamily();
 }

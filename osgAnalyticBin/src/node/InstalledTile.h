@@ -50,8 +50,9 @@ public:
     void leaveFamily();
     /// Says that the tile's mesh is not the one that it was fitted to: its family leaves it to its callback.
     void doubtMesh();
+    [[nodiscard]] bool isMeshDoubted() const { return _isMeshDoubted.load(std::memory_order_relaxed); }
     /// What the family, if any, is to cull it by.
-    void fillSlot(const TileBlock::Slot& tile, const TileBlock::Horizons& horizons);
+    void fillSlot(const TileBlock::Slot& tile, const TileBlock::Bins& bins);
     void emptySlot();
 
     /// Says that what the tile draws can be seen through, so that the horizon must not rely on it.

@@ -70,7 +70,8 @@ struct SearchedTile {
           surfaceHigh(tile.surfaceHigh()),
           surfaceLow(tile.surfaceLow()),
           isFitted(hasShownShape),
-          isSeenThrough(tile.installedTile() && tile.installedTile()->isSeeThrough()) {}
+          isSeenThrough(tile.installedTile() && tile.installedTile()->isSeeThrough()),
+          isMeshDoubted(tile.installedTile() && tile.installedTile()->isMeshDoubted()) {}
     SearchedTile(const TileFamily::Member& member, const TileBlock::Slot& slot)
         : callback(*member.tile),
           columnSphere(&slot.column),
@@ -86,6 +87,7 @@ struct SearchedTile {
     double binLow, surfaceHigh, surfaceLow;
     bool isFitted;  // to the shape in which the terrain is shown
     bool isSeenThrough;
+    bool isMeshDoubted = false;
     bool isAboutEye = false;
     const std::vector<osg::ref_ptr<const osg::Node>>* meshParts = nullptr;  // null: not known
 };
@@ -105,6 +107,7 @@ public:
         const osg::CullingSet& cullingSet = database.cullStack.getCurrentCullingSet();
         if (!(cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING)) return;
         _planes = cullingSet.getFrustum().getPlaneList();
+        _undecided = cullingSet.getFrustum().getCurrentMask();
     }
 
     void search(osg::Group& group) {
@@ -120,24 +123,41 @@ public:
 private:
     void searchChildren(osg::Group& group, const TileFamily* family) {
         const bool isFamily = family && family->culls(group, _database.cullStack, _database.view) && !_isMoved;
+        if (isFamily) return searchFamily(group, *family);
+        for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) searchNode(*group.getChild(i));
+    }
+
+    // A tile that is not seen is not touched.
+    void searchFamily(osg::Group& group, const TileFamily& family) {
+        if (family.lacksTiles(group)) _hasHole = true;
+        TileFamily::Verdicts verdicts;
         for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) {
+            if (i % TileBlock::Part::kMost == 0) verdicts = family.test(i, _database.view.planes, _undecided, &_eye);
             osg::Node& child = *group.getChild(i);
-            const TileFamily::Member* const member = isFamily ? family->member(i, child) : nullptr;
-            if (member) {
-                searchMember(child, *member, family->block(), i);
+            if (family.isMember(i, child, verdicts)) {
+                searchMember(child, family, verdicts, i);
             } else {
                 searchNode(child);
             }
         }
     }
 
-    // As searchNode(): a tile that is not seen is not touched.
-    void searchMember(osg::Node& node, const TileFamily::Member& member, const TileBlock& block, std::size_t slot) {
-        const TileBlock::Slot& numbers = block[slot];
-        const bool isAboutEye = _place && _place->altitude <= numbers.binHigh && isAbout(*member.tile);
-        if (!isAboutEye && (isBesideFrustum(&numbers.column) || block.isColumnHidden(slot, _eye))) return;
-        SearchedTile tile(member, numbers);
-        tile.isAboutEye = isAboutEye;
+    void searchMember(osg::Node& node, const TileFamily& family, const TileFamily::Verdicts& verdicts,
+                      unsigned int slot) {
+        const TileBlock& block = family.block();
+        const unsigned int i = slot % TileBlock::Part::kMost;
+        const TileBlock::Part& part = block.partFrom(slot);
+        const bool mayBeAboutEye = _place && _place->altitude <= part.highest;
+        const bool hasOwnColumn = (part.withOwnColumns >> i & 1) != 0;
+        const bool isBinCulled = ((verdicts.planes.outside | verdicts.hidden) >> i & 1) != 0;
+        if (!mayBeAboutEye && !hasOwnColumn && isBinCulled) return;
+        const TileFamily::Member& member = family.member(slot);
+        SearchedTile tile(member, block[slot]);
+        tile.isAboutEye = mayBeAboutEye && _place->altitude <= block[slot].binHigh && isAbout(*member.tile);
+        const bool isCulled =
+            hasOwnColumn ? isBesideFrustum(tile.columnSphere) || block.isColumnHidden(slot, _eye) : isBinCulled;
+        if (isCulled && !tile.isAboutEye) return;
+        const Scoped undecided(_undecided, hasOwnColumn ? _undecided : verdicts.planes.undecided[i]);
         const bool isAlone = node.getCullCallback() == member.tile && !member.tile->getNestedCallback();
         CullCallbacks callbacks = isAlone ? CullCallbacks() : CullCallbacks(node);
         callbacks.bin = member.tile;
@@ -178,19 +198,22 @@ private:
     // Whether all of a tile's own mesh is drawn. Its state was asked for when bins were installed.
     [[nodiscard]] bool isDrawnWhole(const osg::Node& mesh, const SearchedTile& tile) const {
         const bool isKnown = tile.meshParts && !tile.meshParts->empty() && tile.meshParts->front() == &mesh;
-        if (!isKnown) return isDrawnWhole(mesh);
+        bool hasDrawable = false;
+        if (!isKnown) return isDrawnWhole(mesh, hasDrawable) && (hasDrawable || !tile.isMeshDoubted);
         return std::all_of(tile.meshParts->begin(), tile.meshParts->end(), [this](const auto& part) {
             return _visitor.validNodeMask(*part) && !(part->getCullCallback() && CullCallbacks(*part).mayLeaveOut);
         });
     }
 
-    [[nodiscard]] bool isDrawnWhole(const osg::Node& part) const {
+    [[nodiscard]] bool isDrawnWhole(const osg::Node& part, bool& hasDrawable) const {
         if (!_visitor.validNodeMask(part) || CullCallbacks(part).mayLeaveOut) return false;
-        if (typeid(part) == typeid(osgTerrain::TerrainTile)) return true;
+        const bool isTerrain = typeid(part) == typeid(osgTerrain::TerrainTile);
+        hasDrawable = hasDrawable || isTerrain || part.asDrawable();
+        if (isTerrain) return true;
         if (!drawsAllChildren(part)) return false;
         const osg::Group* const group = part.asGroup();
         for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
-            if (!isDrawnWhole(*group->getChild(i))) return false;
+            if (!isDrawnWhole(*group->getChild(i), hasDrawable)) return false;
         }
         return true;
     }
@@ -258,8 +281,9 @@ private:
     const std::optional<core::Geodetic> _place;  // of the eye
     const double _deepest;
     osg::Polytope::PlaneList _planes;
-    bool _isMoved = false;     // below a transform, where OSG measures distances in another frame
-    bool _isDoubtful = false;  // below something that may not be drawn
+    core::PlaneMask _undecided = 0;  // of the view's planes, for families
+    bool _isMoved = false;           // below a transform, where OSG measures distances in another frame
+    bool _isDoubtful = false;        // below something that may not be drawn
     bool _hasHole = false;
     std::vector<NearGround> _nearGround;
     double _depth = -kUnknownDepth;

@@ -3,6 +3,8 @@
 
 #include "TileBlock.h"
 
+#include <algorithm>
+
 namespace osgAnalyticBin {
 
 namespace {
@@ -14,15 +16,37 @@ const core::HorizonBin& neverHidden() {
 
 }  // namespace
 
-TileBlock::TileBlock(std::size_t slots) : _slots(slots), _horizons(slots, neverHidden()), _believed(slots) {}
+TileBlock::TileBlock(std::size_t slots) : _slots(slots) {
+    for (std::size_t first = 0; first < slots; first += Part::kMost) {
+        _parts.emplace_back(std::min<std::size_t>(Part::kMost, slots - first));
+    }
+}
 
 TileBlock::~TileBlock() = default;
 
-void TileBlock::set(std::size_t slot, const Slot& tile, const Horizons& horizons) {
+void TileBlock::set(std::size_t slot, const Slot& tile, const Bins& bins) {
     _slots[slot] = tile;
-    if (horizons.column != horizons.bin && _columns.empty()) _columns = _horizons;
-    _horizons[slot] = horizons.bin ? *horizons.bin : neverHidden();
-    if (!_columns.empty()) _columns[slot] = horizons.column ? *horizons.column : neverHidden();
+    Part& part = _parts[slot / Part::kMost];
+    const std::size_t i = slot % Part::kMost;
+    const std::uint64_t bit = std::uint64_t{1} << i;
+    part.withOwnColumns = tile.hasOwnColumn ? part.withOwnColumns | bit : part.withOwnColumns & ~bit;
+    part.highest = std::max(part.highest, tile.binHigh);
+    part.bins.clear(i);
+    if (bins.quadratic) part.bins.set(i, *bins.quadratic);
+    if (bins.exact) part.bins.set(i, *bins.exact);
+    if (bins.horizon) part.bins.setHorizon(i, *bins.horizon);
+    if (tile.hasOwnColumn && _columns.empty()) _columns.assign(size(), neverHidden());
+    if (!_columns.empty()) _columns[slot] = bins.column ? *bins.column : neverHidden();
+}
+
+void TileBlock::believe(std::size_t slot, bool is) {
+    std::atomic<std::uint64_t>& believed = _parts[slot / Part::kMost].believed;
+    const std::uint64_t bit = std::uint64_t{1} << (slot % Part::kMost);
+    if (is) {
+        believed.fetch_or(bit, std::memory_order_relaxed);
+    } else {
+        believed.fetch_and(~bit, std::memory_order_relaxed);
+    }
 }
 
 }  // namespace osgAnalyticBin

@@ -3,70 +3,81 @@
 
 #pragma once
 
+#include <osgAnalyticBin/core/BinFamily.h>
 #include <osgAnalyticBin/core/Horizon.h>
-#include <osgAnalyticBin/core/KernelData.h>
 
 #include <osg/BoundingSphere>
 #include <osg/Referenced>
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <limits>
 #include <vector>
 
 namespace osgAnalyticBin {
 
-/// What is asked first of tiles that are siblings, side by side in memory: most of those that are culled are culled by
-/// these numbers, and nothing of themselves is touched. A slot is a child of the group that they hang on; ECEF.
-/// Threads: believe() and isBelieved() at any time; set() where no cull traversal runs.
+/// What culling and the search for the lowest surface read of tiles that are siblings, side by side in memory: tiles
+/// out of view are not touched themselves. A slot is a child of the group that they hang on; ECEF, metres.
+/// Threads: believe() at any time; set() where no cull traversal runs.
 class TileBlock final : public osg::Referenced {
 public:
-    /// Metres and ECEF.
     struct Slot {
-        core::SphereData sphere{};   ///< about the bin, with which all tests of bins begin
         osg::BoundingSphere bound;   ///< what OSG's test of small features takes
         osg::BoundingSphere column;  ///< about the bin, and what is above it up to the ellipsoid
         double binHigh = 0.0;        ///< see AnalyticBinCullCallback
         double binLow = 0.0;         ///< likewise
         double surfaceHigh = 0.0;    ///< likewise
         double surfaceLow = 0.0;     ///< likewise
+        bool hasOwnColumn = true;    ///< the column is more than the bin, or the bin is one for comparison
     };
 
-    /// What the horizon test takes of a tile; null: it is never hidden.
-    struct Horizons {
-        const core::HorizonBin* bin;
-        const core::HorizonBin* column;
+    /// What a tile is culled by; null: not so.
+    struct Bins {
+        const core::GeodeticQuadraticBin* quadratic = nullptr;
+        const core::ExactGeodeticBin* exact = nullptr;
+        const core::HorizonBin* horizon = nullptr;
+        const core::HorizonBin* column = nullptr;
+    };
+
+    /// Up to kMost slots, one bit each.
+    struct Part {
+        static constexpr unsigned int kMost = core::BinFamily::kMostSlots;
+
+        explicit Part(std::size_t slots) : bins(slots) {}
+
+        core::BinFamily bins;
+        std::atomic<std::uint64_t> believed{0};  ///< tiles that may be culled without their own callbacks being asked
+        std::uint64_t withOwnColumns = 0;        ///< see Slot::hasOwnColumn
+        double highest = -std::numeric_limits<double>::infinity();  ///< no binHigh is above
     };
 
     explicit TileBlock(std::size_t slots);
 
     [[nodiscard]] std::size_t size() const { return _slots.size(); }
     [[nodiscard]] const Slot& operator[](std::size_t slot) const { return _slots[slot]; }
+    /// The one that begins with the slot `first`, a multiple of kMost. Requires: first < size().
+    [[nodiscard]] const Part& partFrom(std::size_t first) const { return _parts[first / Part::kMost]; }
 
     /// Takes over what a tile is culled by.
-    void set(std::size_t slot, const Slot& tile, const Horizons& horizons);
+    void set(std::size_t slot, const Slot& tile, const Bins& bins);
 
-    /// Whether the tile of a slot may be culled without its own callback being asked.
-    [[nodiscard]] bool isBelieved(std::size_t slot) const { return _believed[slot].load(std::memory_order_relaxed); }
-    void believe(std::size_t slot, bool is) { _believed[slot].store(is, std::memory_order_relaxed); }
+    /// Says whether the tile of a slot may be culled without its own callback being asked.
+    void believe(std::size_t slot, bool is);
 
-    /// Whether the horizon hides the tile.
-    [[nodiscard]] bool isHidden(std::size_t slot, const core::HorizonEye& eye) const {
-        return eye.hides(_horizons[slot]);
-    }
-
-    /// Whether it hides the tile's column.
+    /// Whether the horizon hides the column of a tile that has its own.
     [[nodiscard]] bool isColumnHidden(std::size_t slot, const core::HorizonEye& eye) const {
-        return eye.hides(_columns.empty() ? _horizons[slot] : _columns[slot]);
+        return slot < _columns.size() && eye.hides(_columns[slot]);
     }
 
 protected:
     ~TileBlock() override;
 
 private:
+    std::deque<Part> _parts;
     std::vector<Slot> _slots;
-    std::vector<core::HorizonBin> _horizons;
-    std::vector<core::HorizonBin> _columns;  // empty: those of the bins
-    std::vector<std::atomic<bool>> _believed;
+    std::vector<core::HorizonBin> _columns;
 };
 
 }  // namespace osgAnalyticBin

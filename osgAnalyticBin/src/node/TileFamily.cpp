@@ -13,7 +13,8 @@
 #include <osg/PagedLOD>
 #include <osgTerrain/TerrainTile>
 
-#include <cmath>
+#include <algorithm>
+#include <cstdint>
 #include <typeinfo>
 
 namespace osgAnalyticBin {
@@ -26,6 +27,7 @@ using MeshParts = std::vector<osg::ref_ptr<const osg::Node>>;
 bool appendParts(const osg::Node& node, MeshParts& parts) {
     parts.emplace_back(&node);
     if (dynamic_cast<const osgTerrain::TerrainTile*>(&node)) return typeid(node) == typeid(osgTerrain::TerrainTile);
+    // what has no children draws nothing
     const osg::Group* const group = node.asGroup();
     bool areKnown = drawsAllChildren(node) && (!group || group->getNumChildren() > 0);
     for (unsigned int i = 0; areKnown && group && i < group->getNumChildren(); ++i) {
@@ -59,23 +61,6 @@ TileFamily* familyOn(const osg::Node& node) {
     return nullptr;
 }
 
-// The first test of all bins, as the kernels begin with it. Planes that have the sphere inside are cleared.
-bool isOutside(const core::SphereData& sphere, const core::PlaneSet& planes, core::PlaneMask& undecided) {
-    core::PlaneMask inside = 0;
-    for (core::PlaneMask left = undecided, i = 0; left != 0; left >>= 1, ++i) {
-        if (!(left & 1)) continue;
-        const core::PlaneBlock& block = planes.blocks()[i / core::PlaneBlock::kLanes];
-        const std::size_t lane = i % core::PlaneBlock::kLanes;
-        const double distance = (block.normalX[lane] * sphere.center[0] + block.normalY[lane] * sphere.center[1]) +
-                                (block.normalZ[lane] * sphere.center[2] + block.offset[lane]);
-        const double threshold = static_cast<double>(sphere.reach) + block.rounding[lane];
-        if (distance < -threshold) return true;
-        if (distance >= threshold) inside |= core::PlaneMask{1} << i;
-    }
-    undecided &= ~inside;
-    return false;
-}
-
 }  // namespace
 
 TileFamily::TileFamily(const TileFamily& other, const osg::CopyOp& copyop)
@@ -94,6 +79,7 @@ void TileFamily::place(osg::Node& node) {
     const osg::ref_ptr<TileFamily> family = new TileFamily;
     family->_group = group;
     family->_block = new TileBlock(group->getNumChildren());
+    family->_nodes.resize(group->getNumChildren());
     family->_members.resize(group->getNumChildren());
     bool hasMembers = false;
     for (unsigned int i = 0; i < group->getNumChildren(); ++i) {
@@ -106,6 +92,25 @@ void TileFamily::remove(osg::Node& node) {
     if (const osg::ref_ptr<TileFamily> family = familyOn(node)) takeOff(node, *family);
 }
 
+void TileFamily::renew(osg::Node& node) {
+    const osg::ref_ptr<TileFamily> old = familyOn(node);
+    if (!old || old->_group != &node) return;
+    place(node);
+    const osg::Group& group = *node.asGroup();
+    const bool hasLost = std::any_of(old->_nodes.begin(), old->_nodes.end(),
+                                     [&](const auto& tile) { return tile && !group.containsNode(tile); });
+    TileFamily* const family = familyOn(node);
+    if (family) family->_hasLostTiles = hasLost || old->_hasLostTiles;
+}
+
+bool TileFamily::lacksTiles(const osg::Group& group) const {
+    for (unsigned int i = 0; i < _nodes.size(); ++i) {
+        const bool isThere = i < group.getNumChildren() && _nodes[i] == group.getChild(i);
+        if (_nodes[i] && !isThere) return true;
+    }
+    return _hasLostTiles;
+}
+
 bool TileFamily::add(osg::Node& child, std::size_t slot) {
     const AnalyticBinCullCallback* const tile = installedBinOf(child);
     if (!tile || !tile->_prepared || tile->_hasLocalFrame) return false;
@@ -115,7 +120,8 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
     }
     const bool isSameShape = _shape.has_value() == tile->_shape.has_value() && (!_shape || *_shape == *tile->_shape);
     if (!(*_ellipsoid == tile->_prepared->ellipsoid) || !isSameShape) return false;
-    _members[slot] = {&child, tile, tile->installedTile()->isSeeThrough(), meshPartsOf(child)};
+    _nodes[slot] = &child;
+    _members[slot] = {tile, tile->installedTile()->isSeeThrough(), meshPartsOf(child)};
     tile->installedTile()->joinFamily(*_block, slot);
     tile->fillSlot();
     tile->fillSlot();
@@ -140,6 +146,33 @@ void TileFamily::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     cullChildren(*node->asGroup(), *nv, *cullStack, *view, CullTraversal::of(*nv));
 }
 
+TileFamily::Verdicts TileFamily::test(unsigned int first, const core::PlaneSet& planes, core::PlaneMask undecided,
+                                      const core::HorizonEye* eye) const {
+    Verdicts verdicts;
+    if (first >= _block->size()) return verdicts;
+    const TileBlock::Part& part = _block->partFrom(first);
+    part.bins.classify(planes, undecided, verdicts.planes);
+    verdicts.believed = part.believed.load(std::memory_order_relaxed);
+    verdicts.tested = part.bins.filled();
+    if (eye) verdicts.hidden = part.bins.hiddenFrom(*eye, verdicts.tested & ~verdicts.planes.outside);
+    return verdicts;
+}
+
+// Where the family's own tests leave something open, the tile is asked.
+Verdict TileFamily::verdict(unsigned int i, const Verdicts& verdicts, const DatabaseView& view,
+                            CullTraversal& traversal) const {
+    const std::uint64_t bit = std::uint64_t{1} << (i % TileBlock::Part::kMost);
+    core::PlaneMask undecided = verdicts.planes.undecided[i % TileBlock::Part::kMost];
+    const AnalyticBinCullCallback& tile = *_members[i].tile;
+    if (!(verdicts.tested & bit)) return tile.classify(view.planes, undecided, view.eye, traversal);
+    if (verdicts.planes.outside & bit) return {core::Side::Outside, Verdict::Plane};
+    if (verdicts.hidden & bit) return {core::Side::Outside, Verdict::Horizon};
+    if (undecided == 0) return {core::Side::Inside, Verdict::Plane};
+    const bool isAcrossEdge = (undecided & (undecided - 1)) != 0;
+    const bool isBeyond = isAcrossEdge && tile._testsEdges && tile.isBeyondAnEdge(traversal, view.planes, undecided);
+    return isBeyond ? Verdict{core::Side::Outside, Verdict::Edge} : Verdict{core::Side::Straddling, Verdict::Plane};
+}
+
 void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack,
                               const DatabaseView& view, CullTraversal& traversal) const {
     // OSG's stack of culling sets may move while a child is entered
@@ -149,34 +182,28 @@ void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::Cull
         frustum.setResultMask(mask);
     };
     const core::PlaneMask before = cullStack.getCurrentCullingSet().getFrustum().getCurrentMask();
+    bool isChanged = group.getNumChildren() != _nodes.size();
+    Verdicts verdicts;
     for (unsigned int i = 0; i < group.getNumChildren(); ++i) {
+        if (i % TileBlock::Part::kMost == 0) verdicts = test(i, view.planes, before, view.eye);
         osg::Node* const child = group.getChild(i);
-        if (!member(i, *child)) {
+        if (!isMember(i, *child, verdicts)) {
+            isChanged = isChanged || (_nodes[i] && _nodes[i] != child);
             child->accept(nv);
             continue;
         }
-        core::PlaneMask undecided = before;
-        const Verdict verdict = this->verdict(i, view, traversal, undecided);
+        const Verdict verdict = this->verdict(i, verdicts, view, traversal);
         const bool culled =
             verdict.side == core::Side::Outside || isSmall(cullStack.getCurrentCullingSet(), (*_block)[i].bound);
         count(traversal, nv, verdict, culled);
         if (culled) continue;
-        setMask(undecided);
+        setMask(verdicts.planes.undecided[i % TileBlock::Part::kMost]);
         traversal.setKept(child);
         child->accept(nv);
         traversal.setKept(nullptr);
         setMask(before);
     }
-}
-
-Verdict TileFamily::verdict(std::size_t slot, const DatabaseView& view, CullTraversal& traversal,
-                            core::PlaneMask& undecided) const {
-    const core::SphereData& sphere = (*_block)[slot].sphere;
-    if (isOutside(sphere, view.planes, undecided)) return {core::Side::Outside, Verdict::Plane};
-    if (view.eye && _block->isHidden(slot, *view.eye)) return {core::Side::Outside, Verdict::Horizon};
-    const bool isForComparison = std::isinf(sphere.reach);
-    if (undecided == 0 && !isForComparison) return {core::Side::Inside, Verdict::Plane};
-    return _members[slot].tile->classify(view.planes, undecided, isForComparison ? view.eye : nullptr, traversal);
+    if (isChanged) view.database->noteChanged(group);
 }
 
 }  // namespace osgAnalyticBin

@@ -13,6 +13,7 @@
 #include <osg/NodeCallback>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -45,25 +46,43 @@ public:
     /// Takes it off again.
     static void remove(osg::Node& node);
 
+    /// Makes the family of a group anew after the application has added, removed or replaced children. Not while a cull
+    /// traversal runs.
+    static void renew(osg::Node& node);
+
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
     /// A tile as it was when the family was made.
     struct Member {
-        osg::ref_ptr<osg::Node> node;  ///< held, so that no other is taken for it; null: no tile
         osg::ref_ptr<const AnalyticBinCullCallback> tile;
         bool isSeeThrough = false;
         /// The nodes that have to be entered for the tile's own mesh, if that is all of them; empty: not known.
         std::vector<osg::ref_ptr<const osg::Node>> meshParts;
     };
 
+    /// What the bins of children are to planes and to the horizon: of up to TileBlock::Part::kMost, one bit each.
+    struct Verdicts {
+        core::FamilyVerdict planes;
+        std::uint64_t believed = 0;  ///< those of the children that are asked by these verdicts
+        std::uint64_t tested = 0;    ///< those that have a bin that is tested so
+        std::uint64_t hidden = 0;
+    };
+
     /// Whether it culls the children of the group in this traversal.
     [[nodiscard]] bool culls(const osg::Node& group, osg::CullStack& cullStack, const DatabaseView& view) const;
 
-    /// The tile that is this child. Returns: nullptr where the child's own callbacks have to be asked.
-    [[nodiscard]] const Member* member(std::size_t slot, const osg::Node& child) const {
-        const bool isKnown = slot < _members.size() && _members[slot].node == &child && _block->isBelieved(slot);
-        return isKnown ? &_members[slot] : nullptr;
+    /// Tests the children from `first` on, a multiple of kMost. `eye`: null where nothing is hidden.
+    [[nodiscard]] Verdicts test(unsigned int first, const core::PlaneSet& planes, core::PlaneMask undecided,
+                                const core::HorizonEye* eye) const;
+
+    /// Whether a child is the tile that the family knows under its number. Else its own callbacks have to be asked.
+    [[nodiscard]] bool isMember(unsigned int i, const osg::Node& child, const Verdicts& verdicts) const {
+        return (verdicts.believed >> (i % TileBlock::Part::kMost) & 1) != 0 && _nodes[i] == &child;
     }
+    /// Whether a tile of the family is not among the group's children any more, as far as the numbers tell: the terrain
+    /// may have a hole there.
+    [[nodiscard]] bool lacksTiles(const osg::Group& group) const;
+    [[nodiscard]] const Member& member(unsigned int i) const { return _members[i]; }
     [[nodiscard]] const TileBlock& block() const { return *_block; }
 
 protected:
@@ -72,14 +91,17 @@ protected:
 private:
     TileFamily() = default;
     [[nodiscard]] bool add(osg::Node& child, std::size_t slot);
-    [[nodiscard]] Verdict verdict(std::size_t slot, const DatabaseView& view, CullTraversal& traversal,
-                                  core::PlaneMask& undecided) const;
+    [[nodiscard]] Verdict verdict(unsigned int i, const Verdicts& verdicts, const DatabaseView& view,
+                                  CullTraversal& traversal) const;
     void cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack, const DatabaseView& view,
                       CullTraversal& traversal) const;
 
     const osg::Node* _group = nullptr;
-    std::vector<Member> _members;  // by the number of the child
+    bool _hasLostTiles = false;
     osg::ref_ptr<TileBlock> _block;
+    // by the number of the child
+    std::vector<osg::ref_ptr<osg::Node>> _nodes;  // held, so that no others are taken for them; null: no tile
+    std::vector<Member> _members;
     // what all its tiles have in common
     std::optional<core::Ellipsoid> _ellipsoid;
     std::optional<TerrainShape> _shape;

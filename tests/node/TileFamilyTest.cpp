@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Families of sibling tiles against the tiles' own callbacks: a callback behind a family's leaves all to these.
+
+#include "ApplicationGlobe.h"
+#include "CullFixture.h"
+#include "DatabaseFixture.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/BinStatistics.h>
+
+#include <gtest/gtest.h>
+#include <osg/CoordinateSystemNode>
+#include <osgUtil/CullVisitor>
+
+#include <cstdint>
+#include <support/Random.h>
+#include <utility>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+// Counts how often it is run.
+struct RunCounter : osg::NodeCallback {
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        ++runs;
+        traverse(node, nv);
+    }
+    int runs = 0;
+};
+
+// Meshes of `degrees`, all over the globe or so far as `count` goes.
+osg::ref_ptr<osg::CoordinateSystemNode> globeOfMeshes(double degrees, std::size_t count) {
+    osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
+    globe->setEllipsoidModel(new osg::EllipsoidModel);
+    for (double south = -90.0; south < 90.0; south += degrees) {
+        for (double west = -180.0; west < 180.0 && globe->getNumChildren() < count; west += degrees) {
+            const core::GeodeticBin extents = extentsDeg(south, south + degrees, west, west + degrees);
+            globe->addChild(makePaged(makeMeshTile(extents, 100.0), "no.osgb"));
+        }
+    }
+    return globe;
+}
+
+BinCounts countsOf(osg::Node& scene, const CullView& view) {
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    (void)cull(scene, view, *visitor);
+    return BinStatistics::of(*visitor).counts();
+}
+
+CullView randomView(Random& random) {
+    const osg::Vec3d eye =
+        ecefDeg(random.uniform(-89.0, 89.0), random.uniform(-180.0, 180.0), random.logUniform(1e3, 3e7));
+    const osg::Vec3d target = ecefDeg(random.uniform(-89.0, 89.0), random.uniform(-180.0, 180.0), 0.0);
+    CullView view = CullView::lookAt(eye, target, {0.1, 0.2, 1.0}, random.uniform(0.5, 100.0));
+    view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
+    return view;
+}
+
+// `methods`: those for comparison are culled by families, too.
+void expectSameVerdicts(double degrees, std::size_t tiles, const std::vector<const char*>& methods, int views) {
+    for (const char* const method : methods) {
+        std::string error;
+        const auto options = cullOptionsFromText(std::string("horizon=off,reverse=on,method=") + method, error);
+        ASSERT_TRUE(options) << error;
+        const auto families = globeOfMeshes(degrees, tiles);
+        const auto alone = globeOfMeshes(degrees, tiles);
+        ASSERT_EQ(installBins(*families, *options), families->getNumChildren());
+        ASSERT_EQ(installBins(*alone, *options), families->getNumChildren());
+        alone->addCullCallback(new osg::NodeCallback);
+        Random random(20260101);
+        std::uint64_t outside = 0;
+        std::uint64_t separated = 0;
+        for (int i = 0; i < views; ++i) {
+            const CullView view = randomView(random);
+            const BinCounts some = countsOf(*families, view);
+            const BinCounts others = countsOf(*alone, view);
+            EXPECT_EQ(some.tested, others.tested) << method << i;
+            EXPECT_EQ(some.outside, others.outside) << method << i;
+            EXPECT_EQ(some.inside, others.inside) << method << i;
+            EXPECT_EQ(some.separated, others.separated) << method << i;
+            outside += some.outside;
+            separated += some.separated;
+        }
+        EXPECT_GT(outside, 0u) << method;
+        EXPECT_TRUE(separated > 0 || tiles < 288) << method;
+    }
+}
+
+TEST(TileFamily, CullsAsTheTilesThemselves) {
+    expectSameVerdicts(15.0, 288, {"quadratic", "exact", "box", "orientedbox"}, 200);
+}
+
+TEST(TileFamily, OfAnyNumberOfTilesCullsAsTheTilesThemselves) {
+    for (const std::size_t tiles : {1u, 3u, 63u, 64u, 65u, 130u}) expectSameVerdicts(15.0, tiles, {"quadratic"}, 40);
+}
+
+TEST(TileFamily, HidesNoLessBehindTheHorizonThanTheTilesThemselves) {
+    const auto families = globeOfMeshes(15.0, 288);
+    const auto alone = globeOfMeshes(15.0, 288);
+    installBins(*families);
+    installBins(*alone);
+    alone->addCullCallback(new osg::NodeCallback);
+    Random random(20260101);
+    std::uint32_t hidden = 0;
+    for (int i = 0; i < 200; ++i) {
+        const CullView view = randomView(random);
+        const BinCounts some = countsOf(*families, view);
+        EXPECT_GE(some.outside, countsOf(*alone, view).outside) << i;
+        hidden += some.hidden;
+    }
+    EXPECT_GT(hidden, 0u);
+}
+
+TEST(TileFamily, RunsTheCallbacksOfItsGroupAndOfItsTiles) {
+    MeshGlobe globe;
+    const osg::ref_ptr<RunCounter> before = new RunCounter;
+    const osg::ref_ptr<RunCounter> behind = new RunCounter;
+    const osg::ref_ptr<RunCounter> onTile = new RunCounter;
+    for (const auto& callback : {before, behind, onTile}) setTraversesAlways(*callback);
+    globe.root->setCullCallback(before);
+    globe.tiles[19]->setCullCallback(onTile);
+    installBins(*globe.root);
+    EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
+    EXPECT_EQ(before->runs, 1);
+    EXPECT_EQ(onTile->runs, 1);
+    globe.root->addCullCallback(behind);
+    EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
+    EXPECT_EQ(behind->runs, 1);
+    EXPECT_FALSE(globe.drawsAntipode());
+}
+
+TEST(TileFamily, LeavesToOsgWhatTakesTheNumberOfATile) {
+    MeshGlobe globe;
+    installBins(*globe.root);
+    const osg::Vec3d place = ecefDeg(22.5, 157.5, 1000.0);
+    const osg::ref_ptr<osg::Node> tower = makeTower(place);
+    const unsigned int number = globe.root->getChildIndex(globe.tiles[19]);
+    globe.root->setChild(number, tower);
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_TRUE(globe.draws(*tower, downTo(22.5, 157.5)));
+        update(*globe.root);
+    }
+}
+
+// Their numbers are others than those that the family was made with, until the next update.
+TEST(TileFamily, FollowsTilesThatMove) {
+    MeshGlobe globe;
+    installBins(*globe.root);
+    const BinCounts before = countsOf(*globe.root, MeshGlobe::fromAbove());
+    globe.root->insertChild(0, new osg::Group);
+    for (int i = 0; i < 2; ++i) {
+        const BinCounts after = countsOf(*globe.root, MeshGlobe::fromAbove());
+        EXPECT_EQ(after.tested, before.tested);
+        EXPECT_LE(after.outside, before.outside);
+        EXPECT_TRUE(i == 0 || after.outside == before.outside) << after.outside;
+        update(*globe.root);
+    }
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
