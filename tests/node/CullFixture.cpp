@@ -90,6 +90,8 @@ CullResult cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& vi
     CullResult result;
     result.projection = *projection;
     collectDrawn(*stage, result.drawn);
+    result.stateGraph = stateGraph;
+    result.stage = stage;
     return result;
 }
 

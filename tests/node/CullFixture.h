@@ -39,6 +39,9 @@ struct CullView {
 struct CullResult {
     std::set<const osg::Drawable*> drawn;  // by the view itself, not by cameras that render to textures
     osg::Matrixd projection;               // with the near and far planes that were computed, if any
+    // To draw it, until the visitor's next traversal.
+    osg::ref_ptr<osgUtil::StateGraph> stateGraph;
+    osg::ref_ptr<osgUtil::RenderStage> stage;
 };
 
 /// Runs one cull traversal, as osgUtil::SceneView does; occluders in the scene take part. `time`: of the frame, in

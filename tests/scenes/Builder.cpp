@@ -5,6 +5,7 @@
 
 #include "Callbacks.h"
 #include "Meshes.h"
+#include "Painter.h"
 #include "Parts.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
@@ -113,7 +114,8 @@ osg::ref_ptr<osg::Group> makeCamera(const Part& part) {
     camera->setRenderOrder(order);
     camera->setViewMatrix(part.view);
     camera->setProjectionMatrix(part.projection);
-    if (order != osg::Camera::NESTED_RENDER) camera->setViewport(0, 0, 256, 256);
+    if (order != osg::Camera::NESTED_RENDER)
+        camera->setViewport(kInnerPictureStart, 0, kInnerPictureSize, kInnerPictureSize);
     camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
     return camera;
 }

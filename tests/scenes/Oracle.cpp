@@ -17,12 +17,6 @@ namespace {
 constexpr double kBorder = 1e-5;
 constexpr double kPixels = 512.0;
 
-/// The line of sight to a point, in eye space: from the near plane.
-struct Sight {
-    osg::Vec3d start, end, inPicture;
-    bool isPerspective;  ///< the eye is at the origin
-};
-
 /// All that both traversals delivered for one camera.
 class Picture {
 public:
@@ -53,31 +47,9 @@ private:
     [[nodiscard]] bool isAllowed(const Sight& sight) const {
         return std::any_of(_met.begin(), _met.end(), [&](const MetDatabase* met) {
             return std::any_of(_allowed.begin(), _allowed.end(), [&](const AllowedOccluder& occluder) {
-                return occluder.database == met->number && hides(occluder, *met, sight);
+                return occluder.database == met->number && mayHide(occluder, _description, *met, sight);
             });
         });
-    }
-
-    [[nodiscard]] bool hides(const AllowedOccluder& occluder, const MetDatabase& met, const Sight& sight) const {
-        const DatabaseSpec& database = _description.databases[static_cast<std::size_t>(met.number)];
-        const osg::Matrixd toDatabase = osg::Matrixd::inverse(met.modelView);
-        const auto scaled = [&](const osg::Vec3d& point, double altitude) {
-            const osg::Vec3d p = point * toDatabase;
-            return osg::Vec3d(p.x() / (database.equatorial + altitude), p.y() / (database.equatorial + altitude),
-                              p.z() / (database.polar + altitude));
-        };
-        const bool isBelow = scaled(sight.start, occluder.highest).length() < 1.0;
-        const bool isEyeBelow = sight.isPerspective && scaled(osg::Vec3d(), occluder.highest).length() < 1.0;
-        const bool isAllowed = isBelow && (occluder.fromBelow || !isEyeBelow);
-        if (!isAllowed && !occluder.fromEverywhere) return false;
-        // from below the terrain, whatever is lower than the eye
-        const double own = (scaled(sight.start, 0.0).length() - 1.0) * database.polar - 1.0;
-        const double altitude = isBelow ? std::min(own, 0.0) : 0.0;
-        const osg::Vec3d from = scaled(sight.start, altitude);
-        const osg::Vec3d along = scaled(sight.end, altitude) - from;
-        const double square = along.length2();
-        const double t = square > 0.0 ? std::clamp(-(from * along) / square, 0.0, 1.0) : 0.0;
-        return (from + along * t).length2() < 1.0;
     }
 
     const Description& _description;

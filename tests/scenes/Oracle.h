@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "AllowedOccluders.h"
 #include "Description.h"
 #include "Recorder.h"
 
@@ -10,17 +11,6 @@
 #include <string>
 
 namespace osgAnalyticBin::test {
-
-/// A database of which the documentation says that something hidden below it may be culled, though no face that is
-/// drawn hides it. It hides where the near plane has cut its faces away; the flags say where else. It is as large as
-/// the kit may take it to be: the ellipsoid, or what is lower than the eye.
-struct AllowedOccluder {
-    int database = 0;
-    /// Metres above the ellipsoid: above it, an eye sees the database's faces from in front.
-    double highest = 0.0;
-    bool fromBelow = false;       ///< from eyes below the highest terrain
-    bool fromEverywhere = false;  ///< from all eyes
-};
 
 /// What a drawable was lost to.
 struct FalseCull {

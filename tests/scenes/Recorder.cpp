@@ -68,16 +68,18 @@ void Recorder::apply(osg::Drawable& drawable) {
     const unsigned int before = _currentReuseRenderLeafIndex;
     const bool hasCallback = drawable.getCullCallback() != nullptr;
     const std::uint32_t culledBefore = hasCallback ? culledBins(*this) : 0;
-    osgUtil::CullVisitor::apply(drawable);
-    if (_currentReuseRenderLeafIndex == before) return;
-    const bool isCountedCulled = hasCallback && culledBins(*this) != culledBefore;
     const osg::NodePath& path = getNodePath();
-    Delivered delivered{cameraText(path),       &drawable,      *getModelViewMatrix(), getProjectionMatrix(),
-                        *getProjectionMatrix(), isFilled(path), isCountedCulled};
     std::string key = pathText(path);
     // several drawables of one node
     while (_delivery.drawables.count(key) > 0) key += '+';
-    _delivery.drawables.emplace(key, std::move(delivered));
+    if (_painter) pushStateSet(_painter->paintFor(key));
+    osgUtil::CullVisitor::apply(drawable);
+    if (_painter) popStateSet();
+    if (_currentReuseRenderLeafIndex == before) return;
+    const bool isCountedCulled = hasCallback && culledBins(*this) != culledBefore;
+    Delivered delivered{cameraText(path),       &drawable,      *getModelViewMatrix(), getProjectionMatrix(),
+                        *getProjectionMatrix(), isFilled(path), isCountedCulled};
+    _delivery.drawables.emplace(std::move(key), std::move(delivered));
 }
 
 void Recorder::apply(osg::CoordinateSystemNode& node) {

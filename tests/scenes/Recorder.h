@@ -5,6 +5,8 @@
 
 #pragma once
 
+#include "Painter.h"
+
 #include <osg/Drawable>
 #include <osg/Matrixd>
 #include <osg/NodeVisitor>
@@ -40,6 +42,8 @@ struct Delivery {
     /// By names of nodes on the way to the drawable: nodes that the kit puts in have none.
     std::map<std::string, Delivered> drawables;
     std::vector<MetDatabase> databases;
+    /// Where there is a painter.
+    Painting painting;
 };
 
 /// Notes the files that a cull traversal asks for.
@@ -60,12 +64,16 @@ public:
     void apply(osg::Drawable& drawable) override;
     void apply(osg::CoordinateSystemNode& node) override;
 
+    /// Has drawables drawn in the painter's colours, by their keys in the delivery. nullptr: as they are.
+    void setPainter(Painter* painter) { _painter = painter; }
+
     [[nodiscard]] Delivery takeDelivery() { return std::exchange(_delivery, {}); }
     [[nodiscard]] std::set<std::string> takeRequests() { return std::exchange(_requests->names, {}); }
 
 private:
     const osg::ref_ptr<Requests> _requests = new Requests;
     Delivery _delivery;
+    Painter* _painter = nullptr;
 };
 
 }  // namespace osgAnalyticBin::test

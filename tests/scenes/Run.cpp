@@ -4,6 +4,7 @@
 #include "Run.h"
 
 #include "Builder.h"
+#include "Copies.h"
 #include "Difference.h"
 #include "Meshes.h"
 #include "Oracle.h"
@@ -14,7 +15,6 @@
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <osg/CoordinateSystemNode>
-#include <osg/CopyOp>
 #include <osg/FrameStamp>
 #include <osg/PagedLOD>
 #include <osgDB/ReadFile>
@@ -53,27 +53,6 @@ FilesInMemory& filesInMemory() {
         return made;
     }();
     return *files;
-}
-
-osg::ref_ptr<osg::Group> writtenAndRead(const osg::Node& scene, bool asText) {
-    const char* const extension = asText ? "osgt" : "osgb";
-    osgDB::ReaderWriter* const plugin = osgDB::Registry::instance()->getReaderWriterForExtension(extension);
-    if (!plugin) throw std::runtime_error("no plugin for osgb");
-    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("precision 17");
-    options->setPluginStringData("fileType", asText ? "Ascii" : "Binary");
-    std::stringstream stream;
-    if (!plugin->writeNode(scene, stream, options).success()) throw std::runtime_error("the scene cannot be saved");
-    osgDB::ReaderWriter::ReadResult result = plugin->readNode(stream, options);
-    osg::Node* const node = result.getNode();
-    if (!node || !node->asGroup()) throw std::runtime_error("the scene cannot be loaded");
-    return node->asGroup();
-}
-
-osg::ref_ptr<osg::Group> clonedScene(const osg::Group& scene, int variant) {
-    constexpr osg::CopyOp::CopyFlags kFlags[] = {osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_CALLBACKS,
-                                                 osg::CopyOp::SHALLOW_COPY, osg::CopyOp::DEEP_COPY_ALL,
-                                                 osg::CopyOp::DEEP_COPY_NODES};
-    return osg::clone(&scene, osg::CopyOp(kFlags[variant % 4]));
 }
 
 /// PagedLODs by the file that they page.
@@ -118,7 +97,7 @@ public:
         root->accept(*_update);
     }
 
-    Delivery deliver(const ViewSpec& spec, const osg::FrameStamp& stamp) {
+    Delivery deliver(const ViewSpec& spec, osg::FrameStamp& stamp, Painter* painter) {
         CullView view;
         view.modelView = spec.view;
         view.projection = spec.projection;
@@ -126,8 +105,11 @@ public:
         view.computeNearFar = spec.computeNearFar;
         _recorder->setSmallFeatureCullingPixelSize(static_cast<float>(spec.smallFeaturePixels));
         root->getBound();
-        cull(*root, view, *_recorder, stamp.getFrameNumber(), stamp.getReferenceTime());
-        return _recorder->takeDelivery();
+        _recorder->setPainter(painter);
+        const CullResult culled = cull(*root, view, *_recorder, stamp.getFrameNumber(), stamp.getReferenceTime());
+        Delivery delivery = _recorder->takeDelivery();
+        if (painter) delivery.painting = painter->paint(*culled.stage, stamp);
+        return delivery;
     }
 
     [[nodiscard]] std::set<std::string> takeRequests() { return _recorder->takeRequests(); }
@@ -148,8 +130,13 @@ private:
 /// The run of one description.
 class Runner {
 public:
-    Runner(const Description& description, RunTotals& totals)
-        : _description(description), _builder(description), _without(_builder), _with(_builder), _totals(totals) {
+    Runner(const Description& description, RunTotals& totals, Painter* painter)
+        : _description(description),
+          _builder(description),
+          _without(_builder),
+          _with(_builder),
+          _totals(totals),
+          _painter(painter) {
         filesInMemory().builder = &_builder;
     }
     ~Runner() { filesInMemory().builder = nullptr; }
@@ -193,19 +180,34 @@ private:
         _without.update(*_stamp);
         _with.update(*_stamp);
         if (!view.isActive) return std::nullopt;
-        const Delivery without = _without.deliver(view, *_stamp);
-        const Delivery with = _with.deliver(view, *_stamp);
+        const Delivery without = _without.deliver(view, *_stamp, _painter);
+        const Delivery with = _with.deliver(view, *_stamp, _painter);
         count(without, with);
+        if (auto failure = _painter ? comparePictures(without, with, frame) : compare(without, with, view, frame))
+            return failure;
+        if (auto failure = checkDrawn(without, with, view, frame)) return failure;
+        page();
+        return std::nullopt;
+    }
+
+    [[nodiscard]] std::optional<Failure> compare(const Delivery& without, const Delivery& with, const ViewSpec& view,
+                                                 int frame) const {
         WhatCounts counts;
         if (view.cullingMode & osg::CullSettings::SMALL_FEATURE_CULLING)
             counts.smallestPixels = 4.0 * view.smallFeaturePixels;
         constexpr int kPlanes = osg::CullSettings::NEAR_PLANE_CULLING | osg::CullSettings::FAR_PLANE_CULLING;
         counts.onlyBetweenGivenPlanes = (view.cullingMode & kPlanes) != 0;
         const auto found = findFalseCull(_description, without, with, allowed(), counts);
-        if (found) return failed(*found, frame);
-        if (auto failure = checkDrawn(without, with, view, frame)) return failure;
-        page();
-        return std::nullopt;
+        return found ? std::optional(failed(*found, frame)) : std::nullopt;
+    }
+
+    [[nodiscard]] std::optional<Failure> comparePictures(const Delivery& without, const Delivery& with, int frame) {
+        const auto found = findPictureDifference(_description, *_painter, without, with, allowed(), _totals.pictures);
+        if (!found) return std::nullopt;
+        std::ostringstream text;
+        text << found->pixels << " pixels differ, that at " << found->column << " " << found->row << " shows <"
+             << found->without << "> without bins and <" << found->with << "> with them";
+        return Failure{frame, "the pictures differ", text.str()};
     }
 
     // What is drawn with bins.
@@ -322,6 +324,7 @@ private:
     const Builder _builder;
     Scene _without, _with;
     RunTotals& _totals;
+    Painter* const _painter;
     const osg::ref_ptr<osg::FrameStamp> _stamp = new osg::FrameStamp;
     bool _wasSaved = false;
     bool _sharesCallbacks = false;  // a part of the scene is a clone
@@ -368,9 +371,10 @@ std::vector<AllowedOccluder> Runner::allowed() const {
 
 }  // namespace
 
-std::optional<Failure> run(const Description& description, RunTotals& totals) {
+std::optional<Failure> run(const Description& description, RunTotals& totals, Painter* painter) {
+    if (painter) painter->clear();
     try {
-        return Runner(description, totals).run();
+        return Runner(description, totals, painter).run();
     } catch (const std::exception& error) {
         return Failure{0, "exception", error.what()};
     }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Description.h"
+#include "PictureOracle.h"
 
 #include <optional>
 #include <string>
@@ -21,10 +22,12 @@ struct RunTotals {
     std::size_t delivered = 0;  ///< drawables, without bins
     std::size_t lost = 0;       ///< of them, not delivered with bins
     std::size_t undone = 0;     ///< comparisons after bins were taken off
+    PictureTotals pictures;
 };
 
 /// Builds the scene twice, installs bins on one, and runs the frames of both: events, update and cull traversals,
-/// paging. Returns: the first fault.
-[[nodiscard]] std::optional<Failure> run(const Description& description, RunTotals& totals);
+/// paging. With a painter, pictures of both are compared in place of what was delivered; the description is to be
+/// picturable(). Returns: the first fault.
+[[nodiscard]] std::optional<Failure> run(const Description& description, RunTotals& totals, Painter* painter = nullptr);
 
 }  // namespace osgAnalyticBin::test

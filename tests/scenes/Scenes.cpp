@@ -10,6 +10,7 @@
 #include <osg/Notify>
 #include <osgDB/ObjectWrapper>
 #include <osgDB/Registry>
+#include <osgUtil/RenderBin>
 
 #include <algorithm>
 #include <chrono>
@@ -17,6 +18,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <unistd.h>
 #include <vector>
@@ -25,6 +28,9 @@ using namespace osgAnalyticBin::test;
 
 namespace {
 
+// Without a display there are no pictures.
+constexpr int kSkipped = 77;
+
 struct Arguments {
     std::uint64_t scenes = 500;
     std::uint64_t seed = 1;
@@ -32,13 +38,14 @@ struct Arguments {
     bool isOnly = false;
     bool describes = false;
     bool shrinks = true;
+    bool hasPictures = false;
     std::vector<std::string> leftOut;
     bool isValid = true;
 };
 
 constexpr const char* kUsage =
     "osganalyticbin_scenes [--scenes N] [--seed S] [--only SEED] [--describe] [--failures N] [--leave-out TEXT]\n"
-    "                      [--no-shrink]\n"
+    "                      [--no-shrink] [--pictures]\n"
     "  --scenes N    runs N scenes (default 500), with seeds S, S + 1, ...\n"
     "  --seed S      the first seed (default 1)\n"
     "  --only SEED   runs one scene\n"
@@ -46,7 +53,8 @@ constexpr const char* kUsage =
     "  --failures N  ends after N failures (default 10)\n"
     "  --leave-out TEXT  leaves out all parts in whose description TEXT is; may be given several times\n"
     "  --no-shrink   prints scenes that fail as they are\n"
-    "Exit code: 0 when no scene fails, 1 when one does, 2 for wrong arguments.\n";
+    "  --pictures    compares pictures, in place of what is delivered; needs a display\n"
+    "Exit code: 0 when no scene fails, 1 when one does, 2 for wrong arguments, 77 without a display.\n";
 
 Arguments parse(int count, char** values) {
     Arguments result;
@@ -71,6 +79,8 @@ Arguments parse(int count, char** values) {
             result.describes = true;
         } else if (name == "--no-shrink") {
             result.shrinks = false;
+        } else if (name == "--pictures") {
+            result.hasPictures = true;
         } else {
             result.isValid = false;
         }
@@ -100,16 +110,27 @@ void leaveOut(const std::vector<std::string>& texts, Description& description) {
     parts.erase(std::remove_if(parts.begin(), parts.end(), isLeftOut), parts.end());
 }
 
-void report(const Description& description, const Failure& failure, bool shrinks) {
-    const char* const program = "osganalyticbin_scenes";
+void report(const Description& description, const Failure& failure, bool shrinks, Painter* painter) {
+    const char* const program = painter ? "osganalyticbin_scenes --pictures" : "osganalyticbin_scenes";
     std::printf("seed %llu FAILS in frame %d: %s: %s\n", static_cast<unsigned long long>(description.seed),
                 failure.frame, failure.signature.c_str(), failure.text.c_str());
     std::fflush(stdout);
-    const Shrunk shrunk = shrinks ? shrink(description, failure) : Shrunk{description, failure};
+    const Shrunk shrunk = shrinks ? shrink(description, failure, painter) : Shrunk{description, failure};
     std::printf("%s", inWords(shrunk.description).c_str());
     if (shrinks) std::printf("  shrunk, it fails in frame %d: %s\n", shrunk.failure.frame, shrunk.failure.text.c_str());
     std::printf("  again: %s --only %llu\n\n", program, static_cast<unsigned long long>(description.seed));
     std::fflush(stdout);
+}
+
+// Drawables are drawn in the order of the traversal: where surfaces coincide, the same one wins with bins and without.
+std::unique_ptr<Painter> makePainter() {
+    osgUtil::RenderBin::setDefaultRenderBinSortMode(osgUtil::RenderBin::TRAVERSAL_ORDER);
+    try {
+        return std::make_unique<Painter>();
+    } catch (const std::runtime_error& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return nullptr;
+    }
 }
 
 }  // namespace
@@ -129,6 +150,8 @@ int main(int argc, char** argv) {
         std::fputs("the serializers of osgAnalyticBin are not in " LIBRARY_FOLDER "\n", stderr);
         return 2;
     }
+    const std::unique_ptr<Painter> painter = arguments.hasPictures ? makePainter() : nullptr;
+    if (arguments.hasPictures && !painter) return kSkipped;
     const auto start = std::chrono::steady_clock::now();
     RunTotals totals;
     std::uint64_t failures = 0;
@@ -138,12 +161,13 @@ int main(int argc, char** argv) {
         std::snprintf(presentScene, sizeof presentScene, "%llu\n", static_cast<unsigned long long>(seed));
         Description description = randomDescription(seed);
         leaveOut(arguments.leftOut, description);
+        if (painter) description = picturable(std::move(description));
         if (arguments.describes)
             std::printf("seed %llu\n%s", static_cast<unsigned long long>(seed), inWords(description).c_str());
-        const auto failure = run(description, totals);
+        const auto failure = run(description, totals, painter.get());
         if (!failure) continue;
         ++failures;
-        report(description, *failure, arguments.shrinks);
+        report(description, *failure, arguments.shrinks, painter.get());
     }
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     std::printf(
@@ -151,5 +175,8 @@ int main(int argc, char** argv) {
         "bins; bins taken off and compared %zu times\n",
         static_cast<unsigned long long>(scenes), seconds.count(), static_cast<unsigned long long>(failures),
         totals.delivered, totals.lost, totals.undone);
+    if (painter)
+        std::printf("%zu pairs of pictures with something in %zu pixels, of which %zu differ as they may\n",
+                    totals.pictures.pictures, totals.pictures.covered, totals.pictures.allowed);
     return failures == 0 ? 0 : 1;
 }

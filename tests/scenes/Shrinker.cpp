@@ -14,7 +14,8 @@ namespace {
 /// Takes what still fails.
 class Shrinker {
 public:
-    Shrinker(Description description, Failure failure) : _best{std::move(description), std::move(failure)} {}
+    Shrinker(Description description, Failure failure, Painter* painter)
+        : _best{std::move(description), std::move(failure)}, _painter(painter) {}
 
     Shrunk shrink() {
         cutFrames();
@@ -37,7 +38,7 @@ private:
         Description candidate = _best.description;
         change(candidate);
         RunTotals totals;
-        const auto failure = run(candidate, totals);
+        const auto failure = run(candidate, totals, _painter);
         if (!failure || failure->signature != _best.failure.signature) return false;
         _best = {std::move(candidate), *failure};
         _hasChanged = true;
@@ -127,13 +128,14 @@ private:
     }
 
     Shrunk _best;
+    Painter* const _painter;
     bool _hasChanged = false;
 };
 
 }  // namespace
 
-Shrunk shrink(const Description& description, const Failure& failure) {
-    return Shrinker(description, failure).shrink();
+Shrunk shrink(const Description& description, const Failure& failure, Painter* painter) {
+    return Shrinker(description, failure, painter).shrink();
 }
 
 }  // namespace osgAnalyticBin::test

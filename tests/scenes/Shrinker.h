@@ -14,6 +14,7 @@ struct Shrunk {
 };
 
 /// Leaves out parts, frames and traits of the databases one after the other while the scene still fails.
-[[nodiscard]] Shrunk shrink(const Description& description, const Failure& failure);
+/// `painter`: as for run().
+[[nodiscard]] Shrunk shrink(const Description& description, const Failure& failure, Painter* painter = nullptr);
 
 }  // namespace osgAnalyticBin::test

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "AllowedOccluders.h"
+
+#include <algorithm>
+
+namespace osgAnalyticBin::test {
+
+bool mayHide(const AllowedOccluder& occluder, const Description& description, const MetDatabase& met,
+             const Sight& sight) {
+    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(met.number)];
+    const osg::Matrixd toDatabase = osg::Matrixd::inverse(met.modelView);
+    const auto scaled = [&](const osg::Vec3d& point, double altitude) {
+        const osg::Vec3d p = point * toDatabase;
+        return osg::Vec3d(p.x() / (database.equatorial + altitude), p.y() / (database.equatorial + altitude),
+                          p.z() / (database.polar + altitude));
+    };
+    const bool isBelow = scaled(sight.start, occluder.highest).length() < 1.0;
+    const bool isEyeBelow = sight.isPerspective && scaled(osg::Vec3d(), occluder.highest).length() < 1.0;
+    const bool isAllowed = isBelow && (occluder.fromBelow || !isEyeBelow);
+    if (!isAllowed && !occluder.fromEverywhere) return false;
+    // from below the terrain, whatever is lower than the eye
+    const double own = (scaled(sight.start, 0.0).length() - 1.0) * database.polar - 1.0;
+    const double altitude = isBelow ? std::min(own, 0.0) : 0.0;
+    const osg::Vec3d from = scaled(sight.start, altitude);
+    const osg::Vec3d along = scaled(sight.end, altitude) - from;
+    const double square = along.length2();
+    const double t = square > 0.0 ? std::clamp(-(from * along) / square, 0.0, 1.0) : 0.0;
+    return (from + along * t).length2() < 1.0;
+}
+
+}  // namespace osgAnalyticBin::test

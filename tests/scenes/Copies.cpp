@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Copies.h"
+
+#include <osg/CopyOp>
+#include <osgDB/Registry>
+
+#include <sstream>
+#include <stdexcept>
+
+namespace osgAnalyticBin::test {
+
+osg::ref_ptr<osg::Group> writtenAndRead(const osg::Node& scene, bool asText) {
+    const char* const extension = asText ? "osgt" : "osgb";
+    osgDB::ReaderWriter* const plugin = osgDB::Registry::instance()->getReaderWriterForExtension(extension);
+    if (!plugin) throw std::runtime_error("no plugin for osgb");
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("precision 17");
+    options->setPluginStringData("fileType", asText ? "Ascii" : "Binary");
+    std::stringstream stream;
+    if (!plugin->writeNode(scene, stream, options).success()) throw std::runtime_error("the scene cannot be saved");
+    osgDB::ReaderWriter::ReadResult result = plugin->readNode(stream, options);
+    osg::Node* const node = result.getNode();
+    if (!node || !node->asGroup()) throw std::runtime_error("the scene cannot be loaded");
+    return node->asGroup();
+}
+
+osg::ref_ptr<osg::Group> clonedScene(const osg::Group& scene, int variant) {
+    constexpr osg::CopyOp::CopyFlags kFlags[] = {osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_CALLBACKS,
+                                                 osg::CopyOp::SHALLOW_COPY, osg::CopyOp::DEEP_COPY_ALL,
+                                                 osg::CopyOp::DEEP_COPY_NODES};
+    return osg::clone(&scene, osg::CopyOp(kFlags[variant % 4]));
+}
+
+}  // namespace osgAnalyticBin::test

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Painter.h"
+
+#include <osg/ContextData>
+#include <osg/FrameStamp>
+#include <osg/GLObjects>
+#include <osg/RenderInfo>
+#include <osg/Uniform>
+#include <osgViewer/GraphicsWindow>
+
+#include <cmath>
+#include <stdexcept>
+
+USE_GRAPHICSWINDOW()
+
+namespace osgAnalyticBin::test {
+
+namespace {
+
+// Distances from kNearest up to kNearest times two to the power of kOctaves have depths from 0 to 1.
+constexpr double kNearest = 1e-3;
+constexpr double kOctaves = 45.0;
+
+constexpr const char* kVertexShader = "void main() { gl_Position = ftransform(); }\n";
+// gl_FragCoord.w is 1 / w.
+constexpr const char* kFragmentShader =
+    "uniform vec4 paint;\n"
+    "void main() {\n"
+    "  gl_FragColor = paint;\n"
+    "  bool isPerspective = gl_ProjectionMatrix[3][3] == 0.0;\n"
+    "  gl_FragDepth = isPerspective ? (-log2(gl_FragCoord.w) + 9.965784284662087) / 45.0 : gl_FragCoord.z;\n"
+    "}\n";
+
+osg::Vec4 colourOf(std::uint32_t number) {
+    const auto channel = [number](unsigned int shift) {
+        return static_cast<float>((number >> shift) & 0xFFU) / 255.0F;
+    };
+    return {channel(0), channel(8), channel(16), 1.0F};
+}
+
+osg::ref_ptr<osg::GraphicsContext> makeContext() {
+    const osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
+    traits->readDISPLAY();
+    traits->setUndefinedScreenDetailsToDefaultScreen();
+    traits->width = Painting::kWidth;
+    traits->height = Painting::kHeight;
+    traits->red = traits->green = traits->blue = 8;
+    traits->depth = 24;
+    traits->samples = 0;
+    traits->pbuffer = true;
+    traits->doubleBuffer = false;
+    return osg::GraphicsContext::createGraphicsContext(traits);
+}
+
+}  // namespace
+
+Painter::Painter() : _context(makeContext()) {
+    if (!_context || !_context->realize() || !_context->makeCurrent())
+        throw std::runtime_error("no graphics context: pictures need a display, such as xvfb-run gives");
+    _context->getState()->initializeExtensionProcs();
+    _flat->addShader(new osg::Shader(osg::Shader::VERTEX, kVertexShader));
+    _flat->addShader(new osg::Shader(osg::Shader::FRAGMENT, kFragmentShader));
+}
+
+Painter::~Painter() {
+    clear();
+    _context->close();
+}
+
+const osg::StateSet* Painter::paintFor(const std::string& key) {
+    const auto [known, isNew] = _numbers.emplace(key, static_cast<std::uint32_t>(_numbers.size() + 1));
+    if (isNew) _keys.push_back(key);
+    while (_paints.size() < known->second) {
+        const osg::ref_ptr<osg::StateSet> paint = new osg::StateSet;
+        paint->setAttributeAndModes(_flat);
+        paint->addUniform(new osg::Uniform("paint", colourOf(static_cast<std::uint32_t>(_paints.size() + 1))));
+        _paints.push_back(paint);
+    }
+    return _paints[known->second - 1];
+}
+
+const std::string* Painter::keyOf(std::uint32_t number) const {
+    return number > 0 && number <= _keys.size() ? &_keys[number - 1] : nullptr;
+}
+
+Painting Painter::paint(osgUtil::RenderStage& stage, osg::FrameStamp& stamp) {
+    osg::State& state = *_context->getState();
+    // attributes are told apart by their addresses, which those of scenes that are gone may have had, too
+    state.reset();
+    state.setFrameStamp(&stamp);
+    osg::get<osg::ContextData>(state.getContextID())->newFrame(&stamp);
+    state.applyMode(GL_SCISSOR_TEST, false);
+    glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
+    glClear(GL_COLOR_BUFFER_BIT);
+    stage.setClearColor(osg::Vec4());
+    stage.sort();
+    // as osgUtil::SceneView has it; else OSG goes back to a viewport of its own
+    const osg::ref_ptr<osg::StateSet> states = new osg::StateSet;
+    states->setAttribute(stage.getViewport());
+    states->setMode(GL_DEPTH_TEST, osg::StateAttribute::ON);
+    states->setMode(GL_DITHER, osg::StateAttribute::OFF);
+    state.pushStateSet(states);
+    osg::RenderInfo info(&state, nullptr);
+    osgUtil::RenderLeaf* previous = nullptr;
+    stage.drawPreRenderStages(info, previous);
+    stage.draw(info, previous);
+    state.popAllStateSets();
+    state.apply();
+
+    constexpr std::size_t kPixels = std::size_t{Painting::kWidth} * Painting::kHeight;
+    Painting painting{std::vector<std::uint32_t>(kPixels), std::vector<float>(kPixels)};
+    std::vector<unsigned char> colours(4 * kPixels);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, Painting::kWidth, Painting::kHeight, GL_RGBA, GL_UNSIGNED_BYTE, colours.data());
+    glReadPixels(0, 0, Painting::kWidth, Painting::kHeight, GL_DEPTH_COMPONENT, GL_FLOAT, painting.depths.data());
+    if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+        throw std::runtime_error("OpenGL says " + std::to_string(error));
+    for (std::size_t i = 0; i < kPixels; ++i) {
+        const unsigned char* const c = &colours[4 * i];
+        painting.numbers[i] = c[0] | static_cast<std::uint32_t>(c[1]) << 8U | static_cast<std::uint32_t>(c[2]) << 16U;
+    }
+    return painting;
+}
+
+void Painter::clear() {
+    _numbers.clear();
+    _keys.clear();
+    const unsigned int context = _context->getState()->getContextID();
+    osg::flushAllDeletedGLObjects(context);
+}
+
+double Painter::distance(float depth) {
+    return kNearest * std::exp2(kOctaves * static_cast<double>(depth));
+}
+
+}  // namespace osgAnalyticBin::test

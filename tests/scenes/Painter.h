@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Draws with OpenGL what a cull traversal left to draw: each drawable in a flat colour of its own.
+
+#pragma once
+
+#include <osg/GraphicsContext>
+#include <osg/Program>
+#include <osg/StateSet>
+#include <osg/ref_ptr>
+#include <osgUtil/RenderStage>
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+
+/// Width and height of the picture, and of those that cameras in the scene draw beside it, in pixels.
+constexpr int kPictureSize = 512;
+constexpr int kInnerPictureSize = 256;
+constexpr int kInnerPictureStart = kPictureSize + 16;  // lines are drawn a pixel beyond the border
+
+/// What is in the pixels, row by row from below. The picture of a camera in the scene is to the right.
+struct Painting {
+    static constexpr int kWidth = kInnerPictureStart + kInnerPictureSize;
+    static constexpr int kHeight = kPictureSize;
+
+    std::vector<std::uint32_t> numbers;  ///< of drawables; see Painter::keyOf()
+    std::vector<float> depths;           ///< see Painter::distance()
+};
+
+/// Has a graphics context, and colours for drawables that are known by a key. Both scenes use the same colours.
+class Painter {
+public:
+    /// Needs a display. Throws: std::runtime_error where no graphics context can be made.
+    Painter();
+    ~Painter();
+    Painter(const Painter&) = delete;
+    Painter& operator=(const Painter&) = delete;
+
+    /// What a cull visitor pushes around a drawable.
+    [[nodiscard]] const osg::StateSet* paintFor(const std::string& key);
+
+    /// Returns: nullptr for the background.
+    [[nodiscard]] const std::string* keyOf(std::uint32_t number) const;
+
+    [[nodiscard]] Painting paint(osgUtil::RenderStage& stage, osg::FrameStamp& stamp);
+
+    /// Forgets keys, and deletes what OpenGL held for scenes that are gone.
+    void clear();
+
+    /// The clip coordinate w of a depth in a perspective picture. Depths are logarithms there: those of OpenGL would
+    /// not tell the sides of a globe apart when the near plane is some metres away.
+    [[nodiscard]] static double distance(float depth);
+
+private:
+    osg::ref_ptr<osg::GraphicsContext> _context;
+    const osg::ref_ptr<osg::Program> _flat = new osg::Program;
+    std::vector<osg::ref_ptr<osg::StateSet>> _paints;  // from number 1 on; 0 is the background
+    std::map<std::string, std::uint32_t> _numbers;
+    std::vector<std::string> _keys;
+};
+
+}  // namespace osgAnalyticBin::test
