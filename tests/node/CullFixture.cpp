@@ -83,7 +83,12 @@ CullResult cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& vi
     const osg::ref_ptr<osg::RefMatrix> projection = new osg::RefMatrix(view.projection);
     visitor.pushProjectionMatrix(projection.get());
     visitor.pushModelViewMatrix(new osg::RefMatrix(view.modelView), osg::Transform::ABSOLUTE_RF);
+    if (view.states) {
+        view.states->setAttribute(viewport);
+        visitor.pushStateSet(view.states);
+    }
     scene.accept(visitor);
+    if (view.states) visitor.popStateSet();
     visitor.popModelViewMatrix();
     visitor.popProjectionMatrix();
     visitor.popViewport();

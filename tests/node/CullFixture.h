@@ -25,7 +25,8 @@ namespace osgAnalyticBin::test {
 struct CullView {
     osg::Matrixd modelView;
     osg::Matrixd projection;
-    osg::ref_ptr<osg::Camera> camera;  // what the render stage says it draws for; may be null
+    osg::ref_ptr<osg::Camera> camera;    // what the render stage says it draws for; may be null
+    osg::ref_ptr<osg::StateSet> states;  // above the scene; may be null; the viewport is added to them
     osg::CullSettings::CullingMode cullingMode = osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING;
     osg::CullSettings::ComputeNearFarMode computeNearFar = osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
 

@@ -60,6 +60,8 @@ Painter::Painter() : _context(makeContext()) {
     if (!_context || !_context->realize() || !_context->makeCurrent())
         throw std::runtime_error("no graphics context: pictures need a display, such as xvfb-run gives");
     _context->getState()->initializeExtensionProcs();
+    _states->setMode(GL_DEPTH_TEST, osg::StateAttribute::ON);
+    _states->setMode(GL_DITHER, osg::StateAttribute::OFF);
     _flat->addShader(new osg::Shader(osg::Shader::VERTEX, kVertexShader));
     _flat->addShader(new osg::Shader(osg::Shader::FRAGMENT, kFragmentShader));
 }
@@ -96,12 +98,6 @@ Painting Painter::paint(osgUtil::RenderStage& stage, osg::FrameStamp& stamp) {
     glClear(GL_COLOR_BUFFER_BIT);
     stage.setClearColor(osg::Vec4());
     stage.sort();
-    // as osgUtil::SceneView has it; else OSG goes back to a viewport of its own
-    const osg::ref_ptr<osg::StateSet> states = new osg::StateSet;
-    states->setAttribute(stage.getViewport());
-    states->setMode(GL_DEPTH_TEST, osg::StateAttribute::ON);
-    states->setMode(GL_DITHER, osg::StateAttribute::OFF);
-    state.pushStateSet(states);
     osg::RenderInfo info(&state, nullptr);
     osgUtil::RenderLeaf* previous = nullptr;
     stage.drawPreRenderStages(info, previous);

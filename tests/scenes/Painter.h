@@ -41,6 +41,9 @@ public:
     Painter(const Painter&) = delete;
     Painter& operator=(const Painter&) = delete;
 
+    /// For CullView::states.
+    [[nodiscard]] osg::StateSet* states() { return _states; }
+
     /// What a cull visitor pushes around a drawable.
     [[nodiscard]] const osg::StateSet* paintFor(const std::string& key);
 
@@ -58,6 +61,7 @@ public:
 
 private:
     osg::ref_ptr<osg::GraphicsContext> _context;
+    const osg::ref_ptr<osg::StateSet> _states = new osg::StateSet;
     const osg::ref_ptr<osg::Program> _flat = new osg::Program;
     std::vector<osg::ref_ptr<osg::StateSet>> _paints;  // from number 1 on; 0 is the background
     std::map<std::string, std::uint32_t> _numbers;

@@ -105,6 +105,7 @@ public:
         view.computeNearFar = spec.computeNearFar;
         _recorder->setSmallFeatureCullingPixelSize(static_cast<float>(spec.smallFeaturePixels));
         root->getBound();
+        if (painter) view.states = painter->states();
         _recorder->setPainter(painter);
         const CullResult culled = cull(*root, view, *_recorder, stamp.getFrameNumber(), stamp.getReferenceTime());
         Delivery delivery = _recorder->takeDelivery();
