@@ -5,7 +5,10 @@
 // own. Oracle: samples of the tiles, projected by the matrices that the cull traversal holds for each camera, which are
 // also compared with what the frame of reference asks for. Shadow techniques themselves: ShadowPassTest.cpp.
 
+#include "ApplicationGlobe.h"
 #include "CameraGlobe.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
 
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
@@ -174,6 +177,31 @@ TEST(NestedCameras, NoHorizonInShadowPassesHoweverTheyAreMade) {
     EXPECT_LT(reached(globe, absolute, false, true, true), 100u);
     EXPECT_LT(reached(forShadows, inheriting, true, false, false), 100u);
     EXPECT_LT(reached(forShadows, absolute, true, false, true), 100u);
+}
+
+// Below the database's root the eye may change and the model-view matrix stay: from 500 km above the ground an eye sees
+// 22 degrees far, an orthographic view from there half of the globe.
+TEST(NestedCameras, BetweenADatabaseAndItsTilesDoNotSeeWithTheDatabasesEye) {
+    const CullView view = test::MeshGlobe::fromAbove();
+    constexpr double kHalf = 7e6;
+    const osg::Matrixd orthographic = osg::Matrixd::ortho(-kHalf, kHalf, -kHalf, kHalf, -1e5, 2e7);
+    for (const auto frame : {Transform::ABSOLUTE_RF, Transform::RELATIVE_RF}) {
+        test::MeshGlobe globe;
+        installBins(*globe.root);
+        // 45 degrees and more from the eye
+        const osg::ref_ptr<osg::PagedLOD> tile = globe.tiles[21];
+        EXPECT_FALSE(globe.draws(*tile, view));
+        const bool isAbsolute = frame == Transform::ABSOLUTE_RF;
+        const osg::ref_ptr<Camera> camera = new Camera;
+        camera->setReferenceFrame(frame);
+        camera->setRenderOrder(Camera::NESTED_RENDER);
+        camera->setComputeNearFarMode(CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+        camera->setViewMatrix(isAbsolute ? view.modelView : osg::Matrixd());
+        camera->setProjectionMatrix(isAbsolute ? orthographic : orthographic * osg::Matrixd::inverse(view.projection));
+        camera->addChild(tile);
+        globe.root->replaceChild(tile, camera);
+        EXPECT_TRUE(globe.draws(*tile, view)) << isAbsolute;
+    }
 }
 
 TEST(CameraSettings, ACameraWithoutCullingReachesEverythingAndTheOthersDoNot) {
