@@ -64,27 +64,27 @@ public:
 
     /// Whether the documentation, or OSG, explains the difference.
     [[nodiscard]] bool isAllowed(std::size_t pixel) const {
+        if (isTie(pixel, 0)) return true;
         const std::string now = keyAt(_with.painting, pixel);
         if (!now.empty() && _without.drawables.count(now) == 0) return hasScaledTerrain(_description);
         const std::string key = keyAt(_without.painting, pixel);
         const auto found = _without.drawables.find(key);
         if (found == _without.drawables.end() || _with.drawables.count(key) > 0) return false;
         const Delivered& lost = found->second;
-        if (isTie(pixel, lost.isFilled)) return true;
+        if (!lost.isFilled && isTie(pixel, 1)) return true;
         // lines and points beside the picture are wide enough to be seen in it
         if (!lost.isFilled && Place(pixel).isAtBorder()) return true;
         const auto sight = sightTo(pixel, lost, _without.painting);
-        if (sight && isSkirtInHole(lost, *sight)) return true;
+        if (isSkirtInHole(pixel, lost)) return true;
         return sight && (mayHide(_without, lost.camera, *sight) || mayHide(_with, lost.camera, *sight));
     }
 
 private:
     // Where surfaces coincide, such as the skirts of neighbours, one that is left shows what both did. Lines that
     // coincide may be drawn a pixel apart.
-    [[nodiscard]] bool isTie(std::size_t pixel, bool isFilled) const {
+    [[nodiscard]] bool isTie(std::size_t pixel, int around) const {
         constexpr float kDepthSteps = 4.0F / 16777216.0F;
         const Place place(pixel);
-        const int around = isFilled ? 0 : 1;
         for (int row = std::max(place.row - around, 0); row <= std::min(place.row + around, place.size - 1); ++row) {
             for (int across = -around; across <= around; ++across) {
                 const std::size_t other =
@@ -100,15 +100,24 @@ private:
 
     // README: "Bins hold of skirts what an eye above the terrain can see through cracks." Through holes and between
     // lines it sees all of them.
-    [[nodiscard]] bool isSkirtInHole(const Delivered& lost, const Sight& sight) const {
+    [[nodiscard]] bool isSkirtInHole(std::size_t pixel, const Delivered& lost) const {
         const bool holdsAll = std::none_of(_allowed.begin(), _allowed.end(),
                                            [](const AllowedOccluder& occluder) { return occluder.fromBelow; });
         if (holdsAll || !hasHoles(_description)) return false;
         Triangles triangles(*lost.drawable, lost.modelView);
         triangles.surface.clear();
-        constexpr double kNear = 1e-4;
-        const osg::Vec3d along = (sight.end - sight.start) * kNear;
-        return triangles.block(sight.end - along, sight.end + along);
+        // a line is half a pixel wide to either side, which is deep where it is seen along a wall
+        const int around = lost.isFilled ? 0 : 1;
+        const double near = lost.isFilled ? 1e-4 : 1e-2;
+        for (int row = -around; row <= around; ++row) {
+            for (int column = -around; column <= around; ++column) {
+                const auto sight = sightTo(pixel, lost, _without.painting, column, row);
+                if (!sight) return false;
+                const osg::Vec3d along = (sight->end - sight->start) * near;
+                if (triangles.block(sight->end - along, sight->end + along)) return true;
+            }
+        }
+        return false;
     }
 
     // What is in the pixel, and where in eye space.
@@ -123,13 +132,14 @@ private:
         return text.str();
     }
 
+    // `across`, `up`: pixels from the pixel whose depth it is.
     [[nodiscard]] static std::optional<Sight> sightTo(std::size_t pixel, const Delivered& delivered,
-                                                      const Painting& painting) {
+                                                      const Painting& painting, int across = 0, int up = 0) {
         osg::Matrixd unproject;
         if (!unproject.invert(*delivered.projection)) return std::nullopt;
         const Place place(pixel);
-        const double x = 2.0 * (place.column + 0.5) / place.size - 1.0;
-        const double y = 2.0 * (place.row + 0.5) / place.size - 1.0;
+        const double x = 2.0 * (place.column + across + 0.5) / place.size - 1.0;
+        const double y = 2.0 * (place.row + up + 0.5) / place.size - 1.0;
         const osg::Vec3d start = osg::Vec3d(x, y, -1.0) * unproject;
         const osg::Vec3d along = osg::Vec3d(x, y, 1.0) * unproject - start;
         const osg::Matrixd& projection = *delivered.projection;
