@@ -89,8 +89,12 @@ const std::string* Painter::keyOf(std::uint32_t number) const {
 
 Painting Painter::paint(osgUtil::RenderStage& stage, osg::FrameStamp& stamp) {
     osg::State& state = *_context->getState();
-    // attributes are told apart by their addresses, which those of scenes that are gone may have had, too
+    // OSG tells attributes, arrays and buffers apart by their addresses, which those of scenes that are gone had, too
     state.reset();
+    state.lazyDisablingOfVertexAttributes();
+    state.applyDisablingOfVertexAttributes();
+    state.unbindVertexBufferObject();
+    state.unbindElementBufferObject();
     state.setFrameStamp(&stamp);
     osg::get<osg::ContextData>(state.getContextID())->newFrame(&stamp);
     state.applyMode(GL_SCISSOR_TEST, false);
