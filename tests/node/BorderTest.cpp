@@ -127,5 +127,17 @@ TEST(Border, VirtualPlanetBuildersGlobesHaveNone) {
     }
 }
 
+// A stored bin says nothing of skirts.
+TEST(Border, StoredBinsHoldSkirtsWholeWhereAsked) {
+    const Pair pair(extentsDeg(10, 50, 0, 40), extentsDeg(10, 20, 10, 20));
+    const AnalyticBin stored(core::GeodeticBin::fromDegrees({10, 20}, {10, 20}, {-3000, 100}));
+    setStoredBin(*pair.tile, stored);
+    CullOptions options = lowHeights();
+    options.skirts = SkirtUse::All;
+    installBins(*pair.terrain, options);
+    ASSERT_NE(installedOn(*pair.tile), nullptr);
+    EXPECT_GE(installedOn(*pair.tile)->skirt(), kSkirt);
+}
+
 }  // namespace
 }  // namespace osgAnalyticBin::test

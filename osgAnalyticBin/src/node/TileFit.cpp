@@ -203,6 +203,7 @@ AnalyticBin checkStored(const FoundTile& tile, Database& database, const Terrain
         Database::reportUntold(link);
         return {};
     }
+    if (database.options().skirts == SkirtUse::All) fit.skirt = own.skirt;
     // other sample ratios make other meshes than those that the bin was made of
     const AnalyticBin surface = own.isScalable && shape.sampleRatio != 1.0 ? AnalyticBin() : own.bin;
     const core::Ellipsoid ellipsoid = toCore(model);
