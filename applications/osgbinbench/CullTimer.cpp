@@ -3,6 +3,7 @@
 
 #include "CullTimer.h"
 
+#include "CacheFlusher.h"
 #include "CullStage.h"
 
 #include <algorithm>
@@ -14,6 +15,13 @@ namespace {
 constexpr int kUntimedPerTurn = 2;
 constexpr int kTimedPerTurn = 3;
 
+CullTime timeOf(std::vector<double> times) {
+    if (times.empty()) return {};
+    std::sort(times.begin(), times.end());
+    const auto at = [&](std::size_t part) { return times[(times.size() - 1) * part / 4]; };
+    return {at(2), at(3) - at(1)};
+}
+
 /// The traversals of one scene, as those of a viewer that stands still.
 class Turns {
 public:
@@ -23,19 +31,17 @@ public:
           // A file asked for here would be read behind the benchmark's back.
           _requests(new flight::RequestCounter) {}
 
-    void take() {
+    void take(CacheFlusher& caches) {
         // Where a visitor's memory happens to lie costs some percent: each turn has another one.
         CullStage stage(*_requests);
         for (int i = 0; i < kUntimedPerTurn; ++i) (void)nextMs(stage);
-        for (int i = 0; i < kTimedPerTurn; ++i) _times.push_back(nextMs(stage));
+        for (int i = 0; i < kTimedPerTurn; ++i) _warm.push_back(nextMs(stage));
+        if (caches.buffer().empty()) return;
+        caches.flush();
+        _cold.push_back(nextMs(stage));
     }
 
-    [[nodiscard]] CullTime result() const {
-        std::vector<double> sorted = _times;
-        std::sort(sorted.begin(), sorted.end());
-        const auto at = [&](std::size_t part) { return sorted[(sorted.size() - 1) * part / 4]; };
-        return {at(2), at(3) - at(1)};
-    }
+    [[nodiscard]] CullTimes result() const { return {timeOf(_warm), timeOf(_cold)}; }
 
 private:
     // Frames are numbered on: what is done every so many frames has its share in every run.
@@ -47,19 +53,22 @@ private:
     MethodScene& _scene;
     osg::ref_ptr<osg::FrameStamp> _frameStamp;
     osg::ref_ptr<flight::RequestCounter> _requests;
-    std::vector<double> _times;
+    std::vector<double> _warm;
+    std::vector<double> _cold;
 };
 
 }  // namespace
 
-std::vector<CullTime> cullTimes(const std::vector<std::unique_ptr<MethodScene>>& scenes, int rounds) {
+std::vector<CullTimes> cullTimes(const std::vector<std::unique_ptr<MethodScene>>& scenes, int rounds,
+                                 int flushMebibytes) {
+    CacheFlusher caches(flushMebibytes);
     std::vector<Turns> stages;
     for (const auto& scene : scenes) stages.emplace_back(*scene);
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t i = 0; i < stages.size(); ++i)
-            stages[(i + static_cast<std::size_t>(round)) % stages.size()].take();
+            stages[(i + static_cast<std::size_t>(round)) % stages.size()].take(caches);
     }
-    std::vector<CullTime> times;
+    std::vector<CullTimes> times;
     for (const Turns& stage : stages) times.push_back(stage.result());
     return times;
 }

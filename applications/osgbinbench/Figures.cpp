@@ -7,8 +7,7 @@ namespace osgAnalyticBin::bench {
 
 Figures& Figures::operator+=(const Figures& other) {
     for (const CountColumn& column : kCountColumns) this->*column.count += other.*column.count;
-    cullMs += other.cullMs;
-    cullSpreadMs += other.cullSpreadMs;
+    for (const TimeColumn& column : kTimeColumns) this->*column.ms += other.*column.ms;
     return *this;
 }
 

@@ -33,6 +33,8 @@ struct Figures {
     std::uint64_t differingPixels = 0;
     double cullMs = 0.0;
     double cullSpreadMs = 0.0;
+    double cullColdMs = 0.0;
+    double cullColdSpreadMs = 0.0;
 
     Figures& operator+=(const Figures& other);
 };
@@ -68,7 +70,23 @@ inline constexpr std::array<CountColumn, 19> kCountColumns{{
 }};
 
 inline constexpr const char* kCullColumn = "cull_ms";
-inline constexpr const char* kCullSpreadColumn = "cull_spread_ms";
+inline constexpr const char* kCullColdColumn = "cull_cold_ms";
+
+/// A column of milliseconds. A time is followed by its spread, which tables for people leave out.
+struct TimeColumn {
+    const char* name;
+    double Figures::*ms;
+    bool isSpread;
+    const char* meaning;
+};
+
+inline constexpr std::array<TimeColumn, 4> kTimeColumns{{
+    {kCullColumn, &Figures::cullMs, false, "milliseconds of a cull traversal and its sorting, median"},
+    {"cull_spread_ms", &Figures::cullSpreadMs, true, "from the first quartile of these times to the third"},
+    {kCullColdColumn, &Figures::cullColdMs, false,
+     "as cull_ms, after other memory was touched (--flush): a viewer that draws between two culls"},
+    {"cull_cold_spread_ms", &Figures::cullColdSpreadMs, true, "from the first quartile of these times to the third"},
+}};
 
 /// One method's figures, pose by pose.
 struct MethodFigures {

@@ -39,6 +39,7 @@ Json headOf(const Settings& settings, const char* mode) {
     json["width"] = settings.width;
     json["height"] = settings.height;
     json["threading"] = threadingName(settings.threading);
+    json["flush_mib"] = settings.flush;
     json["osg"] = osgGetVersion();
     return json;
 }
@@ -87,7 +88,8 @@ const Method* find(const std::vector<Method>& methods, const std::string& name) 
 std::vector<std::string> headLine(const std::string& first) {
     std::vector<std::string> cells{first};
     for (const CountColumn& column : kCountColumns) cells.emplace_back(column.name);
-    cells.emplace_back(kCullColumn);
+    for (const TimeColumn& column : kTimeColumns)
+        if (!column.isSpread) cells.emplace_back(column.name);
     return cells;
 }
 
@@ -96,15 +98,15 @@ std::vector<std::string> ratioLine(const MethodFigures& method, const Figures& r
     std::vector<std::string> cells{method.method};
     for (const CountColumn& column : kCountColumns)
         cells.push_back(ratio(static_cast<double>(sum.*column.count), static_cast<double>(reference.*column.count)));
-    cells.push_back(ratio(sum.cullMs, reference.cullMs));
+    for (const TimeColumn& column : kTimeColumns)
+        if (!column.isSpread) cells.push_back(ratio(sum.*column.ms, reference.*column.ms));
     return cells;
 }
 
 Json sumsOf(const Figures& sum) {
     Json sums;
     for (const CountColumn& column : kCountColumns) sums[column.name] = sum.*column.count;
-    sums[kCullColumn] = sum.cullMs;
-    sums[kCullSpreadColumn] = sum.cullSpreadMs;
+    for (const TimeColumn& column : kTimeColumns) sums[column.name] = sum.*column.ms;
     return sums;
 }
 
@@ -112,8 +114,7 @@ Json byPose(const MethodFigures& method) {
     Json columns;
     for (const Figures& pose : method.poses) {
         for (const CountColumn& column : kCountColumns) columns[column.name].push_back(pose.*column.count);
-        columns[kCullColumn].push_back(pose.cullMs);
-        columns[kCullSpreadColumn].push_back(pose.cullSpreadMs);
+        for (const TimeColumn& column : kTimeColumns) columns[column.name].push_back(pose.*column.ms);
     }
     return columns;
 }
@@ -124,7 +125,7 @@ void printByPath(std::ostream& output, const std::vector<std::string>& poses,
     if (groups.size() < 2) return;
     TextTable table(2);
     table.add({"sums by path", "method", "truth_tiles", "drawn_tiles", "drawn/truth", "triangles", "files_requested",
-               "false_culls", "differing_pixels", kCullColumn});
+               "false_culls", "differing_pixels", kCullColumn, kCullColdColumn});
     for (const PathGroup& group : groups) {
         table.addGap();
         for (const MethodFigures& method : methods) {
@@ -132,8 +133,8 @@ void printByPath(std::ostream& output, const std::vector<std::string>& poses,
             table.add({group.name, method.method, std::to_string(sum.truthTiles), std::to_string(sum.drawnTiles),
                        ratio(static_cast<double>(sum.drawnTiles), static_cast<double>(sum.truthTiles)),
                        std::to_string(sum.triangles), std::to_string(sum.filesRequested),
-                       std::to_string(sum.falseCulls), std::to_string(sum.differingPixels),
-                       withDecimals(sum.cullMs, 3)});
+                       std::to_string(sum.falseCulls), std::to_string(sum.differingPixels), withDecimals(sum.cullMs, 3),
+                       withDecimals(sum.cullColdMs, 3)});
         }
     }
     output << '\n';
@@ -156,13 +157,15 @@ TextTable turned(const std::vector<std::vector<std::string>>& lines) {
 std::string csvOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods) {
     std::string text = "pose,method";
     for (const CountColumn& column : kCountColumns) text += std::string(",") + column.name;
-    text += std::string(",") + kCullColumn + "," + kCullSpreadColumn + "\n";
+    for (const TimeColumn& column : kTimeColumns) text += std::string(",") + column.name;
+    text += "\n";
     for (std::size_t i = 0; i < poses.size(); ++i) {
         for (const MethodFigures& method : methods) {
             const Figures& figures = method.poses[i];
             text += poses[i] + "," + method.method;
             for (const CountColumn& column : kCountColumns) text += "," + std::to_string(figures.*column.count);
-            text += "," + flight::textFrom(figures.cullMs) + "," + flight::textFrom(figures.cullSpreadMs) + "\n";
+            for (const TimeColumn& column : kTimeColumns) text += "," + flight::textFrom(figures.*column.ms);
+            text += "\n";
         }
     }
     return text;
@@ -209,7 +212,8 @@ void printTable(std::ostream& output, const std::vector<std::string>& poses,
         const Figures sum = method.sum();
         lines.push_back({method.method});
         for (const CountColumn& column : kCountColumns) lines.back().push_back(std::to_string(sum.*column.count));
-        lines.back().push_back(withDecimals(sum.cullMs, 3));
+        for (const TimeColumn& column : kTimeColumns)
+            if (!column.isSpread) lines.back().push_back(withDecimals(sum.*column.ms, 3));
     }
     turned(lines).print(output);
     for (const char* const name : kComparedWith) {

@@ -125,7 +125,7 @@ std::vector<Figures> PoseBench::measure(const flight::CameraPose& pose) {
     learnBins(pose);
     const NeededTiles needed = _truth.neededTiles(reference.census.tiles, view.camera(), view.globe());
     const auto visible = _painter.visiblePixels(reference.census.tiles, view.camera());
-    const std::vector<CullTime> times = cullTimes(_scenes, _settings.repeats);
+    const std::vector<CullTimes> times = cullTimes(_scenes, _settings.repeats, _settings.flush);
 
     std::vector<Figures> figures;
     for (std::size_t i = 0; i < visits.size(); ++i) {
@@ -137,8 +137,10 @@ std::vector<Figures> PoseBench::measure(const flight::CameraPose& pose) {
         f.residentTiles = visits[i].residentTiles;
         f.filesRequested = visits[i].files;
         f.bytes = visits[i].bytes;
-        f.cullMs = times[i].median;
-        f.cullSpreadMs = times[i].spread;
+        f.cullMs = times[i].warm.median;
+        f.cullSpreadMs = times[i].warm.spread;
+        f.cullColdMs = times[i].cold.median;
+        f.cullColdSpreadMs = times[i].cold.spread;
         f.differingPixels = differingPixels(*reference.picture, *visits[i].picture);
         countFalseVerdicts(f, visits[i].census, needed, visible);
     }

@@ -93,11 +93,8 @@ std::string footer() {
         "--frames nothing but that. Methods take turns of 10 frames each; these are culled, and not drawn.\n\n"
         "Columns of --csv, one line for each pose and method, and keys of --json, sums over the poses:\n";
     for (const CountColumn& column : kCountColumns) text += line(column.name, column.meaning);
-    return text +
-           "  cull_ms              milliseconds of a cull traversal and its sorting, median\n"
-           "  cull_spread_ms       from the first quartile of these times to the third\n\n"
-           "Keys of the object \"live\" of --json, and columns of --csv with --frames:\n" +
-           flightColumns() +
+    for (const TimeColumn& column : kTimeColumns) text += line(column.name, column.meaning);
+    return text + "\nKeys of the object \"live\" of --json, and columns of --csv with --frames:\n" + flightColumns() +
            "  cull_ms              milliseconds of all cull traversals and their sorting, summed\n"
            "  cull_median_ms       of one, median\n\n"
            "\"paths\" in --json holds the sums of the poses whose names share the text before the first _, \"by_pose\" "
@@ -147,8 +144,14 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
     app.add_option("--threading", words.threading,
                    "SingleThreaded (default), CullDrawThreadPerContext,\nDrawThreadPerContext or "
                    "CullThreadPerCameraDrawThreadPerContext");
-    app.add_option("--repeats", settings.repeats, "rounds of three timed cull traversals each, 1 to 10000 (default 40)")
+    app.add_option("--repeats", settings.repeats,
+                   "rounds of timed cull traversals, three as they come and one\nwith cold caches each, 1 to 10000 "
+                   "(default 40)")
         ->check(CLI::Range(1, 10000));
+    app.add_option("--flush", settings.flush,
+                   "MiB that are touched before each cull with cold caches, to\n65536 (default twice the last-level "
+                   "cache, 64 at least;\n0: no such culls)")
+        ->check(CLI::Range(0, 65536));
     app.add_option("--live", settings.live,
                    "frames from pose to pose of the flight after the poses,\nto 100000 (default 10, 0: no flight)")
         ->check(CLI::Range(0, 100000));

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "CacheFlusher.h"
+
 #include <osgViewer/Viewer>
 
 #include <string>
@@ -25,11 +27,12 @@ struct Settings {
     int width = 1280;
     int height = 720;
     osgViewer::ViewerBase::ThreadingModel threading = osgViewer::ViewerBase::SingleThreaded;
-    int repeats = 40;         ///< rounds in which every method's culling is timed
-    int live = 10;            ///< frames from pose to pose of the flight after the poses; 0: none
-    int frames = 0;           ///< of the continuous flight alone; 0: stop at every pose first
-    double frameRate = 60.0;  ///< frames a second of the continuous flight, at most
-    double timeout = 120.0;   ///< seconds that one pose may take to load and draw
+    int repeats = 40;                              ///< rounds in which every method's culling is timed
+    int flush = CacheFlusher::defaultMebibytes();  ///< touched before each cull with cold caches; 0: none of these
+    int live = 10;                                 ///< frames from pose to pose of the flight after the poses; 0: none
+    int frames = 0;                                ///< of the continuous flight alone; 0: stop at every pose first
+    double frameRate = 60.0;                       ///< frames a second of the continuous flight, at most
+    double timeout = 120.0;                        ///< seconds that one pose may take to load and draw
 };
 
 /// The name of osgViewer's enumerator. Requires: one of the four models that draw.

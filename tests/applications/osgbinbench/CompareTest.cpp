@@ -155,6 +155,19 @@ TEST(Compare, JudgesTimesAsTheyAreWithoutSpheres) {
     EXPECT_FALSE(compared(before, after).isWorse);
 }
 
+TEST(Compare, JudgesTimesWithColdCachesLikeOthers) {
+    Json before = measurement();
+    for (const char* const method : {"sphere", "exact"}) {
+        before["methods"][method]["cull_cold_ms"] = 4.0;
+        before["methods"][method]["cull_cold_spread_ms"] = 0.4;
+    }
+    Json after = before;
+    after["methods"]["exact"]["cull_cold_ms"] = 6.0;
+    const Comparison comparison = compared(before, after);
+    EXPECT_TRUE(comparison.isWorse);
+    EXPECT_NE(comparison.line("exact", "cull_cold_ms/sphere").find("WORSE"), std::string::npos) << comparison.text;
+}
+
 TEST(Compare, TakesAtLeastFivePercentForNoise) {
     Json before = measurement();
     for (const char* const method : {"sphere", "exact"}) before["by_pose"][method]["cull_spread_ms"] = {0, 0};

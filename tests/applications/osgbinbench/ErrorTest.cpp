@@ -42,6 +42,7 @@ TEST(Errors, OfTheCommandLineNameTheOption) {
     expectOneLine(test::runBenchBlind(good + " --vertical-scale 0"), "--vertical-scale");
     for (const std::string option : {"--vertical-scale", "--frame-rate", "--timeout"})
         expectOneLine(test::runBenchBlind(good + ' ' + option + " nan"), option);
+    expectOneLine(test::runBenchBlind(good + " --flush -1"), "--flush");
     expectOneLine(test::runBenchBlind(good + " --frames 10 --pictures pictures"), "--pictures: ");
     expectOneLine(test::runBenchBlind(good + " --csv " + folder.path() + "/absent/p.csv"), "--csv: there is no folder");
 }
@@ -73,8 +74,8 @@ TEST(Errors, OfTheDatabaseLeaveNoTable) {
 TEST(Errors, HelpExplainsEveryColumnAndGivesAnExample) {
     const Outcome outcome = test::runBenchBlind("--help");
     EXPECT_EQ(outcome.code, 0);
-    for (const char* const word :
-         {"false_culls", "cull_ms", "degrees and metres", "Example:", "--vertical-scale", "exact+horizon+reverse"})
+    for (const char* const word : {"false_culls", "cull_ms", "cull_cold_ms", "degrees and metres",
+                                   "Example:", "--vertical-scale", "exact+horizon+reverse"})
         EXPECT_GE(outcome.linesWith(word), 1) << word;
 }
 

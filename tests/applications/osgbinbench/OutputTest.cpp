@@ -26,6 +26,9 @@ std::vector<MethodFigures> twoMethods() {
     methods[1].poses[0].drawnTiles = 5;
     methods[1].poses[0].cullMs = 0.25;
     methods[1].poses[1].cullMs = 0.5;
+    methods[0].poses[0].cullColdMs = 5.0;
+    methods[1].poses[0].cullColdMs = 1.0;
+    methods[1].poses[1].cullColdMs = 1.5;
     return methods;
 }
 
@@ -35,6 +38,8 @@ TEST(Output, JsonHoldsTheSumsByMethod) {
     EXPECT_EQ(json["methods"]["none"]["drawn_tiles"], 10);
     EXPECT_EQ(json["methods"]["sphere"]["drawn_tiles"], 5);
     EXPECT_DOUBLE_EQ(json["methods"]["sphere"]["cull_ms"].get<double>(), 0.75);
+    EXPECT_DOUBLE_EQ(json["methods"]["sphere"]["cull_cold_ms"].get<double>(), 2.5);
+    EXPECT_EQ(json["flush_mib"], Settings().flush);
     for (const char* const key :
          {"truth_tiles", "tested_tiles", "kept_tiles", "drawn_tiles", "triangles", "files_requested", "bytes",
           "paged_lods", "cull_ms", "false_culls", "false_keeps", "differing_pixels"})
@@ -90,6 +95,9 @@ TEST(Output, CsvHasALineForEachPoseAndMethod) {
     std::vector<std::string> begins;
     for (std::string line; std::getline(lines, line);) begins.push_back(line.substr(0, 9));
     EXPECT_EQ(begins, (std::vector<std::string>{"pose,meth", "a,none,0,", "a,sphere,", "b,none,0,", "b,sphere,"}));
+    const std::string text = csvOf({"a", "b"}, twoMethods());
+    EXPECT_NE(text.find(",cull_ms,cull_spread_ms,cull_cold_ms,cull_cold_spread_ms\n"), std::string::npos) << text;
+    EXPECT_NE(text.find(",0.25,0,1,0\n"), std::string::npos) << text;
 }
 
 TEST(Output, TheTableHasRatiosToTheMethodsThatWereFlown) {
@@ -98,6 +106,7 @@ TEST(Output, TheTableHasRatiosToTheMethodsThatWereFlown) {
     EXPECT_NE(output.str().find("ratio to sphere"), std::string::npos);
     EXPECT_EQ(output.str().find("ratio to cluster"), std::string::npos);
     EXPECT_NE(output.str().find("drawn_tiles          2.000   1.000"), std::string::npos) << output.str();
+    EXPECT_NE(output.str().find("cull_cold_ms         2.000   1.000"), std::string::npos) << output.str();
 }
 
 TEST(Output, AFileThatCannotBeWrittenStaysAsItWas) {

@@ -50,18 +50,18 @@ struct Bench {
 // Times differ from run to run; nothing else may.
 Json withoutTimes(Json methods) {
     for (auto& method : methods) {
-        method.erase("cull_ms");
-        method.erase("cull_spread_ms");
+        for (const char* const time : {"cull_ms", "cull_spread_ms", "cull_cold_ms", "cull_cold_spread_ms"})
+            EXPECT_EQ(method.erase(time), 1U) << time;
     }
     return methods;
 }
 
-// The lines of a CSV without its last two columns, the times.
+// The lines of a CSV without its last four columns, the times.
 std::vector<std::string> countsOf(const std::string& file) {
     std::istringstream in(test::textOfFile(file));
     std::vector<std::string> lines;
     for (std::string line; std::getline(in, line);) {
-        for (int i = 0; i < 2; ++i) line.resize(line.rfind(','));
+        for (int i = 0; i < 4; ++i) line.resize(line.rfind(','));
         lines.push_back(line);
     }
     EXPECT_GT(lines.size(), 1U);
@@ -107,6 +107,7 @@ TEST(Program, JudgesEveryMethodByTheReference) {
         EXPECT_GT(methods[sound]["files_requested"], 0) << sound;
         EXPECT_GT(methods[sound]["bytes"], 0) << sound;
         EXPECT_GT(methods[sound]["cull_ms"], 0.0) << sound;
+        EXPECT_GT(methods[sound]["cull_cold_ms"], 0.0) << sound;
     }
     const auto drawn = [&](const char* name) { return methods[name]["drawn_tiles"].get<int>(); };
     EXPECT_LT(drawn("sphere"), drawn("none"));
@@ -130,9 +131,11 @@ TEST(Program, SavesAPictureForEachPoseAndMethod) {
     if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
-    ASSERT_FALSE(
-        bench.run("pictures", "--live 0 --methods exact+horizon --pictures " + test::quoted(bench.folder / "pictures"))
-            .is_null());
+    const Json methods = bench.run(
+        "pictures", "--live 0 --flush 0 --methods exact+horizon --pictures " + test::quoted(bench.folder / "pictures"));
+    ASSERT_TRUE(methods.contains("none"));
+    EXPECT_GT(methods["none"]["cull_ms"], 0.0);
+    EXPECT_EQ(methods["none"]["cull_cold_ms"], 0.0) << "not measured";
     for (const char* const picture : {"none/oblique.png", "none/limb.png", "exact+horizon/narrow.png"})
         EXPECT_TRUE(std::filesystem::exists(bench.folder / "pictures" + "/" + picture)) << picture;
 }
