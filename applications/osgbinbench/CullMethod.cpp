@@ -23,7 +23,7 @@ constexpr std::array<std::pair<const char*, const char*>, 6> kBinBases{{{"box", 
                                                                         {"quadratic", "quadratic"},
                                                                         {"exact", "exact"}}};
 
-constexpr std::array<const char*, 18> kAll{"none",
+constexpr std::array<const char*, 19> kAll{"none",
                                            "sphere",
                                            "cluster",
                                            "box",
@@ -40,7 +40,8 @@ constexpr std::array<const char*, 18> kAll{"none",
                                            "quadratic+horizon+reverse",
                                            "exact",
                                            "exact+horizon",
-                                           "exact+horizon+reverse"};
+                                           kReplayedMethod,
+                                           kOracleMethod};
 
 // Takes a suffix off the end of a name. Returns: whether it was there.
 bool takeSuffix(std::string& name, const std::string& suffix) {
@@ -69,6 +70,12 @@ CullMethod cullMethodFromName(const std::string& name) {
     if (name == "sphere") return {name, "sphere", false, false, Clusters::Remove, false};
     // Stock OSG with what a builder of databases gives it.
     if (name == "cluster") return {name, "sphere", false, false, Clusters::Fill, false};
+    if (name == kOracleMethod) {
+        CullMethod oracle = cullMethodFromName(kReplayedMethod);
+        oracle.name = name;
+        oracle.replaysVerdicts = true;
+        return oracle;
+    }
     std::string base = name;
     CullMethod method{name, {}, false, false, Clusters::Keep, false};
     method.usesReverse = takeSuffix(base, "+reverse");
@@ -76,9 +83,10 @@ CullMethod cullMethodFromName(const std::string& name) {
     for (const auto& [known, loaderMethod] : kBinBases)
         if (base == known) method.loaderMethod = loaderMethod;
     if (!method.loaderMethod.empty()) return method;
-    throw Failure("--methods: unknown method \"" + name +
-                  "\"; use none, sphere, cluster, all, or box, orientedBox, corners, paper, quadratic or exact, these "
-                  "with +horizon, +reverse or +horizon+reverse");
+    throw Failure(
+        "--methods: unknown method \"" + name +
+        "\"; use none, sphere, cluster, oracle, all, or box, orientedBox, corners, paper, quadratic or exact, these "
+        "with +horizon, +reverse or +horizon+reverse");
 }
 
 std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& names) {
@@ -88,6 +96,7 @@ std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& nam
         if (!known) methods.push_back(cullMethodFromName(name));
     };
     for (const std::string& name : names) {
+        if (name == kOracleMethod) add(kReplayedMethod);
         if (name != kAllMethods) add(name);
         if (name == kAllMethods) std::for_each(kAll.begin(), kAll.end(), add);
     }

@@ -22,6 +22,8 @@ struct CullMethod {
     Clusters clusters = Clusters::Keep;
     /// Whether the camera culls nothing at all.
     bool cullsNothing = false;
+    /// Whether what the bins decide at a pose is repeated without tests.
+    bool replaysVerdicts = false;
 
     [[nodiscard]] bool usesBins() const { return loaderMethod != "sphere" && loaderMethod != "none"; }
 
@@ -33,15 +35,19 @@ struct CullMethod {
 /// The method that all others are judged by: nothing is culled.
 inline constexpr const char* kReferenceMethod = "none";
 
+/// What culling would cost if tests were free: the verdicts of the method below, repeated. No program can cull so.
+inline constexpr const char* kOracleMethod = "oracle";
+inline constexpr const char* kReplayedMethod = "exact+horizon+reverse";
+
 /// Stands for all methods that are worth comparing.
 inline constexpr const char* kAllMethods = "all";
 
-/// "none", "sphere", "cluster", and box, orientedBox, corners, paper, quadratic and exact with their suffixes.
-/// Throws: Failure for a name that is unknown or makes no sense.
+/// "none", "sphere", "cluster", "oracle", and box, orientedBox, corners, paper, quadratic and exact with their
+/// suffixes. Throws: Failure for a name that is unknown or makes no sense.
 [[nodiscard]] CullMethod cullMethodFromName(const std::string& name);
 
-/// The methods in the order given, each once, the reference in front whether it was named or not; "all" stands for
-/// many. Throws: Failure as above.
+/// The methods in the order given, each once, the reference in front whether it was named or not, and before the
+/// oracle what it repeats; "all" stands for many. Throws: Failure as above.
 [[nodiscard]] std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& names);
 
 }  // namespace osgAnalyticBin::bench

@@ -66,7 +66,12 @@ std::vector<FlightFigures> flyContinuously(const Settings& settings, const std::
                                            const std::vector<flight::CameraPose>& frames, FileWatch& watch) {
     std::cerr << "osgbinbench: " << frames.size() << " frames with paging live" << std::endl;
     std::vector<std::unique_ptr<Flight>> flights;
-    for (const CullMethod& method : methods) flights.push_back(std::make_unique<Flight>(method, settings, watch));
+    for (const CullMethod& method : methods) {
+        if (method.replaysVerdicts)
+            std::cerr << "osgbinbench: " << method.name << " does not fly: its verdicts hold for one pose" << std::endl;
+        else
+            flights.push_back(std::make_unique<Flight>(method, settings, watch));
+    }
     for (std::size_t begin = 0; begin < frames.size(); begin += kFramesPerTurn) {
         const std::size_t end = std::min(begin + kFramesPerTurn, frames.size());
         for (std::size_t i = 0; i < flights.size(); ++i)

@@ -16,8 +16,8 @@ namespace osgAnalyticBin::bench {
 /// Flies every method once along a path with paging live: frame after frame at the settings' rate, whether the files
 /// wanted have come or not. Methods take turns of some frames each, starting with another one every time; in the turns
 /// of others a method's pager and clock stand still. Frames are culled, not drawn, as drawing by software would set
-/// the pace. How many files a flight takes depends on the machine too.
-/// Throws: Failure when the database cannot be read. Progress goes to stderr.
+/// the pace. The oracle is left out, with one line that says so. How many files a flight takes depends on the machine
+/// too. Throws: Failure when the database cannot be read. Progress goes to stderr.
 [[nodiscard]] std::vector<FlightFigures> flyContinuously(const Settings& settings,
                                                          const std::vector<CullMethod>& methods,
                                                          const std::vector<flight::CameraPose>& frames,

@@ -4,6 +4,7 @@
 #include "Output.h"
 
 #include "CsvTable.h"
+#include "CullMethod.h"
 #include "PathGroups.h"
 #include "TextFile.h"
 #include "TextTable.h"
@@ -93,6 +94,18 @@ std::vector<std::string> headLine(const std::string& first) {
     return cells;
 }
 
+const char* const kOverOracle = "over_oracle";
+const char* const kColdOverOracle = "cold_over_oracle";
+
+// Times as multiples of what culling would cost if tests were free.
+std::array<std::string, 2> overOracle(const Figures& sum, const Figures& oracle) {
+    return {ratio(sum.cullMs, oracle.cullMs), ratio(sum.cullColdMs, oracle.cullColdMs)};
+}
+
+void append(std::vector<std::string>& cells, const std::array<std::string, 2>& more) {
+    cells.insert(cells.end(), more.begin(), more.end());
+}
+
 std::vector<std::string> ratioLine(const MethodFigures& method, const Figures& reference) {
     const Figures sum = method.sum();
     std::vector<std::string> cells{method.method};
@@ -123,18 +136,31 @@ void printByPath(std::ostream& output, const std::vector<std::string>& poses,
                  const std::vector<MethodFigures>& methods) {
     const std::vector<PathGroup> groups = pathGroupsOf(poses);
     if (groups.size() < 2) return;
+    const MethodFigures* const oracle = find(methods, kOracleMethod);
+    std::vector<std::string> head{"sums by path",     "method",    "truth_tiles",     "drawn_tiles",
+                                  "drawn/truth",      "triangles", "files_requested", "false_culls",
+                                  "differing_pixels", kCullColumn, kCullColdColumn};
+    if (oracle) append(head, {kOverOracle, kColdOverOracle});
     TextTable table(2);
-    table.add({"sums by path", "method", "truth_tiles", "drawn_tiles", "drawn/truth", "triangles", "files_requested",
-               "false_culls", "differing_pixels", kCullColumn, kCullColdColumn});
+    table.add(head);
     for (const PathGroup& group : groups) {
         table.addGap();
         for (const MethodFigures& method : methods) {
             const Figures sum = sumOf(method, group);
-            table.add({group.name, method.method, std::to_string(sum.truthTiles), std::to_string(sum.drawnTiles),
-                       ratio(static_cast<double>(sum.drawnTiles), static_cast<double>(sum.truthTiles)),
-                       std::to_string(sum.triangles), std::to_string(sum.filesRequested),
-                       std::to_string(sum.falseCulls), std::to_string(sum.differingPixels), withDecimals(sum.cullMs, 3),
-                       withDecimals(sum.cullColdMs, 3)});
+            std::vector<std::string> cells{
+                group.name,
+                method.method,
+                std::to_string(sum.truthTiles),
+                std::to_string(sum.drawnTiles),
+                ratio(static_cast<double>(sum.drawnTiles), static_cast<double>(sum.truthTiles)),
+                std::to_string(sum.triangles),
+                std::to_string(sum.filesRequested),
+                std::to_string(sum.falseCulls),
+                std::to_string(sum.differingPixels),
+                withDecimals(sum.cullMs, 3),
+                withDecimals(sum.cullColdMs, 3)};
+            if (oracle) append(cells, overOracle(sum, sumOf(*oracle, group)));
+            table.add(cells);
         }
     }
     output << '\n';
@@ -208,12 +234,15 @@ std::string jsonOf(const Settings& settings, const std::vector<FlightFigures>& m
 void printTable(std::ostream& output, const std::vector<std::string>& poses,
                 const std::vector<MethodFigures>& methods) {
     std::vector<std::vector<std::string>> lines{headLine("sums over poses")};
+    const MethodFigures* const oracle = find(methods, kOracleMethod);
+    if (oracle) append(lines.front(), {kOverOracle, kColdOverOracle});
     for (const MethodFigures& method : methods) {
         const Figures sum = method.sum();
         lines.push_back({method.method});
         for (const CountColumn& column : kCountColumns) lines.back().push_back(std::to_string(sum.*column.count));
         for (const TimeColumn& column : kTimeColumns)
             if (!column.isSpread) lines.back().push_back(withDecimals(sum.*column.ms, 3));
+        if (oracle) append(lines.back(), overOracle(sum, oracle->sum()));
     }
     turned(lines).print(output);
     for (const char* const name : kComparedWith) {

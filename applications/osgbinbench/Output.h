@@ -24,8 +24,8 @@ namespace osgAnalyticBin::bench {
                                  const std::vector<FlightFigures>& live = {});
 [[nodiscard]] std::string jsonOf(const Settings& settings, const std::vector<FlightFigures>& methods);
 
-/// Sums for people, then their ratios to "sphere" and "cluster" where these were flown, then the most telling sums path
-/// by path, if there are several.
+/// Sums for people, with times over those of "oracle" where that was measured, then their ratios to "sphere" and
+/// "cluster" where these were flown, then the most telling sums path by path, if there are several.
 void printTable(std::ostream& output, const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods);
 void printTable(std::ostream& output, const std::vector<FlightFigures>& methods);
 

@@ -6,6 +6,7 @@
 #include "CullTimer.h"
 #include "Failure.h"
 #include "PictureDifference.h"
+#include "VerdictReplay.h"
 
 #include <osgDB/WriteFile>
 
@@ -92,11 +93,21 @@ PoseBench::Visit PoseBench::visit(MethodScene& scene, const flight::CameraPose& 
     scene.settle(pose);
     visit.files = _watch.reads->nodeFiles() - files;
     visit.bytes = _watch.reads->nodeBytes() - bytes;
+    if (scene.method().replaysVerdicts) replayVerdicts(scene.camera(), scene.frameStamp());
     visit.census = scene.census();
     visit.residentTiles = residentTiles(scene.root());
     visit.picture = pictureOf(scene);
     if (!_settings.pictures.empty()) savePicture(*visit.picture, scene.method().name, pose.name);
     return visit;
+}
+
+void PoseBench::checkReplays(const std::vector<Visit>& visits, const std::string& pose) const {
+    const Census* original = nullptr;
+    for (std::size_t i = 0; i < visits.size(); ++i) {
+        const CullMethod& method = _scenes[i]->method();
+        if (method.name == kReplayedMethod) original = &visits[i].census;
+        if (method.replaysVerdicts) requireSameTiles(visits[i].census, *original, pose);
+    }
 }
 
 osg::ref_ptr<osg::Image> PoseBench::pictureOf(MethodScene& scene) {
@@ -120,6 +131,7 @@ void PoseBench::learnBins(const flight::CameraPose& pose) {
 std::vector<Figures> PoseBench::measure(const flight::CameraPose& pose) {
     std::vector<Visit> visits;
     for (const auto& scene : _scenes) visits.push_back(visit(*scene, pose));
+    checkReplays(visits, pose.name);
     const Visit& reference = visits.front();
     MethodScene& view = *_scenes.front();
     learnBins(pose);

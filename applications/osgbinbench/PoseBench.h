@@ -25,8 +25,8 @@ public:
     /// Throws: Failure when there is nothing to draw on.
     PoseBench(const Settings& settings, const std::vector<CullMethod>& methods, FileWatch& watch);
 
-    /// Throws: Failure when the database cannot be read, a pose takes longer than the timeout, or a picture cannot be
-    /// saved. Progress goes to stderr.
+    /// Throws: Failure when the database cannot be read, a pose takes longer than the timeout, a picture cannot be
+    /// saved, or the oracle draws other tiles than what it repeats. Progress goes to stderr.
     [[nodiscard]] std::vector<MethodFigures> run(const std::vector<flight::CameraPose>& path);
 
 private:
@@ -40,6 +40,7 @@ private:
     };
 
     [[nodiscard]] Visit visit(MethodScene& scene, const flight::CameraPose& pose);
+    void checkReplays(const std::vector<Visit>& visits, const std::string& pose) const;
     void learnBins(const flight::CameraPose& pose);
     [[nodiscard]] osg::ref_ptr<osg::Image> pictureOf(MethodScene& scene);
     [[nodiscard]] std::vector<Figures> measure(const flight::CameraPose& pose);

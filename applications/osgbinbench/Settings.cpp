@@ -88,7 +88,9 @@ std::string footer() {
         "quadratic, exact = analytic bins. The last six cull by the frustum's planes alone; +horizon adds the horizon\n"
         "(boxes: of one point), +reverse tiles beyond an edge of the frustum (boxes: a frustum beyond a face), in "
         "this\n"
-        "order: exact+horizon+reverse is everything on. all = these methods, in the combinations worth comparing.\n"
+        "order: exact+horizon+reverse is everything on. oracle = what that keeps, recorded at each pose and repeated\n"
+        "without any test: what culling would cost if tests were free (not in flight). all = these methods, in the "
+        "combinations worth comparing.\n"
         "Afterwards the path is flown continuously, every method once, while files are being loaded: --live; with\n"
         "--frames nothing but that. Methods take turns of 10 frames each; these are culled, and not drawn.\n\n"
         "Columns of --csv, one line for each pose and method, and keys of --json, sums over the poses:\n";

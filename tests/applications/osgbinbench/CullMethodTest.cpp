@@ -40,11 +40,20 @@ TEST(CullMethod, FliesTheReferenceFirstAndEveryMethodOnce) {
 
 TEST(CullMethod, AllStandsForWhatIsWorthComparing) {
     const std::vector<std::string> names = namesOf(cullMethodsFromNames({"exact", "all"}));
-    EXPECT_EQ(names.size(), 18U);
+    EXPECT_EQ(names.size(), 19U);
     EXPECT_EQ(names[0], "none");
     EXPECT_EQ(names[1], "exact") << "each once, in the order given";
     for (const char* const name : {"sphere", "cluster", "box", "orientedBox+horizon+reverse", "exact+horizon+reverse"})
         EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+}
+
+TEST(CullMethod, TheOracleComesAfterWhatItRepeats) {
+    const std::vector<std::string> names{"none", "exact+horizon+reverse", "oracle", "sphere"};
+    const std::vector<CullMethod> methods = cullMethodsFromNames({"oracle", "sphere", "exact+horizon+reverse"});
+    EXPECT_EQ(namesOf(methods), names);
+    EXPECT_TRUE(methods[2].replaysVerdicts);
+    EXPECT_FALSE(methods[1].replaysVerdicts);
+    EXPECT_EQ(methods[2].sceneName("earth.osgb", {}), methods[1].sceneName("earth.osgb", {}));
 }
 
 TEST(CullMethod, KnowsWhatBecomesOfTheClusterCallbacks) {
@@ -84,8 +93,9 @@ TEST(CullMethod, NamesThePseudoLoader) {
 }
 
 TEST(CullMethod, RefusesWhatIsUnknownOrMakesNoSense) {
-    for (const char* const name : {"spheres", "sphere+horizon", "none+reverse", "cluster+horizon", "orientedbox",
-                                   "exact+reverse+horizon", "exact+horizon+horizon", "exact+", "+horizon", ""})
+    for (const char* const name :
+         {"spheres", "sphere+horizon", "none+reverse", "cluster+horizon", "oracle+horizon", "orientedbox",
+          "exact+reverse+horizon", "exact+horizon+horizon", "exact+", "+horizon", ""})
         EXPECT_THROW((void)cullMethodFromName(name), Failure) << name;
 }
 

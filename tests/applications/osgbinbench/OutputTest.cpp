@@ -109,6 +109,23 @@ TEST(Output, TheTableHasRatiosToTheMethodsThatWereFlown) {
     EXPECT_NE(output.str().find("cull_cold_ms         2.000   1.000"), std::string::npos) << output.str();
 }
 
+TEST(Output, TablesHaveTimesOverTheOracleWhereThatWasMeasured) {
+    std::ostringstream without;
+    printTable(without, {"down_1", "far_1"}, twoMethods());
+    EXPECT_EQ(without.str().find("over_oracle"), std::string::npos);
+    std::vector<MethodFigures> methods = twoMethods();
+    methods.push_back({"oracle", std::vector<Figures>(2)});
+    methods[2].poses[0].cullMs = 0.125;
+    methods[2].poses[1].cullMs = 0.125;
+    methods[2].poses[0].cullColdMs = 1.0;
+    std::ostringstream with;
+    printTable(with, {"down_1", "far_1"}, methods);
+    EXPECT_NE(with.str().find("over_oracle          0.000   3.000   1.000"), std::string::npos) << with.str();
+    EXPECT_NE(with.str().find("cold_over_oracle     5.000   2.500   1.000"), std::string::npos) << with.str();
+    EXPECT_NE(with.str().find("    0.250         1.000        2.000             1.000\n"), std::string::npos)
+        << "by path: " << with.str();
+}
+
 TEST(Output, AFileThatCannotBeWrittenStaysAsItWas) {
     const test::TemporaryFolder folder;
     const std::string file = folder.write("sums.json", "old");

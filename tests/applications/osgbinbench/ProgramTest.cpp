@@ -89,7 +89,7 @@ TEST(Program, JudgesEveryMethodByTheReference) {
     const Json methods = bench.run(
         "sums",
         "--live 0 --methods sphere,cluster,box,orientedBox,orientedBox+horizon+reverse,corners,corners+horizon,"
-        "quadratic,quadratic+horizon,exact,exact+horizon+reverse --options horizon=-6000");
+        "quadratic,quadratic+horizon,exact,exact+horizon+reverse,oracle --options horizon=-6000");
     ASSERT_TRUE(methods.contains("none"));
     const Json& none = methods["none"];
     EXPECT_GT(none["visible_tiles"], 0);
@@ -101,7 +101,7 @@ TEST(Program, JudgesEveryMethodByTheReference) {
     EXPECT_EQ(none["drawn_tiles"].get<int>(), none["false_keeps"].get<int>() + none["truth_tiles"].get<int>());
     EXPECT_EQ(none["triangles"], none["drawn_tiles"].get<int>() * 512);
     for (const char* const sound : {"none", "sphere", "box", "orientedBox", "orientedBox+horizon+reverse", "quadratic",
-                                    "quadratic+horizon", "exact", "exact+horizon+reverse"}) {
+                                    "quadratic+horizon", "exact", "exact+horizon+reverse", "oracle"}) {
         EXPECT_EQ(methods[sound]["false_culls"], 0) << sound;
         EXPECT_EQ(methods[sound]["differing_pixels"], 0) << sound;
         EXPECT_GT(methods[sound]["files_requested"], 0) << sound;
@@ -118,6 +118,9 @@ TEST(Program, JudgesEveryMethodByTheReference) {
     EXPECT_LT(drawn("corners+horizon"), drawn("corners"));
     EXPECT_LT(drawn("orientedBox+horizon+reverse"), drawn("orientedBox"));
     EXPECT_LT(drawn("exact+horizon+reverse"), drawn("exact"));
+    EXPECT_EQ(drawn("oracle"), drawn("exact+horizon+reverse"));
+    EXPECT_EQ(methods["oracle"]["kept_tiles"], methods["exact+horizon+reverse"]["kept_tiles"]);
+    EXPECT_EQ(methods["oracle"]["tested_tiles"], methods["oracle"]["kept_tiles"]);
     // The callbacks that the database lacks are made: they cull what is behind the horizon.
     EXPECT_LT(drawn("cluster"), drawn("sphere"));
     EXPECT_LT(methods["quadratic+horizon"]["paged_lods"], methods["sphere"]["paged_lods"]);
@@ -151,6 +154,20 @@ TEST(Program, FliesContinuously) {
         EXPECT_GT(method["files_requested"], 0);
         EXPECT_GT(method["cull_ms"], 0.0);
     }
+}
+
+TEST(Program, LeavesTheOracleOutOfFlights) {
+    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    const Bench bench;
+    ASSERT_FALSE(bench.database.empty());
+    const std::string json = bench.folder / "flight.json";
+    const Outcome outcome = test::runBench(test::quoted(bench.database) + " --path " + test::quoted(bench.path) +
+                                           " --frames 2 --methods oracle --json " + test::quoted(json));
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    EXPECT_EQ(outcome.linesWith("oracle does not fly"), 1) << outcome.text;
+    const Json methods = test::jsonFile(json)["methods"];
+    EXPECT_TRUE(methods.contains("exact+horizon+reverse"));
+    EXPECT_FALSE(methods.contains("oracle"));
 }
 
 TEST(Program, FliesOnceMoreWithPagingLive) {

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "VerdictReplay.h"
+
+#include "ClusterRemover.h"
+#include "CullMethod.h"
+#include "Failure.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Transform>
+#include <osgTerrain/Terrain>
+#include <osgTerrain/TerrainTile>
+
+#include <set>
+#include <typeinfo>
+#include <utility>
+
+namespace osgAnalyticBin::bench {
+
+namespace {
+
+using Nodes = std::set<osg::ref_ptr<osg::Node>>;
+
+/// Records the nodes that a cull traversal goes into, and the drawables that it draws.
+class Recorder final : public flight::CullWatcher {
+public:
+    [[nodiscard]] static Nodes keptNodes(osg::Camera& camera, osg::FrameStamp& frameStamp) {
+        const osg::ref_ptr<Recorder> recorder = new Recorder;
+        recorder->watch(camera, frameStamp);
+        return std::move(recorder->_kept);
+    }
+
+private:
+    void enter(osg::Node&) override {
+        const osg::NodePath& path = getNodePath();
+        if (path.size() > 1) _kept.insert(path[path.size() - 2]);
+    }
+    void leave(osg::Node&) override {}
+    void draw(osg::Drawable&) override { _kept.insert(getNodePath().back()); }
+
+    Nodes _kept;
+};
+
+/// Goes on to some of a node's children.
+class AcceptKept : public osg::Callback {
+public:
+    explicit AcceptKept(osg::NodeList kept) : _kept(std::move(kept)) {}
+
+    bool run(osg::Object*, osg::Object* data) override {
+        osg::NodeVisitor& visitor = *data->asNodeVisitor();
+        for (const auto& child : _kept) child->accept(visitor);
+        return true;
+    }
+
+private:
+    const osg::NodeList _kept;
+};
+
+// Whether a group goes on to each of its children, whatever the view.
+bool acceptsAll(const osg::Node& node) {
+    return typeid(node) == typeid(osg::Group) || typeid(node) == typeid(osg::CoordinateSystemNode) ||
+           typeid(node) == typeid(osgTerrain::Terrain) || node.asTransform();
+}
+
+/// Puts the verdicts on a scene without bins.
+class ReplayInstaller final : public osg::NodeVisitor {
+public:
+    explicit ReplayInstaller(const Nodes& kept) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _kept(kept) {
+        setNodeMaskOverride(~0U);
+    }
+
+    using osg::NodeVisitor::apply;
+    void apply(osg::Node& node) override {
+        // for parents that choose among their children by themselves, as LODs do
+        if (_kept.count(&node) == 0) return node.setNodeMask(0);
+        if (acceptsAll(node)) filter(*node.asGroup());
+        // A tile of osgTerrain that is traversed before its first update never finds its Terrain.
+        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
+    }
+
+private:
+    void filter(osg::Group& group) const {
+        osg::NodeList kept;
+        for (unsigned int i = 0; i < group.getNumChildren(); ++i)
+            if (_kept.count(group.getChild(i)) != 0) kept.emplace_back(group.getChild(i));
+        if (kept.size() < group.getNumChildren()) group.addCullCallback(new AcceptKept(std::move(kept)));
+    }
+
+    const Nodes& _kept;
+};
+
+}  // namespace
+
+void replayVerdicts(osg::Camera& camera, osg::FrameStamp& frameStamp) {
+    const Nodes kept = Recorder::keptNodes(camera, frameStamp);
+    osg::Node& scene = *camera.getChild(0);
+    removeBins(scene);
+    removeClusterCallbacks(scene);
+    for (const auto& node : kept) node->setCullingActive(false);
+    ReplayInstaller installer(kept);
+    scene.accept(installer);
+}
+
+void requireSameTiles(const Census& replay, const Census& original, const std::string& pose) {
+    if (replay.keys() == original.keys() && replay.drawables == original.drawables) return;
+    throw support::Failure("pose " + pose + ": " + kOracleMethod + " draws other tiles (" +
+                           std::to_string(replay.tiles.size()) + ") than " + kReplayedMethod + " (" +
+                           std::to_string(original.tiles.size()) + "); leave " + kOracleMethod + " out");
+}
+
+}  // namespace osgAnalyticBin::bench
