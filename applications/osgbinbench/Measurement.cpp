@@ -17,8 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<const char*, 9> kConditions{
-    "database", "path", "options", "vertical_scale", "width", "height", "threading", "flush_mib", "osg"};
+constexpr std::array<const char*, 10> kConditions{"database", "path",      "options",   "vertical_scale", "width",
+                                                  "height",   "threading", "flush_mib", "expiry",         "osg"};
 
 const Json& member(const Json& object, const char* key) {
     static const Json absent;

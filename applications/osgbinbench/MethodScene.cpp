@@ -82,9 +82,15 @@ osg::ref_ptr<osg::Node> MethodScene::read() const {
     throw Failure(_settings.database + ": cannot be read with method " + _method.name + ": " + reason);
 }
 
+// Bins see to expiry by themselves.
+void MethodScene::treatFiles(const osg::EllipsoidModel* globe) {
+    _watch.remover->setTreatment(_method.clusters, globe);
+    _watch.expiry->setSeconds(_method.usesBins() ? 0.0 : _settings.expiry);
+}
+
 void MethodScene::load() {
     forget();
-    _watch.remover->setTreatment(_method.clusters);
+    treatFiles(nullptr);
     const osg::ref_ptr<osg::Node> root = read();
     if (!root->getBound().valid()) throw Failure(_settings.database + ": there is nothing to fly over");
     if (_settings.verticalScale != 1.0) scaleVertically(*root, _settings.verticalScale, _settings.database);
@@ -94,7 +100,7 @@ void MethodScene::load() {
 }
 
 void MethodScene::resume() {
-    _watch.remover->setTreatment(_method.clusters, _globe.ellipsoid);
+    treatFiles(_globe.ellipsoid);
     _paged->resume();
 }
 

@@ -7,6 +7,7 @@
 #include "CameraView.h"
 #include "ClusterRemover.h"
 #include "CullMethod.h"
+#include "ExpiryRaiser.h"
 #include "PagedScene.h"
 #include "ReadCounter.h"
 #include "Settings.h"
@@ -26,6 +27,7 @@ struct FileWatch {
     FileWatch& operator=(const FileWatch&) = delete;
 
     osg::ref_ptr<ClusterRemover> remover = ClusterRemover::install();
+    osg::ref_ptr<ExpiryRaiser> expiry = ExpiryRaiser::install();
     osg::ref_ptr<flight::ReadCounter> reads = flight::ReadCounter::install();
 };
 
@@ -67,6 +69,7 @@ public:
 
 private:
     void forget();
+    void treatFiles(const osg::EllipsoidModel* globe);
     void setPose(const flight::CameraPose& pose);
     void awaitFiles(const flight::CameraPose& pose, std::chrono::steady_clock::time_point begin) const;
     [[nodiscard]] osg::ref_ptr<osg::Node> read() const;

@@ -41,6 +41,7 @@ Json headOf(const Settings& settings, const char* mode) {
     json["height"] = settings.height;
     json["threading"] = threadingName(settings.threading);
     json["flush_mib"] = settings.flush;
+    json["expiry"] = settings.expiry;
     json["osg"] = osgGetVersion();
     return json;
 }

@@ -18,6 +18,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <map>
+#include <optional>
 #include <utility>
 
 namespace osgAnalyticBin::bench {
@@ -92,7 +94,9 @@ std::string footer() {
         "without any test: what culling would cost if tests were free (not in flight). all = these methods, in the "
         "combinations worth comparing.\n"
         "Afterwards the path is flown continuously, every method once, while files are being loaded: --live; with\n"
-        "--frames nothing but that. Methods take turns of 10 frames each; these are culled, and not drawn.\n\n"
+        "--frames nothing but that. Methods take turns of 10 frames each; these are culled, and not drawn. What leaves "
+        "the\n"
+        "view is kept in memory as long with all methods, unless --expiry says otherwise.\n\n"
         "Columns of --csv, one line for each pose and method, and keys of --json, sums over the poses:\n";
     for (const CountColumn& column : kCountColumns) text += line(column.name, column.meaning);
     for (const TimeColumn& column : kTimeColumns) text += line(column.name, column.meaning);
@@ -113,6 +117,7 @@ std::string footer() {
 struct Words {
     std::string size = "1280x720";
     std::string threading = "SingleThreaded";
+    std::optional<double> expiry;
 };
 
 void declare(CLI::App& app, Settings& settings, Words& words) {
@@ -163,6 +168,12 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
                    "frames a second of the continuous flight at most, so that\nthe pager has time: 0.1 to 10000 "
                    "(default 60)")
         ->check(support::within(0.1, 10000.0));
+    app.add_option("--expiry", words.expiry,
+                   "seconds for which the pager keeps what methods without bins\nno longer show, to 86400, or osg: its "
+                   "own rule; for flights\n(default as bins: 3, or expiry= of --options)")
+        ->option_text("SECONDS|osg")
+        ->transform(CLI::Transformer(std::map<std::string, std::string>{{"osg", "0"}}))
+        ->check(support::within(0.0, 86400.0));
     app.add_option("--timeout", settings.timeout, "seconds that one pose may take to load, to 86400 (default 120)")
         ->check(support::within(0.001, 86400.0));
 }
@@ -218,6 +229,8 @@ bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {
     takeSize(words.size, settings);
     settings.threading = threadingFromName(words.threading);
     check(settings);
+    std::string error;
+    settings.expiry = words.expiry ? *words.expiry : cullOptionsFromText(settings.binOptions, error)->expiry;
     return true;
 }
 

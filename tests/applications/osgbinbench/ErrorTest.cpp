@@ -40,8 +40,9 @@ TEST(Errors, OfTheCommandLineNameTheOption) {
     expectOneLine(test::runBenchBlind(good + " --options horizont=3"), "--options: unknown parameter");
     expectOneLine(test::runBenchBlind(good + " --options method=paper"), "--options: ");
     expectOneLine(test::runBenchBlind(good + " --vertical-scale 0"), "--vertical-scale");
-    for (const std::string option : {"--vertical-scale", "--frame-rate", "--timeout"})
+    for (const std::string option : {"--vertical-scale", "--frame-rate", "--timeout", "--expiry"})
         expectOneLine(test::runBenchBlind(good + ' ' + option + " nan"), option);
+    expectOneLine(test::runBenchBlind(good + " --expiry own"), "--expiry: own");
     expectOneLine(test::runBenchBlind(good + " --flush -1"), "--flush");
     expectOneLine(test::runBenchBlind(good + " --frames 10 --pictures pictures"), "--pictures: ");
     expectOneLine(test::runBenchBlind(good + " --csv " + folder.path() + "/absent/p.csv"), "--csv: there is no folder");

@@ -40,6 +40,7 @@ TEST(Output, JsonHoldsTheSumsByMethod) {
     EXPECT_DOUBLE_EQ(json["methods"]["sphere"]["cull_ms"].get<double>(), 0.75);
     EXPECT_DOUBLE_EQ(json["methods"]["sphere"]["cull_cold_ms"].get<double>(), 2.5);
     EXPECT_EQ(json["flush_mib"], Settings().flush);
+    EXPECT_EQ(json["expiry"], 3.0);
     for (const char* const key :
          {"truth_tiles", "tested_tiles", "kept_tiles", "drawn_tiles", "triangles", "files_requested", "bytes",
           "paged_lods", "cull_ms", "false_culls", "false_keeps", "differing_pixels"})

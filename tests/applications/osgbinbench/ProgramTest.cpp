@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <support/SyntheticDatabase.h>
@@ -154,6 +155,20 @@ TEST(Program, FliesContinuously) {
         EXPECT_GT(method["files_requested"], 0);
         EXPECT_GT(method["cull_ms"], 0.0);
     }
+}
+
+TEST(Program, KeepsTilesInFlightAsLongAsItIsTold) {
+    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    const Bench bench;
+    ASSERT_FALSE(bench.database.empty());
+    const std::string flight = "--frames 30 --frame-rate 15 --methods sphere,exact ";
+    setenv("OSG_MAX_PAGEDLOD", "1", 1);  // what may expire, does
+    Json byOsg = bench.run("osg", flight + "--options expiry=1000 --expiry osg");
+    Json byNumber = bench.run("number", flight + "--options expiry=0 --expiry 1000");
+    unsetenv("OSG_MAX_PAGEDLOD");
+    ASSERT_TRUE(byOsg.contains("sphere") && byNumber.contains("sphere"));
+    EXPECT_LT(byOsg["sphere"]["resident_tiles"], byNumber["sphere"]["resident_tiles"]);
+    EXPECT_LT(byNumber["exact"]["resident_tiles"], byOsg["exact"]["resident_tiles"]) << "bins go by their own option";
 }
 
 TEST(Program, LeavesTheOracleOutOfFlights) {
