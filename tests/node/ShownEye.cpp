@@ -39,7 +39,8 @@ public:
                                 nullptr,
                                 cullStack.getModelViewMatrix(),
                                 cullStack.getProjectionMatrix(),
-                                planesOf(cullStack)};
+                                planesOf(cullStack),
+                                nullptr};
         eye = eyeAboveWhatIsShown({*node->asGroup(), *nv, cullStack, view}, *viewpoint, _deepest, depth);
     }
 

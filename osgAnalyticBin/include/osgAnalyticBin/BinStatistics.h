@@ -54,6 +54,9 @@ public:
     /// Counts one tested tile.
     void count(core::Side side, unsigned int frame) noexcept;
 
+    /// Counts several tested tiles of the frame that `counts` names; `tested` is not read.
+    void add(const BinCounts& counts) noexcept;
+
     /// Says of the tile counted last why it was outside.
     void countHidden() noexcept;
     /// Says of the tile counted last that an edge of the frustum proved it outside.
@@ -69,6 +72,8 @@ protected:
     ~BinStatistics() override = default;
 
 private:
+    void beginFrame(unsigned int frame) noexcept;
+
     std::atomic<std::uint32_t> _outside{0};
     std::atomic<std::uint32_t> _inside{0};
     std::atomic<std::uint32_t> _straddling{0};

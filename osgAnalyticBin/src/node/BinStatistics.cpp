@@ -16,8 +16,8 @@ namespace {
 
 // One writer: a plain load and store is enough, and costs no locked instruction.
 template <class Counter>
-void increment(Counter& counter) {
-    counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+void increment(Counter& counter, std::uint32_t by = 1) {
+    counter.store(counter.load(std::memory_order_relaxed) + by, std::memory_order_relaxed);
 }
 
 }  // namespace
@@ -45,11 +45,23 @@ const BinStatistics* BinStatistics::find(const osg::NodeVisitor& visitor) {
     return nullptr;
 }
 
+void BinStatistics::beginFrame(unsigned int frame) noexcept {
+    if (_frame.load(std::memory_order_relaxed) == frame) return;
+    reset();
+    _frame.store(frame, std::memory_order_relaxed);
+}
+
+void BinStatistics::add(const BinCounts& counts) noexcept {
+    beginFrame(counts.frame);
+    increment(_outside, counts.outside);
+    increment(_inside, counts.inside);
+    increment(_straddling, counts.straddling);
+    increment(_hidden, counts.hidden);
+    increment(_separated, counts.separated);
+}
+
 void BinStatistics::count(core::Side side, unsigned int frame) noexcept {
-    if (_frame.load(std::memory_order_relaxed) != frame) {
-        reset();
-        _frame.store(frame, std::memory_order_relaxed);
-    }
+    beginFrame(frame);
     switch (side) {
         case core::Side::Outside:
             increment(_outside);

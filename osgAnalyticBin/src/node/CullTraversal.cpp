@@ -4,6 +4,7 @@
 #include "CullTraversal.h"
 
 #include "GlmBridge.h"
+#include "TilePlan.h"
 #include "Viewpoint.h"
 
 #include <algorithm>
@@ -41,12 +42,23 @@ CullTraversal::DatabaseScope::DatabaseScope(osg::NodeVisitor& visitor, CullTrave
       _outerVisitor(scopeOfThread.visitor),
       _outerTraversal(scopeOfThread.traversal) {
     traversal._databaseView = &view;
+    ++traversal._openPlans;
     scopeOfThread = {&visitor, &traversal};
 }
 
 CullTraversal::DatabaseScope::~DatabaseScope() {
     _traversal._databaseView = _outerView;
+    --_traversal._openPlans;
     scopeOfThread = {_outerVisitor, _outerTraversal};
+}
+
+CullTraversal::CullTraversal() = default;
+
+CullTraversal::~CullTraversal() = default;
+
+TilePlan& CullTraversal::plan() {
+    if (_plans.size() <= _openPlans) _plans.resize(_openPlans + 1);
+    return _plans[_openPlans];
 }
 
 CullTraversal& CullTraversal::of(osg::NodeVisitor& visitor) {

@@ -17,6 +17,8 @@
 #include <osg/ref_ptr>
 
 #include <array>
+#include <cstddef>
+#include <deque>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -32,6 +34,7 @@ struct Occluder {
 };
 
 class Database;
+class TilePlan;
 
 /// What a database says to its tiles for the length of its traversal.
 struct DatabaseView {
@@ -43,13 +46,14 @@ struct DatabaseView {
     const osg::RefMatrix* modelView;
     const osg::RefMatrix* projection;
     core::PlaneSet planes;
+    TilePlan* plan;  // nullptr: none was made
 };
 
 /// What one cull visitor knows of the frustum that it is in: prepared once per frustum, read by every tile. Lives in
 /// the visitor's user data container with the counters, so that cull threads share nothing.
 class CullTraversal final : public BinStatistics {
 public:
-    CullTraversal() = default;
+    CullTraversal();
 
     /// That of the visitor, made at the first call.
     [[nodiscard]] static CullTraversal& of(osg::NodeVisitor& visitor);
@@ -85,6 +89,9 @@ public:
     /// The depth of the lowest surface that this visitor last found a database to show: where it looks next time.
     [[nodiscard]] double& lastDepth(const Database& database);
 
+    /// For the next database that is traversed, within those that are.
+    [[nodiscard]] TilePlan& plan();
+
     /// Says that the bin of a node about to be entered has been tested, and keeps it; null: none.
     void setKept(const osg::Node* node) { _kept = node; }
     [[nodiscard]] bool isKept(const osg::Node& node) const { return _kept == &node; }
@@ -93,7 +100,7 @@ public:
     [[nodiscard]] GroundBelow& ground() { return _ground; }
 
 protected:
-    ~CullTraversal() override = default;
+    ~CullTraversal() override;
 
 private:
     static constexpr std::size_t kCachedPlanes = 6;
@@ -104,6 +111,8 @@ private:
     const DatabaseView* _databaseView = nullptr;
     std::vector<std::pair<const Database*, double>> _lastDepths;
     const osg::Node* _kept = nullptr;
+    std::deque<TilePlan> _plans;  // of databases within each other
+    std::size_t _openPlans = 0;
     GroundBelow _ground;
 
     core::PlaneSet _planes;

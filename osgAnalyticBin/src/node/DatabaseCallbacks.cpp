@@ -8,6 +8,7 @@
 #include "SeeThrough.h"
 #include "ShownDepth.h"
 #include "TileCallback.h"
+#include "TilePlan.h"
 #include "Viewpoint.h"
 
 #include <osgAnalyticBin/BinInstaller.h>
@@ -89,7 +90,9 @@ void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
                       nullptr,
                       cullStack->getModelViewMatrix(),
                       cullStack->getProjectionMatrix(),
-                      traversal.planes(*cullStack)};
+                      traversal.planes(*cullStack),
+                      &traversal.plan()};
+    view.plan->clear();
     const auto eye = eyeOver(*group, *nv, *cullStack, *_database, view);
     if (eye) view.eye = &*eye;
     const CullTraversal::DatabaseScope scope(*nv, traversal, view);

@@ -11,6 +11,7 @@
 #include "SeeThrough.h"
 #include "TileCallback.h"
 #include "TileFamily.h"
+#include "TilePlan.h"
 
 #include <osgAnalyticBin/BinInstaller.h>
 
@@ -35,15 +36,21 @@ namespace {
 
 constexpr double kUnknownDepth = std::numeric_limits<double>::infinity();
 
+// Whether an object is of this class, and not of one derived from it. By address: comparing names takes longer.
+template <class Class, class Object>
+bool isExactly(const Object& object) {
+    return &typeid(object) == &typeid(Class);
+}
+
 // The cull callbacks of a node: the bin's, and whether others may leave out what is below them.
 struct CullCallbacks {
     CullCallbacks() = default;
     explicit CullCallbacks(const osg::Node& node) {
         // A dynamic_cast across OSG's virtual bases would be most of the search's cost.
         for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
-            if (!bin && typeid(*at) == typeid(AnalyticBinCullCallback)) {
+            if (!bin && isExactly<AnalyticBinCullCallback>(*at)) {
                 bin = static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback());
-            } else if (typeid(*at) == typeid(TileFamily)) {
+            } else if (isExactly<TileFamily>(*at)) {
                 family = static_cast<const TileFamily*>(at->asNodeCallback());
             } else if (!isClusterCulling(*at) && !traversesAlways(*at)) {
                 mayLeaveOut = true;
@@ -57,7 +64,7 @@ struct CullCallbacks {
 };
 
 osg::PagedLOD* pagedLod(osg::Node& node) {
-    if (typeid(node) == typeid(osg::PagedLOD)) return static_cast<osg::PagedLOD*>(&node);
+    if (isExactly<osg::PagedLOD>(node)) return static_cast<osg::PagedLOD*>(&node);
     return dynamic_cast<osg::PagedLOD*>(&node);
 }
 
@@ -104,6 +111,7 @@ public:
     LowestShown(const ShownDatabase& database, const core::HorizonEye& eye, const std::optional<core::Geodetic>& place,
                 double deepest)
         : _database(database), _visitor(database.visitor), _eye(eye), _place(place), _deepest(deepest) {
+        if (database.view.plan) database.view.plan->clear();
         const osg::CullingSet& cullingSet = database.cullStack.getCurrentCullingSet();
         if (!(cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING)) return;
         _planes = cullingSet.getFrustum().getPlaneList();
@@ -129,31 +137,46 @@ private:
 
     // A tile that is not seen is not touched.
     void searchFamily(osg::Group& group, const TileFamily& family) {
-        if (family.lacksTiles(group)) _hasHole = true;
+        if (group.getNumChildren() < family.size()) _hasHole = true;
         TileFamily::Verdicts verdicts;
+        std::uint64_t passedOver = 0;
         for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) {
-            if (i % TileBlock::Part::kMost == 0) verdicts = family.test(i, _database.view.planes, _undecided, &_eye);
-            osg::Node& child = *group.getChild(i);
-            if (family.isMember(i, child, verdicts)) {
-                searchMember(child, family, verdicts, i);
+            const unsigned int number = i % TileBlock::Part::kMost;
+            if (number == 0) {
+                test(group, family, i, verdicts);
+                passedOver = passedOverIn(verdicts, i < family.size() ? &family.block().partFrom(i) : nullptr);
+            }
+            if (passedOver >> number & 1) continue;
+            if (verdicts.members >> number & 1) {
+                searchMember(*group.getChild(i), family, verdicts, i);
             } else {
-                searchNode(child);
+                searchNode(*group.getChild(i));
             }
         }
+    }
+
+    void test(const osg::Group& group, const TileFamily& family, unsigned int first, TileFamily::Verdicts& verdicts) {
+        const DatabaseView& view = _database.view;
+        family.test(group, first, view.planes, _undecided, &_eye, verdicts);
+        if (view.plan) view.plan->add(family, first, _undecided, verdicts, group.getNumChildren() - first);
+        if (verdicts.lacksTiles) _hasHole = true;
+    }
+
+    // Tiles that are not seen and have no more to them than their bins, and are not about the eye.
+    [[nodiscard]] std::uint64_t passedOverIn(const TileFamily::Verdicts& verdicts, const TileBlock::Part* part) const {
+        if (!part || (_place && _place->altitude <= part->highest)) return 0;
+        return verdicts.members & ~part->withOwnColumns & (verdicts.planes.outside | verdicts.hidden);
     }
 
     void searchMember(osg::Node& node, const TileFamily& family, const TileFamily::Verdicts& verdicts,
                       unsigned int slot) {
         const TileBlock& block = family.block();
         const unsigned int i = slot % TileBlock::Part::kMost;
-        const TileBlock::Part& part = block.partFrom(slot);
-        const bool mayBeAboutEye = _place && _place->altitude <= part.highest;
-        const bool hasOwnColumn = (part.withOwnColumns >> i & 1) != 0;
+        const bool hasOwnColumn = (block.partFrom(slot).withOwnColumns >> i & 1) != 0;
         const bool isBinCulled = ((verdicts.planes.outside | verdicts.hidden) >> i & 1) != 0;
-        if (!mayBeAboutEye && !hasOwnColumn && isBinCulled) return;
         const TileFamily::Member& member = family.member(slot);
         SearchedTile tile(member, block[slot]);
-        tile.isAboutEye = mayBeAboutEye && _place->altitude <= block[slot].binHigh && isAbout(*member.tile);
+        tile.isAboutEye = _place && _place->altitude <= block[slot].binHigh && isAbout(*member.tile);
         const bool isCulled =
             hasOwnColumn ? isBesideFrustum(tile.columnSphere) || block.isColumnHidden(slot, _eye) : isBinCulled;
         if (isCulled && !tile.isAboutEye) return;
@@ -161,10 +184,12 @@ private:
         const bool isAlone = node.getCullCallback() == member.tile && !member.tile->getNestedCallback();
         CullCallbacks callbacks = isAlone ? CullCallbacks() : CullCallbacks(node);
         callbacks.bin = member.tile;
-        searchTile(node, tile, callbacks);
+        searchTile(node, member.paged, tile, callbacks);
     }
 
     void searchNode(osg::Node& node) {
+        // most of what is not a tile is the root of a file
+        const bool isGroup = isExactly<osg::Group>(node);
         const CullCallbacks callbacks(node);
         if (callbacks.bin) {
             const AnalyticBinCullCallback& bin = *callbacks.bin;
@@ -172,19 +197,18 @@ private:
             SearchedTile tile(bin, isFitted);
             tile.isAboutEye = isAbout(bin);
             if (!tile.isAboutEye && (isBeside(tile) || bin.isColumnHiddenFrom(_eye))) return;
-            return searchTile(node, tile, callbacks);
+            return searchTile(node, pagedLod(node), tile, callbacks);
         }
         // another database is on a globe of its own
-        if (dynamic_cast<osg::CoordinateSystemNode*>(&node)) return;
+        if (!isGroup && dynamic_cast<osg::CoordinateSystemNode*>(&node)) return;
         const Scoped doubtful(_isDoubtful, _isDoubtful || !isSurelyDrawn(node, callbacks));
         const Scoped moved(_isMoved, _isMoved || node.asTransform());
         if (osg::Group* group = node.asGroup()) searchChildren(*group, callbacks.family);
     }
 
-    void searchTile(osg::Node& node, const SearchedTile& tile, const CullCallbacks& callbacks) {
+    void searchTile(osg::Node& node, osg::PagedLOD* paged, const SearchedTile& tile, const CullCallbacks& callbacks) {
         const Scoped doubtful(_isDoubtful, _isDoubtful || !isSurelyDrawn(node, callbacks));
         if (_isDoubtful || tile.isSeenThrough) _hasHole = true;
-        osg::PagedLOD* paged = pagedLod(node);
         if (paged) return searchPaged(*paged, tile);
         show(tile, node);
     }

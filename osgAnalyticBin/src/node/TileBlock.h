@@ -48,6 +48,7 @@ public:
         explicit Part(std::size_t slots) : bins(slots) {}
 
         core::BinFamily bins;
+        std::uint64_t members = 0;               ///< slots of tiles
         std::atomic<std::uint64_t> believed{0};  ///< tiles that may be culled without their own callbacks being asked
         std::uint64_t withOwnColumns = 0;        ///< see Slot::hasOwnColumn
         double highest = -std::numeric_limits<double>::infinity();  ///< no binHigh is above
@@ -59,6 +60,8 @@ public:
     [[nodiscard]] const Slot& operator[](std::size_t slot) const { return _slots[slot]; }
     /// The one that begins with the slot `first`, a multiple of kMost. Requires: first < size().
     [[nodiscard]] const Part& partFrom(std::size_t first) const { return _parts[first / Part::kMost]; }
+
+    void addMember(std::size_t slot) { _parts[slot / Part::kMost].members |= std::uint64_t{1} << (slot % Part::kMost); }
 
     /// Takes over what a tile is culled by.
     void set(std::size_t slot, const Slot& tile, const Bins& bins);

@@ -8,12 +8,14 @@
 #include "InstalledTile.h"
 #include "ShownDepth.h"
 #include "TileCallback.h"
+#include "TilePlan.h"
 
 #include <osg/CoordinateSystemNode>
 #include <osg/PagedLOD>
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
+#include <bitset>
 #include <cstdint>
 #include <typeinfo>
 
@@ -103,14 +105,6 @@ void TileFamily::renew(osg::Node& node) {
     if (family) family->_hasLostTiles = hasLost || old->_hasLostTiles;
 }
 
-bool TileFamily::lacksTiles(const osg::Group& group) const {
-    for (unsigned int i = 0; i < _nodes.size(); ++i) {
-        const bool isThere = i < group.getNumChildren() && _nodes[i] == group.getChild(i);
-        if (_nodes[i] && !isThere) return true;
-    }
-    return _hasLostTiles;
-}
-
 bool TileFamily::add(osg::Node& child, std::size_t slot) {
     const AnalyticBinCullCallback* const tile = installedBinOf(child);
     if (!tile || !tile->_prepared || tile->_hasLocalFrame) return false;
@@ -121,7 +115,9 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
     const bool isSameShape = _shape.has_value() == tile->_shape.has_value() && (!_shape || *_shape == *tile->_shape);
     if (!(*_ellipsoid == tile->_prepared->ellipsoid) || !isSameShape) return false;
     _nodes[slot] = &child;
-    _members[slot] = {tile, tile->installedTile()->isSeeThrough(), meshPartsOf(child)};
+    _block->addMember(slot);
+    _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), tile->installedTile()->isSeeThrough(),
+                      meshPartsOf(child)};
     tile->installedTile()->joinFamily(*_block, slot);
     tile->fillSlot();
     tile->fillSlot();
@@ -146,31 +142,68 @@ void TileFamily::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     cullChildren(*node->asGroup(), *nv, *cullStack, *view, CullTraversal::of(*nv));
 }
 
-TileFamily::Verdicts TileFamily::test(unsigned int first, const core::PlaneSet& planes, core::PlaneMask undecided,
-                                      const core::HorizonEye* eye) const {
-    Verdicts verdicts;
-    if (first >= _block->size()) return verdicts;
+void TileFamily::test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes,
+                      core::PlaneMask undecided, const core::HorizonEye* eye, Verdicts& verdicts) const {
+    verdicts.members = verdicts.tested = verdicts.hidden = 0;
+    if (first >= _block->size()) return;
     const TileBlock::Part& part = _block->partFrom(first);
     part.bins.classify(planes, undecided, verdicts.planes);
-    verdicts.believed = part.believed.load(std::memory_order_relaxed);
     verdicts.tested = part.bins.filled();
     if (eye) verdicts.hidden = part.bins.hiddenFrom(*eye, verdicts.tested & ~verdicts.planes.outside);
-    return verdicts;
+    const unsigned int end = std::min(first + TileBlock::Part::kMost, group.getNumChildren());
+    for (unsigned int i = first; i < end && i < _nodes.size(); ++i) {
+        verdicts.members |= std::uint64_t{_nodes[i] == group.getChild(i)} << (i - first);
+    }
+    verdicts.lacksTiles = _hasLostTiles || verdicts.members != part.members;
+    verdicts.members &= part.believed.load(std::memory_order_relaxed);
 }
 
-// Where the family's own tests leave something open, the tile is asked.
-Verdict TileFamily::verdict(unsigned int i, const Verdicts& verdicts, const DatabaseView& view,
-                            CullTraversal& traversal) const {
-    const std::uint64_t bit = std::uint64_t{1} << (i % TileBlock::Part::kMost);
-    core::PlaneMask undecided = verdicts.planes.undecided[i % TileBlock::Part::kMost];
+void TileFamily::lookUp(const osg::Group& group, unsigned int first, core::PlaneMask undecided,
+                        const DatabaseView& view, Verdicts& verdicts) const {
+    if (!view.plan || !view.plan->find(*this, first, undecided, verdicts)) {
+        test(group, first, view.planes, undecided, view.eye, verdicts);
+    } else if (!view.eye) {
+        verdicts.hidden = 0;
+    }
+}
+
+// Of a tile whose own bin the planes and the horizon leave undecided.
+Verdict TileFamily::finish(unsigned int i, const Verdicts& verdicts, const DatabaseView& view,
+                           CullTraversal& traversal) const {
     const AnalyticBinCullCallback& tile = *_members[i].tile;
-    if (!(verdicts.tested & bit)) return tile.classify(view.planes, undecided, view.eye, traversal);
-    if (verdicts.planes.outside & bit) return {core::Side::Outside, Verdict::Plane};
-    if (verdicts.hidden & bit) return {core::Side::Outside, Verdict::Horizon};
+    core::PlaneMask undecided = verdicts.planes.undecided[i % TileBlock::Part::kMost];
+    const bool isTested = (verdicts.tested >> (i % TileBlock::Part::kMost) & 1) != 0;
+    if (!isTested) return tile.classify(view.planes, undecided, view.eye, traversal);
     if (undecided == 0) return {core::Side::Inside, Verdict::Plane};
     const bool isAcrossEdge = (undecided & (undecided - 1)) != 0;
     const bool isBeyond = isAcrossEdge && tile._testsEdges && tile.isBeyondAnEdge(traversal, view.planes, undecided);
     return isBeyond ? Verdict{core::Side::Outside, Verdict::Edge} : Verdict{core::Side::Straddling, Verdict::Plane};
+}
+
+// Which of the tiles are culled, one bit each.
+std::uint64_t TileFamily::culled(unsigned int first, const Verdicts& verdicts, const osg::NodeVisitor& nv,
+                                 osg::CullStack& cullStack, const DatabaseView& view, CullTraversal& traversal) const {
+    const auto bitsIn = [](std::uint64_t mask) { return static_cast<std::uint32_t>(std::bitset<64>(mask).count()); };
+    const std::uint64_t tested = verdicts.members & verdicts.tested;
+    std::uint64_t culled = tested & (verdicts.planes.outside | verdicts.hidden);
+    BinCounts counts;
+    counts.hidden = bitsIn(tested & verdicts.hidden);
+    std::uint64_t left = verdicts.members & ~culled;
+    for (unsigned int i = first; left != 0; ++i, left >>= 1) {
+        if (!(left & 1)) continue;
+        const Verdict verdict = finish(i, verdicts, view, traversal);
+        if (verdict.side == core::Side::Outside || isSmall(cullStack.getCurrentCullingSet(), (*_block)[i].bound)) {
+            culled |= std::uint64_t{1} << (i - first);
+        } else {
+            ++(verdict.side == core::Side::Inside ? counts.inside : counts.straddling);
+        }
+        if (verdict.reason == Verdict::Horizon) ++counts.hidden;
+        if (verdict.reason == Verdict::Edge) ++counts.separated;
+    }
+    counts.outside = bitsIn(culled);
+    counts.frame = nv.getTraversalNumber();
+    if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR) traversal.add(counts);
+    return culled;
 }
 
 void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack,
@@ -184,20 +217,21 @@ void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::Cull
     const core::PlaneMask before = cullStack.getCurrentCullingSet().getFrustum().getCurrentMask();
     bool isChanged = group.getNumChildren() != _nodes.size();
     Verdicts verdicts;
+    std::uint64_t culled = 0;
     for (unsigned int i = 0; i < group.getNumChildren(); ++i) {
-        if (i % TileBlock::Part::kMost == 0) verdicts = test(i, view.planes, before, view.eye);
+        const unsigned int number = i % TileBlock::Part::kMost;
+        if (number == 0) {
+            lookUp(group, i, before, view, verdicts);
+            culled = this->culled(i, verdicts, nv, cullStack, view, traversal);
+            isChanged = isChanged || (verdicts.lacksTiles && !_hasLostTiles);
+        }
+        if (culled >> number & 1) continue;
         osg::Node* const child = group.getChild(i);
-        if (!isMember(i, *child, verdicts)) {
-            isChanged = isChanged || (_nodes[i] && _nodes[i] != child);
+        if (!(verdicts.members >> number & 1)) {
             child->accept(nv);
             continue;
         }
-        const Verdict verdict = this->verdict(i, verdicts, view, traversal);
-        const bool culled =
-            verdict.side == core::Side::Outside || isSmall(cullStack.getCurrentCullingSet(), (*_block)[i].bound);
-        count(traversal, nv, verdict, culled);
-        if (culled) continue;
-        setMask(verdicts.planes.undecided[i % TileBlock::Part::kMost]);
+        setMask(verdicts.planes.undecided[number]);
         traversal.setKept(child);
         child->accept(nv);
         traversal.setKept(nullptr);

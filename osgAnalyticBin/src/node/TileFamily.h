@@ -11,6 +11,7 @@
 #include <osg/CullStack>
 #include <osg/Group>
 #include <osg/NodeCallback>
+#include <osg/PagedLOD>
 
 #include <cstddef>
 #include <cstdint>
@@ -55,6 +56,7 @@ public:
     /// A tile as it was when the family was made.
     struct Member {
         osg::ref_ptr<const AnalyticBinCullCallback> tile;
+        osg::PagedLOD* paged = nullptr;  ///< the node, if it is one
         bool isSeeThrough = false;
         /// The nodes that have to be entered for the tile's own mesh, if that is all of them; empty: not known.
         std::vector<osg::ref_ptr<const osg::Node>> meshParts;
@@ -62,28 +64,28 @@ public:
 
     /// What the bins of children are to planes and to the horizon: of up to TileBlock::Part::kMost, one bit each.
     struct Verdicts {
+        Verdicts() { planes.outside = planes.insideAll = 0; }  // masks of slots that are not there are not read
+
         core::FamilyVerdict planes;
-        std::uint64_t believed = 0;  ///< those of the children that are asked by these verdicts
-        std::uint64_t tested = 0;    ///< those that have a bin that is tested so
+        std::uint64_t members =
+            0;                     ///< children that are the family's tiles; the others' own callbacks have to be asked
+        std::uint64_t tested = 0;  ///< slots with a bin that is tested so
         std::uint64_t hidden = 0;
+        bool lacksTiles = false;  ///< a tile is not where it was: the terrain may have a hole
     };
 
     /// Whether it culls the children of the group in this traversal.
     [[nodiscard]] bool culls(const osg::Node& group, osg::CullStack& cullStack, const DatabaseView& view) const;
 
     /// Tests the children from `first` on, a multiple of kMost. `eye`: null where nothing is hidden.
-    [[nodiscard]] Verdicts test(unsigned int first, const core::PlaneSet& planes, core::PlaneMask undecided,
-                                const core::HorizonEye* eye) const;
+    void test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes, core::PlaneMask undecided,
+              const core::HorizonEye* eye, Verdicts& verdicts) const;
 
-    /// Whether a child is the tile that the family knows under its number. Else its own callbacks have to be asked.
-    [[nodiscard]] bool isMember(unsigned int i, const osg::Node& child, const Verdicts& verdicts) const {
-        return (verdicts.believed >> (i % TileBlock::Part::kMost) & 1) != 0 && _nodes[i] == &child;
-    }
-    /// Whether a tile of the family is not among the group's children any more, as far as the numbers tell: the terrain
-    /// may have a hole there.
-    [[nodiscard]] bool lacksTiles(const osg::Group& group) const;
     [[nodiscard]] const Member& member(unsigned int i) const { return _members[i]; }
     [[nodiscard]] const TileBlock& block() const { return *_block; }
+
+    /// Children with which it was made.
+    [[nodiscard]] std::size_t size() const { return _nodes.size(); }
 
 protected:
     ~TileFamily() override;
@@ -91,8 +93,13 @@ protected:
 private:
     TileFamily() = default;
     [[nodiscard]] bool add(osg::Node& child, std::size_t slot);
-    [[nodiscard]] Verdict verdict(unsigned int i, const Verdicts& verdicts, const DatabaseView& view,
-                                  CullTraversal& traversal) const;
+    void lookUp(const osg::Group& group, unsigned int first, core::PlaneMask undecided, const DatabaseView& view,
+                Verdicts& verdicts) const;
+    [[nodiscard]] Verdict finish(unsigned int i, const Verdicts& verdicts, const DatabaseView& view,
+                                 CullTraversal& traversal) const;
+    [[nodiscard]] std::uint64_t culled(unsigned int first, const Verdicts& verdicts, const osg::NodeVisitor& nv,
+                                       osg::CullStack& cullStack, const DatabaseView& view,
+                                       CullTraversal& traversal) const;
     void cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack, const DatabaseView& view,
                       CullTraversal& traversal) const;
 

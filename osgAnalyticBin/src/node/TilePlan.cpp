@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TilePlan.h"
+
+#include <algorithm>
+
+namespace osgAnalyticBin {
+
+void TilePlan::clear() {
+    _entries.clear();
+    _masks.clear();
+    _next = 0;
+}
+
+void TilePlan::add(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
+                   const TileFamily::Verdicts& verdicts, std::size_t children) {
+    const core::PlaneMask* const masks = verdicts.planes.undecided;
+    const std::size_t begin = _masks.size();
+    _masks.insert(_masks.end(), masks, masks + std::min<std::size_t>(children, TileBlock::Part::kMost));
+    _entries.push_back({&family, first, undecided, verdicts.planes.outside, verdicts.planes.insideAll, verdicts.members,
+                        verdicts.tested, verdicts.hidden, verdicts.lacksTiles, begin, _masks.size()});
+}
+
+bool TilePlan::find(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
+                    TileFamily::Verdicts& verdicts) {
+    // families that are searched and not entered stand in between: below tiles whose columns alone are in view
+    constexpr std::size_t kFarthest = 32;
+    const std::size_t end = std::min(_entries.size(), _next + kFarthest);
+    for (std::size_t i = _next; i < end; ++i) {
+        const Entry& entry = _entries[i];
+        if (entry.family != &family || entry.first != first) continue;
+        _next = i + 1;
+        if (entry.undecided != undecided) return false;
+        verdicts.planes.outside = entry.outside;
+        verdicts.planes.insideAll = entry.insideAll;
+        verdicts.members = entry.members;
+        verdicts.tested = entry.tested;
+        verdicts.hidden = entry.hidden;
+        verdicts.lacksTiles = entry.lacksTiles;
+        std::copy(_masks.data() + entry.masks, _masks.data() + entry.end, verdicts.planes.undecided);
+        return true;
+    }
+    return false;
+}
+
+}  // namespace osgAnalyticBin
