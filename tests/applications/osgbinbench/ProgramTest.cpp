@@ -120,8 +120,8 @@ TEST(Program, JudgesEveryMethodByTheReference) {
     EXPECT_LT(drawn("orientedBox+horizon+reverse"), drawn("orientedBox"));
     EXPECT_LT(drawn("exact+horizon+reverse"), drawn("exact"));
     EXPECT_EQ(drawn("oracle"), drawn("exact+horizon+reverse"));
-    EXPECT_EQ(methods["oracle"]["kept_tiles"], methods["exact+horizon+reverse"]["kept_tiles"]);
-    EXPECT_EQ(methods["oracle"]["tested_tiles"], methods["oracle"]["kept_tiles"]);
+    // A tile that is kept for nothing, as all tiles of its page are culled, is reached, but its page is not.
+    EXPECT_EQ(methods["oracle"]["tested_tiles"], methods["exact+horizon+reverse"]["kept_tiles"]);
     // The callbacks that the database lacks are made: they cull what is behind the horizon.
     EXPECT_LT(drawn("cluster"), drawn("sphere"));
     EXPECT_LT(methods["quadratic+horizon"]["paged_lods"], methods["sphere"]["paged_lods"]);
