@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 
 // The time of one tile against the four side planes of a frustum, for every method: BM_Classify with nine tiles in ten
-// outside, BM_ClassifyHalf with half of them. Before anything is timed, all answers are compared with the oracle.
+// outside, BM_ClassifyHalf with half of them; likewise BM_Family and BM_FamilyHalf of four siblings at once. Before
+// anything is timed, all answers are compared with the oracle.
 
+#include "FamilyBenchmark.h"
 #include "TileMix.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
@@ -243,7 +245,7 @@ int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return EXIT_FAILURE;
     osgAnalyticBin::test::Suite suite;
-    if (!suite.add()) {
+    if (!suite.add() || !osgAnalyticBin::test::addFamilyBenchmarks()) {
         std::fprintf(stderr, "osganalyticbin_benchmark: a method culls tiles that it must keep; nothing is timed\n");
         return EXIT_FAILURE;
     }

@@ -64,23 +64,44 @@ std::array<double, row::ExactEnd> rowsOf(const ExactBinData& data) {
             data.sinMiddle};
 }
 
+QuadraticBin quadraticBin(const kernels::FamilyData& family, std::size_t i) {
+    const auto number = [&](std::size_t r) { return family.numbers[r * family.stride + i]; };
+    QuadraticBinData rows{};
+    for (std::size_t k = 0; k < 3; ++k) rows.sphere.center[k] = number(row::CenterX + k);
+    rows.sphere.reach = static_cast<float>(number(row::Reach));
+    rows.remainder = number(row::Remainder);
+    for (std::size_t k = 0; k < 9; ++k) rows.first[k / 3][k % 3] = number(row::First + k);
+    for (std::size_t k = 0; k < 18; ++k) rows.second[k / 3][k % 3] = number(row::Second + k);
+    return QuadraticBin(rows);
+}
+
+kernels::PlaneSides sidesByExactRange(const kernels::FamilyData& family, std::size_t i, const PlaneBlock* blocks,
+                                      PlaneMask planes) {
+    const QuadraticBin bin = quadraticBin(family, i);
+    kernels::PlaneSides sides{};
+    for (PlaneMask left = planes; left != 0; left &= left - 1) {
+        const unsigned k = kernels::firstBit(left);
+        const Side side = bin.classifyByExactRange(planeOf(blocks, k));
+        if (side == Side::Outside) sides.outside |= PlaneMask{1} << k;
+        if (side == Side::Inside) sides.inside |= PlaneMask{1} << k;
+    }
+    return sides;
+}
+
 }  // namespace
 
 BinFamily::BinFamily(std::size_t count)
     : _size(std::min(count, kMostSlots)),
       _stride((_size + kLanes - 1) / kLanes * kLanes),
+      _empty(_size == kMostSlots ? ~std::uint64_t{0} : (kFirst << _size) - 1),
       _lines(_stride * kRows * sizeof(double) / sizeof(Line)) {
     assert(count <= kMostSlots);
     // The horizon's rows are zero: an inverse radius of zero is never hidden.
     for (std::size_t i = 0; i < _stride; ++i) makeEmpty(slot(i), _stride);
 }
 
-std::uint64_t BinFamily::slots() const noexcept {
-    return _size == kMostSlots ? ~std::uint64_t{0} : (kFirst << _size) - 1;
-}
-
 kernels::FamilyData BinFamily::data() const noexcept {
-    return {_lines.empty() ? nullptr : _lines.data()->numbers, _stride, _exact};
+    return {reinterpret_cast<const double*>(_lines.data()), _stride, _exact, _filled, _empty, sidesByExactRange};
 }
 
 void BinFamily::fill(std::size_t i, const double* rows, std::size_t count, bool isExact) noexcept {
@@ -88,6 +109,7 @@ void BinFamily::fill(std::size_t i, const double* rows, std::size_t count, bool 
     for (std::size_t r = 0; r < count; ++r) slot(i)[r * _stride] = rows[r];
     const std::uint64_t bit = kFirst << i;
     _filled |= bit;
+    _empty &= ~bit;
     _exact = isExact ? _exact | bit : _exact & ~bit;
 }
 
@@ -112,59 +134,22 @@ void BinFamily::setHorizon(std::size_t i, const HorizonBin& bin) noexcept {
     for (std::size_t r = 0; r < row::kHorizonRows; ++r) first[r * _stride] = bin.rows()[r];
 }
 
-QuadraticBin BinFamily::quadraticBin(std::size_t i) const noexcept {
-    const auto number = [&](std::size_t r) { return data().numbers[r * _stride + i]; };
-    QuadraticBinData rows{};
-    for (std::size_t k = 0; k < 3; ++k) rows.sphere.center[k] = number(row::CenterX + k);
-    rows.sphere.reach = static_cast<float>(number(row::Reach));
-    rows.remainder = number(row::Remainder);
-    for (std::size_t k = 0; k < 9; ++k) rows.first[k / 3][k % 3] = number(row::First + k);
-    for (std::size_t k = 0; k < 18; ++k) rows.second[k / 3][k % 3] = number(row::Second + k);
-    return QuadraticBin(rows);
-}
-
 void BinFamily::clear(std::size_t i) noexcept {
     assert(i < _size);
     for (std::size_t r = 0; r < kRows; ++r) slot(i)[r * _stride] = 0.0;
     makeEmpty(slot(i), _stride);
     const std::uint64_t bit = kFirst << i;
     _filled &= ~bit;
+    _empty |= bit;
     _exact &= ~bit;
 }
 
 void BinFamily::classify(const PlaneSet& planes, PlaneMask undecided, FamilyVerdict& verdict) const noexcept {
-    kernels::OpenPlanes open;
-    open.slots = 0;
-    verdict.outside = 0;
-    verdict.insideAll = 0;
-    kernels::activeKernels.family(data(), planes.blocks(), undecided & planes.all(), undecided, verdict, open);
-    if (open.slots != 0) decideByExactRange(planes, open, verdict);
-    verdict.outside &= _filled;
-    verdict.insideAll &= _filled;
-    for (std::uint64_t left = slots() & ~_filled; left != 0; left &= left - 1) {
-        verdict.undecided[kernels::firstBit(left)] = undecided;
-    }
+    kernels::activeKernels.family(data(), planes.blocks(), {undecided, undecided & planes.all()}, verdict);
 }
 
 std::uint64_t BinFamily::hiddenFrom(const HorizonEye& eye, std::uint64_t candidates) const noexcept {
     return kernels::activeKernels.hidden(data(), eye.data(), candidates & _filled);
-}
-
-// One plane in a thousand: kept out of line.
-[[gnu::noinline]] void BinFamily::decideByExactRange(const PlaneSet& planes, const kernels::OpenPlanes& open,
-                                                     FamilyVerdict& verdict) const noexcept {
-    for (std::uint64_t slots = open.slots; slots != 0; slots &= slots - 1) {
-        const std::size_t i = kernels::firstBit(slots);
-        const QuadraticBin bin = quadraticBin(i);
-        for (std::uint64_t left = open.planes[i]; left != 0; left &= left - 1) {
-            const unsigned plane = kernels::firstBit(left);
-            const Side side = bin.classifyByExactRange(planes[plane]);
-            if (side == Side::Outside) verdict.outside |= kFirst << i;
-            if (side == Side::Inside) verdict.undecided[i] &= ~(PlaneMask{1} << plane);
-        }
-        const bool isOutside = (verdict.outside >> i & 1) != 0;
-        if (verdict.undecided[i] == 0 && !isOutside) verdict.insideAll |= kFirst << i;
-    }
 }
 
 }  // namespace osgAnalyticBin::core

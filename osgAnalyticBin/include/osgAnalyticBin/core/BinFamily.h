@@ -18,7 +18,6 @@ namespace osgAnalyticBin::core {
 
 namespace kernels {
 struct FamilyData;
-struct OpenPlanes;
 }  // namespace kernels
 
 /// The bins of sibling tiles, tested together: as many bins as a vector has lanes at once. It keeps copies of the bins'
@@ -51,10 +50,10 @@ public:
     void clear(std::size_t i) noexcept;
 
     /// Tests all slots against the planes of a set that are undecided.
-    /// Guarantee: outside, insideAll and undecided are what classify(bin, planes, undecided) gives for each bin, all
-    /// bits of the masks included; tests: BinFamily.GivesTheVerdictsOfItsBins.
-    /// Cost: one sphere test for all bins and planes together; the linear part, or the corners, only for planes that
-    /// are open for a bin; no allocation, no trigonometry.
+    /// Guarantee: outside and insideAll are what classify(bin, planes, undecided) gives for each bin, and undecided is
+    /// what it leaves of the mask, bit for bit, unless the bin is outside: then all stay undecided; tests:
+    /// BinFamily.GivesTheVerdictsOfItsBins. Cost: one sphere test for all bins and planes together; the linear part, or
+    /// the corners, only for planes that are open for a bin; no allocation, no trigonometry.
     void classify(const PlaneSet& planes, PlaneMask undecided, FamilyVerdict& verdict) const noexcept;
 
     /// Those of the candidates that the horizon hides, by the verdicts of HorizonEye::hides().
@@ -68,16 +67,13 @@ private:
     };
 
     [[nodiscard]] double* slot(std::size_t i) noexcept { return _lines.data()->numbers + i; }
-    [[nodiscard]] std::uint64_t slots() const noexcept;
     [[nodiscard]] kernels::FamilyData data() const noexcept;
-    [[nodiscard]] QuadraticBin quadraticBin(std::size_t i) const noexcept;
     void fill(std::size_t i, const double* rows, std::size_t count, bool isExact) noexcept;
-    void decideByExactRange(const PlaneSet& planes, const kernels::OpenPlanes& open,
-                            FamilyVerdict& verdict) const noexcept;
 
     std::size_t _size;
     std::size_t _stride;
     std::uint64_t _filled = 0;
+    std::uint64_t _empty;
     std::uint64_t _exact = 0;
     std::vector<Line> _lines;
 };

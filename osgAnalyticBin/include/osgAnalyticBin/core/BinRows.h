@@ -93,7 +93,8 @@ inline constexpr std::size_t kMostSlots = 64;
 struct FamilyVerdict {
     std::uint64_t outside;    ///< outside of one plane at least
     std::uint64_t insideAll;  ///< inside of all planes that were undecided
-    /// For each slot the planes that are still undecided. Slots above the family's are not meaningful.
+    /// For each slot the planes that are still undecided; all that were given, if the slot is outside. Slots above the
+    /// family's are not meaningful.
     std::uint32_t undecided[kMostSlots];
 };
 

@@ -21,6 +21,9 @@ class QuadraticBin;
 /// Returns: NaN, which decides nothing, when a number of the plane is not finite or its normal not of unit length.
 [[nodiscard]] double roundingOf(const Plane& plane) noexcept;
 
+/// A plane of some blocks.
+[[nodiscard]] Plane planeOf(const PlaneBlock* blocks, std::size_t i) noexcept;
+
 /// The planes of a frustum, laid out so that one bin is tested against four of them at once.
 /// Cost: a few nanoseconds a plane to fill; no allocation. Blocks that hold no plane are never written.
 class PlaneSet final {
@@ -94,10 +97,14 @@ inline void PlaneSet::set(std::size_t i, const Plane& plane) noexcept {
     block.rounding[lane] = roundingOf(plane);
 }
 
-inline Plane PlaneSet::operator[](std::size_t i) const noexcept {
-    const PlaneBlock& block = _blocks[i / PlaneBlock::kLanes];
+inline Plane planeOf(const PlaneBlock* blocks, std::size_t i) noexcept {
+    const PlaneBlock& block = blocks[i / PlaneBlock::kLanes];
     const std::size_t lane = i % PlaneBlock::kLanes;
     return {{block.normalX[lane], block.normalY[lane], block.normalZ[lane]}, block.offset[lane]};
+}
+
+inline Plane PlaneSet::operator[](std::size_t i) const noexcept {
+    return planeOf(blocks(), i);
 }
 
 }  // namespace osgAnalyticBin::core

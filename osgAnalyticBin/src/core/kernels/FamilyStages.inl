@@ -21,6 +21,19 @@ INLINE PlaneLanes<Real> planeOf(const PlaneBlock* blocks, unsigned i) {
             broadcast<Real>(block.offset[k]), broadcast<Real>(block.rounding[k])};
 }
 
+// The slots that are outside of a plane by their spheres.
+template <class Real>
+INLINE Truth<Real> outsideBySphere(const Slots<Real>& bins, const PlaneBlock* blocks, std::uint32_t tested) {
+    const auto isOutside = [&](unsigned i) ATTRIBUTES { return sphereSides(bins, planeOf<Real>(blocks, i)).outside; };
+    // The usual case by itself: the side planes of a camera.
+    if (tested == 0b1111) {
+        return either(either(isOutside(0), isOutside(1)), either(isOutside(2), isOutside(3)));
+    }
+    Truth<Real> outside = nowhere<Real>();
+    for (std::uint32_t left = tested; left != 0; left &= left - 1) outside = either(outside, isOutside(firstBit(left)));
+    return outside;
+}
+
 // What is known of each lane: whether a plane has it outside; the planes that have it inside, and those that a finer
 // test has to tell about.
 template <class Real>
@@ -29,20 +42,25 @@ struct Known {
     Bits<Real> inside, open;
 };
 
+// The planes that have the slots inside by their spheres; the others are open, unless the slot is outside.
 template <class Real>
-INLINE void testSpheres(const Slots<Real>& bins, const PlaneBlock* blocks, std::uint32_t undecided,
-                        Known<Real>& known) {
-    for (std::uint32_t left = undecided; left != 0; left &= left - 1) {
-        const unsigned i = firstBit(left);
-        const Sides<Real> sides = sphereSides(bins, planeOf<Real>(blocks, i));
-        known.outside = either(known.outside, sides.outside);
-        known.inside = known.inside | bitsWhere<Real>(sides.inside, std::uint32_t{1} << i);
+INLINE Known<Real> insideBySphere(const Slots<Real>& bins, const PlaneBlock* blocks, std::uint32_t tested,
+                                  Truth<Real> outside) {
+    const auto whereInside = [&](unsigned i) ATTRIBUTES {
+        return bitsWhere<Real>(sphereSides(bins, planeOf<Real>(blocks, i)).inside, std::uint32_t{1} << i);
+    };
+    Bits<Real> inside = bits<Real>(0);
+    if (tested == 0b1111) {
+        inside = (whereInside(0) | whereInside(1)) | (whereInside(2) | whereInside(3));
+    } else {
+        for (std::uint32_t left = tested; left != 0; left &= left - 1) inside = inside | whereInside(firstBit(left));
     }
-    known.open = zeroWhere<Real>(known.outside, exclusive(bits<Real>(undecided), known.inside));
+    return {outside, inside, zeroWhere<Real>(outside, exclusive(bits<Real>(tested), inside))};
 }
 
+// One stage more for what is open.
 template <class Test, class Real>
-INLINE void testOpen(const Slots<Real>& bins, const PlaneBlock* blocks, Known<Real>& known) {
+INLINE Known<Real> tested(const Slots<Real>& bins, const PlaneBlock* blocks, Known<Real> known) {
     Bits<Real> open = bits<Real>(0);
     for (std::uint32_t left = anyLane<Real>(known.open); left != 0; left &= left - 1) {
         const unsigned i = firstBit(left);
@@ -53,61 +71,140 @@ INLINE void testOpen(const Slots<Real>& bins, const PlaneBlock* blocks, Known<Re
         known.inside = known.inside | bitsWhere<Real>(both(asked, sides.inside), bit);
         open = open | bitsWhere<Real>(both(asked, sides.open), bit);
     }
-    known.open = zeroWhere<Real>(known.outside, open);
+    return {known.outside, known.inside, zeroWhere<Real>(known.outside, open)};
 }
 
 // One family in a dozen: kept out of line, so that the others do not save registers for it.
 template <class Test, class Real>
-NOINLINE void testOpenSeldom(const Slots<Real>& bins, const PlaneBlock* blocks, Known<Real>& known) {
-    testOpen<Test>(bins, blocks, known);
+NOINLINE Known<Real> testedSeldom(const Slots<Real>& bins, const PlaneBlock* blocks, const Known<Real>& known) {
+    return tested<Test>(bins, blocks, known);
 }
 
 template <class Form, class Real>
-INLINE void refine(const Slots<Real>& bins, const PlaneBlock* blocks, Known<Real>& known) {
-    testOpen<typename Form::Coarse>(bins, blocks, known);
-    if (anyLane<Real>(known.open) != 0) testOpenSeldom<typename Form::Fine>(bins, blocks, known);
+INLINE Known<Real> refined(const Slots<Real>& bins, const PlaneBlock* blocks, const Known<Real>& known) {
+    const Known<Real> coarse = tested<typename Form::Coarse>(bins, blocks, known);
+    return isZeroEverywhere<Real>(coarse.open) ? coarse : testedSeldom<typename Form::Fine>(bins, blocks, coarse);
 }
 
 // Lanes of both forms: each with its own stages.
 template <class Real>
-NOINLINE void refineMixed(const Slots<Real>& bins, const PlaneBlock* blocks, std::uint64_t exact, Known<Real>& known) {
-    const Truth<Real> isExact = whereSlots<Real>(exact);
-    const Bits<Real> open = known.open;
-    known.open = zeroWhere<Real>(isExact, open);
-    refine<QuadraticForm>(bins, blocks, known);
-    const Bits<Real> openQuadratic = known.open;
-    known.open = exclusive(open, zeroWhere<Real>(isExact, open));
-    refine<ExactForm>(bins, blocks, known);
-    known.open = known.open | openQuadratic;
+NOINLINE Known<Real> refinedMixed(const Slots<Real>& bins, const PlaneBlock* blocks, std::uint64_t exact,
+                                  const Known<Real>& known) {
+    const Bits<Real> openQuadratic = zeroWhere<Real>(whereSlots<Real>(exact), known.open);
+    const Known<Real> quadratic =
+        refined<QuadraticForm>(bins, blocks, Known<Real>{known.outside, known.inside, openQuadratic});
+    const Bits<Real> openExact = exclusive(known.open, openQuadratic);
+    const Known<Real> all =
+        refined<ExactForm>(bins, blocks, Known<Real>{quadratic.outside, quadratic.inside, openExact});
+    return {all.outside, all.inside, quadratic.open | all.open};
+}
+
+// One bit a slot.
+struct FamilySides {
+    std::uint64_t outside, insideAll;
+};
+
+// One plane in a thousand. Bits of slots count from the first slot.
+template <class Real>
+NOINLINE FamilySides decideByExactRange(const FamilyData& family, std::size_t first, const PlaneBlock* blocks,
+                                        const PlaneMasks& masks, const std::uint32_t* open, FamilySides sides,
+                                        std::uint32_t* undecided) {
+    for (std::size_t k = 0; k < lanesOf<Real>(); ++k) {
+        if (open[k] == 0) continue;
+        const std::size_t i = first + k;
+        const PlaneSides bySlot = family.exactRange(family, i, blocks, open[k]);
+        undecided[i] = bySlot.outside != 0 ? masks.undecided : undecided[i] & ~bySlot.inside;
+        sides.outside |= std::uint64_t{bySlot.outside != 0} << k;
+        sides.insideAll |= std::uint64_t{undecided[i] == 0 && bySlot.outside == 0} << k;
+    }
+    return {sides.outside << first, sides.insideAll << first};
+}
+
+// What is left when the spheres are not all outside.
+template <class Real>
+INLINE FamilySides classifyFurther(const FamilyData& family, const Slots<Real>& bins, std::size_t first,
+                                   const PlaneBlock* blocks, const PlaneMasks& masks, Truth<Real> outside,
+                                   std::uint32_t* undecided) {
+    constexpr std::uint64_t kAll = (std::uint64_t{1} << lanesOf<Real>()) - 1;
+    Known<Real> known = insideBySphere<Real>(bins, blocks, masks.tested, outside);
+    if (!isZeroEverywhere<Real>(known.open)) {
+        const std::uint64_t exact = (family.exact >> first) & kAll;
+        known = exact == 0      ? refined<QuadraticForm>(bins, blocks, known)
+                : exact == kAll ? refined<ExactForm>(bins, blocks, known)
+                                : refinedMixed(bins, blocks, exact, known);
+    }
+    const Bits<Real> left = exclusive(bits<Real>(masks.undecided), zeroWhere<Real>(known.outside, known.inside));
+    store<Real>(left, undecided + first);
+    const FamilySides sides{slotsOf<Real>(known.outside), slotsOf<Real>(without(isZero<Real>(left), known.outside))};
+    if (isZeroEverywhere<Real>(known.open)) return {sides.outside << first, sides.insideAll << first};
+    std::uint32_t open[lanesOf<Real>()];
+    store<Real>(known.open, open);
+    return decideByExactRange<Real>(family, first, blocks, masks, open, sides, undecided);
+}
+
+// A slot without a bin was outside of every plane.
+INLINE void write(const FamilyData& family, const FamilySides& sides, std::uint32_t undecided, FamilyVerdict& verdict) {
+    verdict.outside = sides.outside & family.filled;
+    verdict.insideAll = sides.insideAll & family.filled;
+    for (std::uint64_t left = family.empty; left != 0; left &= left - 1) verdict.undecided[firstBit(left)] = undecided;
+}
+
+// A family that is no larger than one vector, in two parts: what is out of line needs many registers.
+template <class Real>
+NOINLINE void classifyOneFurther(const FamilyData& family, const PlaneBlock* blocks, PlaneMasks masks,
+                                 FamilyVerdict& verdict) {
+    const Slots<Real> bins{family.numbers, family.stride};
+    const Truth<Real> outside = outsideBySphere<Real>(bins, blocks, masks.tested);
+    write(family, classifyFurther<Real>(family, bins, 0, blocks, masks, outside, verdict.undecided), masks.undecided,
+          verdict);
 }
 
 template <class Real>
-INLINE void classifySlots(const FamilyData& family, std::size_t first, const PlaneBlock* blocks, std::uint32_t tested,
-                          std::uint32_t undecided, FamilyVerdict& verdict, OpenPlanes& open) {
-    const Slots<Real> bins{family.numbers + first, family.stride};
-    Known<Real> known{nowhere<Real>(), bits<Real>(0), bits<Real>(0)};
-    testSpheres(bins, blocks, tested, known);
-    if (anyLane<Real>(known.open) != 0) {
-        const std::uint64_t all = (std::uint64_t{1} << lanesOf<Real>()) - 1;
-        const std::uint64_t exact = (family.exact >> first) & all;
-        if (exact == 0) {
-            refine<QuadraticForm>(bins, blocks, known);
-        } else if (exact == all) {
-            refine<ExactForm>(bins, blocks, known);
-        } else {
-            refineMixed(bins, blocks, exact, known);
-        }
-        const std::uint64_t slots = ~slotsOf<Real>(isZero<Real>(known.open)) & all;
-        if (slots != 0) {
-            open.slots |= slots << first;
-            store<Real>(known.open, open.planes + first);
-        }
+INLINE void classifyOne(const FamilyData& family, const PlaneBlock* blocks, PlaneMasks masks, FamilyVerdict& verdict) {
+    const Slots<Real> bins{family.numbers, lanesOf<Real>()};
+    if (!isEverywhere<Real>(outsideBySphere<Real>(bins, blocks, masks.tested))) {
+        return classifyOneFurther<Real>(family, blocks, masks, verdict);
     }
-    const Bits<Real> left = exclusive(bits<Real>(undecided), known.inside);
-    store<Real>(left, verdict.undecided + first);
-    const std::uint64_t outside = slotsOf<Real>(known.outside);
-    verdict.outside |= outside << first;
-    verdict.insideAll |= (slotsOf<Real>(isZero<Real>(left)) & ~outside) << first;
+    verdict.outside = family.filled;
+    verdict.insideAll = 0;
+    storeAll<Real>(masks.undecided, verdict.undecided);
+}
+
+template <class Real>
+INLINE FamilySides classifySlots(const FamilyData& family, std::size_t first, const PlaneBlock* blocks,
+                                 const PlaneMasks& masks, std::uint32_t* undecided) {
+    constexpr std::uint64_t kAll = (std::uint64_t{1} << lanesOf<Real>()) - 1;
+    const Slots<Real> bins{family.numbers + first, family.stride};
+    const Truth<Real> outside = outsideBySphere<Real>(bins, blocks, masks.tested);
+    if (!isEverywhere<Real>(outside)) {
+        return classifyFurther<Real>(family, bins, first, blocks, masks, outside, undecided);
+    }
+    storeAll<Real>(masks.undecided, undecided + first);
+    return {kAll << first, 0};
+}
+
+// Any family, in wide vectors as far as these go.
+template <class Wide, class Narrow>
+NOINLINE void classifyMany(const FamilyData& family, const PlaneBlock* blocks, PlaneMasks masks,
+                           FamilyVerdict& verdict) {
+    FamilySides all{};
+    std::size_t i = 0;
+    for (; i + lanesOf<Wide>() <= family.stride; i += lanesOf<Wide>()) {
+        const FamilySides sides = classifySlots<Wide>(family, i, blocks, masks, verdict.undecided);
+        all = {all.outside | sides.outside, all.insideAll | sides.insideAll};
+    }
+    for (; i < family.stride; i += lanesOf<Narrow>()) {
+        const FamilySides sides = classifySlots<Narrow>(family, i, blocks, masks, verdict.undecided);
+        all = {all.outside | sides.outside, all.insideAll | sides.insideAll};
+    }
+    write(family, all, masks.undecided, verdict);
+}
+
+template <class Wide, class Narrow>
+INLINE void classifyFamily(const FamilyData& family, const PlaneBlock* blocks, PlaneMasks masks,
+                           FamilyVerdict& verdict) {
+    if (family.stride == lanesOf<Narrow>()) return classifyOne<Narrow>(family, blocks, masks, verdict);
+    classifyMany<Wide, Narrow>(family, blocks, masks, verdict);
 }
 
 template <class Real>
@@ -120,4 +217,15 @@ INLINE std::uint64_t hiddenSlots(const FamilyData& family, std::size_t first, co
     asked &= ~slotsOf<Real>(showsAnEnd<Real>(bins, eye));
     if (asked == 0) return 0;
     return (asked & slotsOf<Real>(isBehindHorizon<Real>(bins, eye))) << first;
+}
+
+template <class Wide, class Narrow>
+INLINE std::uint64_t hiddenOfFamily(const FamilyData& family, const HorizonEyeData& eye, std::uint64_t candidates) {
+    std::uint64_t hidden = 0;
+    std::size_t i = 0;
+    for (; i + lanesOf<Wide>() <= family.stride; i += lanesOf<Wide>()) {
+        hidden |= hiddenSlots<Wide>(family, i, eye, candidates);
+    }
+    for (; i < family.stride; i += lanesOf<Narrow>()) hidden |= hiddenSlots<Narrow>(family, i, eye, candidates);
+    return hidden;
 }

@@ -32,18 +32,26 @@ struct Verdict {
     return static_cast<unsigned>(__builtin_ctzll(bits));
 }
 
+/// The planes of a bin, one bit each.
+struct PlaneSides {
+    std::uint32_t outside, inside;
+};
+
 /// The rows of a family: kBinRows, then kHorizonRows. Slots up to the next multiple of four may be read; those without
 /// a bin have a sphere that is outside of every plane.
 struct FamilyData {
     const double* numbers;
-    std::size_t stride;   ///< from one row to the next: a multiple of four
-    std::uint64_t exact;  ///< the slots in exact form
+    std::size_t stride;    ///< from one row to the next: a multiple of four
+    std::uint64_t exact;   ///< the slots in exact form
+    std::uint64_t filled;  ///< the slots with a bin
+    std::uint64_t empty;   ///< the other slots, up to the family's size
+    /// What the exact range of the polynomial says of some planes of a slot in quadratic form.
+    PlaneSides (*exactRange)(const FamilyData& family, std::size_t i, const PlaneBlock* blocks, std::uint32_t planes);
 };
 
-/// What a family's kernel leaves to the exact range of the polynomial.
-struct OpenPlanes {
-    std::uint64_t slots;  ///< that have such planes
-    std::uint32_t planes[kMostSlots];
+/// The planes that are undecided, and those of them that are there to be tested.
+struct PlaneMasks {
+    std::uint32_t undecided, tested;
 };
 
 /// A function for each kind of bin; it takes the mask of the planes to test. Tests run in stages over all planes: the
@@ -52,17 +60,14 @@ struct PlaneKernels {
     Verdict (*exact)(const ExactBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
     Verdict (*quadratic)(const QuadraticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
     Verdict (*geodetic)(const GeodeticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
-    /// `tested` are the planes to test, of those that are undecided.
-    void (*family)(const FamilyData& family, const PlaneBlock* blocks, std::uint32_t tested, std::uint32_t undecided,
-                   FamilyVerdict& verdict, OpenPlanes& open);
+    void (*family)(const FamilyData& family, const PlaneBlock* blocks, PlaneMasks masks, FamilyVerdict& verdict);
     std::uint64_t (*hidden)(const FamilyData& family, const HorizonEyeData& eye, std::uint64_t candidates);
 };
 
 [[nodiscard]] Verdict exactScalar(const ExactBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
 [[nodiscard]] Verdict quadraticScalar(const QuadraticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
 [[nodiscard]] Verdict geodeticScalar(const GeodeticBinData& bin, const PlaneBlock* blocks, std::uint32_t undecided);
-void familyScalar(const FamilyData& family, const PlaneBlock* blocks, std::uint32_t tested, std::uint32_t undecided,
-                  FamilyVerdict& verdict, OpenPlanes& open);
+void familyScalar(const FamilyData& family, const PlaneBlock* blocks, PlaneMasks masks, FamilyVerdict& verdict);
 [[nodiscard]] std::uint64_t hiddenScalar(const FamilyData& family, const HorizonEyeData& eye, std::uint64_t candidates);
 
 /// The scalar form until static initialisation has chosen the widest that this machine runs: they agree bit for bit.

@@ -57,9 +57,9 @@ INLINE Real along(const Bin& bin, std::size_t x, const PlaneLanes<Real>& plane) 
 template <class Real, class Bin>
 INLINE Sides<Real> sphereSides(const Bin& bin, const PlaneLanes<Real>& plane) {
     const Real distance = distanceOfCenter(bin, plane);
-    const Real threshold = bin[row::Reach] + plane.rounding;
-    const Truth<Real> outside = distance < negated(threshold);
-    const Truth<Real> inside = distance >= threshold;
+    // The threshold either way; negation does not round.
+    const Truth<Real> outside = distance < negated(bin[row::Reach]) - plane.rounding;
+    const Truth<Real> inside = distance >= bin[row::Reach] + plane.rounding;
     return {outside, inside, neither<Real>(outside, inside)};
 }
 

@@ -146,23 +146,20 @@ namespace scalar {
 
 #define INLINE inline
 #define NOINLINE inline
+#define ATTRIBUTES
 #include "FamilyStages.inl"
 #undef INLINE
 #undef NOINLINE
+#undef ATTRIBUTES
 
 }  // namespace scalar
 
-void familyScalar(const FamilyData& data, const PlaneBlock* blocks, std::uint32_t tested, std::uint32_t undecided,
-                  FamilyVerdict& verdict, OpenPlanes& open) {
-    for (std::size_t i = 0; i < data.stride; ++i) {
-        scalar::classifySlots<double>(data, i, blocks, tested, undecided, verdict, open);
-    }
+void familyScalar(const FamilyData& family, const PlaneBlock* blocks, PlaneMasks masks, FamilyVerdict& verdict) {
+    scalar::classifyFamily<double, double>(family, blocks, masks, verdict);
 }
 
-std::uint64_t hiddenScalar(const FamilyData& data, const HorizonEyeData& eye, std::uint64_t candidates) {
-    std::uint64_t hidden = 0;
-    for (std::size_t i = 0; i < data.stride; ++i) hidden |= scalar::hiddenSlots<double>(data, i, eye, candidates);
-    return hidden;
+std::uint64_t hiddenScalar(const FamilyData& family, const HorizonEyeData& eye, std::uint64_t candidates) {
+    return scalar::hiddenOfFamily<double, double>(family, eye, candidates);
 }
 
 Range supportRange(const ExactBinData& bin, double nx, double ny, double nz) noexcept {

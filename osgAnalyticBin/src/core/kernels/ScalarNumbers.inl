@@ -5,6 +5,7 @@
 
 #define INLINE inline
 #define NOINLINE inline
+#define ATTRIBUTES
 
 template <class Real>
 using Truth = bool;
@@ -68,6 +69,11 @@ bool anyWhere(bool where) {
 }
 
 template <class Real>
+bool isEverywhere(bool where) {
+    return where;
+}
+
+template <class Real>
 std::uint32_t bits(std::uint32_t all) {
     return all;
 }
@@ -91,12 +97,21 @@ bool isZero(std::uint32_t bits) {
     return bits == 0;
 }
 template <class Real>
+bool isZeroEverywhere(std::uint32_t bits) {
+    return bits == 0;
+}
+template <class Real>
 std::uint32_t anyLane(std::uint32_t bits) {
     return bits;
 }
 template <class Real>
 void store(std::uint32_t bits, std::uint32_t* to) {
     *to = bits;
+}
+
+template <class Real>
+void storeAll(std::uint32_t all, std::uint32_t* to) {
+    *to = all;
 }
 
 template <class Real>

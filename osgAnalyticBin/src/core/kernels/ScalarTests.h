@@ -21,6 +21,7 @@ namespace osgAnalyticBin::core::kernels::scalar {
 #include "HorizonTest.inl"
 #undef INLINE
 #undef NOINLINE
+#undef ATTRIBUTES
 // clang-format on
 
 }  // namespace osgAnalyticBin::core::kernels::scalar

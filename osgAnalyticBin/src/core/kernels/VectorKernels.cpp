@@ -377,37 +377,19 @@ namespace family {
 // clang-format on
 #undef INLINE
 #undef NOINLINE
+#undef ATTRIBUTES
 
-using Wide = hn::CappedTag<double, 8>;
-using Narrow = hn::CappedTag<double, 4>;
+using Wide = hn::Vec<hn::CappedTag<double, 8>>;
+using Narrow = hn::Vec<hn::CappedTag<double, 4>>;
 
 }  // namespace family
 
-void familyVector(const FamilyData& data, const PlaneBlock* blocks, std::uint32_t tested, std::uint32_t undecided,
-                  FamilyVerdict& verdict, OpenPlanes& open) {
-    using family::Narrow;
-    using family::Wide;
-    std::size_t i = 0;
-    for (; i + hn::MaxLanes(Wide()) <= data.stride; i += hn::MaxLanes(Wide())) {
-        family::classifySlots<hn::Vec<Wide>>(data, i, blocks, tested, undecided, verdict, open);
-    }
-    for (; i < data.stride; i += hn::MaxLanes(Narrow())) {
-        family::classifySlots<hn::Vec<Narrow>>(data, i, blocks, tested, undecided, verdict, open);
-    }
+void familyVector(const FamilyData& data, const PlaneBlock* blocks, PlaneMasks masks, FamilyVerdict& verdict) {
+    family::classifyFamily<family::Wide, family::Narrow>(data, blocks, masks, verdict);
 }
 
 std::uint64_t hiddenVector(const FamilyData& data, const HorizonEyeData& eye, std::uint64_t candidates) {
-    using family::Narrow;
-    using family::Wide;
-    std::uint64_t hidden = 0;
-    std::size_t i = 0;
-    for (; i + hn::MaxLanes(Wide()) <= data.stride; i += hn::MaxLanes(Wide())) {
-        hidden |= family::hiddenSlots<hn::Vec<Wide>>(data, i, eye, candidates);
-    }
-    for (; i < data.stride; i += hn::MaxLanes(Narrow())) {
-        hidden |= family::hiddenSlots<hn::Vec<Narrow>>(data, i, eye, candidates);
-    }
-    return hidden;
+    return family::hiddenOfFamily<family::Wide, family::Narrow>(data, eye, candidates);
 }
 
 }  // namespace HWY_NAMESPACE

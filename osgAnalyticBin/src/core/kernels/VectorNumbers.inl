@@ -6,6 +6,7 @@
 
 #define INLINE HWY_INLINE
 #define NOINLINE HWY_NOINLINE
+#define ATTRIBUTES HWY_ATTR
 
 template <class Real>
 using Tag = hn::DFromV<Real>;
@@ -81,6 +82,11 @@ HWY_INLINE bool anyWhere(Truth<Real> where) {
 }
 
 template <class Real>
+HWY_INLINE bool isEverywhere(Truth<Real> where) {
+    return hn::AllTrue(Tag<Real>(), where);
+}
+
+template <class Real>
 HWY_INLINE Bits<Real> bits(std::uint32_t all) {
     return hn::Set(BitsTag<Real>(), all);
 }
@@ -105,17 +111,32 @@ HWY_INLINE Truth<Real> isZero(Bits<Real> of) {
     return hn::RebindMask(Tag<Real>(), of == bits<Real>(0));
 }
 template <class Real>
+HWY_INLINE bool isZeroEverywhere(Bits<Real> of) {
+    return hn::AllTrue(BitsTag<Real>(), of == bits<Real>(0));
+}
+template <class B>
+HWY_INLINE std::uint32_t anyLaneOf(B of) {
+#if HWY_TARGET != HWY_SCALAR
+    using D = hn::DFromV<B>;
+    const hn::Half<D> half;
+    if constexpr (hn::MaxLanes(D()) > 1) return anyLaneOf(hn::LowerHalf(half, of) | hn::UpperHalf(half, of));
+#endif
+    return static_cast<std::uint32_t>(hn::GetLane(of));
+}
+template <class Real>
 HWY_INLINE std::uint32_t anyLane(Bits<Real> of) {
-    alignas(64) std::uint64_t lanes[lanesOf<Real>()];
-    hn::Store(of, BitsTag<Real>(), lanes);
-    std::uint64_t all = 0;
-    for (const std::uint64_t lane : lanes) all |= lane;
-    return static_cast<std::uint32_t>(all);
+    return anyLaneOf(of);
 }
 template <class Real>
 HWY_INLINE void store(Bits<Real> of, std::uint32_t* to) {
     const hn::Rebind<std::uint32_t, Tag<Real>> narrow;
     hn::StoreU(hn::TruncateTo(narrow, of), narrow, to);
+}
+
+template <class Real>
+HWY_INLINE void storeAll(std::uint32_t all, std::uint32_t* to) {
+    const hn::Rebind<std::uint32_t, Tag<Real>> narrow;
+    hn::StoreU(hn::Set(narrow, all), narrow, to);
 }
 
 template <class Real>
