@@ -19,6 +19,7 @@
 #include <cstdio>
 #include <limits>
 #include <support/RandomBins.h>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -219,6 +220,32 @@ TEST(BinFamily, ABinThatIsSetAgainIsTheNewOne) {
     family.set(0, core::GeodeticQuadraticBin(wgs84(), wide));
     family.classify(planes, planes.all(), verdict);
     EXPECT_EQ(verdict.insideAll, 0u);
+}
+
+TEST(BinFamily, CopiesHaveNumbersOfTheirOwn) {
+    const GeodeticBin box = GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0});
+    PlaneSet planes;
+    planes.push_back({{1.0, 0.0, 0.0}, -1e9});
+    const auto outside = [&](const BinFamily& family) {
+        FamilyVerdict verdict{};
+        family.classify(planes, planes.all(), verdict);
+        return verdict.outside;
+    };
+    BinFamily family(2);
+    family.set(1, ExactGeodeticBin(wgs84(), box));
+    BinFamily copy(family);
+    BinFamily assigned(1);
+    assigned = family;
+    family.clear(1);
+    EXPECT_EQ(outside(family), 0u);
+    EXPECT_EQ(outside(copy), 0b10u);
+    EXPECT_EQ(outside(assigned), 0b10u);
+    copy.clear(1);
+    assigned.set(0, ExactGeodeticBin(wgs84(), box));
+    EXPECT_EQ(outside(copy), 0u);
+    EXPECT_EQ(outside(assigned), 0b11u);
+    const BinFamily moved(std::move(assigned));
+    EXPECT_EQ(outside(moved), 0b11u);
 }
 
 TEST(BinFamily, MayHaveNoSlotAndNoPlane) {

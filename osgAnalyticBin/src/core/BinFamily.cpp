@@ -64,7 +64,7 @@ std::array<double, row::ExactEnd> rowsOf(const ExactBinData& data) {
             data.sinMiddle};
 }
 
-QuadraticBin quadraticBin(const kernels::FamilyData& family, std::size_t i) {
+QuadraticBin quadraticBin(const FamilyData& family, std::size_t i) {
     const auto number = [&](std::size_t r) { return family.numbers[r * family.stride + i]; };
     QuadraticBinData rows{};
     for (std::size_t k = 0; k < 3; ++k) rows.sphere.center[k] = number(row::CenterX + k);
@@ -75,10 +75,9 @@ QuadraticBin quadraticBin(const kernels::FamilyData& family, std::size_t i) {
     return QuadraticBin(rows);
 }
 
-kernels::PlaneSides sidesByExactRange(const kernels::FamilyData& family, std::size_t i, const PlaneBlock* blocks,
-                                      PlaneMask planes) {
+PlaneSides sidesByExactRange(const FamilyData& family, std::size_t i, const PlaneBlock* blocks, PlaneMask planes) {
     const QuadraticBin bin = quadraticBin(family, i);
-    kernels::PlaneSides sides{};
+    PlaneSides sides{};
     for (PlaneMask left = planes; left != 0; left &= left - 1) {
         const unsigned k = kernels::firstBit(left);
         const Side side = bin.classifyByExactRange(planeOf(blocks, k));
@@ -90,27 +89,35 @@ kernels::PlaneSides sidesByExactRange(const kernels::FamilyData& family, std::si
 
 }  // namespace
 
-BinFamily::BinFamily(std::size_t count)
-    : _size(std::min(count, kMostSlots)),
-      _stride((_size + kLanes - 1) / kLanes * kLanes),
-      _empty(_size == kMostSlots ? ~std::uint64_t{0} : (kFirst << _size) - 1),
-      _lines(_stride * kRows * sizeof(double) / sizeof(Line)) {
+BinFamily::BinFamily(std::size_t count) : _size(std::min(count, kMostSlots)), _data{} {
     assert(count <= kMostSlots);
+    _data.stride = (_size + kLanes - 1) / kLanes * kLanes;
+    _data.empty = _size == kMostSlots ? ~std::uint64_t{0} : (kFirst << _size) - 1;
+    _data.exactRange = sidesByExactRange;
     // The horizon's rows are zero: an inverse radius of zero is never hidden.
-    for (std::size_t i = 0; i < _stride; ++i) makeEmpty(slot(i), _stride);
+    _lines.resize(_data.stride * kRows * sizeof(double) / sizeof(Line));
+    _data.numbers = reinterpret_cast<const double*>(_lines.data());
+    for (std::size_t i = 0; i < _data.stride; ++i) makeEmpty(slot(i), _data.stride);
 }
 
-kernels::FamilyData BinFamily::data() const noexcept {
-    return {reinterpret_cast<const double*>(_lines.data()), _stride, _exact, _filled, _empty, sidesByExactRange};
+BinFamily::BinFamily(const BinFamily& other) : _size(other._size), _lines(other._lines), _data(other._data) {
+    _data.numbers = reinterpret_cast<const double*>(_lines.data());
+}
+
+BinFamily& BinFamily::operator=(BinFamily other) noexcept {
+    _size = other._size;
+    _lines.swap(other._lines);
+    _data = other._data;
+    return *this;
 }
 
 void BinFamily::fill(std::size_t i, const double* rows, std::size_t count, bool isExact) noexcept {
     assert(i < _size);
-    for (std::size_t r = 0; r < count; ++r) slot(i)[r * _stride] = rows[r];
+    for (std::size_t r = 0; r < count; ++r) slot(i)[r * _data.stride] = rows[r];
     const std::uint64_t bit = kFirst << i;
-    _filled |= bit;
-    _empty &= ~bit;
-    _exact = isExact ? _exact | bit : _exact & ~bit;
+    _data.filled |= bit;
+    _data.empty &= ~bit;
+    _data.exact = isExact ? _data.exact | bit : _data.exact & ~bit;
 }
 
 void BinFamily::set(std::size_t i, const QuadraticBin& bin) noexcept {
@@ -130,26 +137,26 @@ void BinFamily::set(std::size_t i, const GeodeticQuadraticBin& bin) noexcept {
 
 void BinFamily::setHorizon(std::size_t i, const HorizonBin& bin) noexcept {
     assert(i < _size);
-    double* first = slot(i) + row::kBinRows * _stride;
-    for (std::size_t r = 0; r < row::kHorizonRows; ++r) first[r * _stride] = bin.rows()[r];
+    double* first = slot(i) + row::kBinRows * _data.stride;
+    for (std::size_t r = 0; r < row::kHorizonRows; ++r) first[r * _data.stride] = bin.rows()[r];
 }
 
 void BinFamily::clear(std::size_t i) noexcept {
     assert(i < _size);
-    for (std::size_t r = 0; r < kRows; ++r) slot(i)[r * _stride] = 0.0;
-    makeEmpty(slot(i), _stride);
+    for (std::size_t r = 0; r < kRows; ++r) slot(i)[r * _data.stride] = 0.0;
+    makeEmpty(slot(i), _data.stride);
     const std::uint64_t bit = kFirst << i;
-    _filled &= ~bit;
-    _empty |= bit;
-    _exact &= ~bit;
+    _data.filled &= ~bit;
+    _data.empty |= bit;
+    _data.exact &= ~bit;
 }
 
 void BinFamily::classify(const PlaneSet& planes, PlaneMask undecided, FamilyVerdict& verdict) const noexcept {
-    kernels::activeKernels.family(data(), planes.blocks(), {undecided, undecided & planes.all()}, verdict);
+    kernels::activeKernels.family(_data, planes.blocks(), {undecided, undecided & planes.all()}, verdict);
 }
 
 std::uint64_t BinFamily::hiddenFrom(const HorizonEye& eye, std::uint64_t candidates) const noexcept {
-    return kernels::activeKernels.hidden(data(), eye.data(), candidates & _filled);
+    return kernels::activeKernels.hidden(_data, eye.data(), candidates & _data.filled);
 }
 
 }  // namespace osgAnalyticBin::core

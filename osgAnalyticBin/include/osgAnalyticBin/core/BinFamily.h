@@ -16,10 +16,6 @@
 
 namespace osgAnalyticBin::core {
 
-namespace kernels {
-struct FamilyData;
-}  // namespace kernels
-
 /// The bins of sibling tiles, tested together: as many bins as a vector has lanes at once. It keeps copies of the bins'
 /// numbers, one row for each number with the bins side by side, those that are read first in front. A slot without a
 /// bin straddles every plane and is never hidden. Guarantee: verdicts are those of the bins by themselves, bit for bit,
@@ -32,11 +28,15 @@ public:
 
     /// All slots are without a bin. Requires: count <= kMostSlots (asserted); slots above are not there.
     explicit BinFamily(std::size_t count);
+    BinFamily(const BinFamily& other);
+    BinFamily(BinFamily&&) noexcept = default;
+    BinFamily& operator=(BinFamily other) noexcept;
+    ~BinFamily() = default;
 
     /// Slots with and without a bin.
     [[nodiscard]] std::size_t size() const noexcept { return _size; }
     /// The slots that have a bin, one bit each.
-    [[nodiscard]] std::uint64_t filled() const noexcept { return _filled; }
+    [[nodiscard]] std::uint64_t filled() const noexcept { return _data.filled; }
 
     /// Gives the slot a bin, in the form that the bin has. Its horizon stays as it is. Requires: i < size().
     void set(std::size_t i, const GeodeticQuadraticBin& bin) noexcept;
@@ -67,15 +67,11 @@ private:
     };
 
     [[nodiscard]] double* slot(std::size_t i) noexcept { return _lines.data()->numbers + i; }
-    [[nodiscard]] kernels::FamilyData data() const noexcept;
     void fill(std::size_t i, const double* rows, std::size_t count, bool isExact) noexcept;
 
     std::size_t _size;
-    std::size_t _stride;
-    std::uint64_t _filled = 0;
-    std::uint64_t _empty;
-    std::uint64_t _exact = 0;
     std::vector<Line> _lines;
+    FamilyData _data;  // what the kernels read; its numbers are in the lines
 };
 
 }  // namespace osgAnalyticBin::core

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <osgAnalyticBin/core/KernelData.h>
+
 #include <cstddef>
 #include <cstdint>
 
@@ -96,6 +98,23 @@ struct FamilyVerdict {
     /// For each slot the planes that are still undecided; all that were given, if the slot is outside. Slots above the
     /// family's are not meaningful.
     std::uint32_t undecided[kMostSlots];
+};
+
+/// The planes of a bin, one bit each.
+struct PlaneSides {
+    std::uint32_t outside, inside;
+};
+
+/// The rows of a family: kBinRows, then kHorizonRows. Slots up to the next multiple of four may be read; those without
+/// a bin have a sphere that is outside of every plane.
+struct FamilyData {
+    const double* numbers;
+    std::size_t stride;    ///< from one row to the next: a multiple of four
+    std::uint64_t exact;   ///< the slots in exact form
+    std::uint64_t filled;  ///< the slots with a bin
+    std::uint64_t empty;   ///< the other slots, up to the family's size
+    /// What the exact range of the polynomial says of some planes of a slot in quadratic form.
+    PlaneSides (*exactRange)(const FamilyData& family, std::size_t i, const PlaneBlock* blocks, std::uint32_t planes);
 };
 
 }  // namespace osgAnalyticBin::core
