@@ -127,12 +127,10 @@ INLINE FamilySides classifyFurther(const FamilyData& family, const Slots<Real>& 
                                    std::uint32_t* undecided) {
     constexpr std::uint64_t kAll = (std::uint64_t{1} << lanesOf<Real>()) - 1;
     Known<Real> known = insideBySphere<Real>(bins, blocks, masks.tested, outside);
-    if (!isZeroEverywhere<Real>(known.open)) {
-        const std::uint64_t exact = (family.exact >> first) & kAll;
-        known = exact == 0      ? refined<QuadraticForm>(bins, blocks, known)
-                : exact == kAll ? refined<ExactForm>(bins, blocks, known)
-                                : refinedMixed(bins, blocks, exact, known);
-    }
+    const std::uint64_t exact = (family.exact >> first) & kAll;
+    known = exact == 0      ? refined<QuadraticForm>(bins, blocks, known)
+            : exact == kAll ? refined<ExactForm>(bins, blocks, known)
+                            : refinedMixed(bins, blocks, exact, known);
     const Bits<Real> left = exclusive(bits<Real>(masks.undecided), zeroWhere<Real>(known.outside, known.inside));
     store<Real>(left, undecided + first);
     const FamilySides sides{slotsOf<Real>(known.outside), slotsOf<Real>(without(isZero<Real>(left), known.outside))};
@@ -152,19 +150,19 @@ INLINE void write(const FamilyData& family, const FamilySides& sides, std::uint3
 // A family that is no larger than one vector, in two parts: what is out of line needs many registers.
 template <class Real>
 NOINLINE void classifyOneFurther(const FamilyData& family, const PlaneBlock* blocks, PlaneMasks masks,
-                                 FamilyVerdict& verdict) {
-    const Slots<Real> bins{family.numbers, family.stride};
-    const Truth<Real> outside = outsideBySphere<Real>(bins, blocks, masks.tested);
-    write(family, classifyFurther<Real>(family, bins, 0, blocks, masks, outside, verdict.undecided), masks.undecided,
-          verdict);
+                                 std::uint64_t outside, FamilyVerdict& verdict) {
+    const Slots<Real> bins{family.numbers, lanesOf<Real>()};
+    const FamilySides sides =
+        classifyFurther<Real>(family, bins, 0, blocks, masks, whereSlots<Real>(outside), verdict.undecided);
+    write(family, sides, masks.undecided, verdict);
 }
 
 template <class Real>
 INLINE void classifyOne(const FamilyData& family, const PlaneBlock* blocks, PlaneMasks masks, FamilyVerdict& verdict) {
+    constexpr std::uint64_t kAll = (std::uint64_t{1} << lanesOf<Real>()) - 1;
     const Slots<Real> bins{family.numbers, lanesOf<Real>()};
-    if (!isEverywhere<Real>(outsideBySphere<Real>(bins, blocks, masks.tested))) {
-        return classifyOneFurther<Real>(family, blocks, masks, verdict);
-    }
+    const std::uint64_t outside = slotsOf<Real>(outsideBySphere<Real>(bins, blocks, masks.tested));
+    if (outside != kAll) return classifyOneFurther<Real>(family, blocks, masks, outside, verdict);
     verdict.outside = family.filled;
     verdict.insideAll = 0;
     storeAll<Real>(masks.undecided, verdict.undecided);
