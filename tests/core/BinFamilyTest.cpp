@@ -147,9 +147,7 @@ TEST(BinFamily, EveryTargetAgreesWithTheScalarForm) {
     };
     constexpr std::size_t kTrials = 20000;
     {
-        core::kernels::PlaneKernels& active = core::kernels::activeKernels;
-        active.family = core::kernels::familyScalar;
-        active.hidden = core::kernels::hiddenScalar;
+        core::kernels::activeKernels = core::kernels::kScalarKernels;
         Random random(132);
         for (std::size_t trial = 0; trial < kTrials; ++trial) expected.push_back(resultOf(FamilyCase(random)));
     }

@@ -118,11 +118,11 @@ TEST(ExactGeodeticBin, SphereHoldsTheBin) {
     Random random(105);
     for (int trial = 0; trial < 100000; ++trial) {
         const PlaneCase c(random);
-        const core::ExactBinData data = exact(c).data();
-        const RealVector center{data.sphere.center[0], data.sphere.center[1], data.sphere.center[2]};
+        const auto numbers = exact(c).numbers();
+        const RealVector center{numbers[core::row::CenterX], numbers[core::row::CenterY], numbers[core::row::CenterZ]};
         for (int i = 0; i < 10; ++i) {
             const RealVector point = geodeticToEcef(c.oracle.ellipsoid(), randomPosition(random, c.oracle.bin()));
-            ASSERT_LE(length(point - center), data.sphere.reach) << nameOf(c.kind);
+            ASSERT_LE(length(point - center), numbers[core::row::Reach]) << nameOf(c.kind);
         }
     }
 }
@@ -133,7 +133,7 @@ TEST(ExactGeodeticBin, ReachHoldsTheBin) {
         const PlaneCase c(random);
         const double margin = random.chance(0.5) ? 0.0 : random.logUniform(1e-3, 1e5);
         const ExactGeodeticBin made(c.oracle.ellipsoid(), c.oracle.bin(), margin);
-        const ExactGeodeticBin copied(made.data());
+        const ExactGeodeticBin copied(made.numbers().data());
         const RealVector point = geodeticToEcef(c.oracle.ellipsoid(), randomPosition(random, c.oracle.bin())) +
                                  real(margin * random.direction());
         ASSERT_LE(length(point), made.reach()) << nameOf(c.kind);
@@ -147,8 +147,9 @@ TEST(ExactGeodeticBin, SphereIsNoLargerThanTheCornersNeed) {
     for (int level = 0; level <= kDeepestLevel; ++level) {
         for (int trial = 0; trial < 1000; ++trial) {
             const GeodeticBin bin = randomTile(random, level, kTerrainAltitudes);
-            const core::ExactBinData data = ExactGeodeticBin(wgs84(), bin).data();
-            const RealVector center{data.sphere.center[0], data.sphere.center[1], data.sphere.center[2]};
+            const auto numbers = ExactGeodeticBin(wgs84(), bin).numbers();
+            const RealVector center{numbers[core::row::CenterX], numbers[core::row::CenterY],
+                                    numbers[core::row::CenterZ]};
             Real farthest = 0;
             for (const double latitude : {bin.latitude().lower, bin.latitude().upper}) {
                 for (const double altitude : {bin.altitude().lower, bin.altitude().upper}) {
@@ -156,7 +157,7 @@ TEST(ExactGeodeticBin, SphereIsNoLargerThanTheCornersNeed) {
                     farthest = std::max(farthest, length(corner - center));
                 }
             }
-            ASSERT_LE(data.sphere.reach, farthest * (1 + 2e-7L) + 1e-6L) << level;
+            ASSERT_LE(numbers[core::row::Reach], farthest * (1 + 2e-7L) + 1e-6L) << level;
         }
     }
 }

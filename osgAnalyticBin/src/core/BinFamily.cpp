@@ -25,75 +25,12 @@ void makeEmpty(double* slot, std::size_t stride) {
     slot[row::Reach * stride] = -std::numeric_limits<double>::infinity();
 }
 
-std::array<double, row::QuadraticEnd> rowsOf(const QuadraticBinData& data) {
-    std::array<double, row::QuadraticEnd> rows{data.sphere.center[0], data.sphere.center[1], data.sphere.center[2],
-                                               data.sphere.reach,     data.remainder,        data.sphere.curvature};
-    for (std::size_t i = 0; i < 9; ++i) rows[row::First + i] = data.first[i / 3][i % 3];
-    for (std::size_t i = 0; i < 18; ++i) rows[row::Second + i] = data.second[i / 3][i % 3];
-    return rows;
-}
-
-std::array<double, row::ExactEnd> rowsOf(const ExactBinData& data) {
-    return {data.sphere.center[0],
-            data.sphere.center[1],
-            data.sphere.center[2],
-            data.sphere.reach,
-            data.slack,
-            data.bulge,
-            data.cosWest,
-            data.sinWest,
-            data.cosEast,
-            data.sinEast,
-            data.topSouth.axisDistance,
-            data.topSouth.z,
-            data.bottomSouth.axisDistance,
-            data.bottomSouth.z,
-            data.topNorth.axisDistance,
-            data.topNorth.z,
-            data.bottomNorth.axisDistance,
-            data.bottomNorth.z,
-            data.cosSouth,
-            data.sinSouth,
-            data.cosNorth,
-            data.sinNorth,
-            data.squaredEquatorialRadius,
-            data.squaredPolarRadius,
-            data.topAltitude,
-            static_cast<double>(data.longitudes),
-            data.cosMiddle,
-            data.sinMiddle};
-}
-
-QuadraticBin quadraticBin(const FamilyData& family, std::size_t i) {
-    const auto number = [&](std::size_t r) { return family.numbers[r * family.stride + i]; };
-    QuadraticBinData rows{};
-    for (std::size_t k = 0; k < 3; ++k) rows.sphere.center[k] = number(row::CenterX + k);
-    rows.sphere.reach = static_cast<float>(number(row::Reach));
-    rows.remainder = number(row::Remainder);
-    for (std::size_t k = 0; k < 9; ++k) rows.first[k / 3][k % 3] = number(row::First + k);
-    for (std::size_t k = 0; k < 18; ++k) rows.second[k / 3][k % 3] = number(row::Second + k);
-    return QuadraticBin(rows);
-}
-
-PlaneSides sidesByExactRange(const FamilyData& family, std::size_t i, const PlaneBlock* blocks, PlaneMask planes) {
-    const QuadraticBin bin = quadraticBin(family, i);
-    PlaneSides sides{};
-    for (PlaneMask left = planes; left != 0; left &= left - 1) {
-        const unsigned k = kernels::firstBit(left);
-        const Side side = bin.classifyByExactRange(planeOf(blocks, k));
-        if (side == Side::Outside) sides.outside |= PlaneMask{1} << k;
-        if (side == Side::Inside) sides.inside |= PlaneMask{1} << k;
-    }
-    return sides;
-}
-
 }  // namespace
 
 BinFamily::BinFamily(std::size_t count) : _size(std::min(count, kMostSlots)), _data{} {
     assert(count <= kMostSlots);
     _data.stride = (_size + kLanes - 1) / kLanes * kLanes;
     _data.empty = _size == kMostSlots ? ~std::uint64_t{0} : (kFirst << _size) - 1;
-    _data.exactRange = sidesByExactRange;
     // The horizon's rows are zero: an inverse radius of zero is never hidden.
     _lines.resize(_data.stride * kRows * sizeof(double) / sizeof(Line));
     _data.numbers = reinterpret_cast<const double*>(_lines.data());
@@ -121,24 +58,21 @@ void BinFamily::fill(std::size_t i, const double* rows, std::size_t count, bool 
 }
 
 void BinFamily::set(std::size_t i, const QuadraticBin& bin) noexcept {
-    const auto rows = rowsOf(bin.data());
-    fill(i, rows.data(), rows.size(), false);
+    fill(i, bin.numbers().data(), bin.numbers().size(), false);
 }
 
 void BinFamily::set(std::size_t i, const ExactGeodeticBin& bin) noexcept {
-    const auto rows = rowsOf(bin.data());
-    fill(i, rows.data(), rows.size(), true);
+    fill(i, bin.numbers().data(), bin.numbers().size(), true);
 }
 
 void BinFamily::set(std::size_t i, const GeodeticQuadraticBin& bin) noexcept {
-    if (bin.isExact()) return set(i, ExactGeodeticBin(bin.data().exact));
-    set(i, QuadraticBin(bin.data().quadratic));
+    fill(i, bin.numbers().data(), bin.numbers().size(), bin.isExact());
 }
 
 void BinFamily::setHorizon(std::size_t i, const HorizonBin& bin) noexcept {
     assert(i < _size);
     double* first = slot(i) + row::kBinRows * _data.stride;
-    for (std::size_t r = 0; r < row::kHorizonRows; ++r) first[r * _data.stride] = bin.rows()[r];
+    for (std::size_t r = 0; r < row::kHorizonRows; ++r) first[r * _data.stride] = bin.numbers()[r];
 }
 
 void BinFamily::clear(std::size_t i) noexcept {

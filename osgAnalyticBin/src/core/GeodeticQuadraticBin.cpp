@@ -21,26 +21,27 @@ double largestExtent(const GeodeticMapping& mapping, const ParameterBox& box) {
 
 }  // namespace
 
-GeodeticQuadraticBin::GeodeticQuadraticBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept
-    : _data() {
+GeodeticQuadraticBin::GeodeticQuadraticBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept {
     const GeodeticMapping mapping(ellipsoid);
     const ParameterBox box = parameterBox(bin);
     const double remainder = mapping.thirdDerivativeBound(box) / 6.0;
     const bool isTight = remainder <= kLargestRelativeRemainder * largestExtent(mapping, box);
-    if (!isTight && ExactGeodeticBin::holds(ellipsoid, bin)) {
-        _data.exact = ExactGeodeticBin(ellipsoid, bin, margin).data();
+    _isExact = !isTight && ExactGeodeticBin::holds(ellipsoid, bin);
+    if (_isExact) {
+        const ExactGeodeticBin exact(ellipsoid, bin, margin);
+        std::copy(exact.numbers().begin(), exact.numbers().end(), _numbers.begin());
     } else {
-        _data.quadratic = QuadraticBin(mapping, box, margin).data();
+        _numbers = QuadraticBin(mapping, box, margin).numbers();
     }
 }
 
 Side GeodeticQuadraticBin::classify(const Plane& plane) const noexcept {
-    return isExact() ? ExactGeodeticBin(_data.exact).classify(plane) : QuadraticBin(_data.quadratic).classify(plane);
+    return _isExact ? ExactGeodeticBin(_numbers.data()).classify(plane) : QuadraticBin(_numbers.data()).classify(plane);
 }
 
 Interval GeodeticQuadraticBin::distanceRange(const Plane& plane) const noexcept {
-    return isExact() ? ExactGeodeticBin(_data.exact).distanceRange(plane)
-                     : QuadraticBin(_data.quadratic).distanceRange(plane);
+    return _isExact ? ExactGeodeticBin(_numbers.data()).distanceRange(plane)
+                    : QuadraticBin(_numbers.data()).distanceRange(plane);
 }
 
 }  // namespace osgAnalyticBin::core

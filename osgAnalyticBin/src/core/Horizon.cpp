@@ -90,10 +90,10 @@ void HorizonBin::setLongitude(const GeodeticBin& bin) noexcept {
     const double middle = bin.longitude().middle();
     const double half = std::max(bin.longitude().upper - middle, middle - bin.longitude().lower) * kUp;
     if (bin.isFullCircle() || half >= kPi) return;
-    _rows[row::CosMiddleLongitude] = std::cos(middle);
-    _rows[row::SinMiddleLongitude] = std::sin(middle);
-    _rows[row::CosHalfWidth] = std::cos(half);
-    _rows[row::SinHalfWidth] = std::sin(half);
+    _numbers[row::CosMiddleLongitude] = std::cos(middle);
+    _numbers[row::SinMiddleLongitude] = std::sin(middle);
+    _numbers[row::CosHalfWidth] = std::cos(half);
+    _numbers[row::SinHalfWidth] = std::sin(half);
 }
 
 void HorizonBin::setLatitude(const Ellipsoid& ellipsoid, const GeodeticBin& bin) noexcept {
@@ -114,10 +114,10 @@ void HorizonBin::setLatitude(const Ellipsoid& ellipsoid, const GeodeticBin& bin)
     const glm::dvec2 northHigh = direction(bin.latitude().upper, bin.altitude().upper);
     const glm::dvec2 south = isNorthOf(southLow, southHigh) ? southHigh : southLow;
     const glm::dvec2 north = isNorthOf(northLow, northHigh) ? northLow : northHigh;
-    _rows[row::CosSouthern] = south.x;
-    _rows[row::SinSouthern] = south.y;
-    _rows[row::CosNorthern] = north.x;
-    _rows[row::SinNorthern] = north.y;
+    _numbers[row::CosSouthern] = south.x;
+    _numbers[row::SinSouthern] = south.y;
+    _numbers[row::CosNorthern] = north.x;
+    _numbers[row::SinNorthern] = north.y;
 }
 
 void HorizonBin::setRadius(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept {
@@ -125,14 +125,14 @@ void HorizonBin::setRadius(const Ellipsoid& ellipsoid, const GeodeticBin& bin, d
     const double highest = std::sqrt(squaredRadii(ellipsoid, latitude, bin.altitude().upper).upper);
     const double lowest = std::sqrt(squaredRadii(ellipsoid, latitude, bin.altitude().lower).lower);
     const double step = margin / smallerRadius(ellipsoid) * kUp;
-    _rows[row::SinMargin] = step / lowest * kUp;
-    if (!(_rows[row::SinMargin] < 1.0)) return;  // the margin holds the centre
-    _rows[row::CosMargin] = std::sqrt(1.0 - _rows[row::SinMargin] * _rows[row::SinMargin]);
-    _rows[row::InverseRadius] = kDown / (highest + step);
+    _numbers[row::SinMargin] = step / lowest * kUp;
+    if (!(_numbers[row::SinMargin] < 1.0)) return;  // the margin holds the centre
+    _numbers[row::CosMargin] = std::sqrt(1.0 - _numbers[row::SinMargin] * _numbers[row::SinMargin]);
+    _numbers[row::InverseRadius] = kDown / (highest + step);
 }
 
 HorizonPoint::HorizonPoint(const HorizonBin& bin) noexcept {
-    const auto& rows = bin.rows();
+    const auto& rows = bin.numbers();
     const glm::dvec2 sum(rows[row::CosSouthern] + rows[row::CosNorthern],
                          rows[row::SinSouthern] + rows[row::SinNorthern]);
     const glm::dvec2 middle = glm::length(sum) > 0.0 ? glm::normalize(sum) : glm::dvec2(1.0, 0.0);
@@ -187,7 +187,7 @@ HorizonEye::HorizonEye(const glm::dvec3& direction, double cosDip, double sinDip
             cosDip,      sinDip,      scale} {}
 
 bool HorizonEye::hides(const HorizonBin& bin) const noexcept {
-    const double* rows = bin.rows().data();
+    const double* rows = bin.numbers().data();
     return !kernels::scalar::showsAnEnd<double>(rows, _data) && kernels::scalar::isBehindHorizon<double>(rows, _data);
 }
 

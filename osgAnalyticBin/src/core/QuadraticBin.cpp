@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "kernels/ScalarKernels.h"
+#include "kernels/ScalarTests.h"
 
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
@@ -23,45 +23,42 @@ float roundedUp(double value) {
     return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }
 
-void assign(double (&to)[3], const glm::dvec3& from) {
-    to[0] = from.x;
-    to[1] = from.y;
-    to[2] = from.z;
-}
-
 }  // namespace
 
-QuadraticBin::QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& box, double margin) noexcept : _data() {
-    assign(_data.sphere.center, mapping.value(box.center));
+QuadraticBin::QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& box, double margin) noexcept {
+    setVector(row::CenterX, mapping.value(box.center));
     const glm::dmat3 jacobian = mapping.jacobian(box.center);
     const Hessians hessians = mapping.hessians(box.center);
     const glm::dvec3& e = box.halfSize;
-    assign(_data.first[0], jacobian[0] * e.x);
-    assign(_data.first[1], jacobian[1] * e.y);
-    assign(_data.first[2], jacobian[2] * e.z);
-    assign(_data.second[0], hessians.uu * (e.x * e.x));
-    assign(_data.second[1], hessians.vv * (e.y * e.y));
-    assign(_data.second[2], hessians.ww * (e.z * e.z));
-    assign(_data.second[3], hessians.uv * (e.x * e.y));
-    assign(_data.second[4], hessians.uw * (e.x * e.z));
-    assign(_data.second[5], hessians.vw * (e.y * e.z));
+    setVector(row::First, jacobian[0] * e.x);
+    setVector(row::First + 3, jacobian[1] * e.y);
+    setVector(row::First + 6, jacobian[2] * e.z);
+    setVector(row::Second, hessians.uu * (e.x * e.x));
+    setVector(row::Second + 3, hessians.vv * (e.y * e.y));
+    setVector(row::Second + 6, hessians.ww * (e.z * e.z));
+    setVector(row::Second + 9, hessians.uv * (e.x * e.y));
+    setVector(row::Second + 12, hessians.uw * (e.x * e.z));
+    setVector(row::Second + 15, hessians.vw * (e.y * e.z));
     double magnitude = glm::length(value());
     for (std::size_t i = 0; i < 3; ++i) magnitude += glm::length(first(i));
     for (std::size_t i = 0; i < 6; ++i) magnitude += glm::length(second(i));
     magnitude = std::max(magnitude, mapping.termMagnitude(box));
     // Taylor's theorem with the Lagrange remainder, doc/derivation.md, section 3; rounding, section 7
-    _data.remainder = (mapping.thirdDerivativeBound(box) / 6.0 + margin) * kNormalTolerance + kRounding * magnitude;
-    _data.sphere.reach = roundedUp((farthestCorner() + bulge()) * kNormalTolerance + _data.remainder);
+    _numbers[row::Remainder] =
+        (mapping.thirdDerivativeBound(box) / 6.0 + margin) * kNormalTolerance + kRounding * magnitude;
+    _numbers[row::Reach] = roundedUp((farthestCorner() + bulge()) * kNormalTolerance + remainder());
     const double mixed = glm::length(second(3)) + glm::length(second(4)) + glm::length(second(5));
-    _data.sphere.curvature = roundedUp((bulge() + mixed) * kNormalTolerance);
+    _numbers[row::Curvature] = roundedUp((bulge() + mixed) * kNormalTolerance);
 }
 
-glm::dvec3 QuadraticBin::first(std::size_t i) const noexcept {
-    return {_data.first[i][0], _data.first[i][1], _data.first[i][2]};
+QuadraticBin::QuadraticBin(const double* numbers, std::size_t stride) noexcept {
+    for (std::size_t i = 0; i < _numbers.size(); ++i) _numbers[i] = numbers[i * stride];
 }
 
-glm::dvec3 QuadraticBin::second(std::size_t i) const noexcept {
-    return {_data.second[i][0], _data.second[i][1], _data.second[i][2]};
+void QuadraticBin::setVector(std::size_t i, const glm::dvec3& value) noexcept {
+    _numbers[i] = value.x;
+    _numbers[i + 1] = value.y;
+    _numbers[i + 2] = value.z;
 }
 
 double QuadraticBin::farthestCorner() const noexcept {
@@ -74,7 +71,7 @@ double QuadraticBin::farthestCorner() const noexcept {
 }
 
 double QuadraticBin::uncertainty(const Plane& plane) const noexcept {
-    return _data.remainder + roundingOf(plane);
+    return remainder() + roundingOf(plane);
 }
 
 Quadratic QuadraticBin::distanceModel(const Plane& plane) const noexcept {
@@ -87,21 +84,9 @@ Quadratic QuadraticBin::distanceModel(const Plane& plane) const noexcept {
 }
 
 Side QuadraticBin::classify(const Plane& plane) const noexcept {
-    const kernels::Lane lane{plane.normal.x, plane.normal.y, plane.normal.z, plane.offset, roundingOf(plane)};
-    kernels::LaneSide side = kernels::sphereSide(_data.sphere, lane);
-    if (side == kernels::LaneSide::Open) side = kernels::hullSide(_data, lane);
-    if (side == kernels::LaneSide::Open) side = kernels::fullSide(_data, lane);
-    switch (side) {
-        case kernels::LaneSide::Outside:
-            return Side::Outside;
-        case kernels::LaneSide::Inside:
-            return Side::Inside;
-        case kernels::LaneSide::Straddling:
-            return Side::Straddling;
-        case kernels::LaneSide::Open:
-            break;
-    }
-    return classifyByExactRange(plane);
+    using namespace kernels::scalar;
+    const Sides<double> sides = sidesOf<QuadraticForm>(_numbers.data(), onePlane(plane));
+    return sides.open ? classifyByExactRange(plane) : sideOf(sides);
 }
 
 Side QuadraticBin::classifyByExactRange(const Plane& plane) const noexcept {
@@ -130,6 +115,21 @@ glm::dvec3 QuadraticBin::modelPoint(const glm::dvec3& unit) const noexcept {
     return value() + first(0) * u + first(1) * v + first(2) * w +
            0.5 * (second(0) * (u * u) + second(1) * (v * v) + second(2) * (w * w)) + second(3) * (u * v) +
            second(4) * (u * w) + second(5) * (v * w);
+}
+
+// Kept out of line: one plane in a thousand comes here.
+kernels::PlaneSides kernels::sidesByExactRange(const double* numbers, std::size_t stride, const PlaneBlock* blocks,
+                                               PlaneMask planes) {
+    const QuadraticBin bin(numbers, stride);
+    PlaneMask outside = 0;
+    PlaneMask inside = 0;
+    for (PlaneMask left = planes; left != 0; left &= left - 1) {
+        const unsigned i = firstBit(left);
+        const Side side = bin.classifyByExactRange(planeOf(blocks, i));
+        if (side == Side::Outside) outside |= PlaneMask{1} << i;
+        if (side == Side::Inside) inside |= PlaneMask{1} << i;
+    }
+    return PlaneSides::of(outside, inside);
 }
 
 }  // namespace osgAnalyticBin::core

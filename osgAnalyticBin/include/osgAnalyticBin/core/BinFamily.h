@@ -3,10 +3,10 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/BinRows.h>
 #include <osgAnalyticBin/core/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
 #include <osgAnalyticBin/core/Horizon.h>
+#include <osgAnalyticBin/core/KernelData.h>
 #include <osgAnalyticBin/core/Plane.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
 

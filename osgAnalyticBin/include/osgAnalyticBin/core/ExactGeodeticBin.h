@@ -8,6 +8,9 @@
 #include <osgAnalyticBin/core/KernelData.h>
 #include <osgAnalyticBin/core/Plane.h>
 
+#include <array>
+#include <cstddef>
+
 namespace osgAnalyticBin::core {
 
 /// A geodetic bin by its support function in closed form: the range of the signed distance to a plane without a series
@@ -23,8 +26,9 @@ public:
     /// Cost: the sines and cosines of five angles.
     ExactGeodeticBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin = 0.0) noexcept;
 
-    /// The bin that these are the data of. Its reach() is that of the sphere about it.
-    explicit ExactGeodeticBin(const ExactBinData& data) noexcept;
+    /// The bin that these are the numbers of, in the order of row::Exact; from one to the next is `stride`. Its reach()
+    /// is that of the sphere about it.
+    explicit ExactGeodeticBin(const double* numbers, std::size_t stride = 1) noexcept;
 
     /// Guarantee: Outside only if distance(x) < 0, Inside only if >= 0, for every x in the bin and every point within
     /// the margin of it; tests: ExactGeodeticBin.NeverContradictsASample, Soundness.HasNoFalseVerdict. Requires:
@@ -47,15 +51,15 @@ public:
     /// No point of the bin, margin included, is farther from the earth's centre.
     [[nodiscard]] double reach() const noexcept { return _farthest; }
 
-    /// What the kernels read.
-    [[nodiscard]] const ExactBinData& data() const noexcept { return _data; }
+    /// What the kernels read: row::Exact.
+    [[nodiscard]] const std::array<double, row::ExactEnd>& numbers() const noexcept { return _numbers; }
 
 private:
     void setMeridian(const Ellipsoid& ellipsoid, const GeodeticBin& bin) noexcept;
     void setParallel(const GeodeticBin& bin) noexcept;
     void setSphere(const Ellipsoid& ellipsoid, const GeodeticBin& bin) noexcept;
 
-    ExactBinData _data;
+    std::array<double, row::ExactEnd> _numbers{};
     double _farthest;
 };
 

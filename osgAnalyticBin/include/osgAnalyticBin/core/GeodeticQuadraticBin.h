@@ -7,6 +7,8 @@
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/QuadraticBin.h>
 
+#include <array>
+
 namespace osgAnalyticBin::core {
 
 /// A bin is handed to the closed form when the Taylor remainder exceeds this part of the bin's largest extent: from
@@ -23,7 +25,7 @@ public:
     GeodeticQuadraticBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin = 0.0) noexcept;
 
     /// Whether the bin is in the closed form.
-    [[nodiscard]] bool isExact() const noexcept { return _data.isExact(); }
+    [[nodiscard]] bool isExact() const noexcept { return _isExact; }
 
     /// As QuadraticBin::classify() and ExactGeodeticBin::classify().
     [[nodiscard]] Side classify(const Plane& plane) const noexcept;
@@ -32,13 +34,14 @@ public:
     /// bin's largest extent, for bins of which ExactGeodeticBin::holds() is true; tests: GeodeticQuadraticBin.*.
     [[nodiscard]] Interval distanceRange(const Plane& plane) const noexcept;
 
-    /// What the kernels read.
-    [[nodiscard]] const GeodeticBinData& data() const noexcept { return _data; }
+    /// What the kernels read: row::Exact or row::Quadratic.
+    [[nodiscard]] const std::array<double, row::kBinRows>& numbers() const noexcept { return _numbers; }
 
 private:
-    GeodeticBinData _data;
+    std::array<double, row::kBinRows> _numbers{};
+    bool _isExact;
 };
 
-static_assert(sizeof(GeodeticQuadraticBin) <= 256, "a database holds one for every tile");
+static_assert(sizeof(GeodeticQuadraticBin) <= 272, "a database holds one for every tile");
 
 }  // namespace osgAnalyticBin::core

@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/BinRows.h>
 #include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
+#include <osgAnalyticBin/core/KernelData.h>
 
 #include <glm/vec3.hpp>
 
@@ -26,7 +26,7 @@ public:
     HorizonBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin = 0.0) noexcept;
 
     /// What the test reads.
-    [[nodiscard]] const std::array<double, row::kHorizonRows>& rows() const noexcept { return _rows; }
+    [[nodiscard]] const std::array<double, row::kHorizonRows>& numbers() const noexcept { return _numbers; }
 
 private:
     void setLongitude(const GeodeticBin& bin) noexcept;
@@ -35,7 +35,7 @@ private:
 
     // Longitudes within the half width of the middle, scaled latitudes from south to north. At first the whole globe,
     // which is never hidden.
-    std::array<double, row::kHorizonRows> _rows{1.0, 0.0, 0.0, -1.0, 0.0, 1.0, -1.0, 0.0, 0.0, 1.0, 0.0};
+    std::array<double, row::kHorizonRows> _numbers{1.0, 0.0, 0.0, -1.0, 0.0, 1.0, -1.0, 0.0, 0.0, 1.0, 0.0};
 };
 
 /// One point in the place of a bin, as Cesium's horizon culling point: straight above the bin's middle in unit space,

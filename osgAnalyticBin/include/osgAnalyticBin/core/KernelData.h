@@ -26,82 +26,107 @@ struct PlaneBlock {
     alignas(32) double rounding[kLanes];  ///< 128 epsilon |offset|; NaN if the plane is not usable
 };
 
-/// A point of a meridian plane.
-struct MeridianPoint {
-    /// @{
-    /// Metres from the axis, and along it.
-    double axisDistance, z;
-    /// @}
+}  // namespace osgAnalyticBin::core
+
+/// The numbers of a bin in the order in which its tests read them. A family of bins keeps one row for each number, with
+/// the bins side by side. Lengths in metres; ECEF, or the frame of the mapping.
+namespace osgAnalyticBin::core::row {
+
+/// The sphere about the bin, which both forms begin with: no point of the bin, margin included, is farther than Reach
+/// from the centre.
+enum Sphere : std::size_t { CenterX, CenterY, CenterZ, Reach, SphereEnd };
+
+/// The quadratic form: value at the centre, and derivatives times half sizes.
+enum Quadratic : std::size_t {
+    Remainder = SphereEnd,  ///< Taylor remainder, margin, and the rounding that does not depend on the plane
+    Curvature,              ///< terms of second order change the distance to any plane by no more
+    First,                  ///< x, y, z by u, then by v, w
+    Second = First + 9,     ///< x, y, z by uu, then by vv, ww, uv, uw, vw
+    QuadraticEnd = Second + 18
 };
 
-/// What the first test needs, and how to go on. In half a cache line, at the start of every bin.
-struct SphereData {
-    /// Stands in `curvature` where the data are those of an exact bin.
-    static constexpr float kExactForm = -1.0F;
-
-    /// ECEF, or the frame of the mapping; metres.
-    double center[3];
-    float reach;      ///< no point of the bin, margin included, is farther from the centre
-    float curvature;  ///< by so much at most a model's terms of second order change the distance to any plane; or
-                      ///< kExactForm
+/// The exact form of a geodetic bin.
+enum Exact : std::size_t {
+    Slack = SphereEnd,  ///< margin, and the rounding that does not depend on the plane
+    Bulge,              ///< no point of the bin is farther from the hull of its corners; infinite if it is not narrow
+    CosWest,
+    SinWest,
+    CosEast,
+    SinEast,
+    Corners,  ///< distance from the axis and z: top and bottom in the south, top and bottom in the north
+    CosSouth = Corners + 8,
+    SinSouth,
+    CosNorth,
+    SinNorth,
+    SquaredEquatorialRadius,
+    SquaredPolarRadius,
+    TopAltitude,
+    Longitudes,  ///< how the bin lies about the axis: see below
+    CosMiddle,   ///< of the longitude in the middle
+    SinMiddle,
+    ExactEnd
 };
 
-/// What a test of the exact geodetic bin reads. Lengths in metres, ECEF.
-struct ExactBinData {
-    /// How the bin lies about the axis.
-    enum Longitudes : std::int32_t {
-        Narrow,  ///< at most half a turn: west and east
-        Wide,    ///< two arcs of at most half a turn, which meet in the middle
-        FullCircle,
-    };
+/// Values of Longitudes.
+inline constexpr double kNarrow = 0.0;      ///< at most half a turn: west and east
+inline constexpr double kWide = 1.0;        ///< two arcs of at most half a turn, which meet in the middle
+inline constexpr double kFullCircle = 2.0;  ///< all longitudes
 
-    /// What is asked first.
-    SphereData sphere;
-    double slack;  ///< margin, and the rounding that does not depend on the plane
-    double bulge;  ///< no point of the bin is farther from the hull of its corners; infinite if it is not narrow
-    /// Which form of the longitudes the next numbers have.
-    Longitudes longitudes;
-    /// @{
-    /// Of the edges.
-    double cosWest, sinWest, cosEast, sinEast;
-    double cosSouth, sinSouth, cosNorth, sinNorth;
-    /// @}
-    /// @{
-    /// The corners in the meridian plane.
-    MeridianPoint topSouth, bottomSouth, topNorth, bottomNorth;
-    /// @}
-    /// @{
-    /// Square metres.
-    double squaredEquatorialRadius, squaredPolarRadius;
-    /// @}
-    /// Metres.
-    double topAltitude;
-    /// @{
-    /// Of the longitude in the middle.
-    double cosMiddle, sinMiddle;
-    /// @}
+/// Rows of a bin in either form.
+inline constexpr std::size_t kBinRows = QuadraticEnd;
+static_assert(static_cast<std::size_t>(ExactEnd) <= kBinRows, "both forms share the rows");
+
+/// What the horizon test reads, counted from its own first row. Unit space: ECEF divided by the ellipsoid's radii.
+enum Horizon : std::size_t {
+    CosMiddleLongitude,
+    SinMiddleLongitude,
+    CosSouthern,  ///< of the scaled latitudes
+    SinSouthern,
+    CosNorthern,
+    SinNorthern,
+    CosHalfWidth,
+    SinHalfWidth,
+    InverseRadius,  ///< of the farthest point, rounded down; zero: never hidden
+    CosMargin,      ///< of the angle that the margin turns a direction by at most
+    SinMargin,
+    HorizonEnd
 };
 
-/// What a test of the quadratic bin reads: the value at the centre, and derivatives times half sizes.
-struct QuadraticBinData {
-    SphereData sphere;    ///< about the value
-    double remainder;     ///< Taylor remainder, margin, and the rounding that does not depend on the plane
-    double first[3][3];   ///< by u, v, w
-    double second[6][3];  ///< by uu, vv, ww, uv, uw, vw
+/// Rows that the horizon test reads.
+inline constexpr std::size_t kHorizonRows = HorizonEnd;
+
+}  // namespace osgAnalyticBin::core::row
+
+namespace osgAnalyticBin::core {
+
+/// What the horizon test reads of an eye.
+struct HorizonEyeData {
+    double x, y, z;         ///< to the eye, unit length in unit space
+    double equatorial;      ///< the length of x and y
+    double cosDip, sinDip;  ///< the angle at the centre between the eye and its horizon
+    double scale;           ///< of the occluder
 };
 
-/// Either of the two: a geodetic bin in the form that suits its width. Both begin with the sphere, which tells them
-/// apart.
-union GeodeticBinData {
-    /// Read when not isExact().
-    QuadraticBinData quadratic;
-    /// Read when isExact().
-    ExactBinData exact;
+/// The most bins that a family has: one bit each.
+inline constexpr std::size_t kMostSlots = 64;
 
-    /// Of either form.
-    [[nodiscard]] const SphereData& sphere() const noexcept { return quadratic.sphere; }
-    /// Which form it is.
-    [[nodiscard]] bool isExact() const noexcept { return sphere().curvature < 0.0F; }
+/// What a family's bins are to a set of planes. Bits are slots of the family.
+struct FamilyVerdict {
+    std::uint64_t outside;    ///< outside of one plane at least
+    std::uint64_t insideAll;  ///< inside of all planes that were undecided
+    /// For each slot the planes that are still undecided; all that were given, if the slot is outside. Slots above the
+    /// family's are not meaningful.
+    std::uint32_t undecided[kMostSlots];
+};
+
+/// The rows of a family: kBinRows, then kHorizonRows. Slots up to the next multiple of four may be read; those without
+/// a bin have a sphere that is outside of every plane.
+struct FamilyData {
+    const double* numbers;
+    std::size_t stride;    ///< from one row to the next: a multiple of four
+    std::uint64_t exact;   ///< the slots in exact form
+    std::uint64_t filled;  ///< the slots with a bin
+    std::uint64_t empty;   ///< the other slots, up to the family's size
 };
 
 }  // namespace osgAnalyticBin::core

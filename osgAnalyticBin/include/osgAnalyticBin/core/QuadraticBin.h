@@ -23,8 +23,8 @@ public:
     /// Cost: one evaluation of the mapping and its derivatives.
     QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& box, double margin = 0.0) noexcept;
 
-    /// The bin that these are the data of.
-    explicit QuadraticBin(const QuadraticBinData& data) noexcept : _data(data) {}
+    /// The bin that these are the numbers of, in the order of row::Quadratic; from one to the next is `stride`.
+    explicit QuadraticBin(const double* numbers, std::size_t stride = 1) noexcept;
 
     /// Guarantee: Outside only if distance(f(x)) < 0, Inside only if >= 0, for every x in the box and every point
     /// within the margin of f(x); tests: QuadraticBin.NeverContradictsASample, Soundness.HasNoFalseVerdict.
@@ -40,7 +40,7 @@ public:
     [[nodiscard]] Quadratic distanceModel(const Plane& plane) const noexcept;
 
     /// Upper bound of |f(x) - model(x)| over the box, plus the margin and the rounding of both, in metres.
-    [[nodiscard]] double remainder() const noexcept { return _data.remainder; }
+    [[nodiscard]] double remainder() const noexcept { return _numbers[row::Remainder]; }
 
     /// How far the model leaves the convex hull of its eight corners at most, in metres.
     [[nodiscard]] double bulge() const noexcept;
@@ -48,25 +48,27 @@ public:
     /// The model's point at a position of the unit box.
     [[nodiscard]] glm::dvec3 modelPoint(const glm::dvec3& unit) const noexcept;
 
-    /// What the kernels read.
-    [[nodiscard]] const QuadraticBinData& data() const noexcept { return _data; }
+    /// What the kernels read: row::Quadratic.
+    [[nodiscard]] const std::array<double, row::QuadraticEnd>& numbers() const noexcept { return _numbers; }
 
     /// What classify() leaves to the exact range, which decides every plane.
     [[nodiscard]] Side classifyByExactRange(const Plane& plane) const noexcept;
 
 private:
-    [[nodiscard]] glm::dvec3 value() const noexcept {
-        return {_data.sphere.center[0], _data.sphere.center[1], _data.sphere.center[2]};
+    [[nodiscard]] glm::dvec3 vector(std::size_t i) const noexcept {
+        return {_numbers[i], _numbers[i + 1], _numbers[i + 2]};
     }
-    [[nodiscard]] glm::dvec3 first(std::size_t i) const noexcept;
-    [[nodiscard]] glm::dvec3 second(std::size_t i) const noexcept;
+    [[nodiscard]] glm::dvec3 value() const noexcept { return vector(row::CenterX); }
+    [[nodiscard]] glm::dvec3 first(std::size_t i) const noexcept { return vector(row::First + 3 * i); }
+    [[nodiscard]] glm::dvec3 second(std::size_t i) const noexcept { return vector(row::Second + 3 * i); }
+    void setVector(std::size_t i, const glm::dvec3& value) noexcept;
     /// What the exact evaluation may be off by: remainder, margin and rounding.
     [[nodiscard]] double uncertainty(const Plane& plane) const noexcept;
     [[nodiscard]] double farthestCorner() const noexcept;
 
-    QuadraticBinData _data;
+    std::array<double, row::QuadraticEnd> _numbers{};
 };
 
-static_assert(sizeof(QuadraticBin) <= 256, "a database holds one for every tile");
+static_assert(sizeof(QuadraticBin) <= 264, "a database holds one for every tile");
 
 }  // namespace osgAnalyticBin::core

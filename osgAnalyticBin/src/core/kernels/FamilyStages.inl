@@ -24,7 +24,7 @@ INLINE PlaneLanes<Real> planeOf(const PlaneBlock* blocks, unsigned i) {
 // The slots that are outside of a plane by their spheres.
 template <class Real>
 INLINE Truth<Real> outsideBySphere(const Slots<Real>& bins, const PlaneBlock* blocks, std::uint32_t tested) {
-    const auto isOutside = [&](unsigned i) ATTRIBUTES { return sphereSides(bins, planeOf<Real>(blocks, i)).outside; };
+    const auto isOutside = [&](unsigned i) ATTRIBUTES { return Sphere::sides(bins, planeOf<Real>(blocks, i)).outside; };
     // The usual case by itself: the side planes of a camera.
     if (tested == 0b1111) {
         return either(either(isOutside(0), isOutside(1)), either(isOutside(2), isOutside(3)));
@@ -47,7 +47,7 @@ template <class Real>
 INLINE Known<Real> insideBySphere(const Slots<Real>& bins, const PlaneBlock* blocks, std::uint32_t tested,
                                   Truth<Real> outside) {
     const auto whereInside = [&](unsigned i) ATTRIBUTES {
-        return bitsWhere<Real>(sphereSides(bins, planeOf<Real>(blocks, i)).inside, std::uint32_t{1} << i);
+        return bitsWhere<Real>(Sphere::sides(bins, planeOf<Real>(blocks, i)).inside, std::uint32_t{1} << i);
     };
     Bits<Real> inside = bits<Real>(0);
     if (tested == 0b1111) {
@@ -90,7 +90,7 @@ INLINE Known<Real> refined(const Slots<Real>& bins, const PlaneBlock* blocks, co
 template <class Real>
 NOINLINE Known<Real> refinedMixed(const Slots<Real>& bins, const PlaneBlock* blocks, std::uint64_t exact,
                                   const Known<Real>& known) {
-    const Bits<Real> openQuadratic = zeroWhere<Real>(whereSlots<Real>(exact), known.open);
+    const Bits<Real> openQuadratic = zeroWhere<Real>(whereLanes<Real>(exact), known.open);
     const Known<Real> quadratic =
         refined<QuadraticForm>(bins, blocks, Known<Real>{known.outside, known.inside, openQuadratic});
     const Bits<Real> openExact = exclusive(known.open, openQuadratic);
@@ -112,10 +112,10 @@ NOINLINE FamilySides decideByExactRange(const FamilyData& family, std::size_t fi
     for (std::size_t k = 0; k < lanesOf<Real>(); ++k) {
         if (open[k] == 0) continue;
         const std::size_t i = first + k;
-        const PlaneSides bySlot = family.exactRange(family, i, blocks, open[k]);
-        undecided[i] = bySlot.outside != 0 ? masks.undecided : undecided[i] & ~bySlot.inside;
-        sides.outside |= std::uint64_t{bySlot.outside != 0} << k;
-        sides.insideAll |= std::uint64_t{undecided[i] == 0 && bySlot.outside == 0} << k;
+        const PlaneSides bySlot = sidesByExactRange(family.numbers + i, family.stride, blocks, open[k]);
+        undecided[i] = bySlot.outside() != 0 ? masks.undecided : undecided[i] & ~bySlot.inside();
+        sides.outside |= std::uint64_t{bySlot.outside() != 0} << k;
+        sides.insideAll |= std::uint64_t{undecided[i] == 0 && bySlot.outside() == 0} << k;
     }
     return {sides.outside << first, sides.insideAll << first};
 }
@@ -133,7 +133,7 @@ INLINE FamilySides classifyFurther(const FamilyData& family, const Slots<Real>& 
                             : refinedMixed(bins, blocks, exact, known);
     const Bits<Real> left = exclusive(bits<Real>(masks.undecided), zeroWhere<Real>(known.outside, known.inside));
     store<Real>(left, undecided + first);
-    const FamilySides sides{slotsOf<Real>(known.outside), slotsOf<Real>(without(isZero<Real>(left), known.outside))};
+    const FamilySides sides{laneBits<Real>(known.outside), laneBits<Real>(without(isZero<Real>(left), known.outside))};
     if (isZeroEverywhere<Real>(known.open)) return {sides.outside << first, sides.insideAll << first};
     std::uint32_t open[lanesOf<Real>()];
     store<Real>(known.open, open);
@@ -153,7 +153,7 @@ NOINLINE void classifyOneFurther(const FamilyData& family, const PlaneBlock* blo
                                  std::uint64_t outside, FamilyVerdict& verdict) {
     const Slots<Real> bins{family.numbers, lanesOf<Real>()};
     const FamilySides sides =
-        classifyFurther<Real>(family, bins, 0, blocks, masks, whereSlots<Real>(outside), verdict.undecided);
+        classifyFurther<Real>(family, bins, 0, blocks, masks, whereLanes<Real>(outside), verdict.undecided);
     write(family, sides, masks.undecided, verdict);
 }
 
@@ -161,7 +161,7 @@ template <class Real>
 INLINE void classifyOne(const FamilyData& family, const PlaneBlock* blocks, PlaneMasks masks, FamilyVerdict& verdict) {
     constexpr std::uint64_t kAll = (std::uint64_t{1} << lanesOf<Real>()) - 1;
     const Slots<Real> bins{family.numbers, lanesOf<Real>()};
-    const std::uint64_t outside = slotsOf<Real>(outsideBySphere<Real>(bins, blocks, masks.tested));
+    const std::uint64_t outside = laneBits<Real>(outsideBySphere<Real>(bins, blocks, masks.tested));
     if (outside != kAll) return classifyOneFurther<Real>(family, blocks, masks, outside, verdict);
     verdict.outside = family.filled;
     verdict.insideAll = 0;
@@ -212,9 +212,9 @@ INLINE std::uint64_t hiddenSlots(const FamilyData& family, std::size_t first, co
     std::uint64_t asked = (candidates >> first) & all;
     if (asked == 0) return 0;
     const Slots<Real> bins{family.numbers + row::kBinRows * family.stride + first, family.stride};
-    asked &= ~slotsOf<Real>(showsAnEnd<Real>(bins, eye));
+    asked &= ~laneBits<Real>(showsAnEnd<Real>(bins, eye));
     if (asked == 0) return 0;
-    return (asked & slotsOf<Real>(isBehindHorizon<Real>(bins, eye))) << first;
+    return (asked & laneBits<Real>(isBehindHorizon<Real>(bins, eye))) << first;
 }
 
 template <class Wide, class Narrow>

@@ -7,7 +7,7 @@
 //
 // Included within the namespace of one kind of number: ScalarNumbers.inl or VectorNumbers.inl. `Real` is a double or a
 // vector of doubles. Its lanes are planes, with a bin's numbers in all of them, or bins, with a plane's numbers in all.
-// `bin[row]` is a number of the bin, in the order of BinRows.h.
+// `bin[row]` is a number of the bin, in the order of KernelData.h.
 
 template <class Real>
 struct PlaneLanes {
@@ -54,14 +54,16 @@ INLINE Real along(const Bin& bin, std::size_t x, const PlaneLanes<Real>& plane) 
 }
 
 // 1. The sphere about the bin, of either form: decides most planes.
-template <class Real, class Bin>
-INLINE Sides<Real> sphereSides(const Bin& bin, const PlaneLanes<Real>& plane) {
-    const Real distance = distanceOfCenter(bin, plane);
-    // The threshold either way; negation does not round.
-    const Truth<Real> outside = distance < negated(bin[row::Reach]) - plane.rounding;
-    const Truth<Real> inside = distance >= bin[row::Reach] + plane.rounding;
-    return {outside, inside, neither<Real>(outside, inside)};
-}
+struct Sphere {
+    template <class Real, class Bin>
+    static INLINE Sides<Real> sides(const Bin& bin, const PlaneLanes<Real>& plane) {
+        const Real distance = distanceOfCenter(bin, plane);
+        // The threshold either way; negation does not round.
+        const Truth<Real> outside = distance < negated(bin[row::Reach]) - plane.rounding;
+        const Truth<Real> inside = distance >= bin[row::Reach] + plane.rounding;
+        return {outside, inside, neither<Real>(outside, inside)};
+    }
+};
 
 // The sum of the gradient's magnitudes: [JJ] eq. (3).
 template <class Real, class Bin>
@@ -111,6 +113,8 @@ struct SecondOrderTerms {
                              upper - mixed + squares, slack);
     }
 };
+
+// 4. The exact range of the polynomial: one plane in a thousand, by itself. sidesByExactRange() in QuadraticBin.cpp.
 
 // The stages behind the sphere.
 struct QuadraticForm {

@@ -115,10 +115,10 @@ void storeAll(std::uint32_t all, std::uint32_t* to) {
 }
 
 template <class Real>
-std::uint64_t slotsOf(bool where) {
+std::uint64_t laneBits(bool where) {
     return where ? 1 : 0;
 }
 template <class Real>
-bool whereSlots(std::uint64_t slots) {
+bool whereLanes(std::uint64_t slots) {
     return (slots & 1) != 0;
 }

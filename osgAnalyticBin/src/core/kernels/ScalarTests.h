@@ -3,8 +3,10 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/BinRows.h>
+#include "PlaneKernels.h"
+
 #include <osgAnalyticBin/core/KernelData.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
 
 #include <cmath>
 #include <cstddef>
@@ -23,5 +25,22 @@ namespace osgAnalyticBin::core::kernels::scalar {
 #undef NOINLINE
 #undef ATTRIBUTES
 // clang-format on
+
+/// All stages but the exact range.
+template <class Form>
+[[nodiscard]] Sides<double> sidesOf(const double* numbers, const PlaneLanes<double>& plane) noexcept {
+    Sides<double> sides = Sphere::sides(numbers, plane);
+    if (sides.open) sides = Form::Coarse::sides(numbers, plane);
+    if (sides.open) sides = Form::Fine::sides(numbers, plane);
+    return sides;
+}
+
+[[nodiscard]] inline PlaneLanes<double> onePlane(const Plane& plane) noexcept {
+    return {plane.normal.x, plane.normal.y, plane.normal.z, plane.offset, roundingOf(plane)};
+}
+
+[[nodiscard]] inline Side sideOf(const Sides<double>& sides) noexcept {
+    return sides.outside ? Side::Outside : sides.inside ? Side::Inside : Side::Straddling;
+}
 
 }  // namespace osgAnalyticBin::core::kernels::scalar

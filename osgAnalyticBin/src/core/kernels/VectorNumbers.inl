@@ -140,13 +140,13 @@ HWY_INLINE void storeAll(std::uint32_t all, std::uint32_t* to) {
 }
 
 template <class Real>
-HWY_INLINE std::uint64_t slotsOf(Truth<Real> where) {
+HWY_INLINE std::uint64_t laneBits(Truth<Real> where) {
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(Tag<Real>(), where, bytes);
     return bytes[0];
 }
 template <class Real>
-HWY_INLINE Truth<Real> whereSlots(std::uint64_t slots) {
+HWY_INLINE Truth<Real> whereLanes(std::uint64_t slots) {
     const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(slots)};
     return hn::LoadMaskBits(Tag<Real>(), bytes);
 }
