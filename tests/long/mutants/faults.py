@@ -75,7 +75,7 @@ FAULTS = [
     Fault("families: a slot is tested by planes that are decided", "src/core/kernels/FamilyStages.inl",
           "whereBit<Real>(known.open, bit)", "whereBit<Real>(bits<Real>(~0u), bit)", CORE, "BinFamily*"),
     Fault("families: exact lanes are lost beside quadratic ones", "src/core/kernels/FamilyStages.inl",
-          "exclusive(known.open, openQuadratic)", "bits<Real>(0)", CORE, "BinFamily*"),
+          "openExact = exclusive(known.open, openQuadratic)", "openExact = bits<Real>(0)", CORE, "BinFamily*"),
     Fault("planes that are decided stay undecided", "src/core/PlaneSet.cpp", "undecided &= ~sides.inside();", "", CORE,
           "PlaneSet*:Classify*"),
 

@@ -60,84 +60,103 @@ INLINE Known<Real> insideBySphere(const Slots<Real>& bins, const PlaneBlock* blo
 
 // One stage more for what is open.
 template <class Test, class Real>
-INLINE Known<Real> tested(const Slots<Real>& bins, const PlaneBlock* blocks, Known<Real> known) {
+INLINE Known<Real> testOpen(const Slots<Real>& bins, const PlaneBlock* blocks, const Known<Real>& known) {
+    Truth<Real> outside = known.outside;
+    Bits<Real> inside = known.inside;
     Bits<Real> open = bits<Real>(0);
     for (std::uint32_t left = anyLane<Real>(known.open); left != 0; left &= left - 1) {
         const unsigned i = firstBit(left);
         const std::uint32_t bit = std::uint32_t{1} << i;
         const Sides<Real> sides = Test::sides(bins, planeOf<Real>(blocks, i));
         const Truth<Real> asked = whereBit<Real>(known.open, bit);
-        known.outside = either(known.outside, both(asked, sides.outside));
-        known.inside = known.inside | bitsWhere<Real>(both(asked, sides.inside), bit);
+        outside = either(outside, both(asked, sides.outside));
+        inside = inside | bitsWhere<Real>(both(asked, sides.inside), bit);
         open = open | bitsWhere<Real>(both(asked, sides.open), bit);
     }
-    return {known.outside, known.inside, zeroWhere<Real>(known.outside, open)};
+    return {outside, inside, zeroWhere<Real>(outside, open)};
 }
 
-// One family in a dozen: kept out of line, so that the others do not save registers for it.
-template <class Test, class Real>
-NOINLINE Known<Real> testedSeldom(const Slots<Real>& bins, const PlaneBlock* blocks, const Known<Real>& known) {
-    return tested<Test>(bins, blocks, known);
-}
-
-template <class Form, class Real>
-INLINE Known<Real> refined(const Slots<Real>& bins, const PlaneBlock* blocks, const Known<Real>& known) {
-    const Known<Real> coarse = tested<typename Form::Coarse>(bins, blocks, known);
-    return isZeroEverywhere<Real>(coarse.open) ? coarse : testedSeldom<typename Form::Fine>(bins, blocks, coarse);
-}
-
-// Lanes of both forms: each with its own stages.
+// Some slots of a family and what is asked of them.
 template <class Real>
-NOINLINE Known<Real> refinedMixed(const Slots<Real>& bins, const PlaneBlock* blocks, std::uint64_t exact,
-                                  const Known<Real>& known) {
-    const Bits<Real> openQuadratic = zeroWhere<Real>(whereLanes<Real>(exact), known.open);
-    const Known<Real> quadratic =
-        refined<QuadraticForm>(bins, blocks, Known<Real>{known.outside, known.inside, openQuadratic});
-    const Bits<Real> openExact = exclusive(known.open, openQuadratic);
-    const Known<Real> all =
-        refined<ExactForm>(bins, blocks, Known<Real>{quadratic.outside, quadratic.inside, openExact});
-    return {all.outside, all.inside, quadratic.open | all.open};
-}
+struct Question {
+    const FamilyData& family;
+    std::size_t first;
+    const PlaneBlock* blocks;
+    const PlaneMasks& masks;
+    std::uint32_t* undecided;  // for each slot of the family
+
+    INLINE Slots<Real> bins() const { return {family.numbers + first, family.stride}; }
+};
 
 // One bit a slot.
 struct FamilySides {
     std::uint64_t outside, insideAll;
 };
 
-// One plane in a thousand. Bits of slots count from the first slot.
+// The answer, when nothing is open.
 template <class Real>
-NOINLINE FamilySides decideByExactRange(const FamilyData& family, std::size_t first, const PlaneBlock* blocks,
-                                        const PlaneMasks& masks, const std::uint32_t* open, FamilySides sides,
-                                        std::uint32_t* undecided) {
+INLINE FamilySides settled(const Question<Real>& q, const Known<Real>& known) {
+    const Bits<Real> left = exclusive(bits<Real>(q.masks.undecided), zeroWhere<Real>(known.outside, known.inside));
+    store<Real>(left, q.undecided + q.first);
+    return {laneBits<Real>(known.outside) << q.first, laneBits<Real>(without(isZero<Real>(left), known.outside))
+                                                          << q.first};
+}
+
+// One plane in a thousand.
+template <class Real>
+INLINE FamilySides settledByExactRange(const Question<Real>& q, const Known<Real>& known) {
+    FamilySides all = settled(q, known);
+    std::uint32_t open[lanesOf<Real>()];
+    store<Real>(known.open, open);
     for (std::size_t k = 0; k < lanesOf<Real>(); ++k) {
         if (open[k] == 0) continue;
-        const std::size_t i = first + k;
-        const PlaneSides bySlot = sidesByExactRange(family.numbers + i, family.stride, blocks, open[k]);
-        undecided[i] = bySlot.outside() != 0 ? masks.undecided : undecided[i] & ~bySlot.inside();
-        sides.outside |= std::uint64_t{bySlot.outside() != 0} << k;
-        sides.insideAll |= std::uint64_t{undecided[i] == 0 && bySlot.outside() == 0} << k;
+        const std::size_t i = q.first + k;
+        const PlaneSides sides = sidesByExactRange(q.family.numbers + i, q.family.stride, q.blocks, open[k]);
+        const bool isOutside = sides.outside() != 0;
+        q.undecided[i] = isOutside ? q.masks.undecided : q.undecided[i] & ~sides.inside();
+        all.outside |= std::uint64_t{isOutside} << i;
+        all.insideAll |= std::uint64_t{!isOutside && q.undecided[i] == 0} << i;
     }
-    return {sides.outside << first, sides.insideAll << first};
+    return all;
+}
+
+// One family in a dozen: kept out of line, so that the others do not save registers for it.
+template <class Form, class Real>
+NOINLINE FamilySides settledByFineTest(const Question<Real>& q, const Known<Real>& coarse) {
+    return settledByExactRange(q, testOpen<typename Form::Fine>(q.bins(), q.blocks, coarse));
+}
+
+template <class Form, class Real>
+INLINE FamilySides settledInStages(const Question<Real>& q, const Known<Real>& known) {
+    const Known<Real> coarse = testOpen<typename Form::Coarse>(q.bins(), q.blocks, known);
+    if (isZeroEverywhere<Real>(coarse.open)) return settled(q, coarse);
+    return settledByFineTest<Form>(Question<Real>(q), Known<Real>(coarse));
+}
+
+// Lanes of both forms: each with its own stages.
+template <class Real>
+NOINLINE FamilySides settledForMixedForms(const Question<Real>& q, std::uint64_t exact, const Known<Real>& known) {
+    const auto inStages = [&](auto form, const Known<Real>& before) ATTRIBUTES {
+        using Form = decltype(form);
+        const Known<Real> coarse = testOpen<typename Form::Coarse>(q.bins(), q.blocks, before);
+        return testOpen<typename Form::Fine>(q.bins(), q.blocks, coarse);
+    };
+    const Bits<Real> openQuadratic = zeroWhere<Real>(whereLanes<Real>(exact), known.open);
+    const Bits<Real> openExact = exclusive(known.open, openQuadratic);
+    const Known<Real> quadratic = inStages(QuadraticForm(), Known<Real>{known.outside, known.inside, openQuadratic});
+    const Known<Real> all = inStages(ExactForm(), Known<Real>{quadratic.outside, quadratic.inside, openExact});
+    return settledByExactRange(q, Known<Real>{all.outside, all.inside, quadratic.open});
 }
 
 // What is left when the spheres are not all outside.
 template <class Real>
-INLINE FamilySides classifyFurther(const FamilyData& family, const Slots<Real>& bins, std::size_t first,
-                                   const PlaneBlock* blocks, const PlaneMasks& masks, Truth<Real> outside,
-                                   std::uint32_t* undecided) {
+INLINE FamilySides classifyFurther(const Question<Real>& q, Truth<Real> outside) {
     constexpr std::uint64_t kAll = (std::uint64_t{1} << lanesOf<Real>()) - 1;
-    Known<Real> known = insideBySphere<Real>(bins, blocks, masks.tested, outside);
-    const std::uint64_t exact = (family.exact >> first) & kAll;
-    known = exact == 0      ? refined<QuadraticForm>(bins, blocks, known)
-            : exact == kAll ? refined<ExactForm>(bins, blocks, known)
-                            : refinedMixed(bins, blocks, exact, known);
-    const Bits<Real> left = exclusive(bits<Real>(masks.undecided), zeroWhere<Real>(known.outside, known.inside));
-    store<Real>(left, undecided + first);
-    const FamilySides sides{laneBits<Real>(known.outside), laneBits<Real>(without(isZero<Real>(left), known.outside))};
-    if (isZeroEverywhere<Real>(known.open)) return {sides.outside << first, sides.insideAll << first};
-    std::uint32_t open[lanesOf<Real>()];
-    store<Real>(known.open, open);
-    return decideByExactRange<Real>(family, first, blocks, masks, open, sides, undecided);
+    const Known<Real> known = insideBySphere<Real>(q.bins(), q.blocks, q.masks.tested, outside);
+    const std::uint64_t exact = (q.family.exact >> q.first) & kAll;
+    if (exact == 0) return settledInStages<QuadraticForm>(q, known);
+    if (exact == kAll) return settledInStages<ExactForm>(q, known);
+    return settledForMixedForms(Question<Real>(q), exact, Known<Real>(known));
 }
 
 // A slot without a bin was outside of every plane.
@@ -151,10 +170,8 @@ INLINE void write(const FamilyData& family, const FamilySides& sides, std::uint3
 template <class Real>
 NOINLINE void classifyOneFurther(const FamilyData& family, const PlaneBlock* blocks, PlaneMasks masks,
                                  std::uint64_t outside, FamilyVerdict& verdict) {
-    const Slots<Real> bins{family.numbers, lanesOf<Real>()};
-    const FamilySides sides =
-        classifyFurther<Real>(family, bins, 0, blocks, masks, whereLanes<Real>(outside), verdict.undecided);
-    write(family, sides, masks.undecided, verdict);
+    const Question<Real> question{family, 0, blocks, masks, verdict.undecided};
+    write(family, classifyFurther<Real>(question, whereLanes<Real>(outside)), masks.undecided, verdict);
 }
 
 template <class Real>
@@ -169,16 +186,12 @@ INLINE void classifyOne(const FamilyData& family, const PlaneBlock* blocks, Plan
 }
 
 template <class Real>
-INLINE FamilySides classifySlots(const FamilyData& family, std::size_t first, const PlaneBlock* blocks,
-                                 const PlaneMasks& masks, std::uint32_t* undecided) {
+INLINE FamilySides classifySlots(const Question<Real>& q) {
     constexpr std::uint64_t kAll = (std::uint64_t{1} << lanesOf<Real>()) - 1;
-    const Slots<Real> bins{family.numbers + first, family.stride};
-    const Truth<Real> outside = outsideBySphere<Real>(bins, blocks, masks.tested);
-    if (!isEverywhere<Real>(outside)) {
-        return classifyFurther<Real>(family, bins, first, blocks, masks, outside, undecided);
-    }
-    storeAll<Real>(masks.undecided, undecided + first);
-    return {kAll << first, 0};
+    const Truth<Real> outside = outsideBySphere<Real>(q.bins(), q.blocks, q.masks.tested);
+    if (!isEverywhere<Real>(outside)) return classifyFurther<Real>(q, outside);
+    storeAll<Real>(q.masks.undecided, q.undecided + q.first);
+    return {kAll << q.first, 0};
 }
 
 // Any family, in wide vectors as far as these go.
@@ -188,11 +201,11 @@ NOINLINE void classifyMany(const FamilyData& family, const PlaneBlock* blocks, P
     FamilySides all{};
     std::size_t i = 0;
     for (; i + lanesOf<Wide>() <= family.stride; i += lanesOf<Wide>()) {
-        const FamilySides sides = classifySlots<Wide>(family, i, blocks, masks, verdict.undecided);
+        const FamilySides sides = classifySlots(Question<Wide>{family, i, blocks, masks, verdict.undecided});
         all = {all.outside | sides.outside, all.insideAll | sides.insideAll};
     }
     for (; i < family.stride; i += lanesOf<Narrow>()) {
-        const FamilySides sides = classifySlots<Narrow>(family, i, blocks, masks, verdict.undecided);
+        const FamilySides sides = classifySlots(Question<Narrow>{family, i, blocks, masks, verdict.undecided});
         all = {all.outside | sides.outside, all.insideAll | sides.insideAll};
     }
     write(family, all, masks.undecided, verdict);
