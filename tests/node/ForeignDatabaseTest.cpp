@@ -181,6 +181,21 @@ TEST(ClusterCulling, IsSuspendedWhileBinsAreInstalledAndGivenBack) {
     EXPECT_EQ(typeid(*tile.drawable->getCullCallback()), typeid(osg::ClusterCullingCallback));
 }
 
+TEST(ClusterCulling, IsSuspendedInTheMeshOfALeaf) {
+    ClusterTile tile;
+    const osg::ref_ptr<osg::Group> leaf = new osg::Group;
+    leaf->addChild(tile.mesh);
+    setStoredBin(*leaf, AnalyticBin(extentsDeg(0, 20, 0, 20).withAltitude({-100000.0, 100.0})));
+    tile.root->replaceChild(tile.paged, leaf);
+    ASSERT_EQ(tile.reached().count("drawn"), 0u);
+    for (int i = 0; i < 2; ++i) {
+        ASSERT_EQ(installBins(*tile.root), 1u);
+        EXPECT_EQ(tile.reached().count("drawn"), 1u);
+    }
+    removeBins(*tile.root);
+    EXPECT_EQ(tile.reached().count("drawn"), 0u);
+}
+
 TEST(ClusterCulling, StaysWhereItIsToBeKept) {
     ClusterTile tile;
     installBins(*tile.root, withMethod(Method::Quadratic, ClusterUse::Keep));

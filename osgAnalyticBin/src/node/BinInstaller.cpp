@@ -269,7 +269,7 @@ void BinInstaller::passBy(osg::Node& node, bool isTile) {
     if (_options.method == Method::None) {
         suspendCullingOf(node);
         suspendClusterCullingOf(node);
-    } else {
+    } else if (!_isInMesh) {
         resumeCullingOf(node);
         resumeClusterCullingOf(node);
     }
