@@ -14,9 +14,9 @@ namespace osgAnalyticBin::bench {
 
 namespace {
 
-class Walk : public osg::NodeVisitor {
+class ExpiryWalk : public osg::NodeVisitor {
 public:
-    explicit Walk(double seconds) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _seconds(seconds) {
+    explicit ExpiryWalk(double seconds) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _seconds(seconds) {
         setNodeMaskOverride(~0U);
     }
 
@@ -50,7 +50,7 @@ osg::ref_ptr<ExpiryRaiser> ExpiryRaiser::install() {
 
 osgDB::ReaderWriter::ReadResult ExpiryRaiser::readNode(const std::string& fileName, const osgDB::Options* options) {
     osgDB::ReaderWriter::ReadResult result = _next->readNode(fileName, options);
-    Walk walk(_seconds);
+    ExpiryWalk walk(_seconds);
     if (result.getNode() && _seconds > 0.0) result.getNode()->accept(walk);
     return result;
 }

@@ -271,6 +271,12 @@ TEST(DecidedPlanes, AreInheritedByChildrenAndNotBySiblings) {
         setStoredBin(*tile, AnalyticBin(extents.withAltitude({-100, 100})));
         root->addChild(tile);
     }
+    // and a model beside them that is not tested
+    const osg::ref_ptr<osg::Group> model = new osg::Group;
+    const osg::ref_ptr<MaskReader> beside = new MaskReader;
+    model->setCullingActive(false);
+    model->setCullCallback(beside);
+    root->addChild(model);
     ASSERT_EQ(installBins(*root), 2u);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     const CullView view = CullView::lookAt(ecefDeg(0.5, 0.5, 5e6), ecefDeg(0.5, 0.5, 0), {0, 0, 1}, 60.0);
@@ -278,6 +284,7 @@ TEST(DecidedPlanes, AreInheritedByChildrenAndNotBySiblings) {
     EXPECT_EQ(readers[0]->mask, 0u) << "the first tile is inside all planes";
     EXPECT_NE(readers[1]->mask, 0u) << "the second is not";
     EXPECT_NE(readers[1]->mask, 99u);
+    EXPECT_EQ(beside->mask, 15u) << "what tiles decided is theirs";
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
+#include <osg/Projection>
 #include <osg/Texture2D>
 
 #include <algorithm>
@@ -198,9 +199,31 @@ TEST(NestedCameras, BetweenADatabaseAndItsTilesDoNotSeeWithTheDatabasesEye) {
         camera->setComputeNearFarMode(CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
         camera->setViewMatrix(isAbsolute ? view.modelView : osg::Matrixd());
         camera->setProjectionMatrix(isAbsolute ? orthographic : orthographic * osg::Matrixd::inverse(view.projection));
+        // the tile stays where it is, too: one that is missing would be a hole
         camera->addChild(tile);
-        globe.root->replaceChild(tile, camera);
+        globe.root->addChild(camera);
         EXPECT_TRUE(globe.draws(*tile, view)) << isAbsolute;
+    }
+}
+
+// The same below an osg::Projection, which leaves even the model-view matrix's place as it is: a tile, and a family.
+TEST(NestedCameras, ProjectionsBetweenADatabaseAndItsTilesHaveNoHorizonOfTheDatabase) {
+    constexpr double kHalf = 7e6;
+    const CullView view = test::MeshGlobe::fromAbove();
+    for (const bool isFamily : {false, true}) {
+        test::MeshGlobe globe;
+        const osg::ref_ptr<osg::PagedLOD> tile = globe.tiles[21];
+        const osg::ref_ptr<osg::Group> family = new osg::Group;
+        globe.root->replaceChild(tile, family);
+        family->addChild(tile);
+        installBins(*globe.root);
+        EXPECT_FALSE(globe.draws(*tile, view));
+        const osg::ref_ptr<osg::Projection> projection =
+            new osg::Projection(osg::Matrixd::ortho(-kHalf, kHalf, -kHalf, kHalf, -1e5, 2e7));
+        projection->setCullingActive(false);
+        projection->addChild(isFamily ? family->asNode() : tile->asNode());
+        globe.root->addChild(projection);
+        EXPECT_TRUE(globe.draws(*tile, view)) << isFamily;
     }
 }
 

@@ -24,7 +24,7 @@ FAULTS = [
     # those that no test noticed once
     Fault("database callback drops what is nested in it", "src/node/DatabaseCallbacks.cpp",
           "cull->setNestedCallback(node.getCullCallback());", "", NODE, "*NestedDatabaseCallback*"),
-    Fault("statistics count the bin's verdict alone", "src/node/BinCulling.h",
+    Fault("statistics count the bin's verdict alone", "src/node/BinCulling.cpp",
           "traversal.count(culled ? core::Side::Outside : verdict.side,", "traversal.count(verdict.side,", NODE, "CulledCounts.*"),
     Fault("no rounding in the edge search", "src/core/HullSeparation.cpp",
           "kRounding = 16.0 *", "kRounding = 0.0 *", CORE, "HullSeparation*"),
@@ -171,8 +171,8 @@ FAULTS = [
     # what applications do with a database
     Fault("copies of callbacks cull", "src/node/InstalledTile.h", "return node == _culled;", "return true;", NODE,
           "Clones.*"),
-    Fault("new content does not keep tiles visible", "src/node/ContentWatch.cpp", "tile->keepVisible(true);\n        tile->",
-          "tile->", NODE, "AddedContent.*"),
+    Fault("new content does not keep tiles visible", "src/node/ContentWatch.cpp", "tile->keepVisible(true);\n        if",
+          "if", NODE, "AddedContent.*"),
     Fault("bins do not grow", "src/node/ContentWatch.cpp",
           "tile->database().noteContent(callback, {content, isScaled || !content.valid()});", "", NODE, "AddedContent.*"),
     Fault("content of files is not looked at when they are merged", "src/node/ContentWatch.cpp",
@@ -193,4 +193,30 @@ FAULTS = [
           "cullStack->getCurrentCullingSet().getFrustum().setResultMask(before);", "", NODE, "DecidedPlanes.*"),
     Fault("saved scenes forget the skirt", "src/node/AnalyticBinCullCallbackText.cpp",
           'if (_skirt != 0.0) text += "; skirt " + numberToText(_skirt);', "", PLUGIN, "*Serializer*"),
+
+    # families of tiles
+    Fault("family: eyes of other cameras", "src/node/TileFamily.cpp",
+          "view.projection == cullStack.getProjectionMatrix() &&", "", NODE, "NestedCamera*"),
+    Fault("family: whatever has the number of a tile is the tile", "src/node/TileFamily.cpp",
+          "std::uint64_t{_nodes[i] == group.getChild(i)}", "std::uint64_t{_nodes[i].valid()}", NODE, "TileFamily.*"),
+    Fault("family: tiles that are taken away leave no hole", "src/node/TileFamily.cpp",
+          "verdicts.lacksTiles = _hasLostTiles || verdicts.members != part.members;", "", NODE, "HoledGlobe.*"),
+    Fault("family: decided planes are tested again", "src/node/TileFamily.cpp",
+          "setMask(verdicts.planes.undecided[number]);", "", NODE, "DecidedPlanes.*"),
+    Fault("family: decided planes are left to siblings", "src/node/TileFamily.cpp", "setMask(before);", "", NODE,
+          "DecidedPlanes.*:TileFamily.*"),
+    Fault("family: tiles that are kept visible are culled", "src/node/InstalledTile.cpp",
+          "_isSlotFilled && !isKeptVisible() && ", "_isSlotFilled && ", NODE, "AddedContent.*"),
+    Fault("family: callbacks behind it are not run", "src/node/TileFamily.cpp", "&group == _group && !getNestedCallback() && ",
+          "&group == _group && ", NODE, "TileFamily.*"),
+    Fault("family: meshes that are taken away leave no hole", "src/node/ContentWatch.cpp",
+          "if (group && fitted < _fitted.size())", "if (group && fitted > _fitted.size())", NODE, "HoledGlobe.*"),
+    Fault("family: bins that grow do not grow in it", "src/node/AnalyticBinCullCallback.cpp", "    prepareBin();\n    fillSlot();",
+          "    prepareBin();", NODE, "AddedContent.*:FalseBin*:TerrainShape*"),
+
+    # found by the generator of scenes, and in databases of others
+    Fault("stored bins are believed by a quarter of the sag", "src/node/TileFit.cpp", "{least + sag, least, least",
+          "{least + sag, least + 0.25 * sag, least", NODE, "FalseBins.*"),
+    Fault("clusters in the mesh of a leaf cull", "src/node/BinInstaller.cpp", "} else if (!_isInMesh) {", "} else {", NODE,
+          "ClusterCulling.*"),
 ]
