@@ -142,6 +142,19 @@ TEST(ExactGeodeticBin, ReachHoldsTheBin) {
     }
 }
 
+// Where it is inside two planes, no search for a plane that parts the bin from their wedge is begun.
+TEST(ExactGeodeticBin, HullPointIsWithinTheHull) {
+    Random random(114);
+    for (int trial = 0; trial < 100000; ++trial) {
+        const PlaneCase c(random);
+        const ExactGeodeticBin bin = exact(c);
+        const double tolerance = 1e-14 * (bin.reach() + c.oracle.ellipsoid().equatorialRadius());
+        for (const glm::dvec3& direction : {c.plane.normal, random.direction()}) {
+            ASSERT_LE(glm::dot(direction, bin.hullPoint()), bin.support(direction) + tolerance) << nameOf(c.kind);
+        }
+    }
+}
+
 TEST(ExactGeodeticBin, SphereIsNoLargerThanTheCornersNeed) {
     Random random(106);
     for (int level = 0; level <= kDeepestLevel; ++level) {

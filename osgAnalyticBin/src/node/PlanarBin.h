@@ -33,6 +33,9 @@ public:
     /// A point of the bin that is farthest along the direction.
     [[nodiscard]] glm::dvec3 supportPoint(const glm::dvec3& direction) const noexcept;
 
+    /// A point of the bin: its middle.
+    [[nodiscard]] const glm::dvec3& hullPoint() const noexcept { return _center; }
+
     /// No point is farther from the origin.
     [[nodiscard]] double reach() const noexcept { return _reach; }
 

@@ -48,6 +48,11 @@ public:
     /// A point of the bin, without margin, where n.x is largest, to rounding: where a search goes on, no proof.
     [[nodiscard]] glm::dvec3 supportPoint(const glm::dvec3& direction) const noexcept;
 
+    /// A point of the bin's convex hull, to rounding: a search need not go on where it is inside.
+    [[nodiscard]] glm::dvec3 hullPoint() const noexcept {
+        return {_numbers[row::CenterX], _numbers[row::CenterY], _numbers[row::CenterZ]};
+    }
+
     /// No point of the bin, margin included, is farther from the earth's centre.
     [[nodiscard]] double reach() const noexcept { return _farthest; }
 

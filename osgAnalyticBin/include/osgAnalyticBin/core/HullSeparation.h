@@ -44,9 +44,25 @@ inline constexpr int kSeparationSteps = 6;
 /// Bins that straddle more planes are large beside the frustum, and seldom apart from it.
 inline constexpr std::size_t kSeparationPlanes = 2;
 
+/// The search by two planes: see below.
+template <class Bin>
+[[nodiscard]] bool isSeparated(const Bin& bin, const Plane& first, const Plane& second) noexcept {
+    // A point of the hull inside both: nothing parts it from the wedge.
+    const glm::dvec3 inner = bin.hullPoint();
+    if (first.distance(inner) >= 0.0 && second.distance(inner) >= 0.0) return false;
+    WedgeSearch search(first, second, bin.reach());
+    for (int step = 0; step < kSeparationSteps; ++step) {
+        const Plane plane = search.candidate();
+        const glm::dvec3 point = bin.supportPoint(plane.normal);
+        if (plane.distance(point) < 0.0 && bin.classify(plane) == Side::Outside) return true;
+        if (!search.learn(point)) break;
+    }
+    return false;
+}
+
 /// Tries to prove that a bin which no single plane proves outside is outside all the same, beyond the edge between two
-/// planes. `bin` is anything with `classify`, `supportPoint` and `reach`, such as ExactGeodeticBin; `undecided` names
-/// the planes that it straddles; when these are more than `mostPlanes`, the answer is false at once.
+/// planes. `bin` is anything with `classify`, `supportPoint`, `hullPoint` and `reach`, such as ExactGeodeticBin;
+/// `undecided` names the planes that it straddles; when these are more than `mostPlanes`, the answer is false at once.
 /// Guarantee: true only if no point of the bin, margin included, is inside all these planes;
 /// tests: HullSeparation.NeverPartsABinFromAPointOfIt, HullSoundness.HasNoFalseVerdict.
 /// Cost: one to `kSeparationSteps` support points for each pair of planes, and a classification when it ends with
@@ -54,21 +70,17 @@ inline constexpr std::size_t kSeparationPlanes = 2;
 template <class Bin, class Planes>
 [[nodiscard]] bool isSeparated(const Bin& bin, const Planes& planes, std::size_t count, PlaneMask undecided,
                                std::size_t mostPlanes = kSeparationPlanes) noexcept {
+    const PlaneMask asked = count < kMaxPlanes ? undecided & ((PlaneMask{1} << count) - 1) : undecided;
+    const auto withoutFirst = [](PlaneMask mask) { return mask & (mask - 1); };
+    if (withoutFirst(asked) == 0) return false;  // most bins that are asked about straddle one plane
+    PlaneMask tooMany = asked;
+    for (std::size_t i = 0; i < mostPlanes; ++i) tooMany = withoutFirst(tooMany);
+    if (tooMany != 0) return false;
     const std::size_t end = count < kMaxPlanes ? count : kMaxPlanes;
-    const auto isUndecided = [&](std::size_t i) { return (undecided & (PlaneMask{1} << i)) != 0; };
-    std::size_t number = 0;
-    for (std::size_t i = 0; i < end; ++i) number += isUndecided(i) ? 1U : 0U;
-    if (number > mostPlanes) return false;
+    const auto isAsked = [&](std::size_t i) { return (asked >> i & 1) != 0; };
     for (std::size_t i = 0; i < end; ++i) {
-        for (std::size_t j = i + 1; isUndecided(i) && j < end; ++j) {
-            if (!isUndecided(j)) continue;
-            WedgeSearch search(planes[i], planes[j], bin.reach());
-            for (int step = 0; step < kSeparationSteps; ++step) {
-                const Plane plane = search.candidate();
-                const glm::dvec3 point = bin.supportPoint(plane.normal);
-                if (plane.distance(point) < 0.0 && bin.classify(plane) == Side::Outside) return true;
-                if (!search.learn(point)) break;
-            }
+        for (std::size_t j = i + 1; isAsked(i) && j < end; ++j) {
+            if (isAsked(j) && isSeparated(bin, planes[i], planes[j])) return true;
         }
     }
     return false;
