@@ -4,9 +4,10 @@
 // Oracles: see support/MappingChecks.h; the interval bound of the same formula; the B-spline by its recursive basis
 // functions.
 
+#include "BsplineSolid.h"
+
 #include <osgAnalyticBin/core/AutodiffMapping.h>
 #include <osgAnalyticBin/core/BezierSolid.h>
-#include <osgAnalyticBin/core/BsplineSolid.h>
 
 #include <gtest/gtest.h>
 
@@ -21,7 +22,6 @@ namespace {
 using core::AutodiffMapping;
 using core::BezierSolid;
 using core::ControlNet;
-using core::Knots;
 using core::ParameterBox;
 
 // A panel: a plane grid of points, moved by up to `roughness` of the grid's step.
@@ -171,7 +171,7 @@ TEST(BsplineSolid, SpansAreTheSameSurfaceAsTheSpline) {
     const Knots kv{0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0};                      // quadratic, not clamped
     const ControlNet inner = randomNet(random, 6, 3, glm::dvec3(0.0), 0.4);
     const ControlNet outer = randomNet(random, 6, 3, glm::dvec3(0.0, 0.0, 0.5), 0.4);
-    const std::vector<BezierSolid> solids = core::bezierSolids(inner, outer, ku, kv);
+    const std::vector<BezierSolid> solids = bezierSolids(inner, outer, ku, kv);
     const std::vector<std::pair<double, double>> spansU{{0.0, 1.0}, {1.0, 2.5}, {2.5, 4.0}};
     const std::vector<std::pair<double, double>> spansV{{2.0, 3.0}, {3.0, 4.0}};
     ASSERT_EQ(solids.size(), spansU.size() * spansV.size());

@@ -3,9 +3,10 @@
 
 // Oracles: see support/MappingChecks.h; the geodetic mapping on a sphere.
 
+#include "MercatorHeightField.h"
+
 #include <osgAnalyticBin/core/AutodiffMapping.h>
 #include <osgAnalyticBin/core/Ellipsoid.h>
-#include <osgAnalyticBin/core/MercatorHeightField.h>
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,6 @@ namespace osgAnalyticBin::test {
 namespace {
 
 using core::AutodiffMapping;
-using core::MercatorHeightField;
 using core::ParameterBox;
 
 constexpr double kRadius = 6378137.0;

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace osgAnalyticBin::core {
+namespace osgAnalyticBin::test {
 
 /// The formula of a height field in spherical Mercator, for AutodiffMapping: (easting, northing, altitude), all in
 /// metres, to earth-centred coordinates on a sphere. A tile of a web map is a parameter box of it.
@@ -22,7 +22,7 @@ public:
 
     /// The earth-centred point.
     template <class T>
-    [[nodiscard]] Vec3<T> operator()(T easting, T northing, T altitude) const {
+    [[nodiscard]] core::Vec3<T> operator()(T easting, T northing, T altitude) const {
         using std::cos;
         using std::exp;
         using std::sin;
@@ -37,10 +37,10 @@ public:
     }
 
     /// See AnalyticMapping; holds for every box.
-    [[nodiscard]] double thirdDerivativeBound(const ParameterBox& box) const noexcept;
+    [[nodiscard]] double thirdDerivativeBound(const core::ParameterBox& box) const noexcept;
 
 private:
     double _radius;
 };
 
-}  // namespace osgAnalyticBin::core
+}  // namespace osgAnalyticBin::test
