@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Constants.h"
 #include "LocalFrame.h"
 
 #include <osgAnalyticBin/core/BoxBins.h>
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace osgAnalyticBin::core {
 
@@ -19,8 +19,8 @@ namespace {
 
 // Rounding of one signed distance, in units of epsilon times the bin's reach: some twenty roundings of sums and
 // products of three, and axes that are of unit length and at right angles to a few epsilon.
-constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
-constexpr double kOffsetRounding = 4.0 * std::numeric_limits<double>::epsilon();
+constexpr double kRounding = 64.0 * kEpsilon;
+constexpr double kOffsetRounding = 4.0 * kEpsilon;
 // The reach of any bin is rounded up by as much.
 constexpr double kUp = 1.0 + 1e-9;
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Constants.h"
 #include "EarthScale.h"
 
 #include <osgAnalyticBin/core/CrackBounds.h>
@@ -14,8 +15,6 @@ namespace {
 
 // Posts stand on the terrain, a little farther from the centre than the ellipsoid; of the largest radius of curvature.
 constexpr double kRoomForAltitude = 1.01;
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Lines of one quadtree are a tile's half width apart, or the same up to the poleward run of meshes.
 constexpr double kSameLine = 0.1;

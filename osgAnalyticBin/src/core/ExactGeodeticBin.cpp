@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Constants.h"
 #include "kernels/ScalarTests.h"
 
 #include <osgAnalyticBin/core/ExactGeodeticBin.h>
@@ -18,11 +19,8 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 // Rounding of one signed distance, in units of epsilon times the magnitudes that enter; doc/derivation.md, section 8.
-constexpr double kRounding = 32.0 * std::numeric_limits<double>::epsilon();
-// Normals are of unit length to 1e-9 only; margin and sphere are meant for exactly one.
-constexpr double kNormalTolerance = 1.0 + 1e-9;
+constexpr double kRounding = 32.0 * kEpsilon;
 
 // Bounds over all latitudes, by doc/derivation.md, section 2.
 struct CurvatureBounds {

@@ -1,25 +1,25 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Constants.h"
+
 #include <osgAnalyticBin/core/FrustumHull.h>
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace osgAnalyticBin::core {
 
 namespace {
 
 // Rounding of a mixture of three planes, in units of epsilon times its terms; doc/horizon.md, section 6.
-constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
+constexpr double kRounding = 16.0 * kEpsilon;
 // Three planes closer to sharing a line than this have no corner.
 constexpr double kSmallestDeterminant = 1e-12;
 // Corners are looked for roughly: what is proved does not depend on them.
 constexpr double kCornerTolerance = 1e-9;
-constexpr double kPi = 3.14159265358979323846;
 
 }  // namespace
 

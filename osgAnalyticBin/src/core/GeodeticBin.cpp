@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Constants.h"
+
 #include <osgAnalyticBin/core/GeodeticBin.h>
 
 #include <algorithm>
@@ -11,9 +13,7 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kTwoPi = 2.0 * kPi;
-constexpr double kHalfPi = 0.5 * kPi;
 constexpr double kRadiansPerDegree = kPi / 180.0;
 // A few units in the last place of an angle near 2 pi: what adding or taking away a turn may lose.
 constexpr double kAngleTolerance = 2e-15;

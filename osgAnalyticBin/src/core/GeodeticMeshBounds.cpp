@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Constants.h"
 #include "EarthScale.h"
 
 #include <osgAnalyticBin/core/GeodeticMeshBounds.h>
@@ -15,8 +16,6 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kHalfPi = 0.5 * kPi;
 constexpr Interval kEmptyInterval{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
 double wrapped(double angle) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Constants.h"
 #include "EarthScale.h"
 #include "kernels/ScalarTests.h"
 
@@ -12,14 +13,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace osgAnalyticBin::core {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // Outward rounding of products and quotients of a few factors; doc/horizon.md, section 5.
 constexpr double kUp = 1.0 + 16.0 * kEpsilon;
 constexpr double kDown = 1.0 - 16.0 * kEpsilon;

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Constants.h"
+
 #include <osgAnalyticBin/core/HullSeparation.h>
 
 #include <glm/geometric.hpp>
@@ -13,7 +15,7 @@ namespace osgAnalyticBin::core {
 namespace {
 
 // Rounding of a mixture of two planes, in units of epsilon times its terms; doc/horizon.md, section 7.
-constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
+constexpr double kRounding = 16.0 * kEpsilon;
 
 // Mixtures of unit normals that are shorter than this are nothing but rounding.
 constexpr double kShortest = 1e-100;

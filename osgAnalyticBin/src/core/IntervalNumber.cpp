@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Constants.h"
+
 #include <osgAnalyticBin/core/IntervalNumber.h>
 
 #include <algorithm>
@@ -11,8 +13,6 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kTiny = std::numeric_limits<double>::denorm_min();
 // Results of +, -, *, / and sqrt are rounded once; the library's functions are right to 4 ulps.
 constexpr double kOneRounding = kEpsilon;

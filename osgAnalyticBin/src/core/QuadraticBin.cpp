@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Constants.h"
 #include "kernels/ScalarTests.h"
 
 #include <osgAnalyticBin/core/PlaneSet.h>
@@ -15,9 +16,7 @@ namespace osgAnalyticBin::core {
 namespace {
 
 // Rounding of one signed distance, in units of epsilon times the magnitudes that enter; doc/derivation.md, section 7.
-constexpr double kRounding = 128.0 * std::numeric_limits<double>::epsilon();
-// Normals are of unit length to 1e-9 only; the remainder is meant for exactly one.
-constexpr double kNormalTolerance = 1.0 + 1e-9;
+constexpr double kRounding = 128.0 * kEpsilon;
 
 float roundedUp(double value) {
     return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());

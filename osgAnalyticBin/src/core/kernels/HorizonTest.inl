@@ -5,9 +5,9 @@
 // Included behind a namespace's numbers.
 
 // Of one cosine that is compared; doc/horizon.md, section 5.
-constexpr double kCosineSlack = 64.0 * 2.220446049250313e-16;
+constexpr double kCosineSlack = 64.0 * kEpsilon;
 // Outward rounding of products and quotients of a few factors; doc/horizon.md, section 5.
-constexpr double kRoundDown = 1.0 - 16.0 * 2.220446049250313e-16;
+constexpr double kRoundDown = 1.0 - 16.0 * kEpsilon;
 
 // A direction of the bin before the horizon is seen: most tiles that are in view end here.
 template <class Real, class Bin>
@@ -28,7 +28,7 @@ struct HiddenBelow {
         const Real one = broadcast<Real>(1.0);
         // B, the angle at the centre between the bin's farthest point and its horizon
         const Real cosB = smaller(one, broadcast<Real>(eye.scale) * inverseRadius * broadcast<Real>(kRoundDown));
-        const Real sinB = root(one - cosB * cosB + broadcast<Real>(4.0 * 2.220446049250313e-16));
+        const Real sinB = root(one - cosB * cosB + broadcast<Real>(4.0 * kEpsilon));
         const Real cosC = cosB * cosSpread - sinB * sinSpread;
         const Real sinC = sinB * cosSpread + cosB * sinSpread;
         isAny = cosC > broadcast<Real>(0.0);  // so that dip + C stays below half a turn

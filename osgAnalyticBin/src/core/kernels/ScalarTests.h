@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "../Constants.h"
 #include "PlaneKernels.h"
 
 #include <osgAnalyticBin/core/KernelData.h>

@@ -4,6 +4,7 @@
 // The tests over vectors, multiplications and additions apart, so that every verdict is that of the scalar form bit for
 // bit. Highway compiles this file once for each instruction set.
 
+#include "core/Constants.h"
 #include "core/kernels/PlaneKernels.h"
 
 // In this order: the first of the two includes this file again.
