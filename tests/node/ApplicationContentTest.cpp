@@ -36,6 +36,7 @@ TEST(Instances, AreDrawnInAllOfTheirPlaces) {
         EXPECT_TRUE(globe.draws(*instance, downTo(2.5, 122.5))) << isInstalled;
     }
     EXPECT_FALSE(globe.drawsAntipode());
+    EXPECT_EQ(installedOn(*instance), nullptr) << "no bin holds for all of its places";
 }
 
 TEST(Instances, ThatAreMadeLaterAreDrawnInAllOfTheirPlaces) {

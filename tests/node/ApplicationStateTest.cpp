@@ -280,11 +280,15 @@ TEST(DecidedPlanes, AreInheritedByChildrenAndNotBySiblings) {
     ASSERT_EQ(installBins(*root), 2u);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     const CullView view = CullView::lookAt(ecefDeg(0.5, 0.5, 5e6), ecefDeg(0.5, 0.5, 0), {0, 0, 1}, 60.0);
-    (void)cull(*root, view, *visitor);
-    EXPECT_EQ(readers[0]->mask, 0u) << "the first tile is inside all planes";
-    EXPECT_NE(readers[1]->mask, 0u) << "the second is not";
-    EXPECT_NE(readers[1]->mask, 99u);
-    EXPECT_EQ(beside->mask, 15u) << "what tiles decided is theirs";
+    for (const bool isFamily : {true, false}) {
+        // behind a callback behind their family, tiles test themselves
+        if (!isFamily) root->addCullCallback(new osg::NodeCallback);
+        (void)cull(*root, view, *visitor);
+        EXPECT_EQ(readers[0]->mask, 0u) << "the first tile is inside all planes";
+        EXPECT_NE(readers[1]->mask, 0u) << "the second is not";
+        EXPECT_NE(readers[1]->mask, 99u);
+        EXPECT_EQ(beside->mask, 15u) << "what tiles decided is theirs";
+    }
 }
 
 }  // namespace

@@ -175,7 +175,7 @@ FAULTS = [
     Fault("new content does not keep tiles visible", "src/node/ContentWatch.cpp", "tile->keepVisible(true);\n        if",
           "if", NODE, "AddedContent.*"),
     Fault("bins do not grow", "src/node/ContentWatch.cpp",
-          "tile->database().noteContent(callback, {content, isScaled || !content.valid()});", "", NODE, "AddedContent.*"),
+          "tile->database().noteContent(callback, {content, isScaled || !content.valid()});", ";", NODE, "AddedContent.*"),
     Fault("content of files is not looked at when they are merged", "src/node/ContentWatch.cpp",
           "if (watch->_isPending) watch->check(child);", "", NODE, "AddedContent.*"),
     Fault("tiles are believed wherever they stand", "src/node/AnalyticBinCullCallback.cpp",
