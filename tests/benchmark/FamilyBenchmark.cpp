@@ -38,7 +38,7 @@ using core::FamilyVerdict;
 using core::HorizonBin;
 
 // What a float coordinate near the earth's surface, and OSG's distance in float, may be off by.
-constexpr Real kFloatTolerance = 4.0;
+constexpr Real kFamilyFloatTolerance = 4.0;
 
 constexpr std::uint64_t kAllSiblings = (1U << kSiblings) - 1;
 
@@ -67,7 +67,7 @@ struct PlanesTest {
 };
 
 // All that the kit does to the tiles of a globe.
-struct FullTest {
+struct FamilyTest {
     std::vector<BinFamily> families;
     std::vector<ExactGeodeticBin> bins;
 
@@ -128,7 +128,7 @@ public:
 
     [[nodiscard]] bool add() {
         bool right = check("osgSphere", *_spheres, [](const Frustum& frustum, const BinOracle& tile) {
-            return reachInto(frustum, tile) >= kFloatTolerance;
+            return reachInto(frustum, tile) >= kFamilyFloatTolerance;
         });
         const auto reachesIn = [](const Frustum& frustum, const BinOracle& tile) {
             return reachInto(frustum, tile) >= 0;
@@ -139,7 +139,7 @@ public:
         for (const BinOracle& tile : _scene.tiles) bins.push_back(exact(tile));
         right &= addMethod("quadratic", PlanesTest{familiesOf(quadratic)}, reachesIn);
         right &= addMethod("exact", PlanesTest{familiesOf(exact)}, reachesIn);
-        right &= addMethod("exactHorizonReverse", FullTest{familiesOf(exact), std::move(bins)}, seesASample);
+        right &= addMethod("exactHorizonReverse", FamilyTest{familiesOf(exact), std::move(bins)}, seesASample);
         return right;
     }
 

@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <support/Numbers.h>
 #include <support/RandomBins.h>
 #include <utility>
 #include <vector>
@@ -171,8 +172,6 @@ TEST(BinFamily, EveryTargetAgreesWithTheScalarForm) {
 }
 
 #endif
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 TEST(BinFamily, SlotsWithoutABinAreNeverDecided) {
     const GeodeticBin box = GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0});

@@ -48,10 +48,10 @@ bool hasHoles(const Description& description) {
 }
 
 /// Tells why pixels differ.
-class Comparison {
+class PictureComparison {
 public:
-    Comparison(const Description& description, const Painter& painter, const Delivery& without, const Delivery& with,
-               const std::vector<AllowedOccluder>& allowed)
+    PictureComparison(const Description& description, const Painter& painter, const Delivery& without,
+                      const Delivery& with, const std::vector<AllowedOccluder>& allowed)
         : _description(description), _painter(painter), _without(without), _with(with), _allowed(allowed) {}
 
     [[nodiscard]] std::string keyAt(const Painting& painting, std::size_t pixel) const {
@@ -201,7 +201,7 @@ std::optional<PictureDifference> findPictureDifference(const Description& descri
                                                        const Delivery& without, const Delivery& with,
                                                        const std::vector<AllowedOccluder>& allowed,
                                                        PictureTotals& totals) {
-    const Comparison comparison(description, painter, without, with, allowed);
+    const PictureComparison comparison(description, painter, without, with, allowed);
     const std::vector<std::uint32_t>& before = without.painting.numbers;
     const std::vector<std::uint32_t>& after = with.painting.numbers;
     std::optional<PictureDifference> found;

@@ -23,7 +23,7 @@
 namespace osgAnalyticBin {
 namespace {
 
-constexpr int kSize = 256;
+constexpr int kWindowSize = 256;
 
 // One colour where tiles meet, whichever of them is drawn.
 void colourByPlace(osg::MatrixTransform& tile) {
@@ -56,17 +56,17 @@ osg::ref_ptr<osg::GraphicsContext> makeWindow(int x) {
     traits->readDISPLAY();
     traits->setUndefinedScreenDetailsToDefaultScreen();
     traits->x = x;
-    traits->width = kSize;
-    traits->height = kSize;
+    traits->width = kWindowSize;
+    traits->height = kWindowSize;
     traits->windowDecoration = false;
     traits->doubleBuffer = true;
     return osg::GraphicsContext::createGraphicsContext(traits);
 }
 
-class Picture : public osg::Camera::DrawCallback {
+class WindowPicture : public osg::Camera::DrawCallback {
 public:
     void operator()(osg::RenderInfo&) const override {
-        image->readPixels(0, 0, kSize, kSize, GL_RGB, GL_UNSIGNED_BYTE);
+        image->readPixels(0, 0, kWindowSize, kWindowSize, GL_RGB, GL_UNSIGNED_BYTE);
     }
     osg::ref_ptr<osg::Image> image = new osg::Image;
 };
@@ -79,7 +79,7 @@ public:
         _viewer.setLightingMode(osg::View::NO_LIGHT);
         osg::Camera& camera = *_viewer.getCamera();
         camera.setGraphicsContext(&window);
-        camera.setViewport(0, 0, kSize, kSize);
+        camera.setViewport(0, 0, kWindowSize, kWindowSize);
         camera.setProjectionMatrixAsPerspective(40.0, 1.0, 1e6, 5e7);
         camera.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
         camera.setViewMatrixAsLookAt(osg::Vec3d(2e7, 5e6, 8e6), osg::Vec3d(), osg::Vec3d(0.0, 0.0, 1.0));
@@ -124,7 +124,7 @@ public:
 
 private:
     osgViewer::Viewer _viewer;
-    const osg::ref_ptr<Picture> _picture = new Picture;
+    const osg::ref_ptr<WindowPicture> _picture = new WindowPicture;
 };
 
 std::size_t coveredPixels(const osg::Image& image) {
@@ -145,7 +145,7 @@ TEST(WireframeKey, ShowsWhatAViewerWithoutBinsShows) {
     const osg::ref_ptr<osg::CoordinateSystemNode> withBins = makeGlobe();
     installBins(*withBins);
     const osg::ref_ptr<osg::GraphicsContext> window = makeWindow(0);
-    const osg::ref_ptr<osg::GraphicsContext> windowWithBins = makeWindow(kSize);
+    const osg::ref_ptr<osg::GraphicsContext> windowWithBins = makeWindow(kWindowSize);
     if (!window || !windowWithBins) GTEST_SKIP() << "no window; run under xvfb-run";
     GlobeViewer viewer(*globe, *window);
     GlobeViewer viewerWithBins(*withBins, *windowWithBins);
