@@ -6,6 +6,7 @@
 #include "Coverage.h"
 #include "Database.h"
 #include "DatabaseCallbacks.h"
+#include "Instances.h"
 #include "Inverse.h"
 #include "MeshCulling.h"
 #include "PagedFiles.h"
@@ -71,37 +72,6 @@ bool isSameGlobe(const TileFrame& above, const TileFrame& inside) {
     return above.localToEcef.isIdentity() &&
            above.ellipsoid->getRadiusEquator() == inside.ellipsoid->getRadiusEquator() &&
            above.ellipsoid->getRadiusPolar() == inside.ellipsoid->getRadiusPolar();
-}
-
-// The most ways from a node up to its globe that are looked at.
-constexpr int kMostPaths = 64;
-
-// Whether a way from the node up to a globe leads through other transforms than those of `localToEcef`. Ways that end
-// without a globe have no horizon, and do not matter. `nodeToHere`: from the node's frame to that of this ancestor.
-bool hasOtherFrame(const osg::Node& ancestor, const osg::Matrixd& nodeToHere, const osg::Matrixd& localToEcef,
-                   int& paths) {
-    if (dynamic_cast<const osg::CoordinateSystemNode*>(&ancestor)) {
-        const double reach = nodeToHere.getTrans().length() + localToEcef.getTrans().length();
-        return !areNearlyEqual(nodeToHere, localToEcef, reach) || --paths < 0;
-    }
-    for (const osg::Group* const parent : ancestor.getParents()) {
-        osg::Matrixd matrix;
-        const osg::Transform* const transform = parent->asTransform();
-        const bool isGlobe = dynamic_cast<const osg::CoordinateSystemNode*>(parent) != nullptr;
-        if (transform && !isGlobe) transform->computeLocalToWorldMatrix(matrix, nullptr);
-        if (hasOtherFrame(*parent, nodeToHere * matrix, localToEcef, paths)) return true;
-    }
-    return false;
-}
-
-// Whether a tile is drawn in several places: no bin holds for all of them.
-bool isInstanced(const osg::Node& node, const TileFrame& frame) {
-    if (!frame.isKnown()) return false;
-    const osg::Node* shared = &node;
-    while (shared->getNumParents() == 1) shared = shared->getParent(0);
-    if (shared->getNumParents() == 0) return false;
-    int paths = kMostPaths;
-    return hasOtherFrame(node, osg::Matrixd(), frame.localToEcef, paths);
 }
 
 }  // namespace
