@@ -106,6 +106,23 @@ TEST(HoledGlobe, IsSeenThrough) {
     }
 }
 
+TEST(HoledGlobe, IsOneFromThenOnWhereAGroupLosesItsTiles) {
+    for (const bool isReplaced : {false, true}) {
+        MeshGlobe globe;
+        const osg::ref_ptr<osg::Group> group = new osg::Group;
+        globe.root->replaceChild(globe.tiles[19], group);
+        group->addChild(globe.tiles[19]);
+        installBins(*globe.root);
+        EXPECT_FALSE(globe.drawsAntipode());
+        group->removeChild(globe.tiles[19]);
+        if (isReplaced) group->addChild(new osg::Group);
+        for (int i = 0; i < 3; ++i) {
+            EXPECT_TRUE(globe.drawsAntipode()) << isReplaced << i;
+            update(*globe.root);
+        }
+    }
+}
+
 TEST(HoledGlobe, IsSeenThroughBelowTilesThatAreHigherThanTheOccluder) {
     MeshGlobe globe(40000.0);
     const osg::ref_ptr<osg::PagedLOD> finer =

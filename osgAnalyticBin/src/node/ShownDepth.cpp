@@ -137,7 +137,7 @@ private:
 
     // A tile that is not seen is not touched.
     void searchFamily(osg::Group& group, const TileFamily& family) {
-        if (group.getNumChildren() < family.size()) _hasHole = true;
+        if (group.getNumChildren() < family.size() || family.hasLostTiles()) _hasHole = true;
         TileFamily::Verdicts verdicts;
         std::uint64_t passedOver = 0;
         for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) {

@@ -74,20 +74,19 @@ bool TileFamily::isPossibleOn(const osg::Node& node) {
     return typeid(node) == typeid(osg::Group) || typeid(node) == typeid(osg::CoordinateSystemNode);
 }
 
+TileFamily::TileFamily(osg::Group& group)
+    : _group(&group),
+      _block(new TileBlock(group.getNumChildren())),
+      _nodes(group.getNumChildren()),
+      _members(group.getNumChildren()) {
+    for (unsigned int i = 0; i < group.getNumChildren(); ++i) _hasTiles = add(*group.getChild(i), i) || _hasTiles;
+}
+
 void TileFamily::place(osg::Node& node) {
     remove(node);
-    osg::Group* const group = isPossibleOn(node) ? node.asGroup() : nullptr;
-    if (!group) return;
-    const osg::ref_ptr<TileFamily> family = new TileFamily;
-    family->_group = group;
-    family->_block = new TileBlock(group->getNumChildren());
-    family->_nodes.resize(group->getNumChildren());
-    family->_members.resize(group->getNumChildren());
-    bool hasMembers = false;
-    for (unsigned int i = 0; i < group->getNumChildren(); ++i) {
-        hasMembers = family->add(*group->getChild(i), i) || hasMembers;
-    }
-    if (hasMembers) node.addCullCallback(family);
+    if (!isPossibleOn(node)) return;
+    const osg::ref_ptr<TileFamily> family = new TileFamily(*node.asGroup());
+    if (family->_hasTiles) node.addCullCallback(family);
 }
 
 void TileFamily::remove(osg::Node& node) {
@@ -97,12 +96,14 @@ void TileFamily::remove(osg::Node& node) {
 void TileFamily::renew(osg::Node& node) {
     const osg::ref_ptr<TileFamily> old = familyOn(node);
     if (!old || old->_group != &node) return;
-    place(node);
-    const osg::Group& group = *node.asGroup();
-    const bool hasLost = std::any_of(old->_nodes.begin(), old->_nodes.end(),
-                                     [&](const auto& tile) { return tile && !group.containsNode(tile); });
-    TileFamily* const family = familyOn(node);
-    if (family) family->_hasLostTiles = hasLost || old->_hasLostTiles;
+    remove(node);
+    osg::Group& group = *node.asGroup();
+    const osg::ref_ptr<TileFamily> family = new TileFamily(group);
+    family->_hasLostTiles =
+        old->_hasLostTiles || std::any_of(old->_nodes.begin(), old->_nodes.end(),
+                                          [&](const auto& tile) { return tile && !group.containsNode(tile); });
+    if (!family->_ellipsoid) family->_ellipsoid = old->_ellipsoid;
+    if (family->_hasTiles || family->_hasLostTiles) node.addCullCallback(family);
 }
 
 bool TileFamily::add(osg::Node& child, std::size_t slot) {
@@ -119,7 +120,6 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
     _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), tile->installedTile()->isSeeThrough(),
                       meshPartsOf(child)};
     tile->installedTile()->joinFamily(*_block, slot);
-    tile->fillSlot();
     tile->fillSlot();
     return true;
 }
@@ -145,6 +145,7 @@ void TileFamily::operator()(osg::Node* node, osg::NodeVisitor* nv) {
 void TileFamily::test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes,
                       core::PlaneMask undecided, const core::HorizonEye* eye, Verdicts& verdicts) const {
     verdicts.members = verdicts.tested = verdicts.hidden = 0;
+    verdicts.lacksTiles = false;
     if (first >= _block->size()) return;
     const TileBlock::Part& part = _block->partFrom(first);
     part.bins.classify(planes, undecided, verdicts.planes);
@@ -154,7 +155,7 @@ void TileFamily::test(const osg::Group& group, unsigned int first, const core::P
     for (unsigned int i = first; i < end && i < _nodes.size(); ++i) {
         verdicts.members |= std::uint64_t{_nodes[i] == group.getChild(i)} << (i - first);
     }
-    verdicts.lacksTiles = _hasLostTiles || verdicts.members != part.members;
+    verdicts.lacksTiles = verdicts.members != part.members;
     verdicts.members &= part.believed.load(std::memory_order_relaxed);
 }
 
@@ -223,7 +224,7 @@ void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::Cull
         if (number == 0) {
             lookUp(group, i, before, view, verdicts);
             culled = this->culled(i, verdicts, nv, cullStack, view, traversal);
-            isChanged = isChanged || (verdicts.lacksTiles && !_hasLostTiles);
+            isChanged = isChanged || verdicts.lacksTiles;
         }
         if (culled >> number & 1) continue;
         osg::Node* const child = group.getChild(i);

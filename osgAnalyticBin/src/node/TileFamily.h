@@ -67,11 +67,10 @@ public:
         Verdicts() { planes.outside = planes.insideAll = 0; }  // masks of slots that are not there are not read
 
         core::FamilyVerdict planes;
-        std::uint64_t members =
-            0;                     ///< children that are the family's tiles; the others' own callbacks have to be asked
-        std::uint64_t tested = 0;  ///< slots with a bin that is tested so
-        std::uint64_t hidden = 0;
-        bool lacksTiles = false;  ///< a tile is not where it was: the terrain may have a hole
+        std::uint64_t members = 0;  ///< the family's own tiles; callbacks of other children have to be asked
+        std::uint64_t tested = 0;   ///< slots with a bin that is tested so
+        std::uint64_t hidden = 0;   ///< behind the horizon
+        bool lacksTiles = false;    ///< a tile is not where it was: the terrain may have a hole
     };
 
     /// Whether it culls the children of the group in this traversal.
@@ -84,6 +83,9 @@ public:
     [[nodiscard]] const Member& member(unsigned int i) const { return _members[i]; }
     [[nodiscard]] const TileBlock& block() const { return *_block; }
 
+    /// Whether a tile that once was a child is none any more: the terrain may have a hole.
+    [[nodiscard]] bool hasLostTiles() const { return _hasLostTiles; }
+
     /// Children with which it was made.
     [[nodiscard]] std::size_t size() const { return _nodes.size(); }
 
@@ -91,7 +93,7 @@ protected:
     ~TileFamily() override;
 
 private:
-    TileFamily() = default;
+    explicit TileFamily(osg::Group& group);
     [[nodiscard]] bool add(osg::Node& child, std::size_t slot);
     void lookUp(const osg::Group& group, unsigned int first, core::PlaneMask undecided, const DatabaseView& view,
                 Verdicts& verdicts) const;
@@ -104,6 +106,7 @@ private:
                       CullTraversal& traversal) const;
 
     const osg::Node* _group = nullptr;
+    bool _hasTiles = false;
     bool _hasLostTiles = false;
     osg::ref_ptr<TileBlock> _block;
     // by the number of the child
