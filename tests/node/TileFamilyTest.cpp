@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
 #include <osgUtil/CullVisitor>
+#include <osgUtil/Optimizer>
 
 #include <cstdint>
 #include <support/Random.h>
@@ -141,6 +142,25 @@ TEST(TileFamily, LeavesToOsgWhatTakesTheNumberOfATile) {
     globe.root->setChild(number, tower);
     for (int i = 0; i < 2; ++i) {
         EXPECT_TRUE(globe.draws(*tower, downTo(22.5, 157.5)));
+        update(*globe.root);
+    }
+}
+
+TEST(TileFamily, FollowsMeshesThatOsgOptimizes) {
+    MeshGlobe globe;
+    installBins(*globe.root);
+    osgUtil::Optimizer optimizer;
+    optimizer.optimize(globe.root.get());
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_FALSE(globe.drawsAntipode());
+        EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
+        update(*globe.root);
+    }
+    // and one that is taken out of it later is missed
+    osg::Drawable* const drawable = drawableOf(*globe.tiles[19]);
+    drawable->getParent(0)->removeChild(drawable);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(globe.drawsAntipode()) << i;
         update(*globe.root);
     }
 }

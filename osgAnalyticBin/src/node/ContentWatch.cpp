@@ -206,12 +206,17 @@ void fitIntoTilesFrom(const osg::Node& node, Content content) {
     for (const osg::Group* const parent : node.getParents()) fitIntoTilesFrom(*parent, content);
 }
 
-// Says that the tile which a watched node belongs to has lost or changed a part of its mesh.
+// Says that the tile which a watched node belongs to has lost or changed a part of its mesh: in the next update its
+// family looks at what is there now.
 void doubtMeshOf(const osg::Node& node) {
-    InstalledTile* tile = installedTileOf(node);
-    Carrier* const carrier = tile ? nullptr : carrierOf(const_cast<osg::Node&>(node));
-    if (carrier) tile = installedTileOf(*carrier);
-    if (tile) tile->doubtMesh();
+    const osg::Node* culled = &node;
+    if (!installedTileOf(node)) culled = carrierOf(const_cast<osg::Node&>(node));
+    InstalledTile* const tile = culled ? installedTileOf(*culled) : nullptr;
+    if (!tile) return;
+    tile->doubtMesh();
+    // what is not merged into the scene yet is not the update traversal's
+    if (!isBelowDatabase(*culled)) return;
+    for (osg::Group* const parent : culled->getParents()) tile->database().noteChanged(*parent);
 }
 
 bool isAbsolute(const osg::Node& node) {

@@ -24,6 +24,11 @@ void InstalledTile::doubtMesh() {
     tellFamily();
 }
 
+void InstalledTile::trustMesh() {
+    _isMeshDoubted.store(false, std::memory_order_relaxed);
+    tellFamily();
+}
+
 void InstalledTile::tellFamily() {
     if (_block) _block->believe(_slot, _isSlotFilled && !isKeptVisible() && !isMeshDoubted());
 }

@@ -48,8 +48,10 @@ public:
     void joinFamily(TileBlock& block, std::size_t slot);
     /// Says that the family must not cull it any more.
     void leaveFamily();
-    /// Says that the tile's mesh is not the one that it was fitted to: its family leaves it to its callback.
+    /// Says that the tile's mesh is not the one that it was fitted to: its family leaves it to its callback until it is
+    /// looked at again.
     void doubtMesh();
+    void trustMesh();
     [[nodiscard]] bool isMeshDoubted() const { return _isMeshDoubted.load(std::memory_order_relaxed); }
     /// What the family, if any, is to cull it by.
     void fillSlot(const TileBlock::Slot& tile, const TileBlock::Bins& bins);

@@ -120,6 +120,8 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
     _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), tile->installedTile()->isSeeThrough(),
                       meshPartsOf(child)};
     tile->installedTile()->joinFamily(*_block, slot);
+    // a mesh in another form, as osgUtil::Optimizer leaves it, is as good
+    if (!_members[slot].meshParts.empty()) tile->installedTile()->trustMesh();
     tile->fillSlot();
     return true;
 }
