@@ -3,6 +3,8 @@
 
 #include "CullWatcher.h"
 
+#include <osgAnalyticBin/BinStatistics.h>
+
 #include <osg/Billboard>
 #include <osg/LOD>
 #include <osg/Projection>
@@ -42,6 +44,7 @@ void cullScene(osgUtil::CullVisitor& visitor, osg::Camera& camera, osg::FrameSta
 }
 
 CullWatcher::CullWatcher() : _wanted(new RequestCounter) {
+    BinStatistics::of(*this).setTileByTile(true);
     setDatabaseRequestHandler(_wanted);
 }
 

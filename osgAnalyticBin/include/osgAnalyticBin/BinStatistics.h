@@ -62,6 +62,12 @@ public:
     /// Says of the tile counted last that an edge of the frustum proved it outside.
     void countSeparated() noexcept;
 
+    /// Has tiles test themselves one by one, with the same verdicts, in traversals of this visitor: for a visitor that
+    /// watches which nodes are met, culled ones too. Siblings are tested together otherwise, and culled ones not met.
+    void setTileByTile(bool on) noexcept { _isTileByTile = on; }
+    /// Default: false.
+    [[nodiscard]] bool isTileByTile() const noexcept { return _isTileByTile; }
+
     /// Starts from zero, for a visitor that traverses more than once in a frame.
     void reset() noexcept;
 
@@ -81,6 +87,7 @@ private:
     std::atomic<std::uint32_t> _separated{0};
     std::atomic<unsigned int> _frame{0};
     const osg::NodeVisitor* _owner = nullptr;
+    bool _isTileByTile = false;
 };
 
 }  // namespace osgAnalyticBin

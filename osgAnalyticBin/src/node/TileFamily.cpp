@@ -136,12 +136,13 @@ bool TileFamily::culls(const osg::Node& group, osg::CullStack& cullStack, const 
 
 void TileFamily::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     osg::CullStack* const cullStack = nv->asCullStack();
-    const DatabaseView* const view = cullStack ? CullTraversal::of(*nv).databaseView() : nullptr;
+    CullTraversal* const traversal = cullStack ? &CullTraversal::of(*nv) : nullptr;
+    const DatabaseView* const view = traversal && !traversal->isTileByTile() ? traversal->databaseView() : nullptr;
     if (!view || !culls(*node, *cullStack, *view)) {
         traverse(node, nv);
         return;
     }
-    cullChildren(*node->asGroup(), *nv, *cullStack, *view, CullTraversal::of(*nv));
+    cullChildren(*node->asGroup(), *nv, *cullStack, *view, *traversal);
 }
 
 void TileFamily::test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes,

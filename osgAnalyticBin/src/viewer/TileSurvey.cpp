@@ -175,6 +175,7 @@ TileSurvey::TileSurvey(osg::Camera& camera, osg::FrameStamp& frameStamp) {
     surveyor->setTraversalNumber(frameStamp.getFrameNumber());
     surveyor->inheritCullSettings(camera);
     surveyor->setTraversalMask(camera.getCullMask());
+    BinStatistics::of(*surveyor).setTileByTile(true);
     // counters start anew with a frame: not between this tile and that
     BinStatistics::of(*surveyor).count(core::Side::Outside, frameStamp.getFrameNumber());
     surveyor->pushViewport(view.viewport);

@@ -28,8 +28,11 @@ public:
 
     /// All slots are without a bin. Requires: count <= kMostSlots (asserted); slots above are not there.
     explicit BinFamily(std::size_t count);
+    /// A copy with numbers of its own.
     BinFamily(const BinFamily& other);
+    /// Takes the other's numbers.
     BinFamily(BinFamily&&) noexcept = default;
+    /// Likewise.
     BinFamily& operator=(BinFamily other) noexcept;
     ~BinFamily() = default;
 

@@ -101,10 +101,16 @@ namespace osgAnalyticBin::core {
 
 /// What the horizon test reads of an eye.
 struct HorizonEyeData {
-    double x, y, z;         ///< to the eye, unit length in unit space
-    double equatorial;      ///< the length of x and y
-    double cosDip, sinDip;  ///< the angle at the centre between the eye and its horizon
-    double scale;           ///< of the occluder
+    /// @{
+    /// To the eye, unit length in unit space.
+    double x, y, z;
+    /// @}
+    double equatorial;  ///< the length of x and y
+    /// @{
+    /// The angle at the centre between the eye and its horizon.
+    double cosDip, sinDip;
+    /// @}
+    double scale;  ///< of the occluder
 };
 
 /// The most bins that a family has: one bit each.
@@ -122,11 +128,11 @@ struct FamilyVerdict {
 /// The rows of a family: kBinRows, then kHorizonRows. Slots up to the next multiple of four may be read; those without
 /// a bin have a sphere that is outside of every plane.
 struct FamilyData {
-    const double* numbers;
-    std::size_t stride;    ///< from one row to the next: a multiple of four
-    std::uint64_t exact;   ///< the slots in exact form
-    std::uint64_t filled;  ///< the slots with a bin
-    std::uint64_t empty;   ///< the other slots, up to the family's size
+    const double* numbers;  ///< the first row; null for a family without slots
+    std::size_t stride;     ///< from one row to the next: a multiple of four
+    std::uint64_t exact;    ///< the slots in exact form
+    std::uint64_t filled;   ///< the slots with a bin
+    std::uint64_t empty;    ///< the other slots, up to the family's size
 };
 
 }  // namespace osgAnalyticBin::core
