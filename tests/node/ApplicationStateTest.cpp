@@ -300,6 +300,7 @@ TEST(DecidedPlanes, AreInheritedByChildrenAndNotBySiblings) {
     for (const bool isFamily : {true, false}) {
         // behind a callback behind their family, tiles test themselves
         if (!isFamily) root->addCullCallback(new osg::NodeCallback);
+        for (const auto& reader : {readers[0], readers[1], beside}) reader->mask = 99;
         (void)cull(*root, view, *visitor);
         EXPECT_EQ(readers[0]->mask, 0u) << "the first tile is inside all planes";
         EXPECT_NE(readers[1]->mask, 0u) << "the second is not";
