@@ -129,6 +129,7 @@ def held_still(first, seen, folder):
     """Stops a run at work. Returns: false when it was at its end already."""
     while first.poll() is None and not seen(folder):
         pass
+    time.sleep(0.01)  # the file is there a moment before it is locked
     if first.poll() is not None:
         return False
     first.send_signal(signal.SIGSTOP)
