@@ -8,6 +8,7 @@ skipped, said in the last line, and the exit code is 77."""
 import argparse
 import contextlib
 import ctypes
+import fcntl
 import hashlib
 import math
 import os
@@ -125,24 +126,34 @@ def kills(case, folder, count, seed):
     print(f"{case.name}: {recovered} of {killed} kills recovered byte for byte", flush=True)
 
 
-def held_still(first, seen, folder):
-    """Stops a run at work. Returns: false when it was at its end already."""
-    while first.poll() is None and not seen(folder):
+def is_locked(file):
+    try:
+        with open(file, "rb") as handle:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except FileNotFoundError:
+        return False
+    except BlockingIOError:
+        return True
+    return False
+
+
+def held_still(first, lock):
+    """Stops a run. Returns: whether it was at work; it may not have locked its file yet, or have ended."""
+    while first.poll() is None and not lock.exists():
         pass
-    time.sleep(0.01)  # the file is there a moment before it is locked
     if first.poll() is not None:
         return False
     first.send_signal(signal.SIGSTOP)
     os.waitid(os.P_PID, first.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)
-    return seen(folder)
+    return is_locked(lock)
 
 
-def both_at_once(case, folder, words, seen):
+def both_at_once(case, folder, words, lock):
     """A second run is refused while the first, held still, is at work."""
     for _ in range(20):
         case.start(folder, False)
         with subprocess.Popen(case.command(folder), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as first:
-            is_held = held_still(first, seen, folder)
+            is_held = held_still(first, folder / lock)
             try:
                 if is_held:
                     fail(case.command(folder), words)
@@ -152,7 +163,7 @@ def both_at_once(case, folder, words, seen):
             said = first.communicate()[1]
         if is_held:
             break
-    require(is_held, f"{case.name}: the first run was always over too early")
+    require(is_held, f"{case.name}: the first run was never at work when it was stopped")
     require(first.returncode == 0, f"{case.name}: the first of two runs failed: {said}")
     require(tree(folder) == case.expected, f"{case.name}: files differ after two runs at once")
     print(f"{case.name}: a second run is refused", flush=True)
@@ -321,10 +332,10 @@ def run_parts(arguments, programs, no_disks):
             case.measure(scratch)
             print(f"{case.name}: {len(case.expected)} files in {case.duration:.2f} s undisturbed", flush=True)
             kills(case, scratch, arguments.kills, arguments.seed)
-        for case, program, sign in ((build, "osgbindem", "earth_tiles.partial"), (index, "osgbinconv", "earth.osgb.bins.part"),
+        for case, program, lock in ((build, "osgbindem", "earth_tiles.lock"), (index, "osgbinconv", "earth.osgb.bins.part"),
                                     (copy, "osgbinconv", "earth.osgb.copying")):
             if case in chosen:
-                both_at_once(case, scratch, [f"another {program}"], lambda folder, sign=sign: (folder / sign).exists())
+                both_at_once(case, scratch, [f"another {program}"], lock)
     if arguments.part == "kills" or no_disks:
         return
     for case, is_old in ((build, False), (build, True), (update, True), (index, False), (copy, False), (over, True)):
