@@ -200,8 +200,9 @@ private:
                                                 CullTraversal& traversal) const;
     [[nodiscard]] bool standsAsInstalled(osg::CullStack& cullStack, const DatabaseView& database) const;
     [[nodiscard]] bool isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
-    [[nodiscard]] Verdict classify(const core::PlaneSet& planes, core::PlaneMask& undecided,
-                                   const core::HorizonEye* eye, CullTraversal& traversal) const;
+    [[nodiscard]] core::Side sideOf(const core::PlaneSet& planes, core::PlaneMask& undecided) const;
+    [[nodiscard]] Verdict verdict(core::Side side, const core::PlaneSet& planes, core::PlaneMask undecided,
+                                  const core::HorizonEye* eye, CullTraversal& traversal) const;
     [[nodiscard]] bool isHiddenFrom(const core::HorizonEye& eye) const;
     [[nodiscard]] bool isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,
                                       core::PlaneMask undecided) const;

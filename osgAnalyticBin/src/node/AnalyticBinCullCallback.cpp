@@ -162,7 +162,7 @@ void AnalyticBinCullCallback::prepareBin() {
     if (!_hasLocalFrame) _prepared->columnSphere = column.boundingSphere(*_ellipsoid);
 }
 
-// The members of a family have their frame, their globe and their terrain's shape in common.
+// All members of a family have the same frame, globe and terrain shape: a tile that changes one of them leaves.
 void AnalyticBinCullCallback::leaveFamily() {
     if (_installed) _installed->leaveFamily();
 }
@@ -268,12 +268,16 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
         database->database->requestRefit();
         return false;
     }
+    const auto test = [&](const core::PlaneSet& planes, core::PlaneMask& undecided) {
+        const core::Side side = sideOf(planes, undecided);
+        // finding the eye takes time
+        const core::HorizonEye* const eye = side == core::Side::Outside ? nullptr : eyeOn(cullStack, nv, traversal);
+        return verdict(side, planes, undecided, eye, traversal);
+    };
     return isCulledByBin(cullStack, nv, traversal, _prepared->sphere,
                          [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
-                             const core::PlaneSet& planes = traversal.planes(cullStack);
-                             const core::HorizonEye* const eye = eyeOn(cullStack, nv, traversal);
-                             if (!_hasLocalFrame) return classify(planes, undecided, eye, traversal);
-                             return classify(ecefPlanes(frustum, _ecefToLocal), undecided, eye, traversal);
+                             return _hasLocalFrame ? test(ecefPlanes(frustum, _ecefToLocal), undecided)
+                                                   : test(traversal.planes(cullStack), undecided);
                          });
 }
 
@@ -302,10 +306,12 @@ const core::HorizonEye* AnalyticBinCullCallback::eyeOn(osg::CullStack& cullStack
     return traversal.horizonEye(cullStack, nv, occluder);
 }
 
-Verdict AnalyticBinCullCallback::classify(const core::PlaneSet& planes, core::PlaneMask& undecided,
-                                          const core::HorizonEye* eye, CullTraversal& traversal) const {
-    const core::Side side =
-        std::visit([&](const auto& bin) { return core::classify(bin, planes, undecided); }, _prepared->bin);
+core::Side AnalyticBinCullCallback::sideOf(const core::PlaneSet& planes, core::PlaneMask& undecided) const {
+    return std::visit([&](const auto& bin) { return core::classify(bin, planes, undecided); }, _prepared->bin);
+}
+
+Verdict AnalyticBinCullCallback::verdict(core::Side side, const core::PlaneSet& planes, core::PlaneMask undecided,
+                                         const core::HorizonEye* eye, CullTraversal& traversal) const {
     if (side == core::Side::Outside) return {side, Verdict::Plane};
     if (eye && isHiddenFrom(*eye)) return {core::Side::Outside, Verdict::Horizon};
     if (side == core::Side::Straddling && _testsEdges && isBeyondAnEdge(traversal, planes, undecided)) {

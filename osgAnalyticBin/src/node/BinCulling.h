@@ -27,6 +27,13 @@ struct Verdict {
 /// OSG's own small-feature test, and nothing else of CullingSet::isCulled(BoundingSphere).
 [[nodiscard]] bool isSmall(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere);
 
+/// Sets the planes that are tested from here on. The result mask is what a child with a sphere test begins with when no
+/// plane is left.
+inline void setUndecided(osg::Polytope& frustum, core::PlaneMask planes) {
+    frustum.getCurrentMask() = planes;
+    frustum.setResultMask(planes);
+}
+
 /// Counts a tile that was tested, in cull traversals. `culled`: by its bin or otherwise.
 void count(CullTraversal& traversal, const osg::NodeVisitor& nv, const Verdict& verdict, bool culled);
 
@@ -43,10 +50,8 @@ template <class Classify>
     if (cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING) {
         core::PlaneMask undecided = frustum.getCurrentMask();
         verdict = classify(frustum, undecided);
-        // OSG pops this mask after the subgraph: a plane cleared here stays cleared just there. The result mask is what
-        // a child with a sphere test begins with when no plane is left.
-        frustum.getCurrentMask() = undecided;
-        frustum.setResultMask(undecided);
+        // OSG pops this mask after the subgraph: a plane cleared here stays cleared just there.
+        setUndecided(frustum, undecided);
     }
     const bool culled = verdict.side == core::Side::Outside || isSmall(cullingSet, sphere) ||
                         isOccluded(cullStack, nv.getNodePath(), sphere);

@@ -3,7 +3,9 @@
 
 #include "DatabaseCallbacks.h"
 
+#include "BinCulling.h"
 #include "CullTraversal.h"
+#include "FindCallback.h"
 #include "GlmBridge.h"
 #include "SeeThrough.h"
 #include "ShownDepth.h"
@@ -50,18 +52,7 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
 // Culled or kept siblings before the database leave a part of the planes behind.
 void beginWithAllPlanes(osg::CullStack& cullStack) {
     osg::Polytope& frustum = cullStack.getCurrentCullingSet().getFrustum();
-    const auto planes =
-        static_cast<osg::Polytope::ClippingMask>((std::uint64_t{1} << frustum.getPlaneList().size()) - 1);
-    frustum.getCurrentMask() = planes;
-    frustum.setResultMask(planes);
-}
-
-template <class Callback>
-Callback* findCallback(osg::Callback* first) {
-    for (osg::Callback* callback = first; callback; callback = callback->getNestedCallback()) {
-        if (auto* found = dynamic_cast<Callback*>(callback)) return found;
-    }
-    return nullptr;
+    setUndecided(frustum, static_cast<core::PlaneMask>((std::uint64_t{1} << frustum.getPlaneList().size()) - 1));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "BinCulling.h"
 #include "Database.h"
+#include "FindCallback.h"
 #include "InstalledTile.h"
 #include "ShownDepth.h"
 #include "TileCallback.h"
@@ -25,11 +26,11 @@ namespace {
 
 using MeshParts = std::vector<osg::ref_ptr<const osg::Node>>;
 
-// The nodes of a mesh, where all of them are drawn as long as they are entered.
+// Collects the nodes of a mesh. Returns: whether OSG draws the whole mesh as long as it enters each of them.
 bool appendParts(const osg::Node& node, MeshParts& parts) {
     parts.emplace_back(&node);
     if (dynamic_cast<const osgTerrain::TerrainTile*>(&node)) return typeid(node) == typeid(osgTerrain::TerrainTile);
-    // what has no children draws nothing
+    // a group without children draws nothing
     const osg::Group* const group = node.asGroup();
     bool areKnown = drawsAllChildren(node) && (!group || group->getNumChildren() > 0);
     for (unsigned int i = 0; areKnown && group && i < group->getNumChildren(); ++i) {
@@ -38,7 +39,7 @@ bool appendParts(const osg::Node& node, MeshParts& parts) {
     return areKnown;
 }
 
-// The mesh of a tile with a single one.
+// The mesh of a tile. Returns: nullptr where the tile has several or none.
 const osg::Node* meshOf(const osg::Node& tile) {
     const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&tile);
     if (!paged) return &tile;
@@ -54,13 +55,6 @@ MeshParts meshPartsOf(const osg::Node& tile) {
     MeshParts parts;
     if (!mesh || !appendParts(*mesh, parts)) return {};
     return parts;
-}
-
-TileFamily* familyOn(const osg::Node& node) {
-    for (osg::Callback* at = const_cast<osg::Node&>(node).getCullCallback(); at; at = at->getNestedCallback()) {
-        if (auto* const family = dynamic_cast<TileFamily*>(at)) return family;
-    }
-    return nullptr;
 }
 
 }  // namespace
@@ -90,11 +84,13 @@ void TileFamily::place(osg::Node& node) {
 }
 
 void TileFamily::remove(osg::Node& node) {
-    if (const osg::ref_ptr<TileFamily> family = familyOn(node)) takeOff(node, *family);
+    if (const osg::ref_ptr<TileFamily> family = findCallback<TileFamily>(node.getCullCallback())) {
+        takeOff(node, *family);
+    }
 }
 
 void TileFamily::renew(osg::Node& node) {
-    const osg::ref_ptr<TileFamily> old = familyOn(node);
+    const osg::ref_ptr<TileFamily> old = findCallback<TileFamily>(node.getCullCallback());
     if (!old || old->_group != &node) return;
     remove(node);
     osg::Group& group = *node.asGroup();
@@ -120,13 +116,13 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
     _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), tile->installedTile()->isSeeThrough(),
                       meshPartsOf(child)};
     tile->installedTile()->joinFamily(*_block, slot);
-    // a mesh in another form, as osgUtil::Optimizer leaves it, is as good
+    // osgUtil::Optimizer may have changed the form of the mesh: the new form is as good
     if (!_members[slot].meshParts.empty()) tile->installedTile()->trustMesh();
     tile->fillSlot();
     return true;
 }
 
-// As AnalyticBinCullCallback::isCulled() and eyeOn() ask it for one tile.
+// The same conditions as in AnalyticBinCullCallback::isCulled() and eyeOn(), for all tiles together.
 bool TileFamily::culls(const osg::Node& group, osg::CullStack& cullStack, const DatabaseView& view) const {
     const osg::CullingSet::Mask mask = cullStack.getCurrentCullingSet().getCullingMask();
     return &group == _group && !getNestedCallback() && (mask & osg::CullingSet::VIEW_FRUSTUM_CULLING) &&
@@ -171,13 +167,17 @@ void TileFamily::lookUp(const osg::Group& group, unsigned int first, core::Plane
     }
 }
 
-// Of a tile whose own bin the planes and the horizon leave undecided.
+// The verdict on a tile that neither the planes nor the horizon cull: the edges of the frustum are left, and, for bins
+// for comparison, everything.
 Verdict TileFamily::finish(unsigned int i, const Verdicts& verdicts, const DatabaseView& view,
                            CullTraversal& traversal) const {
     const AnalyticBinCullCallback& tile = *_members[i].tile;
     core::PlaneMask undecided = verdicts.planes.undecided[i % TileBlock::Part::kMost];
     const bool isTested = (verdicts.tested >> (i % TileBlock::Part::kMost) & 1) != 0;
-    if (!isTested) return tile.classify(view.planes, undecided, view.eye, traversal);
+    if (!isTested) {
+        const core::Side side = tile.sideOf(view.planes, undecided);
+        return tile.verdict(side, view.planes, undecided, view.eye, traversal);
+    }
     if (undecided == 0) return {core::Side::Inside, Verdict::Plane};
     const bool isAcrossEdge = (undecided & (undecided - 1)) != 0;
     const bool isBeyond = isAcrossEdge && tile._testsEdges && tile.isBeyondAnEdge(traversal, view.planes, undecided);
@@ -214,9 +214,7 @@ void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::Cull
                               const DatabaseView& view, CullTraversal& traversal) const {
     // OSG's stack of culling sets may move while a child is entered
     const auto setMask = [&cullStack](core::PlaneMask mask) {
-        osg::Polytope& frustum = cullStack.getCurrentCullingSet().getFrustum();
-        frustum.getCurrentMask() = mask;
-        frustum.setResultMask(mask);
+        setUndecided(cullStack.getCurrentCullingSet().getFrustum(), mask);
     };
     const core::PlaneMask before = cullStack.getCurrentCullingSet().getFrustum().getCurrentMask();
     bool isChanged = group.getNumChildren() != _nodes.size();

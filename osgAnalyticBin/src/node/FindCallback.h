@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osg/Callback>
+
+namespace osgAnalyticBin {
+
+/// The first callback of a class in a chain of nested ones. Returns: nullptr when there is none.
+template <class Callback>
+[[nodiscard]] Callback* findCallback(osg::Callback* first) {
+    for (osg::Callback* callback = first; callback; callback = callback->getNestedCallback()) {
+        if (auto* found = dynamic_cast<Callback*>(callback)) return found;
+    }
+    return nullptr;
+}
+
+}  // namespace osgAnalyticBin
