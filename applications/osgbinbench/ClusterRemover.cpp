@@ -4,11 +4,10 @@
 #include "ClusterRemover.h"
 
 #include "ClusterFiller.h"
+#include "NodeWalk.h"
+#include "ReadInFront.h"
 
 #include <osg/ClusterCullingCallback>
-#include <osg/NodeVisitor>
-#include <osgDB/Registry>
-#include <osgTerrain/TerrainTile>
 
 namespace osgAnalyticBin::bench {
 
@@ -21,21 +20,7 @@ osg::ClusterCullingCallback* clusterCallbackOf(osg::Node& node) {
     return nullptr;
 }
 
-class Walk : public osg::NodeVisitor {
-public:
-    Walk() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0U); }
-
-    using osg::NodeVisitor::apply;
-    void apply(osg::Node& node) override {
-        visit(node);
-        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
-    }
-
-protected:
-    virtual void visit(osg::Node& node) = 0;
-};
-
-class Remover : public Walk {
+class Remover : public NodeWalk {
 public:
     std::size_t removed = 0;
 
@@ -48,7 +33,7 @@ private:
     }
 };
 
-class Counter : public Walk {
+class Counter : public NodeWalk {
 public:
     std::size_t count = 0;
 
@@ -56,7 +41,7 @@ private:
     void visit(osg::Node& node) override { count += clusterCallbackOf(node) ? 1U : 0U; }
 };
 
-class GlobeFinder : public Walk {
+class GlobeFinder : public NodeWalk {
 public:
     osg::ref_ptr<osg::EllipsoidModel> ellipsoid;
 
@@ -84,11 +69,7 @@ std::size_t countClusterCallbacks(osg::Node& graph) {
 
 osg::ref_ptr<ClusterRemover> ClusterRemover::install() {
     const osg::ref_ptr<ClusterRemover> remover = new ClusterRemover;
-    osgDB::Registry& registry = *osgDB::Registry::instance();
-    // A plain callback does what the Registry does by itself.
-    remover->_next = registry.getReadFileCallback();
-    if (!remover->_next) remover->_next = new osgDB::ReadFileCallback;
-    registry.setReadFileCallback(remover);
+    remover->_next = flight::readInFront(*remover);
     return remover;
 }
 

@@ -46,8 +46,8 @@ inline constexpr const char* kAllMethods = "all";
 /// suffixes. Throws: Failure for a name that is unknown or makes no sense.
 [[nodiscard]] CullMethod cullMethodFromName(const std::string& name);
 
-/// The methods in the order given, each once, the reference in front whether it was named or not, and before the
-/// oracle what it repeats; "all" stands for many. Throws: Failure as above.
+/// The methods in the order given, each once. The reference comes first, whether it was named or not, and the method
+/// that the oracle repeats comes before it. "all" stands for many. Throws: Failure as above.
 [[nodiscard]] std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& names);
 
 }  // namespace osgAnalyticBin::bench

@@ -3,10 +3,10 @@
 
 #include "ExpiryRaiser.h"
 
-#include <osg/NodeVisitor>
+#include "NodeWalk.h"
+#include "ReadInFront.h"
+
 #include <osg/PagedLOD>
-#include <osgDB/Registry>
-#include <osgTerrain/TerrainTile>
 
 #include <algorithm>
 
@@ -14,25 +14,18 @@ namespace osgAnalyticBin::bench {
 
 namespace {
 
-class ExpiryWalk : public osg::NodeVisitor {
+class ExpiryWalk : public NodeWalk {
 public:
-    explicit ExpiryWalk(double seconds) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _seconds(seconds) {
-        setNodeMaskOverride(~0U);
-    }
-
-    using osg::NodeVisitor::apply;
-    void apply(osg::Node& node) override {
-        // One that is traversed before its first update never finds its Terrain.
-        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
-    }
-    void apply(osg::PagedLOD& node) override {
-        for (unsigned int i = 0; i < node.getNumFileNames(); ++i)
-            if (!node.getFileName(i).empty())
-                node.setMinimumExpiryTime(i, std::max(_seconds, node.getMinimumExpiryTime(i)));
-        traverse(node);
-    }
+    explicit ExpiryWalk(double seconds) : _seconds(seconds) {}
 
 private:
+    void visit(osg::Node& node) override {
+        auto* const paged = dynamic_cast<osg::PagedLOD*>(&node);
+        for (unsigned int i = 0; paged && i < paged->getNumFileNames(); ++i)
+            if (!paged->getFileName(i).empty())
+                paged->setMinimumExpiryTime(i, std::max(_seconds, paged->getMinimumExpiryTime(i)));
+    }
+
     double _seconds;
 };
 
@@ -40,11 +33,7 @@ private:
 
 osg::ref_ptr<ExpiryRaiser> ExpiryRaiser::install() {
     const osg::ref_ptr<ExpiryRaiser> raiser = new ExpiryRaiser;
-    osgDB::Registry& registry = *osgDB::Registry::instance();
-    // A plain callback does what the Registry does by itself.
-    raiser->_next = registry.getReadFileCallback();
-    if (!raiser->_next) raiser->_next = new osgDB::ReadFileCallback;
-    registry.setReadFileCallback(raiser);
+    raiser->_next = flight::readInFront(*raiser);
     return raiser;
 }
 

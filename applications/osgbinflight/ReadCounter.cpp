@@ -3,6 +3,8 @@
 
 #include "ReadCounter.h"
 
+#include "ReadInFront.h"
+
 #include <osgDB/FileUtils>
 #include <osgDB/Registry>
 
@@ -23,11 +25,7 @@ std::uint64_t bytesOf(const std::string& fileName, const osgDB::Options* options
 
 osg::ref_ptr<ReadCounter> ReadCounter::install() {
     const osg::ref_ptr<ReadCounter> counter = new ReadCounter;
-    osgDB::Registry& registry = *osgDB::Registry::instance();
-    // A plain callback does what the Registry does by itself.
-    counter->_next = registry.getReadFileCallback();
-    if (!counter->_next) counter->_next = new osgDB::ReadFileCallback;
-    registry.setReadFileCallback(counter);
+    counter->_next = readInFront(*counter);
     return counter;
 }
 
