@@ -129,7 +129,7 @@ FamilyMix::FamilyMix(Random& random, const FamilyScene& scene, double outsideSha
             (count == 0 ? outside : reachedInto).push_back(family);
             tilesReachedInto += static_cast<double>(count);
         }
-        // Not all siblings of a tile that is reached into are.
+        // The frustum reaches into some tiles of a family only.
         const double share = tilesReachedInto / static_cast<double>(kSiblings * reachedInto.size());
         std::vector<std::uint32_t>& chosen = familiesOfFrustum.emplace_back();
         while (chosen.size() < kFamiliesPerFrustum) {

@@ -40,7 +40,7 @@ bool has(std::uint64_t slots, std::size_t i) {
     return (slots >> i & 1) != 0;
 }
 
-// How often the families of a run came to which end: a test that never saw one says nothing about it.
+// Counts of the verdicts that a run has seen, so that the test can ask for each of them.
 struct Seen {
     std::array<int, 3> sides{};
     int hidden = 0;

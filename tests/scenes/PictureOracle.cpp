@@ -19,9 +19,9 @@ struct Place {
     int column, row, size;
 
     explicit Place(std::size_t pixel) {
-        const auto across = static_cast<int>(pixel % Painting::kWidth);
-        const bool isInner = across >= kInnerPictureStart;
-        column = isInner ? across - kInnerPictureStart : across;
+        const auto columnOfAll = static_cast<int>(pixel % Painting::kWidth);
+        const bool isInner = columnOfAll >= kInnerPictureStart;
+        column = isInner ? columnOfAll - kInnerPictureStart : columnOfAll;
         row = static_cast<int>(pixel / Painting::kWidth);
         size = isInner ? kInnerPictureSize : kPictureSize;
     }
@@ -88,9 +88,9 @@ private:
         constexpr float kDepthSteps = 4.0F / 16777216.0F;
         const Place place(pixel);
         for (int row = std::max(place.row - around, 0); row <= std::min(place.row + around, place.size - 1); ++row) {
-            for (int across = -around; across <= around; ++across) {
+            for (int columns = -around; columns <= around; ++columns) {
                 const std::size_t other =
-                    pixel + static_cast<std::size_t>(across) +
+                    pixel + static_cast<std::size_t>(columns) +
                     static_cast<std::size_t>(row - place.row) * static_cast<std::size_t>(Painting::kWidth);
                 if (other >= _with.painting.numbers.size() || _with.painting.numbers[other] == 0) continue;
                 if (std::abs(_without.painting.depths[pixel] - _with.painting.depths[other]) <= kDepthSteps)
@@ -148,14 +148,14 @@ private:
         return text.str();
     }
 
-    // `across`, `up`: pixels from the pixel whose depth it is.
+    // Looks through another pixel than the one whose depth it is: `columns` to the right and `rows` above.
     [[nodiscard]] static std::optional<Sight> sightTo(std::size_t pixel, const Delivered& delivered,
-                                                      const Painting& painting, int across = 0, int up = 0) {
+                                                      const Painting& painting, int columns = 0, int rows = 0) {
         osg::Matrixd unproject;
         if (!unproject.invert(*delivered.projection)) return std::nullopt;
         const Place place(pixel);
-        const double x = 2.0 * (place.column + across + 0.5) / place.size - 1.0;
-        const double y = 2.0 * (place.row + up + 0.5) / place.size - 1.0;
+        const double x = 2.0 * (place.column + columns + 0.5) / place.size - 1.0;
+        const double y = 2.0 * (place.row + rows + 0.5) / place.size - 1.0;
         const osg::Vec3d start = osg::Vec3d(x, y, -1.0) * unproject;
         const osg::Vec3d along = osg::Vec3d(x, y, 1.0) * unproject - start;
         const osg::Matrixd& projection = *delivered.projection;

@@ -22,7 +22,7 @@ struct PictureDifference {
     std::size_t pixels = 0;
 };
 
-/// What comparisons of pictures came across.
+/// Totals of the comparisons of pictures.
 struct PictureTotals {
     std::size_t pictures = 0;
     std::size_t covered = 0;  ///< pixels with something in them

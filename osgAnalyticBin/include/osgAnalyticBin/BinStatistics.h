@@ -62,8 +62,9 @@ public:
     /// Says of the tile counted last that an edge of the frustum proved it outside.
     void countSeparated() noexcept;
 
-    /// Has tiles test themselves one by one, with the same verdicts, in traversals of this visitor: for a visitor that
-    /// watches which nodes are met, culled ones too. Siblings are tested together otherwise, and culled ones not met.
+    /// For visitors that watch which nodes they meet. With true, tiles are tested one by one and the visitor meets the
+    /// culled ones too; without it, siblings are tested together and culled ones are not visited. The verdicts are the
+    /// same.
     void setTileByTile(bool on) noexcept { _isTileByTile = on; }
     /// Default: false.
     [[nodiscard]] bool isTileByTile() const noexcept { return _isTileByTile; }

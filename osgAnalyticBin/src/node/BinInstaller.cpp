@@ -114,7 +114,7 @@ void BinInstaller::finish() {
     placeFamilies();
 }
 
-// When all tiles are treated: on the way, the stack of deep scenes would have to hold more.
+// Called after the walk: families that are placed during it would need more stack in deep scenes.
 void BinInstaller::placeFamilies() {
     for (osg::Node* const group : _groups) TileFamily::place(*group);
     _groups.clear();

@@ -206,15 +206,15 @@ void fitIntoTilesFrom(const osg::Node& node, Content content) {
     for (const osg::Group* const parent : node.getParents()) fitIntoTilesFrom(*parent, content);
 }
 
-// Says that the tile which a watched node belongs to has lost or changed a part of its mesh: in the next update its
-// family looks at what is there now.
+// Says that the mesh of the tile that a watched node belongs to has changed. The next update makes the tile's family
+// anew.
 void doubtMeshOf(const osg::Node& node) {
     const osg::Node* culled = &node;
     if (!installedTileOf(node)) culled = carrierOf(const_cast<osg::Node&>(node));
     InstalledTile* const tile = culled ? installedTileOf(*culled) : nullptr;
     if (!tile) return;
     tile->doubtMesh();
-    // what is not merged into the scene yet is not the update traversal's
+    // the update traversal must not touch what is not merged into the scene yet
     if (!isBelowDatabase(*culled)) return;
     for (osg::Group* const parent : culled->getParents()) tile->database().noteChanged(*parent);
 }

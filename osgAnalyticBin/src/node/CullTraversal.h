@@ -89,10 +89,10 @@ public:
     /// The depth of the lowest surface that this visitor last found a database to show: where it looks next time.
     [[nodiscard]] double& lastDepth(const Database& database);
 
-    /// For the next database that is traversed, within those that are.
+    /// The plan of the database that is traversed next. Databases within each other have one each.
     [[nodiscard]] TilePlan& plan();
 
-    /// Says that the bin of a node about to be entered has been tested, and keeps it; null: none.
+    /// Says that a family keeps this node and is about to enter it; null: none.
     void setKept(const osg::Node* node) { _kept = node; }
     [[nodiscard]] bool isKept(const osg::Node& node) const { return _kept == &node; }
 

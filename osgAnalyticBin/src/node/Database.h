@@ -83,7 +83,7 @@ public:
     /// Says that tiles were met that are not fitted to the present shape.
     void requestRefit() const { _isRefitWanted.store(true, std::memory_order_relaxed); }
 
-    /// Says that a group with a family of tiles has other children than it had: the next update makes the family anew.
+    /// Says that the children of a group with a family have changed. The next update makes the family anew.
     void noteChanged(osg::Group& group) const;
 
     /// In the update traversal: whether the loaded tiles have to be fitted anew, told once.

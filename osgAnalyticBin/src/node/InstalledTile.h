@@ -44,17 +44,18 @@ public:
 
     [[nodiscard]] bool isKeptVisible() const { return _isKeptVisible.load(std::memory_order_relaxed); }
 
-    /// Puts the tile's bin into a slot of the family that it belongs to from now on. Its callback fills it.
+    /// Gives the tile a slot in a family. The tile's callback fills it.
     void joinFamily(TileBlock& block, std::size_t slot);
-    /// Says that the family must not cull it any more.
+    /// From now on only the tile's own callback culls it.
     void leaveFamily();
-    /// Says that the tile's mesh is not the one that it was fitted to: its family leaves it to its callback until it is
-    /// looked at again.
+    /// Says that the mesh has changed since the bin was fitted. The family leaves the tile to its callback until
+    /// trustMesh() is called.
     void doubtMesh();
     void trustMesh();
     [[nodiscard]] bool isMeshDoubted() const { return _isMeshDoubted.load(std::memory_order_relaxed); }
-    /// What the family, if any, is to cull it by.
+    /// Copies the numbers that the family, if there is one, tests the tile by.
     void fillSlot(const TileBlock::Slot& tile, const TileBlock::Bins& bins);
+    /// Has the family leave the tile to its callback until the slot is filled again.
     void emptySlot();
 
     /// Says that what the tile draws can be seen through, so that the horizon must not rely on it.

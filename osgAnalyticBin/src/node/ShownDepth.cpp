@@ -68,7 +68,7 @@ osg::PagedLOD* pagedLod(osg::Node& node) {
     return dynamic_cast<osg::PagedLOD*>(&node);
 }
 
-// What the search reads of a tile: most of it is side by side in its family's block.
+// What the search reads of a tile. For members of a family it stands in the family's block.
 struct SearchedTile {
     SearchedTile(const AnalyticBinCullCallback& tile, bool hasShownShape)
         : callback(tile),
@@ -135,7 +135,7 @@ private:
         for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) searchNode(*group.getChild(i));
     }
 
-    // A tile that is not seen is not touched.
+    // Reads nothing of tiles that are passed over.
     void searchFamily(osg::Group& group, const TileFamily& family) {
         if (group.getNumChildren() < family.size() || family.hasLostTiles()) _hasHole = true;
         TileFamily::Verdicts verdicts;
@@ -162,7 +162,7 @@ private:
         if (verdicts.lacksTiles) _hasHole = true;
     }
 
-    // Tiles that are not seen and have no more to them than their bins, and are not about the eye.
+    // Tiles that are outside the frustum or hidden, whose column is the bin, and that are not about the eye.
     [[nodiscard]] std::uint64_t passedOverIn(const TileFamily::Verdicts& verdicts, const TileBlock::Part* part) const {
         if (!part || (_place && _place->altitude <= part->highest)) return 0;
         return verdicts.members & ~part->withOwnColumns & (verdicts.planes.outside | verdicts.hidden);
@@ -188,7 +188,7 @@ private:
     }
 
     void searchNode(osg::Node& node) {
-        // most of what is not a tile is the root of a file
+        // most nodes that are no tiles are roots of files: plain groups
         const bool isGroup = isExactly<osg::Group>(node);
         const CullCallbacks callbacks(node);
         if (callbacks.bin) {
@@ -266,7 +266,7 @@ private:
 
     void show(const SearchedTile& tile, osg::Node& mesh) {
         if (tile.isAboutEye && _place->altitude <= tile.surfaceHigh) _nearGround.push_back({&tile.callback, &mesh});
-        // tiles about the eye are looked at wherever they are
+        // tiles about the eye are searched even beside the frustum, for the ground alone
         if (tile.isAboutEye && isBeside(tile)) return;
         if (!isDrawnWhole(mesh, tile)) _hasHole = true;
         // what a tile draws by itself is in its bin

@@ -22,7 +22,7 @@ struct DatabaseView;
 /// leave some out.
 [[nodiscard]] bool drawsAllChildren(const osg::Node& node);
 
-/// A database in the cull traversal that is about to begin below its root.
+/// A database whose cull traversal is about to begin.
 struct ShownDatabase {
     osg::Group& root;
     osg::NodeVisitor& visitor;

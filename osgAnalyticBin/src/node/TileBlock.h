@@ -18,9 +18,9 @@
 
 namespace osgAnalyticBin {
 
-/// What culling and the search for the lowest surface read of tiles that are siblings, side by side in memory: tiles
-/// out of view are not touched themselves. A slot is a child of the group that they hang on; ECEF, metres.
-/// Threads: believe() at any time; set() where no cull traversal runs.
+/// The numbers of sibling tiles that culling and the search for the lowest surface read, side by side in memory, so
+/// that nothing else of a tile out of view is read. Each child of the group has a slot. Frame: ECEF, metres. Threads:
+/// believe() at any time; set() where no cull traversal runs.
 class TileBlock final : public osg::Referenced {
 public:
     struct Slot {
@@ -33,7 +33,7 @@ public:
         bool hasOwnColumn = true;    ///< the column is more than the bin, or the bin is one for comparison
     };
 
-    /// What a tile is culled by; null: not so.
+    /// What a tile is tested by; null: that test is left out.
     struct Bins {
         const core::GeodeticQuadraticBin* quadratic = nullptr;
         const core::ExactGeodeticBin* exact = nullptr;
@@ -63,7 +63,7 @@ public:
 
     void addMember(std::size_t slot) { _parts[slot / Part::kMost].members |= std::uint64_t{1} << (slot % Part::kMost); }
 
-    /// Takes over what a tile is culled by.
+    /// Copies what a tile is tested by.
     void set(std::size_t slot, const Slot& tile, const Bins& bins);
 
     /// Says whether the tile of a slot may be culled without its own callback being asked.

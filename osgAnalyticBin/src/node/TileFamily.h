@@ -25,23 +25,23 @@ class Database;
 struct DatabaseView;
 struct Verdict;
 
-/// The cull callback of a group with tiles among its children: tests all of them in one go, enters those that are
-/// kept, and touches nothing of the others. Wherever it is not sure (a child that it was not made for, another frame
-/// than that of the database, occluders, callbacks behind it), the tiles' own callbacks decide, as they would without
-/// it. It says of itself that it is a plain osg::NodeCallback: a scene that is saved holds nothing of it.
-/// Guarantee: culls as the tiles' own callbacks; tests: TileFamily.*.
+/// The cull callback of a group that has tiles among its children. It tests all tiles together, enters those that are
+/// kept, and reads nothing of the others. The tiles' own callbacks decide where the family cannot: for children that it
+/// does not know, in another frame than that of the database, with occluders, and with callbacks behind it.
+/// It reports the class name of a plain osg::NodeCallback, so a saved scene holds nothing of it.
+/// Guarantee: it culls the tiles that their own callbacks would cull; tests: TileFamily.*.
 /// Threads: run() changes nothing in the callback.
 class TileFamily final : public osg::NodeCallback {
 public:
-    /// A copy knows no tiles.
+    /// The copy has no tiles.
     TileFamily(const TileFamily& other, const osg::CopyOp& copyop);
     osg::Object* clone(const osg::CopyOp& copyop) const override { return new TileFamily(*this, copyop); }
 
     /// Whether the node is a group that enters all its children, and does nothing else.
     [[nodiscard]] static bool isPossibleOn(const osg::Node& node);
 
-    /// Puts a family behind the callbacks of the node, in place of one that is there, where it is possible there and
-    /// tiles with bins in the group's own frame, ECEF, are among its children.
+    /// Replaces the node's family, if it has one, by a new one behind its other callbacks. Does nothing more where a
+    /// family is not possible, or where no child is a tile with a bin in the group's own frame, ECEF.
     static void place(osg::Node& node);
 
     /// Takes it off again.
@@ -58,11 +58,11 @@ public:
         osg::ref_ptr<const AnalyticBinCullCallback> tile;
         osg::PagedLOD* paged = nullptr;  ///< the node, if it is one
         bool isSeeThrough = false;
-        /// The nodes that have to be entered for the tile's own mesh, if that is all of them; empty: not known.
+        /// All nodes of the tile's own mesh; empty where entering them does not draw all of it for certain.
         std::vector<osg::ref_ptr<const osg::Node>> meshParts;
     };
 
-    /// What the bins of children are to planes and to the horizon: of up to TileBlock::Part::kMost, one bit each.
+    /// The results for up to TileBlock::Part::kMost children, one bit each.
     struct Verdicts {
         Verdicts() { planes.outside = planes.insideAll = 0; }  // masks of slots that are not there are not read
 
@@ -83,10 +83,10 @@ public:
     [[nodiscard]] const Member& member(unsigned int i) const { return _members[i]; }
     [[nodiscard]] const TileBlock& block() const { return *_block; }
 
-    /// Whether a tile that once was a child is none any more: the terrain may have a hole.
+    /// Whether a tile was removed from the group since bins were installed: the terrain may have a hole.
     [[nodiscard]] bool hasLostTiles() const { return _hasLostTiles; }
 
-    /// Children with which it was made.
+    /// The number of children when the family was made.
     [[nodiscard]] std::size_t size() const { return _nodes.size(); }
 
 protected:
@@ -109,7 +109,7 @@ private:
     bool _hasTiles = false;
     bool _hasLostTiles = false;
     osg::ref_ptr<TileBlock> _block;
-    // by the number of the child
+    // one for each child
     std::vector<osg::ref_ptr<osg::Node>> _nodes;  // held, so that no others are taken for them; null: no tile
     std::vector<Member> _members;
     // what all its tiles have in common

@@ -24,7 +24,7 @@ void TilePlan::add(const TileFamily& family, unsigned int first, core::PlaneMask
 
 bool TilePlan::find(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
                     TileFamily::Verdicts& verdicts) {
-    // families that are searched and not entered stand in between: below tiles whose columns alone are in view
+    // the plan also has families that the traversal does not enter: those below tiles of which only the column is seen
     constexpr std::size_t kFarthest = 32;
     const std::size_t end = std::min(_entries.size(), _next + kFarthest);
     for (std::size_t i = _next; i < end; ++i) {

@@ -11,8 +11,8 @@
 
 namespace osgAnalyticBin {
 
-/// What families of tiles were found to be to the planes and to the horizon before OSG's traversal of a database, in
-/// the order in which the traversal will meet them. One plan serves one traversal of one visitor.
+/// The results of families that were tested before OSG traverses a database, in the order in which the traversal meets
+/// them. A plan is made for one traversal of one visitor.
 class TilePlan {
 public:
     void clear();
@@ -20,8 +20,8 @@ public:
     void add(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
              const TileFamily::Verdicts& verdicts, std::size_t children);
 
-    /// Looks for a family from the one on that was found last. `undecided`: has to be what the family was tested with.
-    /// Returns: false where the plan does not have it; `verdicts` is untouched then.
+    /// Searches behind the family that was found last. `undecided`: a result for other planes is not used.
+    /// Returns: false where the plan has no such result; `verdicts` stays as it is then.
     [[nodiscard]] bool find(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
                             TileFamily::Verdicts& verdicts);
 

@@ -61,7 +61,7 @@ TEST(VerdictReplay, DrawsWhatBinsKeepAndReachesNothingElse) {
     for (unsigned int i = 0; i < globe->asGroup()->getNumChildren(); ++i)
         globe->asGroup()->getChild(i)->setNodeMask(~0U);
     EXPECT_EQ(view.census().nodes, replay.nodes);
-    // with its back to the globe the camera has no tile in view: they are drawn because nothing is tested
+    // the camera looks away from the globe: the tiles are drawn only because nothing is tested
     view.look({5e7, 1e7, 1e7}, 5.0, {1e8, 2e7, 2e7});
     EXPECT_NO_THROW(requireSameTiles(view.census(), bins, "pose"));
 }

@@ -16,17 +16,17 @@
 
 namespace osgAnalyticBin::core {
 
-/// The bins of sibling tiles, tested together: as many bins as a vector has lanes at once. It keeps copies of the bins'
-/// numbers, one row for each number with the bins side by side, those that are read first in front. A slot without a
-/// bin straddles every plane and is never hidden. Guarantee: verdicts are those of the bins by themselves, bit for bit,
-/// on every instruction set and in builds without SIMD; tests: BinFamily.*. Memory: 352 bytes a slot, horizon included,
-/// for a multiple of four slots.
+/// The bins of sibling tiles, tested together: a vector holds one bin in each lane. The family copies the numbers of
+/// its bins into rows, one row for each number, in the order in which they are read. A slot without a bin straddles
+/// every plane and is never hidden. Guarantee: the verdicts equal those of single bins, bit for bit, on every
+/// instruction set and in builds without SIMD; tests: BinFamily.*. Memory: 352 bytes a slot, horizon included; the
+/// slots are rounded up to a multiple of four.
 class BinFamily final {
 public:
     /// The most bins of a family.
     static constexpr std::size_t kMostSlots = core::kMostSlots;
 
-    /// All slots are without a bin. Requires: count <= kMostSlots (asserted); slots above are not there.
+    /// Makes `count` empty slots. Requires: count <= kMostSlots (asserted); more are left out.
     explicit BinFamily(std::size_t count);
     /// A copy with numbers of its own.
     BinFamily(const BinFamily& other);
@@ -36,7 +36,7 @@ public:
     BinFamily& operator=(BinFamily other) noexcept;
     ~BinFamily() = default;
 
-    /// Slots with and without a bin.
+    /// The number of slots, empty ones included.
     [[nodiscard]] std::size_t size() const noexcept { return _size; }
     /// The slots that have a bin, one bit each.
     [[nodiscard]] std::uint64_t filled() const noexcept { return _data.filled; }
@@ -59,7 +59,7 @@ public:
     /// the corners, only for planes that are open for a bin; no allocation, no trigonometry.
     void classify(const PlaneSet& planes, PlaneMask undecided, FamilyVerdict& verdict) const noexcept;
 
-    /// Those of the candidates that the horizon hides, by the verdicts of HorizonEye::hides().
+    /// Returns: the candidates that the horizon hides, as HorizonEye::hides() tells of each.
     /// Cost: for slots in view some ten multiplications for all lanes together; no allocation, no trigonometry.
     [[nodiscard]] std::uint64_t hiddenFrom(const HorizonEye& eye, std::uint64_t candidates) const noexcept;
 

@@ -26,8 +26,8 @@ public:
     /// Cost: the sines and cosines of five angles.
     ExactGeodeticBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin = 0.0) noexcept;
 
-    /// The bin that these are the numbers of, in the order of row::Exact; from one to the next is `stride`. Its reach()
-    /// is that of the sphere about it.
+    /// Makes the bin from its numbers, in the order of row::Exact and `stride` apart. Its reach() is the one of its
+    /// sphere.
     explicit ExactGeodeticBin(const double* numbers, std::size_t stride = 1) noexcept;
 
     /// Guarantee: Outside only if distance(x) < 0, Inside only if >= 0, for every x in the bin and every point within
@@ -48,7 +48,8 @@ public:
     /// A point of the bin, without margin, where n.x is largest, to rounding: where a search goes on, no proof.
     [[nodiscard]] glm::dvec3 supportPoint(const glm::dvec3& direction) const noexcept;
 
-    /// A point of the bin's convex hull, to rounding: a search need not go on where it is inside.
+    /// A point of the bin's convex hull, up to rounding. Where it is inside two planes, nothing parts the bin from
+    /// them.
     [[nodiscard]] glm::dvec3 hullPoint() const noexcept {
         return {_numbers[row::CenterX], _numbers[row::CenterY], _numbers[row::CenterZ]};
     }

@@ -116,7 +116,7 @@ struct HorizonEyeData {
 /// The most bins that a family has: one bit each.
 inline constexpr std::size_t kMostSlots = 64;
 
-/// What a family's bins are to a set of planes. Bits are slots of the family.
+/// The results of a family against a set of planes: one bit for each slot.
 struct FamilyVerdict {
     std::uint64_t outside;    ///< outside of one plane at least
     std::uint64_t insideAll;  ///< inside of all planes that were undecided

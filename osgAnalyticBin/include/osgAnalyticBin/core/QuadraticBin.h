@@ -23,7 +23,7 @@ public:
     /// Cost: one evaluation of the mapping and its derivatives.
     QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& box, double margin = 0.0) noexcept;
 
-    /// The bin that these are the numbers of, in the order of row::Quadratic; from one to the next is `stride`.
+    /// Makes the bin from its numbers, in the order of row::Quadratic and `stride` apart.
     explicit QuadraticBin(const double* numbers, std::size_t stride = 1) noexcept;
 
     /// Guarantee: Outside only if distance(f(x)) < 0, Inside only if >= 0, for every x in the box and every point

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// The quadratic frustum test from top to bottom: sphere, linear part, second-order terms. Each stage is for what the
-// one before leaves open, and what the last leaves open the exact range of the polynomial decides, one bin and one
-// plane at a time: QuadraticBin::classifyByExactRange().
+// The quadratic frustum test from top to bottom: sphere, linear part, second-order terms. Each stage tests what the one
+// before leaves open. The exact range of the polynomial decides the rest, one bin and one plane at a time:
+// QuadraticBin::classifyByExactRange().
 //
 // Included within the namespace of one kind of number: ScalarNumbers.inl or VectorNumbers.inl. `Real` is a double or a
 // vector of doubles. Its lanes are planes, with a bin's numbers in all of them, or bins, with a plane's numbers in all.
@@ -14,7 +14,7 @@ struct PlaneLanes {
     Real nx, ny, nz, offset, rounding;
 };
 
-// Open: this test cannot tell. No lane is in two of them; one in none straddles the plane for certain.
+// Open: this test cannot tell. The three exclude each other. A lane in none of them straddles the plane for certain.
 template <class Real>
 struct Sides {
     Truth<Real> outside, inside, open;
@@ -30,8 +30,8 @@ INLINE Truth<Real> isInside(Real lower, Real slack) {
     return lower - slack >= broadcast<Real>(0.0);
 }
 
-// From an interval that holds the distances of the bin, and one whose ends are distances of the bin: where a plane is
-// in between of these, a finer test could say nothing else.
+// The outer interval holds all distances of the bin; the ends of the inner one are distances of points of the bin. A
+// plane between the ends of the inner one straddles the bin, and no finer test is needed.
 template <class Real>
 INLINE Sides<Real> sidesOf(Real lower, Real upper, Real attainedLower, Real attainedUpper, Real slack) {
     const Truth<Real> outside = isOutside<Real>(upper, slack);

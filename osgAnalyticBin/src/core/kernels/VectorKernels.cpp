@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// The tests over vectors, multiplications and additions apart, so that every verdict is that of the scalar form bit for
-// bit. Highway compiles this file once for each instruction set.
+// The tests over vectors. Multiplications and additions are not fused, so every verdict equals that of the scalar form
+// bit for bit. Highway compiles this file once for each instruction set.
 
 #include "core/Constants.h"
 #include "core/kernels/PlaneKernels.h"
