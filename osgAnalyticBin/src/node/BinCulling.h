@@ -15,6 +15,8 @@
 #include <osg/NodeVisitor>
 #include <osg/Polytope>
 
+#include <cstddef>
+
 namespace osgAnalyticBin {
 
 /// Where a bin lies, and by which test.
@@ -34,12 +36,32 @@ inline void setUndecided(osg::Polytope& frustum, core::PlaneMask planes) {
     frustum.setResultMask(planes);
 }
 
+/// Leaves only some planes to be tested below transforms, too, for the length of a node: OSG begins with all planes there
+/// and would move planes to each mesh's frame that its tile is known to be inside of. The numbers are those of the
+/// current culling set's planes; where a transform above has left some out, nothing is done.
+class PlanesBelow {
+public:
+    PlanesBelow(osg::CullStack& cullStack, core::PlaneMask undecided) : _cullStack(cullStack) {
+        osg::Polytope& frustum = cullStack.getProjectionCullingStack().back().getFrustum();
+        _before = frustum.getCurrentMask();
+        const std::size_t planes = cullStack.getCurrentCullingSet().getFrustum().getPlaneList().size();
+        if (frustum.getPlaneList().size() == planes) frustum.getCurrentMask() &= undecided;
+    }
+    ~PlanesBelow() { _cullStack.getProjectionCullingStack().back().getFrustum().getCurrentMask() = _before; }
+    PlanesBelow(const PlanesBelow&) = delete;
+    PlanesBelow& operator=(const PlanesBelow&) = delete;
+
+private:
+    osg::CullStack& _cullStack;
+    core::PlaneMask _before;
+};
+
 /// Counts a tile that was tested, in cull traversals. `culled`: by its bin or otherwise.
 void count(CullTraversal& traversal, const osg::NodeVisitor& nv, const Verdict& verdict, bool culled);
 
 /// Whether a node is culled: by its bin against the undecided planes, as a small feature, or behind an occluder. Planes
-/// that have the bin inside are cleared from the frustum's masks, so that they are not tested again below the node, as
-/// far as the next transform: OSG begins there with all planes. The verdict is counted.
+/// that have the bin inside are cleared from the frustum's masks, so that they are not tested again below the node. The
+/// verdict is counted.
 /// `classify(const osg::Polytope& frustum, core::PlaneMask& undecided)` tests the bin.
 template <class Classify>
 [[nodiscard]] bool isCulledByBin(osg::CullStack& cullStack, osg::NodeVisitor& nv, CullTraversal& traversal,
@@ -71,6 +93,7 @@ void cullOrTraverse(osg::NodeVisitor& nv, const IsCulled& isCulled, const Traver
     const osg::Polytope::ClippingMask before = frustum.getCurrentMask();
     if (!isCulled(*cullStack)) {
         const OccluderScope occluders(*cullStack);
+        const PlanesBelow planes(*cullStack, cullStack->getCurrentCullingSet().getFrustum().getCurrentMask());
         traverse();
     }
     // not for siblings

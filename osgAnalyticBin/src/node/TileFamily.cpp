@@ -233,7 +233,9 @@ void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::Cull
             child->accept(nv);
             continue;
         }
-        setMask(verdicts.planes.undecided[number]);
+        const core::PlaneMask undecided = verdicts.planes.undecided[number];
+        setMask(undecided);
+        const PlanesBelow planes(cullStack, undecided);
         traversal.setKept(child);
         child->accept(nv);
         traversal.setKept(nullptr);
