@@ -36,9 +36,9 @@ inline void setUndecided(osg::Polytope& frustum, core::PlaneMask planes) {
     frustum.setResultMask(planes);
 }
 
-/// Leaves only some planes to be tested below transforms, too, for the length of a node: OSG begins with all planes there
-/// and would move planes to each mesh's frame that its tile is known to be inside of. The numbers are those of the
-/// current culling set's planes; where a transform above has left some out, nothing is done.
+/// Leaves only some planes to be tested below transforms, too, for the length of a node: OSG begins with all planes
+/// there and would move planes to each mesh's frame that its tile is known to be inside of. The numbers are those of
+/// the current culling set's planes; where a transform above has left some out, nothing is done.
 class PlanesBelow {
 public:
     PlanesBelow(osg::CullStack& cullStack, core::PlaneMask undecided) : _cullStack(cullStack) {

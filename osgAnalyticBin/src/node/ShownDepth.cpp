@@ -4,6 +4,7 @@
 #include "ShownDepth.h"
 
 #include "../core/EarthScale.h"
+#include "Bits.h"
 #include "CullTraversal.h"
 #include "InstalledTile.h"
 #include "MeshCulling.h"
@@ -68,35 +69,13 @@ osg::PagedLOD* pagedLod(osg::Node& node) {
     return dynamic_cast<osg::PagedLOD*>(&node);
 }
 
-// What the search reads of a tile. For members of a family it stands in the family's block.
+// A tile that the search has come to.
 struct SearchedTile {
-    SearchedTile(const AnalyticBinCullCallback& tile, bool hasShownShape)
-        : callback(tile),
-          columnSphere(tile.ecefColumnSphere()),
-          binLow(tile.binLow()),
-          surfaceHigh(tile.surfaceHigh()),
-          surfaceLow(tile.surfaceLow()),
-          isFitted(hasShownShape),
-          isSeenThrough(tile.installedTile() && tile.installedTile()->isSeeThrough()),
-          isMeshDoubted(tile.installedTile() && tile.installedTile()->isMeshDoubted()) {}
-    SearchedTile(const TileFamily::Member& member, const TileBlock::Slot& slot)
-        : callback(*member.tile),
-          columnSphere(&slot.column),
-          binLow(slot.binLow),
-          surfaceHigh(slot.surfaceHigh),
-          surfaceLow(slot.surfaceLow),
-          isFitted(true),
-          isSeenThrough(member.isSeeThrough),
-          meshParts(&member.meshParts) {}
-
     const AnalyticBinCullCallback& callback;
-    const osg::BoundingSphere* columnSphere;
-    double binLow, surfaceHigh, surfaceLow;
-    bool isFitted;  // to the shape in which the terrain is shown
-    bool isSeenThrough;
-    bool isMeshDoubted = false;
-    bool isAboutEye = false;
-    const std::vector<osg::ref_ptr<const osg::Node>>* meshParts = nullptr;  // null: not known
+    const TileBlock::Slot& numbers;
+    bool isFitted;                     // to the shape in which the terrain is shown
+    const TileFamily::Member* member;  // null: of no family
+    bool isAboutEye;
 };
 
 // A surface that is shown about the place of the eye, no lower than the eye by its bounds.
@@ -110,7 +89,12 @@ class LowestShown {
 public:
     LowestShown(const ShownDatabase& database, const core::HorizonEye& eye, const std::optional<core::Geodetic>& place,
                 double deepest)
-        : _database(database), _visitor(database.visitor), _eye(eye), _place(place), _deepest(deepest) {
+        : _database(database),
+          _visitor(database.visitor),
+          _traversal(CullTraversal::of(database.visitor)),
+          _eye(eye),
+          _place(place),
+          _deepest(deepest) {
         if (database.view.plan) database.view.plan->clear();
         const osg::CullingSet& cullingSet = database.cullStack.getCurrentCullingSet();
         if (!(cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING)) return;
@@ -130,101 +114,116 @@ public:
 
 private:
     void searchChildren(osg::Group& group, const TileFamily* family) {
-        const bool isFamily = family && family->culls(group, _database.cullStack, _database.view) && !_isMoved;
+        const bool isFamily = family && !_isMoved && family->culls(group, _database.cullStack, _database.view);
         if (isFamily) return searchFamily(group, *family);
         for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) searchNode(*group.getChild(i));
     }
 
     // Reads nothing of tiles that are passed over.
     void searchFamily(osg::Group& group, const TileFamily& family) {
-        if (group.getNumChildren() < family.size() || family.hasLostTiles()) _hasHole = true;
+        const unsigned int children = group.getNumChildren();
+        if (children < family.size() || family.hasLostTiles()) _hasHole = true;
         TileFamily::Verdicts verdicts;
-        std::uint64_t passedOver = 0;
-        for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) {
-            const unsigned int number = i % TileBlock::Part::kMost;
-            if (number == 0) {
-                test(group, family, i, verdicts);
-                passedOver = passedOverIn(verdicts, i < family.size() ? &family.block().partFrom(i) : nullptr);
-            }
-            if (passedOver >> number & 1) continue;
-            if (verdicts.members >> number & 1) {
-                searchMember(*group.getChild(i), family, verdicts, i);
-            } else {
-                searchNode(*group.getChild(i));
-            }
+        for (unsigned int first = 0; first < children && !_hasHole; first += TileBlock::Part::kMost) {
+            test(group, family, first, verdicts);
+            const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
+            const std::uint64_t passedOver =
+                first < family.size() ? passedOverIn(verdicts, family.block().partFrom(first)) : 0;
+            forEachBit(lowestBits(here) & ~passedOver, [&](unsigned int number) {
+                if (_hasHole) return;
+                osg::Node& child = *group.getChild(first + number);
+                if (!hasBit(verdicts.members, number)) return searchNode(child);
+                searchMember(child, family, verdicts, first + number);
+            });
         }
     }
 
     void test(const osg::Group& group, const TileFamily& family, unsigned int first, TileFamily::Verdicts& verdicts) {
         const DatabaseView& view = _database.view;
-        family.test(group, first, view.planes, _undecided, &_eye, verdicts);
+        family.test(group, first, view.planes, _undecided, &_eye, _traversal, verdicts);
         if (view.plan) view.plan->add(family, first, _undecided, verdicts, group.getNumChildren() - first);
         if (verdicts.lacksTiles) _hasHole = true;
     }
 
-    // Tiles that are outside the frustum or hidden, whose column is the bin, and that are not about the eye.
-    [[nodiscard]] std::uint64_t passedOverIn(const TileFamily::Verdicts& verdicts, const TileBlock::Part* part) const {
-        if (!part || (_place && _place->altitude <= part->highest)) return 0;
-        return verdicts.members & ~part->withOwnColumns & (verdicts.planes.outside | verdicts.hidden);
+    // Tiles out of view whose column is the bin, and that are not about the eye.
+    [[nodiscard]] std::uint64_t passedOverIn(const TileFamily::Verdicts& verdicts, const TileBlock::Part& part) const {
+        if (_place && _place->altitude <= part.highest) return 0;
+        return verdicts.members & verdicts.outOfView() & ~part.withOwnColumns;
     }
 
     void searchMember(osg::Node& node, const TileFamily& family, const TileFamily::Verdicts& verdicts,
                       unsigned int slot) {
         const TileBlock& block = family.block();
-        const unsigned int i = slot % TileBlock::Part::kMost;
-        const bool hasOwnColumn = (block.partFrom(slot).withOwnColumns >> i & 1) != 0;
-        const bool isBinCulled = ((verdicts.planes.outside | verdicts.hidden) >> i & 1) != 0;
+        const unsigned int number = slot % TileBlock::Part::kMost;
         const TileFamily::Member& member = family.member(slot);
-        SearchedTile tile(member, block[slot]);
-        tile.isAboutEye = _place && _place->altitude <= block[slot].binHigh && isAbout(*member.tile);
-        const bool isCulled =
-            hasOwnColumn ? isBesideFrustum(tile.columnSphere) || block.isColumnHidden(slot, _eye) : isBinCulled;
-        if (isCulled && !tile.isAboutEye) return;
-        const Scoped undecided(_undecided, hasOwnColumn ? _undecided : verdicts.planes.undecided[i]);
+        const TileBlock::Slot& numbers = block[slot];
+        const bool isAboutEye = _place && _place->altitude <= numbers.binHigh && isAbout(*member.tile);
+        const bool isOutOfView = hasBit(verdicts.outOfView(), number);
+        const bool mayBePassedOver = isOutOfView || !hasBit(verdicts.tested, number);
+        if (mayBePassedOver && !isAboutEye) {
+            const bool isBin = !hasBit(block.partFrom(slot).withOwnColumns, number);
+            if (isBin || isBesideFrustum(numbers.column) || block.isColumnHidden(slot, _eye)) return;
+        }
+        const Scoped undecided(_undecided, isOutOfView ? _undecided : verdicts.planes.undecided[number]);
         const bool isAlone = node.getCullCallback() == member.tile && !member.tile->getNestedCallback();
-        CullCallbacks callbacks = isAlone ? CullCallbacks() : CullCallbacks(node);
-        callbacks.bin = member.tile;
-        searchTile(node, member.paged, tile, callbacks);
+        const bool mayLeaveOut = !isAlone && CullCallbacks(node).mayLeaveOut;
+        searchTile(node, member.paged, {*member.tile, numbers, true, &member, isAboutEye}, mayLeaveOut);
     }
 
     void searchNode(osg::Node& node) {
         // most nodes that are no tiles are roots of files: plain groups
         const bool isGroup = isExactly<osg::Group>(node);
         const CullCallbacks callbacks(node);
-        if (callbacks.bin) {
-            const AnalyticBinCullCallback& bin = *callbacks.bin;
-            const bool isFitted = !bin.terrainShape() || *bin.terrainShape() == _database.view.shape;
-            SearchedTile tile(bin, isFitted);
-            tile.isAboutEye = isAbout(bin);
-            if (!tile.isAboutEye && (isBeside(tile) || bin.isColumnHiddenFrom(_eye))) return;
-            return searchTile(node, pagedLod(node), tile, callbacks);
-        }
+        if (callbacks.bin) return searchTileWithoutFamily(node, *callbacks.bin, callbacks.mayLeaveOut);
         // another database is on a globe of its own
         if (!isGroup && dynamic_cast<osg::CoordinateSystemNode*>(&node)) return;
-        const Scoped doubtful(_isDoubtful, _isDoubtful || !isSurelyDrawn(node, callbacks));
-        const Scoped moved(_isMoved, _isMoved || node.asTransform());
+        const bool isDrawn = isSurelyDrawn(node, callbacks.mayLeaveOut) && (isGroup || drawsAllChildren(node));
+        const Scoped doubtful(_isDoubtful, _isDoubtful || !isDrawn);
+        const Scoped moved(_isMoved, _isMoved || (!isGroup && node.asTransform()));
         if (osg::Group* group = node.asGroup()) searchChildren(*group, callbacks.family);
     }
 
-    void searchTile(osg::Node& node, osg::PagedLOD* paged, const SearchedTile& tile, const CullCallbacks& callbacks) {
-        const Scoped doubtful(_isDoubtful, _isDoubtful || !isSurelyDrawn(node, callbacks));
-        if (_isDoubtful || tile.isSeenThrough) _hasHole = true;
-        if (paged) return searchPaged(*paged, tile);
-        show(tile, node);
+    void searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool mayLeaveOut) {
+        TileBlock::Slot numbers;
+        if (const osg::BoundingSphere* const column = bin.ecefColumnSphere()) numbers.column = *column;
+        numbers.binLow = bin.binLow();
+        numbers.surfaceLow = bin.surfaceLow();
+        numbers.surfaceHigh = bin.surfaceHigh();
+        const bool isFitted = !bin.terrainShape() || *bin.terrainShape() == _database.view.shape;
+        const SearchedTile tile{bin, numbers, isFitted, nullptr, isAbout(bin)};
+        if (!tile.isAboutEye && (isBeside(tile) || bin.isColumnHiddenFrom(_eye))) return;
+        searchTile(node, pagedLod(node), tile, mayLeaveOut);
     }
 
-    [[nodiscard]] bool isSurelyDrawn(const osg::Node& node, const CullCallbacks& callbacks) const {
+    void searchTile(osg::Node& node, osg::PagedLOD* paged, const SearchedTile& tile, bool mayLeaveOut) {
+        const bool isSeenThrough = tile.member
+                                       ? tile.member->isSeeThrough
+                                       : tile.callback.installedTile() && tile.callback.installedTile()->isSeeThrough();
+        if (_isDoubtful || isSeenThrough || !isSurelyDrawn(node, mayLeaveOut)) {
+            _hasHole = true;
+        } else if (paged) {
+            searchPaged(*paged, tile);
+        } else {
+            show(tile, node);
+        }
+    }
+
+    [[nodiscard]] bool isSurelyDrawn(const osg::Node& node, bool mayLeaveOut) const {
         const osg::StateSet* const state = node.getStateSet();
-        return _visitor.validNodeMask(node) && !callbacks.mayLeaveOut && !(state && isSeeThrough(*state)) &&
-               (callbacks.bin || drawsAllChildren(node));
+        return _visitor.validNodeMask(node) && !mayLeaveOut && !(state && isSeeThrough(*state));
     }
 
     // Whether all of a tile's own mesh is drawn. Its state was asked for when bins were installed.
     [[nodiscard]] bool isDrawnWhole(const osg::Node& mesh, const SearchedTile& tile) const {
-        const bool isKnown = tile.meshParts && !tile.meshParts->empty() && tile.meshParts->front() == &mesh;
-        bool hasDrawable = false;
-        if (!isKnown) return isDrawnWhole(mesh, hasDrawable) && (hasDrawable || !tile.isMeshDoubted);
-        return std::all_of(tile.meshParts->begin(), tile.meshParts->end(), [this](const auto& part) {
+        const bool isKnown = tile.member && !tile.member->meshParts.empty() && tile.member->meshParts.front() == &mesh;
+        if (!isKnown) {
+            const InstalledTile* const installed = tile.callback.installedTile();
+            const bool isMeshDoubted = !tile.member && installed && installed->isMeshDoubted();
+            bool hasDrawable = false;
+            return isDrawnWhole(mesh, hasDrawable) && (hasDrawable || !isMeshDoubted);
+        }
+        const auto& parts = tile.member->meshParts;
+        return std::all_of(parts.begin(), parts.end(), [this](const auto& part) {
             return _visitor.validNodeMask(*part) && !(part->getCullCallback() && CullCallbacks(*part).mayLeaveOut);
         });
     }
@@ -253,25 +252,26 @@ private:
 
     // Rays that are seen do not enter the occluder there: it lies below the ellipsoid, but it may lie above the tile.
     [[nodiscard]] bool isBeside(const SearchedTile& tile) const {
-        return tile.isFitted && isBesideFrustum(tile.columnSphere);
+        return tile.isFitted && isBesideFrustum(tile.numbers.column);
     }
 
-    [[nodiscard]] bool isBesideFrustum(const osg::BoundingSphere* sphere) const {
-        if (!sphere) return false;
-        const osg::Vec3d center = sphere->center();
+    [[nodiscard]] bool isBesideFrustum(const osg::BoundingSphere& sphere) const {
+        if (!sphere.valid()) return false;
+        const osg::Vec3d center = sphere.center();
         return std::any_of(_planes.begin(), _planes.end(), [&](const osg::Plane& plane) {
-            return plane.distance(center) < -static_cast<double>(sphere->radius());
+            return plane.distance(center) < -static_cast<double>(sphere.radius());
         });
     }
 
     void show(const SearchedTile& tile, osg::Node& mesh) {
-        if (tile.isAboutEye && _place->altitude <= tile.surfaceHigh) _nearGround.push_back({&tile.callback, &mesh});
+        if (tile.isAboutEye && _place->altitude <= tile.numbers.surfaceHigh)
+            _nearGround.push_back({&tile.callback, &mesh});
         // tiles about the eye are searched even beside the frustum, for the ground alone
         if (tile.isAboutEye && isBeside(tile)) return;
         if (!isDrawnWhole(mesh, tile)) _hasHole = true;
         // what a tile draws by itself is in its bin
-        if (tile.isFitted && tile.binLow >= -_depth) return;
-        const double own = tile.isFitted ? -tile.surfaceLow : kUnknownDepth;
+        if (tile.isFitted && tile.numbers.binLow >= -_depth) return;
+        const double own = tile.isFitted ? -tile.numbers.surfaceLow : kUnknownDepth;
         _depth = std::max(_depth, std::min(own, _deepest));
     }
 
@@ -301,6 +301,7 @@ private:
 
     const ShownDatabase& _database;
     osg::NodeVisitor& _visitor;
+    CullTraversal& _traversal;
     const core::HorizonEye& _eye;
     const std::optional<core::Geodetic> _place;  // of the eye
     const double _deepest;

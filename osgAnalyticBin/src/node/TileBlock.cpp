@@ -18,7 +18,7 @@ const core::HorizonBin& neverHidden() {
 
 TileBlock::TileBlock(std::size_t slots) : _slots(slots) {
     for (std::size_t first = 0; first < slots; first += Part::kMost) {
-        _parts.emplace_back(std::min<std::size_t>(Part::kMost, slots - first));
+        _parts.push_back(std::make_unique<Part>(std::min<std::size_t>(Part::kMost, slots - first)));
     }
 }
 
@@ -26,7 +26,7 @@ TileBlock::~TileBlock() = default;
 
 void TileBlock::set(std::size_t slot, const Slot& tile, const Bins& bins) {
     _slots[slot] = tile;
-    Part& part = _parts[slot / Part::kMost];
+    Part& part = *_parts[slot / Part::kMost];
     const std::size_t i = slot % Part::kMost;
     const std::uint64_t bit = std::uint64_t{1} << i;
     part.withOwnColumns = tile.hasOwnColumn ? part.withOwnColumns | bit : part.withOwnColumns & ~bit;
@@ -40,7 +40,7 @@ void TileBlock::set(std::size_t slot, const Slot& tile, const Bins& bins) {
 }
 
 void TileBlock::believe(std::size_t slot, bool is) {
-    std::atomic<std::uint64_t>& believed = _parts[slot / Part::kMost].believed;
+    std::atomic<std::uint64_t>& believed = _parts[slot / Part::kMost]->believed;
     const std::uint64_t bit = std::uint64_t{1} << (slot % Part::kMost);
     if (is) {
         believed.fetch_or(bit, std::memory_order_relaxed);

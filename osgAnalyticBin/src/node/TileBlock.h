@@ -12,8 +12,8 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -59,9 +59,11 @@ public:
     [[nodiscard]] std::size_t size() const { return _slots.size(); }
     [[nodiscard]] const Slot& operator[](std::size_t slot) const { return _slots[slot]; }
     /// The one that begins with the slot `first`, a multiple of kMost. Requires: first < size().
-    [[nodiscard]] const Part& partFrom(std::size_t first) const { return _parts[first / Part::kMost]; }
+    [[nodiscard]] const Part& partFrom(std::size_t first) const { return *_parts[first / Part::kMost]; }
 
-    void addMember(std::size_t slot) { _parts[slot / Part::kMost].members |= std::uint64_t{1} << (slot % Part::kMost); }
+    void addMember(std::size_t slot) {
+        _parts[slot / Part::kMost]->members |= std::uint64_t{1} << (slot % Part::kMost);
+    }
 
     /// Copies what a tile is tested by.
     void set(std::size_t slot, const Slot& tile, const Bins& bins);
@@ -78,7 +80,7 @@ protected:
     ~TileBlock() override;
 
 private:
-    std::deque<Part> _parts;
+    std::vector<std::unique_ptr<Part>> _parts;
     std::vector<Slot> _slots;
     std::vector<core::HorizonBin> _columns;
 };

@@ -4,6 +4,7 @@
 #include "TileFamily.h"
 
 #include "BinCulling.h"
+#include "Bits.h"
 #include "Database.h"
 #include "FindCallback.h"
 #include "InstalledTile.h"
@@ -14,9 +15,9 @@
 #include <osg/CoordinateSystemNode>
 #include <osg/PagedLOD>
 #include <osgTerrain/TerrainTile>
+#include <osgUtil/CullVisitor>
 
 #include <algorithm>
-#include <bitset>
 #include <cstdint>
 #include <typeinfo>
 
@@ -113,8 +114,8 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
     if (!(*_ellipsoid == tile->_prepared->ellipsoid) || !isSameShape) return false;
     _nodes[slot] = &child;
     _block->addMember(slot);
-    _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), tile->installedTile()->isSeeThrough(),
-                      meshPartsOf(child)};
+    _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), typeid(child) == typeid(osg::PagedLOD),
+                      tile->installedTile()->isSeeThrough(), meshPartsOf(child)};
     tile->installedTile()->joinFamily(*_block, slot);
     // osgUtil::Optimizer may have changed the form of the mesh: the new form is as good
     if (!_members[slot].meshParts.empty()) tile->installedTile()->trustMesh();
@@ -142,72 +143,104 @@ void TileFamily::operator()(osg::Node* node, osg::NodeVisitor* nv) {
 }
 
 void TileFamily::test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes,
-                      core::PlaneMask undecided, const core::HorizonEye* eye, Verdicts& verdicts) const {
-    verdicts.members = verdicts.tested = verdicts.hidden = 0;
+                      core::PlaneMask undecided, const core::HorizonEye* eye, CullTraversal& traversal,
+                      Verdicts& verdicts) const {
+    verdicts.members = verdicts.tested = verdicts.hidden = verdicts.separated = 0;
     verdicts.lacksTiles = false;
     if (first >= _block->size()) return;
     const TileBlock::Part& part = _block->partFrom(first);
     part.bins.classify(planes, undecided, verdicts.planes);
     verdicts.tested = part.bins.filled();
     if (eye) verdicts.hidden = part.bins.hiddenFrom(*eye, verdicts.tested & ~verdicts.planes.outside);
-    const unsigned int end = std::min(first + TileBlock::Part::kMost, group.getNumChildren());
-    for (unsigned int i = first; i < end && i < _nodes.size(); ++i) {
-        verdicts.members |= std::uint64_t{_nodes[i] == group.getChild(i)} << (i - first);
+    const std::size_t end =
+        std::min<std::size_t>({first + TileBlock::Part::kMost, group.getNumChildren(), _nodes.size()});
+    for (std::size_t i = first; i < end; ++i) {
+        verdicts.members |= std::uint64_t{_nodes[i] == group.getChild(static_cast<unsigned int>(i))} << (i - first);
     }
     verdicts.lacksTiles = verdicts.members != part.members;
     verdicts.members &= part.believed.load(std::memory_order_relaxed);
+    findSeparated(first, verdicts.members & verdicts.tested & ~(verdicts.planes.outside | verdicts.hidden), planes,
+                  traversal, verdicts);
+}
+
+void TileFamily::findSeparated(unsigned int first, std::uint64_t candidates, const core::PlaneSet& planes,
+                               CullTraversal& traversal, Verdicts& verdicts) const {
+    forEachBit(candidates & ~verdicts.planes.insideAll, [&](unsigned int number) {
+        const AnalyticBinCullCallback& tile = *_members[first + number].tile;
+        const core::PlaneMask undecided = verdicts.planes.undecided[number];
+        const bool isAcrossEdge = (undecided & (undecided - 1)) != 0;
+        if (isAcrossEdge && tile._testsEdges && tile.isBeyondAnEdge(traversal, planes, undecided)) {
+            verdicts.separated |= std::uint64_t{1} << number;
+        }
+    });
 }
 
 void TileFamily::lookUp(const osg::Group& group, unsigned int first, core::PlaneMask undecided,
-                        const DatabaseView& view, Verdicts& verdicts) const {
+                        const DatabaseView& view, CullTraversal& traversal, Verdicts& verdicts) const {
     if (!view.plan || !view.plan->find(*this, first, undecided, verdicts)) {
-        test(group, first, view.planes, undecided, view.eye, verdicts);
-    } else if (!view.eye) {
+        test(group, first, view.planes, undecided, view.eye, traversal, verdicts);
+    } else if (!view.eye && verdicts.hidden != 0) {
+        findSeparated(first, verdicts.members & verdicts.hidden, view.planes, traversal, verdicts);
         verdicts.hidden = 0;
     }
-}
-
-// The verdict on a tile that neither the planes nor the horizon cull: the edges of the frustum are left, and, for bins
-// for comparison, everything.
-Verdict TileFamily::finish(unsigned int i, const Verdicts& verdicts, const DatabaseView& view,
-                           CullTraversal& traversal) const {
-    const AnalyticBinCullCallback& tile = *_members[i].tile;
-    core::PlaneMask undecided = verdicts.planes.undecided[i % TileBlock::Part::kMost];
-    const bool isTested = (verdicts.tested >> (i % TileBlock::Part::kMost) & 1) != 0;
-    if (!isTested) {
-        const core::Side side = tile.sideOf(view.planes, undecided);
-        return tile.verdict(side, view.planes, undecided, view.eye, traversal);
-    }
-    if (undecided == 0) return {core::Side::Inside, Verdict::Plane};
-    const bool isAcrossEdge = (undecided & (undecided - 1)) != 0;
-    const bool isBeyond = isAcrossEdge && tile._testsEdges && tile.isBeyondAnEdge(traversal, view.planes, undecided);
-    return isBeyond ? Verdict{core::Side::Outside, Verdict::Edge} : Verdict{core::Side::Straddling, Verdict::Plane};
 }
 
 // Which of the tiles are culled, one bit each.
 std::uint64_t TileFamily::culled(unsigned int first, const Verdicts& verdicts, const osg::NodeVisitor& nv,
                                  osg::CullStack& cullStack, const DatabaseView& view, CullTraversal& traversal) const {
-    const auto bitsIn = [](std::uint64_t mask) { return static_cast<std::uint32_t>(std::bitset<64>(mask).count()); };
-    const std::uint64_t tested = verdicts.members & verdicts.tested;
-    std::uint64_t culled = tested & (verdicts.planes.outside | verdicts.hidden);
-    BinCounts counts;
-    counts.hidden = bitsIn(tested & verdicts.hidden);
-    std::uint64_t left = verdicts.members & ~culled;
-    for (unsigned int i = first; left != 0; ++i, left >>= 1) {
-        if (!(left & 1)) continue;
-        const Verdict verdict = finish(i, verdicts, view, traversal);
-        if (verdict.side == core::Side::Outside || isSmall(cullStack.getCurrentCullingSet(), (*_block)[i].bound)) {
-            culled |= std::uint64_t{1} << (i - first);
-        } else {
-            ++(verdict.side == core::Side::Inside ? counts.inside : counts.straddling);
-        }
-        if (verdict.reason == Verdict::Horizon) ++counts.hidden;
-        if (verdict.reason == Verdict::Edge) ++counts.separated;
+    std::uint64_t inside = verdicts.members & verdicts.tested & verdicts.planes.insideAll;
+    std::uint64_t hidden = verdicts.members & verdicts.hidden;
+    std::uint64_t separated = verdicts.members & verdicts.separated;
+    std::uint64_t culled = verdicts.members & verdicts.outOfView();
+    // bins for comparison
+    forEachBit(verdicts.members & ~verdicts.tested, [&](unsigned int number) {
+        const AnalyticBinCullCallback& tile = *_members[first + number].tile;
+        core::PlaneMask undecided = verdicts.planes.undecided[number];
+        const core::Side side = tile.sideOf(view.planes, undecided);
+        const Verdict verdict = tile.verdict(side, view.planes, undecided, view.eye, traversal);
+        const std::uint64_t bit = std::uint64_t{1} << number;
+        if (verdict.side == core::Side::Outside) culled |= bit;
+        if (verdict.side == core::Side::Inside) inside |= bit;
+        if (verdict.reason == Verdict::Horizon) hidden |= bit;
+        if (verdict.reason == Verdict::Edge) separated |= bit;
+    });
+    osg::CullingSet& cullingSet = cullStack.getCurrentCullingSet();
+    if (cullingSet.getCullingMask() & osg::CullingSet::SMALL_FEATURE_CULLING) {
+        forEachBit(verdicts.members & ~culled, [&](unsigned int number) {
+            if (isSmall(cullingSet, (*_block)[first + number].bound)) culled |= std::uint64_t{1} << number;
+        });
     }
-    counts.outside = bitsIn(culled);
-    counts.frame = nv.getTraversalNumber();
-    if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR) traversal.add(counts);
+    if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR) {
+        BinCounts counts;
+        counts.outside = countBits(culled);
+        counts.inside = countBits(inside & ~culled);
+        counts.straddling = countBits(verdicts.members & ~culled & ~inside);
+        counts.hidden = countBits(hidden);
+        counts.separated = countBits(separated);
+        counts.frame = nv.getTraversalNumber();
+        traversal.add(counts);
+    }
     return culled;
+}
+
+// A plain PagedLOD without other callbacks is entered as osgUtil::CullVisitor does it, but for the calls that lead to
+// the tile's own callback, which would do nothing: its family has tested it.
+void TileFamily::enter(osg::Node& child, const Member& member, osg::NodeVisitor& nv, CullTraversal& traversal) {
+    const bool isAlone = child.getCullCallback() == member.tile && !member.tile->getNestedCallback();
+    if (!member.isPlainlyPaged || !isAlone || child.getCullingActive() || typeid(nv) != typeid(osgUtil::CullVisitor)) {
+        traversal.setKept(&child);
+        child.accept(nv);
+        traversal.setKept(nullptr);
+        return;
+    }
+    if (!nv.validNodeMask(child)) return;
+    auto& visitor = static_cast<osgUtil::CullVisitor&>(nv);
+    osg::StateSet* const state = child.getStateSet();
+    visitor.pushOntoNodePath(&child);
+    if (state) visitor.pushStateSet(state);
+    child.traverse(visitor);
+    if (state) visitor.popStateSet();
+    visitor.popFromNodePath();
 }
 
 void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack,
@@ -217,29 +250,24 @@ void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::Cull
         setUndecided(cullStack.getCurrentCullingSet().getFrustum(), mask);
     };
     const core::PlaneMask before = cullStack.getCurrentCullingSet().getFrustum().getCurrentMask();
-    bool isChanged = group.getNumChildren() != _nodes.size();
+    const unsigned int children = group.getNumChildren();
+    bool isChanged = children != _nodes.size();
     Verdicts verdicts;
-    std::uint64_t culled = 0;
-    for (unsigned int i = 0; i < group.getNumChildren(); ++i) {
-        const unsigned int number = i % TileBlock::Part::kMost;
-        if (number == 0) {
-            lookUp(group, i, before, view, verdicts);
-            culled = this->culled(i, verdicts, nv, cullStack, view, traversal);
-            isChanged = isChanged || verdicts.lacksTiles;
-        }
-        if (culled >> number & 1) continue;
-        osg::Node* const child = group.getChild(i);
-        if (!(verdicts.members >> number & 1)) {
-            child->accept(nv);
-            continue;
-        }
-        const core::PlaneMask undecided = verdicts.planes.undecided[number];
-        setMask(undecided);
-        const PlanesBelow planes(cullStack, undecided);
-        traversal.setKept(child);
-        child->accept(nv);
-        traversal.setKept(nullptr);
-        setMask(before);
+    for (unsigned int first = 0; first < children; first += TileBlock::Part::kMost) {
+        lookUp(group, first, before, view, traversal, verdicts);
+        isChanged = isChanged || verdicts.lacksTiles;
+        const std::uint64_t culled = this->culled(first, verdicts, nv, cullStack, view, traversal);
+        const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
+        forEachBit(lowestBits(here) & ~culled, [&](unsigned int number) {
+            if (first + number >= group.getNumChildren()) return;
+            osg::Node& child = *group.getChild(first + number);
+            if (!hasBit(verdicts.members, number)) return child.accept(nv);
+            const core::PlaneMask undecided = verdicts.planes.undecided[number];
+            setMask(undecided);
+            const PlanesBelow planes(cullStack, undecided);
+            enter(child, _members[first + number], nv, traversal);
+            setMask(before);
+        });
     }
     if (isChanged) view.database->noteChanged(group);
 }

@@ -57,6 +57,7 @@ public:
     struct Member {
         osg::ref_ptr<const AnalyticBinCullCallback> tile;
         osg::PagedLOD* paged = nullptr;  ///< the node, if it is one
+        bool isPlainlyPaged = false;     ///< an osg::PagedLOD, and not of a class derived from it
         bool isSeeThrough = false;
         /// All nodes of the tile's own mesh; empty where entering them does not draw all of it for certain.
         std::vector<osg::ref_ptr<const osg::Node>> meshParts;
@@ -67,10 +68,14 @@ public:
         Verdicts() { planes.outside = planes.insideAll = 0; }  // masks of slots that are not there are not read
 
         core::FamilyVerdict planes;
-        std::uint64_t members = 0;  ///< the family's own tiles; callbacks of other children have to be asked
-        std::uint64_t tested = 0;   ///< slots with a bin that is tested so
-        std::uint64_t hidden = 0;   ///< behind the horizon
-        bool lacksTiles = false;    ///< a tile is not where it was: the terrain may have a hole
+        std::uint64_t members = 0;    ///< the family's own tiles; callbacks of other children have to be asked
+        std::uint64_t tested = 0;     ///< slots with a bin that is tested so
+        std::uint64_t hidden = 0;     ///< behind the horizon
+        std::uint64_t separated = 0;  ///< proven outside by an edge of the frustum
+        bool lacksTiles = false;      ///< a tile is not where it was: the terrain may have a hole
+
+        /// Slots whose bin is out of view.
+        [[nodiscard]] std::uint64_t outOfView() const { return tested & (planes.outside | hidden | separated); }
     };
 
     /// Whether it culls the children of the group in this traversal.
@@ -78,7 +83,7 @@ public:
 
     /// Tests the children from `first` on, a multiple of kMost. `eye`: null where nothing is hidden.
     void test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes, core::PlaneMask undecided,
-              const core::HorizonEye* eye, Verdicts& verdicts) const;
+              const core::HorizonEye* eye, CullTraversal& traversal, Verdicts& verdicts) const;
 
     [[nodiscard]] const Member& member(unsigned int i) const { return _members[i]; }
     [[nodiscard]] const TileBlock& block() const { return *_block; }
@@ -96,14 +101,15 @@ private:
     explicit TileFamily(osg::Group& group);
     [[nodiscard]] bool add(osg::Node& child, std::size_t slot);
     void lookUp(const osg::Group& group, unsigned int first, core::PlaneMask undecided, const DatabaseView& view,
-                Verdicts& verdicts) const;
-    [[nodiscard]] Verdict finish(unsigned int i, const Verdicts& verdicts, const DatabaseView& view,
-                                 CullTraversal& traversal) const;
+                CullTraversal& traversal, Verdicts& verdicts) const;
+    void findSeparated(unsigned int first, std::uint64_t candidates, const core::PlaneSet& planes,
+                       CullTraversal& traversal, Verdicts& verdicts) const;
     [[nodiscard]] std::uint64_t culled(unsigned int first, const Verdicts& verdicts, const osg::NodeVisitor& nv,
                                        osg::CullStack& cullStack, const DatabaseView& view,
                                        CullTraversal& traversal) const;
     void cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack, const DatabaseView& view,
                       CullTraversal& traversal) const;
+    static void enter(osg::Node& child, const Member& member, osg::NodeVisitor& nv, CullTraversal& traversal);
 
     const osg::Node* _group = nullptr;
     bool _hasTiles = false;

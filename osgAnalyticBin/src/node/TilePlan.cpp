@@ -19,7 +19,8 @@ void TilePlan::add(const TileFamily& family, unsigned int first, core::PlaneMask
     const std::size_t begin = _masks.size();
     _masks.insert(_masks.end(), masks, masks + std::min<std::size_t>(children, TileBlock::Part::kMost));
     _entries.push_back({&family, first, undecided, verdicts.planes.outside, verdicts.planes.insideAll, verdicts.members,
-                        verdicts.tested, verdicts.hidden, verdicts.lacksTiles, begin, _masks.size()});
+                        verdicts.tested, verdicts.hidden, verdicts.separated, verdicts.lacksTiles, begin,
+                        _masks.size()});
 }
 
 bool TilePlan::find(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
@@ -37,6 +38,7 @@ bool TilePlan::find(const TileFamily& family, unsigned int first, core::PlaneMas
         verdicts.members = entry.members;
         verdicts.tested = entry.tested;
         verdicts.hidden = entry.hidden;
+        verdicts.separated = entry.separated;
         verdicts.lacksTiles = entry.lacksTiles;
         std::copy(_masks.data() + entry.masks, _masks.data() + entry.end, verdicts.planes.undecided);
         return true;

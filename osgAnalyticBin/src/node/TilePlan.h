@@ -30,7 +30,7 @@ private:
         const TileFamily* family;
         unsigned int first;
         core::PlaneMask undecided;
-        std::uint64_t outside, insideAll, members, tested, hidden;
+        std::uint64_t outside, insideAll, members, tested, hidden, separated;
         bool lacksTiles;
         std::size_t masks, end;  // in _masks
     };
