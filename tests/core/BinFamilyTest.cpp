@@ -6,6 +6,7 @@
 #include "FamilySamples.h"
 
 #include <osgAnalyticBin/core/BinFamily.h>
+#include <osgAnalyticBin/core/HullSeparation.h>
 
 #include <gtest/gtest.h>
 
@@ -45,6 +46,7 @@ struct Seen {
     std::array<int, 3> sides{};
     int hidden = 0;
     int shown = 0;
+    int separated = 0;
 };
 
 template <class Bin>
@@ -96,6 +98,20 @@ void expectHorizonOfItsBins(const FamilyCase& c, Seen& seen) {
     }
 }
 
+// A slot's reach from the origin is rounded up: a proof that is within rounding could be missed, but no trial comes so
+// near.
+void expectSeparationOfItsBins(const FamilyCase& c, Seen& seen) {
+    FamilyVerdict verdict{};
+    c.family.classify(c.planes, c.undecided, verdict);
+    for (std::size_t i = 0; i < c.slots.size(); ++i) {
+        if (c.slots[i].kind != SlotKind::Exact || has(verdict.outside, i)) continue;
+        ASSERT_TRUE(has(c.family.exact(), i));
+        const bool expected = isSeparated(c.slots[i].exact, c.planes, c.planes.size(), verdict.undecided[i]);
+        ASSERT_EQ(c.family.isSeparated(i, c.planes, verdict.undecided[i]), expected);
+        seen.separated += expected ? 1 : 0;
+    }
+}
+
 Seen expectAllVerdictsOfItsBins(std::uint64_t stream, int trials) {
     Random random(stream);
     Seen seen;
@@ -103,6 +119,7 @@ Seen expectAllVerdictsOfItsBins(std::uint64_t stream, int trials) {
         const FamilyCase c(random);
         expectVerdictsOfItsBins(c, seen);
         if (!testing::Test::HasFatalFailure()) expectHorizonOfItsBins(c, seen);
+        if (!testing::Test::HasFatalFailure()) expectSeparationOfItsBins(c, seen);
         if (testing::Test::HasFatalFailure()) {
             ADD_FAILURE() << "trial " << trial << ", " << c.slots.size() << " slots, " << c.planes.size() << " planes";
             break;
@@ -111,6 +128,7 @@ Seen expectAllVerdictsOfItsBins(std::uint64_t stream, int trials) {
     for (const int count : seen.sides) EXPECT_GT(count, trials / 20);
     EXPECT_GT(seen.hidden, trials / 20);
     EXPECT_GT(seen.shown, trials / 20);
+    EXPECT_GT(seen.separated, trials / 100);
     return seen;
 }
 

@@ -16,6 +16,8 @@
 #include <osg/Matrixd>
 #include <osg/NodeCallback>
 
+#include <atomic>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -63,7 +65,8 @@ struct TerrainShape {
 /// inside all planes and not behind the horizon; tests: AnalyticBinCullCallback.*. An invalid bin is never culled.
 /// Threads: run() changes nothing in the callback; any number of cull traversals may run it at once. Setters must not
 /// be called while a cull traversal runs.
-/// Cost: no allocation, no trigonometry.
+/// Cost: no allocation, no trigonometry, but for the first test after the bin was changed. Memory: about a kilobyte,
+/// most of it from that test on; tiles that are tested together with their siblings do not come to it.
 class OSGANALYTICBIN_EXPORT AnalyticBinCullCallback : public osg::NodeCallback {
 public:
     AnalyticBinCullCallback();
@@ -76,12 +79,12 @@ public:
 
     META_Object(osgAnalyticBin, AnalyticBinCullCallback)
 
-        /// The box that holds all that the tile and its descendants draw. Cost: prepares the bin.
+        /// The box that holds all that the tile and its descendants draw.
         void setBin(const AnalyticBin& bin);
     /// The bin as it was set, before any terrain shape.
     [[nodiscard]] const AnalyticBin& bin() const { return _bin; }
 
-    /// How the tile is culled; items that are an installer's alone are not read. Cost: prepares the bin.
+    /// How the tile is culled; items that are an installer's alone are not read.
     void setCullOptions(const CullOptions& options);
     /// Default: CullOptions().
     [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
@@ -94,7 +97,7 @@ public:
     /// small-feature culling to mean what it says; the frustum test is right under any invertible affine matrix.
     void setLocalToEcef(const osg::Matrixd& matrix);
     /// See setLocalToEcef().
-    [[nodiscard]] const osg::Matrixd& localToEcef() const { return _localToEcef; }
+    [[nodiscard]] const osg::Matrixd& localToEcef() const;
 
     /// For an osgTerrain tile: the shape that its bin is to be for; the bin set is that at vertical scale 1. While its
     /// database is shown in another shape, or no installed database is above it, the tile is never culled. nullopt: a
@@ -130,9 +133,7 @@ public:
 
     /// A sphere in ECEF that holds the bin's column, for a first look: the bin and, where it lies below the ellipsoid,
     /// what is above it up to there. Returns: nullptr when there is none at hand.
-    [[nodiscard]] const osg::BoundingSphere* ecefColumnSphere() const {
-        return _prepared && !_hasLocalFrame ? &_prepared->columnSphere : nullptr;
-    }
+    [[nodiscard]] const osg::BoundingSphere* ecefColumnSphere() const;
 
     /// Whether the eye sees nothing of the bin's column for the horizon. Requires: an eye on the bin's ellipsoid.
     [[nodiscard]] bool isColumnHiddenFrom(const core::HorizonEye& eye) const;
@@ -175,21 +176,28 @@ private:
 
     using PreparedBin = std::variant<core::GeodeticQuadraticBin, core::ExactGeodeticBin, core::PaperBin,
                                      core::CornersBin, core::BoxBin, core::OrientedBoxBin>;
-    // What a cull traversal reads, made once per bin.
+    // What a test of this tile alone reads.
     struct Prepared {
         PreparedBin bin;
         std::optional<core::ExactGeodeticBin>
             separable;  // for the test against edges, where `bin` is not the exact one
         std::optional<core::HorizonBin> horizon;
-        core::Ellipsoid ellipsoid;
         osg::BoundingSphere sphere;  // in the frame of the node's children
         osg::BoundingSphere columnSphere;
         std::optional<core::HorizonBin> columnHorizon;   // where it is not that of the bin
         std::optional<core::HorizonPoint> horizonPoint;  // in place of the bin's horizon, for boxes
     };
+    // The frame of the node's children, where it is not ECEF.
+    struct LocalFrame {
+        osg::Matrixd toEcef, fromEcef;
+    };
 
-    void prepare();
-    void prepareBin();
+    void changeBin();
+    void discardPrepared();
+    [[nodiscard]] const Prepared& prepared() const;
+    [[nodiscard]] Prepared makePrepared() const;
+    [[nodiscard]] core::Ellipsoid ellipsoid() const { return {_equatorialRadius, _polarRadius}; }
+    [[nodiscard]] osg::ref_ptr<osg::EllipsoidModel> ellipsoidModel() const;
     void leaveFamily();
     void fillSlot() const;
     void refuse(const char* why);
@@ -209,13 +217,12 @@ private:
 
     bool _wasInstalled = false;  // in a scene that was saved
     osg::ref_ptr<InstalledTile> _installed;
-    std::optional<Prepared> _prepared;
-    bool _hasLocalFrame = false;
+    bool _isTested = false;                                   // by a bin; without one the tile is never culled
+    mutable std::atomic<const Prepared*> _prepared{nullptr};  // owned; made when it is first asked for
     bool _testsEdges = false;
     bool _hidesByPoint = false;
     CullOptions _options;
-    osg::Matrixd _ecefToLocal;
-    osg::Matrixd _localToEcef;
+    std::unique_ptr<const LocalFrame> _frame;  // null: ECEF
     AnalyticBin _bin;
     AnalyticBin _surface;
     double _surfaceLow;
@@ -224,7 +231,7 @@ private:
     double _binHigh;
     std::optional<TerrainShape> _shape;
     double _skirt = 0.0;
-    osg::ref_ptr<osg::EllipsoidModel> _ellipsoid;
+    double _equatorialRadius, _polarRadius;
 };
 
 }  // namespace osgAnalyticBin

@@ -4,11 +4,13 @@
 #include "kernels/PlaneKernels.h"
 
 #include <osgAnalyticBin/core/BinFamily.h>
+#include <osgAnalyticBin/core/HullSeparation.h>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <limits>
+#include <optional>
 
 namespace osgAnalyticBin::core {
 
@@ -24,6 +26,29 @@ void makeEmpty(double* slot, std::size_t stride) {
     for (std::size_t i = 0; i < row::kBinRows; ++i) slot[i * stride] = 0.0;
     slot[row::Reach * stride] = -std::numeric_limits<double>::infinity();
 }
+
+// An exact bin that is read from its slot only where its middle does not answer.
+class SlotBin {
+public:
+    SlotBin(const double* slot, std::size_t stride) : _slot(slot), _stride(stride) {}
+
+    [[nodiscard]] glm::dvec3 hullPoint() const {
+        return {_slot[row::CenterX * _stride], _slot[row::CenterY * _stride], _slot[row::CenterZ * _stride]};
+    }
+    [[nodiscard]] double reach() const { return bin().reach(); }
+    [[nodiscard]] glm::dvec3 supportPoint(const glm::dvec3& direction) const { return bin().supportPoint(direction); }
+    [[nodiscard]] Side classify(const Plane& plane) const { return bin().classify(plane); }
+
+private:
+    [[nodiscard]] const ExactGeodeticBin& bin() const {
+        if (!_bin) _bin.emplace(_slot, _stride);
+        return *_bin;
+    }
+
+    const double* _slot;
+    std::size_t _stride;
+    mutable std::optional<ExactGeodeticBin> _bin;
+};
 
 }  // namespace
 
@@ -83,6 +108,11 @@ void BinFamily::clear(std::size_t i) noexcept {
     _data.filled &= ~bit;
     _data.empty |= bit;
     _data.exact &= ~bit;
+}
+
+bool BinFamily::isSeparated(std::size_t i, const PlaneSet& planes, PlaneMask undecided) const noexcept {
+    assert(_data.exact >> i & 1);
+    return core::isSeparated(SlotBin(_data.numbers + i, _data.stride), planes, planes.size(), undecided);
 }
 
 void BinFamily::classify(const PlaneSet& planes, PlaneMask undecided, FamilyVerdict& verdict) const noexcept {

@@ -52,7 +52,8 @@ AnalyticBinCullCallback::AnalyticBinCullCallback()
       _surfaceHigh(-kUnknown),
       _binLow(kUnknown),
       _binHigh(-kUnknown),
-      _ellipsoid(new osg::EllipsoidModel) {}
+      _equatorialRadius(osg::WGS_84_RADIUS_EQUATOR),
+      _polarRadius(osg::WGS_84_RADIUS_POLAR) {}
 
 AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBin& bin, const osg::EllipsoidModel& ellipsoid,
                                                  const CullOptions& options)
@@ -62,8 +63,9 @@ AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBin& bin, const o
       _surfaceHigh(-kUnknown),
       _binLow(kUnknown),
       _binHigh(-kUnknown),
-      _ellipsoid(new osg::EllipsoidModel(ellipsoid.getRadiusEquator(), ellipsoid.getRadiusPolar())) {
-    prepare();
+      _equatorialRadius(ellipsoid.getRadiusEquator()),
+      _polarRadius(ellipsoid.getRadiusPolar()) {
+    changeBin();
 }
 
 AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& other, const osg::CopyOp& copyop)
@@ -72,13 +74,11 @@ AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& 
       osg::NodeCallback(other, copyop),
       _wasInstalled(other._wasInstalled),
       _installed(other._installed ? new InstalledTile(*other._installed) : nullptr),
-      _prepared(other._prepared),
-      _hasLocalFrame(other._hasLocalFrame),
+      _isTested(other._isTested),
       _testsEdges(other._testsEdges),
       _hidesByPoint(other._hidesByPoint),
       _options(other._options),
-      _ecefToLocal(other._ecefToLocal),
-      _localToEcef(other._localToEcef),
+      _frame(other._frame ? std::make_unique<const LocalFrame>(*other._frame) : nullptr),
       _bin(other._bin),
       _surface(other._surface),
       _surfaceLow(other._surfaceLow),
@@ -87,9 +87,12 @@ AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& 
       _binHigh(other._binHigh),
       _shape(other._shape),
       _skirt(other._skirt),
-      _ellipsoid(other._ellipsoid) {}
+      _equatorialRadius(other._equatorialRadius),
+      _polarRadius(other._polarRadius) {}
 
-AnalyticBinCullCallback::~AnalyticBinCullCallback() = default;
+AnalyticBinCullCallback::~AnalyticBinCullCallback() {
+    delete _prepared.load();
+}
 
 AnalyticBin AnalyticBinCullCallback::shownBin() const {
     AnalyticBin bin = _shape ? _bin.exaggerated(_shape->verticalScale) : _bin;
@@ -123,78 +126,93 @@ AnalyticBinCullCallback::PreparedBin AnalyticBinCullCallback::preparedBin(const 
     return core::GeodeticQuadraticBin(ellipsoid, shown.bin(), shown.margin());
 }
 
-void AnalyticBinCullCallback::prepare() {
-    prepareBin();
-    fillSlot();
-}
-
-void AnalyticBinCullCallback::prepareBin() {
-    _prepared.reset();
+// Where the bin that is shown, the globe, the frame or the options have changed.
+void AnalyticBinCullCallback::changeBin() {
     const AnalyticBin shown = shownBin();
     _binLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
     _binHigh = shown.valid() ? shown.bin().altitude().upper + shown.margin() : -kUnknown;
-    if (!shown.valid() || !hasValidRadii(*_ellipsoid)) return;
-    if (_options.method == Method::None || _options.method == Method::Sphere) return;
-    osg::BoundingSphere sphere = shown.boundingSphere(*_ellipsoid);
-    if (_hasLocalFrame) sphere = movedSphere(sphere, _ecefToLocal);
-    const core::Ellipsoid ellipsoid = toCore(*_ellipsoid);
-    _prepared = Prepared{preparedBin(shown, ellipsoid),
-                         std::nullopt,
-                         std::nullopt,
-                         ellipsoid,
-                         sphere,
-                         sphere,
-                         std::nullopt,
-                         std::nullopt};
+    const bool hasMethod = _options.method != Method::None && _options.method != Method::Sphere;
+    _isTested = hasMethod && shown.valid() && hasValidRadii(*ellipsoidModel());
     _testsEdges = _options.effectiveReverse();
     _hidesByPoint = isBox(_options.method);
-    const bool isOwnEdge = isBox(_options.method) || std::holds_alternative<core::ExactGeodeticBin>(_prepared->bin);
-    if (_testsEdges && !isOwnEdge && core::ExactGeodeticBin::holds(ellipsoid, shown.bin())) {
-        _prepared->separable.emplace(ellipsoid, shown.bin(), shown.margin());
-    }
-    if (_options.effectiveHorizonUse() == HorizonUse::Off) return;
-    _prepared->horizon.emplace(ellipsoid, shown.bin(), shown.margin());
-    if (_hidesByPoint) _prepared->horizonPoint.emplace(*_prepared->horizon);
-    if (shown.bin().altitude().upper >= 0.0) return;
-    AnalyticBin column = shown;
-    column.setBin(shown.bin().withAltitude({shown.bin().altitude().lower, 0.0}));
-    _prepared->columnHorizon.emplace(ellipsoid, column.bin(), column.margin());
-    if (!_hasLocalFrame) _prepared->columnSphere = column.boundingSphere(*_ellipsoid);
+    discardPrepared();
+    fillSlot();
 }
 
-// All members of a family have the same frame, globe and terrain shape: a tile that changes one of them leaves.
+osg::ref_ptr<osg::EllipsoidModel> AnalyticBinCullCallback::ellipsoidModel() const {
+    return new osg::EllipsoidModel(_equatorialRadius, _polarRadius);
+}
+
+void AnalyticBinCullCallback::discardPrepared() {
+    delete _prepared.exchange(nullptr);
+}
+
+// Several cull traversals may come here first; one's work is kept.
+const AnalyticBinCullCallback::Prepared& AnalyticBinCullCallback::prepared() const {
+    const Prepared* known = _prepared.load(std::memory_order_acquire);
+    if (known) return *known;
+    auto made = std::make_unique<const Prepared>(makePrepared());
+    return _prepared.compare_exchange_strong(known, made.get(), std::memory_order_acq_rel) ? *made.release() : *known;
+}
+
+AnalyticBinCullCallback::Prepared AnalyticBinCullCallback::makePrepared() const {
+    const AnalyticBin shown = shownBin();
+    const core::Ellipsoid ellipsoid = this->ellipsoid();
+    const osg::ref_ptr<osg::EllipsoidModel> model = ellipsoidModel();
+    osg::BoundingSphere sphere = shown.boundingSphere(*model);
+    if (_frame) sphere = movedSphere(sphere, _frame->fromEcef);
+    Prepared prepared{preparedBin(shown, ellipsoid), {}, {}, sphere, sphere, {}, {}};
+    const bool isOwnEdge = isBox(_options.method) || std::holds_alternative<core::ExactGeodeticBin>(prepared.bin);
+    if (_testsEdges && !isOwnEdge && core::ExactGeodeticBin::holds(ellipsoid, shown.bin())) {
+        prepared.separable.emplace(ellipsoid, shown.bin(), shown.margin());
+    }
+    if (_options.effectiveHorizonUse() == HorizonUse::Off) return prepared;
+    prepared.horizon.emplace(ellipsoid, shown.bin(), shown.margin());
+    if (_hidesByPoint) prepared.horizonPoint.emplace(*prepared.horizon);
+    if (shown.bin().altitude().upper >= 0.0) return prepared;
+    AnalyticBin column = shown;
+    column.setBin(shown.bin().withAltitude({shown.bin().altitude().lower, 0.0}));
+    prepared.columnHorizon.emplace(ellipsoid, column.bin(), column.margin());
+    if (!_frame) prepared.columnSphere = column.boundingSphere(*model);
+    return prepared;
+}
+
+// All members of a family have the same frame, globe and terrain shape, and are tested against edges or not: a tile
+// that changes one of these leaves.
 void AnalyticBinCullCallback::leaveFamily() {
     if (_installed) _installed->leaveFamily();
 }
 
+// What a family's slot holds need not be kept here as well.
 void AnalyticBinCullCallback::fillSlot() const {
-    if (!_installed) return;
-    if (!_prepared) return _installed->emptySlot();
-    TileBlock::Bins bins{std::get_if<core::GeodeticQuadraticBin>(&_prepared->bin),
-                         std::get_if<core::ExactGeodeticBin>(&_prepared->bin)};
+    if (!_installed || !_installed->hasFamily()) return;
+    if (!_isTested) return _installed->emptySlot();
+    const Prepared prepared = makePrepared();
+    TileBlock::Bins bins{std::get_if<core::GeodeticQuadraticBin>(&prepared.bin),
+                         std::get_if<core::ExactGeodeticBin>(&prepared.bin)};
     const bool isForComparison = !bins.quadratic && !bins.exact;
-    if (_prepared->horizon) bins.column = _prepared->columnHorizon ? &*_prepared->columnHorizon : &*_prepared->horizon;
-    if (_prepared->horizon && !isForComparison) bins.horizon = &*_prepared->horizon;
-    const bool hasOwnColumn = isForComparison || _prepared->columnHorizon.has_value();
+    if (prepared.horizon) bins.column = prepared.columnHorizon ? &*prepared.columnHorizon : &*prepared.horizon;
+    if (prepared.horizon && !isForComparison) bins.horizon = &*prepared.horizon;
+    const bool hasOwnColumn = isForComparison || prepared.columnHorizon.has_value();
     _installed->fillSlot(
-        {_prepared->sphere, _prepared->columnSphere, _binHigh, _binLow, _surfaceHigh, _surfaceLow, hasOwnColumn}, bins);
+        {prepared.sphere, prepared.columnSphere, _binHigh, _binLow, _surfaceHigh, _surfaceLow, hasOwnColumn}, bins);
 }
 
 void AnalyticBinCullCallback::setBin(const AnalyticBin& bin) {
     _bin = bin;
-    prepare();
+    changeBin();
 }
 
 void AnalyticBinCullCallback::setTerrainShape(const std::optional<TerrainShape>& shape) {
     leaveFamily();
     _shape = shape;
     setSurface(_surface);
-    prepare();
+    changeBin();
 }
 
 void AnalyticBinCullCallback::setSkirt(double metres) {
     _skirt = metres;
-    prepare();
+    changeBin();
 }
 
 void AnalyticBinCullCallback::setSurface(const AnalyticBin& surface) {
@@ -206,33 +224,43 @@ void AnalyticBinCullCallback::setSurface(const AnalyticBin& surface) {
 }
 
 bool AnalyticBinCullCallback::isColumnHiddenFrom(const core::HorizonEye& eye) const {
-    if (!_prepared || !_prepared->horizon) return false;
-    return eye.hides(_prepared->columnHorizon ? *_prepared->columnHorizon : *_prepared->horizon);
+    if (!_isTested || !prepared().horizon) return false;
+    return eye.hides(prepared().columnHorizon ? *prepared().columnHorizon : *prepared().horizon);
+}
+
+const osg::BoundingSphere* AnalyticBinCullCallback::ecefColumnSphere() const {
+    return _isTested && !_frame ? &prepared().columnSphere : nullptr;
 }
 
 void AnalyticBinCullCallback::setCullOptions(const CullOptions& options) {
+    if (options.effectiveReverse() != _testsEdges) leaveFamily();
     _options = options;
-    prepare();
+    changeBin();
 }
 
 void AnalyticBinCullCallback::setRadii(double equatorial, double polar) {
     leaveFamily();
-    _ellipsoid = new osg::EllipsoidModel(equatorial, polar);
-    prepare();
+    _equatorialRadius = equatorial;
+    _polarRadius = polar;
+    changeBin();
 }
 
 void AnalyticBinCullCallback::setLocalToEcef(const osg::Matrixd& matrix) {
     leaveFamily();
-    _localToEcef = matrix;
-    _hasLocalFrame = !matrix.isIdentity();
     const auto inverse = affineInverse(matrix);
-    if (inverse) _ecefToLocal = *inverse;
+    _frame.reset();
+    if (!matrix.isIdentity()) _frame.reset(new LocalFrame{matrix, inverse.value_or(osg::Matrixd())});
     if (!inverse) {
         OSG_WARN << "AnalyticBinCullCallback: the matrix to ECEF has no inverse; the tile is never culled."
                  << std::endl;
         _bin.init();
     }
-    prepare();
+    changeBin();
+}
+
+const osg::Matrixd& AnalyticBinCullCallback::localToEcef() const {
+    static const osg::Matrixd identity;
+    return _frame ? _frame->toEcef : identity;
 }
 
 void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
@@ -260,7 +288,7 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
     }
     // without its database nobody notices what is added below the tile, or how the terrain is shown
     const bool isAbandoned = _installed ? !_installed->mayCull(&node) : _wasInstalled;
-    if (!_prepared || isAbandoned) return false;
+    if (!_isTested || isAbandoned) return false;
     CullTraversal& traversal = CullTraversal::of(nv);
     const DatabaseView* database = traversal.databaseView();
     if (_shape && !database) return false;
@@ -274,40 +302,40 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
         const core::HorizonEye* const eye = side == core::Side::Outside ? nullptr : eyeOn(cullStack, nv, traversal);
         return verdict(side, planes, undecided, eye, traversal);
     };
-    return isCulledByBin(cullStack, nv, traversal, _prepared->sphere,
+    return isCulledByBin(cullStack, nv, traversal, prepared().sphere,
                          [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
-                             return _hasLocalFrame ? test(ecefPlanes(frustum, _ecefToLocal), undecided)
-                                                   : test(traversal.planes(cullStack), undecided);
+                             return _frame ? test(ecefPlanes(frustum, _frame->fromEcef), undecided)
+                                           : test(traversal.planes(cullStack), undecided);
                          });
 }
 
 // A tile may have several parents, and transforms above it may have changed: the planes follow, the globe does not.
 bool AnalyticBinCullCallback::standsAsInstalled(osg::CullStack& cullStack, const DatabaseView& database) const {
     const osg::RefMatrix* const modelView = cullStack.getModelViewMatrix();
-    if (modelView == database.modelView && !_hasLocalFrame) return true;
-    const double reach = database.modelView->getTrans().length() + _localToEcef.getTrans().length();
-    return areNearlyEqual(*modelView, _localToEcef * *database.modelView, reach);
+    if (modelView == database.modelView && !_frame) return true;
+    const double reach = database.modelView->getTrans().length() + localToEcef().getTrans().length();
+    return areNearlyEqual(*modelView, localToEcef() * *database.modelView, reach);
 }
 
 const core::HorizonEye* AnalyticBinCullCallback::eyeOn(osg::CullStack& cullStack, osg::NodeVisitor& nv,
                                                        CullTraversal& traversal) const {
-    if (!_prepared->horizon) return nullptr;
+    if (!prepared().horizon) return nullptr;
     if (const DatabaseView* database = traversal.databaseView()) {
         // a camera between the database's root and the tile sees with other eyes
-        const bool isSame = database->ellipsoid == _prepared->ellipsoid &&
+        const bool isSame = database->ellipsoid == ellipsoid() &&
                             database->projection == cullStack.getProjectionMatrix() && database->eye &&
                             standsAsInstalled(cullStack, *database);
         return isSame ? database->eye : nullptr;
     }
     if (_installed) return nullptr;
     // In a frame of its own the eye would have to be prepared anew for every tile.
-    if (_options.horizonUse != HorizonUse::Given || _hasLocalFrame) return nullptr;
-    const Occluder occluder{_prepared->ellipsoid, std::max(0.0, -_options.horizon), _options.inheritViewpoint};
+    if (_options.horizonUse != HorizonUse::Given || _frame) return nullptr;
+    const Occluder occluder{ellipsoid(), std::max(0.0, -_options.horizon), _options.inheritViewpoint};
     return traversal.horizonEye(cullStack, nv, occluder);
 }
 
 core::Side AnalyticBinCullCallback::sideOf(const core::PlaneSet& planes, core::PlaneMask& undecided) const {
-    return std::visit([&](const auto& bin) { return core::classify(bin, planes, undecided); }, _prepared->bin);
+    return std::visit([&](const auto& bin) { return core::classify(bin, planes, undecided); }, prepared().bin);
 }
 
 Verdict AnalyticBinCullCallback::verdict(core::Side side, const core::PlaneSet& planes, core::PlaneMask undecided,
@@ -321,19 +349,19 @@ Verdict AnalyticBinCullCallback::verdict(core::Side side, const core::PlaneSet& 
 }
 
 bool AnalyticBinCullCallback::isHiddenFrom(const core::HorizonEye& eye) const {
-    return _hidesByPoint ? eye.hides(*_prepared->horizonPoint) : eye.hides(*_prepared->horizon);
+    return _hidesByPoint ? eye.hides(*prepared().horizonPoint) : eye.hides(*prepared().horizon);
 }
 
 bool AnalyticBinCullCallback::isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,
                                              core::PlaneMask undecided) const {
-    if (const auto* box = std::get_if<core::BoxBin>(&_prepared->bin)) {
+    if (const auto* box = std::get_if<core::BoxBin>(&prepared().bin)) {
         return core::isSeparated(*box, traversal.hull(planes));
     }
-    if (const auto* box = std::get_if<core::OrientedBoxBin>(&_prepared->bin)) {
+    if (const auto* box = std::get_if<core::OrientedBoxBin>(&prepared().bin)) {
         return core::isSeparated(*box, traversal.hull(planes));
     }
-    const auto* exact = std::get_if<core::ExactGeodeticBin>(&_prepared->bin);
-    if (!exact && _prepared->separable) exact = &*_prepared->separable;
+    const auto* exact = std::get_if<core::ExactGeodeticBin>(&prepared().bin);
+    if (!exact && prepared().separable) exact = &*prepared().separable;
     return exact && core::isSeparated(*exact, planes, planes.size(), undecided);
 }
 

@@ -86,7 +86,7 @@ void AnalyticBinCullCallback::setRadiiText(const std::string& text) {
 }
 
 std::string AnalyticBinCullCallback::getRadiiText() const {
-    return numbersToText({_ellipsoid->getRadiusEquator(), _ellipsoid->getRadiusPolar()});
+    return numbersToText({_equatorialRadius, _polarRadius});
 }
 
 void AnalyticBinCullCallback::setLocalToEcefText(const std::string& text) {
@@ -105,8 +105,8 @@ void AnalyticBinCullCallback::refuse(const char* why) {
 }
 
 std::string AnalyticBinCullCallback::getLocalToEcefText() const {
-    if (!_hasLocalFrame) return {};
-    return numbersToText(std::vector<double>(_localToEcef.ptr(), _localToEcef.ptr() + 16));
+    if (!_frame) return {};
+    return numbersToText(std::vector<double>(_frame->toEcef.ptr(), _frame->toEcef.ptr() + 16));
 }
 
 }  // namespace osgAnalyticBin

@@ -46,6 +46,7 @@ public:
 
     /// Gives the tile a slot in a family. The tile's callback fills it.
     void joinFamily(TileBlock& block, std::size_t slot);
+    [[nodiscard]] bool hasFamily() const { return _block.valid(); }
     /// From now on only the tile's own callback culls it.
     void leaveFamily();
     /// Says that the mesh has changed since the bin was fitted. The family leaves the tile to its callback until

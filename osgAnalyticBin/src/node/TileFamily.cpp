@@ -105,13 +105,15 @@ void TileFamily::renew(osg::Node& node) {
 
 bool TileFamily::add(osg::Node& child, std::size_t slot) {
     const AnalyticBinCullCallback* const tile = installedBinOf(child);
-    if (!tile || !tile->_prepared || tile->_hasLocalFrame) return false;
+    if (!tile || !tile->_isTested || tile->_frame) return false;
     if (!_ellipsoid) {
-        _ellipsoid = tile->_prepared->ellipsoid;
+        _ellipsoid = tile->ellipsoid();
         _shape = tile->_shape;
+        _testsEdges = tile->_testsEdges;
     }
     const bool isSameShape = _shape.has_value() == tile->_shape.has_value() && (!_shape || *_shape == *tile->_shape);
-    if (!(*_ellipsoid == tile->_prepared->ellipsoid) || !isSameShape) return false;
+    const bool isSame = *_ellipsoid == tile->ellipsoid() && _testsEdges == tile->_testsEdges && isSameShape;
+    if (!isSame) return false;
     _nodes[slot] = &child;
     _block->addMember(slot);
     _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), typeid(child) == typeid(osg::PagedLOD),
@@ -165,13 +167,15 @@ void TileFamily::test(const osg::Group& group, unsigned int first, const core::P
 
 void TileFamily::findSeparated(unsigned int first, std::uint64_t candidates, const core::PlaneSet& planes,
                                CullTraversal& traversal, Verdicts& verdicts) const {
+    const core::BinFamily& bins = _block->partFrom(first).bins;
     forEachBit(candidates & ~verdicts.planes.insideAll, [&](unsigned int number) {
-        const AnalyticBinCullCallback& tile = *_members[first + number].tile;
         const core::PlaneMask undecided = verdicts.planes.undecided[number];
         const bool isAcrossEdge = (undecided & (undecided - 1)) != 0;
-        if (isAcrossEdge && tile._testsEdges && tile.isBeyondAnEdge(traversal, planes, undecided)) {
-            verdicts.separated |= std::uint64_t{1} << number;
-        }
+        if (!isAcrossEdge || !_testsEdges) return;
+        const bool isBeyond = hasBit(bins.exact(), number)
+                                  ? bins.isSeparated(number, planes, undecided)
+                                  : _members[first + number].tile->isBeyondAnEdge(traversal, planes, undecided);
+        if (isBeyond) verdicts.separated |= std::uint64_t{1} << number;
     });
 }
 

@@ -121,6 +121,7 @@ private:
     // what all its tiles have in common
     std::optional<core::Ellipsoid> _ellipsoid;
     std::optional<TerrainShape> _shape;
+    bool _testsEdges = false;
 };
 
 }  // namespace osgAnalyticBin

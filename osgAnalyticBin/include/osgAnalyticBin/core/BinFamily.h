@@ -38,6 +38,9 @@ public:
 
     /// The number of slots, empty ones included.
     [[nodiscard]] std::size_t size() const noexcept { return _size; }
+    /// The slots whose bin is in the exact form, one bit each.
+    [[nodiscard]] std::uint64_t exact() const noexcept { return _data.exact; }
+
     /// The slots that have a bin, one bit each.
     [[nodiscard]] std::uint64_t filled() const noexcept { return _data.filled; }
 
@@ -62,6 +65,9 @@ public:
     /// Returns: the candidates that the horizon hides, as HorizonEye::hides() tells of each.
     /// Cost: for slots in view some ten multiplications for all lanes together; no allocation, no trigonometry.
     [[nodiscard]] std::uint64_t hiddenFrom(const HorizonEye& eye, std::uint64_t candidates) const noexcept;
+
+    /// As core::isSeparated() of the bin. Requires: a slot in exact() (asserted).
+    [[nodiscard]] bool isSeparated(std::size_t i, const PlaneSet& planes, PlaneMask undecided) const noexcept;
 
 private:
     // A cache line.
