@@ -215,7 +215,7 @@ private:
 
     // Whether all of a tile's own mesh is drawn. Its state was asked for when bins were installed.
     [[nodiscard]] bool isDrawnWhole(const osg::Node& mesh, const SearchedTile& tile) const {
-        const bool isKnown = tile.member && !tile.member->meshParts.empty() && tile.member->meshParts.front() == &mesh;
+        const bool isKnown = tile.member && tile.member->meshParts.front() == &mesh;
         if (!isKnown) {
             const InstalledTile* const installed = tile.callback.installedTile();
             const bool isMeshDoubted = !tile.member && installed && installed->isMeshDoubted();
@@ -224,7 +224,8 @@ private:
         }
         const auto& parts = tile.member->meshParts;
         return std::all_of(parts.begin(), parts.end(), [this](const auto& part) {
-            return _visitor.validNodeMask(*part) && !(part->getCullCallback() && CullCallbacks(*part).mayLeaveOut);
+            return !part ||
+                   (_visitor.validNodeMask(*part) && !(part->getCullCallback() && CullCallbacks(*part).mayLeaveOut));
         });
     }
 

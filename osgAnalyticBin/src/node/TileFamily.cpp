@@ -25,17 +25,19 @@ namespace osgAnalyticBin {
 
 namespace {
 
-using MeshParts = std::vector<osg::ref_ptr<const osg::Node>>;
+using MeshParts = TileFamily::MeshParts;
 
-// Collects the nodes of a mesh. Returns: whether OSG draws the whole mesh as long as it enters each of them.
-bool appendParts(const osg::Node& node, MeshParts& parts) {
-    parts.emplace_back(&node);
+// Collects the nodes of a mesh. Returns: whether OSG draws the whole mesh as long as it enters each of them, and there
+// is room for all.
+bool appendParts(const osg::Node& node, MeshParts& parts, std::size_t& count) {
+    if (count == parts.size()) return false;
+    parts[count++] = &node;
     if (dynamic_cast<const osgTerrain::TerrainTile*>(&node)) return typeid(node) == typeid(osgTerrain::TerrainTile);
     // a group without children draws nothing
     const osg::Group* const group = node.asGroup();
     bool areKnown = drawsAllChildren(node) && (!group || group->getNumChildren() > 0);
     for (unsigned int i = 0; areKnown && group && i < group->getNumChildren(); ++i) {
-        areKnown = appendParts(*group->getChild(i), parts);
+        areKnown = appendParts(*group->getChild(i), parts, count);
     }
     return areKnown;
 }
@@ -54,7 +56,8 @@ const osg::Node* meshOf(const osg::Node& tile) {
 MeshParts meshPartsOf(const osg::Node& tile) {
     const osg::Node* const mesh = meshOf(tile);
     MeshParts parts;
-    if (!mesh || !appendParts(*mesh, parts)) return {};
+    std::size_t count = 0;
+    if (!mesh || !appendParts(*mesh, parts, count)) return {};
     return parts;
 }
 
@@ -120,7 +123,7 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
                       tile->installedTile()->isSeeThrough(), meshPartsOf(child)};
     tile->installedTile()->joinFamily(*_block, slot);
     // osgUtil::Optimizer may have changed the form of the mesh: the new form is as good
-    if (!_members[slot].meshParts.empty()) tile->installedTile()->trustMesh();
+    if (_members[slot].meshParts.front()) tile->installedTile()->trustMesh();
     tile->fillSlot();
     return true;
 }

@@ -13,6 +13,7 @@
 #include <osg/NodeCallback>
 #include <osg/PagedLOD>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -53,14 +54,17 @@ public:
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
+    /// The nodes of a tile's own mesh, all of which have to be entered for all of it to be drawn. None: not known, or
+    /// more than these.
+    using MeshParts = std::array<osg::ref_ptr<const osg::Node>, 4>;
+
     /// A tile as it was when the family was made.
     struct Member {
         osg::ref_ptr<const AnalyticBinCullCallback> tile;
         osg::PagedLOD* paged = nullptr;  ///< the node, if it is one
         bool isPlainlyPaged = false;     ///< an osg::PagedLOD, and not of a class derived from it
         bool isSeeThrough = false;
-        /// All nodes of the tile's own mesh; empty where entering them does not draw all of it for certain.
-        std::vector<osg::ref_ptr<const osg::Node>> meshParts;
+        MeshParts meshParts;
     };
 
     /// The results for up to TileBlock::Part::kMost children, one bit each.
