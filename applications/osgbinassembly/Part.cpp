@@ -5,9 +5,9 @@
 
 #include "Angles.h"
 
-#include <osgAnalyticBin/core/AutodiffMapping.h>
-#include <osgAnalyticBin/core/CylinderSegment.h>
-#include <osgAnalyticBin/core/TorusSegment.h>
+#include <osgAnalyticBin/core/formula/AutodiffMapping.h>
+#include <osgAnalyticBin/core/formula/CylinderSegment.h>
+#include <osgAnalyticBin/core/formula/TorusSegment.h>
 
 #include <algorithm>
 #include <cmath>

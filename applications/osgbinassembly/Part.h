@@ -5,9 +5,9 @@
 
 #include "PartMesh.h"
 
-#include <osgAnalyticBin/core/BezierSolid.h>
 #include <osgAnalyticBin/core/Frame.h>
-#include <osgAnalyticBin/core/QuadraticBin.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
+#include <osgAnalyticBin/core/formula/BezierSolid.h>
 
 #include <osg/Geode>
 

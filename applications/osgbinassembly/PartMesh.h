@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/AnalyticMapping.h>
+#include <osgAnalyticBin/core/bin/AnalyticMapping.h>
 
 #include <osg/Geometry>
 

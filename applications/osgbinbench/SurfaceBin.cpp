@@ -5,7 +5,7 @@
 
 #include "GlmBridge.h"
 
-#include <osgAnalyticBin/core/GeodeticMeshBounds.h>
+#include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
 
 #include <osg/Geometry>
 #include <osg/TriangleFunctor>

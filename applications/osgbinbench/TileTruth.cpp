@@ -6,10 +6,10 @@
 #include "GlmBridge.h"
 #include "SurfaceBin.h"
 
-#include <osgAnalyticBin/core/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/FrustumHull.h>
-#include <osgAnalyticBin/core/Horizon.h>
-#include <osgAnalyticBin/core/HullSeparation.h>
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/edge/FrustumHull.h>
+#include <osgAnalyticBin/core/edge/HullSeparation.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <osg/Polytope>
 

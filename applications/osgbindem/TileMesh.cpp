@@ -3,8 +3,8 @@
 
 #include "TileMesh.h"
 
-#include <osgAnalyticBin/core/GeodeticGridBounds.h>
-#include <osgAnalyticBin/core/GeodeticMeshBounds.h>
+#include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
+#include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "Angles.h"
 
 #include <osgAnalyticBin/InstallBinsCallback.h>
-#include <osgAnalyticBin/core/GeodeticGridBounds.h>
+#include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 
 #include <glm/geometric.hpp>
 #include <osg/CoordinateSystemNode>

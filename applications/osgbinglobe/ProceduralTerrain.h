@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 
 #include <TileLayout.h>
 #include <array>

@@ -5,7 +5,7 @@
 #include "BinLines.h"
 #include "Figures.h"
 
-#include <osgAnalyticBin/core/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 
 #include <cmath>
 

@@ -3,8 +3,8 @@
 
 #include "Methods.h"
 
-#include <osgAnalyticBin/core/GeodeticMapping.h>
-#include <osgAnalyticBin/core/HullSeparation.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/edge/HullSeparation.h>
 
 #include <glm/geometric.hpp>
 

@@ -5,11 +5,11 @@
 
 #include "Camera.h"
 
-#include <osgAnalyticBin/core/ComparisonBins.h>
-#include <osgAnalyticBin/core/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/FrustumHull.h>
-#include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
+#include <osgAnalyticBin/core/edge/FrustumHull.h>
+#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <array>
 #include <cstddef>

@@ -9,13 +9,13 @@
 #include "TileMix.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
-#include <osgAnalyticBin/core/BoxBins.h>
-#include <osgAnalyticBin/core/ComparisonBins.h>
-#include <osgAnalyticBin/core/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/GeodeticMapping.h>
-#include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
-#include <osgAnalyticBin/core/Horizon.h>
-#include <osgAnalyticBin/core/HullSeparation.h>
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
+#include <osgAnalyticBin/core/edge/HullSeparation.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
+#include <osgAnalyticBin/core/rivals/BoxBins.h>
+#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <benchmark/benchmark.h>
 #include <glm/geometric.hpp>

@@ -6,8 +6,8 @@
 #include "TileMix.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
-#include <osgAnalyticBin/core/BinFamily.h>
-#include <osgAnalyticBin/core/HullSeparation.h>
+#include <osgAnalyticBin/core/bin/BinFamily.h>
+#include <osgAnalyticBin/core/edge/HullSeparation.h>
 
 #include <benchmark/benchmark.h>
 #include <osg/BoundingSphere>

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/Horizon.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <osg/Polytope>
 

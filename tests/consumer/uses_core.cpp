@@ -3,8 +3,8 @@
 //
 // The mathematics without OpenSceneGraph: is a tile in front of a plane?
 
-#include <osgAnalyticBin/core/GeodeticMapping.h>
-#include <osgAnalyticBin/core/QuadraticBin.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
 
 #include <cstdlib>
 

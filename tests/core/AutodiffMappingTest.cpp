@@ -3,8 +3,8 @@
 
 // Oracles: GeodeticMapping's closed forms, finite differences and dense sampling in long double, convergence order.
 
-#include <osgAnalyticBin/core/AutodiffMapping.h>
-#include <osgAnalyticBin/core/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/formula/AutodiffMapping.h>
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 
 #include "BsplineSolid.h"
 
-#include <osgAnalyticBin/core/AutodiffMapping.h>
-#include <osgAnalyticBin/core/BezierSolid.h>
+#include <osgAnalyticBin/core/formula/AutodiffMapping.h>
+#include <osgAnalyticBin/core/formula/BezierSolid.h>
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 
 #include "FamilySamples.h"
 
-#include <osgAnalyticBin/core/BinFamily.h>
-#include <osgAnalyticBin/core/HullSeparation.h>
+#include <osgAnalyticBin/core/bin/BinFamily.h>
+#include <osgAnalyticBin/core/edge/HullSeparation.h>
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // Oracles: the bin's exact range by long double; random positions of the bin; frusta that hold a point of the bin. Ten
 // million more trials: HullSoundness.cpp.
 
-#include <osgAnalyticBin/core/BoxBins.h>
+#include <osgAnalyticBin/core/rivals/BoxBins.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

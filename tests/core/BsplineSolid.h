@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/BezierSolid.h>
+#include <osgAnalyticBin/core/formula/BezierSolid.h>
 
 #include <vector>
 

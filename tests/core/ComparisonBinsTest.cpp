@@ -4,8 +4,8 @@
 // The two published rules must be what they claim to be, faults included. Oracles: the rules written down a second
 // time; the closed form, against which they are shown to be wrong.
 
-#include <osgAnalyticBin/core/ComparisonBins.h>
-#include <osgAnalyticBin/core/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

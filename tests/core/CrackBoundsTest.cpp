@@ -5,7 +5,7 @@
 // tile of a quadtree can have. Quadtree: as VirtualPlanetBuilder's, one tile over the whole globe, then two, then four
 // to each.
 
-#include <osgAnalyticBin/core/CrackBounds.h>
+#include <osgAnalyticBin/core/mesh/CrackBounds.h>
 
 #include <gtest/gtest.h>
 

@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/BinFamily.h>
-#include <osgAnalyticBin/core/GeodeticMapping.h>
-#include <osgAnalyticBin/core/Horizon.h>
+#include <osgAnalyticBin/core/bin/BinFamily.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <array>
 #include <cstdint>

@@ -5,9 +5,9 @@
 // long double; hulls that libccd says meet or not. Ten million more trials: HullSoundness.cpp. Views as in flight:
 // Tightness.cpp.
 
-#include <osgAnalyticBin/core/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/FrustumHull.h>
-#include <osgAnalyticBin/core/HullSeparation.h>
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/edge/FrustumHull.h>
+#include <osgAnalyticBin/core/edge/HullSeparation.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 
 #include "MeshSamples.h"
 
-#include <osgAnalyticBin/core/GeodeticGridBounds.h>
+#include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 
 #include <gtest/gtest.h>
 

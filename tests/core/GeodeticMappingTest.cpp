@@ -4,8 +4,8 @@
 // Oracles: finite differences of the long double mapping, convergence order of the model. The value itself is
 // tested as Ellipsoid.ConvertsLikeLongDouble.
 
-#include <osgAnalyticBin/core/GeodeticMapping.h>
-#include <osgAnalyticBin/core/QuadraticBin.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

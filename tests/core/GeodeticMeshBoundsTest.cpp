@@ -5,7 +5,7 @@
 
 #include "TriangleSamples.h"
 
-#include <osgAnalyticBin/core/GeodeticMeshBounds.h>
+#include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 
 // Oracle: the closed form in long double. The two bins themselves: QuadraticBinTest, ExactGeodeticBinTest.
 
-#include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
+#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/Horizon.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 
 #include "HorizonChecks.h"
 
-#include <osgAnalyticBin/core/Horizon.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

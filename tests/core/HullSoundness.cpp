@@ -7,15 +7,15 @@
 // Outside of the plane tests. Fails when there is a single one. With --ties the cases are on planets from the Moon to
 // Saturn and beyond, in metres, kilometres and radii, and as near to a tie as doubles come: up to 1e-9 of the radius.
 
-#include <osgAnalyticBin/core/BoxBins.h>
-#include <osgAnalyticBin/core/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/FrustumHull.h>
-#include <osgAnalyticBin/core/GeodeticMapping.h>
-#include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
-#include <osgAnalyticBin/core/Horizon.h>
-#include <osgAnalyticBin/core/HullSeparation.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
-#include <osgAnalyticBin/core/QuadraticBin.h>
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
+#include <osgAnalyticBin/core/edge/FrustumHull.h>
+#include <osgAnalyticBin/core/edge/HullSeparation.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
+#include <osgAnalyticBin/core/rivals/BoxBins.h>
 
 #include <glm/geometric.hpp>
 

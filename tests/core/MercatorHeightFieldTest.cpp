@@ -5,8 +5,8 @@
 
 #include "MercatorHeightField.h"
 
-#include <osgAnalyticBin/core/AutodiffMapping.h>
 #include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/core/formula/AutodiffMapping.h>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include "MeshSamples.h"
 
-#include <osgAnalyticBin/core/GeodeticMeshBounds.h>
+#include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
 
 #include <gtest/gtest.h>
 

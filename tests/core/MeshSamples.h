@@ -5,8 +5,8 @@
 
 #include "TriangleSamples.h"
 
-#include <osgAnalyticBin/core/GeodeticGridBounds.h>
-#include <osgAnalyticBin/core/QuickMeshBounds.h>
+#include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
+#include <osgAnalyticBin/core/mesh/QuickMeshBounds.h>
 
 #include <array>
 #include <cstddef>

@@ -4,13 +4,13 @@
 // Oracles: the tests of one bin against one plane (tested in ExactGeodeticBinTest and QuadraticBinTest), and the scalar
 // kernels bit for bit.
 
-#include <osgAnalyticBin/core/BoxBins.h>
-#include <osgAnalyticBin/core/ComparisonBins.h>
-#include <osgAnalyticBin/core/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/GeodeticMapping.h>
-#include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
-#include <osgAnalyticBin/core/QuadraticBin.h>
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
+#include <osgAnalyticBin/core/rivals/BoxBins.h>
+#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,9 @@
 
 #include "MeshSamples.h"
 
-#include <osgAnalyticBin/core/CrackBounds.h>
-#include <osgAnalyticBin/core/GeodeticGridBounds.h>
-#include <osgAnalyticBin/core/QuickMeshBounds.h>
+#include <osgAnalyticBin/core/mesh/CrackBounds.h>
+#include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
+#include <osgAnalyticBin/core/mesh/QuickMeshBounds.h>
 
 #include <gtest/gtest.h>
 

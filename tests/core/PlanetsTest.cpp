@@ -5,10 +5,10 @@
 // an equatorial radius of one: verdicts are as sound, and ranges nearly as tight, as on the earth. Planes and lines of
 // sight come as close to a tie as doubles can say. Oracles: closed forms in long double.
 
-#include <osgAnalyticBin/core/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
-#include <osgAnalyticBin/core/Horizon.h>
-#include <osgAnalyticBin/core/HullSeparation.h>
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
+#include <osgAnalyticBin/core/edge/HullSeparation.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 // Oracles: dense sampling with climbing; all 27 vertices, edges, faces and interior solved in long double by
 // elimination with pivoting.
 
-#include <osgAnalyticBin/core/QuadraticRange.h>
+#include <osgAnalyticBin/core/bin/QuadraticRange.h>
 
 #include <gtest/gtest.h>
 

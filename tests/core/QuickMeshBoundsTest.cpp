@@ -6,7 +6,7 @@
 
 #include "MeshSamples.h"
 
-#include <osgAnalyticBin/core/QuickMeshBounds.h>
+#include <osgAnalyticBin/core/mesh/QuickMeshBounds.h>
 
 #include <gtest/gtest.h>
 

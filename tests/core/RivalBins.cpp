@@ -5,7 +5,7 @@
 
 #include "BinSamples.h"
 
-#include <osgAnalyticBin/core/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 
 #include <glm/geometric.hpp>
 

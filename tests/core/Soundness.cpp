@@ -5,10 +5,10 @@
 // tangent. The truth is the closed form in long double, which shares no code with the core. Fails when the quadratic or
 // the exact bin has a single wrong verdict, or a distance range that does not hold the true one.
 
-#include <osgAnalyticBin/core/ComparisonBins.h>
-#include <osgAnalyticBin/core/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/GeodeticMapping.h>
-#include <osgAnalyticBin/core/QuadraticBin.h>
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
+#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <algorithm>
 #include <array>

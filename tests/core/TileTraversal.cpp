@@ -6,13 +6,13 @@
 #include "BinSamples.h"
 #include "RivalBins.h"
 
-#include <osgAnalyticBin/core/ComparisonBins.h>
-#include <osgAnalyticBin/core/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/FrustumHull.h>
-#include <osgAnalyticBin/core/GeodeticMapping.h>
-#include <osgAnalyticBin/core/Horizon.h>
-#include <osgAnalyticBin/core/HullSeparation.h>
-#include <osgAnalyticBin/core/QuadraticBin.h>
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
+#include <osgAnalyticBin/core/edge/FrustumHull.h>
+#include <osgAnalyticBin/core/edge/HullSeparation.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
+#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <glm/geometric.hpp>
 

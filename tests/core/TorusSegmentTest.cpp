@@ -3,8 +3,8 @@
 
 // Oracles: see support/MappingChecks.h; the interval bound of the same formula.
 
-#include <osgAnalyticBin/core/AutodiffMapping.h>
-#include <osgAnalyticBin/core/TorusSegment.h>
+#include <osgAnalyticBin/core/formula/AutodiffMapping.h>
+#include <osgAnalyticBin/core/formula/TorusSegment.h>
 
 #include <gtest/gtest.h>
 

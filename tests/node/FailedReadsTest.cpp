@@ -4,7 +4,7 @@
 // Files that cannot be read: when they are tried again, in simulated time and through a real pager. How servers fail is
 // tested in http/.
 
-#include "../../osgAnalyticBin/src/node/FailedReads.h"
+#include "../../osgAnalyticBin/src/node/page/FailedReads.h"
 #include "PagedFlight.h"
 
 #include <osgAnalyticBin/BinInstaller.h>

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "../../osgAnalyticBin/src/node/PlanarBin.h"
+#include "../../osgAnalyticBin/src/node/cull/PlanarBin.h"
 
 #include <osgAnalyticBin/core/GeodeticBin.h>
-#include <osgAnalyticBin/core/HullSeparation.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
+#include <osgAnalyticBin/core/edge/HullSeparation.h>
 
 #include <gtest/gtest.h>
 

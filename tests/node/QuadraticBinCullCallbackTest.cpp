@@ -9,8 +9,8 @@
 
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/QuadraticBinCullCallback.h>
-#include <osgAnalyticBin/core/AutodiffMapping.h>
-#include <osgAnalyticBin/core/CylinderSegment.h>
+#include <osgAnalyticBin/core/formula/AutodiffMapping.h>
+#include <osgAnalyticBin/core/formula/CylinderSegment.h>
 
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>

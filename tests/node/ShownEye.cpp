@@ -3,8 +3,8 @@
 
 #include "ShownEye.h"
 
-#include "../../osgAnalyticBin/src/node/CullTraversal.h"
-#include "../../osgAnalyticBin/src/node/ShownDepth.h"
+#include "../../osgAnalyticBin/src/node/cull/CullTraversal.h"
+#include "../../osgAnalyticBin/src/node/cull/ShownDepth.h"
 #include "CameraGlobe.h"
 
 #include <glm/geometric.hpp>

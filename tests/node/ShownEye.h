@@ -7,7 +7,7 @@
 
 #include "CullFixture.h"
 
-#include <osgAnalyticBin/core/Horizon.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <glm/vec3.hpp>
 #include <osg/Group>

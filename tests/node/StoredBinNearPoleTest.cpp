@@ -8,7 +8,7 @@
 #include "DatabaseFixture.h"
 
 #include <osgAnalyticBin/BinInstaller.h>
-#include <osgAnalyticBin/core/GeodeticMeshBounds.h>
+#include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>

@@ -6,8 +6,8 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/AutodiffMapping.h>
-#include <osgAnalyticBin/core/QuadraticBin.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
+#include <osgAnalyticBin/core/formula/AutodiffMapping.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

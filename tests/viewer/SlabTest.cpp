@@ -4,9 +4,9 @@
 //
 // Slabs as they are drawn. Oracle: the mapping's inverse, point by point.
 
-#include <osgAnalyticBin/core/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/GeodeticMapping.h>
-#include <osgAnalyticBin/core/QuadraticBin.h>
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
 #include <osgAnalyticBin/viewer/Slab.h>
 
 #include <gtest/gtest.h>

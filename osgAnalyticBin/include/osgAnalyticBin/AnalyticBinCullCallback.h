@@ -6,11 +6,11 @@
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Export.h>
-#include <osgAnalyticBin/core/BoxBins.h>
-#include <osgAnalyticBin/core/ComparisonBins.h>
-#include <osgAnalyticBin/core/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/GeodeticQuadraticBin.h>
-#include <osgAnalyticBin/core/Horizon.h>
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
+#include <osgAnalyticBin/core/rivals/BoxBins.h>
+#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Matrixd>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <osgAnalyticBin/Export.h>
-#include <osgAnalyticBin/core/ComparisonBins.h>
+#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <optional>
 #include <string>

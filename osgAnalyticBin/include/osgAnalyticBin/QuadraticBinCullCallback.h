@@ -4,7 +4,7 @@
 #pragma once
 
 #include <osgAnalyticBin/Export.h>
-#include <osgAnalyticBin/core/QuadraticBin.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
 
 #include <osg/BoundingSphere>
 #include <osg/NodeCallback>

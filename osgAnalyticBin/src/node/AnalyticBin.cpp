@@ -7,9 +7,9 @@
 #include "Text.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
-#include <osgAnalyticBin/core/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/GeodeticMapping.h>
-#include <osgAnalyticBin/core/QuadraticBin.h>
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
 
 #include <glm/common.hpp>
 #include <osg/Node>

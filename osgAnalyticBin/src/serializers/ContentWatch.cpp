@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "../node/ContentWatch.h"
+#include "../node/install/ContentWatch.h"
 
 #undef OBJECT_CAST
 #define OBJECT_CAST dynamic_cast

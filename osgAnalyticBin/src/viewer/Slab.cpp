@@ -3,8 +3,8 @@
 
 #include "IndexedGeometry.h"
 
-#include <osgAnalyticBin/core/GeodeticMapping.h>
-#include <osgAnalyticBin/core/QuadraticBin.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
 #include <osgAnalyticBin/viewer/Slab.h>
 
 #include <osg/BlendFunc>

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/KernelData.h>
 #include <osgAnalyticBin/core/Plane.h>
+#include <osgAnalyticBin/core/bin/KernelData.h>
 
 #include <array>
 #include <cassert>

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/KernelData.h>
+#include <osgAnalyticBin/core/bin/KernelData.h>
 
 #include <cstddef>
 #include <cstdint>

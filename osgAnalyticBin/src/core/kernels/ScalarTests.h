@@ -6,8 +6,8 @@
 #include "../Constants.h"
 #include "PlaneKernels.h"
 
-#include <osgAnalyticBin/core/KernelData.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
+#include <osgAnalyticBin/core/bin/KernelData.h>
 
 #include <cmath>
 #include <cstddef>

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace osgAnalyticBin::core {
+
+namespace {
+
+double largestExtent(const GeodeticMapping& mapping, const ParameterBox& box) {
+    const glm::dmat3 jacobian = mapping.jacobian(box.center);
+    double largest = 0.0;
+    for (int i = 0; i < 3; ++i) largest = std::max(largest, 2.0 * glm::length(jacobian[i]) * box.halfSize[i]);
+    return largest;
+}
+
+}  // namespace
+
+GeodeticQuadraticBin::GeodeticQuadraticBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept {
+    const GeodeticMapping mapping(ellipsoid);
+    const ParameterBox box = parameterBox(bin);
+    const double remainder = mapping.thirdDerivativeBound(box) / 6.0;
+    const bool isTight = remainder <= kLargestRelativeRemainder * largestExtent(mapping, box);
+    _isExact = !isTight && ExactGeodeticBin::holds(ellipsoid, bin);
+    if (_isExact) {
+        const ExactGeodeticBin exact(ellipsoid, bin, margin);
+        std::copy(exact.numbers().begin(), exact.numbers().end(), _numbers.begin());
+    } else {
+        _numbers = QuadraticBin(mapping, box, margin).numbers();
+    }
+}
+
+Side GeodeticQuadraticBin::classify(const Plane& plane) const noexcept {
+    return _isExact ? ExactGeodeticBin(_numbers.data()).classify(plane) : QuadraticBin(_numbers.data()).classify(plane);
+}
+
+Interval GeodeticQuadraticBin::distanceRange(const Plane& plane) const noexcept {
+    return _isExact ? ExactGeodeticBin(_numbers.data()).distanceRange(plane)
+                    : QuadraticBin(_numbers.data()).distanceRange(plane);
+}
+
+}  // namespace osgAnalyticBin::core

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "../Constants.h"
+#include "../LocalFrame.h"
+
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/rivals/BoxBins.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgAnalyticBin::core {
+
+namespace {
+
+// Rounding of one signed distance, in units of epsilon times the bin's reach: some twenty roundings of sums and
+// products of three, and axes that are of unit length and at right angles to a few epsilon.
+constexpr double kRounding = 64.0 * kEpsilon;
+constexpr double kOffsetRounding = 4.0 * kEpsilon;
+// The reach of any bin is rounded up by as much.
+constexpr double kUp = 1.0 + 1e-9;
+
+using Axes = std::array<glm::dvec3, 3>;
+
+struct Extents {
+    glm::dvec3 center{0.0}, halfSize{0.0};
+    double reach = 0.0;
+};
+
+Extents wholeGlobe(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) {
+    const double altitude = std::max(std::abs(bin.altitude().lower), std::abs(bin.altitude().upper));
+    const double reach = (std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius()) + altitude + margin) * kUp;
+    return {glm::dvec3(0.0), glm::dvec3(reach), reach};
+}
+
+Extents extentsAlong(const Axes& axes, const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) {
+    if (!ExactGeodeticBin::holds(ellipsoid, bin)) return wholeGlobe(ellipsoid, bin, margin);
+    const ExactGeodeticBin exact(ellipsoid, bin, margin);
+    Extents extents;
+    extents.reach = exact.reach();
+    for (glm::length_t i = 0; i < 3; ++i) {
+        const Interval range = exact.distanceRange({axes[static_cast<std::size_t>(i)], 0.0});
+        extents.center[i] = range.middle();
+        extents.halfSize[i] = 0.5 * range.width();
+    }
+    return extents;
+}
+
+const Axes& ecefAxes() {
+    static const Axes axes{glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, 1.0)};
+    return axes;
+}
+
+Axes eastNorthUp(const Geodetic& position) {
+    const LocalFrame frame(position.latitude, position.longitude);
+    return {frame.east, frame.north, frame.up};
+}
+
+// `radius`: half of what the box measures across the plane. A number that is not finite decides nothing.
+Side sideOf(double distance, double radius, double slack, const Plane& plane) {
+    if (!isUsable(plane)) return Side::Straddling;
+    const double reach = radius + slack + kOffsetRounding * std::abs(plane.offset);
+    if (distance + reach < 0.0) return Side::Outside;
+    return distance - reach >= 0.0 ? Side::Inside : Side::Straddling;
+}
+
+// Faces 0 to 2 are the lower ends of the axes, 3 to 5 the upper ones.
+Plane faceOf(const glm::dvec3& axis, std::size_t i, double center, double halfSize, double slack) {
+    const double sign = i < 3 ? 1.0 : -1.0;
+    return {sign * axis, halfSize - sign * center + slack};
+}
+
+template <class Box>
+bool isBeyondAFace(const Box& box, const FrustumHull& frustum) {
+    if (frustum.cornerCount() == 0) return false;
+    for (std::size_t i = 0; i < Box::kFaces; ++i) {
+        if (frustum.isBehind(box.face(i), box.reach())) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+BoxBin::BoxBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept {
+    const Extents extents = extentsAlong(ecefAxes(), ellipsoid, bin, margin);
+    _center = extents.center;
+    _halfSize = extents.halfSize;
+    _slack = kRounding * extents.reach;
+    _reach = extents.reach;
+}
+
+Side BoxBin::classify(const Plane& plane) const noexcept {
+    return sideOf(plane.distance(_center), glm::dot(glm::abs(plane.normal), _halfSize), _slack, plane);
+}
+
+Plane BoxBin::face(std::size_t i) const noexcept {
+    const auto k = static_cast<glm::length_t>(i % 3);
+    return faceOf(ecefAxes()[i % 3], i, _center[k], _halfSize[k], _slack);
+}
+
+OrientedBoxBin::OrientedBoxBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept
+    : _center(0.0), _axes(eastNorthUp(bin.center())) {
+    const Extents extents = extentsAlong(_axes, ellipsoid, bin, margin);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto k = static_cast<glm::length_t>(i);
+        _center += extents.center[k] * _axes[i];
+        _halfAxes[i] = extents.halfSize[k] * _axes[i];
+    }
+    _slack = kRounding * extents.reach;
+    _reach = extents.reach;
+}
+
+Side OrientedBoxBin::classify(const Plane& plane) const noexcept {
+    const double radius = std::abs(glm::dot(plane.normal, _halfAxes[0])) +
+                          std::abs(glm::dot(plane.normal, _halfAxes[1])) +
+                          std::abs(glm::dot(plane.normal, _halfAxes[2]));
+    return sideOf(plane.distance(_center), radius, _slack, plane);
+}
+
+Plane OrientedBoxBin::face(std::size_t i) const noexcept {
+    const glm::dvec3& axis = _axes[i % 3];
+    return faceOf(axis, i, glm::dot(axis, _center), glm::dot(axis, _halfAxes[i % 3]), _slack);
+}
+
+bool isSeparated(const BoxBin& box, const FrustumHull& frustum) noexcept {
+    return isBeyondAFace(box, frustum);
+}
+
+bool isSeparated(const OrientedBoxBin& box, const FrustumHull& frustum) noexcept {
+    return isBeyondAFace(box, frustum);
+}
+
+}  // namespace osgAnalyticBin::core

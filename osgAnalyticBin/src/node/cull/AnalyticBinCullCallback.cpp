@@ -1,0 +1,368 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "../GlmBridge.h"
+#include "../Inverse.h"
+#include "../Spheres.h"
+#include "../install/InstalledTile.h"
+#include "../page/Database.h"
+#include "BinCulling.h"
+#include "Occluders.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
+#include <osgAnalyticBin/core/edge/HullSeparation.h>
+#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
+
+#include <osg/CullStack>
+#include <osg/Notify>
+
+#include <algorithm>
+#include <limits>
+#include <variant>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+constexpr double kUnknown = -std::numeric_limits<double>::infinity();
+
+bool isBox(Method method) {
+    return method == Method::Box || method == Method::OrientedBox;
+}
+
+// The planes of a frustum, moved to ECEF.
+core::PlaneSet ecefPlanes(const osg::Polytope& frustum, const osg::Matrixd& ecefToLocal) {
+    core::PlaneSet planes;
+    for (osg::Plane plane : frustum.getPlaneList()) {
+        if (planes.size() == core::kMaxPlanes) break;
+        plane.transformProvidingInverse(ecefToLocal);
+        planes.push_back(toCore(plane));
+    }
+    return planes;
+}
+
+}  // namespace
+
+AnalyticBinCullCallback::AnalyticBinCullCallback()
+    : _surfaceLow(kUnknown),
+      _surfaceHigh(-kUnknown),
+      _binLow(kUnknown),
+      _binHigh(-kUnknown),
+      _equatorialRadius(osg::WGS_84_RADIUS_EQUATOR),
+      _polarRadius(osg::WGS_84_RADIUS_POLAR) {}
+
+AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBin& bin, const osg::EllipsoidModel& ellipsoid,
+                                                 const CullOptions& options)
+    : _options(options),
+      _bin(bin),
+      _surfaceLow(kUnknown),
+      _surfaceHigh(-kUnknown),
+      _binLow(kUnknown),
+      _binHigh(-kUnknown),
+      _equatorialRadius(ellipsoid.getRadiusEquator()),
+      _polarRadius(ellipsoid.getRadiusPolar()) {
+    changeBin();
+}
+
+AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop),
+      osg::Callback(other, copyop),
+      osg::NodeCallback(other, copyop),
+      _wasInstalled(other._wasInstalled),
+      _installed(other._installed ? new InstalledTile(*other._installed) : nullptr),
+      _isTested(other._isTested),
+      _testsEdges(other._testsEdges),
+      _hidesByPoint(other._hidesByPoint),
+      _options(other._options),
+      _frame(other._frame ? std::make_unique<const LocalFrame>(*other._frame) : nullptr),
+      _bin(other._bin),
+      _surface(other._surface),
+      _surfaceLow(other._surfaceLow),
+      _surfaceHigh(other._surfaceHigh),
+      _binLow(other._binLow),
+      _binHigh(other._binHigh),
+      _shape(other._shape),
+      _skirt(other._skirt),
+      _equatorialRadius(other._equatorialRadius),
+      _polarRadius(other._polarRadius) {}
+
+AnalyticBinCullCallback::~AnalyticBinCullCallback() {
+    delete _prepared.load();
+}
+
+AnalyticBin AnalyticBinCullCallback::shownBin() const {
+    AnalyticBin bin = _shape ? _bin.exaggerated(_shape->verticalScale) : _bin;
+    const core::Interval& altitude = bin.bin().altitude();
+    if (bin.valid()) bin.setBin(bin.bin().withAltitude({altitude.lower - _skirt, altitude.upper}));
+    return bin;
+}
+
+AnalyticBinCullCallback::PreparedBin AnalyticBinCullCallback::preparedBin(const AnalyticBin& shown,
+                                                                          const core::Ellipsoid& ellipsoid) const {
+    const core::ParameterBox box = core::parameterBox(shown.bin());
+    switch (_options.method) {
+        case Method::Paper:
+            return core::PaperBin(core::GeodeticMapping(ellipsoid), box, _options.growth);
+        case Method::Corners:
+            return core::CornersBin(core::GeodeticMapping(ellipsoid), box);
+        case Method::Box:
+            return core::BoxBin(ellipsoid, shown.bin(), shown.margin());
+        case Method::OrientedBox:
+            return core::OrientedBoxBin(ellipsoid, shown.bin(), shown.margin());
+        case Method::Exact:
+            if (core::ExactGeodeticBin::holds(ellipsoid, shown.bin())) {
+                return core::ExactGeodeticBin(ellipsoid, shown.bin(), shown.margin());
+            }
+            break;
+        case Method::Quadratic:
+        case Method::Sphere:
+        case Method::None:
+            break;
+    }
+    return core::GeodeticQuadraticBin(ellipsoid, shown.bin(), shown.margin());
+}
+
+// Where the bin that is shown, the globe, the frame or the options have changed.
+void AnalyticBinCullCallback::changeBin() {
+    const AnalyticBin shown = shownBin();
+    _binLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
+    _binHigh = shown.valid() ? shown.bin().altitude().upper + shown.margin() : -kUnknown;
+    const bool hasMethod = _options.method != Method::None && _options.method != Method::Sphere;
+    _isTested = hasMethod && shown.valid() && hasValidRadii(*ellipsoidModel());
+    _testsEdges = _options.effectiveReverse();
+    _hidesByPoint = isBox(_options.method);
+    discardPrepared();
+    fillSlot();
+}
+
+osg::ref_ptr<osg::EllipsoidModel> AnalyticBinCullCallback::ellipsoidModel() const {
+    return new osg::EllipsoidModel(_equatorialRadius, _polarRadius);
+}
+
+void AnalyticBinCullCallback::discardPrepared() {
+    delete _prepared.exchange(nullptr);
+}
+
+// Several cull traversals may come here first; one's work is kept.
+const AnalyticBinCullCallback::Prepared& AnalyticBinCullCallback::prepared() const {
+    const Prepared* known = _prepared.load(std::memory_order_acquire);
+    if (known) return *known;
+    auto made = std::make_unique<const Prepared>(makePrepared());
+    return _prepared.compare_exchange_strong(known, made.get(), std::memory_order_acq_rel) ? *made.release() : *known;
+}
+
+AnalyticBinCullCallback::Prepared AnalyticBinCullCallback::makePrepared() const {
+    const AnalyticBin shown = shownBin();
+    const core::Ellipsoid ellipsoid = this->ellipsoid();
+    const osg::ref_ptr<osg::EllipsoidModel> model = ellipsoidModel();
+    osg::BoundingSphere sphere = shown.boundingSphere(*model);
+    if (_frame) sphere = movedSphere(sphere, _frame->fromEcef);
+    Prepared prepared{preparedBin(shown, ellipsoid), {}, {}, sphere, sphere, {}, {}};
+    const bool isOwnEdge = isBox(_options.method) || std::holds_alternative<core::ExactGeodeticBin>(prepared.bin);
+    if (_testsEdges && !isOwnEdge && core::ExactGeodeticBin::holds(ellipsoid, shown.bin())) {
+        prepared.separable.emplace(ellipsoid, shown.bin(), shown.margin());
+    }
+    if (_options.effectiveHorizonUse() == HorizonUse::Off) return prepared;
+    prepared.horizon.emplace(ellipsoid, shown.bin(), shown.margin());
+    if (_hidesByPoint) prepared.horizonPoint.emplace(*prepared.horizon);
+    if (shown.bin().altitude().upper >= 0.0) return prepared;
+    AnalyticBin column = shown;
+    column.setBin(shown.bin().withAltitude({shown.bin().altitude().lower, 0.0}));
+    prepared.columnHorizon.emplace(ellipsoid, column.bin(), column.margin());
+    if (!_frame) prepared.columnSphere = column.boundingSphere(*model);
+    return prepared;
+}
+
+// All members of a family have the same frame, globe and terrain shape, and are tested against edges or not: a tile
+// that changes one of these leaves.
+void AnalyticBinCullCallback::leaveFamily() {
+    if (_installed) _installed->leaveFamily();
+}
+
+// What a family's slot holds need not be kept here as well.
+void AnalyticBinCullCallback::fillSlot() const {
+    if (!_installed || !_installed->hasFamily()) return;
+    if (!_isTested) return _installed->emptySlot();
+    const Prepared prepared = makePrepared();
+    TileBlock::Bins bins{std::get_if<core::GeodeticQuadraticBin>(&prepared.bin),
+                         std::get_if<core::ExactGeodeticBin>(&prepared.bin)};
+    const bool isForComparison = !bins.quadratic && !bins.exact;
+    if (prepared.horizon) bins.column = prepared.columnHorizon ? &*prepared.columnHorizon : &*prepared.horizon;
+    if (prepared.horizon && !isForComparison) bins.horizon = &*prepared.horizon;
+    const bool hasOwnColumn = isForComparison || prepared.columnHorizon.has_value();
+    _installed->fillSlot(
+        {prepared.sphere, prepared.columnSphere, _binHigh, _binLow, _surfaceHigh, _surfaceLow, hasOwnColumn}, bins);
+}
+
+void AnalyticBinCullCallback::setBin(const AnalyticBin& bin) {
+    _bin = bin;
+    changeBin();
+}
+
+void AnalyticBinCullCallback::setTerrainShape(const std::optional<TerrainShape>& shape) {
+    leaveFamily();
+    _shape = shape;
+    setSurface(_surface);
+    changeBin();
+}
+
+void AnalyticBinCullCallback::setSkirt(double metres) {
+    _skirt = metres;
+    changeBin();
+}
+
+void AnalyticBinCullCallback::setSurface(const AnalyticBin& surface) {
+    _surface = surface;
+    const AnalyticBin shown = _shape ? surface.exaggerated(_shape->verticalScale) : surface;
+    _surfaceLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
+    _surfaceHigh = shown.valid() ? shown.bin().altitude().upper + shown.margin() : -kUnknown;
+    fillSlot();
+}
+
+bool AnalyticBinCullCallback::isColumnHiddenFrom(const core::HorizonEye& eye) const {
+    if (!_isTested || !prepared().horizon) return false;
+    return eye.hides(prepared().columnHorizon ? *prepared().columnHorizon : *prepared().horizon);
+}
+
+const osg::BoundingSphere* AnalyticBinCullCallback::ecefColumnSphere() const {
+    return _isTested && !_frame ? &prepared().columnSphere : nullptr;
+}
+
+void AnalyticBinCullCallback::setCullOptions(const CullOptions& options) {
+    if (options.effectiveReverse() != _testsEdges) leaveFamily();
+    _options = options;
+    changeBin();
+}
+
+void AnalyticBinCullCallback::setRadii(double equatorial, double polar) {
+    leaveFamily();
+    _equatorialRadius = equatorial;
+    _polarRadius = polar;
+    changeBin();
+}
+
+void AnalyticBinCullCallback::setLocalToEcef(const osg::Matrixd& matrix) {
+    leaveFamily();
+    const auto inverse = affineInverse(matrix);
+    _frame.reset();
+    if (!matrix.isIdentity()) _frame.reset(new LocalFrame{matrix, inverse.value_or(osg::Matrixd())});
+    if (!inverse) {
+        OSG_WARN << "AnalyticBinCullCallback: the matrix to ECEF has no inverse; the tile is never culled."
+                 << std::endl;
+        _bin.init();
+    }
+    changeBin();
+}
+
+const osg::Matrixd& AnalyticBinCullCallback::localToEcef() const {
+    static const osg::Matrixd identity;
+    return _frame ? _frame->toEcef : identity;
+}
+
+void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    if (nv->asCullStack() && CullTraversal::of(*nv).isKept(*node)) {
+        // its family has tested it
+        traverse(node, nv);
+        return;
+    }
+    cullOrTraverse(
+        *nv, [&](osg::CullStack& cullStack) { return isCulled(*node, cullStack, *nv); }, [&] { traverse(node, nv); });
+}
+
+InstalledTile* AnalyticBinCullCallback::installedTile() const {
+    return _installed.get();
+}
+
+void AnalyticBinCullCallback::setInstalledTile(InstalledTile* tile) {
+    _installed = tile;
+}
+
+bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
+    if (_options.method == Method::None) {
+        cullStack.getCurrentCullingSet().getFrustum().getCurrentMask() = 0;
+        return false;
+    }
+    // without its database nobody notices what is added below the tile, or how the terrain is shown
+    const bool isAbandoned = _installed ? !_installed->mayCull(&node) : _wasInstalled;
+    if (!_isTested || isAbandoned) return false;
+    CullTraversal& traversal = CullTraversal::of(nv);
+    const DatabaseView* database = traversal.databaseView();
+    if (_shape && !database) return false;
+    if (_shape && !(database->shape == *_shape)) {
+        database->database->requestRefit();
+        return false;
+    }
+    const auto test = [&](const core::PlaneSet& planes, core::PlaneMask& undecided) {
+        const core::Side side = sideOf(planes, undecided);
+        // finding the eye takes time
+        const core::HorizonEye* const eye = side == core::Side::Outside ? nullptr : eyeOn(cullStack, nv, traversal);
+        return verdict(side, planes, undecided, eye, traversal);
+    };
+    return isCulledByBin(cullStack, nv, traversal, prepared().sphere,
+                         [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
+                             return _frame ? test(ecefPlanes(frustum, _frame->fromEcef), undecided)
+                                           : test(traversal.planes(cullStack), undecided);
+                         });
+}
+
+// A tile may have several parents, and transforms above it may have changed: the planes follow, the globe does not.
+bool AnalyticBinCullCallback::standsAsInstalled(osg::CullStack& cullStack, const DatabaseView& database) const {
+    const osg::RefMatrix* const modelView = cullStack.getModelViewMatrix();
+    if (modelView == database.modelView && !_frame) return true;
+    const double reach = database.modelView->getTrans().length() + localToEcef().getTrans().length();
+    return areNearlyEqual(*modelView, localToEcef() * *database.modelView, reach);
+}
+
+const core::HorizonEye* AnalyticBinCullCallback::eyeOn(osg::CullStack& cullStack, osg::NodeVisitor& nv,
+                                                       CullTraversal& traversal) const {
+    if (!prepared().horizon) return nullptr;
+    if (const DatabaseView* database = traversal.databaseView()) {
+        // a camera between the database's root and the tile sees with other eyes
+        const bool isSame = database->ellipsoid == ellipsoid() &&
+                            database->projection == cullStack.getProjectionMatrix() && database->eye &&
+                            standsAsInstalled(cullStack, *database);
+        return isSame ? database->eye : nullptr;
+    }
+    if (_installed) return nullptr;
+    // In a frame of its own the eye would have to be prepared anew for every tile.
+    if (_options.horizonUse != HorizonUse::Given || _frame) return nullptr;
+    const Occluder occluder{ellipsoid(), std::max(0.0, -_options.horizon), _options.inheritViewpoint};
+    return traversal.horizonEye(cullStack, nv, occluder);
+}
+
+core::Side AnalyticBinCullCallback::sideOf(const core::PlaneSet& planes, core::PlaneMask& undecided) const {
+    return std::visit([&](const auto& bin) { return core::classify(bin, planes, undecided); }, prepared().bin);
+}
+
+Verdict AnalyticBinCullCallback::verdict(core::Side side, const core::PlaneSet& planes, core::PlaneMask undecided,
+                                         const core::HorizonEye* eye, CullTraversal& traversal) const {
+    if (side == core::Side::Outside) return {side, Verdict::Plane};
+    if (eye && isHiddenFrom(*eye)) return {core::Side::Outside, Verdict::Horizon};
+    if (side == core::Side::Straddling && _testsEdges && isBeyondAnEdge(traversal, planes, undecided)) {
+        return {core::Side::Outside, Verdict::Edge};
+    }
+    return {side, Verdict::Plane};
+}
+
+bool AnalyticBinCullCallback::isHiddenFrom(const core::HorizonEye& eye) const {
+    return _hidesByPoint ? eye.hides(*prepared().horizonPoint) : eye.hides(*prepared().horizon);
+}
+
+bool AnalyticBinCullCallback::isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,
+                                             core::PlaneMask undecided) const {
+    if (const auto* box = std::get_if<core::BoxBin>(&prepared().bin)) {
+        return core::isSeparated(*box, traversal.hull(planes));
+    }
+    if (const auto* box = std::get_if<core::OrientedBoxBin>(&prepared().bin)) {
+        return core::isSeparated(*box, traversal.hull(planes));
+    }
+    const auto* exact = std::get_if<core::ExactGeodeticBin>(&prepared().bin);
+    if (!exact && prepared().separable) exact = &*prepared().separable;
+    return exact && core::isSeparated(*exact, planes, planes.size(), undecided);
+}
+
+}  // namespace osgAnalyticBin

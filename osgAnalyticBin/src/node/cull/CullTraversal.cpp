@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "CullTraversal.h"
+
+#include "../GlmBridge.h"
+#include "TilePlan.h"
+#include "Viewpoint.h"
+
+#include <algorithm>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// What changes when a matrix is overwritten in place by one with the same side planes.
+std::array<double, 3> depthOf(const osg::Matrixd& modelView, const osg::Matrixd& projection) {
+    return {modelView(3, 2), projection(2, 2), projection(3, 2)};
+}
+
+bool areSame(const core::PlaneSet& some, const core::PlaneSet& others) {
+    if (some.size() != others.size()) return false;
+    for (std::size_t i = 0; i < some.size(); ++i) {
+        if (some[i].normal != others[i].normal || some[i].offset != others[i].offset) return false;
+    }
+    return true;
+}
+
+// The visitor that traverses a database in this thread, which a look into its user data would tell more slowly.
+struct ScopeOfThread {
+    const osg::NodeVisitor* visitor = nullptr;
+    CullTraversal* traversal = nullptr;
+};
+thread_local ScopeOfThread scopeOfThread;
+
+}  // namespace
+
+CullTraversal::DatabaseScope::DatabaseScope(osg::NodeVisitor& visitor, CullTraversal& traversal,
+                                            const DatabaseView& view)
+    : _traversal(traversal),
+      _outerView(traversal._databaseView),
+      _outerVisitor(scopeOfThread.visitor),
+      _outerTraversal(scopeOfThread.traversal) {
+    traversal._databaseView = &view;
+    ++traversal._openPlans;
+    scopeOfThread = {&visitor, &traversal};
+}
+
+CullTraversal::DatabaseScope::~DatabaseScope() {
+    _traversal._databaseView = _outerView;
+    --_traversal._openPlans;
+    scopeOfThread = {_outerVisitor, _outerTraversal};
+}
+
+CullTraversal::CullTraversal() = default;
+
+CullTraversal::~CullTraversal() = default;
+
+TilePlan& CullTraversal::plan() {
+    if (_plans.size() <= _openPlans) _plans.resize(_openPlans + 1);
+    return _plans[_openPlans];
+}
+
+CullTraversal& CullTraversal::of(osg::NodeVisitor& visitor) {
+    if (scopeOfThread.visitor == &visitor) return *scopeOfThread.traversal;
+    // Statistics of a visitor are never anything else.
+    return static_cast<CullTraversal&>(BinStatistics::of(visitor));
+}
+
+bool CullTraversal::holds(const osg::Polytope::PlaneList& list) const {
+    if (list.size() != _planeCount || _planeCount == 0 || _planeCount > kCachedPlanes) return false;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        for (unsigned int k = 0; k < 4; ++k) {
+            if (list[i][k] != _coefficients[4 * i + k]) return false;
+        }
+    }
+    return true;
+}
+
+const core::PlaneSet& CullTraversal::planes(osg::CullStack& cullStack) {
+    if (_databaseView && _databaseView->modelView == cullStack.getModelViewMatrix() &&
+        _databaseView->projection == cullStack.getProjectionMatrix()) {
+        return _databaseView->planes;
+    }
+    const osg::Polytope::PlaneList& list = cullStack.getCurrentCullingSet().getFrustum().getPlaneList();
+    if (holds(list)) return _planes;
+    _planes = core::PlaneSet();
+    _planeCount = std::min(list.size(), core::kMaxPlanes);
+    for (std::size_t i = 0; i < _planeCount; ++i) _planes.push_back(toCore(list[i]));
+    for (std::size_t i = 0; i < std::min(_planeCount, kCachedPlanes); ++i) {
+        for (unsigned int k = 0; k < 4; ++k) _coefficients[4 * i + k] = list[i][k];
+    }
+    _eyeEllipsoid.reset();
+    return _planes;
+}
+
+const core::FrustumHull& CullTraversal::hull(const core::PlaneSet& planes) {
+    if (!_hull || !areSame(planes, _hullPlanes)) {
+        _hull.emplace(planes, planes.size());
+        _hullPlanes = planes;
+    }
+    return *_hull;
+}
+
+const core::HorizonEye* CullTraversal::horizonEye(osg::CullStack& cullStack, osg::NodeVisitor& visitor,
+                                                  const Occluder& occluder) {
+    const osg::RefMatrix* modelView = cullStack.getModelViewMatrix();
+    const osg::RefMatrix* projection = cullStack.getProjectionMatrix();
+    // The planes are the same as before; sides alone do not tell near planes apart, nor eyes along an orthographic
+    // view.
+    const bool same = _eyeEllipsoid == occluder.ellipsoid && modelView == _modelView && projection == _projection &&
+                      visitor.getTraversalNumber() == _eyeFrame && occluder.depth == _eyeDepth &&
+                      depthOf(*modelView, *projection) == _eyeSpaceDepth;
+    if (!same) {
+        const auto viewpoint = Viewpoint::of(cullStack, visitor, occluder.forInheritedViewpoints);
+        _eye = viewpoint ? viewpoint->above(occluder.ellipsoid, occluder.depth) : std::nullopt;
+        _modelView = modelView;
+        _projection = projection;
+        _eyeSpaceDepth = depthOf(*modelView, *projection);
+        _eyeFrame = visitor.getTraversalNumber();
+        _eyeDepth = occluder.depth;
+        _eyeEllipsoid = occluder.ellipsoid;
+    }
+    return _eye ? &*_eye : nullptr;
+}
+
+double& CullTraversal::lastDepth(const Database& database) {
+    for (auto& [known, depth] : _lastDepths) {
+        if (known == &database) return depth;
+    }
+    constexpr std::size_t kMostDatabases = 64;
+    if (_lastDepths.size() >= kMostDatabases) _lastDepths.clear();
+    return _lastDepths.emplace_back(&database, 0.0).second;
+}
+
+}  // namespace osgAnalyticBin

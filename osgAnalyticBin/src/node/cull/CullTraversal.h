@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "GroundBelow.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
+#include <osgAnalyticBin/core/edge/FrustumHull.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
+
+#include <osg/CullStack>
+#include <osg/NodeVisitor>
+#include <osg/Polytope>
+#include <osg/ref_ptr>
+
+#include <array>
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+/// Where an occluder lies: the ellipsoid, its depth below it, and whether cameras that inherit a view point
+/// or draw depth alone (shadow passes) use it.
+struct Occluder {
+    core::Ellipsoid ellipsoid;
+    double depth;
+    bool forInheritedViewpoints;
+};
+
+class Database;
+class TilePlan;
+
+/// What a database says to its tiles for the length of its traversal.
+struct DatabaseView {
+    const Database* database;
+    core::Ellipsoid ellipsoid;
+    TerrainShape shape;
+    const core::HorizonEye* eye;  // in ECEF, whatever transforms are below; nullptr: nothing is hidden
+    // Of the traversal where the view was made: what is the same below has the same planes.
+    const osg::RefMatrix* modelView;
+    const osg::RefMatrix* projection;
+    core::PlaneSet planes;
+    TilePlan* plan;  // nullptr: none was made
+};
+
+/// What one cull visitor knows of the frustum that it is in: prepared once per frustum, read by every tile. Lives in
+/// the visitor's user data container with the counters, so that cull threads share nothing.
+class CullTraversal final : public BinStatistics {
+public:
+    CullTraversal();
+
+    /// That of the visitor, made at the first call.
+    [[nodiscard]] static CullTraversal& of(osg::NodeVisitor& visitor);
+
+    /// For the length of a traversal: what a database says to its tiles.
+    class DatabaseScope {
+    public:
+        DatabaseScope(osg::NodeVisitor& visitor, CullTraversal& traversal, const DatabaseView& view);
+        ~DatabaseScope();
+        DatabaseScope(const DatabaseScope&) = delete;
+        DatabaseScope& operator=(const DatabaseScope&) = delete;
+
+    private:
+        CullTraversal& _traversal;
+        const DatabaseView* const _outerView;
+        const osg::NodeVisitor* const _outerVisitor;
+        CullTraversal* const _outerTraversal;
+    };
+
+    /// The planes of the frustum that the cull stack is in, all of them: OSG's masks may name any.
+    [[nodiscard]] const core::PlaneSet& planes(osg::CullStack& cullStack);
+
+    /// The corners of the frustum inside the planes; made again where these are others than last time.
+    [[nodiscard]] const core::FrustumHull& hull(const core::PlaneSet& planes);
+
+    /// The eye in the frame of the planes last asked for. Returns: nullptr when nothing can be hidden from it.
+    [[nodiscard]] const core::HorizonEye* horizonEye(osg::CullStack& cullStack, osg::NodeVisitor& visitor,
+                                                     const Occluder& occluder);
+
+    /// The database that is being traversed; nullptr: none that says so.
+    [[nodiscard]] const DatabaseView* databaseView() const { return _databaseView; }
+
+    /// The depth of the lowest surface that this visitor last found a database to show: where it looks next time.
+    [[nodiscard]] double& lastDepth(const Database& database);
+
+    /// The plan of the database that is traversed next. Databases within each other have one each.
+    [[nodiscard]] TilePlan& plan();
+
+    /// Says that a family keeps this node and is about to enter it; null: none.
+    void setKept(const osg::Node* node) { _kept = node; }
+    [[nodiscard]] bool isKept(const osg::Node& node) const { return _kept == &node; }
+
+    /// What this visitor last found below its eye.
+    [[nodiscard]] GroundBelow& ground() { return _ground; }
+
+protected:
+    ~CullTraversal() override;
+
+private:
+    static constexpr std::size_t kCachedPlanes = 6;
+    using Coefficients = std::array<double, 4 * kCachedPlanes>;
+
+    [[nodiscard]] bool holds(const osg::Polytope::PlaneList& list) const;
+
+    const DatabaseView* _databaseView = nullptr;
+    std::vector<std::pair<const Database*, double>> _lastDepths;
+    const osg::Node* _kept = nullptr;
+    std::deque<TilePlan> _plans;  // of databases within each other
+    std::size_t _openPlans = 0;
+    GroundBelow _ground;
+
+    core::PlaneSet _planes;
+    Coefficients _coefficients{};
+    std::size_t _planeCount = 0;
+
+    std::optional<core::FrustumHull> _hull;
+    core::PlaneSet _hullPlanes;
+
+    // The eye, and what it was prepared for.
+    std::optional<core::HorizonEye> _eye;
+    osg::ref_ptr<const osg::RefMatrix> _modelView, _projection;  // held, so that OSG puts no others in their place
+    std::array<double, 3> _eyeSpaceDepth{};
+    unsigned int _eyeFrame = 0;
+    double _eyeDepth = 0.0;
+    std::optional<core::Ellipsoid> _eyeEllipsoid;  // none: not prepared yet
+};
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,389 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "ShownDepth.h"
+
+#include "../../core/EarthScale.h"
+#include "../install/InstalledTile.h"
+#include "../install/MeshCulling.h"
+#include "../install/TileCallback.h"
+#include "Bits.h"
+#include "CullTraversal.h"
+#include "Scoped.h"
+#include "SeeThrough.h"
+#include "TileFamily.h"
+#include "TilePlan.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Geode>
+#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+#include <osg/PositionAttitudeTransform>
+#include <osgTerrain/Terrain>
+#include <osgTerrain/TerrainTile>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <typeinfo>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+constexpr double kUnknownDepth = std::numeric_limits<double>::infinity();
+
+// Whether an object is of this class, and not of one derived from it. By address: comparing names takes longer.
+template <class Class, class Object>
+bool isExactly(const Object& object) {
+    return &typeid(object) == &typeid(Class);
+}
+
+// The cull callbacks of a node: the bin's, and whether others may leave out what is below them.
+struct CullCallbacks {
+    CullCallbacks() = default;
+    explicit CullCallbacks(const osg::Node& node) {
+        // A dynamic_cast across OSG's virtual bases would be most of the search's cost.
+        for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
+            if (!bin && isExactly<AnalyticBinCullCallback>(*at)) {
+                bin = static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback());
+            } else if (isExactly<TileFamily>(*at)) {
+                family = static_cast<const TileFamily*>(at->asNodeCallback());
+            } else if (!isClusterCulling(*at) && !traversesAlways(*at)) {
+                mayLeaveOut = true;
+            }
+        }
+    }
+
+    const AnalyticBinCullCallback* bin = nullptr;
+    const TileFamily* family = nullptr;
+    bool mayLeaveOut = false;
+};
+
+osg::PagedLOD* pagedLod(osg::Node& node) {
+    if (isExactly<osg::PagedLOD>(node)) return static_cast<osg::PagedLOD*>(&node);
+    return dynamic_cast<osg::PagedLOD*>(&node);
+}
+
+// A tile that the search has come to.
+struct SearchedTile {
+    const AnalyticBinCullCallback& callback;
+    const TileBlock::Slot& numbers;
+    bool isFitted;                     // to the shape in which the terrain is shown
+    const TileFamily::Member* member;  // null: of no family
+    bool isAboutEye;
+};
+
+// A surface that is shown about the place of the eye, no lower than the eye by its bounds.
+struct NearGround {
+    const AnalyticBinCullCallback* tile;
+    osg::Node* mesh;
+};
+
+// Looks for the lowest surface among the tiles that an eye sees over its horizon.
+class LowestShown {
+public:
+    LowestShown(const ShownDatabase& database, const core::HorizonEye& eye, const std::optional<core::Geodetic>& place,
+                double deepest)
+        : _database(database),
+          _visitor(database.visitor),
+          _traversal(CullTraversal::of(database.visitor)),
+          _eye(eye),
+          _place(place),
+          _deepest(deepest) {
+        if (database.view.plan) database.view.plan->clear();
+        const osg::CullingSet& cullingSet = database.cullStack.getCurrentCullingSet();
+        if (!(cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING)) return;
+        _planes = cullingSet.getFrustum().getPlaneList();
+        _undecided = cullingSet.getFrustum().getCurrentMask();
+    }
+
+    void search(osg::Group& group) {
+        const CullCallbacks callbacks(group);
+        searchChildren(group, callbacks.family);
+    }
+
+    [[nodiscard]] double depth() const { return _depth; }
+    // Whether the terrain in view may be left out somewhere, or be seen through.
+    [[nodiscard]] bool hasHole() const { return _hasHole; }
+    [[nodiscard]] const std::vector<NearGround>& nearGround() const { return _nearGround; }
+
+private:
+    void searchChildren(osg::Group& group, const TileFamily* family) {
+        const bool isFamily = family && !_isMoved && family->culls(group, _database.cullStack, _database.view);
+        if (isFamily) return searchFamily(group, *family);
+        for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) searchNode(*group.getChild(i));
+    }
+
+    // Reads nothing of tiles that are passed over.
+    void searchFamily(osg::Group& group, const TileFamily& family) {
+        const unsigned int children = group.getNumChildren();
+        if (children < family.size() || family.hasLostTiles()) _hasHole = true;
+        TileFamily::Verdicts verdicts;
+        for (unsigned int first = 0; first < children && !_hasHole; first += TileBlock::Part::kMost) {
+            test(group, family, first, verdicts);
+            const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
+            const std::uint64_t passedOver =
+                first < family.size() ? passedOverIn(verdicts, family.block().partFrom(first)) : 0;
+            forEachBit(lowestBits(here) & ~passedOver, [&](unsigned int number) {
+                if (_hasHole) return;
+                osg::Node& child = *group.getChild(first + number);
+                if (!hasBit(verdicts.members, number)) return searchNode(child);
+                searchMember(child, family, verdicts, first + number);
+            });
+        }
+    }
+
+    void test(const osg::Group& group, const TileFamily& family, unsigned int first, TileFamily::Verdicts& verdicts) {
+        const DatabaseView& view = _database.view;
+        family.test(group, first, view.planes, _undecided, &_eye, _traversal, verdicts);
+        if (view.plan) view.plan->add(family, first, _undecided, verdicts, group.getNumChildren() - first);
+        if (verdicts.lacksTiles) _hasHole = true;
+    }
+
+    // Tiles out of view whose column is the bin, and that are not about the eye.
+    [[nodiscard]] std::uint64_t passedOverIn(const TileFamily::Verdicts& verdicts, const TileBlock::Part& part) const {
+        if (_place && _place->altitude <= part.highest) return 0;
+        return verdicts.members & verdicts.outOfView() & ~part.withOwnColumns;
+    }
+
+    void searchMember(osg::Node& node, const TileFamily& family, const TileFamily::Verdicts& verdicts,
+                      unsigned int slot) {
+        const TileBlock& block = family.block();
+        const unsigned int number = slot % TileBlock::Part::kMost;
+        const TileFamily::Member& member = family.member(slot);
+        const TileBlock::Slot& numbers = block[slot];
+        const bool isAboutEye = _place && _place->altitude <= numbers.binHigh && isAbout(*member.tile);
+        const bool isOutOfView = hasBit(verdicts.outOfView(), number);
+        const bool mayBePassedOver = isOutOfView || !hasBit(verdicts.tested, number);
+        if (mayBePassedOver && !isAboutEye) {
+            const bool isBin = !hasBit(block.partFrom(slot).withOwnColumns, number);
+            if (isBin || isBesideFrustum(numbers.column) || block.isColumnHidden(slot, _eye)) return;
+        }
+        const Scoped undecided(_undecided, isOutOfView ? _undecided : verdicts.planes.undecided[number]);
+        const bool isAlone = node.getCullCallback() == member.tile && !member.tile->getNestedCallback();
+        const bool mayLeaveOut = !isAlone && CullCallbacks(node).mayLeaveOut;
+        searchTile(node, member.paged, {*member.tile, numbers, true, &member, isAboutEye}, mayLeaveOut);
+    }
+
+    void searchNode(osg::Node& node) {
+        // most nodes that are no tiles are roots of files: plain groups
+        const bool isGroup = isExactly<osg::Group>(node);
+        const CullCallbacks callbacks(node);
+        if (callbacks.bin) return searchTileWithoutFamily(node, *callbacks.bin, callbacks.mayLeaveOut);
+        // another database is on a globe of its own
+        if (!isGroup && dynamic_cast<osg::CoordinateSystemNode*>(&node)) return;
+        const bool isDrawn = isSurelyDrawn(node, callbacks.mayLeaveOut) && (isGroup || drawsAllChildren(node));
+        const Scoped doubtful(_isDoubtful, _isDoubtful || !isDrawn);
+        const Scoped moved(_isMoved, _isMoved || (!isGroup && node.asTransform()));
+        if (osg::Group* group = node.asGroup()) searchChildren(*group, callbacks.family);
+    }
+
+    void searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool mayLeaveOut) {
+        TileBlock::Slot numbers;
+        if (const osg::BoundingSphere* const column = bin.ecefColumnSphere()) numbers.column = *column;
+        numbers.binLow = bin.binLow();
+        numbers.surfaceLow = bin.surfaceLow();
+        numbers.surfaceHigh = bin.surfaceHigh();
+        const bool isFitted = !bin.terrainShape() || *bin.terrainShape() == _database.view.shape;
+        const SearchedTile tile{bin, numbers, isFitted, nullptr, isAbout(bin)};
+        if (!tile.isAboutEye && (isBeside(tile) || bin.isColumnHiddenFrom(_eye))) return;
+        searchTile(node, pagedLod(node), tile, mayLeaveOut);
+    }
+
+    void searchTile(osg::Node& node, osg::PagedLOD* paged, const SearchedTile& tile, bool mayLeaveOut) {
+        const bool isSeenThrough = tile.member
+                                       ? tile.member->isSeeThrough
+                                       : tile.callback.installedTile() && tile.callback.installedTile()->isSeeThrough();
+        if (_isDoubtful || isSeenThrough || !isSurelyDrawn(node, mayLeaveOut)) {
+            _hasHole = true;
+        } else if (paged) {
+            searchPaged(*paged, tile);
+        } else {
+            show(tile, node);
+        }
+    }
+
+    [[nodiscard]] bool isSurelyDrawn(const osg::Node& node, bool mayLeaveOut) const {
+        const osg::StateSet* const state = node.getStateSet();
+        return _visitor.validNodeMask(node) && !mayLeaveOut && !(state && isSeeThrough(*state));
+    }
+
+    // Whether all of a tile's own mesh is drawn. Its state was asked for when bins were installed.
+    [[nodiscard]] bool isDrawnWhole(const osg::Node& mesh, const SearchedTile& tile) const {
+        const bool isKnown = tile.member && tile.member->meshParts.front() == &mesh;
+        if (!isKnown) {
+            const InstalledTile* const installed = tile.callback.installedTile();
+            const bool isMeshDoubted = !tile.member && installed && installed->isMeshDoubted();
+            bool hasDrawable = false;
+            return isDrawnWhole(mesh, hasDrawable) && (hasDrawable || !isMeshDoubted);
+        }
+        const auto& parts = tile.member->meshParts;
+        return std::all_of(parts.begin(), parts.end(), [this](const auto& part) {
+            return !part ||
+                   (_visitor.validNodeMask(*part) && !(part->getCullCallback() && CullCallbacks(*part).mayLeaveOut));
+        });
+    }
+
+    [[nodiscard]] bool isDrawnWhole(const osg::Node& part, bool& hasDrawable) const {
+        if (!_visitor.validNodeMask(part) || CullCallbacks(part).mayLeaveOut) return false;
+        const bool isTerrain = typeid(part) == typeid(osgTerrain::TerrainTile);
+        hasDrawable = hasDrawable || isTerrain || part.asDrawable();
+        if (isTerrain) return true;
+        if (!drawsAllChildren(part)) return false;
+        const osg::Group* const group = part.asGroup();
+        for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
+            if (!isDrawnWhole(*group->getChild(i), hasDrawable)) return false;
+        }
+        return true;
+    }
+
+    // Whether the eye may be within or below what the tile or its descendants draw.
+    [[nodiscard]] bool isAbout(const AnalyticBinCullCallback& tile) const {
+        if (!_place || _place->altitude > tile.binHigh()) return false;
+        const core::GeodeticBin& bin = tile.bin().bin();
+        if (bin.empty()) return true;
+        if (_place->latitude < bin.latitude().lower || _place->latitude > bin.latitude().upper) return false;
+        return bin.contains({_place->latitude, _place->longitude, bin.altitude().middle()});
+    }
+
+    // Rays that are seen do not enter the occluder there: it lies below the ellipsoid, but it may lie above the tile.
+    [[nodiscard]] bool isBeside(const SearchedTile& tile) const {
+        return tile.isFitted && isBesideFrustum(tile.numbers.column);
+    }
+
+    [[nodiscard]] bool isBesideFrustum(const osg::BoundingSphere& sphere) const {
+        if (!sphere.valid()) return false;
+        const osg::Vec3d center = sphere.center();
+        return std::any_of(_planes.begin(), _planes.end(), [&](const osg::Plane& plane) {
+            return plane.distance(center) < -static_cast<double>(sphere.radius());
+        });
+    }
+
+    void show(const SearchedTile& tile, osg::Node& mesh) {
+        if (tile.isAboutEye && _place->altitude <= tile.numbers.surfaceHigh)
+            _nearGround.push_back({&tile.callback, &mesh});
+        // tiles about the eye are searched even beside the frustum, for the ground alone
+        if (tile.isAboutEye && isBeside(tile)) return;
+        if (!isDrawnWhole(mesh, tile)) _hasHole = true;
+        // what a tile draws by itself is in its bin
+        if (tile.isFitted && tile.numbers.binLow >= -_depth) return;
+        const double own = tile.isFitted ? -tile.numbers.surfaceLow : kUnknownDepth;
+        _depth = std::max(_depth, std::min(own, _deepest));
+    }
+
+    // As osg::PagedLOD chooses; where that is not certain all that it may show counts.
+    void searchPaged(osg::PagedLOD& node, const SearchedTile& tile) {
+        const bool byDistance = node.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT && !_isMoved;
+        const float range = byDistance ? _visitor.getDistanceToViewPoint(node.getCenter(), true) : 0.0f;
+        const unsigned int children = node.getNumChildren();
+        bool isOneAwaited = !byDistance;
+        bool isShown = isOneAwaited;
+        for (unsigned int i = 0; i < node.getNumRanges(); ++i) {
+            if (byDistance && (range < node.getMinRange(i) || range >= node.getMaxRange(i))) continue;
+            isShown = true;
+            if (i < children) searchChild(node, i, tile);
+            isOneAwaited = isOneAwaited || i >= children;
+        }
+        // the last child stands in for one that is awaited
+        if (isOneAwaited && children > 0) searchChild(node, children - 1, tile);
+        if ((!isShown || children == 0) && !isBeside(tile)) _hasHole = true;
+    }
+
+    void searchChild(osg::PagedLOD& node, unsigned int i, const SearchedTile& tile) {
+        const bool isPaged = i < node.getNumFileNames() && !node.getFileName(i).empty();
+        if (!isPaged) return show(tile, *node.getChild(i));
+        searchNode(*node.getChild(i));
+    }
+
+    const ShownDatabase& _database;
+    osg::NodeVisitor& _visitor;
+    CullTraversal& _traversal;
+    const core::HorizonEye& _eye;
+    const std::optional<core::Geodetic> _place;  // of the eye
+    const double _deepest;
+    osg::Polytope::PlaneList _planes;
+    core::PlaneMask _undecided = 0;  // of the view's planes, for families
+    bool _isMoved = false;           // below a transform, where OSG measures distances in another frame
+    bool _isDoubtful = false;        // below something that may not be drawn
+    bool _hasHole = false;
+    std::vector<NearGround> _nearGround;
+    double _depth = -kUnknownDepth;
+};
+
+std::optional<core::Geodetic> placeOf(const Viewpoint& viewpoint, const core::Ellipsoid& ellipsoid) {
+    if (!viewpoint.eye()) return std::nullopt;
+    return ellipsoid.toGeodetic(*viewpoint.eye());
+}
+
+// Whether all that hides is drawn, and the eye is above it.
+bool isTrusted(const ShownDatabase& database, const LowestShown& lowest, const std::optional<core::Geodetic>& place) {
+    const std::vector<NearGround>& ground = lowest.nearGround();
+    return !lowest.hasHole() && std::all_of(ground.begin(), ground.end(), [&](const NearGround& near) {
+        return CullTraversal::of(database.visitor)
+            .ground()
+            .isBelow(*place, *near.mesh, *near.tile, database.view.ellipsoid);
+    });
+}
+
+}  // namespace
+
+bool drawsAllChildren(const osg::Node& node) {
+    static const std::array<const std::type_info*, 7> known{
+        &typeid(osg::Group),           &typeid(Carrier),
+        &typeid(osg::MatrixTransform), &typeid(osg::PositionAttitudeTransform),
+        &typeid(osg::Geode),           &typeid(osg::CoordinateSystemNode),
+        &typeid(osgTerrain::Terrain)};
+    const std::type_info& type = typeid(node);
+    // by address first: comparing names takes longer
+    return !node.asGroup() || std::find(known.begin(), known.end(), &type) != known.end() ||
+           std::any_of(known.begin(), known.end(), [&type](const std::type_info* one) { return *one == type; });
+}
+
+std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& database, const Viewpoint& viewpoint,
+                                                    double deepest, double& depth) {
+    // A deeper occluder has a wider horizon, over which more may be seen that is deeper still. Raised from zero to what
+    // is found until nothing deeper is, the depth is the least that will do.
+    constexpr int kMostRounds = 16;
+    constexpr int kExactRounds = 12;
+    constexpr double kRoom = 1.05;
+    const core::Ellipsoid& ellipsoid = database.view.ellipsoid;
+    const std::optional<core::Geodetic> place = placeOf(viewpoint, ellipsoid);
+    const double step = 500.0 * core::earthScale(ellipsoid);
+    depth = std::clamp(depth, 0.0, deepest);
+    for (int round = 0; round < kMostRounds; ++round) {
+        const auto eye = viewpoint.above(ellipsoid, depth);
+        if (!eye && depth >= deepest) break;
+        if (!eye) {
+            // the eye may stand in a valley below the ellipsoid
+            depth = std::min(2.0 * depth + step, deepest);
+            continue;
+        }
+        LowestShown lowest(database, *eye, place, deepest);
+        lowest.search(database.root);
+        if (lowest.hasHole()) return std::nullopt;
+        if (lowest.depth() <= depth) {
+            depth = std::max(lowest.depth(), 0.0);
+            return isTrusted(database, lowest, place) ? eye : std::nullopt;
+        }
+        if (lowest.depth() > 0.25 * ellipsoid.polarRadius()) break;
+        depth = std::min((round < kExactRounds ? 1.0 : kRoom) * lowest.depth(), deepest);
+    }
+    depth = 0.0;
+    return std::isfinite(deepest) ? eyeAboveDepth(database, viewpoint, deepest) : std::nullopt;
+}
+
+std::optional<core::HorizonEye> eyeAboveDepth(const ShownDatabase& database, const Viewpoint& viewpoint, double depth) {
+    const auto eye = viewpoint.above(database.view.ellipsoid, depth);
+    if (!eye) return std::nullopt;
+    const std::optional<core::Geodetic> place = placeOf(viewpoint, database.view.ellipsoid);
+    LowestShown lowest(database, *eye, place, depth);
+    lowest.search(database.root);
+    return isTrusted(database, lowest, place) ? eye : std::nullopt;
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "Viewpoint.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
+
+#include <osg/CullStack>
+#include <osg/Group>
+#include <osg/NodeVisitor>
+
+#include <optional>
+
+namespace osgAnalyticBin {
+
+struct DatabaseView;
+
+/// Whether a node is known to draw all of its children: switches, levels of detail, sequences and classes of others may
+/// leave some out.
+[[nodiscard]] bool drawsAllChildren(const osg::Node& node);
+
+/// A database whose cull traversal is about to begin.
+struct ShownDatabase {
+    osg::Group& root;
+    osg::NodeVisitor& visitor;
+    osg::CullStack& cullStack;
+    const DatabaseView& view;
+};
+
+/// The eye over a database: the occluder lies just below the lowest surface that the traversal shows, by levels of
+/// detail and by what is loaded, in the frustum, between the eye and its horizon. Coarse meshes elsewhere, which dip
+/// far below the ellipsoid, do not count. Nothing at all is drawn below `deepest` (metres), infinite where no altitude
+/// is declared. `depth` (metres) is where the search starts, best that of the last frame; it returns the depth found.
+/// Requires: tiles that cover the globe without gaps.
+/// Guarantee: nothing is hidden that is seen past the shown surfaces; the eye's occluder is no deeper than `depth` was
+/// or 1.05 times the depth found, but for eyes below the ellipsoid; tests: ShownDepth.*, HoledGlobe.*.
+/// Returns: nullopt when something of unknown depth is shown and no altitude is declared, when nothing can be hidden,
+/// when a tile in view may not be drawn or can be seen through, and when the eye is not known to be above the ground
+/// below it.
+/// Cost: one short test for every tile shown on the near side of the horizon. Source: doc/horizon.md, section 8.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& database,
+                                                                                        const Viewpoint& viewpoint,
+                                                                                        double deepest, double& depth);
+
+/// The same over an occluder at a given depth (metres), where no tile is known to reach lower.
+[[nodiscard]] std::optional<core::HorizonEye> eyeAboveDepth(const ShownDatabase& database, const Viewpoint& viewpoint,
+                                                            double depth);
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TileFamily.h"
+
+#include "../install/FindCallback.h"
+#include "../install/InstalledTile.h"
+#include "../install/TileCallback.h"
+#include "../page/Database.h"
+#include "BinCulling.h"
+#include "Bits.h"
+#include "ShownDepth.h"
+#include "TilePlan.h"
+
+#include <osg/CoordinateSystemNode>
+#include <osg/PagedLOD>
+#include <osgTerrain/TerrainTile>
+#include <osgUtil/CullVisitor>
+
+#include <algorithm>
+#include <cstdint>
+#include <typeinfo>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+using MeshParts = TileFamily::MeshParts;
+
+// Collects the nodes of a mesh. Returns: whether OSG draws the whole mesh as long as it enters each of them, and there
+// is room for all.
+bool appendParts(const osg::Node& node, MeshParts& parts, std::size_t& count) {
+    if (count == parts.size()) return false;
+    parts[count++] = &node;
+    if (dynamic_cast<const osgTerrain::TerrainTile*>(&node)) return typeid(node) == typeid(osgTerrain::TerrainTile);
+    // a group without children draws nothing
+    const osg::Group* const group = node.asGroup();
+    bool areKnown = drawsAllChildren(node) && (!group || group->getNumChildren() > 0);
+    for (unsigned int i = 0; areKnown && group && i < group->getNumChildren(); ++i) {
+        areKnown = appendParts(*group->getChild(i), parts, count);
+    }
+    return areKnown;
+}
+
+// The mesh of a tile. Returns: nullptr where the tile has several or none.
+const osg::Node* meshOf(const osg::Node& tile) {
+    const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&tile);
+    if (!paged) return &tile;
+    const bool isSingle = paged->getNumChildren() > 0 && paged->getNumFileNames() > 0 && paged->getFileName(0).empty();
+    for (unsigned int i = 1; i < paged->getNumFileNames(); ++i) {
+        if (paged->getFileName(i).empty()) return nullptr;
+    }
+    return isSingle ? paged->getChild(0) : nullptr;
+}
+
+MeshParts meshPartsOf(const osg::Node& tile) {
+    const osg::Node* const mesh = meshOf(tile);
+    MeshParts parts;
+    std::size_t count = 0;
+    if (!mesh || !appendParts(*mesh, parts, count)) return {};
+    return parts;
+}
+
+}  // namespace
+
+TileFamily::TileFamily(const TileFamily& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop) {}
+
+TileFamily::~TileFamily() = default;
+
+bool TileFamily::isPossibleOn(const osg::Node& node) {
+    return typeid(node) == typeid(osg::Group) || typeid(node) == typeid(osg::CoordinateSystemNode);
+}
+
+TileFamily::TileFamily(osg::Group& group)
+    : _group(&group),
+      _block(new TileBlock(group.getNumChildren())),
+      _nodes(group.getNumChildren()),
+      _members(group.getNumChildren()) {
+    for (unsigned int i = 0; i < group.getNumChildren(); ++i) _hasTiles = add(*group.getChild(i), i) || _hasTiles;
+}
+
+void TileFamily::place(osg::Node& node) {
+    remove(node);
+    if (!isPossibleOn(node)) return;
+    const osg::ref_ptr<TileFamily> family = new TileFamily(*node.asGroup());
+    if (family->_hasTiles) node.addCullCallback(family);
+}
+
+void TileFamily::remove(osg::Node& node) {
+    if (const osg::ref_ptr<TileFamily> family = findCallback<TileFamily>(node.getCullCallback())) {
+        takeOff(node, *family);
+    }
+}
+
+void TileFamily::renew(osg::Node& node) {
+    const osg::ref_ptr<TileFamily> old = findCallback<TileFamily>(node.getCullCallback());
+    if (!old || old->_group != &node) return;
+    remove(node);
+    osg::Group& group = *node.asGroup();
+    const osg::ref_ptr<TileFamily> family = new TileFamily(group);
+    family->_hasLostTiles =
+        old->_hasLostTiles || std::any_of(old->_nodes.begin(), old->_nodes.end(),
+                                          [&](const auto& tile) { return tile && !group.containsNode(tile); });
+    if (!family->_ellipsoid) family->_ellipsoid = old->_ellipsoid;
+    if (family->_hasTiles || family->_hasLostTiles) node.addCullCallback(family);
+}
+
+bool TileFamily::add(osg::Node& child, std::size_t slot) {
+    const AnalyticBinCullCallback* const tile = installedBinOf(child);
+    if (!tile || !tile->_isTested || tile->_frame) return false;
+    if (!_ellipsoid) {
+        _ellipsoid = tile->ellipsoid();
+        _shape = tile->_shape;
+        _testsEdges = tile->_testsEdges;
+    }
+    const bool isSameShape = _shape.has_value() == tile->_shape.has_value() && (!_shape || *_shape == *tile->_shape);
+    const bool isSame = *_ellipsoid == tile->ellipsoid() && _testsEdges == tile->_testsEdges && isSameShape;
+    if (!isSame) return false;
+    _nodes[slot] = &child;
+    _block->addMember(slot);
+    _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), typeid(child) == typeid(osg::PagedLOD),
+                      tile->installedTile()->isSeeThrough(), meshPartsOf(child)};
+    tile->installedTile()->joinFamily(*_block, slot);
+    // osgUtil::Optimizer may have changed the form of the mesh: the new form is as good
+    if (_members[slot].meshParts.front()) tile->installedTile()->trustMesh();
+    tile->fillSlot();
+    return true;
+}
+
+// The same conditions as in AnalyticBinCullCallback::isCulled() and eyeOn(), for all tiles together.
+bool TileFamily::culls(const osg::Node& group, osg::CullStack& cullStack, const DatabaseView& view) const {
+    const osg::CullingSet::Mask mask = cullStack.getCurrentCullingSet().getCullingMask();
+    return &group == _group && !getNestedCallback() && (mask & osg::CullingSet::VIEW_FRUSTUM_CULLING) &&
+           view.modelView == cullStack.getModelViewMatrix() && view.projection == cullStack.getProjectionMatrix() &&
+           view.ellipsoid == *_ellipsoid && (!_shape || *_shape == view.shape) && !hasActiveOccluders(cullStack);
+}
+
+void TileFamily::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    osg::CullStack* const cullStack = nv->asCullStack();
+    CullTraversal* const traversal = cullStack ? &CullTraversal::of(*nv) : nullptr;
+    const DatabaseView* const view = traversal && !traversal->isTileByTile() ? traversal->databaseView() : nullptr;
+    if (!view || !culls(*node, *cullStack, *view)) {
+        traverse(node, nv);
+        return;
+    }
+    cullChildren(*node->asGroup(), *nv, *cullStack, *view, *traversal);
+}
+
+void TileFamily::test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes,
+                      core::PlaneMask undecided, const core::HorizonEye* eye, CullTraversal& traversal,
+                      Verdicts& verdicts) const {
+    verdicts.members = verdicts.tested = verdicts.hidden = verdicts.separated = 0;
+    verdicts.lacksTiles = false;
+    if (first >= _block->size()) return;
+    const TileBlock::Part& part = _block->partFrom(first);
+    part.bins.classify(planes, undecided, verdicts.planes);
+    verdicts.tested = part.bins.filled();
+    if (eye) verdicts.hidden = part.bins.hiddenFrom(*eye, verdicts.tested & ~verdicts.planes.outside);
+    const std::size_t end =
+        std::min<std::size_t>({first + TileBlock::Part::kMost, group.getNumChildren(), _nodes.size()});
+    for (std::size_t i = first; i < end; ++i) {
+        verdicts.members |= std::uint64_t{_nodes[i] == group.getChild(static_cast<unsigned int>(i))} << (i - first);
+    }
+    verdicts.lacksTiles = verdicts.members != part.members;
+    verdicts.members &= part.believed.load(std::memory_order_relaxed);
+    findSeparated(first, verdicts.members & verdicts.tested & ~(verdicts.planes.outside | verdicts.hidden), planes,
+                  traversal, verdicts);
+}
+
+void TileFamily::findSeparated(unsigned int first, std::uint64_t candidates, const core::PlaneSet& planes,
+                               CullTraversal& traversal, Verdicts& verdicts) const {
+    const core::BinFamily& bins = _block->partFrom(first).bins;
+    forEachBit(candidates & ~verdicts.planes.insideAll, [&](unsigned int number) {
+        const core::PlaneMask undecided = verdicts.planes.undecided[number];
+        const bool isAcrossEdge = (undecided & (undecided - 1)) != 0;
+        if (!isAcrossEdge || !_testsEdges) return;
+        const bool isBeyond = hasBit(bins.exact(), number)
+                                  ? bins.isSeparated(number, planes, undecided)
+                                  : _members[first + number].tile->isBeyondAnEdge(traversal, planes, undecided);
+        if (isBeyond) verdicts.separated |= std::uint64_t{1} << number;
+    });
+}
+
+void TileFamily::lookUp(const osg::Group& group, unsigned int first, core::PlaneMask undecided,
+                        const DatabaseView& view, CullTraversal& traversal, Verdicts& verdicts) const {
+    if (!view.plan || !view.plan->find(*this, first, undecided, verdicts)) {
+        test(group, first, view.planes, undecided, view.eye, traversal, verdicts);
+    } else if (!view.eye && verdicts.hidden != 0) {
+        findSeparated(first, verdicts.members & verdicts.hidden, view.planes, traversal, verdicts);
+        verdicts.hidden = 0;
+    }
+}
+
+// Which of the tiles are culled, one bit each.
+std::uint64_t TileFamily::culled(unsigned int first, const Verdicts& verdicts, const osg::NodeVisitor& nv,
+                                 osg::CullStack& cullStack, const DatabaseView& view, CullTraversal& traversal) const {
+    std::uint64_t inside = verdicts.members & verdicts.tested & verdicts.planes.insideAll;
+    std::uint64_t hidden = verdicts.members & verdicts.hidden;
+    std::uint64_t separated = verdicts.members & verdicts.separated;
+    std::uint64_t culled = verdicts.members & verdicts.outOfView();
+    // bins for comparison
+    forEachBit(verdicts.members & ~verdicts.tested, [&](unsigned int number) {
+        const AnalyticBinCullCallback& tile = *_members[first + number].tile;
+        core::PlaneMask undecided = verdicts.planes.undecided[number];
+        const core::Side side = tile.sideOf(view.planes, undecided);
+        const Verdict verdict = tile.verdict(side, view.planes, undecided, view.eye, traversal);
+        const std::uint64_t bit = std::uint64_t{1} << number;
+        if (verdict.side == core::Side::Outside) culled |= bit;
+        if (verdict.side == core::Side::Inside) inside |= bit;
+        if (verdict.reason == Verdict::Horizon) hidden |= bit;
+        if (verdict.reason == Verdict::Edge) separated |= bit;
+    });
+    osg::CullingSet& cullingSet = cullStack.getCurrentCullingSet();
+    if (cullingSet.getCullingMask() & osg::CullingSet::SMALL_FEATURE_CULLING) {
+        forEachBit(verdicts.members & ~culled, [&](unsigned int number) {
+            if (isSmall(cullingSet, (*_block)[first + number].bound)) culled |= std::uint64_t{1} << number;
+        });
+    }
+    if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR) {
+        BinCounts counts;
+        counts.outside = countBits(culled);
+        counts.inside = countBits(inside & ~culled);
+        counts.straddling = countBits(verdicts.members & ~culled & ~inside);
+        counts.hidden = countBits(hidden);
+        counts.separated = countBits(separated);
+        counts.frame = nv.getTraversalNumber();
+        traversal.add(counts);
+    }
+    return culled;
+}
+
+// A plain PagedLOD without other callbacks is entered as osgUtil::CullVisitor does it, but for the calls that lead to
+// the tile's own callback, which would do nothing: its family has tested it.
+void TileFamily::enter(osg::Node& child, const Member& member, osg::NodeVisitor& nv, CullTraversal& traversal) {
+    const bool isAlone = child.getCullCallback() == member.tile && !member.tile->getNestedCallback();
+    if (!member.isPlainlyPaged || !isAlone || child.getCullingActive() || typeid(nv) != typeid(osgUtil::CullVisitor)) {
+        traversal.setKept(&child);
+        child.accept(nv);
+        traversal.setKept(nullptr);
+        return;
+    }
+    if (!nv.validNodeMask(child)) return;
+    auto& visitor = static_cast<osgUtil::CullVisitor&>(nv);
+    osg::StateSet* const state = child.getStateSet();
+    visitor.pushOntoNodePath(&child);
+    if (state) visitor.pushStateSet(state);
+    child.traverse(visitor);
+    if (state) visitor.popStateSet();
+    visitor.popFromNodePath();
+}
+
+void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack,
+                              const DatabaseView& view, CullTraversal& traversal) const {
+    // OSG's stack of culling sets may move while a child is entered
+    const auto setMask = [&cullStack](core::PlaneMask mask) {
+        setUndecided(cullStack.getCurrentCullingSet().getFrustum(), mask);
+    };
+    const core::PlaneMask before = cullStack.getCurrentCullingSet().getFrustum().getCurrentMask();
+    const unsigned int children = group.getNumChildren();
+    bool isChanged = children != _nodes.size();
+    Verdicts verdicts;
+    for (unsigned int first = 0; first < children; first += TileBlock::Part::kMost) {
+        lookUp(group, first, before, view, traversal, verdicts);
+        isChanged = isChanged || verdicts.lacksTiles;
+        const std::uint64_t culled = this->culled(first, verdicts, nv, cullStack, view, traversal);
+        const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
+        forEachBit(lowestBits(here) & ~culled, [&](unsigned int number) {
+            if (first + number >= group.getNumChildren()) return;
+            osg::Node& child = *group.getChild(first + number);
+            if (!hasBit(verdicts.members, number)) return child.accept(nv);
+            const core::PlaneMask undecided = verdicts.planes.undecided[number];
+            setMask(undecided);
+            const PlanesBelow planes(cullStack, undecided);
+            enter(child, _members[first + number], nv, traversal);
+            setMask(before);
+        });
+    }
+    if (isChanged) view.database->noteChanged(group);
+}
+
+}  // namespace osgAnalyticBin

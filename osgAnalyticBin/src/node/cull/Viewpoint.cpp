@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Viewpoint.h"
+
+#include "../GlmBridge.h"
+#include "../Inverse.h"
+
+#include <osg/Camera>
+#include <osgUtil/CullVisitor>
+
+#include <algorithm>
+#include <limits>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// Shadow maps are drawn for another eye's picture, often of back faces alone.
+bool drawsShadows(const osg::Camera& camera) {
+    if (camera.getReferenceFrame() == osg::Transform::ABSOLUTE_RF_INHERIT_VIEWPOINT) return true;
+    const osg::Camera::BufferAttachmentMap& attachments = camera.getBufferAttachmentMap();
+    return !attachments.empty() && std::all_of(attachments.begin(), attachments.end(), [](const auto& attachment) {
+        return attachment.first == osg::Camera::DEPTH_BUFFER;
+    });
+}
+
+// Whether the camera that is culled for draws shadows, or one does that it is relative to.
+bool isShadowPass(osg::NodeVisitor& visitor) {
+    osgUtil::CullVisitor* cullVisitor = visitor.asCullVisitor();
+    const osg::Camera* stage = cullVisitor && cullVisitor->getRenderStage() ? cullVisitor->getCurrentCamera() : nullptr;
+    if (stage && drawsShadows(*stage)) return true;
+    const osg::NodePath& path = visitor.getNodePath();
+    for (auto node = path.rbegin(); node != path.rend(); ++node) {
+        const osg::Camera* camera = (*node)->asCamera();
+        if (!camera) continue;
+        if (drawsShadows(*camera)) return true;
+        if (camera->getReferenceFrame() == osg::Transform::ABSOLUTE_RF) return false;
+    }
+    return false;
+}
+
+// Projections whose lines of sight meet in the origin of eye space.
+bool isPerspective(const osg::Matrixd& p) {
+    return p(2, 3) != 0.0 && p(0, 3) == 0.0 && p(1, 3) == 0.0 && p(3, 3) == 0.0 && p(3, 0) == 0.0 && p(3, 1) == 0.0;
+}
+
+// Projections whose lines of sight are parallel.
+bool isOrthographic(const osg::Matrixd& p) {
+    return p(0, 3) == 0.0 && p(1, 3) == 0.0 && p(2, 3) == 0.0 && p(3, 3) != 0.0;
+}
+
+bool isFinalProjection(const osg::CullStack& cullStack) {
+    return cullStack.getComputeNearFarMode() == osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
+}
+
+// How far the near plane is from the eye at most; infinite when in doubt. Depths of 0 and 1 in clip space are at the
+// near plane or beyond it, whether depth is reversed or not and from -1 or from 0.
+double nearReach(const osg::Matrixd& projection, const osg::Matrixd& eyeToWorld, const osg::Vec3d& eye) {
+    double nearest = std::numeric_limits<double>::infinity();
+    osg::Matrixd unproject;
+    if (!unproject.invert(projection)) return nearest;
+    for (const double depth : {0.0, 1.0}) {
+        double farthest = 0.0;
+        for (int corner = 0; corner < 4; ++corner) {
+            const osg::Vec3d p = osg::Vec3d(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, depth) * unproject;
+            const double distance = p.z() * projection(2, 3) > 0.0 ? (p * eyeToWorld - eye).length()
+                                                                   : std::numeric_limits<double>::infinity();
+            if (!(distance <= farthest)) farthest = distance;
+        }
+        nearest = std::min(nearest, farthest);
+    }
+    return nearest;
+}
+
+// A lower bound; scaled to the unit sphere, lengths shrink by the smaller radius at least.
+double distanceTo(const core::Ellipsoid& ellipsoid, double depth, const glm::dvec3& eye) {
+    const double a = ellipsoid.equatorialRadius();
+    const double b = ellipsoid.polarRadius();
+    const double smaller = std::min(a, b);
+    return (glm::length(eye / glm::dvec3(a, a, b)) - (1.0 - depth / smaller)) * smaller;
+}
+
+}  // namespace
+
+std::optional<Viewpoint> Viewpoint::of(osg::CullStack& cullStack, osg::NodeVisitor& visitor, bool inShadowPasses) {
+    if (!inShadowPasses && isShadowPass(visitor)) return std::nullopt;
+    const osg::Matrixd& projection = *cullStack.getProjectionMatrix();
+    const auto inverse = affineInverse(*cullStack.getModelViewMatrix());
+    // near and far planes in one place make numbers that are not finite
+    if (!inverse || !hasFiniteNumbers(projection)) return std::nullopt;
+    const osg::Matrixd& eyeToWorld = *inverse;
+    Viewpoint viewpoint;
+    if (isPerspective(projection)) {
+        // in double precision; the cull stack's own eye point is float
+        const osg::Vec3d eye = osg::Vec3d() * eyeToWorld;
+        viewpoint._point = toGlm(eye);
+        // a computed near plane is not known before all is culled
+        if (isFinalProjection(cullStack)) viewpoint._nearReach = nearReach(projection, eyeToWorld, eye);
+        return viewpoint;
+    }
+    osg::Matrixd unproject;
+    if (!isOrthographic(projection) || !unproject.invert(projection)) return std::nullopt;
+    osg::Vec3d start = osg::Vec3d(0.0, 0.0, -1.0) * unproject;
+    const osg::Vec3d direction = osg::Vec3d(0.0, 0.0, 1.0) * unproject - start;
+    // Reversed depth, or reversed sight? The projection does not say.
+    if (!(direction.z() < 0.0)) return std::nullopt;
+    // With near and far computed, what is wholly behind the eye is not drawn and hides nothing.
+    if (!isFinalProjection(cullStack) && start.z() > 0.0) start += direction * (start.z() / -direction.z());
+    viewpoint._isDirection = true;
+    viewpoint._point = toGlm(start * eyeToWorld);
+    viewpoint._direction = toGlm(osg::Matrixd::transform3x3(direction, eyeToWorld));
+    return viewpoint;
+}
+
+std::optional<core::HorizonEye> Viewpoint::above(const core::Ellipsoid& ellipsoid, double depth) const noexcept {
+    if (_isDirection) return core::HorizonEye::fromDirection(ellipsoid, depth, _direction, _point);
+    if (_nearReach > 0.0 && !(_nearReach < distanceTo(ellipsoid, depth, _point))) return std::nullopt;
+    return core::HorizonEye::fromEye(ellipsoid, depth, _point);
+}
+
+}  // namespace osgAnalyticBin

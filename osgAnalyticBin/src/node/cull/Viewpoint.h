@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
+
+#include <osg/CullStack>
+#include <osg/NodeVisitor>
+
+#include <optional>
+
+namespace osgAnalyticBin {
+
+/// Where a cull visitor looks from, in the frame of its current planes: what horizons are made for.
+class OSGANALYTICBIN_EXPORT Viewpoint final {
+public:
+    /// Returns: nullopt for projections that have no horizon, and, unless `inShadowPasses`, for cameras that inherit
+    /// their view point or draw depth alone: what casts a shadow may lie behind it.
+    [[nodiscard]] static std::optional<Viewpoint> of(osg::CullStack& cullStack, osg::NodeVisitor& visitor,
+                                                     bool inShadowPasses);
+
+    /// See core::HorizonEye; depth in metres below the ellipsoid. Nothing is hidden when the near plane may reach the
+    /// occluder.
+    [[nodiscard]] std::optional<core::HorizonEye> above(const core::Ellipsoid& ellipsoid, double depth) const noexcept;
+
+    /// The eye. Returns: nullptr for orthographic cameras.
+    [[nodiscard]] const glm::dvec3* eye() const noexcept { return _isDirection ? nullptr : &_point; }
+
+private:
+    bool _isDirection = false;
+    double _nearReach = 0.0;  // metres from the eye that the near plane is at most; 0: not known before all is culled
+    glm::dvec3 _point{0.0};   // the eye, or a point of the near plane
+    glm::dvec3 _direction{0.0};  // of an orthographic camera
+};
+
+}  // namespace osgAnalyticBin

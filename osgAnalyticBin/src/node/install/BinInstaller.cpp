@@ -1,0 +1,375 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "../Inverse.h"
+#include "../cull/PlanarBinCullCallback.h"
+#include "../cull/Scoped.h"
+#include "../cull/ShownDepth.h"
+#include "../cull/TileFamily.h"
+#include "../page/BinReadFileCallback.h"
+#include "../page/Database.h"
+#include "../page/DatabaseCallbacks.h"
+#include "../page/PagedFiles.h"
+#include "../page/PagingExpiry.h"
+#include "ContentWatch.h"
+#include "Coverage.h"
+#include "Instances.h"
+#include "MeshCulling.h"
+#include "PlanarFit.h"
+#include "TileCallback.h"
+#include "TileFit.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBinsCallback.h>
+
+#include <osg/Notify>
+#include <osg/PagedLOD>
+#include <osgDB/Registry>
+#include <osgTerrain/Terrain>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+using CoverageByFile = std::map<std::string, Coverage>;
+
+// A database's own request to install bins is settled by the installer; what it declares counts where the installer was
+// told nothing else. Returns: the options for the node and what is below it.
+CullOptions settled(osg::Node& node, const CullOptions& options) {
+    CullOptions effective = options;
+    for (osg::Callback* callback = node.getUpdateCallback(); callback; callback = callback->getNestedCallback()) {
+        auto* request = dynamic_cast<InstallBinsCallback*>(callback);
+        if (!request) continue;
+        const CullOptions declared = request->cullOptions();
+        if (effective.effectiveHorizonUse() == HorizonUse::Declared && declared.horizonUse == HorizonUse::Given) {
+            effective.horizonUse = HorizonUse::Given;
+            effective.horizon = declared.horizon;
+        }
+        request->setDone();
+    }
+    return effective;
+}
+
+// OSG draws a drawable whatever its callbacks say.
+void warnOfDrawable(const osg::Node& node) {
+    OSG_WARN << "osgAnalyticBin: the drawable \"" << node.getName()
+             << "\" has a stored bin; drawables are not culled by bins. Store it with the group above." << std::endl;
+}
+
+bool isGlobeBroken(const osg::CoordinateSystemNode& node) {
+    return node.getEllipsoidModel() && !hasValidRadii(*node.getEllipsoidModel());
+}
+
+// Whether a globe is the one that what is above it stands on.
+bool isSameGlobe(const TileFrame& above, const TileFrame& inside) {
+    if (!above.ellipsoid || !inside.ellipsoid || above.isProjected || inside.isProjected) return false;
+    return above.localToEcef.isIdentity() &&
+           above.ellipsoid->getRadiusEquator() == inside.ellipsoid->getRadiusEquator() &&
+           above.ellipsoid->getRadiusPolar() == inside.ellipsoid->getRadiusPolar();
+}
+
+}  // namespace
+
+BinInstaller::BinInstaller(const CullOptions& options)
+    : _options(options), _coverage(std::make_shared<CoverageByFile>()) {}
+
+BinInstaller::~BinInstaller() = default;
+
+void BinInstaller::continueBelow(Database* database, const TileFrame& frame, const ParentTile* parent) {
+    setFrame(frame);
+    _isReading = true;
+    _database = database;
+    _index = database->index();
+    _parent = parent;
+    if (!parent) return;
+    (*_coverage)[frame.file].expect(Coverage::areaOf(parent->extents));
+    (*_coverage)[frame.file].setVisited();
+}
+
+void BinInstaller::refit(osg::Node& node, Database& database) {
+    _index = database.index();
+    // globes keep their databases
+    _keepsDatabases = true;
+    if (dynamic_cast<osg::CoordinateSystemNode*>(&node)) {
+        _refitted = &database;
+    } else {
+        _database = &database;
+    }
+    node.accept(*this);
+    placeFamilies();
+    _refitted = nullptr;
+}
+
+void BinInstaller::finish() {
+    for (const auto& [file, coverage] : *_coverage) {
+        if (installsBins() && coverage.hasGap()) database().noteGap(file);
+    }
+    _coverage->clear();
+    placeFamilies();
+}
+
+// Called after the walk: families that are placed during it would need more stack in deep scenes.
+void BinInstaller::placeFamilies() {
+    for (osg::Node* const group : _groups) TileFamily::place(*group);
+    _groups.clear();
+}
+
+bool BinInstaller::installsBins() const {
+    return _options.method != Method::Sphere && _options.method != Method::None;
+}
+
+Database& BinInstaller::database() {
+    if (!_database) _database = new Database(_options, new osg::EllipsoidModel, nullptr, _index.get());
+    return *_database;
+}
+
+// Tiles that no CoordinateSystemNode stands above, and those that are paged in later, are brought up to date from the
+// root.
+void BinInstaller::installAt(osg::Node& root) {
+    const bool isGlobe = dynamic_cast<osg::CoordinateSystemNode*>(&root) != nullptr;
+    if (!isGlobe && _keepsDatabases) _database = attachedDatabase(root);
+    if (!isGlobe && !_keepsDatabases) detachDatabase(root);
+    if (_database) _database->setOptions(_options);
+    root.accept(*this);
+    placeFamilies();
+    if (!isGlobe && _database && installsBins()) attachUpdate(root, *_database);
+}
+
+void BinInstaller::apply(osg::Node& node) {
+    const Scoped options(_options, settled(node, _options));
+    TileFinder::apply(node);
+}
+
+void BinInstaller::apply(osg::Transform& node) {
+    const Scoped options(_options, settled(node, _options));
+    TileFinder::apply(node);
+}
+
+void BinInstaller::apply(osg::PagedLOD& node) {
+    const Scoped options(_options, settled(node, _options));
+    const Scoped inMesh(_isInMesh, false);
+    TileFinder::apply(node);
+}
+
+void BinInstaller::apply(osg::CoordinateSystemNode& node) {
+    const Scoped options(_options, settled(node, _options));
+    const bool isForeign = _parent && !isSameGlobe(frame(), frameInside(node));
+    if (isForeign && installsBins()) Database::reportUntold(*linkBetween());
+    if (installsBins() && isGlobeBroken(node)) {
+        OSG_WARN << "osgAnalyticBin: the radii of the globe \"" << node.getName() << "\" in \"" << frame().file
+                 << "\" are not two positive numbers; what is below it gets no bins." << std::endl;
+        _options.method = Method::Sphere;
+    }
+    const Scoped parent(_parent, isForeign ? nullptr : _parent);
+    const bool isRefit = _refitted.valid();
+    osg::ref_ptr<Database> own = isRefit || !_keepsDatabases ? _refitted : databaseOf(node);
+    if (own && !own->isAttachedTo(node)) own = nullptr;
+    const bool isKept = !isRefit && own;
+    _refitted = nullptr;
+    if (isKept) own->setOptions(_options);
+    if (!isRefit) detachDatabase(node);
+    if (!own) {
+        const osg::ref_ptr<osg::EllipsoidModel> ellipsoid =
+            node.getEllipsoidModel() && !isGlobeBroken(node) ? node.getEllipsoidModel() : new osg::EllipsoidModel;
+        own = new Database(_options, ellipsoid.get(), dynamic_cast<osgTerrain::Terrain*>(&node), _index.get());
+        own->setRoot(node);
+    }
+    const Scoped index(_index, isKept ? osg::ref_ptr<const BinIndex>(own->index()) : _index);
+    const Scoped database(_database, own);
+    const Scoped paging(_paging, PagingByOptions());
+    const Scoped coverage(_coverage, std::make_shared<CoverageByFile>());
+    (*_coverage)[frame().file].expectGlobe();
+    (*_coverage)[frame().file].setVisited();
+    const std::size_t before = _installed;
+    TileFinder::apply(node);
+    finish();
+    if (isRefit) return;
+    if (installsBins() && (_installed > before || !_paging.empty())) return attachDatabase(node, *own);
+    // tiles that are on their way may have bins
+    if (isKept) attachUpdate(node, *own);
+}
+
+void BinInstaller::visitTile(FoundTile& tile) {
+    const bool hasNewContent = ContentWatch::hasNewContent(*tile.node);
+    uninstall(tile);
+    if (isInstanced(*tile.node, tile.frame)) return passBy(*tile.node, true);
+    if (installsBins() && !hasStoredBin(*tile.node)) {
+        const TerrainShape shape = database().fittedShape();
+        const PlanarFit fit = fitPlanarTile(tile, _options, shape);
+        const bool isOnGlobe = fit.kind == PlanarFit::NotPlanar && tile.frame.ellipsoid;
+        if (!isOnGlobe && isBelowStored()) Database::reportUntold(*linkBetween());
+        if (fit.kind == PlanarFit::Planar) return installPlanar(tile, fit, shape);
+        if (fit.kind == PlanarFit::Contradictory || !tile.frame.ellipsoid) return passBy(*tile.node, true);
+    }
+    if (installsBins()) return install(tile, hasNewContent);
+    if (_options.method == Method::None) {
+        for (const auto& mesh : tile.meshes) {
+            suspendCulling(*mesh);
+            suspendClusterCulling(*mesh);
+        }
+    }
+    passBy(*tile.node, true);
+}
+
+void BinInstaller::visitOther(osg::Node& node) {
+    if (node.asDrawable() && hasStoredBin(node)) warnOfDrawable(node);
+    // it may have been a tile when bins were last installed
+    if (installedTileOf(node) && !dynamic_cast<Carrier*>(&node)) removeCallbacks({&node, {}, frame(), 0, {}});
+    // some groups tell their bounds without asking their children
+    const bool mayKeepSilent = !drawsAllChildren(node) || node.getComputeBoundingSphereCallback();
+    if (installsBins() && node.asGroup() && !_isInMesh && (_parent || mayKeepSilent)) {
+        ContentWatch::place(node, {});
+    } else {
+        ContentWatch::remove(node);
+    }
+    TileFamily::remove(node);
+    if (installsBins() && TileFamily::isPossibleOn(node)) _groups.emplace_back(&node);
+    passBy(node, false);
+}
+
+void BinInstaller::passBy(osg::Node& node, bool isTile) {
+    if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node))
+        followPaging(*paged, isBelowStored() ? linkBetween().get() : nullptr, isTile);
+    if (_options.method == Method::None) {
+        suspendCullingOf(node);
+        suspendClusterCullingOf(node);
+    } else if (!_isInMesh) {
+        resumeCullingOf(node);
+        resumeClusterCullingOf(node);
+    }
+    const Scoped selective(_isBelowSelection, _isBelowSelection || (!isTile && !drawsAllChildren(node)));
+    traverseBelow(node);
+}
+
+void BinInstaller::visitMoving(osg::Transform& node) {
+    removeCallbacksBelow(node);
+}
+
+// It keeps OSG's own culling; how deep it lies is not known.
+void BinInstaller::visitTooDeep(osg::Node&) {
+    if (!installsBins()) return;
+    if (!database().hasGap()) {
+        OSG_WARN << "osgAnalyticBin: \"" << frame().file
+                 << "\" has tiles in tiles, hundreds deep; those farther in get no bins, and the horizon is not used."
+                 << std::endl;
+    }
+    database().noteGap(frame().file);
+}
+
+void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
+    const osg::ref_ptr<ParentTile> link = linkTo(tile);
+    link->hasNewContent = hasNewContent;
+    const TerrainShape shape = database().fittedShape();
+    const TileFit fit = fitTile(tile, database(), shape, *link);
+    if (!fit.isTerrain) return passBy(*tile.node, true);
+
+    const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database().ellipsoid();
+    const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);
+    osg::Node& culled = culledNode(tile, _isReading);
+    const osg::Matrixd localToEcef = culledFrame(tile, culled);
+    if (!localToEcef.isIdentity()) callback->setLocalToEcef(localToEcef);
+    if (fit.isScalable) callback->setTerrainShape(shape);
+    if (fit.skirt > 0.0) callback->setSkirt(fit.skirt);
+    callback->setSurface(fit.surface);
+    placeCallback(tile, culled, *callback, database());
+    ++_installed;
+    if (_options.cluster == ClusterUse::Replace) {
+        suspendClusterCullingOf(*tile.node);
+        for (const auto& mesh : tile.meshes) suspendClusterCulling(*mesh);
+    }
+    link->callback = callback.get();
+    noteCovered(tile, link->extents);
+    goOnBelow(tile, *link);
+}
+
+void BinInstaller::installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape) {
+    osg::Node& culled = culledNode(tile, _isReading);
+    const auto mapToLocal = affineInverse(culledFrame(tile, culled));
+    if (!mapToLocal) return passBy(*tile.node, true);
+    // what neighbours lend to edges, and what other techniques make of heights, is not known
+    if (fit.isScalable && (shape.areBoundariesEqual || !shape.isKnown)) return passBy(*tile.node, true);
+    const osg::ref_ptr<PlanarBinCullCallback> callback = new PlanarBinCullCallback(
+        PlanarBin(fit.box, *mapToLocal), fit.isScalable ? std::optional(shape) : std::nullopt, _options);
+    placeCallback(tile, culled, *callback, database());
+    ++_installed;
+    goOnBelow(tile, *linkTo(tile));
+}
+
+osg::ref_ptr<ParentTile> BinInstaller::linkTo(const FoundTile& tile) {
+    osg::ref_ptr<ParentTile> link = new ParentTile;
+    link->database = &database();
+    link->parent = _parent;
+    link->file = tile.frame.file;
+    link->ordinal = tile.ordinal;
+    if (_parent) link->stored = _parent->stored;
+    return link;
+}
+
+bool BinInstaller::isBelowStored() const {
+    return _parent && _parent->stored.valid();
+}
+
+osg::ref_ptr<const ParentTile> BinInstaller::linkBetween() const {
+    const osg::ref_ptr<ParentTile> link = new ParentTile;
+    link->isTile = false;
+    link->parent = _parent;
+    link->file = frame().file;
+    link->stored = _parent->stored;
+    return link;
+}
+
+// Tiles within the mesh of another cover nothing beside it.
+void BinInstaller::noteCovered(const FoundTile& tile, const core::GeodeticBin& extents) {
+    Coverage& coverage = (*_coverage)[tile.frame.file];
+    coverage.setVisited();
+    if (!_isBelowSelection && !_isInMesh) coverage.add(extents);
+    for (const std::string& file : tile.pagedFiles) (*_coverage)[file].expect(Coverage::areaOf(extents));
+}
+
+void BinInstaller::goOnBelow(const FoundTile& tile, const ParentTile& link) {
+    if (auto* paged = dynamic_cast<osg::PagedLOD*>(tile.node.get())) {
+        raiseExpiry(*paged, _options.expiry);
+        followPaging(*paged, &link, true);
+    }
+    const Scoped inMesh(_isInMesh, !dynamic_cast<osg::PagedLOD*>(tile.node.get()));
+    const Scoped below(_parent, osg::ref_ptr<const ParentTile>(&link));
+    traverseBelow(*tile.node);
+}
+
+void BinInstaller::uninstall(FoundTile& tile) {
+    removeCallbacks(tile);
+    // Method::None suspends without a callback of ours
+    resumeCullingOf(*tile.node);
+    resumeClusterCullingOf(*tile.node);
+    for (const auto& mesh : tile.meshes) {
+        resumeCulling(*mesh);
+        resumeClusterCulling(*mesh);
+    }
+}
+
+void BinInstaller::followPaging(osg::PagedLOD& node, const ParentTile* parent, bool isTile) {
+    const osg::ref_ptr<osgDB::Options> own = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
+    const std::vector<PagedFile> files = filesPagedBy(node, frame(), isTile);
+    Paging& paging = _paging[own];
+    // One file may be paged in several places.
+    const bool isTaken = paging.callback && std::any_of(files.begin(), files.end(), [&](const PagedFile& file) {
+                             return paging.callback->expectsOtherwise(file.name, file.frame, parent);
+                         });
+    if (!paging.callback || isTaken) {
+        const osgDB::Options* base = own ? own.get() : osgDB::Registry::instance()->getOptions();
+        paging.options = base ? base->cloneOptions() : new osgDB::Options;
+        paging.callback = new BinReadFileCallback(_options, &database(), frame(), previousCallback(*paging.options));
+        paging.callback->setReplaced(optionsWithoutBins(own.get()));
+        paging.options->setReadFileCallback(paging.callback);
+    }
+    for (const PagedFile& file : files) paging.callback->expect(file.name, file.frame, parent);
+    node.setDatabaseOptions(paging.options.get());
+}
+
+}  // namespace osgAnalyticBin

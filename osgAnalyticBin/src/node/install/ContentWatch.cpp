@@ -1,0 +1,313 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "ContentWatch.h"
+
+#include "../../core/EarthScale.h"
+#include "../GlmBridge.h"
+#include "../Spheres.h"
+#include "../cull/PlanarBinCullCallback.h"
+#include "../page/Database.h"
+#include "../page/DatabaseCallbacks.h"
+#include "InstalledTile.h"
+#include "TileCallback.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/TileSurface.h>
+
+#include <osg/ComputeBoundsVisitor>
+#include <osg/CoordinateSystemNode>
+#include <osg/Geometry>
+#include <osg/Transform>
+#include <osgTerrain/TerrainTile>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+const ContentWatch* watchOf(const osg::Node& node) {
+    return dynamic_cast<const ContentWatch*>(node.getComputeBoundingSphereCallback());
+}
+
+void mix(std::uint64_t& hash, std::uint64_t value) {
+    hash = (hash ^ value) * 0x9E3779B97F4A7C15u;
+    hash ^= hash >> 29;
+}
+
+void mixFloat(std::uint64_t& hash, float value) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    mix(hash, std::uint64_t{bits});
+}
+
+void mixBound(std::uint64_t& hash, const osg::BoundingSphere& bound) {
+    for (const float value : {bound.center().x(), bound.center().y(), bound.center().z(), bound.radius()}) {
+        mixFloat(hash, value);
+    }
+}
+
+void mixFrame(std::uint64_t& hash, const osg::Transform& transform) {
+    osg::Matrixd matrix;
+    transform.computeLocalToWorldMatrix(matrix, nullptr);
+    for (int i = 0; i < 16; ++i) {
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, matrix.ptr() + i, sizeof bits);
+        mix(hash, bits);
+    }
+}
+
+// Visits a mesh. Tiles inside look after themselves; a terrain tile draws nothing of what is below it.
+template <class Visit>
+void forEachPart(const osg::Node& node, const Visit& visit) {
+    visit(node);
+    if (watchOf(node) || dynamic_cast<const osgTerrain::TerrainTile*>(&node)) return;
+    const osg::Group* const group = node.asGroup();
+    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) forEachPart(*group->getChild(i), visit);
+}
+
+// What changes when a part of a mesh is added, removed, moved or replaced.
+std::uint64_t structureOf(const osg::Node& mesh) {
+    std::uint64_t hash = 1;
+    forEachPart(mesh, [&hash](const osg::Node& part) {
+        mix(hash, reinterpret_cast<std::uintptr_t>(&part));
+        if (part.asTransform()) mixFrame(hash, *part.asTransform());
+    });
+    return hash;
+}
+
+// What changes when vertices do. Never 0.
+std::uint64_t boundsOf(const osg::Node& mesh) {
+    std::uint64_t hash = 1;
+    forEachPart(mesh, [&hash](const osg::Node& part) {
+        if (part.asDrawable()) mixBound(hash, part.getBound());
+        const osg::Geometry* const geometry = part.asGeometry();
+        const osg::Array* const vertices = geometry ? geometry->getVertexArray() : nullptr;
+        if (!vertices) return;
+        mix(hash, reinterpret_cast<std::uintptr_t>(vertices));
+        mix(hash, std::uint64_t{vertices->getNumElements()});
+        mix(hash, std::uint64_t{vertices->getModifiedCount()});
+        mix(hash, std::uint64_t{geometry->getNumPrimitiveSets()});
+    });
+    return hash | 1;
+}
+
+// The content as the box of latitudes, longitudes and altitudes about its sphere. Not valid: it has none.
+AnalyticBin binAbout(const osg::BoundingSphere& sphere, const core::Ellipsoid& ellipsoid) {
+    const glm::dvec3 center = toGlm(osg::Vec3d(sphere.center()));
+    const double radius = sphere.radius() * 1.001;
+    const core::Geodetic middle = ellipsoid.toGeodetic(center);
+    const double fromAxis = std::hypot(center.x, center.y);
+    // from the nearest centre of curvature
+    const double fromCurvature = core::smallestCurvatureRadius(ellipsoid) + middle.altitude - radius;
+    if (!std::isfinite(fromAxis + radius) || !(fromCurvature > radius) || !(fromAxis > radius)) return {};
+    const double north = std::asin(radius / fromCurvature);
+    const double east = std::asin(radius / fromAxis);
+    return AnalyticBin(core::GeodeticBin({middle.latitude - north, middle.latitude + north},
+                                         {middle.longitude - east, middle.longitude + east},
+                                         {middle.altitude - radius, middle.altitude + radius}));
+}
+
+// The box about a mesh, masked parts included. A terrain tile that is traversed before it has its Terrain never finds
+// it afterwards.
+class BoxOfMesh : public osg::ComputeBoundsVisitor {
+public:
+    BoxOfMesh() { setNodeMaskOverride(~0u); }
+    using osg::ComputeBoundsVisitor::apply;
+    void apply(osg::Group& node) override {
+        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) return traverse(node);
+        const osg::Matrixd matrix = _matrixStack.empty() ? osg::Matrixd() : osg::Matrixd(_matrixStack.back());
+        _bb.expandBy(movedSphere(node.getBound(), matrix));
+    }
+};
+
+// Whether a node is in the scene of a database.
+bool isBelowDatabase(const osg::Node& node) {
+    const bool isRoot = dynamic_cast<const osg::CoordinateSystemNode*>(&node) ||
+                        attachedDatabase(const_cast<osg::Node&>(node)) != nullptr;
+    return isRoot || std::any_of(node.getParents().begin(), node.getParents().end(),
+                                 [](const osg::Group* parent) { return isBelowDatabase(*parent); });
+}
+
+// Something that stands below tiles, on its way up from one to the next.
+class Content {
+public:
+    // `isMerged`: it is in the scene, and what it does not fit into may be widened.
+    Content(osg::Node& node, bool isMerged) : _node(node), _sphere(node.getBound()), _isMerged(isMerged) {}
+
+    // Goes from the frame inside a transform to the one outside.
+    void leave(const osg::Transform& transform) {
+        osg::Matrixd matrix;
+        transform.computeLocalToWorldMatrix(matrix, nullptr);
+        _sphere = movedSphere(_sphere, matrix);
+        _toHere = _toHere * matrix;
+    }
+
+    void fitInto(const AnalyticBinCullCallback& callback) {
+        InstalledTile* const tile = callback.installedTile();
+        if (!tile || !callback.bin().valid()) return;
+        // the bin is that of the terrain before it is exaggerated, the content is not
+        const bool isScaled = callback.terrainShape() && callback.terrainShape()->verticalScale != 1.0;
+        const osg::EllipsoidModel& model = *tile->database().ellipsoid();
+        const AnalyticBin about = binAbout(movedSphere(_sphere, callback.localToEcef()), toCore(model));
+        if (!isScaled && isHeld(about, callback.bin())) return;
+        const AnalyticBin& own = surfaceOn(model, callback.localToEcef());
+        if (!isScaled && isHeld(own, callback.bin())) return;
+        const AnalyticBin& content = own.valid() ? own : about;
+        tile->keepVisible(true);
+        if (_isMerged) tile->database().noteContent(callback, {content, isScaled || !content.valid()});
+    }
+
+    void fitInto(const PlanarBinCullCallback& callback) const {
+        if (!callback.installedTile()) return;
+        BoxOfMesh box;
+        _node.accept(box);
+        bool isHeld = true;
+        for (unsigned int i = 0; i < 8 && isHeld; ++i) {
+            isHeld = callback.bin().holds(osg::Vec3d(box.getBoundingBox().corner(i)) * _toHere);
+        }
+        if (!isHeld) callback.installedTile()->keepVisible(true);
+    }
+
+private:
+    // A mesh that was fitted may stand there in another form, as osgUtil::Optimizer leaves it: its posts tell.
+    static bool isHeld(const AnalyticBin& content, const AnalyticBin& bin) {
+        if (!content.valid()) return false;
+        const core::Interval& altitude = content.bin().altitude();
+        const double posts = std::min(altitude.lower + content.sag(), altitude.upper);
+        const core::Interval room{bin.bin().altitude().lower - bin.margin(), bin.bin().altitude().upper + bin.margin()};
+        return bin.bin().withAltitude(room).contains(content.bin().withAltitude({posts, altitude.upper}));
+    }
+
+    // Read once, for all tiles above.
+    const AnalyticBin& surfaceOn(const osg::EllipsoidModel& model, const osg::Matrixd& localToEcef) {
+        if (!_surface) _surface = tileSurface(_node, model, _toHere * localToEcef).bin;
+        return *_surface;
+    }
+
+    osg::Node& _node;
+    osg::BoundingSphere _sphere;
+    bool _isMerged;
+    osg::Matrixd _toHere;
+    std::optional<AnalyticBin> _surface;
+};
+
+// Looks whether all tiles from the node upwards hold what stands among the node's children.
+void fitIntoTilesFrom(const osg::Node& node, Content content) {
+    for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
+        if (const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(at)) content.fitInto(*bin);
+        if (const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(at)) content.fitInto(*planar);
+    }
+    if (node.asTransform()) content.leave(*node.asTransform());
+    for (const osg::Group* const parent : node.getParents()) fitIntoTilesFrom(*parent, content);
+}
+
+// Says that the mesh of the tile that a watched node belongs to has changed. The next update makes the tile's family
+// anew.
+void doubtMeshOf(const osg::Node& node) {
+    const osg::Node* culled = &node;
+    if (!installedTileOf(node)) culled = carrierOf(const_cast<osg::Node&>(node));
+    InstalledTile* const tile = culled ? installedTileOf(*culled) : nullptr;
+    if (!tile) return;
+    tile->doubtMesh();
+    // the update traversal must not touch what is not merged into the scene yet
+    if (!isBelowDatabase(*culled)) return;
+    for (osg::Group* const parent : culled->getParents()) tile->database().noteChanged(*parent);
+}
+
+bool isAbsolute(const osg::Node& node) {
+    const osg::Transform* const transform = node.asTransform();
+    return transform && transform->getReferenceFrame() != osg::Transform::RELATIVE_RF;
+}
+
+}  // namespace
+
+ContentWatch::ContentWatch(const ContentWatch& other, const osg::CopyOp& copyop)
+    : osg::Node::ComputeBoundingSphereCallback(other, copyop) {}
+
+void ContentWatch::place(osg::Node& node, const std::vector<osg::ref_ptr<osg::Node>>& fitted) {
+    remove(node);
+    const osg::ref_ptr<ContentWatch> watch = new ContentWatch;
+    watch->_node = &node;
+    watch->_previous = node.getComputeBoundingSphereCallback();
+    for (const auto& mesh : fitted) {
+        if (mesh != &node) watch->_fitted.push_back({mesh, structureOf(*mesh), 0});
+    }
+    const bool isMesh = std::find(fitted.begin(), fitted.end(), &node) != fitted.end();
+    const osg::Group* const group = isMesh ? node.asGroup() : nullptr;
+    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
+        watch->_fitted.push_back({group->getChild(i), structureOf(*group->getChild(i)), 0});
+    }
+    node.setComputeBoundingSphereCallback(watch);
+    // what is there already, beside meshes, is looked at with the next bound
+    node.dirtyBound();
+}
+
+void ContentWatch::remove(osg::Node& node) {
+    if (const ContentWatch* const watch = watchOf(node)) {
+        node.setComputeBoundingSphereCallback(osg::ref_ptr(watch->_previous).get());
+    }
+}
+
+void ContentWatch::look() const {
+    if (_node) (void)_node->getBound();
+}
+
+osg::BoundingSphere ContentWatch::computeBound(const osg::Node& node) const {
+    if (&node == _node) check(node);
+    return _previous ? _previous->computeBound(node) : node.computeBound();
+}
+
+bool ContentWatch::hasNewContent(const osg::Node& node) {
+    const ContentWatch* const watch = watchOf(node);
+    const osg::Group* const group = dynamic_cast<const osgTerrain::TerrainTile*>(&node) ? nullptr : node.asGroup();
+    for (unsigned int i = 0; watch && watch->_node == &node && group && i < group->getNumChildren(); ++i) {
+        const osg::Node& child = *group->getChild(i);
+        if (!ownWatchOf(child) && !watch->isFitted(child, false)) return true;
+    }
+    return false;
+}
+
+const ContentWatch* ContentWatch::ownWatchOf(const osg::Node& node) {
+    const ContentWatch* const watch = node.getNumParents() == 1 ? watchOf(node) : nullptr;
+    return watch && watch->_node == &node ? watch : nullptr;
+}
+
+// Bounds are left to the time when OSG computes them: it may not survive those of broken meshes.
+bool ContentWatch::isFitted(const osg::Node& child, bool withBounds) const {
+    const auto known =
+        std::find_if(_fitted.begin(), _fitted.end(), [&](const Fitted& fitted) { return fitted.node == &child; });
+    if (known == _fitted.end() || known->structure != structureOf(child)) return false;
+    if (!withBounds && known->bounds == 0) return true;
+    const std::uint64_t bounds = boundsOf(child);
+    if (known->bounds == 0) known->bounds = bounds;
+    return known->bounds == bounds;
+}
+
+void ContentWatch::check(const osg::Node& node) const {
+    _isPending = false;
+    // osgTerrain draws nothing of what is below its tiles
+    const osg::Group* const group = dynamic_cast<const osgTerrain::TerrainTile*>(&node) ? nullptr : node.asGroup();
+    std::size_t fitted = 0;
+    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
+        const osg::Node& child = *group->getChild(i);
+        const osg::BoundingSphere& sphere = child.getBound();  // has others look at what is below it, too
+        if (const ContentWatch* const watch = ownWatchOf(child)) {
+            if (watch->_isPending) watch->check(child);
+            _isPending = _isPending || watch->_isPending;
+        } else if (isFitted(child, true)) {
+            ++fitted;
+        } else if (sphere.valid() && !isAbsolute(child)) {
+            const bool isMerged = isBelowDatabase(node);
+            fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), isMerged));
+            _isPending = _isPending || !isMerged;
+        }
+    }
+    if (group && fitted < _fitted.size()) doubtMeshOf(node);
+}
+
+}  // namespace osgAnalyticBin

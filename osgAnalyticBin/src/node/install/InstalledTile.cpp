@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "InstalledTile.h"
+
+#include "../page/Database.h"
+
+namespace osgAnalyticBin {
+
+InstalledTile::InstalledTile(const osg::Node& culled, Database& database) : _culled(&culled), _database(&database) {}
+
+InstalledTile::InstalledTile(const InstalledTile& other)
+    : osg::Referenced(other), _culled(nullptr), _database(other._database), _wasActive(other._wasActive) {}
+
+InstalledTile::~InstalledTile() = default;
+
+void InstalledTile::keepVisible(bool kept) {
+    _isKeptVisible.store(kept, std::memory_order_relaxed);
+    tellFamily();
+}
+
+void InstalledTile::doubtMesh() {
+    _isMeshDoubted.store(true, std::memory_order_relaxed);
+    tellFamily();
+}
+
+void InstalledTile::trustMesh() {
+    _isMeshDoubted.store(false, std::memory_order_relaxed);
+    tellFamily();
+}
+
+void InstalledTile::tellFamily() {
+    if (_block) _block->believe(_slot, _isSlotFilled && !isKeptVisible() && !isMeshDoubted());
+}
+
+void InstalledTile::joinFamily(TileBlock& block, std::size_t slot) {
+    leaveFamily();
+    _block = &block;
+    _slot = slot;
+}
+
+void InstalledTile::leaveFamily() {
+    emptySlot();
+    _block = nullptr;
+}
+
+void InstalledTile::fillSlot(const TileBlock::Slot& tile, const TileBlock::Bins& bins) {
+    if (!_block) return;
+    _block->set(_slot, tile, bins);
+    _isSlotFilled = true;
+    tellFamily();
+}
+
+void InstalledTile::emptySlot() {
+    _isSlotFilled = false;
+    tellFamily();
+}
+
+void InstalledTile::suspendSphere(osg::Node& node) {
+    _wasActive.push_back(node.getCullingActive());
+    if (!_wasActive.back()) return;
+    node.setCullingActive(false);
+    if (isFor(&node)) {
+        _wasCulledActive = true;
+    } else {
+        _suspended.emplace_back(&node);
+    }
+}
+
+void InstalledTile::resumeSpheres(osg::Node& culled) {
+    if (_wasCulledActive) culled.setCullingActive(true);
+    for (const auto& node : _suspended) node->setCullingActive(true);
+    _wasCulledActive = false;
+    _suspended.clear();
+}
+
+}  // namespace osgAnalyticBin

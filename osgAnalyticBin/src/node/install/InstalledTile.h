@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "../cull/TileBlock.h"
+
+#include <osg/Node>
+#include <osg/Referenced>
+#include <osg/ref_ptr>
+
+#include <atomic>
+#include <cstddef>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+class Database;
+
+/// What the installer keeps beside a tile's cull callback: the node that the bin was made for, whether the bin holds
+/// everything below the node at present, and the nodes whose sphere test was switched off.
+/// Threads: mayCull() and keepVisible() at any time; the rest where no cull traversal runs.
+class InstalledTile final : public osg::Referenced {
+public:
+    /// `culled`: the node that carries the callback.
+    InstalledTile(const osg::Node& culled, Database& database);
+
+    /// That of a copied callback: for no node.
+    InstalledTile(const InstalledTile& other);
+
+    [[nodiscard]] Database& database() const { return *_database; }
+
+    /// Whether `node` is the one that the bin was made for. A clone of a scene may share the callback.
+    [[nodiscard]] bool isFor(const osg::Node* node) const { return node == _culled; }
+
+    /// Whether the callback may cull this node: it is the bin's own, and nothing stands below it that the bin does not
+    /// hold.
+    [[nodiscard]] bool mayCull(const osg::Node* node) const {
+        return isFor(node) && !_isKeptVisible.load(std::memory_order_relaxed);
+    }
+
+    /// Keeps the tile visible until this is called with false.
+    void keepVisible(bool kept);
+
+    [[nodiscard]] bool isKeptVisible() const { return _isKeptVisible.load(std::memory_order_relaxed); }
+
+    /// Gives the tile a slot in a family. The tile's callback fills it.
+    void joinFamily(TileBlock& block, std::size_t slot);
+    [[nodiscard]] bool hasFamily() const { return _block.valid(); }
+    /// From now on only the tile's own callback culls it.
+    void leaveFamily();
+    /// Says that the mesh has changed since the bin was fitted. The family leaves the tile to its callback until
+    /// trustMesh() is called.
+    void doubtMesh();
+    void trustMesh();
+    [[nodiscard]] bool isMeshDoubted() const { return _isMeshDoubted.load(std::memory_order_relaxed); }
+    /// Copies the numbers that the family, if there is one, tests the tile by.
+    void fillSlot(const TileBlock::Slot& tile, const TileBlock::Bins& bins);
+    /// Has the family leave the tile to its callback until the slot is filled again.
+    void emptySlot();
+
+    /// Says that what the tile draws can be seen through, so that the horizon must not rely on it.
+    void setSeeThrough() { _isSeeThrough = true; }
+    [[nodiscard]] bool isSeeThrough() const { return _isSeeThrough; }
+
+    /// Switches OSG's sphere test off on a node where it is on.
+    void suspendSphere(osg::Node& node);
+
+    /// Switches the sphere test on again on the nodes where it was on. Requires: isFor(&culled).
+    void resumeSpheres(osg::Node& culled);
+
+    /// Whether the test was on at the i-th call of suspendSphere(): what a clone of the nodes has to go back to.
+    [[nodiscard]] bool wasActive(std::size_t i) const { return i < _wasActive.size() && _wasActive[i]; }
+
+protected:
+    ~InstalledTile() override;
+
+private:
+    void tellFamily();
+
+    const osg::Node* const _culled;
+    const osg::ref_ptr<Database> _database;
+    std::atomic<bool> _isKeptVisible{false};
+    std::atomic<bool> _isMeshDoubted{false};
+    osg::ref_ptr<TileBlock> _block;
+    std::size_t _slot = 0;
+    bool _isSlotFilled = false;
+    bool _isSeeThrough = false;
+    bool _wasCulledActive = false;                    // of the culled node, which owns this and must not be owned by it
+    std::vector<osg::ref_ptr<osg::Node>> _suspended;  // other nodes
+    std::vector<bool> _wasActive;
+};
+
+}  // namespace osgAnalyticBin

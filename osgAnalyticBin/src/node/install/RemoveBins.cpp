@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "../cull/TileFamily.h"
+#include "../page/BinReadFileCallback.h"
+#include "../page/DatabaseCallbacks.h"
+#include "../page/PagedFiles.h"
+#include "ContentWatch.h"
+#include "TileCallback.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+
+#include <osg/NodeVisitor>
+#include <osg/PagedLOD>
+#include <osgTerrain/TerrainTile>
+
+#include <vector>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// Takes off what an installer that installs no bins leaves on a scene, to be asked for bins again: callbacks of the
+// database, watches of content, the pager's options, and groups above tiles.
+class BinRemover : public osg::NodeVisitor {
+public:
+    BinRemover() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+
+    void apply(osg::Node& node) override {
+        if (installedTileOf(node)) removeCallbacks({&node, {}, {}, 0, {}});
+        TileFamily::remove(node);
+        ContentWatch::remove(node);
+        if (Database* const database = attachedDatabase(node)) database->setRemoved();
+        detachDatabase(node);
+        if (auto* const carrier = dynamic_cast<Carrier*>(&node)) _carriers.emplace_back(carrier);
+        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
+    }
+
+    void apply(osg::PagedLOD& node) override {
+        if (BinReadFileCallback* const callback = readCallbackOf(node)) {
+            callback->database()->setRemoved();
+            node.setDatabaseOptions(osg::ref_ptr(callback->replaced()).get());
+        }
+        apply(static_cast<osg::Node&>(node));
+    }
+
+    void removeCarriers() {
+        for (const auto& carrier : _carriers) {
+            const osg::Node::ParentList parents = carrier->getParents();
+            const unsigned int children = carrier->getNumChildren();
+            for (osg::Group* const parent : parents) {
+                // its tile may have been taken away; what the application has added to it stays with it
+                if (children == 0) parent->removeChild(carrier);
+                if (children == 1) parent->replaceChild(carrier, carrier->getChild(0));
+            }
+        }
+    }
+
+private:
+    std::vector<osg::ref_ptr<Carrier>> _carriers;
+};
+
+}  // namespace
+
+void removeBins(osg::Node& node) {
+    CullOptions options;
+    options.method = Method::Sphere;
+    (void)installBins(node, options);
+    BinRemover remover;
+    node.accept(remover);
+    remover.removeCarriers();
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TileCallback.h"
+
+#include "../cull/PlanarBinCullCallback.h"
+#include "../cull/TileFamily.h"
+#include "../page/PagingExpiry.h"
+#include "ContentWatch.h"
+#include "InstalledTile.h"
+#include "MeshCulling.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+
+#include <osg/Group>
+#include <osg/PagedLOD>
+#include <osg/Transform>
+
+#include <typeinfo>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// The options that a callback of ours was made with. Returns: nullptr for any other callback.
+const CullOptions* optionsOf(const osg::Callback& callback) {
+    if (const auto* geocentric = dynamic_cast<const AnalyticBinCullCallback*>(&callback)) {
+        return &geocentric->cullOptions();
+    }
+    const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(&callback);
+    return planar ? &planar->cullOptions() : nullptr;
+}
+
+osg::Callback* installedCallback(osg::Node& node) {
+    osg::Callback* callback = node.getCullCallback();
+    while (callback && !optionsOf(*callback)) callback = callback->getNestedCallback();
+    return callback;
+}
+
+// The node that carries a tile's callback: it, or the group that was put above it.
+osg::Node* installedNode(osg::Node& node) {
+    if (installedCallback(node)) return &node;
+    Carrier* const carrier = carrierOf(node);
+    return carrier && installedCallback(*carrier) ? carrier : nullptr;
+}
+
+// The nodes of a tile that have no sphere test while bins cull it, some of them more than once. Drawables keep their
+// boxes.
+template <class Action>
+void forEachSphere(const FoundTile& tile, osg::Node& culled, const Action& action) {
+    action(culled);
+    action(*tile.node);
+    for (const auto& mesh : tile.meshes) {
+        forEachNode(*mesh, [&](osg::Node& node) {
+            if (!node.asDrawable()) action(node);
+        });
+    }
+}
+
+// Of a clone, as the original's were. A scene that was saved with bins does not say where they were on before.
+void resumeSpheres(const FoundTile& tile, osg::Node& culled, const InstalledTile* original) {
+    std::size_t i = 0;
+    forEachSphere(tile, culled, [&](osg::Node& node) {
+        if (!original || original->wasActive(i++)) node.setCullingActive(true);
+    });
+}
+
+}  // namespace
+
+InstalledTile* installedTileOf(const osg::Node& node) {
+    for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
+        if (const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(at)) return bin->installedTile();
+        if (const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(at)) return planar->installedTile();
+    }
+    return nullptr;
+}
+
+const AnalyticBinCullCallback* installedBinOf(const osg::Node& node) {
+    for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
+        const auto* const bin = dynamic_cast<const AnalyticBinCullCallback*>(at);
+        if (bin && bin->installedTile() && bin->installedTile()->isFor(&node)) return bin;
+    }
+    return nullptr;
+}
+
+void takeOff(osg::Node& node, osg::Callback& callback) {
+    if (node.getCullCallback() != &callback) return node.removeCullCallback(&callback);
+    const osg::ref_ptr<osg::Callback> nested = callback.getNestedCallback();
+    node.setCullCallback(nested.get());
+    if (callback.referenceCount() == 1) callback.setNestedCallback(nullptr);
+}
+
+Carrier* carrierOf(osg::Node& node) {
+    return node.getNumParents() == 1 ? dynamic_cast<Carrier*>(node.getParent(0)) : nullptr;
+}
+
+// OSG enters the frame of a transform before it asks the transform's callbacks, which costs more than the bin's test:
+// in files of tiles a transform gets a group above it, while no application has seen it.
+osg::Node& culledNode(const FoundTile& tile, bool isNew) {
+    osg::Node& node = *tile.node;
+    if (!node.asTransform() || !tile.frame.isBelowTile || node.getNumParents() != 1) return node;
+    if (Carrier* const carrier = carrierOf(node)) return *carrier;
+    if (!isNew) return node;
+    osg::Group& parent = *node.getParent(0);
+    const osg::ref_ptr<Carrier> carrier = new Carrier;
+    carrier->addChild(&node);
+    parent.replaceChild(&node, carrier);
+    return *carrier;
+}
+
+osg::Matrixd culledFrame(const FoundTile& tile, osg::Node& culled) {
+    const osg::Transform* transform = culled.asTransform();
+    return transform ? frameInside(*transform, tile.frame) : tile.frame.localToEcef;
+}
+
+template <class Callback>
+void placeCallback(const FoundTile& tile, osg::Node& culled, Callback& callback, Database& database) {
+    const osg::ref_ptr<InstalledTile> installed = new InstalledTile(culled, database);
+    callback.setInstalledTile(installed);
+    // In front: what is nested runs when the tile is kept.
+    callback.setNestedCallback(culled.getCullCallback());
+    culled.setCullCallback(&callback);
+    forEachSphere(tile, culled, [&](osg::Node& node) { installed->suspendSphere(node); });
+    for (const auto& mesh : tile.meshes) {
+        if (isSeeThroughMesh(*mesh)) installed->setSeeThrough();
+    }
+    if (&culled != tile.node) ContentWatch::place(culled, {});
+    ContentWatch::place(*tile.node, tile.meshes);
+}
+
+template void placeCallback(const FoundTile&, osg::Node&, AnalyticBinCullCallback&, Database&);
+template void placeCallback(const FoundTile&, osg::Node&, PlanarBinCullCallback&, Database&);
+
+void removeCallbacksBelow(osg::Node& subgraph) {
+    forEachNode(subgraph, [](osg::Node& node) {
+        if (installedTileOf(node)) removeCallbacks({&node, {}, {}, 0, {}});
+        TileFamily::remove(node);
+        ContentWatch::remove(node);
+    });
+}
+
+void removeCallbacks(const FoundTile& tile) {
+    while (osg::Node* culled = installedNode(*tile.node)) {
+        const osg::ref_ptr<osg::Callback> ours = installedCallback(*culled);
+        const osg::ref_ptr<InstalledTile> installed = installedTileOf(*culled);
+        if (auto* paged = dynamic_cast<osg::PagedLOD*>(tile.node.get()))
+            restoreExpiry(*paged, optionsOf(*ours)->expiry);
+        takeOff(*culled, *ours);
+        if (installed) installed->leaveFamily();
+        ContentWatch::remove(*culled);
+        ContentWatch::remove(*tile.node);
+        if (installed && installed->isFor(culled)) {
+            installed->resumeSpheres(*culled);
+        } else {
+            resumeSpheres(tile, *culled, installed);
+        }
+    }
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,259 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "../cull/Scoped.h"
+#include "TileCallback.h"
+
+#include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/TileFinder.h>
+
+#include <osg/Drawable>
+#include <osg/MatrixTransform>
+#include <osg/PositionAttitudeTransform>
+#include <osgDB/FileNameUtils>
+#include <osgTerrain/TerrainTile>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <typeinfo>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// The globe of tiles with stored bins that no CoordinateSystemNode stands above, and of what is below them.
+const osg::ref_ptr<const osg::EllipsoidModel>& wgs84() {
+    static const osg::ref_ptr<const osg::EllipsoidModel> ellipsoid = new osg::EllipsoidModel;
+    return ellipsoid;
+}
+
+bool isTerrainTile(osg::Node& node) {
+    return dynamic_cast<osgTerrain::TerrainTile*>(&node) != nullptr;
+}
+
+bool isPagedChild(const osg::PagedLOD& node, unsigned int i) {
+    return i < node.getNumFileNames() && !node.getFileName(i).empty();
+}
+
+// Transforms that stay as they are once loaded; others have no fixed place on the globe.
+bool hasFixedPlace(osg::Transform& node) {
+    const bool known = node.asMatrixTransform() || node.asPositionAttitudeTransform();
+    return known && node.getReferenceFrame() == osg::Transform::RELATIVE_RF && !node.getUpdateCallback() &&
+           node.getDataVariance() != osg::Object::DYNAMIC;
+}
+
+// Whether a subgraph is geometry that stays where it is, without tiles in it.
+class IsFixedMesh : public osg::NodeVisitor {
+public:
+    IsFixedMesh() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+
+    void apply(osg::Node& node) override {
+        const bool isTile = isTerrainTile(node) || hasStoredBin(node);
+        osg::Transform* transform = node.asTransform();
+        if (isTile || node.getUpdateCallback() || (transform && !hasFixedPlace(*transform))) result = false;
+        hasDrawable = hasDrawable || node.asDrawable();
+        if (result) traverse(node);
+    }
+    void apply(osg::PagedLOD&) override { result = false; }
+
+    bool result = true;
+    bool hasDrawable = false;
+};
+
+bool isFixedMesh(osg::Node& node) {
+    IsFixedMesh check;
+    node.accept(check);
+    return check.result && check.hasDrawable;
+}
+
+std::vector<osg::ref_ptr<osg::Node>> ownMeshes(osg::Node& node) {
+    auto* paged = dynamic_cast<osg::PagedLOD*>(&node);
+    if (!paged) return {&node};
+    std::vector<osg::ref_ptr<osg::Node>> meshes;
+    for (unsigned int i = 0; i < paged->getNumChildren(); ++i) {
+        if (!isPagedChild(*paged, i)) meshes.emplace_back(paged->getChild(i));
+    }
+    return meshes;
+}
+
+std::vector<std::string> filesBelow(const osg::Node& node, const std::string& file) {
+    std::vector<std::string> files;
+    if (const auto* paged = dynamic_cast<const osg::PagedLOD*>(&node)) {
+        for (unsigned int i = 0; i < paged->getNumFileNames(); ++i) {
+            if (isPagedChild(*paged, i)) files.push_back(pagedFilePath(file, paged->getFileName(i)));
+        }
+    }
+    return files;
+}
+
+bool startsWith(const std::string& text, const char* start) {
+    return text.rfind(start, 0) == 0;
+}
+
+// Whether a coordinate system says of itself that its coordinates are those of a map: in well-known text, alone or
+// with a vertical one, or in the parameters of PROJ.
+bool isProjected(const osg::CoordinateSystemNode& node) {
+    const std::string& text = node.getCoordinateSystem();
+    if (startsWith(text, "PROJCS") || startsWith(text, "PROJCRS")) return true;
+    if (startsWith(text, "COMPD_CS")) return text.find("PROJCS") != std::string::npos;
+    const std::string key = "+proj=";
+    const std::size_t at = text.find(key);
+    if (node.getFormat() != "PROJ4" || at == std::string::npos) return false;
+    const std::size_t begin = at + key.size();
+    const std::string name = text.substr(begin, text.find_first_of(" \t\n", begin) - begin);
+    const std::array<const char*, 6> others{"longlat", "latlong", "lonlat", "latlon", "geocent", ""};
+    return std::none_of(others.begin(), others.end(), [&](const char* other) { return name == other; });
+}
+
+}  // namespace
+
+std::string pagedFilePath(const std::string& referringFile, const std::string& name) {
+    if (osgDB::isAbsolutePath(name) || osgDB::containsServerAddress(name)) return name;
+    std::vector<std::string> parts;
+    const auto append = [&](const std::string& path) {
+        for (std::size_t begin = 0; begin <= path.size();) {
+            const std::size_t end = std::min(path.find_first_of("/\\", begin), path.size());
+            const std::string part = path.substr(begin, end - begin);
+            if (part == ".." && !parts.empty() && parts.back() != "..") {
+                parts.pop_back();
+            } else if (!part.empty() && part != ".") {
+                parts.push_back(part);
+            }
+            begin = end + 1;
+        }
+    };
+    append(osgDB::getFilePath(referringFile));
+    append(name);
+    std::string path;
+    for (const std::string& part : parts) path += (path.empty() ? "" : "/") + part;
+    return path;
+}
+
+bool hasValidRadii(const osg::EllipsoidModel& ellipsoid) {
+    const auto isValid = [](double radius) { return std::isfinite(radius) && radius > 0.0; };
+    return isValid(ellipsoid.getRadiusEquator()) && isValid(ellipsoid.getRadiusPolar());
+}
+
+osg::Matrixd frameInside(const osg::Transform& node, const TileFrame& frame) {
+    osg::Matrixd inside;
+    // Without a CoordinateSystemNode above, a tile's own frame is ECEF, whatever moves the globe.
+    if (!frame.isKnown()) return inside;
+    node.computeLocalToWorldMatrix(inside, nullptr);
+    return inside * frame.localToEcef;
+}
+
+TileFinder::TileFinder(const TileFrame& frame) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _frame(frame) {
+    setNodeMaskOverride(~0u);
+}
+
+void TileFinder::apply(osg::Node& node) {
+    visit(node, isTile(node));
+}
+
+TileFrame TileFinder::frameInside(const osg::CoordinateSystemNode& node) const {
+    TileFrame inside = _frame;
+    inside.localToEcef.makeIdentity();
+    inside.ellipsoid = node.getEllipsoidModel();
+    inside.isProjected = isProjected(node);
+    const bool isBroken = inside.ellipsoid && !hasValidRadii(*inside.ellipsoid);
+    if (!inside.isKnown()) inside.ellipsoid = new osg::EllipsoidModel;
+    if (isBroken) inside.ellipsoid = nullptr;
+    return inside;
+}
+
+void TileFinder::apply(osg::CoordinateSystemNode& node) {
+    const Scoped scope(_frame, frameInside(node));
+    visit(node, hasStoredBin(node));
+}
+
+void TileFinder::apply(osg::Transform& node) {
+    const bool hasFrame = _frame.isKnown() || hasStoredBin(node);
+    if (hasFrame && !hasFixedPlace(node)) return visitMoving(node);
+    visit(node, isTile(node));
+}
+
+void TileFinder::apply(osg::PagedLOD& node) {
+    visit(node, isTile(node));
+}
+
+bool TileFinder::isTile(osg::Node& node) const {
+    // OSG culls a drawable after its callbacks, whatever these say
+    if (hasStoredBin(node)) return !node.asDrawable();
+    if (!_frame.isKnown()) return false;
+    if (isTerrainTile(node)) return true;
+    if (dynamic_cast<osg::PagedLOD*>(&node)) {
+        const auto meshes = ownMeshes(node);
+        for (const auto& mesh : meshes) {
+            if (!isTerrainTile(*mesh) && !isFixedMesh(*mesh)) return false;
+        }
+        return !meshes.empty();
+    }
+    const bool isPlainGroup = typeid(node) == typeid(osg::Group) || typeid(node) == typeid(Carrier);
+    return _frame.isBelowTile && !isPlainGroup && !node.asDrawable() && isFixedMesh(node);
+}
+
+// Scenes may have far more groups than tiles above each other: for these it takes little stack.
+void TileFinder::visit(osg::Node& node, bool isTile) {
+    if (!isTile) return visitOther(node);
+    if (_depth >= kDeepest) return visitTooDeep(node);
+    const Scoped globe(_frame.ellipsoid, _frame.isKnown() ? _frame.ellipsoid : wgs84());
+    FoundTile tile{&node, ownMeshes(node), _frame, _ordinal++, filesBelow(node, _frame.file)};
+    const Scoped scope(_tile, static_cast<const osg::Node*>(&node));
+    const Scoped depth(_depth, _depth + 1);
+    visitTile(tile);
+}
+
+void TileFinder::traverseBelow(osg::Node& node) {
+    // A terrain tile that is traversed before it has its Terrain never finds it afterwards.
+    if (isTerrainTile(node)) return;
+    if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node)) return traversePaged(*paged);
+    // parts of a leaf are no leaves
+    const Scoped below(_frame.isBelowTile, _frame.isBelowTile && _tile != &node);
+    if (node.asTransform()) return traverseTransform(*node.asTransform());
+    traverse(node);
+}
+
+// By itself, and the matrix alone, to leave stack for scenes that are nested deep.
+void TileFinder::traverseTransform(osg::Transform& node) {
+    const Scoped matrix(_frame.localToEcef, osgAnalyticBin::frameInside(node, _frame));
+    traverse(node);
+}
+
+void TileFinder::traversePaged(osg::PagedLOD& node) {
+    if (_depth >= kDeepest) return visitTooDeep(node);
+    const bool isTile = _tile == &node;
+    const Scoped depth(_depth, _depth + 1);
+    for (unsigned int i = 0; i < node.getNumChildren(); ++i) {
+        if (!isPagedChild(node, i)) {
+            // a tile's own mesh is no tile beside it
+            if (!isTile) node.getChild(i)->accept(*this);
+            continue;
+        }
+        TileFrame inside = _frame;
+        inside.file = pagedFilePath(_frame.file, node.getFileName(i));
+        inside.isBelowTile = _frame.isBelowTile || isTile;
+        const Scoped frame(_frame, inside);
+        const Scoped<std::size_t> ordinal(_ordinal, 0);
+        node.getChild(i)->accept(*this);
+    }
+}
+
+std::vector<FoundTile> findTiles(osg::Node& node, const TileFrame& frame) {
+    class Collector : public TileFinder {
+    public:
+        using TileFinder::TileFinder;
+        std::vector<FoundTile> tiles;
+
+    protected:
+        void visitTile(FoundTile& tile) override {
+            tiles.push_back(tile);
+            traverseBelow(*tile.node);
+        }
+    };
+    Collector collector(frame);
+    node.accept(collector);
+    return collector.tiles;
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,301 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TileFit.h"
+
+#include "../../core/EarthScale.h"
+#include "../GlmBridge.h"
+
+#include <osgAnalyticBin/TileSurface.h>
+
+#include <osg/PagedLOD>
+#include <osgTerrain/TerrainTile>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+bool hasTerrainTile(osg::Node& mesh) {
+    if (dynamic_cast<osgTerrain::TerrainTile*>(&mesh)) return true;
+    osg::Group* const group = dynamic_cast<osg::PagedLOD*>(&mesh) ? nullptr : mesh.asGroup();
+    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
+        if (hasTerrainTile(*group->getChild(i))) return true;
+    }
+    return false;
+}
+
+bool hasTerrainTile(const FoundTile& tile) {
+    return std::any_of(tile.meshes.begin(), tile.meshes.end(),
+                       [](const osg::ref_ptr<osg::Node>& mesh) { return hasTerrainTile(*mesh); });
+}
+
+// Meshes of one tile are its levels of detail: any of them may be shown.
+TileSurface surfaceOf(const FoundTile& tile, const osg::EllipsoidModel& ellipsoid, double sampleRatio) {
+    TileSurface surface;
+    surface.isEmpty = true;
+    for (const osg::ref_ptr<osg::Node>& mesh : tile.meshes) {
+        const TileSurface own = tileSurface(*mesh, ellipsoid, tile.frame.localToEcef, sampleRatio);
+        if (own.isEmpty) continue;
+        if (!own.bin.valid()) return {};
+        surface.isEmpty = false;
+        surface.bin.expandBy(own.bin);
+        surface.skirt = std::max(surface.skirt, own.skirt);
+        surface.isScalable = surface.isScalable || own.isScalable;
+    }
+    return surface;
+}
+
+void linkTo(const core::GeodeticBin& extents, ParentTile& link) {
+    link.extents = extents;
+    const ParentTile* parent = link.parent.get();
+    link.edges = core::TileEdges::of(extents, parent ? &parent->extents : nullptr, parent ? &parent->edges : nullptr);
+}
+
+AnalyticBin withAltitude(const AnalyticBin& bin, core::Interval altitude, double sag) {
+    AnalyticBin result = bin;
+    result.setBin(bin.bin().withAltitude(altitude));
+    result.setSag(std::max(sag, bin.sag()));
+    return result;
+}
+
+// What a tile draws by itself, as far as its lowest altitude and its bin tell.
+AnalyticBin surfaceAbove(double low, const AnalyticBin& bin) {
+    return withAltitude(bin, {low, std::max(low, bin.bin().altitude().upper)}, 0.0);
+}
+
+// On a globe that is larger than the earth, or in smaller units, undeclared heights hold as much.
+core::Interval heightsIn(const Database& database) {
+    const core::Interval heights = database.options().heights;
+    if (!(heights == CullOptions::kTerrainOnEarth)) return heights;
+    const double scale = std::max(1.0, core::earthScale(toCore(*database.ellipsoid())));
+    return {heights.lower * scale, heights.upper * scale};
+}
+
+// The bin of a tile of which no more is known than its surface and the declared heights.
+AnalyticBin rangedBin(const TileSurface& surface, bool hasDescendants, const Database& database,
+                      const ParentTile& link) {
+    const core::Ellipsoid ellipsoid = toCore(*database.ellipsoid());
+    const core::GeodeticBin& extents = surface.bin.bin();
+    const core::Interval heights = heightsIn(database);
+    double sag = core::crackDepth(ellipsoid, extents, link.edges);
+    core::Interval altitude = extents.altitude();
+    if (hasDescendants) {
+        sag = std::max(sag, core::sagOfFinerMeshes(ellipsoid, extents, surface.isScalable));
+        altitude.upper = std::max(altitude.upper, heights.upper);
+    }
+    altitude.lower = std::min(altitude.lower, heights.lower - sag);
+    return withAltitude(surface.bin, altitude, sag);
+}
+
+void fitSurface(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link, TileFit& fit) {
+    const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape.sampleRatio);
+    fit.isTerrain = surface.bin.valid();
+    if (!fit.isTerrain && !surface.isEmpty && link.stored.valid()) Database::reportUntold(link);
+    if (!fit.isTerrain) return;
+    linkTo(surface.bin.bin(), link);
+    fit.surface = surface.bin;
+    fit.bin = rangedBin(surface, !tile.pagedFiles.empty(), database, link);
+    fit.isScalable = surface.isScalable;
+    if (database.options().skirts == SkirtUse::All || link.edges.areOnBorder()) fit.skirt = surface.skirt;
+}
+
+// For a tile whose bin says nothing of skirts.
+void fitSkirt(const FoundTile& tile, const TerrainShape& shape, TileFit& fit) {
+    const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape.sampleRatio);
+    fit.skirt = surface.skirt;
+    if (!surface.bin.valid()) fit.bin.init();
+}
+
+// Returns: whether the index knows the tile as it is.
+bool fitIndexed(const FoundTile& tile, const Database& database, const TerrainShape& shape, ParentTile& link,
+                TileFit& fit) {
+    const BinIndex::Entry* entry = database.index() ? database.index()->find(tile.frame.file, tile.ordinal) : nullptr;
+    const bool isAsKnown = entry && entry->fingerprint == tileFingerprint(tile);
+    if (!isAsKnown) return false;
+    fit.isTerrain = true;
+    fit.bin = entry->bin;
+    fit.isScalable = hasTerrainTile(tile);
+    if (!fit.bin.valid()) return true;
+    linkTo(fit.bin.bin(), link);
+    fit.surface = surfaceAbove(entry->ownLow, fit.bin);
+    // the floor of an index is that of its neighbours' edges
+    const double relief = heightsIn(database).width() + fit.bin.sag();
+    const double dip = core::dipBehindEdge(toCore(*database.ellipsoid()), fit.bin.bin(), link.edges, relief);
+    const core::Interval& altitude = fit.bin.bin().altitude();
+    fit.bin = withAltitude(fit.bin, {altitude.lower - dip, altitude.upper}, fit.bin.sag() + dip);
+    if (link.edges.areOnBorder()) fitSkirt(tile, shape, fit);
+    return true;
+}
+
+// Edges that lie half way to a neighbour's heights are anywhere in the heights that the options declare.
+AnalyticBin withHeights(const AnalyticBin& bin, const core::Interval& heights) {
+    if (!bin.valid()) return bin;
+    const core::Interval& own = bin.bin().altitude();
+    const core::Interval all{std::min(own.lower, heights.lower - bin.sag()), std::max(own.upper, heights.upper)};
+    return withAltitude(bin, all, 0.0);
+}
+
+// A terrain tile that another technique than OSG's own draws as it likes.
+TileFit unknownFit(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
+    database.noteUnknownTechnique();
+    const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape.sampleRatio);
+    if (surface.bin.valid()) linkTo(surface.bin.bin(), link);
+    TileFit fit;
+    fit.isScalable = true;
+    fit.isTerrain = true;
+    return fit;
+}
+
+// How far a tile may seem to leave a stored bin that is right: bounds of surfaces are rough where meshes are coarse.
+struct Tolerance {
+    double below, above, aside;
+};
+
+Tolerance toleranceFor(const AnalyticBin& bin, double sag, const core::Ellipsoid& ellipsoid) {
+    const double metre = core::earthScale(ellipsoid);
+    const double mostMargin = 100.0 * metre;  // a stored one may be anything
+    constexpr double kShareOfWidth = 1.0 / 32.0;
+    const double width =
+        ellipsoid.polarRadius() * std::max(bin.bin().latitude().width(), bin.bin().longitude().width());
+    const double least = metre + std::min(bin.margin(), mostMargin);
+    return {least + sag, least, least + kShareOfWidth * width};
+}
+
+// Radians that the bound of a mesh may run beyond an end of the latitudes, poleward of it: in proportion to its sag
+// over the distance of the vertices from the axis. Those of a mesh within a right bin are no nearer than the bin's end.
+double runBeyond(double polewardLatitude, double sag, const core::Ellipsoid& ellipsoid) {
+    constexpr double kNearerChords = 1.25;
+    if (polewardLatitude <= 0.0) return 0.0;
+    const double nearest = ellipsoid.equatorialRadius() * std::max(std::cos(polewardLatitude), 1e-9);
+    return std::min(kNearerChords * sag / nearest, 0.5);
+}
+
+// Whether the outer bin holds the inner one but for the tolerance. `sag`: of what is known to be drawn.
+bool nearlyHolds(const AnalyticBin& outer, const AnalyticBin& inner, double sag, const core::Ellipsoid& ellipsoid) {
+    const Tolerance tolerance = toleranceFor(inner, sag, ellipsoid);
+    const double angle = tolerance.aside / ellipsoid.polarRadius();
+    // the longitudes of a cap about the pole say little
+    const double narrowest = std::max(std::cos(std::abs(inner.bin().center().latitude)), 1e-3);
+    const auto grown = [](const core::Interval& range, double below, double above) -> core::Interval {
+        return {range.lower - below, range.upper + above};
+    };
+    const core::GeodeticBin& bin = outer.bin();
+    const core::Interval altitude = grown(bin.altitude(), outer.margin(), outer.margin());
+    const core::Interval& latitude = bin.latitude();
+    return core::GeodeticBin(grown(latitude, std::max(angle, runBeyond(-latitude.lower, sag, ellipsoid)),
+                                   std::max(angle, runBeyond(latitude.upper, sag, ellipsoid))),
+                             grown(bin.longitude(), angle / narrowest, angle / narrowest),
+                             grown(altitude, tolerance.below, tolerance.above))
+        .contains(inner.bin());
+}
+
+// A bin that is stored with a tile speaks of all that is paged below it, before that is there: what turns out to be
+// larger widens it and its ancestors. Returns: the tile's own surface, where it is known.
+AnalyticBin checkStored(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link,
+                        TileFit& fit) {
+    const osg::EllipsoidModel& model = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database.ellipsoid();
+    const TileSurface own = surfaceOf(tile, model, shape.sampleRatio);
+    if (!own.bin.valid() && !own.isEmpty) {
+        fit.bin.init();
+        Database::reportUntold(link);
+        return {};
+    }
+    if (database.options().skirts == SkirtUse::All) fit.skirt = own.skirt;
+    // other sample ratios make other meshes than those that the bin was made of
+    const AnalyticBin surface = own.isScalable && shape.sampleRatio != 1.0 ? AnalyticBin() : own.bin;
+    const core::Ellipsoid ellipsoid = toCore(model);
+    const bool isWithinBin =
+        !surface.valid() || !fit.bin.valid() || nearlyHolds(fit.bin, surface, surface.sag(), ellipsoid);
+    if (!isWithinBin || (link.hasNewContent && surface.valid())) fit.bin.expandBy(surface);
+    const AnalyticBin& drawn = fit.bin.valid() ? fit.bin : surface;
+    const double sag = surface.valid() ? std::min(surface.sag(), drawn.sag()) : 0.0;
+    const ParentTile* const parent = link.parent.get();
+    const bool isWithinParent =
+        !parent || !parent->stored.valid() || !drawn.valid() || nearlyHolds(parent->stored, drawn, sag, ellipsoid);
+    if (!isWithinBin || !isWithinParent) Database::reportFalseBin(link, drawn);
+    return surface;
+}
+
+// The same of a tile that has no bin of its own stored, below one that has.
+void checkUnstored(const AnalyticBin& shown, double sag, Database& database, const ParentTile& link) {
+    if (!link.stored.valid() || !shown.valid()) return;
+    if (!nearlyHolds(link.stored, shown, sag, toCore(*database.ellipsoid()))) Database::reportFalseBin(link, shown);
+}
+
+// By what was found of the tile before. That may have been in another place, below other tiles.
+void correct(const FoundTile& tile, Database& database, const ParentTile& link, TileFit& fit) {
+    const Widening correction = database.correction(tile.frame.file, tile.ordinal);
+    if (correction.isBoundless && link.stored.valid()) Database::reportUntold(link);
+    checkUnstored(correction.bin, 0.0, database, link);
+    if (correction.any()) fit.bin = correction.widened(fit.bin);
+}
+
+// What is stored is closer than the bound of a mesh's sag, and believed where the mesh's vertices allow it.
+AnalyticBin shownSurface(const FoundTile& tile, const AnalyticBin& surface, const AnalyticBin& bin,
+                         const core::Ellipsoid& ellipsoid) {
+    const double rounding = core::earthScale(ellipsoid);
+    const auto low = storedSurfaceLow(*tile.node);
+    if (!low) return surface;
+    const bool isPossible =
+        !surface.valid() || *low <= surface.bin().altitude().lower + surface.sag() + surface.margin() + rounding;
+    return isPossible ? surfaceAbove(*low, bin) : surface;
+}
+
+TileFit fitStored(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
+    TileFit fit;
+    fit.bin = storedBin(*tile.node);
+    fit.isScalable = hasTerrainTile(tile);
+    fit.isTerrain = true;
+    const AnalyticBin surface = checkStored(tile, database, shape, link, fit);
+    if (!fit.bin.valid()) return fit;
+    fit.surface = shownSurface(tile, surface, fit.bin, toCore(*database.ellipsoid()));
+    linkTo(fit.bin.bin(), link);
+    correct(tile, database, link, fit);
+    link.stored = fit.bin;
+    return fit;
+}
+
+TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
+    if (hasStoredBin(*tile.node)) return fitStored(tile, database, shape, link);
+    TileFit fit;
+    // an index does not know how far skirts hang, nor meshes of other sample ratios
+    const bool isIndexFit = database.options().skirts == SkirtUse::Cracks && shape.sampleRatio == 1.0;
+    if (!isIndexFit || !fitIndexed(tile, database, shape, link, fit)) {
+        fitSurface(tile, database, shape, link, fit);
+        if (isIndexFit && database.index() && fit.isTerrain) Database::reportMisfit(link, fit.bin);
+        if (!fit.isScalable || shape.sampleRatio == 1.0) checkUnstored(fit.surface, fit.surface.sag(), database, link);
+    } else {
+        checkUnstored(fit.bin, fit.bin.sag(), database, link);
+    }
+    if (!fit.bin.valid()) return fit;
+    fit.bin.setBin(core::withGaps(toCore(*database.ellipsoid()), fit.bin.bin(), link.edges));
+    correct(tile, database, link, fit);
+    return fit;
+}
+
+// Whether tiles above it whose bins hold the declared heights may be too low for a surface, or not deep enough.
+bool leavesHeights(const AnalyticBin& surface, const Database& database) {
+    const core::Interval heights = heightsIn(database);
+    const core::Interval& altitude = surface.bin().altitude();
+    return altitude.upper > heights.upper || altitude.lower + surface.sag() < heights.lower;
+}
+
+}  // namespace
+
+TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
+    if (!shape.isKnown && hasTerrainTile(tile)) return unknownFit(tile, database, shape, link);
+    TileFit fit = fitKnown(tile, database, shape, link);
+    if (fit.surface.valid() && (link.hasNewContent || leavesHeights(fit.surface, database))) {
+        Database::noteLarger(link, fit.surface);
+    }
+    if (shape.areBoundariesEqual && fit.isScalable) {
+        fit.bin = withHeights(fit.bin, heightsIn(database));
+        fit.surface = withHeights(fit.surface, heightsIn(database));
+    }
+    return fit;
+}
+
+}  // namespace osgAnalyticBin

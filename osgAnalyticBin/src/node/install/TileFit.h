@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "../page/Database.h"
+
+#include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/TileFinder.h>
+
+namespace osgAnalyticBin {
+
+/// What a tile is culled by, at vertical scale 1.
+struct TileFit {
+    AnalyticBin bin;      ///< with all descendants; not valid: see isTerrain
+    AnalyticBin surface;  ///< what it draws by itself; not valid: not known
+    /// Metres that skirts hang below the bin, where they are to count: with SkirtUse::All, and on the outer border of a
+    /// database, where no neighbour stands before them. Assumes: descendants' skirts hang no longer than the tile's
+    /// own.
+    double skirt = 0.0;
+    bool isScalable = false;
+    /// False: the node is not terrain, and left as it is. True with a bin that is not valid: never culled.
+    bool isTerrain = false;
+};
+
+/// From, in this order: the bin stored with it; the database's index; its surface and the range of heights that the
+/// options declare. A tile that is not as the index knows it is reported to the database.
+/// `shape` is what the database is drawn in; the application may change that meanwhile.
+/// `link.parent`, `link.file`, `link.ordinal` and what is stored above have to be set in `link`; the rest is set here.
+/// Source: doc/databases.md, sections 2 and 4.
+[[nodiscard]] TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link);
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "BinReadFileCallback.h"
+
+#include "../Text.h"
+#include "../install/SharedTiles.h"
+#include "../install/TileCallback.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/TileFile.h>
+
+#include <osg/Notify>
+#include <osgDB/FileCache>
+#include <osgDB/Registry>
+
+#include <algorithm>
+#include <exception>
+#include <ios>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+osgDB::ReaderWriter::ReadResult unreadable(const std::string& fileName, const char* why) {
+    OSG_WARN << "osgAnalyticBin: \"" << fileName << "\" could not be read: " << why
+             << "; its parent tile stays visible." << std::endl;
+    return osgDB::ReaderWriter::ReadResult(osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE);
+}
+
+// Which installation, and where on its globe. A tile's bin holds for one Database alone: another may have other
+// corrections, another shape of terrain, or a horizon that the tile was never counted in.
+std::string placeText(const Database& database, const TileFrame& frame) {
+    std::vector<double> numbers(frame.localToEcef.ptr(), frame.localToEcef.ptr() + 16);
+    const osg::EllipsoidModel* ellipsoid = frame.ellipsoid.get();
+    if (ellipsoid) numbers.insert(numbers.end(), {ellipsoid->getRadiusEquator(), ellipsoid->getRadiusPolar()});
+    return std::to_string(database.number()) + ' ' + numbersToText(numbers);
+}
+
+}  // namespace
+
+BinReadFileCallback::BinReadFileCallback(const CullOptions& options, Database* database, const TileFrame& frame,
+                                         osgDB::ReadFileCallback* previous)
+    : _options(options),
+      _database(database),
+      _generation(database->generation()),
+      _unexpected{frame, nullptr},
+      _previous(previous) {}
+
+BinReadFileCallback::~BinReadFileCallback() = default;
+
+void BinReadFileCallback::expect(const std::string& fileName, const TileFrame& frame, const ParentTile* parent) {
+    _expected[fileName] = {frame, parent};
+}
+
+bool BinReadFileCallback::expectsOtherwise(const std::string& fileName, const TileFrame& frame,
+                                           const ParentTile* parent) const {
+    const auto found = _expected.find(fileName);
+    if (found == _expected.end()) return false;
+    return found->second.parent != parent || found->second.frame.localToEcef != frame.localToEcef;
+}
+
+const BinReadFileCallback::Expected& BinReadFileCallback::expected(const std::string& fileName,
+                                                                   const osgDB::Options* options) const {
+    const auto found = _expected.find(fileName);
+    if (found != _expected.end()) return found->second;
+    // The pager asks for a file of a server by its name in OSG's file cache, if it is there.
+    const osgDB::FileCache* const own = options ? options->getFileCache() : nullptr;
+    const osg::ref_ptr<const osgDB::FileCache> cache = own ? own : osgDB::Registry::instance()->getFileCache();
+    if (!cache) return _unexpected;
+    const auto cached = std::find_if(_expected.begin(), _expected.end(), [&](const auto& entry) {
+        return cache->isFileAppropriateForFileCache(entry.first) && cache->createCacheFileName(entry.first) == fileName;
+    });
+    return cached == _expected.end() ? _unexpected : cached->second;
+}
+
+osgDB::ReaderWriter::ReadResult BinReadFileCallback::readUntreated(const std::string& fileName,
+                                                                   const osgDB::Options* options) {
+    if (_previous) return _previous->readNode(fileName, options);
+    osgDB::ReadFileCallback* global = osgDB::Registry::instance()->getReadFileCallback();
+    return global ? global->readNode(fileName, options) : readTileFile(fileName, options);
+}
+
+osgDB::ReaderWriter::ReadResult BinReadFileCallback::readNode(const std::string& fileName,
+                                                              const osgDB::Options* options) {
+    // No node and no error: the pager says nothing, and asks again in the next frame.
+    if (!_failures.mayRead(fileName, FailedReads::Clock::now())) return ReadResult::FILE_LOADED;
+    ReadResult result = readOrFail(fileName, options);
+    _failures.note(fileName, result.validNode(), FailedReads::Clock::now());
+    if (result.validNode()) _database->noteRead(*result.getNode(), _generation);
+    return result;
+}
+
+osgDB::ReaderWriter::ReadResult BinReadFileCallback::readOrFail(const std::string& fileName,
+                                                                const osgDB::Options* options) {
+    try {
+        const bool cached = options && (options->getObjectCacheHint() & osgDB::Options::CACHE_NODES);
+        return cached ? readThroughCache(fileName, *options) : readTreated(fileName, options);
+    } catch (const std::ios_base::failure&) {
+        return unreadable(fileName, "it ends too early");
+    } catch (const std::exception& error) {
+        // A corrupt file may ask for absurd amounts of memory; the pager's thread must outlive that.
+        return unreadable(fileName, error.what());
+    }
+}
+
+// A tile gets into the cache only when its bins are installed, so that nobody ever finds it half treated.
+osgDB::ReaderWriter::ReadResult BinReadFileCallback::readThroughCache(const std::string& fileName,
+                                                                      const osgDB::Options& options) {
+    // The pager's own cache is merged into the Registry's when the tile is merged into the scene.
+    osgDB::ObjectCache* const registrys = osgDB::Registry::instance()->getObjectCache();
+    osgDB::ObjectCache* const own = options.getObjectCache() ? options.getObjectCache() : registrys;
+    // The cache tells options apart by their text alone.
+    const osg::ref_ptr<osgDB::Options> key = new osgDB::Options(
+        options.getOptionString() + " osgAnalyticBin " + toText(_options) + ' ' +
+        placeText(*_database, expected(fileName, &options).frame) + ' ' + std::to_string(_generation));
+    for (osgDB::ObjectCache* cache : {own, registrys}) {
+        if (!cache) continue;
+        const osg::ref_ptr<osg::Object> found = cache->getRefFromObjectCache(fileName, key.get());
+        if (found) return ReadResult(found.get(), ReadResult::FILE_LOADED_FROM_CACHE);
+    }
+    const osg::ref_ptr<osgDB::Options> uncached = options.cloneOptions();
+    uncached->setObjectCacheHint(
+        static_cast<osgDB::Options::CacheHintOptions>(options.getObjectCacheHint() & ~osgDB::Options::CACHE_NODES));
+    ReadResult result = readTreated(fileName, uncached.get());
+    if (own && result.validNode()) own->addEntryToObjectCache(fileName, result.getNode(), 0.0, key.get());
+    return result;
+}
+
+osgDB::ReaderWriter::ReadResult BinReadFileCallback::readTreated(const std::string& fileName,
+                                                                 const osgDB::Options* options) {
+    ReadResult result = readUntreated(fileName, options);
+    osg::Node* const node = result.getNode();
+    if (!node) return result;
+    const Expected& known = expected(fileName, options);
+    if (node->referenceCount() == 1) {
+        // a tile that is a transform gets a group above it
+        osg::ref_ptr<osg::Node> root = node;
+        if (node->asTransform()) {
+            root = new Carrier;
+            root->asGroup()->addChild(node);
+        }
+        treat(*root, known);
+        return ReadResult(root.get(), result.status());
+    }
+    const auto outcome = SharedTiles::instance().treatOnce(*node, placeText(*_database, known.frame), _generation,
+                                                           [&] { treat(*node, known); });
+    if (outcome == SharedTiles::Outcome::Usable) return result;
+    return unreadable(fileName, "a read callback shares one copy between two places or installations");
+}
+
+void BinReadFileCallback::treat(osg::Node& node, const Expected& expected) const {
+    if (_database->isRemoved()) return;
+    BinInstaller installer(_options);
+    installer.continueBelow(_database.get(), expected.frame, expected.parent.get());
+    node.accept(installer);
+    installer.finish();
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Database.h"
+
+#include "../cull/TileFamily.h"
+#include "../install/InstalledTile.h"
+
+#include <osg/Notify>
+#include <osgTerrain/GeometryTechnique>
+
+#include <algorithm>
+#include <typeinfo>
+#include <utility>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+using Contents = std::vector<osg::observer_ptr<osg::Node>>;
+
+std::string nameOf(const ParentTile& tile) {
+    return tile.file.empty() ? "the root file" : '"' + tile.file + '"';
+}
+
+// Forgets what is in the scene or deleted. Returns: whether some of it is in the scene.
+bool takeMerged(Contents& contents) {
+    bool found = false;
+    const auto isGone = [&](const osg::observer_ptr<osg::Node>& observed) {
+        osg::ref_ptr<osg::Node> node;
+        if (!observed.lock(node)) return true;
+        const bool isMerged = node->getNumParents() > 0;
+        found = found || isMerged;
+        return isMerged;
+    };
+    contents.erase(std::remove_if(contents.begin(), contents.end(), isGone), contents.end());
+    return found;
+}
+
+}  // namespace
+
+bool Widening::contains(const Widening& other) const {
+    if (isBoundless || !other.any()) return true;
+    return !other.isBoundless && bin.valid() && bin.contains(other.bin);
+}
+
+void Widening::expandBy(const Widening& other) {
+    isBoundless = isBoundless || other.isBoundless;
+    bin.expandBy(other.bin);
+}
+
+AnalyticBin Widening::widened(const AnalyticBin& known) const {
+    if (isBoundless || !known.valid()) return {};
+    AnalyticBin wider = known;
+    wider.expandBy(bin);
+    return wider;
+}
+
+bool Database::isAttachedTo(const osg::Node& node) const {
+    osg::ref_ptr<osgTerrain::Terrain> terrain;
+    (void)_terrain.lock(terrain);
+    return _root == &node && terrain == dynamic_cast<const osgTerrain::Terrain*>(&node);
+}
+
+CullOptions Database::options() const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return _options;
+}
+
+void Database::setOptions(const CullOptions& options) {
+    const TerrainShape present = shape();
+    const std::lock_guard<std::mutex> lock(_mutex);
+    _options = options;
+    _fittedShape = present;
+    ++_generation;
+    (void)takeMerged(_onTheirWay);
+    _lateComers.insert(_lateComers.end(), _onTheirWay.begin(), _onTheirWay.end());
+    _onTheirWay.clear();
+}
+
+unsigned int Database::generation() const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return _generation;
+}
+
+void Database::noteRead(osg::Node& content, unsigned int generation) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    Contents& contents = generation == _generation ? _onTheirWay : _lateComers;
+    contents.emplace_back(&content);
+    // a database without an update callback of ours never looks what has arrived
+    constexpr std::size_t kMostOnTheirWay = 4096;
+    if (contents.size() > kMostOnTheirWay) contents.erase(contents.begin(), contents.begin() + kMostOnTheirWay / 2);
+}
+
+void Database::refitLateComers() {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    (void)takeMerged(_onTheirWay);
+    if (takeMerged(_lateComers)) requestRefit();
+}
+
+TerrainShape Database::shape() const {
+    osg::ref_ptr<osgTerrain::Terrain> terrain;
+    if (!_terrain.lock(terrain)) return {};
+    // tiles get copies of it
+    const osgTerrain::TerrainTechnique* technique = terrain->getTerrainTechniquePrototype();
+    const bool isKnown = !technique || typeid(*technique) == typeid(osgTerrain::GeometryTechnique);
+    return {terrain->getVerticalScale(), terrain->getSampleRatio(), terrain->getEqualizeBoundaries(), isKnown};
+}
+
+TerrainShape Database::fittedShape() const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return _fittedShape;
+}
+
+bool Database::takeShapeChange() {
+    const TerrainShape present = shape();
+    const std::lock_guard<std::mutex> lock(_mutex);
+    const bool hasChanged = !(present == _fittedShape);
+    _fittedShape = present;
+    return _isRefitWanted.exchange(false, std::memory_order_relaxed) || hasChanged;
+}
+
+void Database::noteGap(const std::string& where) {
+    if (_hasGap.exchange(true, std::memory_order_relaxed)) return;
+    OSG_INFO << "osgAnalyticBin: the tiles of \"" << where
+             << "\" do not cover the tile that they are paged below, or the globe; the horizon is not used."
+             << std::endl;
+}
+
+void Database::noteUnknownTechnique() {
+    if (_hasUnknownTechnique.exchange(true, std::memory_order_relaxed)) return;
+    OSG_INFO << "osgAnalyticBin: the Terrain has a technique that is not osgTerrain::GeometryTechnique; its tiles are "
+                "not culled."
+             << std::endl;
+}
+
+// Once for a database, whatever globes are inside it.
+void Database::warn(const ParentTile& tile, bool Database::*hasWarned, const char* what) {
+    const ParentTile* outermost = &tile;
+    while (outermost->parent) outermost = outermost->parent.get();
+    Database& database = *outermost->database;
+    {
+        const std::lock_guard<std::mutex> lock(database._mutex);
+        if (std::exchange(database.*hasWarned, true)) return;
+    }
+    // OSG's stream is one for all threads
+    static std::mutex printing;
+    const std::lock_guard<std::mutex> lock(printing);
+    OSG_WARN << "osgAnalyticBin: " << nameOf(tile) << what << std::endl;
+}
+
+void Database::reportMisfit(const ParentTile& tile, const AnalyticBin& bin) {
+    warn(tile, &Database::_hasWarnedOfIndex,
+         " is not as the index knows it; tiles are kept visible there. Run osgbinconv --index again.");
+    widenFrom(tile, {bin});
+}
+
+void Database::reportFalseBin(const ParentTile& tile, const AnalyticBin& bin) {
+    warn(tile, &Database::_hasWarnedOfStored,
+         " holds a tile that is larger than the bin stored with it or above it; bins are widened there. Make the "
+         "database again.");
+    widenFrom(tile, {bin});
+}
+
+void Database::reportUntold(const ParentTile& tile) {
+    warn(tile, &Database::_hasWarnedOfUntold,
+         " holds what cannot be compared with the bin stored with it or above it: it stands on another globe, or its "
+         "mesh cannot be told; tiles are kept visible there.");
+    widenFrom(tile, {{}, true});
+}
+
+// The tile itself has been fitted to what is reported, and need not be widened.
+void Database::widenFrom(const ParentTile& tile, const Widening& by) {
+    for (const ParentTile* at = &tile; at; at = at->parent.get()) {
+        if (at->isTile) at->database->widen(*at, by, at == &tile);
+    }
+}
+
+void Database::widen(const ParentTile& tile, const Widening& by, bool isFitted) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    _corrections[{tile.file, tile.ordinal}].expandBy(by);
+    // one file may be paged in several places, and below itself
+    if (isFitted || tile.widening.contains(by)) return;
+    tile.widening.expandBy(by);
+    _toWiden.emplace_back(tile.callback, by);
+}
+
+void Database::noteContent(const AnalyticBinCullCallback& tile, const Widening& by) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    // where no update traversal ever comes, tiles stay visible
+    constexpr std::size_t kMostToWiden = 65536;
+    if (_toWiden.size() < kMostToWiden) _toWiden.emplace_back(const_cast<AnalyticBinCullCallback*>(&tile), by);
+}
+
+Widening Database::correction(const std::string& file, std::size_t ordinal) const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    const auto known = _corrections.find({file, ordinal});
+    return known == _corrections.end() ? Widening() : known->second;
+}
+
+void Database::noteChanged(osg::Group& group) const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    constexpr std::size_t kMostGroups = 4096;  // where no update traversal ever comes
+    if (_changedGroups.size() < kMostGroups) _changedGroups.emplace_back(&group);
+}
+
+void Database::renewFamilies() {
+    std::vector<osg::observer_ptr<osg::Group>> changed;
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        changed.swap(_changedGroups);
+    }
+    for (const auto& observed : changed) {
+        osg::ref_ptr<osg::Group> group;
+        if (observed.lock(group)) TileFamily::renew(*group);
+    }
+}
+
+void Database::update() {
+    refitLateComers();
+    renewFamilies();
+    std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, Widening>> toWiden;
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        toWiden.swap(_toWiden);
+    }
+    for (const auto& [observed, widening] : toWiden) {
+        osg::ref_ptr<AnalyticBinCullCallback> callback;
+        if (!observed.lock(callback)) {
+            // paged out, or fitted anew while the tile was on its way
+            requestRefit();
+            continue;
+        }
+        callback->setBin(widening.widened(callback->bin()));
+        if (callback->installedTile()) callback->installedTile()->keepVisible(false);
+    }
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/BinIndex.h>
+#include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/core/mesh/CrackBounds.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Referenced>
+#include <osg/observer_ptr>
+#include <osgTerrain/Terrain>
+
+#include <atomic>
+#include <cstddef>
+#include <map>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+struct ParentTile;
+
+/// What a tile's bin has to be widened by.
+struct Widening {
+    AnalyticBin bin;
+    bool isBoundless = false;  ///< what was found cannot be told
+
+    [[nodiscard]] bool any() const { return isBoundless || bin.valid(); }
+    [[nodiscard]] bool contains(const Widening& other) const;
+    void expandBy(const Widening& other);
+    /// The wider bin; one that is not known stays so.
+    [[nodiscard]] AnalyticBin widened(const AnalyticBin& bin) const;
+};
+
+/// What the tiles of one installed database share: those that are loaded, and those that the DatabasePager will load.
+/// Threads: everything may be called from the pager's threads and from cull threads but update() and setOptions().
+class Database : public osg::Referenced {
+public:
+    /// `terrain` and `index` may be null.
+    Database(const CullOptions& options, const osg::EllipsoidModel* ellipsoid, osgTerrain::Terrain* terrain,
+             const BinIndex* index)
+        : _ellipsoid(ellipsoid), _terrain(terrain), _index(index), _options(options), _fittedShape(shape()) {}
+
+    /// The node that the database is attached to: the CoordinateSystemNode, or, without one, the root of the scene.
+    void setRoot(const osg::Node& node) { _root = &node; }
+    /// Whether it is attached to this node, and follows its Terrain. Clones of a scene share what names databases.
+    [[nodiscard]] bool isAttachedTo(const osg::Node& node) const;
+
+    /// A number that no other database of this process has or had.
+    [[nodiscard]] unsigned long number() const { return _number; }
+
+    [[nodiscard]] CullOptions options() const;
+
+    /// Culls by other options from now on. Tiles that were treated by the old ones and are still on their way, read or
+    /// not, are fitted anew in the update traversal that finds them in the scene. Not while a cull traversal runs.
+    void setOptions(const CullOptions& options);
+
+    /// How often setOptions() was called.
+    [[nodiscard]] unsigned int generation() const;
+
+    /// Says that bins are taken off: what is read from now on gets none.
+    void setRemoved() { _isRemoved.store(true, std::memory_order_relaxed); }
+    [[nodiscard]] bool isRemoved() const { return _isRemoved.load(std::memory_order_relaxed); }
+
+    /// Says that a file's content is on its way into the scene, treated by the options of that generation.
+    void noteRead(osg::Node& content, unsigned int generation);
+
+    [[nodiscard]] const osg::EllipsoidModel* ellipsoid() const { return _ellipsoid.get(); }
+    [[nodiscard]] const BinIndex* index() const { return _index.get(); }
+
+    /// The shape that the Terrain, if any, gives its tiles at present. Not in the pager's threads: the application may
+    /// change it meanwhile.
+    [[nodiscard]] TerrainShape shape() const;
+
+    /// The shape that tiles are fitted to: that of the last update traversal. In any thread.
+    [[nodiscard]] TerrainShape fittedShape() const;
+
+    /// Says that tiles were met that are not fitted to the present shape.
+    void requestRefit() const { _isRefitWanted.store(true, std::memory_order_relaxed); }
+
+    /// Says that the children of a group with a family have changed. The next update makes the family anew.
+    void noteChanged(osg::Group& group) const;
+
+    /// In the update traversal: whether the loaded tiles have to be fitted anew, told once.
+    [[nodiscard]] bool takeShapeChange();
+
+    /// Says that something of the globe may not be covered by tiles of known depth: no horizon then, unless given.
+    void noteGap(const std::string& where);
+    [[nodiscard]] bool hasGap() const { return _hasGap.load(std::memory_order_relaxed); }
+
+    /// Says that osgTerrain tiles are drawn in a way that is not known.
+    void noteUnknownTechnique();
+
+    /// Says that a tile does not fit the index: warns once, and widens the tile's ancestors at the next update.
+    static void reportMisfit(const ParentTile& tile, const AnalyticBin& bin);
+
+    /// Says that a tile is larger than the bin that is stored with it or with its parent: likewise.
+    static void reportFalseBin(const ParentTile& tile, const AnalyticBin& bin);
+
+    /// Says that what a tile draws may leave the bins of the tiles above it, for good reasons: these are widened.
+    static void noteLarger(const ParentTile& tile, const AnalyticBin& bin) { widenFrom(tile, {bin}); }
+
+    /// Says that nobody can tell whether a tile fits into the bins that are stored with it and above it: warns once,
+    /// and has the tile's ancestors kept visible from the next update on.
+    static void reportUntold(const ParentTile& tile);
+
+    /// Says that something stands below a tile, now or from now on, that its bin does not hold. The tile is kept
+    /// visible until the next update widens the bin.
+    void noteContent(const AnalyticBinCullCallback& tile, const Widening& by);
+
+    /// What the reports said of a tile or its descendants.
+    [[nodiscard]] Widening correction(const std::string& file, std::size_t ordinal) const;
+
+    /// In the update traversal, before takeShapeChange(): widens the loaded tiles that were reported.
+    void update();
+
+protected:
+    ~Database() override = default;
+
+private:
+    using TileKey = std::pair<std::string, std::size_t>;
+
+    void widen(const ParentTile& tile, const Widening& by, bool isFitted);
+    static void widenFrom(const ParentTile& tile, const Widening& by);
+    static void warn(const ParentTile& tile, bool Database::*hasWarned, const char* what);
+    void refitLateComers();
+    void renewFamilies();
+
+    static inline std::atomic<unsigned long> _count{0};
+
+    const unsigned long _number = ++_count;
+    const osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;
+    const osg::observer_ptr<osgTerrain::Terrain> _terrain;
+    const osg::Node* _root = nullptr;
+    const osg::ref_ptr<const BinIndex> _index;
+    mutable std::atomic<bool> _isRefitWanted{false};
+    std::atomic<bool> _isRemoved{false};
+    std::atomic<bool> _hasGap{false};
+    std::atomic<bool> _hasUnknownTechnique{false};
+    mutable std::mutex _mutex;  // guards what follows
+    CullOptions _options;
+    TerrainShape _fittedShape;
+    unsigned int _generation = 0;
+    std::vector<osg::observer_ptr<osg::Node>> _onTheirWay;  // treated by the present options
+    std::vector<osg::observer_ptr<osg::Node>> _lateComers;  // treated by earlier ones
+    bool _hasWarnedOfIndex = false, _hasWarnedOfStored = false, _hasWarnedOfUntold = false;
+    std::map<TileKey, Widening> _corrections;
+    std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, Widening>> _toWiden;
+    mutable std::vector<osg::observer_ptr<osg::Group>> _changedGroups;
+};
+
+/// A tile as those that are paged below it see it.
+struct ParentTile : public osg::Referenced {
+    osg::ref_ptr<const ParentTile> parent;  // null: a tile of the root file
+    osg::observer_ptr<AnalyticBinCullCallback> callback;
+    bool isTile = true;  // false: a node without a bin, between tiles; it has neither number nor extents
+    std::string file;
+    std::size_t ordinal = 0;
+    bool hasNewContent = false;  // since bins were last installed on it
+    core::GeodeticBin extents;
+    core::TileEdges edges;
+    // What the tile is culled by, where a stored bin says so; else that of the nearest tile above that has one.
+    // Invalid: there is none.
+    AnalyticBin stored;
+    // Of the tile: a globe inside another has its own.
+    osg::ref_ptr<Database> database;
+    // What its callback has been asked to be widened by; guarded by the database.
+    mutable Widening widening;
+
+protected:
+    ~ParentTile() override = default;
+};
+
+}  // namespace osgAnalyticBin

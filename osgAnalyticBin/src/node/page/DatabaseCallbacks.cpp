@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "DatabaseCallbacks.h"
+
+#include "../GlmBridge.h"
+#include "../cull/BinCulling.h"
+#include "../cull/CullTraversal.h"
+#include "../cull/SeeThrough.h"
+#include "../cull/ShownDepth.h"
+#include "../cull/TilePlan.h"
+#include "../cull/Viewpoint.h"
+#include "../install/FindCallback.h"
+#include "../install/TileCallback.h"
+
+#include <osgAnalyticBin/BinInstaller.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/CullStack>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack,
+                                        Database& database, const DatabaseView& view) {
+    const CullOptions options = database.options();
+    const HorizonUse horizonUse = options.effectiveHorizonUse();
+    const bool isGiven = horizonUse == HorizonUse::Given;
+    // an eye below the terrain looks through the backs of the faces that would hide
+    const bool isAboveTerrain = options.skirts == SkirtUse::Cracks;
+    const bool isUsed = isGiven || (horizonUse == HorizonUse::Declared && isAboveTerrain && !database.hasGap());
+    if (!isUsed || isStateSeeThrough(nv)) return std::nullopt;
+    const auto viewpoint = Viewpoint::of(cullStack, nv, options.inheritViewpoint);
+    if (!viewpoint) return std::nullopt;
+    const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
+    const ShownDatabase shown{node, nv, cullStack, view};
+    if (isGiven && (!isAboveTerrain || database.hasGap())) return eyeAboveDepth(shown, *viewpoint, deepest);
+    // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: what is shown
+    // shall not depend on where the camera has been.
+    constexpr unsigned int kFreshStart = 16;
+    double& depth = CullTraversal::of(nv).lastDepth(database);
+    if (nv.getTraversalNumber() % kFreshStart == 0) depth = 0.0;
+    return eyeAboveWhatIsShown(shown, *viewpoint, deepest, depth);
+}
+
+// Culled or kept siblings before the database leave a part of the planes behind.
+void beginWithAllPlanes(osg::CullStack& cullStack) {
+    osg::Polytope& frustum = cullStack.getCurrentCullingSet().getFrustum();
+    setUndecided(frustum, static_cast<core::PlaneMask>((std::uint64_t{1} << frustum.getPlaneList().size()) - 1));
+}
+
+}  // namespace
+
+DatabaseCullCallback::DatabaseCullCallback(const DatabaseCullCallback& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop),
+      osg::Callback(other, copyop),
+      osg::NodeCallback(other, copyop),
+      _database(other._database),
+      _node(nullptr) {}
+
+void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    osg::CullStack* cullStack = nv->asCullStack();
+    osg::Group* group = node->asGroup();
+    if (!cullStack || !group || node != _node) {
+        traverse(node, nv);
+        return;
+    }
+    // has tiles notice what was added below them
+    (void)node->getBound();
+    beginWithAllPlanes(*cullStack);
+    CullTraversal& traversal = CullTraversal::of(*nv);
+    DatabaseView view{_database.get(),
+                      toCore(*_database->ellipsoid()),
+                      _database->shape(),
+                      nullptr,
+                      cullStack->getModelViewMatrix(),
+                      cullStack->getProjectionMatrix(),
+                      traversal.planes(*cullStack),
+                      &traversal.plan()};
+    view.plan->clear();
+    const auto eye = eyeOver(*group, *nv, *cullStack, *_database, view);
+    if (eye) view.eye = &*eye;
+    const CullTraversal::DatabaseScope scope(*nv, traversal, view);
+    traverse(node, nv);
+}
+
+DatabaseUpdateCallback::DatabaseUpdateCallback(const DatabaseUpdateCallback& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop),
+      osg::Callback(other, copyop),
+      osg::NodeCallback(other, copyop),
+      _database(other._database),
+      _node(nullptr) {}
+
+// A copied callback gives its node a database of its own, and another callback in its place. One that is shared belongs
+// to the original.
+void DatabaseUpdateCallback::runOnClone(osg::Node& node, osg::NodeVisitor& nv) {
+    const osg::ref_ptr<DatabaseUpdateCallback> self(this);
+    const osg::ref_ptr<osg::Callback> nested = getNestedCallback();
+    if (!_node) {
+        BinInstaller installer(_database->options());
+        installer.setIndex(_database->index());
+        installer.installAt(node);
+    }
+    if (nested) {
+        nested->run(&node, &nv);
+    } else {
+        nv.traverse(node);
+    }
+}
+
+void DatabaseUpdateCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    if (node != _node) return runOnClone(*node, *nv);
+    _database->update();
+    if (_database->takeShapeChange()) {
+        BinInstaller installer(_database->options());
+        installer.refit(*node, *_database);
+    }
+    traverse(node, nv);
+}
+
+void attachDatabase(osg::Node& node, Database& database) {
+    attachUpdate(node, database);
+    // in front: what is nested runs in the scope of the database
+    const osg::ref_ptr<DatabaseCullCallback> cull = new DatabaseCullCallback(&database, &node);
+    cull->setNestedCallback(node.getCullCallback());
+    node.setCullCallback(cull);
+}
+
+void attachUpdate(osg::Node& node, Database& database) {
+    detachDatabase(node);
+    database.setRoot(node);
+    const osg::ref_ptr<DatabaseUpdateCallback> update = new DatabaseUpdateCallback(&database, &node);
+    node.addUpdateCallback(update);
+}
+
+Database* attachedDatabase(osg::Node& node) {
+    const auto* update = findCallback<DatabaseUpdateCallback>(node.getUpdateCallback());
+    return update && update->database()->isAttachedTo(node) ? update->database() : nullptr;
+}
+
+void detachDatabase(osg::Node& node) {
+    if (const osg::ref_ptr<osg::Callback> cull = findCallback<DatabaseCullCallback>(node.getCullCallback())) {
+        takeOff(node, *cull);
+    }
+    const osg::ref_ptr<osg::Callback> update = findCallback<DatabaseUpdateCallback>(node.getUpdateCallback());
+    if (!update) return;
+    const osg::ref_ptr<osg::Callback> nested = update->getNestedCallback();
+    const bool isFirst = node.getUpdateCallback() == update;
+    if (isFirst && update->referenceCount() > 2) return node.setUpdateCallback(nested.get());
+    node.removeUpdateCallback(update.get());
+}
+
+}  // namespace osgAnalyticBin

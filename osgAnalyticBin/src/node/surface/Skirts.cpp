@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Skirts.h"
+
+#include "../../core/EarthScale.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+constexpr float kBorder = 1e-6f;  // of texture coordinates
+// Skirts of one tile are equally deep to this part of their depth and this many metres on the earth, in proportion
+// elsewhere (float vertices of large tiles).
+constexpr double kDepthTolerance = 0.02;
+constexpr double kDepthRounding = 4.0;
+constexpr double kShallowest = 1.0;  // metres on the earth
+// How far from straight down a skirt may hang: the geocentric vertical is 0.2 degrees off.
+constexpr double kPlumbCosine = 0.999;
+
+std::uint8_t edgesAt(const osg::Vec2& t) {
+    const unsigned int south = unsigned{t.y() <= kBorder} * kSouthEdge;
+    const unsigned int east = unsigned{t.x() >= 1.0f - kBorder} * kEastEdge;
+    const unsigned int north = unsigned{t.y() >= 1.0f - kBorder} * kNorthEdge;
+    const unsigned int west = unsigned{t.x() <= kBorder} * kWestEdge;
+    return static_cast<std::uint8_t>(south | east | north | west);
+}
+
+bool isInUnitSquare(const osg::Vec2& t) {
+    constexpr float kLow = -kBorder;
+    constexpr float kHigh = 1.0f + kBorder;
+    return static_cast<int>(t.x() >= kLow) & static_cast<int>(t.x() <= kHigh) & static_cast<int>(t.y() >= kLow) &
+           static_cast<int>(t.y() <= kHigh);
+}
+
+// Finds the vertex with the same texture coordinates, by open addressing.
+class PlaceTable {
+public:
+    explicit PlaceTable(std::size_t places) {
+        std::size_t capacity = 16;
+        while (capacity < 2 * places) capacity *= 2;
+        _slots.assign(capacity, kFree);
+    }
+
+    // Returns: the vertex that was added at the same place before, or kFree.
+    std::uint32_t add(std::uint32_t vertex, const osg::Vec2* texCoords) {
+        const osg::Vec2& t = texCoords[vertex];
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, t.ptr(), sizeof(bits));
+        bits *= 0x9e3779b97f4a7c15u;
+        const std::size_t mask = _slots.size() - 1;
+        for (std::size_t i = (bits >> 32) & mask;; i = (i + 1) & mask) {
+            if (_slots[i] == kFree) {
+                _slots[i] = vertex;
+                return kFree;
+            }
+            if (texCoords[_slots[i]] == t) return _slots[i];
+        }
+    }
+
+    static constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
+
+private:
+    std::vector<std::uint32_t> _slots;
+};
+
+struct Pair {
+    std::uint32_t upper;
+    std::uint32_t lower;
+};
+
+// The squared distance of two vertices, one straight below the other; NaN when it is not.
+class DepthMeasure {
+public:
+    explicit DepthMeasure(const core::Ellipsoid& ellipsoid)
+        : _equatorial(1.0 / (ellipsoid.equatorialRadius() * ellipsoid.equatorialRadius())),
+          _polar(1.0 / (ellipsoid.polarRadius() * ellipsoid.polarRadius())),
+          _shallowest2(kShallowest * kShallowest * core::earthScale(ellipsoid) * core::earthScale(ellipsoid)) {}
+
+    [[nodiscard]] double depth2(const glm::dvec3& upper, const glm::dvec3& lower) const {
+        const glm::dvec3 hanging = upper - lower;
+        const glm::dvec3 up(upper.x * _equatorial, upper.y * _equatorial, upper.z * _polar);
+        const double depth2 = glm::dot(hanging, hanging);
+        const double along = glm::dot(hanging, up);
+        const bool plumb = along > 0.0 && along * along >= kPlumbCosine * kPlumbCosine * depth2 * glm::dot(up, up);
+        return plumb && depth2 >= _shallowest2 ? depth2 : std::numeric_limits<double>::quiet_NaN();
+    }
+
+private:
+    double _equatorial, _polar, _shallowest2;
+};
+
+// Returns: no pairs unless every border vertex has exactly one partner.
+std::vector<Pair> pairsOf(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& marks) {
+    std::vector<std::uint32_t> border(mesh.size());
+    std::size_t count = 0;
+    for (std::uint32_t i = 0; i < mesh.size(); ++i) {
+        border[count] = i;
+        count += marks[i] != 0;
+    }
+    PlaceTable places(count);
+    std::vector<Pair> pairs;
+    pairs.reserve(count / 2);
+    std::vector<std::uint8_t> paired(mesh.size(), 0);
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::uint32_t i = border[k];
+        const std::uint32_t other = places.add(i, mesh.texCoords);
+        if (other == PlaceTable::kFree) continue;
+        if (paired[other]) return {};
+        paired[other] = 1;
+        const glm::dvec3 a = mesh.vertex(other);
+        const glm::dvec3 b = mesh.vertex(i);
+        const bool otherIsUpper = glm::dot(a, a) > glm::dot(b, b);
+        pairs.push_back({otherIsUpper ? other : i, otherIsUpper ? i : other});
+    }
+    if (2 * pairs.size() != count) return {};
+    return pairs;
+}
+
+// The triangles with a lower vertex, by their first index; `areSkirts` is false when one has a vertex off the border.
+struct HangingTriangles {
+    std::vector<std::uint32_t> first;
+    bool areSkirts = true;
+};
+
+HangingTriangles hangingTriangles(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& marks) {
+    HangingTriangles hanging;
+    hanging.first.resize(mesh.triangles.size() / 3 + 1);
+    std::size_t count = 0;
+    unsigned int bad = 0;
+    // without branches, which would be foretold wrongly
+    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+        const unsigned int a = marks[mesh.triangles[i]];
+        const unsigned int b = marks[mesh.triangles[i + 1]];
+        const unsigned int c = marks[mesh.triangles[i + 2]];
+        const unsigned int hangs = ((a | b | c) & kSkirtVertex) / kSkirtVertex;
+        bad |= hangs & (unsigned{a == 0} | unsigned{b == 0} | unsigned{c == 0});
+        hanging.first[count] = static_cast<std::uint32_t>(i);
+        count += hangs;
+    }
+    hanging.first.resize(count);
+    hanging.areSkirts = bad == 0;
+    return hanging;
+}
+
+void fold(const std::vector<Pair>& pairs, SurfaceMesh& mesh) {
+    for (const Pair& pair : pairs) {
+        mesh.x[pair.lower] = mesh.x[pair.upper];
+        mesh.y[pair.lower] = mesh.y[pair.upper];
+        mesh.z[pair.lower] = mesh.z[pair.upper];
+    }
+}
+
+// Two sides of a folded triangle are chords of the border, or all are points.
+double longestChord2(const SurfaceMesh& mesh, const std::vector<std::uint32_t>& folded) {
+    double longest2 = 0.0;
+    for (const std::uint32_t i : folded) {
+        const glm::dvec3 middle = mesh.vertex(mesh.triangles[i + 1]);
+        const glm::dvec3 before = mesh.vertex(mesh.triangles[i]) - middle;
+        const glm::dvec3 after = mesh.vertex(mesh.triangles[i + 2]) - middle;
+        longest2 = std::max(longest2, std::max(glm::dot(before, before), glm::dot(after, after)));
+    }
+    return longest2;
+}
+
+}  // namespace
+
+MeshSkirts foldSkirts(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
+    if (!mesh.texCoords) return {};
+    MeshSkirts skirts;
+    skirts.marks.resize(mesh.size());
+    bool inUnitSquare = true;
+    for (std::size_t i = 0; i < mesh.size(); ++i) {
+        inUnitSquare &= isInUnitSquare(mesh.texCoords[i]);
+        skirts.marks[i] = edgesAt(mesh.texCoords[i]);
+    }
+    if (!inUnitSquare) return {};
+    const std::vector<Pair> pairs = pairsOf(mesh, skirts.marks);
+    if (pairs.empty()) return {};
+
+    const DepthMeasure measure(ellipsoid);
+    double shallowest2 = std::numeric_limits<double>::infinity();
+    double deepest2 = 0.0;
+    bool plumb = true;
+    for (const Pair& pair : pairs) {
+        const double depth2 = measure.depth2(mesh.vertex(pair.upper), mesh.vertex(pair.lower));
+        plumb &= depth2 > 0.0;
+        shallowest2 = std::min(shallowest2, depth2);
+        deepest2 = std::max(deepest2, depth2);
+        skirts.marks[pair.lower] |= kSkirtVertex;
+    }
+    skirts.depth = std::sqrt(deepest2);
+    const double rounding = kDepthRounding * core::earthScale(ellipsoid);
+    const bool equal = skirts.depth <= std::sqrt(shallowest2) * (1.0 + kDepthTolerance) + rounding;
+    if (!plumb || !equal) return {};
+    const HangingTriangles hanging = hangingTriangles(mesh, skirts.marks);
+    if (!hanging.areSkirts) return {};
+    fold(pairs, mesh);
+    skirts.borderChord2 = longestChord2(mesh, hanging.first);
+    return skirts;
+}
+
+}  // namespace osgAnalyticBin

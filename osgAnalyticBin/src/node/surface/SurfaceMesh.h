@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/mesh/QuickMeshBounds.h>
+
+#include <glm/vec3.hpp>
+#include <osg/Geometry>
+#include <osg/Matrixd>
+#include <osg/Vec2>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+/// The triangles of one drawable in ECEF; lines and points are triangles without area.
+struct SurfaceMesh : core::EcefMesh {
+    /// One for each vertex, or null.
+    const osg::Vec2* texCoords = nullptr;
+};
+
+/// Reads a drawable, whose frame `localToEcef` takes to ECEF, in place of what the mesh held.
+/// Returns: false when what it draws cannot be told: no vertices that can be read, an index beyond them, instances.
+[[nodiscard]] bool readMesh(const osg::Drawable& drawable, const osg::Matrixd& localToEcef, SurfaceMesh& mesh);
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "SurfaceWalk.h"
+
+#include "../Inverse.h"
+
+#include <osg/Billboard>
+#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+#include <osg/PositionAttitudeTransform>
+#include <osg/ProxyNode>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// Transforms that stay as they are once loaded; others have no fixed place on the globe.
+bool isFixed(osg::Transform& node) {
+    const bool known = node.asMatrixTransform() || node.asPositionAttitudeTransform();
+    return known && node.getReferenceFrame() == osg::Transform::RELATIVE_RF && !node.getUpdateCallback() &&
+           node.getDataVariance() != osg::Object::DYNAMIC;
+}
+
+}  // namespace
+
+SurfaceWalk::SurfaceWalk(const osg::Matrixd& localToEcef)
+    : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _localToEcef(localToEcef), _isKnown(isAffine(localToEcef)) {
+    setNodeMaskOverride(~0u);
+}
+
+void SurfaceWalk::apply(osg::Node& node) {
+    if (!_isKnown) return;
+    // Traversed before it has its Terrain, a tile never finds it afterwards; children it does not draw.
+    if (auto* tile = dynamic_cast<osgTerrain::TerrainTile*>(&node)) return visit(*tile);
+    traverse(node);
+}
+
+void SurfaceWalk::apply(osg::Billboard&) {
+    giveUp();
+}
+
+void SurfaceWalk::apply(osg::ProxyNode& node) {
+    node.getNumFileNames() > 0 ? giveUp() : traverse(node);
+}
+
+void SurfaceWalk::apply(osg::PagedLOD&) {
+    giveUp();
+}
+
+void SurfaceWalk::apply(osg::Transform& node) {
+    if (!_isKnown) return;
+    if (!isFixed(node)) return giveUp();
+    const osg::Matrixd outer = _localToEcef;
+    node.computeLocalToWorldMatrix(_localToEcef, this);
+    if (!isAffine(_localToEcef)) giveUp();
+    traverse(node);
+    _localToEcef = outer;
+}
+
+void SurfaceWalk::apply(osg::Drawable& drawable) {
+    if (_isKnown) visit(drawable);
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "../../core/EarthScale.h"
+
+#include <algorithm>
+
+namespace osgAnalyticBin {
+
+/// What is higher is no terrain: 50 km on the earth, in proportion on larger globes and in smaller units. Small bodies
+/// have higher mountains for their size, a tenth of the radius at most.
+[[nodiscard]] inline double highestTerrain(const core::Ellipsoid& ellipsoid) {
+    constexpr double kHighest = 5.0e4;
+    const double smaller = std::min(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+    return std::min(kHighest * std::max(1.0, core::earthScale(ellipsoid)), 0.1 * smaller);
+}
+
+/// What is lower is no mesh of terrain, however coarse: 1000 km below the ellipsoid on the earth, in proportion on
+/// other globes, and half of the smallest radius of curvature at most.
+[[nodiscard]] inline double lowestMesh(const core::Ellipsoid& ellipsoid) {
+    constexpr double kLowest = 1.0e6;
+    return -std::min(kLowest * core::earthScale(ellipsoid), core::deepestPost(ellipsoid));
+}
+
+}  // namespace osgAnalyticBin

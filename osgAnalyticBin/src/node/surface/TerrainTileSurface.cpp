@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TerrainTileSurface.h"
+
+#include "../GlmBridge.h"
+#include "HeightRange.h"
+#include "TerrainLimits.h"
+
+#include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
+
+#include <osgTerrain/GeometryTechnique>
+#include <osgTerrain/Layer>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// osgTerrain::GeometryTechnique: the grid of a tile without heights, and the coarsest that a sample ratio makes.
+constexpr unsigned int kDefaultPosts = 20;
+constexpr unsigned int kFewestSampledPosts = 16;
+// The vertical scales up to which the sag holds.
+constexpr double kLargestScale = 10.0;
+constexpr double kLargestCell = 1.0;  // radians
+// Vertices are floats about the tile's middle; half a unit in the last place each, in three directions.
+constexpr double kVertexRounding = 1.1e-7;
+constexpr double kSameRadius = 1e-3;  // metres on the earth
+constexpr double kPlacing = 0.01;     // metres on the earth: heights as floats, positions as doubles, radii
+
+unsigned int sampledPosts(unsigned int posts, double sampleRatio) {
+    const float scaled = static_cast<float>(posts) * std::sqrt(static_cast<float>(sampleRatio));
+    return std::max(static_cast<unsigned int>(scaled), kFewestSampledPosts);
+}
+
+// The rectangle of a locator whose matrix is nothing but extents.
+std::optional<core::GeodeticGrid> rectangleOf(const osgTerrain::Locator& locator) {
+    const osg::Matrixd& m = locator.getTransform();
+    osg::Matrixd extents;
+    extents(0, 0) = m(0, 0);
+    extents(1, 1) = m(1, 1);
+    extents(3, 0) = m(3, 0);
+    extents(3, 1) = m(3, 1);
+    if (!(m == extents)) return std::nullopt;
+    const auto between = [](double from, double width) {
+        return width < 0.0 ? core::Interval{from + width, from} : core::Interval{from, from + width};
+    };
+    core::GeodeticGrid grid;
+    grid.longitude = between(m(3, 0), m(0, 0));
+    grid.latitude = between(m(3, 1), m(1, 1));
+    return grid;
+}
+
+bool isOnTheGlobe(const core::GeodeticGrid& grid) {
+    constexpr double kRounding = 1e-9;
+    const bool proper = std::isfinite(grid.longitude.lower) && grid.longitude.width() <= 2.0 * osg::PI + kRounding &&
+                        std::abs(grid.longitude.lower) <= 4.0 * osg::PI &&
+                        std::abs(grid.latitude.lower) <= osg::PI_2 + kRounding &&
+                        std::abs(grid.latitude.upper) <= osg::PI_2 + kRounding;
+    return proper && grid.columns >= 2 && grid.rows >= 2 &&
+           grid.longitude.width() <= kLargestCell * static_cast<double>(grid.columns - 1) &&
+           grid.latitude.width() <= kLargestCell * static_cast<double>(grid.rows - 1);
+}
+
+bool isSame(const osg::EllipsoidModel& a, const osg::EllipsoidModel& b) {
+    const double same = kSameRadius * core::earthScale(toCore(b));
+    return std::abs(a.getRadiusEquator() - b.getRadiusEquator()) <= same &&
+           std::abs(a.getRadiusPolar() - b.getRadiusPolar()) <= same;
+}
+
+// Metres from the tile's middle that a vertex is at most.
+double reachOf(const core::GeodeticGrid& grid, const core::Ellipsoid& ellipsoid) {
+    const double radius = std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius()) + highestTerrain(ellipsoid);
+    return radius * std::min(2.0, 0.5 * (grid.latitude.width() + grid.longitude.width()));
+}
+
+// Edges in the order of TileSurface::edgeLow.
+std::array<double, 4> edgeLows(const HeightRange& heights, const osgTerrain::Locator& locator,
+                               const core::GeodeticGridBounds& bounds) {
+    std::array<double, 4> lows = heights.edgeLow;
+    if (locator.getTransform()(0, 0) < 0.0) std::swap(lows[1], lows[3]);
+    if (locator.getTransform()(1, 1) < 0.0) std::swap(lows[0], lows[2]);
+    for (std::size_t i = 0; i < lows.size(); ++i) lows[i] -= bounds.edgeSag()[i];
+    return lows;
+}
+
+}  // namespace
+
+const osgTerrain::Locator* masterLocator(osgTerrain::TerrainTile& tile) {
+    const osgTerrain::Layer* elevation = tile.getElevationLayer();
+    if (elevation && elevation->getLocator()) return elevation->getLocator();
+    const osgTerrain::Layer* colour = tile.getColorLayer(0);
+    return colour ? colour->getLocator() : nullptr;
+}
+
+const osg::HeightField* heightField(osgTerrain::TerrainTile& tile) {
+    const auto* layer = dynamic_cast<osgTerrain::HeightFieldLayer*>(tile.getElevationLayer());
+    const osg::HeightField* field = layer ? layer->getHeightField() : nullptr;
+    if (!field || !field->getFloatArray()) return nullptr;
+    const std::size_t posts = std::size_t{field->getNumColumns()} * field->getNumRows();
+    return field->getFloatArray()->size() >= posts ? field : nullptr;
+}
+
+TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::EllipsoidModel& ellipsoid,
+                               double sampleRatio) {
+    const auto* technique = tile.getTerrainTechnique();
+    if (technique && !dynamic_cast<const osgTerrain::GeometryTechnique*>(technique)) return {};
+    const osgTerrain::Locator* locator = masterLocator(tile);
+    if (!locator || locator->getCoordinateSystemType() != osgTerrain::Locator::GEOCENTRIC ||
+        !locator->getEllipsoidModel() || !isSame(*locator->getEllipsoidModel(), ellipsoid)) {
+        return {};
+    }
+    std::optional<core::GeodeticGrid> grid = rectangleOf(*locator);
+    if (!grid) return {};
+
+    const osgTerrain::Layer* layer = tile.getElevationLayer();
+    unsigned int columns = layer ? layer->getNumColumns() : kDefaultPosts;
+    unsigned int rows = layer ? layer->getNumRows() : kDefaultPosts;
+    const osg::HeightField* field = heightField(tile);
+    const bool isBroken = layer && !field && dynamic_cast<const osgTerrain::HeightFieldLayer*>(layer);
+    if (isBroken || !(sampleRatio >= 0.0)) return {};
+    HeightRange heights = layer ? (field ? heightRange(*layer, *field) : heightRange(*layer)) : HeightRange::flat();
+    const core::Ellipsoid model = toCore(ellipsoid);
+    const double most = highestTerrain(model);
+    if (!heights.isFinite || !(heights.low <= heights.high) || heights.low < -most || heights.high > most) return {};
+    if (sampleRatio != 1.0 && columns > kFewestSampledPosts && rows > kFewestSampledPosts) {
+        columns = sampledPosts(columns, sampleRatio);
+        rows = sampledPosts(rows, sampleRatio);
+    }
+    grid->columns = columns;
+    grid->rows = rows;
+    if (!isOnTheGlobe(*grid)) return {};
+
+    const double reach = kLargestScale * std::max(std::abs(heights.low), std::abs(heights.high));
+    const core::GeodeticGridBounds bounds(model, *grid, reach);
+    if (!bounds.isKnown()) return {};
+    const double skirt = field ? static_cast<double>(field->getSkirtHeight()) : 0.0;
+    if (!std::isfinite(skirt)) return {};
+
+    if (!(heights.low - bounds.sag() > -core::deepestPost(model))) return {};
+
+    TileSurface surface;
+    // a skirt of negative height stands up
+    const core::Interval altitude{heights.low - bounds.sag(), heights.high + std::max(0.0, -skirt)};
+    surface.bin = AnalyticBin(core::GeodeticBin(bounds.latitude(), grid->longitude, altitude),
+                              kVertexRounding * reachOf(*grid, model) + kPlacing * core::earthScale(model));
+    surface.bin.setSag(bounds.sag());
+    surface.edgeLow = edgeLows(heights, *locator, bounds);
+    surface.skirt = std::max(0.0, skirt);
+    surface.isScalable = true;
+    return surface;
+}
+
+}  // namespace osgAnalyticBin
