@@ -74,7 +74,8 @@ std::vector<std::string> rangeRows(const FigureScene& scene, std::size_t tile) {
     std::vector<std::string> rows;
     const auto planes = scene.camera.planes();
     for (std::size_t i = 0; i < planes.size(); ++i) {
-        const core::Interval range = quadratic.distanceRange(planes[i]);
+        const core::Interval range =
+            std::visit([&](const auto& form) { return form.distanceRange(planes[i]); }, quadratic);
         double least = HUGE_VAL;
         double most = -HUGE_VAL;
         for (const glm::dvec3& corner : corners) {

@@ -99,7 +99,7 @@ MethodBins methodBins(const Ellipsoid& ellipsoid, const std::vector<GeodeticBin>
         std::get<indexOf(Method::Box)>(result).emplace_back(ellipsoid, bin);
         std::get<indexOf(Method::Corners)>(result).emplace_back(mapping, box);
         std::get<indexOf(Method::Paper)>(result).emplace_back(mapping, box);
-        std::get<indexOf(Method::Quadratic)>(result).emplace_back(ellipsoid, bin);
+        std::get<indexOf(Method::Quadratic)>(result).push_back(core::quadraticOrExact(ellipsoid, bin));
         std::get<indexOf(Method::Exact)>(result).emplace_back(ellipsoid, bin);
         std::get<indexOf(Method::Hull)>(result).emplace_back(ellipsoid, bin);
     }

@@ -7,7 +7,7 @@
 
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
+#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 #include <osgAnalyticBin/core/edge/FrustumHull.h>
 #include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
@@ -82,7 +82,7 @@ template <class Bin>
 /// The bins of a list of tiles, for every method; prepared once.
 using MethodBins =
     std::tuple<std::vector<SphereBin>, std::vector<BoxBin>, std::vector<core::CornersBin>, std::vector<core::PaperBin>,
-               std::vector<core::GeodeticQuadraticBin>, std::vector<core::ExactGeodeticBin>, std::vector<HullBin>>;
+               std::vector<core::QuadraticOrExact>, std::vector<core::ExactGeodeticBin>, std::vector<HullBin>>;
 
 [[nodiscard]] MethodBins methodBins(const core::Ellipsoid& ellipsoid, const std::vector<core::GeodeticBin>& bins);
 

@@ -11,7 +11,7 @@
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
-#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
+#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 #include <osgAnalyticBin/core/rivals/BoxBins.h>
@@ -134,7 +134,7 @@ public:
         const auto paper = [&](const BinOracle& tile) {
             return core::PaperBin(mapping, core::parameterBox(tile.bin()));
         };
-        const auto quadratic = [&](const BinOracle& tile) { return core::GeodeticQuadraticBin(wgs84(), tile.bin()); };
+        const auto quadratic = [&](const BinOracle& tile) { return core::quadraticOrExact(wgs84(), tile.bin()); };
         const auto exact = [&](const BinOracle& tile) { return ExactGeodeticBin(wgs84(), tile.bin()); };
         const auto box = [&](const BinOracle& tile) { return core::BoxBin(wgs84(), tile.bin()); };
         const auto orientedBox = [&](const BinOracle& tile) { return core::OrientedBoxBin(wgs84(), tile.bin()); };

@@ -7,6 +7,7 @@
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/core/bin/BinFamily.h>
+#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
 
 #include <benchmark/benchmark.h>
@@ -133,7 +134,7 @@ public:
         const auto reachesIn = [](const Frustum& frustum, const BinOracle& tile) {
             return reachInto(frustum, tile) >= 0;
         };
-        const auto quadratic = [](const BinOracle& tile) { return core::GeodeticQuadraticBin(wgs84(), tile.bin()); };
+        const auto quadratic = [](const BinOracle& tile) { return core::quadraticOrExact(wgs84(), tile.bin()); };
         const auto exact = [](const BinOracle& tile) { return ExactGeodeticBin(wgs84(), tile.bin()); };
         std::vector<ExactGeodeticBin> bins;
         for (const BinOracle& tile : _scene.tiles) bins.push_back(exact(tile));
@@ -154,11 +155,16 @@ private:
         return test;
     }
 
+    static void setIn(BinFamily& family, std::size_t i, const ExactGeodeticBin& bin) { family.set(i, bin); }
+    static void setIn(BinFamily& family, std::size_t i, const core::QuadraticOrExact& bin) {
+        std::visit([&](const auto& form) { family.set(i, form); }, bin);
+    }
+
     template <class Make>
     [[nodiscard]] std::vector<BinFamily> familiesOf(const Make& make) const {
         std::vector<BinFamily> families(_scene.tiles.size() / kSiblings, BinFamily(kSiblings));
         for (std::size_t i = 0; i < _scene.tiles.size(); ++i) {
-            families[i / kSiblings].set(i % kSiblings, make(_scene.tiles[i]));
+            setIn(families[i / kSiblings], i % kSiblings, make(_scene.tiles[i]));
             families[i / kSiblings].setHorizon(i % kSiblings, HorizonBin(wgs84(), _scene.tiles[i].bin()));
         }
         return families;

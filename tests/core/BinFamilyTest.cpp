@@ -65,7 +65,7 @@ void expectVerdictsOfItsBins(const FamilyCase& c, Seen& seen) {
     for (std::size_t i = 0; i < c.slots.size(); ++i) {
         switch (c.slots[i].kind) {
             case SlotKind::Either:
-                expectVerdictOf(c.slots[i].either, c, verdict, i, seen);
+                std::visit([&](const auto& form) { expectVerdictOf(form, c, verdict, i, seen); }, c.slots[i].either);
                 break;
             case SlotKind::Exact:
                 expectVerdictOf(c.slots[i].exact, c, verdict, i, seen);
@@ -225,14 +225,14 @@ TEST(BinFamily, ABinThatIsSetAgainIsTheNewOne) {
     const GeodeticBin wide = GeodeticBin::fromDegrees({0.0, 40.0}, {0.0, 40.0}, {0.0, 1000.0});
     const GeodeticBin small = GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0});
     BinFamily family(1);
-    family.set(0, core::GeodeticQuadraticBin(wgs84(), wide));
-    family.set(0, core::GeodeticQuadraticBin(wgs84(), small));
+    family.set(0, core::ExactGeodeticBin(wgs84(), wide));
+    family.set(0, core::QuadraticBin(core::GeodeticMapping(wgs84()), core::parameterBox(small)));
     PlaneSet planes;
     planes.push_back({{1.0, 0.0, 0.0}, -6.3e6});  // only the small one is wholly beyond
     FamilyVerdict verdict{};
     family.classify(planes, planes.all(), verdict);
     EXPECT_EQ(verdict.insideAll, 1u);
-    family.set(0, core::GeodeticQuadraticBin(wgs84(), wide));
+    family.set(0, core::ExactGeodeticBin(wgs84(), wide));
     family.classify(planes, planes.all(), verdict);
     EXPECT_EQ(verdict.insideAll, 0u);
 }

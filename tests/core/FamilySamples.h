@@ -5,6 +5,7 @@
 
 #include <osgAnalyticBin/core/bin/BinFamily.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <array>
@@ -22,7 +23,7 @@ enum class SlotKind { Either, Exact, Quadratic, Empty };
 
 /// A bin in all forms, and which one the family has.
 struct Slot {
-    core::GeodeticQuadraticBin either;
+    core::QuadraticOrExact either;
     core::ExactGeodeticBin exact;
     core::QuadraticBin quadratic;
     core::HorizonBin horizon;
@@ -75,8 +76,7 @@ private:
 
     void addSlot(Random& random, const core::GeodeticBin& bin, std::size_t i, SlotKind kind) {
         const double margin = random.chance(0.5) ? 0.0 : random.logUniform(1e-3, 1e4);
-        slots.push_back({core::GeodeticQuadraticBin(ellipsoid, bin, margin),
-                         core::ExactGeodeticBin(ellipsoid, bin, margin),
+        slots.push_back({core::quadraticOrExact(ellipsoid, bin, margin), core::ExactGeodeticBin(ellipsoid, bin, margin),
                          core::QuadraticBin(core::GeodeticMapping(ellipsoid), core::parameterBox(bin), margin),
                          core::HorizonBin(ellipsoid, bin, margin), kind, random.chance(0.9)});
         const Slot& slot = slots.back();
@@ -84,7 +84,7 @@ private:
         if (random.chance(0.2)) family.set(i, slot.exact);
         if (random.chance(0.2)) family.set(i, slot.quadratic);
         if (kind == SlotKind::Empty && (random.chance(0.5) || family.filled() != 0)) family.clear(i);
-        if (kind == SlotKind::Either) family.set(i, slot.either);
+        if (kind == SlotKind::Either) std::visit([&](const auto& form) { family.set(i, form); }, slot.either);
         if (kind == SlotKind::Exact) family.set(i, slot.exact);
         if (kind == SlotKind::Quadratic) family.set(i, slot.quadratic);
         if (slot.hasHorizon) family.setHorizon(i, slot.horizon);

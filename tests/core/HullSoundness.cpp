@@ -10,8 +10,8 @@
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
-#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
+#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 #include <osgAnalyticBin/core/edge/FrustumHull.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
@@ -43,7 +43,6 @@ using core::Ellipsoid;
 using core::ExactGeodeticBin;
 using core::FrustumHull;
 using core::GeodeticBin;
-using core::GeodeticQuadraticBin;
 using core::HorizonBin;
 using core::HorizonEye;
 using core::HorizonPoint;
@@ -159,7 +158,7 @@ void moveToTie(Random& random, const TieCase& tie, const RealVector& point, Plan
 // A plane that the bin just reaches over, and one that it lies wholly behind but for next to nothing.
 void tryTangent(Random& random, const TieCase& tie, Counts& counts) {
     const ExactGeodeticBin exact(tie.ellipsoid, tie.bin);
-    const GeodeticQuadraticBin quadratic(tie.ellipsoid, tie.bin);
+    const core::QuadraticOrExact quadratic = core::quadraticOrExact(tie.ellipsoid, tie.bin);
     const BoxBin box(tie.ellipsoid, tie.bin);
     const OrientedBoxBin oriented(tie.ellipsoid, tie.bin);
     const BinOracle oracle(tie.ellipsoid, tie.bin);
@@ -182,7 +181,9 @@ void tryTangent(Random& random, const TieCase& tie, Counts& counts) {
         mask = set.all();
         const bool isExactKernelWrong = core::classify(exact, set, mask) == Side::Outside && truth.upper >= rounding;
         counts.note(kExactPlanes, isWrong(exact.classify(plane)) || isExactKernelWrong);
-        counts.note(kQuadraticPlanes, isWrong(quadratic.classify(plane)) || isKernelWrong);
+        counts.note(
+            kQuadraticPlanes,
+            isWrong(std::visit([&](const auto& form) { return form.classify(plane); }, quadratic)) || isKernelWrong);
         counts.note(kBox, isWrong(box.classify(plane)));
         counts.note(kOrientedBox, isWrong(oriented.classify(plane)));
     }

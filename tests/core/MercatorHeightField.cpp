@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <core/FormulaRounding.h>
+#include <core/formula/FormulaRounding.h>
 
 namespace osgAnalyticBin::test {
 

@@ -7,8 +7,8 @@
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
-#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
+#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 #include <osgAnalyticBin/core/rivals/BoxBins.h>
 #include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
@@ -47,7 +47,7 @@ struct PlaneSetCase {
         : oracle(randomEllipsoid(random), randomBin(random)),
           exact(oracle.ellipsoid(), oracle.bin()),
           quadratic(core::GeodeticMapping(oracle.ellipsoid()), core::parameterBox(oracle.bin())),
-          either(oracle.ellipsoid(), oracle.bin()) {
+          either(core::quadraticOrExact(oracle.ellipsoid(), oracle.bin())) {
         const int count =
             random.chance(0.5) ? random.integer(4, 6) : random.integer(0, static_cast<int>(core::kMaxPlanes));
         const bool allInside = random.chance(0.3);
@@ -66,7 +66,7 @@ struct PlaneSetCase {
     BinOracle oracle;
     ExactGeodeticBin exact;
     QuadraticBin quadratic;
-    core::GeodeticQuadraticBin either;
+    core::QuadraticOrExact either;
     PlaneSet planes;
     PlaneMask undecided = 0;
 };
@@ -98,7 +98,7 @@ TEST(PlaneSet, GivesTheVerdictsOfSinglePlanes) {
         const PlaneSetCase c(random);
         expectVerdictsOfSinglePlanes(c.exact, c.planes, c.undecided);
         expectVerdictsOfSinglePlanes(c.quadratic, c.planes, c.undecided);
-        expectVerdictsOfSinglePlanes(c.either, c.planes, c.undecided);
+        std::visit([&](const auto& form) { expectVerdictsOfSinglePlanes(form, c.planes, c.undecided); }, c.either);
         PlaneMask left = c.undecided;
         ++verdicts[static_cast<std::size_t>(core::classify(c.exact, c.planes, left))];
     }
@@ -162,8 +162,7 @@ TEST(PlaneSet, PlanesWithoutAUnitNormalDecideNothing) {
             const Plane plane{factor * glm::dvec3(0.6, 0.0, 0.8), offset};
             expectUndecidedInASet(ExactGeodeticBin(wgs84(), box), plane);
             expectUndecidedInASet(QuadraticBin(mapping, core::parameterBox(box)), plane);
-            expectUndecidedInASet(core::GeodeticQuadraticBin(wgs84(), box), plane);
-            expectUndecidedInASet(core::GeodeticQuadraticBin(wgs84(), wide), plane);
+            expectUndecidedInASet(ExactGeodeticBin(wgs84(), wide), plane);
             expectUndecidedInASet(core::BoxBin(wgs84(), box), plane);
             expectUndecidedInASet(core::OrientedBoxBin(wgs84(), box), plane);
             expectUndecided(core::PaperBin(mapping, core::parameterBox(box), 1.1), plane);
@@ -220,7 +219,6 @@ TEST(PlaneKernels, EveryTargetAgreesWithTheScalarForm) {
             };
             expectTheSame(c.exact.numbers().data(), true);
             expectTheSame(c.quadratic.numbers().data(), false);
-            expectTheSame(c.either.numbers().data(), c.either.isExact());
             if (HasFatalFailure()) break;
         }
         std::printf("%s: the same\n", hwy::TargetName(target));

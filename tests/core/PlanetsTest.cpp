@@ -6,7 +6,7 @@
 // sight come as close to a tie as doubles can say. Oracles: closed forms in long double.
 
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
+#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
@@ -30,7 +30,6 @@ namespace {
 using core::Ellipsoid;
 using core::ExactGeodeticBin;
 using core::GeodeticBin;
-using core::GeodeticQuadraticBin;
 using core::HorizonBin;
 using core::HorizonEye;
 using core::Interval;
@@ -75,7 +74,7 @@ TEST_P(Planets, HaveSoundAndTightVerdicts) {
             const GeodeticBin bin = randomBinHere();
             ASSERT_TRUE(ExactGeodeticBin::holds(ellipsoid, bin));
             const ExactGeodeticBin exact(ellipsoid, bin);
-            const GeodeticQuadraticBin quadratic(ellipsoid, bin);
+            const core::QuadraticOrExact either = core::quadraticOrExact(ellipsoid, bin);
             const BinOracle oracle(ellipsoid, bin);
             const glm::dvec3 normal = random.direction();
             const RealRange range = oracle.range(normal);
@@ -83,7 +82,7 @@ TEST_P(Planets, HaveSoundAndTightVerdicts) {
                 const Plane plane{normal, nearlyNothing() - static_cast<double>(touched)};
                 const RealRange truth = oracle.distanceRange(plane);
                 expectSound(exact, plane, truth, oracle.rounding(plane));
-                expectSound(quadratic, plane, truth, oracle.rounding(plane));
+                std::visit([&](const auto& form) { expectSound(form, plane, truth, oracle.rounding(plane)); }, either);
                 const double room = 128.0 * 2.3e-16 * (exact.reach() + std::abs(plane.offset));
                 EXPECT_LE(truth.lower - exact.distanceRange(plane).lower, room);
                 if (HasFatalFailure()) return;

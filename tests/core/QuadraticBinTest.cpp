@@ -7,8 +7,8 @@
 #include "BinChecks.h"
 
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
-#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
+#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -265,8 +265,9 @@ TEST(QuadraticBin, HoldsNearTheCentresOfCurvature) {
         Plane plane{random.direction(), 0.0};
         plane.offset =
             static_cast<double>(-exactDistance(plane, corner())) + random.sign() * random.logUniform(1e-12, 1e-6);
-        const core::GeodeticQuadraticBin made(ellipsoid, bin);
-        for (const Side side : {quadratic(ellipsoid, bin).classify(plane), made.classify(plane)}) {
+        const core::QuadraticOrExact either = core::quadraticOrExact(ellipsoid, bin);
+        const Side eitherSide = std::visit([&](const auto& form) { return form.classify(plane); }, either);
+        for (const Side side : {quadratic(ellipsoid, bin).classify(plane), eitherSide}) {
             ++verdicts[static_cast<std::size_t>(side)];
             for (int i = 0; i < 10; ++i) ASSERT_NO_FATAL_FAILURE(expectSideOf(plane, corner(), side, BinKind::Tiny));
         }

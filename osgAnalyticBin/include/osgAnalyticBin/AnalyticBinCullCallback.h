@@ -7,7 +7,7 @@
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Export.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 #include <osgAnalyticBin/core/rivals/BoxBins.h>
 #include <osgAnalyticBin/core/rivals/ComparisonBins.h>
@@ -174,8 +174,8 @@ protected:
 private:
     friend class TileFamily;
 
-    using PreparedBin = std::variant<core::GeodeticQuadraticBin, core::ExactGeodeticBin, core::PaperBin,
-                                     core::CornersBin, core::BoxBin, core::OrientedBoxBin>;
+    using PreparedBin = std::variant<core::QuadraticBin, core::ExactGeodeticBin, core::PaperBin, core::CornersBin,
+                                     core::BoxBin, core::OrientedBoxBin>;
     // What a test of this tile alone reads.
     struct Prepared {
         PreparedBin bin;

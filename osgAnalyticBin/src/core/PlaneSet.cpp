@@ -5,7 +5,6 @@
 
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
 
 namespace osgAnalyticBin::core {
@@ -28,10 +27,6 @@ Side classify(const ExactGeodeticBin& bin, const PlaneSet& planes, PlaneMask& un
 
 Side classify(const QuadraticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept {
     return classifyNumbers(bin.numbers().data(), false, planes, undecided);
-}
-
-Side classify(const GeodeticQuadraticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept {
-    return classifyNumbers(bin.numbers().data(), bin.isExact(), planes, undecided);
 }
 
 }  // namespace osgAnalyticBin::core

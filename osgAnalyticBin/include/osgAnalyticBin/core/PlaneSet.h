@@ -14,7 +14,6 @@
 namespace osgAnalyticBin::core {
 
 class ExactGeodeticBin;
-class GeodeticQuadraticBin;
 class QuadraticBin;
 
 /// What the signed distance to the plane may be off by because of its offset; doc/derivation.md, section 7.
@@ -63,8 +62,6 @@ private:
 [[nodiscard]] Side classify(const ExactGeodeticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept;
 /// Likewise for a bin of any mapping.
 [[nodiscard]] Side classify(const QuadraticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept;
-/// Likewise for the bin of a terrain tile.
-[[nodiscard]] Side classify(const GeodeticQuadraticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept;
 
 /// Every other bin, plane by plane.
 template <class Bin>

@@ -90,10 +90,6 @@ void BinFamily::set(std::size_t i, const ExactGeodeticBin& bin) noexcept {
     fill(i, bin.numbers().data(), bin.numbers().size(), true);
 }
 
-void BinFamily::set(std::size_t i, const GeodeticQuadraticBin& bin) noexcept {
-    fill(i, bin.numbers().data(), bin.numbers().size(), bin.isExact());
-}
-
 void BinFamily::setHorizon(std::size_t i, const HorizonBin& bin) noexcept {
     assert(i < _size);
     double* first = slot(i) + row::kBinRows * _data.stride;

@@ -12,8 +12,7 @@
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
-#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
-#include <osgAnalyticBin/core/bin/QuadraticBin.h>
+#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
 #include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
@@ -123,7 +122,8 @@ AnalyticBinCullCallback::PreparedBin AnalyticBinCullCallback::preparedBin(const 
         case Method::None:
             break;
     }
-    return core::GeodeticQuadraticBin(ellipsoid, shown.bin(), shown.margin());
+    return std::visit([](const auto& bin) -> PreparedBin { return bin; },
+                      core::quadraticOrExact(ellipsoid, shown.bin(), shown.margin()));
 }
 
 // Where the bin that is shown, the globe, the frame or the options have changed.
@@ -188,7 +188,7 @@ void AnalyticBinCullCallback::fillSlot() const {
     if (!_installed || !_installed->hasFamily()) return;
     if (!_isTested) return _installed->emptySlot();
     const Prepared prepared = makePrepared();
-    TileBlock::Bins bins{std::get_if<core::GeodeticQuadraticBin>(&prepared.bin),
+    TileBlock::Bins bins{std::get_if<core::QuadraticBin>(&prepared.bin),
                          std::get_if<core::ExactGeodeticBin>(&prepared.bin)};
     const bool isForComparison = !bins.quadratic && !bins.exact;
     if (prepared.horizon) bins.column = prepared.columnHorizon ? &*prepared.columnHorizon : &*prepared.horizon;

@@ -35,7 +35,7 @@ public:
 
     /// What a tile is tested by; null: that test is left out.
     struct Bins {
-        const core::GeodeticQuadraticBin* quadratic = nullptr;
+        const core::QuadraticBin* quadratic = nullptr;
         const core::ExactGeodeticBin* exact = nullptr;
         const core::HorizonBin* horizon = nullptr;
         const core::HorizonBin* column = nullptr;

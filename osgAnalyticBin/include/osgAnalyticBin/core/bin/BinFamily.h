@@ -6,8 +6,8 @@
 #include <osgAnalyticBin/core/Plane.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/bin/GeodeticQuadraticBin.h>
 #include <osgAnalyticBin/core/bin/KernelData.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <cstddef>
@@ -45,8 +45,6 @@ public:
     [[nodiscard]] std::uint64_t filled() const noexcept { return _data.filled; }
 
     /// Gives the slot a bin, in the form that the bin has. Its horizon stays as it is. Requires: i < size().
-    void set(std::size_t i, const GeodeticQuadraticBin& bin) noexcept;
-    /// Likewise.
     void set(std::size_t i, const ExactGeodeticBin& bin) noexcept;
     /// Likewise; the bin may be one of any mapping.
     void set(std::size_t i, const QuadraticBin& bin) noexcept;
