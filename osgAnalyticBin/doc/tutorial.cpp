@@ -4,24 +4,15 @@
 // An osgViewer application with analytic bins: tutorial DATABASE [--bins OPTIONS]. See tutorial.md.
 
 #include <osgAnalyticBin/BinInstaller.h>
-#include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/viewer/ViewerCounts.h>
 
 #include <osg/ArgumentParser>
 #include <osgDB/ReadFile>
 #include <osgGA/TerrainManipulator>
-#include <osgViewer/Renderer>
 #include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
 
 #include <iostream>
-
-// What the bins decided in the main camera's last cull traversal.
-osgAnalyticBin::BinCounts lastCounts(osgViewer::Viewer& viewer) {
-    auto* renderer = dynamic_cast<osgViewer::Renderer*>(viewer.getCamera()->getRenderer());
-    if (!renderer) return {};
-    const auto* statistics = osgAnalyticBin::BinStatistics::find(*renderer->getSceneView(0)->getCullVisitor());
-    return statistics ? statistics->counts() : osgAnalyticBin::BinCounts();
-}
 
 int main(int argc, char** argv) {
     osg::ArgumentParser arguments(&argc, argv);
@@ -49,7 +40,7 @@ int main(int argc, char** argv) {
     viewer.addEventHandler(new osgViewer::StatsHandler);
     const int code = viewer.run();
 
-    const osgAnalyticBin::BinCounts counts = lastCounts(viewer);
+    const osgAnalyticBin::BinCounts counts = osgAnalyticBin::binCounts(viewer);
     std::cout << "last frame: " << counts.tested << " tiles tested, " << counts.outside << " culled, " << counts.hidden
               << " of them behind the horizon" << std::endl;
     return code;

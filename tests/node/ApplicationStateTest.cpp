@@ -265,10 +265,13 @@ TEST(StoredBins, OfDrawablesAreRefused) {
 // Notes the planes that are undecided where it stands.
 struct MaskReader : osg::NodeCallback {
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
-        mask = nv->asCullStack()->getCurrentCullingSet().getFrustum().getCurrentMask();
+        const osg::Polytope& frustum = nv->asCullStack()->getCurrentCullingSet().getFrustum();
+        mask = frustum.getCurrentMask();
+        planes = frustum.getPlaneList().size();
         traverse(node, nv);
     }
     osg::Polytope::ClippingMask mask = 99;
+    std::size_t planes = 99;
 };
 
 TEST(DecidedPlanes, AreInheritedByChildrenAndNotBySiblings) {
@@ -306,6 +309,34 @@ TEST(DecidedPlanes, AreInheritedByChildrenAndNotBySiblings) {
         EXPECT_NE(readers[1]->mask, 0u) << "the second is not";
         EXPECT_NE(readers[1]->mask, 99u);
         EXPECT_EQ(beside->mask, 15u) << "what tiles decided is theirs";
+    }
+}
+
+// OSG begins below a transform with all planes that the camera has.
+TEST(DecidedPlanes, AreLeftOutBelowTheTransformsOfATileAlone) {
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+    root->setEllipsoidModel(new osg::EllipsoidModel);
+    const osg::ref_ptr<osg::Group> tile = new osg::Group;
+    setStoredBin(*tile, AnalyticBin(extentsDeg(0, 1, 0, 1).withAltitude({-100, 100})));
+    root->addChild(tile);
+    std::vector<osg::ref_ptr<MaskReader>> readers;
+    for (const auto& parent : {tile, osg::ref_ptr<osg::Group>(root)}) {
+        const osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform;
+        transform->setMatrix(osg::Matrixd::translate(10.0, 0.0, 0.0));
+        transform->addChild(makeTower(ecefDeg(0.5, 0.5, 0.0)));
+        readers.push_back(new MaskReader);
+        transform->setCullCallback(readers.back());
+        parent->addChild(transform);
+    }
+    ASSERT_EQ(installBins(*root), 1u);
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    const CullView view = CullView::lookAt(ecefDeg(0.5, 0.5, 5e6), ecefDeg(0.5, 0.5, 0), {0, 0, 1}, 60.0);
+    for (const bool isFamily : {true, false}) {
+        if (!isFamily) root->addCullCallback(new osg::NodeCallback);
+        for (const auto& reader : readers) reader->planes = 99;
+        (void)cull(*root, view, *visitor);
+        EXPECT_EQ(readers[0]->planes, 0u) << "the tile is inside all planes";
+        EXPECT_EQ(readers[1]->planes, 4u) << "what stands beside it is not";
     }
 }
 

@@ -14,7 +14,9 @@
 #include <osg/CoordinateSystemNode>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/Optimizer>
+#include <osgUtil/StateGraph>
 
+#include <algorithm>
 #include <cstdint>
 #include <support/Random.h>
 #include <utility>
@@ -30,6 +32,28 @@ struct RunCounter : osg::NodeCallback {
         traverse(node, nv);
     }
     int runs = 0;
+};
+
+// Notes the state and the nodes above it.
+struct PlaceReader : osg::NodeCallback {
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        auto* const visitor = dynamic_cast<osgUtil::CullVisitor*>(nv);
+        state = visitor ? visitor->getCurrentStateGraph()->getStateSet() : nullptr;
+        path = nv->getNodePath();
+        traverse(node, nv);
+    }
+    const osg::StateSet* state = nullptr;
+    osg::NodePath path;
+};
+
+// A visitor of an application's own, which hears of every node.
+struct OwnVisitor : osgUtil::CullVisitor {
+    using osgUtil::CullVisitor::apply;
+    void apply(osg::LOD& node) override {
+        entered.push_back(&node);
+        osgUtil::CullVisitor::apply(node);
+    }
+    std::vector<const osg::Node*> entered;
 };
 
 // Meshes of `degrees`, all over the globe or so far as `count` goes.
@@ -131,6 +155,33 @@ TEST(TileFamily, RunsTheCallbacksOfItsGroupAndOfItsTiles) {
     EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
     EXPECT_EQ(behind->runs, 1);
     EXPECT_FALSE(globe.drawsAntipode());
+}
+
+TEST(TileFamily, EntersTilesWithTheirStateAndByTheirMasks) {
+    MeshGlobe globe;
+    osg::PagedLOD& tile = *globe.tiles[19];
+    const osg::ref_ptr<PlaceReader> reader = new PlaceReader;
+    tile.getChild(0)->setCullCallback(reader);
+    osg::StateSet* const state = tile.getOrCreateStateSet();
+    state->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    installBins(*globe.root);
+    EXPECT_TRUE(globe.draws(tile, MeshGlobe::fromAbove()));
+    EXPECT_EQ(reader->state, state);
+    EXPECT_EQ(std::count(reader->path.begin(), reader->path.end(), &tile), 1);
+    tile.setNodeMask(0);
+    EXPECT_FALSE(globe.draws(tile, MeshGlobe::fromAbove()));
+}
+
+TEST(TileFamily, LetsVisitorsOfAnApplicationMeetTheTilesThatAreKept) {
+    MeshGlobe globe;
+    installBins(*globe.root);
+    const osg::ref_ptr<OwnVisitor> visitor = new OwnVisitor;
+    (void)cull(*globe.root, MeshGlobe::fromAbove(), *visitor);
+    const auto met = [&](const osg::PagedLOD& tile) {
+        return std::count(visitor->entered.begin(), visitor->entered.end(), &tile);
+    };
+    EXPECT_EQ(met(*globe.tiles[19]), 1);
+    EXPECT_EQ(met(*globe.tiles[15]), 0);
 }
 
 TEST(TileFamily, LeavesToOsgWhatTakesTheNumberOfATile) {

@@ -15,6 +15,7 @@
 #include <osgAnalyticBin/viewer/MethodSwitchHandler.h>
 #include <osgAnalyticBin/viewer/PathRecorder.h>
 #include <osgAnalyticBin/viewer/SpyViewHandler.h>
+#include <osgAnalyticBin/viewer/ViewerCounts.h>
 
 #include <gtest/gtest.h>
 #include <osgDB/DatabasePager>
@@ -245,6 +246,28 @@ TEST_F(Handlers, FillOsgsStatistics) {
     EXPECT_EQ(attribute("Tiles hidden"), double(expected.hidden));
     EXPECT_EQ(attribute("Tiles beyond an edge"), double(expected.reverseCulled));
     EXPECT_GT(expected.drawn, 0u);
+}
+
+TEST_F(Handlers, CountWhatBinsDecidedOverAllCameras) {
+    drawUntilIdle(_viewer);
+    const unsigned int frame = _viewer.getFrameStamp()->getFrameNumber();
+    const BinCounts one = binCounts(_viewer);
+    const TileCounts expected = counts(_viewer);
+    EXPECT_EQ(one.frame, frame);
+    EXPECT_EQ(one.tested, expected.tested);
+    EXPECT_EQ(one.tested - one.outside, expected.kept);
+    EXPECT_EQ(one.hidden, expected.hidden);
+    EXPECT_EQ(one.inside + one.straddling, expected.kept);
+    EXPECT_GT(one.outside, 0u);
+    EXPECT_EQ(binCounts(*_viewer.getCamera(), frame + 1).tested, 0u) << "of another frame";
+    press('y');
+    ASSERT_TRUE(_spy->isOpen());
+    const BinCounts two = binCounts(_viewer);
+    const unsigned int last = _viewer.getFrameStamp()->getFrameNumber();
+    EXPECT_EQ(two.tested, binCounts(*_viewer.getCamera(), last).tested + binCounts(*_spy->camera(), last).tested);
+    EXPECT_GT(two.tested, binCounts(*_viewer.getCamera(), last).tested);
+    press('y');
+    EXPECT_EQ(binCounts(*osg::ref_ptr<osg::Camera>(new osg::Camera), last).tested, 0u);
 }
 
 class HandlersInThreads : public Handlers,

@@ -3,19 +3,15 @@
 
 #include "ViewTools.h"
 
-#include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
 #include <osgAnalyticBin/viewer/TileSurvey.h>
+#include <osgAnalyticBin/viewer/ViewerCounts.h>
 
 #include <osg/Stats>
-#include <osgUtil/CullVisitor>
-#include <osgUtil/SceneView>
-#include <osgViewer/Renderer>
 #include <osgViewer/ViewerBase>
 #include <osgViewer/ViewerEventHandlers>
 
 #include <array>
-#include <initializer_list>
 #include <string>
 
 namespace osgAnalyticBin {
@@ -39,35 +35,15 @@ std::string attributeName(unsigned int camera, const Line& line) {
     return whose + line.name;
 }
 
-// What the bins themselves counted in a frame. Returns: false when none did.
-bool addCounts(osg::Camera& camera, unsigned int frame, TileCounts& counts) {
-    auto* renderer = dynamic_cast<osgViewer::Renderer*>(camera.getRenderer());
-    bool found = false;
-    for (unsigned int i = 0; renderer && i < 2; ++i) {
-        osgUtil::SceneView* sceneView = renderer->getSceneView(i);
-        if (!sceneView) continue;
-        for (osgUtil::CullVisitor* visitor :
-             {sceneView->getCullVisitor(), sceneView->getCullVisitorLeft(), sceneView->getCullVisitorRight()}) {
-            const BinStatistics* statistics = visitor ? BinStatistics::find(*visitor) : nullptr;
-            if (!statistics) continue;
-            const BinCounts bins = statistics->counts();
-            if (bins.frame != frame || bins.tested == 0) continue;
-            counts.tested += bins.tested;
-            counts.kept += bins.tested - bins.outside;
-            counts.hidden += bins.hidden;
-            counts.reverseCulled += bins.separated;
-            found = true;
-        }
-    }
-    return found;
-}
-
-// Those of the last frame.
+// Those of the last frame; without bins, those of a survey.
 TileCounts countsOf(osg::Camera& camera, osg::FrameStamp& frameStamp) {
-    const TileCounts surveyed = TileSurvey(camera, frameStamp).counts();
-    TileCounts counts;
-    if (!addCounts(camera, frameStamp.getFrameNumber() - 1, counts)) return surveyed;
-    counts.drawn = surveyed.drawn;
+    TileCounts counts = TileSurvey(camera, frameStamp).counts();
+    const BinCounts bins = binCounts(camera, frameStamp.getFrameNumber() - 1);
+    if (bins.tested == 0) return counts;
+    counts.tested = bins.tested;
+    counts.kept = bins.tested - bins.outside;
+    counts.hidden = bins.hidden;
+    counts.reverseCulled = bins.separated;
     return counts;
 }
 

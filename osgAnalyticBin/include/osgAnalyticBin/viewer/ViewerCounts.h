@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/viewer/Export.h>
+
+namespace osg {
+class Camera;
+}
+namespace osgViewer {
+class ViewerBase;
+}
+
+namespace osgAnalyticBin {
+
+/// What bins decided in one frame, in all cull traversals of a camera of a viewer: stereo has two. Call it between
+/// frames, when no cull traversal runs. `frame`: the number of the frame.
+/// Returns: sums; zeros where nothing was tested in that frame, and for cameras that no viewer draws.
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT BinCounts binCounts(osg::Camera& camera, unsigned int frame);
+
+/// The same over all cameras of a viewer, for the last frame.
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT BinCounts binCounts(osgViewer::ViewerBase& viewer);
+
+}  // namespace osgAnalyticBin

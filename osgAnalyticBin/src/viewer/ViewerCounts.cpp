@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include <osgAnalyticBin/viewer/ViewerCounts.h>
+
+#include <osg/Camera>
+#include <osgUtil/CullVisitor>
+#include <osgUtil/SceneView>
+#include <osgViewer/Renderer>
+#include <osgViewer/ViewerBase>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+void add(const BinCounts& some, BinCounts& sum) {
+    sum.tested += some.tested;
+    sum.outside += some.outside;
+    sum.inside += some.inside;
+    sum.straddling += some.straddling;
+    sum.hidden += some.hidden;
+    sum.separated += some.separated;
+}
+
+}  // namespace
+
+BinCounts binCounts(osg::Camera& camera, unsigned int frame) {
+    BinCounts sum;
+    sum.frame = frame;
+    // threading models that cull a frame while the last one is drawn take turns with two
+    constexpr unsigned int kSceneViews = 2;
+    auto* const renderer = dynamic_cast<osgViewer::Renderer*>(camera.getRenderer());
+    for (unsigned int i = 0; renderer && i < kSceneViews; ++i) {
+        osgUtil::SceneView* const sceneView = renderer->getSceneView(i);
+        if (!sceneView) continue;
+        for (osgUtil::CullVisitor* visitor :
+             {sceneView->getCullVisitor(), sceneView->getCullVisitorLeft(), sceneView->getCullVisitorRight()}) {
+            const BinStatistics* const statistics = visitor ? BinStatistics::find(*visitor) : nullptr;
+            const BinCounts counts = statistics ? statistics->counts() : BinCounts();
+            if (statistics && counts.frame == frame) add(counts, sum);
+        }
+    }
+    return sum;
+}
+
+BinCounts binCounts(osgViewer::ViewerBase& viewer) {
+    BinCounts sum;
+    if (!viewer.getViewerFrameStamp()) return sum;
+    sum.frame = viewer.getViewerFrameStamp()->getFrameNumber();
+    osgViewer::ViewerBase::Cameras cameras;
+    viewer.getCameras(cameras);
+    for (osg::Camera* const camera : cameras) add(binCounts(*camera, sum.frame), sum);
+    return sum;
+}
+
+}  // namespace osgAnalyticBin
