@@ -152,8 +152,8 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
                    "SingleThreaded (default), CullDrawThreadPerContext,\nDrawThreadPerContext or "
                    "CullThreadPerCameraDrawThreadPerContext");
     app.add_option("--repeats", settings.repeats,
-                   "rounds of timed cull traversals, three as they come and one\nwith cold caches each, 1 to 10000 "
-                   "(default 40)")
+                   "rounds of timed cull traversals, three as they come each and\nevery fourth time one with cold "
+                   "caches, 1 to 10000\n(default 40)")
         ->check(CLI::Range(1, 10000));
     app.add_option("--flush", settings.flush,
                    "MiB that are touched before each cull with cold caches, to\n65536 (default twice the last-level "

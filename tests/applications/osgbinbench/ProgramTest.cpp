@@ -38,9 +38,10 @@ struct Bench {
     // Returns: the sums by method; null when the program failed.
     [[nodiscard]] Json run(const std::string& name, const std::string& arguments) const {
         const std::string file = folder / (name + ".json");
+        const std::string flush = arguments.find("--flush") == std::string::npos ? " --flush 1" : "";
         const Outcome outcome = test::runBench(test::quoted(database) + " --path " + test::quoted(path) +
-                                               " --size 320x240 --repeats 1 --json " + test::quoted(file) + " --csv " +
-                                               test::quoted(folder / (name + ".csv")) + " " + arguments);
+                                               " --size 320x240 --repeats 1" + flush + " --json " + test::quoted(file) +
+                                               " --csv " + test::quoted(folder / (name + ".csv")) + " " + arguments);
         EXPECT_EQ(outcome.code, 0) << outcome.text;
         return outcome.code == 0 ? test::jsonFile(file)["methods"] : Json();
     }

@@ -40,9 +40,9 @@ protected:
 TEST_P(VpbSample, StockMethodsDifferInWhatTheyDrawAndAskFor) {
     const TemporaryFolder folder;
     const std::string file = folder / "sums.json";
-    const test::Outcome outcome =
-        test::runBench(test::quoted(database) + " --path " + test::quoted(folder.write("p.csv", kSamplePath)) +
-                       " --methods sphere,cluster --size 320x240 --repeats 1 --live 0 --json " + test::quoted(file));
+    const test::Outcome outcome = test::runBench(
+        test::quoted(database) + " --path " + test::quoted(folder.write("p.csv", kSamplePath)) +
+        " --methods sphere,cluster --size 320x240 --repeats 1 --flush 0 --live 0 --json " + test::quoted(file));
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     const nlohmann::json methods = test::jsonFile(file)["methods"];
     for (const char* const key : {"drawn_tiles", "triangles", "paged_lods", "files_requested", "bytes"}) {
@@ -102,7 +102,7 @@ TEST_P(VpbPictures, WithBinsAreThoseWithoutCulling) {
     const std::string path = folder.write("p.csv", shortPath(GetParam().scale));
     const test::Outcome outcome = test::runBench(
         test::quoted(database) + " --path " + test::quoted(path) + " --methods exact+horizon+reverse --size 480x270" +
-        " --repeats 1 --live 0 --threading " + GetParam().threading + " --vertical-scale " +
+        " --repeats 1 --flush 0 --live 0 --threading " + GetParam().threading + " --vertical-scale " +
         std::to_string(GetParam().scale) + " --json " + test::quoted(file));
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     const nlohmann::json sums = test::jsonFile(file);
@@ -133,10 +133,11 @@ TEST(VpbExaggerated, ClusterCallbacksCullWhatIsSeenAndBinsDoNot) {
     if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
     const TemporaryFolder folder;
     const std::string file = folder / "sums.json";
-    const test::Outcome outcome = test::runBench(
-        test::quoted(database) + " --path " + test::quoted(VPB_EXAGGERATED_PATH_FILE) +
-        " --vertical-scale 10 --methods cluster,exact+horizon+reverse --size 640x360 --repeats 1 --live 0 --json " +
-        test::quoted(file));
+    const test::Outcome outcome =
+        test::runBench(test::quoted(database) + " --path " + test::quoted(VPB_EXAGGERATED_PATH_FILE) +
+                       " --vertical-scale 10 --methods cluster,exact+horizon+reverse --size 640x360 --repeats 1 "
+                       "--flush 0 --live 0 --json " +
+                       test::quoted(file));
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     const nlohmann::json methods = test::jsonFile(file)["methods"];
     EXPECT_GE(methods["cluster"]["false_culls"], 5);
