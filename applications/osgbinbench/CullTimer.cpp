@@ -33,7 +33,7 @@ public:
           // A file asked for here would be read behind the benchmark's back.
           _requests(new flight::RequestCounter) {}
 
-    // `caches`: null for a turn without a traversal with cold ones.
+    // `caches`: null where this turn does not time cold caches.
     void take(CacheFlusher* caches) {
         // Where a visitor's memory happens to lie costs some percent: each turn has another one.
         CullStage stage(*_requests);

@@ -74,7 +74,7 @@ public:
 
     using osg::NodeVisitor::apply;
     void apply(osg::Node& node) override {
-        // LODs and their like choose children by themselves: the mask keeps them from what was culled
+        // LODs choose their children by themselves: the mask keeps them out of what was culled
         if (_kept.count(&node) == 0) return node.setNodeMask(0);
         if (acceptsAll(node)) filter(*node.asGroup());
         // A tile of osgTerrain that is traversed before its first update never finds its Terrain.

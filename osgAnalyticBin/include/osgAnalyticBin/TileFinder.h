@@ -52,6 +52,8 @@ struct FoundTile {
 /// Whether an ellipsoid's radii, metres, are finite and positive. A CoordinateSystemNode with others has no globe, and
 /// what is below it is no tile of one.
 [[nodiscard]] OSGANALYTICBIN_EXPORT bool hasValidRadii(const osg::EllipsoidModel& ellipsoid);
+/// Likewise.
+[[nodiscard]] OSGANALYTICBIN_EXPORT bool areValidRadii(double equatorial, double polar);
 
 /// The frame of a transform's children, where the transform stands in `frame`.
 [[nodiscard]] OSGANALYTICBIN_EXPORT osg::Matrixd frameInside(const osg::Transform& node, const TileFrame& frame);

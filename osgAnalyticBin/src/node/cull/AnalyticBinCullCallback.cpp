@@ -5,7 +5,6 @@
 #include "../Inverse.h"
 #include "../Spheres.h"
 #include "../install/InstalledTile.h"
-#include "../page/Database.h"
 #include "BinCulling.h"
 #include "Occluders.h"
 
@@ -90,7 +89,7 @@ AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& 
       _polarRadius(other._polarRadius) {}
 
 AnalyticBinCullCallback::~AnalyticBinCullCallback() {
-    delete _prepared.load();
+    discardPrepared();
 }
 
 AnalyticBin AnalyticBinCullCallback::shownBin() const {
@@ -132,15 +131,11 @@ void AnalyticBinCullCallback::changeBin() {
     _binLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
     _binHigh = shown.valid() ? shown.bin().altitude().upper + shown.margin() : -kUnknown;
     const bool hasMethod = _options.method != Method::None && _options.method != Method::Sphere;
-    _isTested = hasMethod && shown.valid() && hasValidRadii(*ellipsoidModel());
+    _isTested = hasMethod && shown.valid() && areValidRadii(_equatorialRadius, _polarRadius);
     _testsEdges = _options.effectiveReverse();
     _hidesByPoint = isBox(_options.method);
     discardPrepared();
     fillSlot();
-}
-
-osg::ref_ptr<osg::EllipsoidModel> AnalyticBinCullCallback::ellipsoidModel() const {
-    return new osg::EllipsoidModel(_equatorialRadius, _polarRadius);
 }
 
 void AnalyticBinCullCallback::discardPrepared() {
@@ -158,7 +153,7 @@ const AnalyticBinCullCallback::Prepared& AnalyticBinCullCallback::prepared() con
 AnalyticBinCullCallback::Prepared AnalyticBinCullCallback::makePrepared() const {
     const AnalyticBin shown = shownBin();
     const core::Ellipsoid ellipsoid = this->ellipsoid();
-    const osg::ref_ptr<osg::EllipsoidModel> model = ellipsoidModel();
+    const osg::ref_ptr<osg::EllipsoidModel> model = new osg::EllipsoidModel(_equatorialRadius, _polarRadius);
     osg::BoundingSphere sphere = shown.boundingSphere(*model);
     if (_frame) sphere = movedSphere(sphere, _frame->fromEcef);
     Prepared prepared{preparedBin(shown, ellipsoid), {}, {}, sphere, sphere, {}, {}};
@@ -183,7 +178,7 @@ void AnalyticBinCullCallback::leaveFamily() {
     if (_installed) _installed->leaveFamily();
 }
 
-// What a family's slot holds need not be kept here as well.
+// The slot copies the numbers, so that they need not be kept here.
 void AnalyticBinCullCallback::fillSlot() const {
     if (!_installed || !_installed->hasFamily()) return;
     if (!_isTested) return _installed->emptySlot();
@@ -224,8 +219,9 @@ void AnalyticBinCullCallback::setSurface(const AnalyticBin& surface) {
 }
 
 bool AnalyticBinCullCallback::isColumnHiddenFrom(const core::HorizonEye& eye) const {
-    if (!_isTested || !prepared().horizon) return false;
-    return eye.hides(prepared().columnHorizon ? *prepared().columnHorizon : *prepared().horizon);
+    if (!_isTested) return false;
+    const Prepared& tile = prepared();
+    return tile.horizon && eye.hides(tile.columnHorizon ? *tile.columnHorizon : *tile.horizon);
 }
 
 const osg::BoundingSphere* AnalyticBinCullCallback::ecefColumnSphere() const {
@@ -290,12 +286,7 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
     const bool isAbandoned = _installed ? !_installed->mayCull(&node) : _wasInstalled;
     if (!_isTested || isAbandoned) return false;
     CullTraversal& traversal = CullTraversal::of(nv);
-    const DatabaseView* database = traversal.databaseView();
-    if (_shape && !database) return false;
-    if (_shape && !(database->shape == *_shape)) {
-        database->database->requestRefit();
-        return false;
-    }
+    if (_shape && !isShownIn(*_shape, traversal)) return false;
     const auto test = [&](const core::PlaneSet& planes, core::PlaneMask& undecided) {
         const core::Side side = sideOf(planes, undecided);
         // finding the eye takes time
@@ -349,19 +340,21 @@ Verdict AnalyticBinCullCallback::verdict(core::Side side, const core::PlaneSet& 
 }
 
 bool AnalyticBinCullCallback::isHiddenFrom(const core::HorizonEye& eye) const {
-    return _hidesByPoint ? eye.hides(*prepared().horizonPoint) : eye.hides(*prepared().horizon);
+    const Prepared& tile = prepared();
+    return _hidesByPoint ? eye.hides(*tile.horizonPoint) : eye.hides(*tile.horizon);
 }
 
 bool AnalyticBinCullCallback::isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,
                                              core::PlaneMask undecided) const {
-    if (const auto* box = std::get_if<core::BoxBin>(&prepared().bin)) {
+    const Prepared& tile = prepared();
+    if (const auto* box = std::get_if<core::BoxBin>(&tile.bin)) {
         return core::isSeparated(*box, traversal.hull(planes));
     }
-    if (const auto* box = std::get_if<core::OrientedBoxBin>(&prepared().bin)) {
+    if (const auto* box = std::get_if<core::OrientedBoxBin>(&tile.bin)) {
         return core::isSeparated(*box, traversal.hull(planes));
     }
-    const auto* exact = std::get_if<core::ExactGeodeticBin>(&prepared().bin);
-    if (!exact && prepared().separable) exact = &*prepared().separable;
+    const auto* exact = std::get_if<core::ExactGeodeticBin>(&tile.bin);
+    if (!exact && tile.separable) exact = &*tile.separable;
     return exact && core::isSeparated(*exact, planes, planes.size(), undecided);
 }
 

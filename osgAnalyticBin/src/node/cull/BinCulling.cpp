@@ -3,6 +3,8 @@
 
 #include "BinCulling.h"
 
+#include "../page/Database.h"
+
 namespace osgAnalyticBin {
 
 bool isSmall(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere) {
@@ -12,6 +14,14 @@ bool isSmall(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere) {
     const bool culled = cullingSet.isCulled(sphere);
     cullingSet.setCullingMask(mask);
     return culled;
+}
+
+bool isShownIn(const TerrainShape& fitted, const CullTraversal& traversal) {
+    const DatabaseView* const view = traversal.databaseView();
+    if (!view) return false;
+    const bool isShown = view->shape == fitted;
+    if (!isShown) view->database->requestRefit();
+    return isShown;
 }
 
 void count(CullTraversal& traversal, const osg::NodeVisitor& nv, const Verdict& verdict, bool culled) {

@@ -36,9 +36,9 @@ inline void setUndecided(osg::Polytope& frustum, core::PlaneMask planes) {
     frustum.setResultMask(planes);
 }
 
-/// Leaves only some planes to be tested below transforms, too, for the length of a node: OSG begins with all planes
-/// there and would move planes to each mesh's frame that its tile is known to be inside of. The numbers are those of
-/// the current culling set's planes; where a transform above has left some out, nothing is done.
+/// Has OSG test only the undecided planes below transforms, too, as long as it exists. By itself OSG begins with all
+/// planes below each transform and moves them to its frame. `undecided` numbers the planes of the current culling set.
+/// Where these are not all planes of the camera, because a transform above has left some out, it does nothing.
 class PlanesBelow {
 public:
     PlanesBelow(osg::CullStack& cullStack, core::PlaneMask undecided) : _cullStack(cullStack) {
@@ -55,6 +55,10 @@ private:
     osg::CullStack& _cullStack;
     core::PlaneMask _before;
 };
+
+/// Whether the database that is traversed is shown in the shape that a bin was fitted to. Another shape is asked to be
+/// fitted to; without a database the answer is no.
+[[nodiscard]] bool isShownIn(const TerrainShape& fitted, const CullTraversal& traversal);
 
 /// Counts a tile that was tested, in cull traversals. `culled`: by its bin or otherwise.
 void count(CullTraversal& traversal, const osg::NodeVisitor& nv, const Verdict& verdict, bool culled);

@@ -89,7 +89,7 @@ public:
     /// The depth of the lowest surface that this visitor last found a database to show: where it looks next time.
     [[nodiscard]] double& lastDepth(const Database& database);
 
-    /// The plan of the database that is traversed next. Databases within each other have one each.
+    /// The plan for the database that is traversed next. Each of several nested databases has its own.
     [[nodiscard]] TilePlan& plan();
 
     /// Says that a family keeps this node and is about to enter it; null: none.

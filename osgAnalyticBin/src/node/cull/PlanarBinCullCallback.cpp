@@ -28,12 +28,7 @@ void PlanarBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
 bool PlanarBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
     if (_installed && !_installed->mayCull(&node)) return false;
     CullTraversal& traversal = CullTraversal::of(nv);
-    const DatabaseView* database = traversal.databaseView();
-    if (_shape && !database) return false;
-    if (_shape && !(database->shape == *_shape)) {
-        database->database->requestRefit();
-        return false;
-    }
+    if (_shape && !isShownIn(*_shape, traversal)) return false;
     return isCulledByBin(cullStack, nv, traversal, _sphere, [&](const osg::Polytope&, core::PlaneMask& undecided) {
         const core::PlaneSet& planes = traversal.planes(cullStack);
         const core::Side side = _bin.classify(planes, undecided);

@@ -7,7 +7,7 @@
 
 namespace osgAnalyticBin {
 
-/// The first callback of a class in a chain of nested ones. Returns: nullptr when there is none.
+/// Searches a chain of nested callbacks. Returns: the first one of the class; nullptr when there is none.
 template <class Callback>
 [[nodiscard]] Callback* findCallback(osg::Callback* first) {
     for (osg::Callback* callback = first; callback; callback = callback->getNestedCallback()) {

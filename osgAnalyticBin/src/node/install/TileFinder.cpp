@@ -130,9 +130,13 @@ std::string pagedFilePath(const std::string& referringFile, const std::string& n
     return path;
 }
 
-bool hasValidRadii(const osg::EllipsoidModel& ellipsoid) {
+bool areValidRadii(double equatorial, double polar) {
     const auto isValid = [](double radius) { return std::isfinite(radius) && radius > 0.0; };
-    return isValid(ellipsoid.getRadiusEquator()) && isValid(ellipsoid.getRadiusPolar());
+    return isValid(equatorial) && isValid(polar);
+}
+
+bool hasValidRadii(const osg::EllipsoidModel& ellipsoid) {
+    return areValidRadii(ellipsoid.getRadiusEquator(), ellipsoid.getRadiusPolar());
 }
 
 osg::Matrixd frameInside(const osg::Transform& node, const TileFrame& frame) {

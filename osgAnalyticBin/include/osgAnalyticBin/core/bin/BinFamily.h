@@ -60,7 +60,7 @@ public:
     /// the corners, only for planes that are open for a bin; no allocation, no trigonometry.
     void classify(const PlaneSet& planes, PlaneMask undecided, FamilyVerdict& verdict) const noexcept;
 
-    /// Returns: the candidates that the horizon hides, as HorizonEye::hides() tells of each.
+    /// Returns: the candidates that the horizon hides, with the verdicts of HorizonEye::hides() on single bins.
     /// Cost: for slots in view some ten multiplications for all lanes together; no allocation, no trigonometry.
     [[nodiscard]] std::uint64_t hiddenFrom(const HorizonEye& eye, std::uint64_t candidates) const noexcept;
 

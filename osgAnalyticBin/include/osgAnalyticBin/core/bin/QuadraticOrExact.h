@@ -24,7 +24,7 @@ using QuadraticOrExact = std::variant<QuadraticBin, ExactGeodeticBin>;
 /// the exact one elsewhere. Requires: the bin is not empty.
 /// Guarantee: without margin and rounding its distanceRange() exceeds the true one on either side by at most 1/256 of
 /// the bin's largest extent, where ExactGeodeticBin::holds(); tests: QuadraticOrExact.*.
-/// Cost: that of the quadratic bin, or of the exact one and a bound of the remainder.
+/// Cost: a bound of the remainder, and the preparation of the bin that it returns.
 [[nodiscard]] QuadraticOrExact quadraticOrExact(const Ellipsoid& ellipsoid, const GeodeticBin& bin,
                                                 double margin = 0.0) noexcept;
 
