@@ -50,6 +50,13 @@ CullView beside(const osg::Vec3d& place) {
     return CullView::lookAt(place - east * 5000.0, place, up, 2.0);
 }
 
+CullOptions declaredHorizon() {
+    CullOptions options;
+    options.horizonUse = HorizonUse::Given;
+    options.horizon = -50000.0;
+    return options;
+}
+
 MeshGlobe::MeshGlobe(double altitude) {
     root->setEllipsoidModel(new osg::EllipsoidModel);
     for (int i = 0; i < 32; ++i) {

@@ -8,6 +8,8 @@
 #include "CullFixture.h"
 #include "DatabaseFixture.h"
 
+#include <osgAnalyticBin/CullOptions.h>
+
 #include <osg/CoordinateSystemNode>
 #include <osg/Drawable>
 #include <osg/Group>
@@ -34,6 +36,9 @@ void update(osg::Node& scene);
 
 /// Level, high above the terrain: only what stands in the air there is in the picture.
 [[nodiscard]] CullView beside(const osg::Vec3d& place);
+
+/// Terrain is declared to be nowhere deeper than 50 km.
+[[nodiscard]] CullOptions declaredHorizon();
 
 /// 32 tiles of 45 degrees, each a PagedLOD whose finer file never comes.
 struct MeshGlobe {

@@ -158,12 +158,24 @@ TEST(UndergroundEyes, AreFoundWhereAGeodeHoldsATransform) {
     EXPECT_TRUE(globe.draws(*globe.tiles[15], CullView::lookAt(eye, {0, 0, 0}, {0, 0, 1}, 100.0)));
 }
 
+TEST(HoledGlobe, IsSeenThroughWhereATransformMovesATileAway) {
+    for (const CullOptions& options : {CullOptions(), declaredHorizon()}) {
+        MeshGlobe globe;
+        const osg::ref_ptr<osg::MatrixTransform> above = new osg::MatrixTransform;
+        globe.root->replaceChild(globe.tiles[19], above);
+        above->addChild(globe.tiles[19]);
+        installBins(*globe.root, options);
+        EXPECT_FALSE(globe.drawsAntipode());
+        above->setMatrix(osg::Matrixd::rotate(osg::DegreesToRadians(45.0), osg::Vec3d(0, 0, 1)));
+        EXPECT_TRUE(globe.drawsAntipode());
+        above->setMatrix(osg::Matrixd());
+        EXPECT_FALSE(globe.drawsAntipode());
+    }
+}
+
 TEST(SavedScenes, HideNothingBehindTheHorizonWithoutTheirDatabase) {
-    CullOptions options;
-    options.horizonUse = HorizonUse::Given;
-    options.horizon = -50000.0;
     MeshGlobe globe;
-    installBins(*globe.root, options);
+    installBins(*globe.root, declaredHorizon());
     AnalyticBinCullCallback& callback = *installedOn(*globe.tiles[15]);
     const osg::ref_ptr<AnalyticBinCullCallback> read = new AnalyticBinCullCallback;
     read->setOptionsText(callback.getOptionsText());

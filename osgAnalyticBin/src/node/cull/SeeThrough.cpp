@@ -3,17 +3,25 @@
 
 #include "SeeThrough.h"
 
+#include "../install/TileCallback.h"
+
 #include <osg/ClipPlane>
+#include <osg/CoordinateSystemNode>
 #include <osg/CullFace>
 #include <osg/Depth>
+#include <osg/Geode>
 #include <osg/Image>
+#include <osg/MatrixTransform>
 #include <osg/Multisample>
 #include <osg/PolygonMode>
+#include <osg/PositionAttitudeTransform>
 #include <osg/Texture>
 #include <osgTerrain/Terrain>
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
+#include <array>
+#include <typeinfo>
 
 namespace osgAnalyticBin {
 
@@ -98,6 +106,18 @@ bool isStateSeeThrough(osg::NodeVisitor& visitor) {
         if (graph->_stateset && isSeeThrough(*graph->_stateset)) return true;
     }
     return false;
+}
+
+bool drawsAllChildren(const osg::Node& node) {
+    static const std::array<const std::type_info*, 7> known{
+        &typeid(osg::Group),           &typeid(Carrier),
+        &typeid(osg::MatrixTransform), &typeid(osg::PositionAttitudeTransform),
+        &typeid(osg::Geode),           &typeid(osg::CoordinateSystemNode),
+        &typeid(osgTerrain::Terrain)};
+    const std::type_info& type = typeid(node);
+    // by address first: comparing names takes longer
+    return !node.asGroup() || std::find(known.begin(), known.end(), &type) != known.end() ||
+           std::any_of(known.begin(), known.end(), [&type](const std::type_info* one) { return *one == type; });
 }
 
 }  // namespace osgAnalyticBin

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <osg/Node>
 #include <osg/NodeVisitor>
 #include <osg/StateSet>
 #include <osgTerrain/TerrainTile>
@@ -22,5 +23,9 @@ namespace osgAnalyticBin {
 /// Whether one of the states that a cull traversal has met from its camera down to here is such. False for visitors
 /// that collect no state.
 [[nodiscard]] bool isStateSeeThrough(osg::NodeVisitor& visitor);
+
+/// Whether a node is known to draw all of its children: switches, levels of detail, sequences and classes of others may
+/// leave some out.
+[[nodiscard]] bool drawsAllChildren(const osg::Node& node);
 
 }  // namespace osgAnalyticBin

@@ -4,28 +4,24 @@
 #include "ShownDepth.h"
 
 #include "../../core/EarthScale.h"
+#include "../Inverse.h"
+#include "../Spheres.h"
 #include "../install/InstalledTile.h"
-#include "../install/MeshCulling.h"
-#include "../install/TileCallback.h"
 #include "Bits.h"
+#include "CullCallbacks.h"
 #include "CullTraversal.h"
+#include "GroundBelow.h"
 #include "Scoped.h"
 #include "SeeThrough.h"
 #include "TileFamily.h"
 #include "TilePlan.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
-
 #include <osg/CoordinateSystemNode>
-#include <osg/Geode>
-#include <osg/MatrixTransform>
 #include <osg/PagedLOD>
-#include <osg/PositionAttitudeTransform>
-#include <osgTerrain/Terrain>
+#include <osg/Transform>
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <typeinfo>
@@ -36,33 +32,6 @@ namespace osgAnalyticBin {
 namespace {
 
 constexpr double kUnknownDepth = std::numeric_limits<double>::infinity();
-
-// Whether an object is of this class, and not of one derived from it. By address: comparing names takes longer.
-template <class Class, class Object>
-bool isExactly(const Object& object) {
-    return &typeid(object) == &typeid(Class);
-}
-
-// The cull callbacks of a node: the bin's, and whether others may leave out what is below them.
-struct CullCallbacks {
-    CullCallbacks() = default;
-    explicit CullCallbacks(const osg::Node& node) {
-        // A dynamic_cast across OSG's virtual bases would be most of the search's cost.
-        for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
-            if (!bin && isExactly<AnalyticBinCullCallback>(*at)) {
-                bin = static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback());
-            } else if (isExactly<TileFamily>(*at)) {
-                family = static_cast<const TileFamily*>(at->asNodeCallback());
-            } else if (!isClusterCulling(*at) && !traversesAlways(*at)) {
-                mayLeaveOut = true;
-            }
-        }
-    }
-
-    const AnalyticBinCullCallback* bin = nullptr;
-    const TileFamily* family = nullptr;
-    bool mayLeaveOut = false;
-};
 
 osg::PagedLOD* pagedLod(osg::Node& node) {
     if (isExactly<osg::PagedLOD>(node)) return static_cast<osg::PagedLOD*>(&node);
@@ -114,12 +83,12 @@ public:
 
 private:
     void searchChildren(osg::Group& group, const TileFamily* family) {
-        const bool isFamily = family && !_isMoved && family->culls(group, _database.cullStack, _database.view);
+        const bool isFamily = family && !_toEcef && family->culls(group, _database.cullStack, _database.view);
         if (isFamily) return searchFamily(group, *family);
         for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) searchNode(*group.getChild(i));
     }
 
-    // Reads nothing of tiles that are passed over.
+    // Does not read tiles that are passed over.
     void searchFamily(osg::Group& group, const TileFamily& family) {
         const unsigned int children = group.getNumChildren();
         if (children < family.size() || family.hasLostTiles()) _hasHole = true;
@@ -177,13 +146,45 @@ private:
         if (callbacks.bin) return searchTileWithoutFamily(node, *callbacks.bin, callbacks.mayLeaveOut);
         // another database is on a globe of its own
         if (!isGroup && dynamic_cast<osg::CoordinateSystemNode*>(&node)) return;
-        const bool isDrawn = isSurelyDrawn(node, callbacks.mayLeaveOut) && (isGroup || drawsAllChildren(node));
+        const bool isSureItself = isSurelyDrawn(node, callbacks.mayLeaveOut);
+        const bool isDrawn = isSureItself && (isGroup || drawsAllChildren(node));
+        std::optional<osg::Matrixd> inside;
+        if (!isGroup && node.asTransform()) inside = frameInside(node);
+        const Scoped frame(_toEcef, inside ? &*inside : _toEcef);
+        if (_database.hasTilesWithoutBin && !isTrustedWithoutBin(node, isDrawn, isSureItself)) _hasHole = true;
         const Scoped doubtful(_isDoubtful, _isDoubtful || !isDrawn);
-        const Scoped moved(_isMoved, _isMoved || (!isGroup && node.asTransform()));
         if (osg::Group* group = node.asGroup()) searchChildren(*group, callbacks.family);
     }
 
+    // Whether a node without a bin hides what is behind it, and is not above the eye.
+    [[nodiscard]] bool isTrustedWithoutBin(osg::Node& node, bool isDrawn, bool isSureItself) const {
+        const bool isPaged = isSureItself && !isDrawn && pagedLod(node);
+        const auto* const terrain = dynamic_cast<const osgTerrain::TerrainTile*>(&node);
+        if (!(isDrawn || isPaged) || (terrain && isSeeThrough(*terrain))) return false;
+        if (!_place || !(terrain || node.asDrawable()) || !node.getBound().valid()) return true;
+        return !mayBeAbove(*_place, movedSphere(node.getBound(), frameInside(node)), _database.view.ellipsoid);
+    }
+
+    // From the frame of what a node draws.
+    [[nodiscard]] osg::Matrixd frameInside(const osg::Node& node) const {
+        osg::Matrixd toEcef = _toEcef ? *_toEcef : osg::Matrixd();
+        if (const osg::Transform* const transform = node.asTransform())
+            transform->computeLocalToWorldMatrix(toEcef, nullptr);
+        return toEcef;
+    }
+
+    // A tile may have several parents, and transforms above it may have changed.
+    [[nodiscard]] bool standsAsInstalled(const osg::Node& node, const AnalyticBinCullCallback& tile) const {
+        const osg::Matrixd toEcef = frameInside(node);
+        const double reach = toEcef.getTrans().length() + tile.localToEcef().getTrans().length();
+        return areNearlyEqual(toEcef, tile.localToEcef(), reach);
+    }
+
     void searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool mayLeaveOut) {
+        if (!standsAsInstalled(node, bin)) {
+            _hasHole = true;
+            return;
+        }
         TileBlock::Slot numbers;
         if (const osg::BoundingSphere* const column = bin.ecefColumnSphere()) numbers.column = *column;
         numbers.binLow = bin.binLow();
@@ -278,7 +279,7 @@ private:
 
     // As osg::PagedLOD chooses; where that is not certain all that it may show counts.
     void searchPaged(osg::PagedLOD& node, const SearchedTile& tile) {
-        const bool byDistance = node.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT && !_isMoved;
+        const bool byDistance = node.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT && !_toEcef;
         const float range = byDistance ? _visitor.getDistanceToViewPoint(node.getCenter(), true) : 0.0f;
         const unsigned int children = node.getNumChildren();
         bool isOneAwaited = !byDistance;
@@ -307,9 +308,9 @@ private:
     const std::optional<core::Geodetic> _place;  // of the eye
     const double _deepest;
     osg::Polytope::PlaneList _planes;
-    core::PlaneMask _undecided = 0;  // of the view's planes, for families
-    bool _isMoved = false;           // below a transform, where OSG measures distances in another frame
-    bool _isDoubtful = false;        // below something that may not be drawn
+    core::PlaneMask _undecided = 0;         // of the view's planes, for families
+    const osg::Matrixd* _toEcef = nullptr;  // below a transform, where OSG measures distances in another frame
+    bool _isDoubtful = false;               // below something that may not be drawn
     bool _hasHole = false;
     std::vector<NearGround> _nearGround;
     double _depth = -kUnknownDepth;
@@ -331,18 +332,6 @@ bool isTrusted(const ShownDatabase& database, const LowestShown& lowest, const s
 }
 
 }  // namespace
-
-bool drawsAllChildren(const osg::Node& node) {
-    static const std::array<const std::type_info*, 7> known{
-        &typeid(osg::Group),           &typeid(Carrier),
-        &typeid(osg::MatrixTransform), &typeid(osg::PositionAttitudeTransform),
-        &typeid(osg::Geode),           &typeid(osg::CoordinateSystemNode),
-        &typeid(osgTerrain::Terrain)};
-    const std::type_info& type = typeid(node);
-    // by address first: comparing names takes longer
-    return !node.asGroup() || std::find(known.begin(), known.end(), &type) != known.end() ||
-           std::any_of(known.begin(), known.end(), [&type](const std::type_info* one) { return *one == type; });
-}
 
 std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& database, const Viewpoint& viewpoint,
                                                     double deepest, double& depth) {

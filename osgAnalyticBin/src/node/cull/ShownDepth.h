@@ -18,16 +18,13 @@ namespace osgAnalyticBin {
 
 struct DatabaseView;
 
-/// Whether a node is known to draw all of its children: switches, levels of detail, sequences and classes of others may
-/// leave some out.
-[[nodiscard]] bool drawsAllChildren(const osg::Node& node);
-
 /// A database whose cull traversal is about to begin.
 struct ShownDatabase {
     osg::Group& root;
     osg::NodeVisitor& visitor;
     osg::CullStack& cullStack;
     const DatabaseView& view;
+    bool hasTilesWithoutBin = false;  // which any node without a bin may be
 };
 
 /// The eye over a database: the occluder lies just below the lowest surface that the traversal shows, by levels of

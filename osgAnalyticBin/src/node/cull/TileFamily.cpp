@@ -9,7 +9,7 @@
 #include "../page/Database.h"
 #include "BinCulling.h"
 #include "Bits.h"
-#include "ShownDepth.h"
+#include "SeeThrough.h"
 #include "TilePlan.h"
 
 #include <osg/CoordinateSystemNode>

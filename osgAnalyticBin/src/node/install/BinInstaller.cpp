@@ -4,7 +4,7 @@
 #include "../Inverse.h"
 #include "../cull/PlanarBinCullCallback.h"
 #include "../cull/Scoped.h"
-#include "../cull/ShownDepth.h"
+#include "../cull/SeeThrough.h"
 #include "../cull/TileFamily.h"
 #include "../page/BinReadFileCallback.h"
 #include "../page/Database.h"

@@ -39,7 +39,7 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
     const auto viewpoint = Viewpoint::of(cullStack, nv, options.inheritViewpoint);
     if (!viewpoint) return std::nullopt;
     const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
-    const ShownDatabase shown{node, nv, cullStack, view};
+    const ShownDatabase shown{node, nv, cullStack, view, database.hasGap()};
     if (isGiven && (!isAboveTerrain || database.hasGap())) return eyeAboveDepth(shown, *viewpoint, deepest);
     // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: what is shown
     // shall not depend on where the camera has been.

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "../install/MeshCulling.h"
+#include "../install/TileCallback.h"
+#include "TileFamily.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/BinInstaller.h>
+
+#include <osg/Callback>
+#include <osg/Node>
+
+#include <typeinfo>
+
+namespace osgAnalyticBin {
+
+/// Whether an object is of this class, and not of one derived from it. By address: comparing names takes longer.
+template <class Class, class Object>
+[[nodiscard]] bool isExactly(const Object& object) {
+    return &typeid(object) == &typeid(Class);
+}
+
+/// The cull callbacks of a node: the bin's, and whether others may leave out what is below them.
+struct CullCallbacks {
+    CullCallbacks() = default;
+    explicit CullCallbacks(const osg::Node& node) {
+        // A dynamic_cast across OSG's virtual bases would be most of the search's cost.
+        for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
+            if (!bin && isExactly<AnalyticBinCullCallback>(*at)) {
+                bin = static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback());
+            } else if (isExactly<TileFamily>(*at)) {
+                family = static_cast<const TileFamily*>(at->asNodeCallback());
+            } else if (!isClusterCulling(*at) && !traversesAlways(*at)) {
+                mayLeaveOut = true;
+            }
+        }
+    }
+
+    const AnalyticBinCullCallback* bin = nullptr;
+    const TileFamily* family = nullptr;
+    bool mayLeaveOut = false;
+};
+
+}  // namespace osgAnalyticBin
