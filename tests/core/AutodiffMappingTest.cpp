@@ -64,9 +64,9 @@ struct SuppliedBound {
         using std::asin;  // has no enclosure
         return {asin(u), v, w};
     }
-    double thirdDerivativeBound(const ParameterBox& box) const {
+    double remainder(const ParameterBox& box) const {
         const double x = std::abs(box.center.x) + box.halfSize.x;
-        return (1.0 + 2.0 * x * x) / std::pow(1.0 - x * x, 2.5) * std::pow(box.halfSize.x, 3.0);
+        return (1.0 + 2.0 * x * x) / std::pow(1.0 - x * x, 2.5) * std::pow(box.halfSize.x, 3.0) / 6.0;
     }
 };
 
@@ -105,8 +105,8 @@ struct HasRealPower<T, std::void_t<decltype(pow(std::declval<T>(), 0.5))>> : std
 static_assert(!HasAsin<TaylorInterval>::value && !HasAbs<TaylorInterval>::value);
 static_assert(!HasOrder<TaylorInterval>::value && !HasRealPower<TaylorInterval>::value);
 static_assert(!std::is_convertible_v<TaylorInterval, double>);
-static_assert(core::HasThirdDerivativeBound<SuppliedBound>::value);
-static_assert(!core::HasThirdDerivativeBound<Pole>::value);
+static_assert(core::HasRemainder<SuppliedBound>::value);
+static_assert(!core::HasRemainder<Pole>::value);
 
 ParameterBox randomBox(Random& random, double largest) {
     const auto reach = [&] { return random.logUniform(1e-4, largest); };
@@ -182,9 +182,9 @@ TEST(AutodiffMapping, ErrorFallsEightfoldPerHalving) {
 
 TEST(AutodiffMapping, MorePiecesAreTighter) {
     const ParameterBox box{{0.3, 0.2, 0.1}, {0.4, 0.4, 0.4}};
-    const double one = AutodiffMapping<AllFunctions>({}, 1).thirdDerivativeBound(box);
-    const double two = AutodiffMapping<AllFunctions>({}, 2).thirdDerivativeBound(box);
-    const double four = AutodiffMapping<AllFunctions>({}, 4).thirdDerivativeBound(box);
+    const double one = AutodiffMapping<AllFunctions>({}, 1).remainder(box);
+    const double two = AutodiffMapping<AllFunctions>({}, 2).remainder(box);
+    const double four = AutodiffMapping<AllFunctions>({}, 4).remainder(box);
     EXPECT_LT(two, one);
     EXPECT_LT(four, two);
 }
@@ -192,7 +192,7 @@ TEST(AutodiffMapping, MorePiecesAreTighter) {
 TEST(AutodiffMapping, TakesTheBoundThatTheFormulaBrings) {
     const AutodiffMapping<SuppliedBound> mapping({});
     const ParameterBox box{{0.2, 0.0, 0.0}, {0.3, 1.0, 1.0}};
-    EXPECT_EQ(mapping.thirdDerivativeBound(box), SuppliedBound().thirdDerivativeBound(box));
+    EXPECT_EQ(mapping.remainder(box), SuppliedBound().remainder(box));
     expectRemainderHolds(mapping, box);
 }
 

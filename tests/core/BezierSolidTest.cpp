@@ -110,7 +110,7 @@ TEST(BezierSolid, ConvexHullBoundIsTighterThanIntervals) {
         const BezierSolid solid = randomSolid(random, 1.0);
         const AutodiffMapping<Unbounded> intervals({solid}, 1);
         expectRemainderHolds(intervals, kWhole);
-        EXPECT_LE(solid.thirdDerivativeBound(kWhole), intervals.thirdDerivativeBound(kWhole) + 1e-9);
+        EXPECT_LE(solid.remainder(kWhole), intervals.remainder(kWhole) + 1e-9);
     }
 }
 
@@ -141,9 +141,9 @@ TEST(BezierSolid, ErrorFallsEightfoldPerHalving) {
 TEST(BezierSolid, OutsideOfTheUnitCubeThereIsNoBound) {
     Random random(346);
     const BezierSolid solid = randomSolid(random, 1.0);
-    EXPECT_TRUE(std::isinf(solid.thirdDerivativeBound({{0.5, 0.5, 0.5}, {0.6, 0.5, 0.5}})));
-    EXPECT_TRUE(std::isinf(solid.thirdDerivativeBound({{0.5, 0.5, std::nan("")}, {0.5, 0.5, 0.5}})));
-    EXPECT_TRUE(std::isfinite(solid.thirdDerivativeBound(kWhole)));
+    EXPECT_TRUE(std::isinf(solid.remainder({{0.5, 0.5, 0.5}, {0.6, 0.5, 0.5}})));
+    EXPECT_TRUE(std::isinf(solid.remainder({{0.5, 0.5, std::nan("")}, {0.5, 0.5, 0.5}})));
+    EXPECT_TRUE(std::isfinite(solid.remainder(kWhole)));
 }
 
 // The basis function of a point, by its definition.

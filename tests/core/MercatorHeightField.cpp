@@ -9,7 +9,7 @@
 
 namespace osgAnalyticBin::test {
 
-double MercatorHeightField::thirdDerivativeBound(const core::ParameterBox& box) const noexcept {
+double MercatorHeightField::remainder(const core::ParameterBox& box) const noexcept {
     const double south = (box.center.y - box.halfSize.y) / _radius;
     const double north = (box.center.y + box.halfSize.y) / _radius;
     // Latitudes nearest to and farthest from the equator, and upper bounds of cosine, sine and |cos 2 latitude|
@@ -29,7 +29,7 @@ double MercatorHeightField::thirdDerivativeBound(const core::ParameterBox& box) 
         distance * c * (std::sqrt(1.0 + 3.0 * c * c) * y * y * y + 3.0 * s * y * l * l) + 3.0 * c * h * (y * y + l * l);
     // Easting and northing are angles times the radius: their rounding is one of the angle.
     const double angles = (1.0 + l + y) * (1.0 + l + y) * (1.0 + std::abs(box.center.x) / _radius + farthest);
-    return core::withRounding(std::hypot(east, meridian), (distance + _radius) * angles);
+    return core::withRounding(std::hypot(east, meridian) / 6.0, (distance + _radius) * angles);
 }
 
 }  // namespace osgAnalyticBin::test

@@ -37,7 +37,7 @@ public:
     }
 
     /// See AnalyticMapping; holds for every box.
-    [[nodiscard]] double thirdDerivativeBound(const core::ParameterBox& box) const noexcept;
+    [[nodiscard]] double remainder(const core::ParameterBox& box) const noexcept;
 
 private:
     double _radius;

@@ -90,7 +90,7 @@ Hessians GeodeticMapping::hessians(const glm::dvec3& parameters) const noexcept 
     return result;
 }
 
-double GeodeticMapping::thirdDerivativeBound(const ParameterBox& box) const noexcept {
+double GeodeticMapping::remainder(const ParameterBox& box) const noexcept {
     const LatitudeBounds bound = latitudeBounds(_ellipsoid, box);
     const double h = std::max(std::abs(box.center.z - box.halfSize.z), std::abs(box.center.z + box.halfSize.z));
     const double mh = bound.meridional + h;
@@ -103,7 +103,7 @@ double GeodeticMapping::thirdDerivativeBound(const ParameterBox& box) const noex
                         nh * bound.cosLat * l * l * l + 6.0 * bound.sinLat * p * l * dh;
     const double meridian = (bound.meridionalCurvature + mh) * p * p * p + 2.0 * bound.meridionalSlope * p * p * p +
                             3.0 * mh * bound.sinLat * p * l * l + 3.0 * p * p * dh + 3.0 * bound.cosLat * l * l * dh;
-    return std::hypot(east, meridian) * kRoundUp;
+    return std::hypot(east, meridian) / 6.0 * kRoundUp;
 }
 
 double GeodeticMapping::termMagnitude(const ParameterBox& box) const noexcept {

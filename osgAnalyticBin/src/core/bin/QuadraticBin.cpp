@@ -43,8 +43,7 @@ QuadraticBin::QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& b
     for (std::size_t i = 0; i < 6; ++i) magnitude += glm::length(second(i));
     magnitude = std::max(magnitude, mapping.termMagnitude(box));
     // Taylor's theorem with the Lagrange remainder, doc/derivation.md, section 3; rounding, section 7
-    _numbers[row::Remainder] =
-        (mapping.thirdDerivativeBound(box) / 6.0 + margin) * kNormalTolerance + kRounding * magnitude;
+    _numbers[row::Remainder] = (mapping.remainder(box) + margin) * kNormalTolerance + kRounding * magnitude;
     _numbers[row::Reach] = roundedUp((farthestCorner() + bulge()) * kNormalTolerance + remainder());
     const double mixed = glm::length(second(3)) + glm::length(second(4)) + glm::length(second(5));
     _numbers[row::Curvature] = roundedUp((bulge() + mixed) * kNormalTolerance);

@@ -24,8 +24,7 @@ double largestExtent(const GeodeticMapping& mapping, const ParameterBox& box) {
 QuadraticOrExact quadraticOrExact(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept {
     const GeodeticMapping mapping(ellipsoid);
     const ParameterBox box = parameterBox(bin);
-    const double remainder = mapping.thirdDerivativeBound(box) / 6.0;
-    const bool isTight = remainder <= kLargestRelativeRemainder * largestExtent(mapping, box);
+    const bool isTight = mapping.remainder(box) <= kLargestRelativeRemainder * largestExtent(mapping, box);
     if (!isTight && ExactGeodeticBin::holds(ellipsoid, bin)) return ExactGeodeticBin(ellipsoid, bin, margin);
     return QuadraticBin(mapping, box, margin);
 }

@@ -127,7 +127,7 @@ BezierSolid::BezierSolid(ControlNet inner, ControlNet outer) : _inner(std::move(
     assert(_outer.points.size() == _inner.points.size());
 }
 
-double BezierSolid::thirdDerivativeBound(const ParameterBox& box) const noexcept {
+double BezierSolid::remainder(const ParameterBox& box) const noexcept {
     if (!isWithinUnitCube(box)) return std::numeric_limits<double>::infinity();
     // The hull of a net is tighter on a piece: four pieces, whose width is a half size of the box.
     double differential = 0.0;
@@ -141,7 +141,7 @@ double BezierSolid::thirdDerivativeBound(const ParameterBox& box) const noexcept
             differential = std::max(differential, differentialBound(bottom, top));
         }
     }
-    return withRounding(differential, roundingSize());
+    return withRounding(differential / 6.0, roundingSize());
 }
 
 double BezierSolid::triangleSagBound(const ParameterBox& box, const glm::dvec3& cell) const noexcept {
@@ -160,7 +160,7 @@ double BezierSolid::triangleSagBound(const ParameterBox& box, const glm::dvec3& 
         face(2, 0) * share.x * share.x + face(0, 2) * share.y * share.y +
         2.0 * (face(1, 1) * share.x * share.y + largest(derivative(thickness, 1, 0)) * share.x * share.z +
                largest(derivative(thickness, 0, 1)) * share.y * share.z);
-    return withRounding(sum / 8.0, roundingSize());
+    return withRounding(sum / 8.0, 6.0 * roundingSize());
 }
 
 double BezierSolid::roundingSize() const noexcept {

@@ -11,7 +11,7 @@
 
 namespace osgAnalyticBin::core {
 
-double CylinderSegment::thirdDerivativeBound(const ParameterBox& box) const noexcept {
+double CylinderSegment::remainder(const ParameterBox& box) const noexcept {
     const double a = box.halfSize.x;
     const double dr = box.halfSize.y;
     const double radius = std::abs(box.center.y) + dr;
@@ -19,7 +19,7 @@ double CylinderSegment::thirdDerivativeBound(const ParameterBox& box) const noex
     // doc/mappings.md, section 4: along the tangent and along the radius
     const double differential = std::hypot(radius * a * a * a, 3.0 * a * a * dr);
     const double size = glm::length(_frame.origin) + radius * (1.0 + a) * (1.0 + a) + height;
-    return withRounding(differential, size);
+    return withRounding(differential / 6.0, size);
 }
 
 }  // namespace osgAnalyticBin::core

@@ -7,13 +7,13 @@
 
 namespace osgAnalyticBin::core {
 
-/// A third-derivative bound that covers the rounding of a shipped formula's value and derivatives too. `size` bounds
+/// A remainder that covers the rounding of a shipped formula's value and derivatives too. `size` bounds
 /// the sum of the magnitudes of all terms that enter them, derivatives times half sizes; the frame's axes are
 /// orthonormal to a few roundings. Source: doc/mappings.md, section 7.
-[[nodiscard]] inline double withRounding(double differential, double size) noexcept {
+[[nodiscard]] inline double withRounding(double remainder, double size) noexcept {
     constexpr double kRoundUp = 1.0 + 1e-13;
     constexpr double kRoundings = 64.0 * std::numeric_limits<double>::epsilon();
-    return differential * kRoundUp + 6.0 * kRoundings * size;
+    return remainder * kRoundUp + kRoundings * size;
 }
 
 }  // namespace osgAnalyticBin::core

@@ -13,7 +13,7 @@
 
 namespace osgAnalyticBin::core {
 
-double TorusSegment::thirdDerivativeBound(const ParameterBox& box) const noexcept {
+double TorusSegment::remainder(const ParameterBox& box) const noexcept {
     const double a = box.halfSize.x;
     const double b = box.halfSize.y;
     const double dr = box.halfSize.z;
@@ -32,7 +32,7 @@ double TorusSegment::thirdDerivativeBound(const ParameterBox& box) const noexcep
     const double along = 3.0 * a * p2 + a * a * a * p0;
     const double angles = (1.0 + a + b) * (1.0 + a + b);
     const double size = glm::length(_frame.origin) + (std::abs(_bendRadius) + 2.0 * r) * angles;
-    return withRounding(std::hypot(across, along), size);
+    return withRounding(std::hypot(across, along) / 6.0, size);
 }
 
 }  // namespace osgAnalyticBin::core

@@ -27,8 +27,8 @@ public:
     [[nodiscard]] Hessians hessians(const glm::dvec3& parameters) const noexcept override;
 
     /// Guarantee: holds for every box of latitudes within the poles, any longitudes, any altitudes;
-    /// tests: GeodeticMapping.ThirdDerivativeBoundHolds.
-    [[nodiscard]] double thirdDerivativeBound(const ParameterBox& box) const noexcept override;
+    /// tests: GeodeticMapping.RemainderHolds.
+    [[nodiscard]] double remainder(const ParameterBox& box) const noexcept override;
 
     /// N + h and M + h cancel near the centres of curvature; tests: QuadraticBin.HoldsNearTheCentresOfCurvature.
     [[nodiscard]] double termMagnitude(const ParameterBox& box) const noexcept override;

@@ -17,13 +17,12 @@
 
 namespace osgAnalyticBin::core {
 
-/// True for a formula that brings its own bound: `double thirdDerivativeBound(const ParameterBox&) const`, with the
-/// meaning of AnalyticMapping::thirdDerivativeBound().
+/// True for a formula that brings its own bound: `double remainder(const ParameterBox&) const`, with the
+/// meaning of AnalyticMapping::remainder().
 template <class F, class = void>
-struct HasThirdDerivativeBound : std::false_type {};
+struct HasRemainder : std::false_type {};
 template <class F>
-struct HasThirdDerivativeBound<
-    F, std::void_t<decltype(std::declval<const F&>().thirdDerivativeBound(std::declval<const ParameterBox&>()))>>
+struct HasRemainder<F, std::void_t<decltype(std::declval<const F&>().remainder(std::declval<const ParameterBox&>()))>>
     : std::true_type {};
 
 /// True for a formula that brings its own bound of how far meshes leave it:
@@ -41,7 +40,7 @@ struct HasTriangleSagBound<F, std::void_t<decltype(std::declval<const F&>().tria
 ///
 /// made of + - * / and of sqrt, exp, log, sin, cos, tan, atan and pow with an integer, called without `std::` after a
 /// using declaration. Value and derivatives come from automatic differentiation. The remainder is proven either by F's
-/// own thirdDerivativeBound(), or else by interval arithmetic over the box; then a formula with any other function does
+/// own remainder(), or else by interval arithmetic over the box; then a formula with any other function does
 /// not compile, and a box on which it has a pole or leaves the domain of a root or logarithm has an infinite bound:
 /// such a bin straddles every plane.
 /// Source: doc/mappings.md, sections 1 - 3.
@@ -78,9 +77,9 @@ public:
                 derivative(f, 1, 1, 0), derivative(f, 1, 0, 1), derivative(f, 0, 1, 1)};
     }
 
-    [[nodiscard]] double thirdDerivativeBound(const ParameterBox& box) const noexcept override {
-        if constexpr (HasThirdDerivativeBound<F>::value) {
-            return _formula.thirdDerivativeBound(box);
+    [[nodiscard]] double remainder(const ParameterBox& box) const noexcept override {
+        if constexpr (HasRemainder<F>::value) {
+            return _formula.remainder(box);
         } else {
             return enclosedBound(box);
         }
@@ -120,8 +119,7 @@ private:
         const glm::dvec3& c = box.center;
         const double rounding =
             modelRounding(enclosed(box.halfSize, {c.x, c.y, c.z}), value(c), jacobian(c), hessians(c), box.halfSize);
-        // The error of the model is a sixth of the bound, and the rounding.
-        return bound + 6.0 * rounding;
+        return bound / 6.0 + rounding;
     }
 
     template <class Bound>

@@ -50,7 +50,7 @@ public:
     }
 
     /// See AnalyticMapping.
-    [[nodiscard]] double thirdDerivativeBound(const ParameterBox& box) const noexcept;
+    [[nodiscard]] double remainder(const ParameterBox& box) const noexcept;
 
     /// See AutodiffMapping. By the convex-hull property too, which is far tighter than intervals.
     [[nodiscard]] double triangleSagBound(const ParameterBox& box, const glm::dvec3& cell) const noexcept;

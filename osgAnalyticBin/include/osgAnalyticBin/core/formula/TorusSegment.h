@@ -32,7 +32,7 @@ public:
     }
 
     /// See AnalyticMapping; holds for every box.
-    [[nodiscard]] double thirdDerivativeBound(const ParameterBox& box) const noexcept;
+    [[nodiscard]] double remainder(const ParameterBox& box) const noexcept;
 
 private:
     Frame _frame;
