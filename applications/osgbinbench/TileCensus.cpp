@@ -42,11 +42,12 @@ const AnalyticBinCullCallback* binCallback(const osg::Node& node) {
 }
 
 AnalyticBin shownBin(const AnalyticBinCullCallback& callback) {
-    AnalyticBin bin =
-        callback.terrainShape() ? callback.bin().exaggerated(callback.terrainShape()->verticalScale) : callback.bin();
+    AnalyticBin bin = callback.getTerrainShape()
+                          ? callback.getBin().exaggerated(callback.getTerrainShape()->verticalScale)
+                          : callback.getBin();
     if (!bin.valid()) return bin;
     const core::Interval altitude = bin.bin().altitude();
-    bin.setBin(bin.bin().withAltitude({altitude.lower - callback.skirt(), altitude.upper}));
+    bin.setBin(bin.bin().withAltitude({altitude.lower - callback.getSkirt(), altitude.upper}));
     return bin;
 }
 

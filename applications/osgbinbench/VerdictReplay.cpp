@@ -7,7 +7,7 @@
 #include "CullMethod.h"
 #include "Failure.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Transform>

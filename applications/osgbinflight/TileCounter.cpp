@@ -41,7 +41,7 @@ TileCounts TileCounter::result() const {
     TileCounts counts = _counts;
     counts.wanted = wanted();
     if (const BinStatistics* const statistics = BinStatistics::find(*this)) {
-        const BinCounts bins = statistics->counts();
+        const BinCounts bins = statistics->getCounts();
         counts.binsTested = bins.tested;
         counts.binsOutside = bins.outside;
         counts.binsInside = bins.inside;

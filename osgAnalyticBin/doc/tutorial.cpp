@@ -3,7 +3,7 @@
 //
 // An osgViewer application with analytic bins: tutorial DATABASE [--bins OPTIONS]. See tutorial.md.
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/viewer/ViewerCounts.h>
 
 #include <osg/ArgumentParser>

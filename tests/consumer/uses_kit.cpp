@@ -3,7 +3,8 @@
 //
 // Bins on the tiles of an application's own scene graph.
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Group>

@@ -66,6 +66,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!text[2].empty()) callback->setRadiiText(text[2]);
     if (!text[3].empty()) callback->setLocalToEcefText(text[3]);
     const bool reached = isReached(*callback);
-    if (!callback->bin().valid()) test::require(reached);
+    if (!callback->getBin().valid()) test::require(reached);
     return 0;
 }

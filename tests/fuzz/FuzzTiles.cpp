@@ -8,7 +8,8 @@
 #include "TileScene.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/TileSurface.h>
 
 #include <osg/Geometry>

@@ -322,7 +322,7 @@ TEST(BinStatistics, CountsEachTraversalOnce) {
         test::cull(*globe.root, view, *visitor, frame);
         const BinStatistics* statistics = BinStatistics::find(*visitor);
         ASSERT_NE(statistics, nullptr);
-        const BinCounts counts = statistics->counts();
+        const BinCounts counts = statistics->getCounts();
         EXPECT_EQ(counts.frame, frame);
         EXPECT_EQ(counts.tested, 128u);
         EXPECT_EQ(counts.inside + counts.straddling, globe.visited.size());
@@ -334,12 +334,12 @@ TEST(BinStatistics, VisitorsShareNothingNotEvenClones) {
     SmallGlobe globe;
     const osg::ref_ptr<osgUtil::CullVisitor> a = new osgUtil::CullVisitor;
     test::cull(*globe.root, CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0), *a);
-    const BinCounts before = BinStatistics::find(*a)->counts();
+    const BinCounts before = BinStatistics::find(*a)->getCounts();
     const osg::ref_ptr<osgUtil::CullVisitor> b = a->clone();
     EXPECT_EQ(BinStatistics::find(*b), nullptr);
     test::cull(*globe.root, CullView::lookAt({kEarthRadius + 1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0), *b);
-    EXPECT_EQ(BinStatistics::find(*a)->counts().inside, before.inside);
-    EXPECT_NE(BinStatistics::find(*b)->counts().inside, before.inside);
+    EXPECT_EQ(BinStatistics::find(*a)->getCounts().inside, before.inside);
+    EXPECT_NE(BinStatistics::find(*b)->getCounts().inside, before.inside);
 }
 
 // Counts without a set: several threads may write to it.
@@ -373,7 +373,7 @@ TEST(AnalyticBinCullCallback, SeveralCullTraversalsMayRunAtOnce) {
                 CullView::lookAt({kEarthRadius + 1e6 * double(t + 1), 0, 0}, {0, 0, 0}, {0, 0, 1}, 40.0);
             const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
             for (unsigned int frame = 1; frame <= kFrames; ++frame) test::cull(*root, view, *visitor, frame);
-            counts[t] = BinStatistics::find(*visitor)->counts();
+            counts[t] = BinStatistics::find(*visitor)->getCounts();
         });
     }
     for (std::thread& thread : threads) thread.join();

@@ -7,7 +7,7 @@
 
 #include "ApplicationGlobe.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osg/Geometry>
@@ -79,8 +79,8 @@ TEST(AddedContent, BelowATileWidensItsBinAndThoseAbove) {
     EXPECT_TRUE(globe.draws(*tower, view));
     update(*globe.root);
     EXPECT_TRUE(globe.draws(*tower, view));
-    EXPECT_GE(installedOn(*globe.tile)->bin().bin().altitude().upper, 30000.0);
-    EXPECT_LE(installedOn(*globe.tile)->bin().bin().altitude().upper, 31000.0);
+    EXPECT_GE(installedOn(*globe.tile)->getBin().bin().altitude().upper, 30000.0);
+    EXPECT_LE(installedOn(*globe.tile)->getBin().bin().altitude().upper, 31000.0);
     // the tiles are culled by what they hold now
     EXPECT_FALSE(globe.draws(*tower, beside(ecefDeg(20, 20, 60000.0))));
     EXPECT_FALSE(globe.draws(*leaf, downTo(20, 80, 1e5, 5.0)));
@@ -155,7 +155,7 @@ TEST(AddedContent, IsNoticedWhereVerticesRiseWithinTheBoxOfTheMesh) {
     drawableOf(*globe.group)->dirtyBound();
     (void)globe.root->getBound();
     update(*globe.root);
-    EXPECT_GE(installedOn(*globe.tile)->bin().bin().altitude().upper, 12000.0);
+    EXPECT_GE(installedOn(*globe.tile)->getBin().bin().altitude().upper, 12000.0);
 }
 
 TEST(AddedContent, IsHeldByBinsThatAreInstalledAgain) {
@@ -223,8 +223,8 @@ TEST(Clones, OfADatabaseAreCulledByTheirOwnShape) {
     EXPECT_EQ(visited.count("tile"), 1u) << "before the clone has a database of its own";
     update(*clone);
     ASSERT_NE(installedOn(tile), nullptr);
-    ASSERT_TRUE(installedOn(tile)->terrainShape().has_value());
-    EXPECT_EQ(installedOn(tile)->terrainShape()->verticalScale, 10.0);
+    ASSERT_TRUE(installedOn(tile)->getTerrainShape().has_value());
+    EXPECT_EQ(installedOn(tile)->getTerrainShape()->verticalScale, 10.0);
     visited.clear();
     (void)cull(*clone, view, *visitor);
     EXPECT_EQ(visited.count("tile"), 1u);
@@ -233,7 +233,7 @@ TEST(Clones, OfADatabaseAreCulledByTheirOwnShape) {
                *visitor);
     EXPECT_EQ(visited.count("tile"), 0u) << "the clone is culled by its own bins";
     // the original keeps its own
-    EXPECT_EQ(installedOn(*terrain->getChild(19))->terrainShape()->verticalScale, 1.0);
+    EXPECT_EQ(installedOn(*terrain->getChild(19))->getTerrainShape()->verticalScale, 1.0);
 }
 
 TEST(Clones, ThatShareCallbacksGetADatabaseOfTheirOwn) {
@@ -245,8 +245,8 @@ TEST(Clones, ThatShareCallbacksGetADatabaseOfTheirOwn) {
     clone->setVerticalScale(10.0f);
     update(*clone);
     ASSERT_NE(installedOn(*clone->getChild(19)), nullptr);
-    EXPECT_EQ(installedOn(*clone->getChild(19))->terrainShape()->verticalScale, 10.0);
-    EXPECT_EQ(installedOn(*terrain->getChild(19))->terrainShape()->verticalScale, 1.0);
+    EXPECT_EQ(installedOn(*clone->getChild(19))->getTerrainShape()->verticalScale, 10.0);
+    EXPECT_EQ(installedOn(*terrain->getChild(19))->getTerrainShape()->verticalScale, 1.0);
 }
 
 TEST(Clones, ThatShareCallbacksStayVisible) {

@@ -3,7 +3,7 @@
 
 #include "ApplicationGlobe.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osg/Geode>

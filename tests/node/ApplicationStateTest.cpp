@@ -6,7 +6,7 @@
 
 #include "ApplicationGlobe.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osg/AlphaFunc>
@@ -180,7 +180,7 @@ TEST(SavedScenes, HideNothingBehindTheHorizonWithoutTheirDatabase) {
     const osg::ref_ptr<AnalyticBinCullCallback> read = new AnalyticBinCullCallback;
     read->setOptionsText(callback.getOptionsText());
     read->setBinText(callback.getBinText());
-    EXPECT_TRUE(read->bin().valid());
+    EXPECT_TRUE(read->getBin().valid());
     const osg::ref_ptr<osg::CoordinateSystemNode> back = new osg::CoordinateSystemNode;
     const osg::ref_ptr<osg::Group> tile = new osg::Group;
     tile->addChild(makeMeshTile(extentsDeg(-45, 0, 135, 180), 0.0));

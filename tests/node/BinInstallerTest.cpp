@@ -7,7 +7,7 @@
 #include "CullFixture.h"
 #include "DatabaseFixture.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST(BinInstaller, TreatsTilesAndLeavesTheirSiblingsAlone) {
     Database db;
     EXPECT_EQ(installBins(*db.above), 1u);
     ASSERT_NE(callbackOf(*db.tile), nullptr);
-    EXPECT_EQ(callbackOf(*db.tile)->bin(), kBin);
+    EXPECT_EQ(callbackOf(*db.tile)->getBin(), kBin);
     EXPECT_FALSE(db.tile->getCullingActive());
     EXPECT_FALSE(db.mesh->getCullingActive());
     EXPECT_TRUE(db.drawable->getCullingActive());
@@ -122,7 +122,7 @@ TEST(BinInstaller, RunningItAgainReplacesAndRunningItWithSpheresUndoes) {
     paper.method = Method::Paper;
     EXPECT_EQ(installBins(*db.root, paper), 1u);
     ASSERT_NE(callbackOf(*db.tile), nullptr);
-    EXPECT_EQ(callbackOf(*db.tile)->cullOptions().method, Method::Paper);
+    EXPECT_EQ(callbackOf(*db.tile)->getCullOptions().method, Method::Paper);
     EXPECT_EQ(callbackOf(*db.tile)->getNestedCallback(), user.get());
     EXPECT_EQ(user->getNestedCallback(), nullptr);
 
@@ -155,8 +155,9 @@ TEST(BinInstaller, FollowsFixedTransformsBelowTheCoordinateSystem) {
     const osg::ref_ptr<osg::MatrixTransform> globeMover = new osg::MatrixTransform(osg::Matrixd::translate(9, 9, 9));
     globeMover->addChild(db.root);
     EXPECT_EQ(installBins(*globeMover), 2u);
-    EXPECT_EQ(callbackOf(*tile)->localToEcef(), osg::Matrixd::rotate(1.0, 0, 0, 1) * osg::Matrixd::translate(1, 2, 3));
-    EXPECT_TRUE(callbackOf(*db.tile)->localToEcef().isIdentity());
+    EXPECT_EQ(callbackOf(*tile)->getLocalToEcef(),
+              osg::Matrixd::rotate(1.0, 0, 0, 1) * osg::Matrixd::translate(1, 2, 3));
+    EXPECT_TRUE(callbackOf(*db.tile)->getLocalToEcef().isIdentity());
 }
 
 TEST(BinInstaller, LeavesTilesUnderMovingTransformsAlone) {
@@ -179,7 +180,7 @@ TEST(BinInstaller, WithoutACoordinateSystemATilesOwnFrameIsEcef) {
     setStoredBin(*tile, kBin);
     mover->addChild(tile);
     EXPECT_EQ(installBins(*mover), 1u);
-    EXPECT_TRUE(callbackOf(*tile)->localToEcef().isIdentity());
+    EXPECT_TRUE(callbackOf(*tile)->getLocalToEcef().isIdentity());
 }
 
 TEST(BinInstaller, WithoutACoordinateSystemATransformThatIsATileStandsInEcef) {
@@ -192,15 +193,15 @@ TEST(BinInstaller, WithoutACoordinateSystemATransformThatIsATileStandsInEcef) {
     mover->addChild(tile);
     tile->addChild(leaf);
     EXPECT_EQ(installBins(*mover), 2u);
-    EXPECT_EQ(callbackOf(*tile)->localToEcef(), osg::Matrixd::translate(origin));
-    EXPECT_EQ(callbackOf(*leaf)->localToEcef(), osg::Matrixd::translate(origin + osg::Vec3d(0, 0, 7)));
+    EXPECT_EQ(callbackOf(*tile)->getLocalToEcef(), osg::Matrixd::translate(origin));
+    EXPECT_EQ(callbackOf(*leaf)->getLocalToEcef(), osg::Matrixd::translate(origin + osg::Vec3d(0, 0, 7)));
 }
 
 TEST(BinInstaller, ABrokenStoredBinMeansVisible) {
     Database db;
     db.tile->setUserValue("osgAnalyticBin", std::string("0 0 0 1 1"));
     EXPECT_EQ(installBins(*db.root), 1u);
-    EXPECT_FALSE(callbackOf(*db.tile)->bin().valid());
+    EXPECT_FALSE(callbackOf(*db.tile)->getBin().valid());
     std::set<std::string> visited;
     callbackOf(*db.tile)->setNestedCallback(new test::VisitRecorder("tile", visited));
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
@@ -216,7 +217,7 @@ TEST(BinInstaller, FindsTheBinOfAPagedLodFromItsGeometryAndKnowsNoHeightsBelow) 
     paged->setRange(1, 0.0f, 1e6f);
     db.root->addChild(paged);
     EXPECT_EQ(installBins(*db.root), 2u);
-    const AnalyticBin& bin = callbackOf(*paged)->bin();
+    const AnalyticBin& bin = callbackOf(*paged)->getBin();
     EXPECT_TRUE(bin.contains(AnalyticBin(GeodeticBin({-0.0999, 0.0999}, {-0.0999, 0.0999}, {-11034, 8849}))));
     EXPECT_LT(bin.bin().latitude().upper, 0.101);
     EXPECT_LT(bin.bin().longitude().upper, 0.1005);
@@ -232,7 +233,7 @@ TEST(BinInstaller, UndeclaredHeightsHoldAllTerrainOnEarthInSmallerUnitsToo) {
     const osg::ref_ptr<osg::PagedLOD> tile = test::makePaged(mesh, "finer.osgb", 1e9f);
     root->addChild(tile);
     ASSERT_EQ(installBins(*root), 1u);
-    const core::Interval altitude = callbackOf(*tile)->bin().bin().altitude();
+    const core::Interval altitude = callbackOf(*tile)->getBin().bin().altitude();
     EXPECT_GE(altitude.upper, 8849.0 * kFeet);
     EXPECT_LE(altitude.lower, -10935.0 * kFeet);
 }

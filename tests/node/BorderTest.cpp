@@ -4,10 +4,10 @@
 // Skirts at the outer border of a database, where no neighbour stands before them. Oracle: the triangles that
 // osgTerrain draws.
 
+#include "../../osgAnalyticBin/src/node/install/BinInstaller.h"
 #include "DatabaseFixture.h"
 #include "TileFixture.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ struct Pair {
 
 double skirtOf(const Pair& pair) {
     installBins(*pair.terrain, lowHeights());
-    return installedOn(*pair.tile)->skirt();
+    return installedOn(*pair.tile)->getSkirt();
 }
 
 TEST(Border, TilesHoldTheirSkirtsWhole) {
@@ -103,9 +103,9 @@ TEST(Border, TilesThatAnIndexKnowsHoldTheirSkirtsToo) {
     pair.terrain->accept(installer);
     const AnalyticBinCullCallback& root = *installedOn(*pair.root);
     // known, or the bin would hold the default heights
-    ASSERT_LT(root.bin().bin().altitude().upper, 1000.0);
-    EXPECT_EQ(root.skirt(), kSkirt);
-    EXPECT_EQ(installedOn(*pair.tile)->skirt(), 0.0);
+    ASSERT_LT(root.getBin().bin().altitude().upper, 1000.0);
+    EXPECT_EQ(root.getSkirt(), kSkirt);
+    EXPECT_EQ(installedOn(*pair.tile)->getSkirt(), 0.0);
 }
 
 TEST(Border, VirtualPlanetBuildersGlobesHaveNone) {
@@ -115,14 +115,14 @@ TEST(Border, VirtualPlanetBuildersGlobesHaveNone) {
         if (!globe) GTEST_SKIP() << "no databases of VirtualPlanetBuilder here";
         ASSERT_EQ(installBins(*globe), 1u);
         auto& root = dynamic_cast<osg::PagedLOD&>(*globe->asGroup()->getChild(0));
-        EXPECT_EQ(installedOn(root)->skirt(), 0.0) << name;
+        EXPECT_EQ(installedOn(root)->getSkirt(), 0.0) << name;
         const osg::ref_ptr<osg::Node> below = readBelow(root);
         ASSERT_TRUE(below);
         ASSERT_GT(below->asGroup()->getNumChildren(), 1u);
         for (unsigned int i = 0; i < below->asGroup()->getNumChildren(); ++i) {
             const AnalyticBinCullCallback* tile = installedOn(*below->asGroup()->getChild(i));
             ASSERT_NE(tile, nullptr) << name;
-            EXPECT_EQ(tile->skirt(), 0.0) << name;
+            EXPECT_EQ(tile->getSkirt(), 0.0) << name;
         }
     }
 }
@@ -136,7 +136,7 @@ TEST(Border, StoredBinsHoldSkirtsWholeWhereAsked) {
     options.skirts = SkirtUse::All;
     installBins(*pair.terrain, options);
     ASSERT_NE(installedOn(*pair.tile), nullptr);
-    EXPECT_GE(installedOn(*pair.tile)->skirt(), kSkirt);
+    EXPECT_GE(installedOn(*pair.tile)->getSkirt(), kSkirt);
 }
 
 }  // namespace

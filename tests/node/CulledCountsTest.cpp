@@ -32,7 +32,7 @@ protected:
         const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
         visitor->setSmallFeatureCullingPixelSize(_pixels);
         cull(*_scene, _view, *visitor);
-        const BinCounts counts = BinStatistics::of(*visitor).counts();
+        const BinCounts counts = BinStatistics::of(*visitor).getCounts();
         EXPECT_EQ(counts.tested, _tiles);
         EXPECT_EQ(counts.inside + counts.straddling, _visited.size());
         EXPECT_EQ(counts.outside, _tiles - _visited.size());

@@ -6,7 +6,7 @@
 #include "CullFixture.h"
 #include "TileFixture.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <osg/Geode>
 #include <osg/Geometry>
@@ -106,10 +106,10 @@ AnalyticBinCullCallback* installedOn(osg::Node& node) {
 }
 
 AnalyticBin culledBin(const AnalyticBinCullCallback& callback) {
-    const auto& shape = callback.terrainShape();
-    AnalyticBin bin = shape ? callback.bin().exaggerated(shape->verticalScale) : callback.bin();
+    const auto& shape = callback.getTerrainShape();
+    AnalyticBin bin = shape ? callback.getBin().exaggerated(shape->verticalScale) : callback.getBin();
     const core::Interval altitude = bin.bin().altitude();
-    bin.setBin(bin.bin().withAltitude({altitude.lower - callback.skirt(), altitude.upper}));
+    bin.setBin(bin.bin().withAltitude({altitude.lower - callback.getSkirt(), altitude.upper}));
     return bin;
 }
 

@@ -257,7 +257,7 @@ TEST(DegenerateCameras, AFrameWithoutAnInverseMeansVisible) {
             const osg::ref_ptr<AnalyticBinCullCallback> callback =
                 new AnalyticBinCullCallback(test::startTiles().front(), osg::EllipsoidModel());
             callback->setLocalToEcef(matrix);
-            EXPECT_FALSE(callback->bin().valid());
+            EXPECT_FALSE(callback->getBin().valid());
         }
     }
 }

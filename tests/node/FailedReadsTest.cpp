@@ -7,7 +7,7 @@
 #include "../../osgAnalyticBin/src/node/page/FailedReads.h"
 #include "PagedFlight.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osgDB/ReadFile>

@@ -7,7 +7,7 @@
 #include "CullFixture.h"
 #include "DatabaseFixture.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
@@ -73,7 +73,7 @@ protected:
     }
 
     [[nodiscard]] static core::Interval altitudeOf(osg::Node& node) {
-        return installedOn(node)->bin().bin().altitude();
+        return installedOn(node)->getBin().bin().altitude();
     }
 
     const core::GeodeticBin _whole = extentsDeg(10, 50, 0, 40), _south = extentsDeg(10, 30, 0, 40);
@@ -87,8 +87,8 @@ protected:
 TEST_F(FalseBins, ThatAreTrueAreLeftAsTheyAre) {
     write(_south, 200.0, claim(_south).toText());
     update();
-    EXPECT_EQ(installedOn(*_root)->bin(), claim(_whole));
-    EXPECT_EQ(installedOn(*_leaf)->bin(), claim(_south));
+    EXPECT_EQ(installedOn(*_root)->getBin(), claim(_whole));
+    EXPECT_EQ(installedOn(*_leaf)->getBin(), claim(_south));
     EXPECT_EQ(_notes.count(""), 0u);
 }
 
@@ -139,7 +139,7 @@ TEST(StoredSurface, IsBelievedWhereTheMeshAllowsIt) {
         setStoredSurfaceLow(*tile, stored);
         root->addChild(tile);
         EXPECT_EQ(installBins(*root), 1u);
-        return installedOn(*tile)->surfaceLow();
+        return installedOn(*tile)->getSurfaceLow();
     };
     EXPECT_NEAR(surfaceLowWith(-5000.0), -5000.0, 2.0);
     // an eye that saw no deeper than this would be hidden what is seen past the tile
@@ -150,7 +150,7 @@ TEST_F(FalseBins, ThatAreTooNarrowAreWidened) {
     write(extentsDeg(0, 30, -30, 70), 200.0, claim(_south).toText());
     update();
     for (osg::Node* node : {_leaf.get(), static_cast<osg::Node*>(_root)}) {
-        const core::GeodeticBin& bin = installedOn(*node)->bin().bin();
+        const core::GeodeticBin& bin = installedOn(*node)->getBin().bin();
         for (const double longitude : {-0.52, 1.22}) EXPECT_TRUE(bin.contains(core::Geodetic{0.001, longitude, 200.0}));
     }
     EXPECT_EQ(_notes.count(kWarning), 1u);
@@ -160,7 +160,7 @@ TEST_F(FalseBins, OfATileThatOwnsUpToMoreThanItsParentWidenTheParent) {
     AnalyticBin honest = claim(_south);
     honest.setBin(honest.bin().withAltitude({kClaimed.lower, 8000.0}));
     write(_south, 7000.0, honest.toText());
-    EXPECT_EQ(installedOn(*_leaf)->bin(), honest);
+    EXPECT_EQ(installedOn(*_leaf)->getBin(), honest);
     update();
     EXPECT_EQ(altitudeOf(*_root).upper, 8000.0);
     EXPECT_EQ(_notes.count(kWarning), 1u);
@@ -168,7 +168,7 @@ TEST_F(FalseBins, OfATileThatOwnsUpToMoreThanItsParentWidenTheParent) {
 
 TEST_F(FalseBins, ThatCannotBeReadStillWidenTheParentByTheSurface) {
     write(_south, 7000.0, "nan nan nan nan nan nan nan");
-    EXPECT_FALSE(installedOn(*_leaf)->bin().valid());
+    EXPECT_FALSE(installedOn(*_leaf)->getBin().valid());
     update();
     EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0);
     EXPECT_EQ(_notes.count(kWarning), 1u);
@@ -176,10 +176,10 @@ TEST_F(FalseBins, ThatCannotBeReadStillWidenTheParentByTheSurface) {
 
 TEST_F(FalseBins, LeaveATileAboveVisibleWhoseOwnBinIsNotKnown) {
     write(_south, 7000.0, claim(_south).toText(), "1e999 0 0 50 40 300 1");
-    ASSERT_FALSE(installedOn(*_root)->bin().valid());
+    ASSERT_FALSE(installedOn(*_root)->getBin().valid());
     update();
     update();
-    EXPECT_FALSE(installedOn(*_root)->bin().valid());
+    EXPECT_FALSE(installedOn(*_root)->getBin().valid());
     EXPECT_GE(altitudeOf(*_leaf).upper, 7000.0 - 1.0);
 }
 
@@ -274,12 +274,12 @@ TEST_F(FalseBins, AboveAGlobeThatStandsElsewhereAreKeptVisible) {
         update();
     };
     readBelowRoot(*earth);
-    EXPECT_EQ(installedOn(*_root)->bin(), claim(_whole)) << "the same globe";
+    EXPECT_EQ(installedOn(*_root)->getBin(), claim(_whole)) << "the same globe";
     EXPECT_EQ(_notes.count(""), 0u);
     const std::vector<osg::ref_ptr<osg::Node>> others{turned, globe(2e7, 2e7), globe(std::nan(""), 1.0), map};
     for (std::size_t i = 0; i < others.size(); ++i) {
         readBelowRoot(*others[i]);
-        EXPECT_FALSE(installedOn(*_root)->bin().valid()) << i;
+        EXPECT_FALSE(installedOn(*_root)->getBin().valid()) << i;
         EXPECT_EQ(_notes.count("cannot be compared"), i + 1) << "once for each installation";
     }
 }
@@ -288,16 +288,16 @@ TEST_F(FalseBins, AboveAGlobeThatStandsElsewhereAreKeptVisible) {
 TEST_F(FalseBins, OfTilesWhoseMeshCannotBeToldAreKeptVisible) {
     for (const std::string& text : {claim(_south).toText(), std::string(), std::string("nan nan nan nan nan nan")}) {
         write(_south, 60000.0, text);
-        EXPECT_TRUE(text.empty() || !installedOn(*_leaf)->bin().valid()) << text;
+        EXPECT_TRUE(text.empty() || !installedOn(*_leaf)->getBin().valid()) << text;
         update();
-        EXPECT_FALSE(installedOn(*_root)->bin().valid()) << text;
+        EXPECT_FALSE(installedOn(*_root)->getBin().valid()) << text;
         // paged in again, and installed anew
         pageOut(*_root);
         page();
         update();
-        EXPECT_FALSE(installedOn(*_root)->bin().valid()) << text;
+        EXPECT_FALSE(installedOn(*_root)->getBin().valid()) << text;
         EXPECT_EQ(setCullOptions(*_scene, {}), text.empty() ? 1u : 2u);
-        EXPECT_FALSE(installedOn(*_root)->bin().valid()) << text;
+        EXPECT_FALSE(installedOn(*_root)->getBin().valid()) << text;
     }
     EXPECT_EQ(_notes.count("cannot be compared"), 3u);
 }
@@ -317,14 +317,14 @@ TEST_F(FalseBins, ReportedByATileThatWasOnItsWayWhenOptionsChangedAreWidened) {
         putBelow(*_root, _leaf);
         update();
         EXPECT_GE(altitudeOf(*_root).upper, 7000.0 - 1.0) << hasGlobe;
-        EXPECT_EQ(installedOn(*_leaf)->cullOptions().method, Method::Exact) << hasGlobe;
+        EXPECT_EQ(installedOn(*_leaf)->getCullOptions().method, Method::Exact) << hasGlobe;
     }
 }
 
 TEST_F(FalseBins, StayAsTheyAreAboveTilesThatHaveNoneAndAreNotLarger) {
     write(_south, 200.0, "");
     update();
-    EXPECT_EQ(installedOn(*_root)->bin(), claim(_whole));
+    EXPECT_EQ(installedOn(*_root)->getBin(), claim(_whole));
     EXPECT_EQ(_notes.count(""), 0u);
 }
 
@@ -358,7 +358,7 @@ TEST(FalseBinsOfOtherGlobes, AreFoundWhateverTheirUnit) {
         setStoredBin(*stored, AnalyticBin(extents.withAltitude({-4000.0 * metre, 300.0 * metre})));
         root->addChild(stored);
         EXPECT_EQ(installBins(*root), 1u);
-        EXPECT_GE(installedOn(*stored)->bin().bin().altitude().upper, 6999.0 * metre) << metre;
+        EXPECT_GE(installedOn(*stored)->getBin().bin().altitude().upper, 6999.0 * metre) << metre;
         EXPECT_EQ(notes.count(kWarning), 1u) << metre;
     }
 }

@@ -8,7 +8,7 @@
 #include "DatabaseFixture.h"
 #include "TileFixture.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osg/ClusterCullingCallback>
@@ -65,7 +65,7 @@ TEST_F(ForeignDatabase, PagedLodsAndLeavesGetBins) {
     for (osg::Node* node :
          {static_cast<osg::Node*>(_root), _south.get(), static_cast<osg::Node*>(_north), _single.get()}) {
         ASSERT_NE(installedOn(*node), nullptr);
-        EXPECT_TRUE(installedOn(*node)->bin().valid());
+        EXPECT_TRUE(installedOn(*node)->getBin().valid());
         EXPECT_FALSE(node->getCullingActive());
     }
     EXPECT_TRUE(isWithinHeights(*_single, *_root));
@@ -82,7 +82,7 @@ TEST_F(ForeignDatabase, ALeafThatIsATransformGetsAPlainGroupAboveIt) {
         EXPECT_NE(mesh.asTransform(), nullptr);
         EXPECT_EQ(mesh.getCullCallback(), nullptr);
         EXPECT_FALSE(mesh.getCullingActive());
-        EXPECT_TRUE(installedOn(*leaf)->localToEcef().isIdentity());
+        EXPECT_TRUE(installedOn(*leaf)->getLocalToEcef().isIdentity());
     }
     // and no other above that
     EXPECT_EQ(installBins(*_scene), 4u);
@@ -95,13 +95,13 @@ TEST_F(ForeignDatabase, HeightsAreThoseOfTheOptionsAndALeafsHighIsItsOwn) {
     options.heights = {-150.0, 5000.0};
     load(options);
     for (osg::Node* node : {static_cast<osg::Node*>(_root), static_cast<osg::Node*>(_north)}) {
-        const AnalyticBin& bin = installedOn(*node)->bin();
+        const AnalyticBin& bin = installedOn(*node)->getBin();
         EXPECT_EQ(bin.bin().altitude().upper, 5000.0);
         EXPECT_LE(bin.bin().altitude().lower, -150.0);
         EXPECT_GE(bin.bin().altitude().lower + bin.sag(), -150.001);
     }
-    EXPECT_NEAR(installedOn(*_south)->bin().bin().altitude().upper, 700.0, 1.0);
-    EXPECT_NEAR(installedOn(*_single)->bin().bin().altitude().upper, 900.0, 1.0);
+    EXPECT_NEAR(installedOn(*_south)->getBin().bin().altitude().upper, 700.0, 1.0);
+    EXPECT_NEAR(installedOn(*_single)->getBin().bin().altitude().upper, 900.0, 1.0);
 }
 
 TEST_F(ForeignDatabase, InstallingAgainReplacesAndSpheresGiveAllBack) {
@@ -110,7 +110,7 @@ TEST_F(ForeignDatabase, InstallingAgainReplacesAndSpheresGiveAllBack) {
     EXPECT_EQ(installBins(*_scene, withMethod(Method::Exact)), 4u);
     for (osg::Node* node : {static_cast<osg::Node*>(_root), _south.get(), _single.get()}) {
         ASSERT_NE(installedOn(*node), nullptr);
-        EXPECT_EQ(installedOn(*node)->cullOptions().method, Method::Exact);
+        EXPECT_EQ(installedOn(*node)->getCullOptions().method, Method::Exact);
         EXPECT_EQ(installedOn(*node)->getNestedCallback(), nullptr);
     }
     EXPECT_EQ(installBins(*_scene, withMethod(Method::Sphere)), 0u);
@@ -239,9 +239,9 @@ TEST(ForeignSkirts, AreHeldWholeWhereAllCount) {
     const AnalyticBin bin = culledBin(*installedOn(*tile));
     const core::Ellipsoid wgs84(osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR);
     EXPECT_LE(metresOutside(bin, samplesOf(drawnTriangles(*tile, 1.0f).skirts), wgs84), bin.margin());
-    EXPECT_EQ(installedOn(*tile)->skirt(), 40000.0);
+    EXPECT_EQ(installedOn(*tile)->getSkirt(), 40000.0);
     installBins(*terrain);
-    EXPECT_EQ(installedOn(*tile)->skirt(), 0.0);
+    EXPECT_EQ(installedOn(*tile)->getSkirt(), 0.0);
 }
 
 TEST(NoTerrain, IsLeftAsItIs) {

@@ -5,7 +5,7 @@
 
 #include "DatabaseFixture.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include "CameraGlobe.h"
 #include "CullFixture.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ struct CountedGlobe {
         const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
         test::cull(scene, view, *visitor);
         const BinStatistics* statistics = BinStatistics::find(*visitor);
-        counts = statistics ? statistics->counts() : BinCounts();
+        counts = statistics ? statistics->getCounts() : BinCounts();
         return visited;
     }
 
@@ -182,7 +182,7 @@ TEST(HorizonCulling, ADatabaseDeclaresItAndTheUserHasTheLastWord) {
     root->setUpdateCallback(new InstallBinsCallback(horizonOptions()));
     const auto installed = [&](const CullOptions& options) {
         installBins(*root, options);
-        return dynamic_cast<AnalyticBinCullCallback&>(*tile->getCullCallback()).cullOptions();
+        return dynamic_cast<AnalyticBinCullCallback&>(*tile->getCullCallback()).getCullOptions();
     };
     EXPECT_EQ(installed({}).horizonUse, HorizonUse::Given);
     EXPECT_EQ(installed({}).horizon, -kOccluderDepth);

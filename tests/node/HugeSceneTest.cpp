@@ -7,7 +7,7 @@
 #include "CullFixture.h"
 #include "DatabaseFixture.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>

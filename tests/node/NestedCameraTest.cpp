@@ -8,7 +8,7 @@
 #include "ApplicationGlobe.h"
 #include "CameraGlobe.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>

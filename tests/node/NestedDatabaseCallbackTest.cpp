@@ -8,8 +8,8 @@
 #include "CullFixture.h"
 #include "DatabaseFixture.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>

@@ -7,7 +7,7 @@
 #include "InstallerProbe.h"
 #include "PagedFlight.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
@@ -142,8 +142,8 @@ TEST_F(ObjectCache, InstallationsShareNothing) {
     EXPECT_NE(earth, twin);
     EXPECT_NE(callbackIn(earth)->getRadiiText(), "3396190 3376200");
     EXPECT_EQ(callbackIn(planet)->getRadiiText(), "3396190 3376200");
-    EXPECT_EQ(callbackIn(earth)->cullOptions().method, Method::Quadratic);
-    EXPECT_EQ(callbackIn(other)->cullOptions().method, Method::Exact);
+    EXPECT_EQ(callbackIn(earth)->getCullOptions().method, Method::Quadratic);
+    EXPECT_EQ(callbackIn(other)->getCullOptions().method, Method::Exact);
     EXPECT_EQ(again, planet);
 }
 

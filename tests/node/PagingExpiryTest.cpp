@@ -6,7 +6,7 @@
 
 #include "PagedFlight.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osg/PagedLOD>

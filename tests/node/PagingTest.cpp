@@ -7,7 +7,7 @@
 #include "PagedFlight.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
@@ -82,8 +82,8 @@ TEST_F(Paging, TilesReadLaterGetBinsAndPassThemOn) {
     ASSERT_NE(tile, nullptr);
     auto* callback = dynamic_cast<AnalyticBinCullCallback*>(tile->getCullCallback());
     ASSERT_NE(callback, nullptr);
-    EXPECT_EQ(callback->bin(), kPagedBin);
-    EXPECT_EQ(callback->cullOptions().method, Method::Paper);
+    EXPECT_EQ(callback->getBin(), kPagedBin);
+    EXPECT_EQ(callback->getCullOptions().method, Method::Paper);
     EXPECT_EQ(callback->getRadiiText(), "3396190 3376200");
     EXPECT_FALSE(tile->getCullingActive());
     ASSERT_NE(optionsOf(*tile), nullptr);
@@ -166,8 +166,8 @@ TEST_F(Paging, GlobesOfOneSceneKeepTheirEllipsoidsAndOptionsApart) {
     ASSERT_NE(firstCallback(there), nullptr);
     EXPECT_NE(firstCallback(here)->getRadiiText(), "3396190 3376200");
     EXPECT_EQ(firstCallback(there)->getRadiiText(), "3396190 3376200");
-    EXPECT_EQ(firstCallback(here)->cullOptions().method, Method::Quadratic);
-    EXPECT_EQ(firstCallback(there)->cullOptions().method, Method::Exact);
+    EXPECT_EQ(firstCallback(here)->getCullOptions().method, Method::Quadratic);
+    EXPECT_EQ(firstCallback(there)->getCullOptions().method, Method::Exact);
     EXPECT_EQ(reader->count, 2);
     EXPECT_EQ(optionsOf(*marsTile)->getOptionString(), "shared=by both");
 }
@@ -186,8 +186,8 @@ TEST_F(Paging, TilesReadLaterStandInTheFrameOfTheirParent) {
     const osg::ref_ptr<osg::Node> there = osgDB::readRefNodeFile(file("children.osgb"), optionsOf(*tile));
     ASSERT_NE(firstCallback(here), nullptr);
     ASSERT_NE(firstCallback(there), nullptr);
-    EXPECT_TRUE(firstCallback(here)->localToEcef().isIdentity());
-    EXPECT_EQ(firstCallback(there)->localToEcef(), osg::Matrixd::translate(1, 2, 3));
+    EXPECT_TRUE(firstCallback(here)->getLocalToEcef().isIdentity());
+    EXPECT_EQ(firstCallback(there)->getLocalToEcef(), osg::Matrixd::translate(1, 2, 3));
 }
 
 TEST_F(Paging, AFileOfAServerIsKnownByItsNameInTheFileCache) {
@@ -206,7 +206,7 @@ TEST_F(Paging, AFileOfAServerIsKnownByItsNameInTheFileCache) {
     const osg::ref_ptr<osg::Node> there = osgDB::readRefNodeFile(copy, optionsOf(*tile));
     osgDB::Registry::instance()->setFileCache(nullptr);
     ASSERT_NE(firstCallback(there), nullptr);
-    EXPECT_EQ(firstCallback(there)->localToEcef(), osg::Matrixd::translate(1, 2, 3));
+    EXPECT_EQ(firstCallback(there)->getLocalToEcef(), osg::Matrixd::translate(1, 2, 3));
 }
 
 TEST(PagedFlight, BinsAreInstalledInThePagersThreadAlone) {

@@ -8,8 +8,8 @@
 #include "PlanarMap.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osg/ClusterCullingCallback>
@@ -54,7 +54,7 @@ public:
 std::set<osg::Drawable*> reached(osg::Node& scene, const CullView& view, BinCounts* counts = nullptr) {
     const osg::ref_ptr<Reached> visitor = new Reached;
     test::cull(scene, view, *visitor);
-    if (counts) *counts = BinStatistics::of(*visitor).counts();
+    if (counts) *counts = BinStatistics::of(*visitor).getCounts();
     return visitor->drawables;
 }
 

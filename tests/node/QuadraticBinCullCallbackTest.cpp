@@ -140,7 +140,7 @@ TEST(QuadraticBinCullCallback, KeepsSmallFeatureCulling) {
         test::cull(*node, view, *visitor);
         EXPECT_EQ(visited.empty(), hasSphere);
         ASSERT_NE(BinStatistics::find(*visitor), nullptr);
-        EXPECT_EQ(BinStatistics::find(*visitor)->counts().tested, 1u);
+        EXPECT_EQ(BinStatistics::find(*visitor)->getCounts().tested, 1u);
     }
 }
 
@@ -149,8 +149,8 @@ TEST(QuadraticBinCullCallback, ACopyCullsTheSame) {
     const core::QuadraticBin bin(mapping, {{0.0, 1.0, 0.0}, {0.1, 0.1, 1.0}});
     const osg::ref_ptr<QuadraticBinCullCallback> original = new QuadraticBinCullCallback(bin);
     const osg::ref_ptr<QuadraticBinCullCallback> copy = new QuadraticBinCullCallback(*original);
-    ASSERT_TRUE(copy->bin().has_value());
-    EXPECT_EQ(copy->bin()->remainder(), bin.remainder());
+    ASSERT_TRUE(copy->getBin().has_value());
+    EXPECT_EQ(copy->getBin()->remainder(), bin.remainder());
 }
 
 }  // namespace

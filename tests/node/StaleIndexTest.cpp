@@ -7,7 +7,9 @@
 #include "DatabaseFixture.h"
 #include "PagedFlight.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/BinIndex.h>
+#include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>
@@ -75,7 +77,7 @@ protected:
         _scene->accept(*visitor);
     }
 
-    static double highOf(osg::Node& node) { return installedOn(node)->bin().bin().altitude().upper; }
+    static double highOf(osg::Node& node) { return installedOn(node)->getBin().bin().altitude().upper; }
 
     TemporaryFolder _folder;
     std::string _file;
@@ -110,7 +112,7 @@ TEST_F(StaleIndex, AnIndexThatFitsTellsTheHeights) {
     for (osg::Node* node :
          {static_cast<osg::Node*>(_root), _leaf.get(), static_cast<osg::Node*>(_north), _single.get()}) {
         EXPECT_NEAR(highOf(*node), 500.0, 1.0);
-        EXPECT_GT(installedOn(*node)->bin().bin().altitude().lower, -13000.0);
+        EXPECT_GT(installedOn(*node)->getBin().bin().altitude().lower, -13000.0);
     }
     EXPECT_EQ(notes.count(kWarning), 0u);
 }
@@ -151,8 +153,8 @@ TEST_F(StaleIndex, ATileThatDoesNotFitWarnsOnceAndWidensItsAncestorsAtTheNextUpd
     EXPECT_NEAR(highOf(*_north), 6000.0, 1.0);
     EXPECT_EQ(notes.count(kWarning), 1u);
     for (osg::Node* ancestor : {_root.get(), _north.get()}) {
-        EXPECT_LE(installedOn(*ancestor)->bin().bin().altitude().lower,
-                  installedOn(*_single)->bin().bin().altitude().lower);
+        EXPECT_LE(installedOn(*ancestor)->getBin().bin().altitude().lower,
+                  installedOn(*_single)->getBin().bin().altitude().lower);
     }
 }
 

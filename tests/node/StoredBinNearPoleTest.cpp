@@ -7,7 +7,7 @@
 
 #include "DatabaseFixture.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
 
 #include <gtest/gtest.h>
@@ -88,7 +88,7 @@ AnalyticBin installedWith(const CoarseTile& tile, const AnalyticBin& stored) {
     setStoredBin(*tile.node, stored);
     root->addChild(tile.node);
     EXPECT_EQ(installBins(*root), 1U);
-    return installedOn(*tile.node)->bin();
+    return installedOn(*tile.node)->getBin();
 }
 
 TEST(StoredBinNearPole, ThatIsRightIsNoFalseAlarm) {

@@ -6,7 +6,7 @@
 #include "DatabaseFixture.h"
 #include "PagedFlight.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osg/Geode>
@@ -139,10 +139,10 @@ TEST_P(LateComer, IsCulledByTheNewMethodBeforeItIsShown) {
     update(*scene);
     osg::PagedLOD& finer = pagedIn(*late);
     ASSERT_TRUE(test::installedOn(finer));
-    EXPECT_EQ(test::installedOn(finer)->cullOptions().method, Method::Exact);
+    EXPECT_EQ(test::installedOn(finer)->getCullOptions().method, Method::Exact);
     const osg::ref_ptr<osg::Node> finest = test::readBelow(finer);
     ASSERT_TRUE(finest && test::installedOn(pagedIn(*finest)));
-    EXPECT_EQ(test::installedOn(pagedIn(*finest))->cullOptions().method, Method::Exact);
+    EXPECT_EQ(test::installedOn(pagedIn(*finest))->getCullOptions().method, Method::Exact);
 }
 
 TEST_P(LateComer, HasNoBinsWhereTheNewMethodHasNone) {
@@ -185,7 +185,7 @@ TEST_F(SwitchedCulling, FindsNoTileOfAnEarlierMethodInTheObjectCache) {
         setCullOptions(*scene, by(method));
         const osg::ref_ptr<osg::Node> page = test::readBelow(pagedIn(*scene));
         ASSERT_TRUE(page && test::installedOn(pagedIn(*page)));
-        EXPECT_EQ(test::installedOn(pagedIn(*page))->cullOptions().method, method);
+        EXPECT_EQ(test::installedOn(pagedIn(*page))->getCullOptions().method, method);
         test::putBelow(pagedIn(*scene), page);
         setCullOptions(*scene, by(Method::Quadratic));
         test::pageOut(pagedIn(*scene));

@@ -8,7 +8,7 @@
 #include "DatabaseFixture.h"
 #include "TileFixture.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osgTerrain/GeometryTechnique>
@@ -136,7 +136,7 @@ TEST(VerticalScale, IsFollowedAtRunTime) {
         hills.update();
         EXPECT_TRUE(tilesMissed(hills).empty()) << scale;
         expectHeld(hills);
-        EXPECT_EQ(hills.bin(0).terrainShape()->verticalScale, static_cast<double>(scale));
+        EXPECT_EQ(hills.bin(0).getTerrainShape()->verticalScale, static_cast<double>(scale));
     }
 }
 
@@ -159,7 +159,7 @@ TEST(VerticalScale, ATileOfAnotherShapeIsNeverCulledUntilItIsFitted) {
     EXPECT_EQ(hills.reached.in(*hills.terrain, eye, away, 10.0), std::set<std::string>{"7"});
     hills.update();
     EXPECT_TRUE(hills.reached.in(*hills.terrain, eye, away, 10.0).empty());
-    EXPECT_EQ(hills.bin(7).terrainShape()->verticalScale, 5.0);
+    EXPECT_EQ(hills.bin(7).getTerrainShape()->verticalScale, 5.0);
 }
 
 TEST(EqualBoundaries, BinsHoldTheHeightsOfNeighbours) {
@@ -177,18 +177,18 @@ TEST(EqualBoundaries, BinsHoldTheHeightsOfNeighbours) {
     installBins(*later.terrain, options);
     later.update();
     expectHeld(later);
-    const double own = later.bin(0).bin().bin().altitude().upper;
+    const double own = later.bin(0).getBin().bin().altitude().upper;
     ASSERT_LT(own, 7990.0);
     later.terrain->setEqualizeBoundaries(true);
     later.update();
     later.update();
     expectHeld(later);
     EXPECT_TRUE(tilesMissed(later).empty());
-    EXPECT_EQ(later.bin(0).bin().bin().altitude().upper, 8000.0);
-    EXPECT_LE(later.bin(0).surface().bin().altitude().lower, -3000.0 - later.bin(0).surface().sag());
+    EXPECT_EQ(later.bin(0).getBin().bin().altitude().upper, 8000.0);
+    EXPECT_LE(later.bin(0).getSurface().bin().altitude().lower, -3000.0 - later.bin(0).getSurface().sag());
     later.terrain->setEqualizeBoundaries(false);
     later.update();
-    EXPECT_EQ(later.bin(0).bin().bin().altitude().upper, own);
+    EXPECT_EQ(later.bin(0).getBin().bin().altitude().upper, own);
 }
 
 class OtherTechnique : public osgTerrain::GeometryTechnique {
@@ -208,8 +208,8 @@ TEST(TerrainTechnique, TilesOfAnUnknownOneAreNeverCulled) {
     hills.update();
     const osg::Vec3d eye = ecefDeg(-30, -120, 1e5);
     EXPECT_EQ(hills.reached.in(*hills.terrain, eye, ecefDeg(-31, -121, 0), 10.0).size(), hills.tiles.size());
-    EXPECT_FALSE(hills.bin(0).bin().valid());
-    EXPECT_FALSE(hills.bin(0).surface().valid());
+    EXPECT_FALSE(hills.bin(0).getBin().valid());
+    EXPECT_FALSE(hills.bin(0).getSurface().valid());
     EXPECT_EQ(notes.count("technique"), 1u);
 }
 
@@ -217,10 +217,10 @@ TEST(TerrainTechnique, OsgsOwnAsAPrototypeIsKnown) {
     Hills hills;
     hills.terrain->setTerrainTechniquePrototype(new osgTerrain::GeometryTechnique);
     installBins(*hills.terrain);
-    EXPECT_TRUE(hills.bin(0).bin().valid());
+    EXPECT_TRUE(hills.bin(0).getBin().valid());
     hills.terrain->setTerrainTechniquePrototype(new OtherTechnique);
     hills.update();
-    EXPECT_FALSE(hills.bin(0).bin().valid());
+    EXPECT_FALSE(hills.bin(0).getBin().valid());
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include "CullFixture.h"
 #include "DatabaseFixture.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
@@ -72,7 +72,7 @@ osg::ref_ptr<osg::CoordinateSystemNode> globeOfMeshes(double degrees, std::size_
 BinCounts countsOf(osg::Node& scene, const CullView& view) {
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     (void)cull(scene, view, *visitor);
-    return BinStatistics::of(*visitor).counts();
+    return BinStatistics::of(*visitor).getCounts();
 }
 
 CullView randomView(Random& random) {

@@ -5,7 +5,7 @@
 
 #include "ApplicationGlobe.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 

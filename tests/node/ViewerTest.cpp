@@ -7,8 +7,8 @@
 
 #include "CullFixture.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
@@ -171,7 +171,7 @@ private:
             for (unsigned int i = 0; renderer && i < 2; ++i) {
                 osgUtil::CullVisitor* visitor = renderer->getSceneView(i)->getCullVisitor();
                 const BinStatistics* statistics = visitor ? BinStatistics::find(*visitor) : nullptr;
-                if (statistics) outside += statistics->counts().outside;
+                if (statistics) outside += statistics->getCounts().outside;
             }
         }
     }

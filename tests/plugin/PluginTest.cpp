@@ -30,7 +30,7 @@ public:
     void apply(osg::Node& node) override {
         if (const auto* callback = dynamic_cast<AnalyticBinCullCallback*>(node.getCullCallback())) {
             ++count;
-            options = callback->cullOptions();
+            options = callback->getCullOptions();
             radii = callback->getRadiiText();
         }
         if (!node.getCullingActive()) ++withoutSpheres;

@@ -53,11 +53,11 @@ TEST_P(Serializer, TheCullCallbackReadsBackExactly) {
     ASSERT_TRUE(back);
     auto* read = dynamic_cast<AnalyticBinCullCallback*>(back->getCullCallback());
     ASSERT_NE(read, nullptr);
-    EXPECT_EQ(read->bin(), written->bin());
-    EXPECT_EQ(read->cullOptions().method, Method::Paper);
-    EXPECT_EQ(read->cullOptions().growth, options.growth);
+    EXPECT_EQ(read->getBin(), written->getBin());
+    EXPECT_EQ(read->getCullOptions().method, Method::Paper);
+    EXPECT_EQ(read->getCullOptions().growth, options.growth);
     EXPECT_EQ(read->getRadiiText(), written->getRadiiText());
-    EXPECT_EQ(read->localToEcef(), frame);
+    EXPECT_EQ(read->getLocalToEcef(), frame);
 }
 
 TEST_P(Serializer, AllThatATileWasFittedToReadsBackExactly) {
@@ -73,11 +73,11 @@ TEST_P(Serializer, AllThatATileWasFittedToReadsBackExactly) {
     const osg::ref_ptr<osg::Node> back = roundTrip(*node);
     ASSERT_TRUE(back);
     const auto& read = dynamic_cast<AnalyticBinCullCallback&>(*back->getCullCallback());
-    ASSERT_TRUE(read.terrainShape().has_value());
-    EXPECT_TRUE(*read.terrainShape() == *written->terrainShape());
-    EXPECT_EQ(read.skirt(), written->skirt());
-    EXPECT_TRUE(read.surface().contains(surface));
-    EXPECT_EQ(read.surface().sag(), surface.sag());
+    ASSERT_TRUE(read.getTerrainShape().has_value());
+    EXPECT_TRUE(*read.getTerrainShape() == *written->getTerrainShape());
+    EXPECT_EQ(read.getSkirt(), written->getSkirt());
+    EXPECT_TRUE(read.getSurface().contains(surface));
+    EXPECT_EQ(read.getSurface().sag(), surface.sag());
 }
 
 TEST_P(Serializer, AnInstalledTerrainStaysVisibleWhenItComesBackWithoutItsDatabase) {
@@ -103,9 +103,9 @@ TEST(SerializedText, WithABrokenItemIsNeverCulled) {
     for (const char* item : {"; skirt x", "; surface 1 2", "; terrain 1 2 3", "; other 1"}) {
         const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback;
         callback->setBinText(bin);
-        EXPECT_TRUE(callback->bin().valid());
+        EXPECT_TRUE(callback->getBin().valid());
         callback->setBinText(bin + item);
-        EXPECT_FALSE(callback->bin().valid()) << item;
+        EXPECT_FALSE(callback->getBin().valid()) << item;
     }
 }
 
@@ -114,7 +114,7 @@ TEST_P(Serializer, ABinThatIsNoQuadtreeCellReadsBackHoldingIt) {
     node->setCullCallback(new AnalyticBinCullCallback(awkwardBin(), osg::EllipsoidModel()));
     const osg::ref_ptr<osg::Node> back = roundTrip(*node);
     ASSERT_TRUE(back);
-    EXPECT_TRUE(dynamic_cast<AnalyticBinCullCallback&>(*back->getCullCallback()).bin().contains(awkwardBin()));
+    EXPECT_TRUE(dynamic_cast<AnalyticBinCullCallback&>(*back->getCullCallback()).getBin().contains(awkwardBin()));
 }
 
 TEST_P(Serializer, DefaultsReadBackAsDefaults) {
@@ -124,11 +124,12 @@ TEST_P(Serializer, DefaultsReadBackAsDefaults) {
     const osg::ref_ptr<osg::Node> back = roundTrip(*node);
     ASSERT_TRUE(back);
     const auto& read = dynamic_cast<AnalyticBinCullCallback&>(*back->getCullCallback());
-    EXPECT_FALSE(read.bin().valid());
-    EXPECT_EQ(read.cullOptions().method, Method::Quadratic);
+    EXPECT_FALSE(read.getBin().valid());
+    EXPECT_EQ(read.getCullOptions().method, Method::Quadratic);
     EXPECT_EQ(read.getRadiiText(), osg::ref_ptr<AnalyticBinCullCallback>(new AnalyticBinCullCallback)->getRadiiText());
-    EXPECT_TRUE(read.localToEcef().isIdentity());
-    EXPECT_EQ(dynamic_cast<InstallBinsCallback&>(*back->getUpdateCallback()).cullOptions().method, Method::Quadratic);
+    EXPECT_TRUE(read.getLocalToEcef().isIdentity());
+    EXPECT_EQ(dynamic_cast<InstallBinsCallback&>(*back->getUpdateCallback()).getCullOptions().method,
+              Method::Quadratic);
 }
 
 TEST_P(Serializer, NestedCallbacksAndOptionsOfTheRequestReadBack) {
@@ -142,7 +143,7 @@ TEST_P(Serializer, NestedCallbacksAndOptionsOfTheRequestReadBack) {
     node->setCullCallback(outer.get());
     const osg::ref_ptr<osg::Node> back = roundTrip(*node);
     ASSERT_TRUE(back);
-    EXPECT_EQ(dynamic_cast<InstallBinsCallback&>(*back->getUpdateCallback()).cullOptions().method, Method::Corners);
+    EXPECT_EQ(dynamic_cast<InstallBinsCallback&>(*back->getUpdateCallback()).getCullOptions().method, Method::Corners);
     EXPECT_NE(back->getCullCallback()->getNestedCallback(), nullptr);
 }
 

@@ -49,7 +49,7 @@ bool isFilled(const osg::NodePath& path) {
 
 std::uint32_t culledBins(const osg::NodeVisitor& visitor) {
     const BinStatistics* statistics = BinStatistics::find(visitor);
-    return statistics ? statistics->counts().outside : 0;
+    return statistics ? statistics->getCounts().outside : 0;
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "Parts.h"
 #include "Recorder.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <osg/CoordinateSystemNode>

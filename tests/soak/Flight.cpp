@@ -3,7 +3,7 @@
 
 #include "Flight.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <osgDB/DatabasePager>
 #include <osgDB/ReadFile>

@@ -8,8 +8,8 @@
 #include "PagedScenes.h"
 #include "ViewerRig.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/viewer/BinDisplayHandler.h>
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
 #include <osgAnalyticBin/viewer/FreezeCullHandler.h>
@@ -65,7 +65,7 @@ unsigned int culledBy(const std::vector<osg::Camera*>& cameras) {
         auto* renderer = dynamic_cast<osgViewer::Renderer*>(camera->getRenderer());
         for (unsigned int i = 0; renderer && i < 2; ++i) {
             const BinStatistics* statistics = BinStatistics::find(*renderer->getSceneView(i)->getCullVisitor());
-            if (statistics) outside += statistics->counts().outside;
+            if (statistics) outside += statistics->getCounts().outside;
         }
     }
     return outside;
@@ -240,11 +240,11 @@ TEST(ThreadsOnNestedGlobes, WidenTheSameTileAtOnce) {
     for (std::thread& reader : readers) reader.join();
     const osg::ref_ptr<osgUtil::UpdateVisitor> update = new osgUtil::UpdateVisitor;
     outer->accept(*update);
-    EXPECT_GE(installedOn(*whole)->bin().bin().altitude().upper, 6999.0);
+    EXPECT_GE(installedOn(*whole)->getBin().bin().altitude().upper, 6999.0);
     EXPECT_EQ(notes.count("larger than the bin"), 1u);
     // what was found is known where the tile is fitted anew
     EXPECT_EQ(setCullOptions(*outer, {}), 1u);
-    EXPECT_GE(installedOn(*whole)->bin().bin().altitude().upper, 6999.0);
+    EXPECT_GE(installedOn(*whole)->getBin().bin().altitude().upper, 6999.0);
 }
 
 }  // namespace

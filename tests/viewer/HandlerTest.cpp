@@ -7,7 +7,7 @@
 
 #include "CsvTable.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/viewer/BinDisplayHandler.h>
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
 #include <osgAnalyticBin/viewer/CameraCulling.h>

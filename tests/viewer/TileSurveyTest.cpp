@@ -7,7 +7,7 @@
 
 #include "ViewerScene.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/viewer/BinDisplayHandler.h>
 #include <osgAnalyticBin/viewer/TileSurvey.h>
 

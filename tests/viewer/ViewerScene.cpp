@@ -3,7 +3,7 @@
 
 #include "ViewerScene.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osgDB/ReadFile>

@@ -6,8 +6,8 @@
 // state, so that the far side of the globe is seen. Oracle: the pictures of the same viewer over the same globe without
 // bins. Needs a display (Xvfb will do); skipped where no window can be made. State in the scene: ApplicationStateTest.
 
-#include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
@@ -116,7 +116,7 @@ public:
             const osgUtil::SceneView* view = renderer->getSceneView(i);
             const BinStatistics* statistics = view ? BinStatistics::find(*view->getCullVisitor()) : nullptr;
             if (!statistics) continue;
-            const BinCounts counts = statistics->counts();
+            const BinCounts counts = statistics->getCounts();
             if (counts.frame == _viewer.getFrameStamp()->getFrameNumber()) count += counts.hidden;
         }
         return count;

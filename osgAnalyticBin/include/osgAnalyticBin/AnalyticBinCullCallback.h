@@ -54,7 +54,7 @@ struct TerrainShape {
 };
 
 /// The cull callback of a tile: tests the tile's bin against the frustum planes that are still undecided, and culls
-/// the tile when the bin is outside one of them. It stands in place of OSG's sphere test (BinInstaller switches that
+/// the tile when the bin is outside one of them. It stands in place of OSG's sphere test (installBins() switches that
 /// off on the nodes it treats): planes with the bin proven inside are not tested again in the subgraph, and
 /// small-feature and shadow-occluder culling are kept. Nested callbacks run when the tile is not culled.
 /// It obeys the culling mode of the camera that is culled for; without frustum culling there is no horizon either, for
@@ -83,12 +83,12 @@ public:
         /// The box that holds all that the tile and its descendants draw.
         void setBin(const AnalyticBin& bin);
     /// The bin as it was set, before any terrain shape.
-    [[nodiscard]] const AnalyticBin& bin() const { return _bin; }
+    [[nodiscard]] const AnalyticBin& getBin() const { return _bin; }
 
     /// How the tile is culled; items that are an installer's alone are not read.
     void setCullOptions(const CullOptions& options);
     /// Default: CullOptions().
-    [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
+    [[nodiscard]] const CullOptions& getCullOptions() const { return _options; }
 
     /// Metres; default: those of a default osg::EllipsoidModel. With radii that are not finite and positive the tile is
     /// never culled.
@@ -98,39 +98,39 @@ public:
     /// small-feature culling to mean what it says; the frustum test is right under any invertible affine matrix.
     void setLocalToEcef(const osg::Matrixd& matrix);
     /// See setLocalToEcef().
-    [[nodiscard]] const osg::Matrixd& localToEcef() const;
+    [[nodiscard]] const osg::Matrixd& getLocalToEcef() const;
 
     /// For an osgTerrain tile: the shape that its bin is to be for; the bin set is that at vertical scale 1. While its
     /// database is shown in another shape, or no installed database is above it, the tile is never culled. nullopt: a
     /// mesh that no Terrain shapes.
     void setTerrainShape(const std::optional<TerrainShape>& shape);
     /// See setTerrainShape().
-    [[nodiscard]] const std::optional<TerrainShape>& terrainShape() const { return _shape; }
+    [[nodiscard]] const std::optional<TerrainShape>& getTerrainShape() const { return _shape; }
 
     /// Metres by which skirts hang below the bin; they count as a part of it.
     void setSkirt(double metres);
     /// Metres, default 0.
-    [[nodiscard]] double skirt() const { return _skirt; }
+    [[nodiscard]] double getSkirt() const { return _skirt; }
 
     /// What the tile draws by itself, without descendants, at vertical scale 1: how deep an eye may see where it is
     /// shown. Invalid: not known, and no horizon is used where it is shown.
     void setSurface(const AnalyticBin& surface);
     /// See setSurface().
-    [[nodiscard]] const AnalyticBin& surface() const { return _surface; }
+    [[nodiscard]] const AnalyticBin& getSurface() const { return _surface; }
 
     /// Altitude in metres below which the tile draws nothing by itself, in its present shape; minus infinity when not
     /// known. For eyes that are to be looked past the tile.
-    [[nodiscard]] double surfaceLow() const { return _surfaceLow; }
+    [[nodiscard]] double getSurfaceLow() const { return _surfaceLow; }
 
     /// Altitude in metres above which the tile draws nothing by itself, likewise; infinity when not known.
-    [[nodiscard]] double surfaceHigh() const { return _surfaceHigh; }
+    [[nodiscard]] double getSurfaceHigh() const { return _surfaceHigh; }
 
     /// Altitude in metres above which neither the tile nor a descendant of it draws anything; infinity when not known.
-    [[nodiscard]] double binHigh() const { return _binHigh; }
+    [[nodiscard]] double getBinHigh() const { return _binHigh; }
 
     /// Altitude in metres below which neither the tile nor a descendant of it draws anything, skirts left out unless
     /// they count; minus infinity when not known.
-    [[nodiscard]] double binLow() const { return _binLow; }
+    [[nodiscard]] double getBinLow() const { return _binLow; }
 
     /// A sphere in ECEF that holds the bin's column, for a first look: the bin and, where it lies below the ellipsoid,
     /// what is above it up to there. Returns: nullptr when there is none at hand.
@@ -162,8 +162,8 @@ public:
 
     /// What an installer keeps beside the callback; nullptr: the application's own callback. A copy of an installed
     /// callback culls nothing: its bin was made for the node that the original stands on.
-    [[nodiscard]] InstalledTile* installedTile() const;
-    /// See installedTile(); for installers.
+    [[nodiscard]] InstalledTile* getInstalledTile() const;
+    /// See getInstalledTile(); for installers.
     void setInstalledTile(InstalledTile* tile);
 
     /// Called by OSG's cull traversal: goes on below the node unless the tile is culled.

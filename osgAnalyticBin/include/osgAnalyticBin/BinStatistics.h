@@ -73,7 +73,7 @@ public:
     void reset() noexcept;
 
     /// The counts of the traversal last begun; safe to call from another thread, exact once the traversal is over.
-    [[nodiscard]] BinCounts counts() const noexcept;
+    [[nodiscard]] BinCounts getCounts() const noexcept;
 
 protected:
     ~BinStatistics() override = default;

@@ -12,7 +12,7 @@
 
 namespace osgAnalyticBin {
 
-/// The update callback of a database whose tiles carry stored bins: runs a BinInstaller over the node at the first
+/// The update callback of a database whose tiles carry stored bins: installs bins below the node at the first
 /// update traversal. It is the only object of this library in such a database; OSG without the library warns about
 /// it once, and draws the database with its own spheres.
 class OSGANALYTICBIN_EXPORT InstallBinsCallback : public osg::NodeCallback {
@@ -29,7 +29,7 @@ public:
         _options = options;
     }
     /// Default: CullOptions().
-    [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
+    [[nodiscard]] const CullOptions& getCullOptions() const { return _options; }
 
     /// The options as text; what the serializer stores.
     void setOptionsText(const std::string& text);

@@ -44,7 +44,7 @@ public:
     META_Object(osgAnalyticBin, QuadraticBinCullCallback)
 
         /// nullopt: never culls.
-        [[nodiscard]] const std::optional<core::QuadraticBin>& bin() const {
+        [[nodiscard]] const std::optional<core::QuadraticBin>& getBin() const {
         return _bin;
     }
 

@@ -4,8 +4,8 @@
 #include "OptionString.h"
 
 #include <osgAnalyticBin/BinIndex.h>
-#include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <osg/Notify>
 #include <osgDB/FileNameUtils>

@@ -4,7 +4,7 @@
 #include "TextPanel.h"
 #include "ViewTools.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/viewer/CameraCulling.h>
 #include <osgAnalyticBin/viewer/MethodSwitchHandler.h>
 

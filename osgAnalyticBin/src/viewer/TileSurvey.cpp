@@ -41,11 +41,11 @@ const AnalyticBinCullCallback* binCallbackOf(osg::Node& node) {
 
 // As AnalyticBinCullCallback itself takes it.
 AnalyticBin shownBin(const AnalyticBinCullCallback& callback) {
-    const auto& shape = callback.terrainShape();
-    AnalyticBin bin = shape ? callback.bin().exaggerated(shape->verticalScale) : callback.bin();
+    const auto& shape = callback.getTerrainShape();
+    AnalyticBin bin = shape ? callback.getBin().exaggerated(shape->verticalScale) : callback.getBin();
     if (!bin.valid()) return bin;
     const core::Interval altitude = bin.bin().altitude();
-    bin.setBin(bin.bin().withAltitude({altitude.lower - callback.skirt(), altitude.upper}));
+    bin.setBin(bin.bin().withAltitude({altitude.lower - callback.getSkirt(), altitude.upper}));
     return bin;
 }
 
@@ -109,9 +109,9 @@ private:
         if (const AnalyticBinCullCallback* callback = binCallbackOf(node)) {
             found.bin = shownBin(*callback);
             found.ellipsoid = _known.at(tile);
-            found.ecefToWorld = osg::Matrixd::inverse(callback->localToEcef()) * insideToWorld(node);
+            found.ecefToWorld = osg::Matrixd::inverse(callback->getLocalToEcef()) * insideToWorld(node);
         }
-        _open.push_back({_tiles.size(), tile, BinStatistics::of(*this).counts(), false});
+        _open.push_back({_tiles.size(), tile, BinStatistics::of(*this).getCounts(), false});
         _tiles.push_back(found);
         return true;
     }
@@ -132,7 +132,7 @@ private:
         OpenTile& open = _open.back();
         if (open.isDecided) return;
         open.isDecided = true;
-        const BinCounts now = BinStatistics::of(*this).counts();
+        const BinCounts now = BinStatistics::of(*this).getCounts();
         const BinCounts& before = open.before;
         SurveyedTile& tile = _tiles[open.index];
         tile.hasBin = now.tested != before.tested;

@@ -36,7 +36,7 @@ BinCounts binCounts(osg::Camera& camera, unsigned int frame) {
         for (osgUtil::CullVisitor* visitor :
              {sceneView->getCullVisitor(), sceneView->getCullVisitorLeft(), sceneView->getCullVisitorRight()}) {
             const BinStatistics* const statistics = visitor ? BinStatistics::find(*visitor) : nullptr;
-            const BinCounts counts = statistics ? statistics->counts() : BinCounts();
+            const BinCounts counts = statistics ? statistics->getCounts() : BinCounts();
             if (statistics && counts.frame == frame) add(counts, sum);
         }
     }

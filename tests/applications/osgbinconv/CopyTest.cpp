@@ -47,7 +47,7 @@ CullOptions requestOf(const std::string& rootFile) {
     const osg::ref_ptr<osg::Node> root = osgDB::readRefNodeFile(rootFile);
     const auto* request = root ? dynamic_cast<const InstallBinsCallback*>(root->getUpdateCallback()) : nullptr;
     EXPECT_TRUE(request);
-    return request ? request->cullOptions() : CullOptions();
+    return request ? request->getCullOptions() : CullOptions();
 }
 
 class Copy : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};

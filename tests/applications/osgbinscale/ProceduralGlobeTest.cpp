@@ -3,7 +3,7 @@
 
 #include "ProceduralGlobe.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <gtest/gtest.h>
@@ -220,10 +220,10 @@ TEST(ProceduralGlobe, RootDeclaresAHorizonBelowAllThatIsDrawn) {
     ASSERT_EQ(root->asGroup()->getNumChildren(), 128U);
     const auto* request = dynamic_cast<const InstallBinsCallback*>(root->getUpdateCallback());
     ASSERT_TRUE(request);
-    EXPECT_EQ(request->cullOptions().horizonUse, HorizonUse::Given);
+    EXPECT_EQ(request->getCullOptions().horizonUse, HorizonUse::Given);
     for (unsigned int i = 0; i < 128; ++i) {
         const AnalyticBin bin = storedBin(*root->asGroup()->getChild(i));
-        EXPECT_LE(request->cullOptions().horizon, bin.bin().altitude().lower - bin.margin());
+        EXPECT_LE(request->getCullOptions().horizon, bin.bin().altitude().lower - bin.margin());
     }
 }
 

@@ -254,7 +254,7 @@ void AnalyticBinCullCallback::setLocalToEcef(const osg::Matrixd& matrix) {
     changeBin();
 }
 
-const osg::Matrixd& AnalyticBinCullCallback::localToEcef() const {
+const osg::Matrixd& AnalyticBinCullCallback::getLocalToEcef() const {
     static const osg::Matrixd identity;
     return _frame ? _frame->toEcef : identity;
 }
@@ -269,7 +269,7 @@ void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) 
         *nv, [&](osg::CullStack& cullStack) { return isCulled(*node, cullStack, *nv); }, [&] { traverse(node, nv); });
 }
 
-InstalledTile* AnalyticBinCullCallback::installedTile() const {
+InstalledTile* AnalyticBinCullCallback::getInstalledTile() const {
     return _installed.get();
 }
 
@@ -304,8 +304,8 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
 bool AnalyticBinCullCallback::standsAsInstalled(osg::CullStack& cullStack, const DatabaseView& database) const {
     const osg::RefMatrix* const modelView = cullStack.getModelViewMatrix();
     if (modelView == database.modelView && !_frame) return true;
-    const double reach = database.modelView->getTrans().length() + localToEcef().getTrans().length();
-    return areNearlyEqual(*modelView, localToEcef() * *database.modelView, reach);
+    const double reach = database.modelView->getTrans().length() + getLocalToEcef().getTrans().length();
+    return areNearlyEqual(*modelView, getLocalToEcef() * *database.modelView, reach);
 }
 
 const core::HorizonEye* AnalyticBinCullCallback::eyeOn(osg::CullStack& cullStack, osg::NodeVisitor& nv,

@@ -91,7 +91,7 @@ void BinStatistics::reset() noexcept {
     _straddling.store(0, std::memory_order_relaxed);
 }
 
-BinCounts BinStatistics::counts() const noexcept {
+BinCounts BinStatistics::getCounts() const noexcept {
     BinCounts counts;
     counts.outside = _outside.load(std::memory_order_relaxed);
     counts.inside = _inside.load(std::memory_order_relaxed);

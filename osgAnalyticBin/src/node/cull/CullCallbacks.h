@@ -8,7 +8,7 @@
 #include "TileFamily.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <osg/Callback>
 #include <osg/Node>

@@ -79,12 +79,12 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, osg::Node& mesh, const Anal
     const bool isSame = _mesh.get() == &mesh && _tile.get() == &tile && ++_uses < kMostUses;
     if (isSame && isTriangleBelow(point, up)) return true;
     _mesh = nullptr;
-    const auto ecefToLocal = affineInverse(tile.localToEcef());
+    const auto ecefToLocal = affineInverse(tile.getLocalToEcef());
     if (!ecefToLocal || !hasMesh(mesh)) return false;
 
-    const double room = 1.0 + tile.bin().margin();
-    const double top = std::max(tile.binHigh(), eye.altitude) + room;
-    const double bottom = std::min(tile.binLow(), eye.altitude) - room;
+    const double room = 1.0 + tile.getBin().margin();
+    const double top = std::max(tile.getBinHigh(), eye.altitude) + room;
+    const double bottom = std::min(tile.getBinLow(), eye.altitude) - room;
     if (!std::isfinite(top) || !std::isfinite(bottom)) return false;
     const auto at = [&](double altitude) {
         return toOsg(ellipsoid.toEcef({eye.latitude, eye.longitude, altitude})) * *ecefToLocal;
@@ -95,9 +95,9 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, osg::Node& mesh, const Anal
     if (!intersector->containsIntersections()) return false;
     // the first is the highest
     const Intersector::Intersection& highest = *intersector->getIntersections().begin();
-    const glm::dvec3 hit = toGlm(highest.getWorldIntersectPoint() * tile.localToEcef());
+    const glm::dvec3 hit = toGlm(highest.getWorldIntersectPoint() * tile.getLocalToEcef());
     if (!(glm::dot(hit - point, up) < 0.0)) return false;
-    _triangle = triangleOf(highest, tile.localToEcef());
+    _triangle = triangleOf(highest, tile.getLocalToEcef());
     _mesh = &mesh;
     _tile = &tile;
     _uses = 0;

@@ -35,7 +35,7 @@ public:
     [[nodiscard]] const PlanarBin& bin() const { return _bin; }
 
     /// See AnalyticBinCullCallback::installedTile().
-    [[nodiscard]] InstalledTile* installedTile() const { return _installed.get(); }
+    [[nodiscard]] InstalledTile* getInstalledTile() const { return _installed.get(); }
     void setInstalledTile(InstalledTile* tile) { _installed = tile; }
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;

@@ -176,8 +176,8 @@ private:
     // A tile may have several parents, and transforms above it may have changed.
     [[nodiscard]] bool standsAsInstalled(const osg::Node& node, const AnalyticBinCullCallback& tile) const {
         const osg::Matrixd toEcef = frameInside(node);
-        const double reach = toEcef.getTrans().length() + tile.localToEcef().getTrans().length();
-        return areNearlyEqual(toEcef, tile.localToEcef(), reach);
+        const double reach = toEcef.getTrans().length() + tile.getLocalToEcef().getTrans().length();
+        return areNearlyEqual(toEcef, tile.getLocalToEcef(), reach);
     }
 
     void searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool mayLeaveOut) {
@@ -187,19 +187,19 @@ private:
         }
         TileBlock::Slot numbers;
         if (const osg::BoundingSphere* const column = bin.ecefColumnSphere()) numbers.column = *column;
-        numbers.binLow = bin.binLow();
-        numbers.surfaceLow = bin.surfaceLow();
-        numbers.surfaceHigh = bin.surfaceHigh();
-        const bool isFitted = !bin.terrainShape() || *bin.terrainShape() == _database.view.shape;
+        numbers.binLow = bin.getBinLow();
+        numbers.surfaceLow = bin.getSurfaceLow();
+        numbers.surfaceHigh = bin.getSurfaceHigh();
+        const bool isFitted = !bin.getTerrainShape() || *bin.getTerrainShape() == _database.view.shape;
         const SearchedTile tile{bin, numbers, isFitted, nullptr, isAbout(bin)};
         if (!tile.isAboutEye && (isBeside(tile) || bin.isColumnHiddenFrom(_eye))) return;
         searchTile(node, pagedLod(node), tile, mayLeaveOut);
     }
 
     void searchTile(osg::Node& node, osg::PagedLOD* paged, const SearchedTile& tile, bool mayLeaveOut) {
-        const bool isSeenThrough = tile.member
-                                       ? tile.member->isSeeThrough
-                                       : tile.callback.installedTile() && tile.callback.installedTile()->isSeeThrough();
+        const bool isSeenThrough =
+            tile.member ? tile.member->isSeeThrough
+                        : tile.callback.getInstalledTile() && tile.callback.getInstalledTile()->isSeeThrough();
         if (_isDoubtful || isSeenThrough || !isSurelyDrawn(node, mayLeaveOut)) {
             _hasHole = true;
         } else if (paged) {
@@ -218,7 +218,7 @@ private:
     [[nodiscard]] bool isDrawnWhole(const osg::Node& mesh, const SearchedTile& tile) const {
         const bool isKnown = tile.member && tile.member->meshParts.front() == &mesh;
         if (!isKnown) {
-            const InstalledTile* const installed = tile.callback.installedTile();
+            const InstalledTile* const installed = tile.callback.getInstalledTile();
             const bool isMeshDoubted = !tile.member && installed && installed->isMeshDoubted();
             bool hasDrawable = false;
             return isDrawnWhole(mesh, hasDrawable) && (hasDrawable || !isMeshDoubted);
@@ -245,8 +245,8 @@ private:
 
     // Whether the eye may be within or below what the tile or its descendants draw.
     [[nodiscard]] bool isAbout(const AnalyticBinCullCallback& tile) const {
-        if (!_place || _place->altitude > tile.binHigh()) return false;
-        const core::GeodeticBin& bin = tile.bin().bin();
+        if (!_place || _place->altitude > tile.getBinHigh()) return false;
+        const core::GeodeticBin& bin = tile.getBin().bin();
         if (bin.empty()) return true;
         if (_place->latitude < bin.latitude().lower || _place->latitude > bin.latitude().upper) return false;
         return bin.contains({_place->latitude, _place->longitude, bin.altitude().middle()});

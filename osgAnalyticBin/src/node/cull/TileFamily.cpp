@@ -120,10 +120,10 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
     _nodes[slot] = &child;
     _block->addMember(slot);
     _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), typeid(child) == typeid(osg::PagedLOD),
-                      tile->installedTile()->isSeeThrough(), meshPartsOf(child)};
-    tile->installedTile()->joinFamily(*_block, slot);
+                      tile->getInstalledTile()->isSeeThrough(), meshPartsOf(child)};
+    tile->getInstalledTile()->joinFamily(*_block, slot);
     // osgUtil::Optimizer may have changed the form of the mesh: the new form is as good
-    if (_members[slot].meshParts.front()) tile->installedTile()->trustMesh();
+    if (_members[slot].meshParts.front()) tile->getInstalledTile()->trustMesh();
     tile->fillSlot();
     return true;
 }

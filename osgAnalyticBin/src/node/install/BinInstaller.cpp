@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "BinInstaller.h"
+
 #include "../Inverse.h"
 #include "../cull/PlanarBinCullCallback.h"
 #include "../cull/Scoped.h"
@@ -20,7 +22,6 @@
 #include "TileFit.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <osg/Notify>
@@ -46,7 +47,7 @@ CullOptions settled(osg::Node& node, const CullOptions& options) {
     for (osg::Callback* callback = node.getUpdateCallback(); callback; callback = callback->getNestedCallback()) {
         auto* request = dynamic_cast<InstallBinsCallback*>(callback);
         if (!request) continue;
-        const CullOptions declared = request->cullOptions();
+        const CullOptions declared = request->getCullOptions();
         if (effective.effectiveHorizonUse() == HorizonUse::Declared && declared.horizonUse == HorizonUse::Given) {
             effective.horizonUse = HorizonUse::Given;
             effective.horizon = declared.horizon;

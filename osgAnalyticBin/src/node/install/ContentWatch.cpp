@@ -148,29 +148,29 @@ public:
     }
 
     void fitInto(const AnalyticBinCullCallback& callback) {
-        InstalledTile* const tile = callback.installedTile();
-        if (!tile || !callback.bin().valid()) return;
+        InstalledTile* const tile = callback.getInstalledTile();
+        if (!tile || !callback.getBin().valid()) return;
         // the bin is that of the terrain before it is exaggerated, the content is not
-        const bool isScaled = callback.terrainShape() && callback.terrainShape()->verticalScale != 1.0;
+        const bool isScaled = callback.getTerrainShape() && callback.getTerrainShape()->verticalScale != 1.0;
         const osg::EllipsoidModel& model = *tile->database().ellipsoid();
-        const AnalyticBin about = binAbout(movedSphere(_sphere, callback.localToEcef()), toCore(model));
-        if (!isScaled && isHeld(about, callback.bin())) return;
-        const AnalyticBin& own = surfaceOn(model, callback.localToEcef());
-        if (!isScaled && isHeld(own, callback.bin())) return;
+        const AnalyticBin about = binAbout(movedSphere(_sphere, callback.getLocalToEcef()), toCore(model));
+        if (!isScaled && isHeld(about, callback.getBin())) return;
+        const AnalyticBin& own = surfaceOn(model, callback.getLocalToEcef());
+        if (!isScaled && isHeld(own, callback.getBin())) return;
         const AnalyticBin& content = own.valid() ? own : about;
         tile->keepVisible(true);
         if (_isMerged) tile->database().noteContent(callback, {content, isScaled || !content.valid()});
     }
 
     void fitInto(const PlanarBinCullCallback& callback) const {
-        if (!callback.installedTile()) return;
+        if (!callback.getInstalledTile()) return;
         BoxOfMesh box;
         _node.accept(box);
         bool isHeld = true;
         for (unsigned int i = 0; i < 8 && isHeld; ++i) {
             isHeld = callback.bin().holds(osg::Vec3d(box.getBoundingBox().corner(i)) * _toHere);
         }
-        if (!isHeld) callback.installedTile()->keepVisible(true);
+        if (!isHeld) callback.getInstalledTile()->keepVisible(true);
     }
 
 private:

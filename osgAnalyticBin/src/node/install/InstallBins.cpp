@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include "BinInstaller.h"
+
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <osg/NodeCallback>
 #include <osg/Notify>

@@ -8,7 +8,7 @@
 #include "ContentWatch.h"
 #include "TileCallback.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <osg/NodeVisitor>
 #include <osg/PagedLOD>

@@ -25,7 +25,7 @@ namespace {
 // The options that a callback of ours was made with. Returns: nullptr for any other callback.
 const CullOptions* optionsOf(const osg::Callback& callback) {
     if (const auto* geocentric = dynamic_cast<const AnalyticBinCullCallback*>(&callback)) {
-        return &geocentric->cullOptions();
+        return &geocentric->getCullOptions();
     }
     const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(&callback);
     return planar ? &planar->cullOptions() : nullptr;
@@ -69,8 +69,8 @@ void resumeSpheres(const FoundTile& tile, osg::Node& culled, const InstalledTile
 
 InstalledTile* installedTileOf(const osg::Node& node) {
     for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
-        if (const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(at)) return bin->installedTile();
-        if (const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(at)) return planar->installedTile();
+        if (const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(at)) return bin->getInstalledTile();
+        if (const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(at)) return planar->getInstalledTile();
     }
     return nullptr;
 }
@@ -78,7 +78,7 @@ InstalledTile* installedTileOf(const osg::Node& node) {
 const AnalyticBinCullCallback* installedBinOf(const osg::Node& node) {
     for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
         const auto* const bin = dynamic_cast<const AnalyticBinCullCallback*>(at);
-        if (bin && bin->installedTile() && bin->installedTile()->isFor(&node)) return bin;
+        if (bin && bin->getInstalledTile() && bin->getInstalledTile()->isFor(&node)) return bin;
     }
     return nullptr;
 }

@@ -4,10 +4,10 @@
 #include "BinReadFileCallback.h"
 
 #include "../Text.h"
+#include "../install/BinInstaller.h"
 #include "../install/SharedTiles.h"
 #include "../install/TileCallback.h"
 
-#include <osgAnalyticBin/BinInstaller.h>
 #include <osgAnalyticBin/TileFile.h>
 
 #include <osg/Notify>

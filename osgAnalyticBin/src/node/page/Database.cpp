@@ -231,8 +231,8 @@ void Database::update() {
             requestRefit();
             continue;
         }
-        callback->setBin(widening.widened(callback->bin()));
-        if (callback->installedTile()) callback->installedTile()->keepVisible(false);
+        callback->setBin(widening.widened(callback->getBin()));
+        if (callback->getInstalledTile()) callback->getInstalledTile()->keepVisible(false);
     }
 }
 

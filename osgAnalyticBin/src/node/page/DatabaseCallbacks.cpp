@@ -10,10 +10,9 @@
 #include "../cull/ShownDepth.h"
 #include "../cull/TilePlan.h"
 #include "../cull/Viewpoint.h"
+#include "../install/BinInstaller.h"
 #include "../install/FindCallback.h"
 #include "../install/TileCallback.h"
-
-#include <osgAnalyticBin/BinInstaller.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/CullStack>

@@ -5,8 +5,7 @@
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/BinIndex.h>
-#include <osgAnalyticBin/CullOptions.h>
-#include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/TileFinder.h>
 
 #include <osgDB/Options>
@@ -15,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace osgAnalyticBin {
 
@@ -25,20 +25,7 @@ struct ParentTile;
 struct PlanarFit;
 struct TerrainShape;
 
-/// Puts AnalyticBinCullCallbacks on the tiles of a geocentric database, switches OSG's sphere test off on them and
-/// below (drawables keep their boxes), and arranges that tiles that the DatabasePager loads later are treated in the
-/// pager's thread. Which nodes are tiles is TileFinder's matter; their bins come from what is stored with them, from
-/// the database's index, or from their own surface and the heights that the options declare. Tiles of a map get boxes
-/// in its coordinates, by callbacks of their own that files do not keep. Everything else is left
-/// as it is. Method::Sphere installs no bins, and takes off those that are there, but keeps following what is paged so
-/// that setCullOptions() can switch; removeBins() takes everything off. Running it again replaces what it installed
-/// before.
-/// A tile that is drawn in several places, and a drawable with a stored bin, are left to OSG.
-/// Content of the application's: what is added below a tile while bins are installed is noticed with the next frame, be
-/// it static or moving: the tile and those above are kept visible, and their bins grow to hold it in the next update
-/// traversal. Content that is to be independent of tiles belongs beside them, on the CoordinateSystemNode or above it.
-/// The kit learns of additions and moves from OSG's bounds. When vertices change, call dirty() of the vertex array and
-/// dirtyBound() of the drawable. Tiles whose mesh the application replaces need installBins() again.
+/// Goes through what is loaded of databases and does what installBins() promises.
 class OSGANALYTICBIN_EXPORT BinInstaller : public TileFinder {
 public:
     /// Installs by these options.
@@ -123,36 +110,5 @@ private:
     std::size_t _installed = 0;
     std::vector<osg::Node*> _groups;  // that may get families
 };
-
-/// Installs bins below the node. Returns: the number of callbacks installed.
-OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions& options = {});
-
-/// The same for the root of a database that was read from a file: its index, where there is one beside it and the
-/// options allow it, tells the heights of what is not loaded yet. An index that cannot be used gives one warning.
-OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions& options,
-                                              const std::string& databaseFileName,
-                                              const osgDB::Options* readOptions = nullptr);
-
-/// Says of a cull callback of the application's that it always goes on to what is nested in it or below its node, as a
-/// user value "osgAnalyticBin.traversesAlways" of the callback. One that does not say so may leave out terrain, and so
-/// the horizon is not used while it stands on a tile in view.
-OSGANALYTICBIN_EXPORT void setTraversesAlways(osg::Callback& callback);
-
-/// Returns: whether setTraversesAlways() was called for the callback, or it is a plain osg::NodeCallback.
-[[nodiscard]] OSGANALYTICBIN_EXPORT bool traversesAlways(const osg::Callback& callback);
-
-/// Takes bins off a node and all below it, and restores what installers changed: callbacks, culling flags, expiry
-/// times, the pager's options, and groups that were put above tiles. Call it between frames. What the DatabasePager is
-/// reading just now may still arrive with bins, which still cull it correctly.
-OSGANALYTICBIN_EXPORT void removeBins(osg::Node& node);
-
-/// Culls databases by other options while they are shown, Method::Sphere and Method::None among them: from the next
-/// frame on, tiles are culled as if the database had been read with these options. That goes for tiles that are loaded,
-/// for those that the DatabasePager is reading just now, and for those that it reads later. What was known of the
-/// database (its index, tiles that did not fit it) stays known. On a database without bins: installBins().
-/// Call it between frames, in the event or update phase, where no cull traversal runs; the pager may work meanwhile.
-/// Guarantee: the same tiles are drawn as after reading anew; tests: SwitchedCulling.*.
-/// Returns: the number of callbacks installed. Cost: as installing bins on what is loaded.
-OSGANALYTICBIN_EXPORT std::size_t setCullOptions(osg::Node& node, const CullOptions& options);
 
 }  // namespace osgAnalyticBin
