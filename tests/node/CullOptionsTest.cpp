@@ -98,6 +98,18 @@ TEST(CullOptions, WhatConcernsForeignDatabasesReadsBack) {
     EXPECT_EQ(toText(*cullOptionsFromText("skirts=cracks,cluster=replace,index=on", error)), toText(CullOptions()));
 }
 
+TEST(CullOptions, AreEqualInAllItemsOrNot) {
+    std::string error;
+    for (const char* item :
+         {"method=exact", "growth=1.5", "horizon=off", "horizon=-500", "inheritviewpoint=on", "reverse=off", "expiry=5",
+          "skirts=all", "cluster=keep", "heights=-500..9000", "heights=-11500..8000", "index=off"}) {
+        const auto options = cullOptionsFromText(item, error);
+        ASSERT_TRUE(options) << error;
+        EXPECT_FALSE(*options == CullOptions()) << item;
+        EXPECT_TRUE(*options == *cullOptionsFromText(item, error)) << item;
+    }
+}
+
 TEST(CullOptions, LaterItemsWin) {
     std::string error;
     const auto options = cullOptionsFromText("method=paper growth=1.5,method=corners", error);

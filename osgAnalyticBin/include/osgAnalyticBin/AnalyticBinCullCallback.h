@@ -66,7 +66,7 @@ struct TerrainShape {
 /// Threads: run() changes nothing in the callback; any number of cull traversals may run it at once. Setters must not
 /// be called while a cull traversal runs.
 /// Cost: the first test after a change of the bin prepares it, with one allocation and trigonometry; later tests need
-/// neither. Memory: 440 bytes, and 750 more once a tile has been tested alone. A tile that is tested together with its
+/// neither. Memory: 340 bytes, and 750 more once a tile has been tested alone. A tile that is tested together with its
 /// siblings does not need these.
 class OSGANALYTICBIN_EXPORT AnalyticBinCullCallback : public osg::NodeCallback {
 public:
@@ -88,7 +88,7 @@ public:
     /// How the tile is culled; items that are an installer's alone are not read.
     void setCullOptions(const CullOptions& options);
     /// Default: CullOptions().
-    [[nodiscard]] const CullOptions& getCullOptions() const { return _options; }
+    [[nodiscard]] const CullOptions& getCullOptions() const { return _setup->options; }
 
     /// Metres; default: those of a default osg::EllipsoidModel. With radii that are not finite and positive the tile is
     /// never culled.
@@ -105,7 +105,7 @@ public:
     /// mesh that no Terrain shapes.
     void setTerrainShape(const std::optional<TerrainShape>& shape);
     /// See setTerrainShape().
-    [[nodiscard]] const std::optional<TerrainShape>& getTerrainShape() const { return _shape; }
+    [[nodiscard]] const std::optional<TerrainShape>& getTerrainShape() const { return _setup->shape; }
 
     /// Metres by which skirts hang below the bin; they count as a part of it.
     void setSkirt(double metres);
@@ -188,16 +188,25 @@ private:
         std::optional<core::HorizonBin> columnHorizon;   // where it is not that of the bin
         std::optional<core::HorizonPoint> horizonPoint;  // in place of the bin's horizon, for boxes
     };
+    // What the tiles of a database mostly have in common. It is never changed: setters put another in its place.
+    struct Setup {
+        CullOptions options;
+        double equatorialRadius, polarRadius;
+        std::optional<TerrainShape> shape;
+        [[nodiscard]] bool operator==(const Setup& other) const;
+    };
     // The frame of the node's children, where it is not ECEF.
     struct LocalFrame {
         osg::Matrixd toEcef, fromEcef;
     };
 
+    // One that this thread has made lately and that is still in use, or else a new one.
+    [[nodiscard]] static std::shared_ptr<const Setup> shared(const Setup& setup);
     void changeBin();
     void discardPrepared();
     [[nodiscard]] const Prepared& prepared() const;
     [[nodiscard]] Prepared makePrepared() const;
-    [[nodiscard]] core::Ellipsoid ellipsoid() const { return {_equatorialRadius, _polarRadius}; }
+    [[nodiscard]] core::Ellipsoid ellipsoid() const { return {_setup->equatorialRadius, _setup->polarRadius}; }
     void leaveFamily();
     void fillSlot() const;
     void refuse(const char* why);
@@ -221,7 +230,7 @@ private:
     mutable std::atomic<const Prepared*> _prepared{nullptr};  // owned; made when it is first asked for
     bool _testsEdges = false;
     bool _hidesByPoint = false;
-    CullOptions _options;
+    std::shared_ptr<const Setup> _setup;
     std::unique_ptr<const LocalFrame> _frame;  // null: ECEF
     AnalyticBin _bin;
     AnalyticBin _surface;
@@ -229,9 +238,7 @@ private:
     double _surfaceHigh;
     double _binLow;
     double _binHigh;
-    std::optional<TerrainShape> _shape;
     double _skirt = 0.0;
-    double _equatorialRadius, _polarRadius;
 };
 
 }  // namespace osgAnalyticBin

@@ -99,6 +99,9 @@ struct CullOptions {
     /// What `reverse` comes to with this method.
     [[nodiscard]] OSGANALYTICBIN_EXPORT bool effectiveReverse() const noexcept;
 
+    /// Whether every item is the same.
+    [[nodiscard]] OSGANALYTICBIN_EXPORT bool operator==(const CullOptions& other) const noexcept;
+
     /// Seconds.
     static constexpr double kDefaultExpiry = 3.0;
     /// Metres: the deepest trench and the highest mountain, with room.

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 namespace osgAnalyticBin {
@@ -191,6 +192,14 @@ HorizonUse CullOptions::effectiveHorizonUse() const noexcept {
 
 bool CullOptions::effectiveReverse() const noexcept {
     return reverse.value_or(!isForComparison(method));
+}
+
+bool CullOptions::operator==(const CullOptions& other) const noexcept {
+    const auto items = [](const CullOptions& o) {
+        return std::tie(o.method, o.growth, o.horizonUse, o.horizon, o.inheritViewpoint, o.reverse, o.expiry, o.skirts,
+                        o.cluster, o.heights.lower, o.heights.upper, o.index);
+    };
+    return items(*this) == items(other);
 }
 
 std::vector<std::string> cullOptionKeys() {

@@ -19,7 +19,9 @@
 #include <osg/Notify>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <memory>
 #include <variant>
 
 namespace osgAnalyticBin {
@@ -46,23 +48,20 @@ core::PlaneSet ecefPlanes(const osg::Polytope& frustum, const osg::Matrixd& ecef
 }  // namespace
 
 AnalyticBinCullCallback::AnalyticBinCullCallback()
-    : _surfaceLow(kUnknown),
+    : _setup(shared({{}, osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR, {}})),
+      _surfaceLow(kUnknown),
       _surfaceHigh(-kUnknown),
       _binLow(kUnknown),
-      _binHigh(-kUnknown),
-      _equatorialRadius(osg::WGS_84_RADIUS_EQUATOR),
-      _polarRadius(osg::WGS_84_RADIUS_POLAR) {}
+      _binHigh(-kUnknown) {}
 
 AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBin& bin, const osg::EllipsoidModel& ellipsoid,
                                                  const CullOptions& options)
-    : _options(options),
+    : _setup(shared({options, ellipsoid.getRadiusEquator(), ellipsoid.getRadiusPolar(), {}})),
       _bin(bin),
       _surfaceLow(kUnknown),
       _surfaceHigh(-kUnknown),
       _binLow(kUnknown),
-      _binHigh(-kUnknown),
-      _equatorialRadius(ellipsoid.getRadiusEquator()),
-      _polarRadius(ellipsoid.getRadiusPolar()) {
+      _binHigh(-kUnknown) {
     changeBin();
 }
 
@@ -75,7 +74,7 @@ AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& 
       _isTested(other._isTested),
       _testsEdges(other._testsEdges),
       _hidesByPoint(other._hidesByPoint),
-      _options(other._options),
+      _setup(other._setup),
       _frame(other._frame ? std::make_unique<const LocalFrame>(*other._frame) : nullptr),
       _bin(other._bin),
       _surface(other._surface),
@@ -83,17 +82,31 @@ AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& 
       _surfaceHigh(other._surfaceHigh),
       _binLow(other._binLow),
       _binHigh(other._binHigh),
-      _shape(other._shape),
-      _skirt(other._skirt),
-      _equatorialRadius(other._equatorialRadius),
-      _polarRadius(other._polarRadius) {}
+      _skirt(other._skirt) {}
+
+bool AnalyticBinCullCallback::Setup::operator==(const Setup& other) const {
+    return equatorialRadius == other.equatorialRadius && polarRadius == other.polarRadius && shape == other.shape &&
+           options == other.options;
+}
+
+std::shared_ptr<const AnalyticBinCullCallback::Setup> AnalyticBinCullCallback::shared(const Setup& setup) {
+    // the pager's threads install bins too
+    static thread_local std::array<std::weak_ptr<const Setup>, 4> lately;
+    static thread_local std::size_t next = 0;
+    for (const auto& one : lately) {
+        if (auto known = one.lock(); known && *known == setup) return known;
+    }
+    auto made = std::make_shared<const Setup>(setup);
+    lately[next++ % lately.size()] = made;
+    return made;
+}
 
 AnalyticBinCullCallback::~AnalyticBinCullCallback() {
     discardPrepared();
 }
 
 AnalyticBin AnalyticBinCullCallback::shownBin() const {
-    AnalyticBin bin = _shape ? _bin.exaggerated(_shape->verticalScale) : _bin;
+    AnalyticBin bin = _setup->shape ? _bin.exaggerated(_setup->shape->verticalScale) : _bin;
     const core::Interval& altitude = bin.bin().altitude();
     if (bin.valid()) bin.setBin(bin.bin().withAltitude({altitude.lower - _skirt, altitude.upper}));
     return bin;
@@ -102,9 +115,9 @@ AnalyticBin AnalyticBinCullCallback::shownBin() const {
 AnalyticBinCullCallback::PreparedBin AnalyticBinCullCallback::preparedBin(const AnalyticBin& shown,
                                                                           const core::Ellipsoid& ellipsoid) const {
     const core::ParameterBox box = core::parameterBox(shown.bin());
-    switch (_options.method) {
+    switch (_setup->options.method) {
         case Method::Paper:
-            return core::PaperBin(core::GeodeticMapping(ellipsoid), box, _options.growth);
+            return core::PaperBin(core::GeodeticMapping(ellipsoid), box, _setup->options.growth);
         case Method::Corners:
             return core::CornersBin(core::GeodeticMapping(ellipsoid), box);
         case Method::Box:
@@ -130,10 +143,10 @@ void AnalyticBinCullCallback::changeBin() {
     const AnalyticBin shown = shownBin();
     _binLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
     _binHigh = shown.valid() ? shown.bin().altitude().upper + shown.margin() : -kUnknown;
-    const bool hasMethod = _options.method != Method::None && _options.method != Method::Sphere;
-    _isTested = hasMethod && shown.valid() && areValidRadii(_equatorialRadius, _polarRadius);
-    _testsEdges = _options.effectiveReverse();
-    _hidesByPoint = isBox(_options.method);
+    const bool hasMethod = _setup->options.method != Method::None && _setup->options.method != Method::Sphere;
+    _isTested = hasMethod && shown.valid() && areValidRadii(_setup->equatorialRadius, _setup->polarRadius);
+    _testsEdges = _setup->options.effectiveReverse();
+    _hidesByPoint = isBox(_setup->options.method);
     discardPrepared();
     fillSlot();
 }
@@ -153,15 +166,17 @@ const AnalyticBinCullCallback::Prepared& AnalyticBinCullCallback::prepared() con
 AnalyticBinCullCallback::Prepared AnalyticBinCullCallback::makePrepared() const {
     const AnalyticBin shown = shownBin();
     const core::Ellipsoid ellipsoid = this->ellipsoid();
-    const osg::ref_ptr<osg::EllipsoidModel> model = new osg::EllipsoidModel(_equatorialRadius, _polarRadius);
+    const osg::ref_ptr<osg::EllipsoidModel> model =
+        new osg::EllipsoidModel(_setup->equatorialRadius, _setup->polarRadius);
     osg::BoundingSphere sphere = shown.boundingSphere(*model);
     if (_frame) sphere = movedSphere(sphere, _frame->fromEcef);
     Prepared prepared{preparedBin(shown, ellipsoid), {}, {}, sphere, sphere, {}, {}};
-    const bool isOwnEdge = isBox(_options.method) || std::holds_alternative<core::ExactGeodeticBin>(prepared.bin);
+    const bool isOwnEdge =
+        isBox(_setup->options.method) || std::holds_alternative<core::ExactGeodeticBin>(prepared.bin);
     if (_testsEdges && !isOwnEdge && core::ExactGeodeticBin::holds(ellipsoid, shown.bin())) {
         prepared.separable.emplace(ellipsoid, shown.bin(), shown.margin());
     }
-    if (_options.effectiveHorizonUse() == HorizonUse::Off) return prepared;
+    if (_setup->options.effectiveHorizonUse() == HorizonUse::Off) return prepared;
     prepared.horizon.emplace(ellipsoid, shown.bin(), shown.margin());
     if (_hidesByPoint) prepared.horizonPoint.emplace(*prepared.horizon);
     if (shown.bin().altitude().upper >= 0.0) return prepared;
@@ -200,7 +215,9 @@ void AnalyticBinCullCallback::setBin(const AnalyticBin& bin) {
 
 void AnalyticBinCullCallback::setTerrainShape(const std::optional<TerrainShape>& shape) {
     leaveFamily();
-    _shape = shape;
+    Setup setup = *_setup;
+    setup.shape = shape;
+    _setup = shared(setup);
     setSurface(_surface);
     changeBin();
 }
@@ -212,7 +229,7 @@ void AnalyticBinCullCallback::setSkirt(double metres) {
 
 void AnalyticBinCullCallback::setSurface(const AnalyticBin& surface) {
     _surface = surface;
-    const AnalyticBin shown = _shape ? surface.exaggerated(_shape->verticalScale) : surface;
+    const AnalyticBin shown = _setup->shape ? surface.exaggerated(_setup->shape->verticalScale) : surface;
     _surfaceLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
     _surfaceHigh = shown.valid() ? shown.bin().altitude().upper + shown.margin() : -kUnknown;
     fillSlot();
@@ -230,14 +247,18 @@ const osg::BoundingSphere* AnalyticBinCullCallback::ecefColumnSphere() const {
 
 void AnalyticBinCullCallback::setCullOptions(const CullOptions& options) {
     if (options.effectiveReverse() != _testsEdges) leaveFamily();
-    _options = options;
+    Setup setup = *_setup;
+    setup.options = options;
+    _setup = shared(setup);
     changeBin();
 }
 
 void AnalyticBinCullCallback::setRadii(double equatorial, double polar) {
     leaveFamily();
-    _equatorialRadius = equatorial;
-    _polarRadius = polar;
+    Setup setup = *_setup;
+    setup.equatorialRadius = equatorial;
+    setup.polarRadius = polar;
+    _setup = shared(setup);
     changeBin();
 }
 
@@ -278,7 +299,7 @@ void AnalyticBinCullCallback::setInstalledTile(InstalledTile* tile) {
 }
 
 bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
-    if (_options.method == Method::None) {
+    if (_setup->options.method == Method::None) {
         cullStack.getCurrentCullingSet().getFrustum().getCurrentMask() = 0;
         return false;
     }
@@ -286,7 +307,7 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
     const bool isAbandoned = _installed ? !_installed->mayCull(&node) : _wasInstalled;
     if (!_isTested || isAbandoned) return false;
     CullTraversal& traversal = CullTraversal::of(nv);
-    if (_shape && !isShownIn(*_shape, traversal)) return false;
+    if (_setup->shape && !isShownIn(*_setup->shape, traversal)) return false;
     const auto test = [&](const core::PlaneSet& planes, core::PlaneMask& undecided) {
         const core::Side side = sideOf(planes, undecided);
         // finding the eye takes time
@@ -320,8 +341,8 @@ const core::HorizonEye* AnalyticBinCullCallback::eyeOn(osg::CullStack& cullStack
     }
     if (_installed) return nullptr;
     // In a frame of its own the eye would have to be prepared anew for every tile.
-    if (_options.horizonUse != HorizonUse::Given || _frame) return nullptr;
-    const Occluder occluder{ellipsoid(), std::max(0.0, -_options.horizon), _options.inheritViewpoint};
+    if (_setup->options.horizonUse != HorizonUse::Given || _frame) return nullptr;
+    const Occluder occluder{ellipsoid(), std::max(0.0, -_setup->options.horizon), _setup->options.inheritViewpoint};
     return traversal.horizonEye(cullStack, nv, occluder);
 }
 

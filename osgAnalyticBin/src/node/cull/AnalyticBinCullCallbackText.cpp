@@ -56,9 +56,10 @@ std::string AnalyticBinCullCallback::getBinText() const {
     if (_skirt != 0.0) text += "; skirt " + numberToText(_skirt);
     if (_surface.valid()) text += "; surface " + _surface.toText();
     const auto number = [](bool is) { return is ? 1.0 : 0.0; };
-    if (_shape) {
-        text += "; terrain " + numbersToText({_shape->verticalScale, _shape->sampleRatio,
-                                              number(_shape->areBoundariesEqual), number(_shape->isKnown)});
+    if (_setup->shape) {
+        text +=
+            "; terrain " + numbersToText({_setup->shape->verticalScale, _setup->shape->sampleRatio,
+                                          number(_setup->shape->areBoundariesEqual), number(_setup->shape->isKnown)});
     }
     return text;
 }
@@ -73,7 +74,7 @@ void AnalyticBinCullCallback::setOptionsText(const std::string& text) {
 }
 
 std::string AnalyticBinCullCallback::getOptionsText() const {
-    return toText(_options);
+    return toText(_setup->options);
 }
 
 void AnalyticBinCullCallback::setRadiiText(const std::string& text) {
@@ -86,7 +87,7 @@ void AnalyticBinCullCallback::setRadiiText(const std::string& text) {
 }
 
 std::string AnalyticBinCullCallback::getRadiiText() const {
-    return numbersToText({_equatorialRadius, _polarRadius});
+    return numbersToText({_setup->equatorialRadius, _setup->polarRadius});
 }
 
 void AnalyticBinCullCallback::setLocalToEcefText(const std::string& text) {

@@ -111,11 +111,11 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
     if (!tile || !tile->_isTested || tile->_frame) return false;
     if (!_ellipsoid) {
         _ellipsoid = tile->ellipsoid();
-        _shape = tile->_shape;
+        _shape = tile->_setup->shape;
         _testsEdges = tile->_testsEdges;
     }
-    const bool isSameShape = _shape.has_value() == tile->_shape.has_value() && (!_shape || *_shape == *tile->_shape);
-    const bool isSame = *_ellipsoid == tile->ellipsoid() && _testsEdges == tile->_testsEdges && isSameShape;
+    const bool isSame =
+        *_ellipsoid == tile->ellipsoid() && _testsEdges == tile->_testsEdges && _shape == tile->_setup->shape;
     if (!isSame) return false;
     _nodes[slot] = &child;
     _block->addMember(slot);

@@ -180,8 +180,9 @@ void Database::widen(const ParentTile& tile, const Widening& by, bool isFitted) 
     const std::lock_guard<std::mutex> lock(_mutex);
     _corrections[{tile.file, tile.ordinal}].expandBy(by);
     // one file may be paged in several places, and below itself
-    if (isFitted || tile.widening.contains(by)) return;
-    tile.widening.expandBy(by);
+    if (!tile.widening) tile.widening = std::make_unique<Widening>();
+    if (isFitted || tile.widening->contains(by)) return;
+    tile.widening->expandBy(by);
     _toWiden.emplace_back(tile.callback, by);
 }
 

@@ -16,6 +16,7 @@
 #include <atomic>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -169,8 +170,8 @@ struct ParentTile : public osg::Referenced {
     AnalyticBin stored;
     // Of the tile: a globe inside another has its own.
     osg::ref_ptr<Database> database;
-    // What its callback has been asked to be widened by; guarded by the database.
-    mutable Widening widening;
+    // What its callback has been asked to be widened by; null: nothing. Guarded by the database.
+    mutable std::unique_ptr<Widening> widening;
 
 protected:
     ~ParentTile() override = default;
