@@ -66,7 +66,7 @@ struct TerrainShape {
 /// Threads: run() changes nothing in the callback; any number of cull traversals may run it at once. Setters must not
 /// be called while a cull traversal runs.
 /// Cost: the first test after a change of the bin prepares it, with one allocation and trigonometry; later tests need
-/// neither. Memory: 340 bytes, and 750 more once a tile has been tested alone. A tile that is tested together with its
+/// neither. Memory: 330 bytes, and 750 more once a tile has been tested alone. A tile that is tested together with its
 /// siblings does not need these.
 class OSGANALYTICBIN_EXPORT AnalyticBinCullCallback : public osg::NodeCallback {
 public:
