@@ -34,9 +34,9 @@ FAULTS = [
           'supportsOption("skirts=cracks|all",', 'supportsOption("index=on|off",', PLUGIN, "OptionString.*"),
 
     # the polynomial and its proof
-    Fault("no remainder", "src/core/bin/QuadraticBin.cpp", "(mapping.thirdDerivativeBound(box) / 6.0 + margin)", "(margin)",
+    Fault("no remainder", "src/core/bin/QuadraticBin.cpp", "(mapping.remainder(box) + margin)", "(margin)",
           CORE, "*QuadraticBin*"),
-    Fault("no margin", "src/core/bin/QuadraticBin.cpp", "/ 6.0 + margin)", "/ 6.0)", CORE, "*QuadraticBin*"),
+    Fault("no margin", "src/core/bin/QuadraticBin.cpp", "remainder(box) + margin)", "remainder(box))", CORE, "*QuadraticBin*"),
     Fault("no rounding of the polynomial", "src/core/bin/QuadraticBin.cpp", "kRounding = 128.0 *", "kRounding = 0.0 *", CORE,
           "*QuadraticBin*:PlaneSet*:PlaneKernels*:Classify*:Planets*"),
     Fault("mixed derivatives swapped", "src/core/bin/QuadraticBin.cpp", "hessians.uw * (e.x * e.z)", "hessians.vw * (e.x * e.z)",
@@ -194,6 +194,25 @@ FAULTS = [
     Fault("undo forgets what was off", "src/node/install/InstalledTile.cpp", "if (!_wasActive.back()) return;", "", NODE, "Undo.*"),
     Fault("saved scenes forget the skirt", "src/node/cull/AnalyticBinCullCallbackText.cpp",
           'if (_skirt != 0.0) text += "; skirt " + numberToText(_skirt);', "", PLUGIN, "*Serializer*"),
+
+    # terrain that hides terrain
+    Fault("occlusion: borders of meshes count as covered", "src/core/occlusion/GroundPlates.cpp", "        addBorders();\n", "",
+          CORE, "GroundPlates.*"),
+    Fault("occlusion: folds count as covered", "src/core/occlusion/GroundPlates.cpp",
+          "if (bounds.empty() || !isUpward(corners)) {", "if (bounds.empty()) {", CORE, "GroundPlates.*"),
+    Fault("occlusion: chords of parallels stay on them", "src/core/occlusion/GroundPlates.cpp",
+          "!(bulge < 0.5 * kRim * along) || ", "", CORE, "GroundPlates.*"),
+    Fault("occlusion: the higher end of a chord counts", "src/core/occlusion/HorizonBuffer.cpp",
+          "std::min(y0, y1) - room", "std::max(y0, y1) - room", CORE, "HorizonBuffer.*"),
+    Fault("occlusion: earth hides what is nearer", "src/core/occlusion/HorizonBuffer.cpp",
+          "_pending.front().farthest <= near", "true", CORE, "HorizonBuffer.*"),
+    Fault("occlusion: order does not matter", "src/core/occlusion/HorizonBuffer.cpp",
+          "if (!(near > 0.0) || near < _reached) return false;", "if (!(near > 0.0)) return false;", CORE, "HorizonBuffer.*"),
+    Fault("occlusion: columns that earth covers in part count", "src/core/occlusion/HorizonBuffer.cpp",
+          "if (!(a.x + earth.error <= x0 && x1 <= b.x - earth.error)) continue;",
+          "if (!(a.x < b.x && a.x <= x1 && x0 <= b.x)) continue;", CORE, "HorizonBuffer.*"),
+    Fault("occlusion: reach is forgotten", "src/core/occlusion/HorizonBuffer.cpp",
+          "pictureError(reach + rounding, spot.forward,", "pictureError(rounding, spot.forward,", CORE, "HorizonBuffer.*"),
 
     # families of tiles
     Fault("family: eyes of other cameras", "src/node/cull/TileFamily.cpp",

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/GeodeticBin.h>
+#include <osgAnalyticBin/core/occlusion/GroundPlates.h>
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace osgAnalyticBin::core {
+
+/// Where an eye looks at earth, by directions: a picture on the vertical plane in front of the eye, cut into columns of
+/// equal width, each with the heights of the picture that earth in front covers. What lies behind that earth, seen from
+/// the eye, is hidden.
+/// Positions in the picture: x = right / forward, y = up / forward, of the vector from the eye.
+/// Source: doc/occlusion.md, sections 1 and 4.
+class HorizonBuffer final {
+public:
+    /// Columns of the picture.
+    static constexpr std::size_t kColumns = 1024;
+
+    /// `forward` and `up` are unit vectors and perpendicular; up is the eye's vertical. `across`: the x of what the
+    /// camera sees at most; what is beside it hides nothing, and is not asked for.
+    HorizonBuffer(const glm::dvec3& eye, const glm::dvec3& forward, const glm::dvec3& up, const Interval& across);
+
+    /// Adds earth. It hides what is no nearer than its farthest corner. Earth beside or behind the eye is left out.
+    void add(const EarthColumn& column);
+
+    /// Whether all lines of sight from the eye to a body meet added earth before the body, as far as they lie within
+    /// `across`. The body: a hull of eight corners, ECEF, and all within `reach` metres of it. Bodies have to be asked
+    /// for front to back, by nearest(): one that is nearer than earth that was used for another gets false.
+    /// Guarantee: true is a proof, rounding included; tests: HorizonBuffer.*.
+    /// Cost: a short one for each column of the picture that the body spans, and for each that earth spans which was
+    /// added and is used for the first time.
+    [[nodiscard]] bool hides(const std::array<glm::dvec3, 8>& corners, double reach);
+
+    /// The distance along `forward` of the body's nearest point, metres.
+    [[nodiscard]] double nearest(const std::array<glm::dvec3, 8>& corners, double reach) const noexcept;
+
+private:
+    // A point in the picture, and how far along `forward`.
+    struct Spot {
+        double x, y, forward;
+    };
+    // Earth that is not in the columns yet. The heap has the nearest on top.
+    struct Pending {
+        double farthest;
+        std::array<Spot, 4> top, bottom;
+        double error;  // in the picture
+        [[nodiscard]] bool operator<(const Pending& other) const noexcept { return farthest > other.farthest; }
+    };
+
+    [[nodiscard]] Spot spotOf(const glm::dvec3& ecef) const noexcept;
+    [[nodiscard]] double edge(std::size_t column) const noexcept {
+        return _across.lower + _step * static_cast<double>(column);
+    }
+    void raise(const Pending& earth);
+    void cover(std::size_t column, const Interval& heights);
+
+    glm::dvec3 _eye, _forward, _right, _up;
+    Interval _across;
+    double _step;
+    double _reached = 0.0;  // the farthest corner of the earth that is in the columns
+    std::vector<Pending> _pending;
+    std::array<Interval, kColumns> _covered;  // empty: nothing
+};
+
+}  // namespace osgAnalyticBin::core

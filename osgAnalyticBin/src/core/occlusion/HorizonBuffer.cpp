@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "../Constants.h"
+
+#include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace osgAnalyticBin::core {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// What positions in the picture are wrong by, in units of 1 + |position|: a few roundings of ECEF positions over the
+// distance, which doc/occlusion.md, section 4, adds up.
+double pictureError(double metres, double forward, double largest) {
+    return metres / (forward - metres) * (1.0 + largest) + 16.0 * kEpsilon * (1.0 + largest);
+}
+
+bool isEmpty(const Interval& interval) {
+    return !(interval.lower <= interval.upper);
+}
+
+}  // namespace
+
+HorizonBuffer::HorizonBuffer(const glm::dvec3& eye, const glm::dvec3& forward, const glm::dvec3& up,
+                             const Interval& across)
+    : _eye(eye),
+      _forward(forward),
+      _right(glm::cross(forward, up)),
+      _up(up),
+      _across(across),
+      _step(across.width() / static_cast<double>(kColumns)) {
+    _covered.fill({kInfinity, -kInfinity});
+}
+
+HorizonBuffer::Spot HorizonBuffer::spotOf(const glm::dvec3& ecef) const noexcept {
+    const glm::dvec3 from = ecef - _eye;
+    const double forward = glm::dot(from, _forward);
+    return {glm::dot(from, _right) / forward, glm::dot(from, _up) / forward, forward};
+}
+
+double HorizonBuffer::nearest(const std::array<glm::dvec3, 8>& corners, double reach) const noexcept {
+    double nearest = kInfinity;
+    for (const glm::dvec3& corner : corners) nearest = std::min(nearest, glm::dot(corner - _eye, _forward));
+    return nearest - reach;
+}
+
+void HorizonBuffer::add(const EarthColumn& column) {
+    constexpr double kSteepest = 1e3;
+    Pending earth{0.0, {}, {}, 0.0};
+    double nearest = kInfinity, left = kInfinity, right = -kInfinity, largest = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        earth.top[i] = spotOf(column.top[i]);
+        earth.bottom[i] = spotOf(column.bottom[i]);
+        for (const Spot& spot : {earth.top[i], earth.bottom[i]}) {
+            // written so that NaN is left out; rays near the picture's plane would make positions as large as one likes
+            const bool isInPicture =
+                spot.forward > 4.0 * column.error && std::abs(spot.x) < kSteepest && std::abs(spot.y) < kSteepest;
+            if (!isInPicture) return;
+            nearest = std::min(nearest, spot.forward);
+            earth.farthest = std::max(earth.farthest, spot.forward + column.error);
+            left = std::min(left, spot.x);
+            right = std::max(right, spot.x);
+            largest = std::max({largest, std::abs(spot.x), std::abs(spot.y)});
+        }
+    }
+    if (!(right - left > _step) || right < _across.lower || left > _across.upper) return;
+    const double rounding = 8.0 * kEpsilon * (glm::length(_eye) + glm::length(column.top[0]));
+    earth.error = pictureError(column.error + rounding, nearest, largest);
+    // chords are believed over a step: they have to be long beside what their ends are wrong by
+    if (!(earth.error < 0.01 * _step)) return;
+    _pending.push_back(earth);
+    std::push_heap(_pending.begin(), _pending.end());
+}
+
+// Both intervals are covered; where they meet, so is what they cover together, and else the higher one is kept.
+void HorizonBuffer::cover(std::size_t column, const Interval& heights) {
+    Interval& known = _covered[column];
+    const bool meet = !isEmpty(known) && heights.lower <= known.upper && known.lower <= heights.upper;
+    if (meet) {
+        known = {std::min(known.lower, heights.lower), std::max(known.upper, heights.upper)};
+    } else if (isEmpty(known) || heights.upper > known.upper) {
+        known = heights;
+    }
+}
+
+// The column of earth is convex and so is its picture: at each x, between what a chord of its bottom and a chord of
+// its top have there. doc/occlusion.md, section 4.
+void HorizonBuffer::raise(const Pending& earth) {
+    double left = kInfinity, right = -kInfinity;
+    for (const Spot& spot : earth.top) left = std::min(left, spot.x), right = std::max(right, spot.x);
+    const double from = std::ceil((left + earth.error - _across.lower) / _step);
+    const double to = std::floor((right - earth.error - _across.lower) / _step);
+    const auto first = static_cast<std::size_t>(std::clamp(from, 0.0, static_cast<double>(kColumns)));
+    const auto last = static_cast<std::size_t>(std::clamp(to, 0.0, static_cast<double>(kColumns)));
+    for (std::size_t column = first; column < last; ++column) {
+        const double x0 = edge(column), x1 = edge(column + 1);
+        Interval heights{kInfinity, -kInfinity};
+        const auto chords = [&](const std::array<Spot, 4>& corners, bool isTop) {
+            for (std::size_t i = 0; i < 4; ++i) {
+                for (std::size_t j = 0; j < 4; ++j) {
+                    const Spot& a = corners[i];
+                    const Spot& b = corners[j];
+                    if (!(a.x + earth.error <= x0 && x1 <= b.x - earth.error)) continue;
+                    const double slope = (b.y - a.y) / (b.x - a.x);
+                    const double y0 = a.y + slope * (x0 - a.x), y1 = a.y + slope * (x1 - a.x);
+                    const double room = earth.error * (1.0 + std::abs(slope)) * 2.0;
+                    if (isTop)
+                        heights.upper = std::max(heights.upper, std::min(y0, y1) - room);
+                    else
+                        heights.lower = std::min(heights.lower, std::max(y0, y1) + room);
+                }
+            }
+        };
+        chords(earth.top, true);
+        chords(earth.bottom, false);
+        if (!isEmpty(heights)) cover(column, heights);
+    }
+}
+
+bool HorizonBuffer::hides(const std::array<glm::dvec3, 8>& corners, double reach) {
+    const double rounding = 8.0 * kEpsilon * (glm::length(_eye) + glm::length(corners[0]));
+    const double near = nearest(corners, reach) - rounding;
+    if (!(near > 0.0) || near < _reached) return false;
+    while (!_pending.empty() && _pending.front().farthest <= near) {
+        std::pop_heap(_pending.begin(), _pending.end());
+        _reached = std::max(_reached, _pending.back().farthest);
+        raise(_pending.back());
+        _pending.pop_back();
+    }
+    Interval across{kInfinity, -kInfinity}, heights{kInfinity, -kInfinity};
+    for (const glm::dvec3& corner : corners) {
+        const Spot spot = spotOf(corner);
+        const double error = pictureError(reach + rounding, spot.forward, std::max(std::abs(spot.x), std::abs(spot.y)));
+        if (!std::isfinite(spot.x + spot.y + error)) return false;
+        across = {std::min(across.lower, spot.x - error), std::max(across.upper, spot.x + error)};
+        heights = {std::min(heights.lower, spot.y - error), std::max(heights.upper, spot.y + error)};
+    }
+    if (across.upper < _across.lower || across.lower > _across.upper) return false;
+    const double from = std::floor((across.lower - _across.lower) / _step) - 1.0;
+    const double to = std::floor((across.upper - _across.lower) / _step) + 1.0;
+    const auto first = static_cast<std::size_t>(std::clamp(from, 0.0, static_cast<double>(kColumns - 1)));
+    const auto last = static_cast<std::size_t>(std::clamp(to, 0.0, static_cast<double>(kColumns - 1)));
+    for (std::size_t column = first; column <= last; ++column) {
+        if (!(_covered[column].lower <= heights.lower && heights.upper <= _covered[column].upper)) return false;
+    }
+    return true;
+}
+
+}  // namespace osgAnalyticBin::core

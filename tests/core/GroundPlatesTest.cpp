@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "MeshSamples.h"
+#include "OcclusionScene.h"
+
+#include <osgAnalyticBin/core/occlusion/GroundPlates.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::EarthColumn;
+using core::EcefMesh;
+using core::Ellipsoid;
+using core::GeodeticBin;
+using core::GroundPlates;
+using core::Interval;
+
+constexpr std::array<std::size_t, 4> kGrids{1, 2, 4, 8};
+
+GeodeticBin randomExtents(Random& random, const Ellipsoid& ellipsoid) {
+    const double size = random.logUniform(1e-6, 0.3);
+    const double south = random.uniform(-1.5, 1.5 - size);
+    const double west = random.chance(0.2) ? 3.14159 - 0.5 * size : random.uniform(-3.2, 3.2);
+    const double relief = size * ellipsoid.equatorialRadius() * random.logUniform(1e-4, 0.3);
+    const double wider = std::min(random.uniform(0.5, 2.0) / std::cos(south + 0.5 * size), 1.5 / size);
+    return GeodeticBin({south, south + size}, {west, west + size * wider}, {-relief, relief});
+}
+
+RealVector randomPointOf(Random& random, const EarthColumn& column) {
+    std::array<Real, 8> weights{};
+    Real sum = 0;
+    for (Real& weight : weights) sum += weight = random.chance(0.5) ? 0 : random.uniform();
+    if (sum == 0) return real(column.top[0]);
+    RealVector point{};
+    for (std::size_t i = 0; i < 8; ++i)
+        point = point + weights[i] / sum * real(i < 4 ? column.top[i] : column.bottom[i - 4]);
+    return point;
+}
+
+// Whether the ellipsoid's normal through a point meets a triangle above it. The point may be too high by `room` metres.
+bool isBelow(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const RealVector& point, Real room) {
+    const RealGeodetic at = ecefToGeodetic(ellipsoid, point);
+    const RealVector up{std::cos(at.latitude) * std::cos(at.longitude), std::cos(at.latitude) * std::sin(at.longitude),
+                        std::sin(at.latitude)};
+    const Real high = static_cast<Real>(ellipsoid.equatorialRadius());
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+        if (meets(triangleAt(mesh, i), point + (-room) * up, point + high * up)) return true;
+    }
+    return false;
+}
+
+void expectBelow(Random& random, const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GroundPlates& plates,
+                 int& known) {
+    for (const std::size_t cells : kGrids) {
+        for (std::size_t i = 0; i < cells * cells; ++i) {
+            const double depth = random.uniform(0.0, 0.05) * ellipsoid.equatorialRadius();
+            const auto column = plates.column(cells, i / cells, i % cells, depth);
+            if (!column) continue;
+            ++known;
+            for (int trial = 0; trial < 4; ++trial) {
+                ASSERT_TRUE(isBelow(ellipsoid, mesh, randomPointOf(random, *column), 2.0 * column->error))
+                    << "cell " << i << " of " << cells << " x " << cells;
+            }
+        }
+    }
+}
+
+// As many meshes have it: each triangle has vertices of its own.
+EcefMesh unmerged(const EcefMesh& mesh) {
+    EcefMesh result;
+    for (const std::uint32_t vertex : mesh.triangles) {
+        result.triangles.push_back(static_cast<std::uint32_t>(result.size()));
+        addVertex(result, mesh.vertex(vertex));
+    }
+    return result;
+}
+
+TEST(GroundPlates, ColumnsLieBelowTheMesh) {
+    Random random(1701);
+    int known = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        const Ellipsoid ellipsoid = random.chance(0.5) ? wgs84() : Ellipsoid(1e5, 1e5 * random.uniform(0.996, 1.004));
+        const GeodeticBin extents = randomExtents(random, ellipsoid);
+        EcefMesh mesh = gridMesh(random, ellipsoid, extents, static_cast<std::uint32_t>(random.integer(1, 12)));
+        if (random.chance(0.3)) mesh = unmerged(mesh);
+        if (random.chance(0.3)) {
+            for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
+                std::swap(mesh.triangles[i], mesh.triangles[i + 1]);
+        }
+        expectBelow(random, ellipsoid, mesh, GroundPlates(ellipsoid, mesh, extents), known);
+    }
+    EXPECT_GT(known, 2000 * 40);
+}
+
+TEST(GroundPlates, ColumnsLieBelowTheMeshWhereItHasHolesAndFolds) {
+    Random random(1702);
+    int known = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        const Ellipsoid ellipsoid = wgs84();
+        const GeodeticBin extents = randomExtents(random, ellipsoid);
+        EcefMesh mesh = gridMesh(random, ellipsoid, extents, static_cast<std::uint32_t>(random.integer(2, 12)));
+        const auto anyTriangle = [&] {
+            return 3 * static_cast<std::size_t>(random.integer(0, static_cast<int>(mesh.triangles.size() / 3) - 1));
+        };
+        for (int i = random.integer(1, 4); i > 0 && mesh.triangles.size() > 3; --i) {
+            const std::size_t at = anyTriangle();
+            const auto triangle = mesh.triangles.begin() + static_cast<std::ptrdiff_t>(at);
+            if (random.chance(0.5))
+                mesh.triangles.erase(triangle, triangle + 3);
+            else if (random.chance(0.5))
+                std::swap(mesh.triangles[at], mesh.triangles[at + 1]);
+            else
+                mesh.triangles[at] = mesh.triangles[anyTriangle()];
+        }
+        // tiles do not always fill their extents
+        const GeodeticBin wider({extents.latitude().lower - 0.3 * extents.latitude().width(), extents.latitude().upper},
+                                extents.longitude(), extents.altitude());
+        expectBelow(random, ellipsoid, mesh, GroundPlates(ellipsoid, mesh, random.chance(0.5) ? extents : wider),
+                    known);
+    }
+    EXPECT_GT(known, 2000 * 10);
+}
+
+TEST(GroundPlates, AreAsHighAsTheLowestPostOfEachCell) {
+    constexpr std::uint32_t kPostsOfCell = 4;
+    Random random(1703);
+    const Ellipsoid earth = wgs84();
+    for (int trial = 0; trial < 20; ++trial) {
+        const double size = random.logUniform(1e-5, 0.02);
+        const double south = random.uniform(-1.0, 1.0);
+        const GeodeticBin extents({south, south + size}, {1.0, 1.0 + size}, {-300.0, 2000.0});
+        const std::uint32_t posts = 8 * kPostsOfCell;
+        const EcefMesh mesh = gridMesh(random, earth, extents, posts);
+        const GroundPlates plates(earth, mesh, extents);
+        const double sag = 6.4e6 * (size / posts) * (size / posts);
+        for (std::uint32_t cell = 0; cell < 64; ++cell) {
+            double lowest = std::numeric_limits<double>::infinity();
+            for (std::uint32_t i = 0; i <= kPostsOfCell; ++i) {
+                for (std::uint32_t j = 0; j <= kPostsOfCell; ++j) {
+                    const std::uint32_t row = cell / 8 * kPostsOfCell + i, column = cell % 8 * kPostsOfCell + j;
+                    lowest = std::min(lowest, earth.toGeodetic(mesh.vertex(row * (posts + 1) + column)).altitude);
+                }
+            }
+            EXPECT_NEAR(plates.least(8, cell / 8, cell % 8), lowest, sag + 1e-3);
+        }
+    }
+}
+
+TEST(GroundPlates, AreNotKnownWhereNoColumnFits) {
+    Random random(1704);
+    const Ellipsoid earth = wgs84();
+    const auto isKnown = [&](const Ellipsoid& ellipsoid, const GeodeticBin& extents) {
+        return GroundPlates(ellipsoid, gridMesh(random, ellipsoid, extents, 32), extents)
+            .column(8, 4, 4, 100.0)
+            .has_value();
+    };
+    const Interval flat{0.0, 0.0};
+    EXPECT_TRUE(isKnown(earth, GeodeticBin({0.5, 0.6}, {0.0, 0.1}, flat)));
+    EXPECT_FALSE(isKnown(earth, GeodeticBin({1.57, 1.5707}, {0.0, 1.5}, flat)));  // beside a pole
+    EXPECT_FALSE(isKnown(earth, GeodeticBin({0.5, 0.6}, {0.0, 4.0}, flat)));
+    EXPECT_FALSE(isKnown(Ellipsoid(6e6, 5e6), GeodeticBin({0.5, 0.6}, {0.0, 0.1}, flat)));
+    EXPECT_FALSE(isKnown(earth, GeodeticBin({0.5, 0.6}, {0.0, 0.1}, {1e6, 1e6})));
+    EXPECT_FALSE(GroundPlates().column(1, 0, 0, 100.0).has_value());
+    const GroundPlates known(earth, gridMesh(random, earth, GeodeticBin({0.5, 0.6}, {0.0, 0.1}, flat), 8),
+                             GeodeticBin({0.5, 0.6}, {0.0, 0.1}, flat));
+    EXPECT_FALSE(known.column(8, 4, 4, 1e6).has_value());
+    EXPECT_FALSE(known.column(8, 4, 4, std::nan("")).has_value());
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test

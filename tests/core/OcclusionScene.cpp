@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "OcclusionScene.h"
+
+#include "MeshSamples.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgAnalyticBin::test {
+
+using core::EcefMesh;
+using core::Ellipsoid;
+using core::GeodeticBin;
+using core::Interval;
+
+namespace {
+
+constexpr int kTilesAcross = 6;
+constexpr std::uint32_t kCells = 16;  // of a tile, at most
+
+// Heights everywhere, of any roughness.
+class Relief {
+public:
+    Relief(Random& random, double size, double height) {
+        const double roughness = random.uniform(0.3, 0.7);
+        for (std::size_t i = 0; i < kWaves; ++i) {
+            const double wave = size * std::pow(roughness, static_cast<double>(i / 3));
+            const double bearing = random.uniform(0.0, 6.283);
+            _waves[i] = {6.283 / wave * std::sin(bearing), 6.283 / wave * std::cos(bearing), random.uniform(0.0, 6.283),
+                         height * std::pow(roughness, static_cast<double>(i / 3))};
+        }
+    }
+    [[nodiscard]] double at(double latitude, double longitude) const {
+        double sum = 0.0;
+        for (const auto& [north, east, phase, height] : _waves)
+            sum += height * std::sin(north * latitude + east * longitude + phase);
+        return sum;
+    }
+
+private:
+    static constexpr std::size_t kWaves = 15;
+    struct Wave {
+        double north, east, phase, height;
+    };
+    std::array<Wave, kWaves> _waves{};
+};
+
+RealVector cross(const RealVector& a, const RealVector& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+void addSkirt(std::vector<Triangle>& triangles, const glm::dvec3& a, const glm::dvec3& b, double depth) {
+    const glm::dvec3 down = -depth * glm::normalize(a);
+    triangles.push_back({a, b, a + down});
+    triangles.push_back({b, b + down, a + down});
+}
+
+}  // namespace
+
+Body bodyOf(const Ellipsoid& ellipsoid, const GeodeticBin& bin) {
+    Body body{};
+    for (std::size_t i = 0; i < 8; ++i) {
+        const auto end = [i](const Interval& interval, std::size_t bit) {
+            return (i >> bit & 1u) != 0 ? interval.upper : interval.lower;
+        };
+        body.corners[i] = ellipsoid.toEcef({end(bin.latitude(), 0), end(bin.longitude(), 1), end(bin.altitude(), 2)});
+    }
+    const double angle = std::hypot(bin.latitude().width(), bin.longitude().width());
+    body.reach = angle * angle / 7.0 * (ellipsoid.equatorialRadius() * 1.02 + std::abs(bin.altitude().upper));
+    return body;
+}
+
+OcclusionScene::OcclusionScene(Random& random, bool hasSpikes)
+    : ellipsoid(random.chance(0.7) ? wgs84() : Ellipsoid(random.logUniform(1e3, 1e8), 1.0)) {
+    if (ellipsoid.polarRadius() == 1.0) {
+        const double radius = ellipsoid.equatorialRadius();
+        ellipsoid = Ellipsoid(radius, radius * random.uniform(0.996, 1.004));
+    }
+    const double size = random.logUniform(1e-5, 0.1);  // of a tile, radians
+    const double southmost = random.uniform(-1.4, 1.4 - kTilesAcross * size);
+    const double westmost = random.chance(0.2) ? 3.1415 - 3.0 * size : random.uniform(-3.1, 3.1);
+    const double wider = 1.0 / std::cos(southmost + 0.5 * kTilesAcross * size);
+    const double metres = size * ellipsoid.equatorialRadius();
+    const double height = metres * random.logUniform(1e-3, 0.3) * std::min(1.0, 0.02 / size);
+    const Relief relief(random, size * random.logUniform(0.3, 3.0), height);
+    const bool areAlike = random.chance(0.5);
+    const double spikes = hasSpikes && random.chance(0.3) ? random.uniform(0.0, 0.1) : 0.0;
+    for (int row = 0; row < kTilesAcross; ++row) {
+        for (int column = 0; column < kTilesAcross; ++column) {
+            const Interval latitude{southmost + row * size, southmost + (row + 1) * size};
+            const Interval longitude{westmost + column * size * wider, westmost + (column + 1) * size * wider};
+            const std::uint32_t cells = areAlike ? kCells : kCells >> random.integer(0, 3);
+            GroundTile tile;
+            tile.mesh = gridMesh(random, ellipsoid, GeodeticBin(latitude, longitude, {0.0, 0.0}), cells);
+            Interval altitude{1e30, -1e30};
+            for (std::size_t i = 0; i < tile.mesh.size(); ++i) {
+                const auto at = static_cast<std::uint32_t>(i);
+                const double p = latitude.lower + latitude.width() * (at / (cells + 1)) / cells;
+                const double l = longitude.lower + longitude.width() * (at % (cells + 1)) / cells;
+                double h = relief.at(p, l);
+                if (random.chance(spikes)) h += random.sign() * height * random.uniform(0.0, 5.0);
+                const glm::dvec3 v = ellipsoid.toEcef({p, l, h});
+                tile.mesh.x[i] = v.x, tile.mesh.y[i] = v.y, tile.mesh.z[i] = v.z;
+                altitude = {std::min(altitude.lower, h), std::max(altitude.upper, h)};
+            }
+            tile.bin = thoroughBounds(ellipsoid, tile.mesh, longitude.middle(), 0.0);
+            for (std::size_t i = 0; i < tile.mesh.triangles.size(); i += 3)
+                triangles.push_back(triangleAt(tile.mesh, i));
+            for (std::uint32_t i = 0; i < cells; ++i) {
+                const auto post = [&](std::uint32_t y, std::uint32_t x) {
+                    return tile.mesh.vertex(y * (cells + 1) + x);
+                };
+                const double depth = 30.0 * height + 0.01 * metres;
+                addSkirt(triangles, post(0, i), post(0, i + 1), depth);
+                addSkirt(triangles, post(cells, i), post(cells, i + 1), depth);
+                addSkirt(triangles, post(i, 0), post(i + 1, 0), depth);
+                addSkirt(triangles, post(i, cells), post(i + 1, cells), depth);
+            }
+            tiles.push_back(tile);
+        }
+    }
+    // by the border, with most of the terrain ahead, or in the middle
+    const double p = southmost + size * random.uniform(0.5, random.chance(0.5) ? 1.0 : 5.5);
+    const double l = westmost + size * wider * random.uniform(0.5, 5.5);
+    const GroundTile& below = tiles[static_cast<std::size_t>((p - southmost) / size) * kTilesAcross +
+                                    static_cast<std::size_t>((l - westmost) / (size * wider))];
+    const double highest = below.bin.altitude().upper;
+    const double above = random.chance(0.5) ? relief.at(p, l) + height * random.uniform(0.5, 1.5)
+                                            : highest + height * random.logUniform(1e-4, 10.0);
+    eye = ellipsoid.toEcef({p, l, above});
+    const core::Geodetic place = ellipsoid.toGeodetic(eye);
+    up = {std::cos(place.latitude) * std::cos(place.longitude), std::cos(place.latitude) * std::sin(place.longitude),
+          std::sin(place.latitude)};
+    // between posts the mesh may be higher than the relief
+    if (isBlocked(real(eye + 100.0 * (height + metres) * up))) eye += (highest + height - above) * up;
+    const glm::dvec3 toward = ellipsoid.toEcef({southmost + size * 6.0 * random.uniform(),
+                                                westmost + size * wider * 6.0 * random.uniform(), above}) -
+                              eye;
+    forward = glm::normalize(toward - glm::dot(toward, up) * up);
+}
+
+bool meets(const Triangle& triangle, const RealVector& from, const RealVector& to) {
+    const RealVector a = real(triangle.a) - from, b = real(triangle.b) - from, c = real(triangle.c) - from;
+    const RealVector ray = to - from;
+    const Real ab = dot(ray, cross(a, b)), bc = dot(ray, cross(b, c)), ca = dot(ray, cross(c, a));
+    const bool isThrough = (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+    if (!isThrough) return false;
+    const RealVector normal = cross(b - a, c - a);
+    const Real along = dot(normal, ray);
+    if (along == 0) return false;
+    const Real t = dot(normal, a) / along;
+    return t > 0 && t < 1 - 1e-12L;
+}
+
+bool OcclusionScene::isBlocked(const RealVector& point) const {
+    return std::any_of(triangles.begin(), triangles.end(),
+                       [&](const Triangle& triangle) { return meets(triangle, real(eye), point); });
+}
+
+RealVector OcclusionScene::pointIn(Random& random, const GroundTile& tile) const {
+    if (random.chance(0.7)) {
+        const auto count = static_cast<int>(tile.mesh.triangles.size() / 3);
+        return randomPointOf(random, triangleAt(tile.mesh, 3 * static_cast<std::size_t>(random.integer(0, count - 1))));
+    }
+    const auto in = [&](const Interval& i) { return random.uniform(i.lower, i.upper); };
+    return real(ellipsoid.toEcef({in(tile.bin.latitude()), in(tile.bin.longitude()), in(tile.bin.altitude())}));
+}
+
+RealVector OcclusionScene::topOf(Random& random, const GroundTile& tile) const {
+    const auto in = [&](const Interval& i) { return random.uniform(i.lower, i.upper); };
+    return real(ellipsoid.toEcef({in(tile.bin.latitude()), in(tile.bin.longitude()), tile.bin.altitude().upper}));
+}
+
+}  // namespace osgAnalyticBin::test
