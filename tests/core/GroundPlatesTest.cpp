@@ -128,6 +128,26 @@ TEST(GroundPlates, ColumnsLieBelowTheMeshWhereItHasHolesAndFolds) {
     EXPECT_GT(known, 2000 * 10);
 }
 
+// Triangles at a pole's vertex run around the axis, whatever longitudes the tile has.
+TEST(GroundPlates, ColumnsLieBelowTheMeshWhereItEndsInAPole) {
+    Random random(1708);
+    int known = 0;
+    for (const double west : {-3.14159, 0.3, 3.06, 3.3, 6.0, 31.0}) {
+        for (const double off : {0.0, 4e-10, 1e-3}) {
+            const Ellipsoid earth = wgs84();
+            const GeodeticBin extents({1.4, 1.5707963267948966}, {west, west + 0.17}, {-100.0, 100.0});
+            EcefMesh mesh = gridMesh(random, earth, GeodeticBin({1.4, 1.57}, extents.longitude(), {0.0, 0.0}), 24);
+            const std::uint32_t pole = static_cast<std::uint32_t>(mesh.size());
+            const glm::dvec3 away = off * random.direction();
+            addVertex(mesh, glm::dvec3(away.x, away.y, earth.polarRadius() - 3000.0));
+            for (std::uint32_t i = 0; i < 24; ++i)
+                mesh.triangles.insert(mesh.triangles.end(), {24 * 25 + i, 24 * 25 + i + 1, pole});
+            expectBelow(random, earth, mesh, GroundPlates(earth, mesh, extents), known);
+        }
+    }
+    EXPECT_GT(known, 6 * 3 * 20);
+}
+
 TEST(GroundPlates, AreAsHighAsTheLowestPostOfEachCell) {
     constexpr std::uint32_t kPostsOfCell = 4;
     Random random(1703);

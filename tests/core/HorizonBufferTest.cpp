@@ -102,27 +102,89 @@ TEST(HorizonBuffer, HidesMuchOfWhatNoRayReaches) {
     EXPECT_GT(hidden, unseen / 3);
 }
 
-TEST(HorizonBuffer, AnswersOnlyFrontToBack) {
-    Random random(1706);
-    int hidden = 0;
-    while (hidden < 20) {
-        const OcclusionScene scene(random);
-        HorizonBuffer buffer = bufferOf(scene);
-        for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, 8);
-        const auto tiles = frontToBack(scene, buffer);
-        const auto hiddenOne = std::find_if(tiles.begin(), tiles.end(), [&](const auto& tile) {
-            return buffer.hides(tile.second.corners, tile.second.reach);
+// A body and where it is in the picture of an eye at the origin that looks along y, with z up: x, y and distance.
+struct Placed {
+    static glm::dvec3 at(double x, double y, double forward) { return {x * forward, forward, y * forward}; }
+
+    static EarthColumn earth(Random& random) {
+        const double forward = random.logUniform(1e3, 1e5), x = random.uniform(-1.2, 1.2),
+                     y = random.uniform(-0.1, 0.1);
+        const double size = random.logUniform(0.003, 0.3), depth = random.uniform(0.0, 0.5);
+        EarthColumn column;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const auto spot = [&](double low) {
+                return at(x + size * random.uniform(-1.0, 1.0), low + size * random.uniform(-2.0, 2.0),
+                          forward * random.uniform(0.9, 1.1));
+            };
+            column.top[i] = spot(y);
+            column.bottom[i] = spot(y - depth);
+        }
+        column.error = 1e-6;
+        return column;
+    }
+};
+
+// Whether a point of the picture is in the picture of the column: no line through it has all corners on one side.
+bool isInPicture(const EarthColumn& column, const RealVector& point) {
+    std::vector<std::array<Real, 2>> corners;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const RealVector corner = real(i < 4 ? column.top[i] : column.bottom[i - 4]);
+        corners.push_back({corner.x / corner.y - point.x / point.y, corner.z / corner.y - point.z / point.y});
+    }
+    for (const auto& a : corners) {
+        // all corners on one side of the line through the point and this one
+        const auto sideOf = [&](const auto& b) { return a[0] * b[1] - a[1] * b[0]; };
+        const bool isLeft = std::all_of(corners.begin(), corners.end(), [&](const auto& b) {
+            return sideOf(b) > 0 || (sideOf(b) == 0 && a[0] * b[0] + a[1] * b[1] >= 0);
         });
-        if (hiddenOne == tiles.end() || hiddenOne + 1 == tiles.end()) continue;
-        ++hidden;
-        // earth that is in the columns from now on may be behind what is nearer
-        (void)buffer.hides(tiles.back().second.corners, tiles.back().second.reach);
-        const double reach = hiddenOne->second.reach;
-        if (buffer.nearest(hiddenOne->second.corners, reach) + reach <
-            buffer.nearest(tiles.back().second.corners, 0.0) - tiles.back().second.reach) {
-            EXPECT_FALSE(buffer.hides(tiles.front().second.corners, tiles.front().second.reach));
+        if (isLeft && !(a[0] == 0 && a[1] == 0)) return false;
+    }
+    return true;
+}
+
+TEST(HorizonBuffer, HidesOnlyWhatIsInThePictureOfEarthInFront) {
+    Random random(1707);
+    int hidden = 0;
+    for (int scene = 0; scene < 8000; ++scene) {
+        std::vector<EarthColumn> columns;
+        HorizonBuffer buffer({0, 0, 0}, {0, 1, 0}, {0, 0, 1}, kAcross);
+        const int count = random.integer(1, 30);
+        for (int i = 0; i < count; ++i) {
+            columns.push_back(Placed::earth(random));
+            buffer.add(columns.back());
+        }
+        for (int i = 0; i < 300; ++i) {
+            // close to an edge of a picture, or anywhere
+            const EarthColumn& near = columns[static_cast<std::size_t>(random.integer(0, count - 1))];
+            const glm::dvec3 a = random.pick(random.chance(0.6) ? near.top : near.bottom);
+            const glm::dvec3 b = random.pick(random.chance(0.6) ? near.top : near.bottom);
+            const double share = random.chance(0.5) ? random.uniform() : random.sign() * random.logUniform(1e-5, 1e-1);
+            const double x = (1.0 - share) * a.x / a.y + share * b.x / b.y;
+            const double y =
+                (1.0 - share) * a.z / a.y + share * b.z / b.y - random.sign() * random.logUniform(1e-6, 1e-1);
+            // mostly front to back, or no answer would be yes
+            const double forward = random.chance(0.1) ? random.logUniform(1e3, 2e5) : 1e3 * std::pow(200.0, i / 300.0);
+            const double size = forward * random.logUniform(1e-9, 1e-2);
+            Body body;
+            for (glm::dvec3& corner : body.corners)
+                corner = Placed::at(x, y, forward) + random.uniform(0.0, size) * random.direction();
+            body.reach = random.chance(0.5) ? size : 1e-9 * size;
+            if (!buffer.hides(body.corners, body.reach)) continue;
+            const glm::dvec3 point = random.pick(body.corners) + 0.999 * body.reach * random.direction();
+            if (std::abs(point.x) > point.y) continue;
+            ++hidden;
+            ASSERT_TRUE(std::any_of(columns.begin(), columns.end(),
+                                    [&](const EarthColumn& column) {
+                                        double farthest = 0.0;
+                                        for (const auto& part : {column.top, column.bottom})
+                                            for (const glm::dvec3& corner : part)
+                                                farthest = std::max(farthest, corner.y);
+                                        return farthest <= point.y && isInPicture(column, real(point));
+                                    }))
+                << "scene " << scene;
         }
     }
+    EXPECT_GT(hidden, 50000);
 }
 
 TEST(HorizonBuffer, LeavesOutWhatHasNoPlaceInThePicture) {
@@ -153,7 +215,17 @@ TEST(HorizonBuffer, LeavesOutWhatHasNoPlaceInThePicture) {
     EarthColumn broken = wall(0.002, 0.003);
     broken.top[2].y = std::nan("");
     EXPECT_FALSE(hides(broken, behind));
+    // an error that is forgotten, and corners as near as rounding allows
+    EarthColumn close = wall(0.002, 0.003);
+    close.error = 0.0;
+    for (std::size_t i = 0; i < 2; ++i) {
+        close.top[i] = eye + glm::dvec3(1e-8, i == 0 ? 0.5e-8 : 1e-8, 1e-8);
+        close.bottom[i] = eye + glm::dvec3(-1e-8, i == 0 ? 0.5e-8 : 1e-8, 1e-8);
+    }
+    EXPECT_FALSE(hides(close, behind));
     Body endless = behind;
+    endless.reach = -1.0;
+    EXPECT_FALSE(hides(wall(0.002, 0.003), endless));
     endless.reach = std::nan("");
     EXPECT_FALSE(hides(wall(0.002, 0.003), endless));
     Body nowhere = behind;

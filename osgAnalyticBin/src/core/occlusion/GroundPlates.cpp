@@ -89,7 +89,7 @@ private:
         return {_mesh.vertex(triangle[0]), _mesh.vertex(triangle[1]), _mesh.vertex(triangle[2])};
     }
 
-    // Whether most triangles show their front side upward (1) or downward (-1).
+    // Whether the triangles show their front side upward (1) or downward (-1), by the volumes below them.
     [[nodiscard]] double sense() const {
         double sum = 0.0;
         for (std::size_t i = 0; i + 2 < _mesh.triangles.size(); i += 3) {
@@ -121,10 +121,12 @@ private:
 
     template <class Do>
     void forEachCell(const GeodeticBin& met, Do&& cell) {
+        // what goes around the axis is told by other longitudes than the extents'
+        const bool isAround = met.empty() || met.isFullCircle();
         for (const std::size_t cells : kCellsOfGrids) {
             const CellRange rows = cellsIn(_plates._latitude, cells, met.empty() ? _plates._latitude : met.latitude());
             const CellRange columns =
-                cellsIn(_plates._longitude, cells, met.empty() ? _plates._longitude : met.longitude());
+                cellsIn(_plates._longitude, cells, isAround ? _plates._longitude : met.longitude());
             for (std::ptrdiff_t row = rows.first; row <= rows.last; ++row) {
                 for (std::ptrdiff_t column = columns.first; column <= columns.last; ++column)
                     cell(cells, static_cast<std::size_t>(row), static_cast<std::size_t>(column));
@@ -146,8 +148,8 @@ private:
             return;
         }
         noteEdges(a, b, c);
-        // 16 bits of the bound's own rounding, and a float
-        const double room = 1e-7 + 1e-14 * _plates._ellipsoid.equatorialRadius();
+        // more than what GeodeticMeshBounds allows itself
+        const double room = 2e-14 * std::max(_plates._ellipsoid.equatorialRadius(), _plates._ellipsoid.polarRadius());
         const float low = roundedDown(bounds.altitude().lower - room);
         forEachCell(bounds, [&](std::size_t cells, std::size_t row, std::size_t column) {
             const std::size_t i = number(cells, row, column);
@@ -223,8 +225,10 @@ std::optional<EarthColumn> GroundPlates::column(std::size_t cells, std::size_t r
     // doc/occlusion.md, section 2: how far chords of a parallel leave it toward the pole, in latitude
     const double bulge = 0.55 * (1.0 / std::cos(0.5 * inner * across) - 1.0);
     const double smallest = std::min(_ellipsoid.equatorialRadius(), _ellipsoid.polarRadius());
+    // beside the rounding of longitudes many turns away
+    const bool isWide = across * kRim > 64.0 * kEpsilon * (1.0 + std::abs(_longitude.lower));
     const bool isShallow = std::abs(high) < 0.1 * smallest && depth >= 0.0 && depth < 0.1 * smallest;
-    if (!(across * inner < 1.0) || !(bulge < 0.5 * kRim * along) || !isShallow) return std::nullopt;
+    if (!isWide || !(across * inner < 1.0) || !(bulge < 0.5 * kRim * along) || !isShallow) return std::nullopt;
     EarthColumn earth;
     earth.error = 32.0 * kEpsilon * (_ellipsoid.equatorialRadius() + std::abs(high) + depth);
     for (std::size_t i = 0; i < 4; ++i) {

@@ -17,6 +17,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// Of a vector from the eye, in units of the longest vector from the centre.
+constexpr double kVectorRounding = 16.0 * kEpsilon;
+
 // What positions in the picture are wrong by, in units of 1 + |position|: a few roundings of ECEF positions over the
 // distance, which doc/occlusion.md, section 4, adds up.
 double pictureError(double metres, double forward, double largest) {
@@ -56,24 +59,28 @@ void HorizonBuffer::add(const EarthColumn& column) {
     constexpr double kSteepest = 1e3;
     Pending earth{0.0, {}, {}, 0.0};
     double nearest = kInfinity, left = kInfinity, right = -kInfinity, largest = 0.0;
+    double size = glm::length(_eye);
+    for (std::size_t i = 0; i < 4; ++i)
+        size = std::max({size, glm::length(column.top[i]), glm::length(column.bottom[i])});
+    const double error = column.error + kVectorRounding * size;
+    if (!(column.error >= 0.0)) return;
     for (std::size_t i = 0; i < 4; ++i) {
         earth.top[i] = spotOf(column.top[i]);
         earth.bottom[i] = spotOf(column.bottom[i]);
         for (const Spot& spot : {earth.top[i], earth.bottom[i]}) {
             // written so that NaN is left out; rays near the picture's plane would make positions as large as one likes
             const bool isInPicture =
-                spot.forward > 4.0 * column.error && std::abs(spot.x) < kSteepest && std::abs(spot.y) < kSteepest;
+                spot.forward > 4.0 * error && std::abs(spot.x) < kSteepest && std::abs(spot.y) < kSteepest;
             if (!isInPicture) return;
             nearest = std::min(nearest, spot.forward);
-            earth.farthest = std::max(earth.farthest, spot.forward + column.error);
+            earth.farthest = std::max(earth.farthest, spot.forward + error);
             left = std::min(left, spot.x);
             right = std::max(right, spot.x);
             largest = std::max({largest, std::abs(spot.x), std::abs(spot.y)});
         }
     }
     if (!(right - left > _step) || right < _across.lower || left > _across.upper) return;
-    const double rounding = 8.0 * kEpsilon * (glm::length(_eye) + glm::length(column.top[0]));
-    earth.error = pictureError(column.error + rounding, nearest, largest);
+    earth.error = pictureError(error, nearest, largest);
     // chords are believed over a step: they have to be long beside what their ends are wrong by
     if (!(earth.error < 0.01 * _step)) return;
     _pending.push_back(earth);
@@ -126,9 +133,11 @@ void HorizonBuffer::raise(const Pending& earth) {
 }
 
 bool HorizonBuffer::hides(const std::array<glm::dvec3, 8>& corners, double reach) {
-    const double rounding = 8.0 * kEpsilon * (glm::length(_eye) + glm::length(corners[0]));
+    double size = glm::length(_eye);
+    for (const glm::dvec3& corner : corners) size = std::max(size, glm::length(corner));
+    const double rounding = kVectorRounding * size;
     const double near = nearest(corners, reach) - rounding;
-    if (!(near > 0.0) || near < _reached) return false;
+    if (!(near > 0.0 && reach >= 0.0) || near < _reached) return false;
     while (!_pending.empty() && _pending.front().farthest <= near) {
         std::pop_heap(_pending.begin(), _pending.end());
         _reached = std::max(_reached, _pending.back().farthest);
@@ -144,8 +153,10 @@ bool HorizonBuffer::hides(const std::array<glm::dvec3, 8>& corners, double reach
         heights = {std::min(heights.lower, spot.y - error), std::max(heights.upper, spot.y + error)};
     }
     if (across.upper < _across.lower || across.lower > _across.upper) return false;
-    const double from = std::floor((across.lower - _across.lower) / _step) - 1.0;
-    const double to = std::floor((across.upper - _across.lower) / _step) + 1.0;
+    // the rounding of the quotient; that of the columns' edges is in the errors of the corners
+    constexpr double kRoom = 1e-6;
+    const double from = std::floor((across.lower - _across.lower) / _step - kRoom);
+    const double to = std::floor((across.upper - _across.lower) / _step + kRoom);
     const auto first = static_cast<std::size_t>(std::clamp(from, 0.0, static_cast<double>(kColumns - 1)));
     const auto last = static_cast<std::size_t>(std::clamp(to, 0.0, static_cast<double>(kColumns - 1)));
     for (std::size_t column = first; column <= last; ++column) {

@@ -34,20 +34,20 @@ public:
     /// Nothing is known.
     GroundPlates() noexcept;
 
-    /// Of a mesh that lies within the extents, whose altitudes are not read. A cell is known where the mesh covers all
+    /// Of a mesh that lies within the extents; their altitudes are ignored. A cell is known where the mesh covers all
     /// of it, and where all triangles face the same way, up or down.
     /// Cost: one or two microseconds for each triangle. Requires: indices within the vertices.
     GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents);
 
     /// Metres, of a cell in the grid of `cells` cells a side, 1, 2, 4 or 8; rows run north, columns east. Minus
-    /// infinity: not known.
+    /// infinity: not known. Requires: such a grid and cell.
     [[nodiscard]] float least(std::size_t cells, std::size_t row, std::size_t column) const noexcept;
 
     /// What is below a known cell, `depth` metres deep.
-    /// Guarantee: every point of it has the mesh above it, along the ellipsoid's normal; tests:
+    /// Guarantee: every point of it, up to `error`, has the mesh above it, along the ellipsoid's normal; tests:
     /// GroundPlates.ColumnsLieBelowTheMesh*.
-    /// Returns: nullopt where nothing is known, and for cells too wide for the rim: wider than some 20 degrees, or
-    /// close to a pole.
+    /// Returns: nullopt where nothing is known, and for cells too wide for the rim: with angles in radians, where the
+    /// square of the width in longitude exceeds about an eighth of the width in latitude. Requires: as least().
     [[nodiscard]] std::optional<EarthColumn> column(std::size_t cells, std::size_t row, std::size_t column,
                                                     double depth) const noexcept;
 

@@ -14,9 +14,8 @@
 
 namespace osgAnalyticBin::core {
 
-/// Where an eye looks at earth, by directions: a picture on the vertical plane in front of the eye, cut into columns of
-/// equal width, each with the heights of the picture that earth in front covers. What lies behind that earth, seen from
-/// the eye, is hidden.
+/// The part of an eye's view that earth covers: a picture on the vertical plane in front of the eye, cut into columns
+/// of equal width, each with the heights that earth in front covers. What lies behind that earth is hidden.
 /// Positions in the picture: x = right / forward, y = up / forward, of the vector from the eye.
 /// Source: doc/occlusion.md, sections 1 and 4.
 class HorizonBuffer final {
@@ -24,8 +23,8 @@ public:
     /// Columns of the picture.
     static constexpr std::size_t kColumns = 1024;
 
-    /// `forward` and `up` are unit vectors and perpendicular; up is the eye's vertical. `across`: the x of what the
-    /// camera sees at most; what is beside it hides nothing, and is not asked for.
+    /// `forward` and `up` are unit vectors and perpendicular; up is the eye's vertical. `across`: the range of x
+    /// that the camera can see, or more; what is beside it hides nothing, and nobody asks for it.
     HorizonBuffer(const glm::dvec3& eye, const glm::dvec3& forward, const glm::dvec3& up, const Interval& across);
 
     /// Adds earth. It hides what is no nearer than its farthest corner. Earth beside or behind the eye is left out.
