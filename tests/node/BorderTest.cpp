@@ -4,10 +4,10 @@
 // Skirts at the outer border of a database, where no neighbour stands before them. Oracle: the triangles that
 // osgTerrain draws.
 
-#include "../../osgAnalyticBin/src/node/install/BinInstaller.h"
 #include "DatabaseFixture.h"
 #include "TileFixture.h"
 
+#include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>
@@ -98,9 +98,7 @@ TEST(Border, TilesThatAnIndexKnowsHoldTheirSkirtsToo) {
     const osg::ref_ptr<BinIndex> index = new BinIndex;
     index->setTiles("", {entryOf(*pair.root->getChild(0))});
     index->setTiles("below.osgb", {entryOf(*pair.tile)});
-    BinInstaller installer;
-    installer.setIndex(index);
-    pair.terrain->accept(installer);
+    installBinsByIndex(*pair.terrain, {}, *index);
     const AnalyticBinCullCallback& root = *installedOn(*pair.root);
     // known, or the bin would hold the default heights
     ASSERT_LT(root.getBin().bin().altitude().upper, 1000.0);

@@ -87,7 +87,7 @@ public:
 
     /// How the tile is culled; items that are an installer's alone are not read.
     void setCullOptions(const CullOptions& options);
-    /// Default: CullOptions().
+    /// Default: CullOptions(). Valid until the next setter.
     [[nodiscard]] const CullOptions& getCullOptions() const { return _setup->options; }
 
     /// Metres; default: those of a default osg::EllipsoidModel. With radii that are not finite and positive the tile is
@@ -104,7 +104,7 @@ public:
     /// database is shown in another shape, or no installed database is above it, the tile is never culled. nullopt: a
     /// mesh that no Terrain shapes.
     void setTerrainShape(const std::optional<TerrainShape>& shape);
-    /// See setTerrainShape().
+    /// See setTerrainShape(). Valid until the next setter.
     [[nodiscard]] const std::optional<TerrainShape>& getTerrainShape() const { return _setup->shape; }
 
     /// Metres by which skirts hang below the bin; they count as a part of it.

@@ -104,12 +104,4 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, osg::Node& mesh, const Anal
     return true;
 }
 
-bool mayBeAbove(const core::Geodetic& place, const osg::BoundingSphere& sphere, const core::Ellipsoid& ellipsoid) {
-    const glm::dvec3 up = core::LocalFrame(place.latitude, place.longitude).up;
-    const glm::dvec3 toCenter = toGlm(osg::Vec3d(sphere.center())) - ellipsoid.toEcef(place);
-    const double above = glm::dot(toCenter, up);
-    const double radius = sphere.radius();
-    return above >= -radius && glm::length(toCenter - above * up) <= radius;
-}
-
 }  // namespace osgAnalyticBin

@@ -7,7 +7,6 @@
 #include <osgAnalyticBin/core/Ellipsoid.h>
 
 #include <glm/vec3.hpp>
-#include <osg/BoundingSphere>
 #include <osg/Node>
 #include <osg/observer_ptr>
 
@@ -33,9 +32,5 @@ private:
     int _uses = 0;
     std::array<glm::dvec3, 3> _triangle{};  // ECEF
 };
-
-/// Whether something within the sphere (ECEF) may be above the place, along the ellipsoid's normal.
-[[nodiscard]] bool mayBeAbove(const core::Geodetic& place, const osg::BoundingSphere& sphere,
-                              const core::Ellipsoid& ellipsoid);
 
 }  // namespace osgAnalyticBin

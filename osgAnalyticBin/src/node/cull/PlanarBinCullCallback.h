@@ -34,7 +34,7 @@ public:
     [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
     [[nodiscard]] const PlanarBin& bin() const { return _bin; }
 
-    /// See AnalyticBinCullCallback::installedTile().
+    /// See AnalyticBinCullCallback::getInstalledTile().
     [[nodiscard]] InstalledTile* getInstalledTile() const { return _installed.get(); }
     void setInstalledTile(InstalledTile* tile) { _installed = tile; }
 

@@ -5,12 +5,10 @@
 
 #include "../../core/EarthScale.h"
 #include "../Inverse.h"
-#include "../Spheres.h"
 #include "../install/InstalledTile.h"
 #include "Bits.h"
 #include "CullCallbacks.h"
 #include "CullTraversal.h"
-#include "GroundBelow.h"
 #include "Scoped.h"
 #include "SeeThrough.h"
 #include "TileFamily.h"
@@ -83,6 +81,7 @@ public:
 
 private:
     void searchChildren(osg::Group& group, const TileFamily* family) {
+        if (family && family->hasLostTiles()) _hasHole = true;
         const bool isFamily = family && !_toEcef && family->culls(group, _database.cullStack, _database.view);
         if (isFamily) return searchFamily(group, *family);
         for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) searchNode(*group.getChild(i));
@@ -91,7 +90,7 @@ private:
     // Does not read tiles that are passed over.
     void searchFamily(osg::Group& group, const TileFamily& family) {
         const unsigned int children = group.getNumChildren();
-        if (children < family.size() || family.hasLostTiles()) _hasHole = true;
+        if (children < family.size()) _hasHole = true;
         TileFamily::Verdicts verdicts;
         for (unsigned int first = 0; first < children && !_hasHole; first += TileBlock::Part::kMost) {
             test(group, family, first, verdicts);
@@ -146,23 +145,16 @@ private:
         if (callbacks.bin) return searchTileWithoutFamily(node, *callbacks.bin, callbacks.mayLeaveOut);
         // another database is on a globe of its own
         if (!isGroup && dynamic_cast<osg::CoordinateSystemNode*>(&node)) return;
-        const bool isSureItself = isSurelyDrawn(node, callbacks.mayLeaveOut);
-        const bool isDrawn = isSureItself && (isGroup || drawsAllChildren(node));
-        std::optional<osg::Matrixd> inside;
-        if (!isGroup && node.asTransform()) inside = frameInside(node);
-        const Scoped frame(_toEcef, inside ? &*inside : _toEcef);
-        if (_database.hasTilesWithoutBin && !isTrustedWithoutBin(node, isDrawn, isSureItself)) _hasHole = true;
+        const osg::Transform* const transform = isGroup ? nullptr : node.asTransform();
+        const bool isDrawn = isSurelyDrawn(node, callbacks.mayLeaveOut) && (isGroup || drawsAllChildren(node)) &&
+                             !(transform && transform->getReferenceFrame() != osg::Transform::RELATIVE_RF);
         const Scoped doubtful(_isDoubtful, _isDoubtful || !isDrawn);
-        if (osg::Group* group = node.asGroup()) searchChildren(*group, callbacks.family);
-    }
-
-    // Whether a node without a bin hides what is behind it, and is not above the eye.
-    [[nodiscard]] bool isTrustedWithoutBin(osg::Node& node, bool isDrawn, bool isSureItself) const {
-        const bool isPaged = isSureItself && !isDrawn && pagedLod(node);
-        const auto* const terrain = dynamic_cast<const osgTerrain::TerrainTile*>(&node);
-        if (!(isDrawn || isPaged) || (terrain && isSeeThrough(*terrain))) return false;
-        if (!_place || !(terrain || node.asDrawable()) || !node.getBound().valid()) return true;
-        return !mayBeAbove(*_place, movedSphere(node.getBound(), frameInside(node)), _database.view.ellipsoid);
+        osg::Group* const group = node.asGroup();
+        if (!group) return;
+        if (!transform) return searchChildren(*group, callbacks.family);
+        const osg::Matrixd toEcef = frameInside(node);
+        const Scoped frame(_toEcef, &toEcef);
+        searchChildren(*group, callbacks.family);
     }
 
     // From the frame of what a node draws.
@@ -175,16 +167,13 @@ private:
 
     // A tile may have several parents, and transforms above it may have changed.
     [[nodiscard]] bool standsAsInstalled(const osg::Node& node, const AnalyticBinCullCallback& tile) const {
+        if (!_toEcef && !node.asTransform()) return tile.getLocalToEcef().isIdentity();
         const osg::Matrixd toEcef = frameInside(node);
-        const double reach = toEcef.getTrans().length() + tile.getLocalToEcef().getTrans().length();
+        const double reach = _database.view.ellipsoid.equatorialRadius() + toEcef.getTrans().length();
         return areNearlyEqual(toEcef, tile.getLocalToEcef(), reach);
     }
 
     void searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool mayLeaveOut) {
-        if (!standsAsInstalled(node, bin)) {
-            _hasHole = true;
-            return;
-        }
         TileBlock::Slot numbers;
         if (const osg::BoundingSphere* const column = bin.ecefColumnSphere()) numbers.column = *column;
         numbers.binLow = bin.getBinLow();
@@ -193,6 +182,8 @@ private:
         const bool isFitted = !bin.getTerrainShape() || *bin.getTerrainShape() == _database.view.shape;
         const SearchedTile tile{bin, numbers, isFitted, nullptr, isAbout(bin)};
         if (!tile.isAboutEye && (isBeside(tile) || bin.isColumnHiddenFrom(_eye))) return;
+        // its place may be empty
+        if (!standsAsInstalled(node, bin)) _hasHole = true;
         searchTile(node, pagedLod(node), tile, mayLeaveOut);
     }
 

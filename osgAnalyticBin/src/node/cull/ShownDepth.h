@@ -24,7 +24,6 @@ struct ShownDatabase {
     osg::NodeVisitor& visitor;
     osg::CullStack& cullStack;
     const DatabaseView& view;
-    bool hasTilesWithoutBin = false;  // which any node without a bin may be
 };
 
 /// The eye over a database: the occluder lies just below the lowest surface that the traversal shows, by levels of

@@ -67,6 +67,16 @@ bool isGlobeBroken(const osg::CoordinateSystemNode& node) {
     return node.getEllipsoidModel() && !hasValidRadii(*node.getEllipsoidModel());
 }
 
+// What looks like a tile, where nobody looks for tiles.
+bool hasTileBelow(osg::Node& subgraph) {
+    bool has = false;
+    forEachNode(subgraph, [&has](osg::Node& node) {
+        has = has || hasStoredBin(node) || dynamic_cast<osg::PagedLOD*>(&node) ||
+              dynamic_cast<osgTerrain::TerrainTile*>(&node);
+    });
+    return has;
+}
+
 // Whether a globe is the one that what is above it stands on.
 bool isSameGlobe(const TileFrame& above, const TileFrame& inside) {
     if (!above.ellipsoid || !inside.ellipsoid || above.isProjected || inside.isProjected) return false;
@@ -199,7 +209,10 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
 void BinInstaller::visitTile(FoundTile& tile) {
     const bool hasNewContent = ContentWatch::hasNewContent(*tile.node);
     uninstall(tile);
-    if (isInstanced(*tile.node, tile.frame)) return passBy(*tile.node, true);
+    if (isInstanced(*tile.node, tile.frame)) {
+        if (installsBins()) database().noteStrayTile(tile.frame.file);
+        return passBy(*tile.node, true);
+    }
     if (installsBins() && !hasStoredBin(*tile.node)) {
         const TerrainShape shape = database().fittedShape();
         const PlanarFit fit = fitPlanarTile(tile, _options, shape);
@@ -250,6 +263,7 @@ void BinInstaller::passBy(osg::Node& node, bool isTile) {
 
 void BinInstaller::visitMoving(osg::Transform& node) {
     removeCallbacksBelow(node);
+    if (installsBins() && hasTileBelow(node)) database().noteStrayTile(frame().file);
 }
 
 // It keeps OSG's own culling; how deep it lies is not known.

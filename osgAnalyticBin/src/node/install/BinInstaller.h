@@ -26,7 +26,7 @@ struct PlanarFit;
 struct TerrainShape;
 
 /// Goes through what is loaded of databases and does what installBins() promises.
-class OSGANALYTICBIN_EXPORT BinInstaller : public TileFinder {
+class BinInstaller : public TileFinder {
 public:
     /// Installs by these options.
     explicit BinInstaller(const CullOptions& options = {});
@@ -61,6 +61,8 @@ private:
     friend class BinReadFileCallback;
     friend class DatabaseUpdateCallback;
     friend OSGANALYTICBIN_EXPORT std::size_t setCullOptions(osg::Node& node, const CullOptions& options);
+    friend OSGANALYTICBIN_EXPORT std::size_t installBinsByIndex(osg::Node& node, const CullOptions& options,
+                                                                const BinIndex& index);
     friend OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions& options,
                                                          const std::string& databaseFileName,
                                                          const osgDB::Options* readOptions);

@@ -45,6 +45,13 @@ std::size_t installBins(osg::Node& node, const CullOptions& options, const std::
     return installer.installed();
 }
 
+std::size_t installBinsByIndex(osg::Node& node, const CullOptions& options, const BinIndex& index) {
+    BinInstaller installer(options);
+    installer.setIndex(&index);
+    installer.installAt(node);
+    return installer.installed();
+}
+
 void setTraversesAlways(osg::Callback& callback) {
     callback.setUserValue(kTraversesAlways, true);
 }

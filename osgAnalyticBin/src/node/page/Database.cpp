@@ -127,6 +127,15 @@ void Database::noteGap(const std::string& where) {
              << std::endl;
 }
 
+void Database::noteStrayTile(const std::string& where) {
+    if (_hasStrayTile.exchange(true, std::memory_order_relaxed)) return;
+    OSG_INFO
+        << "osgAnalyticBin: \"" << where
+        << "\" has tiles that stand in several places or below a transform that moves; where they leave a gap, the "
+           "horizon is not used."
+        << std::endl;
+}
+
 void Database::noteUnknownTechnique() {
     if (_hasUnknownTechnique.exchange(true, std::memory_order_relaxed)) return;
     OSG_INFO << "osgAnalyticBin: the Terrain has a technique that is not osgTerrain::GeometryTechnique; its tiles are "
@@ -180,8 +189,8 @@ void Database::widen(const ParentTile& tile, const Widening& by, bool isFitted) 
     const std::lock_guard<std::mutex> lock(_mutex);
     _corrections[{tile.file, tile.ordinal}].expandBy(by);
     // one file may be paged in several places, and below itself
+    if (isFitted || (tile.widening ? tile.widening->contains(by) : !by.any())) return;
     if (!tile.widening) tile.widening = std::make_unique<Widening>();
-    if (isFitted || tile.widening->contains(by)) return;
     tile.widening->expandBy(by);
     _toWiden.emplace_back(tile.callback, by);
 }

@@ -94,6 +94,11 @@ public:
     void noteGap(const std::string& where);
     [[nodiscard]] bool hasGap() const { return _hasGap.load(std::memory_order_relaxed); }
 
+    /// Says that the database has a tile that is drawn in several places, or that moves. It has no bin, and whether it
+    /// hides what is behind it is not looked at: with a gap no horizon then, given or not.
+    void noteStrayTile(const std::string& where);
+    [[nodiscard]] bool hasStrayTile() const { return _hasStrayTile.load(std::memory_order_relaxed); }
+
     /// Says that osgTerrain tiles are drawn in a way that is not known.
     void noteUnknownTechnique();
 
@@ -142,6 +147,7 @@ private:
     mutable std::atomic<bool> _isRefitWanted{false};
     std::atomic<bool> _isRemoved{false};
     std::atomic<bool> _hasGap{false};
+    std::atomic<bool> _hasStrayTile{false};
     std::atomic<bool> _hasUnknownTechnique{false};
     mutable std::mutex _mutex;  // guards what follows
     CullOptions _options;

@@ -34,11 +34,13 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
     // an eye below the terrain looks through the backs of the faces that would hide
     const bool isAboveTerrain = options.skirts == SkirtUse::Cracks;
     const bool isUsed = isGiven || (horizonUse == HorizonUse::Declared && isAboveTerrain && !database.hasGap());
-    if (!isUsed || isStateSeeThrough(nv)) return std::nullopt;
+    // where other tiles cover the globe, stray ones hide nothing that these do not
+    const bool isRelyingOnStrays = database.hasGap() && database.hasStrayTile();
+    if (!isUsed || isRelyingOnStrays || isStateSeeThrough(nv)) return std::nullopt;
     const auto viewpoint = Viewpoint::of(cullStack, nv, options.inheritViewpoint);
     if (!viewpoint) return std::nullopt;
     const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
-    const ShownDatabase shown{node, nv, cullStack, view, database.hasGap()};
+    const ShownDatabase shown{node, nv, cullStack, view};
     if (isGiven && (!isAboveTerrain || database.hasGap())) return eyeAboveDepth(shown, *viewpoint, deepest);
     // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: what is shown
     // shall not depend on where the camera has been.
