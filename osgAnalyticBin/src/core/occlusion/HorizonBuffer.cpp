@@ -39,19 +39,23 @@ HorizonBuffer::HorizonBuffer(const glm::dvec3& eye, const glm::dvec3& forward, c
       _right(glm::cross(forward, up)),
       _up(up),
       _across(across),
-      _step(across.width() / static_cast<double>(kColumns)) {
+      _step(across.width() / static_cast<double>(kStrips)) {
     _covered.fill({kInfinity, -kInfinity});
+}
+
+double HorizonBuffer::forwardOf(const glm::dvec3& ecef) const noexcept {
+    return glm::dot(ecef - _eye, _forward);
 }
 
 HorizonBuffer::Spot HorizonBuffer::spotOf(const glm::dvec3& ecef) const noexcept {
     const glm::dvec3 from = ecef - _eye;
-    const double forward = glm::dot(from, _forward);
-    return {glm::dot(from, _right) / forward, glm::dot(from, _up) / forward, forward};
+    const double forward = forwardOf(ecef);
+    return {glm::dot(from, _right) / forward, glm::dot(from, _up) / forward};
 }
 
 double HorizonBuffer::nearest(const std::array<glm::dvec3, 8>& corners, double reach) const noexcept {
     double nearest = kInfinity;
-    for (const glm::dvec3& corner : corners) nearest = std::min(nearest, glm::dot(corner - _eye, _forward));
+    for (const glm::dvec3& corner : corners) nearest = std::min(nearest, forwardOf(corner));
     return nearest - reach;
 }
 
@@ -64,20 +68,19 @@ void HorizonBuffer::add(const EarthColumn& column) {
         size = std::max({size, glm::length(column.top[i]), glm::length(column.bottom[i])});
     const double error = column.error + kVectorRounding * size;
     if (!(column.error >= 0.0)) return;
+    const auto place = [&](const glm::dvec3& corner, Spot& spot) {
+        const double forward = forwardOf(corner);
+        spot = spotOf(corner);
+        nearest = std::min(nearest, forward);
+        earth.farthest = std::max(earth.farthest, forward + error);
+        left = std::min(left, spot.x);
+        right = std::max(right, spot.x);
+        largest = std::max({largest, std::abs(spot.x), std::abs(spot.y)});
+        // written so that NaN is left out; rays near the picture's plane would make positions as large as one likes
+        return forward > 4.0 * error && std::abs(spot.x) < kSteepest && std::abs(spot.y) < kSteepest;
+    };
     for (std::size_t i = 0; i < 4; ++i) {
-        earth.top[i] = spotOf(column.top[i]);
-        earth.bottom[i] = spotOf(column.bottom[i]);
-        for (const Spot& spot : {earth.top[i], earth.bottom[i]}) {
-            // written so that NaN is left out; rays near the picture's plane would make positions as large as one likes
-            const bool isInPicture =
-                spot.forward > 4.0 * error && std::abs(spot.x) < kSteepest && std::abs(spot.y) < kSteepest;
-            if (!isInPicture) return;
-            nearest = std::min(nearest, spot.forward);
-            earth.farthest = std::max(earth.farthest, spot.forward + error);
-            left = std::min(left, spot.x);
-            right = std::max(right, spot.x);
-            largest = std::max({largest, std::abs(spot.x), std::abs(spot.y)});
-        }
+        if (!place(column.top[i], earth.top[i]) || !place(column.bottom[i], earth.bottom[i])) return;
     }
     if (!(right - left > _step) || right < _across.lower || left > _across.upper) return;
     earth.error = pictureError(error, nearest, largest);
@@ -87,9 +90,9 @@ void HorizonBuffer::add(const EarthColumn& column) {
     std::push_heap(_pending.begin(), _pending.end());
 }
 
-// Both intervals are covered; where they meet, so is what they cover together, and else the higher one is kept.
-void HorizonBuffer::cover(std::size_t column, const Interval& heights) {
-    Interval& known = _covered[column];
+// Both intervals are covered; where they meet, so is what they cover together, and else only the higher one is kept.
+void HorizonBuffer::cover(std::size_t strip, const Interval& heights) {
+    Interval& known = _covered[strip];
     const bool meet = !isEmpty(known) && heights.lower <= known.upper && known.lower <= heights.upper;
     if (meet) {
         known = {std::min(known.lower, heights.lower), std::max(known.upper, heights.upper)};
@@ -98,37 +101,47 @@ void HorizonBuffer::cover(std::size_t column, const Interval& heights) {
     }
 }
 
-// The column of earth is convex and so is its picture: at each x, between what a chord of its bottom and a chord of
-// its top have there. doc/occlusion.md, section 4.
+// A column of earth is convex and so is its picture: at each x it has all between what a chord of its bottom and a
+// chord of its top have there. doc/occlusion.md, section 4.
 void HorizonBuffer::raise(const Pending& earth) {
+    struct Chord {
+        double left, right, slope, start, room;
+    };
+    std::array<Chord, 12> chords{};
+    std::size_t count = 0, topCount = 0;
     double left = kInfinity, right = -kInfinity;
-    for (const Spot& spot : earth.top) left = std::min(left, spot.x), right = std::max(right, spot.x);
-    const double from = std::ceil((left + earth.error - _across.lower) / _step);
-    const double to = std::floor((right - earth.error - _across.lower) / _step);
-    const auto first = static_cast<std::size_t>(std::clamp(from, 0.0, static_cast<double>(kColumns)));
-    const auto last = static_cast<std::size_t>(std::clamp(to, 0.0, static_cast<double>(kColumns)));
-    for (std::size_t column = first; column < last; ++column) {
-        const double x0 = edge(column), x1 = edge(column + 1);
-        Interval heights{kInfinity, -kInfinity};
-        const auto chords = [&](const std::array<Spot, 4>& corners, bool isTop) {
-            for (std::size_t i = 0; i < 4; ++i) {
-                for (std::size_t j = 0; j < 4; ++j) {
-                    const Spot& a = corners[i];
-                    const Spot& b = corners[j];
-                    if (!(a.x + earth.error <= x0 && x1 <= b.x - earth.error)) continue;
-                    const double slope = (b.y - a.y) / (b.x - a.x);
-                    const double y0 = a.y + slope * (x0 - a.x), y1 = a.y + slope * (x1 - a.x);
-                    const double room = earth.error * (1.0 + std::abs(slope)) * 2.0;
-                    if (isTop)
-                        heights.upper = std::max(heights.upper, std::min(y0, y1) - room);
-                    else
-                        heights.lower = std::min(heights.lower, std::max(y0, y1) + room);
-                }
+    for (const auto* corners : {&earth.top, &earth.bottom}) {
+        for (const Spot& a : *corners) {
+            for (const Spot& b : *corners) {
+                const double from = a.x + earth.error, to = b.x - earth.error;
+                if (!(to - from >= _step)) continue;
+                const double slope = (b.y - a.y) / (b.x - a.x);
+                chords[count++] = {from, to, slope, a.y - slope * a.x, 2.0 * earth.error * (1.0 + std::abs(slope))};
+                left = std::min(left, from);
+                right = std::max(right, to);
             }
-        };
-        chords(earth.top, true);
-        chords(earth.bottom, false);
-        if (!isEmpty(heights)) cover(column, heights);
+        }
+        if (corners == &earth.top) topCount = count;
+    }
+    if (count == 0) return;
+    const auto stripAt = [this](double strips) {
+        return static_cast<std::size_t>(std::clamp(strips, 0.0, static_cast<double>(kStrips)));
+    };
+    const std::size_t last = stripAt(std::floor((right - _across.lower) / _step));
+    for (std::size_t strip = stripAt(std::ceil((left - _across.lower) / _step)); strip < last; ++strip) {
+        const double x0 = edge(strip), x1 = edge(strip + 1);
+        Interval heights{kInfinity, -kInfinity};
+        for (std::size_t i = 0; i < count; ++i) {
+            const Chord& chord = chords[i];
+            if (!(chord.left <= x0 && x1 <= chord.right)) continue;
+            const double y0 = chord.start + chord.slope * x0, y1 = chord.start + chord.slope * x1;
+            if (i < topCount) {
+                heights.upper = std::max(heights.upper, std::min(y0, y1) - chord.room);
+            } else {
+                heights.lower = std::min(heights.lower, std::max(y0, y1) + chord.room);
+            }
+        }
+        if (!isEmpty(heights)) cover(strip, heights);
     }
 }
 
@@ -147,20 +160,21 @@ bool HorizonBuffer::hides(const std::array<glm::dvec3, 8>& corners, double reach
     Interval across{kInfinity, -kInfinity}, heights{kInfinity, -kInfinity};
     for (const glm::dvec3& corner : corners) {
         const Spot spot = spotOf(corner);
-        const double error = pictureError(reach + rounding, spot.forward, std::max(std::abs(spot.x), std::abs(spot.y)));
+        const double error =
+            pictureError(reach + rounding, forwardOf(corner), std::max(std::abs(spot.x), std::abs(spot.y)));
         if (!std::isfinite(spot.x + spot.y + error)) return false;
         across = {std::min(across.lower, spot.x - error), std::max(across.upper, spot.x + error)};
         heights = {std::min(heights.lower, spot.y - error), std::max(heights.upper, spot.y + error)};
     }
     if (across.upper < _across.lower || across.lower > _across.upper) return false;
-    // the rounding of the quotient; that of the columns' edges is in the errors of the corners
+    // the rounding of the quotient; that of the strips' edges is in the errors of the corners
     constexpr double kRoom = 1e-6;
     const double from = std::floor((across.lower - _across.lower) / _step - kRoom);
     const double to = std::floor((across.upper - _across.lower) / _step + kRoom);
-    const auto first = static_cast<std::size_t>(std::clamp(from, 0.0, static_cast<double>(kColumns - 1)));
-    const auto last = static_cast<std::size_t>(std::clamp(to, 0.0, static_cast<double>(kColumns - 1)));
-    for (std::size_t column = first; column <= last; ++column) {
-        if (!(_covered[column].lower <= heights.lower && heights.upper <= _covered[column].upper)) return false;
+    const auto first = static_cast<std::size_t>(std::clamp(from, 0.0, static_cast<double>(kStrips - 1)));
+    const auto last = static_cast<std::size_t>(std::clamp(to, 0.0, static_cast<double>(kStrips - 1)));
+    for (std::size_t strip = first; strip <= last; ++strip) {
+        if (!(_covered[strip].lower <= heights.lower && heights.upper <= _covered[strip].upper)) return false;
     }
     return true;
 }

@@ -14,14 +14,14 @@
 
 namespace osgAnalyticBin::core {
 
-/// The part of an eye's view that earth covers: a picture on the vertical plane in front of the eye, cut into columns
-/// of equal width, each with the heights that earth in front covers. What lies behind that earth is hidden.
+/// The part of an eye's view that earth covers: a picture on the vertical plane in front of the eye, cut into strips of
+/// equal width, each with the heights that earth in front covers. What lies behind that earth is hidden.
 /// Positions in the picture: x = right / forward, y = up / forward, of the vector from the eye.
 /// Source: doc/occlusion.md, sections 1 and 4.
 class HorizonBuffer final {
 public:
-    /// Columns of the picture.
-    static constexpr std::size_t kColumns = 1024;
+    /// Strips of the picture.
+    static constexpr std::size_t kStrips = 1024;
 
     /// `forward` and `up` are unit vectors and perpendicular; up is the eye's vertical. `across`: the range of x
     /// that the camera can see, or more; what is beside it hides nothing, and nobody asks for it.
@@ -34,19 +34,19 @@ public:
     /// `across`. The body: a hull of eight corners, ECEF, and all within `reach` metres of it. Bodies have to be asked
     /// for front to back, by nearest(): one that is nearer than earth that was used for another gets false.
     /// Guarantee: true is a proof, rounding included; tests: HorizonBuffer.*.
-    /// Cost: a short one for each column of the picture that the body spans, and for each that earth spans which was
-    /// added and is used for the first time.
+    /// Cost: a comparison for each strip that the body spans; for earth that is used for the first time, some twenty
+    /// operations for each strip that it spans.
     [[nodiscard]] bool hides(const std::array<glm::dvec3, 8>& corners, double reach);
 
     /// The distance along `forward` of the body's nearest point, metres.
     [[nodiscard]] double nearest(const std::array<glm::dvec3, 8>& corners, double reach) const noexcept;
 
 private:
-    // A point in the picture, and how far along `forward`.
+    // A point in the picture.
     struct Spot {
-        double x, y, forward;
+        double x, y;
     };
-    // Earth that is not in the columns yet. The heap has the nearest on top.
+    // Earth that is not in the strips yet. The heap has the nearest on top.
     struct Pending {
         double farthest;
         std::array<Spot, 4> top, bottom;
@@ -54,19 +54,20 @@ private:
         [[nodiscard]] bool operator<(const Pending& other) const noexcept { return farthest > other.farthest; }
     };
 
+    [[nodiscard]] double forwardOf(const glm::dvec3& ecef) const noexcept;
     [[nodiscard]] Spot spotOf(const glm::dvec3& ecef) const noexcept;
-    [[nodiscard]] double edge(std::size_t column) const noexcept {
-        return _across.lower + _step * static_cast<double>(column);
+    [[nodiscard]] double edge(std::size_t strip) const noexcept {
+        return _across.lower + _step * static_cast<double>(strip);
     }
     void raise(const Pending& earth);
-    void cover(std::size_t column, const Interval& heights);
+    void cover(std::size_t strip, const Interval& heights);
 
     glm::dvec3 _eye, _forward, _right, _up;
     Interval _across;
     double _step;
-    double _reached = 0.0;  // the farthest corner of the earth that is in the columns
+    double _reached = 0.0;  // the farthest corner of the earth that is in the strips
     std::vector<Pending> _pending;
-    std::array<Interval, kColumns> _covered;  // empty: nothing
+    std::array<Interval, kStrips> _covered;  // empty: nothing
 };
 
 }  // namespace osgAnalyticBin::core
