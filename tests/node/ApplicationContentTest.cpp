@@ -67,6 +67,39 @@ TEST(AddedContent, OfAnApplicationsGroupIsDrawnAtOnce) {
     EXPECT_TRUE(globe.draws(*vehicle, downTo(20, 60, 3000.0, 5.0)));
 }
 
+// A leaf of a file is a transform, whose bin stands on a group above it.
+TEST(AddedContent, IsALeafThatIsMovedByItsOwnTransform) {
+    FiledGlobe globe;
+    osg::Node* leaf = globe.group->getChild(0);
+    while (!leaf->asTransform()) leaf = leaf->asGroup()->getChild(0);
+    const osg::Vec3d place = leaf->getBound().center();
+    osg::MatrixTransform& transform = *leaf->asTransform()->asMatrixTransform();
+    EXPECT_TRUE(globe.draws(transform, CullView::lookAt(place * 1.1, {0, 0, 0}, {0, 0, 1}, 5.0)));
+    const osg::Matrixd away = osg::Matrixd::rotate(osg::DegreesToRadians(120.0), osg::Vec3d(0, 0, 1));
+    transform.setMatrix(transform.getMatrix() * away);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(globe.draws(transform, CullView::lookAt(place * away * 1.1, {0, 0, 0}, {0, 0, 1}, 5.0))) << i;
+        update(*globe.root);
+    }
+}
+
+TEST(AddedContent, IsATileThatIsATransformAndMoves) {
+    MeshGlobe globe;
+    const osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform;
+    tile->addChild(makeMeshTile(extentsDeg(10, 20, 10, 20), 1000.0));
+    setStoredBin(*tile, AnalyticBin(core::GeodeticBin::fromDegrees({10, 20}, {10, 20}, {-60000, 2000})));
+    globe.root->addChild(tile);
+    installBins(*globe.root);
+    ASSERT_NE(installedOn(*tile), nullptr);
+    EXPECT_TRUE(globe.draws(*tile, downTo(15, 15)));
+    EXPECT_FALSE(globe.draws(*tile, downTo(15, 135)));
+    tile->setMatrix(osg::Matrixd::rotate(osg::DegreesToRadians(120.0), osg::Vec3d(0, 0, 1)));
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(globe.draws(*tile, downTo(15, 135))) << i;
+        update(*globe.root);
+    }
+}
+
 TEST(AddedContent, BelowATileWidensItsBinAndThoseAbove) {
     FiledGlobe globe;
     osg::Group* const leaf = globe.group->getChild(0)->asGroup();

@@ -159,17 +159,26 @@ TEST(UndergroundEyes, AreFoundWhereAGeodeHoldsATransform) {
 }
 
 TEST(HoledGlobe, IsSeenThroughWhereATransformMovesATileAway) {
+    const osg::Matrixd away = osg::Matrixd::rotate(osg::DegreesToRadians(45.0), osg::Vec3d(0, 0, 1));
     for (const CullOptions& options : {CullOptions(), declaredHorizon()}) {
         MeshGlobe globe;
         const osg::ref_ptr<osg::MatrixTransform> above = new osg::MatrixTransform;
         globe.root->replaceChild(globe.tiles[19], above);
         above->addChild(globe.tiles[19]);
+        const osg::ref_ptr<osg::MatrixTransform> inside = new osg::MatrixTransform;
+        inside->addChild(globe.tiles[19]->getChild(0));
+        globe.tiles[19]->setChild(0, inside);
         installBins(*globe.root, options);
         EXPECT_FALSE(globe.drawsAntipode());
-        above->setMatrix(osg::Matrixd::rotate(osg::DegreesToRadians(45.0), osg::Vec3d(0, 0, 1)));
+        above->setMatrix(away);
         EXPECT_TRUE(globe.drawsAntipode());
         above->setMatrix(osg::Matrixd());
         EXPECT_FALSE(globe.drawsAntipode());
+        inside->setMatrix(away);
+        for (int i = 0; i < 3; ++i) {
+            EXPECT_TRUE(globe.drawsAntipode()) << i;
+            update(*globe.root);
+        }
     }
 }
 

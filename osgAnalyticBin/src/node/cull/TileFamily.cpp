@@ -108,7 +108,8 @@ void TileFamily::renew(osg::Node& node) {
 
 bool TileFamily::add(osg::Node& child, std::size_t slot) {
     const AnalyticBinCullCallback* const tile = installedBinOf(child);
-    if (!tile || !tile->_isTested || tile->_frame) return false;
+    // a transform may move
+    if (!tile || !tile->_isTested || tile->_frame || child.asTransform()) return false;
     if (!_ellipsoid) {
         _ellipsoid = tile->ellipsoid();
         _shape = tile->_setup->shape;

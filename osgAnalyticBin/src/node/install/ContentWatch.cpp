@@ -80,6 +80,13 @@ std::uint64_t structureOf(const osg::Node& mesh) {
     return hash;
 }
 
+// What changes when a transform is moved; 0: it is none.
+std::uint64_t frameOf(const osg::Node& node) {
+    std::uint64_t hash = 0;
+    if (const osg::Transform* const transform = node.asTransform()) mixFrame(hash, *transform);
+    return hash;
+}
+
 // What changes when vertices do. Never 0.
 std::uint64_t boundsOf(const osg::Node& mesh) {
     std::uint64_t hash = 1;
@@ -207,13 +214,14 @@ void fitIntoTilesFrom(const osg::Node& node, Content content) {
 }
 
 // Says that the mesh of the tile that a watched node belongs to has changed. The next update makes the tile's family
-// anew.
-void doubtMeshOf(const osg::Node& node) {
+// anew. `isMoved`: its place may be empty.
+void doubtMeshOf(const osg::Node& node, bool isMoved) {
     const osg::Node* culled = &node;
     if (!installedTileOf(node)) culled = carrierOf(const_cast<osg::Node&>(node));
     InstalledTile* const tile = culled ? installedTileOf(*culled) : nullptr;
     if (!tile) return;
     tile->doubtMesh();
+    if (isMoved) tile->setSeeThrough();
     // the update traversal must not touch what is not merged into the scene yet
     if (!isBelowDatabase(*culled)) return;
     for (osg::Group* const parent : culled->getParents()) tile->database().noteChanged(*parent);
@@ -233,14 +241,16 @@ void ContentWatch::place(osg::Node& node, const std::vector<osg::ref_ptr<osg::No
     remove(node);
     const osg::ref_ptr<ContentWatch> watch = new ContentWatch;
     watch->_node = &node;
+    watch->_frame = frameOf(node);
     watch->_previous = node.getComputeBoundingSphereCallback();
     for (const auto& mesh : fitted) {
-        if (mesh != &node) watch->_fitted.push_back({mesh, structureOf(*mesh), 0});
+        if (mesh != &node) watch->_fitted.push_back({mesh, frameOf(*mesh), structureOf(*mesh), 0});
     }
     const bool isMesh = std::find(fitted.begin(), fitted.end(), &node) != fitted.end();
     const osg::Group* const group = isMesh ? node.asGroup() : nullptr;
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
-        watch->_fitted.push_back({group->getChild(i), structureOf(*group->getChild(i)), 0});
+        const osg::Node& child = *group->getChild(i);
+        watch->_fitted.push_back({&child, frameOf(child), structureOf(child), 0});
     }
     node.setComputeBoundingSphereCallback(watch);
     // what is there already, beside meshes, is looked at with the next bound
@@ -288,8 +298,18 @@ bool ContentWatch::isFitted(const osg::Node& child, bool withBounds) const {
     return known->bounds == bounds;
 }
 
+bool ContentWatch::isMoved(const osg::Node& node) const {
+    if (frameOf(node) != _frame) return true;
+    const osg::Group* const group = node.asGroup();
+    return group && std::any_of(_fitted.begin(), _fitted.end(), [&](const Fitted& fitted) {
+               return group->containsNode(fitted.node) && fitted.node->asTransform() &&
+                      frameOf(*fitted.node) != fitted.frame;
+           });
+}
+
 void ContentWatch::check(const osg::Node& node) const {
     _isPending = false;
+    const bool isOwnFrame = frameOf(node) == _frame;
     // osgTerrain draws nothing of what is below its tiles
     const osg::Group* const group = dynamic_cast<const osgTerrain::TerrainTile*>(&node) ? nullptr : node.asGroup();
     std::size_t fitted = 0;
@@ -299,7 +319,7 @@ void ContentWatch::check(const osg::Node& node) const {
         if (const ContentWatch* const watch = ownWatchOf(child)) {
             if (watch->_isPending) watch->check(child);
             _isPending = _isPending || watch->_isPending;
-        } else if (isFitted(child, true)) {
+        } else if (isOwnFrame && isFitted(child, true)) {
             ++fitted;
         } else if (sphere.valid() && !isAbsolute(child)) {
             const bool isMerged = isBelowDatabase(node);
@@ -307,7 +327,7 @@ void ContentWatch::check(const osg::Node& node) const {
             _isPending = _isPending || !isMerged;
         }
     }
-    if (group && fitted < _fitted.size()) doubtMeshOf(node);
+    if (group && fitted < _fitted.size()) doubtMeshOf(node, isMoved(node));
 }
 
 }  // namespace osgAnalyticBin

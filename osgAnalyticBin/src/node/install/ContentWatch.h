@@ -47,7 +47,7 @@ protected:
 private:
     struct Fitted {
         const osg::Node* node;
-        std::uint64_t structure;
+        std::uint64_t frame, structure;
         mutable std::uint64_t bounds;  // 0: not known yet
     };
 
@@ -56,7 +56,11 @@ private:
     [[nodiscard]] bool isFitted(const osg::Node& child, bool withBounds) const;
     void check(const osg::Node& node) const;
 
+    // Whether the node or a fitted child is a transform whose matrix has changed.
+    [[nodiscard]] bool isMoved(const osg::Node& node) const;
+
     const osg::Node* _node = nullptr;  // that it was placed on
+    std::uint64_t _frame = 0;          // of that node
     std::vector<Fitted> _fitted;
     mutable bool _isPending = false;  // whether content has not been looked at from all tiles above: the file is not
                                       // merged yet

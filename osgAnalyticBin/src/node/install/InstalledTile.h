@@ -59,9 +59,10 @@ public:
     /// Has the family leave the tile to its callback until the slot is filled again.
     void emptySlot();
 
-    /// Says that what the tile draws can be seen through, so that the horizon must not rely on it.
-    void setSeeThrough() { _isSeeThrough = true; }
-    [[nodiscard]] bool isSeeThrough() const { return _isSeeThrough; }
+    /// Says that what the tile draws can be seen through, or has been moved away, so that the horizon must not rely on
+    /// it. At any time.
+    void setSeeThrough() { _isSeeThrough.store(true, std::memory_order_relaxed); }
+    [[nodiscard]] bool isSeeThrough() const { return _isSeeThrough.load(std::memory_order_relaxed); }
 
     /// Switches OSG's sphere test off on a node where it is on.
     void suspendSphere(osg::Node& node);
@@ -85,7 +86,7 @@ private:
     osg::ref_ptr<TileBlock> _block;
     std::size_t _slot = 0;
     bool _isSlotFilled = false;
-    bool _isSeeThrough = false;
+    std::atomic<bool> _isSeeThrough{false};
     bool _wasCulledActive = false;                    // of the culled node, which owns this and must not be owned by it
     std::vector<osg::ref_ptr<osg::Node>> _suspended;  // other nodes
     std::vector<bool> _wasActive;
