@@ -167,7 +167,9 @@ TEST(HoledGlobe, IsSeenThroughWhereATransformMovesATileAway) {
         above->addChild(globe.tiles[19]);
         const osg::ref_ptr<osg::MatrixTransform> inside = new osg::MatrixTransform;
         inside->addChild(globe.tiles[19]->getChild(0));
-        globe.tiles[19]->setChild(0, inside);
+        const osg::ref_ptr<osg::Group> mesh = new osg::Group;
+        mesh->addChild(inside);
+        globe.tiles[19]->setChild(0, mesh);
         installBins(*globe.root, options);
         EXPECT_FALSE(globe.drawsAntipode());
         above->setMatrix(away);

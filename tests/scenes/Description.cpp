@@ -70,6 +70,8 @@ const char* kindName(PartKind kind) {
             return "what is paged expires below";
         case PartKind::Move:
             return "the database is moved";
+        case PartKind::Shove:
+            return "the next transform is turned, at or above";
     }
     return "";
 }

@@ -114,7 +114,8 @@ enum class PartKind {
     Clone,
     SaveAndLoad,
     Expire,
-    Move
+    Move,
+    Shove  // a transform at or above a mesh is turned about the axis
 };
 
 /// Where in the scene a part is.

@@ -160,6 +160,14 @@ private:
             Part& part = add(PartKind::Expire, Hook::Tile);
             part.frame = anyFrame();
         }
+        // what is paged below a tile would stay where it is
+        if (database().levels == 0 && _random.chance(0.2)) {
+            static constexpr std::array<Hook, 3> kHooks{Hook::Tile, Hook::Mesh, Hook::Mesh};
+            Part& part = add(PartKind::Shove, _random.pick(kHooks));
+            part.frame = anyFrame();
+            part.amount =
+                _random.chance(0.3) ? _random.uniform(0.0, kTwoPi) : _random.sign() * _random.logUniform(1e-6, 1.0);
+        }
         if (_random.chance(0.05)) {
             Part& part = add(PartKind::Move);
             part.frame = anyFrame();

@@ -117,6 +117,15 @@ void expire(osg::Node& node) {
     if (paged) paged->removeExpiredChildren(kLate, kLateFrame, removed);
 }
 
+// The transform that a node is, or that is next above it in its database.
+void shove(osg::Node& node, double angle) {
+    osg::Node* at = &node;
+    while (!at->asTransform() && at->getNumParents() > 0) at = at->getParent(0);
+    auto* const transform = dynamic_cast<osg::MatrixTransform*>(at);
+    if (!transform || transform->getName().rfind("#place", 0) == 0) return;
+    transform->setMatrix(transform->getMatrix() * osg::Matrixd::rotate(angle, osg::Vec3d(0.0, 0.0, 1.0)));
+}
+
 void toggle(osg::Node& node) {
     auto* above = dynamic_cast<osg::Switch*>(&node);
     if (!above) return;
@@ -163,6 +172,8 @@ void applyPart(const Part& part, const Description& description, osg::Node& subg
             return;
         case PartKind::Expire:
             return expire(*node);
+        case PartKind::Shove:
+            return shove(*node, part.amount);
         case PartKind::Move:
             if (auto* above = dynamic_cast<osg::MatrixTransform*>(node))
                 above->setMatrix(above->getMatrix() * osg::Matrixd::translate(part.amount, 0.0, 0.0));

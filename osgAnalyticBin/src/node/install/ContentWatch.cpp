@@ -70,16 +70,6 @@ void forEachPart(const osg::Node& node, const Visit& visit) {
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) forEachPart(*group->getChild(i), visit);
 }
 
-// What changes when a part of a mesh is added, removed, moved or replaced.
-std::uint64_t structureOf(const osg::Node& mesh) {
-    std::uint64_t hash = 1;
-    forEachPart(mesh, [&hash](const osg::Node& part) {
-        mix(hash, reinterpret_cast<std::uintptr_t>(&part));
-        if (part.asTransform()) mixFrame(hash, *part.asTransform());
-    });
-    return hash;
-}
-
 // What changes when a transform is moved; 0: it is none.
 std::uint64_t frameOf(const osg::Node& node) {
     std::uint64_t hash = 0;
@@ -244,17 +234,26 @@ void ContentWatch::place(osg::Node& node, const std::vector<osg::ref_ptr<osg::No
     watch->_frame = frameOf(node);
     watch->_previous = node.getComputeBoundingSphereCallback();
     for (const auto& mesh : fitted) {
-        if (mesh != &node) watch->_fitted.push_back({mesh, frameOf(*mesh), structureOf(*mesh), 0});
+        if (mesh != &node) watch->_fitted.push_back({mesh, structureOf(*mesh), 0});
     }
     const bool isMesh = std::find(fitted.begin(), fitted.end(), &node) != fitted.end();
     const osg::Group* const group = isMesh ? node.asGroup() : nullptr;
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
-        watch->_fitted.push_back({&child, frameOf(child), structureOf(child), 0});
+        watch->_fitted.push_back({&child, structureOf(child), 0});
     }
     node.setComputeBoundingSphereCallback(watch);
     // what is there already, beside meshes, is looked at with the next bound
     node.dirtyBound();
+}
+
+ContentWatch::Structure ContentWatch::structureOf(const osg::Node& mesh) {
+    Structure structure;
+    forEachPart(mesh, [&structure](const osg::Node& part) {
+        mix(structure.parts, reinterpret_cast<std::uintptr_t>(&part));
+        if (part.asTransform()) mixFrame(structure.frames, *part.asTransform());
+    });
+    return structure;
 }
 
 void ContentWatch::remove(osg::Node& node) {
@@ -291,7 +290,7 @@ const ContentWatch* ContentWatch::ownWatchOf(const osg::Node& node) {
 bool ContentWatch::isFitted(const osg::Node& child, bool withBounds) const {
     const auto known =
         std::find_if(_fitted.begin(), _fitted.end(), [&](const Fitted& fitted) { return fitted.node == &child; });
-    if (known == _fitted.end() || known->structure != structureOf(child)) return false;
+    if (known == _fitted.end() || !(known->structure == structureOf(child))) return false;
     if (!withBounds && known->bounds == 0) return true;
     const std::uint64_t bounds = boundsOf(child);
     if (known->bounds == 0) known->bounds = bounds;
@@ -302,8 +301,9 @@ bool ContentWatch::isMoved(const osg::Node& node) const {
     if (frameOf(node) != _frame) return true;
     const osg::Group* const group = node.asGroup();
     return group && std::any_of(_fitted.begin(), _fitted.end(), [&](const Fitted& fitted) {
-               return group->containsNode(fitted.node) && fitted.node->asTransform() &&
-                      frameOf(*fitted.node) != fitted.frame;
+               if (!group->containsNode(fitted.node)) return false;
+               const Structure now = structureOf(*fitted.node);
+               return now.parts == fitted.structure.parts && now.frames != fitted.structure.frames;
            });
 }
 

@@ -45,18 +45,27 @@ protected:
     ~ContentWatch() override = default;
 
 private:
+    // What changes when parts of a mesh are added, removed or replaced, and when they are moved.
+    struct Structure {
+        std::uint64_t parts = 1, frames = 1;
+        [[nodiscard]] bool operator==(const Structure& other) const {
+            return parts == other.parts && frames == other.frames;
+        }
+    };
     struct Fitted {
         const osg::Node* node;
-        std::uint64_t frame, structure;
+        Structure structure;
         mutable std::uint64_t bounds;  // 0: not known yet
     };
+
+    [[nodiscard]] static Structure structureOf(const osg::Node& mesh);
 
     // That of a node in one place.
     [[nodiscard]] static const ContentWatch* ownWatchOf(const osg::Node& node);
     [[nodiscard]] bool isFitted(const osg::Node& child, bool withBounds) const;
     void check(const osg::Node& node) const;
 
-    // Whether the node or a fitted child is a transform whose matrix has changed.
+    // Whether the node, or a part of a mesh that is the same as before, has been moved by its transform.
     [[nodiscard]] bool isMoved(const osg::Node& node) const;
 
     const osg::Node* _node = nullptr;  // that it was placed on
