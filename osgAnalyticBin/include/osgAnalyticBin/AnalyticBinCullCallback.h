@@ -188,7 +188,7 @@ private:
         std::optional<core::HorizonBin> columnHorizon;   // where it is not that of the bin
         std::optional<core::HorizonPoint> horizonPoint;  // in place of the bin's horizon, for boxes
     };
-    // What the tiles of a database mostly have in common. It is never changed: setters put another in its place.
+    // What most tiles of a database have in common. A setter replaces the whole object; nothing changes it.
     struct Setup {
         CullOptions options;
         double equatorialRadius, polarRadius;
@@ -200,8 +200,10 @@ private:
         osg::Matrixd toEcef, fromEcef;
     };
 
-    // One that this thread has made lately and that is still in use, or else a new one.
+    // An equal object that this thread has made lately and that is still in use, or else a new one.
     [[nodiscard]] static std::shared_ptr<const Setup> shared(const Setup& setup);
+    template <class Change>
+    void changeSetup(const Change& change);
     void changeBin();
     void discardPrepared();
     [[nodiscard]] const Prepared& prepared() const;

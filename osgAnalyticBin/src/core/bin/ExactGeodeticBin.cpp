@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "../Constants.h"
+#include "../FloatRounding.h"
 #include "../kernels/ScalarTests.h"
 
 #include <osgAnalyticBin/core/PlaneSet.h>
@@ -159,7 +160,7 @@ void ExactGeodeticBin::setSphere(const Ellipsoid& ellipsoid, const GeodeticBin& 
     _numbers[row::CenterY] = center.y;
     _numbers[row::CenterZ] = center.z;
     const double reach = (convex ? farthest : farthest + sag) * kNormalTolerance + 4.0 * _numbers[row::Slack];
-    _numbers[row::Reach] = std::nextafter(static_cast<float>(reach), std::numeric_limits<float>::infinity());
+    _numbers[row::Reach] = roundedUp(reach);
     // A parallel leaves its chord by r (1 - cos(width / 2)).
     const double parallelSag = (largestAxisDistance + sag) * (1.0 - spread);
     _numbers[row::Bulge] = _numbers[row::Longitudes] == row::kNarrow

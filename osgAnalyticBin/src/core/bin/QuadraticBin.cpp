@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "../Constants.h"
+#include "../FloatRounding.h"
 #include "../kernels/ScalarTests.h"
 
 #include <osgAnalyticBin/core/PlaneSet.h>
@@ -17,10 +18,6 @@ namespace {
 
 // Rounding of one signed distance, in units of epsilon times the magnitudes that enter; doc/derivation.md, section 7.
 constexpr double kRounding = 128.0 * kEpsilon;
-
-float roundedUp(double value) {
-    return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
-}
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "../Constants.h"
+#include "../FloatRounding.h"
 #include "../LocalFrame.h"
 
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
@@ -21,7 +22,8 @@ namespace osgAnalyticBin::core {
 namespace {
 
 constexpr float kUnknown = -std::numeric_limits<float>::infinity();
-// Of a cell's width, on each side: half of it is left out when triangles are looked at, all of it by columns.
+// The rim on each side of a cell, as a share of its width. Triangles that reach only into its outer half do not count
+// for the cell; columns keep out of all of it.
 constexpr double kRim = 1.0 / 64.0;
 
 constexpr std::array<std::size_t, 4> kCellsOfGrids{1, 2, 4, 8};
@@ -30,9 +32,8 @@ std::size_t firstNumber(std::size_t cells) {
     return (cells * cells - 1) / 3;  // 0, 1, 5, 21
 }
 
-float roundedDown(double value) {
-    const auto rounded = static_cast<float>(value);
-    return static_cast<double>(rounded) > value ? std::nextafter(rounded, kUnknown) : rounded;
+std::size_t numberOf(std::size_t cells, std::size_t row, std::size_t column) {
+    return firstNumber(cells) + row * cells + column;
 }
 
 // The cells of a grid along one axis that an interval meets, first to last; first > last: none.
@@ -60,6 +61,7 @@ public:
         _isCovered.fill(false);
         _isDoubted.fill(false);
         plates._least.fill(std::numeric_limits<float>::infinity());
+        findMiddles();
         mergeVertices();
         _sense = sense();
         for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) addTriangle(&mesh.triangles[i]);
@@ -70,6 +72,24 @@ public:
 
 private:
     using Corners = std::array<glm::dvec3, 3>;
+    // The place on the ellipsoid in the middle of a cell, and the normal there.
+    struct Middle {
+        glm::dvec3 foot, up;
+    };
+
+    void findMiddles() {
+        const auto middle = [](const Interval& extents, std::size_t i, std::size_t cells) {
+            return extents.lower + extents.width() * (static_cast<double>(i) + 0.5) / static_cast<double>(cells);
+        };
+        for (const std::size_t cells : kCellsOfGrids) {
+            for (std::size_t i = 0; i < cells * cells; ++i) {
+                const double latitude = middle(_plates._latitude, i / cells, cells);
+                const double longitude = middle(_plates._longitude, i % cells, cells);
+                _middles[firstNumber(cells) + i] = {_plates._ellipsoid.toEcef({latitude, longitude, 0.0}),
+                                                    LocalFrame(latitude, longitude).up};
+            }
+        }
+    }
 
     // Triangles that share an edge may have vertices of their own.
     void mergeVertices() {
@@ -99,7 +119,7 @@ private:
         return sum < 0.0 ? -1.0 : 1.0;
     }
 
-    // The ellipsoid's normals through a triangle's points differ by its width over the radius of curvature at most.
+    // Across a triangle the ellipsoid's normal turns by at most the triangle's width over the radius of curvature.
     [[nodiscard]] bool isUpward(const Corners& c) const {
         const glm::dvec3 normal = _sense * glm::cross(c[1] - c[0], c[2] - c[0]);
         const double length = glm::length(normal);
@@ -119,9 +139,10 @@ private:
         return bounds.bin();
     }
 
-    template <class Do>
-    void forEachCell(const GeodeticBin& met, Do&& cell) {
-        // what goes around the axis is told by other longitudes than the extents'
+    // Calls visit(number) for the cells that the bounds reach into. Bounds that are not known reach into all, and
+    // bounds around the axis into those at all longitudes: they do not count longitudes from where the extents do.
+    template <class Visit>
+    void forEachCell(const GeodeticBin& met, Visit&& visit) {
         const bool isAround = met.empty() || met.isFullCircle();
         for (const std::size_t cells : kCellsOfGrids) {
             const CellRange rows = cellsIn(_plates._latitude, cells, met.empty() ? _plates._latitude : met.latitude());
@@ -129,13 +150,9 @@ private:
                 cellsIn(_plates._longitude, cells, isAround ? _plates._longitude : met.longitude());
             for (std::ptrdiff_t row = rows.first; row <= rows.last; ++row) {
                 for (std::ptrdiff_t column = columns.first; column <= columns.last; ++column)
-                    cell(cells, static_cast<std::size_t>(row), static_cast<std::size_t>(column));
+                    visit(numberOf(cells, static_cast<std::size_t>(row), static_cast<std::size_t>(column)));
             }
         }
-    }
-
-    static std::size_t number(std::size_t cells, std::size_t row, std::size_t column) {
-        return firstNumber(cells) + row * cells + column;
     }
 
     void addTriangle(const std::uint32_t* triangle) {
@@ -144,29 +161,22 @@ private:
         const Corners corners = cornersOf(triangle);
         const GeodeticBin bounds = boundsOf(corners);
         if (bounds.empty() || !isUpward(corners)) {
-            forEachCell(bounds, [&](auto... cell) { _isDoubted[number(cell...)] = true; });
+            forEachCell(bounds, [&](std::size_t cell) { _isDoubted[cell] = true; });
             return;
         }
         noteEdges(a, b, c);
-        // more than what GeodeticMeshBounds allows itself
+        // more than the error that GeodeticMeshBounds allows
         const double room = 2e-14 * std::max(_plates._ellipsoid.equatorialRadius(), _plates._ellipsoid.polarRadius());
         const float low = roundedDown(bounds.altitude().lower - room);
-        forEachCell(bounds, [&](std::size_t cells, std::size_t row, std::size_t column) {
-            const std::size_t i = number(cells, row, column);
-            _plates._least[i] = std::min(_plates._least[i], low);
-            if (!_isCovered[i]) _isCovered[i] = isBelowMiddle(corners, cells, row, column);
+        forEachCell(bounds, [&](std::size_t cell) {
+            _plates._least[cell] = std::min(_plates._least[cell], low);
+            if (!_isCovered[cell]) _isCovered[cell] = isOnNormal(corners, _middles[cell]);
         });
     }
 
     // Whether the normal through the middle of a cell meets the triangle.
-    [[nodiscard]] bool isBelowMiddle(const Corners& c, std::size_t cells, std::size_t row, std::size_t column) const {
-        const auto middle = [cells](const Interval& extents, std::size_t i) {
-            return extents.lower + extents.width() * (static_cast<double>(i) + 0.5) / static_cast<double>(cells);
-        };
-        const double latitude = middle(_plates._latitude, row);
-        const double longitude = middle(_plates._longitude, column);
-        const glm::dvec3 up = LocalFrame(latitude, longitude).up;
-        const glm::dvec3 foot = _plates._ellipsoid.toEcef({latitude, longitude, 0.0});
+    [[nodiscard]] bool isOnNormal(const Corners& c, const Middle& middle) const {
+        const auto& [foot, up] = middle;
         const glm::dvec3 p = c[0] - foot, q = c[1] - foot, r = c[2] - foot;
         const double pq = _sense * glm::dot(up, glm::cross(p, q));
         const double qr = _sense * glm::dot(up, glm::cross(q, r));
@@ -186,7 +196,7 @@ private:
             const auto other = _edges.find(std::uint64_t{to} << 32 | from);
             if (count == 1 && other != _edges.end() && other->second == 1) continue;
             const GeodeticBin bounds = boundsOf({_mesh.vertex(from), _mesh.vertex(to), _mesh.vertex(to)});
-            forEachCell(bounds, [&](auto... cell) { _isDoubted[number(cell...)] = true; });
+            forEachCell(bounds, [&](std::size_t cell) { _isDoubted[cell] = true; });
         }
     }
 
@@ -195,6 +205,7 @@ private:
     double _sense = 1.0;
     std::vector<std::uint32_t> _merged;
     std::unordered_map<std::uint64_t, int> _edges;
+    std::array<Middle, kNumbers> _middles;
     std::array<bool, kNumbers> _isCovered, _isDoubted;
 };
 
@@ -212,7 +223,7 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, con
 }
 
 float GroundPlates::least(std::size_t cells, std::size_t row, std::size_t column) const noexcept {
-    return _least[firstNumber(cells) + row * cells + column];
+    return _least[numberOf(cells, row, column)];
 }
 
 std::optional<EarthColumn> GroundPlates::column(std::size_t cells, std::size_t row, std::size_t column,
@@ -225,7 +236,7 @@ std::optional<EarthColumn> GroundPlates::column(std::size_t cells, std::size_t r
     // doc/occlusion.md, section 2: how far chords of a parallel leave it toward the pole, in latitude
     const double bulge = 0.55 * (1.0 / std::cos(0.5 * inner * across) - 1.0);
     const double smallest = std::min(_ellipsoid.equatorialRadius(), _ellipsoid.polarRadius());
-    // beside the rounding of longitudes many turns away
+    // longitudes many turns away from zero are rounded coarsely
     const bool isWide = across * kRim > 64.0 * kEpsilon * (1.0 + std::abs(_longitude.lower));
     const bool isShallow = std::abs(high) < 0.1 * smallest && depth >= 0.0 && depth < 0.1 * smallest;
     if (!isWide || !(across * inner < 1.0) || !(bulge < 0.5 * kRim * along) || !isShallow) return std::nullopt;

@@ -17,11 +17,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Of a vector from the eye, in units of the longest vector from the centre.
+// The rounding of a vector from the eye, in units of the longest vector from the centre.
 constexpr double kVectorRounding = 16.0 * kEpsilon;
 
-// What positions in the picture are wrong by, in units of 1 + |position|: a few roundings of ECEF positions over the
-// distance, which doc/occlusion.md, section 4, adds up.
+// The error of a position in the picture, for a point that is wrong by `metres`; doc/occlusion.md, section 4.
 double pictureError(double metres, double forward, double largest) {
     return metres / (forward - metres) * (1.0 + largest) + 16.0 * kEpsilon * (1.0 + largest);
 }
@@ -84,7 +83,7 @@ void HorizonBuffer::add(const EarthColumn& column) {
     }
     if (!(right - left > _step) || right < _across.lower || left > _across.upper) return;
     earth.error = pictureError(error, nearest, largest);
-    // chords are believed over a step: they have to be long beside what their ends are wrong by
+    // a chord is at least a strip long: the error of its ends has to be small in comparison
     if (!(earth.error < 0.01 * _step)) return;
     _pending.push_back(earth);
     std::push_heap(_pending.begin(), _pending.end());

@@ -187,6 +187,13 @@ AnalyticBinCullCallback::Prepared AnalyticBinCullCallback::makePrepared() const 
     return prepared;
 }
 
+template <class Change>
+void AnalyticBinCullCallback::changeSetup(const Change& change) {
+    Setup setup = *_setup;
+    change(setup);
+    _setup = shared(setup);
+}
+
 // All members of a family have the same frame, globe and terrain shape, and are tested against edges or not: a tile
 // that changes one of these leaves.
 void AnalyticBinCullCallback::leaveFamily() {
@@ -215,9 +222,7 @@ void AnalyticBinCullCallback::setBin(const AnalyticBin& bin) {
 
 void AnalyticBinCullCallback::setTerrainShape(const std::optional<TerrainShape>& shape) {
     leaveFamily();
-    Setup setup = *_setup;
-    setup.shape = shape;
-    _setup = shared(setup);
+    changeSetup([&](Setup& setup) { setup.shape = shape; });
     setSurface(_surface);
     changeBin();
 }
@@ -247,18 +252,16 @@ const osg::BoundingSphere* AnalyticBinCullCallback::ecefColumnSphere() const {
 
 void AnalyticBinCullCallback::setCullOptions(const CullOptions& options) {
     if (options.effectiveReverse() != _testsEdges) leaveFamily();
-    Setup setup = *_setup;
-    setup.options = options;
-    _setup = shared(setup);
+    changeSetup([&](Setup& setup) { setup.options = options; });
     changeBin();
 }
 
 void AnalyticBinCullCallback::setRadii(double equatorial, double polar) {
     leaveFamily();
-    Setup setup = *_setup;
-    setup.equatorialRadius = equatorial;
-    setup.polarRadius = polar;
-    _setup = shared(setup);
+    changeSetup([&](Setup& setup) {
+        setup.equatorialRadius = equatorial;
+        setup.polarRadius = polar;
+    });
     changeBin();
 }
 

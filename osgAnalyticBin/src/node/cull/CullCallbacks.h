@@ -25,7 +25,6 @@ template <class Class, class Object>
 
 /// The cull callbacks of a node: the bin's, and whether others may leave out what is below them.
 struct CullCallbacks {
-    CullCallbacks() = default;
     explicit CullCallbacks(const osg::Node& node) {
         // A dynamic_cast across OSG's virtual bases would be most of the search's cost.
         for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {

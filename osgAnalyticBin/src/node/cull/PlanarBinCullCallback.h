@@ -31,8 +31,8 @@ public:
     PlanarBinCullCallback(const PlanarBinCullCallback& other, const osg::CopyOp& copyop);
     osg::Object* clone(const osg::CopyOp& copyop) const override { return new PlanarBinCullCallback(*this, copyop); }
 
-    [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
-    [[nodiscard]] const PlanarBin& bin() const { return _bin; }
+    [[nodiscard]] const CullOptions& getCullOptions() const { return _options; }
+    [[nodiscard]] const PlanarBin& getBin() const { return _bin; }
 
     /// See AnalyticBinCullCallback::getInstalledTile().
     [[nodiscard]] InstalledTile* getInstalledTile() const { return _installed.get(); }

@@ -25,7 +25,7 @@ struct ParentTile;
 struct PlanarFit;
 struct TerrainShape;
 
-/// Goes through what is loaded of databases and does what installBins() promises.
+/// Visits the loaded part of a database and installs bins on it, as installBins() promises.
 class BinInstaller : public TileFinder {
 public:
     /// Installs by these options.
@@ -38,6 +38,9 @@ public:
         void setIndex(const BinIndex* index) {
         _index = index;
     }
+
+    /// Installs bins below the root of a scene or a database.
+    void installAt(osg::Node& root);
 
     /// Number of callbacks installed so far.
     [[nodiscard]] std::size_t installed() const { return _installed; }
@@ -61,11 +64,6 @@ private:
     friend class BinReadFileCallback;
     friend class DatabaseUpdateCallback;
     friend OSGANALYTICBIN_EXPORT std::size_t setCullOptions(osg::Node& node, const CullOptions& options);
-    friend OSGANALYTICBIN_EXPORT std::size_t installBinsByIndex(osg::Node& node, const CullOptions& options,
-                                                                const BinIndex& index);
-    friend OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions& options,
-                                                         const std::string& databaseFileName,
-                                                         const osgDB::Options* readOptions);
 
     // What PagedLODs get for the options that they came with (null: none).
     struct Paging {
@@ -83,7 +81,6 @@ private:
     void placeFamilies();
 
     [[nodiscard]] bool installsBins() const;
-    void installAt(osg::Node& root);
     [[nodiscard]] Database& database();
     void passBy(osg::Node& node, bool isTile);
     void install(FoundTile& tile, bool hasNewContent);

@@ -70,7 +70,7 @@ void forEachPart(const osg::Node& node, const Visit& visit) {
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) forEachPart(*group->getChild(i), visit);
 }
 
-// What changes when a transform is moved; 0: it is none.
+// A number that changes when a transform is moved; 0 for other nodes.
 std::uint64_t frameOf(const osg::Node& node) {
     std::uint64_t hash = 0;
     if (const osg::Transform* const transform = node.asTransform()) mixFrame(hash, *transform);
@@ -165,7 +165,7 @@ public:
         _node.accept(box);
         bool isHeld = true;
         for (unsigned int i = 0; i < 8 && isHeld; ++i) {
-            isHeld = callback.bin().holds(osg::Vec3d(box.getBoundingBox().corner(i)) * _toHere);
+            isHeld = callback.getBin().holds(osg::Vec3d(box.getBoundingBox().corner(i)) * _toHere);
         }
         if (!isHeld) callback.getInstalledTile()->keepVisible(true);
     }
@@ -204,7 +204,7 @@ void fitIntoTilesFrom(const osg::Node& node, Content content) {
 }
 
 // Says that the mesh of the tile that a watched node belongs to has changed. The next update makes the tile's family
-// anew. `isMoved`: its place may be empty.
+// anew. `isMoved`: the mesh has left its place, which may be empty now.
 void doubtMeshOf(const osg::Node& node, bool isMoved) {
     const osg::Node* culled = &node;
     if (!installedTileOf(node)) culled = carrierOf(const_cast<osg::Node&>(node));
@@ -297,14 +297,12 @@ bool ContentWatch::isFitted(const osg::Node& child, bool withBounds) const {
     return known->bounds == bounds;
 }
 
-bool ContentWatch::isMoved(const osg::Node& node) const {
-    if (frameOf(node) != _frame) return true;
-    const osg::Group* const group = node.asGroup();
-    return group && std::any_of(_fitted.begin(), _fitted.end(), [&](const Fitted& fitted) {
-               if (!group->containsNode(fitted.node)) return false;
-               const Structure now = structureOf(*fitted.node);
-               return now.parts == fitted.structure.parts && now.frames != fitted.structure.frames;
-           });
+bool ContentWatch::isPartMoved(const osg::Group& group) const {
+    return std::any_of(_fitted.begin(), _fitted.end(), [&](const Fitted& fitted) {
+        if (!group.containsNode(fitted.node)) return false;
+        const Structure now = structureOf(*fitted.node);
+        return now.parts == fitted.structure.parts && now.frames != fitted.structure.frames;
+    });
 }
 
 void ContentWatch::check(const osg::Node& node) const {
@@ -327,7 +325,7 @@ void ContentWatch::check(const osg::Node& node) const {
             _isPending = _isPending || !isMerged;
         }
     }
-    if (group && fitted < _fitted.size()) doubtMeshOf(node, isMoved(node));
+    if (group && fitted < _fitted.size()) doubtMeshOf(node, !isOwnFrame || isPartMoved(*group));
 }
 
 }  // namespace osgAnalyticBin

@@ -45,9 +45,10 @@ protected:
     ~ContentWatch() override = default;
 
 private:
-    // What changes when parts of a mesh are added, removed or replaced, and when they are moved.
+    // Hashes of a mesh.
     struct Structure {
-        std::uint64_t parts = 1, frames = 1;
+        std::uint64_t parts = 1;   // changes when a part is added, removed or replaced
+        std::uint64_t frames = 1;  // changes when a part is moved
         [[nodiscard]] bool operator==(const Structure& other) const {
             return parts == other.parts && frames == other.frames;
         }
@@ -65,11 +66,11 @@ private:
     [[nodiscard]] bool isFitted(const osg::Node& child, bool withBounds) const;
     void check(const osg::Node& node) const;
 
-    // Whether the node, or a part of a mesh that is the same as before, has been moved by its transform.
-    [[nodiscard]] bool isMoved(const osg::Node& node) const;
+    // Whether a transform in a fitted mesh has another matrix now, while the mesh still has the same parts.
+    [[nodiscard]] bool isPartMoved(const osg::Group& group) const;
 
     const osg::Node* _node = nullptr;  // that it was placed on
-    std::uint64_t _frame = 0;          // of that node
+    std::uint64_t _frame = 0;          // a hash of that node's matrix; 0: it is no transform
     std::vector<Fitted> _fitted;
     mutable bool _isPending = false;  // whether content has not been looked at from all tiles above: the file is not
                                       // merged yet

@@ -17,6 +17,14 @@ namespace {
 
 constexpr const char* kTraversesAlways = "osgAnalyticBin.traversesAlways";
 
+std::size_t install(osg::Node& node, const CullOptions& options, const BinIndex* index) {
+    BinInstaller installer(options);
+    installer.setIndex(index);
+    installer.installAt(node);
+    OSG_INFO << "osgAnalyticBin: " << installer.installed() << " tiles with " << toText(options) << std::endl;
+    return installer.installed();
+}
+
 }  // namespace
 
 std::size_t setCullOptions(osg::Node& node, const CullOptions& options) {
@@ -32,24 +40,17 @@ std::size_t installBins(osg::Node& node, const CullOptions& options) {
 
 std::size_t installBins(osg::Node& node, const CullOptions& options, const std::string& databaseFileName,
                         const osgDB::Options* readOptions) {
-    BinInstaller installer(options);
     osg::ref_ptr<BinIndex> index;
     if (options.index && !databaseFileName.empty()) {
         std::string error;
         index = readBinIndex(databaseFileName, readOptions, error);
         if (!error.empty()) OSG_WARN << "osgAnalyticBin: " << error << std::endl;
-        installer.setIndex(index.get());
     }
-    installer.installAt(node);
-    OSG_INFO << "osgAnalyticBin: " << installer.installed() << " tiles with " << toText(options) << std::endl;
-    return installer.installed();
+    return install(node, options, index.get());
 }
 
 std::size_t installBinsByIndex(osg::Node& node, const CullOptions& options, const BinIndex& index) {
-    BinInstaller installer(options);
-    installer.setIndex(&index);
-    installer.installAt(node);
-    return installer.installed();
+    return install(node, options, &index);
 }
 
 void setTraversesAlways(osg::Callback& callback) {

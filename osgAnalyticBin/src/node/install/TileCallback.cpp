@@ -28,7 +28,7 @@ const CullOptions* optionsOf(const osg::Callback& callback) {
         return &geocentric->getCullOptions();
     }
     const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(&callback);
-    return planar ? &planar->cullOptions() : nullptr;
+    return planar ? &planar->getCullOptions() : nullptr;
 }
 
 osg::Callback* installedCallback(osg::Node& node) {

@@ -176,7 +176,7 @@ struct ParentTile : public osg::Referenced {
     AnalyticBin stored;
     // Of the tile: a globe inside another has its own.
     osg::ref_ptr<Database> database;
-    // What its callback has been asked to be widened by; null: nothing. Guarded by the database.
+    // By how much its callback has to be widened; null: not at all. Guarded by the database.
     mutable std::unique_ptr<Widening> widening;
 
 protected:
