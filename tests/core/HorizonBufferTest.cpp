@@ -28,7 +28,7 @@ HorizonBuffer bufferOf(const OcclusionScene& scene) {
     return {scene.eye, scene.forward, scene.up, kAcross};
 }
 
-// Columns of all cells, as deep as the tile is far.
+// Adds the columns of all cells. Their depth is a share of the distance from the eye.
 void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells) {
     const GroundPlates plates(scene.ellipsoid, tile.mesh, tile.bin);
     const double depth =
@@ -102,27 +102,26 @@ TEST(HorizonBuffer, HidesMuchOfWhatNoRayReaches) {
     EXPECT_GT(hidden, unseen / 3);
 }
 
-// A body and where it is in the picture of an eye at the origin that looks along y, with z up: x, y and distance.
-struct Placed {
-    static glm::dvec3 at(double x, double y, double forward) { return {x * forward, forward, y * forward}; }
+// In the frame of an eye at the origin that looks along y, with z up: the point at (x, y) in the picture.
+glm::dvec3 pointAt(double x, double y, double forward) {
+    return {x * forward, forward, y * forward};
+}
 
-    static EarthColumn earth(Random& random) {
-        const double forward = random.logUniform(1e3, 1e5), x = random.uniform(-1.2, 1.2),
-                     y = random.uniform(-0.1, 0.1);
-        const double size = random.logUniform(0.003, 0.3), depth = random.uniform(0.0, 0.5);
-        EarthColumn column;
-        for (std::size_t i = 0; i < 4; ++i) {
-            const auto spot = [&](double low) {
-                return at(x + size * random.uniform(-1.0, 1.0), low + size * random.uniform(-2.0, 2.0),
-                          forward * random.uniform(0.9, 1.1));
-            };
-            column.top[i] = spot(y);
-            column.bottom[i] = spot(y - depth);
-        }
-        column.error = 1e-6;
-        return column;
+EarthColumn randomColumn(Random& random) {
+    const double forward = random.logUniform(1e3, 1e5), x = random.uniform(-1.2, 1.2), y = random.uniform(-0.1, 0.1);
+    const double size = random.logUniform(0.003, 0.3), depth = random.uniform(0.0, 0.5);
+    EarthColumn column;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto corner = [&](double low) {
+            return pointAt(x + size * random.uniform(-1.0, 1.0), low + size * random.uniform(-2.0, 2.0),
+                           forward * random.uniform(0.9, 1.1));
+        };
+        column.top[i] = corner(y);
+        column.bottom[i] = corner(y - depth);
     }
-};
+    column.error = 1e-6;
+    return column;
+}
 
 // Whether a point of the picture is in the picture of the column: no line through it has all corners on one side.
 bool isInPicture(const EarthColumn& column, const RealVector& point) {
@@ -150,7 +149,7 @@ TEST(HorizonBuffer, HidesOnlyWhatIsInThePictureOfEarthInFront) {
         HorizonBuffer buffer({0, 0, 0}, {0, 1, 0}, {0, 0, 1}, kAcross);
         const int count = random.integer(1, 30);
         for (int i = 0; i < count; ++i) {
-            columns.push_back(Placed::earth(random));
+            columns.push_back(randomColumn(random));
             buffer.add(columns.back());
         }
         for (int i = 0; i < 300; ++i) {
@@ -167,7 +166,7 @@ TEST(HorizonBuffer, HidesOnlyWhatIsInThePictureOfEarthInFront) {
             const double size = forward * random.logUniform(1e-9, 1e-2);
             Body body;
             for (glm::dvec3& corner : body.corners)
-                corner = Placed::at(x, y, forward) + random.uniform(0.0, size) * random.direction();
+                corner = pointAt(x, y, forward) + random.uniform(0.0, size) * random.direction();
             body.reach = random.chance(0.5) ? size : 1e-9 * size;
             if (!buffer.hides(body.corners, body.reach)) continue;
             const glm::dvec3 point = random.pick(body.corners) + 0.999 * body.reach * random.direction();

@@ -22,6 +22,14 @@ namespace {
 constexpr int kTilesAcross = 6;
 constexpr std::uint32_t kCells = 16;  // of a tile, at most
 
+// Where the tiles lie, and how rough they are.
+struct Land {
+    double size, width;          // of a tile, in latitude and longitude, radians
+    double southmost, westmost;  // radians
+    double metres, height;       // of a tile's side; of the hills
+    double spikes;               // the share of posts that are needles or pits
+};
+
 // Heights everywhere, of any roughness.
 class Relief {
 public:
@@ -49,14 +57,64 @@ private:
     std::array<Wave, kWaves> _waves{};
 };
 
-RealVector cross(const RealVector& a, const RealVector& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+GroundTile makeTile(Random& random, const Ellipsoid& ellipsoid, const Land& land, const Relief& relief, int row,
+                    int column, std::uint32_t cells) {
+    const double south = land.southmost + row * land.size, west = land.westmost + column * land.width;
+    const Interval latitude{south, south + land.size}, longitude{west, west + land.width};
+    GroundTile tile;
+    tile.mesh = gridMesh(random, ellipsoid, GeodeticBin(latitude, longitude, {0.0, 0.0}), cells);
+    for (std::size_t i = 0; i < tile.mesh.size(); ++i) {
+        const auto at = static_cast<std::uint32_t>(i);
+        const double p = south + land.size * (at / (cells + 1)) / cells;
+        const double l = west + land.width * (at % (cells + 1)) / cells;
+        double h = relief.at(p, l);
+        if (random.chance(land.spikes)) h += random.sign() * land.height * random.uniform(0.0, 5.0);
+        const glm::dvec3 v = ellipsoid.toEcef({p, l, h});
+        tile.mesh.x[i] = v.x, tile.mesh.y[i] = v.y, tile.mesh.z[i] = v.z;
+    }
+    tile.bin = thoroughBounds(ellipsoid, tile.mesh, longitude.middle(), 0.0);
+    return tile;
 }
 
 void addSkirt(std::vector<Triangle>& triangles, const glm::dvec3& a, const glm::dvec3& b, double depth) {
     const glm::dvec3 down = -depth * glm::normalize(a);
     triangles.push_back({a, b, a + down});
     triangles.push_back({b, b + down, a + down});
+}
+
+// The mesh, and skirts that hang from its edges.
+void addTriangles(std::vector<Triangle>& triangles, const EcefMesh& mesh, std::uint32_t cells, double depth) {
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) triangles.push_back(triangleAt(mesh, i));
+    const auto post = [&](std::uint32_t y, std::uint32_t x) { return mesh.vertex(y * (cells + 1) + x); };
+    for (std::uint32_t i = 0; i < cells; ++i) {
+        addSkirt(triangles, post(0, i), post(0, i + 1), depth);
+        addSkirt(triangles, post(cells, i), post(cells, i + 1), depth);
+        addSkirt(triangles, post(i, 0), post(i + 1, 0), depth);
+        addSkirt(triangles, post(i, cells), post(i + 1, cells), depth);
+    }
+}
+
+void placeEye(OcclusionScene& scene, Random& random, const Land& land, const Relief& relief) {
+    // by the border, with most of the terrain ahead, or in the middle
+    const double north = random.uniform(0.5, random.chance(0.5) ? 1.0 : 5.5), east = random.uniform(0.5, 5.5);
+    const double latitude = land.southmost + land.size * north, longitude = land.westmost + land.width * east;
+    const GroundTile& below =
+        scene.tiles[static_cast<std::size_t>(north) * kTilesAcross + static_cast<std::size_t>(east)];
+    const double highest = below.bin.altitude().upper;
+    const double altitude = random.chance(0.5) ? relief.at(latitude, longitude) + land.height * random.uniform(0.5, 1.5)
+                                               : highest + land.height * random.logUniform(1e-4, 10.0);
+    scene.eye = scene.ellipsoid.toEcef({latitude, longitude, altitude});
+    const core::Geodetic place = scene.ellipsoid.toGeodetic(scene.eye);
+    scene.up = {std::cos(place.latitude) * std::cos(place.longitude),
+                std::cos(place.latitude) * std::sin(place.longitude), std::sin(place.latitude)};
+    // between posts the mesh may be higher than the relief
+    if (scene.isBlocked(real(scene.eye + 100.0 * (land.height + land.metres) * scene.up)))
+        scene.eye += (highest + land.height - altitude) * scene.up;
+    const glm::dvec3 target =
+        scene.ellipsoid.toEcef({land.southmost + land.size * kTilesAcross * random.uniform(),
+                                land.westmost + land.width * kTilesAcross * random.uniform(), altitude});
+    const glm::dvec3 toward = target - scene.eye;
+    scene.forward = glm::normalize(toward - glm::dot(toward, scene.up) * scene.up);
 }
 
 }  // namespace
@@ -80,67 +138,24 @@ OcclusionScene::OcclusionScene(Random& random, bool hasSpikes)
         const double radius = ellipsoid.equatorialRadius();
         ellipsoid = Ellipsoid(radius, radius * random.uniform(0.996, 1.004));
     }
-    const double size = random.logUniform(1e-5, 0.1);  // of a tile, radians
-    const double southmost = random.uniform(-1.4, 1.4 - kTilesAcross * size);
-    const double westmost = random.chance(0.2) ? 3.1415 - 3.0 * size : random.uniform(-3.1, 3.1);
-    const double wider = 1.0 / std::cos(southmost + 0.5 * kTilesAcross * size);
-    const double metres = size * ellipsoid.equatorialRadius();
-    const double height = metres * random.logUniform(1e-3, 0.3) * std::min(1.0, 0.02 / size);
-    const Relief relief(random, size * random.logUniform(0.3, 3.0), height);
+    Land land{};
+    land.size = random.logUniform(1e-5, 0.1);
+    land.southmost = random.uniform(-1.4, 1.4 - kTilesAcross * land.size);
+    land.westmost = random.chance(0.2) ? 3.1415 - 3.0 * land.size : random.uniform(-3.1, 3.1);
+    land.width = land.size / std::cos(land.southmost + 0.5 * kTilesAcross * land.size);
+    land.metres = land.size * ellipsoid.equatorialRadius();
+    land.height = land.metres * random.logUniform(1e-3, 0.3) * std::min(1.0, 0.02 / land.size);
+    const Relief relief(random, land.size * random.logUniform(0.3, 3.0), land.height);
     const bool areAlike = random.chance(0.5);
-    const double spikes = hasSpikes && random.chance(0.3) ? random.uniform(0.0, 0.1) : 0.0;
+    land.spikes = hasSpikes && random.chance(0.3) ? random.uniform(0.0, 0.1) : 0.0;
     for (int row = 0; row < kTilesAcross; ++row) {
         for (int column = 0; column < kTilesAcross; ++column) {
-            const Interval latitude{southmost + row * size, southmost + (row + 1) * size};
-            const Interval longitude{westmost + column * size * wider, westmost + (column + 1) * size * wider};
             const std::uint32_t cells = areAlike ? kCells : kCells >> random.integer(0, 3);
-            GroundTile tile;
-            tile.mesh = gridMesh(random, ellipsoid, GeodeticBin(latitude, longitude, {0.0, 0.0}), cells);
-            Interval altitude{1e30, -1e30};
-            for (std::size_t i = 0; i < tile.mesh.size(); ++i) {
-                const auto at = static_cast<std::uint32_t>(i);
-                const double p = latitude.lower + latitude.width() * (at / (cells + 1)) / cells;
-                const double l = longitude.lower + longitude.width() * (at % (cells + 1)) / cells;
-                double h = relief.at(p, l);
-                if (random.chance(spikes)) h += random.sign() * height * random.uniform(0.0, 5.0);
-                const glm::dvec3 v = ellipsoid.toEcef({p, l, h});
-                tile.mesh.x[i] = v.x, tile.mesh.y[i] = v.y, tile.mesh.z[i] = v.z;
-                altitude = {std::min(altitude.lower, h), std::max(altitude.upper, h)};
-            }
-            tile.bin = thoroughBounds(ellipsoid, tile.mesh, longitude.middle(), 0.0);
-            for (std::size_t i = 0; i < tile.mesh.triangles.size(); i += 3)
-                triangles.push_back(triangleAt(tile.mesh, i));
-            for (std::uint32_t i = 0; i < cells; ++i) {
-                const auto post = [&](std::uint32_t y, std::uint32_t x) {
-                    return tile.mesh.vertex(y * (cells + 1) + x);
-                };
-                const double depth = 30.0 * height + 0.01 * metres;
-                addSkirt(triangles, post(0, i), post(0, i + 1), depth);
-                addSkirt(triangles, post(cells, i), post(cells, i + 1), depth);
-                addSkirt(triangles, post(i, 0), post(i + 1, 0), depth);
-                addSkirt(triangles, post(i, cells), post(i + 1, cells), depth);
-            }
-            tiles.push_back(tile);
+            tiles.push_back(makeTile(random, ellipsoid, land, relief, row, column, cells));
+            addTriangles(triangles, tiles.back().mesh, cells, 30.0 * land.height + 0.01 * land.metres);
         }
     }
-    // by the border, with most of the terrain ahead, or in the middle
-    const double p = southmost + size * random.uniform(0.5, random.chance(0.5) ? 1.0 : 5.5);
-    const double l = westmost + size * wider * random.uniform(0.5, 5.5);
-    const GroundTile& below = tiles[static_cast<std::size_t>((p - southmost) / size) * kTilesAcross +
-                                    static_cast<std::size_t>((l - westmost) / (size * wider))];
-    const double highest = below.bin.altitude().upper;
-    const double above = random.chance(0.5) ? relief.at(p, l) + height * random.uniform(0.5, 1.5)
-                                            : highest + height * random.logUniform(1e-4, 10.0);
-    eye = ellipsoid.toEcef({p, l, above});
-    const core::Geodetic place = ellipsoid.toGeodetic(eye);
-    up = {std::cos(place.latitude) * std::cos(place.longitude), std::cos(place.latitude) * std::sin(place.longitude),
-          std::sin(place.latitude)};
-    // between posts the mesh may be higher than the relief
-    if (isBlocked(real(eye + 100.0 * (height + metres) * up))) eye += (highest + height - above) * up;
-    const glm::dvec3 toward = ellipsoid.toEcef({southmost + size * 6.0 * random.uniform(),
-                                                westmost + size * wider * 6.0 * random.uniform(), above}) -
-                              eye;
-    forward = glm::normalize(toward - glm::dot(toward, up) * up);
+    placeEye(*this, random, land, relief);
 }
 
 bool meets(const Triangle& triangle, const RealVector& from, const RealVector& to) {

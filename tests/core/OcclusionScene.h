@@ -22,7 +22,7 @@ struct GroundTile {
     core::GeodeticBin bin;
 };
 
-/// What a body is told by to a HorizonBuffer.
+/// A body in the form in which HorizonBuffer takes it.
 struct Body {
     std::array<glm::dvec3, 8> corners;
     double reach;
@@ -40,7 +40,7 @@ struct OcclusionScene {
     [[nodiscard]] bool isBlocked(const RealVector& point) const;
     /// A point of the tile's bin.
     [[nodiscard]] RealVector pointIn(Random& random, const GroundTile& tile) const;
-    /// A point of its top.
+    /// A point on the top of the tile's bin.
     [[nodiscard]] RealVector topOf(Random& random, const GroundTile& tile) const;
 
     core::Ellipsoid ellipsoid;

@@ -23,6 +23,13 @@
 namespace osgAnalyticBin::test {
 namespace {
 
+CullOptions declaredHorizon() {
+    CullOptions options;
+    options.horizonUse = HorizonUse::Given;
+    options.horizon = -50000.0;
+    return options;
+}
+
 TEST(SeeThroughTerrain, HidesNothing) {
     const auto setPolygonMode = [](osg::StateSet& state) {
         state.setAttributeAndModes(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
@@ -90,17 +97,14 @@ TEST(HoledGlobe, IsSeenThrough) {
     constexpr std::size_t kFirstMissing = 4;
     for (std::size_t i = 0; i < ways.size(); ++i) {
         for (const bool isDeclared : {false, true}) {
-            CullOptions options;
-            if (isDeclared) options.horizonUse = HorizonUse::Given;
-            if (isDeclared) options.horizon = -50000.0;
             MeshGlobe globe;
-            installBins(*globe.root, options);
+            installBins(*globe.root, isDeclared ? declaredHorizon() : CullOptions());
             EXPECT_FALSE(globe.drawsAntipode());
             ways[i](globe);
             EXPECT_TRUE(globe.drawsAntipode()) << i << isDeclared;
             // that a tile is missing is known to the installer, but who declares a horizon says that none is
             if (isDeclared && i >= kFirstMissing) continue;
-            installBins(*globe.root, options);
+            installBins(*globe.root, isDeclared ? declaredHorizon() : CullOptions());
             EXPECT_TRUE(globe.drawsAntipode()) << i << isDeclared;
         }
     }
@@ -204,11 +208,8 @@ TEST(SavedScenes, HideNothingBehindTheHorizonWithoutTheirDatabase) {
 
 TEST(UndergroundEyes, HaveNoHorizon) {
     for (const bool isDeclared : {false, true}) {
-        CullOptions options;
-        if (isDeclared) options.horizonUse = HorizonUse::Given;
-        if (isDeclared) options.horizon = -50000.0;
         MeshGlobe globe(40000.0);
-        installBins(*globe.root, options);
+        installBins(*globe.root, isDeclared ? declaredHorizon() : CullOptions());
         const auto drawsAntipode = [&](double altitude) {
             const osg::Vec3d eye = ecefDeg(21.3, -21.7, altitude);
             return globe.draws(*globe.tiles[15], CullView::lookAt(eye, {0, 0, 0}, {0, 0, 1}, 100.0));

@@ -32,6 +32,10 @@ struct RealVector {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 [[nodiscard]] Real length(const RealVector& a) noexcept;
+[[nodiscard]] inline RealVector cross(const RealVector& a, const RealVector& b) noexcept {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
 [[nodiscard]] inline RealVector real(const glm::dvec3& v) noexcept {
     return {v.x, v.y, v.z};
 }

@@ -16,18 +16,23 @@
 
 namespace osgAnalyticBin {
 
-/// Puts bins on the tiles of databases: AnalyticBinCullCallbacks on those of a globe, boxes on those of a map. OSG's
-/// sphere test is switched off on the tiles and below (drawables keep their boxes), and tiles that the DatabasePager
-/// loads later are treated in the pager's thread. TileFinder decides which nodes are tiles; their bins come from what
-/// is stored with them, from the database's index, or from their own surface and the heights that the options declare.
-/// A tile that is drawn in several places, a drawable with a stored bin, and everything that is not a tile, is left to
-/// OSG. Method::Sphere puts no bins on, but follows what is paged in, so that setCullOptions() can switch. A second
-/// call replaces what the first installed. Call it between frames. What the application adds below a tile while bins
-/// are installed is noticed with the next frame, be it static or moving: the tile and those above are kept visible, and
-/// their bins grow to hold it in the next update traversal. Content that is to be independent of tiles belongs beside
-/// them, on the CoordinateSystemNode or above it. Additions and moves are known from OSG's bounds: where vertices
-/// change, call dirty() of the vertex array and dirtyBound() of the drawable. Where the application replaces a tile's
-/// mesh, call installBins() again. Returns: the number of callbacks installed.
+/// Puts bins on the tiles of databases: AnalyticBinCullCallbacks on the tiles of a globe, boxes on those of a map.
+/// OSG's sphere test is switched off on the tiles and below (drawables keep their boxes). Tiles that the DatabasePager
+/// loads later get their bins in the pager's thread. A second call replaces what the first one installed. Call it
+/// between frames.
+///
+/// TileFinder decides which nodes are tiles. Their bins come from what is stored with them, from the database's index,
+/// or from their own surface and the heights that the options declare. Nodes that are not tiles, tiles that are drawn
+/// in several places, and drawables with a stored bin are left to OSG. Method::Sphere installs no bins, but follows
+/// what is paged in, so that setCullOptions() can switch to another method.
+///
+/// What the application adds below a tile later is noticed with the next frame, whether it moves or not: the tile and
+/// the tiles above it are kept visible, and the next update traversal widens their bins. The kit notices it by OSG's
+/// bounds: after a change of vertices, call dirty() of the vertex array and dirtyBound() of the drawable. After
+/// replacing a tile's mesh, call installBins() again. Content that is independent of tiles belongs beside them, on the
+/// CoordinateSystemNode or above it.
+///
+/// Returns: the number of callbacks installed.
 OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions& options = {});
 
 /// The same for the root of a database that was read from a file: its index, where there is one beside it and the

@@ -25,9 +25,9 @@ struct EarthColumn {
     double error = 0.0;
 };
 
-/// Altitudes that a tile's surface nowhere goes below, cell by cell, in grids of 1, 2, 4 and 8 cells a side over the
-/// latitudes and longitudes of the tile. Between neighbouring cells of a grid there is a rim that belongs to none of
-/// them: it leaves room for chords of parallels, and for triangles that end at the edge of a cell.
+/// Lower bounds of the altitude of a tile's surface, cell by cell, in grids of 1, 2, 4 and 8 cells a side over the
+/// tile's latitudes and longitudes. Each cell has a rim that its column of earth keeps out of: room for the chords of
+/// parallels, and for triangles of the next cell whose chords cross the common edge.
 /// Source: doc/occlusion.md, sections 2 and 3.
 class GroundPlates final {
 public:
@@ -43,7 +43,7 @@ public:
     /// infinity: not known. Requires: such a grid and cell.
     [[nodiscard]] float least(std::size_t cells, std::size_t row, std::size_t column) const noexcept;
 
-    /// What is below a known cell, `depth` metres deep.
+    /// The earth below a known cell, `depth` metres deep.
     /// Guarantee: every point of it, up to `error`, has the mesh above it, along the ellipsoid's normal; tests:
     /// GroundPlates.ColumnsLieBelowTheMesh*.
     /// Returns: nullopt where nothing is known, and for cells too wide for the rim: with angles in radians, where the

@@ -34,8 +34,8 @@ public:
     /// `across`. The body: a hull of eight corners, ECEF, and all within `reach` metres of it. Bodies have to be asked
     /// for front to back, by nearest(): one that is nearer than earth that was used for another gets false.
     /// Guarantee: true is a proof, rounding included; tests: HorizonBuffer.*.
-    /// Cost: a comparison for each strip that the body spans; for earth that is used for the first time, some twenty
-    /// operations for each strip that it spans.
+    /// Cost: one comparison per strip that the body spans. Earth that is used for the first time costs some twenty
+    /// operations per strip that it spans.
     [[nodiscard]] bool hides(const std::array<glm::dvec3, 8>& corners, double reach);
 
     /// The distance along `forward` of the body's nearest point, metres.
