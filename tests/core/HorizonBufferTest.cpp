@@ -17,6 +17,7 @@
 namespace osgAnalyticBin::test {
 namespace {
 
+using core::BinHull;
 using core::EarthColumn;
 using core::GroundPlates;
 using core::HorizonBuffer;
@@ -46,12 +47,12 @@ bool isBeforeTheCamera(const OcclusionScene& scene, const RealVector& point) {
 }
 
 // Tiles in the order in which they have to be asked for.
-std::vector<std::pair<const GroundTile*, Body>> frontToBack(const OcclusionScene& scene, const HorizonBuffer& buffer) {
-    std::vector<std::pair<const GroundTile*, Body>> sorted;
-    for (const GroundTile& tile : scene.tiles) sorted.emplace_back(&tile, bodyOf(scene.ellipsoid, tile.bin));
-    std::sort(sorted.begin(), sorted.end(), [&](const auto& a, const auto& b) {
-        return buffer.nearest(a.second.corners, a.second.reach) < buffer.nearest(b.second.corners, b.second.reach);
-    });
+std::vector<std::pair<const GroundTile*, BinHull>> frontToBack(const OcclusionScene& scene,
+                                                               const HorizonBuffer& buffer) {
+    std::vector<std::pair<const GroundTile*, BinHull>> sorted;
+    for (const GroundTile& tile : scene.tiles) sorted.emplace_back(&tile, BinHull(scene.ellipsoid, tile.bin, 0.0));
+    std::sort(sorted.begin(), sorted.end(),
+              [&](const auto& a, const auto& b) { return buffer.nearest(a.second) < buffer.nearest(b.second); });
     return sorted;
 }
 
@@ -66,7 +67,7 @@ TEST(HorizonBuffer, HidesNothingThatARayReaches) {
         const std::size_t cells = random.pick(std::array<std::size_t, 3>{2, 4, 8});
         for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, cells);
         for (const auto& [tile, body] : frontToBack(scene, buffer)) {
-            if (!buffer.hides(body.corners, body.reach)) continue;
+            if (!buffer.hides(body)) continue;
             ++hidden;
             for (int ray = 0; ray < 2 * kRays; ++ray) {
                 const RealVector point = scene.pointIn(random, *tile);
@@ -85,7 +86,7 @@ TEST(HorizonBuffer, HidesMuchOfWhatNoRayReaches) {
         HorizonBuffer buffer = bufferOf(scene);
         for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, 8);
         for (const auto& [tile, body] : frontToBack(scene, buffer)) {
-            const bool isHidden = buffer.hides(body.corners, body.reach);
+            const bool isHidden = buffer.hides(body);
             bool isAhead = false, isSeen = false;
             for (int ray = 0; ray < kRays && !isSeen; ++ray) {
                 const RealVector point = scene.topOf(random, *tile);
@@ -143,6 +144,7 @@ bool isInPicture(const EarthColumn& column, const RealVector& point) {
 
 TEST(HorizonBuffer, HidesOnlyWhatIsInThePictureOfEarthInFront) {
     Random random(1707);
+    const BinHull anyBody(wgs84(), core::GeodeticBin({0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}), 0.0);
     int hidden = 0;
     for (int scene = 0; scene < 4000; ++scene) {
         std::vector<EarthColumn> columns;
@@ -164,11 +166,11 @@ TEST(HorizonBuffer, HidesOnlyWhatIsInThePictureOfEarthInFront) {
             // mostly front to back, or no answer would be yes
             const double forward = random.chance(0.1) ? random.logUniform(1e3, 2e5) : 1e3 * std::pow(200.0, i / 300.0);
             const double size = forward * random.logUniform(1e-9, 1e-2);
-            Body body;
+            BinHull body = anyBody;
             for (glm::dvec3& corner : body.corners)
                 corner = pointAt(x, y, forward) + random.uniform(0.0, size) * random.direction();
             body.reach = random.chance(0.5) ? size : 1e-9 * size;
-            if (!buffer.hides(body.corners, body.reach)) continue;
+            if (!buffer.hides(body)) continue;
             const glm::dvec3 point = random.pick(body.corners) + 0.999 * body.reach * random.direction();
             if (std::abs(point.x) > point.y) continue;
             ++hidden;
@@ -199,15 +201,19 @@ TEST(HorizonBuffer, LeavesOutWhatHasNoPlaceInThePicture) {
         column.error = 1e-6;
         return column;
     };
-    const Body behind = bodyOf(earth, core::GeodeticBin({0.005, 0.006}, {-0.001, 0.001}, {0.0, 500.0}));
-    const Body behindTheEye = bodyOf(earth, core::GeodeticBin({-0.006, -0.005}, {-0.001, 0.001}, {0.0, 500.0}));
-    const auto hides = [&](const EarthColumn& column, const Body& body) {
+    const BinHull behind(earth, core::GeodeticBin({0.005, 0.006}, {-0.001, 0.001}, {0.0, 500.0}), 0.0);
+    const BinHull behindTheEye(earth, core::GeodeticBin({-0.006, -0.005}, {-0.001, 0.001}, {0.0, 500.0}), 0.0);
+    const auto hides = [&](const EarthColumn& column, const BinHull& body) {
         HorizonBuffer buffer(eye, north, up, kAcross);
         buffer.add(column);
-        return buffer.hides(body.corners, body.reach);
+        return buffer.hides(body);
     };
     EXPECT_TRUE(hides(wall(0.002, 0.003), behind));
-    EXPECT_FALSE(hides(wall(0.007, 0.008), behind));   // farther
+    EXPECT_FALSE(hides(wall(0.007, 0.008), behind));  // farther
+    HorizonBuffer nearPlaneIsFar(eye, north, up, kAcross);
+    nearPlaneIsFar.setLowest(0.0);
+    nearPlaneIsFar.add(wall(0.002, 0.003));
+    EXPECT_FALSE(nearPlaneIsFar.hides(behind));
     EXPECT_FALSE(hides(wall(0.002, 0.0056), behind));  // partly
     EXPECT_FALSE(hides(wall(-0.001, 0.003), behind));  // about the eye
     EXPECT_FALSE(hides(wall(-0.003, -0.002), behindTheEye));
@@ -222,12 +228,12 @@ TEST(HorizonBuffer, LeavesOutWhatHasNoPlaceInThePicture) {
         close.bottom[i] = eye + glm::dvec3(-1e-8, i == 0 ? 0.5e-8 : 1e-8, 1e-8);
     }
     EXPECT_FALSE(hides(close, behind));
-    Body endless = behind;
+    BinHull endless = behind;
     endless.reach = -1.0;
     EXPECT_FALSE(hides(wall(0.002, 0.003), endless));
     endless.reach = std::nan("");
     EXPECT_FALSE(hides(wall(0.002, 0.003), endless));
-    Body nowhere = behind;
+    BinHull nowhere = behind;
     nowhere.corners[5].z = std::nan("");
     EXPECT_FALSE(hides(wall(0.002, 0.003), nowhere));
     endless.reach = 1e9;

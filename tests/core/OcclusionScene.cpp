@@ -119,19 +119,6 @@ void placeEye(OcclusionScene& scene, Random& random, const Land& land, const Rel
 
 }  // namespace
 
-Body bodyOf(const Ellipsoid& ellipsoid, const GeodeticBin& bin) {
-    Body body{};
-    for (std::size_t i = 0; i < 8; ++i) {
-        const auto end = [i](const Interval& interval, std::size_t bit) {
-            return (i >> bit & 1u) != 0 ? interval.upper : interval.lower;
-        };
-        body.corners[i] = ellipsoid.toEcef({end(bin.latitude(), 0), end(bin.longitude(), 1), end(bin.altitude(), 2)});
-    }
-    const double angle = std::hypot(bin.latitude().width(), bin.longitude().width());
-    body.reach = angle * angle / 7.0 * (ellipsoid.equatorialRadius() * 1.02 + std::abs(bin.altitude().upper));
-    return body;
-}
-
 OcclusionScene::OcclusionScene(Random& random, bool hasSpikes)
     : ellipsoid(random.chance(0.7) ? wgs84() : Ellipsoid(random.logUniform(1e3, 1e8), 1.0)) {
     if (ellipsoid.polarRadius() == 1.0) {

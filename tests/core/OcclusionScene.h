@@ -9,7 +9,6 @@
 #include <osgAnalyticBin/core/GeodeticBin.h>
 #include <osgAnalyticBin/core/mesh/QuickMeshBounds.h>
 
-#include <array>
 #include <core/TriangleSamples.h>
 #include <support/Random.h>
 #include <vector>
@@ -21,15 +20,6 @@ struct GroundTile {
     core::EcefMesh mesh;
     core::GeodeticBin bin;
 };
-
-/// A body in the form in which HorizonBuffer takes it.
-struct Body {
-    std::array<glm::dvec3, 8> corners;
-    double reach;
-};
-
-/// The hull of a bin's corners and how far the bin leaves it. Requires: narrower than a radian.
-[[nodiscard]] Body bodyOf(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin);
 
 /// Tiles side by side. Where neighbours have different posts their edges differ, and skirts hang from all of them.
 struct OcclusionScene {

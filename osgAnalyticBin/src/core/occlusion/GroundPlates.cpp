@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 
 #include "../Constants.h"
-#include "../FloatRounding.h"
+#include "../EarthScale.h"
 #include "../LocalFrame.h"
+#include "SurfaceGrid.h"
 
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
 #include <osgAnalyticBin/core/occlusion/GroundPlates.h>
@@ -12,21 +13,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <cstring>
 #include <limits>
-#include <unordered_map>
 #include <vector>
 
 namespace osgAnalyticBin::core {
 
 namespace {
 
-constexpr float kUnknown = -std::numeric_limits<float>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // The rim on each side of a cell, as a share of its width. Triangles that reach only into its outer half do not count
 // for the cell; columns keep out of all of it.
 constexpr double kRim = 1.0 / 64.0;
 
 constexpr std::array<std::size_t, 4> kCellsOfGrids{1, 2, 4, 8};
+// Codes of bounds: the first stands for what is not known.
+constexpr std::uint16_t kUnknown = 0, kFirstCode = 1, kLastCode = 65535;
 
 std::size_t firstNumber(std::size_t cells) {
     return (cells * cells - 1) / 3;  // 0, 1, 5, 21
@@ -36,20 +38,65 @@ std::size_t numberOf(std::size_t cells, std::size_t row, std::size_t column) {
     return firstNumber(cells) + row * cells + column;
 }
 
+Interval cellOf(const Interval& extents, std::size_t cells, std::size_t i) {
+    const double width = extents.width() / static_cast<double>(cells);
+    return {extents.lower + width * static_cast<double>(i), extents.lower + width * static_cast<double>(i + 1)};
+}
+
 // The cells of a grid along one axis that an interval meets, first to last; first > last: none.
 struct CellRange {
     std::ptrdiff_t first, last;
 };
 
-CellRange cellsIn(const Interval& extents, std::size_t cells, const Interval& met) {
-    const double width = extents.width() / static_cast<double>(cells);
-    const double half = 0.5 * kRim * width;
+// A cell counts where what is `inset` (a share of its width) within its edges is met.
+CellRange cellsIn(const Interval& extents, std::size_t cells, const Interval& met, double inset) {
     const auto most = static_cast<double>(cells);
-    // a cell counts where its used part, half a rim within its edges, is met
-    const double from = std::floor((met.lower - extents.lower + half) / width);
-    const double to = std::floor((met.upper - extents.lower - half) / width);
+    const double perCell = most / extents.width();
+    const double from = std::floor((met.lower - extents.lower) * perCell + inset);
+    const double to = std::floor((met.upper - extents.lower) * perCell - inset);
     return {static_cast<std::ptrdiff_t>(std::clamp(from, 0.0, most)),
             static_cast<std::ptrdiff_t>(std::clamp(to, -1.0, most - 1.0))};
+}
+
+// Numbers the different keys of a mesh: 0, 1, 2, ....
+template <class Key>
+class KeyNumbers {
+public:
+    explicit KeyNumbers(std::size_t most) {
+        std::size_t size = 16;
+        while (size < 2 * most) size *= 2;
+        _numbers.assign(size, kNone);
+        _keys.reserve(most);
+    }
+    [[nodiscard]] std::uint32_t numberOf(const Key& key) {
+        std::uint32_t& number = _numbers[slotOf(key)];
+        if (number != kNone) return number;
+        number = static_cast<std::uint32_t>(_keys.size());
+        _keys.push_back(key);
+        return number;
+    }
+    static constexpr std::uint32_t kNone = 0xffffffff;
+    [[nodiscard]] std::uint32_t find(const Key& key) const { return _numbers[slotOf(key)]; }
+    [[nodiscard]] const std::vector<Key>& keys() const { return _keys; }
+
+private:
+    [[nodiscard]] std::size_t slotOf(const Key& key) const {
+        std::uint64_t hash = 0;
+        for (const std::uint64_t part : key) hash = (hash ^ (part >> 29) ^ part) * 0x9e3779b97f4a7c15u;
+        std::size_t slot = (hash >> 20) & (_numbers.size() - 1);
+        while (_numbers[slot] != kNone && _keys[_numbers[slot]] != key) slot = (slot + 1) & (_numbers.size() - 1);
+        return slot;
+    }
+
+    std::vector<std::uint32_t> _numbers;
+    std::vector<Key> _keys;
+};
+
+std::uint64_t bitsOf(double value) {
+    const double plain = value + 0.0;  // one zero
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &plain, sizeof bits);
+    return bits;
 }
 
 }  // namespace
@@ -57,56 +104,85 @@ CellRange cellsIn(const Interval& extents, std::size_t cells, const Interval& me
 // Goes over the triangles of a mesh. Source: doc/occlusion.md, section 3.
 class GroundPlates::Builder {
 public:
-    Builder(GroundPlates& plates, const EcefMesh& mesh) : _plates(plates), _mesh(mesh) {
+    Builder(GroundPlates& plates, const EcefMesh& mesh, double margin)
+        : _plates(plates),
+          _mesh(mesh),
+          _margin(margin),
+          _radius(0.9 * smallestCurvatureRadius(plates._ellipsoid)),
+          _edges(mesh.triangles.size()) {
         _isCovered.fill(false);
         _isDoubted.fill(false);
-        plates._least.fill(std::numeric_limits<float>::infinity());
+        _low.fill(kInfinity);
+        _high.fill(-kInfinity);
         findMiddles();
-        mergeVertices();
+        findVertices();
         _sense = sense();
         for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) addTriangle(&mesh.triangles[i]);
         addBorders();
-        for (std::size_t i = 0; i < kNumbers; ++i)
-            if (!_isCovered[i] || _isDoubted[i]) plates._least[i] = kUnknown;
+        encode();
     }
 
 private:
-    using Corners = std::array<glm::dvec3, 3>;
+    using Corners = std::array<std::uint32_t, 3>;
+    using Edge = std::array<std::uint64_t, 2>;
+    struct Vertex {
+        glm::dvec3 up;
+        double latitude, longitude, altitude;  // the longitude from that of the middle
+        double axisDistance;
+    };
     // The place on the ellipsoid in the middle of a cell, and the normal there.
     struct Middle {
         glm::dvec3 foot, up;
     };
 
     void findMiddles() {
-        const auto middle = [](const Interval& extents, std::size_t i, std::size_t cells) {
-            return extents.lower + extents.width() * (static_cast<double>(i) + 0.5) / static_cast<double>(cells);
-        };
         for (const std::size_t cells : kCellsOfGrids) {
             for (std::size_t i = 0; i < cells * cells; ++i) {
-                const double latitude = middle(_plates._latitude, i / cells, cells);
-                const double longitude = middle(_plates._longitude, i % cells, cells);
+                const double latitude = cellOf(_plates._latitude, cells, i / cells).middle();
+                const double longitude = cellOf(_plates._longitude, cells, i % cells).middle();
                 _middles[firstNumber(cells) + i] = {_plates._ellipsoid.toEcef({latitude, longitude, 0.0}),
                                                     LocalFrame(latitude, longitude).up};
             }
         }
     }
 
-    // Triangles that share an edge may have vertices of their own.
-    void mergeVertices() {
-        struct Hash {
-            std::size_t operator()(const glm::dvec3& p) const {
-                const std::hash<double> hash;
-                return hash(p.x) ^ (hash(p.y) * 31) ^ (hash(p.z) * 1009);
-            }
-        };
-        std::unordered_map<glm::dvec3, std::uint32_t, Hash> numbers;
-        _merged.reserve(_mesh.size());
-        for (std::size_t i = 0; i < _mesh.size(); ++i)
-            _merged.push_back(numbers.emplace(_mesh.vertex(i), static_cast<std::uint32_t>(i)).first->second);
+    // Vertices at the same position count as one: triangles that share an edge may have vertices of their own.
+    void findVertices() {
+        KeyNumbers<std::array<std::uint64_t, 3>> positions(_mesh.size());
+        const double middle = _plates._longitude.middle();
+        for (std::size_t i = 0; i < _mesh.size(); ++i) {
+            const glm::dvec3 v = _mesh.vertex(i);
+            const std::uint32_t number = positions.numberOf({bitsOf(v.x), bitsOf(v.y), bitsOf(v.z)});
+            _merged.push_back(number);
+            if (number < _vertices.size()) continue;
+            const Geodetic at = _plates._ellipsoid.toGeodetic(v);
+            const LocalFrame frame(at.latitude, at.longitude);
+            _vertices.push_back({frame.up, at.latitude, std::remainder(at.longitude - middle, 2.0 * kPi), at.altitude,
+                                 std::hypot(v.x, v.y)});
+            _positions.push_back(v);
+        }
     }
 
     [[nodiscard]] Corners cornersOf(const std::uint32_t* triangle) const {
-        return {_mesh.vertex(triangle[0]), _mesh.vertex(triangle[1]), _mesh.vertex(triangle[2])};
+        return {_merged[triangle[0]], _merged[triangle[1]], _merged[triangle[2]]};
+    }
+    [[nodiscard]] glm::dvec3 normalOf(const Corners& c) const {
+        return glm::cross(_positions[c[1]] - _positions[c[0]], _positions[c[2]] - _positions[c[0]]);
+    }
+    // Metres of the longest side of a triangle, and of the longest one along the horizon, wherever in the triangle that
+    // is measured.
+    struct Sides {
+        double longest, horizontal;
+    };
+    [[nodiscard]] Sides sidesOf(const Corners& c) const {
+        double longest2 = 0.0, horizontal2 = 0.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::dvec3 side = _positions[c[(i + 1) % 3]] - _positions[c[i]];
+            const double rise = glm::dot(side, _vertices[c[0]].up), length2 = glm::dot(side, side);
+            longest2 = std::max(longest2, length2);
+            horizontal2 = std::max(horizontal2, length2 - rise * rise);
+        }
+        return {std::sqrt(longest2), std::sqrt(horizontal2) + 2.0 * longest2 / _radius};
     }
 
     // Whether the triangles show their front side upward (1) or downward (-1), by the volumes below them.
@@ -114,62 +190,97 @@ private:
         double sum = 0.0;
         for (std::size_t i = 0; i + 2 < _mesh.triangles.size(); i += 3) {
             const Corners c = cornersOf(&_mesh.triangles[i]);
-            sum += glm::dot(glm::cross(c[1] - c[0], c[2] - c[0]), c[0]);
+            sum += glm::dot(normalOf(c), _positions[c[0]]);
         }
         return sum < 0.0 ? -1.0 : 1.0;
     }
 
     // Across a triangle the ellipsoid's normal turns by at most the triangle's width over the radius of curvature.
     [[nodiscard]] bool isUpward(const Corners& c) const {
-        const glm::dvec3 normal = _sense * glm::cross(c[1] - c[0], c[2] - c[0]);
-        const double length = glm::length(normal);
-        const double width =
-            std::max({glm::distance(c[0], c[1]), glm::distance(c[1], c[2]), glm::distance(c[2], c[0])});
-        const double radius = std::min(_plates._ellipsoid.equatorialRadius(), _plates._ellipsoid.polarRadius());
-        const double angle = 2.0 * width / radius;
-        const Geodetic place = _plates._ellipsoid.toGeodetic(c[0]);
-        const glm::dvec3 up = LocalFrame(place.latitude, place.longitude).up;
-        return glm::dot(normal, up) > (angle + 1e-9) * length;
+        const glm::dvec3 normal = _sense * normalOf(c);
+        const double angle = 2.0 * sidesOf(c).longest / _radius;
+        return glm::dot(normal, _vertices[c[0]].up) > (angle + 1e-9) * glm::length(normal);
     }
 
+    // The triangle's latitudes, longitudes as of the extents, and altitudes.
     [[nodiscard]] GeodeticBin boundsOf(const Corners& c) const {
+        const Vertex &a = _vertices[c[0]], &b = _vertices[c[1]], &d = _vertices[c[2]];
+        const auto range = [&](double Vertex::*of) -> Interval {
+            return {std::min({a.*of, b.*of, d.*of}), std::max({a.*of, b.*of, d.*of})};
+        };
+        const Interval altitude = range(&Vertex::altitude), longitude = range(&Vertex::longitude);
+        const double axisDistance = 0.95 * range(&Vertex::axisDistance).lower;
+        const Sides sides = sidesOf(c);
+        const double horizontal2 = sides.horizontal * sides.horizontal, mixed = 2.0 * sides.horizontal * sides.longest;
+        // doc/occlusion.md, section 3: how far a function may leave the plane through its values at the corners
+        const double sag = horizontal2 / (6.0 * _radius);
+        const double secant = 1.2 * largestCurvatureRadius(_plates._ellipsoid) / axisDistance;
+        const double aside = 1.1 * (mixed + secant * horizontal2) / (6.0 * _radius * _radius);
+        const double around = mixed / (6.0 * axisDistance * axisDistance);
+        const bool isSmall = sides.longest <= 0.05 * std::min(axisDistance, _radius) && longitude.width() < 0.2 &&
+                             altitude.lower - sag > -0.1 * _radius && altitude.upper < 0.1 * _radius;
+        if (!isSmall) return thoroughBoundsOf(c);
+        const Interval latitude = range(&Vertex::latitude);
+        const double middle = _plates._longitude.middle();
+        return GeodeticBin({latitude.lower - aside, latitude.upper + aside},
+                           {middle + longitude.lower - around, middle + longitude.upper + around},
+                           {altitude.lower - sag, altitude.upper});
+    }
+
+    [[nodiscard]] GeodeticBin thoroughBoundsOf(const Corners& c) const {
         GeodeticMeshBounds bounds(_plates._ellipsoid, _plates._longitude.middle());
-        for (const glm::dvec3& corner : c) bounds.expandByVertex(corner);
-        bounds.expandByTriangle(c[0], c[1], c[2]);
+        for (const std::uint32_t corner : c) bounds.expandByVertex(_positions[corner]);
+        bounds.expandByTriangle(_positions[c[0]], _positions[c[1]], _positions[c[2]]);
         return bounds.bin();
     }
 
-    // Calls visit(number) for the cells that the bounds reach into. Bounds that are not known reach into all, and
-    // bounds around the axis into those at all longitudes: they do not count longitudes from where the extents do.
+    // Calls visit(row, column) for the cells of a grid that the bounds reach into. Bounds that are not known reach into
+    // all, and bounds around the axis into those at all longitudes: they do not count longitudes from where the extents
+    // do.
     template <class Visit>
-    void forEachCell(const GeodeticBin& met, Visit&& visit) {
+    void forEachCell(std::size_t cells, const GeodeticBin& met, double inset, Visit&& visit) const {
         const bool isAround = met.empty() || met.isFullCircle();
+        const Interval& latitude = met.empty() ? _plates._latitude : met.latitude();
+        const CellRange rows = cellsIn(_plates._latitude, cells, latitude, inset);
+        const CellRange columns =
+            cellsIn(_plates._longitude, cells, isAround ? _plates._longitude : met.longitude(), inset);
+        for (std::ptrdiff_t row = rows.first; row <= rows.last; ++row) {
+            for (std::ptrdiff_t column = columns.first; column <= columns.last; ++column)
+                visit(static_cast<std::size_t>(row), static_cast<std::size_t>(column));
+        }
+    }
+
+    // The same for all grids, with the number of the cell. Half of each rim is left out.
+    template <class Visit>
+    void forEachNumber(const GeodeticBin& met, Visit&& visit) const {
         for (const std::size_t cells : kCellsOfGrids) {
-            const CellRange rows = cellsIn(_plates._latitude, cells, met.empty() ? _plates._latitude : met.latitude());
-            const CellRange columns =
-                cellsIn(_plates._longitude, cells, isAround ? _plates._longitude : met.longitude());
-            for (std::ptrdiff_t row = rows.first; row <= rows.last; ++row) {
-                for (std::ptrdiff_t column = columns.first; column <= columns.last; ++column)
-                    visit(numberOf(cells, static_cast<std::size_t>(row), static_cast<std::size_t>(column)));
-            }
+            forEachCell(cells, met, 0.5 * kRim,
+                        [&](std::size_t row, std::size_t column) { visit(numberOf(cells, row, column)); });
         }
     }
 
     void addTriangle(const std::uint32_t* triangle) {
-        const std::uint32_t a = _merged[triangle[0]], b = _merged[triangle[1]], c = _merged[triangle[2]];
-        if (a == b || b == c || c == a) return;
         const Corners corners = cornersOf(triangle);
+        const auto [a, b, c] = corners;
+        if (a == b || b == c || c == a) return;
         const GeodeticBin bounds = boundsOf(corners);
+        const double high = bounds.empty() ? kInfinity : bounds.altitude().upper;
+        _lowest = std::min(_lowest, bounds.empty() ? -kInfinity : bounds.altitude().lower);
+        forEachCell(kUpperCells, bounds, -0.5 * kRim, [&](std::size_t row, std::size_t column) {
+            double& known = _high[row * kUpperCells + column];
+            known = std::max(known, high);
+        });
         if (bounds.empty() || !isUpward(corners)) {
-            forEachCell(bounds, [&](std::size_t cell) { _isDoubted[cell] = true; });
+            forEachNumber(bounds, [&](std::size_t cell) { _isDoubted[cell] = true; });
             return;
         }
-        noteEdges(a, b, c);
-        // more than the error that GeodeticMeshBounds allows
-        const double room = 2e-14 * std::max(_plates._ellipsoid.equatorialRadius(), _plates._ellipsoid.polarRadius());
-        const float low = roundedDown(bounds.altitude().lower - room);
-        forEachCell(bounds, [&](std::size_t cell) {
-            _plates._least[cell] = std::min(_plates._least[cell], low);
+        for (const Edge& edge : {Edge{a, b}, Edge{b, c}, Edge{c, a}}) {
+            const std::uint32_t number = _edges.numberOf(edge);
+            if (number == _edgeCounts.size()) _edgeCounts.push_back(0);
+            ++_edgeCounts[number];
+        }
+        forEachNumber(bounds, [&](std::size_t cell) {
+            _low[cell] = std::min(_low[cell], bounds.altitude().lower);
             if (!_isCovered[cell]) _isCovered[cell] = isOnNormal(corners, _middles[cell]);
         });
     }
@@ -177,79 +288,163 @@ private:
     // Whether the normal through the middle of a cell meets the triangle.
     [[nodiscard]] bool isOnNormal(const Corners& c, const Middle& middle) const {
         const auto& [foot, up] = middle;
-        const glm::dvec3 p = c[0] - foot, q = c[1] - foot, r = c[2] - foot;
+        const glm::dvec3 p = _positions[c[0]] - foot, q = _positions[c[1]] - foot, r = _positions[c[2]] - foot;
         const double pq = _sense * glm::dot(up, glm::cross(p, q));
         const double qr = _sense * glm::dot(up, glm::cross(q, r));
         const double rp = _sense * glm::dot(up, glm::cross(r, p));
         return pq >= 0.0 && qr >= 0.0 && rp >= 0.0;
     }
 
-    void noteEdges(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        const std::array<std::uint32_t, 4> round{a, b, c, a};
-        for (std::size_t i = 0; i < 3; ++i) ++_edges[std::uint64_t{round[i]} << 32 | round[i + 1]];
-    }
-
     // Where the mesh, or the part of it that faces one way, ends: at edges that do not have one triangle on each side.
     void addBorders() {
-        for (const auto& [edge, count] : _edges) {
-            const std::uint32_t from = static_cast<std::uint32_t>(edge >> 32), to = static_cast<std::uint32_t>(edge);
-            const auto other = _edges.find(std::uint64_t{to} << 32 | from);
-            if (count == 1 && other != _edges.end() && other->second == 1) continue;
-            const GeodeticBin bounds = boundsOf({_mesh.vertex(from), _mesh.vertex(to), _mesh.vertex(to)});
-            forEachCell(bounds, [&](std::size_t cell) { _isDoubted[cell] = true; });
+        for (std::uint32_t i = 0; i < _edgeCounts.size(); ++i) {
+            const auto [from, to] = _edges.keys()[i];
+            const std::uint32_t other = _edges.find({to, from});
+            if (_edgeCounts[i] == 1 && other != _edges.kNone && _edgeCounts[other] == 1) continue;
+            const Corners corners{static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to),
+                                  static_cast<std::uint32_t>(to)};
+            forEachNumber(boundsOf(corners), [&](std::size_t cell) { _isDoubted[cell] = true; });
+        }
+    }
+
+    // 16 bits for each bound, rounded outward.
+    void encode() {
+        // more than the error of altitudes
+        const double room =
+            _margin + 2e-14 * std::max(_plates._ellipsoid.equatorialRadius(), _plates._ellipsoid.polarRadius());
+        const double highest = *std::max_element(_high.begin(), _high.end());
+        if (!std::isfinite(_lowest) || !std::isfinite(highest)) return;
+        _plates._step = (highest - _lowest + 2.0 * room) / static_cast<double>(kLastCode - 4);
+        _plates._base = _lowest - room - 2.0 * _plates._step;
+        const auto codeOf = [&](double altitude) {
+            const double code = std::floor((altitude - _plates._base) / _plates._step);
+            return static_cast<std::uint16_t>(std::clamp<double>(code, kFirstCode, kLastCode));
+        };
+        for (std::size_t i = 0; i < kNumbers; ++i) {
+            if (!_isCovered[i] || _isDoubted[i]) continue;
+            std::uint16_t code = codeOf(_low[i] - room);
+            while (code > kUnknown && _plates.decoded(code) > _low[i] - room) --code;
+            _plates._least[i] = code;
+        }
+        for (std::size_t i = 0; i < kUppers; ++i) {
+            if (!(_high[i] >= _lowest)) continue;
+            std::uint16_t code = codeOf(_high[i] + room);
+            while (code < kLastCode && _plates.decoded(code) < _high[i] + room) ++code;
+            _plates._upper[i] = code;
         }
     }
 
     GroundPlates& _plates;
     const EcefMesh& _mesh;
+    const double _margin;
+    const double _radius;  // no larger than a radius of curvature at any point of the mesh
     double _sense = 1.0;
-    std::vector<std::uint32_t> _merged;
-    std::unordered_map<std::uint64_t, int> _edges;
+    std::vector<std::uint32_t> _merged;  // the vertex for each of the mesh
+    std::vector<Vertex> _vertices;
+    std::vector<glm::dvec3> _positions;
+    KeyNumbers<Edge> _edges;
+    std::vector<std::uint32_t> _edgeCounts;
     std::array<Middle, kNumbers> _middles;
     std::array<bool, kNumbers> _isCovered, _isDoubted;
+    std::array<double, kNumbers> _low;
+    std::array<double, kUppers> _high;
+    double _lowest = kInfinity;
 };
 
 GroundPlates::GroundPlates() noexcept : _ellipsoid(1.0, 1.0) {
     _least.fill(kUnknown);
+    _upper.fill(kUnknown);
 }
 
-GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents)
+GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin)
     : _ellipsoid(ellipsoid), _latitude(extents.latitude()), _longitude(extents.longitude()) {
     _least.fill(kUnknown);
-    constexpr double kFlattest = 0.01;
-    const bool isRound = std::abs(ellipsoid.eccentricitySquared()) <= kFlattest;
+    _upper.fill(kUnknown);
+    const bool isRound = std::abs(ellipsoid.eccentricitySquared()) <= kRoundest;
     if (extents.empty() || !isRound || !(_latitude.width() > 0.0) || !(_longitude.width() > 0.0)) return;
-    if (_longitude.width() < kPi) Builder(*this, mesh);
+    // the narrowest half of a rim, along a parallel that may end a little nearer to the pole
+    const double poleward = std::max(std::abs(_latitude.lower), std::abs(_latitude.upper));
+    const double narrowest = std::min(_latitude.width(), 0.9 * std::cos(poleward) * _longitude.width());
+    const double halfRim = 0.5 * kRim / 8.0 * 0.9 * smallestCurvatureRadius(ellipsoid) * narrowest;
+    const auto isFinite = [](const std::vector<double>& numbers) {
+        return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
+    };
+    const bool isMesh = isFinite(mesh.x) && isFinite(mesh.y) && isFinite(mesh.z);
+    if (isMesh && _longitude.width() < kPi && margin >= 0.0 && (margin == 0.0 || margin < halfRim))
+        Builder(*this, mesh, margin);
 }
 
-float GroundPlates::least(std::size_t cells, std::size_t row, std::size_t column) const noexcept {
-    return _least[numberOf(cells, row, column)];
+bool GroundPlates::isKnown() const noexcept {
+    return std::any_of(_least.begin(), _least.end(), [](std::uint16_t code) { return code != kUnknown; });
 }
 
-std::optional<EarthColumn> GroundPlates::column(std::size_t cells, std::size_t row, std::size_t column,
-                                                double depth) const noexcept {
-    const double high = least(cells, row, column);
-    if (high == static_cast<double>(kUnknown)) return std::nullopt;
+double GroundPlates::least(std::size_t cells, std::size_t row, std::size_t column) const noexcept {
+    const std::uint16_t code = _least[numberOf(cells, row, column)];
+    return code == kUnknown ? -kInfinity : decoded(code);
+}
+
+GeodeticBin GroundPlates::upper(std::size_t row, std::size_t column) const noexcept {
+    const std::uint16_t code = _upper[row * kUpperCells + column];
+    if (code == kUnknown) return {};
+    const auto grown = [](const Interval& cell) -> Interval {
+        const double rim = kRim * cell.width();
+        return {cell.lower - rim, cell.upper + rim};
+    };
+    return GeodeticBin(grown(cellOf(_latitude, kUpperCells, row)), grown(cellOf(_longitude, kUpperCells, column)),
+                       {_base, decoded(code)});
+}
+
+// Whether columns keep within the rims of a grid's cells.
+bool GroundPlates::fitsColumns(std::size_t cells, double depth) const noexcept {
     const double across = _longitude.width() / static_cast<double>(cells);
     const double along = _latitude.width() / static_cast<double>(cells);
     const double inner = 1.0 - 2.0 * kRim;
     // doc/occlusion.md, section 2: how far chords of a parallel leave it toward the pole, in latitude
     const double bulge = 0.55 * (1.0 / std::cos(0.5 * inner * across) - 1.0);
-    const double smallest = std::min(_ellipsoid.equatorialRadius(), _ellipsoid.polarRadius());
     // longitudes many turns away from zero are rounded coarsely
     const bool isWide = across * kRim > 64.0 * kEpsilon * (1.0 + std::abs(_longitude.lower));
-    const bool isShallow = std::abs(high) < 0.1 * smallest && depth >= 0.0 && depth < 0.1 * smallest;
-    if (!isWide || !(across * inner < 1.0) || !(bulge < 0.5 * kRim * along) || !isShallow) return std::nullopt;
-    EarthColumn earth;
-    earth.error = 32.0 * kEpsilon * (_ellipsoid.equatorialRadius() + std::abs(high) + depth);
-    for (std::size_t i = 0; i < 4; ++i) {
-        const double latitude = _latitude.lower + along * (static_cast<double>(row) + (i < 2 ? kRim : 1.0 - kRim));
-        const double longitude =
-            _longitude.lower + across * (static_cast<double>(column) + (i % 2 == 0 ? kRim : 1.0 - kRim));
-        earth.top[i] = _ellipsoid.toEcef({latitude, longitude, high});
-        earth.bottom[i] = _ellipsoid.toEcef({latitude, longitude, high - depth});
+    return isWide && across * inner < 1.0 && bulge < 0.5 * kRim * along && depth >= 0.0 && depth < shallowest();
+}
+
+double GroundPlates::shallowest() const noexcept {
+    return 0.1 * std::min(_ellipsoid.equatorialRadius(), _ellipsoid.polarRadius());
+}
+
+std::optional<EarthColumn> GroundPlates::column(std::size_t cells, std::size_t row, std::size_t column,
+                                                double depth) const {
+    std::vector<EarthColumn> all;
+    if (fitsColumns(cells, depth)) appendColumns(cells, {row, row + 1}, {column, column + 1}, depth, all);
+    return all.empty() ? std::nullopt : std::optional(all.front());
+}
+
+void GroundPlates::appendColumns(std::size_t cells, double depth, std::vector<EarthColumn>& columns) const {
+    if (fitsColumns(cells, depth)) appendColumns(cells, {0, cells}, {0, cells}, depth, columns);
+}
+
+void GroundPlates::appendColumns(std::size_t cells, CellSpan rows, CellSpan columns, double depth,
+                                 std::vector<EarthColumn>& result) const {
+    // both sides of the part of each cell that is within the rims
+    constexpr std::size_t kSides = 2 * kCellsOfGrids.back();
+    std::array<double, kSides> latitudes{}, longitudes{};
+    for (std::size_t i = 0; i < 2 * cells; ++i) {
+        const double at = static_cast<double>(i / 2) + (i % 2 == 0 ? kRim : 1.0 - kRim);
+        latitudes[i] = _latitude.lower + _latitude.width() / static_cast<double>(cells) * at;
+        longitudes[i] = _longitude.lower + _longitude.width() / static_cast<double>(cells) * at;
     }
-    return earth;
+    const SurfaceGrid<kSides, kSides> grid(_ellipsoid, latitudes, longitudes);
+    for (std::size_t row = rows.first; row < rows.end; ++row) {
+        for (std::size_t column = columns.first; column < columns.end; ++column) {
+            const double high = least(cells, row, column);
+            if (!(std::abs(high) < shallowest())) continue;
+            EarthColumn earth;
+            earth.error = 32.0 * kEpsilon * (_ellipsoid.equatorialRadius() + std::abs(high) + depth);
+            for (std::size_t i = 0; i < 4; ++i) {
+                earth.top[i] = grid.point(2 * row + i / 2, 2 * column + i % 2, high);
+                earth.bottom[i] = grid.point(2 * row + i / 2, 2 * column + i % 2, high - depth);
+            }
+            result.push_back(earth);
+        }
+    }
 }
 
 }  // namespace osgAnalyticBin::core

@@ -38,7 +38,8 @@ HorizonBuffer::HorizonBuffer(const glm::dvec3& eye, const glm::dvec3& forward, c
       _right(glm::cross(forward, up)),
       _up(up),
       _across(across),
-      _step(across.width() / static_cast<double>(kStrips)) {
+      _step(across.width() / static_cast<double>(kStrips)),
+      _lowest(-kInfinity) {
     _covered.fill({kInfinity, -kInfinity});
 }
 
@@ -52,10 +53,10 @@ HorizonBuffer::Spot HorizonBuffer::spotOf(const glm::dvec3& ecef) const noexcept
     return {glm::dot(from, _right) / forward, glm::dot(from, _up) / forward};
 }
 
-double HorizonBuffer::nearest(const std::array<glm::dvec3, 8>& corners, double reach) const noexcept {
+double HorizonBuffer::nearest(const BinHull& body) const noexcept {
     double nearest = kInfinity;
-    for (const glm::dvec3& corner : corners) nearest = std::min(nearest, forwardOf(corner));
-    return nearest - reach;
+    for (const glm::dvec3& corner : body.corners) nearest = std::min(nearest, forwardOf(corner));
+    return nearest - body.reach;
 }
 
 void HorizonBuffer::add(const EarthColumn& column) {
@@ -144,12 +145,12 @@ void HorizonBuffer::raise(const Pending& earth) {
     }
 }
 
-bool HorizonBuffer::hides(const std::array<glm::dvec3, 8>& corners, double reach) {
+bool HorizonBuffer::hides(const BinHull& body) {
     double size = glm::length(_eye);
-    for (const glm::dvec3& corner : corners) size = std::max(size, glm::length(corner));
+    for (const glm::dvec3& corner : body.corners) size = std::max(size, glm::length(corner));
     const double rounding = kVectorRounding * size;
-    const double near = nearest(corners, reach) - rounding;
-    if (!(near > 0.0 && reach >= 0.0) || near < _reached) return false;
+    const double near = nearest(body) - rounding;
+    if (!(near > 0.0 && body.reach >= 0.0) || near < _reached) return false;
     while (!_pending.empty() && _pending.front().farthest <= near) {
         std::pop_heap(_pending.begin(), _pending.end());
         _reached = std::max(_reached, _pending.back().farthest);
@@ -157,15 +158,18 @@ bool HorizonBuffer::hides(const std::array<glm::dvec3, 8>& corners, double reach
         _pending.pop_back();
     }
     Interval across{kInfinity, -kInfinity}, heights{kInfinity, -kInfinity};
-    for (const glm::dvec3& corner : corners) {
+    const double drawing = kDrawing * _across.width();
+    for (const glm::dvec3& corner : body.corners) {
         const Spot spot = spotOf(corner);
         const double error =
-            pictureError(reach + rounding, forwardOf(corner), std::max(std::abs(spot.x), std::abs(spot.y)));
+            pictureError(body.reach + rounding, forwardOf(corner), std::max(std::abs(spot.x), std::abs(spot.y))) +
+            drawing;
         if (!std::isfinite(spot.x + spot.y + error)) return false;
         across = {std::min(across.lower, spot.x - error), std::max(across.upper, spot.x + error)};
         heights = {std::min(heights.lower, spot.y - error), std::max(heights.upper, spot.y + error)};
     }
-    if (across.upper < _across.lower || across.lower > _across.upper) return false;
+    const bool isBeside = across.upper < _across.lower || across.lower > _across.upper;
+    if (isBeside || !(heights.lower >= _lowest)) return false;
     // the rounding of the quotient; that of the strips' edges is in the errors of the corners
     constexpr double kRoom = 1e-6;
     const double from = std::floor((across.lower - _across.lower) / _step - kRoom);

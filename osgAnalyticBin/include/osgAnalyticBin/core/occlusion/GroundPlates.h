@@ -11,7 +11,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace osgAnalyticBin::core {
 
@@ -25,9 +27,10 @@ struct EarthColumn {
     double error = 0.0;
 };
 
-/// Lower bounds of the altitude of a tile's surface, cell by cell, in grids of 1, 2, 4 and 8 cells a side over the
-/// tile's latitudes and longitudes. Each cell has a rim that its column of earth keeps out of: room for the chords of
-/// parallels, and for triangles of the next cell whose chords cross the common edge.
+/// Bounds of the altitude of a tile's surface, cell by cell: lower bounds in grids of 1, 2, 4 and 8 cells a side over
+/// the tile's latitudes and longitudes, upper bounds in one of 4. Each cell has a rim that its column of earth keeps
+/// out of: room for the chords of parallels, and for triangles of the next cell whose chords cross the common edge.
+/// Memory: 300 bytes, 16 bits for each bound.
 /// Source: doc/occlusion.md, sections 2 and 3.
 class GroundPlates final {
 public:
@@ -35,13 +38,25 @@ public:
     GroundPlates() noexcept;
 
     /// Of a mesh that lies within the extents; their altitudes are ignored. A cell is known where the mesh covers all
-    /// of it, and where all triangles face the same way, up or down.
-    /// Cost: one or two microseconds for each triangle. Requires: indices within the vertices.
-    GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents);
+    /// of it, and where all triangles face the same way, up or down. `margin`: metres by which the mesh may be drawn in
+    /// another place; bounds are widened by it, and where it is wider than half a rim nothing is known.
+    /// Cost: some 0.2 microseconds for each triangle. Requires: indices within the vertices.
+    GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin = 0.0);
+
+    /// Whether a column can be made of any cell.
+    [[nodiscard]] bool isKnown() const noexcept;
 
     /// Metres, of a cell in the grid of `cells` cells a side, 1, 2, 4 or 8; rows run north, columns east. Minus
     /// infinity: not known. Requires: such a grid and cell.
-    [[nodiscard]] float least(std::size_t cells, std::size_t row, std::size_t column) const noexcept;
+    [[nodiscard]] double least(std::size_t cells, std::size_t row, std::size_t column) const noexcept;
+
+    /// Cells a side of the grid of upper bounds.
+    static constexpr std::size_t kUpperCells = 4;
+
+    /// A part of the tile and all of the mesh there is at most this high, whether the cell's least() is known or not.
+    /// The parts overlap a little, and are all of the mesh together.
+    /// Returns: an empty bin where nothing of the mesh is. Requires: a cell of the grid of kUpperCells.
+    [[nodiscard]] GeodeticBin upper(std::size_t row, std::size_t column) const noexcept;
 
     /// The earth below a known cell, `depth` metres deep.
     /// Guarantee: every point of it, up to `error`, has the mesh above it, along the ellipsoid's normal; tests:
@@ -49,16 +64,36 @@ public:
     /// Returns: nullopt where nothing is known, and for cells too wide for the rim: with angles in radians, where the
     /// square of the width in longitude exceeds about an eighth of the width in latitude. Requires: as least().
     [[nodiscard]] std::optional<EarthColumn> column(std::size_t cells, std::size_t row, std::size_t column,
-                                                    double depth) const noexcept;
+                                                    double depth) const;
+
+    /// The columns of all known cells of a grid. Cost: a few ten nanoseconds a column.
+    void appendColumns(std::size_t cells, double depth, std::vector<EarthColumn>& columns) const;
 
 private:
+    // Rows or columns of a grid.
+    struct CellSpan {
+        std::size_t first, end;
+    };
+
+    [[nodiscard]] bool fitsColumns(std::size_t cells, double depth) const noexcept;
+    [[nodiscard]] double shallowest() const noexcept;
+    void appendColumns(std::size_t cells, CellSpan rows, CellSpan columns, double depth,
+                       std::vector<EarthColumn>& result) const;
+
     static constexpr std::size_t kNumbers = 1 + 4 + 16 + 64;
+    static constexpr std::size_t kUppers = kUpperCells * kUpperCells;
 
     class Builder;
 
+    [[nodiscard]] double decoded(std::uint16_t code) const noexcept {
+        return _base + _step * static_cast<double>(code);
+    }
+
     Ellipsoid _ellipsoid;
     Interval _latitude, _longitude;
-    std::array<float, kNumbers> _least;
+    double _base = 0.0, _step = 0.0;             // of the codes
+    std::array<std::uint16_t, kNumbers> _least;  // 0: not known
+    std::array<std::uint16_t, kUppers> _upper;
 };
 
 }  // namespace osgAnalyticBin::core

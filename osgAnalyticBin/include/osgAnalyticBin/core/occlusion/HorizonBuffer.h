@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/GeodeticBin.h>
+#include <osgAnalyticBin/core/occlusion/BinHull.h>
 #include <osgAnalyticBin/core/occlusion/GroundPlates.h>
 
 #include <glm/vec3.hpp>
@@ -30,16 +30,23 @@ public:
     /// Adds earth. It hides what is no nearer than its farthest corner. Earth beside or behind the eye is left out.
     void add(const EarthColumn& column);
 
+    /// Lines of sight below this position in the picture are never hidden: they may meet terrain in front of the near
+    /// plane, which is not drawn. Default: minus infinity.
+    void setLowest(double y) noexcept { _lowest = y; }
+
     /// Whether all lines of sight from the eye to a body meet added earth before the body, as far as they lie within
-    /// `across`. The body: a hull of eight corners, ECEF, and all within `reach` metres of it. Bodies have to be asked
-    /// for front to back, by nearest(): one that is nearer than earth that was used for another gets false.
+    /// `across`. Bodies have to be asked for front to back, by nearest(): one that is nearer than earth that was used
+    /// for another gets false. The body counts as a little larger, by what drawing rounds: kDrawing.
     /// Guarantee: true is a proof, rounding included; tests: HorizonBuffer.*.
     /// Cost: one comparison per strip that the body spans. Earth that is used for the first time costs some twenty
     /// operations per strip that it spans.
-    [[nodiscard]] bool hides(const std::array<glm::dvec3, 8>& corners, double reach);
+    [[nodiscard]] bool hides(const BinHull& body);
 
     /// The distance along `forward` of the body's nearest point, metres.
-    [[nodiscard]] double nearest(const std::array<glm::dvec3, 8>& corners, double reach) const noexcept;
+    [[nodiscard]] double nearest(const BinHull& body) const noexcept;
+
+    /// A part of the width of the picture: corners of triangles are drawn on a grid, of 1/256 of a pixel or finer.
+    static constexpr double kDrawing = 2e-5;
 
 private:
     // A point in the picture.
@@ -65,6 +72,7 @@ private:
     glm::dvec3 _eye, _forward, _right, _up;
     Interval _across;
     double _step;
+    double _lowest;
     double _reached = 0.0;  // the farthest corner of the earth that is in the strips
     std::vector<Pending> _pending;
     std::array<Interval, kStrips> _covered;  // empty: nothing

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Oracle: the interpolated point of the eight corners, which is in their hull, beside the point in long double.
+
+#include <osgAnalyticBin/core/occlusion/BinHull.h>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <support/GeodeticOracle.h>
+#include <support/Planets.h>
+#include <support/Random.h>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::BinHull;
+using core::Ellipsoid;
+using core::GeodeticBin;
+
+TEST(BinHull, HoldsTheBin) {
+    Random random(1711);
+    double closest = 1e300;
+    for (int trial = 0; trial < 20000; ++trial) {
+        const double radius = random.logUniform(1.0, 1e9);
+        const Ellipsoid ellipsoid(radius, radius * random.uniform(0.996, 1.004));
+        const double size = random.logUniform(1e-7, 1.5), wider = random.logUniform(1e-7, 3.0);
+        const double south = random.uniform(-1.57, 1.57 - size), west = random.uniform(-4.0, 4.0);
+        const double low = radius * random.uniform(-0.1, 0.1);
+        const GeodeticBin bin({south, south + size}, {west, west + wider},
+                              {low, low + radius * random.logUniform(1e-6, 0.1)});
+        const BinHull hull(ellipsoid, bin, 0.0);
+        // at the middle the interpolation is worst
+        const auto share = [&] { return random.chance(0.5) ? 0.5 : random.uniform(); };
+        const double p = share(), l = share(), h = random.uniform();
+        const glm::dvec3 point =
+            ellipsoid.toEcef({south + p * size, west + l * wider, low + h * bin.altitude().width()});
+        glm::dvec3 inHull(0.0);
+        for (std::size_t i = 0; i < 8; ++i) {
+            inHull += (i % 2 != 0 ? l : 1.0 - l) * (i / 2 % 2 != 0 ? p : 1.0 - p) * (i / 4 != 0 ? h : 1.0 - h) *
+                      hull.corners[i];
+        }
+        ASSERT_LE(glm::distance(point, inHull), hull.reach);
+        if (p == 0.5 && l == 0.5 && size > 1e-3) closest = std::min(closest, hull.reach / glm::distance(point, inHull));
+    }
+    EXPECT_LT(closest, 1.1);
+}
+
+TEST(BinHull, IsBoundlessOnFlatEllipsoids) {
+    const GeodeticBin bin({0.1, 0.2}, {0.1, 0.2}, {0.0, 1.0});
+    EXPECT_TRUE(std::isinf(BinHull(Ellipsoid(6e6, 5e6), bin, 0.0).reach));
+    EXPECT_DOUBLE_EQ(BinHull(Ellipsoid(6e6, 6e6), bin, 7.0).reach, BinHull(Ellipsoid(6e6, 6e6), bin, 0.0).reach + 7.0);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
