@@ -23,13 +23,6 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-CullOptions declaredHorizon() {
-    CullOptions options;
-    options.horizonUse = HorizonUse::Given;
-    options.horizon = -50000.0;
-    return options;
-}
-
 TEST(SeeThroughTerrain, HidesNothing) {
     const auto setPolygonMode = [](osg::StateSet& state) {
         state.setAttributeAndModes(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));

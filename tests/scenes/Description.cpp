@@ -97,7 +97,8 @@ void describe(const DatabaseSpec& d, std::ostream& out) {
                                               "one tile each"};
     out << (d.isMap ? "a map of " : "a globe of ") << d.shownColumns << " of " << d.columns << " x " << d.rows
         << " tiles and " << d.levels << " finer levels " << (d.isLoaded ? "(loaded), " : "(paged), ")
-        << kMeshes[static_cast<int>(d.mesh)] << " of " << d.posts << " posts, relief " << d.relief << " m";
+        << kMeshes[static_cast<int>(d.mesh)] << " of " << d.posts << " posts, relief " << d.relief << " m in "
+        << d.waves << " waves";
     if (d.levels > 0) out << ", files are " << kShapes[static_cast<int>(d.fileShape)];
     if (!d.isMap) out << ", radii " << d.equatorial << " " << d.polar;
     if (d.storesBins) out << ", stored bins" << (d.groupsLeaves ? " (groups above leaves)" : "");

@@ -64,6 +64,7 @@ struct DatabaseSpec {
     bool leavesArePaged = false;  ///< tiles of the last level are PagedLODs without files
     bool requestsBins = false;    ///< bins are installed by an InstallBinsCallback, and not by installBins()
     double relief = 3000.0;       ///< heights are within plus and minus this, metres
+    double waves = 5.0;           ///< hills and valleys: radians of the sine for a radian of latitude
     double verticalScale = 1.0;
     double range = 3.0;  ///< tiles are refined nearer than this many of their radii
     CullOptions options;
@@ -147,7 +148,7 @@ struct ViewSpec {
 };
 
 /// What a scene has more of than others.
-enum class Theme { Anything, Models, ScaledTerrain };
+enum class Theme { Anything, Models, ScaledTerrain, Hills };
 
 struct Description {
     std::uint64_t seed = 0;

@@ -260,6 +260,20 @@ void chooseTheme(Random& random, Description& description) {
         if (random.chance(0.5)) database.verticalScale = 10.0;
         if (database.options.horizonUse == HorizonUse::Given) database.options.horizonUse = HorizonUse::ByMethod;
         database.options.heights = CullOptions::kTerrainOnEarth;
+    } else if (theme < 0.45 && database.isWhole()) {
+        // the smaller the globe, the higher its mountains are beside its radius
+        description.theme = Theme::Hills;
+        if (database.mesh == MeshKind::Terrain) database.mesh = MeshKind::Local;
+        database.equatorial = random.logUniform(2e3, 4e5);
+        database.polar = database.equatorial * random.uniform(0.996, 1.004);
+        database.relief = database.equatorial * random.logUniform(0.005, 0.09);
+        database.waves = random.logUniform(5.0, 60.0);
+        database.posts = random.integer(5, 17);
+        database.levels = std::min(database.levels, 1);
+        database.verticalScale = 1.0;
+        database.options.occlusion = true;
+        database.options.heights = {-database.relief - 1.0, database.relief + 1.0};
+        if (database.options.horizonUse != HorizonUse::Declared) database.options.horizonUse = HorizonUse::ByMethod;
     }
 }
 

@@ -156,7 +156,7 @@ Extents extentsOf(const DatabaseSpec& database, const TileKey& tile) {
 }
 
 double surfaceHeight(const DatabaseSpec& database, double latitude, double longitude) {
-    const double unit = database.isMap ? 1e-4 : 5.0;
+    const double unit = database.isMap ? 1e-4 : database.waves;
     return database.relief * std::sin(unit * latitude + 1.0) * std::cos(1.7 * unit * longitude);
 }
 

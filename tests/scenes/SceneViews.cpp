@@ -132,6 +132,23 @@ Look lookAtSummit(Random& random, const Description& description, const TileKey&
             distance, 10.0};
 }
 
+/// From little above the ground to a place that is mostly as low.
+Look lookThroughValley(Random& random, const Description& description, const TileKey& tile, int frame) {
+    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(tile.database)];
+    const Extents e = extentsOf(database, tile);
+    const double latitude = e.south + random.uniform() * (e.north - e.south);
+    const double longitude = e.west + random.uniform() * (e.east - e.west);
+    const double above = database.relief * random.logUniform(0.01, 1.0);
+    const double altitude = surfaceHeight(database, latitude, longitude) + above;
+    const double distance = random.logUniform(0.01, 1.0), bearing = random.uniform(0.0, 6.28);
+    const double eastward = distance * std::sin(bearing) / std::max(0.1, std::cos(latitude));
+    const osg::Vec3d center = place(database, latitude + distance * std::cos(bearing), longitude + eastward,
+                                    database.relief * random.uniform(-1.0, 1.0));
+    const osg::Matrixd world = database.toWorld(frame);
+    return {place(database, latitude, longitude, altitude) * world, center * world,
+            upAt(database, latitude, longitude, frame), above};
+}
+
 Look anyLook(Random& random, const Description& description, int frame) {
     const double kind = random.uniform();
     if (kind < (description.theme == Theme::Models ? 0.8 : 0.4)) {
@@ -148,8 +165,10 @@ Look anyLook(Random& random, const Description& description, int frame) {
         }
     }
     const bool isSummit = description.theme == Theme::ScaledTerrain && number == 0 && random.chance(0.6);
-    Look look =
-        isSummit ? lookAtSummit(random, description, tile, frame) : lookAtTile(random, description, tile, frame);
+    const bool isValley = description.theme == Theme::Hills && number == 0 && random.chance(0.7);
+    Look look = isSummit   ? lookAtSummit(random, description, tile, frame)
+                : isValley ? lookThroughValley(random, description, tile, frame)
+                           : lookAtTile(random, description, tile, frame);
     const double size = sizeOf(database);
     if (random.chance(0.07)) look.eye += vectorOf(random.direction()) * random.logUniform(0.01, 1.0) * size;
     if (random.chance(0.1)) look.center += vectorOf(random.direction()) * random.logUniform(0.001, 1.0) * size;

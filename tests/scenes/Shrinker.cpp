@@ -82,6 +82,7 @@ private:
             [](CullOptions& o) { resetOption(&CullOptions::horizonUse, o); },
             [](CullOptions& o) { resetOption(&CullOptions::inheritViewpoint, o); },
             [](CullOptions& o) { resetOption(&CullOptions::reverse, o); },
+            [](CullOptions& o) { resetOption(&CullOptions::occlusion, o); },
             [](CullOptions& o) { resetOption(&CullOptions::expiry, o); },
             [](CullOptions& o) { resetOption(&CullOptions::skirts, o); },
             [](CullOptions& o) { resetOption(&CullOptions::heights, o); }};
@@ -113,6 +114,7 @@ private:
             reset(&DatabaseSpec::fileShape, i, FileShape::Tiles);
             reset(&DatabaseSpec::mesh, i, MeshKind::Local);
             reset(&DatabaseSpec::relief, i, std::min(1000.0, _best.description.databases[i].relief));
+            reset(&DatabaseSpec::waves, i, 5.0);
             simplifyOptions([i](Description& d) -> CullOptions& { return d.databases[i].options; });
         }
     }

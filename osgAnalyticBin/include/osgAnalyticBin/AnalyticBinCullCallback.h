@@ -223,6 +223,7 @@ private:
     [[nodiscard]] Verdict verdict(core::Side side, const core::PlaneSet& planes, core::PlaneMask undecided,
                                   const core::HorizonEye* eye, CullTraversal& traversal) const;
     [[nodiscard]] bool isHiddenFrom(const core::HorizonEye& eye) const;
+    [[nodiscard]] bool isBehindTerrain(CullTraversal& traversal) const;
     [[nodiscard]] bool isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,
                                       core::PlaneMask undecided) const;
 

@@ -31,6 +31,8 @@ struct BinCounts {
     std::uint32_t hidden = 0;
     /// Of those outside: beyond an edge of the frustum, though outside no single plane.
     std::uint32_t separated = 0;
+    /// Of those outside: behind terrain.
+    std::uint32_t occluded = 0;
     /// Frame number of the traversal.
     unsigned int frame = 0;
 };
@@ -62,6 +64,9 @@ public:
     /// Says of the tile counted last that an edge of the frustum proved it outside.
     void countSeparated() noexcept;
 
+    /// Says of the tile counted last that terrain hides it.
+    void countOccluded() noexcept;
+
     /// For visitors that watch which nodes they meet. With true, tiles are tested one by one and the visitor meets the
     /// culled ones too; without it, siblings are tested together and culled ones are not visited. The verdicts are the
     /// same.
@@ -86,6 +91,7 @@ private:
     std::atomic<std::uint32_t> _straddling{0};
     std::atomic<std::uint32_t> _hidden{0};
     std::atomic<std::uint32_t> _separated{0};
+    std::atomic<std::uint32_t> _occluded{0};
     std::atomic<unsigned int> _frame{0};
     const osg::NodeVisitor* _owner = nullptr;
     bool _isTileByTile = false;

@@ -77,6 +77,9 @@ struct CullOptions {
     /// is beyond one of their faces. Without a value: not with methods for comparison. Tiles of a map, all of them
     /// boxes, are tested unless it is false.
     std::optional<bool> reverse;
+    /// Whether tiles behind terrain are culled: on a globe whose horizon is used (see `horizonUse`), for tiles whose
+    /// mesh the kit reads. Read when bins are installed.
+    bool occlusion = false;
     /// Seconds for which the DatabasePager keeps a tile's finer children after they were last seen, when it has more
     /// PagedLODs than its target; 0 leaves OSG's own rule alone. Bins cull what spheres keep by chance: without this,
     /// turning the head and back reads the same files again.
@@ -108,10 +111,10 @@ struct CullOptions {
     static constexpr core::Interval kTerrainOnEarth{-11500.0, 9000.0};
 };
 
-/// Parses "method=paper,growth=1.1", "horizon=-500", "horizon=off", "inheritviewpoint=on", "reverse=off", "expiry=3",
-/// "skirts=all", "cluster=keep", "heights=-500..9000", "index=off"; commas or blanks part the items; an empty text is
-/// the default. Returns: nullopt when an item is unknown or malformed, with one line in `error` that names it and what
-/// is allowed.
+/// Parses "method=paper,growth=1.1", "horizon=-500", "horizon=off", "inheritviewpoint=on", "reverse=off",
+/// "occlusion=on", "expiry=3", "skirts=all", "cluster=keep", "heights=-500..9000", "index=off"; commas or blanks part
+/// the items; an empty text is the default. Returns: nullopt when an item is unknown or malformed, with one line in
+/// `error` that names it and what is allowed.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<CullOptions> cullOptionsFromText(const std::string& text,
                                                                                    std::string& error);
 

@@ -122,6 +122,10 @@ bool applyReverse(const std::string& value, CullOptions& options, std::string& e
     return applySwitch("reverse", value, options.reverse, error);
 }
 
+bool applyOcclusion(const std::string& value, CullOptions& options, std::string& error) {
+    return applySwitch("occlusion", value, options.occlusion, error);
+}
+
 bool applyIndex(const std::string& value, CullOptions& options, std::string& error) {
     return applySwitch("index", value, options.index, error);
 }
@@ -136,11 +140,12 @@ struct KnownItem {
     bool (*apply)(const std::string& value, CullOptions& options, std::string& error);
 };
 
-constexpr std::array<KnownItem, 10> kItems{{{"method", "NAME", applyMethod},
+constexpr std::array<KnownItem, 11> kItems{{{"method", "NAME", applyMethod},
                                             {"growth", "FACTOR", applyGrowth},
                                             {"horizon", "METRES|declared|off", applyHorizon},
                                             {"inheritviewpoint", "on|off", applyInheritViewpoint},
                                             {"reverse", "on|off", applyReverse},
+                                            {"occlusion", "on|off", applyOcclusion},
                                             {"expiry", "SECONDS", applyExpiry},
                                             {"skirts", "cracks|all", applySkirts},
                                             {"cluster", "replace|keep", applyCluster},
@@ -196,8 +201,8 @@ bool CullOptions::effectiveReverse() const noexcept {
 
 bool CullOptions::operator==(const CullOptions& other) const noexcept {
     const auto items = [](const CullOptions& o) {
-        return std::tie(o.method, o.growth, o.horizonUse, o.horizon, o.inheritViewpoint, o.reverse, o.expiry, o.skirts,
-                        o.cluster, o.heights.lower, o.heights.upper, o.index);
+        return std::tie(o.method, o.growth, o.horizonUse, o.horizon, o.inheritViewpoint, o.reverse, o.occlusion,
+                        o.expiry, o.skirts, o.cluster, o.heights.lower, o.heights.upper, o.index);
     };
     return items(*this) == items(other);
 }
@@ -230,6 +235,7 @@ std::string toText(const CullOptions& options) {
     if (options.horizonUse == HorizonUse::Given) text += ",horizon=" + numberToText(options.horizon);
     if (options.inheritViewpoint) text += ",inheritviewpoint=on";
     if (options.reverse) text += *options.reverse ? ",reverse=on" : ",reverse=off";
+    if (options.occlusion) text += ",occlusion=on";
     if (options.expiry != CullOptions::kDefaultExpiry) text += ",expiry=" + numberToText(options.expiry);
     if (options.skirts == SkirtUse::All) text += ",skirts=all";
     if (options.cluster == ClusterUse::Keep) text += ",cluster=keep";

@@ -48,12 +48,13 @@ struct CellRange {
     std::ptrdiff_t first, last;
 };
 
-// A cell counts where what is `inset` (a share of its width) within its edges is met.
-CellRange cellsIn(const Interval& extents, std::size_t cells, const Interval& met, double inset) {
+// A cell counts where what is half of a rim within its edges is met.
+CellRange cellsIn(const Interval& extents, std::size_t cells, const Interval& met) {
+    constexpr double kInset = 0.5 * kRim;
     const auto most = static_cast<double>(cells);
     const double perCell = most / extents.width();
-    const double from = std::floor((met.lower - extents.lower) * perCell + inset);
-    const double to = std::floor((met.upper - extents.lower) * perCell - inset);
+    const double from = std::floor((met.lower - extents.lower) * perCell + kInset);
+    const double to = std::floor((met.upper - extents.lower) * perCell - kInset);
     return {static_cast<std::ptrdiff_t>(std::clamp(from, 0.0, most)),
             static_cast<std::ptrdiff_t>(std::clamp(to, -1.0, most - 1.0))};
 }
@@ -113,7 +114,6 @@ public:
         _isCovered.fill(false);
         _isDoubted.fill(false);
         _low.fill(kInfinity);
-        _high.fill(-kInfinity);
         findMiddles();
         findVertices();
         _sense = sense();
@@ -234,28 +234,21 @@ private:
         return bounds.bin();
     }
 
-    // Calls visit(row, column) for the cells of a grid that the bounds reach into. Bounds that are not known reach into
-    // all, and bounds around the axis into those at all longitudes: they do not count longitudes from where the extents
-    // do.
+    // Calls visit(number) for the cells of all grids that the bounds reach into farther than half of the rim. Bounds
+    // that are not known reach into all, and bounds around the axis into those at all longitudes: they do not count
+    // longitudes from where the extents do.
     template <class Visit>
-    void forEachCell(std::size_t cells, const GeodeticBin& met, double inset, Visit&& visit) const {
+    void forEachCell(const GeodeticBin& met, Visit&& visit) const {
         const bool isAround = met.empty() || met.isFullCircle();
         const Interval& latitude = met.empty() ? _plates._latitude : met.latitude();
-        const CellRange rows = cellsIn(_plates._latitude, cells, latitude, inset);
-        const CellRange columns =
-            cellsIn(_plates._longitude, cells, isAround ? _plates._longitude : met.longitude(), inset);
-        for (std::ptrdiff_t row = rows.first; row <= rows.last; ++row) {
-            for (std::ptrdiff_t column = columns.first; column <= columns.last; ++column)
-                visit(static_cast<std::size_t>(row), static_cast<std::size_t>(column));
-        }
-    }
-
-    // The same for all grids, with the number of the cell. Half of each rim is left out.
-    template <class Visit>
-    void forEachNumber(const GeodeticBin& met, Visit&& visit) const {
         for (const std::size_t cells : kCellsOfGrids) {
-            forEachCell(cells, met, 0.5 * kRim,
-                        [&](std::size_t row, std::size_t column) { visit(numberOf(cells, row, column)); });
+            const CellRange rows = cellsIn(_plates._latitude, cells, latitude);
+            const CellRange columns =
+                cellsIn(_plates._longitude, cells, isAround ? _plates._longitude : met.longitude());
+            for (std::ptrdiff_t row = rows.first; row <= rows.last; ++row) {
+                for (std::ptrdiff_t column = columns.first; column <= columns.last; ++column)
+                    visit(numberOf(cells, static_cast<std::size_t>(row), static_cast<std::size_t>(column)));
+            }
         }
     }
 
@@ -264,14 +257,8 @@ private:
         const auto [a, b, c] = corners;
         if (a == b || b == c || c == a) return;
         const GeodeticBin bounds = boundsOf(corners);
-        const double high = bounds.empty() ? kInfinity : bounds.altitude().upper;
-        _lowest = std::min(_lowest, bounds.empty() ? -kInfinity : bounds.altitude().lower);
-        forEachCell(kUpperCells, bounds, -0.5 * kRim, [&](std::size_t row, std::size_t column) {
-            double& known = _high[row * kUpperCells + column];
-            known = std::max(known, high);
-        });
         if (bounds.empty() || !isUpward(corners)) {
-            forEachNumber(bounds, [&](std::size_t cell) { _isDoubted[cell] = true; });
+            forEachCell(bounds, [&](std::size_t cell) { _isDoubted[cell] = true; });
             return;
         }
         for (const Edge& edge : {Edge{a, b}, Edge{b, c}, Edge{c, a}}) {
@@ -279,7 +266,7 @@ private:
             if (number == _edgeCounts.size()) _edgeCounts.push_back(0);
             ++_edgeCounts[number];
         }
-        forEachNumber(bounds, [&](std::size_t cell) {
+        forEachCell(bounds, [&](std::size_t cell) {
             _low[cell] = std::min(_low[cell], bounds.altitude().lower);
             if (!_isCovered[cell]) _isCovered[cell] = isOnNormal(corners, _middles[cell]);
         });
@@ -303,7 +290,7 @@ private:
             if (_edgeCounts[i] == 1 && other != _edges.kNone && _edgeCounts[other] == 1) continue;
             const Corners corners{static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to),
                                   static_cast<std::uint32_t>(to)};
-            forEachNumber(boundsOf(corners), [&](std::size_t cell) { _isDoubted[cell] = true; });
+            forEachCell(boundsOf(corners), [&](std::size_t cell) { _isDoubted[cell] = true; });
         }
     }
 
@@ -312,10 +299,14 @@ private:
         // more than the error of altitudes
         const double room =
             _margin + 2e-14 * std::max(_plates._ellipsoid.equatorialRadius(), _plates._ellipsoid.polarRadius());
-        const double highest = *std::max_element(_high.begin(), _high.end());
-        if (!std::isfinite(_lowest) || !std::isfinite(highest)) return;
-        _plates._step = (highest - _lowest + 2.0 * room) / static_cast<double>(kLastCode - 4);
-        _plates._base = _lowest - room - 2.0 * _plates._step;
+        Interval known{kInfinity, -kInfinity};
+        for (std::size_t i = 0; i < kNumbers; ++i) {
+            if (_isCovered[i] && !_isDoubted[i])
+                known = {std::min(known.lower, _low[i] - room), std::max(known.upper, _low[i])};
+        }
+        if (!(known.lower <= known.upper)) return;
+        _plates._step = known.width() / static_cast<double>(kLastCode - 4);
+        _plates._base = known.lower - 2.0 * _plates._step;
         const auto codeOf = [&](double altitude) {
             const double code = std::floor((altitude - _plates._base) / _plates._step);
             return static_cast<std::uint16_t>(std::clamp<double>(code, kFirstCode, kLastCode));
@@ -325,12 +316,6 @@ private:
             std::uint16_t code = codeOf(_low[i] - room);
             while (code > kUnknown && _plates.decoded(code) > _low[i] - room) --code;
             _plates._least[i] = code;
-        }
-        for (std::size_t i = 0; i < kUppers; ++i) {
-            if (!(_high[i] >= _lowest)) continue;
-            std::uint16_t code = codeOf(_high[i] + room);
-            while (code < kLastCode && _plates.decoded(code) < _high[i] + room) ++code;
-            _plates._upper[i] = code;
         }
     }
 
@@ -347,19 +332,15 @@ private:
     std::array<Middle, kNumbers> _middles;
     std::array<bool, kNumbers> _isCovered, _isDoubted;
     std::array<double, kNumbers> _low;
-    std::array<double, kUppers> _high;
-    double _lowest = kInfinity;
 };
 
 GroundPlates::GroundPlates() noexcept : _ellipsoid(1.0, 1.0) {
     _least.fill(kUnknown);
-    _upper.fill(kUnknown);
 }
 
 GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin)
     : _ellipsoid(ellipsoid), _latitude(extents.latitude()), _longitude(extents.longitude()) {
     _least.fill(kUnknown);
-    _upper.fill(kUnknown);
     const bool isRound = std::abs(ellipsoid.eccentricitySquared()) <= kRoundest;
     if (extents.empty() || !isRound || !(_latitude.width() > 0.0) || !(_longitude.width() > 0.0)) return;
     // the narrowest half of a rim, along a parallel that may end a little nearer to the pole
@@ -381,17 +362,6 @@ bool GroundPlates::isKnown() const noexcept {
 double GroundPlates::least(std::size_t cells, std::size_t row, std::size_t column) const noexcept {
     const std::uint16_t code = _least[numberOf(cells, row, column)];
     return code == kUnknown ? -kInfinity : decoded(code);
-}
-
-GeodeticBin GroundPlates::upper(std::size_t row, std::size_t column) const noexcept {
-    const std::uint16_t code = _upper[row * kUpperCells + column];
-    if (code == kUnknown) return {};
-    const auto grown = [](const Interval& cell) -> Interval {
-        const double rim = kRim * cell.width();
-        return {cell.lower - rim, cell.upper + rim};
-    };
-    return GeodeticBin(grown(cellOf(_latitude, kUpperCells, row)), grown(cellOf(_longitude, kUpperCells, column)),
-                       {_base, decoded(code)});
 }
 
 // Whether columns keep within the rims of a grid's cells.

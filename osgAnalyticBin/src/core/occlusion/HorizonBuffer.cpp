@@ -43,34 +43,25 @@ HorizonBuffer::HorizonBuffer(const glm::dvec3& eye, const glm::dvec3& forward, c
     _covered.fill({kInfinity, -kInfinity});
 }
 
-double HorizonBuffer::forwardOf(const glm::dvec3& ecef) const noexcept {
-    return glm::dot(ecef - _eye, _forward);
-}
-
-HorizonBuffer::Spot HorizonBuffer::spotOf(const glm::dvec3& ecef) const noexcept {
-    const glm::dvec3 from = ecef - _eye;
-    const double forward = forwardOf(ecef);
-    return {glm::dot(from, _right) / forward, glm::dot(from, _up) / forward};
-}
-
 double HorizonBuffer::nearest(const BinHull& body) const noexcept {
     double nearest = kInfinity;
-    for (const glm::dvec3& corner : body.corners) nearest = std::min(nearest, forwardOf(corner));
+    for (const glm::dvec3& corner : body.corners) nearest = std::min(nearest, glm::dot(corner - _eye, _forward));
     return nearest - body.reach;
 }
 
 void HorizonBuffer::add(const EarthColumn& column) {
     constexpr double kSteepest = 1e3;
-    Pending earth{0.0, {}, {}, 0.0};
+    Pending earth{0.0, {}, {}, 0.0, -kInfinity};
     double nearest = kInfinity, left = kInfinity, right = -kInfinity, largest = 0.0;
-    double size = glm::length(_eye);
+    double size2 = glm::dot(_eye, _eye);
     for (std::size_t i = 0; i < 4; ++i)
-        size = std::max({size, glm::length(column.top[i]), glm::length(column.bottom[i])});
-    const double error = column.error + kVectorRounding * size;
+        size2 = std::max({size2, glm::dot(column.top[i], column.top[i]), glm::dot(column.bottom[i], column.bottom[i])});
+    const double error = column.error + kVectorRounding * std::sqrt(size2);
     if (!(column.error >= 0.0)) return;
-    const auto place = [&](const glm::dvec3& corner, Spot& spot) {
-        const double forward = forwardOf(corner);
-        spot = spotOf(corner);
+    const auto place = [&](const glm::dvec3& corner, glm::dvec2& spot) {
+        const glm::dvec3 from = corner - _eye;
+        const double forward = glm::dot(from, _forward);
+        spot = glm::dvec2(glm::dot(from, _right), glm::dot(from, _up)) / forward;
         nearest = std::min(nearest, forward);
         earth.farthest = std::max(earth.farthest, forward + error);
         left = std::min(left, spot.x);
@@ -84,8 +75,8 @@ void HorizonBuffer::add(const EarthColumn& column) {
     }
     if (!(right - left > _step) || right < _across.lower || left > _across.upper) return;
     earth.error = pictureError(error, nearest, largest);
-    // a chord is at least a strip long: the error of its ends has to be small in comparison
-    if (!(earth.error < 0.01 * _step)) return;
+    if (!(earth.error < 0.5 * _step)) return;
+    for (const glm::dvec2& spot : earth.top) earth.highest = std::max(earth.highest, spot.y);
     _pending.push_back(earth);
     std::push_heap(_pending.begin(), _pending.end());
 }
@@ -101,72 +92,115 @@ void HorizonBuffer::cover(std::size_t strip, const Interval& heights) {
     }
 }
 
-// A column of earth is convex and so is its picture: at each x it has all between what a chord of its bottom and a
-// chord of its top have there. doc/occlusion.md, section 4.
-void HorizonBuffer::raise(const Pending& earth) {
-    struct Chord {
-        double left, right, slope, start, room;
-    };
-    std::array<Chord, 12> chords{};
-    std::size_t count = 0, topCount = 0;
-    double left = kInfinity, right = -kInfinity;
-    for (const auto* corners : {&earth.top, &earth.bottom}) {
-        for (const Spot& a : *corners) {
-            for (const Spot& b : *corners) {
-                const double from = a.x + earth.error, to = b.x - earth.error;
-                if (!(to - from >= _step)) continue;
-                const double slope = (b.y - a.y) / (b.x - a.x);
-                chords[count++] = {from, to, slope, a.y - slope * a.x, 2.0 * earth.error * (1.0 + std::abs(slope))};
-                left = std::min(left, from);
-                right = std::max(right, to);
+namespace {
+
+// The upper side of the hull of four points, as the lowest of some lines that are lowered by `error` in both
+// directions. doc/occlusion.md, section 4.
+struct UpperSide {
+    UpperSide(std::array<glm::dvec2, 4> points, double error) {
+        std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+        across = {points[0].x + error, points[3].x - error};
+        lines.fill({0.0, 0.0});
+        if (!(across.lower < across.upper)) return;
+        std::array<glm::dvec2, 4> hull;
+        std::size_t size = 0;
+        for (const glm::dvec2& point : points) {
+            if (size > 0 && point.x == hull[size - 1].x) {
+                if (point.y <= hull[size - 1].y) continue;
+                --size;
             }
+            while (size > 1 && isBelow(hull[size - 1], hull[size - 2], point)) --size;
+            hull[size++] = point;
         }
-        if (corners == &earth.top) topCount = count;
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            // unused lines repeat the last one
+            const std::size_t k = std::min(i + 1, size - 1);
+            const double slope = (hull[k].y - hull[k - 1].y) / (hull[k].x - hull[k - 1].x);
+            const double size2 = std::abs(slope) * (1.0 + std::abs(hull[k].x)) + 1.0 + std::abs(hull[k].y);
+            lines[i] = {slope,
+                        hull[k].y - slope * hull[k].x - (1.0 + std::abs(slope)) * error - 16.0 * kEpsilon * size2};
+        }
     }
-    if (count == 0) return;
-    const auto stripAt = [this](double strips) {
-        return static_cast<std::size_t>(std::clamp(strips, 0.0, static_cast<double>(kStrips)));
+
+    [[nodiscard]] double at(double x) const {
+        return std::min({lines[0].x * x + lines[0].y, lines[1].x * x + lines[1].y, lines[2].x * x + lines[2].y});
+    }
+
+    Interval across;
+    std::array<glm::dvec2, 3> lines;  // slope and height at zero
+
+private:
+    // Whether a point is not above the line through others on its left and on its right.
+    static bool isBelow(const glm::dvec2& point, const glm::dvec2& left, const glm::dvec2& right) {
+        return (point.x - left.x) * (right.y - left.y) >= (point.y - left.y) * (right.x - left.x);
+    }
+};
+
+}  // namespace
+
+// A column of earth is convex and so is its picture: at each x it has all between the lower side of its bottom and the
+// upper side of its top. The upper side is concave: over a strip it is lowest at one of the ends.
+void HorizonBuffer::raise(const Pending& earth) {
+    const auto stripAt = [this](double x, double toward) {
+        return static_cast<std::size_t>(
+            std::clamp(std::floor((x - _across.lower) / _step + toward), 0.0, static_cast<double>(kStrips)));
     };
-    const std::size_t last = stripAt(std::floor((right - _across.lower) / _step));
-    for (std::size_t strip = stripAt(std::ceil((left - _across.lower) / _step)); strip < last; ++strip) {
-        const double x0 = edge(strip), x1 = edge(strip + 1);
-        Interval heights{kInfinity, -kInfinity};
-        for (std::size_t i = 0; i < count; ++i) {
-            const Chord& chord = chords[i];
-            if (!(chord.left <= x0 && x1 <= chord.right)) continue;
-            const double y0 = chord.start + chord.slope * x0, y1 = chord.start + chord.slope * x1;
-            if (i < topCount) {
-                heights.upper = std::max(heights.upper, std::min(y0, y1) - chord.room);
-            } else {
-                heights.lower = std::min(heights.lower, std::max(y0, y1) + chord.room);
-            }
-        }
+    const UpperSide top(earth.top, earth.error);
+    std::array<glm::dvec2, 4> mirrored = earth.bottom;
+    for (glm::dvec2& point : mirrored) point.y = -point.y;
+    const UpperSide bottom(mirrored, earth.error);
+    const Interval across{std::max(top.across.lower, bottom.across.lower),
+                          std::min(top.across.upper, bottom.across.upper)};
+    constexpr double kRounding = 1e-6;  // of the strips' edges
+    const std::size_t first = stripAt(across.lower, 1.0 + kRounding), last = stripAt(across.upper, -kRounding);
+    if (first >= last || !isAboveKnown(first, last, earth.highest)) return;
+    double top0 = top.at(edge(first)), bottom0 = -bottom.at(edge(first));
+    for (std::size_t strip = first; strip < last; ++strip) {
+        const double x1 = edge(strip + 1), top1 = top.at(x1), bottom1 = -bottom.at(x1);
+        const Interval heights{std::max(bottom0, bottom1), std::min(top0, top1)};
         if (!isEmpty(heights)) cover(strip, heights);
+        top0 = top1;
+        bottom0 = bottom1;
     }
 }
 
-bool HorizonBuffer::hides(const BinHull& body) {
-    double size = glm::length(_eye);
-    for (const glm::dvec3& corner : body.corners) size = std::max(size, glm::length(corner));
-    const double rounding = kVectorRounding * size;
-    const double near = nearest(body) - rounding;
-    if (!(near > 0.0 && body.reach >= 0.0) || near < _reached) return false;
-    while (!_pending.empty() && _pending.front().farthest <= near) {
+// Whether something of this height would stand above what is covered.
+bool HorizonBuffer::isAboveKnown(std::size_t first, std::size_t last, double height) const noexcept {
+    return std::any_of(_covered.begin() + static_cast<std::ptrdiff_t>(first),
+                       _covered.begin() + static_cast<std::ptrdiff_t>(last),
+                       [height](const Interval& covered) { return covered.upper < height; });
+}
+
+// Puts the earth that is no farther than `distance` into the strips.
+void HorizonBuffer::use(double distance) {
+    while (!_pending.empty() && _pending.front().farthest <= distance) {
         std::pop_heap(_pending.begin(), _pending.end());
         _reached = std::max(_reached, _pending.back().farthest);
         raise(_pending.back());
         _pending.pop_back();
     }
+}
+
+bool HorizonBuffer::hides(const BinHull& body) {
+    double size2 = glm::dot(_eye, _eye), forward[8];
+    double nearest = kInfinity;
+    for (std::size_t i = 0; i < 8; ++i) {
+        size2 = std::max(size2, glm::dot(body.corners[i], body.corners[i]));
+        forward[i] = glm::dot(body.corners[i] - _eye, _forward);
+        nearest = std::min(nearest, forward[i]);
+    }
+    const double reach = body.reach + kVectorRounding * std::sqrt(size2);
+    if (!(nearest - reach > 0.0 && body.reach >= 0.0) || nearest - reach < _reached) return false;
+    use(nearest - reach);
     Interval across{kInfinity, -kInfinity}, heights{kInfinity, -kInfinity};
     const double drawing = kDrawing * _across.width();
-    for (const glm::dvec3& corner : body.corners) {
-        const Spot spot = spotOf(corner);
-        const double error =
-            pictureError(body.reach + rounding, forwardOf(corner), std::max(std::abs(spot.x), std::abs(spot.y))) +
-            drawing;
-        if (!std::isfinite(spot.x + spot.y + error)) return false;
-        across = {std::min(across.lower, spot.x - error), std::max(across.upper, spot.x + error)};
-        heights = {std::min(heights.lower, spot.y - error), std::max(heights.upper, spot.y + error)};
+    for (std::size_t i = 0; i < 8; ++i) {
+        const glm::dvec3 from = body.corners[i] - _eye;
+        const double x = glm::dot(from, _right) / forward[i], y = glm::dot(from, _up) / forward[i];
+        const double error = pictureError(reach, forward[i], std::max(std::abs(x), std::abs(y))) + drawing;
+        if (!std::isfinite(x + y + error)) return false;
+        across = {std::min(across.lower, x - error), std::max(across.upper, x + error)};
+        heights = {std::min(heights.lower, y - error), std::max(heights.upper, y + error)};
     }
     const bool isBeside = across.upper < _across.lower || across.lower > _across.upper;
     if (isBeside || !(heights.lower >= _lowest)) return false;

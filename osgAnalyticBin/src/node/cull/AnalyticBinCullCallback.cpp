@@ -7,6 +7,7 @@
 #include "../install/InstalledTile.h"
 #include "BinCulling.h"
 #include "Occluders.h"
+#include "TilePlan.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/TileFinder.h>
@@ -315,6 +316,7 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
         const core::Side side = sideOf(planes, undecided);
         // finding the eye takes time
         const core::HorizonEye* const eye = side == core::Side::Outside ? nullptr : eyeOn(cullStack, nv, traversal);
+        if (eye && isBehindTerrain(traversal)) return Verdict{core::Side::Outside, Verdict::Terrain};
         return verdict(side, planes, undecided, eye, traversal);
     };
     return isCulledByBin(cullStack, nv, traversal, prepared().sphere,
@@ -366,6 +368,12 @@ Verdict AnalyticBinCullCallback::verdict(core::Side side, const core::PlaneSet& 
 bool AnalyticBinCullCallback::isHiddenFrom(const core::HorizonEye& eye) const {
     const Prepared& tile = prepared();
     return _hidesByPoint ? eye.hides(*tile.horizonPoint) : eye.hides(*tile.horizon);
+}
+
+// Requires: the camera and the place that the plan was made for.
+bool AnalyticBinCullCallback::isBehindTerrain(CullTraversal& traversal) const {
+    const DatabaseView* const database = traversal.databaseView();
+    return database && database->plan && database->plan->isOccluded(*this);
 }
 
 bool AnalyticBinCullCallback::isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,

@@ -21,7 +21,7 @@ namespace osgAnalyticBin {
 
 /// Where a bin lies, and by which test.
 struct Verdict {
-    enum Reason { Plane, Horizon, Edge };
+    enum Reason { Plane, Horizon, Edge, Terrain };
     core::Side side;
     Reason reason;
 };

@@ -58,6 +58,7 @@ void BinStatistics::add(const BinCounts& counts) noexcept {
     increment(_straddling, counts.straddling);
     increment(_hidden, counts.hidden);
     increment(_separated, counts.separated);
+    increment(_occluded, counts.occluded);
 }
 
 void BinStatistics::count(core::Side side, unsigned int frame) noexcept {
@@ -83,7 +84,12 @@ void BinStatistics::countSeparated() noexcept {
     increment(_separated);
 }
 
+void BinStatistics::countOccluded() noexcept {
+    increment(_occluded);
+}
+
 void BinStatistics::reset() noexcept {
+    _occluded.store(0, std::memory_order_relaxed);
     _hidden.store(0, std::memory_order_relaxed);
     _separated.store(0, std::memory_order_relaxed);
     _outside.store(0, std::memory_order_relaxed);
@@ -98,6 +104,7 @@ BinCounts BinStatistics::getCounts() const noexcept {
     counts.straddling = _straddling.load(std::memory_order_relaxed);
     counts.hidden = _hidden.load(std::memory_order_relaxed);
     counts.separated = _separated.load(std::memory_order_relaxed);
+    counts.occluded = _occluded.load(std::memory_order_relaxed);
     counts.tested = counts.outside + counts.inside + counts.straddling;
     counts.frame = _frame.load(std::memory_order_relaxed);
     return counts;

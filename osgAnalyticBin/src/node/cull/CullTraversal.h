@@ -4,6 +4,7 @@
 #pragma once
 
 #include "GroundBelow.h"
+#include "NearGround.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinStatistics.h>
@@ -98,6 +99,8 @@ public:
 
     /// What this visitor last found below its eye.
     [[nodiscard]] GroundBelow& ground() { return _ground; }
+    /// What it last found around its eye.
+    [[nodiscard]] NearGround& nearGround() { return _nearGround; }
 
 protected:
     ~CullTraversal() override;
@@ -114,6 +117,7 @@ private:
     std::deque<TilePlan> _plans;  // of databases within each other
     std::size_t _openPlans = 0;
     GroundBelow _ground;
+    NearGround _nearGround;
 
     core::PlaneSet _planes;
     Coefficients _coefficients{};

@@ -43,6 +43,8 @@ struct SearchedTile {
     bool isFitted;                     // to the shape in which the terrain is shown
     const TileFamily::Member* member;  // null: of no family
     bool isAboutEye;
+    std::size_t result = TilePlan::kAlone;  // of the family, in the plan
+    unsigned int slot = 0;                  // in that result
 };
 
 // A surface that is shown about the place of the eye, no lower than the eye by its bounds.
@@ -93,7 +95,7 @@ private:
         if (children < family.size()) _hasHole = true;
         TileFamily::Verdicts verdicts;
         for (unsigned int first = 0; first < children && !_hasHole; first += TileBlock::Part::kMost) {
-            test(group, family, first, verdicts);
+            const std::size_t result = test(group, family, first, verdicts);
             const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
             const std::uint64_t passedOver =
                 first < family.size() ? passedOverIn(verdicts, family.block().partFrom(first)) : 0;
@@ -101,16 +103,19 @@ private:
                 if (_hasHole) return;
                 osg::Node& child = *group.getChild(first + number);
                 if (!hasBit(verdicts.members, number)) return searchNode(child);
-                searchMember(child, family, verdicts, first + number);
+                searchMember(child, family, verdicts, result, first + number);
             });
         }
     }
 
-    void test(const osg::Group& group, const TileFamily& family, unsigned int first, TileFamily::Verdicts& verdicts) {
+    // Returns: the number of the result in the plan.
+    std::size_t test(const osg::Group& group, const TileFamily& family, unsigned int first,
+                     TileFamily::Verdicts& verdicts) {
         const DatabaseView& view = _database.view;
         family.test(group, first, view.planes, _undecided, &_eye, _traversal, verdicts);
-        if (view.plan) view.plan->add(family, first, _undecided, verdicts, group.getNumChildren() - first);
         if (verdicts.lacksTiles) _hasHole = true;
+        if (!view.plan) return TilePlan::kAlone;
+        return view.plan->add(family, first, _undecided, verdicts, group.getNumChildren() - first);
     }
 
     // Tiles out of view whose column is the bin, and that are not about the eye.
@@ -120,7 +125,7 @@ private:
     }
 
     void searchMember(osg::Node& node, const TileFamily& family, const TileFamily::Verdicts& verdicts,
-                      unsigned int slot) {
+                      std::size_t result, unsigned int slot) {
         const TileBlock& block = family.block();
         const unsigned int number = slot % TileBlock::Part::kMost;
         const TileFamily::Member& member = family.member(slot);
@@ -135,7 +140,7 @@ private:
         const Scoped undecided(_undecided, isOutOfView ? _undecided : verdicts.planes.undecided[number]);
         const bool isAlone = node.getCullCallback() == member.tile && !member.tile->getNestedCallback();
         const bool mayLeaveOut = !isAlone && CullCallbacks(node).mayLeaveOut;
-        searchTile(node, member.paged, {*member.tile, numbers, true, &member, isAboutEye}, mayLeaveOut);
+        searchTile(node, member.paged, {*member.tile, numbers, true, &member, isAboutEye, result, number}, mayLeaveOut);
     }
 
     void searchNode(osg::Node& node) {
@@ -262,6 +267,10 @@ private:
         // tiles about the eye are searched even beside the frustum, for the ground alone
         if (tile.isAboutEye && isBeside(tile)) return;
         if (!isDrawnWhole(mesh, tile)) _hasHole = true;
+        if (_database.findsOccluded && _database.view.plan) {
+            const bool isSure = !_isChoiceUnknown && tile.isFitted;
+            _database.view.plan->addShown({&tile.callback, &mesh, isSure, tile.result, tile.slot});
+        }
         // what a tile draws by itself is in its bin
         if (tile.isFitted && tile.numbers.binLow >= -_depth) return;
         const double own = tile.isFitted ? -tile.numbers.surfaceLow : kUnknownDepth;
@@ -271,6 +280,7 @@ private:
     // As osg::PagedLOD chooses; where that is not certain all that it may show counts.
     void searchPaged(osg::PagedLOD& node, const SearchedTile& tile) {
         const bool byDistance = node.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT && !_toEcef;
+        const Scoped unknown(_isChoiceUnknown, _isChoiceUnknown || !byDistance);
         const float range = byDistance ? _visitor.getDistanceToViewPoint(node.getCenter(), true) : 0.0f;
         const unsigned int children = node.getNumChildren();
         bool isOneAwaited = !byDistance;
@@ -302,6 +312,7 @@ private:
     core::PlaneMask _undecided = 0;         // of the view's planes, for families
     const osg::Matrixd* _toEcef = nullptr;  // below a transform, where OSG measures distances in another frame
     bool _isDoubtful = false;               // below something that may not be drawn
+    bool _isChoiceUnknown = false;          // below a choice of levels that may turn out otherwise
     bool _hasHole = false;
     std::vector<NearGround> _nearGround;
     double _depth = -kUnknownDepth;

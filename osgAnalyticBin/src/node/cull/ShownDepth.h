@@ -24,6 +24,7 @@ struct ShownDatabase {
     osg::NodeVisitor& visitor;
     osg::CullStack& cullStack;
     const DatabaseView& view;
+    bool findsOccluded;  // whether the plan is to have the tiles that are shown
 };
 
 /// The eye over a database: the occluder lies just below the lowest surface that the traversal shows, by levels of

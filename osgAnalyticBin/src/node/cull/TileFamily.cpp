@@ -151,7 +151,7 @@ void TileFamily::operator()(osg::Node* node, osg::NodeVisitor* nv) {
 void TileFamily::test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes,
                       core::PlaneMask undecided, const core::HorizonEye* eye, CullTraversal& traversal,
                       Verdicts& verdicts) const {
-    verdicts.members = verdicts.tested = verdicts.hidden = verdicts.separated = 0;
+    verdicts.members = verdicts.tested = verdicts.hidden = verdicts.separated = verdicts.occluded = 0;
     verdicts.lacksTiles = false;
     if (first >= _block->size()) return;
     const TileBlock::Part& part = _block->partFrom(first);
@@ -225,6 +225,7 @@ std::uint64_t TileFamily::culled(unsigned int first, const Verdicts& verdicts, c
         counts.straddling = countBits(verdicts.members & ~culled & ~inside);
         counts.hidden = countBits(hidden);
         counts.separated = countBits(separated);
+        counts.occluded = countBits(verdicts.members & verdicts.occluded);
         counts.frame = nv.getTraversalNumber();
         traversal.add(counts);
     }

@@ -76,10 +76,13 @@ public:
         std::uint64_t tested = 0;     ///< slots with a bin that is tested so
         std::uint64_t hidden = 0;     ///< behind the horizon
         std::uint64_t separated = 0;  ///< proven outside by an edge of the frustum
+        std::uint64_t occluded = 0;   ///< behind terrain
         bool lacksTiles = false;      ///< a tile is not where it was: the terrain may have a hole
 
         /// Slots whose bin is out of view.
-        [[nodiscard]] std::uint64_t outOfView() const { return tested & (planes.outside | hidden | separated); }
+        [[nodiscard]] std::uint64_t outOfView() const {
+            return tested & (planes.outside | hidden | separated | occluded);
+        }
     };
 
     /// Whether it culls the children of the group in this traversal.

@@ -3,24 +3,48 @@
 
 #include "TilePlan.h"
 
+#include "Bits.h"
+
 #include <algorithm>
+#include <functional>
 
 namespace osgAnalyticBin {
 
 void TilePlan::clear() {
     _entries.clear();
     _masks.clear();
+    _shown.clear();
+    _occluded.clear();
     _next = 0;
 }
 
-void TilePlan::add(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
-                   const TileFamily::Verdicts& verdicts, std::size_t children) {
+std::size_t TilePlan::add(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
+                          const TileFamily::Verdicts& verdicts, std::size_t children) {
     const core::PlaneMask* const masks = verdicts.planes.undecided;
     const std::size_t begin = _masks.size();
     _masks.insert(_masks.end(), masks, masks + std::min<std::size_t>(children, TileBlock::Part::kMost));
     _entries.push_back({&family, first, undecided, verdicts.planes.outside, verdicts.planes.insideAll, verdicts.members,
-                        verdicts.tested, verdicts.hidden, verdicts.separated, verdicts.lacksTiles, begin,
+                        verdicts.tested, verdicts.hidden, verdicts.separated, 0, verdicts.lacksTiles, begin,
                         _masks.size()});
+    return _entries.size() - 1;
+}
+
+bool TilePlan::isOutOfView(const ShownTile& tile) const {
+    if (tile.result == kAlone) return false;
+    const Entry& entry = _entries[tile.result];
+    return hasBit(entry.tested & (entry.outside | entry.hidden | entry.separated), tile.slot);
+}
+
+void TilePlan::setOccluded(const std::vector<ShownTile>& tiles) {
+    for (const ShownTile& tile : tiles) {
+        if (tile.result != kAlone) _entries[tile.result].occluded |= std::uint64_t{1} << tile.slot;
+        _occluded.push_back(tile.tile);
+    }
+    std::sort(_occluded.begin(), _occluded.end(), std::less<>());
+}
+
+bool TilePlan::isOccluded(const AnalyticBinCullCallback& tile) const {
+    return std::binary_search(_occluded.begin(), _occluded.end(), &tile, std::less<>());
 }
 
 bool TilePlan::find(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
@@ -39,6 +63,7 @@ bool TilePlan::find(const TileFamily& family, unsigned int first, core::PlaneMas
         verdicts.tested = entry.tested;
         verdicts.hidden = entry.hidden;
         verdicts.separated = entry.separated;
+        verdicts.occluded = entry.occluded;
         verdicts.lacksTiles = entry.lacksTiles;
         std::copy(_masks.data() + entry.masks, _masks.data() + entry.end, verdicts.planes.undecided);
         return true;

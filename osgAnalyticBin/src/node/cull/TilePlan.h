@@ -17,8 +17,29 @@ class TilePlan {
 public:
     void clear();
 
-    void add(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
-             const TileFamily::Verdicts& verdicts, std::size_t children);
+    /// Returns: the number of the result.
+    std::size_t add(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
+                    const TileFamily::Verdicts& verdicts, std::size_t children);
+
+    /// A tile that a camera's levels of detail show, whether in view or not.
+    struct ShownTile {
+        const AnalyticBinCullCallback* tile;
+        osg::Node* mesh;
+        bool isSure;         ///< false: it may be shown, or another level in its place
+        std::size_t result;  ///< of its family; kAlone: it is tested alone
+        unsigned int slot;   ///< among the result's bits
+    };
+    static constexpr std::size_t kAlone = ~std::size_t{0};
+
+    void addShown(const ShownTile& tile) { _shown.push_back(tile); }
+    [[nodiscard]] const std::vector<ShownTile>& shown() const { return _shown; }
+
+    /// Whether the tile of a family is known to be out of view.
+    [[nodiscard]] bool isOutOfView(const ShownTile& tile) const;
+
+    /// Says that terrain hides these of the shown tiles.
+    void setOccluded(const std::vector<ShownTile>& tiles);
+    [[nodiscard]] bool isOccluded(const AnalyticBinCullCallback& tile) const;
 
     /// Searches behind the family that was found last. `undecided`: a result for other planes is not used.
     /// Returns: false where the plan has no such result; `verdicts` stays as it is then.
@@ -30,13 +51,15 @@ private:
         const TileFamily* family;
         unsigned int first;
         core::PlaneMask undecided;
-        std::uint64_t outside, insideAll, members, tested, hidden, separated;
+        std::uint64_t outside, insideAll, members, tested, hidden, separated, occluded;
         bool lacksTiles;
         std::size_t masks, end;  // in _masks
     };
 
     std::vector<Entry> _entries;
     std::vector<core::PlaneMask> _masks;
+    std::vector<ShownTile> _shown;
+    std::vector<const AnalyticBinCullCallback*> _occluded;  // by address
     std::size_t _next = 0;
 };
 

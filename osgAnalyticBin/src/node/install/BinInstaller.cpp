@@ -13,6 +13,7 @@
 #include "../page/DatabaseCallbacks.h"
 #include "../page/PagedFiles.h"
 #include "../page/PagingExpiry.h"
+#include "../surface/TilePlates.h"
 #include "ContentWatch.h"
 #include "Coverage.h"
 #include "Instances.h"
@@ -293,6 +294,8 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     if (fit.skirt > 0.0) callback->setSkirt(fit.skirt);
     callback->setSurface(fit.surface);
     placeCallback(tile, culled, *callback, database());
+    if (_options.occlusion && !fit.isScalable)
+        callback->getInstalledTile()->setPlates(tilePlates(tile.meshes, ellipsoid, tile.frame.localToEcef));
     ++_installed;
     if (_options.cluster == ClusterUse::Replace) {
         suspendClusterCullingOf(*tile.node);

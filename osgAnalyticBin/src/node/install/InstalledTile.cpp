@@ -21,6 +21,7 @@ void InstalledTile::keepVisible(bool kept) {
 
 void InstalledTile::doubtMesh() {
     _isMeshDoubted.store(true, std::memory_order_relaxed);
+    _isMeshChanged.store(true, std::memory_order_relaxed);
     tellFamily();
 }
 

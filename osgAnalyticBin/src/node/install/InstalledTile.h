@@ -5,12 +5,16 @@
 
 #include "../cull/TileBlock.h"
 
+#include <osgAnalyticBin/core/occlusion/GroundPlates.h>
+
 #include <osg/Node>
 #include <osg/Referenced>
 #include <osg/ref_ptr>
 
 #include <atomic>
 #include <cstddef>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -64,6 +68,13 @@ public:
     void setSeeThrough() { _isSeeThrough.store(true, std::memory_order_relaxed); }
     [[nodiscard]] bool isSeeThrough() const { return _isSeeThrough.load(std::memory_order_relaxed); }
 
+    /// What is known of the altitudes of the tile's own mesh, cell by cell; null: nothing.
+    void setPlates(std::unique_ptr<const core::GroundPlates> plates) { _plates = std::move(plates); }
+    /// Returns: nullptr where nothing is known, and once the mesh has changed.
+    [[nodiscard]] const core::GroundPlates* plates() const {
+        return _isMeshChanged.load(std::memory_order_relaxed) ? nullptr : _plates.get();
+    }
+
     /// Switches OSG's sphere test off on a node where it is on.
     void suspendSphere(osg::Node& node);
 
@@ -83,6 +94,8 @@ private:
     const osg::ref_ptr<Database> _database;
     std::atomic<bool> _isKeptVisible{false};
     std::atomic<bool> _isMeshDoubted{false};
+    std::atomic<bool> _isMeshChanged{false};  // since bins were installed
+    std::unique_ptr<const core::GroundPlates> _plates;
     osg::ref_ptr<TileBlock> _block;
     std::size_t _slot = 0;
     bool _isSlotFilled = false;

@@ -8,6 +8,7 @@
 #include "../cull/CullTraversal.h"
 #include "../cull/SeeThrough.h"
 #include "../cull/ShownDepth.h"
+#include "../cull/TerrainOcclusion.h"
 #include "../cull/TilePlan.h"
 #include "../cull/Viewpoint.h"
 #include "../install/BinInstaller.h"
@@ -40,14 +41,17 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
     const auto viewpoint = Viewpoint::of(cullStack, nv, options.inheritViewpoint);
     if (!viewpoint) return std::nullopt;
     const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
-    const ShownDatabase shown{node, nv, cullStack, view};
+    const bool findsOccluded = options.occlusion && isAboveTerrain && !isForComparison(options.method);
+    const ShownDatabase shown{node, nv, cullStack, view, findsOccluded};
     if (isGiven && (!isAboveTerrain || database.hasGap())) return eyeAboveDepth(shown, *viewpoint, deepest);
     // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: what is shown
     // shall not depend on where the camera has been.
     constexpr unsigned int kFreshStart = 16;
     double& depth = CullTraversal::of(nv).lastDepth(database);
     if (nv.getTraversalNumber() % kFreshStart == 0) depth = 0.0;
-    return eyeAboveWhatIsShown(shown, *viewpoint, deepest, depth);
+    const auto eye = eyeAboveWhatIsShown(shown, *viewpoint, deepest, depth);
+    if (eye && findsOccluded && !database.hasGap()) cullBehindTerrain(shown, *viewpoint);
+    return eye;
 }
 
 // Culled or kept siblings before the database leave a part of the planes behind.

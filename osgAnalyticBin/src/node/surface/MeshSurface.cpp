@@ -21,21 +21,7 @@ namespace {
 // Metres on the earth, in proportion elsewhere: float vertices about the axis are that far off at most; they get no
 // longitude of their own.
 constexpr double kAxisTolerance = 1.0;
-// What float vertices lose once more on their way to the screen; metres on the earth.
-constexpr double kDrawing = 0.01;
 constexpr std::size_t kEdges = 4;
-
-// Puts any other vertex in place of those that no triangle uses.
-void dropUnusedVertices(SurfaceMesh& mesh) {
-    std::vector<std::uint8_t> isUsed(mesh.size(), 0);
-    for (const std::uint32_t i : mesh.triangles) isUsed[i] = 1;
-    const glm::dvec3 any = mesh.vertex(mesh.triangles.front());
-    for (std::size_t i = 0; i < mesh.size(); ++i) {
-        mesh.x[i] = isUsed[i] ? mesh.x[i] : any.x;
-        mesh.y[i] = isUsed[i] ? mesh.y[i] : any.y;
-        mesh.z[i] = isUsed[i] ? mesh.z[i] : any.z;
-    }
-}
 
 // What has to be known of a mesh, whichever way it was found.
 struct MeshBounds {
@@ -114,8 +100,8 @@ TileSurface meshSurface(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
     if (bounds.bin.empty() || !isTerrain) return {};
 
     TileSurface result;
-    const double offset = kDrawing + (bounds.touchesAxis ? kAxisTolerance : 0.0);
-    result.bin = AnalyticBin(bounds.bin, core::earthScale(ellipsoid) * offset);
+    const double offset = bounds.touchesAxis ? core::earthScale(ellipsoid) * kAxisTolerance : 0.0;
+    result.bin = AnalyticBin(bounds.bin, drawingError(ellipsoid) + offset);
     result.bin.setSag(bounds.sag);
     result.edgeLow = edgeLows(bounds, chordSag(skirts.borderChord2, ellipsoid));
     result.skirt = skirts.depth;

@@ -178,4 +178,15 @@ bool readMesh(const osg::Drawable& drawable, const osg::Matrixd& localToEcef, Su
     return true;
 }
 
+void dropUnusedVertices(SurfaceMesh& mesh) {
+    std::vector<std::uint8_t> isUsed(mesh.size(), 0);
+    for (const std::uint32_t i : mesh.triangles) isUsed[i] = 1;
+    const glm::dvec3 any = mesh.vertex(mesh.triangles.front());
+    for (std::size_t i = 0; i < mesh.size(); ++i) {
+        mesh.x[i] = isUsed[i] ? mesh.x[i] : any.x;
+        mesh.y[i] = isUsed[i] ? mesh.y[i] : any.y;
+        mesh.z[i] = isUsed[i] ? mesh.z[i] : any.z;
+    }
+}
+
 }  // namespace osgAnalyticBin

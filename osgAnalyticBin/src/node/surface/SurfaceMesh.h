@@ -26,4 +26,7 @@ struct SurfaceMesh : core::EcefMesh {
 /// Returns: false when what it draws cannot be told: no vertices that can be read, an index beyond them, instances.
 [[nodiscard]] bool readMesh(const osg::Drawable& drawable, const osg::Matrixd& localToEcef, SurfaceMesh& mesh);
 
+/// Puts any other vertex in place of those that no triangle uses. Requires: a triangle.
+void dropUnusedVertices(SurfaceMesh& mesh);
+
 }  // namespace osgAnalyticBin

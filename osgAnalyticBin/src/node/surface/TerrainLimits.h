@@ -9,6 +9,11 @@
 
 namespace osgAnalyticBin {
 
+/// Metres that float vertices lose once more on their way to the screen: a centimetre on the earth.
+[[nodiscard]] inline double drawingError(const core::Ellipsoid& ellipsoid) {
+    return 0.01 * core::earthScale(ellipsoid);
+}
+
 /// What is higher is no terrain: 50 km on the earth, in proportion on larger globes and in smaller units. Small bodies
 /// have higher mountains for their size, a tenth of the radius at most.
 [[nodiscard]] inline double highestTerrain(const core::Ellipsoid& ellipsoid) {

@@ -50,14 +50,6 @@ public:
     /// infinity: not known. Requires: such a grid and cell.
     [[nodiscard]] double least(std::size_t cells, std::size_t row, std::size_t column) const noexcept;
 
-    /// Cells a side of the grid of upper bounds.
-    static constexpr std::size_t kUpperCells = 4;
-
-    /// A part of the tile and all of the mesh there is at most this high, whether the cell's least() is known or not.
-    /// The parts overlap a little, and are all of the mesh together.
-    /// Returns: an empty bin where nothing of the mesh is. Requires: a cell of the grid of kUpperCells.
-    [[nodiscard]] GeodeticBin upper(std::size_t row, std::size_t column) const noexcept;
-
     /// The earth below a known cell, `depth` metres deep.
     /// Guarantee: every point of it, up to `error`, has the mesh above it, along the ellipsoid's normal; tests:
     /// GroundPlates.ColumnsLieBelowTheMesh*.
@@ -81,7 +73,6 @@ private:
                        std::vector<EarthColumn>& result) const;
 
     static constexpr std::size_t kNumbers = 1 + 4 + 16 + 64;
-    static constexpr std::size_t kUppers = kUpperCells * kUpperCells;
 
     class Builder;
 
@@ -93,7 +84,6 @@ private:
     Interval _latitude, _longitude;
     double _base = 0.0, _step = 0.0;             // of the codes
     std::array<std::uint16_t, kNumbers> _least;  // 0: not known
-    std::array<std::uint16_t, kUppers> _upper;
 };
 
 }  // namespace osgAnalyticBin::core

@@ -6,6 +6,7 @@
 #include <osgAnalyticBin/core/occlusion/BinHull.h>
 #include <osgAnalyticBin/core/occlusion/GroundPlates.h>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -21,7 +22,7 @@ namespace osgAnalyticBin::core {
 class HorizonBuffer final {
 public:
     /// Strips of the picture.
-    static constexpr std::size_t kStrips = 1024;
+    static constexpr std::size_t kStrips = 512;
 
     /// `forward` and `up` are unit vectors and perpendicular; up is the eye's vertical. `across`: the range of x
     /// that the camera can see, or more; what is beside it hides nothing, and nobody asks for it.
@@ -49,24 +50,21 @@ public:
     static constexpr double kDrawing = 2e-5;
 
 private:
-    // A point in the picture.
-    struct Spot {
-        double x, y;
-    };
     // Earth that is not in the strips yet. The heap has the nearest on top.
     struct Pending {
         double farthest;
-        std::array<Spot, 4> top, bottom;
-        double error;  // in the picture
+        std::array<glm::dvec2, 4> top, bottom;
+        double error;    // in the picture
+        double highest;  // of the top
         [[nodiscard]] bool operator<(const Pending& other) const noexcept { return farthest > other.farthest; }
     };
 
-    [[nodiscard]] double forwardOf(const glm::dvec3& ecef) const noexcept;
-    [[nodiscard]] Spot spotOf(const glm::dvec3& ecef) const noexcept;
     [[nodiscard]] double edge(std::size_t strip) const noexcept {
         return _across.lower + _step * static_cast<double>(strip);
     }
+    void use(double distance);
     void raise(const Pending& earth);
+    [[nodiscard]] bool isAboveKnown(std::size_t first, std::size_t last, double height) const noexcept;
     void cover(std::size_t strip, const Interval& heights);
 
     glm::dvec3 _eye, _forward, _right, _up;

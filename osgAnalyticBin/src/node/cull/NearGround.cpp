@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "NearGround.h"
+
+#include "../install/TileCallback.h"
+#include "../surface/TilePlates.h"
+
+namespace osgAnalyticBin {
+
+const core::EcefMesh* NearGround::trianglesOf(const AnalyticBinCullCallback& tile, osg::Node& mesh) {
+    // meshes may change: what was read is not believed for long
+    constexpr int kMostUses = 16;
+    Known* known = nullptr;
+    for (Known& one : _known) {
+        if (one.tile.get() == &tile && one.node.get() == &mesh) known = &one;
+    }
+    if (known && ++known->uses < kMostUses) return &known->mesh;
+    if (!known && _known.size() < kMostTiles) known = &_known.emplace_back();
+    if (!known) known = &_known[_oldest++ % kMostTiles];
+    *known = {nullptr, nullptr, 0, {}};
+    // the frame of a transform that is culled itself is that of what is below it
+    const bool isInOwnFrame = mesh.asTransform() && installedBinOf(mesh) == &tile;
+    if (isInOwnFrame || !readTileMesh(mesh, tile.getLocalToEcef(), known->mesh)) return nullptr;
+    known->tile = &tile;
+    known->node = &mesh;
+    return &known->mesh;
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TerrainOcclusion.h"
+
+#include "../../core/LocalFrame.h"
+#include "../GlmBridge.h"
+#include "../Inverse.h"
+#include "../install/InstalledTile.h"
+#include "CullTraversal.h"
+#include "TilePlan.h"
+
+#include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+using core::BinHull;
+using core::HorizonBuffer;
+
+// The picture of an eye on the vertical plane in front of it.
+struct Picture {
+    glm::dvec3 eye, forward, up;
+    core::Interval across;
+    double widest;  // the largest distance of a point in view, for a depth of 1
+};
+
+// Views that look up or down more steeply, or whose corners do, have no picture on a vertical plane.
+constexpr double kLevel = 0.2;
+
+std::optional<Picture> pictureOf(const ShownDatabase& database, const glm::dvec3& eye) {
+    const osg::Matrixd& projection = *database.cullStack.getProjectionMatrix();
+    const auto eyeToWorld = affineInverse(*database.cullStack.getModelViewMatrix());
+    osg::Matrixd unproject;
+    if (!eyeToWorld || !unproject.invert(projection)) return std::nullopt;
+    const auto toWorld = [&](const osg::Vec3d& v) { return toGlm(osg::Matrixd::transform3x3(v, *eyeToWorld)); };
+    const core::Geodetic place = database.view.ellipsoid.toGeodetic(eye);
+    const glm::dvec3 up = core::LocalFrame(place.latitude, place.longitude).up;
+    const glm::dvec3 look = glm::normalize(toWorld({0.0, 0.0, -1.0}));
+    const glm::dvec3 level = look - glm::dot(look, up) * up;
+    if (!(glm::length(level) > kLevel)) return std::nullopt;
+    Picture picture{eye, glm::normalize(level), up, {1e300, -1e300}, 0.0};
+    const glm::dvec3 right = glm::cross(picture.forward, up);
+    for (int corner = 0; corner < 4; ++corner) {
+        const osg::Vec4d clip(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, 0.5, 1.0);
+        const osg::Vec4d point = clip * unproject;
+        osg::Vec3d ray(point.x(), point.y(), point.z());
+        if (ray.z() * projection(2, 3) < 0.0) ray = -ray;
+        const glm::dvec3 direction = toWorld(ray);
+        const double forward = glm::dot(direction, picture.forward), length = glm::length(direction);
+        if (!(forward > kLevel * length)) return std::nullopt;
+        const double x = glm::dot(direction, right) / forward;
+        picture.across = {std::min(picture.across.lower, x), std::max(picture.across.upper, x)};
+        picture.widest = std::max(picture.widest, length / glm::dot(direction, look));
+    }
+    constexpr double kRounding = 1e-6;
+    const double room = kRounding * picture.across.width();
+    picture.across = {picture.across.lower - room, picture.across.upper + room};
+    return picture;
+}
+
+// A shown tile.
+struct Candidate {
+    const TilePlan::ShownTile* tile;
+    double distance;  // metres from the eye to a corner of the bin, the nearest one
+    double size;      // metres from corner to corner
+    bool isHidden;    // as far as is known
+};
+
+// A quarter of a tile's bin: what is asked for is smaller than the tile, and more is in front of it.
+struct Part {
+    std::size_t candidate;
+    BinHull hull;  // of all that is drawn with it
+    double nearest;
+};
+
+class TerrainOcclusion {
+public:
+    TerrainOcclusion(const ShownDatabase& database, const Picture& picture)
+        : _database(database),
+          _ellipsoid(database.view.ellipsoid),
+          _plan(*database.view.plan),
+          _picture(picture),
+          _buffer(picture.eye, picture.forward, picture.up, picture.across) {}
+
+    void run() {
+        for (const TilePlan::ShownTile& tile : _plan.shown()) {
+            if (!add(tile)) return;
+        }
+        std::sort(_parts.begin(), _parts.end(), [](const Part& a, const Part& b) { return a.nearest < b.nearest; });
+        const std::optional<double> lowest = lowestSight(nearReach());
+        if (!lowest) return;
+        _buffer.setLowest(*lowest);
+        for (const Part& part : _parts) {
+            Candidate& candidate = _candidates[part.candidate];
+            if (!candidate.isHidden || isBeside(part.hull) || _buffer.hides(part.hull)) continue;
+            candidate.isHidden = false;
+            addEarth(candidate);
+        }
+        std::vector<TilePlan::ShownTile> occluded;
+        for (const Candidate& candidate : _candidates) {
+            if (candidate.isHidden && !_plan.isOutOfView(*candidate.tile)) occluded.push_back(*candidate.tile);
+        }
+        _plan.setOccluded(occluded);
+    }
+
+private:
+    // Returns: false where the place of the tile is not known.
+    [[nodiscard]] bool add(const TilePlan::ShownTile& shown) {
+        const AnalyticBinCullCallback& tile = *shown.tile;
+        const core::GeodeticBin& bin = tile.getBin().bin();
+        const core::Interval altitude{tile.getBinLow(), tile.getBinHigh()};
+        if (bin.empty() || !std::isfinite(altitude.lower) || !std::isfinite(altitude.upper)) return false;
+        Candidate candidate{&shown, HUGE_VAL, 0.0, true};
+        const auto half = [](const core::Interval& whole, bool isUpper) -> core::Interval {
+            return isUpper ? core::Interval{whole.middle(), whole.upper} : core::Interval{whole.lower, whole.middle()};
+        };
+        for (unsigned int i = 0; i < 4; ++i) {
+            const core::GeodeticBin quarter(half(bin.latitude(), i / 2 != 0), half(bin.longitude(), i % 2 != 0),
+                                            altitude);
+            const BinHull hull(_ellipsoid, quarter, tile.getBin().margin());
+            for (const glm::dvec3& corner : hull.corners) {
+                const double distance = glm::distance(corner, _picture.eye);
+                candidate.distance = std::min(candidate.distance, distance);
+                candidate.size = std::max(candidate.size, 2.0 * glm::distance(corner, hull.corners[0]));
+                _farthest = std::max(_farthest, distance + hull.reach);
+            }
+            _parts.push_back({_candidates.size(), hull, _buffer.nearest(hull)});
+        }
+        _candidates.push_back(candidate);
+        return true;
+    }
+
+    // Metres from the eye at which the near plane may still cut terrain away.
+    [[nodiscard]] double nearReach() const {
+        const osg::CullStack& cullStack = _database.cullStack;
+        const osg::Matrixd& projection = *cullStack.getProjectionMatrix();
+        const bool isComputed = cullStack.getComputeNearFarMode() != osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
+        osg::Matrixd unproject;
+        if (cullStack.getClampProjectionMatrixCallback() || !unproject.invert(projection)) return HUGE_VAL;
+        // reversed depth has the near plane at the other end
+        double depth = HUGE_VAL;
+        for (const double end : {-1.0, 0.0, 1.0}) {
+            const double z = (osg::Vec3d(0.0, 0.0, end) * unproject).z() * projection(2, 3);
+            if (z > 0.0) depth = std::min(depth, z / std::abs(projection(2, 3)));
+        }
+        // OSG moves the near plane to this part of the farthest distance, where something nearer is in view
+        if (isComputed) depth = std::max(depth, cullStack.getNearFarRatio() * _farthest);
+        return 1.01 * depth * _picture.widest;
+    }
+
+    // Where lines of sight in the picture pass above all terrain that is within `reach` of the eye. Returns: nullopt
+    // where that is not known.
+    [[nodiscard]] std::optional<double> lowestSight(double reach) const {
+        NearGround& ground = CullTraversal::of(_database.visitor).nearGround();
+        double highest = -HUGE_VAL;  // metres above the eye
+        std::vector<std::size_t> tiles;
+        for (const Part& part : _parts) {
+            if (part.nearest > reach) break;
+            const bool isKnown = std::find(tiles.begin(), tiles.end(), part.candidate) != tiles.end();
+            if (isKnown || isBeside(part.hull)) continue;
+            if (tiles.size() == NearGround::kMostTiles) return std::nullopt;
+            tiles.push_back(part.candidate);
+            const TilePlan::ShownTile& tile = *_candidates[part.candidate].tile;
+            const core::EcefMesh* const mesh = ground.trianglesOf(*tile.tile, *tile.mesh);
+            if (!mesh) return std::nullopt;
+            highest = std::max(highest, highestOf(*mesh, reach, tile.tile->getBin().margin()));
+        }
+        if (!(highest < 0.0)) return std::nullopt;
+        return highest / reach;
+    }
+
+    // Metres above the eye of the highest point of the triangles that is in the picture and within reach.
+    [[nodiscard]] double highestOf(const core::EcefMesh& mesh, double reach, double margin) const {
+        const glm::dvec3 right = glm::cross(_picture.forward, _picture.up);
+        // inside is where p.normal >= offset
+        struct HalfSpace {
+            glm::dvec3 normal;
+            double offset;
+        };
+        const auto [left, most] = _picture.across;
+        const std::array<HalfSpace, 4> wedge{
+            HalfSpace{_picture.forward, -margin}, HalfSpace{-_picture.forward, -reach - margin},
+            HalfSpace{right - left * _picture.forward, -margin * (1.0 + std::abs(left))},
+            HalfSpace{most * _picture.forward - right, -margin * (1.0 + std::abs(most))}};
+        double highest = -HUGE_VAL;
+        std::vector<double> forward(mesh.size());
+        for (std::size_t i = 0; i < mesh.size(); ++i)
+            forward[i] = glm::dot(mesh.vertex(i) - _picture.eye, _picture.forward);
+        std::vector<glm::dvec3> polygon, clipped;
+        for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+            const std::uint32_t* const corners = &mesh.triangles[i];
+            const auto [least, greatest] = std::minmax({forward[corners[0]], forward[corners[1]], forward[corners[2]]});
+            if (least > reach + margin || greatest < -margin) continue;
+            polygon.clear();
+            for (std::size_t k = 0; k < 3; ++k) polygon.push_back(mesh.vertex(corners[k]) - _picture.eye);
+            for (const HalfSpace& half : wedge) {
+                clipped.clear();
+                for (std::size_t k = 0; k < polygon.size(); ++k) {
+                    const glm::dvec3 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+                    const double da = glm::dot(a, half.normal) - half.offset,
+                                 db = glm::dot(b, half.normal) - half.offset;
+                    if (da >= 0.0) clipped.push_back(a);
+                    if ((da < 0.0) != (db < 0.0)) clipped.push_back(a + da / (da - db) * (b - a));
+                }
+                polygon.swap(clipped);
+            }
+            for (const glm::dvec3& point : polygon) highest = std::max(highest, glm::dot(point, _picture.up) + margin);
+        }
+        return highest;
+    }
+
+    // Whether a body is behind the eye, or left or right of the picture.
+    [[nodiscard]] bool isBeside(const BinHull& hull) const {
+        const glm::dvec3 right = glm::cross(_picture.forward, _picture.up);
+        const auto isWholly = [&](const glm::dvec3& outward) {
+            return std::all_of(hull.corners.begin(), hull.corners.end(), [&](const glm::dvec3& corner) {
+                return glm::dot(corner - _picture.eye, outward) > 1.001 * hull.reach * glm::length(outward);
+            });
+        };
+        return isWholly(-_picture.forward) || isWholly(right - _picture.across.upper * _picture.forward) ||
+               isWholly(_picture.across.lower * _picture.forward - right);
+    }
+
+    void addEarth(const Candidate& candidate) {
+        const InstalledTile* const installed = candidate.tile->tile->getInstalledTile();
+        const core::GroundPlates* const plates = installed && candidate.tile->isSure ? installed->plates() : nullptr;
+        if (!plates) return;
+        // a cell should be some strips wide
+        constexpr double kStripsOfCell = 16.0;
+        const double strips = candidate.size / std::max(candidate.distance, 1e-3 * candidate.size) /
+                              _picture.across.width() * HorizonBuffer::kStrips;
+        std::size_t cells = 8;
+        while (cells > 1 && strips < kStripsOfCell * static_cast<double>(cells)) cells /= 2;
+        // deep enough to reach below what is behind it, and not so deep that columns part
+        const AnalyticBinCullCallback& tile = *candidate.tile->tile;
+        const double radius = _ellipsoid.polarRadius();
+        const double depth =
+            std::min(std::min(2.0 * (tile.getBinHigh() - tile.getBinLow()), 0.02 * radius) + 0.25 * candidate.distance,
+                     0.09 * radius);
+        _columns.clear();
+        // coarser cells bridge the gaps between finer ones
+        for (; cells > 0; cells /= 2) plates->appendColumns(cells, depth, _columns);
+        for (const core::EarthColumn& column : _columns) _buffer.add(column);
+    }
+
+    const ShownDatabase& _database;
+    const core::Ellipsoid& _ellipsoid;
+    TilePlan& _plan;
+    const Picture& _picture;
+    HorizonBuffer _buffer;
+    std::vector<Candidate> _candidates;
+    std::vector<Part> _parts;
+    std::vector<core::EarthColumn> _columns;
+    double _farthest = 0.0;  // metres from the eye
+};
+
+}  // namespace
+
+void cullBehindTerrain(const ShownDatabase& database, const Viewpoint& viewpoint) {
+    if (!viewpoint.eye() || !database.view.plan) return;
+    const auto picture = pictureOf(database, *viewpoint.eye());
+    if (picture) TerrainOcclusion(database, *picture).run();
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "ShownDepth.h"
+
+namespace osgAnalyticBin {
+
+/// Says in the database's plan which of the shown tiles lie behind the terrain of others, seen from an eye above the
+/// terrain. It does nothing for orthographic cameras, for views that look so steeply that there is no horizon in front
+/// of them, and where the near plane may cut into terrain.
+/// Requires: a plan that has what is shown, and that found no hole in it and the eye above the ground
+/// (eyeAboveWhatIsShown()).
+/// Guarantee: every line of sight to a tile that is culled meets the mesh of another shown tile before; tests:
+/// TerrainOcclusion.*. Source: doc/occlusion.md, section 5.
+/// Cost: a sort of the shown tiles, a few microseconds for each that is not hidden.
+void cullBehindTerrain(const ShownDatabase& database, const Viewpoint& viewpoint);
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TilePlates.h"
+
+#include "../../core/EarthScale.h"
+#include "../GlmBridge.h"
+#include "Skirts.h"
+#include "SurfaceMesh.h"
+#include "SurfaceWalk.h"
+#include "TerrainLimits.h"
+
+#include <osgAnalyticBin/TileFinder.h>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// Puts the meshes of all parts of a tile together.
+class MeshUnion final : public SurfaceWalk {
+public:
+    MeshUnion(const osg::Matrixd& localToEcef, const core::Ellipsoid* withoutSkirts, core::EcefMesh& mesh)
+        : SurfaceWalk(localToEcef), _withoutSkirts(withoutSkirts), _mesh(mesh) {}
+
+    [[nodiscard]] bool isMesh() const { return isKnown() && !_mesh.triangles.empty(); }
+
+private:
+    void visit(osgTerrain::TerrainTile&) override { giveUp(); }
+
+    void visit(osg::Drawable& drawable) override {
+        thread_local SurfaceMesh part;  // keeps its memory from tile to tile
+        if (!readMesh(drawable, localToEcef(), part)) return giveUp();
+        if (part.triangles.empty()) return;
+        if (_withoutSkirts) (void)foldSkirts(part, *_withoutSkirts);
+        dropUnusedVertices(part);
+        const auto first = static_cast<std::uint32_t>(_mesh.size());
+        _mesh.x.insert(_mesh.x.end(), part.x.begin(), part.x.end());
+        _mesh.y.insert(_mesh.y.end(), part.y.begin(), part.y.end());
+        _mesh.z.insert(_mesh.z.end(), part.z.begin(), part.z.end());
+        for (const std::uint32_t vertex : part.triangles) _mesh.triangles.push_back(first + vertex);
+    }
+
+    const core::Ellipsoid* const _withoutSkirts;
+    core::EcefMesh& _mesh;
+};
+
+}  // namespace
+
+bool readTileMesh(osg::Node& node, const osg::Matrixd& localToEcef, core::EcefMesh& mesh) {
+    MeshUnion parts(localToEcef, nullptr, mesh);
+    node.accept(parts);
+    return parts.isMesh();
+}
+
+std::unique_ptr<const core::GroundPlates> tilePlates(const std::vector<osg::ref_ptr<osg::Node>>& meshes,
+                                                     const osg::EllipsoidModel& ellipsoid,
+                                                     const osg::Matrixd& localToEcef) {
+    if (meshes.size() != 1 || !hasValidRadii(ellipsoid)) return nullptr;
+    const core::Ellipsoid globe = toCore(ellipsoid);
+    core::EcefMesh mesh;
+    MeshUnion parts(localToEcef, &globe, mesh);
+    meshes.front()->accept(parts);
+    if (!parts.isMesh()) return nullptr;
+    const core::QuickMeshBounds bounds(globe, mesh);
+    if (!bounds.isKnown() || bounds.touchesAxis()) return nullptr;
+    auto plates = std::make_unique<const core::GroundPlates>(globe, mesh, bounds.bin(), drawingError(globe));
+    return plates->isKnown() ? std::move(plates) : nullptr;
+}
+
+}  // namespace osgAnalyticBin
