@@ -128,6 +128,23 @@ TEST(GroundPlates, ColumnsLieBelowTheMeshWhereItHasHolesAndFolds) {
     EXPECT_GT(known, 800 * 10);
 }
 
+// A lens in the air has a mesh above its middle, closed all round, and none beside it.
+TEST(GroundPlates, ClosedMeshesCoverNothing) {
+    const Ellipsoid earth = wgs84();
+    const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {0.0, 200.0});
+    EcefMesh mesh;
+    constexpr std::uint32_t kCorners = 6;
+    addVertex(mesh, earth.toEcef({0.5051, 1.0051, 200.0}));
+    addVertex(mesh, earth.toEcef({0.5051, 1.0051, 100.0}));
+    for (std::uint32_t i = 0; i < kCorners; ++i) {
+        const double angle = 1.04719755 * i;
+        addVertex(mesh, earth.toEcef({0.5051 + 0.0004 * std::sin(angle), 1.0051 + 0.0004 * std::cos(angle), 150.0}));
+        const std::uint32_t a = 2 + i, b = 2 + (i + 1) % kCorners;
+        mesh.triangles.insert(mesh.triangles.end(), {0, a, b, 1, b, a});
+    }
+    EXPECT_FALSE(GroundPlates(earth, mesh, extents).isKnown());
+}
+
 // Triangles at a pole's vertex run around the axis, whatever longitudes the tile has.
 TEST(GroundPlates, ColumnsLieBelowTheMeshWhereItEndsInAPole) {
     Random random(1708);

@@ -120,7 +120,15 @@ EarthColumn randomColumn(Random& random) {
         column.top[i] = corner(y);
         column.bottom[i] = corner(y - depth);
     }
-    column.error = 1e-6;
+    column.error = forward * random.logUniform(1e-10, 1e-4);
+    return column;
+}
+
+// The column whose corners are as wrong as it says.
+EarthColumn perturbed(Random& random, EarthColumn column) {
+    for (auto* corners : {&column.top, &column.bottom}) {
+        for (glm::dvec3& corner : *corners) corner += 0.999 * column.error * random.direction();
+    }
     return column;
 }
 
@@ -151,8 +159,9 @@ TEST(HorizonBuffer, HidesOnlyWhatIsInThePictureOfEarthInFront) {
         HorizonBuffer buffer({0, 0, 0}, {0, 1, 0}, {0, 0, 1}, kAcross);
         const int count = random.integer(1, 30);
         for (int i = 0; i < count; ++i) {
-            columns.push_back(randomColumn(random));
-            buffer.add(columns.back());
+            const EarthColumn column = randomColumn(random);
+            buffer.add(column);
+            columns.push_back(perturbed(random, column));
         }
         for (int i = 0; i < 300; ++i) {
             // close to an edge of a picture, or anywhere

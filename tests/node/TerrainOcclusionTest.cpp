@@ -123,7 +123,10 @@ TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
     CullView cutting = RidgeGlobe::alongRow();
     cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 60000.0, 1e8);
     EXPECT_TRUE(globe.drawsFarTile(cutting));
-    EXPECT_FALSE(globe.drawsFarTile());
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 8000.0, 1e8);
+    EXPECT_TRUE(globe.drawsFarTile(cutting));
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 2000.0, 1e8);
+    EXPECT_FALSE(globe.drawsFarTile(cutting));
     // where OSG computes it, it may be at a part of the distance to the far end of the database
     CullView computed = RidgeGlobe::alongRow();
     computed.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;

@@ -245,6 +245,7 @@ TEST_F(Handlers, FillOsgsStatistics) {
     EXPECT_EQ(attribute("Tiles drawn"), double(expected.drawn));
     EXPECT_EQ(attribute("Tiles hidden"), double(expected.hidden));
     EXPECT_EQ(attribute("Tiles beyond an edge"), double(expected.reverseCulled));
+    EXPECT_EQ(attribute("Tiles behind terrain"), double(expected.occluded));
     EXPECT_GT(expected.drawn, 0u);
 }
 

@@ -24,11 +24,12 @@ struct Line {
     std::size_t TileCounts::*count;
 };
 
-const std::array<Line, 5> kLines{{{"tested", {0.8F, 0.8F, 0.8F, 1.0F}, &TileCounts::tested},
+const std::array<Line, 6> kLines{{{"tested", {0.8F, 0.8F, 0.8F, 1.0F}, &TileCounts::tested},
                                   {"kept", {1.0F, 0.85F, 0.15F, 1.0F}, &TileCounts::kept},
                                   {"drawn", {0.3F, 1.0F, 0.35F, 1.0F}, &TileCounts::drawn},
                                   {"hidden", {0.35F, 0.6F, 1.0F, 1.0F}, &TileCounts::hidden},
-                                  {"beyond an edge", {1.0F, 0.35F, 1.0F, 1.0F}, &TileCounts::reverseCulled}}};
+                                  {"beyond an edge", {1.0F, 0.35F, 1.0F, 1.0F}, &TileCounts::reverseCulled},
+                                  {"behind terrain", {0.75F, 0.55F, 0.35F, 1.0F}, &TileCounts::occluded}}};
 
 std::string attributeName(unsigned int camera, const Line& line) {
     const std::string whose = camera == 0 ? "Tiles " : "Camera " + std::to_string(camera + 1) + " tiles ";
@@ -44,6 +45,7 @@ TileCounts countsOf(osg::Camera& camera, osg::FrameStamp& frameStamp) {
     counts.kept = bins.tested - bins.outside;
     counts.hidden = bins.hidden;
     counts.reverseCulled = bins.separated;
+    counts.occluded = bins.occluded;
     return counts;
 }
 

@@ -141,6 +141,7 @@ private:
         tile.isCulled = grew(&BinCounts::outside);
         tile.verdict = grew(&BinCounts::hidden)      ? TileVerdict::Hidden
                        : grew(&BinCounts::separated) ? TileVerdict::ReverseCulled
+                       : grew(&BinCounts::occluded)  ? TileVerdict::Occluded
                        : grew(&BinCounts::outside)   ? TileVerdict::Outside
                        : grew(&BinCounts::inside)    ? TileVerdict::Inside
                                                      : TileVerdict::Straddling;
@@ -195,6 +196,7 @@ TileCounts TileSurvey::counts() const {
         if (tile.isDrawn) ++counts.drawn;
         if (tile.hasBin && tile.verdict == TileVerdict::Hidden) ++counts.hidden;
         if (tile.hasBin && tile.verdict == TileVerdict::ReverseCulled) ++counts.reverseCulled;
+        if (tile.hasBin && tile.verdict == TileVerdict::Occluded) ++counts.occluded;
     }
     return counts;
 }

@@ -20,6 +20,7 @@ void add(const BinCounts& some, BinCounts& sum) {
     sum.straddling += some.straddling;
     sum.hidden += some.hidden;
     sum.separated += some.separated;
+    sum.occluded += some.occluded;
 }
 
 }  // namespace

@@ -19,11 +19,12 @@ namespace osgAnalyticBin {
 
 /// What a cull traversal found of a tile.
 enum class TileVerdict {
-    Outside,       ///< outside a plane of the frustum, too small, or behind an occluder
-    Straddling,    ///< of the frustum's planes some are undecided
-    Inside,        ///< inside all planes
-    Hidden,        ///< behind the horizon
-    ReverseCulled  ///< beyond an edge of the frustum, though outside no single plane
+    Outside,        ///< outside a plane of the frustum, too small, or behind an occluder
+    Straddling,     ///< of the frustum's planes some are undecided
+    Inside,         ///< inside all planes
+    Hidden,         ///< behind the horizon
+    ReverseCulled,  ///< beyond an edge of the frustum, though outside no single plane
+    Occluded        ///< behind terrain
 };
 
 /// A tile that a camera's cull traversal came to.
@@ -47,6 +48,7 @@ struct TileCounts {
     std::size_t drawn = 0;          ///< of those kept, with a mesh of their own drawn
     std::size_t hidden = 0;         ///< of those not kept
     std::size_t reverseCulled = 0;  ///< of those not kept
+    std::size_t occluded = 0;       ///< of those not kept: behind terrain
 };
 
 /// Culls a camera's scene once more, off the record, by the camera's culling view: nothing is drawn and no file is

@@ -50,7 +50,7 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
     double& depth = CullTraversal::of(nv).lastDepth(database);
     if (nv.getTraversalNumber() % kFreshStart == 0) depth = 0.0;
     const auto eye = eyeAboveWhatIsShown(shown, *viewpoint, deepest, depth);
-    if (eye && findsOccluded && !database.hasGap()) cullBehindTerrain(shown, *viewpoint);
+    if (eye && findsOccluded) cullBehindTerrain(shown, *viewpoint);
     return eye;
 }
 
