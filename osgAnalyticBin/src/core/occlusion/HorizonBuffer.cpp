@@ -53,30 +53,34 @@ void HorizonBuffer::add(const EarthColumn& column) {
     constexpr double kSteepest = 1e3;
     Pending earth{0.0, {}, {}, 0.0, -kInfinity};
     double nearest = kInfinity, left = kInfinity, right = -kInfinity, largest = 0.0;
-    double size2 = glm::dot(_eye, _eye);
-    for (std::size_t i = 0; i < 4; ++i)
-        size2 = std::max({size2, glm::dot(column.top[i], column.top[i]), glm::dot(column.bottom[i], column.bottom[i])});
-    const double error = column.error + kVectorRounding * std::sqrt(size2);
-    if (!(column.error >= 0.0)) return;
     const auto place = [&](const glm::dvec3& corner, glm::dvec2& spot) {
         const glm::dvec3 from = corner - _eye;
-        const double forward = glm::dot(from, _forward);
-        spot = glm::dvec2(glm::dot(from, _right), glm::dot(from, _up)) / forward;
+        const double forward = glm::dot(from, _forward), inverse = 1.0 / forward;
+        spot = {glm::dot(from, _right) * inverse, glm::dot(from, _up) * inverse};
         nearest = std::min(nearest, forward);
-        earth.farthest = std::max(earth.farthest, forward + error);
+        earth.farthest = std::max(earth.farthest, forward);
         left = std::min(left, spot.x);
         right = std::max(right, spot.x);
         largest = std::max({largest, std::abs(spot.x), std::abs(spot.y)});
         // written so that NaN is left out; rays near the picture's plane would make positions as large as one likes
-        return forward > 4.0 * error && std::abs(spot.x) < kSteepest && std::abs(spot.y) < kSteepest;
+        return forward > 0.0 && std::abs(spot.x) < kSteepest && std::abs(spot.y) < kSteepest;
     };
     for (std::size_t i = 0; i < 4; ++i) {
-        if (!place(column.top[i], earth.top[i]) || !place(column.bottom[i], earth.bottom[i])) return;
+        if (!place(column.top[i], earth.top[i])) return;
+        earth.highest = std::max(earth.highest, earth.top[i].y);
     }
-    if (!(right - left > _step) || right < _across.lower || left > _across.upper) return;
+    // what is no higher than earth in front of it covers nothing more
+    if (!(right - left > _step) || !isAboveKnown(stripAt(left, 0.0), stripAt(right, 1.0), earth.highest)) return;
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (!place(column.bottom[i], earth.bottom[i])) return;
+    }
+    // a vector from the eye is no longer than forward (1 + |x| + |y|)
+    const double longest = glm::length(_eye) + earth.farthest * (1.0 + 2.0 * largest);
+    const double error = column.error + kVectorRounding * longest;
+    if (!(column.error >= 0.0 && nearest > 4.0 * error)) return;
+    earth.farthest += error;
     earth.error = pictureError(error, nearest, largest);
     if (!(earth.error < 0.5 * _step)) return;
-    for (const glm::dvec2& spot : earth.top) earth.highest = std::max(earth.highest, spot.y);
     _pending.push_back(earth);
     std::push_heap(_pending.begin(), _pending.end());
 }
@@ -141,10 +145,6 @@ private:
 // A column of earth is convex and so is its picture: at each x it has all between the lower side of its bottom and the
 // upper side of its top. The upper side is concave: over a strip it is lowest at one of the ends.
 void HorizonBuffer::raise(const Pending& earth) {
-    const auto stripAt = [this](double x, double toward) {
-        return static_cast<std::size_t>(
-            std::clamp(std::floor((x - _across.lower) / _step + toward), 0.0, static_cast<double>(kStrips)));
-    };
     const UpperSide top(earth.top, earth.error);
     std::array<glm::dvec2, 4> mirrored = earth.bottom;
     for (glm::dvec2& point : mirrored) point.y = -point.y;
@@ -162,6 +162,12 @@ void HorizonBuffer::raise(const Pending& earth) {
         top0 = top1;
         bottom0 = bottom1;
     }
+}
+
+// The strip with this x, or another as many strips to the right; kStrips: none.
+std::size_t HorizonBuffer::stripAt(double x, double toRight) const noexcept {
+    const double strip = std::floor((x - _across.lower) / _step + toRight);
+    return static_cast<std::size_t>(std::clamp(strip, 0.0, static_cast<double>(kStrips)));
 }
 
 // Whether something of this height would stand above what is covered.

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -81,7 +82,6 @@ struct Candidate {
 struct Part {
     std::size_t candidate;
     BinHull hull;  // of all that is drawn with it
-    double nearest;
 };
 
 class TerrainOcclusion {
@@ -97,11 +97,12 @@ public:
         for (const TilePlan::ShownTile& tile : _plan.shown()) {
             if (!add(tile)) return;
         }
-        std::sort(_parts.begin(), _parts.end(), [](const Part& a, const Part& b) { return a.nearest < b.nearest; });
+        std::sort(_order.begin(), _order.end());
         const std::optional<double> lowest = lowestSight(nearReach());
         if (!lowest) return;
         _buffer.setLowest(*lowest);
-        for (const Part& part : _parts) {
+        for (const auto& [nearest, number] : _order) {
+            const Part& part = _parts[number];
             Candidate& candidate = _candidates[part.candidate];
             if (!candidate.isHidden || isBeside(part.hull) || _buffer.hides(part.hull)) continue;
             candidate.isHidden = false;
@@ -135,7 +136,8 @@ private:
                 candidate.size = std::max(candidate.size, 2.0 * glm::distance(corner, hull.corners[0]));
                 _farthest = std::max(_farthest, distance + hull.reach);
             }
-            _parts.push_back({_candidates.size(), hull, _buffer.nearest(hull)});
+            _order.emplace_back(_buffer.nearest(hull), _parts.size());
+            _parts.push_back({_candidates.size(), hull});
         }
         _candidates.push_back(candidate);
         return true;
@@ -165,8 +167,9 @@ private:
         NearGround& ground = CullTraversal::of(_database.visitor).nearGround();
         double highest = -HUGE_VAL;  // metres above the eye
         std::vector<std::size_t> tiles;
-        for (const Part& part : _parts) {
-            if (part.nearest > reach) break;
+        for (const auto& [nearest, number] : _order) {
+            if (nearest > reach) break;
+            const Part& part = _parts[number];
             const bool isKnown = std::find(tiles.begin(), tiles.end(), part.candidate) != tiles.end();
             if (isKnown || isBeside(part.hull)) continue;
             if (tiles.size() == NearGround::kMostTiles) return std::nullopt;
@@ -261,6 +264,7 @@ private:
     HorizonBuffer _buffer;
     std::vector<Candidate> _candidates;
     std::vector<Part> _parts;
+    std::vector<std::pair<double, std::size_t>> _order;  // of the parts, by the distance of the nearest point
     std::vector<core::EarthColumn> _columns;
     double _farthest = 0.0;  // metres from the eye
 };

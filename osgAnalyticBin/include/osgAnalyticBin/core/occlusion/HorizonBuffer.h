@@ -64,6 +64,7 @@ private:
     }
     void use(double distance);
     void raise(const Pending& earth);
+    [[nodiscard]] std::size_t stripAt(double x, double toRight) const noexcept;
     [[nodiscard]] bool isAboveKnown(std::size_t first, std::size_t last, double height) const noexcept;
     void cover(std::size_t strip, const Interval& heights);
 
