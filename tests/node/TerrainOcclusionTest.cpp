@@ -127,13 +127,68 @@ TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
     EXPECT_TRUE(globe.drawsFarTile(cutting));
     cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 2000.0, 1e8);
     EXPECT_FALSE(globe.drawsFarTile(cutting));
-    // where OSG computes it, it may be at a part of the distance to the far end of the database
+    // where OSG computes it, anything far away in the scene may move it
     CullView computed = RidgeGlobe::alongRow();
     computed.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
-    globe.visitor->setNearFarRatio(1e-6);
-    EXPECT_FALSE(globe.drawsFarTile(computed));
-    globe.visitor->setNearFarRatio(0.2);
     EXPECT_TRUE(globe.drawsFarTile(computed));
+    CullView nearPlane = RidgeGlobe::alongRow();
+    nearPlane.cullingMode |= osg::CullSettings::NEAR_PLANE_CULLING;
+    EXPECT_TRUE(globe.drawsFarTile(nearPlane));
+    // a scene in kilometres, and depths from 0 to 1
+    osg::ref_ptr<osg::MatrixTransform> scaled = new osg::MatrixTransform(osg::Matrixd::scale(1e-3, 1e-3, 1e-3));
+    scaled->addChild(globe.root);
+    globe.scene = scaled;
+    CullView inKilometres = RidgeGlobe::alongRow();
+    inKilometres.modelView =
+        osg::Matrixd::scale(1e3, 1e3, 1e3) * inKilometres.modelView * osg::Matrixd::scale(1e-3, 1e-3, 1e-3);
+    inKilometres.projection = osg::Matrixd::perspective(30.0, 1.0, 1e-3, 1e5);
+    EXPECT_FALSE(globe.drawsFarTile(inKilometres));
+    inKilometres.projection = osg::Matrixd::perspective(30.0, 1.0, 60.0, 1e5);
+    EXPECT_TRUE(globe.drawsFarTile(inKilometres));
+    globe.scene = globe.root;
+    CullView zeroToOne = RidgeGlobe::alongRow();
+    zeroToOne.projection = osg::Matrixd::perspective(30.0, 1.0, 60000.0, 1e8) * osg::Matrixd::scale(1, 1, 0.5) *
+                           osg::Matrixd::translate(0, 0, 0.5);
+    EXPECT_TRUE(globe.drawsFarTile(zeroToOne));
+    EXPECT_FALSE(globe.drawsFarTile());
+}
+
+TEST(TerrainOcclusion, NeedsMeshesOfTrianglesWithoutHoles) {
+    const auto cutHole = [](osg::Geometry& geometry) {
+        auto& triangles = static_cast<osg::DrawElementsUInt&>(*geometry.getPrimitiveSet(0));
+        triangles.erase(triangles.begin() + 180, triangles.begin() + 186);
+    };
+    // whose diagonals nobody knows
+    const auto makeQuads = [](osg::Geometry& geometry) {
+        constexpr unsigned int kPosts = 9;
+        const osg::ref_ptr<osg::DrawElementsUInt> quads = new osg::DrawElementsUInt(GL_QUADS);
+        for (unsigned int i = 0; i + kPosts + 1 < kPosts * kPosts; ++i) {
+            if (i % kPosts == kPosts - 1) continue;
+            for (const unsigned int corner : {i, i + 1, i + kPosts + 1, i + kPosts}) quads->push_back(corner);
+        }
+        geometry.setPrimitiveSet(0, quads);
+    };
+    const std::vector<std::function<void(osg::Geometry&)>> ways{cutHole, makeQuads};
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        for (const std::size_t tile : {std::size_t{2}, std::size_t{6}}) {
+            RidgeGlobe globe;
+            ways[i](*drawableOf(*globe.row[tile])->asGeometry());
+            installBins(*globe.root, withOcclusion());
+            EXPECT_TRUE(globe.drawsFarTile()) << i << " " << tile;
+        }
+    }
+}
+
+TEST(TerrainOcclusion, NeedsTilesThatAreNotLeftOutAsSmall) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    CullView view = RidgeGlobe::alongRow();
+    view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
+    EXPECT_FALSE(globe.drawsFarTile(view));
+    EXPECT_GE(globe.counts().occluded, 1u);
+    globe.visitor->setSmallFeatureCullingPixelSize(500.0F);
+    (void)globe.drawsFarTile(view);
+    EXPECT_EQ(globe.counts().occluded, 0u);
 }
 
 TEST(TerrainOcclusion, IsOffWithoutAHorizon) {

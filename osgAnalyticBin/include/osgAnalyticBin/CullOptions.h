@@ -78,7 +78,7 @@ struct CullOptions {
     /// boxes, are tested unless it is false.
     std::optional<bool> reverse;
     /// Whether tiles behind terrain are culled: on a globe whose horizon is used (see `horizonUse`), for tiles whose
-    /// mesh the kit reads. Read when bins are installed.
+    /// meshes the kit reads, by cameras that do not compute their near plane.
     bool occlusion = false;
     /// Seconds for which the DatabasePager keeps a tile's finer children after they were last seen, when it has more
     /// PagedLODs than its target; 0 leaves OSG's own rule alone. Bins cull what spheres keep by chance: without this,

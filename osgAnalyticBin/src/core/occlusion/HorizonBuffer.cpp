@@ -32,14 +32,14 @@ bool isEmpty(const Interval& interval) {
 }  // namespace
 
 HorizonBuffer::HorizonBuffer(const glm::dvec3& eye, const glm::dvec3& forward, const glm::dvec3& up,
-                             const Interval& across)
+                             const Interval& across, double drawing)
     : _eye(eye),
       _forward(forward),
       _right(glm::cross(forward, up)),
       _up(up),
       _across(across),
       _step(across.width() / static_cast<double>(kStrips)),
-      _lowest(-kInfinity) {
+      _drawing(drawing) {
     _covered.fill({kInfinity, -kInfinity});
 }
 
@@ -199,11 +199,10 @@ bool HorizonBuffer::hides(const BinHull& body) {
     if (!(nearest - reach > 0.0 && body.reach >= 0.0) || nearest - reach < _reached) return false;
     use(nearest - reach);
     Interval across{kInfinity, -kInfinity}, heights{kInfinity, -kInfinity};
-    const double drawing = kDrawing * _across.width();
     for (std::size_t i = 0; i < 8; ++i) {
         const glm::dvec3 from = body.corners[i] - _eye;
         const double x = glm::dot(from, _right) / forward[i], y = glm::dot(from, _up) / forward[i];
-        const double error = pictureError(reach, forward[i], std::max(std::abs(x), std::abs(y))) + drawing;
+        const double error = pictureError(reach, forward[i], std::max(std::abs(x), std::abs(y))) + _drawing;
         if (!std::isfinite(x + y + error)) return false;
         across = {std::min(across.lower, x - error), std::max(across.upper, x + error)};
         heights = {std::min(heights.lower, y - error), std::max(heights.upper, y + error)};

@@ -3,6 +3,7 @@
 
 #include "NearGround.h"
 
+#include "../install/InstalledTile.h"
 #include "../install/TileCallback.h"
 #include "../surface/TilePlates.h"
 
@@ -15,10 +16,12 @@ const core::EcefMesh* NearGround::trianglesOf(const AnalyticBinCullCallback& til
     for (Known& one : _known) {
         if (one.tile.get() == &tile && one.node.get() == &mesh) known = &one;
     }
-    if (known && ++known->uses < kMostUses) return &known->mesh;
+    const bool isChanged = tile.getInstalledTile() && tile.getInstalledTile()->isMeshChanged();
+    const bool isSame = known && !isChanged && known->localToEcef == tile.getLocalToEcef();
+    if (isSame && ++known->uses < kMostUses) return &known->mesh;
     if (!known && _known.size() < kMostTiles) known = &_known.emplace_back();
     if (!known) known = &_known[_oldest++ % kMostTiles];
-    *known = {nullptr, nullptr, 0, {}};
+    *known = {nullptr, nullptr, tile.getLocalToEcef(), 0, {}};
     // the frame of a transform that is culled itself is that of what is below it
     const bool isInOwnFrame = mesh.asTransform() && installedBinOf(mesh) == &tile;
     if (isInOwnFrame || !readTileMesh(mesh, tile.getLocalToEcef(), known->mesh)) return nullptr;

@@ -6,6 +6,7 @@
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/core/mesh/QuickMeshBounds.h>
 
+#include <osg/Matrixd>
 #include <osg/Node>
 #include <osg/observer_ptr>
 
@@ -17,8 +18,8 @@ namespace osgAnalyticBin {
 class NearGround {
 public:
     /// The triangles of a tile's own mesh, ECEF. Returns: nullptr where they are not known. Valid until the next call.
-    /// Cost: one pass over the mesh in every sixteenth call for the same tile, and for tiles that were not asked for
-    /// lately.
+    /// Cost: one pass over the mesh in every sixteenth call for the same tile, for tiles that were not asked for
+    /// lately, and for meshes that were changed.
     [[nodiscard]] const core::EcefMesh* trianglesOf(const AnalyticBinCullCallback& tile, osg::Node& mesh);
 
     /// More tiles are not kept.
@@ -28,6 +29,7 @@ private:
     struct Known {
         osg::observer_ptr<const AnalyticBinCullCallback> tile;
         osg::observer_ptr<const osg::Node> node;
+        osg::Matrixd localToEcef;
         int uses;
         core::EcefMesh mesh;
     };

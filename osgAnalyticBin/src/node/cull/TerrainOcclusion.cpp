@@ -7,6 +7,7 @@
 #include "../GlmBridge.h"
 #include "../Inverse.h"
 #include "../install/InstalledTile.h"
+#include "BinCulling.h"
 #include "CullTraversal.h"
 #include "TilePlan.h"
 
@@ -33,7 +34,7 @@ using core::HorizonBuffer;
 struct Picture {
     glm::dvec3 eye, forward, up;
     core::Interval across;
-    double widest;  // the largest distance of a point in view, for a depth of 1
+    double drawing;  // by how much corners of triangles may be drawn elsewhere
 };
 
 // Views that look up or down more steeply, or whose corners do, have no picture on a vertical plane.
@@ -52,6 +53,7 @@ std::optional<Picture> pictureOf(const ShownDatabase& database, const glm::dvec3
     if (!(glm::length(level) > kLevel)) return std::nullopt;
     Picture picture{eye, glm::normalize(level), up, {1e300, -1e300}, 0.0};
     const glm::dvec3 right = glm::cross(picture.forward, up);
+    double levelness = 1.0;
     for (int corner = 0; corner < 4; ++corner) {
         const osg::Vec4d clip(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, 0.5, 1.0);
         const osg::Vec4d point = clip * unproject;
@@ -62,11 +64,17 @@ std::optional<Picture> pictureOf(const ShownDatabase& database, const glm::dvec3
         if (!(forward > kLevel * length)) return std::nullopt;
         const double x = glm::dot(direction, right) / forward;
         picture.across = {std::min(picture.across.lower, x), std::max(picture.across.upper, x)};
-        picture.widest = std::max(picture.widest, length / glm::dot(direction, look));
+        levelness = std::min(levelness, forward / length);
     }
     constexpr double kRounding = 1e-6;
     const double room = kRounding * picture.across.width();
     picture.across = {picture.across.lower - room, picture.across.upper + room};
+    // Drivers snap them to 1/256 of a pixel: those of what hides and of what is hidden. Where the view is not level,
+    // pixels are larger here.
+    const osg::Viewport* const viewport = database.cullStack.getViewport();
+    if (!viewport || !(viewport->width() > 0.0 && viewport->height() > 0.0)) return std::nullopt;
+    const double pixels = std::min(viewport->width(), viewport->height());
+    picture.drawing = picture.across.width() / (128.0 * pixels * levelness * levelness);
     return picture;
 }
 
@@ -91,14 +99,15 @@ public:
           _ellipsoid(database.view.ellipsoid),
           _plan(*database.view.plan),
           _picture(picture),
-          _buffer(picture.eye, picture.forward, picture.up, picture.across) {}
+          _buffer(picture.eye, picture.forward, picture.up, picture.across, picture.drawing) {}
 
-    void run() {
+    // `nearReach`: metres from the eye at which the near plane may still cut terrain away.
+    void run(double nearReach) {
         for (const TilePlan::ShownTile& tile : _plan.shown()) {
-            if (!add(tile)) return;
+            if (!isWhole(tile) || !add(tile)) return;
         }
         std::sort(_order.begin(), _order.end());
-        const std::optional<double> lowest = lowestSight(nearReach());
+        const std::optional<double> lowest = lowestSight(1.01 * nearReach);
         if (!lowest) return;
         _buffer.setLowest(*lowest);
         for (const auto& [nearest, number] : _order) {
@@ -134,7 +143,6 @@ private:
                 const double distance = glm::distance(corner, _picture.eye);
                 candidate.distance = std::min(candidate.distance, distance);
                 candidate.size = std::max(candidate.size, 2.0 * glm::distance(corner, hull.corners[0]));
-                _farthest = std::max(_farthest, distance + hull.reach);
             }
             _order.emplace_back(_buffer.nearest(hull), _parts.size());
             _parts.push_back({_candidates.size(), hull});
@@ -143,22 +151,14 @@ private:
         return true;
     }
 
-    // Metres from the eye at which the near plane may still cut terrain away.
-    [[nodiscard]] double nearReach() const {
-        const osg::CullStack& cullStack = _database.cullStack;
-        const osg::Matrixd& projection = *cullStack.getProjectionMatrix();
-        const bool isComputed = cullStack.getComputeNearFarMode() != osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
-        osg::Matrixd unproject;
-        if (cullStack.getClampProjectionMatrixCallback() || !unproject.invert(projection)) return HUGE_VAL;
-        // reversed depth has the near plane at the other end
-        double depth = HUGE_VAL;
-        for (const double end : {-1.0, 0.0, 1.0}) {
-            const double z = (osg::Vec3d(0.0, 0.0, end) * unproject).z() * projection(2, 3);
-            if (z > 0.0) depth = std::min(depth, z / std::abs(projection(2, 3)));
-        }
-        // OSG moves the near plane to this part of the farthest distance, where something nearer is in view
-        if (isComputed) depth = std::max(depth, cullStack.getNearFarRatio() * _farthest);
-        return 1.01 * depth * _picture.widest;
+    // Whether the mesh of a tile in view is drawn whole, has no holes, and is not left out as a small feature.
+    [[nodiscard]] bool isWhole(const TilePlan::ShownTile& shown) const {
+        const InstalledTile* const installed = shown.tile->getInstalledTile();
+        const core::GroundPlates* const plates = installed ? installed->plates() : nullptr;
+        if (!plates || !std::isfinite(plates->least(1, 0, 0))) return false;
+        const osg::BoundingSphere& bound = shown.mesh->getBound();
+        return !isSmall(_database.cullStack.getCurrentCullingSet(),
+                        {osg::Vec3d(bound.center()) * shown.tile->getLocalToEcef(), bound.radius()});
     }
 
     // Where lines of sight in the picture pass above all terrain that is within `reach` of the eye. Returns: nullopt
@@ -266,15 +266,17 @@ private:
     std::vector<Part> _parts;
     std::vector<std::pair<double, std::size_t>> _order;  // of the parts, by the distance of the nearest point
     std::vector<core::EarthColumn> _columns;
-    double _farthest = 0.0;  // metres from the eye
 };
 
 }  // namespace
 
 void cullBehindTerrain(const ShownDatabase& database, const Viewpoint& viewpoint) {
-    if (!viewpoint.eye() || !database.view.plan) return;
+    if (!viewpoint.eye() || !database.view.plan || !std::isfinite(viewpoint.nearReach())) return;
+    // tiles in front of the near plane are not looked for then
+    constexpr osg::CullingSet::Mask kNear = osg::CullingSet::NEAR_PLANE_CULLING;
+    if (database.cullStack.getCurrentCullingSet().getCullingMask() & kNear) return;
     const auto picture = pictureOf(database, *viewpoint.eye());
-    if (picture) TerrainOcclusion(database, *picture).run();
+    if (picture) TerrainOcclusion(database, *picture).run(viewpoint.nearReach());
 }
 
 }  // namespace osgAnalyticBin

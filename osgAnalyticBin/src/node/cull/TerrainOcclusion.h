@@ -9,7 +9,7 @@ namespace osgAnalyticBin {
 
 /// Says in the database's plan which of the shown tiles lie behind the terrain of others, seen from an eye above the
 /// terrain. It does nothing for orthographic cameras, for views that look so steeply that there is no horizon in front
-/// of them, and where the near plane may cut into terrain.
+/// of them, where the near plane is computed or may cut into terrain, and where a tile may have a hole.
 /// Requires: a plan that has what is shown, and that found no hole in it and the eye above the ground
 /// (eyeAboveWhatIsShown()).
 /// Guarantee: every line of sight to a tile that is culled meets the mesh of another shown tile before; tests:

@@ -56,7 +56,7 @@ bool isFinalProjection(const osg::CullStack& cullStack) {
 
 // How far the near plane is from the eye at most; infinite when in doubt. Depths of 0 and 1 in clip space are at the
 // near plane or beyond it, whether depth is reversed or not and from -1 or from 0.
-double nearReach(const osg::Matrixd& projection, const osg::Matrixd& eyeToWorld, const osg::Vec3d& eye) {
+double reachOfNearPlane(const osg::Matrixd& projection, const osg::Matrixd& eyeToWorld, const osg::Vec3d& eye) {
     double nearest = std::numeric_limits<double>::infinity();
     osg::Matrixd unproject;
     if (!unproject.invert(projection)) return nearest;
@@ -96,7 +96,7 @@ std::optional<Viewpoint> Viewpoint::of(osg::CullStack& cullStack, osg::NodeVisit
         const osg::Vec3d eye = osg::Vec3d() * eyeToWorld;
         viewpoint._point = toGlm(eye);
         // a computed near plane is not known before all is culled
-        if (isFinalProjection(cullStack)) viewpoint._nearReach = nearReach(projection, eyeToWorld, eye);
+        if (isFinalProjection(cullStack)) viewpoint._nearReach = reachOfNearPlane(projection, eyeToWorld, eye);
         return viewpoint;
     }
     osg::Matrixd unproject;
@@ -111,6 +111,10 @@ std::optional<Viewpoint> Viewpoint::of(osg::CullStack& cullStack, osg::NodeVisit
     viewpoint._point = toGlm(start * eyeToWorld);
     viewpoint._direction = toGlm(osg::Matrixd::transform3x3(direction, eyeToWorld));
     return viewpoint;
+}
+
+double Viewpoint::nearReach() const noexcept {
+    return _nearReach > 0.0 ? _nearReach : std::numeric_limits<double>::infinity();
 }
 
 std::optional<core::HorizonEye> Viewpoint::above(const core::Ellipsoid& ellipsoid, double depth) const noexcept {

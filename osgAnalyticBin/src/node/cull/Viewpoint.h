@@ -25,6 +25,10 @@ public:
     /// occluder.
     [[nodiscard]] std::optional<core::HorizonEye> above(const core::Ellipsoid& ellipsoid, double depth) const noexcept;
 
+    /// How far the near plane is from the eye at most, in the unit of the planes' frame; infinite in doubt, and where
+    /// OSG computes it after all is culled. For perspective cameras.
+    [[nodiscard]] double nearReach() const noexcept;
+
     /// The eye. Returns: nullptr for orthographic cameras.
     [[nodiscard]] const glm::dvec3* eye() const noexcept { return _isDirection ? nullptr : &_point; }
 

@@ -71,9 +71,9 @@ public:
     /// What is known of the altitudes of the tile's own mesh, cell by cell; null: nothing.
     void setPlates(std::unique_ptr<const core::GroundPlates> plates) { _plates = std::move(plates); }
     /// Returns: nullptr where nothing is known, and once the mesh has changed.
-    [[nodiscard]] const core::GroundPlates* plates() const {
-        return _isMeshChanged.load(std::memory_order_relaxed) ? nullptr : _plates.get();
-    }
+    [[nodiscard]] const core::GroundPlates* plates() const { return isMeshChanged() ? nullptr : _plates.get(); }
+    /// Whether a change of the mesh was noticed since bins were installed.
+    [[nodiscard]] bool isMeshChanged() const { return _isMeshChanged.load(std::memory_order_relaxed); }
 
     /// Switches OSG's sphere test off on a node where it is on.
     void suspendSphere(osg::Node& node);

@@ -12,9 +12,37 @@
 
 #include <osgAnalyticBin/TileFinder.h>
 
+#include <osg/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
 namespace osgAnalyticBin {
 
 namespace {
+
+// The graphics driver chooses the diagonals of polygons.
+bool isOfTriangles(const osg::Drawable& drawable) {
+    const osg::Geometry* const geometry = drawable.asGeometry();
+    if (!geometry) return false;
+    const osg::Geometry::PrimitiveSetList& sets = geometry->getPrimitiveSetList();
+    return std::none_of(sets.begin(), sets.end(), [](const osg::ref_ptr<osg::PrimitiveSet>& set) {
+        return set->getMode() == GL_QUADS || set->getMode() == GL_QUAD_STRIP || set->getMode() == GL_POLYGON;
+    });
+}
+
+// Whether a triangle that was folded up with a skirt still has an area: then it is none of a skirt.
+bool hasFoldedSurface(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& marks) {
+    for (std::size_t i = 0; i + 2 < mesh.triangles.size() && !marks.empty(); i += 3) {
+        const auto [a, b, c] =
+            std::array<std::uint32_t, 3>{mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]};
+        const bool isFolded = ((marks[a] | marks[b] | marks[c]) & kSkirtVertex) != 0;
+        const glm::dvec3 p = mesh.vertex(a), q = mesh.vertex(b), r = mesh.vertex(c);
+        if (isFolded && p != q && q != r && r != p) return true;
+    }
+    return false;
+}
 
 // Puts the meshes of all parts of a tile together.
 class MeshUnion final : public SurfaceWalk {
@@ -29,9 +57,9 @@ private:
 
     void visit(osg::Drawable& drawable) override {
         thread_local SurfaceMesh part;  // keeps its memory from tile to tile
-        if (!readMesh(drawable, localToEcef(), part)) return giveUp();
+        if (!isOfTriangles(drawable) || !readMesh(drawable, localToEcef(), part)) return giveUp();
         if (part.triangles.empty()) return;
-        if (_withoutSkirts) (void)foldSkirts(part, *_withoutSkirts);
+        if (_withoutSkirts && hasFoldedSurface(part, foldSkirts(part, *_withoutSkirts).marks)) return giveUp();
         dropUnusedVertices(part);
         const auto first = static_cast<std::uint32_t>(_mesh.size());
         _mesh.x.insert(_mesh.x.end(), part.x.begin(), part.x.end());

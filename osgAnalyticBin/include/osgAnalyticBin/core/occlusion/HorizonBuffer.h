@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace osgAnalyticBin::core {
@@ -25,8 +26,11 @@ public:
     static constexpr std::size_t kStrips = 512;
 
     /// `forward` and `up` are unit vectors and perpendicular; up is the eye's vertical. `across`: the range of x
-    /// that the camera can see, or more; what is beside it hides nothing, and nobody asks for it.
-    HorizonBuffer(const glm::dvec3& eye, const glm::dvec3& forward, const glm::dvec3& up, const Interval& across);
+    /// that the camera can see, or more; what is beside it hides nothing, and nobody asks for it. `drawing`: by how
+    /// much corners of triangles may be drawn in another place of the picture, in x and in y; bodies count as larger by
+    /// it.
+    HorizonBuffer(const glm::dvec3& eye, const glm::dvec3& forward, const glm::dvec3& up, const Interval& across,
+                  double drawing = 0.0);
 
     /// Adds earth. It hides what is no nearer than its farthest corner. Earth beside or behind the eye is left out.
     void add(const EarthColumn& column);
@@ -37,7 +41,7 @@ public:
 
     /// Whether all lines of sight from the eye to a body meet added earth before the body, as far as they lie within
     /// `across`. Bodies have to be asked for front to back, by nearest(): one that is nearer than earth that was used
-    /// for another gets false. The body counts as a little larger, by what drawing rounds: kDrawing.
+    /// for another gets false.
     /// Guarantee: true is a proof, rounding included; tests: HorizonBuffer.*.
     /// Cost: one comparison per strip that the body spans. Earth that is used for the first time costs some twenty
     /// operations per strip that it spans.
@@ -45,9 +49,6 @@ public:
 
     /// The distance along `forward` of the body's nearest point, metres.
     [[nodiscard]] double nearest(const BinHull& body) const noexcept;
-
-    /// A part of the width of the picture: corners of triangles are drawn on a grid, of 1/256 of a pixel or finer.
-    static constexpr double kDrawing = 2e-5;
 
 private:
     // Earth that is not in the strips yet. The heap has the nearest on top.
@@ -71,7 +72,8 @@ private:
     glm::dvec3 _eye, _forward, _right, _up;
     Interval _across;
     double _step;
-    double _lowest;
+    double _drawing;
+    double _lowest = -std::numeric_limits<double>::infinity();
     double _reached = 0.0;  // the farthest corner of the earth that is in the strips
     std::vector<Pending> _pending;
     std::array<Interval, kStrips> _covered;  // empty: nothing
