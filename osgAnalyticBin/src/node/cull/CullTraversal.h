@@ -4,7 +4,7 @@
 #pragma once
 
 #include "GroundBelow.h"
-#include "NearGround.h"
+#include "NearMeshes.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinStatistics.h>
@@ -100,7 +100,7 @@ public:
     /// What this visitor last found below its eye.
     [[nodiscard]] GroundBelow& ground() { return _ground; }
     /// What it last found around its eye.
-    [[nodiscard]] NearGround& nearGround() { return _nearGround; }
+    [[nodiscard]] NearMeshes& nearMeshes() { return _nearMeshes; }
 
 protected:
     ~CullTraversal() override;
@@ -117,7 +117,7 @@ private:
     std::deque<TilePlan> _plans;  // of databases within each other
     std::size_t _openPlans = 0;
     GroundBelow _ground;
-    NearGround _nearGround;
+    NearMeshes _nearMeshes;
 
     core::PlaneSet _planes;
     Coefficients _coefficients{};

@@ -164,7 +164,7 @@ private:
     // Where lines of sight in the picture pass above all terrain that is within `reach` of the eye. Returns: nullopt
     // where that is not known.
     [[nodiscard]] std::optional<double> lowestSight(double reach) const {
-        NearGround& ground = CullTraversal::of(_database.visitor).nearGround();
+        NearMeshes& meshes = CullTraversal::of(_database.visitor).nearMeshes();
         double highest = -HUGE_VAL;  // metres above the eye
         std::vector<std::size_t> tiles;
         for (const auto& [nearest, number] : _order) {
@@ -172,10 +172,10 @@ private:
             const Part& part = _parts[number];
             const bool isKnown = std::find(tiles.begin(), tiles.end(), part.candidate) != tiles.end();
             if (isKnown || isBeside(part.hull)) continue;
-            if (tiles.size() == NearGround::kMostTiles) return std::nullopt;
+            if (tiles.size() == NearMeshes::kMostTiles) return std::nullopt;
             tiles.push_back(part.candidate);
             const TilePlan::ShownTile& tile = *_candidates[part.candidate].tile;
-            const core::EcefMesh* const mesh = ground.trianglesOf(*tile.tile, *tile.mesh);
+            const core::EcefMesh* const mesh = meshes.trianglesOf(*tile.tile, *tile.mesh);
             if (!mesh) return std::nullopt;
             highest = std::max(highest, highestOf(*mesh, reach, tile.tile->getBin().margin()));
         }

@@ -15,7 +15,7 @@
 namespace osgAnalyticBin {
 
 /// The triangles of the shown tiles around an eye, kept from frame to frame.
-class NearGround {
+class NearMeshes {
 public:
     /// The triangles of a tile's own mesh, ECEF. Returns: nullptr where they are not known. Valid until the next call.
     /// Cost: one pass over the mesh in every sixteenth call for the same tile, for tiles that were not asked for

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "NearGround.h"
+#include "NearMeshes.h"
 
 #include "../install/InstalledTile.h"
 #include "../install/TileCallback.h"
@@ -9,7 +9,7 @@
 
 namespace osgAnalyticBin {
 
-const core::EcefMesh* NearGround::trianglesOf(const AnalyticBinCullCallback& tile, osg::Node& mesh) {
+const core::EcefMesh* NearMeshes::trianglesOf(const AnalyticBinCullCallback& tile, osg::Node& mesh) {
     // meshes may change: what was read is not believed for long
     constexpr int kMostUses = 16;
     Known* known = nullptr;
