@@ -19,7 +19,9 @@ struct BinHull {
     /// eccentricity squared is between -0.01 and 0.01; elsewhere `reach` is infinite.
     BinHull(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept;
 
+    /// ECEF, metres.
     std::array<glm::dvec3, 8> corners;
+    /// Metres.
     double reach;
 };
 
