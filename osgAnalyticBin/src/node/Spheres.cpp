@@ -3,8 +3,9 @@
 
 #include "Spheres.h"
 
+#include "../core/FloatRounding.h"
+
 #include <cmath>
-#include <limits>
 
 namespace osgAnalyticBin {
 
@@ -35,8 +36,7 @@ double stretchOf(const osg::Matrixd& m) {
 
 osg::BoundingSphere roundedOutward(const osg::Vec3d& center, double radius) {
     const double outward = radius + kRadiusRounding * (center.length() + radius);
-    return osg::BoundingSphere(osg::Vec3(center),
-                               std::nextafter(static_cast<float>(outward), std::numeric_limits<float>::infinity()));
+    return osg::BoundingSphere(osg::Vec3(center), core::roundedUp(outward));
 }
 
 osg::BoundingSphere movedSphere(const osg::BoundingSphere& sphere, const osg::Matrixd& matrix) {

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "../../core/FloatRounding.h"
+
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/TileSurface.h>
@@ -11,7 +13,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -27,14 +28,9 @@ const bool kIsAliasKnown = [] {
     return true;
 }();
 
-double roundedDown(double value) {
-    const auto nearest = static_cast<float>(value);
-    constexpr float kLowest = std::numeric_limits<float>::lowest();
-    return static_cast<double>(static_cast<double>(nearest) <= value ? nearest : std::nextafter(nearest, kLowest));
-}
-
-double roundedUp(double value) {
-    return -roundedDown(-value);
+// The smallest float that is not below the value.
+double notBelow(double value) {
+    return -static_cast<double>(core::roundedDown(-value));
 }
 
 // Whether the longitudes are such as a file of an index may hold: two turns, as AnalyticBin's text allows them.
@@ -46,12 +42,12 @@ bool isInRange(const core::Interval& longitude) {
 BinIndex::Entry rounded(const BinIndex::Entry& entry) {
     BinIndex::Entry result;
     result.fingerprint = entry.fingerprint;
-    const double ownLow = roundedDown(entry.ownLow);
+    const double ownLow = core::roundedDown(entry.ownLow);
     if (!entry.bin.valid() || !std::isfinite(ownLow) || !isInRange(entry.bin.bin().longitude())) return result;
     const core::Interval& altitude = entry.bin.bin().altitude();
-    AnalyticBin bin(entry.bin.bin().withAltitude({roundedDown(altitude.lower), roundedUp(altitude.upper)}),
-                    roundedUp(entry.bin.margin()));
-    bin.setSag(roundedUp(entry.bin.sag()));
+    AnalyticBin bin(entry.bin.bin().withAltitude({core::roundedDown(altitude.lower), notBelow(altitude.upper)}),
+                    notBelow(entry.bin.margin()));
+    bin.setSag(notBelow(entry.bin.sag()));
     if (!std::isfinite(bin.margin()) || !std::isfinite(bin.sag()) || !bin.valid()) return result;
     result.bin = bin;
     result.ownLow = ownLow;
