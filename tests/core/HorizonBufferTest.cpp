@@ -124,7 +124,7 @@ EarthColumn randomColumn(Random& random) {
     return column;
 }
 
-// The column whose corners are as wrong as it says.
+// A column whose corners are wrong by up to the error that it states.
 EarthColumn perturbed(Random& random, EarthColumn column) {
     for (auto* corners : {&column.top, &column.bottom}) {
         for (glm::dvec3& corner : *corners) corner += 0.999 * column.error * random.direction();

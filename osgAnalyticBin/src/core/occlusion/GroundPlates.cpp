@@ -202,7 +202,7 @@ private:
         return glm::dot(normal, _vertices[c[0]].up) > (angle + 1e-9) * glm::length(normal);
     }
 
-    // The triangle's latitudes, longitudes as of the extents, and altitudes.
+    // Bounds of a triangle. Its longitudes are in the same turn as those of the extents.
     [[nodiscard]] GeodeticBin boundsOf(const Corners& c) const {
         const Vertex &a = _vertices[c[0]], &b = _vertices[c[1]], &d = _vertices[c[2]];
         const auto range = [&](double Vertex::*of) -> Interval {
@@ -294,7 +294,7 @@ private:
         }
     }
 
-    // 16 bits for each bound, rounded outward.
+    // Rounds each bound down to 16 bits.
     void encode() {
         // more than the error of altitudes
         const double room =

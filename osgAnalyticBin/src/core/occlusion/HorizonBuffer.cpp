@@ -74,7 +74,7 @@ void HorizonBuffer::add(const EarthColumn& column) {
     for (std::size_t i = 0; i < 4; ++i) {
         if (!place(column.bottom[i], earth.bottom[i])) return;
     }
-    // a vector from the eye is no longer than forward (1 + |x| + |y|)
+    // the length of a vector from the eye is at most forward (1 + |x| + |y|)
     const double longest = glm::length(_eye) + earth.farthest * (1.0 + 2.0 * largest);
     const double error = column.error + kVectorRounding * longest;
     if (!(column.error >= 0.0 && nearest > 4.0 * error)) return;

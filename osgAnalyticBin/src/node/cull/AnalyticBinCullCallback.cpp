@@ -370,7 +370,7 @@ bool AnalyticBinCullCallback::isHiddenFrom(const core::HorizonEye& eye) const {
     return _hidesByPoint ? eye.hides(*tile.horizonPoint) : eye.hides(*tile.horizon);
 }
 
-// Requires: the camera and the place that the plan was made for.
+// Requires: the traversal is by the camera that the plan was made for, and the tile stands where it did then.
 bool AnalyticBinCullCallback::isBehindTerrain(CullTraversal& traversal) const {
     const DatabaseView* const database = traversal.databaseView();
     return database && database->plan && database->plan->isOccluded(*this);

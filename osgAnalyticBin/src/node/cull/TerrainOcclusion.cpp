@@ -69,8 +69,8 @@ std::optional<Picture> pictureOf(const ShownDatabase& database, const glm::dvec3
     constexpr double kRounding = 1e-6;
     const double room = kRounding * picture.across.width();
     picture.across = {picture.across.lower - room, picture.across.upper + room};
-    // Drivers snap them to 1/256 of a pixel: those of what hides and of what is hidden. Where the view is not level,
-    // pixels are larger here.
+    // Drivers snap corners to 1/256 of a pixel, both of the tile that hides and of the hidden one. Where the view is
+    // not level, pixels are larger in this picture.
     const osg::Viewport* const viewport = database.cullStack.getViewport();
     if (!viewport || !(viewport->width() > 0.0 && viewport->height() > 0.0)) return std::nullopt;
     const double pixels = std::min(viewport->width(), viewport->height());
@@ -86,7 +86,7 @@ struct Candidate {
     bool isHidden;    // as far as is known
 };
 
-// A quarter of a tile's bin: what is asked for is smaller than the tile, and more is in front of it.
+// A quarter of a tile's bin. Quarters are tested one by one, because more terrain is in front of the farther ones.
 struct Part {
     std::size_t candidate;
     BinHull hull;  // of all that is drawn with it

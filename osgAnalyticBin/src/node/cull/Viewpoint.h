@@ -25,8 +25,8 @@ public:
     /// occluder.
     [[nodiscard]] std::optional<core::HorizonEye> above(const core::Ellipsoid& ellipsoid, double depth) const noexcept;
 
-    /// How far the near plane is from the eye at most, in the unit of the planes' frame; infinite in doubt, and where
-    /// OSG computes it after all is culled. For perspective cameras.
+    /// The largest distance of the near plane from the eye of a perspective camera, in the unit of the planes' frame.
+    /// Infinite in doubt, and where OSG computes the near plane after the cull traversal.
     [[nodiscard]] double nearReach() const noexcept;
 
     /// The eye. Returns: nullptr for orthographic cameras.

@@ -9,7 +9,7 @@
 
 namespace osgAnalyticBin {
 
-/// Metres that float vertices lose once more on their way to the screen: a centimetre on the earth.
+/// The rounding of float vertices when they are drawn: a centimetre on the earth, in metres.
 [[nodiscard]] inline double drawingError(const core::Ellipsoid& ellipsoid) {
     return 0.01 * core::earthScale(ellipsoid);
 }

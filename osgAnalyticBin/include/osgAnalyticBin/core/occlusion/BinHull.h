@@ -15,8 +15,8 @@ namespace osgAnalyticBin::core {
 /// A body that holds a bin: all points within `reach` metres of the convex hull of the bin's corners, ECEF.
 /// Source: doc/occlusion.md, section 4. Guarantee: it holds the bin; test: BinHull.HoldsTheBin.
 struct BinHull {
-    /// `margin`: metres around the bin that belong to it. Requires: a bin that is not empty, and an ellipsoid whose
-    /// eccentricity squared is between -0.01 and 0.01; elsewhere `reach` is infinite.
+    /// `margin`: metres by which the body extends beyond the bin. `reach` is infinite on ellipsoids whose squared
+    /// eccentricity is not between -0.01 and 0.01. Requires: a bin that is not empty.
     BinHull(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept;
 
     /// ECEF, metres.

@@ -27,10 +27,10 @@ struct EarthColumn {
     double error = 0.0;
 };
 
-/// Bounds of the altitude of a tile's surface, cell by cell: lower bounds in grids of 1, 2, 4 and 8 cells a side over
-/// the tile's latitudes and longitudes, upper bounds in one of 4. Each cell has a rim that its column of earth keeps
-/// out of: room for the chords of parallels, and for triangles of the next cell whose chords cross the common edge.
-/// Memory: 300 bytes, 16 bits for each bound.
+/// Lower bounds of the altitude of a tile's surface, cell by cell, in grids of 1, 2, 4 and 8 cells a side over the
+/// tile's latitudes and longitudes. Each cell has a rim that its column of earth keeps out of: room for the chords of
+/// parallels, and for triangles of the next cell whose chords cross the common edge.
+/// Memory: 250 bytes, 16 bits for each bound.
 /// Source: doc/occlusion.md, sections 2 and 3.
 class GroundPlates final {
 public:
@@ -38,8 +38,8 @@ public:
     GroundPlates() noexcept;
 
     /// Of a mesh that lies within the extents; their altitudes are ignored. A cell is known where the mesh covers all
-    /// of it, and where all triangles face the same way, up or down. `margin`: metres by which the mesh may be drawn in
-    /// another place; bounds are widened by it, and where it is wider than half a rim nothing is known.
+    /// of it, and where all triangles face the same way, up or down. `margin`: how many metres away from its place the
+    /// mesh may be drawn. Bounds are lowered by the margin. Nothing is known if it is wider than half a rim.
     /// Cost: some 0.2 microseconds for each triangle. Requires: indices within the vertices.
     GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin = 0.0);
 
