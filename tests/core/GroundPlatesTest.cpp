@@ -56,17 +56,21 @@ bool isBelow(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const RealVector&
     return false;
 }
 
+std::vector<EarthColumn> columnsOf(const GroundPlates& plates, std::size_t cells, double depth) {
+    std::vector<EarthColumn> columns;
+    plates.appendColumns(cells, depth, columns);
+    return columns;
+}
+
 void expectBelow(Random& random, const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GroundPlates& plates,
                  int& known) {
     for (const std::size_t cells : kGrids) {
-        for (std::size_t i = 0; i < cells * cells; ++i) {
-            const double depth = random.uniform(0.0, 0.05) * ellipsoid.equatorialRadius();
-            const auto column = plates.column(cells, i / cells, i % cells, depth);
-            if (!column) continue;
+        const double depth = random.uniform(0.0, 0.05) * ellipsoid.equatorialRadius();
+        for (const EarthColumn& column : columnsOf(plates, cells, depth)) {
             ++known;
             for (int trial = 0; trial < 4; ++trial) {
-                ASSERT_TRUE(isBelow(ellipsoid, mesh, randomPointOf(random, *column), 2.0 * column->error))
-                    << "cell " << i << " of " << cells << " x " << cells;
+                ASSERT_TRUE(isBelow(ellipsoid, mesh, randomPointOf(random, column), 2.0 * column.error))
+                    << "known cell " << known << ", in a grid of " << cells << " x " << cells;
             }
         }
     }
@@ -208,9 +212,7 @@ TEST(GroundPlates, AreNotKnownWhereNoColumnFits) {
     Random random(1704);
     const Ellipsoid earth = wgs84();
     const auto isKnown = [&](const Ellipsoid& ellipsoid, const GeodeticBin& extents) {
-        return GroundPlates(ellipsoid, gridMesh(random, ellipsoid, extents, 32), extents)
-            .column(8, 4, 4, 100.0)
-            .has_value();
+        return !columnsOf(GroundPlates(ellipsoid, gridMesh(random, ellipsoid, extents, 32), extents), 8, 100.0).empty();
     };
     const Interval flat{0.0, 0.0};
     EXPECT_TRUE(isKnown(earth, GeodeticBin({0.5, 0.6}, {0.0, 0.1}, flat)));
@@ -218,11 +220,12 @@ TEST(GroundPlates, AreNotKnownWhereNoColumnFits) {
     EXPECT_FALSE(isKnown(earth, GeodeticBin({0.5, 0.6}, {0.0, 4.0}, flat)));
     EXPECT_FALSE(isKnown(Ellipsoid(6e6, 5e6), GeodeticBin({0.5, 0.6}, {0.0, 0.1}, flat)));
     EXPECT_FALSE(isKnown(earth, GeodeticBin({0.5, 0.6}, {0.0, 0.1}, {1e6, 1e6})));
-    EXPECT_FALSE(GroundPlates().column(1, 0, 0, 100.0).has_value());
+    EXPECT_TRUE(columnsOf(GroundPlates(), 1, 100.0).empty());
     const GroundPlates known(earth, gridMesh(random, earth, GeodeticBin({0.5, 0.6}, {0.0, 0.1}, flat), 8),
                              GeodeticBin({0.5, 0.6}, {0.0, 0.1}, flat));
-    EXPECT_FALSE(known.column(8, 4, 4, 1e6).has_value());
-    EXPECT_FALSE(known.column(8, 4, 4, std::nan("")).has_value());
+    EXPECT_TRUE(std::isfinite(known.least(8, 4, 4)));
+    EXPECT_TRUE(columnsOf(known, 8, 1e6).empty());
+    EXPECT_TRUE(columnsOf(known, 8, std::nan("")).empty());
 }
 
 }  // namespace

@@ -34,9 +34,9 @@ void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTil
     const GroundPlates plates(scene.ellipsoid, tile.mesh, tile.bin);
     const double depth =
         std::min(0.3 * glm::distance(scene.eye, tile.mesh.vertex(0)), 0.01 * scene.ellipsoid.equatorialRadius());
-    for (std::size_t i = 0; i < cells * cells; ++i) {
-        if (const auto column = plates.column(cells, i / cells, i % cells, depth)) buffer.add(*column);
-    }
+    std::vector<EarthColumn> columns;
+    plates.appendColumns(cells, depth, columns);
+    for (const EarthColumn& column : columns) buffer.add(column);
 }
 
 bool isBeforeTheCamera(const OcclusionScene& scene, const RealVector& point) {

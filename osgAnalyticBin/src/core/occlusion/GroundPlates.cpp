@@ -380,19 +380,8 @@ double GroundPlates::shallowest() const noexcept {
     return 0.1 * std::min(_ellipsoid.equatorialRadius(), _ellipsoid.polarRadius());
 }
 
-std::optional<EarthColumn> GroundPlates::column(std::size_t cells, std::size_t row, std::size_t column,
-                                                double depth) const {
-    std::vector<EarthColumn> all;
-    if (fitsColumns(cells, depth)) appendColumns(cells, {row, row + 1}, {column, column + 1}, depth, all);
-    return all.empty() ? std::nullopt : std::optional(all.front());
-}
-
 void GroundPlates::appendColumns(std::size_t cells, double depth, std::vector<EarthColumn>& columns) const {
-    if (fitsColumns(cells, depth)) appendColumns(cells, {0, cells}, {0, cells}, depth, columns);
-}
-
-void GroundPlates::appendColumns(std::size_t cells, CellSpan rows, CellSpan columns, double depth,
-                                 std::vector<EarthColumn>& result) const {
+    if (!fitsColumns(cells, depth)) return;
     // both sides of the part of each cell that is within the rims
     constexpr std::size_t kSides = 2 * kCellsOfGrids.back();
     std::array<double, kSides> latitudes{}, longitudes{};
@@ -402,8 +391,8 @@ void GroundPlates::appendColumns(std::size_t cells, CellSpan rows, CellSpan colu
         longitudes[i] = _longitude.lower + _longitude.width() / static_cast<double>(cells) * at;
     }
     const SurfaceGrid<kSides, kSides> grid(_ellipsoid, latitudes, longitudes);
-    for (std::size_t row = rows.first; row < rows.end; ++row) {
-        for (std::size_t column = columns.first; column < columns.end; ++column) {
+    for (std::size_t row = 0; row < cells; ++row) {
+        for (std::size_t column = 0; column < cells; ++column) {
             const double high = least(cells, row, column);
             if (!(std::abs(high) < shallowest())) continue;
             EarthColumn earth;
@@ -412,7 +401,7 @@ void GroundPlates::appendColumns(std::size_t cells, CellSpan rows, CellSpan colu
                 earth.top[i] = grid.point(2 * row + i / 2, 2 * column + i % 2, high);
                 earth.bottom[i] = grid.point(2 * row + i / 2, 2 * column + i % 2, high - depth);
             }
-            result.push_back(earth);
+            columns.push_back(earth);
         }
     }
 }

@@ -12,7 +12,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace osgAnalyticBin::core {
@@ -50,27 +49,16 @@ public:
     /// infinity: not known. Requires: such a grid and cell.
     [[nodiscard]] double least(std::size_t cells, std::size_t row, std::size_t column) const noexcept;
 
-    /// The earth below a known cell, `depth` metres deep.
-    /// Guarantee: every point of it, up to `error`, has the mesh above it, along the ellipsoid's normal; tests:
-    /// GroundPlates.ColumnsLieBelowTheMesh*.
-    /// Returns: nullopt where nothing is known, and for cells too wide for the rim: with angles in radians, where the
-    /// square of the width in longitude exceeds about an eighth of the width in latitude. Requires: as least().
-    [[nodiscard]] std::optional<EarthColumn> column(std::size_t cells, std::size_t row, std::size_t column,
-                                                    double depth) const;
-
-    /// The columns of all known cells of a grid. Cost: a few ten nanoseconds a column.
+    /// Appends the earth below each known cell of a grid, `depth` metres deep, row by row.
+    /// Guarantee: every point of a column, up to its `error`, has the mesh above it, along the ellipsoid's normal;
+    /// tests: GroundPlates.ColumnsLieBelowTheMesh*. It appends nothing for cells too wide for the rim: with angles in
+    /// radians, where the square of the width in longitude exceeds about an eighth of the width in latitude. Requires:
+    /// `cells` as in least(). Cost: a few ten nanoseconds a column.
     void appendColumns(std::size_t cells, double depth, std::vector<EarthColumn>& columns) const;
 
 private:
-    // Rows or columns of a grid.
-    struct CellSpan {
-        std::size_t first, end;
-    };
-
     [[nodiscard]] bool fitsColumns(std::size_t cells, double depth) const noexcept;
     [[nodiscard]] double shallowest() const noexcept;
-    void appendColumns(std::size_t cells, CellSpan rows, CellSpan columns, double depth,
-                       std::vector<EarthColumn>& result) const;
 
     static constexpr std::size_t kNumbers = 1 + 4 + 16 + 64;
 
