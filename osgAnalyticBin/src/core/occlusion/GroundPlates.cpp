@@ -4,6 +4,7 @@
 #include "../Constants.h"
 #include "../EarthScale.h"
 #include "../LocalFrame.h"
+#include "../mesh/KeyNumbers.h"
 #include "SurfaceGrid.h"
 
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -57,47 +57,6 @@ CellRange cellsIn(const Interval& extents, std::size_t cells, const Interval& me
     const double to = std::floor((met.upper - extents.lower) * perCell - kInset);
     return {static_cast<std::ptrdiff_t>(std::clamp(from, 0.0, most)),
             static_cast<std::ptrdiff_t>(std::clamp(to, -1.0, most - 1.0))};
-}
-
-// Numbers the different keys of a mesh: 0, 1, 2, ....
-template <class Key>
-class KeyNumbers {
-public:
-    explicit KeyNumbers(std::size_t most) {
-        std::size_t size = 16;
-        while (size < 2 * most) size *= 2;
-        _numbers.assign(size, kNone);
-        _keys.reserve(most);
-    }
-    [[nodiscard]] std::uint32_t numberOf(const Key& key) {
-        std::uint32_t& number = _numbers[slotOf(key)];
-        if (number != kNone) return number;
-        number = static_cast<std::uint32_t>(_keys.size());
-        _keys.push_back(key);
-        return number;
-    }
-    static constexpr std::uint32_t kNone = 0xffffffff;
-    [[nodiscard]] std::uint32_t find(const Key& key) const { return _numbers[slotOf(key)]; }
-    [[nodiscard]] const std::vector<Key>& keys() const { return _keys; }
-
-private:
-    [[nodiscard]] std::size_t slotOf(const Key& key) const {
-        std::uint64_t hash = 0;
-        for (const std::uint64_t part : key) hash = (hash ^ (part >> 29) ^ part) * 0x9e3779b97f4a7c15u;
-        std::size_t slot = (hash >> 20) & (_numbers.size() - 1);
-        while (_numbers[slot] != kNone && _keys[_numbers[slot]] != key) slot = (slot + 1) & (_numbers.size() - 1);
-        return slot;
-    }
-
-    std::vector<std::uint32_t> _numbers;
-    std::vector<Key> _keys;
-};
-
-std::uint64_t bitsOf(double value) {
-    const double plain = value + 0.0;  // one zero
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &plain, sizeof bits);
-    return bits;
 }
 
 }  // namespace

@@ -4,12 +4,13 @@
 #include "Skirts.h"
 
 #include "../../core/EarthScale.h"
+#include "../../core/mesh/KeyNumbers.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace osgAnalyticBin {
@@ -39,37 +40,6 @@ bool isInUnitSquare(const osg::Vec2& t) {
     return static_cast<int>(t.x() >= kLow) & static_cast<int>(t.x() <= kHigh) & static_cast<int>(t.y() >= kLow) &
            static_cast<int>(t.y() <= kHigh);
 }
-
-// Finds the vertex with the same texture coordinates, by open addressing.
-class PlaceTable {
-public:
-    explicit PlaceTable(std::size_t places) {
-        std::size_t capacity = 16;
-        while (capacity < 2 * places) capacity *= 2;
-        _slots.assign(capacity, kFree);
-    }
-
-    // Returns: the vertex that was added at the same place before, or kFree.
-    std::uint32_t add(std::uint32_t vertex, const osg::Vec2* texCoords) {
-        const osg::Vec2& t = texCoords[vertex];
-        std::uint64_t bits = 0;
-        std::memcpy(&bits, t.ptr(), sizeof(bits));
-        bits *= 0x9e3779b97f4a7c15u;
-        const std::size_t mask = _slots.size() - 1;
-        for (std::size_t i = (bits >> 32) & mask;; i = (i + 1) & mask) {
-            if (_slots[i] == kFree) {
-                _slots[i] = vertex;
-                return kFree;
-            }
-            if (texCoords[_slots[i]] == t) return _slots[i];
-        }
-    }
-
-    static constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
-
-private:
-    std::vector<std::uint32_t> _slots;
-};
 
 struct Pair {
     std::uint32_t upper;
@@ -105,14 +75,20 @@ std::vector<Pair> pairsOf(const SurfaceMesh& mesh, const std::vector<std::uint8_
         border[count] = i;
         count += marks[i] != 0;
     }
-    PlaceTable places(count);
+    core::KeyNumbers<std::array<std::uint64_t, 2>> places(count);
+    std::vector<std::uint32_t> firstAt;  // by the number of the place
     std::vector<Pair> pairs;
     pairs.reserve(count / 2);
     std::vector<std::uint8_t> paired(mesh.size(), 0);
     for (std::size_t k = 0; k < count; ++k) {
         const std::uint32_t i = border[k];
-        const std::uint32_t other = places.add(i, mesh.texCoords);
-        if (other == PlaceTable::kFree) continue;
+        const osg::Vec2& at = mesh.texCoords[i];
+        const std::uint32_t place = places.numberOf({core::bitsOf(at.x()), core::bitsOf(at.y())});
+        if (place == firstAt.size()) {
+            firstAt.push_back(i);
+            continue;
+        }
+        const std::uint32_t other = firstAt[place];
         if (paired[other]) return {};
         paired[other] = 1;
         const glm::dvec3 a = mesh.vertex(other);

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace osgAnalyticBin::core {
+
+/// Numbers the different keys of a mesh: 0, 1, 2, .... Keys are arrays of 64-bit words. By open
+/// addressing, in two blocks of memory, because tiles are read while the viewer waits for them.
+template <class Key>
+class KeyNumbers {
+public:
+    /// Requires: no more different keys than `most`.
+    explicit KeyNumbers(std::size_t most) {
+        std::size_t size = 16;
+        while (size < 2 * most) size *= 2;
+        _numbers.assign(size, kNone);
+        _keys.reserve(most);
+    }
+
+    /// Of a key that may be new.
+    [[nodiscard]] std::uint32_t numberOf(const Key& key) {
+        std::uint32_t& number = _numbers[slotOf(key)];
+        if (number != kNone) return number;
+        number = static_cast<std::uint32_t>(_keys.size());
+        _keys.push_back(key);
+        return number;
+    }
+
+    static constexpr std::uint32_t kNone = 0xffffffff;
+    /// Returns: kNone for keys without a number.
+    [[nodiscard]] std::uint32_t find(const Key& key) const { return _numbers[slotOf(key)]; }
+
+    /// By their numbers.
+    [[nodiscard]] const std::vector<Key>& keys() const { return _keys; }
+
+private:
+    [[nodiscard]] std::size_t slotOf(const Key& key) const {
+        std::uint64_t hash = 0;
+        for (const std::uint64_t part : key) hash = (hash ^ (part >> 29) ^ part) * 0x9e3779b97f4a7c15u;
+        std::size_t slot = (hash >> 20) & (_numbers.size() - 1);
+        while (_numbers[slot] != kNone && _keys[_numbers[slot]] != key) slot = (slot + 1) & (_numbers.size() - 1);
+        return slot;
+    }
+
+    std::vector<std::uint32_t> _numbers;
+    std::vector<Key> _keys;
+};
+
+/// For keys: equal numbers have equal bits.
+[[nodiscard]] inline std::uint64_t bitsOf(double value) {
+    const double plain = value + 0.0;  // one zero
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &plain, sizeof bits);
+    return bits;
+}
+
+}  // namespace osgAnalyticBin::core

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Runs of osgbinconv, and what is expected of them.
+
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <support/StockPrograms.h>
+
+namespace osgAnalyticBin::test {
+
+inline Outcome runBinconv(const std::string& arguments, const std::string& before = {}) {
+    return runStock(before + test::quoted(OSGBINCONV_PROGRAM) + ' ' + arguments, Modules::Present);
+}
+
+inline std::string bytesOf(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+inline void writeBytes(const std::string& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+inline void expectOneLine(const Outcome& outcome, const std::string& what) {
+    EXPECT_EQ(outcome.text.rfind("osgbinconv: ", 0), 0u) << outcome.text;
+    EXPECT_NE(outcome.text.find(what), std::string::npos) << outcome.text;
+    EXPECT_EQ(outcome.text.find('\n'), outcome.text.size() - 1) << outcome.text;
+}
+
+inline void expectFailure(const Outcome& outcome, const std::string& what) {
+    EXPECT_EQ(outcome.code, 1);
+    expectOneLine(outcome, what);
+}
+
+}  // namespace osgAnalyticBin::test

@@ -1,0 +1,288 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Oracle: samples of a mesh's own triangles, taken back to latitude, longitude and altitude.
+
+#include "DatabaseFixture.h"
+#include "TileFixture.h"
+#include "TileSurfaceCases.h"
+
+#include <gtest/gtest.h>
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+#include <osg/ShapeDrawable>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <support/Random.h>
+
+namespace osgAnalyticBin::test::surfaces {
+namespace {
+
+// A mesh as VirtualPlanetBuilder makes it: texture coordinates over the tile, skirts of one depth, in the frame of
+// its centre.
+struct VpbMesh {
+    GeodeticBin extents;
+    unsigned int posts = 17;
+    double skirt = 5000.0;
+    double low = -500.0, high = 3000.0;
+};
+
+osg::ref_ptr<osg::MatrixTransform> makeVpbTile(const VpbMesh& c, Random& random) {
+    const core::Geodetic center{c.extents.latitude().middle(), c.extents.longitude().middle(), 0.0};
+    osg::Matrixd frame;
+    kModel->computeLocalToWorldTransformFromLatLongHeight(center.latitude, center.longitude, 0.0, frame);
+    const osg::Matrixd toLocal = osg::Matrixd::inverse(frame);
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    const osg::ref_ptr<osg::Vec2Array> texCoords = new osg::Vec2Array;
+    const osg::ref_ptr<osg::DrawElementsUShort> triangles = new osg::DrawElementsUShort(GL_TRIANGLES);
+    const unsigned int n = c.posts;
+    const auto add = [&](unsigned int i, unsigned int j, double altitude) {
+        const double u = static_cast<double>(i) / (n - 1);
+        const double v = static_cast<double>(j) / (n - 1);
+        const glm::dvec3 ecef =
+            kEllipsoid.toEcef({c.extents.latitude().lower + v * c.extents.latitude().width(),
+                               c.extents.longitude().lower + u * c.extents.longitude().width(), altitude});
+        vertices->push_back(osg::Vec3(osg::Vec3d(ecef.x, ecef.y, ecef.z) * toLocal));
+        texCoords->push_back(osg::Vec2(static_cast<float>(u), static_cast<float>(v)));
+        return static_cast<GLushort>(vertices->size() - 1);
+    };
+    const auto addTriangles = [&](GLushort a, GLushort b, GLushort d, GLushort e) {
+        for (const GLushort i : {a, b, e, a, e, d}) triangles->push_back(i);
+    };
+    std::vector<double> altitudes;
+    std::vector<GLushort> top;
+    for (unsigned int j = 0; j < n; ++j) {
+        for (unsigned int i = 0; i < n; ++i) {
+            altitudes.push_back(random.uniform(c.low, c.high));
+            top.push_back(add(i, j, altitudes.back()));
+        }
+    }
+    for (unsigned int j = 0; j + 1 < n; ++j)
+        for (unsigned int i = 0; i + 1 < n; ++i)
+            addTriangles(top[j * n + i], top[j * n + i + 1], top[(j + 1) * n + i], top[(j + 1) * n + i + 1]);
+    std::vector<unsigned int> border;
+    for (unsigned int i = 0; i + 1 < n; ++i) border.push_back(i);
+    for (unsigned int j = 0; j + 1 < n; ++j) border.push_back(j * n + n - 1);
+    for (unsigned int i = n - 1; i > 0; --i) border.push_back((n - 1) * n + i);
+    for (unsigned int j = n - 1; j > 0; --j) border.push_back(j * n);
+    std::vector<GLushort> bottom;
+    for (const unsigned int p : border)
+        if (c.skirt > 0.0) bottom.push_back(add(p % n, p / n, altitudes[p] - c.skirt));
+    for (std::size_t k = 0; k < bottom.size(); ++k) {
+        const std::size_t next = (k + 1) % border.size();
+        addTriangles(bottom[k], bottom[next], top[border[k]], top[border[next]]);
+    }
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(vertices);
+    geometry->setTexCoordArray(0, texCoords);
+    geometry->addPrimitiveSet(triangles);
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->addDrawable(geometry);
+    osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform(frame);
+    tile->addChild(geode);
+    return tile;
+}
+
+osg::Geometry& geometryOf(osg::MatrixTransform& tile) {
+    return *tile.getChild(0)->asGeode()->getDrawable(0)->asGeometry();
+}
+
+// The triangles with the skirts left out, by the order in which makeVpbTile() adds them.
+std::vector<EcefTriangle> surfaceTriangles(osg::MatrixTransform& tile, unsigned int posts) {
+    std::vector<EcefTriangle> triangles = drawnTriangles(tile).surface;
+    triangles.resize(2 * (posts - 1) * (posts - 1));
+    return triangles;
+}
+
+TEST(TileSurface, TellsSkirtsOfMeshesFromTheirSurface) {
+    Random random(7);
+    for (const TileCase& c : tileCases()) {
+        VpbMesh mesh;
+        mesh.extents = c.extents;
+        mesh.skirt = 50.0 + 40000.0 * c.extents.latitude().width();
+        const auto tile = makeVpbTile(mesh, random);
+        const TileSurface surface = surfaceOf(*tile);
+        ASSERT_TRUE(surface.bin.valid()) << c.name;
+        EXPECT_FALSE(surface.isScalable);
+        EXPECT_NEAR(surface.skirt, mesh.skirt, 4.0) << c.name;
+        const auto samples = samplesOf(surfaceTriangles(*tile, mesh.posts));
+        EXPECT_LE(metresOutside(surface.bin, samples, kEllipsoid), surface.bin.margin()) << c.name;
+        const core::Interval seen = altitudesOf(samples);
+        const double width = std::max(c.extents.latitude().width(), c.extents.longitude().width());
+        const double sag = 6.4e6 * 0.28 * width * width / 256.0;
+        EXPECT_LE(surface.bin.bin().altitude().upper, seen.upper + 35.0) << c.name;
+        EXPECT_GE(surface.bin.bin().altitude().lower, seen.lower - 1.2 * sag - 35.0) << c.name;
+        for (const double low : surface.edgeLow) EXPECT_GE(low, surface.bin.bin().altitude().lower) << c.name;
+    }
+}
+
+TEST(TileSurface, KnowsHowLowTheEdgesOfMeshesAre) {
+    Random random(8);
+    VpbMesh mesh;
+    mesh.extents = GeodeticBin::fromDegrees({30, 35}, {60, 65}, {0, 0});
+    mesh.low = mesh.high = 1000.0;
+    const auto tile = makeVpbTile(mesh, random);
+    auto& vertices = static_cast<osg::Vec3Array&>(*geometryOf(*tile).getVertexArray());
+    const TileSurface flat = surfaceOf(*tile);
+    vertices[16 * 17 + 8].z() -= 300.0f;  // in the middle of the northern edge
+    vertices[8 * 17 + 8].z() -= 5000.0f;  // in the middle of the tile
+    const TileSurface dented = surfaceOf(*tile);
+    EXPECT_EQ(dented.skirt, 0.0) << "skirts of unequal depth are no skirts";
+    vertices[17 * 17 + 32 + 8].z() -= 300.0f;  // the skirt below
+    const TileSurface surface = surfaceOf(*tile);
+    EXPECT_NEAR(surface.skirt, mesh.skirt, 1.0);
+    EXPECT_NEAR(surface.edgeLow[2], flat.edgeLow[2] - 300.0, 2.0);
+    for (const std::size_t edge : {0u, 1u, 3u}) EXPECT_NEAR(surface.edgeLow[edge], 1000.0, 110.0);
+    EXPECT_LT(surface.bin.bin().altitude().lower, -3900.0);
+}
+
+TEST(TileSurface, HoldsAllWhereSkirtsCannotBeTold) {
+    Random random(9);
+    VpbMesh mesh;
+    mesh.extents = GeodeticBin::fromDegrees({30, 35}, {60, 65}, {0, 0});
+    const auto holdsAll = [](osg::MatrixTransform& tile) {
+        const TileSurface surface = surfaceOf(tile);
+        EXPECT_EQ(surface.skirt, 0.0);
+        EXPECT_LE(surface.bin.bin().altitude().lower, -5000.0 + 10.0);
+        EXPECT_LE(metresOutside(surface.bin, samplesOf(drawnTriangles(tile).surface), kEllipsoid),
+                  surface.bin.margin());
+        for (const double low : surface.edgeLow) EXPECT_LE(low, surface.bin.bin().altitude().lower);
+    };
+    mesh.low = mesh.high = 0.0;
+    auto tile = makeVpbTile(mesh, random);
+    ASSERT_NEAR(surfaceOf(*tile).skirt, mesh.skirt, 4.0);
+
+    geometryOf(*tile).setTexCoordArray(0, nullptr);
+    holdsAll(*tile);
+    // one skirt vertex moved sideways
+    tile = makeVpbTile(mesh, random);
+    static_cast<osg::Vec3Array&>(*geometryOf(*tile).getVertexArray()).back().x() += 2000.0f;
+    holdsAll(*tile);
+    // a border vertex without a partner
+    tile = makeVpbTile(mesh, random);
+    static_cast<osg::Vec2Array&>(*geometryOf(*tile).getTexCoordArray(0)).back().y() = 0.513f;
+    holdsAll(*tile);
+    // texture coordinates beyond the tile
+    tile = makeVpbTile(mesh, random);
+    static_cast<osg::Vec2Array&>(*geometryOf(*tile).getTexCoordArray(0))[20].x() = 3.0f;
+    holdsAll(*tile);
+    // a triangle from a skirt to the middle of the tile
+    tile = makeVpbTile(mesh, random);
+    auto& triangles = static_cast<osg::DrawElementsUShort&>(*geometryOf(*tile).getPrimitiveSet(0));
+    for (const GLushort i : {GLushort{0}, GLushort{150}, static_cast<GLushort>(17 * 17 + 3)}) triangles.push_back(i);
+    holdsAll(*tile);
+}
+
+TEST(TileSurface, FollowsFixedTransformsOnly) {
+    Random random(10);
+    VpbMesh mesh;
+    mesh.extents = GeodeticBin::fromDegrees({30, 35}, {60, 65}, {0, 0});
+    const auto tile = makeVpbTile(mesh, random);
+    const TileSurface expected = surfaceOf(*tile);
+    const osg::Matrixd frame = tile->getMatrix();
+    tile->setMatrix(osg::Matrixd::rotate(0.7, 1, 2, 3));
+    const osg::ref_ptr<osg::MatrixTransform> above = new osg::MatrixTransform(osg::Matrixd::inverse(tile->getMatrix()));
+    above->addChild(tile);
+    const TileSurface moved = tileSurface(*above, *kModel, frame);
+    ASSERT_TRUE(moved.bin.valid());
+    EXPECT_NEAR(moved.bin.bin().altitude().lower, expected.bin.bin().altitude().lower, 1e-3);
+    EXPECT_NEAR(moved.bin.bin().longitude().upper, expected.bin.bin().longitude().upper, 1e-9);
+
+    above->setDataVariance(osg::Object::DYNAMIC);
+    EXPECT_FALSE(tileSurface(*above, *kModel, frame).bin.valid());
+    above->setDataVariance(osg::Object::STATIC);
+    above->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+    EXPECT_FALSE(tileSurface(*above, *kModel, frame).bin.valid());
+    above->setReferenceFrame(osg::Transform::RELATIVE_RF);
+    const osg::Matrixd affine = above->getMatrix();
+    osg::Matrixd dividing = affine;
+    dividing(1, 3) = 165.0;
+    above->setMatrix(dividing);
+    EXPECT_FALSE(tileSurface(*above, *kModel, frame).bin.valid());
+    EXPECT_FALSE(tileSurface(*tile, *kModel, dividing).bin.valid());
+    above->setMatrix(affine);
+    EXPECT_TRUE(tileSurface(*above, *kModel, frame).bin.valid());
+    const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
+    above->addChild(paged);
+    EXPECT_FALSE(tileSurface(*above, *kModel, frame).bin.valid());
+}
+
+TEST(TileSurface, HoldsLinesPointsAndShapes) {
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    const osg::ref_ptr<osg::Geometry> road = new osg::Geometry;
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    vertices->push_back(osg::Vec3(6378137.0f, 0.0f, 0.0f));
+    vertices->push_back(osg::Vec3(6378137.0f, 100000.0f, 0.0f));
+    vertices->push_back(osg::Vec3(6379137.0f, 0.0f, 1000.0f));
+    road->setVertexArray(vertices);
+    geode->addDrawable(road);
+    EXPECT_FALSE(surfaceOf(*geode).bin.valid());
+    road->addPrimitiveSet(new osg::DrawArrays(GL_LINE_STRIP, 0, 2));
+    EXPECT_NEAR(surfaceOf(*geode).bin.bin().altitude().upper, 784.0, 2.0);
+    road->addPrimitiveSet(new osg::DrawArrays(GL_POINTS, 2, 1));
+    EXPECT_NEAR(surfaceOf(*geode).bin.bin().altitude().upper, 1000.0, 2.0);
+    geode->addDrawable(new osg::ShapeDrawable(new osg::Box(osg::Vec3(6378137.0f, 0.0f, 0.0f), 8000.0f)));
+    EXPECT_NEAR(surfaceOf(*geode).bin.bin().altitude().upper, 4000.0, 10.0);
+
+    road->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 1, 3));
+    EXPECT_FALSE(surfaceOf(*geode).bin.valid()) << "an index beyond the vertices";
+}
+
+TEST(TileSurface, IsUnknownWhereThereIsNoTerrain) {
+    const osg::ref_ptr<osg::Group> empty = new osg::Group;
+    EXPECT_FALSE(surfaceOf(*empty).bin.valid());
+    const osg::ref_ptr<osg::Geode> planar = new osg::Geode;
+    planar->addDrawable(new osg::ShapeDrawable(new osg::Box(osg::Vec3(500.0f, 0.0f, 0.0f), 1000.0f)));
+    EXPECT_FALSE(surfaceOf(*planar).bin.valid());
+}
+
+TEST(TileSurface, IsUnknownOnAGlobeWithoutRightRadii) {
+    const osg::ref_ptr<osg::Node> tile = makeMeshTile(extentsDeg(10, 11, 20, 21), 200.0);
+    EXPECT_TRUE(tileSurface(*tile, osg::EllipsoidModel(), osg::Matrixd::identity()).bin.valid());
+    EXPECT_FALSE(tileSurface(*tile, osg::EllipsoidModel(std::nan(""), 6.4e6), osg::Matrixd::identity()).bin.valid());
+}
+
+// A few bytes in a file may claim ranges of billions of vertices, or triangles that end in the middle.
+TEST(TileSurface, ReadsNothingBeyondVerticesAndIndices) {
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    for (int i = 0; i < 6; ++i)
+        vertices->push_back(
+            osg::Vec3(6378137.0f, 1000.0f * static_cast<float>(i / 2), 1000.0f * static_cast<float>(i % 2)));
+    geometry->setVertexArray(vertices);
+    geode->addDrawable(geometry);
+    const auto isKnownWith = [&](osg::PrimitiveSet* primitives) {
+        geometry->removePrimitiveSet(0, geometry->getNumPrimitiveSets());
+        geometry->addPrimitiveSet(primitives);
+        (void)surfaceFingerprint(*geode, osg::Matrixd());
+        return surfaceOf(*geode).bin.valid();
+    };
+    const int all = std::numeric_limits<int>::max();
+    for (GLenum mode = GL_POINTS; mode <= GL_POLYGON; ++mode) {
+        EXPECT_TRUE(isKnownWith(new osg::DrawArrays(mode, 0, 6))) << mode;
+        EXPECT_FALSE(isKnownWith(new osg::DrawArrays(mode, 0, all))) << mode;
+        EXPECT_FALSE(isKnownWith(new osg::DrawArrays(mode, all, all))) << mode;
+        EXPECT_FALSE(isKnownWith(new osg::DrawArrays(mode, -3, 6))) << mode;
+        const osg::ref_ptr<osg::DrawArrayLengths> lengths = new osg::DrawArrayLengths(mode, 2);
+        lengths->push_back(4);
+        EXPECT_TRUE(isKnownWith(lengths)) << mode;
+        const osg::ref_ptr<osg::DrawArrayLengths> more = new osg::DrawArrayLengths(mode, 2);
+        for (const int length : {4, all, all, 2}) more->push_back(length);
+        EXPECT_FALSE(isKnownWith(more)) << mode;
+        for (unsigned int count = 0; count < 6; ++count) {
+            const osg::ref_ptr<osg::DrawElementsUByte> bytes = new osg::DrawElementsUByte(mode);
+            bytes->reserveElements(count);
+            for (unsigned int i = 0; i < count; ++i) bytes->push_back(static_cast<GLubyte>(i));
+            const unsigned int least = mode <= GL_LINE_STRIP ? 1 : mode == GL_QUADS || mode == GL_QUAD_STRIP ? 4 : 3;
+            EXPECT_EQ(isKnownWith(bytes), count >= least) << mode << ' ' << count;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test::surfaces

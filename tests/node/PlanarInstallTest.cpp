@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Which databases are taken for maps, and what bins of maps change in them.
+
+#include "PagedFlight.h"
+#include "PlanarMap.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/InstallBins.h>
+
+#include <gtest/gtest.h>
+#include <osg/ClusterCullingCallback>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+#include <osgTerrain/TerrainTile>
+
+#include <cmath>
+
+namespace osgAnalyticBin {
+namespace {
+
+using test::PlanarMap;
+
+CullOptions optionsOf(const std::string& text) {
+    std::string error;
+    const auto options = cullOptionsFromText(text, error);
+    EXPECT_TRUE(options) << error;
+    return options.value_or(CullOptions());
+}
+
+osg::ref_ptr<osg::PagedLOD> paged(const osg::ref_ptr<osg::Node>& mesh) {
+    osg::ref_ptr<osg::PagedLOD> node = new osg::PagedLOD;
+    node->addChild(mesh, 1e6f, 1e10f);
+    node->setFileName(1, "parts.osgb");
+    node->setRange(1, 0.0f, 1e6f);
+    return node;
+}
+
+enum class Callback { None, Planar, Geocentric };
+
+// What a paged tile with this mesh gets.
+Callback installedOn(osg::CoordinateSystemNode& root, const osg::ref_ptr<osg::Node>& mesh) {
+    const osg::ref_ptr<osg::PagedLOD> tile = paged(mesh);
+    root.removeChildren(0, root.getNumChildren());
+    root.addChild(tile);
+    const std::size_t installed = installBins(root);
+    osg::Callback* callback = tile->getCullCallback();
+    EXPECT_EQ(installed, callback ? 1u : 0u);
+    EXPECT_EQ(tile->getCullingActive(), callback == nullptr);
+    if (!callback) return Callback::None;
+    return dynamic_cast<AnalyticBinCullCallback*>(callback) ? Callback::Geocentric : Callback::Planar;
+}
+
+TEST(PlanarDatabase, IsToldByItsCoordinateSystemOrItsLocators) {
+    struct Row {
+        std::string format, text;
+        bool hasEllipsoid, isTerrain;
+        Callback expected;
+    };
+    const std::string utm = test::kUtm;
+    const std::vector<Row> rows{
+        {"WKT", utm, false, false, Callback::Planar},
+        {"WKT", utm, false, true, Callback::Planar},
+        {"", utm, false, false, Callback::Planar},
+        {"WKT", "PROJCRS[\"WGS 84 / UTM zone 33N\"]", false, false, Callback::Planar},
+        {"WKT", "COMPD_CS[\"UTM and heights\"," + utm + ",VERT_CS[\"EGM96\"]]", false, false, Callback::Planar},
+        {"WKT", "COMPD_CS[\"WGS 84\",GEOGCS[\"WGS 84\"],VERT_CS[\"EGM96\"]]", false, false, Callback::None},
+        {"PROJ4", "+proj=utm +zone=33 +datum=WGS84", false, false, Callback::Planar},
+        {"PROJ4", "+zone=33 +proj=utm", false, false, Callback::Planar},
+        {"PROJ4", "+proj=longlat +datum=WGS84", false, false, Callback::None},
+        {"PROJ4", "+proj=geocent", false, false, Callback::None},
+        {"WKT", "+proj=utm +zone=33", false, false, Callback::None},
+        {"PROJ4", "+init=epsg:32633", false, false, Callback::None},
+        {"WKT", "GEOGCS[\"WGS 84\"]", false, false, Callback::None},
+        {"WKT", "GEOCCS[\"WGS 84\"]", false, false, Callback::None},
+        {"", "", false, false, Callback::None},
+        // locators say what osgTerrain draws
+        {"WKT", "GEOGCS[\"WGS 84\"]", false, true, Callback::Planar},
+        {"PROJ4", "+proj=longlat", false, true, Callback::Planar},
+        {"", "", false, true, Callback::Planar},
+        {"", "", true, true, Callback::Planar},
+        // a map, but also an ellipsoid
+        {"WKT", utm, true, true, Callback::Planar},
+        {"WKT", utm, true, false, Callback::None},
+    };
+    for (const Row& row : rows) {
+        PlanarMap map;
+        map.isTerrain = row.isTerrain;
+        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode(row.format, row.text);
+        if (row.hasEllipsoid) root->setEllipsoidModel(new osg::EllipsoidModel);
+        EXPECT_EQ(installedOn(*root, map.mesh(1, 0, 0)), row.expected)
+            << row.format << ' ' << row.text << (row.isTerrain ? " terrain" : " mesh");
+    }
+}
+
+TEST(PlanarDatabase, LocatorsInDegreesArePlanarToo) {
+    PlanarMap map;
+    map.origin = osg::Vec3d(10, 45, 0);
+    map.size = 2.0;
+    map.heightUnit = 111319.0;  // as VirtualPlanetBuilder scales them
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", "GEOGCS[\"WGS 84\"]");
+    const osg::ref_ptr<osg::Node> tile = map.mesh(0, 0, 0);
+    auto& locator = *dynamic_cast<osgTerrain::TerrainTile&>(*tile).getLocator();
+    EXPECT_EQ(installedOn(*root, tile), Callback::Planar);
+    locator.setCoordinateSystemType(osgTerrain::Locator::GEOGRAPHIC);
+    EXPECT_EQ(installedOn(*root, tile), Callback::Planar);
+    locator.setCoordinateSystemType(osgTerrain::Locator::GEOCENTRIC);
+    EXPECT_NE(installedOn(*root, tile), Callback::Planar);
+}
+
+TEST(PlanarDatabase, ATextThatNamesAMapAboveAGlobeIsFoundOut) {
+    for (const double latitude : {45.0, 0.3, 88.0, -30.0}) {
+        const osg::EllipsoidModel wgs84;
+        const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+        for (const auto& [north, east] : {std::pair{0, 0}, {0, 1}, {1, 1}, {0, 0}, {1, 1}, {1, 0}}) {
+            double x = 0, y = 0, z = 0;
+            wgs84.convertLatLongHeightToXYZ(osg::DegreesToRadians(latitude + 0.5 * north),
+                                            osg::DegreesToRadians(20.0 + 0.5 * east), 300.0, x, y, z);
+            vertices->push_back(osg::Vec3d(x, y, z));
+        }
+        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+        geometry->setVertexArray(vertices);
+        geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 6));
+        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", test::kUtm);
+        EXPECT_EQ(installedOn(*root, geometry), Callback::None) << latitude;
+        root->setEllipsoidModel(new osg::EllipsoidModel);
+        EXPECT_EQ(installedOn(*root, geometry), Callback::Geocentric) << latitude;
+    }
+    // and a map at a northing that is nearly the earth's radius is no globe
+    PlanarMap map;
+    map.isTerrain = false;
+    map.origin.y() = 6340000.0;
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", test::kUtm);
+    root->setEllipsoidModel(new osg::EllipsoidModel);
+    EXPECT_EQ(installedOn(*root, map.mesh(2, 0, 0)), Callback::None);
+}
+
+osg::ref_ptr<osg::Geometry> triangles(const std::vector<osg::Vec3>& vertices) {
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(new osg::Vec3Array(vertices.begin(), vertices.end()));
+    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<int>(vertices.size())));
+    return geometry;
+}
+
+TEST(PlanarDatabase, WhatIsNoTerrainIsLeftAsItIs) {
+    const osg::Vec3 a(0, 0, 0), b(100, 0, 0), c(0, 100, 0), up(0, 0, 50);
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", test::kUtm);
+    ASSERT_EQ(installedOn(*root, triangles({a, b, c})), Callback::Planar);
+    ASSERT_EQ(installedOn(*root, triangles({a, c, b})), Callback::Planar) << "wound the other way";
+    EXPECT_EQ(installedOn(*root, triangles({a, b, c, a + up, c + up, b + up})), Callback::None) << "a closed body";
+    EXPECT_EQ(installedOn(*root, triangles({a, b, a + up})), Callback::None) << "a wall";
+    const osg::Vec3 high(0, 0, 2e5f);
+    EXPECT_EQ(installedOn(*root, triangles({a + high, b + high, c + high})), Callback::None) << "in orbit";
+    const float nan = std::nanf("");
+    EXPECT_EQ(installedOn(*root, triangles({a, b, c, a, b, osg::Vec3(nan, 0, 0)})), Callback::None) << "broken";
+    const osg::ref_ptr<osg::MatrixTransform> moving = new osg::MatrixTransform;
+    moving->setDataVariance(osg::Object::DYNAMIC);
+    moving->addChild(triangles({a, b, c}));
+    EXPECT_EQ(installedOn(*root, moving), Callback::None);
+    // outside of paged files a mesh is no tile
+    root->removeChildren(0, root->getNumChildren());
+    root->addChild(triangles({a, b, c}));
+    EXPECT_EQ(installBins(*root), 0u);
+    EXPECT_TRUE(root->getChild(0)->getCullingActive());
+}
+
+TEST(PlanarDatabase, SpheresTakeItBackAndClusterCallbacksStay) {
+    const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", test::kUtm);
+    PlanarMap map;
+    map.isTerrain = false;
+    const osg::ref_ptr<osg::PagedLOD> tile = paged(map.mesh(0, 0, 0));
+    const osg::ref_ptr<osg::ClusterCullingCallback> cluster = new osg::ClusterCullingCallback;
+    cluster->set(osg::Vec3(1, 2, 3), osg::Vec3(0, 0, 1), -0.5f, 1000.0f);
+    tile->setCullCallback(cluster);
+    root->addChild(tile);
+    for (const char* method : {"quadratic", "exact", "paper", "corners", "quadratic"}) {
+        EXPECT_EQ(installBins(*root, optionsOf(std::string("method=") + method)), 1u) << method;
+        EXPECT_EQ(tile->getCullCallback()->getNestedCallback(), cluster.get()) << "and one of ours, not two";
+        EXPECT_EQ(tile->getMinimumExpiryTime(1), CullOptions::kDefaultExpiry);
+    }
+    EXPECT_EQ(cluster->getDeviation(), -0.5f);
+    EXPECT_EQ(installBins(*root, optionsOf("method=sphere")), 0u);
+    EXPECT_EQ(tile->getCullCallback(), cluster.get());
+    EXPECT_TRUE(tile->getCullingActive());
+    EXPECT_TRUE(tile->getChild(0)->getCullingActive());
+    EXPECT_EQ(tile->getMinimumExpiryTime(1), 0.0);
+    EXPECT_EQ(root->getCullCallback(), nullptr);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin
