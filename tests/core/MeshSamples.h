@@ -6,7 +6,7 @@
 #include "TriangleSamples.h"
 
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
-#include <osgAnalyticBin/core/mesh/QuickMeshBounds.h>
+#include <osgAnalyticBin/core/mesh/MeshBounds.h>
 
 #include <array>
 #include <cstddef>

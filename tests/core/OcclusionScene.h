@@ -7,7 +7,7 @@
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
-#include <osgAnalyticBin/core/mesh/QuickMeshBounds.h>
+#include <osgAnalyticBin/core/mesh/MeshBounds.h>
 
 #include <core/TriangleSamples.h>
 #include <support/Random.h>

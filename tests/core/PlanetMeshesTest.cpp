@@ -9,7 +9,7 @@
 
 #include <osgAnalyticBin/core/mesh/CrackBounds.h>
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
-#include <osgAnalyticBin/core/mesh/QuickMeshBounds.h>
+#include <osgAnalyticBin/core/mesh/MeshBounds.h>
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ using core::GeodeticBin;
 using core::GeodeticGrid;
 using core::GeodeticGridBounds;
 using core::Interval;
-using core::QuickMeshBounds;
+using core::MeshBounds;
 
 constexpr double kPromised = 1.6e-14;  // of the larger radius
 constexpr double kRound = 0.01;        // |a2/b2 - 1| up to which there are quick bounds
@@ -123,8 +123,8 @@ TEST_P(PlanetMeshes, QuickBoundsHoldEveryPoint) {
             const GeodeticBin extents = randomExtents(ellipsoid, 0.6, 0.0017);
             const auto cells = static_cast<std::uint32_t>(random.integer(2, 9));
             const EcefMesh mesh = gridMesh(random, ellipsoid, extents, cells);
-            const QuickMeshBounds bounds(ellipsoid, mesh);
-            if (!bounds.isKnown()) continue;
+            const MeshBounds bounds(ellipsoid, mesh);
+            if (!bounds.isQuick()) continue;
             ++known;
             const double offset = bounds.touchesAxis() ? axisTolerance(ellipsoid) : 0.0;
             expectHolds(random, ellipsoid, mesh, bounds.bin(), offset + kPromised * larger(ellipsoid));
@@ -160,9 +160,9 @@ TEST_P(PlanetMeshes, BoundsOfFlatMeshesAreTight) {
             const double turn = step * step * flattening * flattening;
             EXPECT_LE(bin.latitude().upper - truth.northernmost, 0.25 * turn);
 
-            const QuickMeshBounds quick(ellipsoid, mesh);
-            EXPECT_EQ(quick.isKnown(), isRound(ellipsoid));
-            if (!quick.isKnown()) continue;
+            const MeshBounds quick(ellipsoid, mesh);
+            EXPECT_EQ(quick.isQuick(), isRound(ellipsoid));
+            if (!quick.isQuick()) continue;
             const double rounding = 1e-12 * a;
             EXPECT_LE(-quick.bin().altitude().lower, 1.2 * -truth.lowest + rounding);
             EXPECT_LE(quick.sag(), 1.2 * -truth.lowest + rounding);
@@ -194,11 +194,11 @@ TEST_P(PlanetMeshes, BoundsAreTheSameInEveryUnit) {
             const double reference = extents.longitude().middle();
             expectSame(thoroughBounds(metres, mesh, reference, axisTolerance(metres)),
                        thoroughBounds(ellipsoid, scaled, reference, axisTolerance(ellipsoid)));
-            const QuickMeshBounds expected(metres, mesh);
-            const QuickMeshBounds found(ellipsoid, scaled);
+            const MeshBounds expected(metres, mesh);
+            const MeshBounds found(ellipsoid, scaled);
             expectSame(expected.bin(), found.bin());
             EXPECT_EQ(found.touchesAxis(), expected.touchesAxis());
-            if (expected.isKnown()) {
+            if (expected.isQuick()) {
                 EXPECT_EQ(found.sag(), unit * expected.sag());
             }
 
@@ -239,8 +239,8 @@ TEST_P(PlanetMeshes, AnyTriangleIsHeldOrUnknown) {
             const double offset = 1e-12 * larger(ellipsoid) + axisTolerance(ellipsoid);
             known += thorough.empty() ? 0 : 1;
             if (!thorough.empty()) expectHolds(random, ellipsoid, mesh, thorough, offset);
-            const QuickMeshBounds quick(ellipsoid, mesh);
-            if (quick.isKnown()) expectHolds(random, ellipsoid, mesh, quick.bin(), offset);
+            const MeshBounds quick(ellipsoid, mesh);
+            if (quick.isQuick()) expectHolds(random, ellipsoid, mesh, quick.bin(), offset);
             if (HasFatalFailure()) return;
         }
         EXPECT_GT(known, 150);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/core/mesh/QuickMeshBounds.h>
+#include <osgAnalyticBin/core/mesh/MeshBounds.h>
 
 #include <osg/Matrixd>
 #include <osg/Node>

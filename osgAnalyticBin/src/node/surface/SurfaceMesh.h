@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/mesh/QuickMeshBounds.h>
+#include <osgAnalyticBin/core/mesh/MeshBounds.h>
 
 #include <glm/vec3.hpp>
 #include <osg/Geometry>

@@ -89,8 +89,8 @@ std::unique_ptr<const core::GroundPlates> tilePlates(const std::vector<osg::ref_
     MeshUnion parts(localToEcef, &globe, mesh);
     meshes.front()->accept(parts);
     if (!parts.isMesh()) return nullptr;
-    const core::QuickMeshBounds bounds(globe, mesh);
-    if (!bounds.isKnown() || bounds.touchesAxis()) return nullptr;
+    const core::MeshBounds bounds(globe, mesh);
+    if (bounds.bin().empty() || bounds.touchesAxis()) return nullptr;
     auto plates = std::make_unique<const core::GroundPlates>(globe, mesh, bounds.bin(), drawingError(globe));
     return plates->isKnown() ? std::move(plates) : nullptr;
 }

@@ -6,7 +6,7 @@
 
 #include "MeshSamples.h"
 
-#include <osgAnalyticBin/core/mesh/QuickMeshBounds.h>
+#include <osgAnalyticBin/core/mesh/MeshBounds.h>
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ using core::EcefMesh;
 using core::Ellipsoid;
 using core::GeodeticBin;
 using core::Interval;
-using core::QuickMeshBounds;
+using core::MeshBounds;
 
 constexpr double kQuickPromised = 1e-7;  // metres
 constexpr double kAxisTolerance = 1.0;
@@ -36,7 +36,7 @@ GeodeticBin randomExtents(Random& random) {
                        {low, random.chance(0.3) ? low : random.uniform(low, 9000.0)});
 }
 
-TEST(QuickMeshBounds, HoldsEveryPointOfEveryTriangle) {
+TEST(MeshBounds, HoldsEveryPointOfEveryTriangle) {
     Random random(190);
     int known = 0;
     for (int trial = 0; trial < 1000; ++trial) {
@@ -44,15 +44,15 @@ TEST(QuickMeshBounds, HoldsEveryPointOfEveryTriangle) {
             random.chance(0.7) ? wgs84() : Ellipsoid(6.4e6, 6.4e6 * std::sqrt(random.uniform(0.9905, 1.0095)));
         const auto cells = static_cast<std::uint32_t>(random.integer(1, 9));
         const EcefMesh mesh = gridMesh(random, ellipsoid, randomExtents(random), cells);
-        const QuickMeshBounds bounds(ellipsoid, mesh);
-        known += bounds.isKnown();
-        if (!bounds.isKnown()) continue;
+        const MeshBounds bounds(ellipsoid, mesh);
+        known += bounds.isQuick();
+        if (!bounds.isQuick()) continue;
         expectHolds(random, ellipsoid, mesh, bounds.bin(), bounds.touchesAxis() ? kAxisTolerance : kQuickPromised);
     }
     EXPECT_GT(known, 900);
 }
 
-TEST(QuickMeshBounds, HoldsLooseTriangles) {
+TEST(MeshBounds, HoldsLooseTriangles) {
     Random random(191);
     for (int trial = 0; trial < 20000; ++trial) {
         const double south = random.uniform(-kHalfPi, 1.4);
@@ -61,12 +61,12 @@ TEST(QuickMeshBounds, HoldsLooseTriangles) {
         EcefMesh mesh;
         for (int i = 0; i < 3; ++i) addVertex(mesh, wgs84().toEcef(randomPosition(random, bin)));
         mesh.triangles = {0, 1, 2};
-        const QuickMeshBounds bounds(wgs84(), mesh);
-        if (bounds.isKnown()) expectHolds(random, wgs84(), mesh, bounds.bin(), kQuickPromised);
+        const MeshBounds bounds(wgs84(), mesh);
+        if (bounds.isQuick()) expectHolds(random, wgs84(), mesh, bounds.bin(), kQuickPromised);
     }
 }
 
-TEST(QuickMeshBounds, IsHardlyLooserThanTheThoroughBounds) {
+TEST(MeshBounds, IsHardlyLooserThanTheThoroughBounds) {
     Random random(192);
     for (int trial = 0; trial < 1000; ++trial) {
         const GeodeticBin anyExtents = randomExtents(random);
@@ -76,8 +76,8 @@ TEST(QuickMeshBounds, IsHardlyLooserThanTheThoroughBounds) {
         const double low = anyExtents.altitude().lower;
         const GeodeticBin extents = anyExtents.withAltitude({low, low + std::min(5000.0, 3e5 * step)});
         const EcefMesh mesh = gridMesh(random, wgs84(), extents, cells);
-        const QuickMeshBounds quick(wgs84(), mesh);
-        if (!quick.isKnown()) continue;
+        const MeshBounds quick(wgs84(), mesh);
+        if (!quick.isQuick()) continue;
         const GeodeticBin thorough = thoroughBounds(wgs84(), mesh, extents.longitude().middle(), kAxisTolerance);
         const double sag = 6.4e6 * 0.5 * step * step;
         EXPECT_LE(quick.bin().altitude().upper - thorough.altitude().upper, 0.6);
@@ -97,12 +97,12 @@ TEST(QuickMeshBounds, IsHardlyLooserThanTheThoroughBounds) {
     }
 }
 
-TEST(QuickMeshBounds, KnowsTheAltitudeOfEveryVertex) {
+TEST(MeshBounds, KnowsTheAltitudeOfEveryVertex) {
     Random random(193);
     for (int trial = 0; trial < 300; ++trial) {
         const EcefMesh mesh = gridMesh(random, wgs84(), randomExtents(random), 5);
-        const QuickMeshBounds bounds(wgs84(), mesh);
-        if (!bounds.isKnown()) continue;
+        const MeshBounds bounds(wgs84(), mesh);
+        if (!bounds.isQuick()) continue;
         ASSERT_EQ(bounds.altitudes().size(), mesh.size());
         EXPECT_LE(bounds.altitudeError(), 0.5);
         for (std::size_t i = 0; i < mesh.size(); ++i) {
@@ -112,20 +112,41 @@ TEST(QuickMeshBounds, KnowsTheAltitudeOfEveryVertex) {
     }
 }
 
-TEST(QuickMeshBounds, LeavesTheRestToOthers) {
+// What has no closed form is bounded triangle by triangle.
+TEST(MeshBounds, HoldsMeshesWithoutAClosedForm) {
     Random random(194);
-    const auto isKnown = [&](const Ellipsoid& ellipsoid, const GeodeticBin& extents) {
-        return QuickMeshBounds(ellipsoid, gridMesh(random, ellipsoid, extents, 8)).isKnown();
-    };
     const GeodeticBin tile({0.1, 0.2}, {0.1, 0.2}, {0.0, 1000.0});
-    EXPECT_TRUE(isKnown(wgs84(), tile));
-    EXPECT_FALSE(QuickMeshBounds(wgs84(), EcefMesh()).isKnown());
-    EXPECT_FALSE(isKnown(Ellipsoid(6.4e6, 6.0e6), tile));
-    EXPECT_FALSE(isKnown(wgs84(), tile.withAltitude({-300000.0, 0.0})));
-    EXPECT_FALSE(isKnown(wgs84(), GeodeticBin::wholeGlobe({0.0, 0.0})));
-    EcefMesh broken = gridMesh(random, wgs84(), tile, 8);
+    struct Row {
+        Ellipsoid ellipsoid;
+        GeodeticBin extents;
+    };
+    const Row rows[]{{Ellipsoid(6.4e6, 6.0e6), tile},
+                     {wgs84(), tile.withAltitude({-300000.0, 0.0})},
+                     {wgs84(), GeodeticBin::wholeGlobe({0.0, 0.0})},
+                     {wgs84(), GeodeticBin({0.3, kHalfPi}, {-1.0, 1.0}, {0.0, 3000.0})}};
+    for (const Row& row : rows) {
+        const EcefMesh mesh = gridMesh(random, row.ellipsoid, row.extents, 8);
+        const MeshBounds bounds(row.ellipsoid, mesh);
+        EXPECT_FALSE(bounds.isQuick());
+        ASSERT_FALSE(bounds.bin().empty());
+        const double allowed = bounds.touchesAxis() ? kAxisTolerance : kQuickPromised;
+        expectHolds(random, row.ellipsoid, mesh, bounds.bin(), allowed);
+        EXPECT_EQ(bounds.touchesAxis(), row.extents.latitude().upper == kHalfPi);
+        for (std::size_t i = 0; i < mesh.size(); ++i) {
+            const double truth = static_cast<double>(ecefToGeodetic(row.ellipsoid, real(mesh.vertex(i))).altitude);
+            EXPECT_NEAR(bounds.altitudes()[i], truth, bounds.altitudeError());
+            EXPECT_LE(bounds.bin().altitude().lower, truth - bounds.sag() + 2.0 * bounds.altitudeError());
+        }
+    }
+}
+
+TEST(MeshBounds, IsUnknownWithoutVerticesAndWithBrokenOnes) {
+    Random random(195);
+    EXPECT_TRUE(MeshBounds(wgs84(), EcefMesh()).bin().empty());
+    EcefMesh broken = gridMesh(random, wgs84(), GeodeticBin({0.1, 0.2}, {0.1, 0.2}, {0.0, 1000.0}), 8);
+    EXPECT_TRUE(MeshBounds(wgs84(), broken).isQuick());
     broken.y[40] = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_FALSE(QuickMeshBounds(wgs84(), broken).isKnown());
+    EXPECT_TRUE(MeshBounds(wgs84(), broken).bin().empty());
 }
 
 }  // namespace

@@ -3,7 +3,8 @@
 
 #include "../EarthScale.h"
 
-#include <osgAnalyticBin/core/mesh/QuickMeshBounds.h>
+#include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
+#include <osgAnalyticBin/core/mesh/MeshBounds.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,8 @@ constexpr double kNearerChords = 0.9;
 // A function with this much of second derivative leaves its chords by that of 12 squared radii.
 constexpr double kPerCircle = 1.0 / 24.0;
 constexpr double kAngleRounding = 1e-14;
+// Of the bounds that are found triangle by triangle, in larger radii: what GeodeticMeshBounds promises.
+constexpr double kMeshRounding = 1.6e-14;
 constexpr std::size_t kLanes = 16;
 
 // Lengths in the unit of the ellipsoid; the numbers are those of the earth in metres.
@@ -290,10 +293,10 @@ PolewardEnd endOf(const Ellipsoid& ellipsoid, double pole, double steepest, bool
 
 }  // namespace
 
-void QuickMeshBounds::find(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
-    _bin = GeodeticBin();
+// Source: doc/derivation.md, section 11.
+bool MeshBounds::findInClosedForm(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
     const EllipsoidTerms terms(ellipsoid);
-    if (mesh.size() == 0 || !(std::abs(terms.flattening) <= kMostFlattened)) return;
+    if (!(std::abs(terms.flattening) <= kMostFlattened)) return false;
 
     const Lengths lengths(earthScale(ellipsoid));
     const double reference = referenceLongitude(mesh);
@@ -301,7 +304,7 @@ void QuickMeshBounds::find(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
         VertexPass(terms, mesh, reference, lengths.axisTolerance).run(_altitudes, _axisDistances);
     const double farthest = std::max(std::abs(ranges.altitude.lower), std::abs(ranges.altitude.upper));
     const double widest = std::max(std::abs(ranges.tangent.lower), std::abs(ranges.tangent.upper));
-    if (!(farthest <= lengths.farthest) || !(widest <= kWidest) || !ranges.isInFront || !ranges.isFinite) return;
+    if (!(farthest <= lengths.farthest) || !(widest <= kWidest) || !ranges.isInFront || !ranges.isFinite) return false;
     _touchesAxis = ranges.axisDistance.lower <= lengths.axisTolerance;
     const double flattening = std::abs(terms.flattening);
     _altitudeError = farthest * flattening * (0.5 * flattening + 1.05 * farthest / terms.b) + lengths.rounding;
@@ -327,7 +330,7 @@ void QuickMeshBounds::find(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
     const TriangleRanges chords = trianglePass(mesh, _altitudes, _excess, curvatures);
     const bool areShort = chords.longest2 <= lengths.longestChord * lengths.longestChord;
     const bool areFarFromAxis = !(runs[0] || runs[1]) || chords.longest2 <= 0.5 * nearest * nearest;
-    if (!areShort || !areFarFromAxis) return;
+    if (!areShort || !areFarFromAxis) return false;
     _sag = chords.widestCircle * curvatures.altitude;
     const double low = std::min(chords.low, ranges.altitude.lower);
 
@@ -337,6 +340,38 @@ void QuickMeshBounds::find(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
                        {reference + std::atan(ranges.tangent.lower) - kAngleRounding,
                         reference + std::atan(ranges.tangent.upper) + kAngleRounding},
                        {low - _altitudeError, ranges.altitude.upper + _altitudeError});
+    return true;
+}
+
+// Source: doc/derivation.md, section 5.
+void MeshBounds::findByTriangles(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < mesh.size(); ++i) sum += mesh.vertex(i);
+    if (!std::isfinite(sum.x + sum.y + sum.z)) return;
+    const double axisTolerance = Lengths(earthScale(ellipsoid)).axisTolerance;
+    GeodeticMeshBounds bounds(ellipsoid, std::atan2(sum.y, sum.x), axisTolerance);
+    _touchesAxis = false;
+    _altitudes.clear();
+    for (std::size_t i = 0; i < mesh.size(); ++i) {
+        const glm::dvec3 vertex = mesh.vertex(i);
+        bounds.expandByVertex(vertex);
+        _altitudes.push_back(ellipsoid.toGeodetic(vertex).altitude);
+        _touchesAxis = _touchesAxis || std::hypot(vertex.x, vertex.y) <= axisTolerance;
+    }
+    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+        bounds.expandByTriangle(mesh.vertex(mesh.triangles[i]), mesh.vertex(mesh.triangles[i + 1]),
+                                mesh.vertex(mesh.triangles[i + 2]));
+    }
+    _bin = bounds.bin();
+    if (_bin.empty()) return;
+    _altitudeError = kMeshRounding * std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+    _sag = *std::min_element(_altitudes.begin(), _altitudes.end()) - _bin.altitude().lower;
+}
+
+void MeshBounds::find(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
+    _bin = GeodeticBin();
+    _isQuick = mesh.size() > 0 && findInClosedForm(ellipsoid, mesh);
+    if (!_isQuick && mesh.size() > 0) findByTriangles(ellipsoid, mesh);
 }
 
 }  // namespace osgAnalyticBin::core

@@ -27,47 +27,55 @@ struct EcefMesh {
     [[nodiscard]] glm::dvec3 vertex(std::size_t i) const noexcept { return {x[i], y[i], z[i]}; }
 };
 
-/// The bin that GeodeticMeshBounds finds, some 0.5 m deeper and higher and 1e-7 radians wider, in a small part of the
-/// time: no iteration, and no trigonometry but for the whole mesh. Lengths here are those of the earth in metres; on
-/// another globe, or in another unit, they are to be multiplied by its equatorial radius over the earth's, 6378137.
+/// The bin of a triangle mesh, with what the triangles do between their vertices, whatever the mesh is. Most meshes of
+/// terrain are bounded in closed form: without iteration, and without trigonometry but for the whole mesh, at most some
+/// 0.5 m too deep and too high and 1e-7 radians too wide. The others are handed to GeodeticMeshBounds: sides of more
+/// than 1500 km, altitudes beyond 100 km, a mesh that wraps half the globe, an ellipsoid that is not nearly a sphere,
+/// |a2/b2 - 1| > 0.01. Lengths here are those of the earth in metres; on another globe, or in another unit, they are to
+/// be multiplied by its equatorial radius over the earth's, 6378137.
 /// Guarantee: on any ellipsoid in any unit, bin() holds every point of every triangle, or is empty, which means not
-/// known; vertices within 1 m of the axis may leave it by that much; tests: QuickMeshBounds.*, PlanetMeshes.*.
-/// Cost: some 10 nanoseconds for each vertex and each triangle. One object for many meshes keeps its memory.
-/// Source: doc/derivation.md, section 11.
-class QuickMeshBounds final {
+/// known; vertices within 1 m of the axis may leave it by that much; tests: MeshBounds.*, PlanetMeshes.*.
+/// Cost: some 10 nanoseconds for each vertex and each triangle in closed form, many times that otherwise. One object
+/// for many meshes keeps its memory. Source: doc/derivation.md, sections 5 and 11.
+class MeshBounds final {
 public:
-    QuickMeshBounds() = default;
+    MeshBounds() = default;
     /// Finds the bin at once; see find().
-    QuickMeshBounds(const Ellipsoid& ellipsoid, const EcefMesh& mesh) { find(ellipsoid, mesh); }
+    MeshBounds(const Ellipsoid& ellipsoid, const EcefMesh& mesh) { find(ellipsoid, mesh); }
 
     /// In place of what was found before. Requires: indices within the vertices.
     void find(const Ellipsoid& ellipsoid, const EcefMesh& mesh);
 
-    /// False: sides of more than 1500 km, altitudes beyond 100 km, a mesh that wraps half the globe, or an ellipsoid
-    /// that is not nearly a sphere, |a2/b2 - 1| > 0.01; bin() is empty then, and GeodeticMeshBounds is to be asked.
-    [[nodiscard]] bool isKnown() const noexcept { return !_bin.empty(); }
-
-    /// Empty unless isKnown().
+    /// Empty for meshes without vertices, with numbers that are not finite, or that may reach deeper than the
+    /// ellipsoid's smallest radius of curvature.
     [[nodiscard]] const GeodeticBin& bin() const noexcept { return _bin; }
+
+    /// Whether the bin was found in closed form.
+    [[nodiscard]] bool isQuick() const noexcept { return _isQuick; }
 
     /// Some vertex lies within 1 m of the axis.
     [[nodiscard]] bool touchesAxis() const noexcept { return _touchesAxis; }
 
-    /// Metres, of each vertex, up to altitudeError().
+    /// @{
+    /// Metres, of each vertex, up to altitudeError(). Of a bin that is not empty.
     [[nodiscard]] const std::vector<double>& altitudes() const noexcept { return _altitudes; }
-    /// Metres.
     [[nodiscard]] double altitudeError() const noexcept { return _altitudeError; }
+    /// @}
 
     /// Metres that chords may sag below the lowest corner of their triangle at most.
     [[nodiscard]] double sag() const noexcept { return _sag; }
 
 private:
+    [[nodiscard]] bool findInClosedForm(const Ellipsoid& ellipsoid, const EcefMesh& mesh);
+    void findByTriangles(const Ellipsoid& ellipsoid, const EcefMesh& mesh);
+
     GeodeticBin _bin;
     std::vector<double> _altitudes;
     std::vector<double> _axisDistances;
     std::vector<double> _excess[2];
     double _altitudeError = 0.0;
     double _sag = 0.0;
+    bool _isQuick = false;
     bool _touchesAxis = false;
 };
 
