@@ -20,7 +20,7 @@ using core::BinHull;
 using core::Ellipsoid;
 using core::GeodeticBin;
 
-TEST(BinHull, HoldsTheBin) {
+TEST(BinHull, HoldsTheQuartersOfTheBin) {
     Random random(1711);
     double closest = 1e300;
     for (int trial = 0; trial < 20000; ++trial) {
@@ -31,27 +31,36 @@ TEST(BinHull, HoldsTheBin) {
         const double low = radius * random.uniform(-0.1, 0.1);
         const GeodeticBin bin({south, south + size}, {west, west + wider},
                               {low, low + radius * random.logUniform(1e-6, 0.1)});
-        const BinHull hull(ellipsoid, bin, 0.0);
+        core::Frame frame{radius * random.uniform(0.0, 1.1) * random.direction(), random.direction(), {}, {}};
+        frame.y = glm::normalize(glm::cross(frame.x, random.direction()));
+        frame.z = glm::cross(frame.x, frame.y);
+        const int quarter = random.integer(0, 3);
+        const BinHull hull = hullsOfQuarters(ellipsoid, bin, 0.0, frame)[static_cast<std::size_t>(quarter)];
         // at the middle the interpolation is worst
         const auto share = [&] { return random.chance(0.5) ? 0.5 : random.uniform(); };
         const double p = share(), l = share(), h = random.uniform();
         const glm::dvec3 point =
-            ellipsoid.toEcef({south + p * size, west + l * wider, low + h * bin.altitude().width()});
+            ellipsoid.toEcef({south + 0.5 * (quarter / 2 + p) * size, west + 0.5 * (quarter % 2 + l) * wider,
+                              low + h * bin.altitude().width()});
         glm::dvec3 inHull(0.0);
         for (std::size_t i = 0; i < 8; ++i) {
             inHull += (i % 2 != 0 ? l : 1.0 - l) * (i / 2 % 2 != 0 ? p : 1.0 - p) * (i / 4 != 0 ? h : 1.0 - h) *
                       hull.corners[i];
         }
-        ASSERT_LE(glm::distance(point, inHull), hull.reach);
-        if (p == 0.5 && l == 0.5 && size > 1e-3) closest = std::min(closest, hull.reach / glm::distance(point, inHull));
+        ASSERT_LE(glm::distance(point, frame.toOuter(inHull)), hull.reach);
+        if (p == 0.5 && l == 0.5 && size > 1e-3)
+            closest = std::min(closest, hull.reach / glm::distance(point, frame.toOuter(inHull)));
     }
     EXPECT_LT(closest, 1.1);
 }
 
 TEST(BinHull, IsBoundlessOnFlatEllipsoids) {
     const GeodeticBin bin({0.1, 0.2}, {0.1, 0.2}, {0.0, 1.0});
-    EXPECT_TRUE(std::isinf(BinHull(Ellipsoid(6e6, 5e6), bin, 0.0).reach));
-    EXPECT_DOUBLE_EQ(BinHull(Ellipsoid(6e6, 6e6), bin, 7.0).reach, BinHull(Ellipsoid(6e6, 6e6), bin, 0.0).reach + 7.0);
+    const auto reachOf = [&](double polarRadius, double margin) {
+        return hullsOfQuarters(Ellipsoid(6e6, polarRadius), bin, margin, core::Frame()).front().reach;
+    };
+    EXPECT_TRUE(std::isinf(reachOf(5e6, 0.0)));
+    EXPECT_DOUBLE_EQ(reachOf(6e6, 7.0), reachOf(6e6, 0.0) + 7.0);
 }
 
 }  // namespace

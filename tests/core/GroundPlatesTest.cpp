@@ -58,7 +58,8 @@ bool isBelow(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const RealVector&
 
 std::vector<EarthColumn> columnsOf(const GroundPlates& plates, std::size_t cells, double depth) {
     std::vector<EarthColumn> columns;
-    plates.appendColumns(cells, depth, columns);
+    for (std::size_t quarter = 0; quarter < (cells == 1 ? 1 : 4); ++quarter)
+        plates.appendColumns(cells, quarter, depth, core::Frame(), columns);
     return columns;
 }
 

@@ -164,7 +164,7 @@ bool OcclusionScene::isBlocked(const RealVector& point) const {
 }
 
 RealVector OcclusionScene::pointIn(Random& random, const GroundTile& tile) const {
-    if (random.chance(0.7)) {
+    if (!tile.mesh.triangles.empty() && random.chance(0.7)) {
         const auto count = static_cast<int>(tile.mesh.triangles.size() / 3);
         return randomPointOf(random, triangleAt(tile.mesh, 3 * static_cast<std::size_t>(random.integer(0, count - 1))));
     }

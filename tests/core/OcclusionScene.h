@@ -28,7 +28,7 @@ struct OcclusionScene {
 
     /// Whether the surface or a skirt is between the eye and the point.
     [[nodiscard]] bool isBlocked(const RealVector& point) const;
-    /// A point of the tile's bin.
+    /// A point of the tile's bin, often of its mesh.
     [[nodiscard]] RealVector pointIn(Random& random, const GroundTile& tile) const;
     /// A point on the top of the tile's bin.
     [[nodiscard]] RealVector topOf(Random& random, const GroundTile& tile) const;

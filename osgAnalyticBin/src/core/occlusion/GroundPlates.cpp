@@ -339,28 +339,34 @@ double GroundPlates::shallowest() const noexcept {
     return 0.1 * std::min(_ellipsoid.equatorialRadius(), _ellipsoid.polarRadius());
 }
 
-void GroundPlates::appendColumns(std::size_t cells, double depth, std::vector<EarthColumn>& columns) const {
+void GroundPlates::appendColumns(std::size_t cells, std::size_t quarter, double depth, const Frame& frame,
+                                 std::vector<EarthColumn>& columns) const {
     if (!fitsColumns(cells, depth)) return;
     // both sides of the part of each cell that is within the rims
-    constexpr std::size_t kSides = 2 * kCellsOfGrids.back();
+    constexpr std::size_t kSides = kCellsOfGrids.back();
+    const std::size_t half = cells / 2, here = std::max<std::size_t>(half, 1);
+    const std::size_t south = quarter / 2 * half, west = quarter % 2 * half;
     std::array<double, kSides> latitudes{}, longitudes{};
-    for (std::size_t i = 0; i < 2 * cells; ++i) {
+    for (std::size_t i = 0; i < 2 * here; ++i) {
         const double at = static_cast<double>(i / 2) + (i % 2 == 0 ? kRim : 1.0 - kRim);
-        latitudes[i] = _latitude.lower + _latitude.width() / static_cast<double>(cells) * at;
-        longitudes[i] = _longitude.lower + _longitude.width() / static_cast<double>(cells) * at;
+        const double perCell = 1.0 / static_cast<double>(cells);
+        latitudes[i] = _latitude.lower + _latitude.width() * perCell * (static_cast<double>(south) + at);
+        longitudes[i] = _longitude.lower + _longitude.width() * perCell * (static_cast<double>(west) + at);
     }
-    const SurfaceGrid<kSides, kSides> grid(_ellipsoid, latitudes, longitudes);
-    for (std::size_t row = 0; row < cells; ++row) {
-        for (std::size_t column = 0; column < cells; ++column) {
-            const double high = least(cells, row, column);
+    const SurfaceGrid<kSides> grid(_ellipsoid, latitudes, longitudes, 2 * here, frame);
+    for (std::size_t row = 0; row < here; ++row) {
+        for (std::size_t column = 0; column < here; ++column) {
+            const double high = least(cells, south + row, west + column);
             if (!(std::abs(high) < shallowest())) continue;
-            EarthColumn earth;
+            EarthColumn& earth = columns.emplace_back();
             earth.error = 32.0 * kEpsilon * (_ellipsoid.equatorialRadius() + std::abs(high) + depth);
-            for (std::size_t i = 0; i < 4; ++i) {
-                earth.top[i] = grid.point(2 * row + i / 2, 2 * column + i % 2, high);
-                earth.bottom[i] = grid.point(2 * row + i / 2, 2 * column + i % 2, high - depth);
+            for (std::size_t i = 0; i < 4; i += 2) {
+                const auto top = grid.ring(2 * row + i / 2, high), bottom = grid.ring(2 * row + i / 2, high - depth);
+                for (std::size_t side = 0; side < 2; ++side) {
+                    earth.top[i + side] = grid.point(top, 2 * column + side);
+                    earth.bottom[i + side] = grid.point(bottom, 2 * column + side);
+                }
             }
-            columns.push_back(earth);
         }
     }
 }

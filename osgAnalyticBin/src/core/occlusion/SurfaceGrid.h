@@ -4,7 +4,9 @@
 #pragma once
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/core/Frame.h>
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -16,34 +18,50 @@ namespace osgAnalyticBin::core {
 /// The largest |e²| of an ellipsoid for which the bounds of occlusion.md hold.
 inline constexpr double kRoundest = 0.01;
 
-/// Points at several latitudes and longitudes, with one sine and cosine for each of these.
-template <std::size_t Rows, std::size_t Columns>
+/// Points at several latitudes and longitudes, in the coordinates of a frame: one sine and cosine for each latitude and
+/// longitude, and a few products for each point.
+template <std::size_t Most>
 class SurfaceGrid final {
 public:
-    SurfaceGrid(const Ellipsoid& ellipsoid, const std::array<double, Rows>& latitudes,
-                const std::array<double, Columns>& longitudes) noexcept
-        : _axesRatio(ellipsoid.squaredRatio()) {
-        for (std::size_t i = 0; i < Rows; ++i) {
+    /// Of the first `count` latitudes and longitudes.
+    SurfaceGrid(const Ellipsoid& ellipsoid, const std::array<double, Most>& latitudes,
+                const std::array<double, Most>& longitudes, std::size_t count, const Frame& frame) noexcept
+        : _axesRatio(ellipsoid.squaredRatio()),
+          _polar(frame.x.z, frame.y.z, frame.z.z),
+          _origin(glm::dot(frame.origin, frame.x), glm::dot(frame.origin, frame.y), glm::dot(frame.origin, frame.z)) {
+        for (std::size_t i = 0; i < count; ++i) {
             _sinLat[i] = std::sin(latitudes[i]);
             _cosLat[i] = std::cos(latitudes[i]);
             _radius[i] = ellipsoid.primeVerticalRadius(_sinLat[i], _cosLat[i]);
         }
-        for (std::size_t i = 0; i < Columns; ++i) {
-            _sinLon[i] = std::sin(longitudes[i]);
-            _cosLon[i] = std::cos(longitudes[i]);
+        for (std::size_t i = 0; i < count; ++i) {
+            const double cosLon = std::cos(longitudes[i]), sinLon = std::sin(longitudes[i]);
+            _meridian[i] = {frame.x.x * cosLon + frame.x.y * sinLon, frame.y.x * cosLon + frame.y.y * sinLon,
+                            frame.z.x * cosLon + frame.z.y * sinLon};
         }
     }
 
-    /// [DERIVATION] section 1: ECEF of a geodetic position.
-    [[nodiscard]] glm::dvec3 point(std::size_t row, std::size_t column, double altitude) const noexcept {
-        const double rho = (_radius[row] + altitude) * _cosLat[row];
-        return {rho * _cosLon[column], rho * _sinLon[column], (_axesRatio * _radius[row] + altitude) * _sinLat[row]};
+    /// The points of one latitude and altitude.
+    struct Ring {
+        double axisDistance;
+        glm::dvec3 middle;  ///< on the globe's axis
+    };
+    /// [DERIVATION] section 1: ECEF of a geodetic position is rho (cos l, sin l, 0) + z (0, 0, 1).
+    [[nodiscard]] Ring ring(std::size_t row, double altitude) const noexcept {
+        const double z = (_axesRatio * _radius[row] + altitude) * _sinLat[row];
+        return {(_radius[row] + altitude) * _cosLat[row], z * _polar - _origin};
+    }
+    /// From the origin of the frame, along its axes. Error: some 30 units in the last place of the longest of the
+    /// vectors.
+    [[nodiscard]] glm::dvec3 point(const Ring& ring, std::size_t column) const noexcept {
+        return ring.axisDistance * _meridian[column] + ring.middle;
     }
 
 private:
-    double _axesRatio;  // of the polar to the equatorial axis, squared
-    std::array<double, Rows> _sinLat, _cosLat, _radius;
-    std::array<double, Columns> _sinLon, _cosLon;
+    double _axesRatio;           // of the polar to the equatorial axis, squared
+    glm::dvec3 _polar, _origin;  // the globe's axis and the frame's origin, along the frame's axes
+    std::array<double, Most> _sinLat, _cosLat, _radius;
+    std::array<glm::dvec3, Most> _meridian;  // the direction from the globe's axis, along the frame's axes
 };
 
 }  // namespace osgAnalyticBin::core

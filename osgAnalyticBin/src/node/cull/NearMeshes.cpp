@@ -7,27 +7,77 @@
 #include "../install/TileCallback.h"
 #include "../surface/TilePlates.h"
 
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+
 namespace osgAnalyticBin {
 
-const core::EcefMesh* NearMeshes::trianglesOf(const AnalyticBinCullCallback& tile, osg::Node& mesh) {
-    // meshes may change: what was read is not believed for long
-    constexpr int kMostUses = 16;
+namespace {
+
+// Appends the triangles whose boxes along the horizon come within a distance of the eye.
+void appendNear(const core::EcefMesh& mesh, const core::Frame& eye, double radius, core::EcefMesh& near) {
+    std::vector<std::array<double, 2>> places;
+    places.reserve(mesh.size());
+    for (std::size_t i = 0; i < mesh.size(); ++i) {
+        const glm::dvec3 from = mesh.vertex(i) - eye.origin;
+        places.push_back({glm::dot(from, eye.x), glm::dot(from, eye.y)});
+    }
+    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+        std::array<std::uint32_t, 3> corners;
+        std::copy_n(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(i), 3, corners.begin());
+        const auto isNear = [&](std::size_t axis) {
+            const double a = places[corners[0]][axis], b = places[corners[1]][axis], c = places[corners[2]][axis];
+            return std::min({a, b, c}) <= radius && std::max({a, b, c}) >= -radius;
+        };
+        if (!isNear(0) || !isNear(1)) continue;
+        for (const std::uint32_t corner : corners) {
+            const glm::dvec3 vertex = mesh.vertex(corner);
+            near.triangles.push_back(static_cast<std::uint32_t>(near.size()));
+            near.x.push_back(vertex.x);
+            near.y.push_back(vertex.y);
+            near.z.push_back(vertex.z);
+        }
+    }
+}
+
+}  // namespace
+
+const core::EcefMesh* NearMeshes::trianglesNear(const AnalyticBinCullCallback& tile, osg::Node& mesh,
+                                                const core::Frame& eye, double radius) {
+    Known* const known = meshOf(tile, mesh);
+    if (!known) return nullptr;
+    // half of the room for the eye's way, the other half for its vertical, which turns with it
+    const double room = 0.5 * (known->radius - radius);
+    if (glm::distance(eye.origin, known->eye) <= room) return &known->near;
+    constexpr double kWider = 16.0;
+    known->eye = eye.origin;
+    known->radius = kWider * radius;
+    known->near = {};
+    appendNear(known->mesh, eye, known->radius, known->near);
+    return &known->near;
+}
+
+NearMeshes::Known* NearMeshes::meshOf(const AnalyticBinCullCallback& tile, osg::Node& mesh) {
+    // changes of meshes may go unnoticed: what was read is not believed for ever
+    constexpr int kMostUses = 600;
     Known* known = nullptr;
     for (Known& one : _known) {
         if (one.tile.get() == &tile && one.node.get() == &mesh) known = &one;
     }
     const bool isChanged = tile.getInstalledTile() && tile.getInstalledTile()->isMeshChanged();
     const bool isSame = known && !isChanged && known->localToEcef == tile.getLocalToEcef();
-    if (isSame && ++known->uses < kMostUses) return &known->mesh;
+    if (isSame && ++known->uses < kMostUses) return known;
     if (!known && _known.size() < kMostTiles) known = &_known.emplace_back();
     if (!known) known = &_known[_oldest++ % kMostTiles];
-    *known = {nullptr, nullptr, tile.getLocalToEcef(), 0, {}};
+    *known = {nullptr, nullptr, tile.getLocalToEcef(), 0, {}, {}, -1.0, {}};
     // the frame of a transform that is culled itself is that of what is below it
     const bool isInOwnFrame = mesh.asTransform() && installedBinOf(mesh) == &tile;
     if (isInOwnFrame || !readTileMesh(mesh, tile.getLocalToEcef(), known->mesh)) return nullptr;
     known->tile = &tile;
     known->node = &mesh;
-    return &known->mesh;
+    return known;
 }
 
 }  // namespace osgAnalyticBin

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/core/Frame.h>
 #include <osgAnalyticBin/core/mesh/MeshBounds.h>
 
 #include <osg/Matrixd>
@@ -14,13 +15,15 @@
 
 namespace osgAnalyticBin {
 
-/// The triangles of the shown tiles around an eye, kept from frame to frame.
+/// The triangles around an eye, kept from frame to frame.
 class NearMeshes {
 public:
-    /// The triangles of a tile's own mesh, ECEF. Returns: nullptr where they are not known. Valid until the next call.
-    /// Cost: one pass over the mesh in every sixteenth call for the same tile, for tiles that were not asked for
-    /// lately, and for meshes that were changed.
-    [[nodiscard]] const core::EcefMesh* trianglesOf(const AnalyticBinCullCallback& tile, osg::Node& mesh);
+    /// The triangles of a tile's own mesh, ECEF, that come within `radius` metres of the vertical through the eye, and
+    /// some more. Returns: nullptr where they are not known. Valid until the next call.
+    /// Cost: one pass over the mesh when the eye has moved some times the radius; the mesh is read for tiles that were
+    /// not asked for lately, for meshes that were changed, and after some seconds.
+    [[nodiscard]] const core::EcefMesh* trianglesNear(const AnalyticBinCullCallback& tile, osg::Node& mesh,
+                                                      const core::Frame& eye, double radius);
 
     /// More tiles are not kept.
     static constexpr std::size_t kMostTiles = 16;
@@ -32,7 +35,12 @@ private:
         osg::Matrixd localToEcef;
         int uses;
         core::EcefMesh mesh;
+        glm::dvec3 eye;  // that the near triangles are about
+        double radius;   // of these; negative: none were looked for
+        core::EcefMesh near;
     };
+
+    [[nodiscard]] Known* meshOf(const AnalyticBinCullCallback& tile, osg::Node& mesh);
 
     std::vector<Known> _known;
     std::size_t _oldest = 0;

@@ -28,11 +28,12 @@ namespace osgAnalyticBin {
 namespace {
 
 using core::BinHull;
+using core::GeodeticBin;
 using core::HorizonBuffer;
 
 // The picture of an eye on the vertical plane in front of it.
 struct Picture {
-    glm::dvec3 eye, forward, up;
+    core::Frame eye;  // x to the right, y forward, z up
     core::Interval across;
     double drawing;  // by how much corners of triangles may be drawn elsewhere
 };
@@ -51,8 +52,8 @@ std::optional<Picture> pictureOf(const ShownDatabase& database, const glm::dvec3
     const glm::dvec3 look = glm::normalize(toWorld({0.0, 0.0, -1.0}));
     const glm::dvec3 level = look - glm::dot(look, up) * up;
     if (!(glm::length(level) > kLevel)) return std::nullopt;
-    Picture picture{eye, glm::normalize(level), up, {1e300, -1e300}, 0.0};
-    const glm::dvec3 right = glm::cross(picture.forward, up);
+    const glm::dvec3 forward = glm::normalize(level), right = glm::cross(forward, up);
+    Picture picture{{eye, right, forward, up}, {1e300, -1e300}, 0.0};
     double levelness = 1.0;
     for (int corner = 0; corner < 4; ++corner) {
         const osg::Vec4d clip(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, 0.5, 1.0);
@@ -60,11 +61,11 @@ std::optional<Picture> pictureOf(const ShownDatabase& database, const glm::dvec3
         osg::Vec3d ray(point.x(), point.y(), point.z());
         if (ray.z() * projection(2, 3) < 0.0) ray = -ray;
         const glm::dvec3 direction = toWorld(ray);
-        const double forward = glm::dot(direction, picture.forward), length = glm::length(direction);
-        if (!(forward > kLevel * length)) return std::nullopt;
-        const double x = glm::dot(direction, right) / forward;
+        const double ahead = glm::dot(direction, forward), length = glm::length(direction);
+        if (!(ahead > kLevel * length)) return std::nullopt;
+        const double x = glm::dot(direction, right) / ahead;
         picture.across = {std::min(picture.across.lower, x), std::max(picture.across.upper, x)};
-        levelness = std::min(levelness, forward / length);
+        levelness = std::min(levelness, ahead / length);
     }
     constexpr double kRounding = 1e-6;
     const double room = kRounding * picture.across.width();
@@ -87,9 +88,9 @@ struct Candidate {
 };
 
 // A quarter of a tile's bin. Quarters are tested one by one, because more terrain is in front of the farther ones.
-struct Part {
-    std::size_t candidate;
-    BinHull hull;  // of all that is drawn with it
+struct Quarter {
+    std::size_t candidate, number;
+    HorizonBuffer::Outline outline;  // of all that is drawn with it
 };
 
 class TerrainOcclusion {
@@ -99,7 +100,7 @@ public:
           _ellipsoid(database.view.ellipsoid),
           _plan(*database.view.plan),
           _picture(picture),
-          _buffer(picture.eye, picture.forward, picture.up, picture.across, picture.drawing) {}
+          _buffer(glm::length(picture.eye.origin), picture.across, picture.drawing) {}
 
     // `nearReach`: metres from the eye at which the near plane may still cut terrain away.
     void run(double nearReach) {
@@ -111,11 +112,10 @@ public:
         if (!lowest) return;
         _buffer.setLowest(*lowest);
         for (const auto& [nearest, number] : _order) {
-            const Part& part = _parts[number];
-            Candidate& candidate = _candidates[part.candidate];
-            if (!candidate.isHidden || isBeside(part.hull) || _buffer.hides(part.hull)) continue;
-            candidate.isHidden = false;
-            addEarth(candidate);
+            const Quarter& quarter = _quarters[number];
+            if (quarter.outline.isBeside || _buffer.hides(quarter.outline)) continue;
+            addEarth(quarter);
+            _candidates[quarter.candidate].isHidden = false;
         }
         std::vector<TilePlan::ShownTile> occluded;
         for (const Candidate& candidate : _candidates) {
@@ -128,24 +128,19 @@ private:
     // Returns: false where the place of the tile is not known.
     [[nodiscard]] bool add(const TilePlan::ShownTile& shown) {
         const AnalyticBinCullCallback& tile = *shown.tile;
-        const core::GeodeticBin& bin = tile.getBin().bin();
+        const GeodeticBin& bin = tile.getBin().bin();
         const core::Interval altitude{tile.getBinLow(), tile.getBinHigh()};
         if (bin.empty() || !std::isfinite(altitude.lower) || !std::isfinite(altitude.upper)) return false;
         Candidate candidate{&shown, HUGE_VAL, 0.0, true};
-        const auto half = [](const core::Interval& whole, bool isUpper) -> core::Interval {
-            return isUpper ? core::Interval{whole.middle(), whole.upper} : core::Interval{whole.lower, whole.middle()};
-        };
-        for (unsigned int i = 0; i < 4; ++i) {
-            const core::GeodeticBin quarter(half(bin.latitude(), i / 2 != 0), half(bin.longitude(), i % 2 != 0),
-                                            altitude);
-            const BinHull hull(_ellipsoid, quarter, tile.getBin().margin());
-            for (const glm::dvec3& corner : hull.corners) {
-                const double distance = glm::distance(corner, _picture.eye);
-                candidate.distance = std::min(candidate.distance, distance);
-                candidate.size = std::max(candidate.size, 2.0 * glm::distance(corner, hull.corners[0]));
-            }
-            _order.emplace_back(_buffer.nearest(hull), _parts.size());
-            _parts.push_back({_candidates.size(), hull});
+        const GeodeticBin drawn = bin.withAltitude(altitude);
+        std::size_t number = 0;
+        for (const BinHull& hull : core::hullsOfQuarters(_ellipsoid, drawn, tile.getBin().margin(), _picture.eye)) {
+            for (const glm::dvec3& corner : hull.corners)
+                candidate.distance = std::min(candidate.distance, glm::length(corner));
+            candidate.size = 2.0 * glm::distance(hull.corners.front(), hull.corners.back());
+            const HorizonBuffer::Outline outline = _buffer.outlineOf(hull);
+            _order.emplace_back(outline.nearest, _quarters.size());
+            _quarters.push_back({_candidates.size(), number++, outline});
         }
         _candidates.push_back(candidate);
         return true;
@@ -165,19 +160,22 @@ private:
     // where that is not known.
     [[nodiscard]] std::optional<double> lowestSight(double reach) const {
         NearMeshes& meshes = CullTraversal::of(_database.visitor).nearMeshes();
+        const double widest = std::max(std::abs(_picture.across.lower), std::abs(_picture.across.upper));
         double highest = -HUGE_VAL;  // metres above the eye
         std::vector<std::size_t> tiles;
         for (const auto& [nearest, number] : _order) {
             if (nearest > reach) break;
-            const Part& part = _parts[number];
-            const bool isKnown = std::find(tiles.begin(), tiles.end(), part.candidate) != tiles.end();
-            if (isKnown || isBeside(part.hull)) continue;
+            const Quarter& quarter = _quarters[number];
+            const bool isKnown = std::find(tiles.begin(), tiles.end(), quarter.candidate) != tiles.end();
+            if (isKnown || quarter.outline.isBeside) continue;
             if (tiles.size() == NearMeshes::kMostTiles) return std::nullopt;
-            tiles.push_back(part.candidate);
-            const TilePlan::ShownTile& tile = *_candidates[part.candidate].tile;
-            const core::EcefMesh* const mesh = meshes.trianglesOf(*tile.tile, *tile.mesh);
+            tiles.push_back(quarter.candidate);
+            const TilePlan::ShownTile& tile = *_candidates[quarter.candidate].tile;
+            const double margin = tile.tile->getBin().margin();
+            const double radius = (reach + margin) * (1.0 + widest) + margin;
+            const core::EcefMesh* const mesh = meshes.trianglesNear(*tile.tile, *tile.mesh, _picture.eye, radius);
             if (!mesh) return std::nullopt;
-            highest = std::max(highest, highestOf(*mesh, reach, tile.tile->getBin().margin()));
+            highest = std::max(highest, highestOf(*mesh, reach, margin));
         }
         if (!(highest < 0.0)) return std::nullopt;
         return highest / reach;
@@ -185,28 +183,26 @@ private:
 
     // Metres above the eye of the highest point of the triangles that is in the picture and within reach.
     [[nodiscard]] double highestOf(const core::EcefMesh& mesh, double reach, double margin) const {
-        const glm::dvec3 right = glm::cross(_picture.forward, _picture.up);
+        const auto& [eye, right, ahead, up] = _picture.eye;
         // inside is where p.normal >= offset
         struct HalfSpace {
             glm::dvec3 normal;
             double offset;
         };
         const auto [left, most] = _picture.across;
-        const std::array<HalfSpace, 4> wedge{
-            HalfSpace{_picture.forward, -margin}, HalfSpace{-_picture.forward, -reach - margin},
-            HalfSpace{right - left * _picture.forward, -margin * (1.0 + std::abs(left))},
-            HalfSpace{most * _picture.forward - right, -margin * (1.0 + std::abs(most))}};
+        const std::array<HalfSpace, 4> wedge{HalfSpace{ahead, -margin}, HalfSpace{-ahead, -reach - margin},
+                                             HalfSpace{right - left * ahead, -margin * (1.0 + std::abs(left))},
+                                             HalfSpace{most * ahead - right, -margin * (1.0 + std::abs(most))}};
         double highest = -HUGE_VAL;
         std::vector<double> forward(mesh.size());
-        for (std::size_t i = 0; i < mesh.size(); ++i)
-            forward[i] = glm::dot(mesh.vertex(i) - _picture.eye, _picture.forward);
+        for (std::size_t i = 0; i < mesh.size(); ++i) forward[i] = glm::dot(mesh.vertex(i) - eye, ahead);
         std::vector<glm::dvec3> polygon, clipped;
         for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
             const std::uint32_t* const corners = &mesh.triangles[i];
             const auto [least, greatest] = std::minmax({forward[corners[0]], forward[corners[1]], forward[corners[2]]});
             if (least > reach + margin || greatest < -margin) continue;
             polygon.clear();
-            for (std::size_t k = 0; k < 3; ++k) polygon.push_back(mesh.vertex(corners[k]) - _picture.eye);
+            for (std::size_t k = 0; k < 3; ++k) polygon.push_back(mesh.vertex(corners[k]) - eye);
             for (const HalfSpace& half : wedge) {
                 clipped.clear();
                 for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -218,33 +214,22 @@ private:
                 }
                 polygon.swap(clipped);
             }
-            for (const glm::dvec3& point : polygon) highest = std::max(highest, glm::dot(point, _picture.up) + margin);
+            for (const glm::dvec3& point : polygon) highest = std::max(highest, glm::dot(point, up) + margin);
         }
         return highest;
     }
 
-    // Whether a body is behind the eye, or left or right of the picture.
-    [[nodiscard]] bool isBeside(const BinHull& hull) const {
-        const glm::dvec3 right = glm::cross(_picture.forward, _picture.up);
-        const auto isWholly = [&](const glm::dvec3& outward) {
-            return std::all_of(hull.corners.begin(), hull.corners.end(), [&](const glm::dvec3& corner) {
-                return glm::dot(corner - _picture.eye, outward) > 1.001 * hull.reach * glm::length(outward);
-            });
-        };
-        return isWholly(-_picture.forward) || isWholly(right - _picture.across.upper * _picture.forward) ||
-               isWholly(_picture.across.lower * _picture.forward - right);
-    }
-
-    void addEarth(const Candidate& candidate) {
+    void addEarth(const Quarter& quarter) {
+        const Candidate& candidate = _candidates[quarter.candidate];
         const InstalledTile* const installed = candidate.tile->tile->getInstalledTile();
         const core::GroundPlates* const plates = installed && candidate.tile->isSure ? installed->plates() : nullptr;
         if (!plates) return;
         // a cell should be some strips wide
-        constexpr double kStripsOfCell = 16.0;
+        constexpr double kStripsOfCell = 8.0;
         const double strips = candidate.size / std::max(candidate.distance, 1e-3 * candidate.size) /
                               _picture.across.width() * HorizonBuffer::kStrips;
         std::size_t cells = 8;
-        while (cells > 1 && strips < kStripsOfCell * static_cast<double>(cells)) cells /= 2;
+        while (cells > 2 && strips < kStripsOfCell * static_cast<double>(cells)) cells /= 2;
         // deep enough to reach below what is behind it, and not so deep that columns part
         const AnalyticBinCullCallback& tile = *candidate.tile->tile;
         const double radius = _ellipsoid.polarRadius();
@@ -253,7 +238,9 @@ private:
                      0.09 * radius);
         _columns.clear();
         // coarser cells bridge the gaps between finer ones
-        for (; cells > 0; cells /= 2) plates->appendColumns(cells, depth, _columns);
+        const std::size_t coarsest = candidate.isHidden ? 1 : 2;  // the whole tile is in all of its quarters
+        for (; cells >= coarsest; cells /= 2)
+            plates->appendColumns(cells, quarter.number, depth, _picture.eye, _columns);
         for (const core::EarthColumn& column : _columns) _buffer.add(column);
     }
 
@@ -263,8 +250,8 @@ private:
     const Picture& _picture;
     HorizonBuffer _buffer;
     std::vector<Candidate> _candidates;
-    std::vector<Part> _parts;
-    std::vector<std::pair<double, std::size_t>> _order;  // of the parts, by the distance of the nearest point
+    std::vector<Quarter> _quarters;
+    std::vector<std::pair<double, std::size_t>> _order;  // of the quarters, by the distance of the nearest point
     std::vector<core::EarthColumn> _columns;
 };
 

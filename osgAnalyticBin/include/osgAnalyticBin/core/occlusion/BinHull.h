@@ -4,6 +4,7 @@
 #pragma once
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/core/Frame.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 
 #include <glm/vec3.hpp>
@@ -12,17 +13,20 @@
 
 namespace osgAnalyticBin::core {
 
-/// A body that holds a bin: all points within `reach` metres of the convex hull of the bin's corners, ECEF.
-/// Source: doc/occlusion.md, section 4. Guarantee: it holds the bin; test: BinHull.HoldsTheBin.
+/// A body that holds a part of a bin: all points within `reach` metres of the convex hull of eight corners.
+/// Source: doc/occlusion.md, section 4.
 struct BinHull {
-    /// `margin`: metres by which the body extends beyond the bin. `reach` is infinite on ellipsoids whose squared
-    /// eccentricity is not between -0.01 and 0.01. Requires: a bin that is not empty.
-    BinHull(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept;
-
-    /// ECEF, metres.
+    /// Metres, in the frame that was given.
     std::array<glm::dvec3, 8> corners;
     /// Metres.
     double reach;
 };
+
+/// The bodies that hold the south-western, south-eastern, north-western and north-eastern quarter of a bin. `margin`:
+/// metres by which they extend beyond the bin. Their reach is infinite on ellipsoids whose squared eccentricity is not
+/// between -0.01 and 0.01. Requires: a bin that is not empty.
+/// Guarantee: each holds its quarter; test: BinHull.HoldsTheQuartersOfTheBin.
+[[nodiscard]] std::array<BinHull, 4> hullsOfQuarters(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin,
+                                                     const Frame& frame) noexcept;
 
 }  // namespace osgAnalyticBin::core

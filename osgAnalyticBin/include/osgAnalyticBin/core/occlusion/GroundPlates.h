@@ -4,6 +4,7 @@
 #pragma once
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/core/Frame.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 #include <osgAnalyticBin/core/mesh/MeshBounds.h>
 
@@ -16,7 +17,8 @@
 
 namespace osgAnalyticBin::core {
 
-/// A convex body within the earth below a terrain's surface: the hull of eight corners, ECEF.
+/// A convex body within the earth below a terrain's surface: the hull of eight corners, in metres of the frame that was
+/// given.
 struct EarthColumn {
     /// @{
     /// The corners of a cell, south-west, south-east, north-west, north-east.
@@ -49,12 +51,14 @@ public:
     /// infinity: not known. Requires: such a grid and cell.
     [[nodiscard]] double least(std::size_t cells, std::size_t row, std::size_t column) const noexcept;
 
-    /// Appends the earth below each known cell of a grid, `depth` metres deep, row by row.
+    /// Appends the earth below each known cell of a grid that is in one quarter of the tile, `depth` metres deep, row
+    /// by row, in coordinates of a frame. Quarters are numbered as by hullsOfQuarters(); one cell is in all of them.
     /// Guarantee: every point of a column, up to its `error`, has the mesh above it, along the ellipsoid's normal;
     /// tests: GroundPlates.ColumnsLieBelowTheMesh*. It appends nothing for cells too wide for the rim: with angles in
     /// radians, where the square of the width in longitude exceeds about an eighth of the width in latitude. Requires:
     /// `cells` as in least(). Cost: a few ten nanoseconds a column.
-    void appendColumns(std::size_t cells, double depth, std::vector<EarthColumn>& columns) const;
+    void appendColumns(std::size_t cells, std::size_t quarter, double depth, const Frame& frame,
+                       std::vector<EarthColumn>& columns) const;
 
 private:
     [[nodiscard]] bool fitsColumns(std::size_t cells, double depth) const noexcept;
