@@ -23,7 +23,7 @@ constexpr std::array<std::pair<const char*, const char*>, 6> kBinBases{{{"box", 
                                                                         {"quadratic", "quadratic"},
                                                                         {"exact", "exact"}}};
 
-constexpr std::array<const char*, 19> kAll{"none",
+constexpr std::array<const char*, 20> kAll{"none",
                                            "sphere",
                                            "cluster",
                                            "box",
@@ -41,6 +41,7 @@ constexpr std::array<const char*, 19> kAll{"none",
                                            "exact",
                                            "exact+horizon",
                                            kReplayedMethod,
+                                           "exact+horizon+reverse+occlusion",
                                            kOracleMethod};
 
 // Takes a suffix off the end of a name. Returns: whether it was there.
@@ -61,15 +62,16 @@ std::string CullMethod::sceneName(const std::string& database, const std::string
         if (!binOptions.empty()) parameters += "," + binOptions;
         if (!usesHorizon) parameters += ",horizon=off";
         parameters += usesReverse ? ",reverse=on" : ",reverse=off";
+        parameters += usesOcclusion ? ",occlusion=on" : ",occlusion=off";
     }
     return database + ".(" + parameters + ").analyticbin";
 }
 
 CullMethod cullMethodFromName(const std::string& name) {
-    if (name == kReferenceMethod) return {name, "none", false, false, Clusters::Remove, true};
-    if (name == "sphere") return {name, "sphere", false, false, Clusters::Remove, false};
+    if (name == kReferenceMethod) return {name, "none", false, false, false, Clusters::Remove, true};
+    if (name == "sphere") return {name, "sphere", false, false, false, Clusters::Remove, false};
     // Stock OSG with what a builder of databases gives it.
-    if (name == "cluster") return {name, "sphere", false, false, Clusters::Fill, false};
+    if (name == "cluster") return {name, "sphere", false, false, false, Clusters::Fill, false};
     if (name == kOracleMethod) {
         CullMethod oracle = cullMethodFromName(kReplayedMethod);
         oracle.name = name;
@@ -77,16 +79,19 @@ CullMethod cullMethodFromName(const std::string& name) {
         return oracle;
     }
     std::string base = name;
-    CullMethod method{name, {}, false, false, Clusters::Keep, false};
+    CullMethod method{name, {}, false, false, false, Clusters::Keep, false};
+    method.usesOcclusion = takeSuffix(base, "+occlusion");
     method.usesReverse = takeSuffix(base, "+reverse");
     method.usesHorizon = takeSuffix(base, "+horizon");
     for (const auto& [known, loaderMethod] : kBinBases)
         if (base == known) method.loaderMethod = loaderMethod;
-    if (!method.loaderMethod.empty()) return method;
+    // terrain hides terrain for an eye that has a horizon, and not in the methods for comparison
+    const bool makesSense = !method.usesOcclusion || (method.usesHorizon && (base == "exact" || base == "quadratic"));
+    if (!method.loaderMethod.empty() && makesSense) return method;
     throw Failure(
         "--methods: unknown method \"" + name +
         "\"; use none, sphere, cluster, oracle, all, or box, orientedBox, corners, paper, quadratic or exact, these "
-        "with +horizon, +reverse or +horizon+reverse");
+        "with +horizon, +reverse or +horizon+reverse; quadratic and exact with +horizon, also +occlusion");
 }
 
 std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& names) {

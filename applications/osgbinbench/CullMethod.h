@@ -10,14 +10,16 @@
 
 namespace osgAnalyticBin::bench {
 
-/// A way to cull a database, by the name that the command line and the tables use: BASE[+horizon][+reverse]. A plain
-/// base culls by the frustum's planes alone.
+/// A way to cull a database, by the name that the command line and the tables use: BASE[+horizon][+reverse][+occlusion].
+/// A plain base culls by the frustum's planes alone.
 struct CullMethod {
     std::string name;
     /// What the pseudo-loader analyticbin is asked for.
     std::string loaderMethod;
     bool usesHorizon = false;
     bool usesReverse = false;
+    /// Whether terrain hides terrain.
+    bool usesOcclusion = false;
     /// What becomes of the database's own ClusterCullingCallbacks; bins see to it by themselves.
     Clusters clusters = Clusters::Keep;
     /// Whether the camera culls nothing at all.

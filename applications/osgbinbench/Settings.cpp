@@ -90,9 +90,11 @@ std::string footer() {
         "quadratic, exact = analytic bins. The last six cull by the frustum's planes alone; +horizon adds the horizon\n"
         "(boxes: of one point), +reverse tiles beyond an edge of the frustum (boxes: a frustum beyond a face), in "
         "this\n"
-        "order: exact+horizon+reverse is everything on. oracle = what that keeps, recorded at each pose and repeated\n"
-        "without any test: what culling would cost if tests were free (not in flight). all = these methods, in the "
-        "combinations worth comparing.\n"
+        "order: exact+horizon+reverse is what is on by default; +occlusion behind it adds tiles behind terrain. oracle "
+        "=\n"
+        "what exact+horizon+reverse keeps, recorded at each pose and repeated without any test: what culling would "
+        "cost\n"
+        "if tests were free (not in flight). all = these methods, in the combinations worth comparing.\n"
         "Afterwards the path is flown continuously, every method once, while files are being loaded: --live; with\n"
         "--frames nothing but that. Methods take turns of 10 frames each; these are culled, and not drawn. What leaves "
         "the\n"
@@ -196,6 +198,9 @@ void check(const Settings& settings) {
         throw Failure("--options: leave +horizon out of the names in --methods instead of horizon=off");
     if (binOptions->reverse)
         throw Failure("--options: name methods with or without +reverse in --methods instead of reverse=on or off");
+    if (settings.binOptions.find("occlusion=") != std::string::npos)
+        throw Failure("--options: name methods with +occlusion in --methods instead of \"" + settings.binOptions +
+                      "\"");
     if (settings.frames > 0 && !settings.pictures.empty())
         throw Failure("--pictures: a continuous flight takes none; leave --frames out");
     if (settings.frames > 0 && !settings.plot.empty())

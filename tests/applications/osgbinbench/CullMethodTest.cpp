@@ -40,10 +40,11 @@ TEST(CullMethod, FliesTheReferenceFirstAndEveryMethodOnce) {
 
 TEST(CullMethod, AllStandsForWhatIsWorthComparing) {
     const std::vector<std::string> names = namesOf(cullMethodsFromNames({"exact", "all"}));
-    EXPECT_EQ(names.size(), 19U);
+    EXPECT_EQ(names.size(), 20U);
     EXPECT_EQ(names[0], "none");
     EXPECT_EQ(names[1], "exact") << "each once, in the order given";
-    for (const char* const name : {"sphere", "cluster", "box", "orientedBox+horizon+reverse", "exact+horizon+reverse"})
+    for (const char* const name : {"sphere", "cluster", "box", "orientedBox+horizon+reverse", "exact+horizon+reverse",
+                                   "exact+horizon+reverse+occlusion"})
         EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
 }
 
@@ -85,9 +86,19 @@ TEST(CullMethod, PlainNamesCullByPlanesAlone) {
     EXPECT_EQ(optionsOf("exact+horizon").method, Method::Exact);
 }
 
+TEST(CullMethod, TerrainHidesTerrainOnlyWhereItIsNamed) {
+    EXPECT_FALSE(optionsOf("exact+horizon+reverse").occlusion);
+    for (const char* const name : {"exact+horizon+reverse+occlusion", "quadratic+horizon+occlusion"}) {
+        EXPECT_TRUE(optionsOf(name).occlusion) << name;
+        EXPECT_EQ(optionsOf(name).effectiveHorizonUse(), HorizonUse::Declared) << name;
+    }
+    EXPECT_TRUE(optionsOf("exact+horizon+reverse+occlusion").effectiveReverse());
+    EXPECT_FALSE(optionsOf("exact+horizon+occlusion").effectiveReverse());
+}
+
 TEST(CullMethod, NamesThePseudoLoader) {
     EXPECT_EQ(cullMethodFromName("exact+horizon+reverse").sceneName("a/earth.osgb", "skirts=all"),
-              "a/earth.osgb.(method=exact,horizon=declared,skirts=all,reverse=on).analyticbin");
+              "a/earth.osgb.(method=exact,horizon=declared,skirts=all,reverse=on,occlusion=off).analyticbin");
     EXPECT_EQ(cullMethodFromName("cluster").sceneName("earth.osgb", "horizon=-5"),
               "earth.osgb.(method=sphere).analyticbin");
 }
@@ -95,7 +106,8 @@ TEST(CullMethod, NamesThePseudoLoader) {
 TEST(CullMethod, RefusesWhatIsUnknownOrMakesNoSense) {
     for (const char* const name :
          {"spheres", "sphere+horizon", "none+reverse", "cluster+horizon", "oracle+horizon", "orientedbox",
-          "exact+reverse+horizon", "exact+horizon+horizon", "exact+", "+horizon", ""})
+          "exact+reverse+horizon", "exact+horizon+horizon", "exact+", "+horizon", "", "exact+occlusion",
+          "exact+reverse+occlusion", "box+horizon+occlusion", "exact+horizon+occlusion+reverse", "sphere+occlusion"})
         EXPECT_THROW((void)cullMethodFromName(name), Failure) << name;
 }
 

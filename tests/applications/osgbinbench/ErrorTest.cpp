@@ -34,6 +34,7 @@ TEST(Errors, OfTheCommandLineNameTheOption) {
     expectOneLine(test::runBenchBlind(good + " --methods sphere+horizon"), "unknown method \"sphere+horizon\"");
     expectOneLine(test::runBenchBlind(good + " --options horizon=off"), "--options: leave +horizon out");
     expectOneLine(test::runBenchBlind(good + " --options reverse=off"), "--options: name methods with or without");
+    expectOneLine(test::runBenchBlind(good + " --options occlusion=on"), "--options: name methods with +occlusion");
     expectOneLine(test::runBenchBlind(good + " --size 640"), "--size: \"640\"");
     expectOneLine(test::runBenchBlind(good + " --size 640x480x3"), "--size: ");
     expectOneLine(test::runBenchBlind(good + " --threading Many"), "--threading: unknown model \"Many\"");
