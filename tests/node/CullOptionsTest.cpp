@@ -50,6 +50,21 @@ TEST(CullOptions, EveryMethodReadsBack) {
     }
 }
 
+TEST(CullOptions, OcclusionReadsBack) {
+    std::string error;
+    EXPECT_EQ(CullOptions().occlusion, OcclusionUse::Off);
+    for (const OcclusionUse use : {OcclusionUse::Off, OcclusionUse::On, OcclusionUse::Auto}) {
+        CullOptions options;
+        options.occlusion = use;
+        EXPECT_EQ(cullOptionsFromText(toText(options), error)->occlusion, use);
+    }
+    EXPECT_EQ(cullOptionsFromText("occlusion=auto", error)->occlusion, OcclusionUse::Auto);
+    for (const char* text : {"occlusion=maybe", "occlusion"}) {
+        EXPECT_FALSE(cullOptionsFromText(text, error)) << text;
+        EXPECT_NE(error.find("use on, off or auto"), std::string::npos) << error;
+    }
+}
+
 TEST(CullOptions, HorizonAndReverseReadBack) {
     std::string error;
     for (const char* text : {"horizon=-500.25 reverse=off", "horizon=off", "horizon=declared,reverse=on"}) {

@@ -26,14 +26,8 @@ namespace osgAnalyticBin {
 namespace {
 
 using test::CullView;
+using test::optionsOf;
 using test::PlanarMap;
-
-CullOptions optionsOf(const std::string& text) {
-    std::string error;
-    const auto options = cullOptionsFromText(text, error);
-    EXPECT_TRUE(options) << error;
-    return options.value_or(CullOptions());
-}
 
 // Notes the drawables that a traversal comes to, whatever becomes of their own boxes.
 class Reached : public osgUtil::CullVisitor {

@@ -21,14 +21,8 @@
 namespace osgAnalyticBin {
 namespace {
 
+using test::optionsOf;
 using test::PlanarMap;
-
-CullOptions optionsOf(const std::string& text) {
-    std::string error;
-    const auto options = cullOptionsFromText(text, error);
-    EXPECT_TRUE(options) << error;
-    return options.value_or(CullOptions());
-}
 
 osg::ref_ptr<osg::PagedLOD> paged(const osg::ref_ptr<osg::Node>& mesh) {
     osg::ref_ptr<osg::PagedLOD> node = new osg::PagedLOD;

@@ -147,4 +147,11 @@ osg::ref_ptr<osg::CoordinateSystemNode> PlanarMap::build(const std::string& fold
     return root;
 }
 
+CullOptions optionsOf(const std::string& text) {
+    std::string error;
+    const auto options = cullOptionsFromText(text, error);
+    if (!options) throw std::invalid_argument(error);
+    return *options;
+}
+
 }  // namespace osgAnalyticBin::test

@@ -6,6 +6,8 @@
 
 #pragma once
 
+#include <osgAnalyticBin/CullOptions.h>
+
 #include <osg/CoordinateSystemNode>
 #include <osg/Group>
 #include <osgTerrain/Terrain>
@@ -35,6 +37,9 @@ struct PlanarMap {
 private:
     [[nodiscard]] osg::ref_ptr<osg::Node> tile(const std::string& folder, int level, int x, int y) const;
 };
+
+/// From option text that is right.
+[[nodiscard]] CullOptions optionsOf(const std::string& text);
 
 inline constexpr const char* kUtm = "PROJCS[\"WGS 84 / UTM zone 33N\",GEOGCS[\"WGS 84\"]]";
 

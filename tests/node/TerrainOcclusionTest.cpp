@@ -16,6 +16,7 @@
 #include <osgUtil/UpdateVisitor>
 
 #include <functional>
+#include <support/CapturedNotes.h>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -23,7 +24,7 @@ namespace {
 
 CullOptions withOcclusion() {
     CullOptions options;
-    options.occlusion = true;
+    options.occlusion = OcclusionUse::On;
     return options;
 }
 
@@ -111,6 +112,22 @@ TEST(TerrainOcclusion, NeedsARidgeThatIsDrawnAsItWas) {
     }
 }
 
+TEST(TerrainOcclusion, RestsWhereItDoesNotPayIfLeftToItself) {
+    RidgeGlobe globe;
+    CullOptions options;
+    options.occlusion = OcclusionUse::Auto;
+    installBins(*globe.root, options);
+    for (int i = 0; i < 20; ++i) EXPECT_FALSE(globe.drawsFarTile()) << i;
+    const CullView high = CullView::lookAt(ecefDeg(0.1, 0.1, 40000.0), ecefDeg(0.1, 0.9, 0.0), {1, 0, 0}, 30.0);
+    for (int i = 0; i < 200; ++i) EXPECT_TRUE(globe.drawsFarTile(high)) << i;
+    // tried again after 64 views
+    int rested = 0;
+    while (rested < 100 && globe.drawsFarTile()) ++rested;
+    EXPECT_GE(rested, 1);
+    EXPECT_LE(rested, 64);
+    for (int i = 0; i < 20; ++i) EXPECT_FALSE(globe.drawsFarTile()) << i;
+}
+
 TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
     RidgeGlobe globe;
     installBins(*globe.root, withOcclusion());
@@ -130,7 +147,11 @@ TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
     // where OSG computes it, anything far away in the scene may move it
     CullView computed = RidgeGlobe::alongRow();
     computed.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
-    EXPECT_TRUE(globe.drawsFarTile(computed));
+    {
+        const CapturedNotes notes;
+        for (int i = 0; i < 3; ++i) EXPECT_TRUE(globe.drawsFarTile(computed));
+        EXPECT_EQ(notes.count("DO_NOT_COMPUTE_NEAR_FAR"), 1u);
+    }
     CullView nearPlane = RidgeGlobe::alongRow();
     nearPlane.cullingMode |= osg::CullSettings::NEAR_PLANE_CULLING;
     EXPECT_TRUE(globe.drawsFarTile(nearPlane));

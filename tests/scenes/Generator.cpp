@@ -271,7 +271,7 @@ void chooseTheme(Random& random, Description& description) {
         database.posts = random.integer(5, 17);
         database.levels = std::min(database.levels, 1);
         database.verticalScale = 1.0;
-        database.options.occlusion = true;
+        database.options.occlusion = OcclusionUse::On;
         database.options.heights = {-database.relief - 1.0, database.relief + 1.0};
         if (database.options.horizonUse != HorizonUse::Declared) database.options.horizonUse = HorizonUse::ByMethod;
     }

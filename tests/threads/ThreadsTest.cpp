@@ -77,7 +77,7 @@ CullOptions optionsWith(Method method, HorizonUse horizonUse = HorizonUse::ByMet
     options.horizonUse = horizonUse;
     options.horizon = -130000.0;
     options.expiry = 0.1;
-    options.occlusion = true;
+    options.occlusion = OcclusionUse::On;
     return options;
 }
 

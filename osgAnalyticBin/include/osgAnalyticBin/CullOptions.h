@@ -42,6 +42,13 @@ enum class HorizonUse {
     Given      ///< against the lowest surface shown, never below CullOptions::horizon
 };
 
+/// Whether tiles behind terrain are culled.
+enum class OcclusionUse {
+    Off,  ///< never; the default
+    On,   ///< in every frame
+    Auto  ///< while terrain hides a quarter of the tiles in view; elsewhere it is tried every 64 frames at least
+};
+
 /// What of the skirts that hang from the edges of tiles a bin holds. Tiles of a map always hold all of them: at the
 /// border of the map they are in plain view.
 enum class SkirtUse {
@@ -79,7 +86,7 @@ struct CullOptions {
     std::optional<bool> reverse;
     /// Whether tiles behind terrain are culled: on a globe whose horizon is used (see `horizonUse`), for tiles whose
     /// meshes the kit reads, by cameras that do not compute their near plane.
-    bool occlusion = false;
+    OcclusionUse occlusion = OcclusionUse::Off;
     /// Seconds for which the DatabasePager keeps a tile's finer children after they were last seen, when it has more
     /// PagedLODs than its target; 0 leaves OSG's own rule alone. Bins cull what spheres keep by chance: without this,
     /// turning the head and back reads the same files again.

@@ -123,7 +123,16 @@ bool applyReverse(const std::string& value, CullOptions& options, std::string& e
 }
 
 bool applyOcclusion(const std::string& value, CullOptions& options, std::string& error) {
-    return applySwitch("occlusion", value, options.occlusion, error);
+    if (value == "auto") {
+        options.occlusion = OcclusionUse::Auto;
+        return true;
+    }
+    if (value != "on" && value != "off") {
+        error = "bad occlusion \"" + value + "\" (use on, off or auto)";
+        return false;
+    }
+    options.occlusion = value == "on" ? OcclusionUse::On : OcclusionUse::Off;
+    return true;
 }
 
 bool applyIndex(const std::string& value, CullOptions& options, std::string& error) {
@@ -145,7 +154,7 @@ constexpr std::array<KnownItem, 11> kItems{{{"method", "NAME", applyMethod},
                                             {"horizon", "METRES|declared|off", applyHorizon},
                                             {"inheritviewpoint", "on|off", applyInheritViewpoint},
                                             {"reverse", "on|off", applyReverse},
-                                            {"occlusion", "on|off", applyOcclusion},
+                                            {"occlusion", "on|off|auto", applyOcclusion},
                                             {"expiry", "SECONDS", applyExpiry},
                                             {"skirts", "cracks|all", applySkirts},
                                             {"cluster", "replace|keep", applyCluster},
@@ -235,7 +244,8 @@ std::string toText(const CullOptions& options) {
     if (options.horizonUse == HorizonUse::Given) text += ",horizon=" + numberToText(options.horizon);
     if (options.inheritViewpoint) text += ",inheritviewpoint=on";
     if (options.reverse) text += *options.reverse ? ",reverse=on" : ",reverse=off";
-    if (options.occlusion) text += ",occlusion=on";
+    if (options.occlusion != OcclusionUse::Off)
+        text += options.occlusion == OcclusionUse::On ? ",occlusion=on" : ",occlusion=auto";
     if (options.expiry != CullOptions::kDefaultExpiry) text += ",expiry=" + numberToText(options.expiry);
     if (options.skirts == SkirtUse::All) text += ",skirts=all";
     if (options.cluster == ClusterUse::Keep) text += ",cluster=keep";

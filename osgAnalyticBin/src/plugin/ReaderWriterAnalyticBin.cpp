@@ -68,8 +68,9 @@ public:
         supportsOption(
             "reverse=on|off",
             "Tests tiles across an edge of the frustum against the edge too; default on, for comparison off.");
-        supportsOption("occlusion=on|off",
-                       "Culls tiles behind terrain, on whole globes where the near plane is fixed; default off.");
+        supportsOption("occlusion=on|off|auto",
+                       "Culls tiles behind terrain, on whole globes where the near plane is fixed; auto: while that "
+                       "hides a quarter of the tiles in view; default off.");
         supportsOption("expiry=SECONDS",
                        "How long finer tiles out of view are kept when the DatabasePager has more than its target; "
                        "default 3, 0 leaves OSG's own rule alone.");

@@ -87,9 +87,9 @@ TEST(CullMethod, PlainNamesCullByPlanesAlone) {
 }
 
 TEST(CullMethod, TerrainHidesTerrainOnlyWhereItIsNamed) {
-    EXPECT_FALSE(optionsOf("exact+horizon+reverse").occlusion);
+    EXPECT_EQ(optionsOf("exact+horizon+reverse").occlusion, OcclusionUse::Off);
     for (const char* const name : {"exact+horizon+reverse+occlusion", "quadratic+horizon+occlusion"}) {
-        EXPECT_TRUE(optionsOf(name).occlusion) << name;
+        EXPECT_EQ(optionsOf(name).occlusion, OcclusionUse::On) << name;
         EXPECT_EQ(optionsOf(name).effectiveHorizonUse(), HorizonUse::Declared) << name;
     }
     EXPECT_TRUE(optionsOf("exact+horizon+reverse+occlusion").effectiveReverse());

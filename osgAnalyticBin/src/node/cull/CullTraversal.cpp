@@ -124,13 +124,13 @@ const core::HorizonEye* CullTraversal::horizonEye(osg::CullStack& cullStack, osg
     return _eye ? &*_eye : nullptr;
 }
 
-double& CullTraversal::lastDepth(const Database& database) {
-    for (auto& [known, depth] : _lastDepths) {
-        if (known == &database) return depth;
+CullTraversal::LastView& CullTraversal::lastView(const Database& database) {
+    for (auto& [known, view] : _lastViews) {
+        if (known == &database) return view;
     }
     constexpr std::size_t kMostDatabases = 64;
-    if (_lastDepths.size() >= kMostDatabases) _lastDepths.clear();
-    return _lastDepths.emplace_back(&database, 0.0).second;
+    if (_lastViews.size() >= kMostDatabases) _lastViews.clear();
+    return _lastViews.emplace_back(&database, LastView()).second;
 }
 
 }  // namespace osgAnalyticBin

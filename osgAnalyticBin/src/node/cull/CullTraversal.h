@@ -87,8 +87,13 @@ public:
     /// The database that is being traversed; nullptr: none that says so.
     [[nodiscard]] const DatabaseView* databaseView() const { return _databaseView; }
 
-    /// The depth of the lowest surface that this visitor last found a database to show: where it looks next time.
-    [[nodiscard]] double& lastDepth(const Database& database);
+    /// What this visitor last found out about a database.
+    struct LastView {
+        double depth = 0.0;     ///< of the lowest surface shown: where it looks next time
+        unsigned int rest = 0;  ///< views for which terrain was not to hide terrain, because it had hidden too little
+        unsigned int resting = 0;  ///< of these, the views that are left
+    };
+    [[nodiscard]] LastView& lastView(const Database& database);
 
     /// The plan for the database that is traversed next. Each of several nested databases has its own.
     [[nodiscard]] TilePlan& plan();
@@ -112,7 +117,7 @@ private:
     [[nodiscard]] bool holds(const osg::Polytope::PlaneList& list) const;
 
     const DatabaseView* _databaseView = nullptr;
-    std::vector<std::pair<const Database*, double>> _lastDepths;
+    std::vector<std::pair<const Database*, LastView>> _lastViews;
     const osg::Node* _kept = nullptr;
     std::deque<TilePlan> _plans;  // of databases within each other
     std::size_t _openPlans = 0;

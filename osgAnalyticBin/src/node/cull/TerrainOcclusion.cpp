@@ -103,13 +103,13 @@ public:
           _buffer(glm::length(picture.eye.origin), picture.across, picture.drawing) {}
 
     // `nearReach`: metres from the eye at which the near plane may still cut terrain away.
-    void run(double nearReach) {
+    OccludedTiles run(double nearReach) {
         for (const TilePlan::ShownTile& tile : _plan.shown()) {
-            if (!isWhole(tile) || !add(tile)) return;
+            if (!isWhole(tile) || !add(tile)) return {};
         }
         std::sort(_order.begin(), _order.end());
         const std::optional<double> lowest = lowestSight(1.01 * nearReach);
-        if (!lowest) return;
+        if (!lowest) return {};
         _buffer.setLowest(*lowest);
         for (const auto& [nearest, number] : _order) {
             const Quarter& quarter = _quarters[number];
@@ -118,10 +118,15 @@ public:
             _candidates[quarter.candidate].isHidden = false;
         }
         std::vector<TilePlan::ShownTile> occluded;
+        OccludedTiles tiles;
         for (const Candidate& candidate : _candidates) {
-            if (candidate.isHidden && !_plan.isOutOfView(*candidate.tile)) occluded.push_back(*candidate.tile);
+            if (_plan.isOutOfView(*candidate.tile)) continue;
+            ++tiles.inView;
+            if (candidate.isHidden) occluded.push_back(*candidate.tile);
         }
+        tiles.hidden = occluded.size();
         _plan.setOccluded(occluded);
+        return tiles;
     }
 
 private:
@@ -257,13 +262,13 @@ private:
 
 }  // namespace
 
-void cullBehindTerrain(const ShownDatabase& database, const Viewpoint& viewpoint) {
-    if (!viewpoint.eye() || !database.view.plan || !std::isfinite(viewpoint.nearReach())) return;
+OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& viewpoint) {
+    if (!viewpoint.eye() || !database.view.plan || !std::isfinite(viewpoint.nearReach())) return {};
     // tiles in front of the near plane are not looked for then
     constexpr osg::CullingSet::Mask kNear = osg::CullingSet::NEAR_PLANE_CULLING;
-    if (database.cullStack.getCurrentCullingSet().getCullingMask() & kNear) return;
+    if (database.cullStack.getCurrentCullingSet().getCullingMask() & kNear) return {};
     const auto picture = pictureOf(database, *viewpoint.eye());
-    if (picture) TerrainOcclusion(database, *picture).run(viewpoint.nearReach());
+    return picture ? TerrainOcclusion(database, *picture).run(viewpoint.nearReach()) : OccludedTiles();
 }
 
 }  // namespace osgAnalyticBin

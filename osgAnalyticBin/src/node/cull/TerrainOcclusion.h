@@ -5,7 +5,15 @@
 
 #include "ShownDepth.h"
 
+#include <cstddef>
+
 namespace osgAnalyticBin {
+
+/// What was found of the tiles that a database shows.
+struct OccludedTiles {
+    std::size_t hidden = 0;
+    std::size_t inView = 0;  ///< these included
+};
 
 /// Says in the database's plan which of the shown tiles lie behind the terrain of others, seen from an eye above the
 /// terrain. It does nothing for orthographic cameras, for views that look so steeply that there is no horizon in front
@@ -15,6 +23,6 @@ namespace osgAnalyticBin {
 /// Guarantee: every line of sight to a tile that is culled meets the mesh of another shown tile before; tests:
 /// TerrainOcclusion.*. Source: doc/occlusion.md, section 5.
 /// Cost: a sort of the shown tiles, a few microseconds for each that is not hidden.
-void cullBehindTerrain(const ShownDatabase& database, const Viewpoint& viewpoint);
+OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& viewpoint);
 
 }  // namespace osgAnalyticBin

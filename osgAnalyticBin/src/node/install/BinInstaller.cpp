@@ -294,7 +294,7 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     if (fit.skirt > 0.0) callback->setSkirt(fit.skirt);
     callback->setSurface(fit.surface);
     placeCallback(tile, culled, *callback, database());
-    if (_options.occlusion && !fit.isScalable)
+    if (_options.occlusion != OcclusionUse::Off && !fit.isScalable)
         callback->getInstalledTile()->setPlates(tilePlates(tile.meshes, ellipsoid, tile.frame.localToEcef));
     ++_installed;
     if (_options.cluster == ClusterUse::Replace) {

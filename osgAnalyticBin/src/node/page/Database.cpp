@@ -136,6 +136,13 @@ void Database::noteStrayTile(const std::string& where) {
         << std::endl;
 }
 
+void Database::noteUnknownNearPlane() {
+    if (_hasUnknownNearPlane.exchange(true, std::memory_order_relaxed)) return;
+    OSG_WARN << "osgAnalyticBin: occlusion=on hides nothing for cameras that compute their near plane; set "
+                "DO_NOT_COMPUTE_NEAR_FAR (the environment variable OSG_COMPUTE_NEAR_FAR_MODE)."
+             << std::endl;
+}
+
 void Database::noteUnknownTechnique() {
     if (_hasUnknownTechnique.exchange(true, std::memory_order_relaxed)) return;
     OSG_INFO << "osgAnalyticBin: the Terrain has a technique that is not osgTerrain::GeometryTechnique; its tiles are "

@@ -99,6 +99,9 @@ public:
     void noteStrayTile(const std::string& where);
     [[nodiscard]] bool hasStrayTile() const { return _hasStrayTile.load(std::memory_order_relaxed); }
 
+    /// Says that terrain was to hide terrain for a camera whose near plane is not known before all is culled.
+    void noteUnknownNearPlane();
+
     /// Says that osgTerrain tiles are drawn in a way that is not known.
     void noteUnknownTechnique();
 
@@ -149,6 +152,7 @@ private:
     std::atomic<bool> _hasGap{false};
     std::atomic<bool> _hasStrayTile{false};
     std::atomic<bool> _hasUnknownTechnique{false};
+    std::atomic<bool> _hasUnknownNearPlane{false};
     mutable std::mutex _mutex;  // guards what follows
     CullOptions _options;
     TerrainShape _fittedShape;

@@ -19,6 +19,7 @@
 #include <osg/CullStack>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -26,6 +27,22 @@
 namespace osgAnalyticBin {
 
 namespace {
+
+// Whether terrain is to hide terrain in this view.
+bool isOcclusionDue(OcclusionUse use, CullTraversal::LastView& last) {
+    if (use != OcclusionUse::Auto || last.resting == 0) return use != OcclusionUse::Off;
+    --last.resting;
+    return false;
+}
+
+// Rests where it did not pay, the longer the more often. A hidden tile saves what drawing it costs, some microseconds
+// at least; looking for hidden ones takes two or three for each tile in view.
+void noteOccluded(const OccludedTiles& tiles, CullTraversal::LastView& last) {
+    constexpr unsigned int kShortestRest = 8, kLongestRest = 64;
+    const bool pays = 4 * tiles.hidden >= tiles.inView && tiles.hidden > 0;
+    last.rest = pays ? 0 : std::clamp(2 * last.rest, kShortestRest, kLongestRest);
+    last.resting = last.rest;
+}
 
 std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack,
                                         Database& database, const DatabaseView& view) {
@@ -41,16 +58,20 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
     const auto viewpoint = Viewpoint::of(cullStack, nv, options.inheritViewpoint);
     if (!viewpoint) return std::nullopt;
     const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
-    const bool findsOccluded = options.occlusion && isAboveTerrain && !isForComparison(options.method);
+    CullTraversal::LastView& last = CullTraversal::of(nv).lastView(database);
+    const bool findsOccluded =
+        isAboveTerrain && !isForComparison(options.method) && isOcclusionDue(options.occlusion, last);
+    if (findsOccluded && options.occlusion == OcclusionUse::On && !std::isfinite(viewpoint->nearReach()) &&
+        viewpoint->eye())
+        database.noteUnknownNearPlane();
     const ShownDatabase shown{node, nv, cullStack, view, findsOccluded};
     if (isGiven && (!isAboveTerrain || database.hasGap())) return eyeAboveDepth(shown, *viewpoint, deepest);
     // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: what is shown
     // shall not depend on where the camera has been.
     constexpr unsigned int kFreshStart = 16;
-    double& depth = CullTraversal::of(nv).lastDepth(database);
-    if (nv.getTraversalNumber() % kFreshStart == 0) depth = 0.0;
-    const auto eye = eyeAboveWhatIsShown(shown, *viewpoint, deepest, depth);
-    if (eye && findsOccluded) cullBehindTerrain(shown, *viewpoint);
+    if (nv.getTraversalNumber() % kFreshStart == 0) last.depth = 0.0;
+    const auto eye = eyeAboveWhatIsShown(shown, *viewpoint, deepest, last.depth);
+    if (findsOccluded) noteOccluded(eye ? cullBehindTerrain(shown, *viewpoint) : OccludedTiles(), last);
     return eye;
 }
 
