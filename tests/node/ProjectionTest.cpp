@@ -288,6 +288,9 @@ TEST(Projections, WhatIsBehindAnOrthographicEyeHidesNothing) {
     view.projection = osg::Matrixd::ortho(-8e6, 8e6, -8e6, 8e6, -1e8, 1e8);
     view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
     EXPECT_EQ(lookOf(globe, view).reached.size(), 128u);
+    // before the occluder, but not before the terrain
+    view.modelView = alongX(-kEarthRadius + 0.5 * kOccluderDepth);
+    EXPECT_EQ(lookOf(globe, view).reached.size(), 128u);
     view.modelView = alongX(-1e7);
     EXPECT_LT(lookOf(globe, view).reached.size(), 100u);
     view.modelView = alongX(0.0);

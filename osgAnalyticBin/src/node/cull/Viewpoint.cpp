@@ -118,7 +118,11 @@ double Viewpoint::nearReach() const noexcept {
 }
 
 std::optional<core::HorizonEye> Viewpoint::above(const core::Ellipsoid& ellipsoid, double depth) const noexcept {
-    if (_isDirection) return core::HorizonEye::fromDirection(ellipsoid, depth, _direction, _point);
+    if (_isDirection) {
+        // a near plane that cuts the globe open shows its inside, however deep the occluder lies
+        if (!core::HorizonEye::fromDirection(ellipsoid, 0.0, _direction, _point)) return std::nullopt;
+        return core::HorizonEye::fromDirection(ellipsoid, depth, _direction, _point);
+    }
     if (_nearReach > 0.0 && !(_nearReach < distanceTo(ellipsoid, depth, _point))) return std::nullopt;
     return core::HorizonEye::fromEye(ellipsoid, depth, _point);
 }

@@ -22,7 +22,7 @@ public:
                                                      bool inShadowPasses);
 
     /// See core::HorizonEye; depth in metres below the ellipsoid. Nothing is hidden when the near plane may reach the
-    /// occluder.
+    /// occluder, nor when that of an orthographic camera reaches the ellipsoid.
     [[nodiscard]] std::optional<core::HorizonEye> above(const core::Ellipsoid& ellipsoid, double depth) const noexcept;
 
     /// The largest distance of the near plane from the eye of a perspective camera, in the unit of the planes' frame.
