@@ -7,6 +7,7 @@
 #include "ApplicationGlobe.h"
 
 #include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>
 #include <osg/AlphaFunc>
@@ -178,6 +179,29 @@ TEST(HoledGlobe, IsSeenThroughWhereATransformMovesATileAway) {
             EXPECT_TRUE(globe.drawsAntipode()) << i;
             update(*globe.root);
         }
+        // the tile's bin is where the tile is now
+        installBins(*globe.root, options);
+        EXPECT_TRUE(globe.drawsAntipode());
+    }
+}
+
+TEST(HoledGlobe, IsSeenThroughWhereAMeshStandsOutsideOfItsStoredBin) {
+    const CapturedNotes warnings;
+    for (const CullOptions& options : {CullOptions(), declaredHorizon()}) {
+        MeshGlobe globe;
+        for (const auto& tile : globe.tiles) {
+            const osg::EllipsoidModel& ellipsoid = *globe.root->getEllipsoidModel();
+            setStoredBin(*tile, tileSurface(*tile->getChild(0), ellipsoid, osg::Matrixd()).bin);
+        }
+        installBins(*globe.root, options);
+        EXPECT_FALSE(globe.drawsAntipode());
+        removeBins(*globe.root);
+        const osg::ref_ptr<osg::MatrixTransform> away =
+            new osg::MatrixTransform(osg::Matrixd::rotate(osg::DegreesToRadians(45.0), osg::Vec3d(0, 0, 1)));
+        away->addChild(globe.tiles[19]->getChild(0));
+        globe.tiles[19]->setChild(0, away);
+        installBins(*globe.root, options);
+        EXPECT_TRUE(globe.drawsAntipode());
     }
 }
 

@@ -209,6 +209,8 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
 
 void BinInstaller::visitTile(FoundTile& tile) {
     const bool hasNewContent = ContentWatch::hasNewContent(*tile.node);
+    // the tile gets a bin where it stands now; where it stood there may be a gap
+    if (installsBins() && hasMoved(*tile.node)) database().noteStrayTile(tile.frame.file);
     uninstall(tile);
     if (isInstanced(*tile.node, tile.frame)) {
         if (installsBins()) database().noteStrayTile(tile.frame.file);

@@ -210,8 +210,7 @@ void doubtMeshOf(const osg::Node& node, bool isMoved) {
     if (!installedTileOf(node)) culled = carrierOf(const_cast<osg::Node&>(node));
     InstalledTile* const tile = culled ? installedTileOf(*culled) : nullptr;
     if (!tile) return;
-    tile->doubtMesh();
-    if (isMoved) tile->setSeeThrough();
+    tile->doubtMesh(isMoved);
     // the update traversal must not touch what is not merged into the scene yet
     if (!isBelowDatabase(*culled)) return;
     for (osg::Group* const parent : culled->getParents()) tile->database().noteChanged(*parent);

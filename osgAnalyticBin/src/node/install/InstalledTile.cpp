@@ -19,7 +19,8 @@ void InstalledTile::keepVisible(bool kept) {
     tellFamily();
 }
 
-void InstalledTile::doubtMesh() {
+void InstalledTile::doubtMesh(bool isMoved) {
+    if (isMoved) _isMoved.store(true, std::memory_order_relaxed);
     _isMeshDoubted.store(true, std::memory_order_relaxed);
     _isMeshChanged.store(true, std::memory_order_relaxed);
     tellFamily();

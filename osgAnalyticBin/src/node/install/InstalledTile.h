@@ -54,8 +54,8 @@ public:
     /// From now on only the tile's own callback culls it.
     void leaveFamily();
     /// Says that the mesh has changed since the bin was fitted. The family leaves the tile to its callback until
-    /// trustMesh() is called.
-    void doubtMesh();
+    /// trustMesh() is called. `isMoved`: it has left its place, which may be empty now.
+    void doubtMesh(bool isMoved);
     void trustMesh();
     [[nodiscard]] bool isMeshDoubted() const { return _isMeshDoubted.load(std::memory_order_relaxed); }
     /// Copies the numbers that the family, if there is one, tests the tile by.
@@ -63,10 +63,12 @@ public:
     /// Has the family leave the tile to its callback until the slot is filled again.
     void emptySlot();
 
-    /// Says that what the tile draws can be seen through, or has been moved away, so that the horizon must not rely on
-    /// it. At any time.
+    /// Says that what the tile draws can be seen through. At any time.
     void setSeeThrough() { _isSeeThrough.store(true, std::memory_order_relaxed); }
-    [[nodiscard]] bool isSeeThrough() const { return _isSeeThrough.load(std::memory_order_relaxed); }
+    /// Whether the horizon must not rely on the tile: it can be seen through, or its place may be empty.
+    [[nodiscard]] bool isSeeThrough() const { return _isSeeThrough.load(std::memory_order_relaxed) || isMoved(); }
+    /// Whether the mesh has left its place since bins were installed.
+    [[nodiscard]] bool isMoved() const { return _isMoved.load(std::memory_order_relaxed); }
 
     /// What is known of the altitudes of the tile's own mesh, cell by cell; null: nothing.
     void setPlates(std::unique_ptr<const core::GroundPlates> plates) { _plates = std::move(plates); }
@@ -100,6 +102,7 @@ private:
     std::size_t _slot = 0;
     bool _isSlotFilled = false;
     std::atomic<bool> _isSeeThrough{false};
+    std::atomic<bool> _isMoved{false};
     bool _wasCulledActive = false;                    // of the culled node, which owns this and must not be owned by it
     std::vector<osg::ref_ptr<osg::Node>> _suspended;  // other nodes
     std::vector<bool> _wasActive;

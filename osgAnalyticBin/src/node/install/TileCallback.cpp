@@ -75,6 +75,12 @@ InstalledTile* installedTileOf(const osg::Node& node) {
     return nullptr;
 }
 
+bool hasMoved(osg::Node& tile) {
+    const osg::Node* const culled = installedNode(tile);
+    const InstalledTile* const installed = culled ? installedTileOf(*culled) : nullptr;
+    return installed && installed->isMoved();
+}
+
 const AnalyticBinCullCallback* installedBinOf(const osg::Node& node) {
     for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
         const auto* const bin = dynamic_cast<const AnalyticBinCullCallback*>(at);

@@ -209,6 +209,14 @@ AnalyticBin checkStored(const FoundTile& tile, Database& database, const Terrain
     const core::Ellipsoid ellipsoid = toCore(model);
     const bool isWithinBin =
         !surface.valid() || !fit.bin.valid() || nearlyHolds(fit.bin, surface, surface.sag(), ellipsoid);
+    if (!isWithinBin) {
+        // a mesh that stands elsewhere may leave the place of the stored bin empty
+        const AnalyticBin column(fit.bin.bin().withAltitude(surface.bin().altitude()), fit.bin.margin());
+        if (!nearlyHolds(column, surface, surface.sag(), ellipsoid)) {
+            database.noteGap(tile.frame.file);
+            database.noteStrayTile(tile.frame.file);
+        }
+    }
     if (!isWithinBin || (link.hasNewContent && surface.valid())) fit.bin.expandBy(surface);
     const AnalyticBin& drawn = fit.bin.valid() ? fit.bin : surface;
     const double sag = surface.valid() ? std::min(surface.sag(), drawn.sag()) : 0.0;

@@ -129,11 +129,11 @@ void Database::noteGap(const std::string& where) {
 
 void Database::noteStrayTile(const std::string& where) {
     if (_hasStrayTile.exchange(true, std::memory_order_relaxed)) return;
-    OSG_INFO
-        << "osgAnalyticBin: \"" << where
-        << "\" has tiles that stand in several places or below a transform that moves; where they leave a gap, the "
-           "horizon is not used."
-        << std::endl;
+    OSG_INFO << "osgAnalyticBin: \"" << where
+             << "\" has tiles that stand in several places, that have been moved, or that stand below a transform that "
+                "moves; "
+                "where they leave a gap, the horizon is not used."
+             << std::endl;
 }
 
 void Database::noteUnknownNearPlane() {

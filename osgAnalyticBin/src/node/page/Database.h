@@ -94,8 +94,8 @@ public:
     void noteGap(const std::string& where);
     [[nodiscard]] bool hasGap() const { return _hasGap.load(std::memory_order_relaxed); }
 
-    /// Says that the database has a tile that is drawn in several places, or that moves. It has no bin, and whether it
-    /// hides what is behind it is not looked at: with a gap no horizon then, given or not.
+    /// Says that the database has a tile that is drawn in several places, that moves, or that has been moved. Whether
+    /// it hides what is behind the place where it belongs is not looked at: with a gap no horizon then, given or not.
     void noteStrayTile(const std::string& where);
     [[nodiscard]] bool hasStrayTile() const { return _hasStrayTile.load(std::memory_order_relaxed); }
 
