@@ -19,6 +19,7 @@
 #include <set>
 #include <string>
 #include <support/CapturedNotes.h>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -182,6 +183,17 @@ TEST(HoledGlobe, IsSeenThroughWhereATransformMovesATileAway) {
         // the tile's bin is where the tile is now
         installBins(*globe.root, options);
         EXPECT_TRUE(globe.drawsAntipode());
+    }
+}
+
+TEST(HoledGlobe, IsSeenThroughWhereTheNearPlaneCutsItOpen) {
+    MeshGlobe globe;
+    installBins(*globe.root);
+    CullView view = MeshGlobe::fromAbove();
+    // before the ground, and within the globe
+    for (const auto& [near, isSeen] : {std::pair(1e5, false), {8e5, true}, {2e6, true}}) {
+        view.projection = osg::Matrixd::perspective(60.0, 1.0, near, 1e8);
+        EXPECT_EQ(globe.draws(*globe.tiles[15], view), isSeen) << near;
     }
 }
 

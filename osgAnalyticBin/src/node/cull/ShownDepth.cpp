@@ -359,7 +359,10 @@ std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& databas
         if (lowest.hasHole()) return std::nullopt;
         if (lowest.depth() <= depth) {
             depth = std::max(lowest.depth(), 0.0);
-            return isTrusted(database, lowest, place) ? eye : std::nullopt;
+            // a near plane in the terrain shows its inside, however deep an occluder lies behind it
+            const bool isBelowEllipsoid = place && place->altitude < 0.0;
+            const bool isCutOpen = !isBelowEllipsoid && !viewpoint.above(ellipsoid, depth);
+            return !isCutOpen && isTrusted(database, lowest, place) ? eye : std::nullopt;
         }
         if (lowest.depth() > 0.25 * ellipsoid.polarRadius()) break;
         depth = std::min((round < kExactRounds ? 1.0 : kRoom) * lowest.depth(), deepest);
