@@ -181,8 +181,10 @@ TEST(HoledGlobe, IsSeenThroughWhereATransformMovesATileAway) {
             update(*globe.root);
         }
         // the tile's bin is where the tile is now
-        installBins(*globe.root, options);
-        EXPECT_TRUE(globe.drawsAntipode());
+        for (int i = 0; i < 3; ++i) {
+            installBins(*globe.root, options);
+            EXPECT_TRUE(globe.drawsAntipode()) << i;
+        }
     }
 }
 

@@ -46,7 +46,7 @@ enum class HorizonUse {
 enum class OcclusionUse {
     Off,  ///< never; the default
     On,   ///< in every frame
-    Auto  ///< while terrain hides a quarter of the tiles in view; elsewhere it is tried every 64 frames at least
+    Auto  ///< while terrain hides a quarter of the tiles in view; elsewhere it is tried again after 8 to 64 views
 };
 
 /// What of the skirts that hang from the edges of tiles a bin holds. Tiles of a map always hold all of them: at the

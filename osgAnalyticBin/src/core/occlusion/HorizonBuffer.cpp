@@ -82,7 +82,8 @@ void HorizonBuffer::add(const EarthColumn& column) {
     std::push_heap(_pending.begin(), _pending.end());
 }
 
-// Moved up by at least `metres`, or down where it is negative, and as far to the side. doc/occlusion.md, section 4.
+// Moved up by at least `move`, or down where it is negative, and as far to the side, in units of the picture.
+// doc/occlusion.md, section 4.
 HorizonBuffer::Line::Line(const glm::dvec2& a, const glm::dvec2& b, double move) {
     slope = (b.y - a.y) / (b.x - a.x);
     const double rounding = 16.0 * kEpsilon * (std::abs(slope) * (1.0 + std::abs(a.x)) + 1.0 + std::abs(a.y));

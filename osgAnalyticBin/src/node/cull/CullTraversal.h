@@ -91,7 +91,7 @@ public:
     struct LastView {
         double depth = 0.0;     ///< of the lowest surface shown: where it looks next time
         unsigned int rest = 0;  ///< views for which terrain was not to hide terrain, because it had hidden too little
-        unsigned int resting = 0;  ///< of these, the views that are left
+        unsigned int resting = 0;  ///< how many of them are left
     };
     [[nodiscard]] LastView& lastView(const Database& database);
 

@@ -360,8 +360,8 @@ std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& databas
         if (lowest.depth() <= depth) {
             depth = std::max(lowest.depth(), 0.0);
             // a near plane in the terrain shows its inside, however deep an occluder lies behind it
-            const bool isBelowEllipsoid = place && place->altitude < 0.0;
-            const bool isCutOpen = !isBelowEllipsoid && !viewpoint.above(ellipsoid, depth);
+            const double belowEye = place && place->altitude < 0.0 ? step - place->altitude : 0.0;
+            const bool isCutOpen = !viewpoint.above(ellipsoid, std::max(depth, belowEye));
             return !isCutOpen && isTrusted(database, lowest, place) ? eye : std::nullopt;
         }
         if (lowest.depth() > 0.25 * ellipsoid.polarRadius()) break;

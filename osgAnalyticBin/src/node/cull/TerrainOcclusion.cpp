@@ -67,6 +67,7 @@ std::optional<Picture> pictureOf(const ShownDatabase& database, const glm::dvec3
         picture.across = {std::min(picture.across.lower, x), std::max(picture.across.upper, x)};
         levelness = std::min(levelness, ahead / length);
     }
+    if (!(picture.across.width() > 0.0)) return std::nullopt;
     constexpr double kRounding = 1e-6;
     const double room = kRounding * picture.across.width();
     picture.across = {picture.across.lower - room, picture.across.upper + room};
@@ -82,9 +83,10 @@ std::optional<Picture> pictureOf(const ShownDatabase& database, const glm::dvec3
 // A shown tile.
 struct Candidate {
     const TilePlan::ShownTile* tile;
-    double distance;  // metres from the eye to a corner of the bin, the nearest one
-    double size;      // metres from corner to corner
-    bool isHidden;    // as far as is known
+    double distance;   // metres from the eye to a corner of the bin, the nearest one
+    double size;       // metres from corner to corner
+    bool isHidden;     // as far as is known
+    bool isInPicture;  // at least a part
 };
 
 // A quarter of a tile's bin. Quarters are tested one by one, because more terrain is in front of the farther ones.
@@ -120,7 +122,7 @@ public:
         std::vector<TilePlan::ShownTile> occluded;
         OccludedTiles tiles;
         for (const Candidate& candidate : _candidates) {
-            if (_plan.isOutOfView(*candidate.tile)) continue;
+            if (!candidate.isInPicture || _plan.isOutOfView(*candidate.tile)) continue;
             ++tiles.inView;
             if (candidate.isHidden) occluded.push_back(*candidate.tile);
         }
@@ -136,7 +138,7 @@ private:
         const GeodeticBin& bin = tile.getBin().bin();
         const core::Interval altitude{tile.getBinLow(), tile.getBinHigh()};
         if (bin.empty() || !std::isfinite(altitude.lower) || !std::isfinite(altitude.upper)) return false;
-        Candidate candidate{&shown, HUGE_VAL, 0.0, true};
+        Candidate candidate{&shown, HUGE_VAL, 0.0, true, false};
         const GeodeticBin drawn = bin.withAltitude(altitude);
         std::size_t number = 0;
         for (const BinHull& hull : core::hullsOfQuarters(_ellipsoid, drawn, tile.getBin().margin(), _picture.eye)) {
@@ -144,6 +146,7 @@ private:
                 candidate.distance = std::min(candidate.distance, glm::length(corner));
             candidate.size = 2.0 * glm::distance(hull.corners.front(), hull.corners.back());
             const HorizonBuffer::Outline outline = _buffer.outlineOf(hull);
+            candidate.isInPicture = candidate.isInPicture || !outline.isBeside;
             _order.emplace_back(outline.nearest, _quarters.size());
             _quarters.push_back({_candidates.size(), number++, outline});
         }
@@ -177,7 +180,7 @@ private:
             tiles.push_back(quarter.candidate);
             const TilePlan::ShownTile& tile = *_candidates[quarter.candidate].tile;
             const double margin = tile.tile->getBin().margin();
-            const double radius = (reach + margin) * (1.0 + widest) + margin;
+            const double radius = (reach + 2.0 * margin) * (1.0 + widest);
             const core::EcefMesh* const mesh = meshes.trianglesNear(*tile.tile, *tile.mesh, _picture.eye, radius);
             if (!mesh) return std::nullopt;
             highest = std::max(highest, highestOf(*mesh, reach, margin));

@@ -185,12 +185,16 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const bool isKept = !isRefit && own;
     _refitted = nullptr;
     if (isKept) own->setOptions(_options);
+    const osg::ref_ptr<const Database> replaced = databaseOf(node);
+    const bool hasMovedTile = replaced && replaced->hasMovedTile();
     if (!isRefit) detachDatabase(node);
     if (!own) {
         const osg::ref_ptr<osg::EllipsoidModel> ellipsoid =
             node.getEllipsoidModel() && !isGlobeBroken(node) ? node.getEllipsoidModel() : new osg::EllipsoidModel;
         own = new Database(_options, ellipsoid.get(), dynamic_cast<osgTerrain::Terrain*>(&node), _index.get());
         own->setRoot(node);
+        // new bins do not know where a tile was before
+        if (hasMovedTile) own->noteMovedTile(frame().file);
     }
     const Scoped index(_index, isKept ? osg::ref_ptr<const BinIndex>(own->index()) : _index);
     const Scoped database(_database, own);
@@ -209,8 +213,8 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
 
 void BinInstaller::visitTile(FoundTile& tile) {
     const bool hasNewContent = ContentWatch::hasNewContent(*tile.node);
-    // the tile gets a bin where it stands now; where it stood there may be a gap
-    if (installsBins() && hasMoved(*tile.node)) database().noteStrayTile(tile.frame.file);
+    // the tile gets a bin where it stands now; where it stood there is a gap
+    if (hasMoved(*tile.node)) database().noteMovedTile(tile.frame.file);
     uninstall(tile);
     if (isInstanced(*tile.node, tile.frame)) {
         if (installsBins()) database().noteStrayTile(tile.frame.file);

@@ -212,10 +212,7 @@ AnalyticBin checkStored(const FoundTile& tile, Database& database, const Terrain
     if (!isWithinBin) {
         // a mesh that stands elsewhere may leave the place of the stored bin empty
         const AnalyticBin column(fit.bin.bin().withAltitude(surface.bin().altitude()), fit.bin.margin());
-        if (!nearlyHolds(column, surface, surface.sag(), ellipsoid)) {
-            database.noteGap(tile.frame.file);
-            database.noteStrayTile(tile.frame.file);
-        }
+        if (!nearlyHolds(column, surface, surface.sag(), ellipsoid)) database.noteMovedTile(tile.frame.file);
     }
     if (!isWithinBin || (link.hasNewContent && surface.valid())) fit.bin.expandBy(surface);
     const AnalyticBin& drawn = fit.bin.valid() ? fit.bin : surface;

@@ -130,15 +130,20 @@ void Database::noteGap(const std::string& where) {
 void Database::noteStrayTile(const std::string& where) {
     if (_hasStrayTile.exchange(true, std::memory_order_relaxed)) return;
     OSG_INFO << "osgAnalyticBin: \"" << where
-             << "\" has tiles that stand in several places, that have been moved, or that stand below a transform that "
-                "moves; "
-                "where they leave a gap, the horizon is not used."
+             << "\" has tiles that stand in several places, below a transform that moves, or elsewhere than where they "
+                "belong; where they leave a gap, the horizon is not used."
              << std::endl;
+}
+
+void Database::noteMovedTile(const std::string& where) {
+    _hasMovedTile.store(true, std::memory_order_relaxed);
+    noteGap(where);
+    noteStrayTile(where);
 }
 
 void Database::noteUnknownNearPlane() {
     if (_hasUnknownNearPlane.exchange(true, std::memory_order_relaxed)) return;
-    OSG_WARN << "osgAnalyticBin: occlusion=on hides nothing for cameras that compute their near plane; set "
+    OSG_WARN << "osgAnalyticBin: occlusion hides nothing for cameras that compute their near plane; set "
                 "DO_NOT_COMPUTE_NEAR_FAR (the environment variable OSG_COMPUTE_NEAR_FAR_MODE)."
              << std::endl;
 }

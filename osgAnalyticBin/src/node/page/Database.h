@@ -94,10 +94,14 @@ public:
     void noteGap(const std::string& where);
     [[nodiscard]] bool hasGap() const { return _hasGap.load(std::memory_order_relaxed); }
 
-    /// Says that the database has a tile that is drawn in several places, that moves, or that has been moved. Whether
-    /// it hides what is behind the place where it belongs is not looked at: with a gap no horizon then, given or not.
+    /// Says that the database has a tile that is drawn in several places, or that moves. It has no bin, and whether it
+    /// hides what is behind it is not looked at: with a gap no horizon then, given or not.
     void noteStrayTile(const std::string& where);
     [[nodiscard]] bool hasStrayTile() const { return _hasStrayTile.load(std::memory_order_relaxed); }
+
+    /// Says that a tile stands elsewhere than where it belongs: there is a gap, and no horizon, given or not.
+    void noteMovedTile(const std::string& where);
+    [[nodiscard]] bool hasMovedTile() const { return _hasMovedTile.load(std::memory_order_relaxed); }
 
     /// Says that terrain was to hide terrain for a camera whose near plane is not known before all is culled.
     void noteUnknownNearPlane();
@@ -151,6 +155,7 @@ private:
     std::atomic<bool> _isRemoved{false};
     std::atomic<bool> _hasGap{false};
     std::atomic<bool> _hasStrayTile{false};
+    std::atomic<bool> _hasMovedTile{false};
     std::atomic<bool> _hasUnknownTechnique{false};
     std::atomic<bool> _hasUnknownNearPlane{false};
     mutable std::mutex _mutex;  // guards what follows

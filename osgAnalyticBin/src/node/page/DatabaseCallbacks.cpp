@@ -19,7 +19,6 @@
 #include <osg/CullStack>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -58,15 +57,15 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
     const auto viewpoint = Viewpoint::of(cullStack, nv, options.inheritViewpoint);
     if (!viewpoint) return std::nullopt;
     const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
+    if (isGiven && (!isAboveTerrain || database.hasGap()))
+        return eyeAboveDepth({node, nv, cullStack, view, false}, *viewpoint, deepest);
     CullTraversal::LastView& last = CullTraversal::of(nv).lastView(database);
-    const bool findsOccluded =
-        isAboveTerrain && !isForComparison(options.method) && isOcclusionDue(options.occlusion, last);
-    if (findsOccluded && options.occlusion == OcclusionUse::On && !std::isfinite(viewpoint->nearReach()) &&
-        viewpoint->eye())
-        database.noteUnknownNearPlane();
+    const bool isNearPlaneKnown = cullStack.getComputeNearFarMode() == osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
+    const bool mayFindOccluded = viewpoint->eye() && isAboveTerrain && !isForComparison(options.method);
+    if (mayFindOccluded && options.occlusion != OcclusionUse::Off && !isNearPlaneKnown) database.noteUnknownNearPlane();
+    const bool findsOccluded = mayFindOccluded && isNearPlaneKnown && isOcclusionDue(options.occlusion, last);
     const ShownDatabase shown{node, nv, cullStack, view, findsOccluded};
-    if (isGiven && (!isAboveTerrain || database.hasGap())) return eyeAboveDepth(shown, *viewpoint, deepest);
-    // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: what is shown
+    // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: the horizon
     // shall not depend on where the camera has been.
     constexpr unsigned int kFreshStart = 16;
     if (nv.getTraversalNumber() % kFreshStart == 0) last.depth = 0.0;
