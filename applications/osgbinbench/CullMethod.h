@@ -10,8 +10,8 @@
 
 namespace osgAnalyticBin::bench {
 
-/// A way to cull a database, by the name that the command line and the tables use: BASE[+horizon][+reverse][+occlusion].
-/// A plain base culls by the frustum's planes alone.
+/// A way to cull a database, by the name that the command line and the tables use:
+/// BASE[+horizon][+reverse][+occlusion]. A plain base culls by the frustum's planes alone.
 struct CullMethod {
     std::string name;
     /// What the pseudo-loader analyticbin is asked for.
