@@ -143,8 +143,8 @@ void Database::noteMovedTile(const std::string& where) {
 
 void Database::noteUnknownNearPlane() {
     if (_hasUnknownNearPlane.exchange(true, std::memory_order_relaxed)) return;
-    OSG_WARN << "osgAnalyticBin: occlusion hides nothing for cameras that compute their near plane; set "
-                "DO_NOT_COMPUTE_NEAR_FAR (the environment variable OSG_COMPUTE_NEAR_FAR_MODE)."
+    OSG_WARN << "osgAnalyticBin: terrain hides nothing for cameras whose near plane OSG computes; set "
+                "DO_NOT_COMPUTE_NEAR_FAR, and near and far planes, to use occlusion."
              << std::endl;
 }
 
