@@ -39,9 +39,10 @@ public:
 
     /// Where a body is in the picture.
     struct Outline {
-        double nearest;            ///< metres along `forward`, of its nearest point
-        Interval across, heights;  ///< of the picture, only where `nearest` is positive
-        bool isBeside;             ///< left or right of the picture, or behind the eye
+        double nearest;    ///< metres along `forward`, of its nearest point
+        Interval across;   ///< of the picture, only where `nearest` is positive
+        Interval heights;  ///< likewise
+        bool isBeside;     ///< left or right of the picture, or behind the eye
     };
     /// Guarantee: no point of the body is outside of its outline, rounding included; tests: HorizonBuffer.*.
     [[nodiscard]] Outline outlineOf(const BinHull& body) const noexcept;
