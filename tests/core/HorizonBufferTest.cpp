@@ -207,6 +207,32 @@ TEST(HorizonBuffer, HidesOnlyWhatIsInThePictureOfEarthInFront) {
     EXPECT_GT(hidden, 12000);
 }
 
+// Where a line is steep, an error to the side lowers it by more than one downward.
+TEST(HorizonBuffer, LowersSteepLinesByTheErrorsOfTheirCorners) {
+    constexpr double kForward = 1000.0, kSlope = 2.0;
+    EarthColumn column;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double x = i % 2 == 0 ? 0.0 : 0.5;
+        column.top[i] = pointAt(x, kSlope * x, kForward);
+        column.bottom[i] = pointAt(x, -1.0, kForward);
+    }
+    column.error = 1.0;
+    // that of a corner in the picture, where no corner is farther than 1 from the middle
+    const double error = 2.0 * column.error / (kForward - column.error);
+    // a line is lowest at the left end of the strip
+    const double strip = kAcross.width() / static_cast<double>(HorizonBuffer::kStrips), left = 0.25;
+    const auto hidesBelowTheLine = [&](double below) {
+        HorizonBuffer buffer(0.0, kAcross);
+        buffer.add(column);
+        BinHull body;
+        body.corners.fill(pointAt(left + 0.3 * strip, kSlope * left - below, 2.0 * kForward));
+        body.reach = 1e-6;
+        return buffer.hides(buffer.outlineOf(body));
+    };
+    EXPECT_FALSE(hidesBelowTheLine(0.95 * (1.0 + kSlope) * error));
+    EXPECT_TRUE(hidesBelowTheLine(1.05 * (1.0 + kSlope) * error));
+}
+
 TEST(HorizonBuffer, LeavesOutWhatHasNoPlaceInThePicture) {
     const core::Ellipsoid earth = wgs84();
     // looks north
