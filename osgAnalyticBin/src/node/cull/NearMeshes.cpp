@@ -60,8 +60,8 @@ const core::EcefMesh* NearMeshes::trianglesNear(const AnalyticBinCullCallback& t
 }
 
 NearMeshes::Known* NearMeshes::meshOf(const AnalyticBinCullCallback& tile, osg::Node& mesh) {
-    // changes of meshes may go unnoticed: what was read is not believed for ever
-    constexpr int kMostUses = 600;
+    // meshes may change: what was read is not believed for long
+    constexpr int kMostUses = 16;
     Known* known = nullptr;
     for (Known& one : _known) {
         if (one.tile.get() == &tile && one.node.get() == &mesh) known = &one;
