@@ -68,18 +68,22 @@ std::string CullMethod::sceneName(const std::string& database, const std::string
 }
 
 CullMethod cullMethodFromName(const std::string& name) {
-    if (name == kReferenceMethod) return {name, "none", false, false, false, Clusters::Remove, true};
-    if (name == "sphere") return {name, "sphere", false, false, false, Clusters::Remove, false};
-    // Stock OSG with what a builder of databases gives it.
-    if (name == "cluster") return {name, "sphere", false, false, false, Clusters::Fill, false};
     if (name == kOracleMethod) {
         CullMethod oracle = cullMethodFromName(kReplayedMethod);
         oracle.name = name;
         oracle.replaysVerdicts = true;
         return oracle;
     }
+    CullMethod method;
+    method.name = name;
+    method.cullsNothing = name == kReferenceMethod;
+    // stock OSG, "cluster" with what a builder of databases gives it
+    if (method.cullsNothing || name == "sphere" || name == "cluster") {
+        method.loaderMethod = method.cullsNothing ? "none" : "sphere";
+        method.clusters = name == "cluster" ? Clusters::Fill : Clusters::Remove;
+        return method;
+    }
     std::string base = name;
-    CullMethod method{name, {}, false, false, false, Clusters::Keep, false};
     method.usesOcclusion = takeSuffix(base, "+occlusion");
     method.usesReverse = takeSuffix(base, "+reverse");
     method.usesHorizon = takeSuffix(base, "+horizon");
