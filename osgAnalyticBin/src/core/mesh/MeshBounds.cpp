@@ -305,7 +305,7 @@ bool MeshBounds::findInClosedForm(const Ellipsoid& ellipsoid, const EcefMesh& me
     const double farthest = std::max(std::abs(ranges.altitude.lower), std::abs(ranges.altitude.upper));
     const double widest = std::max(std::abs(ranges.tangent.lower), std::abs(ranges.tangent.upper));
     if (!(farthest <= lengths.farthest) || !(widest <= kWidest) || !ranges.isInFront || !ranges.isFinite) return false;
-    _touchesAxis = ranges.axisDistance.lower <= lengths.axisTolerance;
+    _axisError = ranges.axisDistance.lower <= lengths.axisTolerance ? lengths.axisTolerance : 0.0;
     const double flattening = std::abs(terms.flattening);
     _altitudeError = farthest * flattening * (0.5 * flattening + 1.05 * farthest / terms.b) + lengths.rounding;
 
@@ -350,13 +350,13 @@ void MeshBounds::findByTriangles(const Ellipsoid& ellipsoid, const EcefMesh& mes
     if (!std::isfinite(sum.x + sum.y + sum.z)) return;
     const double axisTolerance = Lengths(earthScale(ellipsoid)).axisTolerance;
     GeodeticMeshBounds bounds(ellipsoid, std::atan2(sum.y, sum.x), axisTolerance);
-    _touchesAxis = false;
+    _axisError = 0.0;
     _altitudes.clear();
     for (std::size_t i = 0; i < mesh.size(); ++i) {
         const glm::dvec3 vertex = mesh.vertex(i);
         bounds.expandByVertex(vertex);
         _altitudes.push_back(ellipsoid.toGeodetic(vertex).altitude);
-        _touchesAxis = _touchesAxis || std::hypot(vertex.x, vertex.y) <= axisTolerance;
+        if (std::hypot(vertex.x, vertex.y) <= axisTolerance) _axisError = axisTolerance;
     }
     for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
         bounds.expandByTriangle(mesh.vertex(mesh.triangles[i]), mesh.vertex(mesh.triangles[i + 1]),

@@ -140,11 +140,12 @@ private:
         if (bin.empty() || !std::isfinite(altitude.lower) || !std::isfinite(altitude.upper)) return false;
         Candidate candidate{&shown, HUGE_VAL, 0.0, true, false};
         const GeodeticBin drawn = bin.withAltitude(altitude);
+        const auto hulls = core::hullsOfQuarters(_ellipsoid, drawn, tile.getBin().margin(), _picture.eye);
+        candidate.size = 2.0 * glm::distance(hulls.back().corners.front(), hulls.back().corners.back());
         std::size_t number = 0;
-        for (const BinHull& hull : core::hullsOfQuarters(_ellipsoid, drawn, tile.getBin().margin(), _picture.eye)) {
+        for (const BinHull& hull : hulls) {
             for (const glm::dvec3& corner : hull.corners)
                 candidate.distance = std::min(candidate.distance, glm::length(corner));
-            candidate.size = 2.0 * glm::distance(hull.corners.front(), hull.corners.back());
             const HorizonBuffer::Outline outline = _buffer.outlineOf(hull);
             candidate.isInPicture = candidate.isInPicture || !outline.isBeside;
             _order.emplace_back(outline.nearest, _quarters.size());

@@ -50,10 +50,6 @@ bool isOrthographic(const osg::Matrixd& p) {
     return p(0, 3) == 0.0 && p(1, 3) == 0.0 && p(2, 3) == 0.0 && p(3, 3) != 0.0;
 }
 
-bool isFinalProjection(const osg::CullStack& cullStack) {
-    return cullStack.getComputeNearFarMode() == osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
-}
-
 // How far the near plane is from the eye at most; infinite when in doubt. Depths of 0 and 1 in clip space are at the
 // near plane or beyond it, whether depth is reversed or not and from -1 or from 0.
 double reachOfNearPlane(const osg::Matrixd& projection, const osg::Matrixd& eyeToWorld, const osg::Vec3d& eye) {
@@ -82,6 +78,10 @@ double distanceTo(const core::Ellipsoid& ellipsoid, double depth, const glm::dve
 }
 
 }  // namespace
+
+bool isFinalProjection(const osg::CullStack& cullStack) {
+    return cullStack.getComputeNearFarMode() == osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
+}
 
 std::optional<Viewpoint> Viewpoint::of(osg::CullStack& cullStack, osg::NodeVisitor& visitor, bool inShadowPasses) {
     if (!inShadowPasses && isShadowPass(visitor)) return std::nullopt;

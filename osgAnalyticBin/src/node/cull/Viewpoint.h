@@ -13,6 +13,9 @@
 
 namespace osgAnalyticBin {
 
+/// Whether the projection stays as it is when all is culled: OSG computes no near and far planes.
+[[nodiscard]] bool isFinalProjection(const osg::CullStack& cullStack);
+
 /// Where a cull visitor looks from, in the frame of its current planes: what horizons are made for.
 class OSGANALYTICBIN_EXPORT Viewpoint final {
 public:

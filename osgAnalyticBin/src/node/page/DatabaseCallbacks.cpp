@@ -60,10 +60,11 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
     if (isGiven && (!isAboveTerrain || database.hasGap()))
         return eyeAboveDepth({node, nv, cullStack, view, false}, *viewpoint, deepest);
     CullTraversal::LastView& last = CullTraversal::of(nv).lastView(database);
-    const bool isNearPlaneKnown = cullStack.getComputeNearFarMode() == osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
     const bool mayFindOccluded = viewpoint->eye() && isAboveTerrain && !isForComparison(options.method);
-    if (mayFindOccluded && options.occlusion != OcclusionUse::Off && !isNearPlaneKnown) database.noteUnknownNearPlane();
-    const bool findsOccluded = mayFindOccluded && isNearPlaneKnown && isOcclusionDue(options.occlusion, last);
+    if (mayFindOccluded && options.occlusion != OcclusionUse::Off && !isFinalProjection(cullStack))
+        database.noteUnknownNearPlane();
+    const bool findsOccluded =
+        mayFindOccluded && isFinalProjection(cullStack) && isOcclusionDue(options.occlusion, last);
     const ShownDatabase shown{node, nv, cullStack, view, findsOccluded};
     // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: the horizon
     // shall not depend on where the camera has been.

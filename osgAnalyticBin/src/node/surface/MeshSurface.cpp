@@ -16,9 +16,6 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// Metres on the earth, in proportion elsewhere: float vertices about the axis are that far off at most, and have no
-// longitude of their own (core::MeshBounds).
-constexpr double kAxisTolerance = 1.0;
 constexpr std::size_t kEdges = 4;
 
 std::array<double, kEdges> lowestOnEdges(const std::vector<std::uint8_t>& marks, const std::vector<double>& altitudes) {
@@ -59,8 +56,7 @@ TileSurface meshSurface(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
     if (bounds.bin().empty() || !isTerrain) return {};
 
     TileSurface result;
-    const double offset = bounds.touchesAxis() ? core::earthScale(ellipsoid) * kAxisTolerance : 0.0;
-    result.bin = AnalyticBin(bounds.bin(), drawingError(ellipsoid) + offset);
+    result.bin = AnalyticBin(bounds.bin(), drawingError(ellipsoid) + bounds.axisError());
     result.bin.setSag(bounds.sag());
     result.edgeLow = edgeLows(bounds, skirts, chordSag(skirts.borderChord2, ellipsoid));
     result.skirt = skirts.depth;

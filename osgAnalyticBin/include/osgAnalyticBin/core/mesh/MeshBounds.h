@@ -54,7 +54,9 @@ public:
     [[nodiscard]] bool isQuick() const noexcept { return _isQuick; }
 
     /// Some vertex lies within 1 m of the axis.
-    [[nodiscard]] bool touchesAxis() const noexcept { return _touchesAxis; }
+    [[nodiscard]] bool touchesAxis() const noexcept { return _axisError > 0.0; }
+    /// Metres by which vertices near the axis may leave the bin; 0 where the mesh does not touch the axis.
+    [[nodiscard]] double axisError() const noexcept { return _axisError; }
 
     /// @{
     /// Metres, of each vertex, up to altitudeError(). Of a bin that is not empty.
@@ -75,8 +77,8 @@ private:
     std::vector<double> _excess[2];
     double _altitudeError = 0.0;
     double _sag = 0.0;
+    double _axisError = 0.0;
     bool _isQuick = false;
-    bool _touchesAxis = false;
 };
 
 }  // namespace osgAnalyticBin::core
