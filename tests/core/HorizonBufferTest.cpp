@@ -51,7 +51,7 @@ bool isBeforeTheCamera(const OcclusionScene& scene, const RealVector& point) {
     return ahead > 0 && across >= kAcross.lower * ahead && across <= kAcross.upper * ahead;
 }
 
-// Quarters of tiles in the order in which they have to be asked for.
+// The buffer has to be asked for the nearest quarter first.
 struct Quarter {
     GroundTile part;  // without a mesh
     HorizonBuffer::Outline outline;
@@ -206,7 +206,7 @@ TEST(HorizonBuffer, HidesOnlyWhatIsInThePictureOfEarthInFront) {
     EXPECT_GT(hidden, 12000);
 }
 
-// Where a line is steep, an error to the side lowers it by more than one downward.
+// An error to the side lowers a steep line by more than an error downward does.
 TEST(HorizonBuffer, LowersSteepLinesByTheErrorsOfTheirCorners) {
     constexpr double kForward = 1000.0, kSlope = 2.0;
     EarthColumn column;
@@ -216,9 +216,9 @@ TEST(HorizonBuffer, LowersSteepLinesByTheErrorsOfTheirCorners) {
         column.bottom[i] = pointAt(x, -1.0, kForward);
     }
     column.error = 1.0;
-    // that of a corner in the picture, where no corner is farther than 1 from the middle
+    // the error of a corner's place in the picture; |x| and |y| are at most 1
     const double error = 2.0 * column.error / (kForward - column.error);
-    // a line is lowest at the left end of the strip
+    // this line rises to the right: in a strip it is lowest at the left end
     const double strip = kAcross.width() / static_cast<double>(HorizonBuffer::kStrips), left = 0.25;
     const auto hidesBelowTheLine = [&](double below) {
         HorizonBuffer buffer(0.0, kAcross);

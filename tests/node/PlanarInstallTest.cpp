@@ -34,7 +34,7 @@ osg::ref_ptr<osg::PagedLOD> paged(const osg::ref_ptr<osg::Node>& mesh) {
 
 enum class Callback { None, Planar, Geocentric };
 
-// What a paged tile with this mesh gets.
+// Installs bins on a paged tile with this mesh. Returns: which callback the tile got.
 Callback installedOn(osg::CoordinateSystemNode& root, const osg::ref_ptr<osg::Node>& mesh) {
     const osg::ref_ptr<osg::PagedLOD> tile = paged(mesh);
     root.removeChildren(0, root.getNumChildren());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Databases and command lines that are hard for osgbinconv: one clear line for everything that it cannot do.
+// osgbinconv reads unusual databases, and answers what it cannot do with one clear line.
 
 #include "BinconvRuns.h"
 #include "SmallDatabase.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Long runs of osgbinconv: the same bytes whatever the threads and however often it was killed.
+// osgbinconv writes the same bytes with any number of threads, and after it was killed and started again.
 
 #include "BinconvRuns.h"
 #include "SmallDatabase.h"

@@ -10,12 +10,12 @@
 
 namespace osgAnalyticBin::core {
 
-/// Numbers the different keys of a mesh: 0, 1, 2, .... Keys are arrays of 64-bit words. By open
-/// addressing, in two blocks of memory, because tiles are read while the viewer waits for them.
+/// Numbers the different keys of a mesh: 0, 1, 2, .... Keys are arrays of 64-bit words. The
+/// table uses open addressing and two blocks of memory, because bins are installed while the viewer waits for tiles.
 template <class Key>
 class KeyNumbers {
 public:
-    /// Requires: no more different keys than `most`.
+    /// Requires: there are at most `most` different keys.
     explicit KeyNumbers(std::size_t most) {
         std::size_t size = 16;
         while (size < 2 * most) size *= 2;
@@ -23,7 +23,7 @@ public:
         _keys.reserve(most);
     }
 
-    /// Of a key that may be new.
+    /// Returns: the number of the key. A key that is not known yet gets the next one.
     [[nodiscard]] std::uint32_t numberOf(const Key& key) {
         std::uint32_t& number = _numbers[slotOf(key)];
         if (number != kNone) return number;
@@ -36,7 +36,7 @@ public:
     /// Returns: kNone for keys without a number.
     [[nodiscard]] std::uint32_t find(const Key& key) const { return _numbers[slotOf(key)]; }
 
-    /// By their numbers.
+    /// The keys in the order of their numbers.
     [[nodiscard]] const std::vector<Key>& keys() const { return _keys; }
 
 private:
@@ -52,7 +52,7 @@ private:
     std::vector<Key> _keys;
 };
 
-/// For keys: equal numbers have equal bits.
+/// The bits of a number, to be used in a key. Equal numbers have equal bits.
 [[nodiscard]] inline std::uint64_t bitsOf(double value) {
     const double plain = value + 0.0;  // one zero
     std::uint64_t bits = 0;

@@ -27,7 +27,7 @@ constexpr double kNearerChords = 0.9;
 // A function with this much of second derivative leaves its chords by that of 12 squared radii.
 constexpr double kPerCircle = 1.0 / 24.0;
 constexpr double kAngleRounding = 1e-14;
-// Of the bounds that are found triangle by triangle, in larger radii: what GeodeticMeshBounds promises.
+// The error that GeodeticMeshBounds promises, as a share of the larger radius.
 constexpr double kMeshRounding = 1.6e-14;
 constexpr std::size_t kLanes = 16;
 

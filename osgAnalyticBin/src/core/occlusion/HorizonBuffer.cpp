@@ -37,8 +37,8 @@ HorizonBuffer::HorizonBuffer(double eyeToCentre, const Interval& across, double 
     _upper.fill(-kInfinity);
 }
 
-// Of a column only a wall is used, from the corner that is farthest to the left to the one farthest to the right: its
-// picture is hardly smaller, and ends in straight lines.
+// Uses only a wall of the column, between its leftmost and its rightmost corner. The picture of the wall is hardly
+// smaller than that of the column, and it ends in straight lines.
 void HorizonBuffer::add(const EarthColumn& column) {
     constexpr double kSteepest = 1e3;
     double nearest = kInfinity, farthest = 0.0, largest = 0.0;
@@ -82,18 +82,18 @@ void HorizonBuffer::add(const EarthColumn& column) {
     std::push_heap(_pending.begin(), _pending.end());
 }
 
-// Moved up by at least `move`, or down where it is negative, and as far to the side, in units of the picture.
-// doc/occlusion.md, section 4.
+// The line through two points, moved up by `move` and by the effect of as large a move to the side. A negative `move`
+// moves it down. Units of the picture. doc/occlusion.md, section 4.
 HorizonBuffer::Line::Line(const glm::dvec2& a, const glm::dvec2& b, double move) {
     slope = (b.y - a.y) / (b.x - a.x);
     const double rounding = 16.0 * kEpsilon * (std::abs(slope) * (1.0 + std::abs(a.x)) + 1.0 + std::abs(a.y));
     offset = a.y - slope * a.x + std::copysign((1.0 + std::abs(slope)) * std::abs(move) + rounding, move);
 }
 
-// A wall is convex and so is its picture: at each x it has all between the lines of its bottom and of its top. Over a
-// strip a line is lowest at one of the ends, and highest at the other.
-// Both intervals of a strip are covered; where they meet, so is what they cover together, and else only the higher one
-// is kept.
+// A wall is convex, and so is its picture: at each x the wall covers the interval between its two lines. Within a strip
+// a line is lowest at one end and highest at the other.
+// Where the wall's interval meets the one that is known, their union is covered. Where they do not meet, only the
+// higher one is kept.
 void HorizonBuffer::raise(const Wall& wall) {
     constexpr double kRounding = 1e-6;  // of the strips' edges
     const std::size_t first = stripAt(wall.across.lower, 1.0 + kRounding),
@@ -125,7 +125,7 @@ std::size_t HorizonBuffer::stripAt(double x, double toRight) const noexcept {
 
 // Whether something of this height would stand above what is covered, in these strips or in some beside them.
 bool HorizonBuffer::isAboveKnown(std::size_t first, std::size_t last, double height) const noexcept {
-    // in lanes for the compiler to make vectors of
+    // lanes, so that the compiler can use vectors
     constexpr std::size_t kLanes = 8;
     static_assert(kStrips % kLanes == 0);
     double least[kLanes];

@@ -18,12 +18,12 @@ namespace osgAnalyticBin::core {
 /// The largest |e²| of an ellipsoid for which the bounds of occlusion.md hold.
 inline constexpr double kRoundest = 0.01;
 
-/// Points at several latitudes and longitudes, in the coordinates of a frame: one sine and cosine for each latitude and
-/// longitude, and a few products for each point.
+/// Computes points at several latitudes and longitudes in the coordinates of a frame. It takes one sine and one cosine
+/// for each latitude and longitude, and a few products for each point.
 template <std::size_t Most>
 class SurfaceGrid final {
 public:
-    /// Of the first `count` latitudes and longitudes.
+    /// Uses the first `count` latitudes and longitudes.
     SurfaceGrid(const Ellipsoid& ellipsoid, const std::array<double, Most>& latitudes,
                 const std::array<double, Most>& longitudes, std::size_t count, const Frame& frame) noexcept
         : _axesRatio(ellipsoid.squaredRatio()),
@@ -51,7 +51,7 @@ public:
         const double z = (_axesRatio * _radius[row] + altitude) * _sinLat[row];
         return {(_radius[row] + altitude) * _cosLat[row], z * _polar - _origin};
     }
-    /// From the origin of the frame, along its axes. Error: some 30 units in the last place of the longest of the
+    /// Returns: the point in the coordinates of the frame. Error: some 30 units in the last place of the longest of the
     /// vectors.
     [[nodiscard]] glm::dvec3 point(const Ring& ring, std::size_t column) const noexcept {
         return ring.axisDistance * _meridian[column] + ring.middle;

@@ -89,8 +89,8 @@ public:
 
     /// What this visitor last found out about a database.
     struct LastView {
-        double depth = 0.0;     ///< of the lowest surface shown: where it looks next time
-        unsigned int rest = 0;  ///< views for which terrain was not to hide terrain, because it had hidden too little
+        double depth = 0.0;        ///< metres, of the lowest surface shown; the next search starts there
+        unsigned int rest = 0;     ///< views without occlusion that follow a view in which it hid too little
         unsigned int resting = 0;  ///< how many of them are left
     };
     [[nodiscard]] LastView& lastView(const Database& database);

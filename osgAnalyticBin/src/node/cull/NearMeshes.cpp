@@ -16,7 +16,7 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// Appends the triangles whose boxes along the horizon come within a distance of the eye.
+// Appends the triangles whose horizontal boxes come within `radius` metres of the eye.
 void appendNear(const core::EcefMesh& mesh, const core::Frame& eye, double radius, core::EcefMesh& near) {
     std::vector<std::array<double, 2>> places;
     places.reserve(mesh.size());
@@ -48,7 +48,7 @@ const core::EcefMesh* NearMeshes::trianglesNear(const AnalyticBinCullCallback& t
                                                 const core::Frame& eye, double radius) {
     Known* const known = meshOf(tile, mesh);
     if (!known) return nullptr;
-    // half of the room for the eye's way, the other half for its vertical, which turns with it
+    // half of the room is for the eye's motion, the other half for its vertical, which turns as it moves
     const double room = 0.5 * (known->radius - radius);
     if (glm::distance(eye.origin, known->eye) <= room) return &known->near;
     constexpr double kWider = 16.0;

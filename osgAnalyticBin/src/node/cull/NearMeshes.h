@@ -15,13 +15,13 @@
 
 namespace osgAnalyticBin {
 
-/// The triangles around an eye, kept from frame to frame.
+/// Keeps the triangles around an eye from frame to frame.
 class NearMeshes {
 public:
-    /// The triangles of a tile's own mesh, ECEF, that come within `radius` metres of the vertical through the eye, and
-    /// some more. Returns: nullptr where they are not known. Valid until the next call.
-    /// Cost: one pass over the mesh when the eye has moved some times the radius; the mesh is read for tiles that were
-    /// not asked for lately, for meshes that were changed, and after some seconds.
+    /// Returns: all triangles of a tile's own mesh that come within `radius` metres of the vertical through the eye,
+    /// and some others, ECEF; nullptr where the mesh cannot be read. The result is valid until the next call. Cost: one
+    /// pass over the mesh when the eye has moved some times the radius. The mesh is read when its tile was not asked
+    /// for lately, when a change of it was noticed, and after every sixteenth use.
     [[nodiscard]] const core::EcefMesh* trianglesNear(const AnalyticBinCullCallback& tile, osg::Node& mesh,
                                                       const core::Frame& eye, double radius);
 
@@ -35,7 +35,7 @@ private:
         osg::Matrixd localToEcef;
         int uses;
         core::EcefMesh mesh;
-        glm::dvec3 eye;  // that the near triangles are about
+        glm::dvec3 eye;  // where it was when the near triangles were selected
         double radius;   // of these; negative: none were looked for
         core::EcefMesh near;
     };

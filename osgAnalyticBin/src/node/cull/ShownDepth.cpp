@@ -359,7 +359,7 @@ std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& databas
         if (lowest.hasHole()) return std::nullopt;
         if (lowest.depth() <= depth) {
             depth = std::max(lowest.depth(), 0.0);
-            // a near plane in the terrain shows its inside, however deep an occluder lies behind it
+            // a near plane that cuts the terrain shows the inside of the globe, so no deeper occluder may be used
             const double belowEye = place && place->altitude < 0.0 ? step - place->altitude : 0.0;
             const bool isCutOpen = !viewpoint.above(ellipsoid, std::max(depth, belowEye));
             return !isCutOpen && isTrusted(database, lowest, place) ? eye : std::nullopt;

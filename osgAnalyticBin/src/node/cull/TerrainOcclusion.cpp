@@ -86,7 +86,7 @@ struct Candidate {
     double distance;   // metres from the eye to a corner of the bin, the nearest one
     double size;       // metres from corner to corner
     bool isHidden;     // as far as is known
-    bool isInPicture;  // at least a part
+    bool isInPicture;  // at least one quarter is
 };
 
 // A quarter of a tile's bin. Quarters are tested one by one, because more terrain is in front of the farther ones.
@@ -247,7 +247,7 @@ private:
                      0.09 * radius);
         _columns.clear();
         // coarser cells bridge the gaps between finer ones
-        const std::size_t coarsest = candidate.isHidden ? 1 : 2;  // the whole tile is in all of its quarters
+        const std::size_t coarsest = candidate.isHidden ? 1 : 2;  // the cell of the whole tile is added once
         for (; cells >= coarsest; cells /= 2)
             plates->appendColumns(cells, quarter.number, depth, _picture.eye, _columns);
         for (const core::EarthColumn& column : _columns) _buffer.add(column);

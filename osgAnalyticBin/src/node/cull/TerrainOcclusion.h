@@ -9,10 +9,10 @@
 
 namespace osgAnalyticBin {
 
-/// What was found of the tiles that a database shows.
+/// How many of the shown tiles terrain hides.
 struct OccludedTiles {
     std::size_t hidden = 0;
-    std::size_t inView = 0;  ///< these included
+    std::size_t inView = 0;  ///< hidden ones included
 };
 
 /// Says in the database's plan which of the shown tiles lie behind the terrain of others, seen from an eye above the

@@ -119,7 +119,7 @@ double Viewpoint::nearReach() const noexcept {
 
 std::optional<core::HorizonEye> Viewpoint::above(const core::Ellipsoid& ellipsoid, double depth) const noexcept {
     if (_isDirection) {
-        // a near plane that cuts the globe open shows its inside, however deep the occluder lies
+        // a near plane that cuts the globe shows its inside, so no deeper occluder may be used
         if (!core::HorizonEye::fromDirection(ellipsoid, 0.0, _direction, _point)) return std::nullopt;
         return core::HorizonEye::fromDirection(ellipsoid, depth, _direction, _point);
     }

@@ -193,7 +193,7 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
             node.getEllipsoidModel() && !isGlobeBroken(node) ? node.getEllipsoidModel() : new osg::EllipsoidModel;
         own = new Database(_options, ellipsoid.get(), dynamic_cast<osgTerrain::Terrain*>(&node), _index.get());
         own->setRoot(node);
-        // new bins do not know where a tile was before
+        // new bins do not tell where a tile stood before
         if (hasMovedTile) own->noteMovedTile(frame().file);
     }
     const Scoped index(_index, isKept ? osg::ref_ptr<const BinIndex>(own->index()) : _index);
@@ -213,7 +213,7 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
 
 void BinInstaller::visitTile(FoundTile& tile) {
     const bool hasNewContent = ContentWatch::hasNewContent(*tile.node);
-    // the tile gets a bin where it stands now; where it stood there is a gap
+    // the new bin is where the tile stands now; there is a gap where it stood
     if (hasMoved(*tile.node)) database().noteMovedTile(tile.frame.file);
     uninstall(tile);
     if (isInstanced(*tile.node, tile.frame)) {

@@ -37,7 +37,7 @@ protected:
 /// own.
 [[nodiscard]] InstalledTile* installedTileOf(const osg::Node& node);
 
-/// Whether the mesh of a tile was noticed to have left its place since bins were installed on it.
+/// Whether the kit noticed that the mesh of a tile was moved after bins were installed on it.
 [[nodiscard]] bool hasMoved(osg::Node& tile);
 
 /// The callback of a geodetic bin that an installer made for this very node. Returns: nullptr when there is none.

@@ -99,11 +99,13 @@ public:
     void noteStrayTile(const std::string& where);
     [[nodiscard]] bool hasStrayTile() const { return _hasStrayTile.load(std::memory_order_relaxed); }
 
-    /// Says that a tile stands elsewhere than where it belongs: there is a gap, and no horizon, given or not.
+    /// Says that a tile does not stand where its bin was stored or installed. Its place is a gap, and no horizon is
+    /// used, not even a given one.
     void noteMovedTile(const std::string& where);
     [[nodiscard]] bool hasMovedTile() const { return _hasMovedTile.load(std::memory_order_relaxed); }
 
-    /// Says that terrain was to hide terrain for a camera whose near plane is not known before all is culled.
+    /// Says that occlusion was asked for by a camera whose near plane OSG computes after the cull traversal. Warns
+    /// once.
     void noteUnknownNearPlane();
 
     /// Says that osgTerrain tiles are drawn in a way that is not known.

@@ -27,15 +27,15 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// Whether terrain is to hide terrain in this view.
+// Whether to look for tiles behind terrain in this view.
 bool isOcclusionDue(OcclusionUse use, CullTraversal::LastView& last) {
     if (use != OcclusionUse::Auto || last.resting == 0) return use != OcclusionUse::Off;
     --last.resting;
     return false;
 }
 
-// Rests where it did not pay, the longer the more often. A hidden tile saves what drawing it costs, some microseconds
-// at least; looking for hidden ones takes two or three for each tile in view.
+// After a view in which occlusion did not pay, it rests, for longer each time. A hidden tile saves at least some
+// microseconds of drawing; looking for hidden tiles takes two or three microseconds for each tile in view.
 void noteOccluded(const OccludedTiles& tiles, CullTraversal::LastView& last) {
     constexpr unsigned int kShortestRest = 8, kLongestRest = 64;
     const bool pays = 4 * tiles.hidden >= tiles.inView && tiles.hidden > 0;

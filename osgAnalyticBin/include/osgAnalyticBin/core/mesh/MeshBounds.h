@@ -27,16 +27,16 @@ struct EcefMesh {
     [[nodiscard]] glm::dvec3 vertex(std::size_t i) const noexcept { return {x[i], y[i], z[i]}; }
 };
 
-/// The bin of a triangle mesh, with what the triangles do between their vertices, whatever the mesh is. Most meshes of
-/// terrain are bounded in closed form: without iteration, and without trigonometry but for the whole mesh, at most some
-/// 0.5 m too deep and too high and 1e-7 radians too wide. The others are handed to GeodeticMeshBounds: sides of more
-/// than 1500 km, altitudes beyond 100 km, a mesh that wraps half the globe, an ellipsoid that is not nearly a sphere,
-/// |a2/b2 - 1| > 0.01. Lengths here are those of the earth in metres; on another globe, or in another unit, they are to
-/// be multiplied by its equatorial radius over the earth's, 6378137.
-/// Guarantee: on any ellipsoid in any unit, bin() holds every point of every triangle, or is empty, which means not
-/// known; vertices within 1 m of the axis may leave it by that much; tests: MeshBounds.*, PlanetMeshes.*.
-/// Cost: some 10 nanoseconds for each vertex and each triangle in closed form, many times that otherwise. One object
-/// for many meshes keeps its memory. Source: doc/derivation.md, sections 5 and 11.
+/// The bin of any triangle mesh. It holds the whole triangles, not only their vertices.
+/// Most meshes of terrain are bounded by closed formulas, without iteration; trigonometry is used a few times for the
+/// whole mesh. That bin is at most some 0.5 m too deep, 0.5 m too high and 1e-7 radians too wide. GeodeticMeshBounds
+/// bounds the other meshes: those with sides of more than 1500 km or altitudes beyond 100 km, those that wrap half the
+/// globe, and those on an ellipsoid with |a2/b2 - 1| > 0.01. Lengths here are those of the earth in metres; on another
+/// globe, or in another unit, they are to be multiplied by its equatorial radius over the earth's, 6378137. Guarantee:
+/// on any ellipsoid in any unit, bin() holds every point of every triangle, or is empty, which means not known;
+/// vertices within 1 m of the axis may leave it by that much; tests: MeshBounds.*, PlanetMeshes.*. Cost: some 10
+/// nanoseconds for each vertex and each triangle with closed formulas, many times that otherwise. An object that is
+/// used for many meshes keeps its memory. Source: doc/derivation.md, sections 5 and 11.
 class MeshBounds final {
 public:
     MeshBounds() = default;
@@ -50,7 +50,7 @@ public:
     /// ellipsoid's smallest radius of curvature.
     [[nodiscard]] const GeodeticBin& bin() const noexcept { return _bin; }
 
-    /// Whether the bin was found in closed form.
+    /// Whether the bin was found by closed formulas.
     [[nodiscard]] bool isQuick() const noexcept { return _isQuick; }
 
     /// Some vertex lies within 1 m of the axis.

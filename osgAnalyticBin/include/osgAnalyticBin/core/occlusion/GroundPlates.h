@@ -17,8 +17,8 @@
 
 namespace osgAnalyticBin::core {
 
-/// A convex body within the earth below a terrain's surface: the hull of eight corners, in metres of the frame that was
-/// given.
+/// A convex body within the earth below a terrain's surface: the hull of eight corners, in metres, in the frame that
+/// appendColumns() was given.
 struct EarthColumn {
     /// @{
     /// The corners of a cell, south-west, south-east, north-west, north-east.
@@ -51,8 +51,9 @@ public:
     /// infinity: not known. Requires: such a grid and cell.
     [[nodiscard]] double least(std::size_t cells, std::size_t row, std::size_t column) const noexcept;
 
-    /// Appends the earth below each known cell of a grid that is in one quarter of the tile, `depth` metres deep, row
-    /// by row, in coordinates of a frame. Quarters are numbered as by hullsOfQuarters(); one cell is in all of them.
+    /// Appends a column of earth, `depth` metres deep, for each known cell of a grid in one quarter of the tile, row by
+    /// row, in the coordinates of `frame`. Quarters are numbered as hullsOfQuarters() does. The single cell of the
+    /// coarsest grid belongs to all quarters.
     /// Guarantee: every point of a column, up to its `error`, has the mesh above it, along the ellipsoid's normal;
     /// tests: GroundPlates.ColumnsLieBelowTheMesh*. It appends nothing for cells too wide for the rim: with angles in
     /// radians, where the square of the width in longitude exceeds about an eighth of the width in latitude. Requires:

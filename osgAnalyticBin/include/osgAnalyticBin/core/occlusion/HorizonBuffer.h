@@ -17,8 +17,8 @@ namespace osgAnalyticBin::core {
 
 /// The part of an eye's view that earth covers: a picture on the vertical plane in front of the eye, cut into strips of
 /// equal width, each with the heights that earth in front covers. What lies behind that earth is hidden.
-/// All is given in the frame of the eye: the eye is its origin, x points to the right, y forward, z is the eye's
-/// vertical. Positions in the picture: x = right / forward, y = up / forward.
+/// All points are in the frame of the eye: the eye is the origin, x points to the right, y points forward, and z points
+/// up along the eye's vertical. A point is at x = right / forward, y = up / forward in the picture.
 /// Source: doc/occlusion.md, sections 1 and 4.
 class HorizonBuffer final {
 public:
@@ -26,8 +26,9 @@ public:
     static constexpr std::size_t kStrips = 256;
 
     /// `eyeToCentre`: metres from the eye to the centre of the globe, for rounding. `across`: the range of x that the
-    /// camera can see, or more; what is beside it hides nothing, and nobody asks for it. `drawing`: by how much corners
-    /// of triangles may be drawn in another place of the picture, in x and in y; bodies count as larger by it.
+    /// camera can see, or more; earth beside it hides nothing, and callers do not ask for bodies beside it. `drawing`:
+    /// how far from its place in the picture the corner of a triangle may be drawn, in x and in y; outlines are
+    /// enlarged by it.
     HorizonBuffer(double eyeToCentre, const Interval& across, double drawing = 0.0);
 
     /// Adds earth. It hides what is no nearer than its farthest corner. Earth beside or behind the eye is left out.
@@ -62,7 +63,7 @@ private:
         Line(const glm::dvec2& a, const glm::dvec2& b, double move);
         double slope, offset;
     };
-    // An upright quadrilateral of earth, in the picture. The heap of those that are not in the strips yet has the
+    // The picture of an upright quadrilateral of earth. Walls that are not in the strips yet wait in a heap, with the
     // nearest on top.
     struct Wall {
         double farthest;
@@ -84,7 +85,8 @@ private:
     double _lowest = -std::numeric_limits<double>::infinity();
     double _reached = 0.0;  // the farthest corner of the earth that is in the strips
     std::vector<Wall> _pending;
-    std::array<double, kStrips> _lower, _upper;  // of what is covered; nothing where the lower is above the upper
+    std::array<double, kStrips> _lower,
+        _upper;  // ends of the covered interval; nothing is covered where _lower > _upper
 };
 
 }  // namespace osgAnalyticBin::core
