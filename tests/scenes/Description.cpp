@@ -96,9 +96,9 @@ void describe(const DatabaseSpec& d, std::ostream& out) {
     static constexpr const char* kShapes[] = {"groups of four tiles", "groups of groups with one tile",
                                               "one tile each"};
     out << (d.isMap ? "a map of " : "a globe of ") << d.shownColumns << " of " << d.columns << " x " << d.rows
-        << " tiles and " << d.levels << " finer levels " << (d.isLoaded ? "(loaded), " : "(paged), ")
-        << kMeshes[static_cast<int>(d.mesh)] << " of " << d.posts << " posts, relief " << d.relief << " m in "
-        << d.waves << " waves";
+        << " from row " << d.firstRow << " tiles and " << d.levels << " finer levels "
+        << (d.isLoaded ? "(loaded), " : "(paged), ") << kMeshes[static_cast<int>(d.mesh)] << " of " << d.posts
+        << " posts, relief " << d.relief << " m in " << d.waves << " waves";
     if (d.levels > 0) out << ", files are " << kShapes[static_cast<int>(d.fileShape)];
     if (!d.isMap) out << ", radii " << d.equatorial << " " << d.polar;
     if (d.storesBins) out << ", stored bins" << (d.groupsLeaves ? " (groups above leaves)" : "");

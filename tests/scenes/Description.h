@@ -53,6 +53,7 @@ struct DatabaseSpec {
     bool isMap = false;
     int columns = 8, rows = 4;
     int shownColumns = 8;  ///< fewer: a region, not the whole globe
+    int firstRow = 0;      ///< of a region: rows of tiles to the south of it
     int levels = 1;        ///< finer ones, in files
     int posts = 5;
     MeshKind mesh = MeshKind::Local;
@@ -73,7 +74,7 @@ struct DatabaseSpec {
     osg::Vec3d drift;     ///< metres a frame
 
     /// Whether the tiles cover the whole globe.
-    [[nodiscard]] bool isWhole() const { return !isMap && shownColumns == columns; }
+    [[nodiscard]] bool isWhole() const { return !isMap && shownColumns == columns && rows == columns / 2; }
     [[nodiscard]] double scale() const { return equatorial / 6378137.0; }
     /// Radians; in a map, metres.
     [[nodiscard]] double tileWidth(int level) const;

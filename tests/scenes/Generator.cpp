@@ -260,7 +260,7 @@ void chooseTheme(Random& random, Description& description) {
         if (random.chance(0.5)) database.verticalScale = 10.0;
         if (database.options.horizonUse == HorizonUse::Given) database.options.horizonUse = HorizonUse::ByMethod;
         database.options.heights = CullOptions::kTerrainOnEarth;
-    } else if (theme < 0.45 && database.isWhole()) {
+    } else if (theme < 0.45 && !database.isMap) {
         // the smaller the globe, the higher its mountains are beside its radius
         description.theme = Theme::Hills;
         if (database.mesh == MeshKind::Terrain) database.mesh = MeshKind::Local;

@@ -149,7 +149,7 @@ osg::ref_ptr<osg::Geometry> makeTower(double height, double width) {
 
 Extents extentsOf(const DatabaseSpec& database, const TileKey& tile) {
     const double width = database.tileWidth(tile.level);
-    const double south = database.isMap ? 0.0 : -0.5 * osg::PI;
+    const double south = database.isMap ? 0.0 : -0.5 * osg::PI + database.firstRow * database.tileWidth(0);
     const double west = database.isMap ? 0.0 : -osg::PI;
     return {south + width * tile.row, south + width * (tile.row + 1), west + width * tile.column,
             west + width * (tile.column + 1)};

@@ -27,13 +27,22 @@ void chooseRadii(Random& random, DatabaseSpec& database) {
     database.polar = radii.polar;
 }
 
+// Between two parallels.
+void chooseRegion(Random& random, DatabaseSpec& database) {
+    database.columns = random.pick(std::array<int, 4>{8, 16, 32, 64});
+    database.shownColumns = random.integer(1, 6);
+    database.rows = random.integer(1, 4);
+    database.firstRow = random.integer(0, database.columns / 2 - database.rows);
+}
+
 void chooseTiles(Random& random, DatabaseSpec& database) {
     static constexpr std::array<int, 5> kColumns{4, 8, 8, 8, 16};
     static constexpr std::array<int, 5> kLevels{0, 0, 1, 1, 2};
     database.columns = random.pick(kColumns);
     database.rows = database.columns / 2;
     database.levels = database.columns == 16 ? random.integer(0, 1) : random.pick(kLevels);
-    database.shownColumns = random.chance(0.85) ? database.columns : random.integer(1, database.columns);
+    database.shownColumns = random.chance(0.93) ? database.columns : random.integer(1, database.columns);
+    if (random.chance(0.15)) chooseRegion(random, database);
     database.posts = random.integer(3, 5);
     const double kind = random.uniform();
     database.mesh = kind < 0.5 ? MeshKind::Local : kind < 0.7 ? MeshKind::Ecef : MeshKind::Terrain;
@@ -58,6 +67,7 @@ void makeMap(Random& random, DatabaseSpec& database) {
     database.columns = random.integer(2, 6);
     database.rows = random.integer(2, 6);
     database.shownColumns = database.columns;
+    database.firstRow = 0;
     database.storesBins = false;
 }
 

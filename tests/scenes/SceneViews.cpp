@@ -145,8 +145,11 @@ Look lookThroughValley(Random& random, const Description& description, const Til
     const osg::Vec3d center = place(database, latitude + distance * std::cos(bearing), longitude + eastward,
                                     database.relief * random.uniform(-1.0, 1.0));
     const osg::Matrixd world = database.toWorld(frame);
-    return {place(database, latitude, longitude, altitude) * world, center * world,
-            upAt(database, latitude, longitude, frame), above};
+    const osg::Vec3d eye = place(database, latitude, longitude, altitude);
+    const osg::Vec3d up = upAt(database, latitude, longitude, frame);
+    // at a region from beside it
+    const bool isBackward = !database.isWhole() && random.chance(0.5);
+    return isBackward ? Look{center * world, eye * world, up, above} : Look{eye * world, center * world, up, above};
 }
 
 Look anyLook(Random& random, const Description& description, int frame) {

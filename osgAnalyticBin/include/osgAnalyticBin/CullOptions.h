@@ -84,8 +84,8 @@ struct CullOptions {
     /// is beyond one of their faces. Without a value: not with methods for comparison. Tiles of a map, all of them
     /// boxes, are tested unless it is false.
     std::optional<bool> reverse;
-    /// Whether tiles behind terrain are culled: on a globe whose horizon is used (see `horizonUse`), for tiles whose
-    /// meshes the kit reads, by cameras that do not compute their near plane.
+    /// Whether tiles behind terrain are culled: on a globe or a region of one that uses the horizon (see `horizonUse`),
+    /// for tiles whose meshes the kit reads, by cameras that do not compute their near plane.
     OcclusionUse occlusion = OcclusionUse::Off;
     /// Seconds for which the DatabasePager keeps a tile's finer children after they were last seen, when it has more
     /// PagedLODs than its target; 0 leaves OSG's own rule alone. Bins cull what spheres keep by chance: without this,

@@ -204,6 +204,16 @@ FAULTS = [
           'if (_skirt != 0.0) text += "; skirt " + numberToText(_skirt);', "", PLUGIN, "*Serializer*"),
 
     # terrain that hides terrain
+    Fault("region: eyes near the border see no border", "src/core/horizon/CoveredRegion.cpp",
+          "const double across = std::asin(", "const double across = 0.5 * std::asin(", CORE, "CoveredRegion.*"),
+    Fault("region: parallels do not bulge", "src/core/horizon/CoveredRegion.cpp", "if (border <= 0.0) return true;",
+          "if (border < 2.0) return true;", CORE, "CoveredRegion.*"),
+    Fault("region: the horizon passes the border", "src/node/cull/ShownDepth.cpp",
+          "if (isPastBorder) return std::nullopt;", "(void)isPastBorder;", NODE, "RegionalHorizon.*"),
+    Fault("region: terrain hides from beside", "src/node/cull/TerrainOcclusion.cpp",
+          "if (database.region && !database.region->holdsSegmentsFrom(*viewpoint.eye())) return {};", "", NODE, "RegionalTerrain.*"),
+    Fault("region: a missing tile leaves a region", "src/node/install/Coverage.cpp",
+          "|| areaOf(all) - area() >= 0.5 * _smallest", "", NODE, "Regional*"),
     Fault("occlusion: borders of meshes count as covered", "src/core/occlusion/GroundPlates.cpp", "        addBorders();\n", "",
           CORE, "GroundPlates.*"),
     Fault("occlusion: folds count as covered", "src/core/occlusion/GroundPlates.cpp",

@@ -6,6 +6,7 @@
 #include "Viewpoint.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/core/horizon/CoveredRegion.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <osg/CullStack>
@@ -24,20 +25,21 @@ struct ShownDatabase {
     osg::NodeVisitor& visitor;
     osg::CullStack& cullStack;
     const DatabaseView& view;
-    bool findsOccluded;  // whether the plan is to have the tiles that are shown
+    bool findsOccluded;                 // whether the plan is to have the tiles that are shown
+    const core::CoveredRegion* region;  // that is covered; null: the globe
 };
 
 /// The eye over a database: the occluder lies just below the lowest surface that the traversal shows, by levels of
 /// detail and by what is loaded, in the frustum, between the eye and its horizon. Coarse meshes elsewhere, which dip
 /// far below the ellipsoid, do not count. Nothing at all is drawn below `deepest` (metres), infinite where no altitude
 /// is declared. `depth` (metres) is where the search starts, best that of the last frame; it returns the depth found.
-/// Requires: tiles that cover the globe without gaps.
+/// Requires: tiles that cover the globe, or the region, without gaps.
 /// Guarantee: nothing is hidden that is seen past the shown surfaces; the eye's occluder is no deeper than `depth` was
 /// or 1.05 times the depth found, but for eyes below the ellipsoid; tests: ShownDepth.*, HoledGlobe.*.
 /// Returns: nullopt when something of unknown depth is shown and no altitude is declared, when nothing can be hidden,
-/// when a tile in view may not be drawn or can be seen through, and when the eye is not known to be above the ground
-/// below it.
-/// Cost: one short test for every tile shown on the near side of the horizon. Source: doc/horizon.md, section 8.
+/// when a tile in view may not be drawn or can be seen through, when the eye sees past the border of a region, and when
+/// the eye is not known to be above the ground below it. Cost: one short test for every tile shown on the near side of
+/// the horizon. Source: doc/horizon.md, section 8.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& database,
                                                                                         const Viewpoint& viewpoint,
                                                                                         double deepest, double& depth);
@@ -45,5 +47,9 @@ struct ShownDatabase {
 /// The same over an occluder at a given depth (metres), where no tile is known to reach lower.
 [[nodiscard]] std::optional<core::HorizonEye> eyeAboveDepth(const ShownDatabase& database, const Viewpoint& viewpoint,
                                                             double depth);
+
+/// Makes the plan of what is shown where no horizon can be used.
+/// Returns: whether all that is shown in view is drawn and opaque, and the eye is above the ground below it.
+[[nodiscard]] bool planWithoutHorizon(const ShownDatabase& database, const Viewpoint& viewpoint);
 
 }  // namespace osgAnalyticBin

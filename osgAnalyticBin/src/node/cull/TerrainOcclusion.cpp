@@ -228,11 +228,20 @@ private:
         return highest;
     }
 
+    // Lines of sight that meet earth there come from above the terrain, not from beside it.
+    [[nodiscard]] bool isOverRegion(const GeodeticBin& bin) const {
+        return !_database.region || _database.region->contains(bin);
+    }
+    [[nodiscard]] bool isQuarterOverRegion(const Quarter& quarter) const {
+        return isOverRegion(_candidates[quarter.candidate].tile->tile->getBin().bin().quarters()[quarter.number]);
+    }
+
     void addEarth(const Quarter& quarter) {
         const Candidate& candidate = _candidates[quarter.candidate];
         const InstalledTile* const installed = candidate.tile->tile->getInstalledTile();
         const core::GroundPlates* const plates = installed && candidate.tile->isSure ? installed->plates() : nullptr;
-        if (!plates) return;
+        const bool isTileOverRegion = isOverRegion(candidate.tile->tile->getBin().bin());
+        if (!plates || (!isTileOverRegion && !isQuarterOverRegion(quarter))) return;
         // a cell should be some strips wide
         constexpr double kStripsOfCell = 8.0;
         const double strips = candidate.size / std::max(candidate.distance, 1e-3 * candidate.size) /
@@ -247,7 +256,8 @@ private:
                      0.09 * radius);
         _columns.clear();
         // coarser cells bridge the gaps between finer ones
-        const std::size_t coarsest = candidate.isHidden ? 1 : 2;  // the cell of the whole tile is added once
+        // the cell of the whole tile is added once
+        const std::size_t coarsest = candidate.isHidden && isTileOverRegion ? 1 : 2;
         for (; cells >= coarsest; cells /= 2)
             plates->appendColumns(cells, quarter.number, depth, _picture.eye, _columns);
         for (const core::EarthColumn& column : _columns) _buffer.add(column);
@@ -271,6 +281,7 @@ OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& 
     // tiles in front of the near plane are not looked for then
     constexpr osg::CullingSet::Mask kNear = osg::CullingSet::NEAR_PLANE_CULLING;
     if (database.cullStack.getCurrentCullingSet().getCullingMask() & kNear) return {};
+    if (database.region && !database.region->holdsSegmentsFrom(*viewpoint.eye())) return {};
     const auto picture = pictureOf(database, *viewpoint.eye());
     return picture ? TerrainOcclusion(database, *picture).run(viewpoint.nearReach()) : OccludedTiles();
 }

@@ -120,7 +120,7 @@ void BinInstaller::refit(osg::Node& node, Database& database) {
 
 void BinInstaller::finish() {
     for (const auto& [file, coverage] : *_coverage) {
-        if (installsBins() && coverage.hasGap()) database().noteGap(file);
+        if (installsBins()) database().noteCoverage(file, coverage);
     }
     _coverage->clear();
     placeFamilies();

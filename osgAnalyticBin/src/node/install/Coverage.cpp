@@ -33,11 +33,14 @@ double Coverage::areaOf(const core::GeodeticBin& extents) {
 
 void Coverage::expectGlobe() {
     _expected = 2.0 * kPi * kPi;
+    _isOfGlobe = true;
 }
 
 void Coverage::add(const core::GeodeticBin& tile) {
     if (tile.empty()) return;
     _smallest = std::min(_smallest, areaOf(tile));
+    _tallest = std::max(_tallest, tile.latitude().width());
+    _widest = std::max(_widest, tile.longitude().width());
     const double width = std::min(tile.longitude().width(), 2.0 * kPi);
     const double west = std::remainder(tile.longitude().lower, 2.0 * kPi);
     const double east = west + width;
@@ -71,6 +74,48 @@ double Coverage::area() const {
 bool Coverage::hasGap() const {
     if (!_isVisited || !(_expected > 0.0)) return false;
     return _expected - area() >= 0.5 * std::min(_smallest, _expected);
+}
+
+// From the first to the last tile eastward, beginning after the widest strip of longitudes without tiles.
+core::GeodeticBin Coverage::extents() const {
+    std::vector<core::Interval> longitudes;
+    core::Interval latitude{kPi, -kPi};
+    for (const core::GeodeticBin& tile : _tiles) {
+        longitudes.push_back(tile.longitude());
+        latitude = {std::min(latitude.lower, tile.latitude().lower), std::max(latitude.upper, tile.latitude().upper)};
+    }
+    if (longitudes.empty()) return {};
+    std::sort(longitudes.begin(), longitudes.end(),
+              [](const core::Interval& a, const core::Interval& b) { return a.lower < b.lower; });
+    double east = longitudes.front().lower, widest = 0.0, afterWidest = east;
+    const auto goOnTo = [&](double lower, double upper) {
+        if (lower - east > widest) {
+            widest = lower - east;
+            afterWidest = lower;
+        }
+        east = std::max(east, upper);
+    };
+    for (const core::Interval& longitude : longitudes) goOnTo(longitude.lower, longitude.upper);
+    goOnTo(longitudes.front().lower + 2.0 * kPi, east);
+    return {latitude, {afterWidest, afterWidest + 2.0 * kPi - widest}, {0.0, 0.0}};
+}
+
+core::GeodeticBin Coverage::region() const {
+    constexpr double kBorder = 1.0 / 32.0;
+    const core::GeodeticBin all = extents();
+    if (!_isVisited || all.empty() || areaOf(all) - area() >= 0.5 * _smallest) return {};
+    // the edge of a mesh along a parallel is made of chords
+    const double sag = _widest < 0.9 * kPi ? 0.55 * (1.0 / std::cos(0.5 * _widest) - 1.0) : kPi;
+    const double margin = std::max(kBorder * _tallest, sag);
+    const auto [west, east] = all.longitude();
+    const bool isFullCircle = all.isFullCircle();
+    const double aside = isFullCircle ? 0.0 : kBorder * _widest;
+    const auto inside = [&](double latitude, double inward) {
+        return isFullCircle && std::abs(latitude) >= 0.5 * kPi ? latitude : latitude + inward;
+    };
+    return {{inside(all.latitude().lower, margin), inside(all.latitude().upper, -margin)},
+            {west + aside, east - aside},
+            {0.0, 0.0}};
 }
 
 }  // namespace osgAnalyticBin

@@ -3,7 +3,9 @@
 
 #include "Database.h"
 
+#include "../GlmBridge.h"
 #include "../cull/TileFamily.h"
+#include "../install/Coverage.h"
 #include "../install/InstalledTile.h"
 
 #include <osg/Notify>
@@ -122,9 +124,32 @@ bool Database::takeShapeChange() {
 
 void Database::noteGap(const std::string& where) {
     if (_hasGap.exchange(true, std::memory_order_relaxed)) return;
-    OSG_INFO << "osgAnalyticBin: the tiles of \"" << where
-             << "\" do not cover the tile that they are paged below, or the globe; the horizon is not used."
-             << std::endl;
+    OSG_NOTICE << "osgAnalyticBin: the tiles of \"" << where
+               << "\" do not cover the tile that they are paged below, or no rectangle of latitude and longitude; the "
+                  "horizon is not used."
+               << std::endl;
+}
+
+void Database::noteCoverage(const std::string& file, const Coverage& coverage) {
+    const bool hasGap = coverage.hasGap();
+    const core::GeodeticBin region = hasGap && coverage.isOfGlobe() ? coverage.region() : core::GeodeticBin();
+    if (hasGap && region.empty()) noteGap(file);
+    if (!coverage.isOfGlobe()) return;
+    const std::lock_guard<std::mutex> lock(_mutex);
+    _region.reset();
+    if (!region.empty()) _region.emplace(toCore(*_ellipsoid), region);
+}
+
+std::optional<core::CoveredRegion> Database::region() const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return _region;
+}
+
+void Database::noteBorderInView() {
+    if (_hasBorderInView.exchange(true, std::memory_order_relaxed)) return;
+    OSG_NOTICE << "osgAnalyticBin: the eye is so high above this regional database, or so near its border, that it "
+                  "sees past it; the horizon hides nothing there."
+               << std::endl;
 }
 
 void Database::noteStrayTile(const std::string& where) {

@@ -6,6 +6,7 @@
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/core/horizon/CoveredRegion.h>
 #include <osgAnalyticBin/core/mesh/CrackBounds.h>
 
 #include <osg/CoordinateSystemNode>
@@ -18,12 +19,14 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
 
+class Coverage;
 struct ParentTile;
 
 /// What a tile's bin has to be widened by.
@@ -99,6 +102,15 @@ public:
     void noteStrayTile(const std::string& where);
     [[nodiscard]] bool hasStrayTile() const { return _hasStrayTile.load(std::memory_order_relaxed); }
 
+    /// Says what the tiles of a file cover: noteGap(), but for root files that cover a region.
+    void noteCoverage(const std::string& file, const Coverage& coverage);
+
+    /// The region that a regional database covers; none: the database covers the globe, or has a gap.
+    [[nodiscard]] std::optional<core::CoveredRegion> region() const;
+
+    /// Says that an eye sees past the border of the region, where the horizon hides nothing. Says so to the user once.
+    void noteBorderInView();
+
     /// Says that a tile does not stand where its bin was stored or installed. Its place is a gap, and no horizon is
     /// used, not even a given one.
     void noteMovedTile(const std::string& where);
@@ -160,8 +172,10 @@ private:
     std::atomic<bool> _hasMovedTile{false};
     std::atomic<bool> _hasUnknownTechnique{false};
     std::atomic<bool> _hasUnknownNearPlane{false};
+    std::atomic<bool> _hasBorderInView{false};
     mutable std::mutex _mutex;  // guards what follows
     CullOptions _options;
+    std::optional<core::CoveredRegion> _region;
     TerrainShape _fittedShape;
     unsigned int _generation = 0;
     std::vector<osg::observer_ptr<osg::Node>> _onTheirWay;  // treated by the present options

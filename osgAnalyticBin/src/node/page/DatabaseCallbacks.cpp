@@ -52,26 +52,31 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
     const bool isAboveTerrain = options.skirts == SkirtUse::Cracks;
     const bool isUsed = isGiven || (horizonUse == HorizonUse::Declared && isAboveTerrain && !database.hasGap());
     // where other tiles cover the globe, stray ones hide nothing that these do not
-    const bool isRelyingOnStrays = database.hasGap() && database.hasStrayTile();
+    const auto region = database.region();
+    const bool isPartial = database.hasGap() || region;
+    const bool isRelyingOnStrays = isPartial && database.hasStrayTile();
     if (!isUsed || isRelyingOnStrays || isStateSeeThrough(nv)) return std::nullopt;
     const auto viewpoint = Viewpoint::of(cullStack, nv, options.inheritViewpoint);
     if (!viewpoint) return std::nullopt;
     const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
-    if (isGiven && (!isAboveTerrain || database.hasGap()))
-        return eyeAboveDepth({node, nv, cullStack, view, false}, *viewpoint, deepest);
+    if (isGiven && (!isAboveTerrain || isPartial))
+        return eyeAboveDepth({node, nv, cullStack, view, false, nullptr}, *viewpoint, deepest);
     CullTraversal::LastView& last = CullTraversal::of(nv).lastView(database);
     const bool mayFindOccluded = viewpoint->eye() && isAboveTerrain && !isForComparison(options.method);
     if (mayFindOccluded && options.occlusion != OcclusionUse::Off && !isFinalProjection(cullStack))
         database.noteUnknownNearPlane();
     const bool findsOccluded =
         mayFindOccluded && isFinalProjection(cullStack) && isOcclusionDue(options.occlusion, last);
-    const ShownDatabase shown{node, nv, cullStack, view, findsOccluded};
+    const ShownDatabase shown{node, nv, cullStack, view, findsOccluded, region ? &*region : nullptr};
     // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: the horizon
     // shall not depend on where the camera has been.
     constexpr unsigned int kFreshStart = 16;
     if (nv.getTraversalNumber() % kFreshStart == 0) last.depth = 0.0;
     const auto eye = eyeAboveWhatIsShown(shown, *viewpoint, deepest, last.depth);
-    if (findsOccluded) noteOccluded(eye ? cullBehindTerrain(shown, *viewpoint) : OccludedTiles(), last);
+    const bool isPastBorder = !eye && region;
+    if (isPastBorder) database.noteBorderInView();
+    const bool isPlanned = eye || (isPastBorder && findsOccluded && planWithoutHorizon(shown, *viewpoint));
+    if (findsOccluded) noteOccluded(isPlanned ? cullBehindTerrain(shown, *viewpoint) : OccludedTiles(), last);
     return eye;
 }
 

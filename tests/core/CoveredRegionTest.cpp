@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Oracle: latitudes and longitudes of points along lines of sight, to the tangent points of the occluder and to all
+// corners of the region.
+
+#include <osgAnalyticBin/core/horizon/CoveredRegion.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <support/Random.h>
+#include <support/RandomBins.h>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::CoveredRegion;
+using core::Ellipsoid;
+using core::Geodetic;
+using core::GeodeticBin;
+using core::HorizonEye;
+using core::Interval;
+
+// Radians by which a position may be beside a region and count as over it: rounding of the conversion.
+constexpr double kRounding = 1e-10;
+
+Ellipsoid randomGlobe(Random& random) {
+    if (random.chance(0.5)) return wgs84();
+    const double a = random.logUniform(1e5, 1e8);
+    return {a, a * std::sqrt(1.0 - random.uniform(-0.01, 0.01))};
+}
+
+// Some touch a pole, go round the globe, or end at the equator.
+GeodeticBin randomRegion(Random& random) {
+    const double height = random.logUniform(1e-4, kPi), width = random.logUniform(1e-4, 2.0 * kPi);
+    double south = random.uniform(-kHalfPi, kHalfPi);
+    if (random.chance(0.1)) south = 0.0;
+    if (random.chance(0.1)) south = -height;
+    if (random.chance(0.1)) south = kHalfPi - height;
+    const double west = random.uniform(-kPi, kPi);
+    const bool isFullCircle = random.chance(0.15);
+    return {{south, south + height}, {west, west + (isFullCircle ? 2.0 * kPi : width)}, {0.0, 0.0}};
+}
+
+bool isOver(const GeodeticBin& region, const Ellipsoid& ellipsoid, const glm::dvec3& point) {
+    const Geodetic at = ellipsoid.toGeodetic(point);
+    const Interval& latitude = region.latitude();
+    if (at.latitude < latitude.lower - kRounding || at.latitude > latitude.upper + kRounding) return false;
+    // longitudes mean little near the axis
+    const double slack = kRounding / std::max(1e-6, std::cos(at.latitude));
+    const double aside = std::remainder(at.longitude - region.longitude().middle(), 2.0 * kPi);
+    return std::abs(aside) <= 0.5 * region.longitude().width() + slack;
+}
+
+bool isSegmentOver(const GeodeticBin& region, const Ellipsoid& ellipsoid, const glm::dvec3& from,
+                   const glm::dvec3& to) {
+    constexpr int kSteps = 48;
+    for (int step = 0; step <= kSteps; ++step) {
+        if (!isOver(region, ellipsoid, glm::mix(from, to, static_cast<double>(step) / kSteps))) return false;
+    }
+    return true;
+}
+
+double reachOf(const GeodeticBin& region) {
+    return 0.5 * std::max(region.latitude().width(), region.longitude().width());
+}
+
+// By tangent points: nearer ones are on segments that are over the region if these are.
+bool seesOccluderOverRegion(const GeodeticBin& region, const Ellipsoid& ellipsoid, const HorizonEye& eye,
+                            const glm::dvec3& eyeEcef, Random& random) {
+    const auto& data = eye.data();
+    const glm::dvec3 toEye(data.x, data.y, data.z);
+    const glm::dvec3 aside = glm::normalize(
+        glm::cross(toEye, std::abs(toEye.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0)));
+    const glm::dvec3 ahead = glm::cross(toEye, aside);
+    const glm::dvec3 radii(ellipsoid.equatorialRadius(), ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+    constexpr int kDirections = 48;
+    const double first = random.uniform(0.0, 2.0 * kPi);
+    for (int i = 0; i < kDirections; ++i) {
+        const double angle = first + 2.0 * kPi * i / kDirections;
+        const glm::dvec3 direction =
+            data.cosDip * toEye + data.sinDip * (std::cos(angle) * ahead + std::sin(angle) * aside);
+        if (!isSegmentOver(region, ellipsoid, eyeEcef, data.scale * radii * direction)) return false;
+    }
+    return true;
+}
+
+TEST(CoveredRegion, HoldsAllLinesOfSightToTheOccluder) {
+    Random random(1701);
+    int held = 0, over = 0;
+    for (int trial = 0; trial < 10000; ++trial) {
+        const Ellipsoid ellipsoid = randomGlobe(random);
+        const double radius = ellipsoid.polarRadius();
+        const GeodeticBin region = randomRegion(random);
+        const Interval& latitude = region.latitude();
+        // horizons of about the region's size
+        const double dip = reachOf(region) * random.logUniform(0.02, 1.5);
+        const double height = std::min(0.5 * radius * dip * dip, 10.0 * radius) * random.uniform(0.3, 1.0);
+        const Geodetic place{random.uniform(latitude.lower, latitude.upper),
+                             random.uniform(region.longitude().lower, region.longitude().upper), height};
+        const double depth = random.chance(0.3) ? 0.0 : height * random.logUniform(1e-3, 1.0);
+        const glm::dvec3 eyeEcef = ellipsoid.toEcef(place);
+        const auto eye = HorizonEye::fromEye(ellipsoid, depth, eyeEcef);
+        if (!eye) continue;
+        const bool isTrue = seesOccluderOverRegion(region, ellipsoid, *eye, eyeEcef, random);
+        const bool isHeld = CoveredRegion(ellipsoid, region).holdsHorizon(*eye);
+        ASSERT_TRUE(isTrue || !isHeld) << "trial " << trial;
+        over += isTrue;
+        held += isHeld;
+    }
+    EXPECT_GT(over, 1000) << "nothing is tested";
+    EXPECT_GT(held, 0.93 * over);
+}
+
+TEST(CoveredRegion, HoldsAllSegments) {
+    Random random(1702);
+    int held = 0, over = 0;
+    for (int trial = 0; trial < 8000; ++trial) {
+        const Ellipsoid ellipsoid = randomGlobe(random);
+        const double most = 0.1 * ellipsoid.polarRadius();
+        const GeodeticBin region = randomRegion(random);
+        const auto [south, north] = region.latitude();
+        const auto [west, east] = region.longitude();
+        // near the northern border half of the time, and far from it compared with the bulge of parallels
+        const double fromNorth =
+            random.chance(0.5) ? (north - south) * random.logUniform(1e-6, 1.0) : (north - south) * random.uniform();
+        const auto altitude = [&] { return random.sign() * most * random.logUniform(1e-7, 0.99); };
+        const Geodetic place{std::max(south, north - fromNorth), random.uniform(west, east), altitude()};
+        const glm::dvec3 eye = ellipsoid.toEcef(place);
+        bool isTrue = true;
+        for (int target = 0; target < 24 && isTrue; ++target) {
+            const double share = random.chance(0.5) ? 0.0 : random.logUniform(1e-8, 1.0);
+            const bool isNorthern = random.chance(0.5);
+            const double at = isNorthern ? north - share * (north - south) : south + share * (north - south);
+            const std::array<double, 3> longitudes{west, east, random.uniform(west, east)};
+            isTrue = isSegmentOver(region, ellipsoid, eye, ellipsoid.toEcef({at, random.pick(longitudes), altitude()}));
+        }
+        const bool isHeld = CoveredRegion(ellipsoid, region).holdsSegmentsFrom(eye);
+        ASSERT_TRUE(isTrue || !isHeld) << "trial " << trial;
+        const bool isWide = region.longitude().width() > 0.49 * kPi;
+        over += isTrue && !isWide;
+        held += isHeld && !isWide;
+    }
+    EXPECT_GT(over, 1200) << "nothing is tested";
+    EXPECT_GT(held, 0.85 * over);
+}
+
+TEST(CoveredRegion, IsAGlobeToo) {
+    const auto eye = HorizonEye::fromEye(wgs84(), 100.0, wgs84().toEcef({0.3, 3.1, 1e7}));
+    ASSERT_TRUE(eye);
+    EXPECT_TRUE(CoveredRegion(wgs84(), GeodeticBin::wholeGlobe({0.0, 0.0})).holdsHorizon(*eye));
+    EXPECT_FALSE(CoveredRegion(wgs84(), GeodeticBin()).holdsHorizon(*eye));
+}
+
+TEST(CoveredRegion, HoldsNothingForAnOrthographicCamera) {
+    const auto eye = HorizonEye::fromDirection(wgs84(), 0.0, {-1.0, 0.0, 0.0}, {1e7, 0.0, 0.0});
+    ASSERT_TRUE(eye);
+    EXPECT_FALSE(CoveredRegion(wgs84(), GeodeticBin::wholeGlobe({0.0, 0.0})).holdsHorizon(*eye));
+}
+
+TEST(CoveredRegion, ContainsWhatIsOverIt) {
+    const CoveredRegion region(wgs84(), {{0.1, 0.4}, {3.0, 3.4}, {0.0, 0.0}});
+    EXPECT_TRUE(region.contains({{0.1, 0.2}, {-3.2, -3.0}, {-100.0, 9000.0}}));
+    EXPECT_FALSE(region.contains({{0.1, 0.41}, {3.1, 3.2}, {0.0, 0.0}}));
+    EXPECT_FALSE(region.contains({{0.2, 0.3}, {2.9, 3.2}, {0.0, 0.0}}));
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Databases that cover a part of the globe: the horizon, and terrain that hides terrain. Pictures and random scenes:
+// tests/scenes. What the core proves: CoveredRegionTest.cpp.
+
+#include "ApplicationGlobe.h"
+#include "CullFixture.h"
+
+#include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/InstallBins.h>
+
+#include <gtest/gtest.h>
+
+#include <support/CapturedNotes.h>
+#include <utility>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+// Rows of square tiles northward from a latitude and eastward from the zero meridian, without any other terrain.
+struct Region : MeshGlobe {
+    Region(double south, int rows, int columns, double widthDeg)
+        : southernmost(south), width(widthDeg), across(columns) {
+        root->removeChildren(0, root->getNumChildren());
+        tiles.clear();
+        for (int row = 0; row < rows; ++row)
+            for (int column = 0; column < columns; ++column) add(row, column, 0.0);
+    }
+
+    void add(int row, int column, double height) {
+        const double tileSouth = southernmost + width * row, west = width * column;
+        tiles.push_back(
+            makePaged(makeMeshTile(extentsDeg(tileSouth, tileSouth + width, west, west + width), height), "no.osgb"));
+        root->addChild(tiles.back());
+    }
+
+    [[nodiscard]] osg::PagedLOD& tile(int row, int column) {
+        return *tiles[static_cast<std::size_t>(row * across + column)];
+    }
+    // Puts another tile in the place of one.
+    void raise(int row, int column, double height) {
+        root->removeChild(&tile(row, column));
+        add(row, column, height);
+        tiles[static_cast<std::size_t>(row * across + column)] = tiles.back();
+        tiles.pop_back();
+    }
+
+    double southernmost, width;
+    int across;
+};
+
+// 40 x 40 degrees. From a place the horizon is some 5.6 degrees away at an altitude of 30 km, 12.8 at 160 km.
+struct WideRegion : Region {
+    WideRegion() : Region(10.0, 8, 8, 5.0) {}
+
+    // Whether the tile in the north-east is drawn in a view that it is in.
+    [[nodiscard]] bool drawsFarTile(double latitude, double longitude, double altitude = 30000.0) {
+        return draws(tile(7, 7), CullView::lookAt(ecefDeg(latitude, longitude, altitude), ecefDeg(47.5, 37.5, 0.0),
+                                                  ecefDeg(latitude, longitude, 0.0), 60.0));
+    }
+};
+
+TEST(RegionalHorizon, IsUsedWhereItIsWithinTheRegion) {
+    WideRegion region;
+    EXPECT_TRUE(region.drawsFarTile(30.0, 20.0));
+    installBins(*region.root);
+    EXPECT_FALSE(region.drawsFarTile(30.0, 20.0));
+    EXPECT_FALSE(region.drawsFarTile(16.5, 6.5));
+    EXPECT_FALSE(region.drawsFarTile(30.0, 20.0, 160000.0));
+}
+
+TEST(RegionalHorizon, IsNotUsedByAnEyeThatSeesPastTheBorder) {
+    WideRegion region;
+    installBins(*region.root);
+    const CapturedNotes notes(osg::NOTICE);
+    for (const auto& [latitude, longitude] : {std::pair(30.0, 5.0), {15.0, 20.0}, {30.0, -3.0}, {5.0, 20.0}})
+        EXPECT_TRUE(region.drawsFarTile(latitude, longitude)) << latitude << ' ' << longitude;
+    EXPECT_TRUE(region.drawsFarTile(30.0, 12.0, 160000.0));
+    EXPECT_EQ(notes.count("sees past it"), 1u);
+}
+
+TEST(RegionalHorizon, IsNotUsedWhereATileIsMissing) {
+    WideRegion region;
+    region.root->removeChild(&region.tile(0, 0));
+    const CapturedNotes notes(osg::NOTICE);
+    installBins(*region.root);
+    EXPECT_EQ(notes.count("the horizon is not used"), 1u);
+    EXPECT_TRUE(region.drawsFarTile(30.0, 20.0));
+}
+
+TEST(RegionalHorizon, FollowsTheTilesWhenBinsAreInstalledAnew) {
+    WideRegion region;
+    installBins(*region.root);
+    EXPECT_TRUE(region.drawsFarTile(30.0, 37.5));
+    for (int row = 0; row < 8; ++row)
+        for (int column = 8; column < 10; ++column) region.add(row, column, 0.0);
+    installBins(*region.root);
+    EXPECT_FALSE(region.drawsFarTile(30.0, 37.5));
+}
+
+// Ten tiles of 0.2 degrees from west to east, in three rows; the third column is a ridge.
+struct RidgeRegion : Region {
+    RidgeRegion() : Region(10.0, 3, 10, 0.2) {
+        for (int row = 0; row < 3; ++row) raise(row, 2, 8000.0);
+        CullOptions options;
+        options.occlusion = OcclusionUse::On;
+        installBins(*root, options);
+    }
+
+    // Whether the tile behind the ridge, as seen from the west, is drawn in a view that it is in.
+    [[nodiscard]] bool drawsFarTile(double latitude, double longitude, double altitude = 1000.0) {
+        return draws(tile(1, 4), CullView::lookAt(ecefDeg(latitude, longitude, altitude), ecefDeg(10.3, 0.9, altitude),
+                                                  ecefDeg(latitude, longitude, 0.0), 30.0));
+    }
+};
+
+TEST(RegionalTerrain, HidesWhatIsBehindARidge) {
+    RidgeRegion region;
+    EXPECT_FALSE(region.drawsFarTile(10.3, 0.1));
+    EXPECT_GE(BinStatistics::of(*region.visitor).getCounts().occluded, 1u);
+    EXPECT_TRUE(region.drawsFarTile(10.3, 0.1, 20000.0));
+    setCullOptions(*region.root, {});
+    EXPECT_TRUE(region.drawsFarTile(10.3, 0.1));
+}
+
+TEST(RegionalTerrain, HidesNothingFromBesideTheRegion) {
+    RidgeRegion region;
+    for (const auto& [latitude, longitude] : {std::pair(10.3, -0.1), {10.3, -0.001}, {9.99, 0.1}, {10.61, 0.1}})
+        EXPECT_TRUE(region.drawsFarTile(latitude, longitude)) << latitude << ' ' << longitude;
+    // parallels bulge northward from lines of sight along the northern border
+    EXPECT_TRUE(region.drawsFarTile(10.5937, 0.1));
+}
+
+TEST(RegionalTerrain, HidesNothingWhereATileIsMissing) {
+    RidgeRegion region;
+    region.root->removeChild(&region.tile(1, 1));
+    EXPECT_TRUE(region.drawsFarTile(10.3, 0.1));
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
