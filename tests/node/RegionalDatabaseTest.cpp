@@ -68,6 +68,9 @@ TEST(RegionalHorizon, IsUsedWhereItIsWithinTheRegion) {
     installBins(*region.root);
     EXPECT_FALSE(region.drawsFarTile(30.0, 20.0));
     EXPECT_FALSE(region.drawsFarTile(16.5, 6.5));
+    // past the border behind the camera
+    EXPECT_FALSE(region.drawsFarTile(30.0, 2.0));
+    EXPECT_FALSE(region.drawsFarTile(11.0, 20.0));
     EXPECT_FALSE(region.drawsFarTile(30.0, 20.0, 160000.0));
 }
 
@@ -75,9 +78,9 @@ TEST(RegionalHorizon, IsNotUsedByAnEyeThatSeesPastTheBorder) {
     WideRegion region;
     installBins(*region.root);
     const CapturedNotes notes(osg::NOTICE);
-    for (const auto& [latitude, longitude] : {std::pair(30.0, 5.0), {15.0, 20.0}, {30.0, -3.0}, {5.0, 20.0}})
+    for (const auto& [latitude, longitude] : {std::pair(48.0, 20.0), {30.0, 38.0}, {30.0, -3.0}, {5.0, 20.0}})
         EXPECT_TRUE(region.drawsFarTile(latitude, longitude)) << latitude << ' ' << longitude;
-    EXPECT_TRUE(region.drawsFarTile(30.0, 12.0, 160000.0));
+    EXPECT_TRUE(region.drawsFarTile(30.0, 30.0, 160000.0));
     EXPECT_EQ(notes.count("sees past it"), 1u);
 }
 
@@ -93,11 +96,11 @@ TEST(RegionalHorizon, IsNotUsedWhereATileIsMissing) {
 TEST(RegionalHorizon, FollowsTheTilesWhenBinsAreInstalledAnew) {
     WideRegion region;
     installBins(*region.root);
-    EXPECT_TRUE(region.drawsFarTile(30.0, 37.5));
+    EXPECT_TRUE(region.drawsFarTile(30.0, 38.0));
     for (int row = 0; row < 8; ++row)
         for (int column = 8; column < 10; ++column) region.add(row, column, 0.0);
     installBins(*region.root);
-    EXPECT_FALSE(region.drawsFarTile(30.0, 37.5));
+    EXPECT_FALSE(region.drawsFarTile(30.0, 38.0));
 }
 
 // Ten tiles of 0.2 degrees from west to east, in three rows; the third column is a ridge.

@@ -357,7 +357,7 @@ std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& databas
             depth = std::min(2.0 * depth + step, deepest);
             continue;
         }
-        const bool isPastBorder = database.region && !database.region->holdsHorizon(*eye);
+        const bool isPastBorder = database.region && !database.region->holdsHorizon(*eye, database.view.planes);
         if (isPastBorder) return std::nullopt;
         LowestShown lowest(database, &*eye, place, deepest);
         lowest.search(database.root);

@@ -5,6 +5,7 @@
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <glm/vec3.hpp>
@@ -27,15 +28,15 @@ public:
     /// Whether every position of the bin is over the region.
     [[nodiscard]] bool contains(const GeodeticBin& bin) const noexcept;
 
-    /// Whether every line of sight that meets the occluder of this eye stays over the region until it does. Never for
-    /// orthographic cameras.
+    /// Whether every line of sight that meets the occluder of this eye stays over the region until it does. Lines that
+    /// leave one of the planes (ECEF, positive inside) do not matter. Never for orthographic cameras.
     /// Requires: the eye was made for the same ellipsoid.
     /// Guarantee: true only if it is so; tests: CoveredRegion.HoldsAllLinesOfSightToTheOccluder.
-    /// Cost: some ten trigonometric functions.
-    [[nodiscard]] bool holdsHorizon(const HorizonEye& eye) const noexcept;
+    /// Cost: some microseconds.
+    [[nodiscard]] bool holdsHorizon(const HorizonEye& eye, const PlaneSet& frustum) const noexcept;
 
     /// Whether every segment from the eye to a point over the region stays over it. Points and eye are at most a tenth
-    /// of the smaller radius above or below the ellipsoid.
+    /// of the smaller radius below the ellipsoid.
     /// Guarantee: true only if it is so; tests: CoveredRegion.HoldsAllSegments.
     /// Cost: a conversion to geodetic coordinates and some ten trigonometric functions.
     [[nodiscard]] bool holdsSegmentsFrom(const glm::dvec3& eyeEcef) const noexcept;
