@@ -206,8 +206,6 @@ FAULTS = [
     # terrain that hides terrain
     Fault("region: the picture is a half-plane narrower", "src/core/horizon/CoveredRegion.cpp",
           "- std::max(upward, upward * data.cosDip)", "- std::min(upward, upward * data.cosDip)", CORE, "CoveredRegion.*"),
-    Fault("region: sight begins at the near plane", "src/core/horizon/CoveredRegion.cpp",
-          "if (!(ofEye >= -1e3 * slack)) continue;", "(void)ofEye;", CORE, "CoveredRegion.*"),
     Fault("region: great circles do not rise between two edges", "src/core/horizon/CoveredRegion.cpp",
           "if (isBetween) north =", "if (isBetween && north > 4.0) north =", CORE, "CoveredRegion.*"),
     Fault("region: parallels do not bulge", "src/core/horizon/CoveredRegion.cpp", "if (border <= 0.0) return true;",
