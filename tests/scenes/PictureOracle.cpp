@@ -100,7 +100,7 @@ private:
         return false;
     }
 
-    // doc/databases.md: "up to cracks, which skirts cover". Without them a line of pixels between two tiles may show
+    // doc/theory/tiles.md: "up to cracks, which skirts cover". Without them a line of pixels between two tiles may show
     // what is behind both.
     [[nodiscard]] bool isInCrack(std::size_t pixel) const {
         const auto hasSkirts = [](const DatabaseSpec& database) { return database.hasSkirts; };

@@ -354,7 +354,7 @@ bool Runner::holdsAllSkirts(const DatabaseSpec& database) const {
 //   skirts=all.": eyes below the highest terrain.
 // - "The horizon needs (...) a near plane that does not cut visible terrain away": lines of sight that begin below it.
 // - "Through the slit between tiles of different levels a fraction of a pixel at the picture's border may differ",
-//   doc/databases.md: "up to cracks, which skirts cover": databases without skirts.
+//   doc/theory/tiles.md: "up to cracks, which skirts cover": databases without skirts.
 // - "Nodes with an absolute reference frame below a tile are culled with it", "With OccluderNodes in the scene, OSG
 //   itself may cull visible nodes beside tiles": the generator makes no such scenes.
 std::vector<AllowedOccluder> Runner::allowed() const {

@@ -70,7 +70,7 @@ public:
     /// The bin of the same terrain with all heights multiplied, as osgTerrain::Terrain::setVerticalScale() does.
     /// Any scale is allowed; not valid() when it is not finite.
     /// Guarantee: holds every mesh of the scaled posts that the bin holds unscaled; tests: AnalyticBin.Exaggeration*.
-    /// Source: doc/databases.md, section 3.
+    /// Source: doc/theory/tiles.md, section 3.
     [[nodiscard]] AnalyticBin exaggerated(double verticalScale) const;
 
     /// The middle of the bin in ECEF metres. Requires: valid().

@@ -16,7 +16,7 @@ namespace osgAnalyticBin::core {
 class ExactGeodeticBin;
 class QuadraticBin;
 
-/// What the signed distance to the plane may be off by because of its offset; doc/derivation.md, section 7.
+/// What the signed distance to the plane may be off by because of its offset; doc/theory/derivation.md, section 7.
 /// Returns: NaN, which decides nothing, when a number of the plane is not finite or its normal not of unit length.
 [[nodiscard]] double roundingOf(const Plane& plane) noexcept;
 

@@ -15,7 +15,7 @@ namespace osgAnalyticBin::core {
 
 /// A geodetic bin by its support function in closed form: the range of the signed distance to a plane without a series
 /// and without trigonometry, for any ellipsoid of revolution and bins of any width, poles and date line included.
-/// Source: ours; doc/derivation.md, section 8.
+/// Source: ours; doc/theory/derivation.md, section 8.
 /// Requires: holds(ellipsoid, bin) (asserted).
 class ExactGeodeticBin final {
 public:

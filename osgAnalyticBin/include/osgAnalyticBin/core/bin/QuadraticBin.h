@@ -16,7 +16,7 @@ namespace osgAnalyticBin::core {
 /// The second-order Taylor model of a mapping over a parameter box, with a proven bound of what it leaves out: the
 /// quadratic bin. The signed distance of the mapped box to a plane is a quadratic polynomial over the box, give or
 /// take the remainder.
-/// Source: [JJ] eq. (2), (3); remainder and range: doc/derivation.md, sections 3 and 4.
+/// Source: [JJ] eq. (2), (3); remainder and range: doc/theory/derivation.md, sections 3 and 4.
 class QuadraticBin final {
 public:
     /// `margin` (metres) is added on all sides: what is drawn may leave the mapped box by that much.

@@ -16,7 +16,7 @@ namespace osgAnalyticBin::core {
 /// Looks for a plane that parts a bin from the wedge inside two planes: a mixture of the two with weights >= 0.
 /// Whatever the weights, the wedge lies on the inner side of the mixture, so that a bin outside of it is outside the
 /// wedge: the search may be as rough as it likes, and needs no corner.
-/// Source: doc/horizon.md, section 7.
+/// Source: doc/theory/horizon.md, section 7.
 class WedgeSearch final {
 public:
     /// `reach`: no point of the bin is farther from the origin.
@@ -38,7 +38,7 @@ private:
     std::array<bool, 2> _known{};
 };
 
-/// Points that a search asks for at most; the last ones find next to nothing: doc/horizon.md, section 7.
+/// Points that a search asks for at most; the last ones find next to nothing: doc/theory/horizon.md, section 7.
 inline constexpr int kSeparationSteps = 6;
 
 /// Bins that straddle more planes are large beside the frustum, and seldom apart from it.

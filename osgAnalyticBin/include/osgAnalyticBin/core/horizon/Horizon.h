@@ -16,7 +16,7 @@ namespace osgAnalyticBin::core {
 
 /// What the horizon test has to know of a bin; prepared once, for every eye and every depth of the occluder.
 /// Directions and radii are those of unit space: ECEF divided by the ellipsoid's radii.
-/// Source: doc/horizon.md, section 2.
+/// Source: doc/theory/horizon.md, section 2.
 class HorizonBin final {
 public:
     /// `margin` (metres) is added on all sides: what is drawn may leave the bin by that much.
@@ -41,7 +41,7 @@ private:
 /// One point in the place of a bin, as Cesium's horizon culling point: straight above the bin's middle in unit space,
 /// and so high that where it is hidden the whole bin is. For comparison: it hides less than the bin itself. The height
 /// depends on the occluder's depth; what is kept is what it follows from: the middle, the angle from there to the bin's
-/// farthest direction, and the bin's largest radius. Source: [R13]; doc/horizon.md, section 9.
+/// farthest direction, and the bin's largest radius. Source: [R13]; doc/theory/horizon.md, section 9.
 class HorizonPoint final {
 public:
     /// `bin` holds the margin already. A bin more than a quarter turn from its middle is never hidden.
@@ -61,7 +61,7 @@ private:
 /// Requires: the eye is above the drawn surface (not checked: ellipsoid and depth do not tell where that is). The
 /// occluder stands for this surface, which encloses it. For an eye between the two nearly every bin is hidden, although
 /// nothing is drawn in front of it; the caller has to know.
-/// Source: doc/horizon.md, sections 1, 3 and 4.
+/// Source: doc/theory/horizon.md, sections 1, 3 and 4.
 class HorizonEye final {
 public:
     /// `depth` (metres, positive down) is that of the lowest surface that can be drawn: terrain and sag of its meshes.

@@ -12,7 +12,7 @@ namespace osgAnalyticBin::core {
 
 /// The four edges of a tile in a quadtree of tiles: how wide, in radians, the largest tile is whose edge runs along
 /// the same line. A neighbour beyond that line can be that coarse.
-/// Source: doc/databases.md, section 4.
+/// Source: doc/theory/tiles.md, section 4.
 struct TileEdges {
     /// @{
     /// Radians; 0: no tile is as wide.
@@ -48,7 +48,7 @@ constexpr int kFewestCells = 7;
 
 /// Metres by which the chord of an arc of `angle` radians sags below its ends at most, where these are no higher than
 /// `altitude` or a hundredth of the radii.
-/// Source: doc/databases.md, (4.1).
+/// Source: doc/theory/tiles.md, (4.1).
 [[nodiscard]] double sagOfArc(const Ellipsoid& ellipsoid, double angle, double altitude = 0.0) noexcept;
 
 /// How far below its posts a coarser neighbour can dip where it meets the tile's edges, metres: to that depth an eye
@@ -61,7 +61,7 @@ constexpr int kFewestCells = 7;
 /// Metres by which the triangles of a coarser neighbour, within its edge's poleward run, dip below the lowest point of
 /// the edge at most: what a floor that was found from edges alone is to be lowered by. `relief`: metres that a mesh is
 /// lower than its edge at most.
-/// Assumes: as crackDepth(). Source: doc/databases.md, (4.5).
+/// Assumes: as crackDepth(). Source: doc/theory/tiles.md, (4.5).
 [[nodiscard]] double dipBehindEdge(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const TileEdges& edges,
                                    double relief) noexcept;
 

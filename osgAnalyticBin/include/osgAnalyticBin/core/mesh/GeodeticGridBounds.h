@@ -33,7 +33,7 @@ struct GeodeticGrid {
 /// the grid's, and an altitude between the lowest post's less sag() and the highest post's;
 /// tests: GeodeticGridBounds.*, PlanetMeshes.*.
 /// Cost: some ten trigonometric functions; fifty where |e2| is above 0.1 or the reach above a tenth of the radii.
-/// Source: doc/derivation.md, section 10.
+/// Source: doc/theory/derivation.md, section 10.
 class GeodeticGridBounds final {
 public:
     /// `reach`: metres, the largest altitude of a post either way. Requires: 0 or more (asserted).

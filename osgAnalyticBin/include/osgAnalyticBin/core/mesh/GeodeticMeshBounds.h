@@ -14,7 +14,7 @@ namespace osgAnalyticBin::core {
 /// larger radius (1e-7 m on the earth), or is empty, which means not known: for a mesh that may reach deeper than the
 /// ellipsoid's smallest radius of curvature; tests: GeodeticMeshBounds.HoldsEveryPointOfEveryTriangle, PlanetMeshes.*.
 /// A mesh that crosses the meridian opposite the reference longitude, or the axis, gets the full circle.
-/// Source: doc/derivation.md, section 5.
+/// Source: doc/theory/derivation.md, section 5.
 class GeodeticMeshBounds final {
 public:
     /// Longitudes are measured from the reference, which should be near the middle of the mesh.

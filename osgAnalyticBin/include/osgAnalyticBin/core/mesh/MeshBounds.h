@@ -36,7 +36,7 @@ struct EcefMesh {
 /// on any ellipsoid in any unit, bin() holds every point of every triangle, or is empty, which means not known;
 /// vertices within 1 m of the axis may leave it by that much; tests: MeshBounds.*, PlanetMeshes.*. Cost: some 10
 /// nanoseconds for each vertex and each triangle with closed formulas, many times that otherwise. An object that is
-/// used for many meshes keeps its memory. Source: doc/derivation.md, sections 5 and 11.
+/// used for many meshes keeps its memory. Source: doc/theory/derivation.md, sections 5 and 11.
 class MeshBounds final {
 public:
     MeshBounds() = default;
