@@ -14,8 +14,8 @@
 
 namespace osgAnalyticBin::core {
 
-/// What the horizon test has to know of a bin; prepared once, for every eye and every depth of the occluder.
-/// Directions and radii are those of unit space: ECEF divided by the ellipsoid's radii.
+/// The data of a bin for the horizon test; prepared once, for every eye and every depth of the occluder. Directions and
+/// radii are those of unit space: ECEF divided by the ellipsoid's radii.
 /// Source: doc/theory/horizon.md, section 2.
 class HorizonBin final {
 public:
@@ -38,10 +38,10 @@ private:
     std::array<double, row::kHorizonRows> _numbers{1.0, 0.0, 0.0, -1.0, 0.0, 1.0, -1.0, 0.0, 0.0, 1.0, 0.0};
 };
 
-/// One point in the place of a bin, as Cesium's horizon culling point: straight above the bin's middle in unit space,
-/// and so high that where it is hidden the whole bin is. For comparison: it hides less than the bin itself. The height
-/// depends on the occluder's depth; what is kept is what it follows from: the middle, the angle from there to the bin's
-/// farthest direction, and the bin's largest radius. Source: [R13]; doc/theory/horizon.md, section 9.
+/// One point that replaces a bin, as Cesium's horizon culling point: above the bin's middle in unit space, and so high
+/// that the whole bin is hidden if the point is. For comparison: it hides less than the bin itself. The height depends
+/// on the occluder's depth. The object keeps the numbers that determine it: the middle, the angle from there to the
+/// bin's farthest direction, and the bin's largest radius. Source: [R13]; doc/theory/horizon.md, section 9.
 class HorizonPoint final {
 public:
     /// `bin` holds the margin already. A bin more than a quarter turn from its middle is never hidden.

@@ -25,8 +25,8 @@ struct GeodeticGrid {
     std::size_t rows = 2;
 };
 
-/// Bounds of what the triangles of a grid do between their posts, in closed form and for any heights: chords sag below
-/// the posts, and a chord between two posts of one parallel runs poleward of it.
+/// Bounds of a grid's triangles between their posts, in closed form and for any heights. Chords sag below the posts,
+/// and a chord between two posts of one parallel runs poleward of it.
 /// Guarantee: where isKnown(), on any ellipsoid of b/a from 0.01 to 100 in any unit, for posts at altitudes within
 /// +-`reach`, none deeper than half the smallest radius of curvature, every point of every triangle, and the rounded
 /// posts themselves up to 1.6e-14 equatorial radii (1e-7 m on the earth), has a latitude in latitude(), a longitude in
