@@ -139,13 +139,13 @@ public:
     /// Whether the eye sees nothing of the bin's column for the horizon. Requires: an eye on the bin's ellipsoid.
     [[nodiscard]] bool isColumnHiddenFrom(const core::HorizonEye& eye) const;
 
-    /// The same properties as text, exact in every file format; what the serializer stores. The bin as
-    /// AnalyticBin::toText() has it, and after semicolons what is set of "installed" (by
-    /// an installer, without which the tile is never culled), "skirt METRES", "surface BIN", "terrain
-    /// VERTICALSCALE SAMPLERATIO AREBOUNDARIESEQUAL ISKNOWN". Malformed: a warning, and the tile is never culled.
+    /// The properties as text, as the serializer stores them, exact in every file format: the bin as
+    /// AnalyticBin::toText() writes it, then, separated by semicolons, those that are set of "installed" (set by an
+    /// installer; without one the tile is never culled), "skirt METRES", "surface BIN" and "terrain VERTICALSCALE
+    /// SAMPLERATIO AREBOUNDARIESEQUAL ISKNOWN". Malformed text: a warning, and the tile is never culled.
     void setBinText(const std::string& text);
-    /// As setBinText() reads it; empty without a valid bin, and while something stands below the tile that the bin does
-    /// not hold.
+    /// The text that setBinText() reads; empty without a valid bin, and while the bin does not hold all content below
+    /// the tile.
     [[nodiscard]] std::string getBinText() const;
     /// As cullOptionsFromText() reads it; the default, after a warning, when it is malformed.
     void setOptionsText(const std::string& text);

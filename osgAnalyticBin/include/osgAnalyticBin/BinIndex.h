@@ -83,7 +83,7 @@ public:
     /// Sets what the index was made from.
     void setSource(const Source& source) { _source = source; }
 
-    /// Reads to the end of the stream. Memory is taken only for what the stream has delivered.
+    /// Reads to the end of the stream. Memory is allocated only for data that has been read.
     /// Returns: null, with one line in `error`, for what is broken, truncated, foreign or of a newer version.
     [[nodiscard]] static osg::ref_ptr<BinIndex> read(std::istream& in, std::string& error);
     /// The same from a local file.
@@ -92,7 +92,7 @@ public:
     /// The same index gives the same bytes, on every machine. Returns: false when the stream fails.
     bool write(std::ostream& out) const;
 
-    /// Writes under a temporary name, which is renamed when everything is there.
+    /// Writes a file under a temporary name, and renames it when it is complete.
     /// Returns: false, with one line in `error`, when that fails.
     bool write(const std::string& path, std::string& error) const;
 

@@ -17,7 +17,7 @@ class NodeVisitor;
 
 namespace osgAnalyticBin {
 
-/// What the bins decided in one cull traversal.
+/// The verdicts of bins in one cull traversal.
 struct BinCounts {
     /// Tested bins: the sum of the next three.
     std::uint32_t tested = 0;
@@ -74,7 +74,7 @@ public:
     /// Default: false.
     [[nodiscard]] bool isTileByTile() const noexcept { return _isTileByTile; }
 
-    /// Starts from zero, for a visitor that traverses more than once in a frame.
+    /// Sets the counts to zero, for a visitor that traverses more than once in a frame.
     void reset() noexcept;
 
     /// The counts of the traversal last begun; safe to call from another thread, exact once the traversal is over.

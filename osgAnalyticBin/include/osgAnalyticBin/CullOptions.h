@@ -38,9 +38,9 @@ enum class Method {
 /// Whether tiles behind the horizon are culled.
 enum class HorizonUse {
     ByMethod,  ///< Off with methods for comparison, Declared with the others; the default
-    Declared,  ///< against the lowest surface shown, never below what the database declares
+    Declared,  ///< with the lowest surface shown, which is never taken to be below the declared altitude
     Off,       ///< never
-    Given      ///< against the lowest surface shown, never below CullOptions::horizon
+    Given      ///< with the lowest surface shown, which is never taken to be below CullOptions::horizon
 };
 
 /// Whether tiles behind terrain are culled.

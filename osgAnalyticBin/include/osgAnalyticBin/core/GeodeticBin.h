@@ -77,8 +77,9 @@ public:
     /// True when every position of the other bin lies in this one; every bin contains the empty one.
     [[nodiscard]] bool contains(const GeodeticBin& other) const noexcept;
 
-    /// The smallest bin that holds both; of the two ways round the globe the shorter one. Wider by the tolerance above
-    /// where one of them had to be turned; tests: GeodeticBin.UnionHoldsBinsManyTurnsAway.
+    /// The smallest bin that holds both, over the shorter of the two ways round the globe. It is wider by the tolerance
+    /// of contains() where the longitudes of one bin are shifted by whole turns; tests:
+    /// GeodeticBin.UnionHoldsBinsManyTurnsAway.
     [[nodiscard]] GeodeticBin united(const GeodeticBin& other) const noexcept;
 
     /// Grows to hold the position or the other bin.

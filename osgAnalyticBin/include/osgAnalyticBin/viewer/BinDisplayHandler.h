@@ -46,7 +46,7 @@ public:
     void setShown(Shown shown) { _shown = shown; }
     /// Which bins are drawn.
     [[nodiscard]] Shown shown() const { return _shown; }
-    /// Whether their quadratic approximation is, as key `Q` chooses.
+    /// Whether their quadratic approximation is drawn, as key `Q` chooses.
     void setQuadraticShown(bool shown) { _showsQuadratic = shown; }
 
     /// The present drawing in the world's frame, one child for each slab.

@@ -30,10 +30,10 @@ enum class TileVerdict {
 /// A tile that a camera's cull traversal reached.
 struct SurveyedTile {
     osg::ref_ptr<osg::Node> node;  ///< a PagedLOD with a mesh of its own, or a leaf
-    bool hasBin = false;           ///< whether a bin decided; otherwise verdict, bin, radii and place say nothing
-    bool isCulled = false;         ///< whether nothing below the tile was traversed
-    bool isDrawn = false;          ///< whether a mesh of its own was drawn
-    bool isRefined = false;        ///< whether tiles below it were met
+    bool hasBin = false;     ///< whether a bin decided; otherwise verdict, bin, ellipsoid and ecefToWorld are not set
+    bool isCulled = false;   ///< whether nothing below the tile was traversed
+    bool isDrawn = false;    ///< whether a mesh of its own was drawn
+    bool isRefined = false;  ///< whether tiles below it were met
     TileVerdict verdict = TileVerdict::Straddling;  ///< the bin's
     /// What the tile was culled by: in the present shape of the terrain, skirts included. Not valid in a map.
     AnalyticBin bin;

@@ -52,7 +52,7 @@ public:
     /// See AnalyticMapping.
     [[nodiscard]] double remainder(const ParameterBox& box) const noexcept;
 
-    /// See AutodiffMapping. By the convex-hull property too, which is far tighter than intervals.
+    /// See AutodiffMapping. Uses the convex-hull property, too, which gives far tighter bounds than intervals.
     [[nodiscard]] double triangleSagBound(const ParameterBox& box, const glm::dvec3& cell) const noexcept;
 
 private:

@@ -59,8 +59,8 @@ private:
 /// about its centre so that it lies `depth` or more below the surface. Prepared once per camera and frame.
 /// Frame: the ellipsoid's own; a globe that is moved, turned or scaled uniformly needs its eye brought there.
 /// Requires: the eye is above the drawn surface (not checked: ellipsoid and depth do not tell where that is). The
-/// occluder stands for this surface, which encloses it. For an eye between the two nearly every bin is hidden, although
-/// nothing is drawn in front of it; the caller has to know.
+/// occluder stands for this surface, which encloses it. For an eye between the occluder and the surface, nearly every
+/// bin would be hidden although nothing is drawn in front of it; the caller has to exclude that.
 /// Source: doc/theory/horizon.md, sections 1, 3 and 4.
 class HorizonEye final {
 public:

@@ -43,7 +43,7 @@ public:
     /// Finds the bin at once; see find().
     MeshBounds(const Ellipsoid& ellipsoid, const EcefMesh& mesh) { find(ellipsoid, mesh); }
 
-    /// In place of what was found before. Requires: indices within the vertices.
+    /// Replaces the bin that was found before. Requires: indices within the vertices.
     void find(const Ellipsoid& ellipsoid, const EcefMesh& mesh);
 
     /// Empty for meshes without vertices, with numbers that are not finite, or that may reach deeper than the
@@ -53,7 +53,7 @@ public:
     /// Whether the bin was found by closed formulas.
     [[nodiscard]] bool isQuick() const noexcept { return _isQuick; }
 
-    /// Some vertex lies within 1 m of the axis.
+    /// Whether a vertex lies within 1 m of the axis.
     [[nodiscard]] bool touchesAxis() const noexcept { return _axisError > 0.0; }
     /// Metres by which vertices near the axis may leave the bin; 0 where the mesh does not touch the axis.
     [[nodiscard]] double axisError() const noexcept { return _axisError; }
