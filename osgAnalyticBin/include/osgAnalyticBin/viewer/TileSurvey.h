@@ -30,7 +30,7 @@ enum class TileVerdict {
 /// A tile that a camera's cull traversal reached.
 struct SurveyedTile {
     osg::ref_ptr<osg::Node> node;  ///< a PagedLOD with a mesh of its own, or a leaf
-    bool hasBin = false;     ///< whether a bin decided; otherwise verdict, bin, ellipsoid and ecefToWorld are not set
+    bool hasBin = false;     ///< whether a bin decided; otherwise verdict, bin, ellipsoid and ecefToWorld mean nothing
     bool isCulled = false;   ///< whether nothing below the tile was traversed
     bool isDrawn = false;    ///< whether a mesh of its own was drawn
     bool isRefined = false;  ///< whether tiles below it were met
