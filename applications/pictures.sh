@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 # SPDX-License-Identifier: MIT
 #
-# Takes README's pictures of osgbinviewer into osgAnalyticBin/doc, on a virtual display:
+# Takes the pictures of osgbinviewer in README and the guide into osgAnalyticBin/doc, on a virtual display:
 #     sh applications/pictures.sh [DATABASE]
 # DATABASE: that of applications/demo.sh by default, which has to be there; the project has to be built.
 
@@ -15,15 +15,29 @@ doc=osgAnalyticBin/doc
 
 [ -f "$database" ] || { echo "pictures.sh: $database is missing; run \"sh applications/demo.sh\" first" >&2; exit 1; }
 
-# Two windows beside each other.
-take() {
+# The screen has room for two windows beside each other. Arguments: the window's width and height, the options of the
+# bins, steps.
+view() {
+    window="0 0 $1 $2"
+    options=$3
+    shift 3
+    # shellcheck disable=SC2086
     xvfb-run -a -s "-screen 0 2560x720x24" env LIBGL_ALWAYS_SOFTWARE=1 \
         LD_LIBRARY_PATH="$PWD/$build/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" \
-        "$build/bin/osgbinviewer" "$database" --window 0 0 1200 675 \
+        "$build/bin/osgbinviewer" "$database" --options "$options" --window $window \
         --poses applications/osgbinviewer/pictures.csv --steps "$*"
 }
 
-# l: without lighting, so that colours are those of the legend
+take() {
+    view 1200 675 "" "$@"
+}
+
+# README: what the camera sees, and what is drawn for it. l: without lighting
+view 800 450 method=sphere at=italy press=l press=F at=drawn picture="$doc/drawn_spheres.jpg"
+view 800 450 method=quadratic at=italy press=l picture="$doc/drawn_view.jpg" \
+    press=F at=drawn picture="$doc/drawn_bins.jpg"
+
+# The guide: without lighting, so that colours are those of the legend
 take at=alps press=l press=B picture="$doc/viewer_bins.jpg" \
     press=F at=aside picture="$doc/viewer_frozen.jpg" \
     at=above press=Q picture="$doc/viewer_quadratic.jpg" \

@@ -100,8 +100,8 @@ private:
         return false;
     }
 
-    // doc/databases.md: "up to cracks, which skirts cover". Without them a line of pixels between two tiles may show
-    // what is behind both.
+    // The proofs assume that skirts close the cracks between tiles (doc/theory/horizon.md, section 8). Without skirts,
+    // a line of pixels between two tiles may show what is behind both.
     [[nodiscard]] bool isInCrack(std::size_t pixel) const {
         const auto hasSkirts = [](const DatabaseSpec& database) { return database.hasSkirts; };
         if (std::all_of(_description.databases.begin(), _description.databases.end(), hasSkirts)) return false;
@@ -114,8 +114,8 @@ private:
                            [&](std::size_t step) { return isNearer(pixel - step) && isNearer(pixel + step); });
     }
 
-    // README: "Bins hold of skirts what an eye above the terrain can see through cracks." Through holes and between
-    // lines it sees all of them.
+    // doc/limits.md: "Bins hold those parts of skirts that an eye above the terrain can see through cracks." Through
+    // holes and between lines it sees all of them.
     [[nodiscard]] bool isSkirtInHole(std::size_t pixel, const Delivered& lost) const {
         const bool holdsAll = std::none_of(_allowed.begin(), _allowed.end(),
                                            [](const AllowedOccluder& occluder) { return occluder.fromBelow; });

@@ -284,7 +284,7 @@ private:
     std::optional<Failure> uninstall(const Part& part) {
         removeBins(*_with.root);
         removeRequests();
-        // README: "A stored scene with bins installed (...) keeps OSG's culling switched off on tiles."
+        // doc/limits.md: "A stored scene with bins installed (...) keeps OSG's culling switched off on tiles."
         if (_wasSaved) return std::nullopt;
         ++_totals.undone;
         const auto difference = findDifference(*_without.root, *_with.root);
@@ -349,12 +349,12 @@ bool Runner::holdsAllSkirts(const DatabaseSpec& database) const {
            });
 }
 
-// What the documentation excludes. README, Limits:
-// - "Bins hold of skirts what an eye above the terrain can see through cracks. Where the camera may go below it:
-//   skirts=all.": eyes below the highest terrain.
-// - "The horizon needs (...) a near plane that does not cut visible terrain away": lines of sight that begin below it.
-// - "Through the slit between tiles of different levels a fraction of a pixel at the picture's border may differ",
-//   doc/databases.md: "up to cracks, which skirts cover": databases without skirts.
+// What the documentation excludes. doc/limits.md:
+// - "Bins hold those parts of skirts that an eye above the terrain can see through cracks.": eyes below the highest
+//   terrain.
+// - "It needs a near plane that does not cut visible terrain away.": lines of sight that begin below it.
+// - "Through the slit between tiles of different levels, a fraction of a pixel at the picture's border may differ",
+//   and the proofs assume that skirts close the cracks (doc/theory/tiles.md, section 4): databases without skirts.
 // - "Nodes with an absolute reference frame below a tile are culled with it", "With OccluderNodes in the scene, OSG
 //   itself may cull visible nodes beside tiles": the generator makes no such scenes.
 std::vector<AllowedOccluder> Runner::allowed() const {

@@ -65,7 +65,7 @@ struct RealGeodetic {
 [[nodiscard]] Real exactDistance(const core::Plane& plane, const RealVector& point) noexcept;
 
 /// The exact range of n.x over all points of a geodetic bin, in closed form: no series, no sampling.
-/// Source: doc/derivation.md, section 8.
+/// Source: doc/theory/derivation.md, section 8.
 /// Guarantee: correct to rounding() for altitudes above minus the smallest radius of curvature.
 /// Requires: the bin is not empty.
 class BinOracle final {

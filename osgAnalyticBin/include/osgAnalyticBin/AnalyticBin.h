@@ -20,8 +20,8 @@ class Node;
 namespace osgAnalyticBin {
 
 /// The bounding volume of a terrain tile, in the manner of osg::BoundingBox: a box in latitude, longitude and
-/// altitude, a margin in metres by which drawn geometry may leave it (the rounding of float vertices), and the sag in
-/// metres by which meshes dip below their posts, which the box holds already and which exaggeration must not shrink.
+/// altitude, a margin in metres by which drawn geometry may leave the box (the rounding of float vertices), and the sag
+/// in metres by which meshes dip below their posts. The box includes the sag; a vertical scale does not change the sag.
 /// Units: radians and metres; degrees only in text. A default-constructed bin is empty, that is, not valid().
 class OSGANALYTICBIN_EXPORT AnalyticBin {
 public:
@@ -32,10 +32,10 @@ public:
     /// Makes the bin empty.
     void init() { *this = AnalyticBin(); }
 
-    /// Whether there is a box at all; an invalid bin stands for "not known", and is never culled.
+    /// Whether the bin has a box. An invalid bin means "not known" and is never culled.
     [[nodiscard]] bool valid() const { return !_bin.empty(); }
 
-    /// The box, sag included, margin not.
+    /// The box: with the sag, without the margin.
     [[nodiscard]] const core::GeodeticBin& bin() const { return _bin; }
     /// Replaces the box alone; margin and sag stay.
     void setBin(const core::GeodeticBin& bin) { _bin = bin; }
@@ -45,7 +45,7 @@ public:
     /// Metres, 0 or more.
     void setMargin(double margin) { _margin = margin; }
 
-    /// Metres, default 0: of the box's depth, how much may be chords between posts and not heights.
+    /// Metres, default 0: the part of the box's depth that is due to chords between posts, not to heights.
     [[nodiscard]] double sag() const { return _sag; }
     /// Metres, 0 or more.
     void setSag(double sag) { _sag = sag; }
@@ -55,7 +55,7 @@ public:
     /// Grows to hold all that the other bin holds; margin and sag become the larger of both.
     void expandBy(const AnalyticBin& other);
 
-    /// Whether the position is in the box; the margin does not count.
+    /// Whether the position is in the box, without the margin.
     [[nodiscard]] bool contains(const core::Geodetic& position) const { return _bin.contains(position); }
     /// Whether the other's box is in this one, and its margin and sag are no larger; every bin contains an invalid one.
     [[nodiscard]] bool contains(const AnalyticBin& other) const;
@@ -70,7 +70,7 @@ public:
     /// The bin of the same terrain with all heights multiplied, as osgTerrain::Terrain::setVerticalScale() does.
     /// Any scale is allowed; not valid() when it is not finite.
     /// Guarantee: holds every mesh of the scaled posts that the bin holds unscaled; tests: AnalyticBin.Exaggeration*.
-    /// Source: doc/databases.md, section 3.
+    /// Source: doc/theory/tiles.md, section 3.
     [[nodiscard]] AnalyticBin exaggerated(double verticalScale) const;
 
     /// The middle of the bin in ECEF metres. Requires: valid().
@@ -79,8 +79,8 @@ public:
     /// A sphere, rounded outward to float, that holds the mapped bin with its margin; invalid when the bin is.
     [[nodiscard]] osg::BoundingSphere boundingSphere(const osg::EllipsoidModel& ellipsoid) const;
 
-    /// "south west low north east high margin": degrees and metres, parted by blanks, so that files show what they say;
-    /// an eighth number is the sag, left out when it is 0.
+    /// "south west low north east high margin": degrees and metres, separated by blanks, readable in text files. An
+    /// eighth number is the sag; it is left out when it is 0.
     /// Guarantee: fromText(toText()) holds this bin, and equals it bit for bit when it was made from degrees;
     /// tests: AnalyticBin.TextRoundTrip*.
     [[nodiscard]] std::string toText() const;
@@ -94,19 +94,19 @@ private:
     double _sag = 0.0;
 };
 
-/// Stores a bin with a node as the string user value "osgAnalyticBin", a type of OSG's own: OSG without this library
-/// reads such files in silence.
+/// Stores a bin with a node as the string user value "osgAnalyticBin". This is a type of OSG's own, so OSG without this
+/// library reads such files without a warning.
 OSGANALYTICBIN_EXPORT void setStoredBin(osg::Node& node, const AnalyticBin& bin);
 
 /// Returns: the stored bin; an invalid one, after a warning, when the stored text is broken; an invalid one when there
 /// is none.
 [[nodiscard]] OSGANALYTICBIN_EXPORT AnalyticBin storedBin(const osg::Node& node);
 
-/// Returns: whether the node has a stored bin, be it valid or broken.
+/// Returns: whether the node has a stored bin, valid or broken.
 [[nodiscard]] OSGANALYTICBIN_EXPORT bool hasStoredBin(const osg::Node& node);
 
-/// Stores beside the bin, as "osgAnalyticBin.surfaceLow", the altitude in metres below which the tile by itself draws
-/// nothing, descendants and skirts left out: the horizon is tested against what is shown.
+/// Stores a lower bound in metres of the altitudes of the tile's own surface, without descendants and skirts, as the
+/// user value "osgAnalyticBin.surfaceLow". The horizon is tested against the surfaces that are shown.
 OSGANALYTICBIN_EXPORT void setStoredSurfaceLow(osg::Node& node, double metres);
 
 /// Metres. Returns: nullopt when there is none, and, after a warning, when it is broken.

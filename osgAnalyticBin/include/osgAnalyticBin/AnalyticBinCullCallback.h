@@ -54,13 +54,12 @@ struct TerrainShape {
 };
 
 /// The cull callback of a tile: tests the tile's bin against the frustum planes that are still undecided, and culls
-/// the tile when the bin is outside one of them. It stands in place of OSG's sphere test (installBins() switches that
-/// off on the nodes it treats): planes with the bin proven inside are not tested again in the subgraph, and
-/// small-feature and shadow-occluder culling are kept. Nested callbacks run when the tile is not culled.
-/// It obeys the culling mode of the camera that is culled for; without frustum culling there is no horizon either, for
-/// then neither frustum nor eye say what is drawn.
-/// Frame: the bin is in ECEF; the frame in which the node's children stand is ECEF too unless setLocalToEcef() says
-/// otherwise. Transforms above the globe need nothing: OSG's planes follow them.
+/// the tile when the bin is outside one of them. It replaces OSG's sphere test, which installBins() switches off on
+/// tiles. Planes that have the whole bin inside are not tested again in the subgraph. Small-feature and shadow-occluder
+/// culling still work. Nested callbacks run when the tile is not culled. It obeys the camera's culling mode. Without
+/// frustum culling the horizon is not used either, because neither frustum nor eye determine what is drawn then.
+/// Frame: the bin is in ECEF. The node's children are in ECEF, too, unless setLocalToEcef() gives another frame.
+/// Transforms above the globe need no setting, because OSG's planes follow them.
 /// Guarantee (all methods but Method::Paper and Method::Corners): a tile is never culled if a point of its bin is
 /// inside all planes and not behind the horizon; tests: AnalyticBinCullCallback.*. An invalid bin is never culled.
 /// Threads: run() changes nothing in the callback; any number of cull traversals may run it at once. Setters must not
@@ -85,7 +84,7 @@ public:
     /// The bin as it was set, before any terrain shape.
     [[nodiscard]] const AnalyticBin& getBin() const { return _bin; }
 
-    /// How the tile is culled; items that are an installer's alone are not read.
+    /// How the tile is culled. Options for installers alone are ignored.
     void setCullOptions(const CullOptions& options);
     /// Default: CullOptions(). Valid until the next setter.
     [[nodiscard]] const CullOptions& getCullOptions() const { return _setup->options; }
@@ -94,15 +93,15 @@ public:
     /// never culled.
     void setRadii(double equatorial, double polar);
 
-    /// From the frame of the node's children to ECEF; default identity. Has to be rigid or a uniform scale for
-    /// small-feature culling to mean what it says; the frustum test is right under any invertible affine matrix.
+    /// From the frame of the node's children to ECEF; default identity. The frustum test is right under any invertible
+    /// affine matrix; small-feature culling needs a rigid matrix or a uniform scale.
     void setLocalToEcef(const osg::Matrixd& matrix);
     /// See setLocalToEcef().
     [[nodiscard]] const osg::Matrixd& getLocalToEcef() const;
 
-    /// For an osgTerrain tile: the shape that its bin is to be for; the bin set is that at vertical scale 1. While its
-    /// database is shown in another shape, or no installed database is above it, the tile is never culled. nullopt: a
-    /// mesh that no Terrain shapes.
+    /// For an osgTerrain tile: the terrain shape that its bin was made for. The bin that is set is the one at vertical
+    /// scale 1. The tile is never culled while its database is shown in another shape, or while it is not below a
+    /// database with bins. nullopt: the mesh does not belong to an osgTerrain::Terrain.
     void setTerrainShape(const std::optional<TerrainShape>& shape);
     /// See setTerrainShape(). Valid until the next setter.
     [[nodiscard]] const std::optional<TerrainShape>& getTerrainShape() const { return _setup->shape; }
@@ -112,40 +111,41 @@ public:
     /// Metres, default 0.
     [[nodiscard]] double getSkirt() const { return _skirt; }
 
-    /// What the tile draws by itself, without descendants, at vertical scale 1: how deep an eye may see where it is
-    /// shown. Invalid: not known, and no horizon is used where it is shown.
+    /// The bin of the tile's own surface, without descendants, at vertical scale 1. The horizon depends on its lowest
+    /// altitude while the tile is shown. Invalid: not known; no horizon is used while the tile is shown.
     void setSurface(const AnalyticBin& surface);
     /// See setSurface().
     [[nodiscard]] const AnalyticBin& getSurface() const { return _surface; }
 
-    /// Altitude in metres below which the tile draws nothing by itself, in its present shape; minus infinity when not
-    /// known. For eyes that are to be looked past the tile.
+    /// A lower bound in metres of the altitudes of the tile's own surface in its present shape; minus infinity when not
+    /// known.
     [[nodiscard]] double getSurfaceLow() const { return _surfaceLow; }
 
-    /// Altitude in metres above which the tile draws nothing by itself, likewise; infinity when not known.
+    /// An upper bound in metres of the altitudes of the tile's own surface in its present shape; infinity when not
+    /// known.
     [[nodiscard]] double getSurfaceHigh() const { return _surfaceHigh; }
 
-    /// Altitude in metres above which neither the tile nor a descendant of it draws anything; infinity when not known.
+    /// An upper bound in metres of the altitudes that the tile and its descendants draw; infinity when not known.
     [[nodiscard]] double getBinHigh() const { return _binHigh; }
 
-    /// Altitude in metres below which neither the tile nor a descendant of it draws anything, skirts left out unless
-    /// they count; minus infinity when not known.
+    /// A lower bound in metres of the altitudes that the tile and its descendants draw, with the parts of skirts that
+    /// the bin holds; minus infinity when not known.
     [[nodiscard]] double getBinLow() const { return _binLow; }
 
-    /// A sphere in ECEF that holds the bin's column, for a first look: the bin and, where it lies below the ellipsoid,
-    /// what is above it up to there. Returns: nullptr when there is none at hand.
+    /// A sphere in ECEF, for a quick first test. It holds the bin's column: the bin and, where the bin lies below the
+    /// ellipsoid, the space above it up to the ellipsoid. Returns: nullptr when none is prepared.
     [[nodiscard]] const osg::BoundingSphere* ecefColumnSphere() const;
 
     /// Whether the eye sees nothing of the bin's column for the horizon. Requires: an eye on the bin's ellipsoid.
     [[nodiscard]] bool isColumnHiddenFrom(const core::HorizonEye& eye) const;
 
-    /// The same properties as text, exact in every file format; what the serializer stores. The bin as
-    /// AnalyticBin::toText() has it, and after semicolons what is set of "installed" (by
-    /// an installer, without which the tile is never culled), "skirt METRES", "surface BIN", "terrain
-    /// VERTICALSCALE SAMPLERATIO AREBOUNDARIESEQUAL ISKNOWN". Malformed: a warning, and the tile is never culled.
+    /// The properties as text, as the serializer stores them, exact in every file format: the bin as
+    /// AnalyticBin::toText() writes it, then, separated by semicolons, those that are set of "installed" (set by an
+    /// installer; without one the tile is never culled), "skirt METRES", "surface BIN" and "terrain VERTICALSCALE
+    /// SAMPLERATIO AREBOUNDARIESEQUAL ISKNOWN". Malformed text: a warning, and the tile is never culled.
     void setBinText(const std::string& text);
-    /// As setBinText() reads it; empty without a valid bin, and while something stands below the tile that the bin does
-    /// not hold.
+    /// The text that setBinText() reads; empty without a valid bin, and while the bin does not hold all content below
+    /// the tile.
     [[nodiscard]] std::string getBinText() const;
     /// As cullOptionsFromText() reads it; the default, after a warning, when it is malformed.
     void setOptionsText(const std::string& text);
@@ -160,8 +160,8 @@ public:
     /// The matrix as setLocalToEcefText() reads it.
     [[nodiscard]] std::string getLocalToEcefText() const;
 
-    /// What an installer keeps beside the callback; nullptr: the application's own callback. A copy of an installed
-    /// callback culls nothing: its bin was made for the node that the original stands on.
+    /// Data that an installer keeps with the callback; nullptr: a callback made by the application. A copy of an
+    /// installed callback culls nothing, because its bin was made for the original's node.
     [[nodiscard]] InstalledTile* getInstalledTile() const;
     /// See getInstalledTile(); for installers.
     void setInstalledTile(InstalledTile* tile);

@@ -32,8 +32,8 @@ class OSGANALYTICBIN_EXPORT BinIndex : public osg::Object {
 public:
     /// What the index knows of a tile.
     struct Entry {
-        /// What the tile is culled by: itself, all its descendants, and what cracks beside it can show. Not valid: the
-        /// tile is never culled.
+        /// The bin for culling: it holds the tile, all its descendants, and the parts of their skirts that cracks can
+        /// show. Not valid: the tile is never culled.
         AnalyticBin bin;
         /// Lowest altitude of the tile's own surface, chords between posts included, metres.
         double ownLow = 0.0;
@@ -41,7 +41,7 @@ public:
         std::uint64_t fingerprint = 0;
     };
 
-    /// The database that the index was made from, as far as its root file tells.
+    /// The root file of the database that the index was made from.
     struct Source {
         /// Name of the root file, without its folder.
         std::string name;
@@ -66,8 +66,8 @@ public:
     /// All entries of a file, by ordinal. Returns: nullptr for a file that the index does not know.
     [[nodiscard]] const std::vector<Entry>* tilesOf(const std::string& file) const;
 
-    /// Sets the entries of a file. What a file of the index cannot hold to the last bit is rounded outward at once, so
-    /// that reading back what was written gives the same entries.
+    /// Sets the entries of a file. Numbers that the index file cannot hold exactly are rounded outward at once, so that
+    /// written entries are read back unchanged.
     void setTiles(const std::string& file, std::vector<Entry> tiles);
 
     /// Visits all files in the order of their names.
@@ -80,10 +80,10 @@ public:
 
     /// What the index was made from.
     [[nodiscard]] const Source& source() const { return _source; }
-    /// Says what the index was made from.
+    /// Sets what the index was made from.
     void setSource(const Source& source) { _source = source; }
 
-    /// Reads to the end of the stream. Memory is taken only for what the stream has delivered.
+    /// Reads to the end of the stream. Memory is allocated only for data that has been read.
     /// Returns: null, with one line in `error`, for what is broken, truncated, foreign or of a newer version.
     [[nodiscard]] static osg::ref_ptr<BinIndex> read(std::istream& in, std::string& error);
     /// The same from a local file.
@@ -92,7 +92,7 @@ public:
     /// The same index gives the same bytes, on every machine. Returns: false when the stream fails.
     bool write(std::ostream& out) const;
 
-    /// Writes under a temporary name, which is renamed when everything is there.
+    /// Writes a file under a temporary name, and renames it when it is complete.
     /// Returns: false, with one line in `error`, when that fails.
     bool write(const std::string& path, std::string& error) const;
 
@@ -104,16 +104,16 @@ private:
     std::map<std::string, std::vector<Entry>> _files;
 };
 
-/// surfaceFingerprint() of a tile's own mesh; of several meshes, one number made of all of theirs; 0 when there is
-/// none.
+/// The surfaceFingerprint() of a tile's own mesh. For several meshes: one number computed from all fingerprints. 0: no
+/// mesh.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::uint64_t tileFingerprint(const FoundTile& tile);
 
 /// Name of a database's index: "earth.ive" -> "earth.ive.bins".
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::string binIndexName(const std::string& databaseFileName);
 
 /// Reads the index beside a database: a local file, or whatever OSG reads of that name from archives and servers.
-/// Returns: null when there is none, with an empty `error`; null with one line in `error` when it cannot be used,
-/// be it that it is broken or that the local root file has another size than that of which it was made.
+/// Returns: null with an empty `error` when there is none; null with one line in `error` when it cannot be used,
+/// because it is broken or because the size of the local root file has changed since.
 [[nodiscard]] OSGANALYTICBIN_EXPORT osg::ref_ptr<BinIndex> readBinIndex(const std::string& databaseFileName,
                                                                         const osgDB::Options* options,
                                                                         std::string& error);

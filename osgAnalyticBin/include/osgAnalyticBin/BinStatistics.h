@@ -17,15 +17,15 @@ class NodeVisitor;
 
 namespace osgAnalyticBin {
 
-/// What the bins decided in one cull traversal.
+/// The verdicts of bins in one cull traversal.
 struct BinCounts {
-    /// Bins that were asked: the sum of the next three.
+    /// Tested bins: the sum of the next three.
     std::uint32_t tested = 0;
     /// Tiles that were culled.
     std::uint32_t outside = 0;
     /// Tiles wholly in view, below which nothing more is tested.
     std::uint32_t inside = 0;
-    /// Tiles that are kept because some plane did not decide.
+    /// Tiles that are kept although some plane is undecided.
     std::uint32_t straddling = 0;
     /// Of those outside: behind the horizon.
     std::uint32_t hidden = 0;
@@ -59,12 +59,12 @@ public:
     /// Counts several tested tiles of the frame that `counts` names; `tested` is not read.
     void add(const BinCounts& counts) noexcept;
 
-    /// Says of the tile counted last why it was outside.
+    /// Records why the tile counted last was outside.
     void countHidden() noexcept;
-    /// Says of the tile counted last that an edge of the frustum proved it outside.
+    /// Records that the tile counted last was beyond an edge of the frustum.
     void countSeparated() noexcept;
 
-    /// Says of the tile counted last that terrain hides it.
+    /// Records that the tile counted last was behind terrain.
     void countOccluded() noexcept;
 
     /// For visitors that watch which nodes they meet. With true, tiles are tested one by one and the visitor meets the
@@ -74,7 +74,7 @@ public:
     /// Default: false.
     [[nodiscard]] bool isTileByTile() const noexcept { return _isTileByTile; }
 
-    /// Starts from zero, for a visitor that traverses more than once in a frame.
+    /// Sets the counts to zero, for a visitor that traverses more than once in a frame.
     void reset() noexcept;
 
     /// The counts of the traversal last begun; safe to call from another thread, exact once the traversal is over.

@@ -31,15 +31,16 @@ enum class Method {
 /// Returns: nullopt for an unknown name.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<Method> methodFromName(const std::string& name) noexcept;
 
-/// Whether a method is there to be compared with: it culls by planes alone unless it is told otherwise.
+/// Whether a method is for comparison. Such methods cull by the planes of the frustum alone unless an option says
+/// otherwise.
 [[nodiscard]] OSGANALYTICBIN_EXPORT bool isForComparison(Method method) noexcept;
 
 /// Whether tiles behind the horizon are culled.
 enum class HorizonUse {
     ByMethod,  ///< Off with methods for comparison, Declared with the others; the default
-    Declared,  ///< against the lowest surface shown, never below what the database declares
+    Declared,  ///< with the lowest surface shown, which is never taken to be below the declared altitude
     Off,       ///< never
-    Given      ///< against the lowest surface shown, never below CullOptions::horizon
+    Given      ///< with the lowest surface shown, which is never taken to be below CullOptions::horizon
 };
 
 /// Whether tiles behind terrain are culled.
@@ -49,24 +50,24 @@ enum class OcclusionUse {
     Auto  ///< while terrain hides a quarter of the tiles in view; elsewhere it is tried again after 8 to 64 views
 };
 
-/// What of the skirts that hang from the edges of tiles a bin holds. Tiles of a map always hold all of them: at the
-/// border of the map they are in plain view.
+/// Which parts of skirts (walls that hang from the edges of tiles) a bin holds. Bins of a map always hold whole skirts,
+/// because these are visible at the border of the map.
 enum class SkirtUse {
-    /// What an eye above the terrain can see: through cracks between tiles, and whole where a tile ends at the outer
-    /// border of its database; the default.
+    /// The parts that an eye above the terrain can see through cracks between tiles, and whole skirts at the outer
+    /// border of the database; the default.
     Cracks,
     /// All of them, for cameras below the terrain; the horizon is used only where it is given.
     All
 };
 
-/// What becomes of the osg::ClusterCullingCallbacks of a database, whose culls are not sound on an ellipsoid. Those of
-/// a map are left alone.
+/// What happens to the osg::ClusterCullingCallbacks of a database, which may cull visible tiles of an ellipsoid. Those
+/// of a map stay.
 enum class ClusterUse {
-    Replace,  ///< taken off; the horizon does their work; the default
-    Keep      ///< left in charge beside the bins
+    Replace,  ///< removed while bins are installed; the horizon replaces them; the default
+    Keep      ///< kept; they cull in addition to the bins
 };
 
-/// What an installer, a plugin option string or a stored database says about culling.
+/// The options of culling, from an installer, a plugin option string or a stored database.
 struct CullOptions {
     /// How tiles are culled.
     Method method = Method::Quadratic;
@@ -74,39 +75,40 @@ struct CullOptions {
     double growth = core::PaperBin::kDefaultGrowth;
     /// Whether tiles behind the horizon are culled.
     HorizonUse horizonUse = HorizonUse::ByMethod;
-    /// Altitude in metres below which nothing is drawn anywhere in the database, meshes between their posts included;
-    /// the database covers the whole globe. Read with HorizonUse::Given.
+    /// Altitude in metres below which the database draws nothing, not even between the posts of its meshes. The
+    /// database has to cover the whole globe. Used with HorizonUse::Given.
     double horizon = 0.0;
-    /// Whether shadow passes use the horizon too: cameras that inherit a view point or draw depth alone, and those
-    /// relative to them. What casts a shadow may lie behind it, and its back faces may be all that is drawn.
+    /// Whether shadow passes use the horizon, too: cameras that inherit a view point or draw depth alone, and cameras
+    /// relative to them. By default they do not, because terrain behind the horizon may cast a shadow into the picture.
     bool inheritViewpoint = false;
-    /// Whether tiles across an edge of the frustum are tested against the edge too, or, with boxes, whether the frustum
-    /// is beyond one of their faces. Without a value: not with methods for comparison. Tiles of a map, all of them
-    /// boxes, are tested unless it is false.
+    /// Whether tiles across an edge of the frustum are also tested against the edge. Boxes are tested for a frustum
+    /// beyond one of their faces instead. Without a value: on, but off with methods for comparison. The tiles of a map
+    /// are boxes, which are tested unless the value is false.
     std::optional<bool> reverse;
     /// Whether tiles behind terrain are culled: on a globe or a region of one that uses the horizon (see `horizonUse`),
     /// for tiles whose meshes the kit reads, by cameras that do not compute their near plane.
     OcclusionUse occlusion = OcclusionUse::Off;
-    /// Seconds for which the DatabasePager keeps a tile's finer children after they were last seen, when it has more
-    /// PagedLODs than its target; 0 leaves OSG's own rule alone. Bins cull what spheres keep by chance: without this,
-    /// turning the head and back reads the same files again.
+    /// Seconds for which the DatabasePager keeps a tile's finer children after they were last in view, when it has more
+    /// PagedLODs than its target; 0: OSG's own rule. Spheres keep many tiles beside the view, bins do not: without this
+    /// time, turning the camera away and back would read the same files again.
     double expiry = kDefaultExpiry;
 
     /// What bins hold of skirts.
     SkirtUse skirts = SkirtUse::Cracks;
     /// What becomes of ClusterCullingCallbacks.
     ClusterUse cluster = ClusterUse::Replace;
-    /// Altitudes in metres that no terrain of the database leaves, at any level of detail: for tiles whose descendants
-    /// are known neither from a stored bin nor from an index. The default holds all terrain on earth, on a globe of
-    /// more units in proportion. In a map: heights in its own units; left at the default, all terrain on earth in feet.
+    /// The range of altitudes in metres of all terrain in the database, at every level of detail. It is used for tiles
+    /// whose descendants are known neither from a stored bin nor from an index. The default holds all terrain on earth;
+    /// on a globe with more units it grows in proportion. In a map: heights in the map's units; the default holds all
+    /// terrain on earth in feet.
     core::Interval heights = kTerrainOnEarth;
     /// Whether an index beside the database is used.
     bool index = true;
 
-    /// What `horizonUse` comes to with this method; never ByMethod.
+    /// The use of the horizon with this method, after ByMethod is resolved.
     [[nodiscard]] OSGANALYTICBIN_EXPORT HorizonUse effectiveHorizonUse() const noexcept;
 
-    /// What `reverse` comes to with this method.
+    /// Whether tiles are tested against edges with this method, after the default is resolved.
     [[nodiscard]] OSGANALYTICBIN_EXPORT bool effectiveReverse() const noexcept;
 
     /// Whether every item is the same.
@@ -114,18 +116,18 @@ struct CullOptions {
 
     /// Seconds.
     static constexpr double kDefaultExpiry = 3.0;
-    /// Metres: the deepest trench and the highest mountain, with room.
+    /// Metres: from below the deepest trench to above the highest mountain.
     static constexpr core::Interval kTerrainOnEarth{-11500.0, 9000.0};
 };
 
 /// Parses "method=paper,growth=1.1", "horizon=-500", "horizon=off", "inheritviewpoint=on", "reverse=off",
-/// "occlusion=on", "expiry=3", "skirts=all", "cluster=keep", "heights=-500..9000", "index=off"; commas or blanks part
-/// the items; an empty text is the default. Returns: nullopt when an item is unknown or malformed, with one line in
+/// "occlusion=on", "expiry=3", "skirts=all", "cluster=keep", "heights=-500..9000", "index=off"; separated by commas or
+/// blanks; an empty text gives the default. Returns: nullopt when an item is unknown or malformed, with one line in
 /// `error` that names it and what is allowed.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<CullOptions> cullOptionsFromText(const std::string& text,
                                                                                    std::string& error);
 
-/// What may stand before the "=" in cullOptionsFromText(): "method", "growth" and so on.
+/// The names of the options in cullOptionsFromText(): "method", "growth" and so on.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::vector<std::string> cullOptionKeys();
 
 /// The text that cullOptionsFromText() reads back to the same options.

@@ -35,9 +35,10 @@ namespace osgAnalyticBin {
 /// Returns: the number of callbacks installed.
 OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions& options = {});
 
-/// The same for the root of a database that was read from a file: its index, where there is one beside it and the
-/// options allow it, tells the heights of what is not loaded yet. An index that cannot be used gives one warning.
-/// `readOptions`: with what the database was read, for files in archives and over http; null: none. Returns: as above.
+/// The same for the root of a database that was read from a file. If there is an index beside the file, and the options
+/// allow it, the index gives the heights of tiles that are not loaded yet. An index that cannot be used gives one
+/// warning. `readOptions`: the options that the database was read with, for archives and http; null: none. Returns: as
+/// above.
 OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions& options,
                                               const std::string& databaseFileName,
                                               const osgDB::Options* readOptions = nullptr);
@@ -46,23 +47,23 @@ OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions
 OSGANALYTICBIN_EXPORT std::size_t installBinsByIndex(osg::Node& node, const CullOptions& options,
                                                      const BinIndex& index);
 
-/// Culls databases by other options while they are shown, Method::Sphere and Method::None among them: from the next
-/// frame on, tiles are culled as if the database had been read with these options. That goes for tiles that are loaded,
-/// for those that the DatabasePager is reading just now, and for those that it reads later. What was known of the
-/// database (its index, tiles that did not fit it) stays known. On a database without bins: installBins().
-/// Call it between frames, in the event or update phase, where no cull traversal runs; the pager may work meanwhile.
+/// Changes the options of databases that are shown, also to Method::Sphere or Method::None. From the next frame on,
+/// tiles are culled as if the database had been read with these options: tiles that are loaded, tiles that the
+/// DatabasePager is reading, and tiles that it reads later. Knowledge of the database is kept: its index, and tiles
+/// that did not fit it. On a database without bins: installBins(). Call it between frames, in the event or update
+/// phase, where no cull traversal runs; the pager may work meanwhile.
 /// Guarantee: the same tiles are drawn as after reading anew; tests: SwitchedCulling.*.
 /// Returns: the number of callbacks installed. Cost: as installing bins on what is loaded.
 OSGANALYTICBIN_EXPORT std::size_t setCullOptions(osg::Node& node, const CullOptions& options);
 
 /// Takes bins off a node and all below it, and restores what installers changed: callbacks, culling flags, expiry
-/// times, the pager's options, and groups that were put above tiles. Call it between frames. What the DatabasePager is
-/// reading just now may still arrive with bins, which still cull it correctly.
+/// times, the pager's options, and groups that were put above tiles. Call it between frames. Tiles that the
+/// DatabasePager is reading at that time may still arrive with bins, which cull them correctly.
 OSGANALYTICBIN_EXPORT void removeBins(osg::Node& node);
 
-/// Declares that an application's cull callback always goes on to what is nested in it or below its node, as a
-/// user value "osgAnalyticBin.traversesAlways" of the callback. One that does not say so may leave out terrain, and so
-/// the horizon is not used while it stands on a tile in view or above one.
+/// Declares that a cull callback of the application always traverses its nested callback or its node, by the user value
+/// "osgAnalyticBin.traversesAlways" of the callback. A callback without this declaration may leave out terrain; the
+/// horizon is not used while such a callback is on a tile in view or above one.
 OSGANALYTICBIN_EXPORT void setTraversesAlways(osg::Callback& callback);
 
 /// Returns: whether setTraversesAlways() was called for the callback, or it is a plain osg::NodeCallback.

@@ -36,7 +36,7 @@ public:
     /// toText() of the options.
     [[nodiscard]] std::string getOptionsText() const;
 
-    /// Tells the callback that bins are installed already: it does nothing from then on.
+    /// Marks bins as installed: the callback does nothing from then on.
     void setDone() { _done = true; }
 
     /// Called by OSG's update traversal.

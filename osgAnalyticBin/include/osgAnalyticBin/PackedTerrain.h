@@ -9,10 +9,9 @@
 
 namespace osgAnalyticBin {
 
-/// Stands in a scene that is about to be written for the mesh of a tile, and is stored as the tile's grid.
-/// Reading a file gives osg::Geometry with the mesh in it, which is written as such again: nothing of this class is
-/// left in a scene that was loaded. Only what osg::Node and osg::Drawable hold, the state set among it, is stored
-/// besides the grid.
+/// Replaces the mesh of a tile in a scene that is about to be written, and is stored as the tile's grid. Reading the
+/// file gives an osg::Geometry with the mesh; no object of this class is in a loaded scene. Besides the grid, only the
+/// properties of osg::Node and osg::Drawable are stored, such as the state set.
 class PackedTerrain final : public osg::Geometry {
 public:
     /// Of no grid: it cannot be read again.

@@ -21,7 +21,7 @@ namespace osgAnalyticBin {
 /// AnalyticBinCullCallback does. It is not stored in files: make it again.
 /// Leave culling active on the node: OSG's own sphere test comes first, and the bin is asked about what is left. With
 /// setCullingActive(false) the bin decides alone, and the groups above lose their spheres too, which takes up to twice
-/// as long (doc/accuracy.md); do that only where the sphere does not hold what the node draws, as with what is
+/// as long (doc/theory/accuracy.md); do that only where the sphere does not hold what the node draws, as with what is
 /// paged in later.
 /// Frame: the bin is in the frame of the node's children; transforms above the node need nothing.
 /// Guarantee: a node is never culled by its bin if a point of the bin is inside all planes;

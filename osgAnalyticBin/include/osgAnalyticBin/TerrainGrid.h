@@ -17,20 +17,20 @@
 
 namespace osgAnalyticBin {
 
-/// What the mesh of a tile of terrain is made of: heights at the posts of a grid in latitude and longitude, and skirts.
-/// Its bytes are a fifth of the mesh's, or less.
+/// The data that a terrain tile's mesh is made from: heights at the posts of a grid in latitude and longitude, and
+/// skirts. It takes a fifth of the mesh's bytes or less.
 struct TerrainGrid {
     /// Metres; heights and skirts are whole multiples of it.
     static constexpr double kStep = 1.0 / 64.0;
 
-    /// Of the colours by height: from this height on towards the next stop's.
+    /// A stop of the colours by height: the colour at this height, blended towards the next stop's.
     struct ColourStop {
         /// Metres.
         float height = 0.0F;
         /// Red, green, blue.
         std::array<std::uint8_t, 3> colour{};
     };
-    /// What hangs from one edge, post by post, south to north or west to east, in steps.
+    /// The skirt of one edge, post by post, from south to north or from west to east, in steps.
     struct Skirt {
         /// How far it hangs down.
         std::vector<std::int32_t> depth;
@@ -42,7 +42,7 @@ struct TerrainGrid {
     core::Ellipsoid ellipsoid{1.0, 1.0};
     /// Along an edge of the tile.
     std::int32_t cells = 0;
-    /// Posts of the tile's level round the globe; half as many and one stand from pole to pole.
+    /// Number of posts of the tile's level around the equator. From pole to pole there are half as many plus one.
     std::int64_t columns = 0;
     /// @{
     /// The south-west post, counted from longitude -180 and latitude -90.
@@ -69,19 +69,20 @@ struct TerrainGrid {
 };
 
 /// The vertices of a grid, row by row from the south-west, then the skirts' edge by edge, in ECEF metres.
-/// Guarantee: posts that two grids of one quantum share come to the very same point.
+/// Guarantee: a post that two grids with the same quantum share is mapped to exactly the same point.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::vector<glm::dvec3> verticesOf(const TerrainGrid& grid);
 
 /// Three vertices a triangle, the surface's first.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::vector<std::uint16_t> trianglesOf(int cells);
 
-/// The mesh as OSG draws it; but for the triangles and the texture coordinates, which tiles may share.
+/// The mesh as OSG draws it, without the triangles and texture coordinates, which tiles may share.
 OSGANALYTICBIN_EXPORT void fillGeometry(const TerrainGrid& grid, osg::Geometry& geometry);
 
 /// One for each vertex, behind what is there already.
 OSGANALYTICBIN_EXPORT void addTextureCoordinates(int cells, int textureSize, osg::Vec2Array& coordinates);
 
-/// The bytes of a grid: what neighbours foretell of each height is left out. The same on every machine.
+/// The bytes of a grid. Each height is stored as its difference from a prediction by its neighbours. The bytes are the
+/// same on every machine.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::string packed(const TerrainGrid& grid);
 
 /// Returns: nullopt for what packed() has not made.

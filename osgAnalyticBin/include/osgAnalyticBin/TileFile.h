@@ -11,10 +11,10 @@
 
 namespace osgAnalyticBin {
 
-/// Reads a tile as osgDB::Registry does, but stops at the end of a truncated file: OSG's own reader goes on with
-/// whatever its variables hold, for minutes, and takes the pager's thread with it.
-/// Local files in OSG's native formats are guarded; all others, those in archives and on servers among them, are left
-/// to the Registry. Throws: std::exception when a guarded file ends too early or asks for more memory than there is.
+/// Reads a tile as osgDB::Registry does, but stops at the end of a truncated file. OSG's own reader would continue with
+/// undefined values and block the pager's thread for minutes. Local files in OSG's native formats are guarded; all
+/// others, those in archives and on servers among them, are left to the Registry. Throws: std::exception when a guarded
+/// file ends too early or asks for more memory than there is.
 [[nodiscard]] OSGANALYTICBIN_EXPORT osgDB::ReaderWriter::ReadResult readTileFile(const std::string& fileName,
                                                                                  const osgDB::Options* options);
 

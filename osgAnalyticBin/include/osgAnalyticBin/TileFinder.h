@@ -17,19 +17,19 @@
 
 namespace osgAnalyticBin {
 
-/// Where the content of a file stands, and whose it is.
+/// The coordinate frame of a file's content, and the file that it comes from.
 struct TileFrame {
     osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;  ///< null: below no globe and no stored bin
     osg::Matrixd localToEcef;                           ///< in a map: to the map
-    /// Whether the coordinate system's text names a map projection. Without an ellipsoid the tiles stand in that map;
-    /// with one, what they look like has to tell.
+    /// Whether the coordinate system's text names a map projection. Without an ellipsoid, the tiles are in that map;
+    /// with one, their meshes decide.
     bool isProjected = false;
     /// The file that the content was read from: its path relative to the folder of the database's root file, "" for the
     /// root file itself.
     std::string file;
     bool isBelowTile = false;  ///< Whether the file is paged below a tile: then plain meshes in it are leaf tiles.
 
-    /// Whether tiles have a place: on a globe or in a map.
+    /// Whether the frame is that of a globe or of a map.
     [[nodiscard]] bool isKnown() const { return ellipsoid || isProjected; }
 };
 
@@ -58,8 +58,8 @@ struct FoundTile {
 /// The frame of a transform's children, where the transform stands in `frame`.
 [[nodiscard]] OSGANALYTICBIN_EXPORT osg::Matrixd frameInside(const osg::Transform& node, const TileFrame& frame);
 
-/// Walks a scene graph from tile to tile, in the same order every time: before its own children, in the order of the
-/// children. Nothing is changed, and no osgTerrain tile is traversed. Transforms that may move end the walk.
+/// Visits the tiles of a scene graph in preorder, always in the same order. It changes nothing and does not traverse
+/// osgTerrain tiles. It does not go below transforms that may move.
 class OSGANALYTICBIN_EXPORT TileFinder : public osg::NodeVisitor {
 public:
     /// Starts in this frame: for what is paged below a database that is known already.
@@ -75,29 +75,29 @@ public:
     void apply(osg::PagedLOD& node) override;
 
 protected:
-    /// A tile was met. The default walks on below it.
+    /// Called for each tile. The default visits the nodes below it.
     virtual void visitTile(FoundTile& tile) { traverseBelow(*tile.node); }
 
-    /// Another node was met. The default walks on below it.
+    /// Called for every other node. The default visits the nodes below it.
     virtual void visitOther(osg::Node& node) { traverseBelow(node); }
 
-    /// A node was met below so many tiles and PagedLODs that stand in each other (a paged tile counts twice). It is
-    /// left out, with all below it: no database is like that, and recursion has to end before the stack does.
+    /// Called for a node below too many nested tiles and PagedLODs (a paged tile counts twice). The node and all below
+    /// it are skipped, so that the recursion ends before the stack overflows; real databases are not nested so deep.
     virtual void visitTooDeep(osg::Node&) {}
-    /// The nodes below which the search ends, tiles and PagedLODs on one path counted.
+    /// The depth of nesting at which the search ends, counted in tiles and PagedLODs on one path.
     static constexpr int kDeepest = 400;
 
-    /// A transform was met that may move. It is left out, with all below it.
+    /// Called for a transform that may move. It is skipped, with all below it.
     virtual void visitMoving(osg::Transform&) {}
 
-    /// Goes on with the children, those that are paged as content of their own files.
+    /// Visits the children. Paged children are visited as content of their own files.
     void traverseBelow(osg::Node& node);
 
     /// The frame of the node that is being visited.
     [[nodiscard]] const TileFrame& frame() const { return _frame; }
     /// The frame of a CoordinateSystemNode's children, where that is visited.
     [[nodiscard]] TileFrame frameInside(const osg::CoordinateSystemNode& node) const;
-    /// Changes the frame for what is visited from here on.
+    /// Changes the frame for all nodes that are visited from then on.
     void setFrame(const TileFrame& frame) { _frame = frame; }
 
 private:

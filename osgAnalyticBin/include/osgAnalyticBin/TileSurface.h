@@ -18,14 +18,13 @@ namespace osgAnalyticBin {
 /// What one tile draws by itself: without what is paged below it, and without its skirts.
 struct TileSurface {
     /// Extents, and altitudes at vertical scale 1, chords between posts included; sag() says how much of the depth is
-    /// chords. margin() is the rounding of float vertices. Not valid(): no geocentric terrain, or one that cannot be
-    /// told from here.
+    /// chords. margin() is the rounding of float vertices. Not valid(): the node is no geocentric terrain, or its
+    /// bounds cannot be computed.
     AnalyticBin bin;
-    /// Metres: an altitude that the surface nowhere goes below along its south, east, north and west edge, chords
-    /// included.
+    /// Metres: lower bounds of the surface's altitude along its south, east, north and west edge, chords included.
     std::array<double, 4> edgeLow{};
-    /// Metres that skirts hang below the surface at most, whatever the vertical scale; 0: none, or none that can be
-    /// told from the surface, which `bin` holds then.
+    /// The greatest length of skirts below the surface in metres, at any vertical scale; 0: no skirts, or skirts that
+    /// cannot be told from the surface and are in `bin`.
     double skirt = 0.0;
     /// Nothing is drawn at all; `bin` is not valid then.
     bool isEmpty = false;
@@ -38,12 +37,11 @@ struct TileSurface {
 /// switches all count, whatever is chosen. Below a paged or moving node nothing is known: not valid();
 /// neither on an ellipsoid without hasValidRadii(), nor where a matrix is not affine.
 /// `node` stands in a frame that `localToEcef` takes to ECEF. `sampleRatio` is osgTerrain::Terrain's.
-/// Skirts are told by the texture coordinates and the depth that VirtualPlanetBuilder gives them; any doubt and they
-/// count as surface.
-/// What is higher than 50 km on the earth, or deeper than 1000 km, is taken for no terrain: not valid(). On another
-/// globe, or in another unit, the depth is in proportion to the equatorial radius, and so is the height but for 50 000
-/// units at least, where that is no more than a tenth of the radius. Nor is a terrain tile valid() where its chords may
-/// sag below the centres of curvature, which only those of wide cells on flat ellipsoids do.
+/// Skirts are recognised by the texture coordinates and the depth that VirtualPlanetBuilder gives them. In case of
+/// doubt they count as surface. Meshes higher than 50 km or deeper than 1000 km on the earth are not taken for terrain:
+/// not valid(). On another globe, or in another unit, both limits are in proportion to the equatorial radius; the upper
+/// one is at least 50 000 units where that is no more than a tenth of the radius. Nor is a terrain tile valid() where
+/// its chords may sag below the centres of curvature, which only those of wide cells on flat ellipsoids do.
 /// Guarantee: on any ellipsoid in any unit, the bin holds every point of every triangle that is drawn, skirts left out,
 /// and of terrain tiles once exaggerated(), at any vertical scale from -10 to 10 that leaves no post deeper than half
 /// the smallest radius of curvature; tests: TileSurface.*, PlanetSurface.*. Terrain whose boundaries are equalised

@@ -14,7 +14,7 @@ namespace osgAnalyticBin::core {
 namespace {
 
 // Near the surface of the earth three or four steps suffice. Beside the centres of curvature each step multiplies u by
-// up to 1.5; after a hundred of them the rest does not change the latitude: doc/derivation.md, section 1.
+// up to 1.5; after a hundred of them the rest does not change the latitude: doc/theory/derivation.md, section 1.
 constexpr int kMostSteps = 100;
 // In smaller radii: distances below this count as zero.
 constexpr double kNothing = 1e-100;

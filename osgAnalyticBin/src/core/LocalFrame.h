@@ -9,7 +9,7 @@
 
 namespace osgAnalyticBin::core {
 
-/// Sine, cosine and the unit vectors of doc/derivation.md, section 2, at a latitude and longitude (radians).
+/// Sine, cosine and the unit vectors of doc/theory/derivation.md, section 2, at a latitude and longitude (radians).
 struct LocalFrame {
     LocalFrame(double latitude, double longitude) noexcept
         : sinLat(std::sin(latitude)),

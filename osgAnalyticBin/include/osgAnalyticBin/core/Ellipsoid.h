@@ -48,14 +48,14 @@ public:
     [[nodiscard]] double meridionalRadius(double sinLatitude, double cosLatitude) const noexcept;
 
     /// Converts to ECEF metres.
-    /// Source: [DMA] geodetic to rectangular; doc/derivation.md, section 1.
+    /// Source: [DMA] geodetic to rectangular; doc/theory/derivation.md, section 1.
     /// Guarantee: within 16 epsilon of the larger radius plus the altitude, for b/a from 0.01 to 100;
     /// tests: Ellipsoid.ConvertsLikeLongDouble*.
     [[nodiscard]] glm::dvec3 toEcef(const Geodetic& position) const noexcept;
 
     /// Converts from ECEF metres; longitude in [-pi, pi], on the axis 0. A point deeper than the centres of curvature
     /// has several positions: the result is one nearest to the surface, on the equator's plane the northern one.
-    /// Source: [E13]; doc/derivation.md, section 1.
+    /// Source: [E13]; doc/theory/derivation.md, section 1.
     /// Guarantee: toEcef(result) within 3 epsilon of the point's distance from the centre plus the largest radius of
     /// curvature, max(a, a2/b, b2/a), for every finite point and b/a from 0.01 to 100; on earth-like ellipsoids
     /// (|e2| < 0.01) within 1e-8 m up to 7000 km from the centre, within 3 epsilon of the distance beyond;

@@ -43,9 +43,8 @@ public:
     GeodeticBin() noexcept;
 
     /// Latitudes are clamped to the poles, a longitude width to 2 pi. An interval with NaN, with infinite bounds, or
-    /// with lower > upper makes the bin empty. Longitudes beyond 1e6 radians, which tell too little of where they are,
-    /// become the whole circle: such a bin holds what it should, and verdicts of it are proofs;
-    /// tests: GeodeticBin.LongitudesThatAreTooFarAwayAreAll.
+    /// with lower > upper makes the bin empty. Longitudes beyond 1e6 radians are too inexact and become the whole
+    /// circle, so that verdicts stay proofs; tests: GeodeticBin.LongitudesThatAreTooFarAwayAreAll.
     GeodeticBin(Interval latitude, Interval longitude, Interval altitude) noexcept;
 
     /// Angles in degrees, altitude in metres. The conversion is monotone: bins that share an edge in degrees share
@@ -63,7 +62,7 @@ public:
     /// Metres.
     [[nodiscard]] const Interval& altitude() const noexcept { return _altitude; }
 
-    /// Whether there is no position in it.
+    /// Whether it holds no position.
     [[nodiscard]] bool empty() const noexcept { return !(_latitude.lower <= _latitude.upper); }
     /// Whether it runs all the way around the globe.
     [[nodiscard]] bool isFullCircle() const noexcept;
@@ -78,8 +77,9 @@ public:
     /// True when every position of the other bin lies in this one; every bin contains the empty one.
     [[nodiscard]] bool contains(const GeodeticBin& other) const noexcept;
 
-    /// The smallest bin that holds both; of the two ways round the globe the shorter one. Wider by the tolerance above
-    /// where one of them had to be turned; tests: GeodeticBin.UnionHoldsBinsManyTurnsAway.
+    /// The smallest bin that holds both, over the shorter of the two ways round the globe. It is wider by the tolerance
+    /// of contains() where the longitudes of one bin are shifted by whole turns; tests:
+    /// GeodeticBin.UnionHoldsBinsManyTurnsAway.
     [[nodiscard]] GeodeticBin united(const GeodeticBin& other) const noexcept;
 
     /// Grows to hold the position or the other bin.

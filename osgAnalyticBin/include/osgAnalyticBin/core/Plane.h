@@ -38,7 +38,7 @@ struct Plane {
     return std::abs(glm::dot(plane.normal, plane.normal) - 1.0) <= kTolerance;
 }
 
-/// Whether anything may be decided by the normal. Requires: a unit normal, or one that is not finite (asserted).
+/// Whether the plane may decide anything, by its normal. Requires: a unit normal, or one that is not finite (asserted).
 [[nodiscard]] inline bool isUsable(const Plane& plane) noexcept {
     const bool isUnit = hasUnitNormal(plane);
     assert(hasUnitNormal(plane) || !std::isfinite(glm::dot(plane.normal, plane.normal)));

@@ -16,7 +16,8 @@ namespace osgAnalyticBin::core {
 class ExactGeodeticBin;
 class QuadraticBin;
 
-/// What the signed distance to the plane may be off by because of its offset; doc/derivation.md, section 7.
+/// The error of the signed distance to the plane that is due to the plane's offset; doc/theory/derivation.md, section
+/// 7.
 /// Returns: NaN, which decides nothing, when a number of the plane is not finite or its normal not of unit length.
 [[nodiscard]] double roundingOf(const Plane& plane) noexcept;
 
@@ -29,8 +30,8 @@ class PlaneSet final {
 public:
     PlaneSet() noexcept {}  // NOLINT: the blocks are left as they are
 
-    /// Requires: size() < kMaxPlanes (asserted). One plane more is left out, and takes the last place in the set with a
-    /// plane that decides nothing: what is inside of all planes that are left is still not Inside.
+    /// Requires: size() < kMaxPlanes (asserted). An excess plane is not stored; the last plane of the set is replaced
+    /// by one that decides nothing, so that no bin is Inside of the set.
     void push_back(const Plane& plane) noexcept;
 
     /// Planes in the set.

@@ -22,9 +22,9 @@ class TextPanel;
 /// A short name: "outside", "straddling", "inside", "behind the horizon", "beyond an edge".
 [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT const char* verdictName(TileVerdict verdict);
 
-/// Key `B`: draws the bins that the view's camera tests, as the curved slabs that they are, coloured by verdict: those
-/// where its cull traversal ends (tiles culled or drawn), then all, then none. Key `Q`: the same bins' quadratic
-/// approximation as white lines. Bins of maps are not drawn. One handler for each view.
+/// Key `B`: draws the bins that the view's camera tests as curved slabs, coloured by verdict: first those where its
+/// cull traversal ends (tiles culled or drawn), then all, then none. Key `Q`: the same bins' quadratic approximation as
+/// white lines. Bins of maps are not drawn. One handler for each view.
 /// Cost: while shown, a TileSurvey for each frame.
 class OSGANALYTICBINVIEWER_EXPORT BinDisplayHandler : public osgGA::GUIEventHandler {
 public:
@@ -46,13 +46,13 @@ public:
     void setShown(Shown shown) { _shown = shown; }
     /// Which bins are drawn.
     [[nodiscard]] Shown shown() const { return _shown; }
-    /// Whether their quadratic approximation is, as key `Q` chooses.
+    /// Whether their quadratic approximation is drawn, as key `Q` chooses.
     void setQuadraticShown(bool shown) { _showsQuadratic = shown; }
 
-    /// What is drawn at present, in the world's frame: a child for each slab.
+    /// The present drawing in the world's frame, one child for each slab.
     [[nodiscard]] const osg::Group& slabs() const { return *_slabs; }
 
-    /// Its keys; draws anew at every frame. Returns: whether a key was its own.
+    /// Handles the keys, and draws anew at every frame. Returns: whether a key was handled.
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
     /// The keys, for osgViewer::HelpHandler.
     void getUsage(osg::ApplicationUsage& usage) const override;

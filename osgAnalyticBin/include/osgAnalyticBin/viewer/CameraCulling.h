@@ -20,31 +20,30 @@ class CullVisitor;
 
 namespace osgAnalyticBin {
 
-/// What a cull traversal looks through.
+/// The matrices and the viewport of a cull traversal.
 struct CullingView {
     osg::Matrixd view;                     ///< from the world to the eye
     osg::Matrixd projection;               ///< from the eye to clip space
     osg::ref_ptr<osg::Viewport> viewport;  ///< pixels
 };
 
-/// The cull callback of a camera that may show what another camera sees: its scene is culled, refined and paged by a
-/// culling view that stands still or is another camera's, and drawn by the camera's own. What is drawn is then
-/// precisely what that other camera draws: every test of every node runs with the other camera's matrices.
-/// Overlays are drawn by the camera's own view, cut by neither near nor far plane.
-/// Cameras inside the scene (render to texture) keep the culling view throughout, and OccluderNodes are those of the
-/// camera's own view.
+/// The cull callback of a camera that can show what another camera draws. The scene is culled, refined and paged by a
+/// culling view, which is frozen or belongs to another camera, and is drawn with the camera's own view. Every test of
+/// every node runs with the matrices of the culling view, so exactly the same is drawn. Overlays are drawn by the
+/// camera's own view, cut by neither near nor far plane. Cameras inside the scene (render to texture) keep the culling
+/// view throughout, and OccluderNodes are those of the camera's own view.
 /// Threads: setters and the overlay's nodes may be touched where no cull traversal runs, as between frames.
 class OSGANALYTICBINVIEWER_EXPORT CameraCulling : public osg::NodeCallback {
 public:
     CameraCulling();
 
-    /// That of the camera, installed at the first call behind what is there.
+    /// Returns the camera's CameraCulling; the first call installs it after the callbacks that are there.
     [[nodiscard]] static CameraCulling& of(osg::Camera& camera);
 
     /// Returns: nullptr when the camera has none.
     [[nodiscard]] static CameraCulling* find(osg::Camera& camera);
 
-    /// What the camera is culled by at present: its own view, unless told otherwise.
+    /// The present culling view; by default the camera's own.
     [[nodiscard]] static CullingView cullingView(osg::Camera& camera);
 
     /// Culls by this view from now on.
@@ -54,14 +53,15 @@ public:
     /// Whether freeze() holds.
     [[nodiscard]] bool isFrozen() const { return _frozen.has_value(); }
 
-    /// Culls as that camera is culled, frame by frame, and draws its overlay too; nullptr: no longer.
+    /// Follows a camera: culls as that camera is culled, frame by frame, and draws its overlay, too. nullptr: stops
+    /// following.
     void follow(osg::Camera* camera) {
         _followed = camera;
         _followedView.reset();
     }
-    /// Takes down what the followed camera is culled by, for the cull traversals to come. Between frames: cull threads
-    /// write to their cameras' projections. Where it is never called the other camera itself is asked in each
-    /// traversal.
+    /// Copies the culling view of the followed camera for the next cull traversals. Call it between frames, because
+    /// cull threads write to their cameras' projections. If it is never called, each traversal reads the followed
+    /// camera itself.
     void updateFollowed();
     /// Whether another camera is followed.
     [[nodiscard]] bool isFollowing() const { return _followed.valid(); }

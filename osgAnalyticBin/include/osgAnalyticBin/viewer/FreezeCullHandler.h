@@ -14,9 +14,9 @@ class Node;
 
 namespace osgAnalyticBin {
 
-/// Key `F`: the cameras of a view go on culling from where they stand, while the view is flown on: what is drawn stays
-/// what they saw from there, with their frustum as lines and translucent sides down to the globe. `F` again: as usual.
-/// One handler for each view.
+/// Key `F`: freezes the culling of a view's cameras, while the view can still be moved. The tiles that were in view
+/// stay drawn, with the frustum as lines and translucent sides down to the globe. `F` again: back to normal. One
+/// handler for each view.
 class OSGANALYTICBINVIEWER_EXPORT FreezeCullHandler : public osgGA::GUIEventHandler {
 public:
     FreezeCullHandler();
@@ -24,13 +24,13 @@ public:
     /// Default `F`.
     void setKeyEventFreeze(int key) { _key = key; }
 
-    /// Whether culling stands still.
+    /// Whether culling is frozen.
     [[nodiscard]] bool isFrozen() const { return _isFrozen; }
 
     /// Freezes or thaws the view's cameras, as the key does. Between frames only.
     void setFrozen(osgGA::GUIActionAdapter& view, bool frozen);
 
-    /// Its key. Returns: whether it was.
+    /// Handles the key. Returns: whether it was handled.
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
     /// The keys, for osgViewer::HelpHandler.
     void getUsage(osg::ApplicationUsage& usage) const override;

@@ -14,8 +14,8 @@ namespace osgAnalyticBin {
 class TextPanel;
 
 /// Keys `n` and `N`: the next and the previous culling method for the view's scene, tiles that are paged in later
-/// included; what that changes in tiles is shown for a while, as a difference as long as the camera stands still.
-/// One handler for each scene.
+/// included; the change in counts of tiles is shown for a while, as a difference while the camera does not move. One
+/// handler for each scene.
 class OSGANALYTICBINVIEWER_EXPORT MethodSwitchHandler : public osgGA::GUIEventHandler {
 public:
     /// `options`: those that the scene's bins were installed with.
@@ -26,13 +26,13 @@ public:
     /// Default `N`.
     void setKeyEventPrevious(int key) { _keyPrevious = key; }
 
-    /// What the scene is culled by at present.
+    /// The present culling method.
     [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
 
     /// Culls the view's scene by another method from the next frame on, as the keys do. Between frames only.
     void setMethod(osgGA::GUIActionAdapter& view, Method method);
 
-    /// Its keys; looks after the shown text at every frame. Returns: whether a key was its own.
+    /// Handles the keys, and updates the shown text at every frame. Returns: whether a key was handled.
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
     /// The keys, for osgViewer::HelpHandler.
     void getUsage(osg::ApplicationUsage& usage) const override;

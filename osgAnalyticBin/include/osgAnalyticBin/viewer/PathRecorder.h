@@ -27,7 +27,8 @@ struct RecordedPose {
     double roll = 0.0;         ///< of up, clockwise about the line of sight, from the local vertical
 };
 
-/// How the camera stands over the globe of its scene at present; near and far planes as last drawn, with room to spare.
+/// The present pose of a camera over the globe of its scene; near and far planes are those of the last frame, with some
+/// room.
 /// Returns: nullopt for views that are not perspective or from near the globe's centre, and where there is no globe.
 [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<RecordedPose> recordedPose(osg::Camera& camera, double time);
 
@@ -67,7 +68,7 @@ public:
     /// What has been recorded so far.
     [[nodiscard]] const std::vector<RecordedPose>& path() const { return _path; }
 
-    /// Its key; records at every frame, and writes at the end. Returns: whether it was its key.
+    /// Handles the key, records at every frame, and writes at the end. Returns: whether the key was handled.
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
     /// The keys, for osgViewer::HelpHandler.
     void getUsage(osg::ApplicationUsage& usage) const override;

@@ -39,7 +39,7 @@ public:
     /// horizon, and the distance as a multiple of that from the camera to what it looks at.
     void setOrbit(double azimuth, double elevation, double distance);
 
-    /// Its key, and the mouse in its window. Returns: whether an event was its own.
+    /// Handles the key, and the mouse in the second window. Returns: whether the event was handled.
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
     /// The keys, for osgViewer::HelpHandler.
     void getUsage(osg::ApplicationUsage& usage) const override;

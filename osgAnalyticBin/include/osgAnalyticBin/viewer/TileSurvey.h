@@ -17,7 +17,7 @@
 
 namespace osgAnalyticBin {
 
-/// What a cull traversal found of a tile.
+/// The verdict of a cull traversal on a tile.
 enum class TileVerdict {
     Outside,        ///< outside a plane of the frustum, too small, or behind an occluder
     Straddling,     ///< of the frustum's planes some are undecided
@@ -27,13 +27,13 @@ enum class TileVerdict {
     Occluded        ///< behind terrain
 };
 
-/// A tile that a camera's cull traversal came to.
+/// A tile that a camera's cull traversal reached.
 struct SurveyedTile {
     osg::ref_ptr<osg::Node> node;  ///< a PagedLOD with a mesh of its own, or a leaf
-    bool hasBin = false;           ///< whether a bin decided; otherwise verdict, bin, radii and place say nothing
-    bool isCulled = false;         ///< whether nothing below the tile was traversed
-    bool isDrawn = false;          ///< whether a mesh of its own was drawn
-    bool isRefined = false;        ///< whether tiles below it were met
+    bool hasBin = false;     ///< whether a bin decided; otherwise verdict, bin, ellipsoid and ecefToWorld mean nothing
+    bool isCulled = false;   ///< whether nothing below the tile was traversed
+    bool isDrawn = false;    ///< whether a mesh of its own was drawn
+    bool isRefined = false;  ///< whether tiles below it were met
     TileVerdict verdict = TileVerdict::Straddling;  ///< the bin's
     /// What the tile was culled by: in the present shape of the terrain, skirts included. Not valid in a map.
     AnalyticBin bin;
@@ -41,7 +41,7 @@ struct SurveyedTile {
     osg::Matrixd ecefToWorld;                           ///< where that globe stands
 };
 
-/// How many tiles a camera's cull traversal came to, by what became of them.
+/// Numbers of tiles that a camera's cull traversal reached, by result.
 struct TileCounts {
     std::size_t tested = 0;         ///< all that it came to
     std::size_t kept = 0;           ///< of these, that it went into
@@ -51,11 +51,10 @@ struct TileCounts {
     std::size_t occluded = 0;       ///< of those not kept: behind terrain
 };
 
-/// Culls a camera's scene once more, off the record, by the camera's culling view: nothing is drawn and no file is
-/// asked for. Tiles are those of TileFinder, so that counts are comparable whatever culls them; a bin's verdict is read
-/// from the counters of this traversal. Requires: a camera with a viewport, and no update or cull traversal meanwhile:
-/// call it in the event phase, where it repeats the last frame. Cost: one walk over the loaded scene, and one cull
-/// traversal.
+/// Runs one more cull traversal of a camera's scene by the camera's culling view. It draws nothing and requests no
+/// file. Tiles are those of TileFinder, so that counts of all methods are comparable. A bin's verdict is read from the
+/// counters of this traversal. Requires: a camera with a viewport, and no update or cull traversal meanwhile: call it
+/// in the event phase, where it repeats the last frame. Cost: one walk over the loaded scene, and one cull traversal.
 class OSGANALYTICBINVIEWER_EXPORT TileSurvey {
 public:
     /// Of no tiles.

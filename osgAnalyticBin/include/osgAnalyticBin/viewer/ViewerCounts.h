@@ -15,8 +15,8 @@ class ViewerBase;
 
 namespace osgAnalyticBin {
 
-/// What bins decided in one frame, in all cull traversals of a camera of a viewer: stereo has two. Call it between
-/// frames, when no cull traversal runs. `frame`: the number of the frame.
+/// The verdicts of bins in one frame, summed over all cull traversals of a viewer's camera (stereo has two). Call it
+/// between frames, when no cull traversal runs. `frame`: the number of the frame.
 /// Returns: sums; zeros where nothing was tested in that frame, and for cameras that no viewer draws.
 [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT BinCounts binCounts(osg::Camera& camera, unsigned int frame);
 

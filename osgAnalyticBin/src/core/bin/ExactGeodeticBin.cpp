@@ -20,10 +20,11 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-// Rounding of one signed distance, in units of epsilon times the magnitudes that enter; doc/derivation.md, section 8.
+// Rounding of one signed distance, in units of epsilon times the magnitudes that enter; doc/theory/derivation.md,
+// section 8.
 constexpr double kRounding = 32.0 * kEpsilon;
 
-// Bounds over all latitudes, by doc/derivation.md, section 2.
+// Bounds over all latitudes, by doc/theory/derivation.md, section 2.
 struct CurvatureBounds {
     explicit CurvatureBounds(const Ellipsoid& ellipsoid) noexcept
         : smallestRadius(std::min(ellipsoid.meridionalRadius(0.0, 1.0), ellipsoid.meridionalRadius(1.0, 0.0))),
@@ -127,7 +128,7 @@ void ExactGeodeticBin::setParallel(const GeodeticBin& bin) noexcept {
 
 // A sphere about a centre in the middle meridian plane. The distance from there grows with the longitude's distance
 // from the middle and is convex in the altitude: it is largest on one of the four edges along the meridians west and
-// east. Along these it is convex too when the bin is small enough; doc/derivation.md, section 8.
+// east. Along these it is convex too when the bin is small enough; doc/theory/derivation.md, section 8.
 void ExactGeodeticBin::setSphere(const Ellipsoid& ellipsoid, const GeodeticBin& bin) noexcept {
     const auto ends = cornersOf(_numbers.data());
     const double spread = _numbers[row::Longitudes] == row::kFullCircle

@@ -49,7 +49,8 @@ LatitudeBounds latitudeBounds(const Ellipsoid& ellipsoid, const ParameterBox& bo
     const double sinCos = std::min(0.5, bounds.sinLat * bounds.cosLat);
     const double cos2p =
         std::max(std::abs(1.0 - 2.0 * sinLow * sinLow), std::abs(1.0 - 2.0 * bounds.sinLat * bounds.sinLat));
-    // doc/derivation.md, section 3: M' = 3 M e2 sp cp / w, M'' = 3 a (1-e2) e2 (cos 2p + 5 e2 sp2 cp2 / w) / w^(5/2)
+    // doc/theory/derivation.md, section 3: M' = 3 M e2 sp cp / w, M'' = 3 a (1-e2) e2 (cos 2p + 5 e2 sp2 cp2 / w) /
+    // w^(5/2)
     bounds.meridionalSlope = 3.0 * bounds.meridional * std::abs(e2) * sinCos / wMin;
     bounds.meridionalCurvature =
         3.0 * bounds.meridional * std::abs(e2) * (cos2p + 5.0 * std::abs(e2) * sinCos * sinCos / wMin) / wMin;
@@ -98,7 +99,7 @@ double GeodeticMapping::remainder(const ParameterBox& box) const noexcept {
     const double p = box.halfSize.x;
     const double l = box.halfSize.y;
     const double dh = box.halfSize.z;
-    // doc/derivation.md, section 3: the components along east, and in the meridian plane.
+    // doc/theory/derivation.md, section 3: the components along east, and in the meridian plane.
     const double east = 3.0 * (bound.meridionalSlope * bound.sinLat + mh * bound.cosLat) * p * p * l +
                         nh * bound.cosLat * l * l * l + 6.0 * bound.sinLat * p * l * dh;
     const double meridian = (bound.meridionalCurvature + mh) * p * p * p + 2.0 * bound.meridionalSlope * p * p * p +

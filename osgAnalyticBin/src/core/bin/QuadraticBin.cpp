@@ -16,7 +16,8 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-// Rounding of one signed distance, in units of epsilon times the magnitudes that enter; doc/derivation.md, section 7.
+// Rounding of one signed distance, in units of epsilon times the magnitudes that enter; doc/theory/derivation.md,
+// section 7.
 constexpr double kRounding = 128.0 * kEpsilon;
 
 }  // namespace
@@ -39,7 +40,7 @@ QuadraticBin::QuadraticBin(const AnalyticMapping& mapping, const ParameterBox& b
     for (std::size_t i = 0; i < 3; ++i) magnitude += glm::length(first(i));
     for (std::size_t i = 0; i < 6; ++i) magnitude += glm::length(second(i));
     magnitude = std::max(magnitude, mapping.termMagnitude(box));
-    // Taylor's theorem with the Lagrange remainder, doc/derivation.md, section 3; rounding, section 7
+    // Taylor's theorem with the Lagrange remainder, doc/theory/derivation.md, section 3; rounding, section 7
     _numbers[row::Remainder] = (mapping.remainder(box) + margin) * kNormalTolerance + kRounding * magnitude;
     _numbers[row::Reach] = roundedUp((farthestCorner() + bulge()) * kNormalTolerance + remainder());
     const double mixed = glm::length(second(3)) + glm::length(second(4)) + glm::length(second(5));

@@ -14,7 +14,7 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-// Rounding of a mixture of three planes, in units of epsilon times its terms; doc/horizon.md, section 6.
+// Rounding of a mixture of three planes, in units of epsilon times its terms; doc/theory/horizon.md, section 6.
 constexpr double kRounding = 16.0 * kEpsilon;
 // Three planes closer to sharing a line than this have no corner.
 constexpr double kSmallestDeterminant = 1e-12;

@@ -14,7 +14,7 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-// Rounding of a mixture of two planes, in units of epsilon times its terms; doc/horizon.md, section 7.
+// Rounding of a mixture of two planes, in units of epsilon times its terms; doc/theory/horizon.md, section 7.
 constexpr double kRounding = 16.0 * kEpsilon;
 
 // Mixtures of unit normals that are shorter than this are nothing but rounding.

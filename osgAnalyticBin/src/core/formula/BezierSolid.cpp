@@ -103,7 +103,7 @@ double largest(const ControlNet& net) {
 }
 
 // Of a piece between two nets, for steps of its width in u and v and of half its thickness in w.
-// doc/mappings.md, section 6: the factors are the permutations of the differential
+// doc/theory/mappings.md, section 6: the factors are the permutations of the differential
 double differentialBound(const ControlNet& bottom, const ControlNet& top) {
     constexpr std::array<double, 4> kFace{1.0, 3.0, 3.0, 1.0};  // uuu, uuv, uvv, vvv
     constexpr std::array<double, 3> kThickness{3.0, 6.0, 3.0};  // uuw, uvw, vvw
@@ -155,7 +155,7 @@ double BezierSolid::triangleSagBound(const ParameterBox& box, const glm::dvec3& 
     const auto face = [&](int byU, int byV) {
         return std::max(largest(derivative(bottom, byU, byV)), largest(derivative(top, byU, byV)));
     };
-    // doc/mappings.md, section 9
+    // doc/theory/mappings.md, section 9
     const double sum =
         face(2, 0) * share.x * share.x + face(0, 2) * share.y * share.y +
         2.0 * (face(1, 1) * share.x * share.y + largest(derivative(thickness, 1, 0)) * share.x * share.z +

@@ -16,7 +16,7 @@ double CylinderSegment::remainder(const ParameterBox& box) const noexcept {
     const double dr = box.halfSize.y;
     const double radius = std::abs(box.center.y) + dr;
     const double height = std::abs(box.center.z) + box.halfSize.z;
-    // doc/mappings.md, section 4: along the tangent and along the radius
+    // doc/theory/mappings.md, section 4: along the tangent and along the radius
     const double differential = std::hypot(radius * a * a * a, 3.0 * a * a * dr);
     const double size = glm::length(_frame.origin) + radius * (1.0 + a) * (1.0 + a) + height;
     return withRounding(differential / 6.0, size);

@@ -27,7 +27,7 @@ double TorusSegment::remainder(const ParameterBox& box) const noexcept {
     const double p1 = std::min(std::hypot(r * b, dr), s * r * b + c * dr);
     const double p2 = std::min(std::hypot(r * b * b, 2.0 * b * dr), c * r * b * b + 2.0 * s * b * dr);
     const double circle3 = std::hypot(r * b * b * b, 3.0 * b * b * dr);
-    // doc/mappings.md, section 5: across the bend and along it
+    // doc/theory/mappings.md, section 5: across the bend and along it
     const double across = circle3 + 3.0 * a * a * p1;
     const double along = 3.0 * a * p2 + a * a * a * p0;
     const double angles = (1.0 + a + b) * (1.0 + a + b);

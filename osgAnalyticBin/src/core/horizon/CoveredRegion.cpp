@@ -20,7 +20,8 @@ namespace {
 // Radians by which angles may be wrong.
 constexpr double kRounding = 1e-12;
 
-// Of a position at a latitude and altitude: the latitude of its direction in unit space (doc/horizon.md, section 2).
+// Of a position at a latitude and altitude: the latitude of its direction in unit space (doc/theory/horizon.md, section
+// 2).
 double latitudeInUnitSpace(const Ellipsoid& ellipsoid, double latitude, double altitude) {
     const double sine = std::sin(latitude), cosine = std::cos(latitude);
     const double n = ellipsoid.primeVerticalRadius(sine, cosine);
@@ -96,8 +97,8 @@ double northernmost(const std::vector<glm::dvec3>& edges) {
     return holdsPole ? kHalfPi : north;
 }
 
-// doc/horizon.md, section 10: whether no segment from the eye to a point at most `apart` radians of longitude away, and
-// not north of `border`, passes north of it.
+// doc/theory/horizon.md, section 10: whether no segment from the eye to a point at most `apart` radians of longitude
+// away, and not north of `border`, passes north of it.
 bool staysSouthOf(double border, const Ellipsoid& ellipsoid, const Geodetic& eye, double apart) {
     if (border >= kHalfPi) return true;
     if (!(eye.latitude <= border - kRounding)) return false;

@@ -18,10 +18,10 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-// Outward rounding of products and quotients of a few factors; doc/horizon.md, section 5.
+// Outward rounding of products and quotients of a few factors; doc/theory/horizon.md, section 5.
 constexpr double kUp = 1.0 + 16.0 * kEpsilon;
 constexpr double kDown = 1.0 - 16.0 * kEpsilon;
-// Of the cosine that a point's spread is made from; doc/horizon.md, section 9.
+// Of the cosine that a point's spread is made from; doc/theory/horizon.md, section 9.
 constexpr double kSpreadSlack = 16.0 * kEpsilon;
 
 glm::dvec3 toUnitSpace(const Ellipsoid& ellipsoid, const glm::dvec3& v) {
@@ -40,7 +40,7 @@ bool isFinite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// The factor of the occluder, rounded down: doc/horizon.md, section 1. Zero when there is none.
+// The factor of the occluder, rounded down: doc/theory/horizon.md, section 1. Zero when there is none.
 double occluderScale(const Ellipsoid& ellipsoid, double depth) {
     if (!(std::abs(depth) <= kDeepestPost * smallerRadius(ellipsoid))) return 0.0;
     const double radius = depth >= 0.0 ? smallerRadius(ellipsoid) : largerRadius(ellipsoid);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// The frustum test of a geodetic bin in closed form, behind the sphere: corners, support function. doc/derivation.md,
-// section 8. Included behind QuadraticTest.inl.
+// The frustum test of a geodetic bin in closed form, after the test of its sphere: corners, then the support function.
+// Source: doc/theory/derivation.md, section 8. Included after QuadraticTest.inl.
 
 template <class Real>
 struct Range {
@@ -24,7 +24,7 @@ INLINE Range<Real> rangeOfCorners(const Bin& bin, const Range<Real>& c, Real nz)
 
 template <class Real, class Bin>
 INLINE Real slackOf(const Bin& bin, const PlaneLanes<Real>& plane) {
-    // a quarter of 128 epsilon |offset|: doc/derivation.md, section 8
+    // a quarter of 128 epsilon |offset|: doc/theory/derivation.md, section 8
     return bin[row::Slack] + broadcast<Real>(0.25) * plane.rounding;
 }
 

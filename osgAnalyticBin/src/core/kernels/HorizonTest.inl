@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// The horizon test: doc/horizon.md, section 4. `bin[row]` counts from the first row of the horizon.
+// The horizon test: doc/theory/horizon.md, section 4. `bin[row]` counts from the first row of the horizon.
 // Included behind a namespace's numbers.
 
-// Of one cosine that is compared; doc/horizon.md, section 5.
+// Of one cosine that is compared; doc/theory/horizon.md, section 5.
 constexpr double kCosineSlack = 64.0 * kEpsilon;
-// Outward rounding of products and quotients of a few factors; doc/horizon.md, section 5.
+// Outward rounding of products and quotients of a few factors; doc/theory/horizon.md, section 5.
 constexpr double kRoundDown = 1.0 - 16.0 * kEpsilon;
 
 // A direction of the bin before the horizon is seen: most tiles that are in view end here.
@@ -40,7 +40,7 @@ struct HiddenBelow {
 };
 
 // Whether all of the bin is behind the horizon, by the largest cosine between the eye's direction and the bin's:
-// section 8 of doc/derivation.md on the unit sphere. Written so that NaN is not hidden.
+// section 8 of doc/theory/derivation.md on the unit sphere. Written so that NaN is not hidden.
 template <class Real, class Bin>
 INLINE Truth<Real> isBehindHorizon(const Bin& bin, const HorizonEyeData& eye) {
     const Real zero = broadcast<Real>(0.0);

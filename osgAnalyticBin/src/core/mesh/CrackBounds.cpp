@@ -60,7 +60,7 @@ double mostTurn(const Ellipsoid& ellipsoid, double altitude) noexcept {
     return below > 0.0 ? (a - below) / (meridional - below) : flattening * flattening;
 }
 
-// The poleward run of a chord between two posts `angle` apart on a parallel: source doc/databases.md, (4.3).
+// The poleward run of a chord between two posts `angle` apart on a parallel: source doc/theory/tiles.md, (4.3).
 double polewardRun(const Ellipsoid& ellipsoid, double angle, double latitude, double lowest) noexcept {
     const double half = std::min(0.5 * angle, 1.0);
     return 0.5 * kRoomForRun * mostTurn(ellipsoid, lowest) * half * half *
@@ -68,7 +68,7 @@ double polewardRun(const Ellipsoid& ellipsoid, double angle, double latitude, do
 }
 
 // The arc that sags as far as a neighbour `width` wide does along a parallel: its edge, and its triangles within the
-// edge's poleward run. `slope`: the height of tiles over their width. Source: doc/databases.md, (4.2).
+// edge's poleward run. `slope`: the height of tiles over their width. Source: doc/theory/tiles.md, (4.2).
 double arcAlongParallel(const Ellipsoid& ellipsoid, double width, double latitude, double slope,
                         double lowest) noexcept {
     const double cell = width / kFewestCells;

@@ -293,7 +293,7 @@ PolewardEnd endOf(const Ellipsoid& ellipsoid, double pole, double steepest, bool
 
 }  // namespace
 
-// Source: doc/derivation.md, section 11.
+// Source: doc/theory/derivation.md, section 11.
 bool MeshBounds::findInClosedForm(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
     const EllipsoidTerms terms(ellipsoid);
     if (!(std::abs(terms.flattening) <= kMostFlattened)) return false;
@@ -343,7 +343,7 @@ bool MeshBounds::findInClosedForm(const Ellipsoid& ellipsoid, const EcefMesh& me
     return true;
 }
 
-// Source: doc/derivation.md, section 5.
+// Source: doc/theory/derivation.md, section 5.
 void MeshBounds::findByTriangles(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i < mesh.size(); ++i) sum += mesh.vertex(i);

@@ -18,7 +18,8 @@ std::array<BinHull, 4> hullsOfQuarters(const Ellipsoid& ellipsoid, const Geodeti
     const Interval &latitude = bin.latitude(), &longitude = bin.longitude(), &altitude = bin.altitude();
     const SurfaceGrid<3> grid(ellipsoid, {latitude.lower, latitude.middle(), latitude.upper},
                               {longitude.lower, longitude.middle(), longitude.upper}, 3, frame);
-    // doc/occlusion.md, section 4: second derivatives by latitude and by longitude, an eighth of the widths' squares
+    // doc/theory/occlusion.md, section 4: second derivatives by latitude and by longitude, an eighth of the widths'
+    // squares
     const double radius =
         1.001 * largestCurvatureRadius(ellipsoid) + std::max(std::abs(altitude.lower), std::abs(altitude.upper));
     const double cosine = std::cos(std::max({0.0, latitude.lower, -latitude.upper}));

@@ -61,7 +61,7 @@ CellRange cellsIn(const Interval& extents, std::size_t cells, const Interval& me
 
 }  // namespace
 
-// Goes over the triangles of a mesh. Source: doc/occlusion.md, section 3.
+// Goes over the triangles of a mesh. Source: doc/theory/occlusion.md, section 3.
 class GroundPlates::Builder {
 public:
     Builder(GroundPlates& plates, const EcefMesh& mesh, double margin)
@@ -171,7 +171,7 @@ private:
         const double axisDistance = 0.95 * range(&Vertex::axisDistance).lower;
         const Sides sides = sidesOf(c);
         const double horizontal2 = sides.horizontal * sides.horizontal, mixed = 2.0 * sides.horizontal * sides.longest;
-        // doc/occlusion.md, section 3: how far a function may leave the plane through its values at the corners
+        // doc/theory/occlusion.md, section 3: how far a function may leave the plane through its values at the corners
         const double sag = horizontal2 / (6.0 * _radius);
         const double secant = 1.2 * largestCurvatureRadius(_plates._ellipsoid) / axisDistance;
         const double aside = 1.1 * (mixed + secant * horizontal2) / (6.0 * _radius * _radius);
@@ -328,7 +328,7 @@ bool GroundPlates::fitsColumns(std::size_t cells, double depth) const noexcept {
     const double across = _longitude.width() / static_cast<double>(cells);
     const double along = _latitude.width() / static_cast<double>(cells);
     const double inner = 1.0 - 2.0 * kRim;
-    // doc/occlusion.md, section 2: how far chords of a parallel leave it toward the pole, in latitude
+    // doc/theory/occlusion.md, section 2: how far chords of a parallel leave it toward the pole, in latitude
     const double bulge = 0.55 * (1.0 / std::cos(0.5 * inner * across) - 1.0);
     // longitudes many turns away from zero are rounded coarsely
     const bool isWide = across * kRim > 64.0 * kEpsilon * (1.0 + std::abs(_longitude.lower));

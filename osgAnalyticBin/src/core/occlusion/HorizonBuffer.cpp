@@ -20,7 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // The rounding of a vector from the eye, in units of the longest vector from the centre.
 constexpr double kVectorRounding = 16.0 * kEpsilon;
 
-// The error of a position in the picture, for a point that is wrong by `metres`; doc/occlusion.md, section 4.
+// The error of a position in the picture, for a point that is wrong by `metres`; doc/theory/occlusion.md, section 4.
 double pictureError(double metres, double forward, double largest) {
     return metres / (forward - metres) * (1.0 + largest) + 16.0 * kEpsilon * (1.0 + largest);
 }
@@ -83,7 +83,7 @@ void HorizonBuffer::add(const EarthColumn& column) {
 }
 
 // The line through two points, moved up by `move` and by the effect of as large a move to the side. A negative `move`
-// moves it down. Units of the picture. doc/occlusion.md, section 4.
+// moves it down. Units of the picture. doc/theory/occlusion.md, section 4.
 HorizonBuffer::Line::Line(const glm::dvec2& a, const glm::dvec2& b, double move) {
     slope = (b.y - a.y) / (b.x - a.x);
     const double rounding = 16.0 * kEpsilon * (std::abs(slope) * (1.0 + std::abs(a.x)) + 1.0 + std::abs(a.y));

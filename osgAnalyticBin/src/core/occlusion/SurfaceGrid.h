@@ -15,7 +15,7 @@
 
 namespace osgAnalyticBin::core {
 
-/// The largest |e²| of an ellipsoid for which the bounds of occlusion.md hold.
+/// The largest |e²| of an ellipsoid for which the bounds of doc/theory/occlusion.md hold.
 inline constexpr double kRoundest = 0.01;
 
 /// Computes points at several latitudes and longitudes in the coordinates of a frame. It takes one sine and one cosine

@@ -39,7 +39,7 @@ struct ShownDatabase {
 /// Returns: nullopt when something of unknown depth is shown and no altitude is declared, when nothing can be hidden,
 /// when a tile in view may not be drawn or can be seen through, when the eye sees past the border of a region, and when
 /// the eye is not known to be above the ground below it. Cost: one short test for every tile shown on the near side of
-/// the horizon. Source: doc/horizon.md, section 8.
+/// the horizon. Source: doc/theory/horizon.md, section 8.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& database,
                                                                                         const Viewpoint& viewpoint,
                                                                                         double deepest, double& depth);

@@ -21,7 +21,7 @@ struct OccludedTiles {
 /// Requires: a plan that has what is shown, and that found no hole in it and the eye above the ground
 /// (eyeAboveWhatIsShown()).
 /// Guarantee: every line of sight to a tile that is culled meets the mesh of another shown tile before; tests:
-/// TerrainOcclusion.*. Source: doc/occlusion.md, section 5.
+/// TerrainOcclusion.*. Source: doc/theory/occlusion.md, section 5.
 /// Cost: a sort of the shown tiles, a few microseconds for each that is not hidden.
 OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& viewpoint);
 

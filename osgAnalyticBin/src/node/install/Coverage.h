@@ -30,7 +30,7 @@ public:
 
     /// What the tiles cover without such gaps, less a border of a 32nd of a tile: a mesh may leave that out along the
     /// edges of its bin. Between two latitudes and two longitudes; empty: they cover no such rectangle.
-    /// Source: doc/horizon.md, section 10.
+    /// Source: doc/theory/horizon.md, section 10.
     [[nodiscard]] core::GeodeticBin region() const;
 
 private:

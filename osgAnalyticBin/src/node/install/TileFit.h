@@ -27,7 +27,7 @@ struct TileFit {
 /// options declare. A tile that is not as the index knows it is reported to the database.
 /// `shape` is what the database is drawn in; the application may change that meanwhile.
 /// `link.parent`, `link.file`, `link.ordinal` and what is stored above have to be set in `link`; the rest is set here.
-/// Source: doc/databases.md, sections 2 and 4.
+/// Source: doc/theory/tiles.md, sections 2 and 4.
 [[nodiscard]] TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link);
 
 }  // namespace osgAnalyticBin

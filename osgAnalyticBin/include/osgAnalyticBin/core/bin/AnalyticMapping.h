@@ -41,13 +41,13 @@ public:
 
     /// An upper bound of the distance between mapped points of the box and the second-order model about its middle: a
     /// sixth of the longest third differential D3f(x)[e, e, e] over all x in the box and all steps |e_i| <= halfSize_i.
-    /// Source: doc/derivation.md, section 3.
+    /// Source: doc/theory/derivation.md, section 3.
     [[nodiscard]] virtual double remainder(const ParameterBox& box) const noexcept = 0;
 
     /// An upper bound of the magnitudes of all terms that value and derivatives times half sizes are sums of, at the
     /// middle of the box: what their rounding is in proportion to where the terms cancel. The default stands for a
     /// mapping whose terms do not cancel, or whose remainder() covers the rounding by itself.
-    /// Source: doc/derivation.md, section 7.
+    /// Source: doc/theory/derivation.md, section 7.
     [[nodiscard]] virtual double termMagnitude(const ParameterBox& /*box*/) const noexcept { return 0.0; }
 
 protected:

@@ -30,7 +30,7 @@ public:
     explicit BinFamily(std::size_t count);
     /// A copy with numbers of its own.
     BinFamily(const BinFamily& other);
-    /// Takes the other's numbers.
+    /// Moves the other's numbers.
     BinFamily(BinFamily&&) noexcept = default;
     /// Likewise.
     BinFamily& operator=(BinFamily other) noexcept;
@@ -48,9 +48,9 @@ public:
     void set(std::size_t i, const ExactGeodeticBin& bin) noexcept;
     /// Likewise; the bin may be one of any mapping.
     void set(std::size_t i, const QuadraticBin& bin) noexcept;
-    /// Lets the slot be hidden. Requires: i < size().
+    /// Sets the slot's data for the horizon, so that it may be hidden. Requires: i < size().
     void setHorizon(std::size_t i, const HorizonBin& bin) noexcept;
-    /// Takes the bin and its horizon away. Requires: i < size().
+    /// Removes the slot's bin and its data for the horizon. Requires: i < size().
     void clear(std::size_t i) noexcept;
 
     /// Tests all slots against the planes of a set that are undecided.

@@ -15,7 +15,7 @@ namespace osgAnalyticBin::core {
 
 /// A geodetic bin by its support function in closed form: the range of the signed distance to a plane without a series
 /// and without trigonometry, for any ellipsoid of revolution and bins of any width, poles and date line included.
-/// Source: ours; doc/derivation.md, section 8.
+/// Source: ours; doc/theory/derivation.md, section 8.
 /// Requires: holds(ellipsoid, bin) (asserted).
 class ExactGeodeticBin final {
 public:
@@ -45,11 +45,11 @@ public:
     /// The largest n.x over the bin, without margin, to 64 epsilon times the larger radius and altitude.
     [[nodiscard]] double support(const glm::dvec3& direction) const noexcept;
 
-    /// A point of the bin, without margin, where n.x is largest, to rounding: where a search goes on, no proof.
+    /// A point of the bin, without margin, where n.x is largest, to rounding: where a search continues; not a proof.
     [[nodiscard]] glm::dvec3 supportPoint(const glm::dvec3& direction) const noexcept;
 
-    /// A point of the bin's convex hull, up to rounding. Where it is inside two planes, nothing parts the bin from
-    /// them.
+    /// A point of the bin's convex hull, up to rounding. If it is inside two planes, no plane separates the bin from
+    /// the wedge inside them.
     [[nodiscard]] glm::dvec3 hullPoint() const noexcept {
         return {_numbers[row::CenterX], _numbers[row::CenterY], _numbers[row::CenterZ]};
     }

@@ -10,7 +10,7 @@
 namespace osgAnalyticBin::core {
 
 /// (latitude, longitude, altitude) to ECEF on an ellipsoid of revolution.
-/// Source: [JJ] eq. (4), corrected; doc/derivation.md, section 2.
+/// Source: [JJ] eq. (4), corrected; doc/theory/derivation.md, section 2.
 class GeodeticMapping final : public AnalyticMapping {
 public:
     /// Maps onto this ellipsoid.

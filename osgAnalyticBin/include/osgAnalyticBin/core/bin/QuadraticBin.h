@@ -16,7 +16,7 @@ namespace osgAnalyticBin::core {
 /// The second-order Taylor model of a mapping over a parameter box, with a proven bound of what it leaves out: the
 /// quadratic bin. The signed distance of the mapped box to a plane is a quadratic polynomial over the box, give or
 /// take the remainder.
-/// Source: [JJ] eq. (2), (3); remainder and range: doc/derivation.md, sections 3 and 4.
+/// Source: [JJ] eq. (2), (3); remainder and range: doc/theory/derivation.md, sections 3 and 4.
 class QuadraticBin final {
 public:
     /// `margin` (metres) is added on all sides: what is drawn may leave the mapped box by that much.
@@ -42,7 +42,7 @@ public:
     /// Upper bound of |f(x) - model(x)| over the box, plus the margin and the rounding of both, in metres.
     [[nodiscard]] double remainder() const noexcept { return _numbers[row::Remainder]; }
 
-    /// How far the model leaves the convex hull of its eight corners at most, in metres.
+    /// An upper bound of how far the model leaves the convex hull of its eight corners, in metres.
     [[nodiscard]] double bulge() const noexcept;
 
     /// The model's point at a position of the unit box.
@@ -62,7 +62,7 @@ private:
     [[nodiscard]] glm::dvec3 first(std::size_t i) const noexcept { return vector(row::First + 3 * i); }
     [[nodiscard]] glm::dvec3 second(std::size_t i) const noexcept { return vector(row::Second + 3 * i); }
     void setVector(std::size_t i, const glm::dvec3& value) noexcept;
-    /// What the exact evaluation may be off by: remainder, margin and rounding.
+    /// The error of the exact evaluation: remainder, margin and rounding.
     [[nodiscard]] double uncertainty(const Plane& plane) const noexcept;
     [[nodiscard]] double farthestCorner() const noexcept;
 

@@ -30,7 +30,7 @@ struct Quadratic {
 /// point. The nine points of [JJ] are not enough: an extremum may lie on an edge or a face.
 /// Guarantee: both ends are attained values, and the true range exceeds them by at most 64 epsilon times the sum of the
 /// magnitudes of q's coefficients; tests: QuadraticRange.MatchesDenseSampling.
-/// Source: doc/derivation.md, section 4.
+/// Source: doc/theory/derivation.md, section 4.
 [[nodiscard]] Interval exactRange(const Quadratic& q) noexcept;
 
 }  // namespace osgAnalyticBin::core

@@ -18,7 +18,7 @@ namespace osgAnalyticBin::core {
 /// The corners of a frustum, from its planes; prepared once per frustum. Side planes alone make an apex and the rays
 /// between two planes; with near and far planes there are eight corners. An orthographic frustum without near and far
 /// planes has none: nothing is beyond a face of a bin then.
-/// Source: doc/horizon.md, section 6.
+/// Source: doc/theory/horizon.md, section 6.
 class FrustumHull final {
 public:
     /// The sides, near and far.
@@ -63,7 +63,7 @@ private:
 
 /// The faces of a bin that a frustum may lie beyond: two meridian planes (for bins narrower than half a turn), the top,
 /// and supporting planes to the south and north; prepared once per bin. All point into the bin.
-/// Source: doc/horizon.md, section 6.
+/// Source: doc/theory/horizon.md, section 6.
 class ReverseBin final {
 public:
     /// `exact` is the same bin, with its margin. Cost: sines and cosines of the edges, three support values.

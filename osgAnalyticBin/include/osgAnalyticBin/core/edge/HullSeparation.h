@@ -13,10 +13,10 @@
 
 namespace osgAnalyticBin::core {
 
-/// Looks for a plane that parts a bin from the wedge inside two planes: a mixture of the two with weights >= 0.
-/// Whatever the weights, the wedge lies on the inner side of the mixture, so that a bin outside of it is outside the
-/// wedge: the search may be as rough as it likes, and needs no corner.
-/// Source: doc/horizon.md, section 7.
+/// Searches for a plane that separates a bin from the wedge inside two planes: a mixture of the two planes with weights
+/// >= 0. The wedge lies on the inner side of every such mixture, so a bin outside of the mixture is outside of the
+/// wedge. The search need not be exact, and needs no corners of the frustum.
+/// Source: doc/theory/horizon.md, section 7.
 class WedgeSearch final {
 public:
     /// `reach`: no point of the bin is farther from the origin.
@@ -25,7 +25,7 @@ public:
     /// The present mixture, of unit length, moved inward by its own rounding. NaN when the planes cancel out.
     [[nodiscard]] Plane candidate() const noexcept;
 
-    /// Learns a point of the bin that is farthest inside the candidate.
+    /// Takes a point of the bin that is farthest inside the present mixture.
     /// Returns: false when the search is over, since the hulls meet.
     [[nodiscard]] bool learn(const glm::dvec3& point) noexcept;
 
@@ -38,10 +38,10 @@ private:
     std::array<bool, 2> _known{};
 };
 
-/// Points that a search asks for at most; the last ones find next to nothing: doc/horizon.md, section 7.
+/// The most points that a search asks for; more points rarely find a plane: doc/theory/horizon.md, section 7.
 inline constexpr int kSeparationSteps = 6;
 
-/// Bins that straddle more planes are large beside the frustum, and seldom apart from it.
+/// Bins that straddle more planes are large compared with the frustum and rarely separated from it.
 inline constexpr std::size_t kSeparationPlanes = 2;
 
 /// The search by two planes: see below.
@@ -60,9 +60,9 @@ template <class Bin>
     return false;
 }
 
-/// Tries to prove that a bin which no single plane proves outside is outside all the same, beyond the edge between two
-/// planes. `bin` is anything with `classify`, `supportPoint`, `hullPoint` and `reach`, such as ExactGeodeticBin;
-/// `undecided` names the planes that it straddles; when these are more than `mostPlanes`, the answer is false at once.
+/// Tries to prove that a bin is beyond the edge between two planes, although no single plane proves it outside. `bin`
+/// is anything with `classify`, `supportPoint`, `hullPoint` and `reach`, such as ExactGeodeticBin; `undecided` names
+/// the planes that it straddles; when these are more than `mostPlanes`, the answer is false at once.
 /// Guarantee: true only if no point of the bin, margin included, is inside all these planes;
 /// tests: HullSeparation.NeverPartsABinFromAPointOfIt, HullSoundness.HasNoFalseVerdict.
 /// Cost: one to `kSeparationSteps` support points for each pair of planes, and a classification when it ends with

@@ -43,7 +43,7 @@ struct HasTriangleSagBound<F, std::void_t<decltype(std::declval<const F&>().tria
 /// own remainder(), or else by interval arithmetic over the box; then a formula with any other function does
 /// not compile, and a box on which it has a pole or leaves the domain of a root or logarithm has an infinite bound:
 /// such a bin straddles every plane.
-/// Source: doc/mappings.md, sections 1 - 3.
+/// Source: doc/theory/mappings.md, sections 1 - 3.
 /// Guarantee: without a bound of F's own, the rounding of value and derivatives is part of the bound, so that
 /// QuadraticBin's verdicts hold for the formula in exact arithmetic; tests: AutodiffMapping.*.
 /// Cost: the derivatives evaluate F with 27 coefficients a number; the interval bound with 20 intervals, pieces^3
@@ -87,7 +87,7 @@ public:
 
     /// How far a triangle mesh leaves the mapped box at most, when its vertices are the mapping of positions in the box
     /// and no triangle is wider than `cell` in any parameter: the margin that a bin of such a mesh needs.
-    /// Source: doc/mappings.md, section 9.  Guarantee: tests: AutodiffMapping.MeshesStayWithinTheSag.
+    /// Source: doc/theory/mappings.md, section 9.  Guarantee: tests: AutodiffMapping.MeshesStayWithinTheSag.
     [[nodiscard]] double triangleSagBound(const ParameterBox& box, const glm::dvec3& cell) const noexcept {
         if constexpr (HasTriangleSagBound<F>::value) {
             return _formula.triangleSagBound(box, cell);

@@ -27,10 +27,10 @@ struct ControlNet {
 };
 
 /// The formula of a Bezier patch with thickness, for AutodiffMapping: a Bezier solid of degree 1 in w, between the
-/// patch of the inner net (w = 0) and that of the outer net (w = 1). u, v, w are in [0, 1]. Source: doc/mappings.md,
-/// section 6. Guarantee: the bound holds for boxes within the unit cube and is infinite for others; on whole smooth
-/// bicubic patches the remainder is at most 2.5 times the model's error; tests: BezierSolid.*. Cost: the bound cuts the
-/// nets down to the box; it allocates.
+/// patch of the inner net (w = 0) and that of the outer net (w = 1). u, v, w are in [0, 1]. Source:
+/// doc/theory/mappings.md, section 6. Guarantee: the bound holds for boxes within the unit cube and is infinite for
+/// others; on whole smooth bicubic patches the remainder is at most 2.5 times the model's error; tests: BezierSolid.*.
+/// Cost: the bound cuts the nets down to the box; it allocates.
 class BezierSolid final {
 public:
     /// Requires: both nets of the same degrees, at least 1 in each direction.
@@ -52,7 +52,7 @@ public:
     /// See AnalyticMapping.
     [[nodiscard]] double remainder(const ParameterBox& box) const noexcept;
 
-    /// See AutodiffMapping. By the convex-hull property too, which is far tighter than intervals.
+    /// See AutodiffMapping. Uses the convex-hull property, too, which gives far tighter bounds than intervals.
     [[nodiscard]] double triangleSagBound(const ParameterBox& box, const glm::dvec3& cell) const noexcept;
 
 private:

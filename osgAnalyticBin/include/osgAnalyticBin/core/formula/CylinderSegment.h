@@ -13,7 +13,7 @@ namespace osgAnalyticBin::core {
 
 /// The formula of a cylinder's solid wall, for AutodiffMapping: (angle, radius, height) to
 /// origin + radius (cos angle x + sin angle y) + height z. The parameter box chooses the piece: its radii are the wall.
-/// Source: doc/mappings.md, section 4.
+/// Source: doc/theory/mappings.md, section 4.
 /// Guarantee: the bound is attained, up to rounding; to 90 degrees the remainder is at most 1.25 times the model's
 /// error; tests: CylinderSegment.*.
 class CylinderSegment final {

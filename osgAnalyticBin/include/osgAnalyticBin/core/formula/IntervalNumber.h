@@ -8,7 +8,7 @@ namespace osgAnalyticBin::core {
 /// A number known to lie between two doubles. Arithmetic and functions return an interval that holds every result for
 /// arguments within the given ones, rounding included. Where a result has no finite bounds (division by an interval
 /// with zero, the logarithm of a negative number, overflow) it is undefined, and so is all that is computed from it.
-/// Source: doc/mappings.md, section 2.
+/// Source: doc/theory/mappings.md, section 2.
 /// Guarantee: holds with a C library whose elementary functions are right to 4 ulps (glibc states at most 2);
 /// tests: IntervalNumber.*.
 class IntervalNumber final {

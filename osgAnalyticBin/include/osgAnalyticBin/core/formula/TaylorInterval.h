@@ -17,7 +17,7 @@ namespace osgAnalyticBin::core {
 /// It has +, -, *, /, sqrt, exp, log, sin, cos, tan, atan and pow with an integer, found by argument-dependent lookup
 /// (write `using std::sin; sin(u)`). It has no other functions, no comparisons and no way to a double: a formula that
 /// cannot be enclosed does not compile.
-/// Source: doc/mappings.md, section 3.
+/// Source: doc/theory/mappings.md, section 3.
 /// Guarantee: coefficient i holds the derivative by monomial i, divided by the monomial's factorials, at every position
 /// in the ranges of the variables; tests: TaylorInterval.*.
 class TaylorInterval final {
@@ -83,8 +83,8 @@ private:
 [[nodiscard]] double thirdDifferentialBound(const Vec3<TaylorInterval>& f) noexcept;
 
 /// An upper bound of the distance between any point of a flat triangle whose corners are f at three positions, at most
-/// one step apart in each variable, and f at the same mixture of the positions. Source: doc/mappings.md, section 9.
-/// Returns: infinity when a coefficient is undefined.
+/// one step apart in each variable, and f at the same mixture of the positions. Source: doc/theory/mappings.md,
+/// section 9. Returns: infinity when a coefficient is undefined.
 [[nodiscard]] double triangleSagBound(const Vec3<TaylorInterval>& f) noexcept;
 
 /// How far a model with these derivatives, computed at the centre of a box, can be from the exact Taylor polynomial of

@@ -13,7 +13,7 @@ namespace osgAnalyticBin::core {
 
 /// The formula of a torus' solid wall, for AutodiffMapping: the bend of a pipe. (bend angle, tube angle, tube radius)
 /// to origin + (bendRadius + r cos tube) (cos bend x + sin bend y) + r sin tube z. The parameter box chooses the piece.
-/// Source: doc/mappings.md, section 5.
+/// Source: doc/theory/mappings.md, section 5.
 /// Guarantee: on boxes up to 90 degrees wide in both angles the remainder is at most 3 times the model's error;
 /// tests: TorusSegment.*.
 class TorusSegment final {

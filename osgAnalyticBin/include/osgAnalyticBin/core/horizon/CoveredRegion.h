@@ -15,7 +15,7 @@ namespace osgAnalyticBin::core {
 /// The part of the globe that a regional database covers without gaps: all altitudes between two latitudes and two
 /// longitudes. Terrain hides what is behind it where lines of sight stay over the region; a line of sight that comes
 /// from beside the region may pass below the terrain's border.
-/// Source: doc/horizon.md, section 10.
+/// Source: doc/theory/horizon.md, section 10.
 class CoveredRegion final {
 public:
     /// The altitudes of `extents` do not matter. Nothing stays over an empty region, nor over one on an ellipsoid with

@@ -14,9 +14,9 @@
 
 namespace osgAnalyticBin::core {
 
-/// What the horizon test has to know of a bin; prepared once, for every eye and every depth of the occluder.
-/// Directions and radii are those of unit space: ECEF divided by the ellipsoid's radii.
-/// Source: doc/horizon.md, section 2.
+/// The data of a bin for the horizon test; prepared once, for every eye and every depth of the occluder. Directions and
+/// radii are those of unit space: ECEF divided by the ellipsoid's radii.
+/// Source: doc/theory/horizon.md, section 2.
 class HorizonBin final {
 public:
     /// `margin` (metres) is added on all sides: what is drawn may leave the bin by that much.
@@ -38,10 +38,10 @@ private:
     std::array<double, row::kHorizonRows> _numbers{1.0, 0.0, 0.0, -1.0, 0.0, 1.0, -1.0, 0.0, 0.0, 1.0, 0.0};
 };
 
-/// One point in the place of a bin, as Cesium's horizon culling point: straight above the bin's middle in unit space,
-/// and so high that where it is hidden the whole bin is. For comparison: it hides less than the bin itself. The height
-/// depends on the occluder's depth; what is kept is what it follows from: the middle, the angle from there to the bin's
-/// farthest direction, and the bin's largest radius. Source: [R13]; doc/horizon.md, section 9.
+/// One point that replaces a bin, as Cesium's horizon culling point: above the bin's middle in unit space, and so high
+/// that the whole bin is hidden if the point is. For comparison: it hides less than the bin itself. The height depends
+/// on the occluder's depth. The object keeps the numbers that determine it: the middle, the angle from there to the
+/// bin's farthest direction, and the bin's largest radius. Source: [R13]; doc/theory/horizon.md, section 9.
 class HorizonPoint final {
 public:
     /// `bin` holds the margin already. A bin more than a quarter turn from its middle is never hidden.
@@ -59,9 +59,9 @@ private:
 /// about its centre so that it lies `depth` or more below the surface. Prepared once per camera and frame.
 /// Frame: the ellipsoid's own; a globe that is moved, turned or scaled uniformly needs its eye brought there.
 /// Requires: the eye is above the drawn surface (not checked: ellipsoid and depth do not tell where that is). The
-/// occluder stands for this surface, which encloses it. For an eye between the two nearly every bin is hidden, although
-/// nothing is drawn in front of it; the caller has to know.
-/// Source: doc/horizon.md, sections 1, 3 and 4.
+/// occluder stands for this surface, which encloses it. For an eye between the occluder and the surface, nearly every
+/// bin would be hidden although nothing is drawn in front of it; the caller has to exclude that.
+/// Source: doc/theory/horizon.md, sections 1, 3 and 4.
 class HorizonEye final {
 public:
     /// `depth` (metres, positive down) is that of the lowest surface that can be drawn: terrain and sag of its meshes.

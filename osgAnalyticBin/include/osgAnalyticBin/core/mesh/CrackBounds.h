@@ -10,9 +10,9 @@
 
 namespace osgAnalyticBin::core {
 
-/// The four edges of a tile in a quadtree of tiles: how wide, in radians, the largest tile is whose edge runs along
-/// the same line. A neighbour beyond that line can be that coarse.
-/// Source: doc/databases.md, section 4.
+/// For the four edges of a tile in a quadtree: the width in radians of the largest tile with an edge on the same line.
+/// A neighbour beyond that line may be as wide.
+/// Source: doc/theory/tiles.md, section 4.
 struct TileEdges {
     /// @{
     /// Radians; 0: no tile is as wide.
@@ -42,13 +42,13 @@ struct TileEdges {
                                       const TileEdges* parentEdges) noexcept;
 };
 
-/// The fewest cells that a mesh has along an edge of its tile: for databases of which nothing else is known.
-/// VirtualPlanetBuilder's flat tiles have as few.
+/// The smallest number of cells along an edge that is assumed for meshes of unknown databases. VirtualPlanetBuilder's
+/// flat tiles have this many.
 constexpr int kFewestCells = 7;
 
 /// Metres by which the chord of an arc of `angle` radians sags below its ends at most, where these are no higher than
 /// `altitude` or a hundredth of the radii.
-/// Source: doc/databases.md, (4.1).
+/// Source: doc/theory/tiles.md, (4.1).
 [[nodiscard]] double sagOfArc(const Ellipsoid& ellipsoid, double angle, double altitude = 0.0) noexcept;
 
 /// How far below its posts a coarser neighbour can dip where it meets the tile's edges, metres: to that depth an eye
@@ -58,10 +58,10 @@ constexpr int kFewestCells = 7;
 /// Guarantee: on any ellipsoid in any unit; tests: CrackBounds.*.
 [[nodiscard]] double crackDepth(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const TileEdges& edges) noexcept;
 
-/// Metres by which the triangles of a coarser neighbour, within its edge's poleward run, dip below the lowest point of
-/// the edge at most: what a floor that was found from edges alone is to be lowered by. `relief`: metres that a mesh is
-/// lower than its edge at most.
-/// Assumes: as crackDepth(). Source: doc/databases.md, (4.5).
+/// Extra depth in metres for floors that were estimated from edges only: an upper bound of how far the triangles of a
+/// coarser neighbour, within its edge's poleward run, dip below the lowest point of the edge. `relief`: metres by which
+/// a mesh may be lower than its edge.
+/// Assumes: as crackDepth(). Source: doc/theory/tiles.md, (4.5).
 [[nodiscard]] double dipBehindEdge(const Ellipsoid& ellipsoid, const GeodeticBin& tile, const TileEdges& edges,
                                    double relief) noexcept;
 

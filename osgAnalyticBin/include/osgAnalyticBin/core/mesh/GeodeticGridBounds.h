@@ -25,15 +25,15 @@ struct GeodeticGrid {
     std::size_t rows = 2;
 };
 
-/// Bounds of what the triangles of a grid do between their posts, in closed form and for any heights: chords sag below
-/// the posts, and a chord between two posts of one parallel runs poleward of it.
+/// Bounds of a grid's triangles between their posts, in closed form and for any heights. Chords sag below the posts,
+/// and a chord between two posts of one parallel runs poleward of it.
 /// Guarantee: where isKnown(), on any ellipsoid of b/a from 0.01 to 100 in any unit, for posts at altitudes within
 /// +-`reach`, none deeper than half the smallest radius of curvature, every point of every triangle, and the rounded
 /// posts themselves up to 1.6e-14 equatorial radii (1e-7 m on the earth), has a latitude in latitude(), a longitude in
 /// the grid's, and an altitude between the lowest post's less sag() and the highest post's;
 /// tests: GeodeticGridBounds.*, PlanetMeshes.*.
 /// Cost: some ten trigonometric functions; fifty where |e2| is above 0.1 or the reach above a tenth of the radii.
-/// Source: doc/derivation.md, section 10.
+/// Source: doc/theory/derivation.md, section 10.
 class GeodeticGridBounds final {
 public:
     /// `reach`: metres, the largest altitude of a post either way. Requires: 0 or more (asserted).

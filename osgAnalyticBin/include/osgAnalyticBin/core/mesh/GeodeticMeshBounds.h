@@ -8,13 +8,13 @@
 
 namespace osgAnalyticBin::core {
 
-/// Finds the bin of a triangle mesh in ECEF, with what the triangles do between their vertices: chords sag below the
-/// ellipsoid, and a chord between two posts of one parallel runs poleward of it.
+/// Finds the bin of a triangle mesh in ECEF. The bin holds whole triangles: chords sag below the ellipsoid, and a chord
+/// between two posts of one parallel runs poleward of it.
 /// Guarantee: on any ellipsoid in any unit, bin() holds every point of every triangle added, up to 1.6e-14 of the
 /// larger radius (1e-7 m on the earth), or is empty, which means not known: for a mesh that may reach deeper than the
 /// ellipsoid's smallest radius of curvature; tests: GeodeticMeshBounds.HoldsEveryPointOfEveryTriangle, PlanetMeshes.*.
 /// A mesh that crosses the meridian opposite the reference longitude, or the axis, gets the full circle.
-/// Source: doc/derivation.md, section 5.
+/// Source: doc/theory/derivation.md, section 5.
 class GeodeticMeshBounds final {
 public:
     /// Longitudes are measured from the reference, which should be near the middle of the mesh.

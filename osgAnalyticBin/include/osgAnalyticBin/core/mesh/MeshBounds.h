@@ -36,14 +36,14 @@ struct EcefMesh {
 /// on any ellipsoid in any unit, bin() holds every point of every triangle, or is empty, which means not known;
 /// vertices within 1 m of the axis may leave it by that much; tests: MeshBounds.*, PlanetMeshes.*. Cost: some 10
 /// nanoseconds for each vertex and each triangle with closed formulas, many times that otherwise. An object that is
-/// used for many meshes keeps its memory. Source: doc/derivation.md, sections 5 and 11.
+/// used for many meshes keeps its memory. Source: doc/theory/derivation.md, sections 5 and 11.
 class MeshBounds final {
 public:
     MeshBounds() = default;
     /// Finds the bin at once; see find().
     MeshBounds(const Ellipsoid& ellipsoid, const EcefMesh& mesh) { find(ellipsoid, mesh); }
 
-    /// In place of what was found before. Requires: indices within the vertices.
+    /// Replaces the bin that was found before. Requires: indices within the vertices.
     void find(const Ellipsoid& ellipsoid, const EcefMesh& mesh);
 
     /// Empty for meshes without vertices, with numbers that are not finite, or that may reach deeper than the
@@ -53,7 +53,7 @@ public:
     /// Whether the bin was found by closed formulas.
     [[nodiscard]] bool isQuick() const noexcept { return _isQuick; }
 
-    /// Some vertex lies within 1 m of the axis.
+    /// Whether a vertex lies within 1 m of the axis.
     [[nodiscard]] bool touchesAxis() const noexcept { return _axisError > 0.0; }
     /// Metres by which vertices near the axis may leave the bin; 0 where the mesh does not touch the axis.
     [[nodiscard]] double axisError() const noexcept { return _axisError; }

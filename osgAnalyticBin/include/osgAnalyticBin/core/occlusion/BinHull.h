@@ -14,7 +14,7 @@
 namespace osgAnalyticBin::core {
 
 /// A body that holds a part of a bin: all points within `reach` metres of the convex hull of eight corners.
-/// Source: doc/occlusion.md, section 4.
+/// Source: doc/theory/occlusion.md, section 4.
 struct BinHull {
     /// Metres, in the frame that hullsOfQuarters() was given.
     std::array<glm::dvec3, 8> corners;

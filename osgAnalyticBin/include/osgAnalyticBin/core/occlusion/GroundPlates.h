@@ -32,7 +32,7 @@ struct EarthColumn {
 /// tile's latitudes and longitudes. Each cell has a rim that its column of earth keeps out of: room for the chords of
 /// parallels, and for triangles of the next cell whose chords cross the common edge.
 /// Memory: 250 bytes, 16 bits for each bound.
-/// Source: doc/occlusion.md, sections 2 and 3.
+/// Source: doc/theory/occlusion.md, sections 2 and 3.
 class GroundPlates final {
 public:
     /// Nothing is known.

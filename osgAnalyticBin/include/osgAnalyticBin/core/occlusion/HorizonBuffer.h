@@ -19,7 +19,7 @@ namespace osgAnalyticBin::core {
 /// equal width, each with the heights that earth in front covers. What lies behind that earth is hidden.
 /// All points are in the frame of the eye: the eye is the origin, x points to the right, y points forward, and z points
 /// up along the eye's vertical. A point is at x = right / forward, y = up / forward in the picture.
-/// Source: doc/occlusion.md, sections 1 and 4.
+/// Source: doc/theory/occlusion.md, sections 1 and 4.
 class HorizonBuffer final {
 public:
     /// Strips of the picture.
