@@ -5,12 +5,14 @@
 
 #include "../page/Database.h"
 
+#include <algorithm>
+
 namespace osgAnalyticBin {
 
 InstalledTile::InstalledTile(const osg::Node& culled, Database& database) : _culled(&culled), _database(&database) {}
 
 InstalledTile::InstalledTile(const InstalledTile& other)
-    : osg::Referenced(other), _culled(nullptr), _database(other._database), _wasActive(other._wasActive) {}
+    : osg::Referenced(other), _culled(nullptr), _database(other._database), _wasInactive(other._wasInactive) {}
 
 InstalledTile::~InstalledTile() = default;
 
@@ -59,14 +61,18 @@ void InstalledTile::emptySlot() {
 }
 
 void InstalledTile::suspendSphere(osg::Node& node) {
-    _wasActive.push_back(node.getCullingActive());
-    if (!_wasActive.back()) return;
+    const std::size_t number = _suspensions++;
+    if (!node.getCullingActive()) return _wasInactive.push_back(number);
     node.setCullingActive(false);
     if (isFor(&node)) {
         _wasCulledActive = true;
     } else {
         _suspended.emplace_back(&node);
     }
+}
+
+bool InstalledTile::wasActive(std::size_t i) const {
+    return !std::binary_search(_wasInactive.begin(), _wasInactive.end(), i);
 }
 
 void InstalledTile::resumeSpheres(osg::Node& culled) {

@@ -83,8 +83,9 @@ public:
     /// Switches the sphere test on again on the nodes where it was on. Requires: isFor(&culled).
     void resumeSpheres(osg::Node& culled);
 
-    /// Whether the test was on at the i-th call of suspendSphere(): what a clone of the nodes has to go back to.
-    [[nodiscard]] bool wasActive(std::size_t i) const { return i < _wasActive.size() && _wasActive[i]; }
+    /// Whether the test was on at the i-th call of suspendSphere(): what a clone of the nodes has to go back to. Nodes
+    /// that came later count as such where it was on.
+    [[nodiscard]] bool wasActive(std::size_t i) const;
 
 protected:
     ~InstalledTile() override;
@@ -105,7 +106,8 @@ private:
     std::atomic<bool> _isMoved{false};
     bool _wasCulledActive = false;                    // of the culled node, which owns this and must not be owned by it
     std::vector<osg::ref_ptr<osg::Node>> _suspended;  // other nodes
-    std::vector<bool> _wasActive;
+    std::size_t _suspensions = 0;           // calls of suspendSphere()
+    std::vector<std::size_t> _wasInactive;  // those that met a node without the test
 };
 
 }  // namespace osgAnalyticBin
