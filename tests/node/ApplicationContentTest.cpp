@@ -15,6 +15,8 @@
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 
+#include <algorithm>
+#include <array>
 #include <set>
 #include <string>
 
@@ -117,6 +119,67 @@ TEST(AddedContent, BelowATileWidensItsBinAndThoseAbove) {
     // the tiles are culled by what they hold now
     EXPECT_FALSE(globe.draws(*tower, beside(ecefDeg(20, 20, 60000.0))));
     EXPECT_FALSE(globe.draws(*leaf, downTo(20, 80, 1e5, 5.0)));
+}
+
+// As FlightGear has it: trees in a level of detail, and a house.
+TEST(AddedContent, OnTheSurfaceOfATileKeepsOsgsOwnCulling) {
+    MeshGlobe globe;
+    const osg::ref_ptr<osg::Group> content = new osg::Group;
+    const osg::ref_ptr<osg::LOD> trees = new osg::LOD;
+    trees->addChild(makeTower(ecefDeg(3, 3, 0)), 0.0f, 1e9f);
+    const osg::ref_ptr<osg::MatrixTransform> house = makeTower(ecefDeg(4, 4, 0));
+    content->addChild(makeMeshTile(extentsDeg(0, 5, 0, 5), 0.0));
+    content->addChild(trees);
+    content->addChild(house);
+    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(content, "no.osgb");
+    globe.root->addChild(tile);
+    const auto drawnAt = [&](double latitude, double longitude) {
+        const CullView view = downTo(latitude, longitude, 20000.0);
+        return std::array<bool, 3>{globe.draws(*content->getChild(0), view), globe.draws(*trees, view),
+                                   globe.draws(*house, view)};
+    };
+    for (const bool isInstalled : {false, true}) {
+        if (isInstalled) installBins(*globe.root);
+        EXPECT_EQ(drawnAt(3, 3), (std::array<bool, 3>{true, true, false})) << isInstalled;
+        EXPECT_EQ(drawnAt(4, 4), (std::array<bool, 3>{true, false, true})) << isInstalled;
+        EXPECT_EQ(drawnAt(1, 1), (std::array<bool, 3>{true, false, false})) << isInstalled;
+    }
+    EXPECT_TRUE(trees->getCullingActive());
+    EXPECT_FALSE(content->getCullingActive());
+}
+
+TEST(AddedContent, OnTheSurfaceIsDrawnNoMoreOftenThanWithoutBins) {
+    MeshGlobe globe;
+    globe.root->removeChildren(0, globe.root->getNumChildren());
+    for (int row = 0; row < 5; ++row) {
+        for (int column = 0; column < 8; ++column) {
+            const double south = 0.25 * row, west = 0.25 * column;
+            const auto content = makeMeshTile(extentsDeg(south, south + 0.25, west, west + 0.25), 0.0);
+            const osg::Matrixd toLocal = osg::Matrixd::inverse(content->getMatrix());
+            for (int i = 0; i < 6; ++i) {
+                const osg::ref_ptr<osg::MatrixTransform> tower =
+                    makeTower(ecefDeg(south + 0.04 * i, west + 0.03 * i + 0.02, 0));
+                tower->setMatrix(tower->getMatrix() * toLocal);
+                const osg::ref_ptr<osg::LOD> trees = new osg::LOD;
+                trees->addChild(tower, 0.0f, 3e4f);
+                content->addChild(trees);
+            }
+            globe.root->addChild(makePaged(content, "no.osgb"));
+        }
+    }
+    const auto drawn = [&globe](const CullView& view) {
+        return cull(*globe.scene, view, *globe.visitor, ++globe.frame).drawn.size();
+    };
+    const std::array<CullView, 3> views{
+        downTo(0.6, 1.0, 15000.0), CullView::lookAt(ecefDeg(0.1, 0.1, 1500.0), ecefDeg(0.6, 0.8, 0.0), {1, 0, 0}, 55.0),
+        CullView::lookAt(ecefDeg(1.2, 1.9, 300.0), ecefDeg(1.1, 1.6, 0.0), {1, 0, 0}, 30.0)};
+    std::array<std::size_t, 3> without{};
+    std::transform(views.begin(), views.end(), without.begin(), drawn);
+    installBins(*globe.root);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        EXPECT_GT(without[i], 1u);
+        EXPECT_LE(drawn(views[i]), without[i]) << i;
+    }
 }
 
 TEST(AddedContent, OfAPagedTileItselfIsDrawn) {

@@ -41,7 +41,8 @@ public:
                                 cullStack.getProjectionMatrix(),
                                 planesOf(cullStack),
                                 nullptr};
-        eye = eyeAboveWhatIsShown({*node->asGroup(), *nv, cullStack, view, false, nullptr}, *viewpoint, _deepest, depth);
+        eye =
+            eyeAboveWhatIsShown({*node->asGroup(), *nv, cullStack, view, false, nullptr}, *viewpoint, _deepest, depth);
     }
 
     double depth;

@@ -284,6 +284,8 @@ FAULTS = [
     # found by the generator of scenes, and in databases of others
     Fault("stored bins are believed by a quarter of the sag", "src/node/install/TileFit.cpp", "{least + sag, least, least",
           "{least + sag, least + 0.25 * sag, least", NODE, "FalseBins.*"),
+    Fault("what stands on a tile loses OSG's own culling", "src/node/install/TileCallback.cpp",
+          "if (isOnSurface(node, *mesh)) return false;", "(void)isOnSurface;", NODE, "AddedContent.*"),
     Fault("clusters in the mesh of a leaf cull", "src/node/install/BinInstaller.cpp", "} else if (!_isInMesh) {", "} else {", NODE,
           "ClusterCulling.*"),
 ]

@@ -25,17 +25,16 @@ constexpr const char* kWasCulling = "osgAnalyticBin culling";
 
 class ForEachNode : public osg::NodeVisitor {
 public:
-    explicit ForEachNode(std::function<void(osg::Node&)> action)
-        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _action(std::move(action)) {
+    explicit ForEachNode(std::function<bool(osg::Node&)> entersBelow)
+        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _entersBelow(std::move(entersBelow)) {
         setNodeMaskOverride(~0u);
     }
     void apply(osg::Node& node) override {
-        _action(node);
-        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
+        if (_entersBelow(node) && !dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
     }
 
 private:
-    const std::function<void(osg::Node&)> _action;
+    const std::function<bool(osg::Node&)> _entersBelow;
 };
 
 // Says of itself that it is an osg::ClusterCullingCallback, and holds what the original held: it is saved and cloned as
@@ -80,9 +79,16 @@ std::vector<osg::ref_ptr<osg::Callback>> cullCallbacks(osg::Node& node) {
 
 }  // namespace
 
-void forEachNode(osg::Node& root, std::function<void(osg::Node&)> action) {
-    ForEachNode visitor(std::move(action));
+void forEachNodeWhere(osg::Node& root, std::function<bool(osg::Node&)> entersBelow) {
+    ForEachNode visitor(std::move(entersBelow));
     root.accept(visitor);
+}
+
+void forEachNode(osg::Node& root, std::function<void(osg::Node&)> action) {
+    forEachNodeWhere(root, [&action](osg::Node& node) {
+        action(node);
+        return true;
+    });
 }
 
 bool isSeeThroughMesh(osg::Node& mesh) {

@@ -14,6 +14,9 @@ namespace osgAnalyticBin {
 /// Visits all nodes of a mesh, but nothing below osgTerrain tiles, the same way every time.
 void forEachNode(osg::Node& root, std::function<void(osg::Node&)> action);
 
+/// Likewise, but nothing below nodes for which `entersBelow` returns false.
+void forEachNodeWhere(osg::Node& root, std::function<bool(osg::Node&)> entersBelow);
+
 /// Whether a part of the mesh has state that shows what is behind it: isSeeThrough().
 [[nodiscard]] bool isSeeThroughMesh(osg::Node& mesh);
 

@@ -44,15 +44,25 @@ osg::Node* installedNode(osg::Node& node) {
     return carrier && installedCallback(*carrier) ? carrier : nullptr;
 }
 
+// Whether a node of a mesh is far smaller than the mesh: a tree or a house on it, of which a kept tile need not show
+// anything.
+bool isOnSurface(const osg::Node& node, const osg::Node& mesh) {
+    constexpr float kLargest = 0.25f;
+    const osg::BoundingSphere& bound = node.getBound();
+    return bound.valid() && bound.radius() < kLargest * mesh.getBound().radius();
+}
+
 // The nodes of a tile that have no sphere test while bins cull it, some of them more than once. Drawables keep their
-// boxes.
+// boxes, and what stands on the surface keeps OSG's own tests.
 template <class Action>
 void forEachSphere(const FoundTile& tile, osg::Node& culled, const Action& action) {
     action(culled);
     action(*tile.node);
     for (const auto& mesh : tile.meshes) {
-        forEachNode(*mesh, [&](osg::Node& node) {
+        forEachNodeWhere(*mesh, [&](osg::Node& node) {
+            if (isOnSurface(node, *mesh)) return false;
             if (!node.asDrawable()) action(node);
+            return true;
         });
     }
 }
