@@ -83,7 +83,7 @@ BuiltIndex indexFrom(const DatabaseFiles& files, FileRecords records) {
     built.horizon = horizonOf(tree.tiles());
     warn(tree.unreadFiles(), files, "files are missing or broken",
          "the tiles above are taken to reach from -11500 m to 9000 m");
-    warn(tree.unknownTiles(), files, "tiles have surfaces that cannot be told",
+    warn(tree.unknownTiles(), files, "tiles have surfaces whose bounds are not known",
          "they and the tiles above them are never culled");
     return built;
 }

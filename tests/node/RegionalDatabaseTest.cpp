@@ -89,7 +89,7 @@ TEST(RegionalHorizon, IsNotUsedWhereATileIsMissing) {
     region.root->removeChild(&region.tile(0, 0));
     const CapturedNotes notes(osg::NOTICE);
     installBins(*region.root);
-    EXPECT_EQ(notes.count("the horizon is not used"), 1u);
+    EXPECT_EQ(notes.count("The horizon is not used"), 1u);
     EXPECT_TRUE(region.drawsFarTile(30.0, 20.0));
 }
 

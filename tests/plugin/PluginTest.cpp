@@ -17,6 +17,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <string>
+#include <support/CapturedNotes.h>
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 
@@ -79,6 +81,15 @@ TEST_F(Plugin, TheObjectCacheKeepsTheDatabaseWithAndWithoutBinsApart) {
     EXPECT_EQ(read(""), plain);
     EXPECT_EQ(read(".analyticbin"), bins);
     osgDB::Registry::instance()->clearObjectCache();
+}
+
+TEST_F(Plugin, SaysOnceHowManyTilesHaveBins) {
+    const test::CapturedNotes notes(osg::NOTICE);
+    const int tiles = counted(*read(".analyticbin")).count;
+    ASSERT_GT(tiles, 0);
+    EXPECT_EQ(notes.count("has bins on " + std::to_string(tiles) + " tiles"), 1u);
+    (void)read(".(method=sphere).analyticbin");
+    EXPECT_EQ(notes.count("has bins"), 1u);
 }
 
 TEST_F(Plugin, InstallsTheQuadraticByDefault) {

@@ -27,12 +27,13 @@ public:
     CapturedNotes(const CapturedNotes&) = delete;
     CapturedNotes& operator=(const CapturedNotes&) = delete;
 
-    /// Number of the kit's messages that hold the text.
+    /// Number of the kit's or the plugin's messages that hold the text.
     [[nodiscard]] std::size_t count(const std::string& text) const {
         const std::lock_guard<std::mutex> lock(_handler->mutex);
         return static_cast<std::size_t>(
             std::count_if(_handler->notes.begin(), _handler->notes.end(), [&](const std::string& note) {
-                return note.find("osgAnalyticBin") != std::string::npos && note.find(text) != std::string::npos;
+                const bool isOurs = note.find("osgAnalyticBin") != std::string::npos || note.find("analyticbin:") == 0;
+                return isOurs && note.find(text) != std::string::npos;
             }));
     }
 

@@ -167,6 +167,10 @@ private:
         if (wantsBins && installed == 0) {
             OSG_WARN << "analyticbin: no tile found in \"" << name << "\"; OSG's own culling stays in charge there."
                      << std::endl;
+        } else if (wantsBins) {
+            OSG_NOTICE << "analyticbin: \"" << name << "\" has bins on " << installed
+                       << " tiles, and on those that are loaded later (" << osgAnalyticBin::toText(options) << ")."
+                       << std::endl;
         }
     }
 };

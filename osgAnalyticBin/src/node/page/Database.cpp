@@ -124,10 +124,11 @@ bool Database::takeShapeChange() {
 
 void Database::noteGap(const std::string& where) {
     if (_hasGap.exchange(true, std::memory_order_relaxed)) return;
-    OSG_NOTICE << "osgAnalyticBin: the tiles of \"" << where
-               << "\" do not cover the tile that they are paged below, or no rectangle of latitude and longitude; the "
-                  "horizon is not used."
-               << std::endl;
+    OSG_NOTICE
+        << "osgAnalyticBin: the tiles of \"" << where
+        << "\" leave gaps: they cover neither the tile that they are paged below nor a rectangle of latitude and "
+           "longitude. The horizon is not used."
+        << std::endl;
 }
 
 void Database::noteCoverage(const std::string& file, const Coverage& coverage) {
@@ -147,8 +148,8 @@ std::optional<core::CoveredRegion> Database::region() const {
 
 void Database::noteBorderInView() {
     if (_hasBorderInView.exchange(true, std::memory_order_relaxed)) return;
-    OSG_NOTICE << "osgAnalyticBin: the eye is so high above this regional database, or so near its border, that it "
-                  "sees past it; the horizon hides nothing there."
+    OSG_NOTICE << "osgAnalyticBin: the camera is so high above the regional database, or so near its border, that it "
+                  "sees past it. The horizon is not used in such views."
                << std::endl;
 }
 
@@ -168,8 +169,8 @@ void Database::noteMovedTile(const std::string& where) {
 
 void Database::noteUnknownNearPlane() {
     if (_hasUnknownNearPlane.exchange(true, std::memory_order_relaxed)) return;
-    OSG_WARN << "osgAnalyticBin: terrain hides nothing for cameras whose near plane OSG computes; set "
-                "DO_NOT_COMPUTE_NEAR_FAR, and near and far planes, to use occlusion."
+    OSG_WARN << "osgAnalyticBin: occlusion= has no effect while OSG computes the camera's near plane. Set "
+                "DO_NOT_COMPUTE_NEAR_FAR, and near and far planes of your own."
              << std::endl;
 }
 
@@ -210,8 +211,9 @@ void Database::reportFalseBin(const ParentTile& tile, const AnalyticBin& bin) {
 
 void Database::reportUntold(const ParentTile& tile) {
     warn(tile, &Database::_hasWarnedOfUntold,
-         " holds what cannot be compared with the bin stored with it or above it: it stands on another globe, or its "
-         "mesh cannot be told; tiles are kept visible there.");
+         " holds content that cannot be compared with the bin stored with it or above it: it stands on another globe, "
+         "or "
+         "its mesh has no known bounds. Tiles are kept visible there.");
     widenFrom(tile, {{}, true});
 }
 
