@@ -25,8 +25,9 @@ view() {
     xvfb-run -a -s "-screen 0 2560x720x24" env LIBGL_ALWAYS_SOFTWARE=1 \
         LD_LIBRARY_PATH="$PWD/$build/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}" \
         "$build/bin/osgbinviewer" "$database" --options "$options" --window $window \
-        --poses applications/osgbinviewer/pictures.csv --steps "$*"
+        --poses applications/osgbinviewer/pictures.csv ${near_far:+--COMPUTE_NEAR_FAR_MODE "$near_far"} --steps "$*"
 }
+near_far=
 
 take() {
     view 1200 675 "" "$@"
@@ -45,3 +46,9 @@ take at=alps press=l press=B picture="$doc/viewer_bins.jpg" \
 take at=alps press=l press=B press=y spy=65,38,3 spypicture="$doc/viewer_spy.jpg"
 take at=alps press=l press=s press=s frames=25 at=peaks frames=25 at=aside frames=25 at=peaks frames=25 at=alps \
     frames=25 picture="$doc/viewer_stats.jpg" press=s press=s press=s press=h picture="$doc/viewer_help.jpg"
+
+# Terrain behind terrain needs near and far planes that are given.
+near_far=DO_NOT_COMPUTE_NEAR_FAR
+view 800 450 occlusion=off at=valley press=l press=B press=F at=valley_aside picture="$doc/valley_off.jpg"
+view 800 450 occlusion=on at=valley press=l picture="$doc/valley_view.jpg" \
+    press=B press=F at=valley_aside picture="$doc/valley_on.jpg"
