@@ -38,13 +38,20 @@ DemMosaic::DemMosaic(const Settings& settings, double spacingDeg) : _mostPosts(p
     std::stable_sort(_sources.begin(), _sources.end(), [](const auto& a, const auto& b) {
         return a->grid().resolutionDeg() < b->grid().resolutionDeg();
     });
+    for (std::size_t i = 0; i + 1 < _sources.size(); ++i) {
+        _sources[i]->setCoarser([this, i](const PositionDeg& position) { return heightFrom(i + 1, position); });
+    }
+}
+
+std::optional<double> DemMosaic::heightFrom(std::size_t source, const PositionDeg& position) {
+    for (std::size_t i = source; i < _sources.size(); ++i) {
+        if (const auto height = _sources[i]->height(position)) return height;
+    }
+    return std::nullopt;
 }
 
 double DemMosaic::height(const PositionDeg& position) {
-    for (const auto& source : _sources) {
-        if (const auto height = source->height(position)) return *height;
-    }
-    return 0.0;
+    return heightFrom(0, position).value_or(0.0);
 }
 
 HeightRange DemMosaic::range(const RectDeg& rect) {
