@@ -97,6 +97,10 @@ std::string describeSources(const Settings& settings, const TileLayout& layout) 
         << ", compressed " << settings.compress << ", overviews " << settings.useOverviews << '\n';
     out << "radii " << settings.ellipsoid.equatorialRadius() << ' ' << settings.ellipsoid.polarRadius() << ", WGS 84 "
         << settings.isWgs84 << '\n';
+    if (settings.region) {
+        const RectDeg& region = *settings.region;
+        out << "region " << region.west << ' ' << region.south << ' ' << region.east << ' ' << region.north << '\n';
+    }
     if (settings.nodata) out << "nodata " << *settings.nodata << '\n';
     for (const DemInput& dem : settings.dems) describeElevation(settings, layout, dem, out);
     if (!settings.image.empty()) describeImage(settings.image, out);

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -47,6 +48,7 @@ struct Arguments {
     std::vector<std::string> dems;
     std::vector<std::string> scales;
     std::vector<double> radii;
+    std::vector<double> region;
     Settings settings;
 };
 
@@ -108,6 +110,20 @@ void takeRadii(Arguments& arguments) {
     arguments.settings.isWgs84 = a == wgs84->getRadiusEquator() && b == wgs84->getRadiusPolar();
 }
 
+void takeRegion(Arguments& arguments) {
+    const std::vector<double>& edges = arguments.region;
+    if (edges.empty()) return;
+    const RectDeg region{edges[0], edges[1], edges[2], edges[3]};
+    if (!(region.west >= -360.0 && region.west <= 360.0 && region.east > region.west &&
+          region.east - region.west <= 360.0 && region.south >= -90.0 && region.north <= 90.0 &&
+          region.north > region.south)) {
+        throw Failure(
+            "-te is no part of the earth; give degrees as WEST SOUTH EAST NORTH, east more than west by at most 360 "
+            "(179 -20 182 -15 passes the date line)");
+    }
+    arguments.settings.region = region;
+}
+
 void requireRanges(const Settings& settings) {
     constexpr int kFewestCells = 4;
     constexpr int kMostCells = 240;
@@ -146,6 +162,10 @@ void declare(CLI::App& app, Arguments& arguments) {
                    "unit of the heights: m, ft or metres per unit;\none for all rasters or one for each (default m)")
         ->delimiter(',');
     app.add_option("--nodata", settings.nodata, "number that stands for missing heights, in place of the rasters' own");
+    app.add_option(
+           "--te", arguments.region,
+           "build this part of the earth: WEST SOUTH EAST NORTH in degrees, also as -te\n(default: the whole earth)")
+        ->expected(4);
     app.add_option("--levels", settings.levels,
                    "levels of tiles below the 16 x 8 start tiles, 0 to 20\n(default: as fine as the finest raster)");
     app.add_option("--image", settings.image, "image that GDAL reads, draped over the terrain");
@@ -186,7 +206,11 @@ std::optional<Settings> settingsFrom(int argc, const char* const* argv) {
     app.set_version_flag("--version", std::string("osgbindem (osgAnalyticBin) ") + osgAnalyticBin::version());
     declare(app, arguments);
     try {
-        app.parse(argc, argv);
+        std::vector<const char*> words(argv, argv + argc);
+        // GDAL's tools have it with one dash, which the parser takes for an option of one letter.
+        std::replace_if(
+            words.begin(), words.end(), [](const char* word) { return std::strcmp(word, "-te") == 0; }, "--te");
+        app.parse(argc, words.data());
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) throw Failure(std::string(error.what()) + "; see osgbindem --help");
         app.exit(error);
@@ -195,6 +219,7 @@ std::optional<Settings> settingsFrom(int argc, const char* const* argv) {
     arguments.settings.areThreadsGiven = app.count("--threads") > 0;
     takeDems(arguments);
     takeRadii(arguments);
+    takeRegion(arguments);
     requireRanges(arguments.settings);
     return arguments.settings;
 }

@@ -44,7 +44,11 @@ osg::ref_ptr<osg::CoordinateSystemNode> makeRoot(const Settings& settings) {
     return root;
 }
 
-void declareHorizon(osg::Group& root) {
+void declareHorizon(osg::Group& root, const TileLayout& layout) {
+    if (layout.isRegional()) {
+        root.setUpdateCallback(new osgAnalyticBin::InstallBinsCallback);
+        return;
+    }
     double lowest = 0.0;
     for (unsigned int i = 0; i < root.getNumChildren(); ++i) {
         const osgAnalyticBin::AnalyticBin bin = osgAnalyticBin::storedBin(*root.getChild(i));

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "RasterGrid.h"
+
 #include <osgAnalyticBin/core/Ellipsoid.h>
 
 #include <optional>
@@ -27,7 +29,9 @@ struct Settings {
     osgAnalyticBin::core::Ellipsoid ellipsoid{1.0, 1.0};
     /// Whether the radii are those of a default osg::EllipsoidModel.
     bool isWgs84 = true;
-    /// Levels below the start tiles.
+    /// The part of the earth that is built; all of it without. East is greater than west, and may pass 180.
+    std::optional<RectDeg> region;
+    /// Levels below the start tiles of a whole globe.
     std::optional<int> levels;
     /// Cells along a tile's edge.
     std::optional<int> cells;
