@@ -3,6 +3,7 @@
 
 #include "BuildSources.h"
 
+#include "BlendBand.h"
 #include "GdalRaster.h"
 #include "VoidFill.h"
 
@@ -65,18 +66,29 @@ double reachOf(const RasterGrid& grid, const Settings& settings, const TileLayou
     return VoidFill::kMostReach * spacing;
 }
 
-void describeElevation(const Settings& settings, const TileLayout& layout, const DemInput& dem, std::ostream& out) {
+GdalRaster rasterOf(const Settings& settings, const DemInput& dem) {
     RasterOptions options;
     options.path = dem.path;
     options.nodata = settings.nodata;
     options.isWgs84 = settings.isWgs84;
-    const GdalRaster raster(options);
-    // Where heights may depend on the raster.
-    const RectDeg area = raster.grid().extent().grownBy(raster.grid().resolutionDeg());
-    out << kElevation << wholePath(dem.path) << ", scale " << dem.metresPerUnit << '\n';
-    out << kArea << area.west << ' ' << area.south << ' ' << area.east << ' ' << area.north << '\n';
-    out << kReach << raster.grid().resolutionDeg() << ' ' << reachOf(raster.grid(), settings, layout) << '\n';
-    describeFiles(raster.warpSource() != nullptr ? *raster.warpSource() : raster.dataset(), out);
+    return GdalRaster(options);
+}
+
+void describeElevations(const Settings& settings, const TileLayout& layout, std::ostream& out) {
+    std::vector<RasterGrid> grids;
+    for (const DemInput& dem : settings.dems) grids.push_back(rasterOf(settings, dem).grid());
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        const GdalRaster raster = rasterOf(settings, settings.dems[i]);
+        // Where heights may depend on the raster.
+        const RectDeg area = grids[i].extent().grownBy(grids[i].resolutionDeg());
+        out << kElevation << wholePath(settings.dems[i].path) << ", scale " << settings.dems[i].metresPerUnit << '\n';
+        out << kArea << area.west << ' ' << area.south << ' ' << area.east << ' ' << area.north << '\n';
+        out << kReach << grids[i].resolutionDeg() << ' ' << reachOf(grids[i], settings, layout) << '\n';
+        out << "  blended over ";
+        BlendBand(grids[i], grids, settings.blend, settings.ellipsoid.equatorialRadius()).describe(out);
+        out << '\n';
+        describeFiles(raster.warpSource() != nullptr ? *raster.warpSource() : raster.dataset(), out);
+    }
 }
 
 void describeImage(const std::string& path, std::ostream& out) {
@@ -102,7 +114,7 @@ std::string describeSources(const Settings& settings, const TileLayout& layout) 
         out << "region " << region.west << ' ' << region.south << ' ' << region.east << ' ' << region.north << '\n';
     }
     if (settings.nodata) out << "nodata " << *settings.nodata << '\n';
-    for (const DemInput& dem : settings.dems) describeElevation(settings, layout, dem, out);
+    describeElevations(settings, layout, out);
     if (!settings.image.empty()) describeImage(settings.image, out);
     return out.str();
 }

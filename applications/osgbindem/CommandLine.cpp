@@ -138,6 +138,9 @@ void requireRanges(const Settings& settings) {
     if (!(settings.lodFactor >= 3.0 && settings.lodFactor <= 100.0)) {
         refuse("--lod-factor " + std::to_string(settings.lodFactor), "give a number from 3 to 100");
     }
+    if (settings.blend && !(*settings.blend >= 0.0 && *settings.blend <= 1e6)) {
+        refuse("--blend " + std::to_string(*settings.blend), "give metres from 0 to 1000000");
+    }
     if (settings.threads < 1 || settings.threads > 256) {
         refuse("--threads " + std::to_string(settings.threads), "give a number from 1 to 256");
     }
@@ -166,6 +169,9 @@ void declare(CLI::App& app, Arguments& arguments) {
            "--te", arguments.region,
            "build this part of the earth: WEST SOUTH EAST NORTH in degrees, also as -te\n(default: the whole earth)")
         ->expected(4);
+    app.add_option("--blend", settings.blend,
+                   "metres inside a raster's border over which it gives way to coarser ones, 0 for none\n(default: a "
+                   "post of the coarser raster, an eighth of the finer one at most)");
     app.add_option("--levels", settings.levels,
                    "levels of tiles below the 16 x 8 start tiles, 0 to 20\n(default: as fine as the finest raster)");
     app.add_option("--image", settings.image, "image that GDAL reads, draped over the terrain");

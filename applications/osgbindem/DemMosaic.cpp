@@ -41,11 +41,21 @@ DemMosaic::DemMosaic(const Settings& settings, double spacingDeg) : _mostPosts(p
     for (std::size_t i = 0; i + 1 < _sources.size(); ++i) {
         _sources[i]->setCoarser([this, i](const PositionDeg& position) { return heightFrom(i + 1, position); });
     }
+    std::vector<RasterGrid> grids;
+    for (const auto& source : _sources) grids.push_back(source->grid());
+    for (const RasterGrid& grid : grids) {
+        _bands.emplace_back(grid, grids, settings.blend, settings.ellipsoid.equatorialRadius());
+    }
 }
 
 std::optional<double> DemMosaic::heightFrom(std::size_t source, const PositionDeg& position) {
     for (std::size_t i = source; i < _sources.size(); ++i) {
-        if (const auto height = _sources[i]->height(position)) return height;
+        const auto height = _sources[i]->height(position);
+        if (!height) continue;
+        const double share = _bands[i].share(position);
+        if (share == 1.0) return height;
+        const auto coarser = heightFrom(i + 1, position);
+        return coarser ? *coarser + share * (*height - *coarser) : height;
     }
     return std::nullopt;
 }
@@ -56,10 +66,13 @@ double DemMosaic::height(const PositionDeg& position) {
 
 HeightRange DemMosaic::range(const RectDeg& rect) {
     HeightRange range;
-    for (const auto& source : _sources) {
-        if (source->addRange(rect, range)) return range;
+    bool isCovered = false;
+    for (std::size_t i = 0; i < _sources.size(); ++i) {
+        const bool isComplete = _sources[i]->addRange(rect, range);
+        if (isComplete && !_bands[i].touches(rect)) return range;
+        isCovered = isCovered || isComplete;
     }
-    range.include(0.0);
+    if (!isCovered) range.include(0.0);
     return range;
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "BlendBand.h"
 #include "DemSource.h"
 #include "Settings.h"
 
@@ -14,7 +15,7 @@
 namespace osgbindem {
 
 /// All elevation rasters as one: at each position the finest raster that has data there, voids filled from those below
-/// it, and 0 m where none has.
+/// it, its border blended with them, and 0 m where none has.
 /// Of equally fine rasters the one named first counts. Not for use by several threads: each has its own.
 class DemMosaic final {
 public:
@@ -55,6 +56,8 @@ private:
 
     double _mostPosts;
     std::vector<std::unique_ptr<DemSource>> _sources;
+    /// One for each source.
+    std::vector<BlendBand> _bands;
 };
 
 }  // namespace osgbindem

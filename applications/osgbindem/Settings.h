@@ -24,6 +24,8 @@ struct DemInput {
 struct Settings {
     std::vector<DemInput> dems;
     std::optional<double> nodata;
+    /// Metres over which a raster gives way to coarser ones at its border, 0 for none; without it by the rasters.
+    std::optional<double> blend;
     std::string image;
     std::string output;
     osgAnalyticBin::core::Ellipsoid ellipsoid{1.0, 1.0};

@@ -79,7 +79,7 @@ TEST(Source, TheFinestRasterCountsAndOnlyItsAreaGoesDeep) {
     const TestRaster inset(10.0, 52.0, 0.02, 0.02, 101, 101, [](double, double) { return 700.0; });
     globe.write(folder.file("globe.tif"));
     inset.write(folder.file("inset.tif"));
-    build({folder.file("globe.tif"), folder.file("inset.tif"), "-o", folder.file("earth.osgb")});
+    build({folder.file("globe.tif"), folder.file("inset.tif"), "--blend", "0", "-o", folder.file("earth.osgb")});
     const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
     EXPECT_NEAR(database.altitudeAt(51.0, 11.0), 700.0, 0.01);
     EXPECT_NEAR(database.altitudeAt(47.0, 11.0), 100.0, 0.3);

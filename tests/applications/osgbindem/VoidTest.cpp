@@ -90,6 +90,7 @@ double reliefAround(const Grid& grid, int column, int row) {
 
 Settings settingsFor(const std::vector<std::string>& rasters) {
     Settings settings;
+    settings.blend = 0.0;
     for (const std::string& raster : rasters) settings.dems.push_back({raster});
     return settings;
 }

@@ -51,7 +51,7 @@ double snowLine(double latitudeDeg) noexcept {
 
 double snowShare(double height, double snowLine, const glm::dvec3& normalLocal) noexcept {
     constexpr double kFringe = 700.0;
-    if (height <= 0.0) return 0.0;
+    if (height <= 0.0 || height <= snowLine - 0.5 * kFringe) return 0.0;
     const double share = smooth((height - snowLine + 0.5 * kFringe) / kFringe);
     return share * (0.4 + 0.6 * smooth((normalLocal.z - 0.5) / 0.35));
 }

@@ -74,6 +74,15 @@ public:
         return {-lat.sine * longitude(column).cosine, -lat.sine * longitude(column).sine, lat.cosine};
     }
 
+    // In east, north, up.
+    [[nodiscard]] glm::dvec3 local(const glm::dvec3& ecef, int column, int row) const {
+        const Turn& lat = latitude(row);
+        const Turn& lon = longitude(column);
+        const double outward = ecef.x * lon.cosine + ecef.y * lon.sine;
+        return {ecef.y * lon.cosine - ecef.x * lon.sine, ecef.z * lat.cosine - outward * lat.sine,
+                outward * lat.cosine + ecef.z * lat.sine};
+    }
+
 private:
     [[nodiscard]] const Turn& latitude(int row) const { return _latitudes[static_cast<std::size_t>(row + 1)]; }
     [[nodiscard]] const Turn& longitude(int column) const { return _longitudes[static_cast<std::size_t>(column + 1)]; }
@@ -171,18 +180,16 @@ public:
 
     [[nodiscard]] osg::Vec4ub painted(const osg::Vec4ub& colour, const osg::Vec3f& normal, int column, int row) const {
         const double height = _grid.height(column, row);
-        const glm::dvec3 n(normal.x(), normal.y(), normal.z());
-        const glm::dvec3 up = _posts.up(column, row);
-        const glm::dvec3 north = _posts.north(column, row);
-        const glm::dvec3 local(glm::dot(n, glm::cross(north, up)), glm::dot(n, north), glm::dot(n, up));
+        const glm::dvec3 local = _posts.local({normal.x(), normal.y(), normal.z()}, column, row);
         constexpr double kSnow = 248.0;
         // Water dims what lies below.
         constexpr double kSeaShade = 0.5;
         const double snow = snowShare(height, _snowLines[static_cast<std::size_t>(row)], local);
         double shade = shadeOf(local, _exaggeration);
         if (height <= 0.0) shade = 1.0 + kSeaShade * (shade - 1.0);
+        const double white = snow * kSnow;
         const auto part = [&](unsigned char c) {
-            return static_cast<unsigned char>(std::clamp(shade * (c + snow * (kSnow - c)) + 0.5, 0.0, 255.0));
+            return static_cast<unsigned char>(std::min(shade * (c * (1.0 - snow) + white) + 0.5, 255.0));
         };
         return {part(colour.r()), part(colour.g()), part(colour.b()), colour.a()};
     }
