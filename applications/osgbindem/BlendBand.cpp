@@ -115,8 +115,7 @@ void BlendBand::addEdge(const RectDeg& edge, const std::vector<RectDeg>& closed)
     }
 }
 
-double BlendBand::share(const PositionDeg& position) const noexcept {
-    if (_edges.empty()) return 1.0;
+double BlendBand::shareWithin(const PositionDeg& position) const noexcept {
     const double latitude = position.latitudeDeg;
     // Half a pixel of rounding at the western border is not a turn.
     constexpr double kSlack = 1e-6;

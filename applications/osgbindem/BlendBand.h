@@ -25,7 +25,9 @@ public:
               double radius);
 
     /// The raster's share of the height, from 0 at the border to 1 at the end of the band.
-    [[nodiscard]] double share(const PositionDeg& position) const noexcept;
+    [[nodiscard]] double share(const PositionDeg& position) const noexcept {
+        return _edges.empty() ? 1.0 : shareWithin(position);
+    }
 
     /// Whether the band may reach into the rectangle.
     [[nodiscard]] bool touches(const RectDeg& rect) const noexcept;
@@ -34,6 +36,7 @@ public:
     void describe(std::ostream& out) const;
 
 private:
+    [[nodiscard]] double shareWithin(const PositionDeg& position) const noexcept;
     /// A part of the border: a rectangle without width or without height. Longitudes are those of the raster.
     void addEdge(const RectDeg& edge, const std::vector<RectDeg>& closed);
 

@@ -33,7 +33,7 @@ constexpr const char* kDescription =
 
 constexpr const char* kExamples =
     "Example, heights of the first raster in metres and of the second in feet:\n"
-    "  osgbindem world.tif rockies.nc --scale m ft -o earth.osgb\n"
+    "  osgbindem world.tif rockies.nc --height-unit m ft -o earth.osgb\n"
     "writes earth.osgb and the folder earth_tiles beside it. Large rasters are read fastest when tiled\n"
     "(gdal_translate -co TILED=YES).\n"
     "A run that was interrupted, killed or out of room leaves the finished parts in earth_tiles.partial; the same\n"
@@ -63,7 +63,7 @@ std::optional<double> metresPerUnit(const std::string& word) {
     return value;
 }
 
-/// Rasters may follow the units directly: "--scale ft a.tif"; a word that is no unit but a file is one.
+/// Rasters may follow the units directly: "--height-unit ft a.tif"; a word that is no unit but a file is one.
 std::vector<double> takeScales(Arguments& arguments) {
     std::vector<double> scales;
     std::vector<std::string> rasters;
@@ -74,7 +74,7 @@ std::vector<double> takeScales(Arguments& arguments) {
         } else if (mayExist(word)) {
             rasters.push_back(word);
         } else {
-            throw Failure("unknown unit \"" + word + "\" in --scale; give m, ft or metres per unit");
+            throw Failure("unknown unit \"" + word + "\" in --height-unit; give m, ft or metres per unit");
         }
     }
     arguments.dems.insert(arguments.dems.end(), rasters.begin(), rasters.end());
@@ -85,8 +85,8 @@ void takeDems(Arguments& arguments) {
     const std::vector<double> scales = takeScales(arguments);
     if (arguments.dems.empty()) throw Failure("no elevation raster on the command line; name at least one");
     if (scales.size() > 1 && scales.size() != arguments.dems.size()) {
-        throw Failure(std::to_string(scales.size()) + " units in --scale for " + std::to_string(arguments.dems.size()) +
-                      " rasters; give one for all or one for each");
+        throw Failure(std::to_string(scales.size()) + " units in --height-unit for " +
+                      std::to_string(arguments.dems.size()) + " rasters; give one for all or one for each");
     }
     for (std::size_t i = 0; i < arguments.dems.size(); ++i) {
         const double scale = scales.empty() ? 1.0 : scales[scales.size() == 1 ? 0 : i];
@@ -161,8 +161,9 @@ void declare(CLI::App& app, Arguments& arguments) {
         "elevation rasters that GDAL reads, in any reference system;\nwithout one, longitude and latitude in "
         "degrees");
     app.add_option("-o,--output", settings.output, "the root file of the database, *.osgb")->required();
-    app.add_option("--scale", arguments.scales,
-                   "unit of the heights: m, ft or metres per unit;\none for all rasters or one for each (default m)")
+    app.add_option("--height-unit,--scale", arguments.scales,
+                   "unit of the heights: m, ft or metres per unit;\none for all rasters or one for each (default m); "
+                   "--scale is its older name")
         ->delimiter(',');
     app.add_option("--nodata", settings.nodata, "number that stands for missing heights, in place of the rasters' own");
     app.add_option(

@@ -120,14 +120,27 @@ double DemSource::post(int column, int row) {
 std::optional<double> DemSource::height(const PositionDeg& position) {
     const auto cell = grid().locate(position);
     if (!cell) return std::nullopt;
+    // Nearly always one page has all four posts.
+    const Page* page = nullptr;
+    for (const Page& candidate : _pages) {
+        if (candidate.window.contains(cell->west, cell->first) && candidate.window.contains(cell->east, cell->second)) {
+            page = &candidate;
+            break;
+        }
+    }
+    const auto at = [&](int column, int row) {
+        if (page == nullptr) return post(column, row);
+        const double height = page->heights[static_cast<std::size_t>(page->offset(column, row))];
+        return std::isnan(height) ? _voids.at(column, row) : height;
+    };
     const double u = cell->eastWeight;
     const double v = cell->secondWeight;
-    const double first = u > 0.0 ? (1.0 - u) * post(cell->west, cell->first) + u * post(cell->east, cell->first)
-                                 : post(cell->west, cell->first);
+    const double first = u > 0.0 ? (1.0 - u) * at(cell->west, cell->first) + u * at(cell->east, cell->first)
+                                 : at(cell->west, cell->first);
     double height = first;
     if (v > 0.0) {
-        const double second = u > 0.0 ? (1.0 - u) * post(cell->west, cell->second) + u * post(cell->east, cell->second)
-                                      : post(cell->west, cell->second);
+        const double second = u > 0.0 ? (1.0 - u) * at(cell->west, cell->second) + u * at(cell->east, cell->second)
+                                      : at(cell->west, cell->second);
         height = (1.0 - v) * first + v * second;
     }
     if (std::isnan(height)) return std::nullopt;

@@ -6,6 +6,7 @@
 #include "DatabaseWalk.h"
 #include "Program.h"
 #include "TestRaster.h"
+#include "TimeLeft.h"
 
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
@@ -115,7 +116,7 @@ TEST_F(Error, OtherNumbers) {
 
 TEST_F(Error, Scales) {
     expectError({good(), "--scale", "miles", "-o", output()}, "unknown unit \"miles\"");
-    expectError({good(), "--scale", "0", "-o", output()}, "unknown unit \"0\"");
+    expectError({good(), "--height-unit", "0", "-o", output()}, "unknown unit \"0\" in --height-unit");
     expectError({good(), "--scale", "m", "ft", "-o", output()}, "2 units");
 }
 
@@ -184,9 +185,19 @@ TEST_F(Error, WhatAKilledRunLeftIsClearedAway) {
 TEST(Help, NamesUnitsAndAnExample) {
     const Outcome outcome = run({"--help"});
     EXPECT_EQ(outcome.exitCode, 0);
-    for (const char* word : {"--scale", "--levels", "--lod-factor", "metres", "degrees", "Example"}) {
+    for (const char* word :
+         {"--height-unit", "--te", "--blend", "--levels", "--lod-factor", "metres", "degrees", "Example"}) {
         EXPECT_NE(outcome.output.find(word), std::string::npos) << word;
     }
+}
+
+TEST(Progress, SaysWhatIsLeft) {
+    using osgAnalyticBin::support::timeLeft;
+    EXPECT_EQ(timeLeft(0.5, 1.0), "");  // nobody knows yet
+    EXPECT_EQ(timeLeft(0.5, 40.0), "40 s left");
+    EXPECT_EQ(timeLeft(0.25, 240.0), "12 min left");
+    EXPECT_EQ(timeLeft(0.1, 1234.0), "3 h 06 min left");
+    EXPECT_EQ(timeLeft(1.0, 50.0), "");
 }
 
 TEST(Progress, IsShownUnlessQuiet) {

@@ -64,15 +64,15 @@ double exaggerationFor(double spacing) noexcept {
 double shadeOf(const glm::dvec3& normalLocal, double exaggeration) noexcept {
     // From the north-west, 45 degrees high. Slopes towards the light shine less than those away from it lie in the
     // dark.
-    constexpr double kLight = 0.7071067811865476;
-    constexpr double kDarkest = 0.35;
-    constexpr double kBrightest = 1.3;
-    const double east = exaggeration * normalLocal.x;
-    const double north = exaggeration * normalLocal.y;
-    const double up = std::max(normalLocal.z, 1e-3);
-    const double towards = kLight * (north - east);
-    const double shade = (towards + up) / std::sqrt(east * east + north * north + up * up);
-    return std::clamp(shade < 1.0 ? shade : 1.0 + 0.7 * (shade - 1.0), kDarkest, kBrightest);
+    constexpr float kLight = 0.70710678F;
+    constexpr float kDarkest = 0.35F;
+    constexpr float kBrightest = 1.3F;
+    // Single precision is enough for a colour.
+    const auto east = static_cast<float>(exaggeration * normalLocal.x);
+    const auto north = static_cast<float>(exaggeration * normalLocal.y);
+    const auto up = std::max(static_cast<float>(normalLocal.z), 1e-3F);
+    const float shade = (kLight * (north - east) + up) / std::sqrt(east * east + north * north + up * up);
+    return static_cast<double>(std::clamp(shade < 1.0F ? shade : 1.0F + 0.7F * (shade - 1.0F), kDarkest, kBrightest));
 }
 
 }  // namespace osgAnalyticBin

@@ -211,16 +211,13 @@ osg::ref_ptr<osg::Vec4ubArray> coloursOf(const TerrainGrid& grid, const osg::Vec
         return colours;
     }
     colours->reserve(static_cast<std::size_t>((grid.cells + 1) * (grid.cells + 5)));
-    for (int row = 0; row <= grid.cells; ++row)
-        for (int column = 0; column <= grid.cells; ++column)
-            colours->push_back(colourAt(grid.colours, grid.height(column, row)));
-    if (grid.relief) {
-        const ReliefPainter painter(grid);
-        for (int row = 0; row <= grid.cells; ++row) {
-            for (int column = 0; column <= grid.cells; ++column) {
-                const std::size_t i = surfaceIndex(grid.cells, column, row);
-                (*colours)[i] = painter.painted((*colours)[i], normals[i], column, row);
-            }
+    std::optional<ReliefPainter> painter;
+    if (grid.relief) painter.emplace(grid);
+    for (int row = 0; row <= grid.cells; ++row) {
+        for (int column = 0; column <= grid.cells; ++column) {
+            const osg::Vec4ub colour = colourAt(grid.colours, grid.height(column, row));
+            const osg::Vec3f& normal = normals[surfaceIndex(grid.cells, column, row)];
+            colours->push_back(painter ? painter->painted(colour, normal, column, row) : colour);
         }
     }
     repeatAtSkirts(grid.cells, *colours);
