@@ -113,6 +113,11 @@ std::string describeSources(const Settings& settings, const TileLayout& layout) 
         const RectDeg& region = *settings.region;
         out << "region " << region.west << ' ' << region.south << ' ' << region.east << ' ' << region.north << '\n';
     }
+    if (!settings.geoid.empty()) {
+        const bool isFile = settings.geoid != "none" && settings.geoid != "egm96";
+        out << "geoid " << (isFile ? wholePath(settings.geoid) : settings.geoid) << '\n';
+        if (isFile) describeFile(settings.geoid, out);
+    }
     if (settings.nodata) out << "nodata " << *settings.nodata << '\n';
     describeElevations(settings, layout, out);
     if (!settings.image.empty()) describeImage(settings.image, out);

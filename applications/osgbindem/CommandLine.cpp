@@ -138,6 +138,9 @@ void requireRanges(const Settings& settings) {
     if (!(settings.lodFactor >= 3.0 && settings.lodFactor <= 100.0)) {
         refuse("--lod-factor " + std::to_string(settings.lodFactor), "give a number from 3 to 100");
     }
+    if (!settings.geoid.empty() && settings.geoid != "none" && settings.geoid != "egm96" && !mayExist(settings.geoid)) {
+        refuse("no file \"" + settings.geoid + "\" for --geoid", "give none, egm96 or a grid");
+    }
     if (settings.blend && !(*settings.blend >= 0.0 && *settings.blend <= 1e6)) {
         refuse("--blend " + std::to_string(*settings.blend), "give metres from 0 to 1000000");
     }
@@ -170,6 +173,10 @@ void declare(CLI::App& app, Arguments& arguments) {
            "--te", arguments.region,
            "build this part of the earth: WEST SOUTH EAST NORTH in degrees, also as -te\n(default: the whole earth)")
         ->expected(4);
+    app.add_option(
+        "--geoid", settings.geoid,
+        "what the heights of all rasters are above: none (they are used as they are), egm96, or FILE,\na grid "
+        "of the geoid that PROJ reads (default: what a raster's vertical reference says, else none)");
     app.add_option("--blend", settings.blend,
                    "metres inside a raster's border over which it gives way to coarser ones, 0 for none\n(default: a "
                    "post of the coarser raster, an eighth of the finer one at most)");

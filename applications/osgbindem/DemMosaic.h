@@ -6,6 +6,7 @@
 #include "BlendBand.h"
 #include "DemSource.h"
 #include "Settings.h"
+#include "VerticalShift.h"
 
 #include <cstddef>
 #include <memory>
@@ -54,8 +55,13 @@ private:
     /// Of the rasters from this one on, finest first; nullopt where none of them has data.
     [[nodiscard]] std::optional<double> heightFrom(std::size_t source, const PositionDeg& position);
 
+    /// As DemSource::addRange(), above the ellipsoid.
+    [[nodiscard]] bool addRange(std::size_t source, const RectDeg& rect, HeightRange& range);
+
     double _mostPosts;
     std::vector<std::unique_ptr<DemSource>> _sources;
+    /// One for each source.
+    std::vector<VerticalShift> _shifts;
     /// One for each source.
     std::vector<BlendBand> _bands;
 };

@@ -43,6 +43,7 @@ public:
     DemSource& operator=(const DemSource&) = delete;
 
     [[nodiscard]] const std::string& path() const noexcept { return _raster.path(); }
+    [[nodiscard]] const GdalRaster& raster() const noexcept { return _raster; }
     [[nodiscard]] const RasterGrid& grid() const noexcept { return _raster.grid(); }
 
     /// The height of coarser rasters; nullopt where they have none.

@@ -24,6 +24,8 @@ struct DemInput {
 struct Settings {
     std::vector<DemInput> dems;
     std::optional<double> nodata;
+    /// What heights are above: "none" (as they are), "egm96", a file with a grid; empty: as the rasters say.
+    std::string geoid;
     /// Metres over which a raster gives way to coarser ones at its border, 0 for none; without it by the rasters.
     std::optional<double> blend;
     std::string image;

@@ -107,6 +107,7 @@ TEST_F(Error, Levels) {
 TEST_F(Error, OtherNumbers) {
     expectError({good(), "--cells", "7", "-o", output()}, "--cells 7");
     expectError({good(), "--cells", "900", "-o", output()}, "--cells 900");
+    expectError({good(), "--geoid", "absent.gtx", "-o", output()}, "absent.gtx");
     expectError({good(), "--blend", "-1", "-o", output()}, "--blend");
     expectError({good(), "--threads", "0", "-o", output()}, "--threads 0");
     expectError({good(), "--lod-factor", "-2", "-o", output()}, "--lod-factor");
