@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "Ranks.h"
 #include "TimeLeft.h"
 
 #include <cpl_progress.h>
@@ -20,7 +21,8 @@ namespace osgbindem {
 /// time that is left; elsewhere it is GDAL's row of numbers.
 class Progress final {
 public:
-    Progress(bool isShown, double total) : _isShown(isShown), _isTerminal(::isatty(STDOUT_FILENO) == 1), _total(total) {
+    Progress(bool isShown, double total)
+        : _isShown(isShown), _isTerminal(::isatty(STDOUT_FILENO) == 1 && !Ranks::isStartedByMpi()), _total(total) {
         show(0.0);
     }
 
