@@ -62,7 +62,7 @@ else
     step "Building the database $demo/earth.osgb from Debian's elevation data"
     rm -f "$demo/earth.done"
     "$build/bin/osgbindem" /usr/share/ferret-vis/data/etopo5.cdf /usr/share/ncarg/data/cdf/trinidad.nc \
-        --scale m ft --overwrite -o "$demo/earth.osgb"
+        --height-unit m ft --overwrite -o "$demo/earth.osgb"
     touch "$demo/earth.done"
 fi
 

@@ -35,7 +35,7 @@ if [ -n "$(find "$out/earth.done" -newer "$build/bin/osgbindem" 2>/dev/null)" ];
     step "The database is there already"
 else
     step "Database of the earth"
-    "$build/bin/osgbindem" /usr/share/ferret-vis/data/etopo5.cdf /usr/share/ncarg/data/cdf/trinidad.nc --scale m ft \
+    "$build/bin/osgbindem" /usr/share/ferret-vis/data/etopo5.cdf /usr/share/ncarg/data/cdf/trinidad.nc --height-unit m ft \
         --overwrite -o "$out/earth.osgb"
 fi
 

@@ -3,7 +3,9 @@
 
 #include "BuildSources.h"
 
+#include "BlendBand.h"
 #include "GdalRaster.h"
+#include "VoidFill.h"
 
 #include <osgAnalyticBin/Version.h>
 
@@ -27,9 +29,10 @@ namespace {
 constexpr const char* kFoundLevels = "levels found ";
 constexpr const char* kElevation = "elevation ";
 constexpr const char* kArea = "  area ";
+constexpr const char* kReach = "  reach ";
 
 // To be raised when the same settings come to make other files.
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 
 std::string wholePath(const std::string& path) {
     std::error_code error;
@@ -53,17 +56,39 @@ void describeFiles(GDALDataset& dataset, std::ostream& out) {
     CSLDestroy(files);
 }
 
-void describeElevation(const Settings& settings, const DemInput& dem, std::ostream& out) {
+/// How far from a change of a coarser raster heights of this one's voids may change, in degrees.
+double reachOf(const RasterGrid& grid, const Settings& settings, const TileLayout& layout) {
+    const RectDeg extent = grid.extent();
+    double spacing =
+        std::max((extent.east - extent.west) / grid.columns(), (extent.north - extent.south) / grid.rows());
+    // An overview may be read in place of the raster.
+    if (settings.useOverviews) spacing = std::max(spacing, 2.0 * layout.spacingDeg(layout.deepestLevel()));
+    return VoidFill::kMostReach * spacing;
+}
+
+GdalRaster rasterOf(const Settings& settings, const DemInput& dem) {
     RasterOptions options;
     options.path = dem.path;
     options.nodata = settings.nodata;
     options.isWgs84 = settings.isWgs84;
-    const GdalRaster raster(options);
-    // Where heights may depend on the raster.
-    const RectDeg area = raster.grid().extent().grownBy(raster.grid().resolutionDeg());
-    out << kElevation << wholePath(dem.path) << ", scale " << dem.metresPerUnit << '\n';
-    out << kArea << area.west << ' ' << area.south << ' ' << area.east << ' ' << area.north << '\n';
-    describeFiles(raster.warpSource() != nullptr ? *raster.warpSource() : raster.dataset(), out);
+    return GdalRaster(options);
+}
+
+void describeElevations(const Settings& settings, const TileLayout& layout, std::ostream& out) {
+    std::vector<RasterGrid> grids;
+    for (const DemInput& dem : settings.dems) grids.push_back(rasterOf(settings, dem).grid());
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        const GdalRaster raster = rasterOf(settings, settings.dems[i]);
+        // Where heights may depend on the raster.
+        const RectDeg area = grids[i].extent().grownBy(grids[i].resolutionDeg());
+        out << kElevation << wholePath(settings.dems[i].path) << ", scale " << settings.dems[i].metresPerUnit << '\n';
+        out << kArea << area.west << ' ' << area.south << ' ' << area.east << ' ' << area.north << '\n';
+        out << kReach << grids[i].resolutionDeg() << ' ' << reachOf(grids[i], settings, layout) << '\n';
+        out << "  blended over ";
+        BlendBand(grids[i], grids, settings.blend, settings.ellipsoid.equatorialRadius()).describe(out);
+        out << '\n';
+        describeFiles(raster.warpSource() != nullptr ? *raster.warpSource() : raster.dataset(), out);
+    }
 }
 
 void describeImage(const std::string& path, std::ostream& out) {
@@ -84,8 +109,17 @@ std::string describeSources(const Settings& settings, const TileLayout& layout) 
         << ", compressed " << settings.compress << ", overviews " << settings.useOverviews << '\n';
     out << "radii " << settings.ellipsoid.equatorialRadius() << ' ' << settings.ellipsoid.polarRadius() << ", WGS 84 "
         << settings.isWgs84 << '\n';
+    if (settings.region) {
+        const RectDeg& region = *settings.region;
+        out << "region " << region.west << ' ' << region.south << ' ' << region.east << ' ' << region.north << '\n';
+    }
+    if (!settings.geoid.empty()) {
+        const bool isFile = settings.geoid != "none" && settings.geoid != "egm96";
+        out << "geoid " << (isFile ? wholePath(settings.geoid) : settings.geoid) << '\n';
+        if (isFile) describeFile(settings.geoid, out);
+    }
     if (settings.nodata) out << "nodata " << *settings.nodata << '\n';
-    for (const DemInput& dem : settings.dems) describeElevation(settings, dem, out);
+    describeElevations(settings, layout, out);
     if (!settings.image.empty()) describeImage(settings.image, out);
     return out.str();
 }
@@ -95,6 +129,9 @@ namespace {
 struct Raster {
     std::string text;
     RectDeg area;
+    double resolutionDeg = 0.0;
+    /// See reachOf(). No part of what the raster is: it depends on the other rasters too.
+    double reachDeg = 0.0;
 
     bool operator==(const Raster& other) const { return text == other.text; }
 };
@@ -116,6 +153,10 @@ Sources sourcesFrom(const std::string& description) {
         isRaster = line.rfind(kElevation, 0) == 0 || (isRaster && isDetail);
         if (isRaster) {
             Raster& raster = sources.rasters.back();
+            if (line.rfind(kReach, 0) == 0) {
+                std::istringstream(line.substr(std::string(kReach).size())) >> raster.resolutionDeg >> raster.reachDeg;
+                continue;
+            }
             raster.text += line + '\n';
             if (line.rfind(kArea, 0) != 0) continue;
             std::istringstream numbers(line.substr(std::string(kArea).size()));
@@ -135,6 +176,15 @@ std::vector<Raster> without(const std::vector<Raster>& rasters, const std::vecto
     return result;
 }
 
+/// Where heights may change when the raster does: where it lies, and in the voids of finer ones that are `kept`.
+RectDeg changedBy(const Raster& raster, const std::vector<Raster>& kept) {
+    double reach = 0.0;
+    for (const Raster& other : kept) {
+        if (other.resolutionDeg <= raster.resolutionDeg) reach += other.reachDeg;
+    }
+    return raster.area.grownBy(reach);
+}
+
 }  // namespace
 
 std::optional<ChangedArea> changedBetween(const std::string& before, const std::string& now) {
@@ -149,8 +199,9 @@ std::optional<ChangedArea> changedBetween(const std::string& before, const std::
         added = current.rasters;
     }
     ChangedArea area;
-    for (const Raster& raster : gone) area.add(raster.area);
-    for (const Raster& raster : added) area.add(raster.area);
+    const std::vector<Raster> kept = without(old.rasters, gone);
+    for (const Raster& raster : gone) area.add(changedBy(raster, kept));
+    for (const Raster& raster : added) area.add(changedBy(raster, kept));
     return area;
 }
 

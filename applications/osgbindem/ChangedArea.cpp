@@ -39,7 +39,8 @@ bool ChangedTiles::has(const TileId& tile) const {
 }
 
 bool ChangedTiles::hasChangedHeights(const TileId& tile) const {
-    int coarsest = std::max(tile.level - 1, 0);  // skirts reach down to the parent's level in any case
+    int coarsest =
+        std::max(tile.level - 1, _layout.startLevel());  // skirts reach down to the parent's level in any case
     for (const Edge edge : kEdges) coarsest = std::min(coarsest, _depths.coarsestAcross(tile, edge));
     return _area.touches(tile.rect().grownBy(_layout.spacingDeg(coarsest)));
 }
@@ -49,7 +50,7 @@ bool ChangedTiles::isRefinedOtherwise(const TileId& tile) const {
 }
 
 bool ChangedTiles::isRefinedOtherwiseAbove(const TileId& neighbour) const {
-    for (int level = 0; level <= neighbour.level; ++level) {
+    for (int level = _layout.startLevel(); level <= neighbour.level; ++level) {
         const TileId above = neighbour.ancestor(level);
         if (isRefinedOtherwise(above)) return true;
         if (!_depths.hasChildren(above)) return false;

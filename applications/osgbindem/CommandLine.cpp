@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -32,7 +33,7 @@ constexpr const char* kDescription =
 
 constexpr const char* kExamples =
     "Example, heights of the first raster in metres and of the second in feet:\n"
-    "  osgbindem world.tif rockies.nc --scale m ft -o earth.osgb\n"
+    "  osgbindem world.tif rockies.nc --height-unit m ft -o earth.osgb\n"
     "writes earth.osgb and the folder earth_tiles beside it. Large rasters are read fastest when tiled\n"
     "(gdal_translate -co TILED=YES).\n"
     "A run that was interrupted, killed or out of room leaves the finished parts in earth_tiles.partial; the same\n"
@@ -47,6 +48,7 @@ struct Arguments {
     std::vector<std::string> dems;
     std::vector<std::string> scales;
     std::vector<double> radii;
+    std::vector<double> region;
     Settings settings;
 };
 
@@ -61,7 +63,7 @@ std::optional<double> metresPerUnit(const std::string& word) {
     return value;
 }
 
-/// Rasters may follow the units directly: "--scale ft a.tif"; a word that is no unit but a file is one.
+/// Rasters may follow the units directly: "--height-unit ft a.tif"; a word that is no unit but a file is one.
 std::vector<double> takeScales(Arguments& arguments) {
     std::vector<double> scales;
     std::vector<std::string> rasters;
@@ -72,7 +74,7 @@ std::vector<double> takeScales(Arguments& arguments) {
         } else if (mayExist(word)) {
             rasters.push_back(word);
         } else {
-            throw Failure("unknown unit \"" + word + "\" in --scale; give m, ft or metres per unit");
+            throw Failure("unknown unit \"" + word + "\" in --height-unit; give m, ft or metres per unit");
         }
     }
     arguments.dems.insert(arguments.dems.end(), rasters.begin(), rasters.end());
@@ -83,8 +85,8 @@ void takeDems(Arguments& arguments) {
     const std::vector<double> scales = takeScales(arguments);
     if (arguments.dems.empty()) throw Failure("no elevation raster on the command line; name at least one");
     if (scales.size() > 1 && scales.size() != arguments.dems.size()) {
-        throw Failure(std::to_string(scales.size()) + " units in --scale for " + std::to_string(arguments.dems.size()) +
-                      " rasters; give one for all or one for each");
+        throw Failure(std::to_string(scales.size()) + " units in --height-unit for " +
+                      std::to_string(arguments.dems.size()) + " rasters; give one for all or one for each");
     }
     for (std::size_t i = 0; i < arguments.dems.size(); ++i) {
         const double scale = scales.empty() ? 1.0 : scales[scales.size() == 1 ? 0 : i];
@@ -108,6 +110,20 @@ void takeRadii(Arguments& arguments) {
     arguments.settings.isWgs84 = a == wgs84->getRadiusEquator() && b == wgs84->getRadiusPolar();
 }
 
+void takeRegion(Arguments& arguments) {
+    const std::vector<double>& edges = arguments.region;
+    if (edges.empty()) return;
+    const RectDeg region{edges[0], edges[1], edges[2], edges[3]};
+    if (!(region.west >= -360.0 && region.west <= 360.0 && region.east > region.west &&
+          region.east - region.west <= 360.0 && region.south >= -90.0 && region.north <= 90.0 &&
+          region.north > region.south)) {
+        throw Failure(
+            "-te is no part of the earth; give degrees as WEST SOUTH EAST NORTH, east more than west by at most 360 "
+            "(179 -20 182 -15 passes the date line)");
+    }
+    arguments.settings.region = region;
+}
+
 void requireRanges(const Settings& settings) {
     constexpr int kFewestCells = 4;
     constexpr int kMostCells = 240;
@@ -121,6 +137,12 @@ void requireRanges(const Settings& settings) {
     }
     if (!(settings.lodFactor >= 3.0 && settings.lodFactor <= 100.0)) {
         refuse("--lod-factor " + std::to_string(settings.lodFactor), "give a number from 3 to 100");
+    }
+    if (!settings.geoid.empty() && settings.geoid != "none" && settings.geoid != "egm96" && !mayExist(settings.geoid)) {
+        refuse("no file \"" + settings.geoid + "\" for --geoid", "give none, egm96 or a grid");
+    }
+    if (settings.blend && !(*settings.blend >= 0.0 && *settings.blend <= 1e6)) {
+        refuse("--blend " + std::to_string(*settings.blend), "give metres from 0 to 1000000");
     }
     if (settings.threads < 1 || settings.threads > 256) {
         refuse("--threads " + std::to_string(settings.threads), "give a number from 1 to 256");
@@ -142,10 +164,22 @@ void declare(CLI::App& app, Arguments& arguments) {
         "elevation rasters that GDAL reads, in any reference system;\nwithout one, longitude and latitude in "
         "degrees");
     app.add_option("-o,--output", settings.output, "the root file of the database, *.osgb")->required();
-    app.add_option("--scale", arguments.scales,
-                   "unit of the heights: m, ft or metres per unit;\none for all rasters or one for each (default m)")
+    app.add_option("--height-unit,--scale", arguments.scales,
+                   "unit of the heights: m, ft or metres per unit;\none for all rasters or one for each (default m); "
+                   "--scale is its older name")
         ->delimiter(',');
     app.add_option("--nodata", settings.nodata, "number that stands for missing heights, in place of the rasters' own");
+    app.add_option(
+           "--te", arguments.region,
+           "build this part of the earth: WEST SOUTH EAST NORTH in degrees, also as -te\n(default: the whole earth)")
+        ->expected(4);
+    app.add_option(
+        "--geoid", settings.geoid,
+        "what the heights of all rasters are above: none (they are used as they are), egm96, or FILE,\na grid "
+        "of the geoid that PROJ reads (default: what a raster's vertical reference says, else none)");
+    app.add_option("--blend", settings.blend,
+                   "metres inside a raster's border over which it gives way to coarser ones, 0 for none\n(default: a "
+                   "post of the coarser raster, an eighth of the finer one at most)");
     app.add_option("--levels", settings.levels,
                    "levels of tiles below the 16 x 8 start tiles, 0 to 20\n(default: as fine as the finest raster)");
     app.add_option("--image", settings.image, "image that GDAL reads, draped over the terrain");
@@ -186,7 +220,11 @@ std::optional<Settings> settingsFrom(int argc, const char* const* argv) {
     app.set_version_flag("--version", std::string("osgbindem (osgAnalyticBin) ") + osgAnalyticBin::version());
     declare(app, arguments);
     try {
-        app.parse(argc, argv);
+        std::vector<const char*> words(argv, argv + argc);
+        // GDAL's tools have it with one dash, which the parser takes for an option of one letter.
+        std::replace_if(
+            words.begin(), words.end(), [](const char* word) { return std::strcmp(word, "-te") == 0; }, "--te");
+        app.parse(argc, words.data());
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() != 0) throw Failure(std::string(error.what()) + "; see osgbindem --help");
         app.exit(error);
@@ -195,6 +233,7 @@ std::optional<Settings> settingsFrom(int argc, const char* const* argv) {
     arguments.settings.areThreadsGiven = app.count("--threads") > 0;
     takeDems(arguments);
     takeRadii(arguments);
+    takeRegion(arguments);
     requireRanges(arguments.settings);
     return arguments.settings;
 }

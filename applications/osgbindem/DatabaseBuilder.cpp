@@ -65,7 +65,7 @@ std::vector<Task> planFor(const Settings& settings, const TileLayout& layout) {
 void buildParts(const Site& site, const std::vector<Task>& plan, const std::string& sources, DatabaseFolder& folder,
                 const Ranks& ranks, int& done) {
     TaskBoard board(plan);
-    StartTiles starts(site.settings);
+    StartTiles starts(site.settings, site.layout);
     const FinishedTasks finished = finishedTasks(site, plan);
     Threads threads(site.settings.threads, board, [&] {
         TileBuilder builder(site.settings, site.layout, site.files);
@@ -98,7 +98,7 @@ void buildWith(const Settings& settings, const Ranks& ranks, int& done) {
     const std::string sources = describeSources(settings, layout);
     beginOrGoOn(settings, sources, plan.size(), folder, state);
     try {
-        const TileFiles files = folder.files();
+        const TileFiles files = folder.files(layout);
         Progress progress(!settings.quiet, weightOf(plan));
         buildParts({settings, layout, files, state, progress}, plan, sources, folder, ranks, done);
         progress.finish();

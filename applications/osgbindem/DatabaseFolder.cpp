@@ -154,7 +154,7 @@ void DatabaseFolder::complete(const std::string& rootBytes, const std::string& s
 void DatabaseFolder::merge(const std::string& rootBytes, const std::string& sources,
                            const std::vector<TileId>& removed) {
     std::string names;
-    const TileFiles files = standingFiles();
+    const TileFiles files(_tiles, _tilesName, 0);  // paths are the same for any start level
     for (const TileId& tile : removed) names += fs::relative(files.pathOfChildren(tile), _tiles).string() + '\n';
     std::error_code error;
     fs::create_directories(stateFolder(), error);

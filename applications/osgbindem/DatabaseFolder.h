@@ -39,11 +39,15 @@ public:
 
     [[nodiscard]] const std::string& partial() const { return _partial; }
     [[nodiscard]] std::string stateFolder() const { return _partial + "/" + kStateName; }
-    [[nodiscard]] TileFiles files() const { return {_partial, _tilesName}; }
+    [[nodiscard]] TileFiles files(const TileLayout& layout) const {
+        return {_partial, _tilesName, layout.startLevel()};
+    }
 
     [[nodiscard]] const std::string& rootFile() const { return _rootFile; }
     /// The files of the complete database.
-    [[nodiscard]] TileFiles standingFiles() const { return {_tiles, _tilesName}; }
+    [[nodiscard]] TileFiles standingFiles(const TileLayout& layout) const {
+        return {_tiles, _tilesName, layout.startLevel()};
+    }
     /// What the complete database is built from; empty when there is none or nobody knows.
     [[nodiscard]] std::string standingSources() const;
 

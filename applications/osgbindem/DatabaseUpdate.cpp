@@ -142,13 +142,13 @@ void updateDatabase(const Settings& settings) {
         return;
     }
     folder.clear();
-    const TileFiles files = folder.files();
+    const TileFiles files = folder.files(layout);
     Findings findings;
-    const StandingDatabase standing(folder.rootFile(), folder.standingFiles());
+    const StandingDatabase standing(folder.rootFile(), folder.standingFiles(layout), layout);
     const std::vector<Task> tasks = changedTasks(Updater(settings, layout, standing, files, area, findings), layout);
     Progress progress(!settings.quiet, weightOf(tasks));
     TaskBoard board(tasks);
-    StartTiles starts(settings);
+    StartTiles starts(settings, layout);
     Threads threads(settings.threads, board, [&] {
         Updater updater(settings, layout, standing, files, area, findings);
         while (const auto task = board.next()) {

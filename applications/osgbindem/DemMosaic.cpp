@@ -38,21 +38,70 @@ DemMosaic::DemMosaic(const Settings& settings, double spacingDeg) : _mostPosts(p
     std::stable_sort(_sources.begin(), _sources.end(), [](const auto& a, const auto& b) {
         return a->grid().resolutionDeg() < b->grid().resolutionDeg();
     });
+    for (const auto& source : _sources) _shifts.emplace_back(source->raster(), settings.geoid);
+    for (std::size_t i = 0; i + 1 < _sources.size(); ++i) {
+        _sources[i]->setCoarser([this, i](const PositionDeg& position) {
+            auto height = heightFrom(i + 1, position);
+            if (height) *height -= _shifts[i].at(position);
+            return height;
+        });
+    }
+    std::vector<RasterGrid> grids;
+    for (const auto& source : _sources) grids.push_back(source->grid());
+    for (const RasterGrid& grid : grids) {
+        _bands.emplace_back(grid, grids, settings.blend, settings.ellipsoid.equatorialRadius());
+    }
+}
+
+std::optional<double> DemMosaic::heightFrom(std::size_t source, const PositionDeg& position) {
+    for (std::size_t i = source; i < _sources.size(); ++i) {
+        auto height = _sources[i]->height(position);
+        if (!height) continue;
+        if (!_shifts[i].isNone()) *height += _shifts[i].at(position);
+        const double share = _bands[i].share(position);
+        if (share == 1.0) return height;
+        const auto coarser = heightFrom(i + 1, position);
+        return coarser ? *coarser + share * (*height - *coarser) : height;
+    }
+    return std::nullopt;
 }
 
 double DemMosaic::height(const PositionDeg& position) {
-    for (const auto& source : _sources) {
-        if (const auto height = source->height(position)) return *height;
+    return heightFrom(0, position).value_or(0.0);
+}
+
+bool DemMosaic::addRange(std::size_t source, const RectDeg& rect, HeightRange& range) {
+    if (_shifts[source].isNone()) return _sources[source]->addRange(rect, range);
+    HeightRange above;
+    const bool isComplete = _sources[source]->addRange(rect, above);
+    if (above.empty()) return isComplete;
+    // Between these places the geoid differs by no more than its steepest slope allows.
+    constexpr int kPlaces = 16;
+    constexpr double kSteepest = 25.0;  // metres a degree
+    const double margin = kSteepest * std::max(rect.north - rect.south, rect.east - rect.west) / kPlaces;
+    HeightRange shift;
+    for (int row = 0; row <= kPlaces; ++row) {
+        for (int column = 0; column <= kPlaces; ++column) {
+            const PositionDeg position{rect.south + (rect.north - rect.south) * row / kPlaces,
+                                       rect.west + (rect.east - rect.west) * column / kPlaces};
+            if (_sources[source]->grid().locate(position)) shift.include(_shifts[source].at(position));
+        }
     }
-    return 0.0;
+    if (shift.empty()) return isComplete;
+    range.include(above.lower + shift.lower - margin);
+    range.include(above.upper + shift.upper + margin);
+    return isComplete;
 }
 
 HeightRange DemMosaic::range(const RectDeg& rect) {
     HeightRange range;
-    for (const auto& source : _sources) {
-        if (source->addRange(rect, range)) return range;
+    bool isCovered = false;
+    for (std::size_t i = 0; i < _sources.size(); ++i) {
+        const bool isComplete = addRange(i, rect, range);
+        if (isComplete && !_bands[i].touches(rect)) return range;
+        isCovered = isCovered || isComplete;
     }
-    range.include(0.0);
+    if (!isCovered) range.include(0.0);
     return range;
 }
 

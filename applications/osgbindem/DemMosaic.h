@@ -3,15 +3,20 @@
 
 #pragma once
 
+#include "BlendBand.h"
 #include "DemSource.h"
 #include "Settings.h"
+#include "VerticalShift.h"
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace osgbindem {
 
-/// All elevation rasters as one: at each position the finest raster that has data there, and 0 m where none has.
+/// All elevation rasters as one: at each position the finest raster that has data there, voids filled from those below
+/// it, its border blended with them, and 0 m where none has.
 /// Of equally fine rasters the one named first counts. Not for use by several threads: each has its own.
 class DemMosaic final {
 public:
@@ -20,6 +25,8 @@ public:
 
     /// The same of the overviews that are as fine as the spacing of posts, where settings allow them. Throws Failure.
     DemMosaic(const Settings& settings, double spacingDeg);
+    DemMosaic(const DemMosaic&) = delete;
+    DemMosaic& operator=(const DemMosaic&) = delete;
 
     /// Metres above the ellipsoid; the same number for the same position, whatever was read before.
     [[nodiscard]] double height(const PositionDeg& position);
@@ -45,8 +52,18 @@ public:
     [[nodiscard]] double posts(const RectDeg& rect) const noexcept;
 
 private:
+    /// Of the rasters from this one on, finest first; nullopt where none of them has data.
+    [[nodiscard]] std::optional<double> heightFrom(std::size_t source, const PositionDeg& position);
+
+    /// As DemSource::addRange(), above the ellipsoid.
+    [[nodiscard]] bool addRange(std::size_t source, const RectDeg& rect, HeightRange& range);
+
     double _mostPosts;
     std::vector<std::unique_ptr<DemSource>> _sources;
+    /// One for each source.
+    std::vector<VerticalShift> _shifts;
+    /// One for each source.
+    std::vector<BlendBand> _bands;
 };
 
 }  // namespace osgbindem

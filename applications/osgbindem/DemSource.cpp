@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace osgbindem {
 
@@ -59,7 +60,7 @@ DemSource::Decoder DemSource::decoderOf(GDALRasterBand& band, const DemOptions& 
 }
 
 DemSource::DemSource(const DemOptions& options)
-    : _raster(options.raster), _decoder(decoderOf(*_raster.dataset().GetRasterBand(1), options)) {
+    : _raster(options.raster), _decoder(decoderOf(*_raster.dataset().GetRasterBand(1), options)), _voids(voidFill({})) {
     if (_raster.warpSource() != nullptr) {
         _sourceDecoder = decoderOf(*_raster.warpSource()->GetRasterBand(1), options);
         _decoder.scale = _sourceDecoder.scale;
@@ -68,6 +69,19 @@ DemSource::DemSource(const DemOptions& options)
     _blockColumns = (_raster.width() + kBlock - 1) / kBlock;
     const int blockRows = (_raster.height() + kBlock - 1) / kBlock;
     _blocks.resize(static_cast<std::size_t>(_blockColumns) * static_cast<std::size_t>(blockRows), BlockState::Unknown);
+}
+
+VoidFill DemSource::voidFill(VoidFill::Coarser coarser) {
+    const auto readPosts = [this](const PixelWindow& window, std::vector<double>& heights) {
+        read(_raster.dataset(), _decoder, window, heights);
+    };
+    return {{grid().columns(), grid().rows(), grid().isGlobal()}, readPosts, std::move(coarser)};
+}
+
+void DemSource::setCoarser(Coarser coarser) {
+    _voids = voidFill([this, coarser = std::move(coarser)](int column, int row) {
+        return coarser(grid().position(column, row)).value_or(kNaN);
+    });
 }
 
 void DemSource::read(GDALDataset& dataset, const Decoder& decoder, const PixelWindow& window,
@@ -96,24 +110,37 @@ const DemSource::Page* DemSource::pageWith(const PixelWindow& window) const noex
 }
 
 double DemSource::post(int column, int row) {
-    if (const Page* page = pageWith({column, row, 1, 1})) {
-        return page->heights[static_cast<std::size_t>(page->offset(column, row))];
-    }
-    read(_raster.dataset(), _decoder, {column, row, 1, 1}, _scratch);
-    return _scratch.front();
+    const Page* page = pageWith({column, row, 1, 1});
+    if (page == nullptr) read(_raster.dataset(), _decoder, {column, row, 1, 1}, _scratch);
+    const double height =
+        page == nullptr ? _scratch.front() : page->heights[static_cast<std::size_t>(page->offset(column, row))];
+    return std::isnan(height) ? _voids.at(column, row) : height;
 }
 
 std::optional<double> DemSource::height(const PositionDeg& position) {
     const auto cell = grid().locate(position);
     if (!cell) return std::nullopt;
+    // Nearly always one page has all four posts.
+    const Page* page = nullptr;
+    for (const Page& candidate : _pages) {
+        if (candidate.window.contains(cell->west, cell->first) && candidate.window.contains(cell->east, cell->second)) {
+            page = &candidate;
+            break;
+        }
+    }
+    const auto at = [&](int column, int row) {
+        if (page == nullptr) return post(column, row);
+        const double height = page->heights[static_cast<std::size_t>(page->offset(column, row))];
+        return std::isnan(height) ? _voids.at(column, row) : height;
+    };
     const double u = cell->eastWeight;
     const double v = cell->secondWeight;
-    const double first = u > 0.0 ? (1.0 - u) * post(cell->west, cell->first) + u * post(cell->east, cell->first)
-                                 : post(cell->west, cell->first);
+    const double first = u > 0.0 ? (1.0 - u) * at(cell->west, cell->first) + u * at(cell->east, cell->first)
+                                 : at(cell->west, cell->first);
     double height = first;
     if (v > 0.0) {
-        const double second = u > 0.0 ? (1.0 - u) * post(cell->west, cell->second) + u * post(cell->east, cell->second)
-                                      : post(cell->west, cell->second);
+        const double second = u > 0.0 ? (1.0 - u) * at(cell->west, cell->second) + u * at(cell->east, cell->second)
+                                      : at(cell->west, cell->second);
         height = (1.0 - v) * first + v * second;
     }
     if (std::isnan(height)) return std::nullopt;
@@ -140,33 +167,53 @@ double DemSource::prefetch(const RectDeg& rect, double mostPosts) {
     return wanted;
 }
 
-bool DemSource::addRange(GDALDataset& dataset, const Decoder& decoder, const PixelWindow& window, HeightRange& range) {
-    bool isComplete = true;
-    const int rows = std::max(1, static_cast<int>(kMostAtOnce / window.width));
-    for (int row = window.row; row < window.row + window.height; row += rows) {
+/// Calls `rows(part, heights)` for parts of the window that are small enough to be in memory.
+template <typename Rows>
+void DemSource::readInParts(GDALDataset& dataset, const Decoder& decoder, const PixelWindow& window, const Rows& rows) {
+    const int most = std::max(1, static_cast<int>(kMostAtOnce / window.width));
+    for (int row = window.row; row < window.row + window.height; row += most) {
         throwIfStopRequested();
-        const int count = std::min(rows, window.row + window.height - row);
-        read(dataset, decoder, {window.column, row, window.width, count}, _scratch);
-        for (const double height : _scratch) {
+        const PixelWindow part{window.column, row, window.width, std::min(most, window.row + window.height - row)};
+        read(dataset, decoder, part, _scratch);
+        rows(part);
+    }
+}
+
+bool DemSource::addRange(const PixelWindow& window, HeightRange& range) {
+    bool isComplete = true;
+    readInParts(_raster.dataset(), _decoder, window, [&](const PixelWindow& part) {
+        std::vector<double> heights = std::move(_scratch);  // filling voids may read
+        for (std::size_t i = 0; i < heights.size(); ++i) {
+            const int place = static_cast<int>(i);
+            const double height = std::isnan(heights[i])
+                                      ? _voids.at(part.column + place % part.width, part.row + place / part.width)
+                                      : heights[i];
             if (std::isnan(height)) {
                 isComplete = false;
             } else {
                 range.include(height);
             }
         }
-    }
+        _scratch = std::move(heights);
+    });
     return isComplete;
+}
+
+void DemSource::addSourceRange(const PixelWindow& window, HeightRange& range) {
+    readInParts(*_raster.warpSource(), _sourceDecoder, window, [&](const PixelWindow&) {
+        for (const double height : _scratch) {
+            if (!std::isnan(height)) range.include(height);
+        }
+    });
 }
 
 bool DemSource::addRange(const RectDeg& rect, HeightRange& range) {
     bool isComplete = grid().covers(rect);
     for (const PixelWindow& window : grid().touching(rect)) {
-        isComplete = addRange(_raster.dataset(), _decoder, window, range) && isComplete;
+        isComplete = addRange(window, range) && isComplete;
         if (_raster.warpSource() == nullptr) continue;
         // The warped posts are averages; the file has the peaks.
-        for (const PixelWindow& source : _raster.sourceWindows(window)) {
-            addRange(*_raster.warpSource(), _sourceDecoder, source, range);
-        }
+        for (const PixelWindow& source : _raster.sourceWindows(window)) addSourceRange(source, range);
     }
     return isComplete;
 }

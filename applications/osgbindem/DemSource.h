@@ -4,9 +4,11 @@
 #pragma once
 
 #include "GdalRaster.h"
+#include "VoidFill.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -37,18 +39,27 @@ public:
 
     /// Throws Failure.
     explicit DemSource(const DemOptions& options);
+    DemSource(const DemSource&) = delete;
+    DemSource& operator=(const DemSource&) = delete;
 
     [[nodiscard]] const std::string& path() const noexcept { return _raster.path(); }
+    [[nodiscard]] const GdalRaster& raster() const noexcept { return _raster; }
     [[nodiscard]] const RasterGrid& grid() const noexcept { return _raster.grid(); }
 
-    /// Metres at a position, bilinear between posts. Returns: nullopt where there is no data.
+    /// The height of coarser rasters; nullopt where they have none.
+    using Coarser = std::function<std::optional<double>(const PositionDeg&)>;
+
+    /// Fills large voids too, from what coarser rasters have there; before the first height is asked for.
+    void setCoarser(Coarser coarser);
+
+    /// Metres at a position, bilinear between posts, voids filled. Returns: nullopt where there is no data.
     [[nodiscard]] std::optional<double> height(const PositionDeg& position);
 
     /// Whether any post within the rectangle has data.
     [[nodiscard]] bool hasData(const RectDeg& rect);
 
-    /// Adds the heights of all posts that have part in the rectangle, at the full resolution of the file.
-    /// Returns: whether the raster has data everywhere in the rectangle.
+    /// Adds the heights of all posts that have part in the rectangle, at the full resolution of the file, voids filled.
+    /// Returns: whether the raster has heights everywhere in the rectangle.
     bool addRange(const RectDeg& rect, HeightRange& range);
 
     /// Reads what touches the rectangle into memory, if it is not there and is not too much.
@@ -80,11 +91,15 @@ private:
 
     [[nodiscard]] static Decoder decoderOf(GDALRasterBand& band, const DemOptions& options);
     void read(GDALDataset& dataset, const Decoder& decoder, const PixelWindow& window, std::vector<double>& heights);
-    bool addRange(GDALDataset& dataset, const Decoder& decoder, const PixelWindow& window, HeightRange& range);
+    bool addRange(const PixelWindow& window, HeightRange& range);
+    void addSourceRange(const PixelWindow& window, HeightRange& range);
+    template <typename Rows>
+    void readInParts(GDALDataset& dataset, const Decoder& decoder, const PixelWindow& window, const Rows& rows);
     [[nodiscard]] bool hasData(const PixelWindow& window);
     [[nodiscard]] bool windowHasData(const PixelWindow& window);
     [[nodiscard]] bool blockHasData(int blockColumn, int blockRow);
     [[nodiscard]] double post(int column, int row);
+    [[nodiscard]] VoidFill voidFill(VoidFill::Coarser coarser);
     [[nodiscard]] const Page* pageWith(const PixelWindow& window) const noexcept;
 
     GdalRaster _raster;
@@ -94,6 +109,7 @@ private:
     std::vector<double> _scratch;
     std::vector<BlockState> _blocks;
     int _blockColumns = 0;
+    VoidFill _voids;
 };
 
 }  // namespace osgbindem

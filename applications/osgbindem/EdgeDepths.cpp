@@ -44,7 +44,8 @@ std::array<TileId, 2> childrenAlong(const TileId& tile, Edge edge) {
 }
 
 bool EdgeDepths::hasChildren(const TileId& tile) {
-    if (tile.level >= _layout.deepestLevel()) return false;
+    if (tile.level >= _layout.deepestLevel() || !_layout.isInRegion(tile)) return false;
+    if (tile.level < _layout.startLevel()) return true;
     const auto known = _known.find(tile);
     if (known != _known.end()) return known->second;
     const bool result = _mosaic.hasFinerData(tile.rect(), _layout.spacingDeg(tile.level));
@@ -69,7 +70,7 @@ int EdgeDepths::deepestAlong(const TileId& tile, Edge edge) {
 int EdgeDepths::coarsestAcross(const TileId& tile, Edge edge) {
     const auto neighbour = tile.neighbour(edge);
     if (!neighbour) return tile.level;
-    int level = 0;
+    int level = _layout.startLevel();
     while (level < tile.level && hasChildren(neighbour->ancestor(level))) ++level;
     return level;
 }

@@ -18,7 +18,7 @@ namespace osgbindem {
 [[nodiscard]] std::array<TileId, 2> childrenAlong(const TileId& tile, Edge edge);
 
 /// Knows which tiles have children, and so how deep the tree is on either side of an edge.
-/// A tile has children when a raster finer than its posts has data in it.
+/// A tile has children when a raster finer than its posts has data in it, and the tile is part of the region.
 class EdgeDepths final {
 public:
     EdgeDepths(DemMosaic& mosaic, const TileLayout& layout) : _mosaic(mosaic), _layout(layout) {}

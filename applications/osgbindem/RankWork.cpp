@@ -126,7 +126,7 @@ void work(const Settings& settings, const Ranks& ranks) {
     prepareNodeFiles();
     const TileLayout layout = layoutFor(settings, DemMosaic(settings));
     const DatabaseFolder folder(settings.output);
-    const TileFiles files = folder.files();
+    const TileFiles files = folder.files(layout);
     const BuildState state(folder.stateFolder());
     Progress progress(false, 1.0);
     const Site site{settings, layout, files, state, progress};

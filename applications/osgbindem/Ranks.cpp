@@ -39,6 +39,10 @@ bool isLaunched() {
 
 }  // namespace
 
+bool Ranks::isStartedByMpi() {
+    return isLaunched();
+}
+
 bool Ranks::isSpeaker() {
     if (startedRank) return *startedRank == 0;
     for (const char* name : kRankVariables) {

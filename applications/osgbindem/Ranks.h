@@ -38,6 +38,9 @@ public:
     Ranks& operator=(const Ranks&) = delete;
     ~Ranks();
 
+    /// Whether mpirun started the program; then what looks like a terminal may be none.
+    [[nodiscard]] static bool isStartedByMpi();
+
     /// Whether this program is the one that speaks to the user: rank 0, as the environment tells before MPI has
     /// started.
     [[nodiscard]] static bool isSpeaker();

@@ -108,25 +108,25 @@ std::optional<PostCell> RasterGrid::locate(const PositionDeg& position) const no
     return cell;
 }
 
-std::vector<RasterGrid::Span> RasterGrid::columns(int first, int last) const {
-    std::vector<Span> spans;
-    if (last < first) return spans;
+std::vector<RasterGrid::Span> RasterGrid::spans(int first, int last) const {
+    std::vector<Span> found;
+    if (last < first) return found;
     if (_isGlobal) {
         const int count = last - first + 1;
         if (count >= _width) return {{0, _width}};
         const int start = ((first % _width) + _width) % _width;
         const int direct = std::min(count, _width - start);
-        spans.push_back({start, direct});
-        if (count > direct) spans.push_back({0, count - direct});
-        return spans;
+        found.push_back({start, direct});
+        if (count > direct) found.push_back({0, count - direct});
+        return found;
     }
     const double turn = 360.0 / _dx;
     for (int k = -2; k <= 2; ++k) {
         const int a = std::max(0, floorOf(first + k * turn));
         const int b = std::min(_width - 1, ceilOf(last + k * turn));
-        if (a <= b) spans.push_back({a, b - a + 1});
+        if (a <= b) found.push_back({a, b - a + 1});
     }
-    return spans;
+    return found;
 }
 
 std::vector<PixelWindow> RasterGrid::windows(int firstColumn, int lastColumn, int firstRow, int lastRow) const {
@@ -134,7 +134,7 @@ std::vector<PixelWindow> RasterGrid::windows(int firstColumn, int lastColumn, in
     firstRow = std::max(firstRow, 0);
     lastRow = std::min(lastRow, _height - 1);
     if (firstRow > lastRow) return result;
-    for (const Span& span : columns(firstColumn, lastColumn)) {
+    for (const Span& span : spans(firstColumn, lastColumn)) {
         result.push_back({span.first, firstRow, span.count, lastRow - firstRow + 1});
     }
     return result;

@@ -58,6 +58,9 @@ public:
     /// The geotransform in GDAL's order, without rotation and with columns running eastward; rows may run either way.
     RasterGrid(const std::array<double, 6>& geoTransform, int width, int height) noexcept;
 
+    [[nodiscard]] int columns() const noexcept { return _width; }
+    [[nodiscard]] int rows() const noexcept { return _height; }
+
     /// True when the raster goes round the globe.
     [[nodiscard]] bool isGlobal() const noexcept { return _isGlobal; }
 
@@ -81,6 +84,10 @@ public:
     /// The posts that lie within the rectangle and not on its edge.
     [[nodiscard]] std::vector<PixelWindow> inside(const RectDeg& rect) const;
 
+    [[nodiscard]] PositionDeg position(int column, int row) const noexcept {
+        return {_firstLatitude + row * _dy, _firstLongitude + column * _dx};
+    }
+
     [[nodiscard]] double columnOf(double longitudeDeg) const noexcept { return (longitudeDeg - _firstLongitude) / _dx; }
     [[nodiscard]] double rowOf(double latitudeDeg) const noexcept { return (latitudeDeg - _firstLatitude) / _dy; }
 
@@ -89,7 +96,7 @@ private:
         int first = 0;
         int count = 0;
     };
-    [[nodiscard]] std::vector<Span> columns(int first, int last) const;
+    [[nodiscard]] std::vector<Span> spans(int first, int last) const;
     [[nodiscard]] std::vector<PixelWindow> windows(int firstColumn, int lastColumn, int firstRow, int lastRow) const;
 
     int _width;

@@ -7,6 +7,7 @@
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <ogr_spatialref.h>
+#include <osg/LightModel>
 #include <osg/Material>
 
 #include <algorithm>
@@ -41,10 +42,19 @@ osg::ref_ptr<osg::CoordinateSystemNode> makeRoot(const Settings& settings) {
     const osg::ref_ptr<osg::Material> material = new osg::Material;
     material->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
     root->getOrCreateStateSet()->setAttributeAndModes(material);
+    // The colours have their own light and shade; a light that stands with the eye adds little of its own.
+    constexpr float kAmbient = 0.7F;
+    const osg::ref_ptr<osg::LightModel> light = new osg::LightModel;
+    light->setAmbientIntensity(osg::Vec4(kAmbient, kAmbient, kAmbient, 1.0F));
+    root->getOrCreateStateSet()->setAttribute(light);
     return root;
 }
 
-void declareHorizon(osg::Group& root) {
+void declareHorizon(osg::Group& root, const TileLayout& layout) {
+    if (layout.isRegional()) {
+        root.setUpdateCallback(new osgAnalyticBin::InstallBinsCallback);
+        return;
+    }
     double lowest = 0.0;
     for (unsigned int i = 0; i < root.getNumChildren(); ++i) {
         const osgAnalyticBin::AnalyticBin bin = osgAnalyticBin::storedBin(*root.getChild(i));

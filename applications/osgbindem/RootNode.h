@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Settings.h"
+#include "TileLayout.h"
 
 #include <osg/CoordinateSystemNode>
 
@@ -12,7 +13,8 @@ namespace osgbindem {
 /// The root node of a database, without tiles.
 [[nodiscard]] osg::ref_ptr<osg::CoordinateSystemNode> makeRoot(const Settings& settings);
 
-/// Declares below what nothing is drawn: the globe is whole, so that what lies behind it is hidden.
-void declareHorizon(osg::Group& root);
+/// Declares below what nothing is drawn: a globe is whole, so that what lies behind it is hidden. Of a region nothing
+/// is declared: where its horizon can be used is found out when it is shown.
+void declareHorizon(osg::Group& root, const TileLayout& layout);
 
 }  // namespace osgbindem

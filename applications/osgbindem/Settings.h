@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "RasterGrid.h"
+
 #include <osgAnalyticBin/core/Ellipsoid.h>
 
 #include <optional>
@@ -22,12 +24,18 @@ struct DemInput {
 struct Settings {
     std::vector<DemInput> dems;
     std::optional<double> nodata;
+    /// What heights are above: "none" (as they are), "egm96", a file with a grid; empty: as the rasters say.
+    std::string geoid;
+    /// Metres over which a raster gives way to coarser ones at its border, 0 for none; without it by the rasters.
+    std::optional<double> blend;
     std::string image;
     std::string output;
     osgAnalyticBin::core::Ellipsoid ellipsoid{1.0, 1.0};
     /// Whether the radii are those of a default osg::EllipsoidModel.
     bool isWgs84 = true;
-    /// Levels below the start tiles.
+    /// The part of the earth that is built; all of it without. East is greater than west, and may pass 180.
+    std::optional<RectDeg> region;
+    /// Levels below the start tiles of a whole globe.
     std::optional<int> levels;
     /// Cells along a tile's edge.
     std::optional<int> cells;

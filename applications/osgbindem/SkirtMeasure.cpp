@@ -95,7 +95,7 @@ EdgeSkirt SkirtMeasure::measureEdge(const HeightGrid& heights, Edge edge) {
     }
     const int deepest = _depths.deepestAlong(tile, edge);
     for (int level = tile.level + 1; level <= deepest; ++level) compareWithFiner(own, level, skirt);
-    const int coarsest = std::max(0, std::min(tile.level - 1, _depths.coarsestAcross(tile, edge)));
+    const int coarsest = std::max(_layout.startLevel(), std::min(tile.level - 1, _depths.coarsestAcross(tile, edge)));
     for (int level = tile.level - 1; level >= coarsest; --level) compareWithCoarser(own, level, skirt);
 
     // Vertices are rounded to the quantum of their level, the coarsest most, and heights to whole steps; the factor

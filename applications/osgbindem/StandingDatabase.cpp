@@ -17,7 +17,7 @@ using osgAnalyticBin::support::Failure;
 
 namespace {
 
-std::vector<AnalyticBin> binsFrom(const std::string& file, unsigned int tiles) {
+std::vector<AnalyticBin> binsFrom(const std::string& file, std::size_t tiles) {
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
     options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
     const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file, options);
@@ -34,12 +34,12 @@ std::vector<AnalyticBin> binsFrom(const std::string& file, unsigned int tiles) {
 
 const StandingDatabase::Bins& StandingDatabase::Start::bins() {
     const std::lock_guard<std::mutex> guard(_mutex);
-    if (_bins.empty()) _bins = binsFrom(_file, TileId::kStartColumns * TileId::kStartRows);
+    if (_bins.empty()) _bins = binsFrom(_file, _layout.startTiles().size());
     return _bins;
 }
 
 const StandingDatabase::Bins& StandingDatabase::binsBeside(const TileId& tile) {
-    if (tile.level == 0) return _start->bins();
+    if (tile.level == _layout.startLevel()) return _start->bins();
     const TileId parent = tile.ancestor(tile.level - 1);
     if (!(_parent == parent)) {
         _siblings = binsFrom(_files.pathOfChildren(parent), 4);
@@ -50,11 +50,11 @@ const StandingDatabase::Bins& StandingDatabase::binsBeside(const TileId& tile) {
 
 AnalyticBin StandingDatabase::bin(const TileId& tile) {
     const Bins& bins = binsBeside(tile);
-    auto place = static_cast<std::size_t>(tile.y * TileId::kStartColumns + tile.x);
-    if (tile.level > 0) {
-        const auto siblings = tile.ancestor(tile.level - 1).children();
-        place = static_cast<std::size_t>(std::find(siblings.begin(), siblings.end(), tile) - siblings.begin());
-    }
+    const auto placeIn = [&tile](const auto& tiles) {
+        return static_cast<std::size_t>(std::find(tiles.begin(), tiles.end(), tile) - tiles.begin());
+    };
+    const std::size_t place = tile.level == _layout.startLevel() ? placeIn(_layout.startTiles())
+                                                                 : placeIn(tile.ancestor(tile.level - 1).children());
     if (!bins[place].valid()) throw Failure("tile " + tileName(tile) + " has no bin; build the database anew");
     return bins[place];
 }

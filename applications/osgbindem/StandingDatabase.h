@@ -20,8 +20,8 @@ namespace osgbindem {
 /// large: the copies read it once together, when one of them needs it.
 class StandingDatabase final {
 public:
-    StandingDatabase(std::string rootFile, TileFiles files)
-        : _start(std::make_shared<Start>(std::move(rootFile))), _files(std::move(files)) {}
+    StandingDatabase(std::string rootFile, TileFiles files, const TileLayout& layout)
+        : _layout(layout), _start(std::make_shared<Start>(std::move(rootFile), layout)), _files(std::move(files)) {}
 
     [[nodiscard]] bool hasChildren(const TileId& tile) const { return _files.hasChildren(tile); }
 
@@ -34,13 +34,14 @@ private:
     /// The start tiles; may be used by several threads.
     class Start {
     public:
-        explicit Start(std::string file) : _file(std::move(file)) {}
+        Start(std::string file, const TileLayout& layout) : _file(std::move(file)), _layout(layout) {}
 
         /// Reads them when asked first. Throws Failure.
         [[nodiscard]] const Bins& bins();
 
     private:
         std::string _file;
+        const TileLayout& _layout;
         std::mutex _mutex;
         Bins _bins;
     };
@@ -48,6 +49,7 @@ private:
     /// Of the tiles in the file with the tile.
     [[nodiscard]] const Bins& binsBeside(const TileId& tile);
 
+    const TileLayout& _layout;
     std::shared_ptr<Start> _start;
     TileFiles _files;
     std::optional<TileId> _parent;

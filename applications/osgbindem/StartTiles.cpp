@@ -9,10 +9,9 @@
 namespace osgbindem {
 
 void StartTiles::build(TileBuilder& builder) {
-    for (std::size_t i = _next++; i < kCount; i = _next++) {
-        if (i == 0) _shared = builder.sharedParts(0);  // which are the same for all builders
-        const int place = static_cast<int>(i);
-        _tiles[i] = builder.build({0, place % TileId::kStartColumns, place / TileId::kStartColumns});
+    for (std::size_t i = _next++; i < _tiles.size(); i = _next++) {
+        if (i == 0) _shared = builder.sharedParts(_layout.startLevel());  // which are the same for all builders
+        _tiles[i] = builder.build(_layout.startTiles()[i]);
     }
 }
 
@@ -22,7 +21,7 @@ std::string StartTiles::rootBytes() const {
         root->addChild(tile->node);
         _shared->addTo(*tile->geometry);
     }
-    declareHorizon(*root);
+    declareHorizon(*root, _layout);
     return nodeFileBytes(*root, _settings.compress);
 }
 

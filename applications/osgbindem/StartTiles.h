@@ -6,18 +6,19 @@
 #include "Settings.h"
 #include "TileBuilder.h"
 
-#include <array>
 #include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace osgbindem {
 
 /// The start tiles, made of what the tasks have left of the tiles below them.
 class StartTiles final {
 public:
-    explicit StartTiles(const Settings& settings) : _settings(settings) {}
+    StartTiles(const Settings& settings, const TileLayout& layout)
+        : _settings(settings), _layout(layout), _tiles(layout.startTiles().size()) {}
 
     /// Requires: all tasks are finished, and the builder finds what they have left. May be called by several threads;
     /// they share the tiles.
@@ -27,10 +28,9 @@ public:
     [[nodiscard]] std::string rootBytes() const;
 
 private:
-    static constexpr std::size_t kCount = std::size_t{TileId::kStartColumns} * TileId::kStartRows;
-
     const Settings& _settings;
-    std::array<std::unique_ptr<BuiltTile>, kCount> _tiles;
+    const TileLayout& _layout;
+    std::vector<std::unique_ptr<BuiltTile>> _tiles;
     std::optional<SharedParts> _shared;
     std::atomic<std::size_t> _next{0};
 };

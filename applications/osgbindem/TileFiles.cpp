@@ -62,12 +62,12 @@ std::string tileName(const TileId& tile) {
     return text("L%02d_X%d_Y%d", tile.level, tile.x, tile.y);
 }
 
-TileFiles::TileFiles(std::string folder, std::string finalName)
-    : _folder(std::move(folder)), _finalName(std::move(finalName)) {}
+TileFiles::TileFiles(std::string folder, std::string finalName, int startLevel)
+    : _folder(std::move(folder)), _finalName(std::move(finalName)), _startLevel(startLevel) {}
 
 std::string TileFiles::childrenFile(const TileId& tile) const {
     const std::string file = fileOf(tile);
-    if (tile.level == 0) return _finalName + "/" + folderOf(tile) + "/" + file;
+    if (tile.level == _startLevel) return _finalName + "/" + folderOf(tile) + "/" + file;
     return tile.level % kLevelsPerFolder == 0 ? tileName(tile) + "/" + file : file;
 }
 

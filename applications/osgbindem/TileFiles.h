@@ -20,8 +20,9 @@ namespace osgbindem {
 /// The files with tiles, below one folder. May be used by several threads and programs at once, for different tiles.
 class TileFiles final {
 public:
-    /// `folder`: where they are written; `finalName`: the name, without path, that it is going to have.
-    TileFiles(std::string folder, std::string finalName);
+    /// `folder`: where they are written; `finalName`: the name, without path, that it is going to have; `startLevel`:
+    /// of the tiles in the root file.
+    TileFiles(std::string folder, std::string finalName, int startLevel);
 
     /// Name of the file with the children of a tile, seen from the file that has the tile.
     [[nodiscard]] std::string childrenFile(const TileId& tile) const;
@@ -41,6 +42,7 @@ private:
 
     std::string _folder;
     std::string _finalName;
+    int _startLevel;
 };
 
 }  // namespace osgbindem

@@ -31,6 +31,7 @@ void colour(osgAnalyticBin::TerrainGrid& grid, const osg::Image* image) {
         return;
     }
     grid.colours = hypsometricStops();
+    grid.relief = true;
 }
 
 osg::ref_ptr<osg::Geometry> makeGeometry(const osgAnalyticBin::TerrainGrid& grid, osg::Image* image, bool isPacked) {

@@ -18,6 +18,24 @@ std::int64_t wrapped(std::int64_t value, std::int64_t count) {
     return ((value % count) + count) % count;
 }
 
+/// The tiles of a level that have more than an edge in common with the region, row by row from the south-west.
+std::vector<TileId> tilesOf(int level, const std::optional<RectDeg>& region) {
+    const RectDeg rect = region.value_or(RectDeg{-180.0, -90.0, 180.0, 90.0});
+    const TileId all{level, 0, 0};
+    const double size = std::ldexp(TileLayout::kStartTileDeg, -level);
+    const auto firstOf = [size](double place) { return static_cast<std::int64_t>(std::floor(place / size)); };
+    const auto endOf = [size](double place) { return static_cast<std::int64_t>(std::ceil(place / size)); };
+    const std::int64_t west = firstOf(rect.west + 180.0);
+    const std::int64_t east = std::min(endOf(rect.east + 180.0), west + all.columns());
+    const std::int64_t south = std::max<std::int64_t>(firstOf(rect.south + 90.0), 0);
+    const std::int64_t north = std::min<std::int64_t>(endOf(rect.north + 90.0), all.rows());
+    std::vector<TileId> tiles;
+    for (std::int64_t y = south; y < north; ++y)
+        for (std::int64_t x = west; x < east; ++x)
+            tiles.push_back({level, static_cast<int>(wrapped(x, all.columns())), static_cast<int>(y)});
+    return tiles;
+}
+
 }  // namespace
 
 std::array<TileId, 4> TileId::children() const noexcept {
@@ -75,8 +93,28 @@ int TileLayout::levelFor(double resolutionDeg, int cells) noexcept {
     return level;
 }
 
-TileLayout::TileLayout(int cells, int deepestLevel, const osgAnalyticBin::core::Ellipsoid& ellipsoid) noexcept
-    : _cells(cells), _deepestLevel(deepestLevel), _ellipsoid(ellipsoid) {}
+TileLayout::TileLayout(int cells, int deepestLevel, const osgAnalyticBin::core::Ellipsoid& ellipsoid,
+                       const std::optional<RectDeg>& region)
+    : _cells(cells), _deepestLevel(deepestLevel), _region(region), _ellipsoid(ellipsoid) {
+    constexpr std::size_t kMostStartTiles = 16;
+    _startTiles = tilesOf(0, region);
+    while (_region && _startLevel < _deepestLevel) {
+        std::vector<TileId> finer = tilesOf(_startLevel + 1, region);
+        if (finer.size() > kMostStartTiles) break;
+        _startTiles = std::move(finer);
+        ++_startLevel;
+    }
+}
+
+bool TileLayout::isInRegion(const TileId& tile) const noexcept {
+    if (!_region) return true;
+    const RectDeg rect = tile.rect();
+    if (rect.south >= _region->north || rect.north <= _region->south) return false;
+    for (const double turn : {-360.0, 0.0, 360.0, 720.0}) {
+        if (rect.west + turn < _region->east && rect.east + turn > _region->west) return true;
+    }
+    return false;
+}
 
 double TileLayout::spacingDeg(int level) const noexcept {
     return std::ldexp(kStartTileDeg / _cells, -level);

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace osgbindem {
 
@@ -71,7 +72,20 @@ public:
     /// The first level than whose posts the raster is not finer; at most kDeepest.
     [[nodiscard]] static int levelFor(double resolutionDeg, int cells) noexcept;
 
-    TileLayout(int cells, int deepestLevel, const osgAnalyticBin::core::Ellipsoid& ellipsoid) noexcept;
+    /// `region`: all that is refined, the whole globe without.
+    TileLayout(int cells, int deepestLevel, const osgAnalyticBin::core::Ellipsoid& ellipsoid,
+               const std::optional<RectDeg>& region = std::nullopt);
+
+    /// The level of the coarsest tiles: 0 for a globe; for a region the deepest of which few tiles cover it.
+    [[nodiscard]] int startLevel() const noexcept { return _startLevel; }
+
+    /// The coarsest tiles, row by row from the south-west. Those of a region fill a rectangle.
+    [[nodiscard]] const std::vector<TileId>& startTiles() const noexcept { return _startTiles; }
+
+    /// Whether the region has more than an edge in common with the tile.
+    [[nodiscard]] bool isInRegion(const TileId& tile) const noexcept;
+
+    [[nodiscard]] bool isRegional() const noexcept { return _region.has_value(); }
 
     /// Even, so that every other post of a tile is a post of its parent.
     [[nodiscard]] int cells() const noexcept { return _cells; }
@@ -98,6 +112,9 @@ public:
 private:
     int _cells;
     int _deepestLevel;
+    std::optional<RectDeg> _region;
+    int _startLevel = 0;
+    std::vector<TileId> _startTiles;
     osgAnalyticBin::core::Ellipsoid _ellipsoid;
 };
 

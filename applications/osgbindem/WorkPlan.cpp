@@ -3,9 +3,13 @@
 
 #include "WorkPlan.h"
 
+#include "Failure.h"
+
 #include <algorithm>
 
 namespace osgbindem {
+
+using osgAnalyticBin::support::Failure;
 
 namespace {
 
@@ -34,12 +38,15 @@ void split(const Task& task, double most, DemMosaic& mosaic, EdgeDepths& depths,
 TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic) {
     const int cells = settings.cells.value_or(TileLayout::cellsFor(mosaic.finestGlobalDeg()));
     const int levels = settings.levels.value_or(TileLayout::levelFor(mosaic.finestDeg(), cells));
-    return TileLayout(cells, levels, settings.ellipsoid);
+    return TileLayout(cells, levels, settings.ellipsoid, settings.region);
 }
 
 TileLayout checkedLayoutFor(const Settings& settings) {
     DemMosaic mosaic(settings);
     mosaic.requireData();
+    if (settings.region && !(mosaic.posts(*settings.region) > 0.0)) {
+        throw Failure("no raster has a part within -te; give degrees as WEST SOUTH EAST NORTH");
+    }
     return layoutFor(settings, mosaic);
 }
 
@@ -52,11 +59,9 @@ double weightOf(const std::vector<Task>& tasks) {
 std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout) {
     std::vector<Task> starts;
     double sum = 0.0;
-    for (int y = 0; y < TileId::kStartRows; ++y) {
-        for (int x = 0; x < TileId::kStartColumns; ++x) {
-            starts.push_back(taskFor({0, x, y}, mosaic, layout));
-            sum += starts.back().weight;
-        }
+    for (const TileId& tile : layout.startTiles()) {
+        starts.push_back(taskFor(tile, mosaic, layout));
+        sum += starts.back().weight;
     }
     std::vector<Task> tasks;
     const double most = std::min(sum / kFewestTasks, kMostWeight);

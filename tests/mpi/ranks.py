@@ -21,6 +21,17 @@ SKIPPED = 77
 MPIRUN = ["mpirun", "-q", "--oversubscribe", "--bind-to", "none"]
 
 
+def cut_void(file):
+    """Voids that are filled from their rim and from the globe."""
+    lines = file.read_text(encoding="ascii").splitlines()
+    rows = [line.split() for line in lines[5:]]
+    for row in range(8, 30):
+        rows[row][10:32] = ["-9999"] * 22
+    rows[3][3:6] = ["-9999"] * 3
+    lines = lines[:5] + ["NODATA_value -9999"] + [" ".join(row) for row in rows]
+    file.write_text("\n".join(lines) + "\n", encoding="ascii")
+
+
 class Ranks:
     def __init__(self, work, osgbindem):
         self.work, self.osgbindem = work, osgbindem
@@ -28,6 +39,7 @@ class Ranks:
         work.mkdir(parents=True)
         write_grid(work / "globe.asc", 720, 360, -180, -90, 0.5)
         write_grid(work / "inset.asc", 40, 40, 10, 40, 0.1)
+        cut_void(work / "inset.asc")
         succeed(self.build(self.folder("alone")) + ["--quiet"])
         self.expected = tree(work / "alone")
         require(len(self.expected) > 100, "the database is too small to be shared")

@@ -109,3 +109,71 @@ TEST(TerrainGrid, SharedPostsComeToTheSamePoint) {
     const auto b = osgAnalyticBin::verticesOf(east);
     for (std::size_t row = 0; row <= 6; ++row) EXPECT_EQ(a[row * 7 + 6], b[row * 7]);
 }
+
+namespace {
+
+/// A slope that rises eastward or northward, at 45 degrees north.
+TerrainGrid slope(int eastward, int northward) {
+    TerrainGrid grid;
+    grid.ellipsoid = osgAnalyticBin::core::Ellipsoid(6378137.0, 6356752.3142);
+    grid.cells = 4;
+    grid.columns = 36000;
+    grid.firstColumn = 18000;
+    grid.firstRow = 13500;
+    grid.quantum = 1.0 / 1024.0;
+    for (int row = -1; row <= 5; ++row)
+        for (int column = -1; column <= 5; ++column)
+            grid.heights.push_back(64 * (1000 + 300 * (eastward * column + northward * row)));
+    for (TerrainGrid::Skirt& skirt : grid.skirts) skirt.depth = skirt.lean = std::vector<std::int32_t>(5, 1);
+    grid.colours = {{-10.0F, {100, 100, 100}}, {9000.0F, {101, 101, 101}}};
+    grid.relief = true;
+    return grid;
+}
+
+int brightness(const TerrainGrid& grid) {
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    osgAnalyticBin::fillGeometry(grid, *geometry);
+    return (*dynamic_cast<const osg::Vec4ubArray*>(geometry->getColorArray()))[12].r();
+}
+
+}  // namespace
+
+TEST(TerrainGrid, ReliefIsLitFromTheNorthWest) {
+    const int level = brightness(slope(0, 0));
+    EXPECT_NEAR(level, 100, 1);
+    EXPECT_GT(brightness(slope(1, 0)), level + 10);   // looks west
+    EXPECT_LT(brightness(slope(-1, 0)), level - 10);  // looks east
+    EXPECT_GT(brightness(slope(0, -1)), level + 10);  // looks north
+    EXPECT_LT(brightness(slope(0, 1)), level - 10);   // looks south
+    TerrainGrid plain = slope(-1, 0);
+    plain.relief = false;
+    EXPECT_EQ(brightness(plain), 100);
+}
+
+TEST(TerrainGrid, ReliefHasSnowByHeightAndLatitude) {
+    TerrainGrid grid = slope(0, 0);
+    grid.heights.assign(grid.heights.size(), 64 * 3600);
+    EXPECT_GT(brightness(grid), 230);  // at 45 degrees
+    grid.firstRow = 9000;
+    EXPECT_EQ(brightness(grid), 100);  // at the equator
+    grid.heights.assign(grid.heights.size(), 64 * 6000);
+    EXPECT_GT(brightness(grid), 230);
+    grid.firstRow = 500;  // Antarctica, and the sea beside it
+    grid.heights.assign(grid.heights.size(), 64 * 10);
+    EXPECT_GT(brightness(grid), 230);
+    grid.heights.assign(grid.heights.size(), -64 * 5);
+    EXPECT_EQ(brightness(grid), 100);
+}
+
+TEST(TerrainGrid, ReliefComesBackAndOlderBytesHaveNone) {
+    TerrainGrid grid = slope(1, 0);
+    ASSERT_TRUE(unpacked(packed(grid)));
+    EXPECT_TRUE(unpacked(packed(grid))->relief);
+    // The first version had no such byte.
+    std::string bytes = packed(grid);
+    bytes[0] = 1;
+    bytes.erase(1, 1);
+    ASSERT_TRUE(unpacked(bytes));
+    EXPECT_FALSE(unpacked(bytes)->relief);
+    EXPECT_EQ(unpacked(bytes)->heights, grid.heights);
+}

@@ -59,6 +59,8 @@ struct TerrainGrid {
     std::array<Skirt, 4> skirts;
     /// By height; empty: white, and the texture has the colours.
     std::vector<ColourStop> colours;
+    /// Colours by height look like a map of a relief: lit from the north-west, with snow by height and latitude.
+    bool relief = false;
     /// Texels along an edge of the texture, whose outer texels' middles lie on the tile's edges; 0: no texture.
     std::int32_t textureSize = 0;
 

@@ -106,11 +106,17 @@ LoadedDatabase loadDatabase(const std::string& rootFile) {
     const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(rootFile);
     LoadedDatabase database;
     database.root = dynamic_cast<osg::CoordinateSystemNode*>(node.get());
-    if (!database.root || database.root->getNumChildren() != 128)
-        throw std::runtime_error("no database in " + rootFile);
-    for (unsigned int i = 0; i < 128; ++i) {
-        database.tiles.push_back(
-            loadTile(*database.root->getChild(i), 0, static_cast<int>(i % 16), static_cast<int>(i / 16)));
+    if (!database.root || database.root->getNumChildren() == 0) throw std::runtime_error("no database in " + rootFile);
+    for (unsigned int i = 0; i < database.root->getNumChildren(); ++i) {
+        osg::Node& start = *database.root->getChild(i);
+        const auto bin = osgAnalyticBin::storedBin(start).bin();
+        const int level = static_cast<int>(
+            std::lround(std::log2(22.5 * kRadiansPerDegree / (bin.latitude().upper - bin.latitude().lower))));
+        const double size = std::ldexp(22.5 * kRadiansPerDegree, -level);
+        const int columns = 16 << level;
+        const int x = static_cast<int>(std::floor((bin.longitude().middle() + 8.0 * 22.5 * kRadiansPerDegree) / size));
+        const int y = static_cast<int>(std::floor((bin.latitude().middle() + 4.0 * 22.5 * kRadiansPerDegree) / size));
+        database.tiles.push_back(loadTile(start, level, (x + columns) % columns, y));
     }
     return database;
 }

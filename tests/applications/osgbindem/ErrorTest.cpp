@@ -6,6 +6,7 @@
 #include "DatabaseWalk.h"
 #include "Program.h"
 #include "TestRaster.h"
+#include "TimeLeft.h"
 
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
@@ -106,6 +107,8 @@ TEST_F(Error, Levels) {
 TEST_F(Error, OtherNumbers) {
     expectError({good(), "--cells", "7", "-o", output()}, "--cells 7");
     expectError({good(), "--cells", "900", "-o", output()}, "--cells 900");
+    expectError({good(), "--geoid", "absent.gtx", "-o", output()}, "absent.gtx");
+    expectError({good(), "--blend", "-1", "-o", output()}, "--blend");
     expectError({good(), "--threads", "0", "-o", output()}, "--threads 0");
     expectError({good(), "--lod-factor", "-2", "-o", output()}, "--lod-factor");
     expectError({good(), "--radii", "0", "1", "-o", output()}, "--radii");
@@ -114,7 +117,7 @@ TEST_F(Error, OtherNumbers) {
 
 TEST_F(Error, Scales) {
     expectError({good(), "--scale", "miles", "-o", output()}, "unknown unit \"miles\"");
-    expectError({good(), "--scale", "0", "-o", output()}, "unknown unit \"0\"");
+    expectError({good(), "--height-unit", "0", "-o", output()}, "unknown unit \"0\" in --height-unit");
     expectError({good(), "--scale", "m", "ft", "-o", output()}, "2 units");
 }
 
@@ -183,9 +186,19 @@ TEST_F(Error, WhatAKilledRunLeftIsClearedAway) {
 TEST(Help, NamesUnitsAndAnExample) {
     const Outcome outcome = run({"--help"});
     EXPECT_EQ(outcome.exitCode, 0);
-    for (const char* word : {"--scale", "--levels", "--lod-factor", "metres", "degrees", "Example"}) {
+    for (const char* word :
+         {"--height-unit", "--te", "--blend", "--levels", "--lod-factor", "metres", "degrees", "Example"}) {
         EXPECT_NE(outcome.output.find(word), std::string::npos) << word;
     }
+}
+
+TEST(Progress, SaysWhatIsLeft) {
+    using osgAnalyticBin::support::timeLeft;
+    EXPECT_EQ(timeLeft(0.5, 1.0), "");  // nobody knows yet
+    EXPECT_EQ(timeLeft(0.5, 40.0), "40 s left");
+    EXPECT_EQ(timeLeft(0.25, 240.0), "12 min left");
+    EXPECT_EQ(timeLeft(0.1, 1234.0), "3 h 06 min left");
+    EXPECT_EQ(timeLeft(1.0, 50.0), "");
 }
 
 TEST(Progress, IsShownUnlessQuiet) {

@@ -43,7 +43,7 @@ TEST(RealData, Etopo5) {
 TEST(RealData, RockiesInFeet) {
     if (!isThere(kRockies)) GTEST_SKIP() << "package libncarg-data is not installed";
     const TempFolder folder;
-    build({kRockies, "--scale", "ft", "--levels", "6", "-o", folder.file("earth.osgb")});
+    build({kRockies, "--height-unit", "ft", "--levels", "6", "-o", folder.file("earth.osgb")});
     const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
     checkSharedPosts(database);
     EXPECT_EQ(database.deepestLevel(), 6);

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <sys/stat.h>
@@ -128,6 +129,20 @@ TEST_F(Update, RastersThatAreReplacedOrTakenAway) {
     expectSame({inset("first"), inset("andes")});
     expectSame({inset("andes")});
     expectSame({});
+}
+
+TEST_F(Update, VoidsAreFilledAnewWhereARasterBelowThemChanges) {
+    // The raster that is added has part of the void's rim; what it changes reaches beyond its own border.
+    TestRaster fine(10.0, 40.0, 0.02, 0.02, 201, 201, [](double latitudeDeg, double longitudeDeg) {
+        const bool isVoid = std::abs(latitudeDeg - 38.0) < 0.9 && std::abs(longitudeDeg - 12.0) < 0.9;
+        return isVoid ? std::nan("") : bumps(latitudeDeg, longitudeDeg);
+    });
+    fine.setNodata(-9999.0);
+    fine.write(inset("fine"));
+    TestRaster(10.5, 40.0, 0.1, 0.1, 12, 41, [](double, double) { return 3000.0; }).write(inset("middle"));
+    built("old", {inset("fine"), "--levels", "4"});
+    EXPECT_GT(expectSame({inset("fine"), inset("middle"), "--levels", "4"}), 0);
+    EXPECT_GT(expectSame({inset("fine"), "--levels", "4"}), 0);
 }
 
 TEST_F(Update, FewFilesAreWrittenForASmallInset) {

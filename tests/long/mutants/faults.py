@@ -288,4 +288,12 @@ FAULTS = [
           "if (isOnSurface(node, *mesh)) return false;", "(void)isOnSurface;", NODE, "AddedContent.*"),
     Fault("clusters in the mesh of a leaf cull", "src/node/install/BinInstaller.cpp", "} else if (!_isInMesh) {", "} else {", NODE,
           "ClusterCulling.*"),
+
+    # colours of heights
+    Fault("relief: light from the south-east", "src/node/packed/Relief.cpp", "kLight * (north - east) + up", "kLight * (east - north) + up",
+          NODE, "TerrainGrid.*"),
+    Fault("relief: snow in the sea", "src/node/packed/Relief.cpp", "height <= 0.0 || height <= snowLine", "height <= snowLine", NODE,
+          "TerrainGrid.*"),
+    Fault("relief: packed grids forget it", "src/node/packed/TerrainGridFile.cpp", "version > kFirstVersion && reader.byte() != 0",
+          "version > kFirstVersion && reader.byte() > 1", NODE, "TerrainGrid.*"),
 ]

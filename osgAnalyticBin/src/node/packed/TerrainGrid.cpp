@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Relief.h"
+
 #include <osgAnalyticBin/TerrainGrid.h>
 
 #include <glm/geometric.hpp>
@@ -70,6 +72,15 @@ public:
     [[nodiscard]] glm::dvec3 north(int column, int row) const {
         const Turn& lat = latitude(row);
         return {-lat.sine * longitude(column).cosine, -lat.sine * longitude(column).sine, lat.cosine};
+    }
+
+    // In east, north, up.
+    [[nodiscard]] glm::dvec3 local(const glm::dvec3& ecef, int column, int row) const {
+        const Turn& lat = latitude(row);
+        const Turn& lon = longitude(column);
+        const double outward = ecef.x * lon.cosine + ecef.y * lon.sine;
+        return {ecef.y * lon.cosine - ecef.x * lon.sine, ecef.z * lat.cosine - outward * lat.sine,
+                outward * lat.cosine + ecef.z * lat.sine};
     }
 
 private:
@@ -155,7 +166,42 @@ osg::Vec4ub colourAt(const std::vector<TerrainGrid::ColourStop>& stops, double h
     return {mixed(0), mixed(1), mixed(2), 255};
 }
 
-osg::ref_ptr<osg::Vec4ubArray> coloursOf(const TerrainGrid& grid) {
+// Snow and shade for the colours of a grid's posts.
+class ReliefPainter {
+public:
+    explicit ReliefPainter(const TerrainGrid& grid) : _grid(grid), _posts(grid) {
+        constexpr double kRoundTheGlobe = 6.283185307179586;
+        _exaggeration =
+            exaggerationFor(kRoundTheGlobe * grid.ellipsoid.equatorialRadius() / static_cast<double>(grid.columns));
+        for (int row = 0; row <= grid.cells; ++row)
+            _snowLines.push_back(
+                snowLine(-90.0 + 360.0 * static_cast<double>(grid.firstRow + row) / static_cast<double>(grid.columns)));
+    }
+
+    [[nodiscard]] osg::Vec4ub painted(const osg::Vec4ub& colour, const osg::Vec3f& normal, int column, int row) const {
+        const double height = _grid.height(column, row);
+        const glm::dvec3 local = _posts.local({normal.x(), normal.y(), normal.z()}, column, row);
+        constexpr double kSnow = 248.0;
+        // Water dims what lies below.
+        constexpr double kSeaShade = 0.5;
+        const double snow = snowShare(height, _snowLines[static_cast<std::size_t>(row)], local);
+        double shade = shadeOf(local, _exaggeration);
+        if (height <= 0.0) shade = 1.0 + kSeaShade * (shade - 1.0);
+        const double white = snow * kSnow;
+        const auto part = [&](unsigned char c) {
+            return static_cast<unsigned char>(std::min(shade * (c * (1.0 - snow) + white) + 0.5, 255.0));
+        };
+        return {part(colour.r()), part(colour.g()), part(colour.b()), colour.a()};
+    }
+
+private:
+    const TerrainGrid& _grid;
+    Posts _posts;
+    double _exaggeration;
+    std::vector<double> _snowLines;
+};
+
+osg::ref_ptr<osg::Vec4ubArray> coloursOf(const TerrainGrid& grid, const osg::Vec3Array& normals) {
     const bool isPlain = grid.colours.size() < 2;
     const osg::ref_ptr<osg::Vec4ubArray> colours =
         new osg::Vec4ubArray(isPlain ? osg::Array::BIND_OVERALL : osg::Array::BIND_PER_VERTEX);
@@ -165,9 +211,15 @@ osg::ref_ptr<osg::Vec4ubArray> coloursOf(const TerrainGrid& grid) {
         return colours;
     }
     colours->reserve(static_cast<std::size_t>((grid.cells + 1) * (grid.cells + 5)));
-    for (int row = 0; row <= grid.cells; ++row)
-        for (int column = 0; column <= grid.cells; ++column)
-            colours->push_back(colourAt(grid.colours, grid.height(column, row)));
+    std::optional<ReliefPainter> painter;
+    if (grid.relief) painter.emplace(grid);
+    for (int row = 0; row <= grid.cells; ++row) {
+        for (int column = 0; column <= grid.cells; ++column) {
+            const osg::Vec4ub colour = colourAt(grid.colours, grid.height(column, row));
+            const osg::Vec3f& normal = normals[surfaceIndex(grid.cells, column, row)];
+            colours->push_back(painter ? painter->painted(colour, normal, column, row) : colour);
+        }
+    }
     repeatAtSkirts(grid.cells, *colours);
     return colours;
 }
@@ -244,8 +296,9 @@ void fillGeometry(const TerrainGrid& grid, osg::Geometry& geometry) {
         vertices->push_back(osg::Vec3f(osg::Vec3d(local.x, local.y, local.z)));
     }
     geometry.setVertexArray(vertices);
-    geometry.setNormalArray(normalsOf(grid));
-    geometry.setColorArray(coloursOf(grid));
+    const osg::ref_ptr<osg::Vec3Array> normals = normalsOf(grid);
+    geometry.setNormalArray(normals);
+    geometry.setColorArray(coloursOf(grid, *normals));
     geometry.setUseDisplayList(false);
     geometry.setUseVertexBufferObjects(true);
 }

@@ -1,0 +1,312 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "VoidFill.h"
+
+#include "Failure.h"
+#include "GdalRaster.h"
+#include "Interruption.h"
+
+#include <gdal_alg.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace osgbindem {
+
+using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::throwIfStopRequested;
+
+namespace {
+
+constexpr int kBlock = 256;
+// Passes of GDAL's 3 x 3 mean over interpolated posts; each widens by one post what a height depends on.
+constexpr int kSmoothing = 20;
+// What is read around a block: at its corners a void's rim and smoothing still find all that they depend on.
+constexpr int kBorder = VoidFill::kReach + kSmoothing + 1;
+static_assert(kBlock + kBorder <= VoidFill::kMostReach);
+// Blocks kept in memory, 256 KiB each.
+constexpr std::size_t kMostHeld = 24;
+// In the sea a difference fades out within this many posts; it does so less and less up to a height in metres.
+constexpr double kSeaReach = 8.0;
+constexpr double kCoastHeight = 100.0;
+
+constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
+
+void require(CPLErr error, const char* what) {
+    if (error != CE_None) throw Failure(std::string("cannot ") + what + " around missing heights: " + gdalMessage());
+}
+
+/// A raster of one band in memory.
+class Plane {
+public:
+    Plane(int width, int height, GDALDataType type) : _width(width), _height(height) {
+        GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("MEM");
+        _dataset.reset(driver == nullptr ? nullptr : driver->Create("", width, height, 1, type, nullptr));
+        if (!_dataset) throw Failure("no memory to fill missing heights: " + gdalMessage());
+    }
+
+    [[nodiscard]] GDALRasterBandH band() const { return GDALRasterBand::ToHandle(_dataset->GetRasterBand(1)); }
+
+    template <typename Number>
+    void write(std::vector<Number>& values, GDALDataType type) const {
+        transfer(GF_Write, values, type);
+    }
+    void read(std::vector<float>& values) const { transfer(GF_Read, values, GDT_Float32); }
+
+private:
+    template <typename Number>
+    void transfer(GDALRWFlag flag, std::vector<Number>& values, GDALDataType type) const {
+        require(GDALRasterIO(band(), flag, 0, 0, _width, _height, values.data(), _width, _height, type, 0, 0), "copy");
+    }
+
+    int _width;
+    int _height;
+    GdalDataset _dataset;
+};
+
+/// Interpolates `values` where `isKnown` is 0 from where it is not.
+void interpolate(int width, int height, std::vector<float>& values, std::vector<GByte>& isKnown, double reach) {
+    const Plane plane(width, height, GDT_Float32);
+    const Plane mask(width, height, GDT_Byte);
+    plane.write(values, GDT_Float32);
+    mask.write(isKnown, GDT_Byte);
+    std::array<char, 32> option{"TEMP_FILE_DRIVER=MEM"};
+    std::array<char*, 2> options{option.data(), nullptr};
+    require(GDALFillNodata(plane.band(), mask.band(), reach, 0, kSmoothing, options.data(), nullptr, nullptr),
+            "interpolate");
+    plane.read(values);
+}
+
+/// Posts to the nearest one with data; more than kReach where that is farther.
+std::vector<float> distancesTo(const std::vector<GByte>& isKnown, int width, int height) {
+    const Plane known(width, height, GDT_Byte);
+    const Plane distance(width, height, GDT_Float32);
+    std::vector<GByte> copy(isKnown);
+    known.write(copy, GDT_Byte);
+    std::vector<std::string> words{"VALUES=255", "MAXDIST=" + std::to_string(VoidFill::kReach), "NODATA=100000"};
+    std::vector<char*> options;
+    for (std::string& word : words) options.push_back(word.data());
+    options.push_back(nullptr);
+    require(GDALComputeProximity(known.band(), distance.band(), options.data(), nullptr, nullptr), "measure");
+    std::vector<float> distances(isKnown.size());
+    distance.read(distances);
+    return distances;
+}
+
+/// 1 up to `from`, 0 from `to` on, smooth between them.
+double fade(double value, double from, double to) {
+    const double share = std::clamp((to - value) / (to - from), 0.0, 1.0);
+    return share * share * (3.0 - 2.0 * share);
+}
+
+}  // namespace
+
+/// A block with the posts around it, as far as what is in the block depends on them.
+struct VoidFill::Window {
+    /// Columns may be beyond the raster's by a turn of the globe.
+    PixelWindow posts;
+    PixelWindow block;
+    std::vector<double> heights;
+    /// Of each post: that of a void too large to be interpolated.
+    std::vector<bool> isLarge;
+
+    [[nodiscard]] std::size_t index(int x, int y) const noexcept {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(posts.width) + static_cast<std::size_t>(x);
+    }
+    [[nodiscard]] bool isMissing(int x, int y) const noexcept { return std::isnan(heights[index(x, y)]); }
+
+    /// Calls `visit(x, y, i)` for each missing post of the block, `i` counting the block's posts.
+    template <typename Visit>
+    void forMissing(const Visit& visit) const {
+        std::size_t i = 0;
+        for (int row = block.row; row < block.row + block.height; ++row) {
+            for (int column = block.column; column < block.column + block.width; ++column, ++i) {
+                const int x = column - posts.column;
+                const int y = row - posts.row;
+                if (isMissing(x, y)) visit(x, y, i);
+            }
+        }
+    }
+
+    /// Tells small voids from large ones. Those that reach the window's edge are large.
+    void sortVoids() {
+        isLarge.assign(heights.size(), false);
+        std::vector<bool> isSeen(heights.size(), false);
+        for (int y = 0; y < posts.height; ++y) {
+            for (int x = 0; x < posts.width; ++x) {
+                if (isMissing(x, y) && !isSeen[index(x, y)]) sortVoid(x, y, isSeen);
+            }
+        }
+    }
+
+private:
+    void sortVoid(int startX, int startY, std::vector<bool>& isSeen) {
+        std::vector<std::pair<int, int>> found{{startX, startY}};
+        isSeen[index(startX, startY)] = true;
+        int west = startX, east = startX, first = startY, last = startY;
+        for (std::size_t next = 0; next < found.size(); ++next) {
+            const auto [x, y] = found[next];
+            west = std::min(west, x);
+            east = std::max(east, x);
+            first = std::min(first, y);
+            last = std::max(last, y);
+            for (int v = std::max(0, y - 1); v <= std::min(posts.height - 1, y + 1); ++v) {
+                for (int u = std::max(0, x - 1); u <= std::min(posts.width - 1, x + 1); ++u) {
+                    if (!isMissing(u, v) || isSeen[index(u, v)]) continue;
+                    isSeen[index(u, v)] = true;
+                    found.emplace_back(u, v);
+                }
+            }
+        }
+        const bool isAtEdge = west == 0 || first == 0 || east == posts.width - 1 || last == posts.height - 1;
+        if (!isAtEdge && east - west < kSmall && last - first < kSmall) return;
+        for (const auto& [x, y] : found) isLarge[index(x, y)] = true;
+    }
+};
+
+double VoidFill::at(int column, int row) {
+    const int blocksPerRow = (_shape.width + kBlock - 1) / kBlock;
+    const PixelWindow block{column / kBlock * kBlock, row / kBlock * kBlock,
+                            std::min(kBlock, _shape.width - column / kBlock * kBlock),
+                            std::min(kBlock, _shape.height - row / kBlock * kBlock)};
+    const int number = row / kBlock * blocksPerRow + column / kBlock;
+    auto found = _blocks.find(number);
+    if (found == _blocks.end()) {
+        throwIfStopRequested();
+        if (_held >= kMostHeld) {
+            for (auto it = _blocks.begin(); it != _blocks.end();)
+                it = it->second.empty() ? std::next(it) : _blocks.erase(it);
+            _held = 0;
+        }
+        found = _blocks.emplace(number, filled(block)).first;
+        if (!found->second.empty()) ++_held;
+    }
+    if (found->second.empty()) return kMissing;
+    return found->second[static_cast<std::size_t>((row - block.row) * block.width + column - block.column)];
+}
+
+void VoidFill::read(Window& window) const {
+    const PixelWindow& block = window.block;
+    PixelWindow& posts = window.posts;
+    // One column and row beyond the raster's border, where nothing is known either, stand for all that lie there.
+    const int west = _shape.isGlobal ? block.column - kBorder : std::max(block.column - kBorder, -1);
+    const int east = _shape.isGlobal ? block.column + block.width + kBorder
+                                     : std::min(block.column + block.width + kBorder, _shape.width + 1);
+    const int first = std::max(block.row - kBorder, -1);
+    const int last = std::min(block.row + block.height + kBorder, _shape.height + 1);
+    posts = {west, first, east - west, last - first};
+    window.heights.assign(static_cast<std::size_t>(posts.width) * static_cast<std::size_t>(posts.height),
+                          std::numeric_limits<double>::quiet_NaN());
+    const int firstInside = std::max(first, 0);
+    const int rows = std::min(last, _shape.height) - firstInside;
+    std::vector<double> part;
+    for (int column = west; column < east;) {
+        const int inside = _shape.isGlobal ? ((column % _shape.width) + _shape.width) % _shape.width : column;
+        if (inside < 0 || inside >= _shape.width) {
+            ++column;
+            continue;
+        }
+        const int width = std::min(east - column, _shape.width - inside);
+        _read({inside, firstInside, width, rows}, part);
+        for (int row = 0; row < rows; ++row) {
+            const auto from = part.begin() + static_cast<std::ptrdiff_t>(row) * width;
+            std::copy(from, from + width,
+                      window.heights.begin() +
+                          static_cast<std::ptrdiff_t>(window.index(column - west, firstInside - first + row)));
+        }
+        column += width;
+    }
+}
+
+std::vector<float> VoidFill::filled(const PixelWindow& block) const {
+    Window window;
+    window.block = block;
+    read(window);
+    const bool hasData =
+        std::any_of(window.heights.begin(), window.heights.end(), [](double height) { return !std::isnan(height); });
+    if (!hasData) return {};
+    window.sortVoids();
+    std::vector<float> result(static_cast<std::size_t>(block.width) * static_cast<std::size_t>(block.height), kMissing);
+    bool hasSmall = false;
+    bool hasLarge = false;
+    window.forMissing(
+        [&](int x, int y, std::size_t) { (window.isLarge[window.index(x, y)] ? hasLarge : hasSmall) = true; });
+    if (hasSmall) interpolateSmall(window, result);
+    if (hasLarge && _coarser) addDifferences(window, result);
+    return result;
+}
+
+void VoidFill::interpolateSmall(const Window& window, std::vector<float>& result) const {
+    std::vector<float> values(window.heights.begin(), window.heights.end());
+    std::vector<GByte> isKnown(values.size(), 255);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!std::isnan(values[i])) continue;
+        // Large voids touch no small one, so what they hold is of no account.
+        values[i] = 0.0F;
+        if (!window.isLarge[i]) isKnown[i] = 0;
+    }
+    interpolate(window.posts.width, window.posts.height, values, isKnown, kSmall);
+    window.forMissing([&](int x, int y, std::size_t i) {
+        if (!window.isLarge[window.index(x, y)]) result[i] = values[window.index(x, y)];
+    });
+}
+
+double VoidFill::coarserAt(const Window& window, int x, int y) const {
+    const int column = window.posts.column + x;
+    return _coarser(_shape.isGlobal ? ((column % _shape.width) + _shape.width) % _shape.width : column,
+                    window.posts.row + y);
+}
+
+void VoidFill::addDifferences(const Window& window, std::vector<float>& result) const {
+    const int width = window.posts.width;
+    const int height = window.posts.height;
+    std::vector<float> differences(window.heights.size(), 0.0F);
+    std::vector<GByte> hasData(window.heights.size(), 0);
+    const auto isAtRim = [&](int x, int y) {
+        for (int v = std::max(0, y - 1); v <= std::min(height - 1, y + 1); ++v)
+            for (int u = std::max(0, x - 1); u <= std::min(width - 1, x + 1); ++u)
+                if (window.isMissing(u, v)) return true;
+        return false;
+    };
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const std::size_t i = window.index(x, y);
+            if (window.isMissing(x, y)) continue;
+            hasData[i] = 255;
+            if (isAtRim(x, y)) differences[i] = static_cast<float>(window.heights[i] - coarserAt(window, x, y));
+        }
+    }
+    const std::vector<float> distances = distancesTo(hasData, width, height);
+    // Where the coarser rasters have nothing the difference is interpolated too; beyond the border it is 0.
+    std::vector<GByte> isKnown(hasData);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const std::size_t i = window.index(x, y);
+            const int row = window.posts.row + y;
+            const int column = window.posts.column + x;
+            const bool isOutside =
+                row < 0 || row >= _shape.height || (!_shape.isGlobal && (column < 0 || column >= _shape.width));
+            if (isOutside) isKnown[i] = 255;
+            if (!std::isnan(differences[i])) continue;
+            differences[i] = 0.0F;
+            isKnown[i] = 0;
+        }
+    }
+    interpolate(width, height, differences, isKnown, kReach);
+    window.forMissing([&](int x, int y, std::size_t i) {
+        const std::size_t j = window.index(x, y);
+        if (!window.isLarge[j] || distances[j] >= kReach) return;
+        const double coarser = coarserAt(window, x, y);
+        const double onLand = fade(distances[j], 0.5 * kReach, kReach);
+        const double inSea = fade(distances[j], 0.0, kSeaReach);
+        const double share = inSea + (onLand - inSea) * (1.0 - fade(coarser, 0.0, kCoastHeight));
+        result[i] = static_cast<float>(coarser + share * differences[j]);
+    });
+}
+
+}  // namespace osgbindem

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// What heights are above. Heights of the geoid EGM96 are those that its authors print: 17.16 m at latitude and
+// longitude 0, -106.9 m south of India.
+
+#include "DatabaseCheck.h"
+#include "DemMosaic.h"
+#include "Failure.h"
+#include "Program.h"
+
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace {
+
+using osgbindem::DemMosaic;
+using osgbindem::Settings;
+
+constexpr const char* kEgm96 = "/usr/share/proj/egm96_15.gtx";
+
+class Geoid : public testing::Test {
+protected:
+    void SetUp() override {
+        GDALAllRegister();
+        if (!std::filesystem::exists(kEgm96)) GTEST_SKIP() << "package proj-data is not installed";
+    }
+
+    [[nodiscard]] std::string file(const std::string& name) const { return _folder.file(name); }
+
+    /// A globe at 100 m.
+    std::string globe(const std::string& name, const std::string& reference) {
+        TestRaster raster = TestRaster::globe(2.0, [](double, double) { return 100.0; });
+        raster.setReference(reference);
+        raster.write(file(name));
+        return file(name);
+    }
+    static Settings settingsFor(const std::vector<std::string>& rasters, const std::string& geoid = {}) {
+        Settings settings;
+        settings.ellipsoid = osgAnalyticBin::core::Ellipsoid(6378137.0, 6356752.3142);
+        settings.geoid = geoid;
+        for (const std::string& raster : rasters) settings.dems.push_back({raster});
+        return settings;
+    }
+
+private:
+    TempFolder _folder;
+};
+
+}  // namespace
+
+TEST_F(Geoid, IsAddedWhereItIsAskedFor) {
+    const std::string raster = globe("globe.tif", "EPSG:4326");
+    DemMosaic plain(settingsFor({raster}));
+    EXPECT_EQ(plain.height({0.0, 0.0}), 100.0);
+    for (const char* geoid : {"egm96", kEgm96}) {
+        DemMosaic mosaic(settingsFor({raster}, geoid));
+        EXPECT_NEAR(mosaic.height({0.0, 0.0}), 117.16, 0.1) << geoid;
+        EXPECT_NEAR(mosaic.height({4.75, 78.75}), 100.0 - 106.9, 0.5) << geoid;
+        EXPECT_EQ(mosaic.height({10.0, 180.0}), mosaic.height({10.0, -180.0})) << geoid;
+        const osgbindem::HeightRange range = mosaic.range({75.0, 0.0, 80.0, 8.0});
+        EXPECT_LE(range.lower, 100.0 - 106.9);
+        EXPECT_GE(range.upper, mosaic.height({0.0, 75.0}));
+        EXPECT_LT(range.upper - range.lower, 50.0);
+    }
+}
+
+TEST_F(Geoid, IsReadFromTheRastersReference) {
+    DemMosaic mosaic(settingsFor({globe("globe.tif", "EPSG:4326+5773")}));
+    EXPECT_NEAR(mosaic.height({0.0, 0.0}), 117.16, 0.1);
+    DemMosaic none(settingsFor({file("globe.tif")}, "none"));
+    EXPECT_EQ(none.height({0.0, 0.0}), 100.0);
+    // Heights that are above the ellipsoid already.
+    DemMosaic ellipsoidal(settingsFor({globe("ellipsoidal.tif", "EPSG:4979")}));
+    EXPECT_EQ(ellipsoidal.height({0.0, 0.0}), 100.0);
+}
+
+TEST_F(Geoid, WithoutItsGridIsRefused) {
+    // No package of Debian has the grid of the Dutch NAP.
+    globe("globe.tif", "EPSG:4326+5709");
+    const Outcome outcome = run({file("globe.tif"), "-o", file("earth.osgb")});
+    EXPECT_EQ(outcome.exitCode, 1);
+    EXPECT_NE(outcome.errors.find("--geoid"), std::string::npos) << outcome.errors;
+    EXPECT_EQ(outcome.errors.find('\n'), outcome.errors.size() - 1) << outcome.errors;
+    EXPECT_FALSE(std::filesystem::exists(file("earth.osgb")));
+    build({file("globe.tif"), "--geoid", "none", "--levels", "0", "--cells", "4", "-o", file("earth.osgb")});
+}
+
+TEST_F(Geoid, IsInTheDatabase) {
+    build({globe("globe.tif", "EPSG:4326"), "--geoid", "egm96", "--levels", "1", "--cells", "8", "-o",
+           file("earth.osgb")});
+    const LoadedDatabase database = loadDatabase(file("earth.osgb"));
+    EXPECT_NEAR(database.altitudeAt(0.0, 0.0), 117.16, 0.3);
+    checkSharedPosts(database);
+}
