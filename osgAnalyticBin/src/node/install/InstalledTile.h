@@ -106,8 +106,8 @@ private:
     std::atomic<bool> _isMoved{false};
     bool _wasCulledActive = false;                    // of the culled node, which owns this and must not be owned by it
     std::vector<osg::ref_ptr<osg::Node>> _suspended;  // other nodes
-    std::size_t _suspensions = 0;           // calls of suspendSphere()
-    std::vector<std::size_t> _wasInactive;  // those that met a node without the test
+    std::size_t _suspensions = 0;                     // calls of suspendSphere()
+    std::vector<std::size_t> _wasInactive;            // those that met a node without the test
 };
 
 }  // namespace osgAnalyticBin
