@@ -134,7 +134,7 @@ TEST(HugeScenes, TilesMayBeDeep) {
         makeMeshTile(kExtents, 100.0));
     const CapturedNotes notes;
     EXPECT_GT(installBins(*chain.root), 100u);
-    EXPECT_EQ(notes.count("tiles in tiles"), 1u);
+    EXPECT_EQ(notes.count("tiles nested hundreds deep"), 1u);
     for (const Method method : {Method::None, Method::Sphere, Method::Exact}) {
         CullOptions options;
         options.method = method;

@@ -7,10 +7,12 @@
 #include "ApplicationGlobe.h"
 #include "CullFixture.h"
 
+#include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
+#include <osg/Geometry>
 
 #include <support/CapturedNotes.h>
 #include <utility>
@@ -39,12 +41,14 @@ struct Region : MeshGlobe {
     [[nodiscard]] osg::PagedLOD& tile(int row, int column) {
         return *tiles[static_cast<std::size_t>(row * across + column)];
     }
-    // Puts another tile in the place of one.
+    // Puts another mesh in the place of one.
+    void replace(int row, int column, osg::Node* mesh) { tile(row, column).setChild(0, mesh); }
     void raise(int row, int column, double height) {
-        root->removeChild(&tile(row, column));
-        add(row, column, height);
-        tiles[static_cast<std::size_t>(row * across + column)] = tiles.back();
-        tiles.pop_back();
+        replace(row, column, makeMeshTile(extentsOf(row, column), height));
+    }
+    [[nodiscard]] core::GeodeticBin extentsOf(int row, int column) const {
+        const double south = southernmost + width * row, west = width * column;
+        return extentsDeg(south, south + width, west, west + width);
     }
 
     double southernmost, width;
@@ -91,6 +95,84 @@ TEST(RegionalHorizon, IsNotUsedWhereATileIsMissing) {
     installBins(*region.root);
     EXPECT_EQ(notes.count("The horizon is not used"), 1u);
     EXPECT_TRUE(region.drawsFarTile(30.0, 20.0));
+}
+
+// Where the ground ends, whatever the bins are.
+struct RaggedRegion : WideRegion {
+    [[nodiscard]] bool drawsTile(int row, int column, double latitude, double longitude, double altitude,
+                                 const osg::Vec3d& to) {
+        const osg::Vec3d eye = ecefDeg(latitude, longitude, altitude);
+        return draws(tile(row, column), CullView::lookAt(eye, to, eye, 20.0));
+    }
+};
+
+TEST(RegionalHorizon, EndsWhereATileIsNarrower) {
+    RaggedRegion region;
+    region.replace(3, 7, makeMeshTile(extentsDeg(25, 30, 35, 38.4), 0.0));
+    installBins(*region.root);
+    EXPECT_TRUE(region.drawsTile(7, 7, 25.5, 39.1, 400.0, ecefDeg(47.5, 38.5, 0)));
+    RaggedRegion inside;
+    inside.replace(3, 4, makeMeshTile(extentsDeg(25, 30, 20, 23.4), 0.0));
+    installBins(*inside.root);
+    EXPECT_TRUE(inside.drawsTile(3, 7, 27.5, 23.6, 8000.0, ecefDeg(27.5, 38.5, 0)));
+}
+
+TEST(RegionalHorizon, EndsWhereACoastCutsAMesh) {
+    RaggedRegion region;
+    auto& geometry = *drawableOf(region.tile(3, 7))->asGeometry();
+    const auto& all = static_cast<const osg::DrawElementsUInt&>(*geometry.getPrimitiveSet(0));
+    const osg::ref_ptr<osg::DrawElementsUInt> north = new osg::DrawElementsUInt(GL_TRIANGLES);
+    const auto isNorthWest = [](unsigned int vertex) { return vertex / 9 >= vertex % 9; };
+    for (std::size_t i = 0; i + 2 < all.size(); i += 3) {
+        if (isNorthWest(all[i]) && isNorthWest(all[i + 1]) && isNorthWest(all[i + 2]))
+            north->insert(north->end(), all.begin() + static_cast<std::ptrdiff_t>(i),
+                          all.begin() + static_cast<std::ptrdiff_t>(i + 3));
+    }
+    geometry.setPrimitiveSet(0, north);
+    installBins(*region.root);
+    EXPECT_TRUE(region.drawsTile(7, 7, 25.5, 39.1, 400.0, ecefDeg(47.5, 38.5, 0)));
+}
+
+TEST(RegionalHorizon, IsNotExtendedByWhatStandsBesideTheGround) {
+    RaggedRegion region;
+    for (int row = 0; row < 8; ++row) {
+        const osg::ref_ptr<osg::Group> group = new osg::Group;
+        group->addChild(region.tile(row, 7).getChild(0));
+        group->addChild(makeTower(ecefDeg(10.1 + 5 * row, 41.2, 0)));
+        group->addChild(makeTower(ecefDeg(14.9 + 5 * row, 41.2, 0)));
+        region.replace(row, 7, group);
+    }
+    installBins(*region.root);
+    EXPECT_TRUE(region.drawsTile(7, 7, 25.5, 40.5, 200.0, ecefDeg(47.5, 39.5, 0)));
+}
+
+TEST(RegionalHorizon, IsNotExtendedByStoredBinsThatAreTooLarge) {
+    RaggedRegion region;
+    for (int row = 0; row < 8; ++row) {
+        for (int column = 0; column < 8; ++column) {
+            const double south = 9.0 + 5.0 * row, west = 5.0 * column - 2.0;
+            setStoredBin(region.tile(row, column), AnalyticBin(core::GeodeticBin::fromDegrees(
+                                                       {south, south + 7.0}, {west, west + 9.0}, {-1500.0, 100.0})));
+            setStoredSurfaceLow(region.tile(row, column), -100.0);
+        }
+    }
+    installBins(*region.root);
+    EXPECT_TRUE(region.drawsTile(7, 7, 27.5, 40.3, 1000.0, ecefDeg(47.5, 38.5, 0)));
+    EXPECT_FALSE(region.drawsTile(7, 7, 27.5, 20.0, 1000.0, ecefDeg(47.5, 38.5, 0)));
+}
+
+TEST(RegionalHorizon, HasHolesAtThePolesWhereTilesDoNotReachThem) {
+    WideRegion globe;
+    globe.root->removeChildren(0, globe.root->getNumChildren());
+    for (int i = 0; i < 12; ++i) {
+        const double west = -180.0 + 60.0 * (i % 6);
+        globe.tiles[static_cast<std::size_t>(i)] =
+            makePaged(makeMeshTile(extentsDeg(i < 6 ? -87 : 0, i < 6 ? 0 : 87, west, west + 60), 0.0), "no.osgb");
+        globe.root->addChild(globe.tiles[static_cast<std::size_t>(i)]);
+    }
+    installBins(*globe.root);
+    const osg::Vec3d eye = ecefDeg(89.9, 60, 2000);
+    EXPECT_TRUE(globe.draws(*globe.tiles[1], CullView::lookAt(eye, ecefDeg(-20, -90, 0), eye, 60.0)));
 }
 
 TEST(RegionalHorizon, FollowsTheTilesWhenBinsAreInstalledAnew) {

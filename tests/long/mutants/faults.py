@@ -215,7 +215,7 @@ FAULTS = [
     Fault("region: terrain hides from beside", "src/node/cull/TerrainOcclusion.cpp",
           "if (database.region && !database.region->holdsSegmentsFrom(*viewpoint.eye())) return {};", "", NODE, "RegionalTerrain.*"),
     Fault("region: a missing tile leaves a region", "src/node/install/Coverage.cpp",
-          "|| areaOf(all) - area() >= 0.5 * _smallest", "", NODE, "Regional*"),
+          "areaOf(region) - filled.areaWithin(region) <= kRounding * areaOf(region) ?", "true ?", NODE, "Regional*"),
     Fault("occlusion: borders of meshes count as covered", "src/core/occlusion/GroundPlates.cpp", "        addBorders();\n", "",
           CORE, "GroundPlates.*"),
     Fault("occlusion: folds count as covered", "src/core/occlusion/GroundPlates.cpp",
@@ -285,7 +285,7 @@ FAULTS = [
     Fault("stored bins are believed by a quarter of the sag", "src/node/install/TileFit.cpp", "{least + sag, least, least",
           "{least + sag, least + 0.25 * sag, least", NODE, "FalseBins.*"),
     Fault("what stands on a tile loses OSG's own culling", "src/node/install/TileCallback.cpp",
-          "if (isOnSurface(node, *mesh)) return false;", "(void)isOnSurface;", NODE, "AddedContent.*"),
+          "if (hasContent && isOnSurface(node, *mesh)) return false;", "(void)hasContent;", NODE, "AddedContent.*"),
     Fault("clusters in the mesh of a leaf cull", "src/node/install/BinInstaller.cpp", "} else if (!_isInMesh) {", "} else {", NODE,
           "ClusterCulling.*"),
 

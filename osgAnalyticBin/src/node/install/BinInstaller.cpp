@@ -201,7 +201,6 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const Scoped paging(_paging, PagingByOptions());
     const Scoped coverage(_coverage, std::make_shared<CoverageByFile>());
     (*_coverage)[frame().file].expectGlobe();
-    (*_coverage)[frame().file].setVisited();
     const std::size_t before = _installed;
     TileFinder::apply(node);
     finish();
@@ -278,8 +277,7 @@ void BinInstaller::visitTooDeep(osg::Node&) {
     if (!installsBins()) return;
     if (!database().hasGap()) {
         OSG_WARN << "osgAnalyticBin: \"" << frame().file
-                 << "\" has tiles in tiles, hundreds deep; those farther in get no bins, and the horizon is not used."
-                 << std::endl;
+                 << "\" has tiles nested hundreds deep; the innermost get no bins, and the horizon is not used.\n";
     }
     database().noteGap(frame().file);
 }
@@ -308,7 +306,7 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
         for (const auto& mesh : tile.meshes) suspendClusterCulling(*mesh);
     }
     link->callback = callback.get();
-    noteCovered(tile, link->extents);
+    noteCovered(tile, fit, *link);
     goOnBelow(tile, *link);
 }
 
@@ -349,11 +347,14 @@ osg::ref_ptr<const ParentTile> BinInstaller::linkBetween() const {
 }
 
 // Tiles within the mesh of another cover nothing beside it.
-void BinInstaller::noteCovered(const FoundTile& tile, const core::GeodeticBin& extents) {
+void BinInstaller::noteCovered(const FoundTile& tile, const TileFit& fit, const ParentTile& link) {
     Coverage& coverage = (*_coverage)[tile.frame.file];
     coverage.setVisited();
-    if (!_isBelowSelection && !_isInMesh) coverage.add(extents);
-    for (const std::string& file : tile.pagedFiles) (*_coverage)[file].expect(Coverage::areaOf(extents));
+    if (!_isBelowSelection && !_isInMesh) {
+        coverage.add(link.extents);
+        if (coverage.isOfGlobe()) coverage.addMesh(finderOfFilled(tile, fit, link));
+    }
+    for (const std::string& file : tile.pagedFiles) (*_coverage)[file].expect(Coverage::areaOf(link.extents));
 }
 
 void BinInstaller::goOnBelow(const FoundTile& tile, const ParentTile& link) {

@@ -20,6 +20,7 @@ namespace osgAnalyticBin {
 
 class BinReadFileCallback;
 class Coverage;
+struct TileFit;
 class Database;
 struct ParentTile;
 struct PlanarFit;
@@ -86,7 +87,7 @@ private:
     void install(FoundTile& tile, bool hasNewContent);
     void installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape);
     [[nodiscard]] osg::ref_ptr<ParentTile> linkTo(const FoundTile& tile);
-    void noteCovered(const FoundTile& tile, const core::GeodeticBin& extents);
+    void noteCovered(const FoundTile& tile, const TileFit& fit, const ParentTile& link);
     void goOnBelow(const FoundTile& tile, const ParentTile& link);
     void uninstall(FoundTile& tile);
     // Whether what is visited has to fit into a bin that is stored above.

@@ -34,6 +34,7 @@ double Coverage::areaOf(const core::GeodeticBin& extents) {
 void Coverage::expectGlobe() {
     _expected = 2.0 * kPi * kPi;
     _isOfGlobe = true;
+    setVisited();
 }
 
 void Coverage::add(const core::GeodeticBin& tile) {
@@ -100,22 +101,53 @@ core::GeodeticBin Coverage::extents() const {
     return {latitude, {afterWidest, afterWidest + 2.0 * kPi - widest}, {0.0, 0.0}};
 }
 
+bool Coverage::reachesPoles() const {
+    constexpr double kNearPole = 1e-5;  // radians
+    const core::Interval latitude = extents().latitude();
+    return latitude.lower <= kNearPole - 0.5 * kPi && latitude.upper >= 0.5 * kPi - kNearPole;
+}
+
 core::GeodeticBin Coverage::region() const {
     constexpr double kBorder = 1.0 / 32.0;
-    const core::GeodeticBin all = extents();
-    if (!_isVisited || all.empty() || areaOf(all) - area() >= 0.5 * _smallest) return {};
+    constexpr double kSeam = 2e-6;  // of a tile: vertices of neighbours are rounded apart
+    constexpr double kRounding = 1e-9;
+    Coverage filled;
+    for (const FindFilled& findFilled : _meshes) {
+        const core::GeodeticBin mesh = findFilled();
+        if (mesh.empty()) return {};
+        const auto [south, north] = mesh.latitude();
+        const auto [west, east] = mesh.longitude();
+        const double up = kSeam * (north - south), aside = kSeam * (east - west);
+        filled.add({{south - up, north + up}, {west - aside, east + aside}, mesh.altitude()});
+    }
+    const core::GeodeticBin all = filled.extents();
+    if (all.empty()) return {};
     // the edge of a mesh along a parallel is made of chords
-    const double sag = _widest < 0.9 * kPi ? 0.55 * (1.0 / std::cos(0.5 * _widest) - 1.0) : kPi;
-    const double margin = std::max(kBorder * _tallest, sag);
+    const double sag = filled._widest < 0.9 * kPi ? 0.55 * (1.0 / std::cos(0.5 * filled._widest) - 1.0) : kPi;
+    const double margin = std::max(kBorder * filled._tallest, sag);
     const auto [west, east] = all.longitude();
     const bool isFullCircle = all.isFullCircle();
-    const double aside = isFullCircle ? 0.0 : kBorder * _widest;
+    const double aside = isFullCircle ? 0.0 : kBorder * filled._widest;
     const auto inside = [&](double latitude, double inward) {
         return isFullCircle && std::abs(latitude) >= 0.5 * kPi ? latitude : latitude + inward;
     };
-    return {{inside(all.latitude().lower, margin), inside(all.latitude().upper, -margin)},
-            {west + aside, east - aside},
-            {0.0, 0.0}};
+    const core::GeodeticBin region({inside(all.latitude().lower, margin), inside(all.latitude().upper, -margin)},
+                                   {west + aside, east - aside}, {0.0, 0.0});
+    return areaOf(region) - filled.areaWithin(region) <= kRounding * areaOf(region) ? region : core::GeodeticBin();
+}
+
+double Coverage::areaWithin(const core::GeodeticBin& region) const {
+    Coverage within;
+    const auto common = [](const core::Interval& a, const core::Interval& b) {
+        return core::Interval{std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
+    };
+    for (const core::GeodeticBin& tile : _tiles) {
+        for (const double turn : {-2.0 * kPi, 0.0, 2.0 * kPi}) {
+            const core::Interval turned{tile.longitude().lower + turn, tile.longitude().upper + turn};
+            within.add({common(tile.latitude(), region.latitude()), common(turned, region.longitude()), {0.0, 0.0}});
+        }
+    }
+    return within.area();
 }
 
 }  // namespace osgAnalyticBin

@@ -5,6 +5,8 @@
 
 #include <osgAnalyticBin/core/GeodeticBin.h>
 
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -18,8 +20,10 @@ public:
 
     /// What the tiles have to cover; 0: not known.
     void expect(double area) { _expected = area; }
+    /// Says that the file is the root file, which is loaded.
     void expectGlobe();
     [[nodiscard]] bool isOfGlobe() const { return _isOfGlobe; }
+    [[nodiscard]] bool hasTiles() const { return !_tiles.empty(); }
     /// Says that the file is loaded.
     void setVisited() { _isVisited = true; }
     void add(const core::GeodeticBin& tile);
@@ -28,17 +32,27 @@ public:
     /// their lines.
     [[nodiscard]] bool hasGap() const;
 
-    /// What the tiles cover without such gaps, less a border of a 32nd of a tile: a mesh may leave that out along the
-    /// edges of its bin. Between two latitudes and two longitudes; empty: they cover no such rectangle.
+    /// Adds the rectangle that the mesh of a tile of the root file fills, found when it is asked for; empty: none is
+    /// known.
+    using FindFilled = std::function<core::GeodeticBin()>;
+    void addMesh(FindFilled findFilled) { _meshes.push_back(std::move(findFilled)); }
+
+    /// Whether tiles reach both poles.
+    [[nodiscard]] bool reachesPoles() const;
+
+    /// What the meshes of the root file fill together without any gap, less a border of a 32nd of a tile, because edges
+    /// of meshes are made of chords. Between two latitudes and two longitudes; empty: they fill no such rectangle.
     /// Source: doc/theory/horizon.md, section 10.
     [[nodiscard]] core::GeodeticBin region() const;
 
 private:
     [[nodiscard]] double area() const;
+    [[nodiscard]] double areaWithin(const core::GeodeticBin& region) const;
     [[nodiscard]] core::GeodeticBin extents() const;
 
     std::vector<core::GeodeticBin> _tiles;  // none crosses the date line
-    double _tallest = 0.0, _widest = 0.0;   // radians of latitude and longitude
+    std::vector<FindFilled> _meshes;
+    double _tallest = 0.0, _widest = 0.0;  // radians of latitude and longitude
     double _smallest = 1e9;
     double _expected = 0.0;
     bool _isVisited = false, _isOfGlobe = false;

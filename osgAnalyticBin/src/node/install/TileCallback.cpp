@@ -15,6 +15,7 @@
 #include <osg/Group>
 #include <osg/PagedLOD>
 #include <osg/Transform>
+#include <osgTerrain/TerrainTile>
 
 #include <typeinfo>
 
@@ -52,6 +53,16 @@ bool isOnSurface(const osg::Node& node, const osg::Node& mesh) {
     return bound.valid() && bound.radius() < kLargest * mesh.getBound().radius();
 }
 
+// Whether anything large is drawn: where a surface is all small parts, none of them stands on it.
+bool hasSurface(osg::Node& mesh) {
+    bool has = false;
+    forEachNode(mesh, [&](osg::Node& node) {
+        const bool isDrawn = node.asDrawable() || dynamic_cast<osgTerrain::TerrainTile*>(&node);
+        has = has || (isDrawn && !isOnSurface(node, mesh));
+    });
+    return has;
+}
+
 // The nodes of a tile that have no sphere test while bins cull it, some of them more than once. Drawables keep their
 // boxes, and what stands on the surface keeps OSG's own tests.
 template <class Action>
@@ -59,8 +70,9 @@ void forEachSphere(const FoundTile& tile, osg::Node& culled, const Action& actio
     action(culled);
     action(*tile.node);
     for (const auto& mesh : tile.meshes) {
+        const bool hasContent = hasSurface(*mesh);
         forEachNodeWhere(*mesh, [&](osg::Node& node) {
-            if (isOnSurface(node, *mesh)) return false;
+            if (hasContent && isOnSurface(node, *mesh)) return false;
             if (!node.asDrawable()) action(node);
             return true;
         });

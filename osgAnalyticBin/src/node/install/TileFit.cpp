@@ -5,6 +5,7 @@
 
 #include "../../core/EarthScale.h"
 #include "../GlmBridge.h"
+#include "../surface/TilePlates.h"
 
 #include <osgAnalyticBin/TileSurface.h>
 
@@ -301,6 +302,17 @@ TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& s
         fit.surface = withHeights(fit.surface, heightsIn(database));
     }
     return fit;
+}
+
+std::function<core::GeodeticBin()> finderOfFilled(const FoundTile& tile, const TileFit& fit, const ParentTile& link) {
+    const osg::ref_ptr<const osg::EllipsoidModel> ellipsoid =
+        tile.frame.ellipsoid ? tile.frame.ellipsoid.get() : link.database->ellipsoid();
+    // osgTerrain makes grids of the whole rectangle
+    const bool isGrid = fit.isScalable && !link.stored.valid();
+    const core::GeodeticBin grid = isGrid ? fit.surface.bin() : core::GeodeticBin();
+    return [tile, ellipsoid, grid] {
+        return grid.empty() ? rectangleFilledBy(tile.meshes, *ellipsoid, tile.frame.localToEcef) : grid;
+    };
 }
 
 }  // namespace osgAnalyticBin

@@ -8,6 +8,8 @@
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/TileFinder.h>
 
+#include <functional>
+
 namespace osgAnalyticBin {
 
 /// What a tile is culled by, at vertical scale 1.
@@ -29,5 +31,10 @@ struct TileFit {
 /// `link.parent`, `link.file`, `link.ordinal` and what is stored above have to be set in `link`; the rest is set here.
 /// Source: doc/theory/tiles.md, sections 2 and 4.
 [[nodiscard]] TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link);
+
+/// Finds the rectangle that the tile's own surface fills without holes, whatever its bin holds beside it: empty where
+/// that is not known. Cost of a call: a fraction of a millisecond.
+[[nodiscard]] std::function<core::GeodeticBin()> finderOfFilled(const FoundTile& tile, const TileFit& fit,
+                                                                const ParentTile& link);
 
 }  // namespace osgAnalyticBin

@@ -132,7 +132,7 @@ void Database::noteGap(const std::string& where) {
 }
 
 void Database::noteCoverage(const std::string& file, const Coverage& coverage) {
-    const bool hasGap = coverage.hasGap();
+    const bool hasGap = coverage.hasGap() || (coverage.isOfGlobe() && coverage.hasTiles() && !coverage.reachesPoles());
     const core::GeodeticBin region = hasGap && coverage.isOfGlobe() ? coverage.region() : core::GeodeticBin();
     if (hasGap && region.empty()) noteGap(file);
     if (!coverage.isOfGlobe()) return;

@@ -50,9 +50,9 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
     const bool isGiven = horizonUse == HorizonUse::Given;
     // an eye below the terrain looks through the backs of the faces that would hide
     const bool isAboveTerrain = options.skirts == SkirtUse::Cracks;
+    const auto region = database.region();
     const bool isUsed = isGiven || (horizonUse == HorizonUse::Declared && isAboveTerrain && !database.hasGap());
     // where other tiles cover the globe, stray ones hide nothing that these do not
-    const auto region = database.region();
     const bool isPartial = database.hasGap() || region;
     const bool isRelyingOnStrays = isPartial && database.hasStrayTile();
     if (!isUsed || isRelyingOnStrays || isStateSeeThrough(nv)) return std::nullopt;
@@ -73,7 +73,8 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
     constexpr unsigned int kFreshStart = 16;
     if (nv.getTraversalNumber() % kFreshStart == 0) last.depth = 0.0;
     const auto eye = eyeAboveWhatIsShown(shown, *viewpoint, deepest, last.depth);
-    const bool isPastBorder = !eye && region;
+    const auto refused = eye ? std::nullopt : viewpoint->above(view.ellipsoid, last.depth);
+    const bool isPastBorder = refused && region && !region->holdsHorizon(*refused, view.planes);
     if (isPastBorder) database.noteBorderInView();
     const bool isPlanned = eye || (isPastBorder && findsOccluded && planWithoutHorizon(shown, *viewpoint));
     if (findsOccluded) noteOccluded(isPlanned ? cullBehindTerrain(shown, *viewpoint) : OccludedTiles(), last);

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace osgAnalyticBin {
@@ -80,19 +81,39 @@ bool readTileMesh(osg::Node& node, const osg::Matrixd& localToEcef, core::EcefMe
     return parts.isMesh();
 }
 
-std::unique_ptr<const core::GroundPlates> tilePlates(const std::vector<osg::ref_ptr<osg::Node>>& meshes,
-                                                     const osg::EllipsoidModel& ellipsoid,
-                                                     const osg::Matrixd& localToEcef) {
-    if (meshes.size() != 1 || !hasValidRadii(ellipsoid)) return nullptr;
+namespace {
+
+struct PlatesAndExtents {
+    std::unique_ptr<const core::GroundPlates> plates;
+    core::GeodeticBin extents;
+};
+
+PlatesAndExtents platesAndExtents(const std::vector<osg::ref_ptr<osg::Node>>& meshes,
+                                  const osg::EllipsoidModel& ellipsoid, const osg::Matrixd& localToEcef) {
+    if (meshes.size() != 1 || !hasValidRadii(ellipsoid)) return {};
     const core::Ellipsoid globe = toCore(ellipsoid);
     core::EcefMesh mesh;
     MeshUnion parts(localToEcef, &globe, mesh);
     meshes.front()->accept(parts);
-    if (!parts.isMesh()) return nullptr;
+    if (!parts.isMesh()) return {};
     const core::MeshBounds bounds(globe, mesh);
-    if (bounds.bin().empty() || bounds.touchesAxis()) return nullptr;
-    auto plates = std::make_unique<const core::GroundPlates>(globe, mesh, bounds.bin(), drawingError(globe));
-    return plates->isKnown() ? std::move(plates) : nullptr;
+    if (bounds.bin().empty() || bounds.touchesAxis()) return {};
+    return {std::make_unique<const core::GroundPlates>(globe, mesh, bounds.bin(), drawingError(globe)), bounds.bin()};
+}
+
+}  // namespace
+
+std::unique_ptr<const core::GroundPlates> tilePlates(const std::vector<osg::ref_ptr<osg::Node>>& meshes,
+                                                     const osg::EllipsoidModel& ellipsoid,
+                                                     const osg::Matrixd& localToEcef) {
+    auto [plates, extents] = platesAndExtents(meshes, ellipsoid, localToEcef);
+    return plates && plates->isKnown() ? std::move(plates) : nullptr;
+}
+
+core::GeodeticBin rectangleFilledBy(const std::vector<osg::ref_ptr<osg::Node>>& meshes,
+                                    const osg::EllipsoidModel& ellipsoid, const osg::Matrixd& localToEcef) {
+    const auto [plates, extents] = platesAndExtents(meshes, ellipsoid, localToEcef);
+    return plates && std::isfinite(plates->least(1, 0, 0)) ? extents : core::GeodeticBin();
 }
 
 }  // namespace osgAnalyticBin

@@ -23,6 +23,11 @@ namespace osgAnalyticBin {
     const std::vector<osg::ref_ptr<osg::Node>>& meshes, const osg::EllipsoidModel& ellipsoid,
     const osg::Matrixd& localToEcef);
 
+/// The rectangle that such meshes fill without holes, up to half a rim of a plate on each side; empty: not known.
+[[nodiscard]] core::GeodeticBin rectangleFilledBy(const std::vector<osg::ref_ptr<osg::Node>>& meshes,
+                                                  const osg::EllipsoidModel& ellipsoid,
+                                                  const osg::Matrixd& localToEcef);
+
 /// Reads the triangles of all parts of a tile's mesh, skirts included, into an empty mesh. Returns: false where they
 /// are not known, as above.
 [[nodiscard]] bool readTileMesh(osg::Node& node, const osg::Matrixd& localToEcef, core::EcefMesh& mesh);
