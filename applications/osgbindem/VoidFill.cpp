@@ -23,12 +23,12 @@ using osgAnalyticBin::support::throwIfStopRequested;
 
 namespace {
 
-constexpr int kBlock = 256;
+constexpr int kVoidBlock = 256;
 // Passes of GDAL's 3 x 3 mean over interpolated posts; each widens by one post what a height depends on.
 constexpr int kSmoothing = 20;
 // What is read around a block: at its corners a void's rim and smoothing still find all that they depend on.
 constexpr int kBorder = VoidFill::kReach + kSmoothing + 1;
-static_assert(kBlock + kBorder <= VoidFill::kMostReach);
+static_assert(kVoidBlock + kBorder <= VoidFill::kMostReach);
 // Blocks kept in memory, 256 KiB each.
 constexpr std::size_t kMostHeld = 24;
 // In the sea a difference fades out within this many posts; it does so less and less up to a height in metres.
@@ -170,11 +170,11 @@ private:
 };
 
 double VoidFill::at(int column, int row) {
-    const int blocksPerRow = (_shape.width + kBlock - 1) / kBlock;
-    const PixelWindow block{column / kBlock * kBlock, row / kBlock * kBlock,
-                            std::min(kBlock, _shape.width - column / kBlock * kBlock),
-                            std::min(kBlock, _shape.height - row / kBlock * kBlock)};
-    const int number = row / kBlock * blocksPerRow + column / kBlock;
+    const int blocksPerRow = (_shape.width + kVoidBlock - 1) / kVoidBlock;
+    const PixelWindow block{column / kVoidBlock * kVoidBlock, row / kVoidBlock * kVoidBlock,
+                            std::min(kVoidBlock, _shape.width - column / kVoidBlock * kVoidBlock),
+                            std::min(kVoidBlock, _shape.height - row / kVoidBlock * kVoidBlock)};
+    const int number = row / kVoidBlock * blocksPerRow + column / kVoidBlock;
     auto found = _blocks.find(number);
     if (found == _blocks.end()) {
         throwIfStopRequested();

@@ -181,13 +181,13 @@ public:
     [[nodiscard]] osg::Vec4ub painted(const osg::Vec4ub& colour, const osg::Vec3f& normal, int column, int row) const {
         const double height = _grid.height(column, row);
         const glm::dvec3 local = _posts.local({normal.x(), normal.y(), normal.z()}, column, row);
-        constexpr double kSnow = 248.0;
+        constexpr double kWhite = 248.0;
         // Water dims what lies below.
         constexpr double kSeaShade = 0.5;
         const double snow = snowShare(height, _snowLines[static_cast<std::size_t>(row)], local);
         double shade = shadeOf(local, _exaggeration);
         if (height <= 0.0) shade = 1.0 + kSeaShade * (shade - 1.0);
-        const double white = snow * kSnow;
+        const double white = snow * kWhite;
         const auto part = [&](unsigned char c) {
             return static_cast<unsigned char>(std::min(shade * (c * (1.0 - snow) + white) + 0.5, 255.0));
         };
