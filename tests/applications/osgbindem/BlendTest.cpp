@@ -43,8 +43,6 @@ private:
     TempFolder _folder;
 };
 
-}  // namespace
-
 TEST_F(Blend, ClimbsFromTheCoarserRasterWithoutAStep) {
     DemMosaic mosaic(settingsFor({globe(100.0), flat("inset.tif", 10.0, 52.0, 0.02, 201, 900.0)}));
     EXPECT_EQ(mosaic.height({50.0, 12.0}), 900.0);
@@ -126,3 +124,5 @@ TEST_F(Blend, BinsHoldTheBand) {
     // Posts at the border are the coarser raster's.
     EXPECT_NEAR(database.altitudeAt(50.0, 9.9609375), coarse.height(50.0, 9.96), 60.0);
 }
+
+}  // namespace

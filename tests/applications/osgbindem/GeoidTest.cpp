@@ -49,8 +49,6 @@ private:
     TempFolder _folder;
 };
 
-}  // namespace
-
 TEST_F(Geoid, IsAddedWhereItIsAskedFor) {
     const std::string raster = globe("globe.tif", "EPSG:4326");
     DemMosaic plain(settingsFor({raster}));
@@ -95,3 +93,5 @@ TEST_F(Geoid, IsInTheDatabase) {
     EXPECT_NEAR(database.altitudeAt(0.0, 0.0), 117.16, 0.3);
     checkSharedPosts(database);
 }
+
+}  // namespace

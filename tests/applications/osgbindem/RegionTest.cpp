@@ -49,8 +49,6 @@ private:
     const TestRaster _inset{10.0, 52.0, 0.02, 0.02, 151, 151, hills};
 };
 
-}  // namespace
-
 TEST_F(Region, HasTilesOnlyWhereTheyAreNeeded) {
     const LoadedDatabase whole = built({});
     const LoadedDatabase part = built({"-te", "11", "50", "12", "51"});
@@ -126,3 +124,5 @@ TEST_F(Region, NoneOfTheEarthIsRefused) {
     const Outcome outcome = run({inset(), "-o", file("refused.osgb"), "-te", "-100", "0", "-99", "1"});
     EXPECT_NE(outcome.errors.find("no raster has a part within -te"), std::string::npos) << outcome.errors;
 }
+
+}  // namespace

@@ -18,7 +18,7 @@
 
 namespace {
 
-constexpr const char* kEtopo5 = "/usr/share/ferret-vis/data/etopo5.cdf";
+constexpr const char* kGlobeRaster = "/usr/share/ferret-vis/data/etopo5.cdf";
 
 constexpr int kAround = 20;
 
@@ -141,8 +141,6 @@ private:
     TempFolder _folder;
 };
 
-}  // namespace
-
 TEST_F(Voids, SmallOnesAreInterpolatedWithoutAnotherRaster) {
     Grid grid = gridOf(hills, 400, 0.01);
     grid.cut(rectangles(40, 15));
@@ -229,7 +227,8 @@ TEST_F(Voids, CutIntoMountainsOverEtopo5) {
     const char* folder = std::getenv("OSGANALYTICBIN_SHARED_DATA");
     const std::string path =
         std::string(folder != nullptr ? folder : OSGBINDEM_SHARED_DATA) + "/dem/everest_srtm3_N27E086.tif";
-    if (!std::filesystem::exists(path) || !std::filesystem::exists(kEtopo5)) GTEST_SKIP() << "no shared sample data";
+    if (!std::filesystem::exists(path) || !std::filesystem::exists(kGlobeRaster))
+        GTEST_SKIP() << "no shared sample data";
     GDALAllRegister();
     Grid grid{86.0, 28.0, 1.0 / 1200.0, 1201, 1201, std::vector<double>(1201 * 1201), {}};
     const osgbindem::GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER));
@@ -241,7 +240,7 @@ TEST_F(Voids, CutIntoMountainsOverEtopo5) {
     grid.heights = grid.truth;
     grid.cut(rectangles(100, 60));
     grid.write(fine());
-    DemMosaic mosaic(settingsFor({kEtopo5, fine()}));
+    DemMosaic mosaic(settingsFor({kGlobeRaster, fine()}));
     EXPECT_GT(expectFilled(grid, mosaic), 50000);
     // Of the voids that the raster has itself the truth is unknown: they are no pillars, that is, no higher than the
     // ground around them by more than its relief.
@@ -264,3 +263,5 @@ TEST_F(Voids, CutIntoMountainsOverEtopo5) {
     }
     RecordProperty("worstBeyondRim", std::to_string(worst));
 }
+
+}  // namespace
