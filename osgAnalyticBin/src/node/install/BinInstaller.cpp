@@ -277,7 +277,7 @@ void BinInstaller::visitTooDeep(osg::Node&) {
     if (!installsBins()) return;
     if (!database().hasGap()) {
         OSG_WARN << "osgAnalyticBin: \"" << frame().file
-                 << "\" has tiles nested hundreds deep; the innermost get no bins, and the horizon is not used.\n";
+                 << "\" has tiles nested hundreds deep; the innermost have no bins. No horizon." << std::endl;
     }
     database().noteGap(frame().file);
 }
