@@ -31,6 +31,7 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 
 namespace {
@@ -112,15 +113,15 @@ private:
     const osg::ref_ptr<osg::NotifyHandler> _before;
 };
 
-void requireDisplay() {
+// What is wrong with the display; empty: nothing.
+std::string displayError() {
     osg::GraphicsContext::ScreenIdentifier screen;
     screen.readDISPLAY();
     screen.setUndefinedScreenDetailsToDefaultScreen();
     osg::GraphicsContext::WindowingSystemInterface* const system = osg::GraphicsContext::getWindowingSystemInterface();
     const WithoutNotes silence;
-    if (!system || system->getNumScreens(screen) == 0)
-        throw std::runtime_error("display " + screen.displayName() +
-                                 " cannot be opened; set DISPLAY, or run it under xvfb-run");
+    if (system && system->getNumScreens(screen) > 0) return {};
+    return "display " + screen.displayName() + " cannot be opened; set DISPLAY, or run it under xvfb-run";
 }
 
 void realize(osgViewer::Viewer& viewer) {
@@ -164,9 +165,14 @@ int show(osg::ArgumentParser& arguments) {
         return EXIT_SUCCESS;
     }
     const viewer::Settings settings = viewer::settingsFrom(arguments);
+    const std::string error = displayError();
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
-    for (const viewer::NamedDatabase& database : settings.databases) scene->addChild(readDatabase(database));
-    requireDisplay();
+    {
+        // a database that cannot be read comes first, and nothing else is said of what is not going to be shown
+        const std::optional<WithoutNotes> silence = error.empty() ? std::nullopt : std::make_optional<WithoutNotes>();
+        for (const viewer::NamedDatabase& database : settings.databases) scene->addChild(readDatabase(database));
+    }
+    if (!error.empty()) throw std::runtime_error(error);
     viewer.setSceneData(scene->getNumChildren() == 1 ? scene->getChild(0) : scene.get());
     const osg::ref_ptr<SpyViewHandler> spy = addHandlers(viewer, settings, *arguments.getApplicationUsage());
     if (!settings.steps.empty()) return runSteps(viewer, settings, *spy);

@@ -6,6 +6,7 @@
 #include "../cull/PlanarBinCullCallback.h"
 #include "../cull/TileFamily.h"
 #include "../page/PagingExpiry.h"
+#include "../surface/SurfaceMesh.h"
 #include "ContentWatch.h"
 #include "InstalledTile.h"
 #include "MeshCulling.h"
@@ -15,9 +16,9 @@
 #include <osg/Group>
 #include <osg/PagedLOD>
 #include <osg/Transform>
-#include <osgTerrain/TerrainTile>
 
-#include <typeinfo>
+#include <algorithm>
+#include <vector>
 
 namespace osgAnalyticBin {
 
@@ -53,14 +54,19 @@ bool isOnSurface(const osg::Node& node, const osg::Node& mesh) {
     return bound.valid() && bound.radius() < kLargest * mesh.getBound().radius();
 }
 
-// Whether anything large is drawn: where a surface is all small parts, none of them stands on it.
-bool hasSurface(osg::Node& mesh) {
-    bool has = false;
-    forEachNode(mesh, [&](osg::Node& node) {
-        const bool isDrawn = node.asDrawable() || dynamic_cast<osgTerrain::TerrainTile*>(&node);
-        has = has || (isDrawn && !isOnSurface(node, mesh));
+// Whether a mesh has a surface and other parts, which may stand on it. Where all parts are small, they are the surface.
+bool hasSurfaceAndMore(osg::Node& mesh) {
+    std::vector<const osg::Drawable*> parts;
+    forEachNode(mesh, [&parts](osg::Node& node) {
+        if (const osg::Drawable* const drawable = node.asDrawable()) parts.push_back(drawable);
     });
-    return has;
+    if (parts.size() < 2) return false;
+    thread_local SurfaceMesh read;
+    // OSG's bounds need vertices for all indices
+    const bool isSound = std::all_of(parts.begin(), parts.end(),
+                                     [](const osg::Drawable* part) { return readMesh(*part, osg::Matrixd(), read); });
+    return isSound && std::any_of(parts.begin(), parts.end(),
+                                  [&](const osg::Drawable* part) { return !isOnSurface(*part, mesh); });
 }
 
 // The nodes of a tile that have no sphere test while bins cull it, some of them more than once. Drawables keep their
@@ -70,7 +76,7 @@ void forEachSphere(const FoundTile& tile, osg::Node& culled, const Action& actio
     action(culled);
     action(*tile.node);
     for (const auto& mesh : tile.meshes) {
-        const bool hasContent = hasSurface(*mesh);
+        const bool hasContent = hasSurfaceAndMore(*mesh);
         forEachNodeWhere(*mesh, [&](osg::Node& node) {
             if (hasContent && isOnSurface(node, *mesh)) return false;
             if (!node.asDrawable()) action(node);
