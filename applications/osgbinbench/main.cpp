@@ -11,6 +11,8 @@
 #include "PoseBench.h"
 #include "TextFile.h"
 
+#include <osg/Notify>
+
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
@@ -83,6 +85,8 @@ int main(int argc, char** argv) {
         if (!settingsFromCommandLine(argc, argv, settings)) return EXIT_SUCCESS;
         if (!settings.compared.empty())
             return compareFiles(settings.compared[0], settings.compared[1], std::cout) ? kWorse : EXIT_SUCCESS;
+        // bins are installed at every pose, and the plugin says so each time
+        if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::WARN);
         shareMemoryAmongThreads();
         osgAnalyticBin::addModuleFolder();
         measure(settings);
