@@ -3,6 +3,8 @@
 
 #include "BlendBand.h"
 
+#include "Angles.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +16,7 @@ namespace osgbindem {
 
 namespace {
 
-constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
+using osgAnalyticBin::support::kRadiansPerDegree;
 
 // Rasters of one resolution have pixel sizes that differ in their last digits.
 constexpr double kAlike = 1.01;

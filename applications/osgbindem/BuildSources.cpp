@@ -75,10 +75,14 @@ GdalRaster rasterOf(const Settings& settings, const DemInput& dem) {
 }
 
 void describeElevations(const Settings& settings, const TileLayout& layout, std::ostream& out) {
+    std::vector<GdalRaster> rasters;
     std::vector<RasterGrid> grids;
-    for (const DemInput& dem : settings.dems) grids.push_back(rasterOf(settings, dem).grid());
+    for (const DemInput& dem : settings.dems) {
+        rasters.push_back(rasterOf(settings, dem));
+        grids.push_back(rasters.back().grid());
+    }
     for (std::size_t i = 0; i < grids.size(); ++i) {
-        const GdalRaster raster = rasterOf(settings, settings.dems[i]);
+        const GdalRaster& raster = rasters[i];
         // Where heights may depend on the raster.
         const RectDeg area = grids[i].extent().grownBy(grids[i].resolutionDeg());
         out << kElevation << wholePath(settings.dems[i].path) << ", scale " << settings.dems[i].metresPerUnit << '\n';

@@ -206,7 +206,7 @@ void VoidFill::read(Window& window) const {
     const int rows = std::min(last, _shape.height) - firstInside;
     std::vector<double> part;
     for (int column = west; column < east;) {
-        const int inside = _shape.isGlobal ? ((column % _shape.width) + _shape.width) % _shape.width : column;
+        const int inside = inRaster(column);
         if (inside < 0 || inside >= _shape.width) {
             ++column;
             continue;
@@ -257,9 +257,7 @@ void VoidFill::interpolateSmall(const Window& window, std::vector<float>& result
 }
 
 double VoidFill::coarserAt(const Window& window, int x, int y) const {
-    const int column = window.posts.column + x;
-    return _coarser(_shape.isGlobal ? ((column % _shape.width) + _shape.width) % _shape.width : column,
-                    window.posts.row + y);
+    return _coarser(inRaster(window.posts.column + x), window.posts.row + y);
 }
 
 void VoidFill::addDifferences(const Window& window, std::vector<float>& result) const {

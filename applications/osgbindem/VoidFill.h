@@ -55,6 +55,10 @@ private:
     void read(Window& window) const;
     void interpolateSmall(const Window& window, std::vector<float>& result) const;
     void addDifferences(const Window& window, std::vector<float>& result) const;
+    /// The column of a raster round the globe that stands for one beyond its ends.
+    [[nodiscard]] int inRaster(int column) const {
+        return _shape.isGlobal ? ((column % _shape.width) + _shape.width) % _shape.width : column;
+    }
     [[nodiscard]] double coarserAt(const Window& window, int x, int y) const;
 
     Shape _shape;

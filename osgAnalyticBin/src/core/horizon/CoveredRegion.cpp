@@ -20,8 +20,7 @@ namespace {
 // Radians by which angles may be wrong.
 constexpr double kRounding = 1e-12;
 
-// Of a position at a latitude and altitude: the latitude of its direction in unit space (doc/theory/horizon.md, section
-// 2).
+// The latitude in unit space of the direction of a position (doc/theory/horizon.md, section 2).
 double latitudeInUnitSpace(const Ellipsoid& ellipsoid, double latitude, double altitude) {
     const double sine = std::sin(latitude), cosine = std::cos(latitude);
     const double n = ellipsoid.primeVerticalRadius(sine, cosine);
@@ -66,9 +65,9 @@ std::vector<glm::dvec3> edgesOfSight(const Ellipsoid& ellipsoid, const HorizonEy
         // in the space in which the occluder is the unit sphere
         const glm::dvec3 normal = data.scale * radii * plane.normal;
         const double slack = kRounding * (glm::length(normal) / data.cosDip + std::abs(plane.offset));
-        const double ofEye = glm::dot(normal, toEye) / data.cosDip + plane.offset;
-        if (!(ofEye >= -1e3 * slack)) continue;  // the near plane: sight begins outside
         const double upward = glm::dot(normal, toEye);
+        const double ofEye = upward / data.cosDip + plane.offset;
+        if (!(ofEye >= -1e3 * slack)) continue;  // the near plane: sight begins outside
         const double least = -plane.offset - std::max(upward, upward * data.cosDip) - 1e3 * slack;
         // the eye's own direction stays inside
         clip(polygon, {glm::dot(normal, right), glm::dot(normal, ahead)}, std::min(least, 0.0));
@@ -99,15 +98,15 @@ double northernmost(const std::vector<glm::dvec3>& edges) {
 
 // doc/theory/horizon.md, section 10: whether no segment from the eye to a point at most `apart` radians of longitude
 // away, and not north of `border`, passes north of it.
-bool staysSouthOf(double border, const Ellipsoid& ellipsoid, const Geodetic& eye, double apart) {
+bool staysSouthOf(double border, const Ellipsoid& ellipsoid, double latitude, const glm::dvec3& eye, double apart) {
     if (border >= kHalfPi) return true;
-    if (!(eye.latitude <= border - kRounding)) return false;
+    if (!(latitude <= border - kRounding)) return false;
     if (border <= 0.0) return true;
-    const glm::dvec3 point = ellipsoid.toEcef({eye.latitude, 0.0, eye.altitude});
+    const double axisDistance = std::hypot(eye.x, eye.y);
     const double sine = std::sin(border);
     const double apex = ellipsoid.eccentricitySquared() * ellipsoid.primeVerticalRadius(sine, std::cos(border)) * sine;
-    return std::tan(border) * (point.x * std::cos(apart) - kRounding * ellipsoid.equatorialRadius()) >=
-           point.z + apex + kRounding * ellipsoid.equatorialRadius();
+    const double rounding = kRounding * ellipsoid.equatorialRadius();
+    return std::tan(border) * (axisDistance * std::cos(apart) - rounding) >= eye.z + apex + rounding;
 }
 
 }  // namespace
@@ -159,9 +158,9 @@ bool CoveredRegion::holdsSegmentsFrom(const glm::dvec3& eyeEcef) const noexcept 
     const double apart = half + aside;
     // the half-planes of two meridians hold a convex wedge
     if (!(aside + kRounding <= half) || !(apart < 0.49 * kPi)) return false;
-    const Geodetic mirrored{-eye.latitude, eye.longitude, eye.altitude};
-    return staysSouthOf(_extents.latitude().upper, _ellipsoid, eye, apart) &&
-           staysSouthOf(-_extents.latitude().lower, _ellipsoid, mirrored, apart);
+    const glm::dvec3 mirrored(eyeEcef.x, eyeEcef.y, -eyeEcef.z);
+    return staysSouthOf(_extents.latitude().upper, _ellipsoid, eye.latitude, eyeEcef, apart) &&
+           staysSouthOf(-_extents.latitude().lower, _ellipsoid, -eye.latitude, mirrored, apart);
 }
 
 }  // namespace osgAnalyticBin::core

@@ -212,8 +212,7 @@ void Database::reportFalseBin(const ParentTile& tile, const AnalyticBin& bin) {
 void Database::reportUntold(const ParentTile& tile) {
     warn(tile, &Database::_hasWarnedOfUntold,
          " holds content that cannot be compared with the bin stored with it or above it: it stands on another globe, "
-         "or "
-         "its mesh has no known bounds. Tiles are kept visible there.");
+         "or its mesh has no known bounds. Tiles are kept visible there.");
     widenFrom(tile, {{}, true});
 }
 
