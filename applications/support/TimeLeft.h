@@ -24,8 +24,8 @@ namespace osgAnalyticBin::support {
     return text;
 }
 
-/// Says how long work will go on that has got to `share` (0 to 1) in `seconds`, if the rest is as fast: "12 min left".
-/// Empty in the first seconds, when nobody can say.
+/// Estimates the time that is left when `share` (0 to 1) of the work took `seconds`: "12 min left". Empty in the first
+/// seconds, when the estimate would be too rough.
 [[nodiscard]] inline std::string timeLeft(double share, double seconds) {
     constexpr double kFirstSeconds = 3.0;
     if (!(share > 0.0) || share >= 1.0 || seconds < kFirstSeconds) return {};
