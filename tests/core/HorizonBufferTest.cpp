@@ -33,15 +33,20 @@ HorizonBuffer bufferOf(const OcclusionScene& scene) {
     return {glm::length(scene.eye), kAcross};
 }
 
-// Adds the columns of all cells. Their depth is a share of the distance from the eye.
-void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells) {
+// Adds the columns of all cells. Their depth is a share of the distance from the eye. `reach`: metres that the eye may
+// be away from its place.
+void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,
+             double reach = 0.0) {
     const GroundPlates plates(scene.ellipsoid, tile.mesh, tile.bin);
     const double depth =
         std::min(0.3 * glm::distance(scene.eye, tile.mesh.vertex(0)), 0.01 * scene.ellipsoid.equatorialRadius());
     std::vector<EarthColumn> columns;
     for (std::size_t quarter = 0; quarter < 4; ++quarter)
         plates.appendColumns(cells, quarter, depth, frameOf(scene), columns);
-    for (const EarthColumn& column : columns) buffer.add(column);
+    for (EarthColumn& column : columns) {
+        column.error += reach;
+        buffer.add(column);
+    }
 }
 
 bool isBeforeTheCamera(const OcclusionScene& scene, const RealVector& point) {
@@ -57,10 +62,10 @@ struct Quarter {
     HorizonBuffer::Outline outline;
 };
 
-std::vector<Quarter> frontToBack(const OcclusionScene& scene, const HorizonBuffer& buffer) {
+std::vector<Quarter> frontToBack(const OcclusionScene& scene, const HorizonBuffer& buffer, double reach = 0.0) {
     std::vector<Quarter> sorted;
     for (const GroundTile& tile : scene.tiles) {
-        const auto hulls = hullsOfQuarters(scene.ellipsoid, tile.bin, 0.0, frameOf(scene));
+        const auto hulls = hullsOfQuarters(scene.ellipsoid, tile.bin, reach, frameOf(scene));
         for (std::size_t i = 0; i < 4; ++i) {
             const auto half = [](const Interval& whole, bool isUpper) -> Interval {
                 return {isUpper ? whole.middle() : whole.lower, isUpper ? whole.upper : whole.middle()};
@@ -95,6 +100,32 @@ TEST(HorizonBuffer, HidesNothingThatARayReaches) {
         }
     }
     EXPECT_GT(hidden, 150);
+}
+
+// A view serves eyes around its own: an eye that is elsewhere is the same as points that are.
+TEST(HorizonBuffer, HidesNothingThatARayReachesFromAnEyeWithinTheErrors) {
+    Random random(1711);
+    int hidden = 0;
+    for (int i = 0; i < 30; ++i) {
+        const OcclusionScene scene(random);
+        const double highest = scene.ellipsoid.toGeodetic(scene.eye).altitude;
+        const double reach = random.logUniform(1e-3, 0.3) * std::abs(highest - scene.tiles[0].bin.altitude().lower);
+        HorizonBuffer buffer = bufferOf(scene);
+        for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, 8, reach);
+        OcclusionScene moved = scene;
+        for (const auto& [part, outline] : frontToBack(scene, buffer, reach)) {
+            if (!buffer.hides(outline)) continue;
+            ++hidden;
+            for (int ray = 0; ray < kRays / 4; ++ray) {
+                moved.eye = scene.eye + reach * random.direction();
+                // an eye below the ground looks through the backs of faces
+                if (moved.isBlocked(real(moved.eye + 0.1 * scene.ellipsoid.polarRadius() * scene.up))) continue;
+                const RealVector point = scene.pointIn(random, part);
+                ASSERT_TRUE(!isBeforeTheCamera(moved, point) || moved.isBlocked(point)) << "scene " << i;
+            }
+        }
+    }
+    EXPECT_GT(hidden, 30);
 }
 
 TEST(HorizonBuffer, HidesMuchOfWhatNoRayReaches) {

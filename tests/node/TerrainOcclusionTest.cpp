@@ -31,14 +31,14 @@ CullOptions withOcclusion() {
 // A globe of 32 tiles, of which one has a row of tiles of 0.2 degrees along the equator: a plain, and in the third tile
 // a ridge, which tile 4 lies behind. The eye is above the middle of tile 0.
 struct RidgeGlobe : MeshGlobe {
-    explicit RidgeGlobe(double ridgeHeight = 8000.0) {
+    explicit RidgeGlobe(double ridgeHeight = 8000.0, int tilesInRow = 10) {
         root->removeChild(tiles[20]);
         const auto add = [this](double south, double north, double west, double east, double height) {
             row.push_back(makePaged(makeMeshTile(extentsDeg(south, north, west, east), height), "no.osgb"));
             root->addChild(row.back());
         };
-        for (int i = 0; i < 10; ++i) add(0, 0.2, 0.2 * i, 0.2 * i + 0.2, i == 2 ? ridgeHeight : 0.0);
-        add(0, 0.2, 2, 45, 0.0);
+        for (int i = 0; i < tilesInRow; ++i) add(0, 0.2, 0.2 * i, 0.2 * i + 0.2, i == 2 ? ridgeHeight : 0.0);
+        add(0, 0.2, 0.2 * tilesInRow, 45, 0.0);
         add(0.2, 45, 0, 45, 0.0);
     }
 
@@ -126,6 +126,47 @@ TEST(TerrainOcclusion, RestsWhereItDoesNotPayIfLeftToItself) {
     EXPECT_GE(rested, 1);
     EXPECT_LE(rested, 64);
     for (int i = 0; i < 20; ++i) EXPECT_FALSE(globe.drawsFarTile()) << i;
+}
+
+// What was found serves the next views as well. It must not outlast the place that it was found for.
+TEST(TerrainOcclusion, IsFoundAgainWhereTheEyeHasMoved) {
+    // the lowest eye that sees the tile behind the ridge, by what is found for one view alone
+    double lowest = 1000.0, highest = 40000.0;
+    while (highest > 1.0001 * lowest) {
+        RidgeGlobe globe;
+        installBins(*globe.root, withOcclusion());
+        const double middle = 0.5 * (lowest + highest);
+        (globe.drawsFarTile(RidgeGlobe::alongRow(middle)) ? highest : lowest) = middle;
+    }
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    for (const double step : {1.0, 5.0, 20.0, 60.0, 200.0, 500.0}) {
+        for (int start = 0; start < 20; ++start) {
+            for (int i = 0; i < 20; ++i) {
+                const double altitude = highest + (0.5 + i - 10 - 0.05 * start) * step;
+                const bool isDrawn = globe.drawsFarTile(RidgeGlobe::alongRow(altitude));
+                EXPECT_TRUE(isDrawn || altitude < 1.002 * highest) << altitude << " by steps of " << step;
+                // not much is lost by looking ahead
+                EXPECT_TRUE(!isDrawn || altitude > 0.8 * highest) << altitude << " by steps of " << step;
+            }
+        }
+    }
+}
+
+TEST(TerrainOcclusion, IsFoundAgainWhereTheCameraHasTurned) {
+    // beside the row: the ridge covers only the northern part of the tile behind it
+    const auto turned = [](double north) {
+        return CullView::lookAt(ecefDeg(-0.1, 0.1, 1000.0), ecefDeg(-0.1 + north, 1.1, 1000.0), {1, 0, 0}, 8.0);
+    };
+    for (const double step : {0.002, 0.01, 0.04}) {
+        // few tiles, so that all views show the same
+        RidgeGlobe globe(8000.0, 5);
+        installBins(*globe.root, withOcclusion());
+        double north = 0.28;
+        EXPECT_FALSE(globe.drawsFarTile(turned(north)));
+        for (; north > 0.25; north -= step) (void)globe.drawsFarTile(turned(north));
+        EXPECT_TRUE(globe.drawsFarTile(turned(north))) << step;
+    }
 }
 
 TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {

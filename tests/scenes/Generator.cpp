@@ -288,7 +288,12 @@ Description randomDescription(std::uint64_t seed) {
     chooseTheme(random, description);
     const int frames = random.integer(3, 6);
     PartMaker(random, description, frames).addAll();
-    for (int frame = 1; frame <= frames; ++frame) description.views.push_back(randomView(random, description, frame));
+    for (int frame = 1; frame <= frames; ++frame) {
+        // what terrain hides is kept from view to view
+        const bool isFlight = frame > 1 && description.theme == Theme::Hills && random.chance(0.6);
+        description.views.push_back(isFlight ? nextView(random, description.views.back())
+                                             : randomView(random, description, frame));
+    }
     return description;
 }
 

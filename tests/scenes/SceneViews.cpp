@@ -219,4 +219,15 @@ ViewSpec randomView(Random& random, const Description& description, int frame) {
     return view;
 }
 
+ViewSpec nextView(Random& random, const ViewSpec& view) {
+    double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0, nearest = 1.0, farthest = 0.0;
+    (void)view.projection.getFrustum(left, right, bottom, top, nearest, farthest);
+    // near planes are at a hundredth of the distance to the ground or to what is looked at
+    const osg::Vec3d step = vectorOf(random.direction()) * std::abs(nearest) * random.logUniform(0.01, 20.0);
+    const double turn = random.chance(0.5) ? 0.0 : random.logUniform(1e-4, 0.1);
+    ViewSpec next = view;
+    next.view = view.view * osg::Matrixd::translate(step) * osg::Matrixd::rotate(turn, vectorOf(random.direction()));
+    return next;
+}
+
 }  // namespace osgAnalyticBin::test

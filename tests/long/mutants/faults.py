@@ -199,7 +199,7 @@ FAULTS = [
           " || tile->_frame || child.asTransform()) return false;", " || tile->_frame) return false;", NODE, "AddedContent.*"),
     Fault("eyes below the ground have a horizon", "src/node/cull/GroundBelow.cpp",
           "if (!(glm::dot(hit - point, up) < 0.0)) return false;", "", NODE, "UndergroundEyes.*"),
-    Fault("undo forgets what was off", "src/node/install/InstalledTile.cpp", "if (!_wasActive.back()) return;", "", NODE, "Undo.*"),
+    Fault("undo forgets what was off", "src/node/install/InstalledTile.cpp", "if (!node.getCullingActive()) return _wasInactive.push_back(number);", "", NODE, "Undo.*"),
     Fault("saved scenes forget the skirt", "src/node/cull/AnalyticBinCullCallbackText.cpp",
           'if (_skirt != 0.0) text += "; skirt " + numberToText(_skirt);', "", PLUGIN, "*Serializer*"),
 
@@ -213,7 +213,7 @@ FAULTS = [
     Fault("region: the horizon passes the border", "src/node/cull/ShownDepth.cpp",
           "if (isPastBorder) return std::nullopt;", "(void)isPastBorder;", NODE, "RegionalHorizon.*"),
     Fault("region: terrain hides from beside", "src/node/cull/TerrainOcclusion.cpp",
-          "if (database.region && !database.region->holdsSegmentsFrom(*viewpoint.eye())) return {};", "", NODE, "RegionalTerrain.*"),
+          "if (database.region && !database.region->holdsSegmentsFrom(eye)) return {};", "", NODE, "RegionalTerrain.*"),
     Fault("region: a missing tile leaves a region", "src/node/install/Coverage.cpp",
           "areaOf(region) - filled.areaWithin(region) <= kRounding * areaOf(region) ?", "true ?", NODE, "Regional*"),
     Fault("occlusion: borders of meshes count as covered", "src/core/occlusion/GroundPlates.cpp", "        addBorders();\n", "",
@@ -242,7 +242,9 @@ FAULTS = [
     Fault("occlusion: bins are the hull of their corners", "src/core/occlusion/BinHull.cpp",
           "reach = bulge + margin", "reach = 0.0 * bulge + margin", CORE, "BinHull.*"),
     Fault("occlusion: the near plane cuts nothing away", "src/node/cull/TerrainOcclusion.cpp",
-          "_buffer.setLowest(*lowest);", "", NODE, "TerrainOcclusion.*"),
+          "_buffer.setLowest(*highest / nearReach);", "", NODE, "TerrainOcclusion.*"),
+    Fault("occlusion: what was found serves eyes anywhere", "src/node/cull/TerrainOcclusion.cpp",
+          "glm::distance(eye, found.eye.origin) <= found.reach", "glm::length(eye) > 0.0", NODE, "TerrainOcclusion.*"),
     Fault("occlusion: meshes stay as they were", "src/node/install/InstalledTile.cpp",
           "    _isMeshChanged.store(true, std::memory_order_relaxed);\n", "", NODE, "TerrainOcclusion.*"),
 

@@ -71,7 +71,7 @@ void HorizonBuffer::add(const EarthColumn& column) {
     const double error = column.error + kVectorRounding * longest;
     if (!(column.error >= 0.0 && nearest > 4.0 * error)) return;
     const double inPicture = pictureError(error, nearest, largest);
-    if (!(inPicture < 0.5 * _step) || !(bottom[0].x < bottom[1].x)) return;
+    if (!(bottom[0].x < bottom[1].x)) return;
     Wall wall;
     wall.farthest = farthest + error;
     wall.highest = highest;

@@ -20,6 +20,7 @@
 #include <array>
 #include <cstddef>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -36,6 +37,7 @@ struct Occluder {
 
 class Database;
 class TilePlan;
+struct FoundOcclusion;
 
 /// What a database says to its tiles for the length of its traversal.
 struct DatabaseView {
@@ -92,6 +94,7 @@ public:
         double depth = 0.0;        ///< metres, of the lowest surface shown; the next search starts there
         unsigned int rest = 0;     ///< views without occlusion that follow a view in which it hid too little
         unsigned int resting = 0;  ///< how many of them are left
+        std::shared_ptr<FoundOcclusion> occlusion;
     };
     [[nodiscard]] LastView& lastView(const Database& database);
 

@@ -3,9 +3,6 @@
 
 #include "TerrainOcclusion.h"
 
-#include "../../core/LocalFrame.h"
-#include "../GlmBridge.h"
-#include "../Inverse.h"
 #include "../install/InstalledTile.h"
 #include "BinCulling.h"
 #include "CullTraversal.h"
@@ -19,7 +16,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -31,54 +30,7 @@ using core::BinHull;
 using core::GeodeticBin;
 using core::HorizonBuffer;
 
-// The picture of an eye on the vertical plane in front of it.
-struct Picture {
-    core::Frame eye;  // x to the right, y forward, z up
-    core::Interval across;
-    double drawing;  // by how much corners of triangles may be drawn elsewhere
-};
-
-// Views that look up or down more steeply, or whose corners do, have no picture on a vertical plane.
-constexpr double kLevel = 0.2;
-
-std::optional<Picture> pictureOf(const ShownDatabase& database, const glm::dvec3& eye) {
-    const osg::Matrixd& projection = *database.cullStack.getProjectionMatrix();
-    const auto eyeToWorld = affineInverse(*database.cullStack.getModelViewMatrix());
-    osg::Matrixd unproject;
-    if (!eyeToWorld || !unproject.invert(projection)) return std::nullopt;
-    const auto toWorld = [&](const osg::Vec3d& v) { return toGlm(osg::Matrixd::transform3x3(v, *eyeToWorld)); };
-    const core::Geodetic place = database.view.ellipsoid.toGeodetic(eye);
-    const glm::dvec3 up = core::LocalFrame(place.latitude, place.longitude).up;
-    const glm::dvec3 look = glm::normalize(toWorld({0.0, 0.0, -1.0}));
-    const glm::dvec3 level = look - glm::dot(look, up) * up;
-    if (!(glm::length(level) > kLevel)) return std::nullopt;
-    const glm::dvec3 forward = glm::normalize(level), right = glm::cross(forward, up);
-    Picture picture{{eye, right, forward, up}, {1e300, -1e300}, 0.0};
-    double levelness = 1.0;
-    for (int corner = 0; corner < 4; ++corner) {
-        const osg::Vec4d clip(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, 0.5, 1.0);
-        const osg::Vec4d point = clip * unproject;
-        osg::Vec3d ray(point.x(), point.y(), point.z());
-        if (ray.z() * projection(2, 3) < 0.0) ray = -ray;
-        const glm::dvec3 direction = toWorld(ray);
-        const double ahead = glm::dot(direction, forward), length = glm::length(direction);
-        if (!(ahead > kLevel * length)) return std::nullopt;
-        const double x = glm::dot(direction, right) / ahead;
-        picture.across = {std::min(picture.across.lower, x), std::max(picture.across.upper, x)};
-        levelness = std::min(levelness, ahead / length);
-    }
-    if (!(picture.across.width() > 0.0)) return std::nullopt;
-    constexpr double kRounding = 1e-6;
-    const double room = kRounding * picture.across.width();
-    picture.across = {picture.across.lower - room, picture.across.upper + room};
-    // Drivers snap corners to 1/256 of a pixel, both of the tile that hides and of the hidden one. Where the view is
-    // not level, pixels are larger in this picture.
-    const osg::Viewport* const viewport = database.cullStack.getViewport();
-    if (!viewport || !(viewport->width() > 0.0 && viewport->height() > 0.0)) return std::nullopt;
-    const double pixels = std::min(viewport->width(), viewport->height());
-    picture.drawing = picture.across.width() / (128.0 * pixels * levelness * levelness);
-    return picture;
-}
+using Verdict = FoundOcclusion::Verdict;
 
 // A shown tile.
 struct Candidate {
@@ -97,38 +49,36 @@ struct Quarter {
 
 class TerrainOcclusion {
 public:
-    TerrainOcclusion(const ShownDatabase& database, const Picture& picture)
+    // For eyes within the reach of the place that is given.
+    TerrainOcclusion(const ShownDatabase& database, FoundOcclusion& found)
         : _database(database),
           _ellipsoid(database.view.ellipsoid),
-          _plan(*database.view.plan),
-          _picture(picture),
-          _buffer(glm::length(picture.eye.origin), picture.across, picture.drawing) {}
+          _found(found),
+          _buffer(glm::length(found.eye.origin), found.span.across, found.span.drawing) {}
 
-    // `nearReach`: metres from the eye at which the near plane may still cut terrain away.
-    OccludedTiles run(double nearReach) {
-        for (const TilePlan::ShownTile& tile : _plan.shown()) {
-            if (!isWhole(tile) || !add(tile)) return {};
+    // Returns: whether the verdicts are known.
+    [[nodiscard]] bool run() {
+        for (const TilePlan::ShownTile& tile : _database.view.plan->shown()) {
+            if (!add(tile)) return false;
         }
         std::sort(_order.begin(), _order.end());
-        const std::optional<double> lowest = lowestSight(1.01 * nearReach);
-        if (!lowest) return {};
-        _buffer.setLowest(*lowest);
+        const double nearReach = 1.01 * _found.nearReach;
+        const std::optional<double> highest = highestWithin(nearReach);
+        if (!highest || !(*highest < 0.0)) return false;
+        _found.lastClearance = std::isfinite(*highest) ? -*highest : nearestInPicture();
+        _buffer.setLowest(*highest / nearReach);
         for (const auto& [nearest, number] : _order) {
             const Quarter& quarter = _quarters[number];
             if (quarter.outline.isBeside || _buffer.hides(quarter.outline)) continue;
             addEarth(quarter);
             _candidates[quarter.candidate].isHidden = false;
         }
-        std::vector<TilePlan::ShownTile> occluded;
-        OccludedTiles tiles;
+        _found.verdicts.clear();
         for (const Candidate& candidate : _candidates) {
-            if (!candidate.isInPicture || _plan.isOutOfView(*candidate.tile)) continue;
-            ++tiles.inView;
-            if (candidate.isHidden) occluded.push_back(*candidate.tile);
+            const Verdict inPicture = candidate.isHidden ? Verdict::Hidden : Verdict::Seen;
+            _found.verdicts.push_back(candidate.isInPicture ? inPicture : Verdict::Beside);
         }
-        tiles.hidden = occluded.size();
-        _plan.setOccluded(occluded);
-        return tiles;
+        return true;
     }
 
 private:
@@ -140,7 +90,7 @@ private:
         if (bin.empty() || !std::isfinite(altitude.lower) || !std::isfinite(altitude.upper)) return false;
         Candidate candidate{&shown, HUGE_VAL, 0.0, true, false};
         const GeodeticBin drawn = bin.withAltitude(altitude);
-        const auto hulls = core::hullsOfQuarters(_ellipsoid, drawn, tile.getBin().margin(), _picture.eye);
+        const auto hulls = core::hullsOfQuarters(_ellipsoid, drawn, tile.getBin().margin() + _found.reach, _found.eye);
         candidate.size = 2.0 * glm::distance(hulls.back().corners.front(), hulls.back().corners.back());
         std::size_t number = 0;
         for (const BinHull& hull : hulls) {
@@ -155,22 +105,21 @@ private:
         return true;
     }
 
-    // Whether the mesh of a tile in view is drawn whole, has no holes, and is not left out as a small feature.
-    [[nodiscard]] bool isWhole(const TilePlan::ShownTile& shown) const {
-        const InstalledTile* const installed = shown.tile->getInstalledTile();
-        const core::GroundPlates* const plates = installed ? installed->plates() : nullptr;
-        if (!plates || !std::isfinite(plates->least(1, 0, 0))) return false;
-        const osg::BoundingSphere& bound = shown.mesh->getBound();
-        return !isSmall(_database.cullStack.getCurrentCullingSet(),
-                        {osg::Vec3d(bound.center()) * shown.tile->getLocalToEcef(), bound.radius()});
+    // Metres along `forward`.
+    [[nodiscard]] double nearestInPicture() const {
+        const auto first = std::find_if(_order.begin(), _order.end(), [this](const auto& place) {
+            return !_quarters[place.second].outline.isBeside;
+        });
+        return first == _order.end() ? 0.0 : first->first;
     }
 
-    // Where lines of sight in the picture pass above all terrain that is within `reach` of the eye. Returns: nullopt
-    // where that is not known.
-    [[nodiscard]] std::optional<double> lowestSight(double reach) const {
+    // Metres above the eye of the highest point of the terrain that is in the picture and within `reach` of the eye.
+    // Returns: nullopt where that is not known.
+    [[nodiscard]] std::optional<double> highestWithin(double reach) const {
         NearMeshes& meshes = CullTraversal::of(_database.visitor).nearMeshes();
-        const double widest = std::max(std::abs(_picture.across.lower), std::abs(_picture.across.upper));
-        double highest = -HUGE_VAL;  // metres above the eye
+        const core::Interval& across = _found.span.across;
+        const double widest = std::max(std::abs(across.lower), std::abs(across.upper));
+        double highest = -HUGE_VAL;
         std::vector<std::size_t> tiles;
         for (const auto& [nearest, number] : _order) {
             if (nearest > reach) break;
@@ -180,25 +129,24 @@ private:
             if (tiles.size() == NearMeshes::kMostTiles) return std::nullopt;
             tiles.push_back(quarter.candidate);
             const TilePlan::ShownTile& tile = *_candidates[quarter.candidate].tile;
-            const double margin = tile.tile->getBin().margin();
+            const double margin = tile.tile->getBin().margin() + _found.reach;
             const double radius = (reach + 2.0 * margin) * (1.0 + widest);
-            const core::EcefMesh* const mesh = meshes.trianglesNear(*tile.tile, *tile.mesh, _picture.eye, radius);
+            const core::EcefMesh* const mesh = meshes.trianglesNear(*tile.tile, *tile.mesh, _found.eye, radius);
             if (!mesh) return std::nullopt;
             highest = std::max(highest, highestOf(*mesh, reach, margin));
         }
-        if (!(highest < 0.0)) return std::nullopt;
-        return highest / reach;
+        return highest;
     }
 
-    // Metres above the eye of the highest point of the triangles that is in the picture and within reach.
+    // The same of triangles that may be `margin` metres away from their place.
     [[nodiscard]] double highestOf(const core::EcefMesh& mesh, double reach, double margin) const {
-        const auto& [eye, right, ahead, up] = _picture.eye;
+        const auto& [eye, right, ahead, up] = _found.eye;
         // inside is where p.normal >= offset
         struct HalfSpace {
             glm::dvec3 normal;
             double offset;
         };
-        const auto [left, most] = _picture.across;
+        const auto [left, most] = _found.span.across;
         const std::array<HalfSpace, 4> wedge{HalfSpace{ahead, -margin}, HalfSpace{-ahead, -reach - margin},
                                              HalfSpace{right - left * ahead, -margin * (1.0 + std::abs(left))},
                                              HalfSpace{most * ahead - right, -margin * (1.0 + std::abs(most))}};
@@ -245,7 +193,7 @@ private:
         // a cell should be some strips wide
         constexpr double kStripsOfCell = 8.0;
         const double strips = candidate.size / std::max(candidate.distance, 1e-3 * candidate.size) /
-                              _picture.across.width() * HorizonBuffer::kStrips;
+                              _found.span.across.width() * HorizonBuffer::kStrips;
         std::size_t cells = 8;
         while (cells > 2 && strips < kStripsOfCell * static_cast<double>(cells)) cells /= 2;
         // deep enough to reach below what is behind it, and not so deep that columns part
@@ -258,15 +206,16 @@ private:
         // coarser cells bridge the gaps between finer ones
         // the cell of the whole tile is added once
         const std::size_t coarsest = candidate.isHidden && isTileOverRegion ? 1 : 2;
-        for (; cells >= coarsest; cells /= 2)
-            plates->appendColumns(cells, quarter.number, depth, _picture.eye, _columns);
-        for (const core::EarthColumn& column : _columns) _buffer.add(column);
+        for (; cells >= coarsest; cells /= 2) plates->appendColumns(cells, quarter.number, depth, _found.eye, _columns);
+        for (core::EarthColumn& column : _columns) {
+            column.error += _found.reach;
+            _buffer.add(column);
+        }
     }
 
     const ShownDatabase& _database;
     const core::Ellipsoid& _ellipsoid;
-    TilePlan& _plan;
-    const Picture& _picture;
+    FoundOcclusion& _found;
     HorizonBuffer _buffer;
     std::vector<Candidate> _candidates;
     std::vector<Quarter> _quarters;
@@ -274,16 +223,122 @@ private:
     std::vector<core::EarthColumn> _columns;
 };
 
+// Notes the tiles that are shown. Returns: false where one may have a hole, or may not be drawn whole, or is left out
+// as a small feature.
+bool describe(const ShownDatabase& database, std::vector<FoundOcclusion::Tile>& tiles) {
+    osg::CullingSet& cullingSet = database.cullStack.getCurrentCullingSet();
+    tiles.clear();
+    for (const TilePlan::ShownTile& shown : database.view.plan->shown()) {
+        const AnalyticBinCullCallback& tile = *shown.tile;
+        const InstalledTile* const installed = tile.getInstalledTile();
+        const core::GroundPlates* const plates = installed ? installed->plates() : nullptr;
+        if (!plates || !std::isfinite(plates->least(1, 0, 0))) return false;
+        const osg::BoundingSphere& bound = shown.mesh->getBound();
+        if (isSmall(cullingSet, {osg::Vec3d(bound.center()) * tile.getLocalToEcef(), bound.radius()})) return false;
+        tiles.push_back({&tile, shown.mesh, shown.isSure, installed->numberOfPlates(), tile.getBin().bin(),
+                         tile.getBin().margin(), tile.getBinLow(), tile.getBinHigh()});
+    }
+    return true;
+}
+
+std::optional<GeodeticBin> regionOf(const ShownDatabase& database) {
+    if (!database.region) return std::nullopt;
+    return database.region->extents();
+}
+
+bool isWithin(const core::Interval& inner, const core::Interval& outer) {
+    return inner.lower >= outer.lower && inner.upper <= outer.upper;
+}
+
+// Whether what was found holds for a view of these tiles.
+bool serves(FoundOcclusion& found, const std::vector<FoundOcclusion::Tile>& tiles, const ShownDatabase& database,
+            const glm::dvec3& eye, const std::optional<PictureSpan>& span, double nearReach) {
+    // meshes around the eye may change
+    constexpr int kMostUses = 16;
+    return found.uses++ < kMostUses && glm::distance(eye, found.eye.origin) <= found.reach && span &&
+           isWithin(span->across, found.span.across) && span->drawing <= found.span.drawing &&
+           nearReach <= found.nearReach && found.region == regionOf(database) && found.tiles == tiles;
+}
+
+// Prepares a search that serves as many of the next views as it can, if the camera goes on as it does.
+void aim(FoundOcclusion& found, const LevelView& view, const glm::dvec3& eye, const PictureSpan& span,
+         const std::optional<PictureSpan>& spanThen) {
+    constexpr double kViews = 8.0;         // to the middle of the way that is foreseen
+    constexpr double kOfClearance = 0.03;  // farther, terrain near the eye hides too little
+    constexpr double kJump = 0.1;          // of the clearance: no motion that goes on
+    constexpr double kMostTurned = 0.1;    // of the picture's width
+    const glm::dvec3 step = eye - found.lastEye;
+    const double length = glm::length(step);
+    // a camera that only turns has an eye that is rounded anew in each view
+    const double rounding = 1e-9 * glm::length(eye);
+    found.eye = view.frameAt(eye);
+    found.reach = rounding;
+    found.span = span;
+    found.span.drawing *= 1.25;
+    if (!spanThen || length >= kJump * found.lastClearance) return;
+    if (length > rounding) {
+        found.reach = std::max(rounding, std::min(kViews * length, kOfClearance * found.lastClearance));
+        found.eye.origin += 0.999 * found.reach / length * step;
+    }
+    const double most = kMostTurned * span.across.width();
+    const auto room = [&](double turned) { return std::clamp(kViews * turned, 0.0, most); };
+    found.span.across.lower -= room(found.lastAcross.lower - spanThen->across.lower);
+    found.span.across.upper += room(spanThen->across.upper - found.lastAcross.upper);
+}
+
+OccludedTiles noteIn(TilePlan& plan, const FoundOcclusion& found) {
+    OccludedTiles tiles;
+    std::vector<TilePlan::ShownTile> occluded;
+    for (std::size_t i = 0; i < found.verdicts.size(); ++i) {
+        const TilePlan::ShownTile& tile = plan.shown()[i];
+        if (found.verdicts[i] == Verdict::Beside || plan.isOutOfView(tile)) continue;
+        ++tiles.inView;
+        if (found.verdicts[i] == Verdict::Hidden) occluded.push_back(tile);
+    }
+    tiles.hidden = occluded.size();
+    plan.setOccluded(occluded);
+    return tiles;
+}
+
 }  // namespace
 
-OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& viewpoint) {
+bool FoundOcclusion::Tile::operator==(const Tile& other) const {
+    return std::tie(tile, mesh, isSure, plates, margin, low, high) ==
+               std::tie(other.tile, other.mesh, other.isSure, other.plates, other.margin, other.low, other.high) &&
+           bin == other.bin;
+}
+
+OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& viewpoint,
+                                std::shared_ptr<FoundOcclusion>& kept) {
     if (!viewpoint.eye() || !database.view.plan || !std::isfinite(viewpoint.nearReach())) return {};
     // tiles in front of the near plane are not looked for then
     constexpr osg::CullingSet::Mask kNear = osg::CullingSet::NEAR_PLANE_CULLING;
     if (database.cullStack.getCurrentCullingSet().getCullingMask() & kNear) return {};
-    if (database.region && !database.region->holdsSegmentsFrom(*viewpoint.eye())) return {};
-    const auto picture = pictureOf(database, *viewpoint.eye());
-    return picture ? TerrainOcclusion(database, *picture).run(viewpoint.nearReach()) : OccludedTiles();
+    const glm::dvec3& eye = *viewpoint.eye();
+    if (database.region && !database.region->holdsSegmentsFrom(eye)) return {};
+    const auto view = LevelView::of(database.cullStack, database.view.ellipsoid, eye);
+    if (!view) return {};
+    if (!kept) kept = std::make_shared<FoundOcclusion>();
+    FoundOcclusion& found = *kept;
+    std::vector<FoundOcclusion::Tile> tiles;
+    if (!describe(database, tiles)) return {};
+    const auto spanThen = PictureSpan::of(*view, found.eye);
+    if (!serves(found, tiles, database, eye, spanThen, viewpoint.nearReach())) {
+        const auto span = PictureSpan::of(*view, view->frameAt(eye));
+        if (!span) return {};
+        aim(found, *view, eye, *span, spanThen);
+        found.tiles = std::move(tiles);
+        found.nearReach = viewpoint.nearReach();
+        found.region = regionOf(database);
+        if (!TerrainOcclusion(database, found).run()) {
+            kept = nullptr;
+            return {};
+        }
+        found.uses = 1;
+    }
+    found.lastEye = eye;
+    found.lastAcross = PictureSpan::of(*view, found.eye).value_or(found.span).across;
+    return noteIn(*database.view.plan, found);
 }
 
 }  // namespace osgAnalyticBin

@@ -21,6 +21,12 @@ void InstalledTile::keepVisible(bool kept) {
     tellFamily();
 }
 
+void InstalledTile::setPlates(std::unique_ptr<const core::GroundPlates> plates) {
+    static std::atomic<std::uint64_t> last{0};
+    _plates = std::move(plates);
+    _numberOfPlates = ++last;
+}
+
 void InstalledTile::doubtMesh(bool isMoved) {
     if (isMoved) _isMoved.store(true, std::memory_order_relaxed);
     _isMeshDoubted.store(true, std::memory_order_relaxed);

@@ -13,6 +13,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -71,9 +72,11 @@ public:
     [[nodiscard]] bool isMoved() const { return _isMoved.load(std::memory_order_relaxed); }
 
     /// What is known of the altitudes of the tile's own mesh, cell by cell; null: nothing.
-    void setPlates(std::unique_ptr<const core::GroundPlates> plates) { _plates = std::move(plates); }
+    void setPlates(std::unique_ptr<const core::GroundPlates> plates);
     /// Returns: nullptr where nothing is known, and once the mesh has changed.
     [[nodiscard]] const core::GroundPlates* plates() const { return isMeshChanged() ? nullptr : _plates.get(); }
+    /// Tells plates apart: no two that were ever set have the same number.
+    [[nodiscard]] std::uint64_t numberOfPlates() const { return _numberOfPlates; }
     /// Whether a change of the mesh was noticed since bins were installed.
     [[nodiscard]] bool isMeshChanged() const { return _isMeshChanged.load(std::memory_order_relaxed); }
 
@@ -99,6 +102,7 @@ private:
     std::atomic<bool> _isMeshDoubted{false};
     std::atomic<bool> _isMeshChanged{false};  // since bins were installed
     std::unique_ptr<const core::GroundPlates> _plates;
+    std::uint64_t _numberOfPlates = 0;
     osg::ref_ptr<TileBlock> _block;
     std::size_t _slot = 0;
     bool _isSlotFilled = false;

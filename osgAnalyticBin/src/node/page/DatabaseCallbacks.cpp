@@ -77,7 +77,8 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
     const bool isPastBorder = refused && region && !region->holdsHorizon(*refused, view.planes);
     if (isPastBorder) database.noteBorderInView();
     const bool isPlanned = eye || (isPastBorder && findsOccluded && planWithoutHorizon(shown, *viewpoint));
-    if (findsOccluded) noteOccluded(isPlanned ? cullBehindTerrain(shown, *viewpoint) : OccludedTiles(), last);
+    if (findsOccluded)
+        noteOccluded(isPlanned ? cullBehindTerrain(shown, *viewpoint, last.occlusion) : OccludedTiles(), last);
     return eye;
 }
 
