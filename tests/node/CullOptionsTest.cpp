@@ -52,7 +52,7 @@ TEST(CullOptions, EveryMethodReadsBack) {
 
 TEST(CullOptions, OcclusionReadsBack) {
     std::string error;
-    EXPECT_EQ(CullOptions().occlusion, OcclusionUse::Off);
+    EXPECT_EQ(CullOptions().occlusion, OcclusionUse::Auto);
     for (const OcclusionUse use : {OcclusionUse::Off, OcclusionUse::On, OcclusionUse::Auto}) {
         CullOptions options;
         options.occlusion = use;

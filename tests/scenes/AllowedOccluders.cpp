@@ -20,14 +20,18 @@ bool mayHide(const AllowedOccluder& occluder, const Description& description, co
     const bool isEyeBelow = sight.isPerspective && scaled(osg::Vec3d(), occluder.highest).length() < 1.0;
     const bool isAllowed = isBelow && (occluder.fromBelow || !isEyeBelow);
     if (!isAllowed && !occluder.fromEverywhere) return false;
-    // from below the terrain, whatever is lower than the eye
-    const double own = (scaled(sight.start, 0.0).length() - 1.0) * database.polar - 1.0;
-    const double altitude = isBelow ? std::min(own, 0.0) : 0.0;
-    const osg::Vec3d from = scaled(sight.start, altitude);
-    const osg::Vec3d along = scaled(sight.end, altitude) - from;
-    const double square = along.length2();
-    const double t = square > 0.0 ? std::clamp(-(from * along) / square, 0.0, 1.0) : 0.0;
-    return (from + along * t).length2() < 1.0;
+    const auto passesBehind = [&](const osg::Vec3d& start) {
+        // from below the terrain, whatever is lower than the eye
+        const double own = (scaled(start, 0.0).length() - 1.0) * database.polar - 1.0;
+        const double altitude = isBelow ? std::min(own, 0.0) : 0.0;
+        const osg::Vec3d from = scaled(start, altitude);
+        const osg::Vec3d along = scaled(sight.end, altitude) - from;
+        const double square = along.length2();
+        const double t = square > 0.0 ? std::clamp(-(from * along) / square, 0.0, 1.0) : 0.0;
+        return (from + along * t).length2() < 1.0;
+    };
+    // a near plane within the globe has cut away what hides from the eye
+    return passesBehind(sight.start) || (isBelow && sight.isPerspective && passesBehind(osg::Vec3d()));
 }
 
 }  // namespace osgAnalyticBin::test

@@ -45,9 +45,10 @@ enum class HorizonUse {
 
 /// Whether tiles behind terrain are culled.
 enum class OcclusionUse {
-    Off,  ///< never; the default
+    Off,  ///< never
     On,   ///< in every frame
-    Auto  ///< while terrain hides a quarter of the tiles in view; elsewhere it is tried again after 8 to 64 views
+    Auto  ///< the default: while terrain hides a quarter of the tiles in view; elsewhere it is tried again after 8 to
+          ///< 64 views
 };
 
 /// Which parts of skirts (walls that hang from the edges of tiles) a bin holds. Bins of a map always hold whole skirts,
@@ -87,7 +88,7 @@ struct CullOptions {
     std::optional<bool> reverse;
     /// Whether tiles behind terrain are culled: on a globe or a region of one that uses the horizon (see `horizonUse`),
     /// for tiles whose meshes the kit reads, by cameras that do not compute their near plane.
-    OcclusionUse occlusion = OcclusionUse::Off;
+    OcclusionUse occlusion = OcclusionUse::Auto;
     /// Seconds for which the DatabasePager keeps a tile's finer children after they were last in view, when it has more
     /// PagedLODs than its target; 0: OSG's own rule. Spheres keep many tiles beside the view, bins do not: without this
     /// time, turning the camera away and back would read the same files again.

@@ -244,8 +244,8 @@ std::string toText(const CullOptions& options) {
     if (options.horizonUse == HorizonUse::Given) text += ",horizon=" + numberToText(options.horizon);
     if (options.inheritViewpoint) text += ",inheritviewpoint=on";
     if (options.reverse) text += *options.reverse ? ",reverse=on" : ",reverse=off";
-    if (options.occlusion != OcclusionUse::Off)
-        text += options.occlusion == OcclusionUse::On ? ",occlusion=on" : ",occlusion=auto";
+    if (options.occlusion != OcclusionUse::Auto)
+        text += options.occlusion == OcclusionUse::On ? ",occlusion=on" : ",occlusion=off";
     if (options.expiry != CullOptions::kDefaultExpiry) text += ",expiry=" + numberToText(options.expiry);
     if (options.skirts == SkirtUse::All) text += ",skirts=all";
     if (options.cluster == ClusterUse::Keep) text += ",cluster=keep";

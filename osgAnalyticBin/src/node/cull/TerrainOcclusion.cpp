@@ -4,6 +4,7 @@
 #include "TerrainOcclusion.h"
 
 #include "../install/InstalledTile.h"
+#include "../page/Database.h"
 #include "BinCulling.h"
 #include "CullTraversal.h"
 #include "TilePlan.h"
@@ -30,8 +31,6 @@ using core::BinHull;
 using core::GeodeticBin;
 using core::HorizonBuffer;
 
-using Verdict = FoundOcclusion::Verdict;
-
 // A shown tile.
 struct Candidate {
     const TilePlan::ShownTile* tile;
@@ -56,7 +55,7 @@ public:
           _found(found),
           _buffer(glm::length(found.eye.origin), found.span.across, found.span.drawing) {}
 
-    // Returns: whether the verdicts are known.
+    // Returns: whether something was found.
     [[nodiscard]] bool run() {
         for (const TilePlan::ShownTile& tile : _database.view.plan->shown()) {
             if (!add(tile)) return false;
@@ -73,10 +72,11 @@ public:
             addEarth(quarter);
             _candidates[quarter.candidate].isHidden = false;
         }
-        _found.verdicts.clear();
+        _found.findings.clear();
         for (const Candidate& candidate : _candidates) {
-            const Verdict inPicture = candidate.isHidden ? Verdict::Hidden : Verdict::Seen;
-            _found.verdicts.push_back(candidate.isInPicture ? inPicture : Verdict::Beside);
+            const FoundOcclusion::Finding inPicture =
+                candidate.isHidden ? FoundOcclusion::Finding::Hidden : FoundOcclusion::Finding::Seen;
+            _found.findings.push_back(candidate.isInPicture ? inPicture : FoundOcclusion::Finding::Beside);
         }
         return true;
     }
@@ -223,22 +223,35 @@ private:
     std::vector<core::EarthColumn> _columns;
 };
 
-// Notes the tiles that are shown. Returns: false where one may have a hole, or may not be drawn whole, or is left out
-// as a small feature.
-bool describe(const ShownDatabase& database, std::vector<FoundOcclusion::Tile>& tiles) {
+enum class Ground {
+    Known,
+    Awaited,  // the plates of a tile are not made yet
+    Unknown   // a tile may have a hole, or is left out as a small feature
+};
+
+// Notes the tiles that are shown.
+Ground describe(const ShownDatabase& database, std::vector<FoundOcclusion::Tile>& tiles) {
     osg::CullingSet& cullingSet = database.cullStack.getCurrentCullingSet();
     tiles.clear();
+    Ground ground = Ground::Known;
     for (const TilePlan::ShownTile& shown : database.view.plan->shown()) {
         const AnalyticBinCullCallback& tile = *shown.tile;
         const InstalledTile* const installed = tile.getInstalledTile();
-        const core::GroundPlates* const plates = installed ? installed->plates() : nullptr;
-        if (!plates || !std::isfinite(plates->least(1, 0, 0))) return false;
+        if (!installed) return Ground::Unknown;
+        if (installed->numberOfPlates() == 0) {
+            installed->database().askForPlates(tile, *shown.mesh);
+            ground = Ground::Awaited;
+            continue;
+        }
+        const core::GroundPlates* const plates = installed->plates();
+        if (!plates || !std::isfinite(plates->least(1, 0, 0))) return Ground::Unknown;
         const osg::BoundingSphere& bound = shown.mesh->getBound();
-        if (isSmall(cullingSet, {osg::Vec3d(bound.center()) * tile.getLocalToEcef(), bound.radius()})) return false;
+        if (isSmall(cullingSet, {osg::Vec3d(bound.center()) * tile.getLocalToEcef(), bound.radius()}))
+            return Ground::Unknown;
         tiles.push_back({&tile, shown.mesh, shown.isSure, installed->numberOfPlates(), tile.getBin().bin(),
                          tile.getBin().margin(), tile.getBinLow(), tile.getBinHigh()});
     }
-    return true;
+    return ground;
 }
 
 std::optional<GeodeticBin> regionOf(const ShownDatabase& database) {
@@ -289,11 +302,11 @@ void aim(FoundOcclusion& found, const LevelView& view, const glm::dvec3& eye, co
 OccludedTiles noteIn(TilePlan& plan, const FoundOcclusion& found) {
     OccludedTiles tiles;
     std::vector<TilePlan::ShownTile> occluded;
-    for (std::size_t i = 0; i < found.verdicts.size(); ++i) {
+    for (std::size_t i = 0; i < found.findings.size(); ++i) {
         const TilePlan::ShownTile& tile = plan.shown()[i];
-        if (found.verdicts[i] == Verdict::Beside || plan.isOutOfView(tile)) continue;
+        if (found.findings[i] == FoundOcclusion::Finding::Beside || plan.isOutOfView(tile)) continue;
         ++tiles.inView;
-        if (found.verdicts[i] == Verdict::Hidden) occluded.push_back(tile);
+        if (found.findings[i] == FoundOcclusion::Finding::Hidden) occluded.push_back(tile);
     }
     tiles.hidden = occluded.size();
     plan.setOccluded(occluded);
@@ -321,7 +334,8 @@ OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& 
     if (!kept) kept = std::make_shared<FoundOcclusion>();
     FoundOcclusion& found = *kept;
     std::vector<FoundOcclusion::Tile> tiles;
-    if (!describe(database, tiles)) return {};
+    const Ground ground = describe(database, tiles);
+    if (ground != Ground::Known) return {0, 0, ground == Ground::Awaited};
     const auto spanThen = PictureSpan::of(*view, found.eye);
     if (!serves(found, tiles, database, eye, spanThen, viewpoint.nearReach())) {
         const auto span = PictureSpan::of(*view, view->frameAt(eye));

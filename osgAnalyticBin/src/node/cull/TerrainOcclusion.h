@@ -23,6 +23,7 @@ namespace osgAnalyticBin {
 struct OccludedTiles {
     std::size_t hidden = 0;
     std::size_t inView = 0;  ///< hidden ones included
+    bool isAwaited = false;  ///< nothing is known yet, because tiles have no plates yet
 };
 
 /// What terrain hides from every eye within some metres of a place. It is kept from view to view, because finding it
@@ -38,14 +39,14 @@ struct FoundOcclusion {
         double margin, low, high;
         [[nodiscard]] bool operator==(const Tile& other) const;
     };
-    enum class Verdict : std::uint8_t { Beside, Seen, Hidden };
+    enum class Finding : std::uint8_t { Beside, Seen, Hidden };
 
-    std::vector<Tile> tiles;  ///< all that were shown
-    std::vector<Verdict> verdicts;
-    core::Frame eye{};       ///< the place, and the axes of the picture
-    double reach = 0.0;      ///< metres from the place
-    PictureSpan span{};      ///< of the picture
-    double nearReach = 0.0;  ///< metres that near planes reach at most
+    std::vector<Tile> tiles;        ///< all that were shown
+    std::vector<Finding> findings;  ///< of the tiles
+    core::Frame eye{};              ///< the place, and the axes of the picture
+    double reach = 0.0;             ///< metres from the place
+    PictureSpan span{};             ///< of the picture
+    double nearReach = 0.0;         ///< metres that near planes reach at most
     std::optional<core::GeodeticBin> region;
     int uses = 0;  ///< views since then
 

@@ -298,7 +298,8 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     if (fit.skirt > 0.0) callback->setSkirt(fit.skirt);
     callback->setSurface(fit.surface);
     placeCallback(tile, culled, *callback, database());
-    if (_options.occlusion != OcclusionUse::Off && !fit.isScalable)
+    const bool canWait = tile.meshes.size() == 1 && !culled.asTransform();
+    if (!canWait || _options.occlusion == OcclusionUse::On || database().wantsPlates())
         callback->getInstalledTile()->setPlates(tilePlates(tile.meshes, ellipsoid, tile.frame.localToEcef));
     ++_installed;
     if (_options.cluster == ClusterUse::Replace) {

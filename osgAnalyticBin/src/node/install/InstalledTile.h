@@ -71,11 +71,15 @@ public:
     /// Whether the mesh has left its place since bins were installed.
     [[nodiscard]] bool isMoved() const { return _isMoved.load(std::memory_order_relaxed); }
 
-    /// What is known of the altitudes of the tile's own mesh, cell by cell; null: nothing.
+    /// What is known of the altitudes of the tile's own mesh, cell by cell; null: nothing can be known.
     void setPlates(std::unique_ptr<const core::GroundPlates> plates);
     /// Returns: nullptr where nothing is known, and once the mesh has changed.
     [[nodiscard]] const core::GroundPlates* plates() const { return isMeshChanged() ? nullptr : _plates.get(); }
-    /// Tells plates apart: no two that were ever set have the same number.
+    /// Returns: true the first time, unless setPlates() was called before.
+    [[nodiscard]] bool askForPlates() {
+        return _numberOfPlates == 0 && !_isAskedForPlates.exchange(true, std::memory_order_relaxed);
+    }
+    /// Tells plates apart: no two that were ever set have the same number. 0: none were set.
     [[nodiscard]] std::uint64_t numberOfPlates() const { return _numberOfPlates; }
     /// Whether a change of the mesh was noticed since bins were installed.
     [[nodiscard]] bool isMeshChanged() const { return _isMeshChanged.load(std::memory_order_relaxed); }
@@ -103,6 +107,7 @@ private:
     std::atomic<bool> _isMeshChanged{false};  // since bins were installed
     std::unique_ptr<const core::GroundPlates> _plates;
     std::uint64_t _numberOfPlates = 0;
+    std::atomic<bool> _isAskedForPlates{false};
     osg::ref_ptr<TileBlock> _block;
     std::size_t _slot = 0;
     bool _isSlotFilled = false;

@@ -7,6 +7,7 @@
 #include "../cull/TileFamily.h"
 #include "../install/Coverage.h"
 #include "../install/InstalledTile.h"
+#include "../surface/TilePlates.h"
 
 #include <osg/Notify>
 #include <osgTerrain/GeometryTechnique>
@@ -174,6 +175,30 @@ void Database::noteUnknownNearPlane() {
              << std::endl;
 }
 
+void Database::askForPlates(const AnalyticBinCullCallback& tile, osg::Node& mesh) {
+    _wantsPlates.store(true, std::memory_order_relaxed);
+    if (!tile.getInstalledTile()->askForPlates()) return;
+    const std::lock_guard<std::mutex> lock(_mutex);
+    _awaitPlates.emplace_back(&tile, &mesh);
+}
+
+// A few at a time: each takes a fraction of a millisecond.
+void Database::makePlates() {
+    constexpr std::size_t kMostTiles = 4;
+    for (std::size_t i = 0; i < kMostTiles; ++i) {
+        osg::ref_ptr<const AnalyticBinCullCallback> tile;
+        osg::ref_ptr<osg::Node> mesh;
+        {
+            const std::lock_guard<std::mutex> lock(_mutex);
+            if (_awaitPlates.empty()) return;
+            const bool isThere = _awaitPlates.back().first.lock(tile) && _awaitPlates.back().second.lock(mesh);
+            _awaitPlates.pop_back();
+            if (!isThere || !tile->getInstalledTile() || !_ellipsoid) continue;
+        }
+        tile->getInstalledTile()->setPlates(tilePlates({mesh}, *_ellipsoid, tile->getLocalToEcef()));
+    }
+}
+
 void Database::noteUnknownTechnique() {
     if (_hasUnknownTechnique.exchange(true, std::memory_order_relaxed)) return;
     OSG_INFO << "osgAnalyticBin: the Terrain has a technique that is not osgTerrain::GeometryTechnique; its tiles are "
@@ -267,6 +292,7 @@ void Database::renewFamilies() {
 void Database::update() {
     refitLateComers();
     renewFamilies();
+    makePlates();
     std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, Widening>> toWiden;
     {
         const std::lock_guard<std::mutex> lock(_mutex);

@@ -120,6 +120,11 @@ public:
     /// once.
     void noteUnknownNearPlane();
 
+    /// Says that a camera looks for tiles behind terrain. Tiles that are read from now on get their plates at once,
+    /// this one in one of the next updates. `mesh`: what it draws by itself.
+    void askForPlates(const AnalyticBinCullCallback& tile, osg::Node& mesh);
+    [[nodiscard]] bool wantsPlates() const { return _wantsPlates.load(std::memory_order_relaxed); }
+
     /// Says that osgTerrain tiles are drawn in a way that is not known.
     void noteUnknownTechnique();
 
@@ -156,6 +161,7 @@ private:
     static void widenFrom(const ParentTile& tile, const Widening& by);
     static void warn(const ParentTile& tile, bool Database::*hasWarned, const char* what);
     void refitLateComers();
+    void makePlates();
     void renewFamilies();
 
     static inline std::atomic<unsigned long> _count{0};
@@ -173,6 +179,7 @@ private:
     std::atomic<bool> _hasUnknownTechnique{false};
     std::atomic<bool> _hasUnknownNearPlane{false};
     std::atomic<bool> _hasBorderInView{false};
+    std::atomic<bool> _wantsPlates{false};
     mutable std::mutex _mutex;  // guards what follows
     CullOptions _options;
     std::optional<core::CoveredRegion> _region;
@@ -184,6 +191,7 @@ private:
     std::map<TileKey, Widening> _corrections;
     std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, Widening>> _toWiden;
     mutable std::vector<osg::observer_ptr<osg::Group>> _changedGroups;
+    std::vector<std::pair<osg::observer_ptr<const AnalyticBinCullCallback>, osg::observer_ptr<osg::Node>>> _awaitPlates;
 };
 
 /// A tile as those that are paged below it see it.

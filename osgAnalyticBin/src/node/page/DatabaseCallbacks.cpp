@@ -37,6 +37,7 @@ bool isOcclusionDue(OcclusionUse use, CullTraversal::LastView& last) {
 // After a view in which occlusion did not pay, it rests, for longer each time. A hidden tile saves at least some
 // microseconds of drawing; looking for hidden tiles takes two or three microseconds for each tile in view.
 void noteOccluded(const OccludedTiles& tiles, CullTraversal::LastView& last) {
+    if (tiles.isAwaited) return;
     constexpr unsigned int kShortestRest = 8, kLongestRest = 64;
     const bool pays = 4 * tiles.hidden >= tiles.inView && tiles.hidden > 0;
     last.rest = pays ? 0 : std::clamp(2 * last.rest, kShortestRest, kLongestRest);
@@ -63,7 +64,7 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
         return eyeAboveDepth({node, nv, cullStack, view, false, nullptr}, *viewpoint, deepest);
     CullTraversal::LastView& last = CullTraversal::of(nv).lastView(database);
     const bool mayFindOccluded = viewpoint->eye() && isAboveTerrain && !isForComparison(options.method);
-    if (mayFindOccluded && options.occlusion != OcclusionUse::Off && !isFinalProjection(cullStack))
+    if (mayFindOccluded && options.occlusion == OcclusionUse::On && !isFinalProjection(cullStack))
         database.noteUnknownNearPlane();
     const bool findsOccluded =
         mayFindOccluded && isFinalProjection(cullStack) && isOcclusionDue(options.occlusion, last);
