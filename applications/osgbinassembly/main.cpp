@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 #include "CullRun.h"
+#include "Failure.h"
+#include "ProgramRun.h"
 
 #include <osgAnalyticBin/Version.h>
 
@@ -11,15 +13,15 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <iostream>
 #include <string>
 
 namespace {
 
-using namespace osgAnalyticBin::assembly;
+using osgAnalyticBin::support::ExitCode;
+using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::kSucceeded;
 
-constexpr int kFailed = 1;
-constexpr int kNotWritten = 2;
+using namespace osgAnalyticBin::assembly;
 
 struct Arguments {
     std::size_t parts = 10000;
@@ -41,8 +43,8 @@ void declare(CLI::App& app, Arguments& arguments) {
         "ms = one cull traversal. Sizes are metres. Use bins behind spheres, as in the last line of the table: the "
         "same\n"
         "parts are kept as by bins alone, in less time.\n"
-        "Exit code: 0; 1 when a part in view was culled, or when bins do not keep fewer parts than spheres;\n"
-        "2 when the file cannot be written, or the command line is wrong.\n\n"
+        "Exit code: 0; 1 when a part in view was culled, when bins do not keep fewer parts than spheres, or when the\n"
+        "file cannot be written; 2 when the command line is wrong.\n\n"
         "Example:\n"
         "  osgbinassembly --parts 20000 --cameras 100 --output assembly.osgb");
 }
@@ -62,7 +64,7 @@ void printRow(const char* name, const CullFigures& figures, std::size_t visible,
                 figures.falselyCulled, figures.milliseconds);
 }
 
-int compare(const Assembly& assembly, const Arguments& arguments) {
+void compare(const Assembly& assembly, const Arguments& arguments) {
     const std::vector<Camera> cameras = randomCameras(arguments.cameras, assembly.halfExtent, arguments.seed + 1);
     const Visibility visible = visibleParts(assembly, cameras);
     const std::size_t seen = std::max<std::size_t>(countVisible(visible), 1);
@@ -77,36 +79,26 @@ int compare(const Assembly& assembly, const Arguments& arguments) {
     printRow("bins", bins, seen, cameras.size());
     printRow("spheres, then bins", both, seen, cameras.size());
 
-    if (bins.falselyCulled + both.falselyCulled > 0) {
-        std::cerr << "osgbinassembly: a part in view was culled\n";
-        return kFailed;
-    }
-    if (bins.kept >= spheres.kept || both.kept >= spheres.kept) {
-        std::cerr << "osgbinassembly: bins keep no fewer parts than spheres\n";
-        return kFailed;
-    }
-    return 0;
+    if (bins.falselyCulled + both.falselyCulled > 0) throw Failure("a part in view was culled");
+    if (bins.kept >= spheres.kept || both.kept >= spheres.kept) throw Failure("bins keep no fewer parts than spheres");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+ExitCode run(int argc, char** argv) {
     CLI::App app{"Builds a plant of pipes and curved panels and culls it with spheres and with bins.",
                  "osgbinassembly"};
     app.set_version_flag("--version", std::string("osgbinassembly (osgAnalyticBin) ") + osgAnalyticBin::version());
     Arguments arguments;
     declare(app, arguments);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);
-        std::cerr << "osgbinassembly: " << error.what() << "; see osgbinassembly --help\n";
-        return kNotWritten;
-    }
+    if (!osgAnalyticBin::support::parseCommandLine(app, argc, argv)) return kSucceeded;
     const Assembly assembly = buildAssembly(arguments.parts, arguments.seed);
-    if (!arguments.output.empty() && !osgDB::writeNodeFile(*assembly.scene, arguments.output)) {
-        std::cerr << "osgbinassembly: cannot write " << arguments.output << '\n';
-        return kNotWritten;
-    }
-    return compare(assembly, arguments);
+    if (!arguments.output.empty() && !osgDB::writeNodeFile(*assembly.scene, arguments.output))
+        throw Failure("cannot write " + arguments.output + "; choose another folder");
+    compare(assembly, arguments);
+    return kSucceeded;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return osgAnalyticBin::support::runProgram("osgbinassembly", [&] { return run(argc, argv); });
 }

@@ -11,7 +11,7 @@
 
 namespace osgAnalyticBin::bench {
 
-using support::Failure;
+using support::UsageError;
 
 namespace {
 
@@ -92,7 +92,7 @@ CullMethod cullMethodFromName(const std::string& name) {
     // terrain hides terrain for an eye that has a horizon, and not in the methods for comparison
     const bool makesSense = !method.usesOcclusion || (method.usesHorizon && (base == "exact" || base == "quadratic"));
     if (!method.loaderMethod.empty() && makesSense) return method;
-    throw Failure(
+    throw UsageError(
         "--methods: unknown method \"" + name +
         "\"; use none, sphere, cluster, oracle, all, or box, orientedBox, corners, paper, quadratic or exact, these "
         "with +horizon, +reverse or +horizon+reverse; quadratic and exact with +horizon, also +occlusion");

@@ -8,6 +8,7 @@
 #include "Failure.h"
 #include "Figures.h"
 #include "NumberRange.h"
+#include "ProgramRun.h"
 
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Version.h>
@@ -25,6 +26,7 @@
 namespace osgAnalyticBin::bench {
 
 using support::Failure;
+using support::UsageError;
 
 namespace {
 
@@ -44,7 +46,7 @@ Model threadingFromName(const std::string& name) {
         if (name == known) return model;
         allowed += (allowed.empty() ? "" : ", ") + std::string(known);
     }
-    throw Failure("--threading: unknown model \"" + name + "\"; use one of " + allowed);
+    throw UsageError("--threading: unknown model \"" + name + "\"; use one of " + allowed);
 }
 
 void takeSize(const std::string& text, Settings& settings) {
@@ -53,8 +55,8 @@ void takeSize(const std::string& text, Settings& settings) {
     char rest = 0;
     const bool read = std::sscanf(text.c_str(), "%5dx%5d%c", &width, &height, &rest) == 2;
     if (!read || width < 1 || height < 1 || width > kLargestPicture || height > kLargestPicture)
-        throw Failure("--size: \"" + text + "\" is no size; give pixels from 1 to " + std::to_string(kLargestPicture) +
-                      ", for example 1280x720");
+        throw UsageError("--size: \"" + text + "\" is no size; give pixels from 1 to " +
+                         std::to_string(kLargestPicture) + ", for example 1280x720");
     settings.width = width;
     settings.height = height;
 }
@@ -108,8 +110,8 @@ std::string footer() {
            "figures of every pose, in the order of \"pose_names\".\n\n" +
            comparisonRule() +
            "\n"
-           "Needs a display, except for --compare. Exit code: 0; 1 when something failed: one line says what, and no\n"
-           "table is written; 2 when --compare found something worse.\n\n"
+           "Needs a display, except for --compare. Exit code: 0; 1 when something failed (one line says what, and no\n"
+           "table is written) or when --compare found something worse; 2 when the command line is wrong.\n\n"
            "Example:\n"
            "  xvfb-run -a osgbinbench earth.osgb --path data/paths/vpb_sample.csv --csv poses.csv --json sums.json";
 }
@@ -181,28 +183,29 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
 void check(const Settings& settings) {
     if (!settings.compared.empty()) {
         if (!settings.database.empty() || !settings.paths.empty())
-            throw Failure("--compare: takes two files of --json and measures nothing; leave DATABASE and --path out");
+            throw UsageError(
+                "--compare: takes two files of --json and measures nothing; leave DATABASE and --path out");
         return;
     }
-    if (settings.database.empty()) throw Failure("DATABASE is required; see osgbinbench --help");
-    if (settings.paths.empty()) throw Failure("--path is required; see osgbinbench --help");
+    if (settings.database.empty()) throw UsageError("DATABASE is required; see osgbinbench --help");
+    if (settings.paths.empty()) throw UsageError("--path is required; see osgbinbench --help");
     (void)cullMethodsFromNames(settings.methods);
     std::string error;
     if (settings.binOptions.find("method=") != std::string::npos)
-        throw Failure("--options: name methods in --methods instead of \"" + settings.binOptions + "\"");
+        throw UsageError("--options: name methods in --methods instead of \"" + settings.binOptions + "\"");
     const auto binOptions = cullOptionsFromText(settings.binOptions, error);
-    if (!binOptions) throw Failure("--options: " + error);
+    if (!binOptions) throw UsageError("--options: " + error);
     if (binOptions->horizonUse == HorizonUse::Off)
-        throw Failure("--options: leave +horizon out of the names in --methods instead of horizon=off");
+        throw UsageError("--options: leave +horizon out of the names in --methods instead of horizon=off");
     if (binOptions->reverse)
-        throw Failure("--options: name methods with or without +reverse in --methods instead of reverse=on or off");
+        throw UsageError("--options: name methods with or without +reverse in --methods instead of reverse=on or off");
     if (settings.binOptions.find("occlusion=") != std::string::npos)
-        throw Failure("--options: name methods with +occlusion in --methods instead of \"" + settings.binOptions +
-                      "\"");
+        throw UsageError("--options: name methods with +occlusion in --methods instead of \"" + settings.binOptions +
+                         "\"");
     if (settings.frames > 0 && !settings.pictures.empty())
-        throw Failure("--pictures: a continuous flight takes none; leave --frames out");
+        throw UsageError("--pictures: a continuous flight takes none; leave --frames out");
     if (settings.frames > 0 && !settings.plot.empty())
-        throw Failure("--plot: a continuous flight has no poses to show; leave --frames out");
+        throw UsageError("--plot: a continuous flight has no poses to show; leave --frames out");
     requireFolder("--csv", settings.csv);
     requireFolder("--json", settings.json);
     requireFolder("--pictures", settings.pictures);
@@ -222,13 +225,7 @@ bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {
     app.set_version_flag("--version", std::string("osgbinbench (osgAnalyticBin) ") + osgAnalyticBin::version());
     Words words;
     declare(app, settings, words);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() != 0) throw Failure(std::string(error.what()) + "; see osgbinbench --help");
-        (void)app.exit(error);
-        return false;
-    }
+    if (!support::parseCommandLine(app, argc, argv)) return false;
     takeSize(words.size, settings);
     settings.threading = threadingFromName(words.threading);
     check(settings);

@@ -9,26 +9,26 @@
 #include "Output.h"
 #include "Plot.h"
 #include "PoseBench.h"
+#include "ProgramRun.h"
 #include "TextFile.h"
 
 #include <osg/Notify>
 
 #include <algorithm>
 #include <cstdlib>
-#include <exception>
 #include <iostream>
 #include <malloc.h>
 
 namespace {
 
+using osgAnalyticBin::support::ExitCode;
 using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::kFailed;
+using osgAnalyticBin::support::kSucceeded;
 using osgAnalyticBin::support::writeFile;
 
 using namespace osgAnalyticBin::bench;
 using osgAnalyticBin::flight::CameraPose;
-
-// The exit code when figures became worse.
-constexpr int kWorse = 2;
 
 // Pages lie where their pager's thread gets its memory from. With one store for all threads they lie much alike in
 // every run, and so cull times differ less from run to run.
@@ -77,22 +77,21 @@ void measure(const Settings& settings) {
     if (!settings.plot.empty()) plot(settings.plot, diagramsOf(namesOf(*path), figures));
 }
 
+ExitCode run(int argc, char** argv) {
+    Settings settings;
+    if (!settingsFromCommandLine(argc, argv, settings)) return kSucceeded;
+    if (!settings.compared.empty())
+        return compareFiles(settings.compared[0], settings.compared[1], std::cout) ? kFailed : kSucceeded;
+    // bins are installed at every pose, and the plugin says so each time
+    if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::WARN);
+    shareMemoryAmongThreads();
+    osgAnalyticBin::addModuleFolder();
+    measure(settings);
+    return kSucceeded;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        Settings settings;
-        if (!settingsFromCommandLine(argc, argv, settings)) return EXIT_SUCCESS;
-        if (!settings.compared.empty())
-            return compareFiles(settings.compared[0], settings.compared[1], std::cout) ? kWorse : EXIT_SUCCESS;
-        // bins are installed at every pose, and the plugin says so each time
-        if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::WARN);
-        shareMemoryAmongThreads();
-        osgAnalyticBin::addModuleFolder();
-        measure(settings);
-        return EXIT_SUCCESS;
-    } catch (const std::exception& error) {
-        std::cerr << "osgbinbench: " << error.what() << std::endl;
-        return EXIT_FAILURE;
-    }
+    return osgAnalyticBin::support::runProgram("osgbinbench", [&] { return run(argc, argv); });
 }

@@ -23,6 +23,7 @@
 namespace osgbinconv {
 
 using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::UsageError;
 
 namespace fs = std::filesystem;
 
@@ -66,7 +67,7 @@ std::string withExtension(const std::string& name, const std::string& extension)
 
 void requireCopyName(const std::string& rootFile, const std::string& sourceFile, bool overwrite) {
     if (!fileTypeOf(osgDB::getLowerCaseFileExtension(rootFile))) {
-        throw Failure("output \"" + rootFile + "\"; give a file name that ends in .osgb, .osgt or .osgx");
+        throw UsageError("output \"" + rootFile + "\"; give a file name that ends in .osgb, .osgt or .osgx");
     }
     const std::string folder = osgDB::getFilePath(rootFile);
     if (!folder.empty() && !fs::is_directory(folder)) {

@@ -7,6 +7,7 @@
 #include "IndexBuilder.h"
 #include "IndexReport.h"
 #include "Interruption.h"
+#include "ProgramRun.h"
 
 #include <osgAnalyticBin/Version.h>
 
@@ -17,8 +18,7 @@
 #include <csignal>
 #include <cstddef>
 #include <cstdlib>
-#include <exception>
-#include <iostream>
+#include <new>
 #include <pthread.h>
 #include <string>
 #include <thread>
@@ -26,13 +26,14 @@
 
 namespace {
 
+using osgAnalyticBin::support::ExitCode;
 using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::Interrupted;
+using osgAnalyticBin::support::kSucceeded;
 using osgAnalyticBin::support::stopRequested;
+using osgAnalyticBin::support::UsageError;
 
 using osgbinconv::DatabaseFiles;
-
-constexpr int kInterrupted = 130;
 
 constexpr const char* kDescription =
     "Finds the bins of all tiles of a paged globe, by whatever program it was made.\n"
@@ -46,7 +47,7 @@ constexpr const char* kExamples =
     "  osgbinconv --check earth.ive             compares earth.ive.bins with its database\n"
     "An index that was interrupted is kept in earth.ive.bins.part; the same command goes on where it ended.\n"
     "A copy that was killed leaves earth.osgb.copying; the same command makes it anew.\n"
-    "Exit codes: 0 done, 1 an error or an index that does not fit, 130 interrupted.";
+    "Exit codes: 0 done, 1 an error or an index that does not fit, 2 a wrong command line, 130 interrupted.";
 
 /// The command line as it was typed.
 struct Arguments {
@@ -85,26 +86,21 @@ void declare(CLI::App& app, Arguments& arguments) {
 
 void requireSense(const Arguments& arguments) {
     if (arguments.walk.threads < 1 || arguments.walk.threads > 256) {
-        throw Failure("--threads " + std::to_string(arguments.walk.threads) + "; give a number from 1 to 256");
+        throw UsageError("--threads " + std::to_string(arguments.walk.threads) + "; give a number from 1 to 256");
     }
     if (arguments.cluster != "remove" && arguments.cluster != "keep") {
-        throw Failure("--cluster " + arguments.cluster + "; give remove or keep");
+        throw UsageError("--cluster " + arguments.cluster + "; give remove or keep");
     }
     const bool isCopy = !arguments.isIndex && !arguments.isPrint && !arguments.isCheck;
     if (isCopy && arguments.files.size() == 1) {
-        throw Failure("nothing to do with \"" + arguments.files.front() +
-                      "\"; give --index, --print, --check or the root file of a copy");
+        throw UsageError("nothing to do with \"" + arguments.files.front() +
+                         "\"; give --index, --print, --check or the root file of a copy");
     }
     const std::size_t most = isCopy ? 2 : 1;
     if (arguments.files.size() > most) {
-        throw Failure("one file too many on the command line, \"" + arguments.files[most] +
-                      "\"; see osgbinconv --help");
+        throw UsageError("one file too many on the command line, \"" + arguments.files[most] +
+                         "\"; see osgbinconv --help");
     }
-}
-
-int complain(const std::string& message) {
-    std::cerr << "osgbinconv: " << message << std::endl;
-    return EXIT_FAILURE;
 }
 
 void requestStop(int) {
@@ -118,23 +114,18 @@ void prepareProcess() {
     osgbinconv::prepareReaders();
 }
 
-int run(int argc, char** argv) {
+ExitCode run(int argc, char** argv) {
     Arguments arguments;
     CLI::App app{kDescription, "osgbinconv"};
     app.set_version_flag("--version", std::string("osgbinconv (osgAnalyticBin) ") + osgAnalyticBin::version());
     declare(app, arguments);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);
-        return complain(std::string(error.what()) + "; see osgbinconv --help");
-    }
+    if (!osgAnalyticBin::support::parseCommandLine(app, argc, argv)) return kSucceeded;
     requireSense(arguments);
     prepareProcess();
     const std::string& file = arguments.files.front();
     if (arguments.isPrint) {
         osgbinconv::printIndex(file);
-        return EXIT_SUCCESS;
+        return kSucceeded;
     }
     const DatabaseFiles files(file);
     if (arguments.files.size() == 2) {
@@ -143,19 +134,18 @@ int run(int argc, char** argv) {
     }
     if (arguments.isIndex) osgbinconv::writeIndex(files, arguments.walk, arguments.keepsRecords);
     if (arguments.isCheck) osgbinconv::checkIndex(files, arguments.walk);
-    return EXIT_SUCCESS;
+    return kSucceeded;
 }
 
-int runAndComplain(int argc, char** argv) {
+/// Says what to do after what every program reports.
+ExitCode runWithAdvice(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const Interrupted&) {
-        complain("interrupted; run the same command again: an index goes on where it ended, a copy starts anew");
-        return kInterrupted;
+        throw Interrupted(
+            "interrupted; run the same command again: an index goes on where it ended, a copy starts anew");
     } catch (const std::bad_alloc&) {
-        return complain("out of memory; use fewer --threads");
-    } catch (const std::exception& error) {
-        return complain(error.what());
+        throw Failure("out of memory; use fewer --threads");
     }
 }
 
@@ -175,7 +165,9 @@ void enlargeStacks() {
 
 int main(int argc, char** argv) {
     enlargeStacks();
-    int code = EXIT_FAILURE;
-    std::thread([&] { code = runAndComplain(argc, argv); }).join();
+    ExitCode code = kSucceeded;
+    std::thread([&] {
+        code = osgAnalyticBin::support::runProgram("osgbinconv", [&] { return runWithAdvice(argc, argv); });
+    }).join();
     return code;
 }

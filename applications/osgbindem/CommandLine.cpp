@@ -5,6 +5,7 @@
 
 #include "Failure.h"
 #include "GdalRaster.h"
+#include "ProgramRun.h"
 #include "TileLayout.h"
 
 #include <osgAnalyticBin/Version.h>
@@ -24,6 +25,7 @@
 namespace osgbindem {
 
 using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::UsageError;
 
 namespace {
 
@@ -41,7 +43,7 @@ constexpr const char* kExamples =
     "A finished database is replaced only with --overwrite, and brought up to date with --update.\n"
     "Under mpirun, ranks share the parts: mpirun -n 8 osgbindem world.tif -o earth.osgb, with the output in a folder\n"
     "that all of them see.\n"
-    "Exit codes: 0 the database is complete, 1 an error, 130 interrupted.";
+    "Exit codes: 0 the database is complete, 1 an error, 2 a wrong command line, 130 interrupted.";
 
 /// The command line as it was typed.
 struct Arguments {
@@ -74,7 +76,7 @@ std::vector<double> takeScales(Arguments& arguments) {
         } else if (mayExist(word)) {
             rasters.push_back(word);
         } else {
-            throw Failure("unknown unit \"" + word + "\" in --height-unit; give m, ft or metres per unit");
+            throw UsageError("unknown unit \"" + word + "\" in --height-unit; give m, ft or metres per unit");
         }
     }
     arguments.dems.insert(arguments.dems.end(), rasters.begin(), rasters.end());
@@ -83,10 +85,10 @@ std::vector<double> takeScales(Arguments& arguments) {
 
 void takeDems(Arguments& arguments) {
     const std::vector<double> scales = takeScales(arguments);
-    if (arguments.dems.empty()) throw Failure("no elevation raster on the command line; name at least one");
+    if (arguments.dems.empty()) throw UsageError("no elevation raster on the command line; name at least one");
     if (scales.size() > 1 && scales.size() != arguments.dems.size()) {
-        throw Failure(std::to_string(scales.size()) + " units in --height-unit for " +
-                      std::to_string(arguments.dems.size()) + " rasters; give one for all or one for each");
+        throw UsageError(std::to_string(scales.size()) + " units in --height-unit for " +
+                         std::to_string(arguments.dems.size()) + " rasters; give one for all or one for each");
     }
     for (std::size_t i = 0; i < arguments.dems.size(); ++i) {
         const double scale = scales.empty() ? 1.0 : scales[scales.size() == 1 ? 0 : i];
@@ -102,8 +104,8 @@ void takeRadii(Arguments& arguments) {
         a = arguments.radii[0];
         b = arguments.radii[1];
         if (!(a >= 1e4 && a <= 1e9 && b >= 0.5 * a && b <= 2.0 * a)) {
-            throw Failure("radii " + std::to_string(a) + " and " + std::to_string(b) +
-                          " in --radii; give metres from 1e4 to 1e9, neither more than twice the other");
+            throw UsageError("radii " + std::to_string(a) + " and " + std::to_string(b) +
+                             " in --radii; give metres from 1e4 to 1e9, neither more than twice the other");
         }
     }
     arguments.settings.ellipsoid = osgAnalyticBin::core::Ellipsoid(a, b);
@@ -117,7 +119,7 @@ void takeRegion(Arguments& arguments) {
     if (!(region.west >= -360.0 && region.west <= 360.0 && region.east > region.west &&
           region.east - region.west <= 360.0 && region.south >= -90.0 && region.north <= 90.0 &&
           region.north > region.south)) {
-        throw Failure(
+        throw UsageError(
             "-te is no part of the earth; give degrees as WEST SOUTH EAST NORTH, east more than west by at most 360 "
             "(179 -20 182 -15 passes the date line)");
     }
@@ -127,7 +129,7 @@ void takeRegion(Arguments& arguments) {
 void requireRanges(const Settings& settings) {
     constexpr int kFewestCells = 4;
     constexpr int kMostCells = 240;
-    const auto refuse = [](const std::string& what, const std::string& todo) { throw Failure(what + "; " + todo); };
+    const auto refuse = [](const std::string& what, const std::string& todo) { throw UsageError(what + "; " + todo); };
     if (settings.levels && (*settings.levels < 0 || *settings.levels > TileLayout::kDeepest)) {
         refuse("--levels " + std::to_string(*settings.levels), "give a number from 0 to 20");
     }
@@ -139,7 +141,7 @@ void requireRanges(const Settings& settings) {
         refuse("--lod-factor " + std::to_string(settings.lodFactor), "give a number from 3 to 100");
     }
     if (!settings.geoid.empty() && settings.geoid != "none" && settings.geoid != "egm96" && !mayExist(settings.geoid)) {
-        refuse("no file \"" + settings.geoid + "\" for --geoid", "give none, egm96 or a grid");
+        throw Failure("no file \"" + settings.geoid + "\" for --geoid; give none, egm96 or a grid");
     }
     if (settings.blend && !(*settings.blend >= 0.0 && *settings.blend <= 1e6)) {
         refuse("--blend " + std::to_string(*settings.blend), "give metres from 0 to 1000000");
@@ -219,17 +221,11 @@ std::optional<Settings> settingsFrom(int argc, const char* const* argv) {
     CLI::App app{kDescription, "osgbindem"};
     app.set_version_flag("--version", std::string("osgbindem (osgAnalyticBin) ") + osgAnalyticBin::version());
     declare(app, arguments);
-    try {
-        std::vector<const char*> words(argv, argv + argc);
-        // GDAL's tools have it with one dash, which the parser takes for an option of one letter.
-        std::replace_if(
-            words.begin(), words.end(), [](const char* word) { return std::strcmp(word, "-te") == 0; }, "--te");
-        app.parse(argc, words.data());
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() != 0) throw Failure(std::string(error.what()) + "; see osgbindem --help");
-        app.exit(error);
-        return std::nullopt;
-    }
+    std::vector<const char*> words(argv, argv + argc);
+    // GDAL's tools have it with one dash, which the parser takes for an option of one letter.
+    std::replace_if(
+        words.begin(), words.end(), [](const char* word) { return std::strcmp(word, "-te") == 0; }, "--te");
+    if (!osgAnalyticBin::support::parseCommandLine(app, argc, words.data())) return std::nullopt;
     arguments.settings.areThreadsGiven = app.count("--threads") > 0;
     takeDems(arguments);
     takeRadii(arguments);

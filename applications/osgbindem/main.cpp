@@ -6,6 +6,7 @@
 #include "DatabaseUpdate.h"
 #include "Failure.h"
 #include "Interruption.h"
+#include "ProgramRun.h"
 #include "Ranks.h"
 
 #include <cpl_conv.h>
@@ -14,27 +15,18 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <exception>
 #include <iostream>
+#include <new>
 #include <optional>
-#include <string>
 
 namespace {
 
-using osgAnalyticBin::support::Interrupted;
+using osgAnalyticBin::support::ExitCode;
+using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::kSucceeded;
 using osgAnalyticBin::support::stopRequested;
 
 using osgbindem::Settings;
-
-constexpr int kInterrupted = 130;
-
-int complain(const std::string& message) {
-    // Every rank finds the same faults in the command line, and the first one tells what goes wrong later. The others
-    // end in peace: mpirun would end the first before it has spoken.
-    if (!osgbindem::Ranks::isSpeaker()) return EXIT_SUCCESS;
-    std::cerr << "osgbindem: " + message + "\n" << std::flush;
-    return EXIT_FAILURE;
-}
 
 void requestStop(int) {
     stopRequested.store(true);
@@ -56,13 +48,12 @@ void prepareProcess(const Settings& settings) {
     std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error like a full disk
 }
 
-int run(int argc, char** argv) {
-    if (!osgbindem::Ranks::isSpeaker()) std::cout.setstate(std::ios::failbit);  // only one rank speaks
+ExitCode run(int argc, char** argv) {
     std::optional<Settings> settings = osgbindem::settingsFrom(argc, argv);
-    if (!settings) return EXIT_SUCCESS;
+    if (!settings) return kSucceeded;
     const osgbindem::Ranks ranks;
     if (ranks.count() > 1 && settings->update) {
-        throw osgAnalyticBin::support::Failure("--update is the work of one process; run it without mpirun");
+        throw osgAnalyticBin::support::UsageError("--update is the work of one process; run it without mpirun");
     }
     if (!settings->areThreadsGiven) settings->threads = osgbindem::threadsPerRank(ranks);
     prepareProcess(*settings);
@@ -71,20 +62,24 @@ int run(int argc, char** argv) {
     } else {
         osgbindem::buildDatabase(*settings, ranks);
     }
-    return EXIT_SUCCESS;
+    return kSucceeded;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (const Interrupted& interrupted) {
-        complain(interrupted.what());
-        return kInterrupted;
-    } catch (const std::bad_alloc&) {
-        return complain("out of memory; use fewer --threads or fewer --cells");
-    } catch (const std::exception& error) {
-        return complain(error.what());
+    const bool isSpeaker = osgbindem::Ranks::isSpeaker();
+    if (!isSpeaker) {
+        for (std::ostream* stream : {&std::cout, &std::cerr}) stream->setstate(std::ios::failbit);
     }
+    const ExitCode code = osgAnalyticBin::support::runProgram("osgbindem", [&] {
+        try {
+            return run(argc, argv);
+        } catch (const std::bad_alloc&) {
+            throw Failure("out of memory; use fewer --threads or fewer --cells");
+        }
+    });
+    // Every rank finds the same faults in the command line, and the first one tells what goes wrong later. The others
+    // end in peace: mpirun would end the first before it has spoken.
+    return isSpeaker || code == osgAnalyticBin::support::kInterrupted ? code : kSucceeded;
 }

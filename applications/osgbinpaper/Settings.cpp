@@ -3,19 +3,14 @@
 
 #include "Settings.h"
 
-#include "Failure.h"
 #include "NumberRange.h"
+#include "ProgramRun.h"
 
 #include <osgAnalyticBin/Version.h>
 
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
-#include <cstdlib>
-
 namespace osgAnalyticBin::paper {
-
-using support::Failure;
 
 namespace {
 
@@ -38,6 +33,8 @@ constexpr const char* kLegend =
     "  wrong_keeps           leaves drawn although a plane parts them from the frustum\n"
     "  wrong_insides         tiles found wholly inside although a point of them is outside\n"
     "  ns                    nanoseconds a tile tested, bins made beforehand (not in the CSV)\n"
+    "\n"
+    "Exit code: 0; 1 when something failed: one line says what; 2 when the command line is wrong.\n"
     "\n"
     "Example:\n"
     "  osgbinpaper --cameras 200 --csv paper.csv --json paper.json --plot figures\n";
@@ -70,17 +67,12 @@ void declare(CLI::App& app, Settings& settings) {
 
 }  // namespace
 
-Settings readSettings(int argc, char** argv) {
+std::optional<Settings> readSettings(int argc, char** argv) {
     Settings settings;
     CLI::App app{kDescription, "osgbinpaper"};
     app.set_version_flag("--version", std::string("osgbinpaper (osgAnalyticBin) ") + osgAnalyticBin::version());
     declare(app, settings);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) std::exit(app.exit(error));
-        throw Failure(std::string(error.what()) + "; see osgbinpaper --help");
-    }
+    if (!support::parseCommandLine(app, argc, argv)) return std::nullopt;
     return settings;
 }
 

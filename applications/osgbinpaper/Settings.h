@@ -5,6 +5,7 @@
 
 #include "Experiment.h"
 
+#include <optional>
 #include <string>
 
 namespace osgAnalyticBin::paper {
@@ -21,8 +22,8 @@ struct Settings {
     bool isQuiet = false;
 };
 
-/// Reads the command line; prints the help and ends the program when that is asked for.
-/// Throws: osgbindem::Failure with one line that says what is wrong.
-[[nodiscard]] Settings readSettings(int argc, char** argv);
+/// Reads the command line. Returns: nullopt when it asked for the help or the version, which are printed then.
+/// Throws: UsageError.
+[[nodiscard]] std::optional<Settings> readSettings(int argc, char** argv);
 
 }  // namespace osgAnalyticBin::paper

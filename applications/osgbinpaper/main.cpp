@@ -4,28 +4,23 @@
 #include "Failure.h"
 #include "Figures.h"
 #include "Output.h"
+#include "ProgramRun.h"
 
 #include <cpl_error.h>
 #include <gdal.h>
 
-#include <cstdlib>
-#include <exception>
 #include <iostream>
 #include <optional>
 
 namespace {
 
+using osgAnalyticBin::support::ExitCode;
 using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::kSucceeded;
 
 using namespace osgAnalyticBin::paper;
 
-int complain(const std::string& message) {
-    std::cerr << "osgbinpaper: " << message << std::endl;
-    return EXIT_FAILURE;
-}
-
-int run(int argc, char** argv) {
-    const Settings settings = readSettings(argc, argv);
+void measure(const Settings& settings) {
     std::optional<Gnuplot> gnuplot;
     if (!settings.plotFolder.empty()) gnuplot.emplace(settings.plotFolder);
     GDALAllRegister();
@@ -38,15 +33,15 @@ int run(int argc, char** argv) {
     if (!settings.csv.empty()) writeFile(settings.csv, csvOf(results, settings.levels));
     if (!settings.json.empty()) writeFile(settings.json, jsonOf(settings, results));
     if (gnuplot) drawFigures(*gnuplot, terrain, settings.experiment.factor, results, progress);
-    return EXIT_SUCCESS;
+}
+
+ExitCode run(int argc, char** argv) {
+    if (const std::optional<Settings> settings = readSettings(argc, argv)) measure(*settings);
+    return kSucceeded;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (const std::exception& error) {
-        return complain(error.what());
-    }
+    return osgAnalyticBin::support::runProgram("osgbinpaper", [&] { return run(argc, argv); });
 }

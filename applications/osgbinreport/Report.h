@@ -35,6 +35,7 @@ public:
     /// `differenceFolder` a picture of every difference is written there, as LABEL_POSE.png.
     /// Returns: nullopt, with one line in `error`, when a run is missing or broken, or its poses are not the
     /// reference's.
+    /// Requires: no labels, or one for each folder.
     [[nodiscard]] static std::optional<Report> of(const std::vector<std::string>& folders,
                                                   const std::vector<std::string>& labels,
                                                   const std::string& differenceFolder, std::string& error);

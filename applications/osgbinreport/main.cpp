@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Failure.h"
+#include "ProgramRun.h"
 #include "Report.h"
 
 #include <osgAnalyticBin/Version.h>
@@ -16,8 +18,9 @@ namespace {
 using osgAnalyticBin::report::Mismatch;
 using osgAnalyticBin::report::Report;
 
-constexpr int kDiffers = 1;
-constexpr int kUnreadable = 2;
+using osgAnalyticBin::support::ExitCode;
+using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::UsageError;
 
 struct Arguments {
     std::vector<std::string> folders;
@@ -37,40 +40,38 @@ void declare(CLI::App& app, Arguments& arguments) {
     app.footer(
         "Tiles: tested = the cull traversal reached the tile; kept = it reached what is below; drawn = its own\n"
         "geometry was drawn. Files: node files read from the camera's arrival on. Cull: milliseconds, median.\n"
-        "Exit code: 0; 1 when a picture of a sound method (any but paper and corners) differs from the reference;\n"
-        "2 when a run is missing or broken, or the command line is wrong.\n\n"
+        "Exit code: 0; 1 when a picture of a sound method (any but paper and corners) differs from the reference,\n"
+        "or when a flight cannot be read; 2 when the command line is wrong.\n\n"
         "Example:\n"
         "  osgbinreport demo/none demo/sphere demo/quadratic --difference demo/difference");
 }
 
-int report(const Arguments& arguments) {
+ExitCode report(const Arguments& arguments) {
+    if (!arguments.labels.empty() && arguments.labels.size() != arguments.folders.size())
+        throw UsageError("--labels: " + std::to_string(arguments.labels.size()) + " names for " +
+                         std::to_string(arguments.folders.size()) + " folders; give one for each");
     std::string error;
     const auto report = Report::of(arguments.folders, arguments.labels, arguments.differenceFolder, error);
-    if (!report) {
-        std::cerr << "osgbinreport: " << error << '\n';
-        return kUnreadable;
-    }
+    if (!report) throw Failure(error);
     report->print(std::cout);
     const std::vector<Mismatch> mismatches = report->mismatches();
     for (const Mismatch& mismatch : mismatches)
         std::cerr << "osgbinreport: method " << mismatch.label << " draws another picture than the reference at pose "
                   << mismatch.pose << ": " << mismatch.pixels << " pixels differ\n";
-    return mismatches.empty() ? 0 : kDiffers;
+    return mismatches.empty() ? osgAnalyticBin::support::kSucceeded : osgAnalyticBin::support::kFailed;
+}
+
+ExitCode run(int argc, char** argv) {
+    CLI::App app{"Compares flights over a database that were made with different culling methods.", "osgbinreport"};
+    app.set_version_flag("--version", std::string("osgbinreport (osgAnalyticBin) ") + osgAnalyticBin::version());
+    Arguments arguments;
+    declare(app, arguments);
+    if (!osgAnalyticBin::support::parseCommandLine(app, argc, argv)) return osgAnalyticBin::support::kSucceeded;
+    return report(arguments);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Compares flights over a database that were made with different culling methods.", "osgbinreport"};
-    app.set_version_flag("--version", std::string("osgbinreport (osgAnalyticBin) ") + osgAnalyticBin::version());
-    Arguments arguments;
-    declare(app, arguments);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error);
-        std::cerr << "osgbinreport: " << error.what() << "; see osgbinreport --help\n";
-        return kUnreadable;
-    }
-    return report(arguments);
+    return osgAnalyticBin::support::runProgram("osgbinreport", [&] { return run(argc, argv); });
 }

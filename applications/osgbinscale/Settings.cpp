@@ -4,6 +4,7 @@
 #include "Settings.h"
 
 #include "Failure.h"
+#include "ProgramRun.h"
 
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Version.h>
@@ -15,6 +16,7 @@
 namespace osgAnalyticBin::scale {
 
 using support::Failure;
+using support::UsageError;
 
 namespace {
 
@@ -34,7 +36,7 @@ constexpr const char* kFooter =
     "third. Figures of the flight are sums over its poses. deepest_tiles: drawn tiles of the deepest level.\n\n"
     "Methods: none, sphere (OSG's own), and BASE[+horizon][+reverse] with BASE quadratic, exact, box, orientedbox,\n"
     "paper or corners.\n"
-    "Exit code: 0; 1 when something failed: one line says what.\n\n"
+    "Exit code: 0; 1 when something failed: one line says what; 2 when the command line is wrong.\n\n"
     "Example:\n"
     "  osgbinscale --levels 8,20 --residents 1000,100000 --json scale.json --plot figures";
 
@@ -100,7 +102,7 @@ void takeSeries(const std::vector<std::string>& series, Settings& settings) {
         } else if (name == "memory") {
             settings.measuresMemory = true;
         } else {
-            throw Failure("--series: unknown series \"" + name + "\"; use depth, residents or memory");
+            throw UsageError("--series: unknown series \"" + name + "\"; use depth, residents or memory");
         }
     }
 }
@@ -116,7 +118,7 @@ ScaleMethod scaleMethodFromName(const std::string& name) {
     const bool hasBins = method && *method != Method::Sphere && *method != Method::None;
     const bool isKnown = isPlain || suffixes == "+horizon" || suffixes == "+reverse" || suffixes == "+horizon+reverse";
     if (!method || !isKnown || (!hasBins && !isPlain))
-        throw Failure(
+        throw UsageError(
             "--methods: unknown method \"" + name +
             "\"; use none, sphere, or quadratic, exact, box, orientedbox, paper or corners with +horizon, +reverse or "
             "+horizon+reverse after it");
@@ -134,17 +136,11 @@ bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {
     app.set_version_flag("--version", std::string("osgbinscale (osgAnalyticBin) ") + osgAnalyticBin::version());
     Words words;
     declare(app, settings, words);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() != 0) throw Failure(std::string(error.what()) + "; see osgbinscale --help");
-        (void)app.exit(error);
-        return false;
-    }
+    if (!support::parseCommandLine(app, argc, argv)) return false;
     takeSeries(words.series, settings);
     for (const std::string& name : words.methods) settings.methods.push_back(scaleMethodFromName(name));
     if (settings.cells % 2 != 0)
-        throw Failure("--cells: " + std::to_string(settings.cells) + " is odd; give an even number");
+        throw UsageError("--cells: " + std::to_string(settings.cells) + " is odd; give an even number");
     requireFolderOf("--csv", settings.csv);
     requireFolderOf("--json", settings.json);
     if (!settings.plot.empty()) makeFolder("--plot", settings.plot);

@@ -4,16 +4,17 @@
 #include "Failure.h"
 #include "ModuleFolder.h"
 #include "Output.h"
+#include "ProgramRun.h"
 #include "Series.h"
 #include "Settings.h"
 #include "TextFile.h"
 
-#include <cstdlib>
-#include <exception>
 #include <iostream>
 
 namespace {
 
+using osgAnalyticBin::support::ExitCode;
+using osgAnalyticBin::support::kSucceeded;
 using osgAnalyticBin::support::writeFile;
 
 using namespace osgAnalyticBin::scale;
@@ -31,17 +32,16 @@ void measure(const Settings& settings) {
     printTables(std::cout, results);
 }
 
+ExitCode run(int argc, char** argv) {
+    Settings settings;
+    if (!settingsFromCommandLine(argc, argv, settings)) return kSucceeded;
+    osgAnalyticBin::addModuleFolder();
+    measure(settings);
+    return kSucceeded;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        Settings settings;
-        if (!settingsFromCommandLine(argc, argv, settings)) return EXIT_SUCCESS;
-        osgAnalyticBin::addModuleFolder();
-        measure(settings);
-        return EXIT_SUCCESS;
-    } catch (const std::exception& error) {
-        std::cerr << "osgbinscale: " << error.what() << std::endl;
-        return EXIT_FAILURE;
-    }
+    return osgAnalyticBin::support::runProgram("osgbinscale", [&] { return run(argc, argv); });
 }

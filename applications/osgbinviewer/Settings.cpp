@@ -3,10 +3,11 @@
 
 #include "Settings.h"
 
+#include "Failure.h"
+
 #include <osgDB/FileNameUtils>
 
 #include <ostream>
-#include <stdexcept>
 
 namespace osgAnalyticBin::viewer {
 
@@ -32,7 +33,9 @@ void describe(osg::ApplicationUsage& usage) {
 void printHelp(std::ostream& out, osg::ApplicationUsage& usage, unsigned int helpType) {
     out << usage.getDescription() << '\n';
     usage.write(out, helpType);
-    out << "Key h lists the keys. Exit code: 0; 1 when something failed: one line says what.\n\n"
+    out << "Key h lists the keys. Exit code: 0; 1 when something failed: one line says what; 2 when the command line "
+           "is\n"
+           "wrong.\n\n"
            "Examples:\n"
            "  osgbinviewer earth.osgb\n"
            "  osgbinviewer earth.ive --options method=exact,heights=-500..4000 --record flight.csv\n"
@@ -47,7 +50,7 @@ Settings settingsFrom(osg::ArgumentParser& arguments) {
     }
     std::string error;
     const auto options = cullOptionsFromText(text, error);
-    if (!options) throw std::runtime_error("--options: " + error);
+    if (!options) throw support::UsageError("--options: " + error);
     settings.cullOptions = *options;
     while (arguments.read("--record", settings.record)) {
     }
@@ -61,12 +64,12 @@ Settings settingsFrom(osg::ArgumentParser& arguments) {
     while (arguments.read("-p", path)) settings.animationPaths.push_back(path);
     for (int i = 1; i < arguments.argc(); ++i) {
         if (arguments.isOption(i))
-            throw std::runtime_error(std::string("unknown option ") + arguments[i] + "; see --help");
+            throw support::UsageError(std::string("unknown option ") + arguments[i] + "; see --help");
         const std::string name = arguments[i];
         const bool isWhole = osgDB::getLowerCaseFileExtension(name) == "analyticbin";
         settings.databases.push_back({name, isWhole ? name : name + ".(" + toText(*options) + ").analyticbin"});
     }
-    if (settings.databases.empty()) throw std::runtime_error("no database given; see --help");
+    if (settings.databases.empty()) throw support::UsageError("no database given; see --help");
     return settings;
 }
 

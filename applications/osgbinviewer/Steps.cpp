@@ -4,6 +4,7 @@
 #include "Steps.h"
 
 #include "CameraView.h"
+#include "Failure.h"
 #include "FrameCapture.h"
 #include "HomeView.h"
 
@@ -45,7 +46,7 @@ void Steps::run(const std::string& text) {
     std::istringstream steps(text);
     for (std::string step; steps >> step;) {
         const auto equals = step.find('=');
-        if (equals == std::string::npos) throw std::runtime_error("--steps: \"" + step + "\" is not VERB=VALUE");
+        if (equals == std::string::npos) throw support::UsageError("--steps: \"" + step + "\" is not VERB=VALUE");
         runOne(step.substr(0, equals), step.substr(equals + 1));
     }
 }
@@ -57,10 +58,10 @@ void Steps::runOne(const std::string& verb, const std::string& value) {
     if (verb == "frames") return drawFrames(std::atoi(value.c_str()));
     if (verb == "picture") return takePicture(value, _viewer.getCamera()->getGraphicsContext());
     if (verb == "spypicture") {
-        if (!_spy.isOpen()) throw std::runtime_error("--steps: spypicture needs the second window (press=y)");
+        if (!_spy.isOpen()) throw support::UsageError("--steps: spypicture needs the second window (press=y)");
         return takePicture(value, _spy.camera()->getGraphicsContext());
     }
-    throw std::runtime_error("--steps: \"" + verb + "\" is none of at, press, spy, frames, picture, spypicture");
+    throw support::UsageError("--steps: \"" + verb + "\" is none of at, press, spy, frames, picture, spypicture");
 }
 
 void Steps::standAt(const std::string& name) {
@@ -72,7 +73,7 @@ void Steps::standAt(const std::string& name) {
     }
     const auto pose =
         std::find_if(_poses.begin(), _poses.end(), [&](const flight::CameraPose& each) { return each.name == name; });
-    if (pose == _poses.end()) throw std::runtime_error("--steps: no pose \"" + name + "\" in the file of --poses");
+    if (pose == _poses.end()) throw support::UsageError("--steps: no pose \"" + name + "\" in the file of --poses");
     const flight::Globe globe = flight::globeOf(*_viewer.getSceneData());
     camera.setViewMatrix(flight::viewMatrixOf(*pose, globe));
     camera.setProjectionMatrix(flight::projectionMatrixOf(*pose, globe, camera.getViewport()->aspectRatio()));
@@ -80,7 +81,7 @@ void Steps::standAt(const std::string& name) {
 }
 
 void Steps::press(const std::string& key) {
-    if (key.size() != 1) throw std::runtime_error("--steps: press takes one key, not \"" + key + "\"");
+    if (key.size() != 1) throw support::UsageError("--steps: press takes one key, not \"" + key + "\"");
     _viewer.getEventQueue()->keyPress(key[0]);
     _viewer.getEventQueue()->keyRelease(key[0]);
     drawUntilIdle();
@@ -93,7 +94,7 @@ void Steps::orbit(const std::string& numbers) {
     char comma = 0;
     std::istringstream in(numbers);
     if (!(in >> azimuth >> comma >> elevation >> comma >> distance)) {
-        throw std::runtime_error("--steps: spy takes AZIMUTH,ELEVATION,DISTANCE, not \"" + numbers + "\"");
+        throw support::UsageError("--steps: spy takes AZIMUTH,ELEVATION,DISTANCE, not \"" + numbers + "\"");
     }
     _spy.setOrbit(osg::DegreesToRadians(azimuth), osg::DegreesToRadians(elevation), distance);
     drawUntilIdle();

@@ -3,6 +3,7 @@
 
 #include "HomeView.h"
 #include "ModuleFolder.h"
+#include "ProgramRun.h"
 #include "Settings.h"
 #include "Steps.h"
 
@@ -29,7 +30,6 @@
 #include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
 
-#include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
@@ -37,6 +37,8 @@
 namespace {
 
 using namespace osgAnalyticBin;
+using support::ExitCode;
+using support::kSucceeded;
 
 // Mesa's software renderer (22.3) may never come back from filtering terrain anisotropically.
 class WithoutAnisotropy : public osg::Operation {
@@ -137,7 +139,7 @@ osg::ref_ptr<osg::Node> readDatabase(const viewer::NamedDatabase& database) {
     throw std::runtime_error(database.given + ": " + result.statusMessage());
 }
 
-int runSteps(osgViewer::Viewer& viewer, const viewer::Settings& settings, SpyViewHandler& spy) {
+ExitCode runSteps(osgViewer::Viewer& viewer, const viewer::Settings& settings, SpyViewHandler& spy) {
     std::vector<flight::CameraPose> poses;
     if (!settings.poses.empty()) {
         std::string error;
@@ -149,20 +151,20 @@ int runSteps(osgViewer::Viewer& viewer, const viewer::Settings& settings, SpyVie
     viewer.setRealizeOperation(new WithoutAnisotropy);
     realize(viewer);
     viewer::Steps(viewer, spy, poses).run(settings.steps);
-    return EXIT_SUCCESS;
+    return kSucceeded;
 }
 
-int show(osg::ArgumentParser& arguments) {
+ExitCode show(osg::ArgumentParser& arguments) {
     viewer::describe(*arguments.getApplicationUsage());
     osgViewer::Viewer viewer(arguments);
     unsigned int helpType = 0;
     if ((helpType = arguments.readHelpType()) != 0) {
         viewer::printHelp(std::cout, *arguments.getApplicationUsage(), helpType);
-        return EXIT_SUCCESS;
+        return kSucceeded;
     }
     if (arguments.read("--version")) {
         std::cout << "osgbinviewer (osgAnalyticBin) " << version() << std::endl;
-        return EXIT_SUCCESS;
+        return kSucceeded;
     }
     const viewer::Settings settings = viewer::settingsFrom(arguments);
     const std::string error = displayError();
@@ -178,7 +180,7 @@ int show(osg::ArgumentParser& arguments) {
     if (!settings.steps.empty()) return runSteps(viewer, settings, *spy);
     viewer.setCameraManipulator(makeManipulator(settings, *viewer.getSceneData()));
     realize(viewer);
-    return viewer.run();
+    return viewer.run() == 0 ? kSucceeded : support::kFailed;
 }
 
 }  // namespace
@@ -186,11 +188,8 @@ int show(osg::ArgumentParser& arguments) {
 int main(int argc, char** argv) {
     osg::ArgumentParser arguments(&argc, argv);
     arguments.getApplicationUsage()->setApplicationName(arguments.getApplicationName());
-    try {
+    return support::runProgram("osgbinviewer", [&] {
         addModuleFolder();
         return show(arguments);
-    } catch (const std::exception& error) {
-        std::cerr << "osgbinviewer: " << error.what() << std::endl;
-        return EXIT_FAILURE;
-    }
+    });
 }

@@ -8,9 +8,16 @@
 namespace osgAnalyticBin::support {
 
 /// An error that ends the program; its text is one line: what, where, what to do.
-class Failure final : public std::runtime_error {
+class Failure : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
+};
+
+/// A wrong command line: an unknown option, a value out of its range, options that contradict each other. What is wrong
+/// with the files that it names is a Failure.
+class UsageError final : public Failure {
+public:
+    using Failure::Failure;
 };
 
 }  // namespace osgAnalyticBin::support

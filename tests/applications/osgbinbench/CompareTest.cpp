@@ -266,11 +266,11 @@ TEST(Compare, TheProgramAnswersWithItsExitCode) {
     after["methods"]["exact"]["drawn_tiles"] = 13;
     const std::string old = test::quoted(folder.write("old.json", measurement().dump()));
     const std::string now = test::quoted(folder.write("new.json", after.dump()));
-    EXPECT_EQ(test::runBenchBlind("--compare " + old + " " + now).code, 2);
+    EXPECT_EQ(test::runBenchBlind("--compare " + old + " " + now).code, 1);
     EXPECT_EQ(test::runBenchBlind("--compare " + now + " " + old).code, 0);
     EXPECT_EQ(test::runBenchBlind("--compare " + old + " /nowhere/new.json").code, 1);
-    EXPECT_EQ(test::runBenchBlind("--compare " + old).code, 1);
-    EXPECT_EQ(test::runBenchBlind("earth.osgb --compare " + old + " " + now).code, 1);
+    EXPECT_EQ(test::runBenchBlind("--compare " + old).code, 2);
+    EXPECT_EQ(test::runBenchBlind("earth.osgb --compare " + old + " " + now).code, 2);
 }
 
 }  // namespace

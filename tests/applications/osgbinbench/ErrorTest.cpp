@@ -20,32 +20,36 @@ constexpr const char* kOnePose =
     "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg,near,far\n"
     "down,20,30,10000000,20,30,0,40,1000000,20000000\n";
 
-void expectOneLine(const Outcome& outcome, const std::string& part) {
-    EXPECT_EQ(outcome.code, 1) << outcome.text;
+void expectOneLine(const Outcome& outcome, const std::string& part, int code = 1) {
+    EXPECT_EQ(outcome.code, code) << outcome.text;
     EXPECT_EQ(outcome.linesWith("osgbinbench: "), 1) << outcome.text;
     EXPECT_EQ(outcome.linesWith(part), 1) << outcome.text;
+}
+
+void expectUsageError(const Outcome& outcome, const std::string& part) {
+    expectOneLine(outcome, part, 2);
 }
 
 TEST(Errors, OfTheCommandLineNameTheOption) {
     const TemporaryFolder folder;
     const std::string good = "none.osgb --path " + test::quoted(folder.write("p.csv", kOnePose));
-    expectOneLine(test::runBenchBlind("x.osgb"), "--path is required");
-    expectOneLine(test::runBenchBlind(good + " --methods sphere,cube"), "unknown method \"cube\"");
-    expectOneLine(test::runBenchBlind(good + " --methods sphere+horizon"), "unknown method \"sphere+horizon\"");
-    expectOneLine(test::runBenchBlind(good + " --options horizon=off"), "--options: leave +horizon out");
-    expectOneLine(test::runBenchBlind(good + " --options reverse=off"), "--options: name methods with or without");
-    expectOneLine(test::runBenchBlind(good + " --options occlusion=on"), "--options: name methods with +occlusion");
-    expectOneLine(test::runBenchBlind(good + " --size 640"), "--size: \"640\"");
-    expectOneLine(test::runBenchBlind(good + " --size 640x480x3"), "--size: ");
-    expectOneLine(test::runBenchBlind(good + " --threading Many"), "--threading: unknown model \"Many\"");
-    expectOneLine(test::runBenchBlind(good + " --options horizont=3"), "--options: unknown parameter");
-    expectOneLine(test::runBenchBlind(good + " --options method=paper"), "--options: ");
-    expectOneLine(test::runBenchBlind(good + " --vertical-scale 0"), "--vertical-scale");
+    expectUsageError(test::runBenchBlind("x.osgb"), "--path is required");
+    expectUsageError(test::runBenchBlind(good + " --methods sphere,cube"), "unknown method \"cube\"");
+    expectUsageError(test::runBenchBlind(good + " --methods sphere+horizon"), "unknown method \"sphere+horizon\"");
+    expectUsageError(test::runBenchBlind(good + " --options horizon=off"), "--options: leave +horizon out");
+    expectUsageError(test::runBenchBlind(good + " --options reverse=off"), "--options: name methods with or without");
+    expectUsageError(test::runBenchBlind(good + " --options occlusion=on"), "--options: name methods with +occlusion");
+    expectUsageError(test::runBenchBlind(good + " --size 640"), "--size: \"640\"");
+    expectUsageError(test::runBenchBlind(good + " --size 640x480x3"), "--size: ");
+    expectUsageError(test::runBenchBlind(good + " --threading Many"), "--threading: unknown model \"Many\"");
+    expectUsageError(test::runBenchBlind(good + " --options horizont=3"), "--options: unknown parameter");
+    expectUsageError(test::runBenchBlind(good + " --options method=paper"), "--options: ");
+    expectUsageError(test::runBenchBlind(good + " --vertical-scale 0"), "--vertical-scale");
     for (const std::string option : {"--vertical-scale", "--frame-rate", "--timeout", "--expiry"})
-        expectOneLine(test::runBenchBlind(good + ' ' + option + " nan"), option);
-    expectOneLine(test::runBenchBlind(good + " --expiry own"), "--expiry: own");
-    expectOneLine(test::runBenchBlind(good + " --flush -1"), "--flush");
-    expectOneLine(test::runBenchBlind(good + " --frames 10 --pictures pictures"), "--pictures: ");
+        expectUsageError(test::runBenchBlind(good + ' ' + option + " nan"), option);
+    expectUsageError(test::runBenchBlind(good + " --expiry own"), "--expiry: own");
+    expectUsageError(test::runBenchBlind(good + " --flush -1"), "--flush");
+    expectUsageError(test::runBenchBlind(good + " --frames 10 --pictures pictures"), "--pictures: ");
     expectOneLine(test::runBenchBlind(good + " --csv " + folder.path() + "/absent/p.csv"), "--csv: there is no folder");
 }
 

@@ -38,4 +38,9 @@ inline void expectFailure(const Outcome& outcome, const std::string& what) {
     expectOneLine(outcome, what);
 }
 
+inline void expectUsageError(const Outcome& outcome, const std::string& what) {
+    EXPECT_EQ(outcome.code, 2);
+    expectOneLine(outcome, what);
+}
+
 }  // namespace osgAnalyticBin::test

@@ -213,15 +213,15 @@ TEST(SmallRun, AnUnknownSurfaceLeavesAllTilesAboveItVisible) {
 
 TEST(SmallRun, BadCommandLinesAreOneLine) {
     const TemporaryFolder folder;
-    expectFailure(runBinconv(""), "FILE");
+    expectUsageError(runBinconv(""), "FILE");
     expectFailure(runBinconv("--index " + test::quoted(folder / "absent.osgb")), "absent.osgb");
     expectFailure(runBinconv("--index " + test::quoted(folder.path())), "is no file");
     expectFailure(runBinconv("--index http://host/earth.osgb"), "on a server");
-    expectFailure(runBinconv("--index --print x"), "--");
-    expectFailure(runBinconv("--index --threads 0 x"), "--threads 0");
-    expectFailure(runBinconv("--index a b"), "\"b\"");
-    expectFailure(runBinconv("a b c"), "\"c\"");
-    expectFailure(runBinconv("--frobnicate x"), "--frobnicate");
+    expectUsageError(runBinconv("--index --print x"), "--");
+    expectUsageError(runBinconv("--index --threads 0 x"), "--threads 0");
+    expectUsageError(runBinconv("--index a b"), "\"b\"");
+    expectUsageError(runBinconv("a b c"), "\"c\"");
+    expectUsageError(runBinconv("--frobnicate x"), "--frobnicate");
     writeBytes(folder / "text.osgb", "no scene");
     expectFailure(runBinconv("--quiet --index " + test::quoted(folder / "text.osgb")), "text.osgb");
     writeSmallFile(folder / "cow.osgb", *makeSmallTile(""));
@@ -238,7 +238,7 @@ TEST(SmallRun, ABadOutputNameIsRefusedBeforeTheDatabaseIsRead) {
     const auto copyTo = [&](const std::string& output) {
         return runBinconv("--quiet " + test::quoted(folder / "text.osgb") + ' ' + test::quoted(folder / output));
     };
-    expectFailure(copyTo("copy.ive"), ".osgb, .osgt or .osgx");
+    expectUsageError(copyTo("copy.ive"), ".osgb, .osgt or .osgx");
     expectFailure(copyTo("absent/copy.osgb"), "create it first");
     expectFailure(copyTo("there.osgb"), "--overwrite");
     expectFailure(copyTo("text.osgb"), "a file of the database itself");

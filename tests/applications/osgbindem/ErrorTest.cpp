@@ -30,8 +30,15 @@ protected:
     [[nodiscard]] std::string output() const { return _folder.file("out/earth.osgb"); }
 
     void expectError(const std::vector<std::string>& arguments, const std::string& what, unsigned long sizeLimit = 0) {
-        const Outcome outcome = run(arguments, sizeLimit);
-        EXPECT_GT(outcome.exitCode, 0);
+        expectOutcome(run(arguments, sizeLimit), what, 1);
+    }
+
+    void expectUsageError(const std::vector<std::string>& arguments, const std::string& what) {
+        expectOutcome(run(arguments), what, 2);
+    }
+
+    void expectOutcome(const Outcome& outcome, const std::string& what, int exitCode) {
+        EXPECT_EQ(outcome.exitCode, exitCode);
         EXPECT_EQ(outcome.errors.rfind("osgbindem: ", 0), 0U) << outcome.errors;
         EXPECT_NE(outcome.errors.find(what), std::string::npos) << outcome.errors;
         EXPECT_EQ(outcome.errors.find('\n'), outcome.errors.size() - 1) << outcome.errors;
@@ -99,33 +106,33 @@ TEST_F(Error, MissingImage) {
 }
 
 TEST_F(Error, Levels) {
-    expectError({good(), "--levels", "40", "-o", output()}, "--levels 40");
-    expectError({good(), "--levels", "-1", "-o", output()}, "--levels -1");
-    expectError({good(), "--levels", "two", "-o", output()}, "two");
+    expectUsageError({good(), "--levels", "40", "-o", output()}, "--levels 40");
+    expectUsageError({good(), "--levels", "-1", "-o", output()}, "--levels -1");
+    expectUsageError({good(), "--levels", "two", "-o", output()}, "two");
 }
 
 TEST_F(Error, OtherNumbers) {
-    expectError({good(), "--cells", "7", "-o", output()}, "--cells 7");
-    expectError({good(), "--cells", "900", "-o", output()}, "--cells 900");
+    expectUsageError({good(), "--cells", "7", "-o", output()}, "--cells 7");
+    expectUsageError({good(), "--cells", "900", "-o", output()}, "--cells 900");
     expectError({good(), "--geoid", "absent.gtx", "-o", output()}, "absent.gtx");
-    expectError({good(), "--blend", "-1", "-o", output()}, "--blend");
-    expectError({good(), "--threads", "0", "-o", output()}, "--threads 0");
-    expectError({good(), "--lod-factor", "-2", "-o", output()}, "--lod-factor");
-    expectError({good(), "--radii", "0", "1", "-o", output()}, "--radii");
-    expectError({good(), "--radii", "1", "-o", output()}, "--radii");
+    expectUsageError({good(), "--blend", "-1", "-o", output()}, "--blend");
+    expectUsageError({good(), "--threads", "0", "-o", output()}, "--threads 0");
+    expectUsageError({good(), "--lod-factor", "-2", "-o", output()}, "--lod-factor");
+    expectUsageError({good(), "--radii", "0", "1", "-o", output()}, "--radii");
+    expectUsageError({good(), "--radii", "1", "-o", output()}, "--radii");
 }
 
 TEST_F(Error, Scales) {
-    expectError({good(), "--scale", "miles", "-o", output()}, "unknown unit \"miles\"");
-    expectError({good(), "--height-unit", "0", "-o", output()}, "unknown unit \"0\" in --height-unit");
-    expectError({good(), "--scale", "m", "ft", "-o", output()}, "2 units");
+    expectUsageError({good(), "--scale", "miles", "-o", output()}, "unknown unit \"miles\"");
+    expectUsageError({good(), "--height-unit", "0", "-o", output()}, "unknown unit \"0\" in --height-unit");
+    expectUsageError({good(), "--scale", "m", "ft", "-o", output()}, "2 units");
 }
 
 TEST_F(Error, CommandLine) {
-    expectError({}, "--output");
-    expectError({"-o", output()}, "no elevation raster");
-    expectError({good(), "-o", output(), "--frobnicate"}, "--frobnicate");
-    expectError({good(), "-o", file("out/earth.ive")}, ".osgb");
+    expectUsageError({}, "--output");
+    expectUsageError({"-o", output()}, "no elevation raster");
+    expectUsageError({good(), "-o", output(), "--frobnicate"}, "--frobnicate");
+    expectUsageError({good(), "-o", file("out/earth.ive")}, ".osgb");
 }
 
 TEST_F(Error, Folders) {

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace osgAnalyticBin::support {
+
+/// The exit codes of all programs.
+enum ExitCode : int {
+    kSucceeded = 0,
+    kFailed = 1,         ///< something failed, or what was compared differs
+    kWrongUsage = 2,     ///< the command line is wrong; nothing was done
+    kInterrupted = 130,  ///< the user stopped the program
+};
+
+/// Parses the command line; prints the help or the version when it asks for them.
+/// Returns: whether there is something to do. Throws UsageError.
+[[nodiscard]] bool parseCommandLine(CLI::App& app, int argc, const char* const* argv);
+
+/// Runs a program and prints what it throws as one line on stderr, the program's name before it.
+/// Returns: the exit code, which `run` returns or what it throws stands for.
+[[nodiscard]] ExitCode runProgram(const std::string& name, const std::function<ExitCode()>& run);
+
+}  // namespace osgAnalyticBin::support
