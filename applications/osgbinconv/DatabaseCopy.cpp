@@ -8,6 +8,7 @@
 #include "FileSurvey.h"
 #include "IndexBuilder.h"
 #include "Interruption.h"
+#include "Progress.h"
 
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
@@ -110,8 +111,9 @@ void storeBins(osg::Node& scene, const FileRecord& record, const BinIndex& index
 
 class Copy {
 public:
-    Copy(const DatabaseFiles& files, const BuiltIndex& built, CopyTarget& target, const CopyOptions& options)
-        : _files(files), _built(built), _target(target), _options(options) {
+    Copy(const DatabaseFiles& files, const BuiltIndex& built, CopyTarget& target, const CopyOptions& options,
+         bool isQuiet)
+        : _files(files), _built(built), _target(target), _options(options), _progress("copied", isQuiet) {
         for (const auto& [file, record] : built.records) {
             if (record.isRead && !file.empty()) _waiting.push_back(&record);
         }
@@ -134,11 +136,18 @@ public:
     /// Requires: the threads have ended. Throws what they threw.
     void finish() {
         if (_error) std::rethrow_exception(_error);
-        _target.complete(*readyScene(_built.records.at("")));
+        const FileRecord& root = _built.records.at("");
+        _target.complete(*readyScene(root));
+        _progress.add(root.tiles.size(), 0.0);
+        _progress.finish();
     }
 
 private:
-    void write(const FileRecord& record) { _target.write(record.file, *readyScene(record)); }
+    void write(const FileRecord& record) {
+        _target.write(record.file, *readyScene(record));
+        const std::lock_guard<std::mutex> guard(_mutex);
+        _progress.add(record.tiles.size(), 1.0 / static_cast<double>(_waiting.size()));
+    }
 
     /// The scene as it goes to the copy.
     [[nodiscard]] osg::ref_ptr<osg::Node> readyScene(const FileRecord& record) const {
@@ -170,6 +179,7 @@ private:
     std::atomic<std::size_t> _next{0};
     std::atomic<bool> _isFailed{false};
     std::mutex _mutex;
+    Progress _progress;
     std::exception_ptr _error;
 };
 
@@ -183,7 +193,7 @@ void copyDatabase(const DatabaseFiles& files, const std::string& output, const C
     const BuiltIndex built = indexFrom(files, walkDatabase(
                                                   files, {}, [](const FileRecord&) {}, survey));
     CopyTarget target(output, files, built.records, options.overwrite);
-    Copy copy(files, built, target, options);
+    Copy copy(files, built, target, options, walk.isQuiet);
     std::vector<std::thread> threads;
     for (int i = 0; i < walk.threads; ++i) threads.emplace_back([&copy] { copy.work(); });
     for (std::thread& thread : threads) thread.join();

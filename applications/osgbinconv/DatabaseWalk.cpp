@@ -25,6 +25,16 @@ namespace {
 struct Job {
     std::string file;
     FilePlace place;
+    /// Of the whole walk, this file with all below it: the number of files is not known before the end, so those that
+    /// a file names have equal parts of its share.
+    double share = 1.0;
+};
+
+/// A file that is done.
+struct Done {
+    FileRecord record;
+    /// Whether an earlier run did it.
+    bool isKnown = false;
 };
 
 /// The files that wait, those that are done, and what the threads share besides.
@@ -32,7 +42,7 @@ class Walk {
 public:
     Walk(const DatabaseFiles& files, std::vector<FileRecord> known, const std::function<void(const FileRecord&)>& keep,
          const WalkOptions& options)
-        : _files(files), _images(options.images), _keep(keep), _progress(options.isQuiet) {
+        : _files(files), _images(options.images), _keep(keep), _progress("read", options.isQuiet) {
         for (FileRecord& record : known) _known[record.file] = std::move(record);
     }
 
@@ -40,13 +50,13 @@ public:
         _places[""] = FilePlace();
         FilePlace& root = _places[""];
         root.localToEcef = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-        _waiting.push_back({"", root});
+        _waiting.push_back({"", root, 1.0});
     }
 
     /// The body of each thread.
     void work() {
         try {
-            while (const std::optional<Job> job = next()) finish(recordOf(*job));
+            while (const std::optional<Job> job = next()) finish(doneOf(*job), job->share);
         } catch (...) {
             fail(std::current_exception());
         }
@@ -74,12 +84,11 @@ private:
         return job;
     }
 
-    FileRecord recordOf(const Job& job) {
+    Done doneOf(const Job& job) {
         const FileStamp stamp = _files.stampOf(job.file);
         const auto known = _known.find(job.file);  // nobody changes it any more
         if (known != _known.end() && known->second.stamp == stamp && known->second.place == job.place) {
-            _progress.addKnown();
-            return known->second;
+            return {known->second, true};
         }
         FileRecord record;
         std::string error;
@@ -93,13 +102,18 @@ private:
         record.place = job.place;
         const std::lock_guard<std::mutex> guard(_keepMutex);
         _keep(record);
-        return record;
+        return {std::move(record), false};
     }
 
-    void finish(FileRecord record) {
+    void finish(Done done, double share) {
+        FileRecord& record = done.record;
         const std::lock_guard<std::mutex> guard(_mutex);
+        const std::size_t before = _waiting.size();
         for (const FileLink& link : record.links) enter(link);
-        _progress.add(record.tiles.size());
+        const std::size_t below = _waiting.size() - before;
+        for (std::size_t i = before; i < _waiting.size(); ++i) _waiting[i].share = share / static_cast<double>(below);
+        const double ownShare = below == 0 ? share : 0.0;
+        done.isKnown ? _progress.addKnown(record.tiles.size(), ownShare) : _progress.add(record.tiles.size(), ownShare);
         _records[record.file] = std::move(record);
         --_busy;
         _changed.notify_all();
@@ -108,7 +122,7 @@ private:
     void enter(const FileLink& link) {
         const auto [place, isNew] = _places.emplace(link.file, link.place);
         if (isNew) {
-            _waiting.push_back({link.file, link.place});
+            _waiting.push_back({link.file, link.place, 0.0});
         } else if (!link.file.empty() && !(place->second == link.place)) {
             throw Failure("\"" + _files.pathOf(link.file) +
                           "\" is paged in two places that differ; an index needs each file in one place");

@@ -4,34 +4,35 @@
 #include "Progress.h"
 
 #include <cstdio>
-#include <string>
-#include <unistd.h>
 
 namespace osgbinconv {
 
-Progress::Progress(bool isQuiet) : _isQuiet(isQuiet), _isTerminal(::isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(const char* verb, bool isQuiet) : _verb(verb), _isQuiet(isQuiet) {}
 
-void Progress::add(std::size_t tiles) {
+void Progress::add(std::size_t tiles, double share) {
     ++_files;
     _tiles += tiles;
-    const auto pause = _isTerminal ? std::chrono::milliseconds(200) : std::chrono::milliseconds(10000);
-    if (Clock::now() - _shown < pause) return;
-    show(_isTerminal ? "\r" : "\n");
+    _share += share;
+    if (!_isQuiet && _line.isDue()) _line.show(_share, text());
+}
+
+void Progress::addKnown(std::size_t tiles, double share) {
+    ++_known;
+    _line.skip(share);
+    add(tiles, share);
 }
 
 void Progress::finish() {
-    show("\n");
+    if (!_isQuiet) _line.finish(_share, text());
 }
 
-void Progress::show(const char* end) {
-    if (_isQuiet) return;
-    _shown = Clock::now();
-    const double seconds = std::chrono::duration<double>(_shown - _start).count();
+std::string Progress::text() const {
+    const double seconds = _line.seconds();
     const double rate = seconds > 0.0 ? static_cast<double>(_tiles) / seconds : 0.0;
-    const std::size_t known = _known.load();
-    const std::string before = known > 0 ? " (" + std::to_string(known) + " files from an earlier run)" : "";
-    std::fprintf(stderr, "osgbinconv: %zu files, %zu tiles, %.0f tiles/s%s%s", _files, _tiles, rate, before.c_str(),
-                 end);
+    char text[160];
+    std::snprintf(text, sizeof text, "osgbinconv: %s %zu files, %zu tiles, %.0f tiles/s", _verb, _files, _tiles, rate);
+    const std::string known = _known > 0 ? " (" + std::to_string(_known) + " files from an earlier run)" : "";
+    return text + known + ", ";
 }
 
 }  // namespace osgbinconv

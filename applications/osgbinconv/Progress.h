@@ -3,36 +3,35 @@
 
 #pragma once
 
-#include <atomic>
-#include <chrono>
+#include "ProgressLine.h"
+
 #include <cstddef>
+#include <string>
 
 namespace osgbinconv {
 
-/// Tells on stderr how far a walk is: on a terminal in one line that is written over, else in a line every ten seconds,
-/// and once at the end. How many files there will be is not known before the end.
+/// Says on stderr how far a pass over the files of a database is. Not for several threads at once.
 class Progress final {
 public:
-    explicit Progress(bool isQuiet);
+    /// `verb`: what is done with the files.
+    Progress(const char* verb, bool isQuiet);
 
-    /// A file is done. Not to be called by two threads at once.
-    void add(std::size_t tiles);
-    /// Of those: one that an earlier run had done.
-    void addKnown() { _known.fetch_add(1, std::memory_order_relaxed); }
+    /// A file is done, and with it this share of the pass.
+    void add(std::size_t tiles, double share);
+    /// The same of a file that an earlier run had done.
+    void addKnown(std::size_t tiles, double share);
     void finish();
 
 private:
-    using Clock = std::chrono::steady_clock;
+    [[nodiscard]] std::string text() const;
 
-    void show(const char* end);
-
+    const char* const _verb;
     const bool _isQuiet;
-    const bool _isTerminal;
-    const Clock::time_point _start = Clock::now();
-    Clock::time_point _shown = _start;
+    osgAnalyticBin::support::ProgressLine _line{stderr};
     std::size_t _files = 0;
+    std::size_t _known = 0;
     std::size_t _tiles = 0;
-    std::atomic<std::size_t> _known{0};
+    double _share = 0.0;
 };
 
 }  // namespace osgbinconv

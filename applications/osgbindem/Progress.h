@@ -3,17 +3,14 @@
 
 #pragma once
 
+#include "ProgressLine.h"
 #include "Ranks.h"
-#include "TimeLeft.h"
 
 #include <cpl_progress.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <mutex>
-#include <string>
-#include <unistd.h>
 
 namespace osgbindem {
 
@@ -22,49 +19,47 @@ namespace osgbindem {
 class Progress final {
 public:
     Progress(bool isShown, double total)
-        : _isShown(isShown), _isTerminal(::isatty(STDOUT_FILENO) == 1 && !Ranks::isStartedByMpi()), _total(total) {
-        show(0.0);
+        : _isShown(isShown), _isRow(!_line.isTerminal() || Ranks::isStartedByMpi()), _total(total) {
+        show();
     }
 
     void add(double amount) {
         const std::lock_guard<std::mutex> guard(_mutex);
         _done += amount;
-        show(std::min(_done / _total, 0.99));
+        show();
+    }
+    /// What an earlier run has done.
+    void addKnown(double amount) {
+        const std::lock_guard<std::mutex> guard(_mutex);
+        _done += amount;
+        _line.skip(amount / _total);
+        show();
     }
     void finish() {
         const std::lock_guard<std::mutex> guard(_mutex);
-        show(1.0);
+        if (!_isShown) return;
+        if (_isRow) {
+            GDALTermProgress(1.0, nullptr, nullptr);
+        } else {
+            _line.finish(1.0, "");
+        }
     }
 
 private:
-    using Clock = std::chrono::steady_clock;
-
-    void show(double share) {
+    void show() {
         if (!_isShown) return;
-        if (_isTerminal) {
-            showLine(share);
-        } else {
-            GDALTermProgress(share, nullptr, nullptr);
+        if (_isRow) {
+            GDALTermProgress(std::min(_done / _total, 0.99), nullptr, nullptr);
+        } else if (_line.isDue()) {
+            _line.show(_done / _total, "");
         }
-    }
-    void showLine(double share) {
-        constexpr std::chrono::milliseconds kPause{200};
-        const Clock::time_point now = Clock::now();
-        if (share < 1.0 && share > 0.0 && now - _shown < kPause) return;
-        _shown = now;
-        const double seconds = std::chrono::duration<double>(now - _start).count();
-        const std::string time = share < 1.0 ? osgAnalyticBin::support::timeLeft(share, seconds)
-                                             : "done in " + osgAnalyticBin::support::durationText(seconds);
-        std::printf("\r%3.0f %%  %-24s%s", 100.0 * share, time.c_str(), share < 1.0 ? "" : "\n");
-        std::fflush(stdout);
     }
 
     std::mutex _mutex;
+    osgAnalyticBin::support::ProgressLine _line{stdout};
     const bool _isShown;
-    const bool _isTerminal;
+    const bool _isRow;
     const double _total;
-    const Clock::time_point _start = Clock::now();
-    Clock::time_point _shown = _start;
     double _done = 0.0;
 };
 

@@ -19,7 +19,7 @@ namespace {
 void doTask(const Task& task, const Site& site, TileBuilder& builder) {
     const auto known = site.state.find(task.tile, site.layout);
     if (known && known->files == site.files.sumBelow(task.tile)) {
-        site.progress.add(task.weight);
+        site.progress.addKnown(task.weight);
         return;
     }
     builder.setLeafDone(

@@ -125,6 +125,17 @@ TEST_F(Run, KeptRecordsSpareReadingWhatHasNotChanged) {
     EXPECT_EQ(indexed(), changed);
 }
 
+TEST_F(Run, ProgressOfEveryPassEndsAtTheWhole) {
+    // The share of a file is that of the files below it: the sum is whole only when each was counted once.
+    const Outcome indexing = runBinconv("--index " + test::quoted(_database));
+    expectOneLine(indexing, "osgbinconv: read 161 files, 672 tiles, ");
+    EXPECT_EQ(indexing.linesWith(" tiles/s, 100 %, done in "), 1) << indexing.text;
+    const Outcome copying =
+        runBinconv(test::quoted(_database) + ' ' + test::quoted(_folder.makeFolder("copy") + "/globe.osgb"));
+    EXPECT_EQ(copying.linesWith("osgbinconv: copied 161 files, 672 tiles, "), 1) << copying.text;
+    EXPECT_EQ(copying.linesWith(" tiles/s, 100 %, done in "), 2) << copying.text;
+}
+
 TEST_F(Run, InterruptedRunsSayHowToGoOnAndDo) {
     const std::string whole = indexed();
     fs::remove(indexFile());

@@ -6,7 +6,6 @@
 #include "DatabaseWalk.h"
 #include "Program.h"
 #include "TestRaster.h"
-#include "TimeLeft.h"
 
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
@@ -197,15 +196,6 @@ TEST(Help, NamesUnitsAndAnExample) {
          {"--height-unit", "--te", "--blend", "--levels", "--lod-factor", "metres", "degrees", "Example"}) {
         EXPECT_NE(outcome.output.find(word), std::string::npos) << word;
     }
-}
-
-TEST(Progress, SaysWhatIsLeft) {
-    using osgAnalyticBin::support::timeLeft;
-    EXPECT_EQ(timeLeft(0.5, 1.0), "");  // nobody knows yet
-    EXPECT_EQ(timeLeft(0.5, 40.0), "40 s left");
-    EXPECT_EQ(timeLeft(0.25, 240.0), "12 min left");
-    EXPECT_EQ(timeLeft(0.1, 1234.0), "3 h 06 min left");
-    EXPECT_EQ(timeLeft(1.0, 50.0), "");
 }
 
 TEST(Progress, IsShownUnlessQuiet) {

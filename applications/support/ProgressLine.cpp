@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "ProgressLine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unistd.h>
+
+namespace osgAnalyticBin::support {
+
+namespace {
+
+/// Seconds as people say them: "40 s", "12 min", "3 h 05 min".
+std::string durationText(double seconds) {
+    char text[64];
+    const double minutes = std::ceil(seconds / 60.0);
+    if (seconds < 90.0) {
+        std::snprintf(text, sizeof text, "%.0f s", std::ceil(seconds));
+    } else if (minutes < 90.0) {
+        std::snprintf(text, sizeof text, "%.0f min", minutes);
+    } else {
+        const double hours = std::floor(minutes / 60.0);
+        std::snprintf(text, sizeof text, "%.0f h %02.0f min", hours, minutes - 60.0 * hours);
+    }
+    return text;
+}
+
+std::string percent(double share) {
+    char text[16];
+    std::snprintf(text, sizeof text, "%2.0f %%", 100.0 * share);
+    return text;
+}
+
+}  // namespace
+
+std::string timeLeft(double share, double seconds, double skipped) {
+    constexpr double kFirstSeconds = 3.0;
+    if (!(share > skipped) || share >= 1.0 || seconds < kFirstSeconds) return {};
+    return durationText(seconds * (1.0 - share) / (share - skipped)) + " left";
+}
+
+ProgressLine::ProgressLine(std::FILE* stream)
+    : _stream(stream), _isTerminal(::isatty(::fileno(stream)) == 1), _pause(_isTerminal ? 200 : 10000) {}
+
+double ProgressLine::seconds() const {
+    return std::chrono::duration<double>(Clock::now() - _start).count();
+}
+
+void ProgressLine::show(double share, const std::string& text) {
+    const double shown = std::min(share, 0.99);
+    const std::string time = timeLeft(shown, seconds(), _skipped);
+    write(text + percent(shown) + (time.empty() ? "" : ", ") + time, _isTerminal ? "" : "\n");
+}
+
+void ProgressLine::finish(double share, const std::string& text) {
+    write(text + percent(share) + ", done in " + durationText(seconds()), "\n");
+}
+
+void ProgressLine::write(const std::string& line, const char* end) {
+    _shown = Clock::now();
+    // Blanks erase the rest of a longer line.
+    std::fprintf(_stream, "%s%-*s%s", _isTerminal ? "\r" : "", _isTerminal ? _width : 0, line.c_str(), end);
+    std::fflush(_stream);
+    _width = static_cast<int>(line.size());
+}
+
+}  // namespace osgAnalyticBin::support
