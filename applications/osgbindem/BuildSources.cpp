@@ -5,6 +5,7 @@
 
 #include "BlendBand.h"
 #include "GdalRaster.h"
+#include "ImageSource.h"
 #include "VoidFill.h"
 
 #include <osgAnalyticBin/Version.h>
@@ -28,11 +29,12 @@ namespace {
 
 constexpr const char* kFoundLevels = "levels found ";
 constexpr const char* kElevation = "elevation ";
+constexpr const char* kImage = "image ";
 constexpr const char* kArea = "  area ";
 constexpr const char* kReach = "  reach ";
 
 // To be raised when the same settings come to make other files.
-constexpr int kFormat = 2;
+constexpr int kFormat = 3;
 
 std::string wholePath(const std::string& path) {
     std::error_code error;
@@ -74,6 +76,16 @@ GdalRaster rasterOf(const Settings& settings, const DemInput& dem) {
     return GdalRaster(options);
 }
 
+void describeGrid(const RasterGrid& grid, const std::vector<RasterGrid>& all, const Settings& settings,
+                  std::ostream& out) {
+    // Where heights or colours may depend on the raster.
+    const RectDeg area = grid.extent().grownBy(grid.resolutionDeg());
+    out << kArea << area.west << ' ' << area.south << ' ' << area.east << ' ' << area.north << '\n';
+    out << "  blended over ";
+    BlendBand(grid, all, settings.blend, settings.ellipsoid.equatorialRadius()).describe(out);
+    out << '\n';
+}
+
 void describeElevations(const Settings& settings, const TileLayout& layout, std::ostream& out) {
     std::vector<GdalRaster> rasters;
     std::vector<RasterGrid> grids;
@@ -83,22 +95,23 @@ void describeElevations(const Settings& settings, const TileLayout& layout, std:
     }
     for (std::size_t i = 0; i < grids.size(); ++i) {
         const GdalRaster& raster = rasters[i];
-        // Where heights may depend on the raster.
-        const RectDeg area = grids[i].extent().grownBy(grids[i].resolutionDeg());
         out << kElevation << wholePath(settings.dems[i].path) << ", scale " << settings.dems[i].metresPerUnit << '\n';
-        out << kArea << area.west << ' ' << area.south << ' ' << area.east << ' ' << area.north << '\n';
+        describeGrid(grids[i], grids, settings, out);
         out << kReach << grids[i].resolutionDeg() << ' ' << reachOf(grids[i], settings, layout) << '\n';
-        out << "  blended over ";
-        BlendBand(grids[i], grids, settings.blend, settings.ellipsoid.equatorialRadius()).describe(out);
-        out << '\n';
         describeFiles(raster.warpSource() != nullptr ? *raster.warpSource() : raster.dataset(), out);
     }
 }
 
-void describeImage(const std::string& path, std::ostream& out) {
-    out << "image " << wholePath(path) << '\n';
-    const GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-    if (dataset) describeFiles(*dataset, out);
+void describeImages(const Settings& settings, std::ostream& out) {
+    std::vector<RasterGrid> grids;
+    for (const std::string& path : settings.images) grids.push_back(ImageSource(path, settings.isWgs84).grid());
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        const std::string& path = settings.images[i];
+        out << kImage << wholePath(path) << '\n';
+        describeGrid(grids[i], grids, settings, out);
+        const GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+        if (dataset) describeFiles(*dataset, out);
+    }
 }
 
 }  // namespace
@@ -124,7 +137,7 @@ std::string describeSources(const Settings& settings, const TileLayout& layout) 
     }
     if (settings.nodata) out << "nodata " << *settings.nodata << '\n';
     describeElevations(settings, layout, out);
-    if (!settings.image.empty()) describeImage(settings.image, out);
+    describeImages(settings, out);
     return out.str();
 }
 
@@ -142,21 +155,26 @@ struct Raster {
 
 /// The description of a database taken apart.
 struct Sources {
-    /// Everything but the rasters of heights, and the levels where nobody gave them.
+    /// Everything but rasters and images, and the levels where nobody gave them.
     std::string settings;
     std::vector<Raster> rasters;
+    std::vector<Raster> images;
 };
 
 Sources sourcesFrom(const std::string& description) {
     Sources sources;
-    bool isRaster = false;
+    std::vector<Raster>* list = nullptr;  // whose last one the lines are of
     std::istringstream in(description);
     for (std::string line; std::getline(in, line);) {
-        const bool isDetail = line.rfind("  ", 0) == 0;
-        if (line.rfind(kElevation, 0) == 0) sources.rasters.emplace_back();
-        isRaster = line.rfind(kElevation, 0) == 0 || (isRaster && isDetail);
-        if (isRaster) {
-            Raster& raster = sources.rasters.back();
+        const bool isElevation = line.rfind(kElevation, 0) == 0;
+        if (isElevation || line.rfind(kImage, 0) == 0) {
+            list = isElevation ? &sources.rasters : &sources.images;
+            list->emplace_back();
+        } else if (line.rfind("  ", 0) != 0) {
+            list = nullptr;
+        }
+        if (list) {
+            Raster& raster = list->back();
             if (line.rfind(kReach, 0) == 0) {
                 std::istringstream(line.substr(std::string(kReach).size())) >> raster.resolutionDeg >> raster.reachDeg;
                 continue;
@@ -189,23 +207,28 @@ RectDeg changedBy(const Raster& raster, const std::vector<Raster>& kept) {
     return raster.area.grownBy(reach);
 }
 
+void addChanges(const std::vector<Raster>& before, const std::vector<Raster>& now, ChangedArea& area) {
+    std::vector<Raster> gone = without(before, now);
+    std::vector<Raster> added = without(now, before);
+    // Of two equally fine rasters the one named first counts.
+    if (without(before, gone) != without(now, added)) {
+        gone = before;
+        added = now;
+    }
+    const std::vector<Raster> kept = without(before, gone);
+    for (const Raster& raster : gone) area.add(changedBy(raster, kept));
+    for (const Raster& raster : added) area.add(changedBy(raster, kept));
+}
+
 }  // namespace
 
 std::optional<ChangedArea> changedBetween(const std::string& before, const std::string& now) {
     const Sources old = sourcesFrom(before);
     const Sources current = sourcesFrom(now);
     if (old.settings != current.settings) return std::nullopt;
-    std::vector<Raster> gone = without(old.rasters, current.rasters);
-    std::vector<Raster> added = without(current.rasters, old.rasters);
-    // Of two equally fine rasters the one named first counts.
-    if (without(old.rasters, gone) != without(current.rasters, added)) {
-        gone = old.rasters;
-        added = current.rasters;
-    }
     ChangedArea area;
-    const std::vector<Raster> kept = without(old.rasters, gone);
-    for (const Raster& raster : gone) area.add(changedBy(raster, kept));
-    for (const Raster& raster : added) area.add(changedBy(raster, kept));
+    addChanges(old.rasters, current.rasters, area);
+    addChanges(old.images, current.images, area);
     return area;
 }
 

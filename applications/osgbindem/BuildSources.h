@@ -17,7 +17,7 @@ namespace osgbindem {
 [[nodiscard]] std::string describeSources(const Settings& settings, const TileLayout& layout);
 
 /// Where a database may differ from one that would be built now, by their descriptions.
-/// Returns: nullopt when more than rasters of heights differs.
+/// Returns: nullopt when more than rasters and images differs.
 [[nodiscard]] std::optional<ChangedArea> changedBetween(const std::string& before, const std::string& now);
 
 }  // namespace osgbindem

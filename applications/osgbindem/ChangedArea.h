@@ -13,7 +13,7 @@
 
 namespace osgbindem {
 
-/// Where the heights, or how fine they are, may have changed since a database was built.
+/// Where heights, how fine they are, or colours may have changed since a database was built.
 class ChangedArea final {
 public:
     /// A rectangle of which posts may have changed, with the cells between them and their neighbours.

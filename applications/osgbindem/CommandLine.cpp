@@ -180,11 +180,14 @@ void declare(CLI::App& app, Arguments& arguments) {
         "what the heights of all rasters are above: none (they are used as they are), egm96, or FILE,\na grid "
         "of the geoid that PROJ reads (default: what a raster's vertical reference says, else none)");
     app.add_option("--blend", settings.blend,
-                   "metres inside a raster's border over which it gives way to coarser ones, 0 for none\n(default: a "
-                   "post of the coarser raster, an eighth of the finer one at most)");
+                   "metres inside the border of a raster or an image over which it gives way to coarser ones,\n0 for "
+                   "none (default: a post of the coarser one, an eighth of the finer one at most)");
     app.add_option("--levels", settings.levels,
                    "levels of tiles below the 16 x 8 start tiles, 0 to 20\n(default: as fine as the finest raster)");
-    app.add_option("--image", settings.image, "image that GDAL reads, draped over the terrain");
+    app.add_option("--image", settings.images,
+                   "image that GDAL reads, draped over the terrain; may be given several times: the finest\nthat has a "
+                   "pixel counts, and the colours of the relief where none has")
+        ->allow_extra_args(false);
     app.add_option("--radii", arguments.radii, "equatorial and polar radius in metres (default: WGS 84)")->expected(2);
     app.add_option("--cells", settings.cells,
                    "cells along the edge of a tile, even, 4 to 240\n(default: from the rasters)");
@@ -207,8 +210,8 @@ void declare(CLI::App& app, Arguments& arguments) {
     auto* restart = app.add_flag("--restart", settings.restart, "do not go on with what an interrupted run has left");
     app.add_flag(
            "--update", settings.update,
-           "build only the tiles of the database OUTPUT that differ because rasters\nwere added, replaced or left "
-           "out since; all rasters have to be named")
+           "build only the tiles of the database OUTPUT that differ because rasters\nor images were added, replaced "
+           "or left out since; all have to be named")
         ->excludes(restart)
         ->excludes(overwrite);
     app.add_flag("--quiet", settings.quiet, "show no progress");

@@ -204,7 +204,7 @@ void GdalRaster::takeOverview(const RasterOptions& options) {
 
 void GdalRaster::expandPalette() {
     if (_source->GetRasterBand(1)->GetColorTable() == nullptr) return;
-    std::vector<std::string> words{"-of", "VRT", "-expand", "rgb"};
+    std::vector<std::string> words{"-of", "VRT", "-expand", "rgba"};
     std::vector<char*> arguments = argumentsOf(words);
     GDALTranslateOptions* options = GDALTranslateOptionsNew(arguments.data(), nullptr);
     int usageError = 0;

@@ -6,7 +6,6 @@
 #include "Failure.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace osgbindem {
 
@@ -14,8 +13,7 @@ using osgAnalyticBin::support::Failure;
 
 namespace {
 
-constexpr int kSmallest = 16;
-constexpr int kLargest = 256;
+constexpr std::uint8_t kOpaque = 255;
 
 RasterOptions optionsFor(const std::string& path, bool isWgs84) {
     RasterOptions options;
@@ -25,28 +23,13 @@ RasterOptions optionsFor(const std::string& path, bool isWgs84) {
     return options;
 }
 
-/// The height at a place within the tile, both shares from 0 to 1.
-double heightAt(const HeightGrid& heights, double eastShare, double northShare) {
-    const double x = eastShare * heights.cells();
-    const double y = northShare * heights.cells();
-    const int column = std::min(static_cast<int>(x), heights.cells() - 1);
-    const int row = std::min(static_cast<int>(y), heights.cells() - 1);
-    const double u = x - column;
-    const double v = y - row;
-    return (1.0 - v) * ((1.0 - u) * heights.at(column, row) + u * heights.at(column + 1, row)) +
-           v * ((1.0 - u) * heights.at(column, row + 1) + u * heights.at(column + 1, row + 1));
+bool isColour(GDALDataset& dataset) {
+    return dataset.GetRasterCount() >= 3;
 }
 
 }  // namespace
 
 ImageSource::ImageSource(const std::string& path, bool isWgs84) : _raster(optionsFor(path, isWgs84)) {}
-
-int ImageSource::textureSize(int level) const noexcept {
-    const double pixels = std::ldexp(TileLayout::kStartTileDeg, -level) / _raster.grid().resolutionDeg();
-    int size = kSmallest;
-    while (size < kLargest && size < pixels) size *= 2;
-    return size;
-}
 
 const std::uint8_t* ImageSource::Patch::pixel(int column, int row) const noexcept {
     // divisions would take most of the time where nothing is reduced
@@ -58,24 +41,47 @@ const std::uint8_t* ImageSource::Patch::pixel(int column, int row) const noexcep
     return pixels.data() + 4 * (static_cast<std::ptrdiff_t>(y) * width + x);
 }
 
+bool ImageSource::load(const RectDeg& rect, int mostPixels) {
+    _patches.clear();
+    for (const PixelWindow& window : grid().touching(rect)) _patches.push_back(read(window, mostPixels));
+    return !_patches.empty();
+}
+
 ImageSource::Patch ImageSource::read(const PixelWindow& window, int mostPixels) const {
     GDALDataset& dataset = _raster.dataset();
     Patch patch{window, std::min(window.width, mostPixels), std::min(window.height, mostPixels), {}};
-    patch.pixels.resize(4 * static_cast<std::size_t>(patch.width) * static_cast<std::size_t>(patch.height), 255);
+    patch.pixels.resize(4 * static_cast<std::size_t>(patch.width) * static_cast<std::size_t>(patch.height), kOpaque);
+    for (int channel = 0; channel < 3; ++channel) {
+        readBand(*dataset.GetRasterBand(isColour(dataset) ? channel + 1 : 1), patch, patch.pixels.data() + channel, 4);
+    }
+    readAlpha(patch);
+    return patch;
+}
+
+void ImageSource::readBand(GDALRasterBand& band, const Patch& patch, std::uint8_t* target, int bytesApart) const {
     GDALRasterIOExtraArg extra;
     INIT_RASTERIO_EXTRA_ARG(extra);
     extra.eResampleAlg = GRIORA_Average;
-    const bool isColour = dataset.GetRasterCount() >= 3;
-    for (int channel = 0; channel < 4; ++channel) {
-        GDALRasterBand* band =
-            channel == 3 ? dataset.GetRasterBand(1)->GetMaskBand() : dataset.GetRasterBand(isColour ? channel + 1 : 1);
-        if (channel == 3) extra.eResampleAlg = GRIORA_NearestNeighbour;
-        const CPLErr error = band->RasterIO(GF_Read, window.column, window.row, window.width, window.height,
-                                            patch.pixels.data() + channel, patch.width, patch.height, GDT_Byte, 4,
-                                            4 * static_cast<GSpacing>(patch.width), &extra);
-        if (error != CE_None) throw Failure("cannot read \"" + _raster.path() + "\": " + gdalMessage());
+    const PixelWindow& window = patch.window;
+    const CPLErr error =
+        band.RasterIO(GF_Read, window.column, window.row, window.width, window.height, target, patch.width,
+                      patch.height, GDT_Byte, bytesApart, static_cast<GSpacing>(bytesApart) * patch.width, &extra);
+    if (error != CE_None) throw Failure("cannot read \"" + _raster.path() + "\": " + gdalMessage());
+}
+
+void ImageSource::readAlpha(Patch& patch) const {
+    GDALDataset& dataset = _raster.dataset();
+    GDALRasterBand& first = *dataset.GetRasterBand(1);
+    if (first.GetMaskFlags() == GMF_ALL_VALID) return;
+    // Where each band has a nodata value of its own, a pixel is missing only when all of its colours are.
+    const int bands = isColour(dataset) && first.GetMaskFlags() == GMF_NODATA ? 3 : 1;
+    std::vector<std::uint8_t> alpha(patch.pixels.size() / 4);
+    std::vector<std::uint8_t> mask(alpha.size());
+    for (int band = 1; band <= bands; ++band) {
+        readBand(*dataset.GetRasterBand(band)->GetMaskBand(), patch, mask.data(), 1);
+        for (std::size_t i = 0; i < mask.size(); ++i) alpha[i] = std::max(alpha[i], mask[i]);
     }
-    return patch;
+    for (std::size_t i = 0; i < alpha.size(); ++i) patch.pixels[4 * i + 3] = alpha[i];
 }
 
 const std::uint8_t* ImageSource::find(int column, int row) const noexcept {
@@ -85,48 +91,31 @@ const std::uint8_t* ImageSource::find(int column, int row) const noexcept {
     return nullptr;
 }
 
-bool ImageSource::sample(const PositionDeg& position, Rgb& colour) const noexcept {
-    const auto cell = _raster.grid().locate(position);
-    if (!cell) return false;
+Cover ImageSource::sample(const PositionDeg& position) const noexcept {
+    Cover cover;
+    const auto cell = grid().locate(position);
+    if (!cell) return cover;
     const double u = cell->eastWeight;
     const double v = cell->secondWeight;
     const std::array<const std::uint8_t*, 4> pixels{find(cell->west, cell->first), find(cell->east, cell->first),
                                                     find(cell->west, cell->second), find(cell->east, cell->second)};
     const std::array<double, 4> weights{(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
-    std::array<double, 3> sum{};
+    bool isOpaque = true;
     for (std::size_t i = 0; i < 4; ++i) {
         if (weights[i] == 0.0) continue;
-        if (pixels[i] == nullptr || pixels[i][3] == 0) return false;
-        for (std::size_t channel = 0; channel < 3; ++channel) sum[channel] += weights[i] * pixels[i][channel];
+        const std::uint8_t alpha = pixels[i] == nullptr ? 0 : pixels[i][3];
+        isOpaque = isOpaque && alpha == kOpaque;
+        if (alpha == 0) continue;
+        const double weight = alpha == kOpaque ? weights[i] : weights[i] * alpha / kOpaque;
+        cover.alpha += weight;
+        for (std::size_t channel = 0; channel < 3; ++channel) cover.colour[channel] += weight * pixels[i][channel];
     }
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-        colour[channel] = static_cast<std::uint8_t>(sum[channel] + 0.5);
+    if (isOpaque) {
+        cover.alpha = 1.0;  // a sum of weights may miss it by its rounding
+    } else if (cover.alpha > 0.0) {
+        for (double& channel : cover.colour) channel /= cover.alpha;
     }
-    return true;
-}
-
-osg::ref_ptr<osg::Image> ImageSource::texture(const HeightGrid& heights) {
-    const RectDeg rect = heights.tile().rect();
-    const int size = textureSize(heights.tile().level);
-    _patches.clear();
-    for (const PixelWindow& window : _raster.grid().touching(rect)) _patches.push_back(read(window, 2 * size));
-
-    const osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->allocateImage(size, size, 1, GL_RGB, GL_UNSIGNED_BYTE, 1);
-    unsigned char* target = image->data();
-    for (int row = 0; row < size; ++row) {
-        const double northShare = static_cast<double>(row) / (size - 1);
-        const double latitudeDeg = rect.south + northShare * (rect.north - rect.south);
-        for (int column = 0; column < size; ++column) {
-            const double eastShare = static_cast<double>(column) / (size - 1);
-            Rgb colour{};
-            if (!sample({latitudeDeg, rect.west + eastShare * (rect.east - rect.west)}, colour)) {
-                colour = hypsometricColour(heightAt(heights, eastShare, northShare));
-            }
-            target = std::copy(colour.begin(), colour.end(), target);
-        }
-    }
-    return image;
+    return cover;
 }
 
 }  // namespace osgbindem

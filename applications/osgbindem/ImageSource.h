@@ -4,31 +4,40 @@
 #pragma once
 
 #include "GdalRaster.h"
-#include "HeightGrid.h"
-#include "Hypsometry.h"
 
-#include <osg/Image>
-
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace osgbindem {
 
-/// The image that is draped over the terrain. Not for use by several threads: each has its own.
+/// A colour over others.
+struct Cover {
+    /// Red, green, blue, 0 to 255.
+    std::array<double, 3> colour{};
+    /// 0: what is below is seen, 1: it is not.
+    double alpha = 0.0;
+};
+
+/// One image. Not for use by several threads: each has its own.
 class ImageSource final {
 public:
     /// Throws Failure.
     ImageSource(const std::string& path, bool isWgs84);
 
-    /// The texture of a tile; its outer texels' middles lie on the tile's edges, so that neighbours meet in the same
-    /// colours. Where the image has nothing, the colours are those of the heights.
-    [[nodiscard]] osg::ref_ptr<osg::Image> texture(const HeightGrid& heights);
+    [[nodiscard]] const RasterGrid& grid() const noexcept { return _raster.grid(); }
 
-    /// Texels along the edge of a tile's texture: no more than the image has, a power of two.
-    [[nodiscard]] int textureSize(int level) const noexcept;
+    /// Reads the part that touches the rectangle, reduced to so many pixels along a side at most, in place of the one
+    /// before. Returns: whether there is any. Throws Failure.
+    bool load(const RectDeg& rect, int mostPixels);
+
+    /// Bilinear between pixels of the part that is loaded. Outside, and where pixels are transparent, masked or nodata,
+    /// nothing is covered.
+    [[nodiscard]] Cover sample(const PositionDeg& position) const noexcept;
 
 private:
-    /// Part of the image, reduced to about the size of a texture; four bytes a pixel, the last one a mask.
+    /// Part of the image; four bytes a pixel, the last one its alpha.
     struct Patch {
         PixelWindow window;
         int width = 0;
@@ -39,7 +48,8 @@ private:
     };
 
     [[nodiscard]] Patch read(const PixelWindow& window, int mostPixels) const;
-    [[nodiscard]] bool sample(const PositionDeg& position, Rgb& colour) const noexcept;
+    void readBand(GDALRasterBand& band, const Patch& patch, std::uint8_t* target, int bytesApart) const;
+    void readAlpha(Patch& patch) const;
     [[nodiscard]] const std::uint8_t* find(int column, int row) const noexcept;
 
     GdalRaster _raster;

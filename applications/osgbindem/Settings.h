@@ -26,9 +26,10 @@ struct Settings {
     std::optional<double> nodata;
     /// What heights are above: "none" (as they are), "egm96", a file with a grid; empty: as the rasters say.
     std::string geoid;
-    /// Metres over which a raster gives way to coarser ones at its border, 0 for none; without it by the rasters.
+    /// Metres over which a raster or an image gives way to coarser ones at its border, 0 for none; without it by the
+    /// rasters.
     std::optional<double> blend;
-    std::string image;
+    std::vector<std::string> images;
     std::string output;
     osgAnalyticBin::core::Ellipsoid ellipsoid{1.0, 1.0};
     /// Whether the radii are those of a default osg::EllipsoidModel.

@@ -23,9 +23,8 @@ TileBuilder::TileBuilder(const Settings& settings, const TileLayout& layout, con
       _mosaic(settings, layout.spacingDeg(layout.deepestLevel())),
       _depths(_mosaic, layout),
       _skirts(_mosaic, layout, _depths),
-      _triangles(tileTriangles(layout.cells())) {
-    if (!settings.image.empty()) _image = std::make_unique<ImageSource>(settings.image, settings.isWgs84);
-}
+      _images(settings),
+      _triangles(tileTriangles(layout.cells())) {}
 
 SurveyedTile TileBuilder::survey(const TileId& tile) {
     if (_finished) {
@@ -70,17 +69,15 @@ std::unique_ptr<BuiltTile> TileBuilder::build(const TileId& tile) {
 void TileBuilder::buildChildren(SurveyedTile& tile) {
     const TileId& id = tile.heights.tile();
     const osg::ref_ptr<osg::Group> file = new osg::Group;
-    std::vector<osg::Geometry*> geometries;
+    SharedParts shared = sharedParts();
     for (const TileId& childId : id.children()) {
         const std::unique_ptr<BuiltTile> child = build(childId);
         tile.heights.takeFrom(child->heights);
         tile.range.include(child->range);
         tile.below.expandBy(child->bin);
         file->addChild(child->node);
-        geometries.push_back(child->geometry);
+        child->add(shared);
     }
-    const SharedParts shared = sharedParts(id.level + 1);
-    for (osg::Geometry* geometry : geometries) shared.addTo(*geometry);
     const std::string bytes = nodeFileBytes(*file, _settings.compress);
     _files.writeChildren(id, bytes);
     _written.add(id, bytes);
@@ -104,19 +101,19 @@ std::unique_ptr<BuiltTile> TileBuilder::meshed(SurveyedTile tile) {
     // What is stored is text, which may round outward: the tiles above have to hold that.
     bin = AnalyticBin::fromText(bin.toText());
 
-    const osg::ref_ptr<osg::Image> image = _image ? _image->texture(tile.heights) : nullptr;
-    colour(grid, image);
+    colour(grid, _images.textureSize(id, grid.cells));
+    const osg::ref_ptr<osg::Image> image = grid.textureSize > 0 ? _images.texture(id, grid) : nullptr;
     const osg::ref_ptr<osg::Geometry> geometry = makeGeometry(grid, image, _settings.packed);
     const osg::ref_ptr<osg::Node> placed = makePlaced(*geometry, grid.origin);
     const TileFacts facts{bin, extent.surfaceLow, _layout, _settings.lodFactor,
                           tile.below.valid() ? _files.childrenFile(id) : ""};
     const osg::ref_ptr<osg::Node> node = makeTileNode(id, *placed, facts);
-    return std::make_unique<BuiltTile>(BuiltTile{std::move(tile.heights), tile.range, bin, node, geometry});
+    return std::make_unique<BuiltTile>(
+        BuiltTile{std::move(tile.heights), tile.range, bin, node, geometry, grid.textureSize});
 }
 
-SharedParts TileBuilder::sharedParts(int level) const {
-    if (_settings.packed) return SharedParts(_image != nullptr);
-    return SharedParts(_triangles, _layout.cells(), _image ? _image->textureSize(level) : 0);
+SharedParts TileBuilder::sharedParts() const {
+    return _settings.packed ? SharedParts() : SharedParts(_triangles, _layout.cells());
 }
 
 }  // namespace osgbindem

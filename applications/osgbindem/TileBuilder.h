@@ -7,7 +7,7 @@
 #include "DemMosaic.h"
 #include "EdgeDepths.h"
 #include "HeightGrid.h"
-#include "ImageSource.h"
+#include "ImageMosaic.h"
 #include "Settings.h"
 #include "SkirtMeasure.h"
 #include "SurveyedTile.h"
@@ -36,6 +36,11 @@ struct BuiltTile {
     osgAnalyticBin::AnalyticBin bin;
     osg::ref_ptr<osg::Node> node;
     osg::ref_ptr<osg::Geometry> geometry;
+    /// 0: none.
+    int textureSize = 0;
+
+    /// Completes the geometry.
+    void add(SharedParts& shared) const { shared.addTo(*geometry, textureSize); }
 };
 
 /// Finds what a task of the work plan has left of its tile; nullopt for every other tile.
@@ -66,8 +71,8 @@ public:
     /// The files written since the last call.
     [[nodiscard]] FileSum takeFileSum() { return std::exchange(_written, {}); }
 
-    /// What the tiles of a file with tiles of this level share.
-    [[nodiscard]] SharedParts sharedParts(int level) const;
+    /// What the tiles of a file share.
+    [[nodiscard]] SharedParts sharedParts() const;
 
     [[nodiscard]] EdgeDepths& depths() noexcept { return _depths; }
     [[nodiscard]] DemMosaic& mosaic() noexcept { return _mosaic; }
@@ -85,7 +90,7 @@ private:
     DemMosaic _mosaic;
     EdgeDepths _depths;
     SkirtMeasure _skirts;
-    std::unique_ptr<ImageSource> _image;
+    ImageMosaic _images;
     std::vector<std::uint16_t> _triangles;
     std::function<void(const TileId&)> _leafDone;
     FinishedTasks _finished;

@@ -25,13 +25,18 @@ void drape(osg::Geometry& geometry, osg::Image& image) {
 
 }  // namespace
 
-void colour(osgAnalyticBin::TerrainGrid& grid, const osg::Image* image) {
-    if (image != nullptr) {
-        grid.textureSize = image->s();
-        return;
-    }
+void colour(osgAnalyticBin::TerrainGrid& grid, int textureSize) {
+    grid.textureSize = textureSize;
+    if (textureSize > 0) return;
     grid.colours = hypsometricStops();
     grid.relief = true;
+}
+
+osg::ref_ptr<const osg::Vec4ubArray> reliefColours(osgAnalyticBin::TerrainGrid grid) {
+    colour(grid, 0);
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    osgAnalyticBin::fillGeometry(grid, *geometry);
+    return dynamic_cast<const osg::Vec4ubArray*>(geometry->getColorArray());
 }
 
 osg::ref_ptr<osg::Geometry> makeGeometry(const osgAnalyticBin::TerrainGrid& grid, osg::Image* image, bool isPacked) {

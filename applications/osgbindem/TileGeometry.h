@@ -10,8 +10,11 @@
 
 namespace osgbindem {
 
-/// Gives the grid the colours of its heights, or those of the image.
-void colour(osgAnalyticBin::TerrainGrid& grid, const osg::Image* image);
+/// Gives the grid a texture of this size, or the colours of the relief for 0.
+void colour(osgAnalyticBin::TerrainGrid& grid, int textureSize);
+
+/// The colours that the relief has at the posts of a grid without a texture, row by row from the south-west.
+[[nodiscard]] osg::ref_ptr<const osg::Vec4ubArray> reliefColours(osgAnalyticBin::TerrainGrid grid);
 
 /// What is stored of a tile, with the image as its texture; the parts that tiles share are added by SharedParts.
 /// `isPacked`: the grid in place of the mesh, and the image in blocks (DXT1).

@@ -65,19 +65,22 @@ osg::ref_ptr<osg::Node> makeTileNode(const TileId& tile, osg::Node& placed, cons
     return node;
 }
 
-SharedParts::SharedParts(const std::vector<std::uint16_t>& triangles, int cells, int textureSize)
-    : SharedParts(textureSize > 0) {
+SharedParts::SharedParts(const std::vector<std::uint16_t>& triangles, int cells) : SharedParts() {
     _triangles->assign(triangles.begin(), triangles.end());
-    if (_texCoords) osgAnalyticBin::addTextureCoordinates(cells, textureSize, *_texCoords);
+    _cells = cells;
 }
 
-SharedParts::SharedParts(bool hasTexture) : _triangles(new osg::DrawElementsUShort(GL_TRIANGLES)) {
-    if (hasTexture) _texCoords = new osg::Vec2Array(osg::Array::BIND_PER_VERTEX);
-}
+SharedParts::SharedParts() : _triangles(new osg::DrawElementsUShort(GL_TRIANGLES)) {}
 
-void SharedParts::addTo(osg::Geometry& geometry) const {
+void SharedParts::addTo(osg::Geometry& geometry, int textureSize) {
     geometry.addPrimitiveSet(_triangles);
-    if (_texCoords) geometry.setTexCoordArray(0, _texCoords);
+    if (textureSize == 0) return;
+    osg::ref_ptr<osg::Vec2Array>& coordinates = _texCoords[textureSize];
+    if (!coordinates) {
+        coordinates = new osg::Vec2Array(osg::Array::BIND_PER_VERTEX);
+        if (_cells > 0) osgAnalyticBin::addTextureCoordinates(_cells, textureSize, *coordinates);
+    }
+    geometry.setTexCoordArray(0, coordinates);
 }
 
 }  // namespace osgbindem

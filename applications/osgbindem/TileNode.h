@@ -12,6 +12,7 @@
 #include <osg/Group>
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,21 +35,22 @@ struct TileFacts {
 /// A PagedLOD, or a Group for a tile without children, that carries the bin.
 [[nodiscard]] osg::ref_ptr<osg::Node> makeTileNode(const TileId& tile, osg::Node& placed, const TileFacts& facts);
 
-/// Triangles and texture coordinates are the same for all tiles; the tiles of one file share them.
+/// The tiles of one file share their triangles, and those with textures of one size their texture coordinates.
 class SharedParts final {
 public:
-    /// Texture coordinates need the size of the texture, 0 without one.
-    SharedParts(const std::vector<std::uint16_t>& triangles, int cells, int textureSize);
+    SharedParts(const std::vector<std::uint16_t>& triangles, int cells);
 
     /// Empty, for packed tiles: they are filled when they are read.
-    explicit SharedParts(bool hasTexture);
+    SharedParts();
 
-    /// Completes the geometry.
-    void addTo(osg::Geometry& geometry) const;
+    /// Completes the geometry. `textureSize`: 0 without a texture.
+    void addTo(osg::Geometry& geometry, int textureSize);
 
 private:
     osg::ref_ptr<osg::DrawElementsUShort> _triangles;
-    osg::ref_ptr<osg::Vec2Array> _texCoords;
+    int _cells = 0;
+    /// By the size of the texture.
+    std::map<int, osg::ref_ptr<osg::Vec2Array>> _texCoords;
 };
 
 }  // namespace osgbindem

@@ -52,7 +52,9 @@ class Ranks:
 
     def build(self, folder, *rasters):
         rasters = rasters or (self.work / "globe.asc", self.work / "inset.asc")
-        return [str(word) for word in (self.osgbindem, *rasters, "--cells", "16", "-o", folder / "earth.osgb", "--overwrite")]
+        images = ("--image", self.work / "globe.asc", "--image", self.work / "inset.asc")
+        options = ("--cells", "16", *images, "-o", folder / "earth.osgb", "--overwrite")
+        return [str(word) for word in (self.osgbindem, *rasters, *options)]
 
     def complete(self, folder, command):
         done = succeed(command)

@@ -6,6 +6,7 @@
 
 #include "DatabaseCheck.h"
 #include "Program.h"
+#include "TestImage.h"
 
 #include <gtest/gtest.h>
 
@@ -143,6 +144,27 @@ TEST_F(Update, VoidsAreFilledAnewWhereARasterBelowThemChanges) {
     built("old", {inset("fine"), "--levels", "4"});
     EXPECT_GT(expectSame({inset("fine"), inset("middle"), "--levels", "4"}), 0);
     EXPECT_GT(expectSame({inset("fine"), "--levels", "4"}), 0);
+}
+
+TEST_F(Update, ImagesThatAreAddedReplacedOrTakenAway) {
+    const auto write = [this](const std::string& name, double west, double spacingDeg, const Colour& colour) {
+        TestImage::square(west, 50.0, spacingDeg, 60, colour).write(folder.file(name));
+        return folder.file(name);
+    };
+    const std::string coarse = write("coarse.tif", 0.0, 0.5, {20, 30, 200});
+    const std::string fine = write("fine.tif", 8.0, 0.05, {200, 30, 20});
+    TestRaster::globe(0.5, hills).write(globe());
+    built("old", {"--levels", "3"});
+    const int first = expectSame({"--levels", "3", "--image", coarse});
+    // The band of the finer image depends on the coarser one.
+    const int second = expectSame({"--levels", "3", "--image", coarse, "--image", fine});
+    EXPECT_GT(second, 1);
+    EXPECT_LT(second, first) << first;
+    EXPECT_LT(5 * first, static_cast<int>(files("old").size()));
+    (void)write("fine.tif", 8.0, 0.05, {20, 200, 30});
+    expectSame({"--levels", "3", "--image", coarse, "--image", fine});
+    expectSame({"--levels", "3", "--image", fine});
+    expectSame({"--levels", "3"});
 }
 
 TEST_F(Update, FewFilesAreWrittenForASmallInset) {

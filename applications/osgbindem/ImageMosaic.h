@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "BlendBand.h"
+#include "ImageSource.h"
+#include "Settings.h"
+#include "TileLayout.h"
+
+#include <osgAnalyticBin/TerrainGrid.h>
+
+#include <osg/Image>
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace osgbindem {
+
+/// All images that are draped over the terrain as one: at each position the finest image that has a pixel there, its
+/// border blended with coarser ones, and the colours of the relief where none has.
+/// Of equally fine images the one named first counts. Not for use by several threads: each has its own.
+class ImageMosaic final {
+public:
+    /// Throws Failure.
+    explicit ImageMosaic(const Settings& settings);
+
+    /// Texels along the edge of a tile's texture, a power of two: no more than the finest image there has, nor fewer
+    /// than the tile has cells where images leave a part of it to the relief. Returns: 0 where there is no image.
+    [[nodiscard]] int textureSize(const TileId& tile, int cells) const noexcept;
+
+    /// The texture of a tile; its outer texels' middles lie on the tile's edges, so that neighbours meet in the same
+    /// colours. Requires: `grid` has the size of the texture, which is not 0. Throws Failure.
+    [[nodiscard]] osg::ref_ptr<osg::Image> texture(const TileId& tile, const osgAnalyticBin::TerrainGrid& grid);
+
+private:
+    struct Layer {
+        std::unique_ptr<ImageSource> image;
+        BlendBand band;
+    };
+
+    /// Of the layers with a part in the tile from this one on, finest first.
+    [[nodiscard]] Cover sample(std::size_t first, const PositionDeg& position) const noexcept;
+
+    std::vector<Layer> _layers;
+    std::vector<const Layer*> _loaded;
+};
+
+}  // namespace osgbindem

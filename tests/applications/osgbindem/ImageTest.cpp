@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Which colours a database has of several images: the finest, through holes those below, at borders a mixture. The
+// oracles are the images' own colours, and a database that has none of them.
+
+#include "DatabaseCheck.h"
+#include "Program.h"
+#include "TestImage.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+constexpr Colour kBlue{10, 40, 230};
+constexpr Colour kRed{230, 30, 20};
+constexpr Colour kGreen{20, 200, 50};
+
+class Images : public testing::Test {
+protected:
+    void SetUp() override { TestRaster::globe(1.0, hills).write(file("globe.tif")); }
+
+    [[nodiscard]] std::string file(const std::string& name) const { return _folder.file(name); }
+
+    std::string image(const std::string& name, const TestImage& image) {
+        image.write(file(name));
+        return file(name);
+    }
+    /// Tiles of 5.6 degrees at the finest level.
+    [[nodiscard]] Words command(const std::string& output, const Words& images, Words words = {}) const {
+        words.insert(words.begin(), {file("globe.tif"), "--cells", "8", "--levels", "2", "-te", "0", "40", "30", "60",
+                                     "-o", file(output)});
+        for (const std::string& name : images) words.insert(words.end(), {"--image", name});
+        return words;
+    }
+    [[nodiscard]] LoadedDatabase built(const Words& images, Words words = {}) const {
+        words.emplace_back("--overwrite");
+        build(command("earth.osgb", images, words));
+        return loadDatabase(file("earth.osgb"));
+    }
+    [[nodiscard]] LoadedDatabase builtWith(const TestImage& inset, const std::string& width) {
+        return built({image("blue.tif", TestImage::globe(1.0, kBlue)), image("inset.tif", inset)}, {"--blend", width});
+    }
+
+    TempFolder _folder;
+};
+
+void expectNear(const Colour& colour, const Colour& expected, int most) {
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(colour[c], expected[c], most) << c;
+}
+
+TEST_F(Images, TheFinestCountsWhateverTheOrder) {
+    const std::string blue = image("blue.tif", TestImage::globe(1.0, kBlue));
+    const std::string red = image("red.tif", TestImage::square(10.0, 50.0, 0.1, 60, kRed));
+    const std::string green = image("green.tif", TestImage::square(12.0, 49.0, 0.05, 60, kGreen));
+    const std::string equal = image("equal.tif", TestImage::square(12.0, 49.0, 0.05, 60, kRed));
+    for (const Words& images : {Words{blue, red, green}, Words{green, red, blue}, Words{green, equal, blue}}) {
+        const LoadedDatabase database = built(images, {"--blend", "0"});
+        EXPECT_EQ(shownAt(database, 58.0, 28.0), kBlue);
+        EXPECT_EQ(shownAt(database, 47.5, 13.5), kGreen);
+        EXPECT_EQ(shownAt(database, 45.5, 10.5), images[1] == red ? kRed : kBlue);
+    }
+}
+
+TEST_F(Images, TexturesAreAsFineAsTheFinestImageOfTheTile) {
+    const LoadedDatabase database = built({image("blue.tif", TestImage::globe(1.0, kBlue)),
+                                           image("fine.tif", TestImage::square(10.0, 50.0, 0.02, 50, kRed))});
+    EXPECT_EQ(textureOf(database.leafAt(49.5, 10.5))->s(), 256);
+    EXPECT_EQ(textureOf(database.leafAt(58.0, 28.0))->s(), 16);
+    checkNodes(database);
+}
+
+TEST_F(Images, HolesShowWhatLiesBelow) {
+    // The south-eastern quarter of the inset is a hole, and so is the western half of the coarser image.
+    TestImage coarse = TestImage::square(0.0, 60.0, 0.5, 60, kBlue);
+    coarse.colourAt = [](double, double longitudeDeg) {
+        return longitudeDeg < 15.0 ? std::nullopt : std::optional(kBlue);
+    };
+    TestImage fine = TestImage::square(11.0, 50.0, 0.1, 80, kRed);
+    fine.colourAt = [](double latitudeDeg, double longitudeDeg) {
+        return latitudeDeg < 46.0 && longitudeDeg > 13.0 ? std::nullopt : std::optional(kRed);
+    };
+    const LoadedDatabase relief = built({image("far.tif", TestImage::square(28.0, 58.0, 0.1, 10, kRed))});
+    for (const Hole hole : {Hole::Alpha, Hole::Mask, Hole::Nodata, Hole::Palette}) {
+        coarse.hole = fine.hole = hole;
+        const LoadedDatabase database = built({image("coarse.tif", coarse), image("fine.tif", fine)}, {"--blend", "0"});
+        EXPECT_EQ(shownAt(database, 48.0, 14.0), kRed);
+        EXPECT_EQ(shownAt(database, 44.0, 17.0), kBlue);
+        // A tile without an image has its colours at the posts.
+        const LoadedTile& tile = relief.leafAt(44.3, 13.7);
+        ASSERT_EQ(textureOf(tile), nullptr);
+        const auto& colours = dynamic_cast<const osg::Vec4ubArray&>(*tile.geometry->getColorArray());
+        const Rect rect = tile.rect();
+        const auto post = static_cast<std::size_t>(4 * (tile.cells + 1) + 4);
+        const Colour expected{colours[post][0], colours[post][1], colours[post][2]};
+        // The texels beside the middle post are 1/15 of the tile apart.
+        expectNear(shownAt(database, 0.5 * (rect.south + rect.north), 0.5 * (rect.west + rect.east)), expected, 12);
+        EXPECT_FALSE(expected == kBlue);
+    }
+}
+
+TEST_F(Images, ANodataValueInOneColourIsNoHole) {
+    TestImage pale = TestImage::globe(1.0, {7, 99, 7});
+    pale.hole = Hole::Nodata;
+    EXPECT_EQ(shownAt(built({image("pale.tif", pale)}), 50.0, 10.0), (Colour{7, 99, 7}));
+}
+
+TEST_F(Images, TilesWithoutAnImageAreAsInADatabaseWithoutImages) {
+    build(command("plain.osgb", {}));
+    const LoadedDatabase plain = loadDatabase(file("plain.osgb"));
+    const LoadedDatabase database = built({image("red.tif", TestImage::square(10.0, 50.0, 0.1, 60, kRed))});
+    const auto coloursOf = [](const LoadedTile& tile) {
+        return dynamic_cast<const osg::Vec4ubArray&>(*tile.geometry->getColorArray()).asVector();
+    };
+    int textures = 0;
+    database.forEach([&textures](const LoadedTile& tile) { textures += textureOf(tile) ? 1 : 0; });
+    EXPECT_GT(textures, 3);
+    EXPECT_LT(textures, 12);
+    EXPECT_EQ(coloursOf(database.leafAt(58.0, 28.0)), coloursOf(plain.leafAt(58.0, 28.0)));
+}
+
+/// The largest step of one channel from texel to texel, along a parallel across the western border of an inset at 10 E.
+int largestStep(const LoadedDatabase& database) {
+    constexpr double kStep = 0.02;
+    int largest = 0;
+    Colour before = shownAt(database, 45.0, 7.0);
+    for (double longitude = 7.0; longitude < 13.0; longitude += kStep) {
+        const Colour here = shownAt(database, 45.0, longitude);
+        for (std::size_t c = 0; c < 3; ++c) largest = std::max(largest, std::abs(here[c] - before[c]));
+        before = here;
+    }
+    return largest;
+}
+
+TEST_F(Images, BordersAreBlended) {
+    const TestImage inset = TestImage::square(10.0, 50.0, 0.02, 500, kRed);
+    const LoadedDatabase blended = builtWith(inset, "200000");  // 2.5 degrees of longitude
+    // The mixture is steepest in the middle of the band, 1.5 times its mean: there a texel of 1/45 degree changes by 3.
+    EXPECT_LE(largestStep(blended), 4);
+    EXPECT_EQ(shownAt(blended, 45.0, 7.0), kBlue);
+    EXPECT_EQ(shownAt(blended, 45.0, 13.0), kRed);
+    EXPECT_GE(largestStep(builtWith(inset, "0")), 200);
+    // By default the band is an eighth of the side, 57 texels wide.
+    const LoadedDatabase byDefault = built({file("blue.tif"), file("inset.tif")});
+    EXPECT_LE(largestStep(byDefault), 12);
+    EXPECT_EQ(shownAt(byDefault, 45.0, 11.5), kRed);
+}
+
+TEST_F(Images, BandsShowNoReliefThroughAnImage) {
+    const LoadedDatabase database =
+        built({image("red.tif", TestImage::square(10.0, 50.0, 0.02, 250, kRed))}, {"--blend", "200000"});
+    EXPECT_EQ(shownAt(database, 47.5, 10.1), kRed);
+}
+
+TEST_F(Images, ThreadsAndPackingChangeNothing) {
+    TestImage fine = TestImage::square(8.0, 50.0, 0.05, 90, kRed);
+    fine.colourAt = [](double latitudeDeg, double) { return latitudeDeg < 48.0 ? std::nullopt : std::optional(kRed); };
+    const Words images{image("blue.tif", TestImage::square(-10.0, 60.0, 0.5, 60, kBlue)), image("fine.tif", fine)};
+    for (const std::string threads : {"1", "3"}) {
+        fs::create_directory(file(threads));
+        build(command(threads + "/earth.osgb", images, {"--threads", threads}));
+    }
+    EXPECT_TRUE(filesBelow(file("1")) == filesBelow(file("3")));
+    build(command("packed.osgb", images, {"--packed"}));
+    const LoadedDatabase packed = loadDatabase(file("packed.osgb"));
+    const LoadedDatabase meshes = loadDatabase(file("1/earth.osgb"));
+    for (const auto& [latitude, longitude] : {std::pair(49.0, 9.0), std::pair(46.5, 9.0), std::pair(58.0, 28.0)}) {
+        const LoadedTile& a = packed.leafAt(latitude, longitude);
+        const LoadedTile& b = meshes.leafAt(latitude, longitude);
+        ASSERT_EQ(textureOf(a) == nullptr, textureOf(b) == nullptr);
+        const auto* aCoordinates = dynamic_cast<const osg::Vec2Array*>(a.geometry->getTexCoordArray(0));
+        const auto* bCoordinates = dynamic_cast<const osg::Vec2Array*>(b.geometry->getTexCoordArray(0));
+        ASSERT_EQ(aCoordinates == nullptr, bCoordinates == nullptr);
+        if (!aCoordinates) continue;
+        EXPECT_EQ(aCoordinates->asVector(), bCoordinates->asVector());
+    }
+}
+
+}  // namespace
