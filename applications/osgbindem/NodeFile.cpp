@@ -19,6 +19,7 @@
 #include <osgDB/ObjectWrapper>
 #include <osgDB/Registry>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -60,9 +61,12 @@ private:
 /// writer goes back to fill sizes in.
 class ByteBuffer final : public std::streambuf {
 public:
-    explicit ByteBuffer(std::size_t expected) { _bytes.reserve(expected); }
+    explicit ByteBuffer(std::size_t expected) : _bytes(expected, '\0') {}
 
-    [[nodiscard]] std::string take() { return std::move(_bytes); }
+    [[nodiscard]] std::string take() {
+        _bytes.resize(_end);
+        return std::move(_bytes);
+    }
 
 protected:
     int_type overflow(int_type value) override {
@@ -72,25 +76,33 @@ protected:
     }
     std::streamsize xsputn(const char* source, std::streamsize count) override {
         const auto size = static_cast<std::size_t>(count);
-        if (_place + size > _bytes.size()) _bytes.resize(_place + size);
-        std::memcpy(_bytes.data() + _place, source, size);
+        if (_place + size > _bytes.size()) _bytes.resize(2 * (_place + size));
+        char* const target = _bytes.data() + _place;
+        // Arrays are written number by number: a copy of known size is no call.
+        if (size == sizeof(float)) {
+            std::memcpy(target, source, sizeof(float));
+        } else {
+            std::memcpy(target, source, size);
+        }
         _place += size;
+        _end = std::max(_end, _place);
         return count;
     }
     pos_type seekoff(off_type offset, std::ios_base::seekdir way, std::ios_base::openmode) override {
-        const std::size_t from = way == std::ios_base::beg ? 0 : way == std::ios_base::cur ? _place : _bytes.size();
+        const std::size_t from = way == std::ios_base::beg ? 0 : way == std::ios_base::cur ? _place : _end;
         return seekpos(static_cast<off_type>(from) + offset, std::ios_base::out);
     }
     pos_type seekpos(pos_type position, std::ios_base::openmode) override {
         const off_type place = position;
-        if (place < 0 || static_cast<std::size_t>(place) > _bytes.size()) return pos_type(off_type(-1));
+        if (place < 0 || static_cast<std::size_t>(place) > _end) return pos_type(off_type(-1));
         _place = static_cast<std::size_t>(place);
         return position;
     }
 
 private:
-    std::string _bytes;
+    std::string _bytes;  // longer than what is written
     std::size_t _place = 0;
+    std::size_t _end = 0;
 };
 
 /// A file that is open for writing, removed again unless it is kept.
