@@ -123,9 +123,8 @@ void repeatAtSkirts(int cells, Array& array) {
     });
 }
 
-osg::ref_ptr<osg::Vec3Array> normalsOf(const TerrainGrid& grid) {
+osg::ref_ptr<osg::Vec3Array> normalsOf(const TerrainGrid& grid, const Posts& posts) {
     const int width = grid.cells + 3;
-    const Posts posts(grid);
     std::vector<glm::dvec3> points;
     points.reserve(grid.heights.size());
     for (int row = -1; row <= grid.cells + 1; ++row)
@@ -169,7 +168,7 @@ osg::Vec4ub colourAt(const std::vector<TerrainGrid::ColourStop>& stops, double h
 // Snow and shade for the colours of a grid's posts.
 class ReliefPainter {
 public:
-    explicit ReliefPainter(const TerrainGrid& grid) : _grid(grid), _posts(grid) {
+    ReliefPainter(const TerrainGrid& grid, const Posts& posts) : _grid(grid), _posts(posts) {
         constexpr double kRoundTheGlobe = 6.283185307179586;
         _exaggeration =
             exaggerationFor(kRoundTheGlobe * grid.ellipsoid.equatorialRadius() / static_cast<double>(grid.columns));
@@ -196,12 +195,12 @@ public:
 
 private:
     const TerrainGrid& _grid;
-    Posts _posts;
+    const Posts& _posts;
     double _exaggeration;
     std::vector<double> _snowLines;
 };
 
-osg::ref_ptr<osg::Vec4ubArray> coloursOf(const TerrainGrid& grid, const osg::Vec3Array& normals) {
+osg::ref_ptr<osg::Vec4ubArray> coloursOf(const TerrainGrid& grid, const Posts& posts, const osg::Vec3Array& normals) {
     const bool isPlain = grid.colours.size() < 2;
     const osg::ref_ptr<osg::Vec4ubArray> colours =
         new osg::Vec4ubArray(isPlain ? osg::Array::BIND_OVERALL : osg::Array::BIND_PER_VERTEX);
@@ -212,7 +211,7 @@ osg::ref_ptr<osg::Vec4ubArray> coloursOf(const TerrainGrid& grid, const osg::Vec
     }
     colours->reserve(static_cast<std::size_t>((grid.cells + 1) * (grid.cells + 5)));
     std::optional<ReliefPainter> painter;
-    if (grid.relief) painter.emplace(grid);
+    if (grid.relief) painter.emplace(grid, posts);
     for (int row = 0; row <= grid.cells; ++row) {
         for (int column = 0; column <= grid.cells; ++column) {
             const osg::Vec4ub colour = colourAt(grid.colours, grid.height(column, row));
@@ -224,11 +223,8 @@ osg::ref_ptr<osg::Vec4ubArray> coloursOf(const TerrainGrid& grid, const osg::Vec
     return colours;
 }
 
-}  // namespace
-
-std::vector<glm::dvec3> verticesOf(const TerrainGrid& grid) {
+std::vector<glm::dvec3> verticesOf(const TerrainGrid& grid, const Posts& posts) {
     const int cells = grid.cells;
-    const Posts posts(grid);
     std::vector<glm::dvec3> vertices;
     vertices.reserve(static_cast<std::size_t>((cells + 1) * (cells + 5)));
     for (int row = 0; row <= cells; ++row)
@@ -242,6 +238,12 @@ std::vector<glm::dvec3> verticesOf(const TerrainGrid& grid) {
     });
     for (glm::dvec3& vertex : vertices) vertex = rounded(vertex, grid.quantum);
     return vertices;
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> verticesOf(const TerrainGrid& grid) {
+    return verticesOf(grid, Posts(grid));
 }
 
 std::vector<std::uint16_t> trianglesOf(int cells) {
@@ -288,17 +290,18 @@ void addTextureCoordinates(int cells, int textureSize, osg::Vec2Array& coordinat
 }
 
 void fillGeometry(const TerrainGrid& grid, osg::Geometry& geometry) {
+    const Posts posts(grid);
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-    const std::vector<glm::dvec3> ecef = verticesOf(grid);
+    const std::vector<glm::dvec3> ecef = verticesOf(grid, posts);
     vertices->reserve(ecef.size());
     for (const glm::dvec3& vertex : ecef) {
         const glm::dvec3 local = vertex - grid.origin;
         vertices->push_back(osg::Vec3f(osg::Vec3d(local.x, local.y, local.z)));
     }
     geometry.setVertexArray(vertices);
-    const osg::ref_ptr<osg::Vec3Array> normals = normalsOf(grid);
+    const osg::ref_ptr<osg::Vec3Array> normals = normalsOf(grid, posts);
     geometry.setNormalArray(normals);
-    geometry.setColorArray(coloursOf(grid, *normals));
+    geometry.setColorArray(coloursOf(grid, posts, *normals));
     geometry.setUseDisplayList(false);
     geometry.setUseVertexBufferObjects(true);
 }
