@@ -43,6 +43,10 @@ std::string timeLeft(double share, double seconds, double skipped) {
 ProgressLine::ProgressLine(std::FILE* stream)
     : _stream(stream), _isTerminal(::isatty(::fileno(stream)) == 1), _pause(_isTerminal ? 200 : 10000) {}
 
+ProgressLine::~ProgressLine() {
+    if (_width > 0) write("", "\r");
+}
+
 double ProgressLine::seconds() const {
     return std::chrono::duration<double>(Clock::now() - _start).count();
 }
@@ -55,14 +59,15 @@ void ProgressLine::show(double share, const std::string& text) {
 
 void ProgressLine::finish(double share, const std::string& text) {
     write(text + percent(share) + ", done in " + durationText(seconds()), "\n");
+    _width = 0;
 }
 
 void ProgressLine::write(const std::string& line, const char* end) {
     _shown = Clock::now();
     // Blanks erase the rest of a longer line.
-    std::fprintf(_stream, "%s%-*s%s", _isTerminal ? "\r" : "", _isTerminal ? _width : 0, line.c_str(), end);
+    std::fprintf(_stream, "%s%-*s%s", _isTerminal ? "\r" : "", _width, line.c_str(), end);
     std::fflush(_stream);
-    _width = static_cast<int>(line.size());
+    _width = _isTerminal ? static_cast<int>(line.size()) : 0;
 }
 
 }  // namespace osgAnalyticBin::support

@@ -14,10 +14,14 @@ namespace osgAnalyticBin::support {
 [[nodiscard]] std::string timeLeft(double share, double seconds, double skipped = 0.0);
 
 /// A line that says how far a program is, with the time that is left. On a terminal it is written over five times a
-/// second, elsewhere a new one is written every ten seconds. Not for several threads at once.
+/// second, and erased when the work ends early, so that an error begins at the start of a line. Elsewhere a new line is
+/// written every ten seconds. Not for several threads at once.
 class ProgressLine final {
 public:
     explicit ProgressLine(std::FILE* stream);
+    ~ProgressLine();
+    ProgressLine(const ProgressLine&) = delete;
+    ProgressLine& operator=(const ProgressLine&) = delete;
 
     [[nodiscard]] bool isTerminal() const noexcept { return _isTerminal; }
     /// Since the start.

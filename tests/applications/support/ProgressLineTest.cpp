@@ -59,11 +59,20 @@ TEST(ProgressLine, IsWrittenOverOnATerminal) {
     ASSERT_TRUE(terminal >= 0 && ::grantpt(terminal) == 0 && ::unlockpt(terminal) == 0);
     const Stream stream(std::fopen(::ptsname(terminal), "w"));
     ASSERT_TRUE(stream);
-    ProgressLine line(stream.get());
-    EXPECT_TRUE(line.isTerminal());
-    line.show(0.25, "a long text, ");
-    line.show(0.5, "short, ");
-    EXPECT_EQ(textFrom(terminal, 200), "\ra long text, 25 %\rshort, 50 %      ");
+    {
+        ProgressLine line(stream.get());
+        EXPECT_TRUE(line.isTerminal());
+        line.show(0.25, "a long text, ");
+        line.show(0.5, "short, ");
+        EXPECT_EQ(textFrom(terminal, 200), "\ra long text, 25 %\rshort, 50 %      ");
+    }
+    EXPECT_EQ(textFrom(terminal, 200), "\r           \r") << "not erased";
+    {
+        ProgressLine line(stream.get());
+        line.show(0.5, "short, ");
+        line.finish(1.0, "");
+    }
+    EXPECT_EQ(textFrom(terminal, 200), "\rshort, 50 %\r100 %, done in 1 s\r\n");
     ::close(terminal);
 }
 
