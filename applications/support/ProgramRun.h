@@ -16,7 +16,7 @@ namespace osgAnalyticBin::support {
 enum ExitCode : int {
     kSucceeded = 0,
     kFailed = 1,         ///< something failed, or what was compared differs
-    kWrongUsage = 2,     ///< the command line is wrong; nothing was done
+    kWrongUsage = 2,     ///< the command line is wrong
     kInterrupted = 130,  ///< the user stopped the program
 };
 

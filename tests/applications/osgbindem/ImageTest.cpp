@@ -106,6 +106,25 @@ TEST_F(Images, HolesShowWhatLiesBelow) {
     }
 }
 
+TEST_F(Images, HolesStayHolesInReducedTextures) {
+    // In the start tile of 11.25 degrees, some four pixels of the image are one of the texture.
+    TestImage fine = TestImage::square(2.0, 54.0, 0.01, 400, kRed);
+    fine.colourAt = [](double, double longitudeDeg) { return longitudeDeg > 4.0 ? std::nullopt : std::optional(kRed); };
+    for (const Hole hole : {Hole::Alpha, Hole::Mask, Hole::Nodata, Hole::Palette}) {
+        fine.hole = hole;
+        const LoadedDatabase database =
+            built({image("blue.tif", TestImage::globe(1.0, kBlue)), image("fine.tif", fine)}, {"--blend", "0"});
+        const auto start = std::find_if(database.tiles.begin(), database.tiles.end(), [](const LoadedTile& tile) {
+            return tile.rect().west <= 2.0 && tile.rect().south <= 50.0 && tile.rect().east >= 6.0 &&
+                   tile.rect().north >= 54.0;
+        });
+        ASSERT_NE(start, database.tiles.end());
+        EXPECT_EQ(textureOf(*start)->s(), 256);
+        EXPECT_EQ(shownAt(*start, 52.0, 3.0), kRed);
+        EXPECT_EQ(shownAt(*start, 52.0, 5.0), kBlue);
+    }
+}
+
 TEST_F(Images, ANodataValueInOneColourIsNoHole) {
     TestImage pale = TestImage::globe(1.0, {7, 99, 7});
     pale.hole = Hole::Nodata;

@@ -90,7 +90,10 @@ const osg::Image* textureOf(const LoadedTile& tile) {
 }
 
 Colour shownAt(const LoadedDatabase& database, double latitudeDeg, double longitudeDeg) {
-    const LoadedTile& tile = database.leafAt(latitudeDeg, longitudeDeg);
+    return shownAt(database.leafAt(latitudeDeg, longitudeDeg), latitudeDeg, longitudeDeg);
+}
+
+Colour shownAt(const LoadedTile& tile, double latitudeDeg, double longitudeDeg) {
     const osg::Image* image = textureOf(tile);
     if (!image) throw std::runtime_error("no texture there");
     const Rect rect = tile.rect();

@@ -37,5 +37,7 @@ struct TestImage {
 /// The image of a tile's texture; nullptr without one.
 [[nodiscard]] const osg::Image* textureOf(const LoadedTile& tile);
 
-/// What the finest tile there shows at its texel nearest to the position.
+/// What a tile shows at its texel nearest to the position.
+[[nodiscard]] Colour shownAt(const LoadedTile& tile, double latitudeDeg, double longitudeDeg);
+/// What the finest tile there shows.
 [[nodiscard]] Colour shownAt(const LoadedDatabase& database, double latitudeDeg, double longitudeDeg);
