@@ -77,6 +77,13 @@ TEST_F(Images, TexturesAreAsFineAsTheFinestImageOfTheTile) {
     checkNodes(database);
 }
 
+TEST_F(Images, TexturesThatShowReliefAreAsFineAsItsPosts) {
+    const std::string coarse = image("coarse.tif", TestImage::square(10.0, 50.0, 1.0, 3, kRed));
+    build({file("globe.tif"), "--cells", "64", "--levels", "1", "--image", coarse, "-o", file("earth.osgb")});
+    const LoadedDatabase database = loadDatabase(file("earth.osgb"));
+    EXPECT_EQ(textureOf(database.leafAt(48.5, 11.5))->s(), 64);
+}
+
 TEST_F(Images, HolesShowWhatLiesBelow) {
     // The south-eastern quarter of the inset is a hole, and so is the western half of the coarser image.
     TestImage coarse = TestImage::square(0.0, 60.0, 0.5, 60, kBlue);
