@@ -144,6 +144,8 @@ void CameraFlight::arrive() {
     _filesAtArrival = _reads->nodeFiles();
     _idleFrames = 0;
     _cullMs.clear();
+    _frameMs.clear();
+    _lastFrame = 0;
     _record = PoseRecord();
     _record.name = pose().name;
 }
@@ -171,6 +173,10 @@ void CameraFlight::time(osgViewer::Viewer& viewer) {
     double seconds = 0.0;
     if (viewer.getCamera()->getStats()->getAttribute(_frameNumber - 1, kCullTime, seconds))
         _cullMs.push_back(seconds * kMillisecondsPerSecond);
+    const osg::Timer& timer = *osg::Timer::instance();
+    const osg::Timer_t now = timer.tick();
+    if (_lastFrame != 0) _frameMs.push_back(timer.delta_m(_lastFrame, now));
+    _lastFrame = now;
     if (_cullMs.size() < static_cast<std::size_t>(_options.frames)) return;
     _capture->request(_frameNumber);
     _phase = Phase::Picture;
@@ -181,12 +187,13 @@ void CameraFlight::picture(osgViewer::Viewer& viewer) {
     const osg::ref_ptr<osg::Image> picture = _capture->take();
     if (!picture) return;
     _record.cullMs = median(_cullMs);
+    _record.frameMs = _frameMs.empty() ? 0.0 : median(_frameMs);
     _record.files = _reads->nodeFiles() - _filesAtArrival;
     _record.tiles = TileCounter::count(*viewer.getCamera(), *viewer.getFrameStamp());
     if (_record.tiles.wanted > 0) return fail(viewer, pose().name + ": the database changed before the picture");
     if (!savePicture(*picture)) return fail(viewer, pose().name + ": the picture cannot be saved");
     OSG_NOTICE << "binflight: " << _record.name << ": " << _record.tiles.drawn << " tiles drawn, " << _record.files
-               << " files, cull " << _record.cullMs << " ms" << std::endl;
+               << " files, cull " << _record.cullMs << " ms, frame " << _record.frameMs << " ms" << std::endl;
     _records.push_back(_record);
     if (_records.size() == _path.size()) return land(viewer);
     arrive();

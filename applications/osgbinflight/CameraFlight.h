@@ -70,7 +70,8 @@ private:
     std::uint64_t _filesAtArrival = 0;
     std::uint64_t _filesLastFrame = 0;
     int _idleFrames = 0;
-    std::vector<double> _cullMs;
+    std::vector<double> _cullMs, _frameMs;
+    osg::Timer_t _lastFrame = 0;  // 0: the one before was not timed
     PoseRecord _record;
     std::vector<PoseRecord> _records;
 };

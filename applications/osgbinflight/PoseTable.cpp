@@ -34,11 +34,12 @@ constexpr double kLargestCount = 9007199254740992.0;
 void writeRows(std::ostream& output, const std::vector<PoseRecord>& records, const std::string& remark) {
     output << "# " << remark << "\nname";
     for (const CountColumn& column : kCounts) output << ',' << column.name;
-    output << ",files,cullMs,picture\n";
+    output << ",files,cullMs,frameMs,picture\n";
     for (const PoseRecord& record : records) {
         output << record.name;
         for (const CountColumn& column : kCounts) output << ',' << record.tiles.*column.count;
-        output << ',' << record.files << ',' << textFrom(record.cullMs) << ',' << record.picture << '\n';
+        output << ',' << record.files << ',' << textFrom(record.cullMs) << ',' << textFrom(record.frameMs) << ','
+               << record.picture << '\n';
     }
 }
 
@@ -86,6 +87,7 @@ PoseRecord recordOf(RowReader row) {
     for (const CountColumn& column : kCounts) record.tiles.*column.count = row.count(column.name);
     record.files = row.count("files");
     record.cullMs = row.number("cullMs");
+    record.frameMs = row.number("frameMs");
     record.picture = row.text("picture");
     return record;
 }

@@ -32,6 +32,7 @@ struct PoseRecord {
     TileCounts tiles;
     std::uint64_t files = 0;  ///< node files read between the camera's arrival and the picture
     double cullMs = 0.0;      ///< median time of OSG's cull traversal, milliseconds
+    double frameMs = 0.0;     ///< median time from frame to frame: update, cull, draw and what the viewer waits for
     std::string picture;      ///< file name, in the folder of the table
 };
 

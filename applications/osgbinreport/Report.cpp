@@ -30,12 +30,13 @@ struct Figures {
     double triangles = 0.0;
     double files = 0.0;
     double cullMs = 0.0;
+    double frameMs = 0.0;
     double pixels = 0.0;
 };
 
 // Every figure but the pixels: a ratio of differing pixels says nothing.
-constexpr double Figures::*kRatioFigures[] = {&Figures::tested,    &Figures::kept,  &Figures::drawn,
-                                              &Figures::triangles, &Figures::files, &Figures::cullMs};
+constexpr double Figures::*kRatioFigures[] = {&Figures::tested, &Figures::kept,   &Figures::drawn,  &Figures::triangles,
+                                              &Figures::files,  &Figures::cullMs, &Figures::frameMs};
 
 Figures figuresOf(const Flight& run, std::size_t pose) {
     const PoseRecord& record = run.poses[pose];
@@ -45,6 +46,7 @@ Figures figuresOf(const Flight& run, std::size_t pose) {
             static_cast<double>(record.tiles.triangles),
             static_cast<double>(record.files),
             record.cullMs,
+            record.frameMs,
             static_cast<double>(run.differingPixels[pose])};
 }
 
@@ -73,6 +75,7 @@ std::vector<std::string> lineOf(const std::string& title, const std::string& lab
             decimals(f.triangles, 0),
             decimals(f.files, 0),
             decimals(f.cullMs, 3),
+            decimals(f.frameMs, 2),
             decimals(f.pixels, 0)};
 }
 
@@ -189,7 +192,8 @@ void Report::print(std::ostream& output) const {
     if (_runs.empty()) return;
     const std::vector<PoseRecord>& poses = _runs.front().poses;
     TextTable table(2);
-    table.add({"pose", "method", "tested", "kept", "drawn", "triangles", "files", "cull ms", "diff. pixels"});
+    table.add(
+        {"pose", "method", "tested", "kept", "drawn", "triangles", "files", "cull ms", "frame ms", "diff. pixels"});
     for (std::size_t i = 0; i < poses.size(); ++i)
         for (const Flight& run : _runs)
             table.add(lineOf(&run == &_runs.front() ? poses[i].name : "", run.label, figuresOf(run, i)));

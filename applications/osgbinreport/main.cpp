@@ -39,7 +39,8 @@ void declare(CLI::App& app, Arguments& arguments) {
                    "Folder for pictures of the differences: differing pixels red");
     app.footer(
         "Tiles: tested = the cull traversal reached the tile; kept = it reached what is below; drawn = its own\n"
-        "geometry was drawn. Files: node files read from the camera's arrival on. Cull: milliseconds, median.\n"
+        "geometry was drawn. Files: node files read from the camera's arrival on. Cull, frame: milliseconds,\n"
+        "median; a frame is from one to the next, drawing included.\n"
         "Exit code: 0; 1 when a picture of a sound method (any but paper and corners) differs from the reference,\n"
         "or when a flight cannot be read; 2 when the command line is wrong.\n\n"
         "Example:\n"

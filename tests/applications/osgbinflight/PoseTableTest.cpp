@@ -21,6 +21,7 @@ PoseRecord record() {
     pose.tiles = {11, 10, 9, 8, 7, 0, 6, 5, 4, 3};
     pose.files = 2;
     pose.cullMs = 0.1;
+    pose.frameMs = 2.5;
     pose.picture = "fov10_1.png";
     return pose;
 }
@@ -45,6 +46,7 @@ TEST(PoseTable, ReadsBackWhatItWrote) {
     EXPECT_EQ(pose.tiles.binsStraddling, 3u);
     EXPECT_EQ(pose.files, 2u);
     EXPECT_EQ(pose.cullMs, 0.1);
+    EXPECT_EQ(pose.frameMs, 2.5);
     EXPECT_EQ(pose.picture, "fov10_1.png");
 }
 

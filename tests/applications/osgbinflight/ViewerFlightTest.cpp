@@ -74,6 +74,7 @@ void expectPlausible(const PoseRecord& pose) {
     EXPECT_EQ(pose.tiles.drawables, pose.tiles.drawn) << pose.name;
     EXPECT_EQ(pose.tiles.triangles, pose.tiles.drawn * 512u) << pose.name;
     EXPECT_GT(pose.cullMs, 0.0) << pose.name;
+    EXPECT_GT(pose.frameMs, pose.cullMs) << pose.name;
 }
 
 std::uint64_t sumOf(const Flight& run, std::uint64_t flight::TileCounts::*count) {
