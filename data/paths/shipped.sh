@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 # SPDX-License-Identifier: MIT
 #
-# Writes the camera paths nadir, oblique, horizon, rockies, pole, dateline, sensor10, sensor2, stereo and turning beside
-# itself; with names of these, only them. A pose is given here by where the eye is, its altitude, the azimuth (degrees
+# Writes camera paths beside itself: nadir, oblique, horizon, rockies, pole, dateline, sensor10, sensor2, stereo and
+# turning, and, low among the mountains, nap, hilltop, helicopter, drone and approach; with names of these, only them. A pose is given here by where the eye is, its altitude, the azimuth (degrees
 # east of north) and the depression (degrees below the horizontal) of the view, the vertical field of view in degrees,
 # and the altitude of the ground that is looked at. From a sphere of 6371 km follow
 #   the look point: where the line of sight comes down to that ground, or passes it closest;
@@ -140,6 +140,86 @@ END
 315                 37.46  -105.60  3600      315     4   60  2600  50
 END
         ;;
+    nap) cat <<'END'
+# Nap of the earth: 50 m above the ground in twelve valleys of the Rockies. Terrain hides most of what is in front.
+50m_1       37.18006 -105.24673 2914    236  0.5  60  2855  5
+50m_2       37.75869 -105.17481 2218     12  0.5  60  2162  5
+50m_3       37.36259 -105.12231 2881    312  0.5  60  2803  5
+50m_4       37.54687 -105.16155 2731    305  0.5  60  2562  5
+50m_5       37.74811 -105.06915 2092    276  0.5  60  2040  5
+50m_6       37.51394 -105.06274 2249    102  0.5  60  2193  5
+50m_7       37.72623 -104.95371 2000    259  0.5  60  1950  5
+50m_8       37.71835 -105.37562 2690     23  0.5  60  2619  5
+50m_9       37.15658 -105.00852 2487    189  0.5  60  2376  5
+50m_10      37.57391 -105.28784 2706    124  0.5  60  2620  5
+50m_11      37.37804 -105.26552 2781    317  0.5  60  2687  5
+50m_12      37.30008 -104.86149 2370    122  0.5  60  2315  5
+END
+        ;;
+    hilltop) cat <<'END'
+# From twelve hilltops and ridges of the Rockies, 30 m above them: little is hidden behind terrain.
+30m_1       37.58316 -105.22083 3198     30    3  60  2500  5
+30m_2       37.37644 -104.99352 4145     97    3  60  2500  5
+30m_3       37.79534 -105.45395 3625     15    3  60  2500  5
+30m_4       37.67702 -105.47840 3747    300    3  60  2500  5
+30m_5       37.37270 -105.16796 3625    276    3  60  2500  5
+30m_6       37.11144 -105.18138 4235    131    3  60  2500  5
+30m_7       37.87607 -105.48640 3930     42    3  60  2500  5
+30m_8       37.63954 -105.37184 3747    232    3  60  2500  5
+30m_9       37.70656 -105.20582 2894    108    3  60  2500  5
+30m_10      37.89323 -105.03194 3686    279    3  60  2500  5
+30m_11      37.46644 -105.23129 3259    309    3  60  2500  5
+30m_12      37.25662 -105.24294 3686     29    3  60  2500  5
+END
+        ;;
+    helicopter) cat <<'END'
+# A helicopter that hovers 150 m above the ground and turns, at two places among the foothills.
+a_0         37.65324 -105.41643 3063      0    4  60  2876  5
+a_60        37.65324 -105.41643 3063     60    4  60  2876  5
+a_120       37.65324 -105.41643 3063    120    4  60  2876  5
+a_180       37.65324 -105.41643 3063    180    4  60  2876  5
+a_240       37.65324 -105.41643 3063    240    4  60  2876  5
+a_300       37.65324 -105.41643 3063    300    4  60  2876  5
+b_0         37.72091 -105.01115 2133      0    4  60  1980  5
+b_60        37.72091 -105.01115 2133     60    4  60  1980  5
+b_120       37.72091 -105.01115 2133    120    4  60  1980  5
+b_180       37.72091 -105.01115 2133    180    4  60  1980  5
+b_240       37.72091 -105.01115 2133    240    4  60  1980  5
+b_300       37.72091 -105.01115 2133    300    4  60  1980  5
+END
+        ;;
+    drone) cat <<'END'
+# A drone's camera of 30 degrees, 300 m above the ground, looking 30 degrees down.
+300m_1      37.21197 -105.35699 3164    266   30  30  2833  20
+300m_2      37.87142 -105.04419 3468    344   30  30  3002  20
+300m_3      37.17298 -105.21495 3551    206   30  30  3107  20
+300m_4      37.86991 -104.94971 2732    269   30  30  2338  20
+300m_5      37.80667 -105.41942 3185    130   30  30  2864  20
+300m_6      37.49204 -104.98648 2495     96   30  30  2186  20
+300m_7      37.54955 -105.20360 3168     20   30  30  2816  20
+300m_8      37.77845 -105.59369 2717    144   30  30  2402  20
+300m_9      37.34539 -104.89425 2841    326   30  30  2515  20
+300m_10     37.29558 -105.14782 3875    101   30  30  3520  20
+300m_11     37.78611 -105.50036 2976     74   30  30  2616  20
+300m_12     37.69383 -105.17337 2781    184   30  30  2402  20
+END
+        ;;
+    approach) cat <<'END'
+# An airliner's approach to Alamosa: 3 degrees down, over the Sangre de Cristo range and the San Luis valley.
+55km        37.26584 -105.28067 5227    290    3  60  2284  20
+50km        37.28091 -105.33282 4970    290    3  60  2284  20
+45km        37.29598 -105.38497 4713    290    3  60  2284  20
+40km        37.31105 -105.43711 4456    290    3  60  2284  20
+35km        37.32612 -105.48926 4200    290    3  60  2284  20
+30km        37.34119 -105.54141 3943    290    3  60  2284  20
+26km        37.35626 -105.59356 3686    290    3  60  2284  20
+21km        37.37133 -105.64570 3429    290    3  60  2284  20
+16km        37.38640 -105.69785 3172    290    3  60  2284  20
+11km        37.40147 -105.75000 2916    290    3  60  2284  20
+6km         37.41655 -105.80215 2659    290    3  60  2284  20
+1km         37.43162 -105.85429 2402    290    3  60  2284  20
+END
+        ;;
     *)
         echo "shipped.sh: there is no path \"$1\"" >&2
         return 1
@@ -182,7 +262,8 @@ function max(a, b) { return a > b ? a : b }
 }'
 }
 
-[ $# -gt 0 ] || set -- nadir oblique horizon rockies pole dateline sensor10 sensor2 stereo turning
+[ $# -gt 0 ] || set -- nadir oblique horizon rockies pole dateline sensor10 sensor2 stereo turning \
+    nap hilltop helicopter drone approach
 for path in "$@"; do
     poses "$path" >/dev/null
     poses "$path" | table "$path" >"$path.csv"

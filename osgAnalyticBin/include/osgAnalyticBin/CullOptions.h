@@ -48,7 +48,7 @@ enum class OcclusionUse {
     Off,  ///< never
     On,   ///< in every frame
     Auto  ///< the default: while terrain hides a quarter of the tiles in view; elsewhere it is tried again after 8 to
-          ///< 64 views
+          ///< 256 views
 };
 
 /// Which parts of skirts (walls that hang from the edges of tiles) a bin holds. Bins of a map always hold whole skirts,

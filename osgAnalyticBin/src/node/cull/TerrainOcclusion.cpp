@@ -267,7 +267,7 @@ bool isWithin(const core::Interval& inner, const core::Interval& outer) {
 bool serves(FoundOcclusion& found, const std::vector<FoundOcclusion::Tile>& tiles, const ShownDatabase& database,
             const glm::dvec3& eye, const std::optional<PictureSpan>& span, double nearReach) {
     // meshes around the eye may change
-    constexpr int kMostUses = 16;
+    constexpr int kMostUses = 64;
     return found.uses++ < kMostUses && glm::distance(eye, found.eye.origin) <= found.reach && span &&
            isWithin(span->across, found.span.across) && span->drawing <= found.span.drawing &&
            nearReach <= found.nearReach && found.region == regionOf(database) && found.tiles == tiles;
