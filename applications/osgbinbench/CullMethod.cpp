@@ -4,10 +4,11 @@
 #include "CullMethod.h"
 
 #include "Failure.h"
+#include "MethodName.h"
 
 #include <algorithm>
 #include <array>
-#include <utility>
+#include <iostream>
 
 namespace osgAnalyticBin::bench {
 
@@ -15,33 +16,28 @@ using support::UsageError;
 
 namespace {
 
-// The bases that bins stand behind, and the names that the pseudo-loader has for them.
-constexpr std::array<std::pair<const char*, const char*>, 6> kBinBases{{{"box", "box"},
-                                                                        {"orientedBox", "orientedbox"},
-                                                                        {"corners", "corners"},
-                                                                        {"paper", "paper"},
-                                                                        {"quadratic", "quadratic"},
-                                                                        {"exact", "exact"}}};
+// The bases that bins stand behind.
+constexpr std::array<const char*, 6> kBinBases{"box", "orientedbox", "corners", "paper", "quadratic", "exact"};
 
 constexpr std::array<const char*, 20> kAll{"none",
                                            "sphere",
                                            "cluster",
                                            "box",
                                            "box+horizon",
-                                           "orientedBox",
-                                           "orientedBox+horizon",
-                                           "orientedBox+horizon+reverse",
+                                           "orientedbox",
+                                           "orientedbox+horizon",
+                                           "orientedbox+horizon+edges",
                                            "corners",
                                            "corners+horizon",
                                            "paper",
                                            "paper+horizon",
                                            "quadratic",
                                            "quadratic+horizon",
-                                           "quadratic+horizon+reverse",
+                                           "quadratic+horizon+edges",
                                            "exact",
                                            "exact+horizon",
                                            kReplayedMethod,
-                                           "exact+horizon+reverse+occlusion",
+                                           "exact+horizon+edges+occlusion",
                                            kOracleMethod};
 
 // Takes a suffix off the end of a name. Returns: whether it was there.
@@ -61,7 +57,7 @@ std::string CullMethod::sceneName(const std::string& database, const std::string
         if (usesHorizon) parameters += ",horizon=declared";
         if (!binOptions.empty()) parameters += "," + binOptions;
         if (!usesHorizon) parameters += ",horizon=off";
-        parameters += usesReverse ? ",reverse=on" : ",reverse=off";
+        parameters += usesEdges ? ",edges=on" : ",edges=off";
         parameters += usesOcclusion ? ",occlusion=on" : ",occlusion=off";
     }
     return database + ".(" + parameters + ").analyticbin";
@@ -85,17 +81,16 @@ CullMethod cullMethodFromName(const std::string& name) {
     }
     std::string base = name;
     method.usesOcclusion = takeSuffix(base, "+occlusion");
-    method.usesReverse = takeSuffix(base, "+reverse");
+    method.usesEdges = takeSuffix(base, "+edges");
     method.usesHorizon = takeSuffix(base, "+horizon");
-    for (const auto& [known, loaderMethod] : kBinBases)
-        if (base == known) method.loaderMethod = loaderMethod;
+    if (std::find(kBinBases.begin(), kBinBases.end(), base) != kBinBases.end()) method.loaderMethod = base;
     // terrain hides terrain for an eye that has a horizon, and not in the methods for comparison
     const bool makesSense = !method.usesOcclusion || (method.usesHorizon && (base == "exact" || base == "quadratic"));
     if (!method.loaderMethod.empty() && makesSense) return method;
     throw UsageError(
         "--methods: unknown method \"" + name +
-        "\"; use none, sphere, cluster, oracle, all, or box, orientedBox, corners, paper, quadratic or exact, these "
-        "with +horizon, +reverse or +horizon+reverse; quadratic and exact with +horizon, also +occlusion");
+        "\"; use none, sphere, cluster, oracle, all, or box, orientedbox, corners, paper, quadratic or exact, these "
+        "with +horizon, +edges or +horizon+edges; quadratic and exact with +horizon, also +occlusion");
 }
 
 std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& names) {
@@ -104,7 +99,9 @@ std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& nam
         const bool known = std::any_of(methods.begin(), methods.end(), [&](const auto& m) { return m.name == name; });
         if (!known) methods.push_back(cullMethodFromName(name));
     };
-    for (const std::string& name : names) {
+    for (const std::string& given : names) {
+        const std::string name = support::currentMethodName(given);
+        if (name != given) std::cerr << "osgbinbench: " << support::noticeOfOldName(given);
         if (name == kOracleMethod) add(kReplayedMethod);
         if (name != kAllMethods) add(name);
         if (name == kAllMethods) std::for_each(kAll.begin(), kAll.end(), add);

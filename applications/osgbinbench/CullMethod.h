@@ -11,13 +11,13 @@
 namespace osgAnalyticBin::bench {
 
 /// A way to cull a database, by the name that the command line and the tables use:
-/// BASE[+horizon][+reverse][+occlusion]. A plain base culls by the frustum's planes alone.
+/// BASE[+horizon][+edges][+occlusion]. A plain base culls by the frustum's planes alone.
 struct CullMethod {
     std::string name;
     /// What the pseudo-loader analyticbin is asked for.
     std::string loaderMethod;
     bool usesHorizon = false;
-    bool usesReverse = false;
+    bool usesEdges = false;
     /// Whether terrain hides terrain.
     bool usesOcclusion = false;
     /// What becomes of the database's own ClusterCullingCallbacks; bins see to it by themselves.
@@ -39,12 +39,12 @@ inline constexpr const char* kReferenceMethod = "none";
 
 /// What culling would cost if tests were free: the verdicts of the method below, repeated. No program can cull so.
 inline constexpr const char* kOracleMethod = "oracle";
-inline constexpr const char* kReplayedMethod = "exact+horizon+reverse";
+inline constexpr const char* kReplayedMethod = "exact+horizon+edges";
 
 /// Stands for all methods that are worth comparing.
 inline constexpr const char* kAllMethods = "all";
 
-/// "none", "sphere", "cluster", "oracle", and box, orientedBox, corners, paper, quadratic and exact with their
+/// "none", "sphere", "cluster", "oracle", and box, orientedbox, corners, paper, quadratic and exact with their
 /// suffixes. Throws: Failure for a name that is unknown or makes no sense.
 [[nodiscard]] CullMethod cullMethodFromName(const std::string& name);
 

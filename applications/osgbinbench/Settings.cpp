@@ -87,13 +87,13 @@ std::string footer() {
         "Methods: none = no culling, always flown, as all others are judged by it; sphere = OSG's spheres and boxes,\n"
         "the database's ClusterCullingCallbacks taken away; cluster = OSG with these callbacks: the database's own, "
         "else\n"
-        "such as VirtualPlanetBuilder makes, from every tile's mesh; box, orientedBox = boxes about the bins, along\n"
+        "such as VirtualPlanetBuilder makes, from every tile's mesh; box, orientedbox = boxes about the bins, along\n"
         "the axes of ECEF or east, north, up; corners, paper = rules that cull visible tiles, for comparison;\n"
         "quadratic, exact = analytic bins. The last six cull by the frustum's planes alone; +horizon adds the horizon\n"
-        "(boxes: of one point), +reverse tiles beyond an edge of the frustum (boxes: a frustum beyond a face), in "
+        "(boxes: of one point), +edges tiles beyond an edge of the frustum (boxes: a frustum beyond a face), in "
         "this\n"
-        "order: exact+horizon+reverse is what is on by default; +occlusion behind it adds tiles behind terrain.\n"
-        "oracle = what exact+horizon+reverse keeps, recorded at each pose and repeated without any test: what culling\n"
+        "order: exact+horizon+edges is what is on by default; +occlusion behind it adds tiles behind terrain.\n"
+        "oracle = what exact+horizon+edges keeps, recorded at each pose and repeated without any test: what culling\n"
         "would cost if tests were free (not in flight). all = these methods, in the combinations worth comparing.\n"
         "Afterwards the path is flown continuously, every method once, while files are being loaded: --live; with\n"
         "--frames nothing but that. Methods take turns of 10 frames each; these are culled, and not drawn. What leaves "
@@ -130,7 +130,7 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
         ->allow_extra_args(false);
     app.add_option("--methods", settings.methods,
                    "comma-separated, see below, or all (default: none,sphere,cluster,\n"
-                   "quadratic+horizon+reverse,exact+horizon+reverse)")
+                   "quadratic+horizon+edges,exact+horizon+edges)")
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--options", settings.binOptions,
@@ -197,8 +197,8 @@ void check(const Settings& settings) {
     if (!binOptions) throw UsageError("--options: " + error);
     if (binOptions->horizonUse == HorizonUse::Off)
         throw UsageError("--options: leave +horizon out of the names in --methods instead of horizon=off");
-    if (binOptions->reverse)
-        throw UsageError("--options: name methods with or without +reverse in --methods instead of reverse=on or off");
+    if (binOptions->edges)
+        throw UsageError("--options: name methods with or without +edges in --methods instead of edges=on or off");
     if (settings.binOptions.find("occlusion=") != std::string::npos)
         throw UsageError("--options: name methods with +occlusion in --methods instead of \"" + settings.binOptions +
                          "\"");

@@ -18,7 +18,7 @@ namespace osgAnalyticBin::bench {
 struct Settings {
     std::string database;
     std::vector<std::string> paths;
-    std::vector<std::string> methods{"none", "sphere", "cluster", "quadratic+horizon+reverse", "exact+horizon+reverse"};
+    std::vector<std::string> methods{"none", "sphere", "cluster", "quadratic+horizon+edges", "exact+horizon+edges"};
     std::string binOptions;
     std::string csv;
     std::string json;

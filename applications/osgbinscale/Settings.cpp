@@ -4,6 +4,7 @@
 #include "Settings.h"
 
 #include "Failure.h"
+#include "MethodName.h"
 #include "ProgramRun.h"
 
 #include <osgAnalyticBin/CullOptions.h>
@@ -12,6 +13,7 @@
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
+#include <iostream>
 
 namespace osgAnalyticBin::scale {
 
@@ -34,14 +36,14 @@ constexpr const char* kFooter =
     "           without bins, with stored bins that nobody uses, and with those of each method.\n\n"
     "Times are first quartiles: what else the machine does only adds to them; cull_spread_ms is the distance to the\n"
     "third. Figures of the flight are sums over its poses. deepest_tiles: drawn tiles of the deepest level.\n\n"
-    "Methods: none, sphere (OSG's own), and BASE[+horizon][+reverse] with BASE quadratic, exact, box, orientedbox,\n"
+    "Methods: none, sphere (OSG's own), and BASE[+horizon][+edges] with BASE quadratic, exact, box, orientedbox,\n"
     "paper or corners.\n"
     "Exit code: 0; 1 when something failed: one line says what; 2 when the command line is wrong.\n\n"
     "Example:\n"
     "  osgbinscale --levels 8,20 --residents 1000,100000 --json scale.json --plot figures";
 
 struct Words {
-    std::vector<std::string> methods{"sphere", "quadratic+horizon+reverse", "exact+horizon+reverse"};
+    std::vector<std::string> methods{"sphere", "quadratic+horizon+edges", "exact+horizon+edges"};
     std::vector<std::string> series{"depth", "residents", "memory"};
 };
 
@@ -51,7 +53,7 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--methods", words.methods,
-                   "comma-separated (default: sphere, quadratic+horizon+reverse,\nexact+horizon+reverse)")
+                   "comma-separated (default: sphere, quadratic+horizon+edges,\nexact+horizon+edges)")
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--levels", settings.levels, "numbers of levels, 0 to 24 (default 4,8,12,16,20)")
@@ -109,26 +111,28 @@ void takeSeries(const std::vector<std::string>& series, Settings& settings) {
 
 }  // namespace
 
-ScaleMethod scaleMethodFromName(const std::string& name) {
+ScaleMethod scaleMethodFromName(const std::string& given) {
+    const std::string name = support::currentMethodName(given);
+    if (name != given) std::cerr << "osgbinscale: " << support::noticeOfOldName(given);
     const std::size_t plus = name.find('+');
     const std::string base = name.substr(0, plus);
     const std::string suffixes = plus == std::string::npos ? std::string() : name.substr(plus);
     const auto method = methodFromName(base);
     const bool isPlain = suffixes.empty();
     const bool hasBins = method && *method != Method::Sphere && *method != Method::None;
-    const bool isKnown = isPlain || suffixes == "+horizon" || suffixes == "+reverse" || suffixes == "+horizon+reverse";
+    const bool isKnown = isPlain || suffixes == "+horizon" || suffixes == "+edges" || suffixes == "+horizon+edges";
     if (!method || !isKnown || (!hasBins && !isPlain))
         throw UsageError(
             "--methods: unknown method \"" + name +
-            "\"; use none, sphere, or quadratic, exact, box, orientedbox, paper or corners with +horizon, +reverse or "
-            "+horizon+reverse after it");
+            "\"; use none, sphere, or quadratic, exact, box, orientedbox, paper or corners with +horizon, +edges or "
+            "+horizon+edges after it");
     if (!hasBins) return {name, "method=" + base, *method == Method::None};
     const bool usesHorizon = suffixes.find("+horizon") != std::string::npos;
-    const bool usesReverse = suffixes.find("+reverse") != std::string::npos;
-    return {name,
-            "method=" + base + ",horizon=" + (usesHorizon ? "declared" : "off") +
-                ",reverse=" + (usesReverse ? "on" : "off"),
-            false};
+    const bool usesEdges = suffixes.find("+edges") != std::string::npos;
+    return {
+        name,
+        "method=" + base + ",horizon=" + (usesHorizon ? "declared" : "off") + ",edges=" + (usesEdges ? "on" : "off"),
+        false};
 }
 
 bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {

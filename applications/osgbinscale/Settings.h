@@ -8,7 +8,7 @@
 
 namespace osgAnalyticBin::scale {
 
-/// A way to cull, by the name that the command line and the tables use: BASE[+horizon][+reverse].
+/// A way to cull, by the name that the command line and the tables use: BASE[+horizon][+edges].
 struct ScaleMethod {
     std::string name;
     /// For the pseudo-loader analyticbin.

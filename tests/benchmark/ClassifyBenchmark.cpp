@@ -150,8 +150,8 @@ public:
         const auto full = [&](const BinOracle& tile) {
             return FullBin{ExactGeodeticBin(wgs84(), tile.bin()), core::HorizonBin(wgs84(), tile.bin())};
         };
-        right &= addMethod("exactHorizonReverse", madeOf(_scene.tiles, full), FullTest(), seesASample);
-        addPreparation("BM_PrepareBin/exactHorizonReverse", full);
+        right &= addMethod("exactHorizonEdges", madeOf(_scene.tiles, full), FullTest(), seesASample);
+        addPreparation("BM_PrepareBin/exactHorizonEdges", full);
         addPreparation("BM_PrepareBin/quadratic", quadratic);
         addPreparation("BM_PrepareBin/exact", exact);
         addFrustumPreparation();

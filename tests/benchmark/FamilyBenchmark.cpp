@@ -140,7 +140,7 @@ public:
         for (const BinOracle& tile : _scene.tiles) bins.push_back(exact(tile));
         right &= addMethod("quadratic", PlanesTest{familiesOf(quadratic)}, reachesIn);
         right &= addMethod("exact", PlanesTest{familiesOf(exact)}, reachesIn);
-        right &= addMethod("exactHorizonReverse", FamilyTest{familiesOf(exact), std::move(bins)}, seesASample);
+        right &= addMethod("exactHorizonEdges", FamilyTest{familiesOf(exact), std::move(bins)}, seesASample);
         return right;
     }
 

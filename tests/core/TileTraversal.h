@@ -27,7 +27,7 @@ enum Method : std::size_t {
     kMethods
 };
 inline constexpr std::array<const char*, kMethods> kMethodNames{"sphere", "box+point", "corners", "paper", "quadratic",
-                                                                "exact",  "+reverse",  "+hull",   "+both", "quad+both"};
+                                                                "exact",  "+edges",    "+hull",   "+both", "quad+both"};
 
 /// Leaves of the quadtree, from one camera or more.
 struct Counts {

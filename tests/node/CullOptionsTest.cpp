@@ -46,7 +46,7 @@ TEST(CullOptions, EveryMethodReadsBack) {
         EXPECT_EQ(back->method, method);
         EXPECT_EQ(back->growth, options.growth);
         EXPECT_EQ(back->horizonUse, HorizonUse::ByMethod);
-        EXPECT_EQ(back->reverse, std::nullopt);
+        EXPECT_EQ(back->edges, std::nullopt);
     }
 }
 
@@ -65,16 +65,28 @@ TEST(CullOptions, OcclusionReadsBack) {
     }
 }
 
-TEST(CullOptions, HorizonAndReverseReadBack) {
+// In scenes that older versions have stored.
+TEST(CullOptions, EdgesAreReadByTheirOldName) {
     std::string error;
-    for (const char* text : {"horizon=-500.25 reverse=off", "horizon=off", "horizon=declared,reverse=on"}) {
+    for (const bool isOn : {false, true}) {
+        const auto options = cullOptionsFromText(isOn ? "reverse=on" : "reverse=off", error);
+        ASSERT_TRUE(options) << error;
+        EXPECT_EQ(options->edges, isOn);
+        EXPECT_NE(toText(*options).find(isOn ? ",edges=on" : ",edges=off"), std::string::npos);
+    }
+    EXPECT_FALSE(cullOptionsFromText("reverse=maybe", error));
+}
+
+TEST(CullOptions, HorizonAndEdgesReadBack) {
+    std::string error;
+    for (const char* text : {"horizon=-500.25 edges=off", "horizon=off", "horizon=declared,edges=on"}) {
         const auto options = cullOptionsFromText(text, error);
         ASSERT_TRUE(options) << error;
         const auto back = cullOptionsFromText(toText(*options), error);
         ASSERT_TRUE(back) << error;
         EXPECT_EQ(back->horizonUse, options->horizonUse);
         EXPECT_EQ(back->horizon, options->horizon);
-        EXPECT_EQ(back->reverse, options->reverse);
+        EXPECT_EQ(back->edges, options->edges);
     }
     EXPECT_EQ(cullOptionsFromText("horizon=-500", error)->horizon, -500.0);
 }
@@ -82,21 +94,21 @@ TEST(CullOptions, HorizonAndReverseReadBack) {
 TEST(CullOptions, MethodsForComparisonCullByPlanesAloneUnlessTold) {
     std::string error;
     const auto horizonOf = [&](const char* text) { return cullOptionsFromText(text, error)->effectiveHorizonUse(); };
-    const auto reverseOf = [&](const char* text) { return cullOptionsFromText(text, error)->effectiveReverse(); };
+    const auto edgesOf = [&](const char* text) { return cullOptionsFromText(text, error)->effectiveEdges(); };
     for (const std::string name : {"paper", "corners", "box", "orientedbox"}) {
         const std::string text = "method=" + name;
         EXPECT_EQ(horizonOf(text.c_str()), HorizonUse::Off) << name;
-        EXPECT_FALSE(reverseOf(text.c_str())) << name;
+        EXPECT_FALSE(edgesOf(text.c_str())) << name;
         EXPECT_EQ(horizonOf(("horizon=declared," + text).c_str()), HorizonUse::Declared) << name;
         EXPECT_EQ(horizonOf((text + ",horizon=-500").c_str()), HorizonUse::Given) << name;
-        EXPECT_TRUE(reverseOf((text + ",reverse=on").c_str())) << name;
+        EXPECT_TRUE(edgesOf((text + ",edges=on").c_str())) << name;
     }
     for (const std::string name : {"quadratic", "exact"}) {
         const std::string text = "method=" + name;
         EXPECT_EQ(horizonOf(text.c_str()), HorizonUse::Declared) << name;
-        EXPECT_TRUE(reverseOf(text.c_str())) << name;
+        EXPECT_TRUE(edgesOf(text.c_str())) << name;
         EXPECT_EQ(horizonOf((text + ",horizon=off").c_str()), HorizonUse::Off) << name;
-        EXPECT_FALSE(reverseOf((text + ",reverse=off").c_str())) << name;
+        EXPECT_FALSE(edgesOf((text + ",edges=off").c_str())) << name;
     }
 }
 
@@ -116,7 +128,7 @@ TEST(CullOptions, WhatConcernsForeignDatabasesReadsBack) {
 TEST(CullOptions, AreEqualInAllItemsOrNot) {
     std::string error;
     for (const char* item :
-         {"method=exact", "growth=1.5", "horizon=off", "horizon=-500", "inheritviewpoint=on", "reverse=off", "expiry=5",
+         {"method=exact", "growth=1.5", "horizon=off", "horizon=-500", "inheritviewpoint=on", "edges=off", "expiry=5",
           "skirts=all", "cluster=keep", "heights=-500..9000", "heights=-11500..8000", "index=off"}) {
         const auto options = cullOptionsFromText(item, error);
         ASSERT_TRUE(options) << error;
@@ -138,7 +150,7 @@ TEST(CullOptions, WhatIsWrongIsNamed) {
         {"method=cube", "cube"},  {"method", "unknown method"}, {"growth=big", "big"},
         {"growth=0.5", "0.5"},    {"growth=nan", "nan"},        {"growth=11", "11"},
         {"colour=red", "colour"}, {"growth=1.1x", "1.1x"},      {"Method=paper", "Method"},
-        {"horizon=low", "low"},   {"horizon=1e9", "1e9"},       {"reverse=maybe", "maybe"},
+        {"horizon=low", "low"},   {"horizon=1e9", "1e9"},       {"edges=maybe", "maybe"},
         {"skirts=none", "none"},  {"cluster=off", "off"},       {"heights=9", "9"},
         {"heights=3..1", "3..1"}, {"heights=a..b", "a..b"},     {"index=x", "x"}};
     for (const auto& [text, named] : cases) {

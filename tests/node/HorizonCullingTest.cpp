@@ -74,7 +74,7 @@ CullView randomView(test::Random& random, osg::Vec3d& eye) {
 TEST(HorizonCulling, NeverCullsATileWithASampleInSight) {
     for (const Method method : {Method::Quadratic, Method::Exact, Method::Box, Method::OrientedBox}) {
         CullOptions options = horizonOptions(method);
-        options.reverse = true;
+        options.edges = true;
         CountedGlobe globe(options);
         test::Random random(30);
         unsigned int hidden = 0;
@@ -201,7 +201,7 @@ TEST(HorizonCulling, ADatabaseDeclaresItAndTheUserHasTheLastWord) {
 
 TEST(EdgeCulling, CullsTilesBeyondTheEdgesOfANarrowFrustumAndNoneInSight) {
     CullOptions off;
-    off.reverse = false;
+    off.edges = false;
     CountedGlobe with({});
     CountedGlobe without(off);
     test::Random random(32);
@@ -210,10 +210,10 @@ TEST(EdgeCulling, CullsTilesBeyondTheEdgesOfANarrowFrustumAndNoneInSight) {
         osg::Vec3d eye;
         const CullView view = randomView(random, eye);
         const std::set<std::string> reached = with.reached(*with.root, view);
-        separated += with.counts.separated;
+        separated += with.counts.beyondEdge;
         const std::set<std::string> more = without.reached(*without.root, view);
-        EXPECT_EQ(without.counts.separated, 0u);
-        EXPECT_EQ(reached.size() + with.counts.separated, more.size());
+        EXPECT_EQ(without.counts.beyondEdge, 0u);
+        EXPECT_EQ(reached.size() + with.counts.beyondEdge, more.size());
     }
     EXPECT_GT(separated, 20u);
 }
@@ -223,7 +223,7 @@ TEST(EdgeCulling, IsOffForMethodsForComparisonUnlessAskedFor) {
         CullOptions options;
         options.method = method;
         CountedGlobe plain(options);
-        options.reverse = true;
+        options.edges = true;
         CountedGlobe asked(options);
         test::Random random(33);
         unsigned int separated = 0;
@@ -231,9 +231,9 @@ TEST(EdgeCulling, IsOffForMethodsForComparisonUnlessAskedFor) {
             osg::Vec3d eye;
             const CullView view = randomView(random, eye);
             const std::set<std::string> all = plain.reached(*plain.root, view);
-            EXPECT_EQ(plain.counts.separated, 0u);
-            EXPECT_EQ(asked.reached(*asked.root, view).size() + asked.counts.separated, all.size());
-            separated += asked.counts.separated;
+            EXPECT_EQ(plain.counts.beyondEdge, 0u);
+            EXPECT_EQ(asked.reached(*asked.root, view).size() + asked.counts.beyondEdge, all.size());
+            separated += asked.counts.beyondEdge;
         }
         EXPECT_GT(separated, 0u) << methodName(method);
     }

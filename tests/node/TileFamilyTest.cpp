@@ -88,7 +88,7 @@ CullView randomView(Random& random) {
 void expectSameVerdicts(double degrees, std::size_t tiles, const std::vector<const char*>& methods, int views) {
     for (const char* const method : methods) {
         std::string error;
-        const auto options = cullOptionsFromText(std::string("horizon=off,reverse=on,method=") + method, error);
+        const auto options = cullOptionsFromText(std::string("horizon=off,edges=on,method=") + method, error);
         ASSERT_TRUE(options) << error;
         const auto families = globeOfMeshes(degrees, tiles);
         const auto alone = globeOfMeshes(degrees, tiles);
@@ -105,9 +105,9 @@ void expectSameVerdicts(double degrees, std::size_t tiles, const std::vector<con
             EXPECT_EQ(some.tested, others.tested) << method << i;
             EXPECT_EQ(some.outside, others.outside) << method << i;
             EXPECT_EQ(some.inside, others.inside) << method << i;
-            EXPECT_EQ(some.separated, others.separated) << method << i;
+            EXPECT_EQ(some.beyondEdge, others.beyondEdge) << method << i;
             outside += some.outside;
-            separated += some.separated;
+            separated += some.beyondEdge;
         }
         EXPECT_GT(outside, 0u) << method;
         EXPECT_TRUE(separated > 0 || tiles < 288) << method;

@@ -117,7 +117,9 @@ TEST_F(OptionString, EveryOptionIsListedAndEveryListedOneIsKnown) {
         EXPECT_EQ(error.find("unknown parameter"), std::string::npos) << error;
     }
     const std::vector<std::string> keys = cullOptionKeys();
-    EXPECT_EQ(listed, std::set<std::string>(keys.begin(), keys.end()));
+    std::set<std::string> known(keys.begin(), keys.end());
+    EXPECT_EQ(known.erase("reverse"), 1U) << "an old name, which is read and not listed";
+    EXPECT_EQ(listed, known);
     // and the parser's own advice
     std::string error;
     EXPECT_FALSE(cullOptionsFromText("?=1", error));

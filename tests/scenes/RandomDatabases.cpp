@@ -112,7 +112,7 @@ CullOptions randomOptions(Random& random, const DatabaseSpec& database) {
         options.horizon = -database.relief - sagOf(database, 0) - 1.0;
     }
     options.inheritViewpoint = random.chance(0.1);
-    if (random.chance(0.15)) options.reverse = random.chance(0.5);
+    if (random.chance(0.15)) options.edges = random.chance(0.5);
     options.occlusion = random.pick(
         std::array<OcclusionUse, 4>{OcclusionUse::Off, OcclusionUse::On, OcclusionUse::On, OcclusionUse::Auto});
     if (random.chance(0.3)) options.expiry = random.uniform(0.0, 5.0);

@@ -81,7 +81,7 @@ private:
             [](CullOptions& o) { resetOption(&CullOptions::method, o); },
             [](CullOptions& o) { resetOption(&CullOptions::horizonUse, o); },
             [](CullOptions& o) { resetOption(&CullOptions::inheritViewpoint, o); },
-            [](CullOptions& o) { resetOption(&CullOptions::reverse, o); },
+            [](CullOptions& o) { resetOption(&CullOptions::edges, o); },
             [](CullOptions& o) { resetOption(&CullOptions::occlusion, o); },
             [](CullOptions& o) { resetOption(&CullOptions::expiry, o); },
             [](CullOptions& o) { resetOption(&CullOptions::skirts, o); },

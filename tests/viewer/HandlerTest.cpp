@@ -244,7 +244,7 @@ TEST_F(Handlers, FillOsgsStatistics) {
     EXPECT_EQ(attribute("Tiles kept"), double(expected.kept));
     EXPECT_EQ(attribute("Tiles drawn"), double(expected.drawn));
     EXPECT_EQ(attribute("Tiles hidden"), double(expected.hidden));
-    EXPECT_EQ(attribute("Tiles beyond an edge"), double(expected.reverseCulled));
+    EXPECT_EQ(attribute("Tiles beyond an edge"), double(expected.beyondEdge));
     EXPECT_EQ(attribute("Tiles behind terrain"), double(expected.occluded));
     EXPECT_GT(expected.drawn, 0u);
 }
@@ -344,7 +344,7 @@ TEST_F(Handlers, RecordWhatOsgbinbenchDrawsAgain) {
     const std::string table = _folder.path() + "/poses.csv";
     const test::Outcome bench = test::runStock(
         test::quoted(BENCH_FILE) + ' ' + test::quoted(_file) + " --path " + test::quoted(file) +
-            " --methods quadratic+horizon+reverse --live 0 --repeats 1 --size 128x128 --csv " + test::quoted(table),
+            " --methods quadratic+horizon+edges --live 0 --repeats 1 --size 128x128 --csv " + test::quoted(table),
         test::Modules::Absent, "LIBGL_ALWAYS_SOFTWARE=1 ASAN_OPTIONS=detect_leaks=0");
     ASSERT_EQ(bench.code, 0) << bench.text;
     std::string error;

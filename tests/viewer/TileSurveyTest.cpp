@@ -107,7 +107,7 @@ TEST(TileSurvey, KnowsWhereABinStandsInTheWorld) {
 TEST(VerdictColours, AreAllDifferent) {
     std::set<osg::Vec4> colours;
     for (const TileVerdict verdict : {TileVerdict::Outside, TileVerdict::Straddling, TileVerdict::Inside,
-                                      TileVerdict::Hidden, TileVerdict::ReverseCulled}) {
+                                      TileVerdict::Hidden, TileVerdict::BeyondEdge}) {
         colours.insert(verdictColour(verdict));
     }
     EXPECT_EQ(colours.size(), 5u);

@@ -30,7 +30,7 @@ struct BinCounts {
     /// Of those outside: behind the horizon.
     std::uint32_t hidden = 0;
     /// Of those outside: beyond an edge of the frustum, though outside no single plane.
-    std::uint32_t separated = 0;
+    std::uint32_t beyondEdge = 0;
     /// Of those outside: behind terrain.
     std::uint32_t occluded = 0;
     /// Frame number of the traversal.
@@ -62,7 +62,7 @@ public:
     /// Records why the tile counted last was outside.
     void countHidden() noexcept;
     /// Records that the tile counted last was beyond an edge of the frustum.
-    void countSeparated() noexcept;
+    void countBeyondEdge() noexcept;
 
     /// Records that the tile counted last was behind terrain.
     void countOccluded() noexcept;
@@ -90,7 +90,7 @@ private:
     std::atomic<std::uint32_t> _inside{0};
     std::atomic<std::uint32_t> _straddling{0};
     std::atomic<std::uint32_t> _hidden{0};
-    std::atomic<std::uint32_t> _separated{0};
+    std::atomic<std::uint32_t> _beyondEdge{0};
     std::atomic<std::uint32_t> _occluded{0};
     std::atomic<unsigned int> _frame{0};
     const osg::NodeVisitor* _owner = nullptr;

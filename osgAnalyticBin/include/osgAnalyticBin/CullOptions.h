@@ -85,7 +85,7 @@ struct CullOptions {
     /// Whether tiles across an edge of the frustum are also tested against the edge. Boxes are tested for a frustum
     /// beyond one of their faces instead. Without a value: on, but off with methods for comparison. The tiles of a map
     /// are boxes, which are tested unless the value is false.
-    std::optional<bool> reverse;
+    std::optional<bool> edges;
     /// Whether tiles behind terrain are culled: on a globe or a region of one that uses the horizon (see `horizonUse`),
     /// for tiles whose meshes the kit reads, by cameras that do not compute their near plane.
     OcclusionUse occlusion = OcclusionUse::Auto;
@@ -110,7 +110,7 @@ struct CullOptions {
     [[nodiscard]] OSGANALYTICBIN_EXPORT HorizonUse effectiveHorizonUse() const noexcept;
 
     /// Whether tiles are tested against edges with this method, after the default is resolved.
-    [[nodiscard]] OSGANALYTICBIN_EXPORT bool effectiveReverse() const noexcept;
+    [[nodiscard]] OSGANALYTICBIN_EXPORT bool effectiveEdges() const noexcept;
 
     /// Whether every item is the same.
     [[nodiscard]] OSGANALYTICBIN_EXPORT bool operator==(const CullOptions& other) const noexcept;
@@ -121,7 +121,7 @@ struct CullOptions {
     static constexpr core::Interval kTerrainOnEarth{-11500.0, 9000.0};
 };
 
-/// Parses "method=paper,growth=1.1", "horizon=-500", "horizon=off", "inheritviewpoint=on", "reverse=off",
+/// Parses "method=paper,growth=1.1", "horizon=-500", "horizon=off", "inheritviewpoint=on", "edges=off",
 /// "occlusion=on", "expiry=3", "skirts=all", "cluster=keep", "heights=-500..9000", "index=off"; separated by commas or
 /// blanks; an empty text gives the default. Returns: nullopt when an item is unknown or malformed, with one line in
 /// `error` that names it and what is allowed.

@@ -5,7 +5,10 @@
 
 #include <osgAnalyticBin/CullOptions.h>
 
+#include <osg/Notify>
+
 #include <array>
+#include <atomic>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -118,8 +121,8 @@ bool applyCluster(const std::string& value, CullOptions& options, std::string& e
     return true;
 }
 
-bool applyReverse(const std::string& value, CullOptions& options, std::string& error) {
-    return applySwitch("reverse", value, options.reverse, error);
+bool applyEdges(const std::string& value, CullOptions& options, std::string& error) {
+    return applySwitch("edges", value, options.edges, error);
 }
 
 bool applyOcclusion(const std::string& value, CullOptions& options, std::string& error) {
@@ -153,13 +156,16 @@ constexpr std::array<KnownItem, 11> kItems{{{"method", "NAME", applyMethod},
                                             {"growth", "FACTOR", applyGrowth},
                                             {"horizon", "METRES|declared|off", applyHorizon},
                                             {"inheritviewpoint", "on|off", applyInheritViewpoint},
-                                            {"reverse", "on|off", applyReverse},
+                                            {"edges", "on|off", applyEdges},
                                             {"occlusion", "on|off|auto", applyOcclusion},
                                             {"expiry", "SECONDS", applyExpiry},
                                             {"skirts", "cracks|all", applySkirts},
                                             {"cluster", "replace|keep", applyCluster},
                                             {"heights", "LOW..HIGH", applyHeights},
                                             {"index", "on|off", applyIndex}}};
+
+// The name that edges= had; it is read in stored scenes, too.
+constexpr const char* kOldEdges = "reverse";
 
 std::string usage() {
     std::string text;
@@ -173,6 +179,13 @@ std::string usage() {
 bool applyItem(const std::string& key, const std::string& value, CullOptions& options, std::string& error) {
     for (const KnownItem& item : kItems) {
         if (key == item.key) return item.apply(value, options, error);
+    }
+    if (key == kOldEdges) {
+        static std::atomic<bool> hasSaid{false};
+        if (!hasSaid.exchange(true))
+            OSG_NOTICE << "osgAnalyticBin: the option reverse= is called edges= now; the old name is still read."
+                       << std::endl;
+        return applyEdges(value, options, error);
     }
     error = "unknown parameter \"" + key + "\" (use " + usage() + ")";
     return false;
@@ -204,14 +217,14 @@ HorizonUse CullOptions::effectiveHorizonUse() const noexcept {
     return isForComparison(method) ? HorizonUse::Off : HorizonUse::Declared;
 }
 
-bool CullOptions::effectiveReverse() const noexcept {
-    return reverse.value_or(!isForComparison(method));
+bool CullOptions::effectiveEdges() const noexcept {
+    return edges.value_or(!isForComparison(method));
 }
 
 bool CullOptions::operator==(const CullOptions& other) const noexcept {
     const auto items = [](const CullOptions& o) {
-        return std::tie(o.method, o.growth, o.horizonUse, o.horizon, o.inheritViewpoint, o.reverse, o.occlusion,
-                        o.expiry, o.skirts, o.cluster, o.heights.lower, o.heights.upper, o.index);
+        return std::tie(o.method, o.growth, o.horizonUse, o.horizon, o.inheritViewpoint, o.edges, o.occlusion, o.expiry,
+                        o.skirts, o.cluster, o.heights.lower, o.heights.upper, o.index);
     };
     return items(*this) == items(other);
 }
@@ -219,6 +232,7 @@ bool CullOptions::operator==(const CullOptions& other) const noexcept {
 std::vector<std::string> cullOptionKeys() {
     std::vector<std::string> keys;
     for (const KnownItem& item : kItems) keys.emplace_back(item.key);
+    keys.emplace_back(kOldEdges);
     return keys;
 }
 
@@ -243,7 +257,7 @@ std::string toText(const CullOptions& options) {
     if (options.horizonUse == HorizonUse::Off) text += ",horizon=off";
     if (options.horizonUse == HorizonUse::Given) text += ",horizon=" + numberToText(options.horizon);
     if (options.inheritViewpoint) text += ",inheritviewpoint=on";
-    if (options.reverse) text += *options.reverse ? ",reverse=on" : ",reverse=off";
+    if (options.edges) text += *options.edges ? ",edges=on" : ",edges=off";
     if (options.occlusion != OcclusionUse::Auto)
         text += options.occlusion == OcclusionUse::On ? ",occlusion=on" : ",occlusion=off";
     if (options.expiry != CullOptions::kDefaultExpiry) text += ",expiry=" + numberToText(options.expiry);

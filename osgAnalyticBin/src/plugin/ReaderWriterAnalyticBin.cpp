@@ -66,7 +66,7 @@ public:
         supportsOption("inheritviewpoint=on|off",
                        "The horizon also for cameras that inherit a view point (shadow passes); default off.");
         supportsOption(
-            "reverse=on|off",
+            "edges=on|off",
             "Tests tiles across an edge of the frustum against the edge too; default on, for comparison off.");
         supportsOption("occlusion=on|off|auto",
                        "Culls tiles behind terrain, on whole globes where the near plane is fixed; auto: while that "

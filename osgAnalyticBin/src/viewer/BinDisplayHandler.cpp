@@ -20,8 +20,8 @@ namespace osgAnalyticBin {
 namespace {
 
 constexpr float kFaceAlpha = 0.22F;
-constexpr std::array<TileVerdict, 6> kVerdicts{TileVerdict::Inside, TileVerdict::Straddling,    TileVerdict::Outside,
-                                               TileVerdict::Hidden, TileVerdict::ReverseCulled, TileVerdict::Occluded};
+constexpr std::array<TileVerdict, 6> kVerdicts{TileVerdict::Inside, TileVerdict::Straddling, TileVerdict::Outside,
+                                               TileVerdict::Hidden, TileVerdict::BeyondEdge, TileVerdict::Occluded};
 const osg::Vec4 kQuadraticColour(1.0F, 1.0F, 1.0F, 1.0F);
 const osg::Vec4 kTextColour(0.9F, 0.9F, 0.9F, 1.0F);
 
@@ -51,7 +51,7 @@ osg::Vec4 verdictColour(TileVerdict verdict) {
             return {0.3F, 1.0F, 0.35F, 1.0F};
         case TileVerdict::Hidden:
             return {0.35F, 0.6F, 1.0F, 1.0F};
-        case TileVerdict::ReverseCulled:
+        case TileVerdict::BeyondEdge:
             return {1.0F, 0.35F, 1.0F, 1.0F};
         case TileVerdict::Occluded:
             return {0.75F, 0.55F, 0.35F, 1.0F};
@@ -69,7 +69,7 @@ const char* verdictName(TileVerdict verdict) {
             return "inside";
         case TileVerdict::Hidden:
             return "behind the horizon";
-        case TileVerdict::ReverseCulled:
+        case TileVerdict::BeyondEdge:
             return "beyond an edge";
         case TileVerdict::Occluded:
             return "behind terrain";

@@ -28,7 +28,7 @@ const std::array<Line, 6> kLines{{{"tested", {0.8F, 0.8F, 0.8F, 1.0F}, &TileCoun
                                   {"kept", {1.0F, 0.85F, 0.15F, 1.0F}, &TileCounts::kept},
                                   {"drawn", {0.3F, 1.0F, 0.35F, 1.0F}, &TileCounts::drawn},
                                   {"hidden", {0.35F, 0.6F, 1.0F, 1.0F}, &TileCounts::hidden},
-                                  {"beyond an edge", {1.0F, 0.35F, 1.0F, 1.0F}, &TileCounts::reverseCulled},
+                                  {"beyond an edge", {1.0F, 0.35F, 1.0F, 1.0F}, &TileCounts::beyondEdge},
                                   {"behind terrain", {0.75F, 0.55F, 0.35F, 1.0F}, &TileCounts::occluded}}};
 
 std::string attributeName(unsigned int camera, const Line& line) {
@@ -44,7 +44,7 @@ TileCounts countsOf(osg::Camera& camera, osg::FrameStamp& frameStamp) {
     counts.tested = bins.tested;
     counts.kept = bins.tested - bins.outside;
     counts.hidden = bins.hidden;
-    counts.reverseCulled = bins.separated;
+    counts.beyondEdge = bins.beyondEdge;
     counts.occluded = bins.occluded;
     return counts;
 }

@@ -139,12 +139,12 @@ private:
         if (!tile.hasBin) return;
         const auto grew = [&](std::uint32_t BinCounts::*counter) { return now.*counter != before.*counter; };
         tile.isCulled = grew(&BinCounts::outside);
-        tile.verdict = grew(&BinCounts::hidden)      ? TileVerdict::Hidden
-                       : grew(&BinCounts::separated) ? TileVerdict::ReverseCulled
-                       : grew(&BinCounts::occluded)  ? TileVerdict::Occluded
-                       : grew(&BinCounts::outside)   ? TileVerdict::Outside
-                       : grew(&BinCounts::inside)    ? TileVerdict::Inside
-                                                     : TileVerdict::Straddling;
+        tile.verdict = grew(&BinCounts::hidden)       ? TileVerdict::Hidden
+                       : grew(&BinCounts::beyondEdge) ? TileVerdict::BeyondEdge
+                       : grew(&BinCounts::occluded)   ? TileVerdict::Occluded
+                       : grew(&BinCounts::outside)    ? TileVerdict::Outside
+                       : grew(&BinCounts::inside)     ? TileVerdict::Inside
+                                                      : TileVerdict::Straddling;
     }
 
     // From the frame of a node's children.
@@ -195,7 +195,7 @@ TileCounts TileSurvey::counts() const {
         if (!tile.isCulled) ++counts.kept;
         if (tile.isDrawn) ++counts.drawn;
         if (tile.hasBin && tile.verdict == TileVerdict::Hidden) ++counts.hidden;
-        if (tile.hasBin && tile.verdict == TileVerdict::ReverseCulled) ++counts.reverseCulled;
+        if (tile.hasBin && tile.verdict == TileVerdict::BeyondEdge) ++counts.beyondEdge;
         if (tile.hasBin && tile.verdict == TileVerdict::Occluded) ++counts.occluded;
     }
     return counts;

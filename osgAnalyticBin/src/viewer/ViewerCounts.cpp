@@ -19,7 +19,7 @@ void add(const BinCounts& some, BinCounts& sum) {
     sum.inside += some.inside;
     sum.straddling += some.straddling;
     sum.hidden += some.hidden;
-    sum.separated += some.separated;
+    sum.beyondEdge += some.beyondEdge;
     sum.occluded += some.occluded;
 }
 

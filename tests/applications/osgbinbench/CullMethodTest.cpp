@@ -33,6 +33,14 @@ CullOptions optionsOf(const std::string& method, const std::string& binOptions =
     return options.value_or(CullOptions());
 }
 
+TEST(CullMethod, ReadsNamesAsTheyWereSpelt) {
+    const auto methods = cullMethodsFromNames({"orientedBox+horizon+reverse", "exact+reverse"});
+    ASSERT_EQ(methods.size(), 3u);
+    EXPECT_EQ(methods[1].name, "orientedbox+horizon+edges");
+    EXPECT_TRUE(methods[1].usesEdges);
+    EXPECT_EQ(methods[2].name, "exact+edges");
+}
+
 TEST(CullMethod, FliesTheReferenceFirstAndEveryMethodOnce) {
     const std::vector<std::string> names{"none", "cluster", "exact", "exact+horizon"};
     EXPECT_EQ(namesOf(cullMethodsFromNames({"cluster", "exact", "none", "cluster", "exact+horizon"})), names);
@@ -43,14 +51,14 @@ TEST(CullMethod, AllStandsForWhatIsWorthComparing) {
     EXPECT_EQ(names.size(), 20U);
     EXPECT_EQ(names[0], "none");
     EXPECT_EQ(names[1], "exact") << "each once, in the order given";
-    for (const char* const name : {"sphere", "cluster", "box", "orientedBox+horizon+reverse", "exact+horizon+reverse",
-                                   "exact+horizon+reverse+occlusion"})
+    for (const char* const name : {"sphere", "cluster", "box", "orientedbox+horizon+edges", "exact+horizon+edges",
+                                   "exact+horizon+edges+occlusion"})
         EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
 }
 
 TEST(CullMethod, TheOracleComesAfterWhatItRepeats) {
-    const std::vector<std::string> names{"none", "exact+horizon+reverse", "oracle", "sphere"};
-    const std::vector<CullMethod> methods = cullMethodsFromNames({"oracle", "sphere", "exact+horizon+reverse"});
+    const std::vector<std::string> names{"none", "exact+horizon+edges", "oracle", "sphere"};
+    const std::vector<CullMethod> methods = cullMethodsFromNames({"oracle", "sphere", "exact+horizon+edges"});
     EXPECT_EQ(namesOf(methods), names);
     EXPECT_TRUE(methods[2].replaysVerdicts);
     EXPECT_FALSE(methods[1].replaysVerdicts);
@@ -66,48 +74,48 @@ TEST(CullMethod, KnowsWhatBecomesOfTheClusterCallbacks) {
 }
 
 TEST(CullMethod, PlainNamesCullByPlanesAlone) {
-    for (const char* const name : {"box", "orientedBox", "corners", "paper", "quadratic", "exact"}) {
+    for (const char* const name : {"box", "orientedbox", "corners", "paper", "quadratic", "exact"}) {
         const CullOptions plain = optionsOf(name, "horizon=-5");
         EXPECT_EQ(plain.effectiveHorizonUse(), HorizonUse::Off) << name;
-        EXPECT_FALSE(plain.effectiveReverse()) << name;
+        EXPECT_FALSE(plain.effectiveEdges()) << name;
         const CullOptions horizon = optionsOf(std::string(name) + "+horizon");
         EXPECT_EQ(horizon.effectiveHorizonUse(), HorizonUse::Declared) << name;
-        EXPECT_FALSE(horizon.effectiveReverse()) << name;
-        const CullOptions reverse = optionsOf(std::string(name) + "+reverse");
+        EXPECT_FALSE(horizon.effectiveEdges()) << name;
+        const CullOptions reverse = optionsOf(std::string(name) + "+edges");
         EXPECT_EQ(reverse.effectiveHorizonUse(), HorizonUse::Off) << name;
-        EXPECT_TRUE(reverse.effectiveReverse()) << name;
-        const CullOptions both = optionsOf(std::string(name) + "+horizon+reverse", "horizon=-5,skirts=all");
+        EXPECT_TRUE(reverse.effectiveEdges()) << name;
+        const CullOptions both = optionsOf(std::string(name) + "+horizon+edges", "horizon=-5,skirts=all");
         EXPECT_EQ(both.effectiveHorizonUse(), HorizonUse::Given) << name;
         EXPECT_EQ(both.horizon, -5.0) << name;
         EXPECT_EQ(both.skirts, SkirtUse::All) << name;
-        EXPECT_TRUE(both.effectiveReverse()) << name;
+        EXPECT_TRUE(both.effectiveEdges()) << name;
     }
-    EXPECT_EQ(optionsOf("orientedBox").method, Method::OrientedBox);
+    EXPECT_EQ(optionsOf("orientedbox").method, Method::OrientedBox);
     EXPECT_EQ(optionsOf("exact+horizon").method, Method::Exact);
 }
 
 TEST(CullMethod, TerrainHidesTerrainOnlyWhereItIsNamed) {
-    EXPECT_EQ(optionsOf("exact+horizon+reverse").occlusion, OcclusionUse::Off);
-    for (const char* const name : {"exact+horizon+reverse+occlusion", "quadratic+horizon+occlusion"}) {
+    EXPECT_EQ(optionsOf("exact+horizon+edges").occlusion, OcclusionUse::Off);
+    for (const char* const name : {"exact+horizon+edges+occlusion", "quadratic+horizon+occlusion"}) {
         EXPECT_EQ(optionsOf(name).occlusion, OcclusionUse::On) << name;
         EXPECT_EQ(optionsOf(name).effectiveHorizonUse(), HorizonUse::Declared) << name;
     }
-    EXPECT_TRUE(optionsOf("exact+horizon+reverse+occlusion").effectiveReverse());
-    EXPECT_FALSE(optionsOf("exact+horizon+occlusion").effectiveReverse());
+    EXPECT_TRUE(optionsOf("exact+horizon+edges+occlusion").effectiveEdges());
+    EXPECT_FALSE(optionsOf("exact+horizon+occlusion").effectiveEdges());
 }
 
 TEST(CullMethod, NamesThePseudoLoader) {
-    EXPECT_EQ(cullMethodFromName("exact+horizon+reverse").sceneName("a/earth.osgb", "skirts=all"),
-              "a/earth.osgb.(method=exact,horizon=declared,skirts=all,reverse=on,occlusion=off).analyticbin");
+    EXPECT_EQ(cullMethodFromName("exact+horizon+edges").sceneName("a/earth.osgb", "skirts=all"),
+              "a/earth.osgb.(method=exact,horizon=declared,skirts=all,edges=on,occlusion=off).analyticbin");
     EXPECT_EQ(cullMethodFromName("cluster").sceneName("earth.osgb", "horizon=-5"),
               "earth.osgb.(method=sphere).analyticbin");
 }
 
 TEST(CullMethod, RefusesWhatIsUnknownOrMakesNoSense) {
     for (const char* const name :
-         {"spheres", "sphere+horizon", "none+reverse", "cluster+horizon", "oracle+horizon", "orientedbox",
-          "exact+reverse+horizon", "exact+horizon+horizon", "exact+", "+horizon", "", "exact+occlusion",
-          "exact+reverse+occlusion", "box+horizon+occlusion", "exact+horizon+occlusion+reverse", "sphere+occlusion"})
+         {"spheres", "sphere+horizon", "none+edges", "cluster+horizon", "oracle+horizon", "orientedboxes",
+          "exact+edges+horizon", "exact+horizon+horizon", "exact+", "+horizon", "", "exact+occlusion",
+          "exact+edges+occlusion", "box+horizon+occlusion", "exact+horizon+occlusion+edges", "sphere+occlusion"})
         EXPECT_THROW((void)cullMethodFromName(name), Failure) << name;
 }
 

@@ -37,7 +37,7 @@ TEST(Errors, OfTheCommandLineNameTheOption) {
     expectUsageError(test::runBenchBlind(good + " --methods sphere,cube"), "unknown method \"cube\"");
     expectUsageError(test::runBenchBlind(good + " --methods sphere+horizon"), "unknown method \"sphere+horizon\"");
     expectUsageError(test::runBenchBlind(good + " --options horizon=off"), "--options: leave +horizon out");
-    expectUsageError(test::runBenchBlind(good + " --options reverse=off"), "--options: name methods with or without");
+    expectUsageError(test::runBenchBlind(good + " --options edges=off"), "--options: name methods with or without");
     expectUsageError(test::runBenchBlind(good + " --options occlusion=on"), "--options: name methods with +occlusion");
     expectUsageError(test::runBenchBlind(good + " --size 640"), "--size: \"640\"");
     expectUsageError(test::runBenchBlind(good + " --size 640x480x3"), "--size: ");
@@ -81,7 +81,7 @@ TEST(Errors, HelpExplainsEveryColumnAndGivesAnExample) {
     const Outcome outcome = test::runBenchBlind("--help");
     EXPECT_EQ(outcome.code, 0);
     for (const char* const word : {"false_culls", "cull_ms", "cull_cold_ms", "degrees and metres",
-                                   "Example:", "--vertical-scale", "exact+horizon+reverse"})
+                                   "Example:", "--vertical-scale", "exact+horizon+edges"})
         EXPECT_GE(outcome.linesWith(word), 1) << word;
 }
 

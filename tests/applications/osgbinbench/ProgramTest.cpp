@@ -88,10 +88,10 @@ TEST(Program, JudgesEveryMethodByTheReference) {
     if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
-    const Json methods = bench.run(
-        "sums",
-        "--live 0 --methods sphere,cluster,box,orientedBox,orientedBox+horizon+reverse,corners,corners+horizon,"
-        "quadratic,quadratic+horizon,exact,exact+horizon+reverse,oracle --options horizon=-6000");
+    const Json methods =
+        bench.run("sums",
+                  "--live 0 --methods sphere,cluster,box,orientedbox,orientedbox+horizon+edges,corners,corners+horizon,"
+                  "quadratic,quadratic+horizon,exact,exact+horizon+edges,oracle --options horizon=-6000");
     ASSERT_TRUE(methods.contains("none"));
     const Json& none = methods["none"];
     EXPECT_GT(none["visible_tiles"], 0);
@@ -102,8 +102,8 @@ TEST(Program, JudgesEveryMethodByTheReference) {
     EXPECT_EQ(none["tested_tiles"], none["kept_tiles"]);
     EXPECT_EQ(none["drawn_tiles"].get<int>(), none["false_keeps"].get<int>() + none["truth_tiles"].get<int>());
     EXPECT_EQ(none["triangles"], none["drawn_tiles"].get<int>() * 512);
-    for (const char* const sound : {"none", "sphere", "box", "orientedBox", "orientedBox+horizon+reverse", "quadratic",
-                                    "quadratic+horizon", "exact", "exact+horizon+reverse", "oracle"}) {
+    for (const char* const sound : {"none", "sphere", "box", "orientedbox", "orientedbox+horizon+edges", "quadratic",
+                                    "quadratic+horizon", "exact", "exact+horizon+edges", "oracle"}) {
         EXPECT_EQ(methods[sound]["false_culls"], 0) << sound;
         EXPECT_EQ(methods[sound]["differing_pixels"], 0) << sound;
         EXPECT_GT(methods[sound]["files_requested"], 0) << sound;
@@ -114,15 +114,15 @@ TEST(Program, JudgesEveryMethodByTheReference) {
     const auto drawn = [&](const char* name) { return methods[name]["drawn_tiles"].get<int>(); };
     EXPECT_LT(drawn("sphere"), drawn("none"));
     EXPECT_LT(drawn("quadratic"), drawn("sphere"));
-    EXPECT_LE(drawn("exact"), drawn("orientedBox"));
-    EXPECT_LT(drawn("orientedBox"), drawn("box"));
+    EXPECT_LE(drawn("exact"), drawn("orientedbox"));
+    EXPECT_LT(drawn("orientedbox"), drawn("box"));
     EXPECT_LT(drawn("quadratic+horizon"), drawn("quadratic"));
     EXPECT_LT(drawn("corners+horizon"), drawn("corners"));
-    EXPECT_LT(drawn("orientedBox+horizon+reverse"), drawn("orientedBox"));
-    EXPECT_LT(drawn("exact+horizon+reverse"), drawn("exact"));
-    EXPECT_EQ(drawn("oracle"), drawn("exact+horizon+reverse"));
+    EXPECT_LT(drawn("orientedbox+horizon+edges"), drawn("orientedbox"));
+    EXPECT_LT(drawn("exact+horizon+edges"), drawn("exact"));
+    EXPECT_EQ(drawn("oracle"), drawn("exact+horizon+edges"));
     // A tile that is kept for nothing, as all tiles of its page are culled, is reached, but its page is not.
-    EXPECT_EQ(methods["oracle"]["tested_tiles"], methods["exact+horizon+reverse"]["kept_tiles"]);
+    EXPECT_EQ(methods["oracle"]["tested_tiles"], methods["exact+horizon+edges"]["kept_tiles"]);
     // The callbacks that the database lacks are made: they cull what is behind the horizon.
     EXPECT_LT(drawn("cluster"), drawn("sphere"));
     EXPECT_LT(methods["quadratic+horizon"]["paged_lods"], methods["sphere"]["paged_lods"]);
@@ -182,7 +182,7 @@ TEST(Program, LeavesTheOracleOutOfFlights) {
     EXPECT_EQ(outcome.code, 0) << outcome.text;
     EXPECT_EQ(outcome.linesWith("oracle does not fly"), 1) << outcome.text;
     const Json methods = test::jsonFile(json)["methods"];
-    EXPECT_TRUE(methods.contains("exact+horizon+reverse"));
+    EXPECT_TRUE(methods.contains("exact+horizon+edges"));
     EXPECT_FALSE(methods.contains("oracle"));
 }
 

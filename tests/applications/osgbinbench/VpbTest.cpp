@@ -101,13 +101,13 @@ TEST_P(VpbPictures, WithBinsAreThoseWithoutCulling) {
     const std::string file = folder / "sums.json";
     const std::string path = folder.write("p.csv", shortPath(GetParam().scale));
     const test::Outcome outcome = test::runBench(
-        test::quoted(database) + " --path " + test::quoted(path) + " --methods exact+horizon+reverse --size 480x270" +
+        test::quoted(database) + " --path " + test::quoted(path) + " --methods exact+horizon+edges --size 480x270" +
         " --repeats 1 --flush 0 --live 0 --threading " + GetParam().threading + " --vertical-scale " +
         std::to_string(GetParam().scale) + " --json " + test::quoted(file));
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     const nlohmann::json sums = test::jsonFile(file);
     EXPECT_GE(sums["poses"], 24);
-    const nlohmann::json& exact = sums["methods"]["exact+horizon+reverse"];
+    const nlohmann::json& exact = sums["methods"]["exact+horizon+edges"];
     EXPECT_EQ(exact["differing_pixels"], 0);
     EXPECT_EQ(exact["false_culls"], 0);
     EXPECT_LT(exact["drawn_tiles"].get<double>(), 0.1 * sums["methods"]["none"]["drawn_tiles"].get<double>());
@@ -135,15 +135,15 @@ TEST(VpbExaggerated, ClusterCallbacksCullWhatIsSeenAndBinsDoNot) {
     const std::string file = folder / "sums.json";
     const test::Outcome outcome =
         test::runBench(test::quoted(database) + " --path " + test::quoted(VPB_EXAGGERATED_PATH_FILE) +
-                       " --vertical-scale 10 --methods cluster,exact+horizon+reverse --size 640x360 --repeats 1 "
+                       " --vertical-scale 10 --methods cluster,exact+horizon+edges --size 640x360 --repeats 1 "
                        "--flush 0 --live 0 --json " +
                        test::quoted(file));
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     const nlohmann::json methods = test::jsonFile(file)["methods"];
     EXPECT_GE(methods["cluster"]["false_culls"], 5);
     EXPECT_GE(methods["cluster"]["differing_pixels"], 500);
-    EXPECT_EQ(methods["exact+horizon+reverse"]["false_culls"], 0);
-    EXPECT_EQ(methods["exact+horizon+reverse"]["differing_pixels"], 0);
+    EXPECT_EQ(methods["exact+horizon+edges"]["false_culls"], 0);
+    EXPECT_EQ(methods["exact+horizon+edges"]["differing_pixels"], 0);
 }
 
 TEST(VpbPath, HasPosesOfEveryKind) {

@@ -57,7 +57,7 @@ TEST(GlobePlugin, SaysWhatIsWrong) {
 TEST(ScaleProgram, WritesWhatItMeasured) {
     const TemporaryFolder folder;
     const Outcome outcome = runScale(
-        "--levels 2,4 --methods none,sphere,exact+horizon+reverse --residents 1,600 --memory-tiles 40 --poses 3 "
+        "--levels 2,4 --methods none,sphere,exact+horizon+edges --residents 1,600 --memory-tiles 40 --poses 3 "
         "--cells 4 --rounds 1 --json " +
         test::quoted(folder / "scale.json") + " --csv " + test::quoted(folder / "scale.csv"));
     ASSERT_EQ(outcome.code, 0) << outcome.text;

@@ -19,12 +19,12 @@ namespace osgAnalyticBin {
 
 /// The verdict of a cull traversal on a tile.
 enum class TileVerdict {
-    Outside,        ///< outside a plane of the frustum, too small, or behind an occluder
-    Straddling,     ///< of the frustum's planes some are undecided
-    Inside,         ///< inside all planes
-    Hidden,         ///< behind the horizon
-    ReverseCulled,  ///< beyond an edge of the frustum, though outside no single plane
-    Occluded        ///< behind terrain
+    Outside,     ///< outside a plane of the frustum, too small, or behind an occluder
+    Straddling,  ///< of the frustum's planes some are undecided
+    Inside,      ///< inside all planes
+    Hidden,      ///< behind the horizon
+    BeyondEdge,  ///< beyond an edge of the frustum, though outside no single plane
+    Occluded     ///< behind terrain
 };
 
 /// A tile that a camera's cull traversal reached.
@@ -43,12 +43,12 @@ struct SurveyedTile {
 
 /// Numbers of tiles that a camera's cull traversal reached, by result.
 struct TileCounts {
-    std::size_t tested = 0;         ///< all that it came to
-    std::size_t kept = 0;           ///< of these, that it went into
-    std::size_t drawn = 0;          ///< of those kept, with a mesh of their own drawn
-    std::size_t hidden = 0;         ///< of those not kept
-    std::size_t reverseCulled = 0;  ///< of those not kept
-    std::size_t occluded = 0;       ///< of those not kept: behind terrain
+    std::size_t tested = 0;      ///< all that it came to
+    std::size_t kept = 0;        ///< of these, that it went into
+    std::size_t drawn = 0;       ///< of those kept, with a mesh of their own drawn
+    std::size_t hidden = 0;      ///< of those not kept
+    std::size_t beyondEdge = 0;  ///< of those not kept
+    std::size_t occluded = 0;    ///< of those not kept: behind terrain
 };
 
 /// Runs one more cull traversal of a camera's scene by the camera's culling view. It draws nothing and requests no

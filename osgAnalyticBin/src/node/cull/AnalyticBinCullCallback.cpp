@@ -146,7 +146,7 @@ void AnalyticBinCullCallback::changeBin() {
     _binHigh = shown.valid() ? shown.bin().altitude().upper + shown.margin() : -kUnknown;
     const bool hasMethod = _setup->options.method != Method::None && _setup->options.method != Method::Sphere;
     _isTested = hasMethod && shown.valid() && areValidRadii(_setup->equatorialRadius, _setup->polarRadius);
-    _testsEdges = _setup->options.effectiveReverse();
+    _testsEdges = _setup->options.effectiveEdges();
     _hidesByPoint = isBox(_setup->options.method);
     discardPrepared();
     fillSlot();
@@ -252,7 +252,7 @@ const osg::BoundingSphere* AnalyticBinCullCallback::ecefColumnSphere() const {
 }
 
 void AnalyticBinCullCallback::setCullOptions(const CullOptions& options) {
-    if (options.effectiveReverse() != _testsEdges) leaveFamily();
+    if (options.effectiveEdges() != _testsEdges) leaveFamily();
     changeSetup([&](Setup& setup) { setup.options = options; });
     changeBin();
 }

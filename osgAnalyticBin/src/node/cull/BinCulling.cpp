@@ -28,7 +28,7 @@ void count(CullTraversal& traversal, const osg::NodeVisitor& nv, const Verdict& 
     if (nv.getVisitorType() != osg::NodeVisitor::CULL_VISITOR) return;
     traversal.count(culled ? core::Side::Outside : verdict.side, nv.getTraversalNumber());
     if (verdict.reason == Verdict::Horizon) traversal.countHidden();
-    if (verdict.reason == Verdict::Edge) traversal.countSeparated();
+    if (verdict.reason == Verdict::Edge) traversal.countBeyondEdge();
     if (verdict.reason == Verdict::Terrain) traversal.countOccluded();
 }
 

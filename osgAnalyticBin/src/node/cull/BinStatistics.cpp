@@ -57,7 +57,7 @@ void BinStatistics::add(const BinCounts& counts) noexcept {
     increment(_inside, counts.inside);
     increment(_straddling, counts.straddling);
     increment(_hidden, counts.hidden);
-    increment(_separated, counts.separated);
+    increment(_beyondEdge, counts.beyondEdge);
     increment(_occluded, counts.occluded);
 }
 
@@ -80,8 +80,8 @@ void BinStatistics::countHidden() noexcept {
     increment(_hidden);
 }
 
-void BinStatistics::countSeparated() noexcept {
-    increment(_separated);
+void BinStatistics::countBeyondEdge() noexcept {
+    increment(_beyondEdge);
 }
 
 void BinStatistics::countOccluded() noexcept {
@@ -91,7 +91,7 @@ void BinStatistics::countOccluded() noexcept {
 void BinStatistics::reset() noexcept {
     _occluded.store(0, std::memory_order_relaxed);
     _hidden.store(0, std::memory_order_relaxed);
-    _separated.store(0, std::memory_order_relaxed);
+    _beyondEdge.store(0, std::memory_order_relaxed);
     _outside.store(0, std::memory_order_relaxed);
     _inside.store(0, std::memory_order_relaxed);
     _straddling.store(0, std::memory_order_relaxed);
@@ -103,7 +103,7 @@ BinCounts BinStatistics::getCounts() const noexcept {
     counts.inside = _inside.load(std::memory_order_relaxed);
     counts.straddling = _straddling.load(std::memory_order_relaxed);
     counts.hidden = _hidden.load(std::memory_order_relaxed);
-    counts.separated = _separated.load(std::memory_order_relaxed);
+    counts.beyondEdge = _beyondEdge.load(std::memory_order_relaxed);
     counts.occluded = _occluded.load(std::memory_order_relaxed);
     counts.tested = counts.outside + counts.inside + counts.straddling;
     counts.frame = _frame.load(std::memory_order_relaxed);

@@ -32,7 +32,7 @@ bool PlanarBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cull
     return isCulledByBin(cullStack, nv, traversal, _sphere, [&](const osg::Polytope&, core::PlaneMask& undecided) {
         const core::PlaneSet& planes = traversal.planes(cullStack);
         const core::Side side = _bin.classify(planes, undecided);
-        const bool isSeparated = side == core::Side::Straddling && _options.reverse.value_or(true) &&
+        const bool isSeparated = side == core::Side::Straddling && _options.edges.value_or(true) &&
                                  core::isSeparated(_bin, planes, planes.size(), undecided);
         return isSeparated ? Verdict{core::Side::Outside, Verdict::Edge} : Verdict{side, Verdict::Plane};
     });

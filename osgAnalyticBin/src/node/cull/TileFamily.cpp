@@ -224,7 +224,7 @@ std::uint64_t TileFamily::culled(unsigned int first, const Verdicts& verdicts, c
         counts.inside = countBits(inside & ~culled);
         counts.straddling = countBits(verdicts.members & ~culled & ~inside);
         counts.hidden = countBits(hidden);
-        counts.separated = countBits(separated);
+        counts.beyondEdge = countBits(separated);
         counts.occluded = countBits(verdicts.members & verdicts.occluded);
         counts.frame = nv.getTraversalNumber();
         traversal.add(counts);
