@@ -292,8 +292,7 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database().ellipsoid();
     const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);
     osg::Node& culled = culledNode(tile, _isReading);
-    const osg::Matrixd localToEcef = culledFrame(tile, culled);
-    if (!localToEcef.isIdentity()) callback->setLocalToEcef(localToEcef);
+    if (const osg::Matrixd frame = culledFrame(tile, culled); !frame.isIdentity()) callback->setLocalToEcef(frame);
     if (fit.isScalable) callback->setTerrainShape(shape);
     if (fit.skirt > 0.0) callback->setSkirt(fit.skirt);
     callback->setSurface(fit.surface);
