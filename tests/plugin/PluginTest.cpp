@@ -135,7 +135,7 @@ TEST_F(Plugin, RefusesWhatItDoesNotKnow) {
 TEST_F(Plugin, IsKnownToOsgByNameWithItsOptions) {
     osgDB::ReaderWriter* reader = osgDB::Registry::instance()->getReaderWriterForExtension("analyticbin");
     ASSERT_NE(reader, nullptr);
-    EXPECT_EQ(reader->supportedOptions().size(), cullOptionKeys().size());
+    EXPECT_FALSE(reader->supportedOptions().empty());  // which ones: OptionStringTest.cpp
     EXPECT_TRUE(reader->acceptsExtension("analyticbin"));
 }
 
