@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <support/StockPrograms.h>
 #include <support/TemporaryFolder.h>
@@ -32,31 +33,43 @@ Outcome runStock(const std::string& command, Modules modules, const std::string&
     }
     const TemporaryFolder folder;
     const std::string log = folder / "log.txt";
+    const int status = std::system((line + ' ' + command + " >" + quoted(log) + " 2>&1").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOfFile(log)};
+}
+
+bool hasDisplay() {
+    return std::filesystem::exists(XVFB_RUN_FILE);
+}
+
+Outcome runOnDisplay(const std::string& command, int seconds, const std::string& environment) {
+    const TemporaryFolder folder;
+    const std::string code = folder / "code.txt";
+    const std::string script = folder.write("run.sh", "timeout " + std::to_string(seconds) + " env " + environment +
+                                                          ' ' + command + "\necho $? >" + quoted(code));
+    // display numbers by process, so that tests may run side by side
+    const std::string display = quoted(XVFB_RUN_FILE) + " -a -n " + std::to_string(100 + getpid() % 5000) +
+                                " -s '-screen 0 640x480x24' sh " + quoted(script);
     Outcome outcome;
-    // xvfb-run itself may fail, where several displays come and go at once.
-    for (int attempt = 0; attempt < 3; ++attempt) {
-        const int status = std::system((line + ' ' + command + " >" + quoted(log) + " 2>&1").c_str());
-        outcome = {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOfFile(log)};
-        if (outcome.linesWith("xvfb-run: error") == 0) break;
+    // xvfb-run may fail before the program starts and after it has ended, where several displays come and go at once.
+    for (int attempt = 0; attempt < 3 && !std::filesystem::exists(code); ++attempt) {
+        outcome = runStock(display, Modules::Absent, "LIBGL_ALWAYS_SOFTWARE=1 ASAN_OPTIONS=detect_leaks=0");
     }
+    std::ifstream(code) >> outcome.code;
     return outcome;
 }
 
 bool canRunViewer() {
-    return std::filesystem::exists(XVFB_RUN_FILE) && std::filesystem::exists(OSGVIEWER_FILE);
+    return hasDisplay() && std::filesystem::exists(OSGVIEWER_FILE);
 }
 
 Outcome runViewer(const std::string& arguments, Modules modules, const std::string& environment) {
-    // display numbers by process, so that tests may run side by side; the preload is not for the display
-    const std::string display = quoted(XVFB_RUN_FILE) + " -a -n " + std::to_string(100 + getpid() % 5000) +
-                                " -s '-screen 0 640x480x24' timeout 120 env ";
-    const std::string preload =
-        modules == Modules::Present && *PRELOAD_FILE ? "LD_PRELOAD=" + quoted(PRELOAD_FILE) + ' ' : std::string();
-    const std::string own =
-        "OSG_WINDOW='0 0 320 240' LIBGL_ALWAYS_SOFTWARE=1 ASAN_OPTIONS=detect_leaks=0 " + environment;
-    const std::string path =
-        modules == Modules::Present ? " OSG_LIBRARY_PATH=" + quoted(LIBRARY_FOLDER) : std::string();
-    return runStock(display + preload + quoted(OSGVIEWER_FILE) + ' ' + arguments, Modules::Absent, own + path);
+    constexpr int kMostSeconds = 120;
+    std::string own = "OSG_WINDOW='0 0 320 240' " + environment;
+    if (modules == Modules::Present) {
+        own += " OSG_LIBRARY_PATH=" + quoted(LIBRARY_FOLDER);
+        if (*PRELOAD_FILE) own += " LD_PRELOAD=" + quoted(PRELOAD_FILE);
+    }
+    return runOnDisplay(quoted(OSGVIEWER_FILE) + ' ' + arguments, kMostSeconds, own);
 }
 
 Outcome runOsgconv(const std::string& arguments, Modules modules) {

@@ -24,6 +24,13 @@ struct Outcome {
 /// Runs a shell command with a clean plugin path. `environment`: more assignments, parted by blanks.
 [[nodiscard]] Outcome runStock(const std::string& command, Modules modules, const std::string& environment = {});
 
+/// Whether programs can be run on a virtual display.
+[[nodiscard]] bool hasDisplay();
+
+/// Runs a shell command on a virtual display of its own, for `seconds` at most. The outcome is the command's, not that
+/// of the program that makes the display.
+[[nodiscard]] Outcome runOnDisplay(const std::string& command, int seconds, const std::string& environment = {});
+
 [[nodiscard]] bool canRunViewer();
 
 /// Runs the stock osgviewer on a virtual display, for two minutes at most.

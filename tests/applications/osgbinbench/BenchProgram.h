@@ -9,8 +9,6 @@
 
 namespace osgAnalyticBin::test {
 
-[[nodiscard]] bool canRunBench();
-
 /// Runs osgbinbench on a virtual display, for five minutes at most.
 [[nodiscard]] Outcome runBench(const std::string& arguments);
 

@@ -65,7 +65,7 @@ TEST(Errors, SayThatThereIsNoDisplay) {
 }
 
 TEST(Errors, OfTheDatabaseLeaveNoTable) {
-    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     const TemporaryFolder folder;
     const std::string path = test::quoted(folder.write("p.csv", kOnePose));
     const std::string csv = folder / "poses.csv";

@@ -71,7 +71,7 @@ std::vector<std::string> countsOf(const std::string& file) {
 }
 
 TEST(Program, CountsTheSameInEveryRunAndThreadingModel) {
-    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
     const Json first = withoutTimes(bench.run("first", "--live 0"));
@@ -85,7 +85,7 @@ TEST(Program, CountsTheSameInEveryRunAndThreadingModel) {
 }
 
 TEST(Program, JudgesEveryMethodByTheReference) {
-    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
     const Json methods =
@@ -133,7 +133,7 @@ TEST(Program, JudgesEveryMethodByTheReference) {
 }
 
 TEST(Program, SavesAPictureForEachPoseAndMethod) {
-    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
     const Json methods = bench.run(
@@ -146,7 +146,7 @@ TEST(Program, SavesAPictureForEachPoseAndMethod) {
 }
 
 TEST(Program, FliesContinuously) {
-    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
     const Json methods = bench.run("flight", "--frames 30 --frame-rate 15 --methods sphere,exact");
@@ -159,7 +159,7 @@ TEST(Program, FliesContinuously) {
 }
 
 TEST(Program, KeepsTilesInFlightAsLongAsItIsTold) {
-    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
     const std::string flight = "--frames 30 --frame-rate 15 --methods sphere,exact ";
@@ -173,7 +173,7 @@ TEST(Program, KeepsTilesInFlightAsLongAsItIsTold) {
 }
 
 TEST(Program, LeavesTheOracleOutOfFlights) {
-    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
     const std::string json = bench.folder / "flight.json";
@@ -187,7 +187,7 @@ TEST(Program, LeavesTheOracleOutOfFlights) {
 }
 
 TEST(Program, FliesOnceMoreWithPagingLive) {
-    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     ASSERT_FALSE(bench.database.empty());
     ASSERT_EQ(bench.run("live", "--live 6 --frame-rate 15 --methods sphere,exact").size(), 3U);
@@ -205,7 +205,7 @@ TEST(Program, FliesOnceMoreWithPagingLive) {
 }
 
 TEST(Program, SaysThatOnlyTerrainCanBeScaled) {
-    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
     const Outcome outcome =
         test::runBench(test::quoted(bench.database) + " --path " + test::quoted(bench.path) + " --vertical-scale 2");

@@ -31,7 +31,7 @@ protected:
     void SetUp() override {
         database = std::string(SHARED_DATA) + "/vpb/" + GetParam() + "/earth.osgb";
         if (!std::filesystem::exists(database)) GTEST_SKIP() << "needs " << database;
-        if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+        if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     }
 
     std::string database;
@@ -96,7 +96,7 @@ class VpbPictures : public testing::TestWithParam<PictureCase> {};
 TEST_P(VpbPictures, WithBinsAreThoseWithoutCulling) {
     const std::string database = std::string(SHARED_DATA) + "/vpb/" + GetParam().mode + "/earth.osgb";
     if (!std::filesystem::exists(database)) GTEST_SKIP() << "needs " << database;
-    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     const TemporaryFolder folder;
     const std::string file = folder / "sums.json";
     const std::string path = folder.write("p.csv", shortPath(GetParam().scale));
@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, VpbPictures, testing::ValuesIn(pictureCases()), 
 TEST(VpbExaggerated, ClusterCallbacksCullWhatIsSeenAndBinsDoNot) {
     const std::string database = std::string(SHARED_DATA) + "/vpb/terrain/earth.osgb";
     if (!std::filesystem::exists(database)) GTEST_SKIP() << "needs " << database;
-    if (!test::canRunBench()) GTEST_SKIP() << "needs xvfb-run";
+    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     const TemporaryFolder folder;
     const std::string file = folder / "sums.json";
     const test::Outcome outcome =

@@ -16,7 +16,6 @@
 #include <string>
 #include <support/StockPrograms.h>
 #include <support/TemporaryFolder.h>
-#include <unistd.h>
 
 namespace osgAnalyticBin {
 namespace {
@@ -138,16 +137,14 @@ constexpr const char* kPath =
     "narrow,10,10,200000,14,11,4000,4,10000,4000000\n";
 
 TEST(GlobePictures, AreThoseWithoutCulling) {
-    if (!std::filesystem::exists(XVFB_RUN_FILE)) GTEST_SKIP() << "needs xvfb-run";
+    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     const TemporaryFolder folder;
     const std::string result = folder / "sums.json";
-    const std::string display = test::quoted(XVFB_RUN_FILE) + " -a -n " + std::to_string(100 + getpid() % 5000) +
-                                " -s '-screen 0 640x480x24' timeout 300 ";
-    const Outcome outcome =
-        test::runStock(display + test::quoted(BENCH_FILE) +
-                           " '(levels=5,cells=4).proceduralglobe' --size 320x240 --repeats 1 --path " +
-                           test::quoted(folder.write("path.csv", kPath)) + " --json " + test::quoted(result),
-                       Modules::Absent, std::string("LIBGL_ALWAYS_SOFTWARE=1 ") + kQuiet);
+    constexpr int kMostSeconds = 300;
+    const Outcome outcome = test::runOnDisplay(
+        test::quoted(BENCH_FILE) + " '(levels=5,cells=4).proceduralglobe' --size 320x240 --repeats 1 --path " +
+            test::quoted(folder.write("path.csv", kPath)) + " --json " + test::quoted(result),
+        kMostSeconds);
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     const json methods = jsonFile(result)["methods"];
     ASSERT_GE(methods.size(), 4U);
