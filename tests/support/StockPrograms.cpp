@@ -3,12 +3,10 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <support/StockPrograms.h>
 #include <support/TemporaryFolder.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 namespace osgAnalyticBin::test {
 
@@ -42,20 +40,9 @@ bool hasDisplay() {
 }
 
 Outcome runOnDisplay(const std::string& command, int seconds, const std::string& environment) {
-    const TemporaryFolder folder;
-    const std::string code = folder / "code.txt";
-    const std::string script = folder.write("run.sh", "timeout " + std::to_string(seconds) + " env " + environment +
-                                                          ' ' + command + "\necho $? >" + quoted(code));
-    // display numbers by process, so that tests may run side by side
-    const std::string display = quoted(XVFB_RUN_FILE) + " -a -n " + std::to_string(100 + getpid() % 5000) +
-                                " -s '-screen 0 640x480x24' sh " + quoted(script);
-    Outcome outcome;
-    // xvfb-run may fail before the program starts and after it has ended, where several displays come and go at once.
-    for (int attempt = 0; attempt < 3 && !std::filesystem::exists(code); ++attempt) {
-        outcome = runStock(display, Modules::Absent, "LIBGL_ALWAYS_SOFTWARE=1 ASAN_OPTIONS=detect_leaks=0");
-    }
-    std::ifstream(code) >> outcome.code;
-    return outcome;
+    return runStock(
+        "sh " + quoted(DISPLAY_SCRIPT) + " timeout " + std::to_string(seconds) + " env " + environment + ' ' + command,
+        Modules::Absent, "LIBGL_ALWAYS_SOFTWARE=1 ASAN_OPTIONS=detect_leaks=0");
 }
 
 bool canRunViewer() {
