@@ -263,6 +263,29 @@ TEST(HorizonBuffer, LowersSteepLinesByTheErrorsOfTheirCorners) {
     EXPECT_TRUE(hidesBelowTheLine(1.05 * (1.0 + kSlope) * error));
 }
 
+// Where two depths are equal after rounding, what is drawn first is seen.
+TEST(HorizonBuffer, HidesOnlyWhatADepthBufferTellsFromEarth) {
+    constexpr double kForward = 1000.0, kDepthStep = 1e-5;
+    EarthColumn column;
+    for (std::size_t i = 0; i < 4; ++i) {
+        column.top[i] = pointAt(i % 2 == 0 ? -0.5 : 0.5, 0.5, kForward);
+        column.bottom[i] = pointAt(i % 2 == 0 ? -0.5 : 0.5, -0.5, kForward);
+    }
+    column.error = 1e-6;
+    const auto hides = [&](double forward, double depthStep) {
+        HorizonBuffer buffer(0.0, kAcross, 0.0, depthStep);
+        buffer.add(column);
+        BinHull body;
+        body.corners.fill(pointAt(0.0, 0.0, forward));
+        body.reach = 1e-6;
+        return buffer.hides(buffer.outlineOf(body));
+    };
+    const double farthestEqual = 1.0 / (1.0 / kForward - kDepthStep);
+    EXPECT_TRUE(hides(kForward + 0.001, 0.0));
+    EXPECT_FALSE(hides(farthestEqual - 0.001, kDepthStep));
+    EXPECT_TRUE(hides(farthestEqual + 0.001, kDepthStep));
+}
+
 TEST(HorizonBuffer, LeavesOutWhatHasNoPlaceInThePicture) {
     const core::Ellipsoid earth = wgs84();
     // looks north

@@ -192,6 +192,12 @@ TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
     EXPECT_TRUE(globe.drawsFarTile(cutting));
     cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 2000.0, 1e8);
     EXPECT_FALSE(globe.drawsFarTile(cutting));
+    // with a near plane so close, ridge and tile differ by three steps of a depth buffer of 24 bits: either may be
+    // drawn
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 0.01, 1e8);
+    EXPECT_TRUE(globe.drawsFarTile(cutting));
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 1.0, 1e8);
+    EXPECT_FALSE(globe.drawsFarTile(cutting));
     // where OSG computes it, anything far away in the scene may move it
     CullView computed = RidgeGlobe::alongRow();
     computed.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;

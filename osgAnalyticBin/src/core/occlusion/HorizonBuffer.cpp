@@ -27,12 +27,13 @@ double pictureError(double metres, double forward, double largest) {
 
 }  // namespace
 
-HorizonBuffer::HorizonBuffer(double eyeToCentre, const Interval& across, double drawing)
+HorizonBuffer::HorizonBuffer(double eyeToCentre, const Interval& across, double drawing, double depthStep)
     : _eyeToCentre(eyeToCentre),
       _across(across),
       _step(across.width() / static_cast<double>(kStrips)),
       _perStep(1.0 / _step),
-      _drawing(drawing) {
+      _drawing(drawing),
+      _depthStep(depthStep) {
     _lower.fill(kInfinity);
     _upper.fill(-kInfinity);
 }
@@ -184,8 +185,10 @@ HorizonBuffer::Outline HorizonBuffer::outlineOf(const BinHull& body) const noexc
 
 bool HorizonBuffer::hides(const Outline& body) {
     // written so that NaN is not hidden
-    if (!(body.nearest > 0.0 && body.nearest >= _reached)) return false;
-    use(body.nearest);
+    // nearer by a step of the depth buffer
+    const double farthest = body.nearest / (1.0 + _depthStep * body.nearest);
+    if (!(body.nearest > 0.0 && farthest >= _reached)) return false;
+    use(farthest);
     if (body.isBeside || !(body.heights.lower >= _lowest)) return false;
     // the rounding of the quotient; that of the strips' edges is in the errors of the corners
     constexpr double kRoom = 1e-6;

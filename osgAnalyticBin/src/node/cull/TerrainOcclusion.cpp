@@ -53,7 +53,7 @@ public:
         : _database(database),
           _ellipsoid(database.view.ellipsoid),
           _found(found),
-          _buffer(glm::length(found.eye.origin), found.span.across, found.span.drawing) {}
+          _buffer(glm::length(found.eye.origin), found.span.across, found.span.drawing, found.span.depthStep) {}
 
     // Returns: whether something was found.
     [[nodiscard]] bool run() {
@@ -270,7 +270,8 @@ bool serves(FoundOcclusion& found, const std::vector<FoundOcclusion::Tile>& tile
     constexpr int kMostUses = 64;
     return found.uses++ < kMostUses && glm::distance(eye, found.eye.origin) <= found.reach && span &&
            isWithin(span->across, found.span.across) && span->drawing <= found.span.drawing &&
-           nearReach <= found.nearReach && found.region == regionOf(database) && found.tiles == tiles;
+           span->depthStep <= found.span.depthStep && nearReach <= found.nearReach &&
+           found.region == regionOf(database) && found.tiles == tiles;
 }
 
 // Prepares a search that serves as many of the next views as it can, if the camera goes on as it does.
@@ -288,6 +289,7 @@ void aim(FoundOcclusion& found, const LevelView& view, const glm::dvec3& eye, co
     found.reach = rounding;
     found.span = span;
     found.span.drawing *= 1.25;
+    found.span.depthStep *= 1.25;
     if (!spanThen || length >= kJump * found.lastClearance) return;
     if (length > rounding) {
         found.reach = std::max(rounding, std::min(kViews * length, kOfClearance * found.lastClearance));
