@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -207,6 +208,17 @@ TEST(GroundPlates, AreLowerByTheMarginOfTheMesh) {
     // half a rim is 62 m along the meridian, 54 m across
     EXPECT_TRUE(GroundPlates(earth, mesh, extents, 40.0).isKnown());
     EXPECT_FALSE(GroundPlates(earth, mesh, extents, 65.0).isKnown());
+}
+
+// Where backs are culled, such a mesh cannot be seen from above.
+TEST(GroundPlates, AreNotKnownWhereFrontFacesLookDown) {
+    Random random(1711);
+    const Ellipsoid earth = wgs84();
+    const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
+    EcefMesh mesh = gridMesh(random, earth, extents, 16);
+    EXPECT_TRUE(GroundPlates(earth, mesh, extents).isKnown());
+    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) std::swap(mesh.triangles[i], mesh.triangles[i + 1]);
+    EXPECT_FALSE(GroundPlates(earth, mesh, extents).isKnown());
 }
 
 TEST(GroundPlates, AreNotKnownWhereNoColumnFits) {

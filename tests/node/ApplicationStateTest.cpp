@@ -11,7 +11,10 @@
 
 #include <gtest/gtest.h>
 #include <osg/AlphaFunc>
+#include <osg/Depth>
+#include <osg/FrontFace>
 #include <osg/Geode>
+#include <osg/MatrixTransform>
 #include <osg/PolygonMode>
 #include <osg/Switch>
 
@@ -54,6 +57,35 @@ TEST(SeeThroughTerrain, HidesNothing) {
         installBins(*globe.root);
         EXPECT_TRUE(globe.drawsAntipode()) << i;
     }
+}
+
+// Backs may be culled, by the state of a tile as well. Then the globe is open where its front faces look down.
+TEST(SeeThroughTerrain, HidesNothingWhereItsFrontFacesLookDown) {
+    MeshGlobe globe;
+    globe.scene = new osg::Group;
+    const osg::ref_ptr<osg::MatrixTransform> mirror = new osg::MatrixTransform(osg::Matrix::scale(1.0, 1.0, -1.0));
+    globe.scene->addChild(mirror);
+    mirror->addChild(globe.root);
+    installBins(*globe.root);
+    EXPECT_TRUE(globe.drawsAntipode());
+    // as cameras of reflections do
+    globe.scene->getOrCreateStateSet()->setAttribute(new osg::FrontFace(osg::FrontFace::CLOCKWISE));
+    EXPECT_FALSE(globe.drawsAntipode());
+    mirror->setMatrix({});
+    EXPECT_TRUE(globe.drawsAntipode());
+}
+
+// Inside a database a part may be drawn in front of what is nearer.
+TEST(SeeThroughTerrain, IsWhatHasARangeOfDepthsOfItsOwn) {
+    MeshGlobe globe;
+    globe.scene = new osg::Group;
+    globe.scene->addChild(globe.root);
+    installBins(*globe.root);
+    const osg::ref_ptr<osg::Depth> reversed = new osg::Depth(osg::Depth::GEQUAL, 1.0, 0.0);
+    globe.scene->getOrCreateStateSet()->setAttribute(reversed);
+    EXPECT_FALSE(globe.drawsAntipode());
+    globe.tiles[19]->getOrCreateStateSet()->setAttribute(new osg::Depth(osg::Depth::LEQUAL, 0.0, 0.1));
+    EXPECT_TRUE(globe.drawsAntipode());
 }
 
 TEST(SeeThroughTerrain, IsNotWhatIsFilled) {

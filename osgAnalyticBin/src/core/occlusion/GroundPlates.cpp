@@ -75,7 +75,6 @@ public:
         _low.fill(kInfinity);
         findMiddles();
         findVertices();
-        _sense = sense();
         for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) addTriangle(&mesh.triangles[i]);
         addBorders();
         encode();
@@ -144,19 +143,10 @@ private:
         return {std::sqrt(longest2), std::sqrt(horizontal2) + 2.0 * longest2 / _radius};
     }
 
-    // Whether the triangles show their front side upward (1) or downward (-1), by the volumes below them.
-    [[nodiscard]] double sense() const {
-        double sum = 0.0;
-        for (std::size_t i = 0; i + 2 < _mesh.triangles.size(); i += 3) {
-            const Corners c = cornersOf(&_mesh.triangles[i]);
-            sum += glm::dot(normalOf(c), _positions[c[0]]);
-        }
-        return sum < 0.0 ? -1.0 : 1.0;
-    }
-
+    // Whether a triangle shows its front side upward. Backs may be culled, and hide nothing then.
     // Across a triangle the ellipsoid's normal turns by at most the triangle's width over the radius of curvature.
     [[nodiscard]] bool isUpward(const Corners& c) const {
-        const glm::dvec3 normal = _sense * normalOf(c);
+        const glm::dvec3 normal = normalOf(c);
         const double angle = 2.0 * sidesOf(c).longest / _radius;
         return glm::dot(normal, _vertices[c[0]].up) > (angle + 1e-9) * glm::length(normal);
     }
@@ -235,9 +225,9 @@ private:
     [[nodiscard]] bool isOnNormal(const Corners& c, const Middle& middle) const {
         const auto& [foot, up] = middle;
         const glm::dvec3 p = _positions[c[0]] - foot, q = _positions[c[1]] - foot, r = _positions[c[2]] - foot;
-        const double pq = _sense * glm::dot(up, glm::cross(p, q));
-        const double qr = _sense * glm::dot(up, glm::cross(q, r));
-        const double rp = _sense * glm::dot(up, glm::cross(r, p));
+        const double pq = glm::dot(up, glm::cross(p, q));
+        const double qr = glm::dot(up, glm::cross(q, r));
+        const double rp = glm::dot(up, glm::cross(r, p));
         return pq >= 0.0 && qr >= 0.0 && rp >= 0.0;
     }
 
@@ -281,8 +271,7 @@ private:
     GroundPlates& _plates;
     const EcefMesh& _mesh;
     const double _margin;
-    const double _radius;  // no larger than a radius of curvature at any point of the mesh
-    double _sense = 1.0;
+    const double _radius;                // no larger than a radius of curvature at any point of the mesh
     std::vector<std::uint32_t> _merged;  // the vertex for each of the mesh
     std::vector<Vertex> _vertices;
     std::vector<glm::dvec3> _positions;

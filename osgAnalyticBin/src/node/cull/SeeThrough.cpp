@@ -9,6 +9,7 @@
 #include <osg/CoordinateSystemNode>
 #include <osg/CullFace>
 #include <osg/Depth>
+#include <osg/FrontFace>
 #include <osg/Geode>
 #include <osg/Image>
 #include <osg/MatrixTransform>
@@ -59,6 +60,20 @@ bool ignoresDepth(const osg::StateSet& state) {
     }
 }
 
+bool hasDepthRange(const osg::StateSet& state) {
+    const auto* depth = attribute<osg::Depth>(state, Attribute::DEPTH);
+    return depth && (depth->getZNear() != 0.0 || depth->getZFar() != 1.0);
+}
+
+bool isClockwise(const osg::FrontFace& face) {
+    return face.getMode() == osg::FrontFace::CLOCKWISE;
+}
+
+bool isMirror(const osg::Matrixd& m) {
+    const osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)), z(m(2, 0), m(2, 1), m(2, 2));
+    return (x ^ y) * z < 0.0;
+}
+
 bool isSeeThroughMode(const osg::StateSet::ModeList::value_type& mode) {
     const auto [name, value] = mode;
     const bool isOn = value & Attribute::ON;
@@ -84,6 +99,11 @@ bool isSeeThrough(const osg::StateSet& state) {
            leavesOutFrontFaces(state) || ignoresDepth(state);
 }
 
+bool isPartSeeThrough(const osg::StateSet& state) {
+    const auto* face = attribute<osg::FrontFace>(state, Attribute::FRONTFACE);
+    return isSeeThrough(state) || hasDepthRange(state) || (face && isClockwise(*face));
+}
+
 // As osgTerrain::GeometryTechnique decides, by the first image.
 bool isSeeThrough(const osgTerrain::TerrainTile& tile) {
     using Tile = osgTerrain::TerrainTile;
@@ -101,11 +121,15 @@ bool isSeeThrough(const osgTerrain::TerrainTile& tile) {
 
 bool isStateSeeThrough(osg::NodeVisitor& visitor) {
     osgUtil::CullVisitor* const cullVisitor = visitor.asCullVisitor();
-    const osgUtil::StateGraph* graph = cullVisitor ? cullVisitor->getCurrentStateGraph() : nullptr;
-    for (; graph; graph = graph->_parent) {
-        if (graph->_stateset && isSeeThrough(*graph->_stateset)) return true;
+    if (!cullVisitor) return false;
+    const osg::FrontFace* face = nullptr;
+    for (const auto* graph = cullVisitor->getCurrentStateGraph(); graph; graph = graph->_parent) {
+        const osg::StateSet* const state = graph->_stateset;
+        if (state && isSeeThrough(*state)) return true;
+        if (state && !face) face = attribute<osg::FrontFace>(*state, Attribute::FRONTFACE);
     }
-    return false;
+    // whether backs are culled, a tile's own state may say
+    return (face && isClockwise(*face)) != isMirror(*cullVisitor->getModelViewMatrix());
 }
 
 bool drawsAllChildren(const osg::Node& node) {

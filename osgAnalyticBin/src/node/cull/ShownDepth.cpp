@@ -210,7 +210,7 @@ private:
 
     [[nodiscard]] bool isSurelyDrawn(const osg::Node& node, bool mayLeaveOut) const {
         const osg::StateSet* const state = node.getStateSet();
-        return _visitor.validNodeMask(node) && !mayLeaveOut && !(state && isSeeThrough(*state));
+        return _visitor.validNodeMask(node) && !mayLeaveOut && !(state && isPartSeeThrough(*state));
     }
 
     // Whether all of a tile's own mesh is drawn. Its state was asked for when bins were installed.

@@ -96,7 +96,7 @@ bool isSeeThroughMesh(osg::Node& mesh) {
     forEachNode(mesh, [&isFound](osg::Node& node) {
         const osg::StateSet* const state = node.getStateSet();
         const auto* const terrain = dynamic_cast<osgTerrain::TerrainTile*>(&node);
-        isFound = isFound || (state && isSeeThrough(*state)) || (terrain && isSeeThrough(*terrain));
+        isFound = isFound || (state && isPartSeeThrough(*state)) || (terrain && isSeeThrough(*terrain));
     });
     return isFound;
 }
