@@ -44,7 +44,8 @@ function(osganalyticbin_defaults target)
     ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -ffp-contract=off
                       $<$<BOOL:${OSGANALYTICBIN_WERROR}>:-Werror>)
   if(OSGANALYTICBIN_SANITIZERS)
-    target_compile_options(${target} PRIVATE -fsanitize=${OSGANALYTICBIN_SANITIZERS} -fno-omit-frame-pointer)
+    target_compile_options(${target} PRIVATE -fsanitize=${OSGANALYTICBIN_SANITIZERS} ${OSGANALYTICBIN_NO_SANITIZERS}
+                                             -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=${OSGANALYTICBIN_SANITIZERS})
   endif()
   if(OSGANALYTICBIN_FUZZ)
