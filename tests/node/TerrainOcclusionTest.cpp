@@ -17,6 +17,7 @@
 
 #include <functional>
 #include <support/CapturedNotes.h>
+#include <support/Random.h>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -174,6 +175,29 @@ TEST(TerrainOcclusion, IsFoundAgainWhereTheCameraHasTurned) {
         for (; north > 0.25; north -= step) (void)globe.drawsFarTile(turned(north));
         EXPECT_TRUE(globe.drawsFarTile(turned(north))) << step;
     }
+}
+
+// Against what is found for each view alone.
+TEST(TerrainOcclusion, HidesNothingMoreWhereTheCameraTurns) {
+    Random random(1712);
+    int hidden = 0;
+    for (int flight = 0; flight < 20; ++flight) {
+        RidgeGlobe globe(8000.0, 5);
+        installBins(*globe.root, withOcclusion());
+        const double fov = random.uniform(2.0, 12.0), start = random.uniform(-0.2, 0.4);
+        double north = random.uniform(-0.2, 0.4);
+        for (int i = 0; i < 20; ++i) {
+            north += random.sign() * random.logUniform(1e-4, 0.1);
+            const CullView view =
+                CullView::lookAt(ecefDeg(start, 0.1, 1000.0), ecefDeg(start + north, 1.1, 1000.0), {1, 0, 0}, fov);
+            RidgeGlobe alone(8000.0, 5);
+            installBins(*alone.root, withOcclusion());
+            const bool isDrawn = globe.drawsFarTile(view), isDrawnAlone = alone.drawsFarTile(view);
+            hidden += alone.counts().occluded > 0 ? 1 : 0;
+            EXPECT_TRUE(isDrawn || !isDrawnAlone) << "flight " << flight << ", view " << i;
+        }
+    }
+    EXPECT_GT(hidden, 50);
 }
 
 TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {

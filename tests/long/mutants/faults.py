@@ -255,6 +255,8 @@ FAULTS = [
           "_buffer.setLowest(*highest / nearReach);", "", NODE, "TerrainOcclusion.*"),
     Fault("occlusion: what was found serves eyes anywhere", "src/node/cull/TerrainOcclusion.cpp",
           "glm::distance(eye, found.eye.origin) <= found.reach", "glm::length(eye) > 0.0", NODE, "TerrainOcclusion.*"),
+    Fault("occlusion: what was found serves views of anything", "src/node/cull/TerrainOcclusion.cpp",
+          "isWithin(span->across, found.span.across)", "(isWithin(span->across, found.span.across) || true)", NODE, "TerrainOcclusion.*"),
     Fault("occlusion: meshes stay as they were", "src/node/install/InstalledTile.cpp",
           "    _isMeshChanged.store(true, std::memory_order_relaxed);\n", "", NODE, "TerrainOcclusion.*"),
 
