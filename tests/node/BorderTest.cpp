@@ -109,7 +109,7 @@ TEST(Border, TilesThatAnIndexKnowsHoldTheirSkirtsToo) {
 TEST(Border, VirtualPlanetBuildersGlobesHaveNone) {
     for (const std::string name : {"terrain", "polygonal"}) {
         const osg::ref_ptr<osg::Node> globe =
-            osgDB::readRefNodeFile(std::string(SHARED_DATA_FOLDER) + "/vpb/" + name + "/earth.osgb");
+            osgDB::readRefNodeFile(std::string(SAMPLE_DATA) + "/vpb/" + name + "/earth.osgb");
         if (!globe) GTEST_SKIP() << "no databases of VirtualPlanetBuilder here";
         ASSERT_EQ(installBins(*globe), 1u);
         auto& root = dynamic_cast<osg::PagedLOD&>(*globe->asGroup()->getChild(0));

@@ -46,7 +46,7 @@ public:
 };
 
 std::vector<osg::ref_ptr<osg::Node>> meshesOf(const std::string& database) {
-    const std::string folder = std::string(SHARED_DATA_FOLDER) + "/vpb/" + database;
+    const std::string folder = std::string(SAMPLE_DATA) + "/vpb/" + database;
     std::vector<std::string> files{folder + "/earth.osgb"};
     const std::string below = folder + "/earth_root_L0_X0_Y0";
     for (const std::string& name : osgDB::getDirectoryContents(below))

@@ -14,7 +14,6 @@
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 
-#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -186,9 +185,7 @@ TEST_F(Plugin, ArchivesHoldIndexesBesideTheirDatabases) {
 class ForeignDatabase : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ForeignDatabase, OpensAndGetsBinsWhereItsGeometryIsKnown) {
-    const char* named = std::getenv("OSGANALYTICBIN_SHARED_DATA");
-    const std::string folder = named ? named : SHARED_DATA_FOLDER;
-    const std::string file = folder + "/vpb/" + GetParam() + "/earth.osgb";
+    const std::string file = std::string(SAMPLE_DATA "/vpb/") + GetParam() + "/earth.osgb";
     if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
     const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file + ".analyticbin");
     ASSERT_TRUE(node);

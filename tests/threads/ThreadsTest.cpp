@@ -201,7 +201,7 @@ INSTANTIATE_TEST_SUITE_P(Slaves, Threads,
 
 TEST(ThreadsOnVpb, ChangeEverythingWhilePagingIsLive) {
     if (!ViewerRig::canDraw()) GTEST_SKIP() << "no graphics context";
-    const std::string folder = std::string(SHARED_DATA_FOLDER) + "/vpb/";
+    const std::string folder = std::string(SAMPLE_DATA) + "/vpb/";
     const osg::ref_ptr<osg::Group> scene = readScene({folder + "terrain/earth.osgb", folder + "polygonal/earth.osgb"});
     if (!scene) GTEST_SKIP() << "no samples";
     unsigned int culled = 0;

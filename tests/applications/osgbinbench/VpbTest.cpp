@@ -29,7 +29,7 @@ constexpr const char* kSamplePath =
 class VpbSample : public testing::TestWithParam<const char*> {
 protected:
     void SetUp() override {
-        database = std::string(SHARED_DATA) + "/vpb/" + GetParam() + "/earth.osgb";
+        database = std::string(SAMPLE_DATA) + "/vpb/" + GetParam() + "/earth.osgb";
         if (!std::filesystem::exists(database)) GTEST_SKIP() << "needs " << database;
         if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     }
@@ -94,7 +94,7 @@ std::string shortPath(int scale) {
 class VpbPictures : public testing::TestWithParam<PictureCase> {};
 
 TEST_P(VpbPictures, WithBinsAreThoseWithoutCulling) {
-    const std::string database = std::string(SHARED_DATA) + "/vpb/" + GetParam().mode + "/earth.osgb";
+    const std::string database = std::string(SAMPLE_DATA) + "/vpb/" + GetParam().mode + "/earth.osgb";
     if (!std::filesystem::exists(database)) GTEST_SKIP() << "needs " << database;
     if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     const TemporaryFolder folder;
@@ -128,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, VpbPictures, testing::ValuesIn(pictureCases()), 
 });
 
 TEST(VpbExaggerated, ClusterCallbacksCullWhatIsSeenAndBinsDoNot) {
-    const std::string database = std::string(SHARED_DATA) + "/vpb/terrain/earth.osgb";
+    const std::string database = std::string(SAMPLE_DATA) + "/vpb/terrain/earth.osgb";
     if (!std::filesystem::exists(database)) GTEST_SKIP() << "needs " << database;
     if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     const TemporaryFolder folder;

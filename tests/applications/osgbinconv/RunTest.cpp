@@ -136,11 +136,17 @@ TEST_F(Run, ProgressOfEveryPassEndsAtTheWhole) {
     EXPECT_EQ(copying.linesWith(" tiles/s, 100 %, done in "), 2) << copying.text;
 }
 
+constexpr int kMostAttempts = 20;
+
 TEST_F(Run, InterruptedRunsSayHowToGoOnAndDo) {
     const std::string whole = indexed();
     fs::remove(indexFile());
-    const Outcome outcome = indexEndedBy("INT");
-    if (outcome.code == 0) GTEST_SKIP() << "too fast to interrupt";
+    Outcome outcome = indexEndedBy("INT");
+    // it may have been too fast to interrupt
+    for (int i = 0; i < kMostAttempts && outcome.code == 0; ++i) {
+        fs::remove(indexFile());
+        outcome = indexEndedBy("INT");
+    }
     EXPECT_EQ(outcome.code, 130);
     expectOneLine(outcome, "goes on where it ended");
     EXPECT_TRUE(fs::exists(partFile()));
@@ -152,8 +158,12 @@ TEST_F(Run, InterruptedCopiesLeaveNothingAndTheSameCommandMakesThem) {
     const std::string folder = _folder / "copy";
     fs::create_directories(folder);
     const std::string arguments = test::quoted(_database) + ' ' + test::quoted(folder + "/globe.osgb");
-    const Outcome outcome = endedBy("INT", arguments, folder + "/tiles_1_3_3.osgb");
-    if (outcome.code == 0) GTEST_SKIP() << "too fast to interrupt";
+    Outcome outcome = endedBy("INT", arguments, folder + "/tiles_1_3_3.osgb");
+    for (int i = 0; i < kMostAttempts && outcome.code == 0; ++i) {
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+        outcome = endedBy("INT", arguments, folder + "/tiles_1_3_3.osgb");
+    }
     EXPECT_EQ(outcome.code, 130);
     expectOneLine(outcome, "interrupted");
     EXPECT_TRUE(fs::is_empty(folder));

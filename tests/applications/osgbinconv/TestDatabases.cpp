@@ -4,7 +4,6 @@
 #include "TestDatabases.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <support/StockPrograms.h>
@@ -15,8 +14,7 @@ namespace osgAnalyticBin::test {
 namespace {
 
 std::string sampleFolder(const std::string& kind) {
-    const char* named = std::getenv("OSGANALYTICBIN_SHARED_DATA");
-    return std::string(named ? named : SHARED_DATA_FOLDER) + "/vpb/" + kind;
+    return SAMPLE_DATA "/vpb/" + kind;
 }
 
 std::string writeBindemDatabase(const TemporaryFolder& folder) {

@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 namespace {
@@ -16,9 +15,8 @@ namespace {
 constexpr const char* kEtopo5 = "/usr/share/ferret-vis/data/etopo5.cdf";
 constexpr const char* kRockies = "/usr/share/ncarg/data/cdf/trinidad.nc";
 
-std::string shared(const std::string& name) {
-    const char* folder = std::getenv("OSGANALYTICBIN_SHARED_DATA");
-    return std::string(folder != nullptr ? folder : OSGBINDEM_SHARED_DATA) + "/dem/" + name;
+std::string sample(const std::string& name) {
+    return SAMPLE_DATA "/dem/" + name;
 }
 
 bool isThere(const std::string& path) {
@@ -62,8 +60,8 @@ TEST(RealData, RockiesInFeet) {
 }
 
 TEST(RealData, EverestWithVoids) {
-    const std::string path = shared("everest_srtm3_N27E086.tif");
-    if (!isThere(path)) GTEST_SKIP() << "no shared sample data";
+    const std::string path = sample("everest_srtm3_N27E086.tif");
+    if (!isThere(path)) GTEST_SKIP() << path << " is not there";
     const TempFolder folder;
     build({path, "--levels", "8", "-o", folder.file("earth.osgb")});
     const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
@@ -80,8 +78,8 @@ TEST(RealData, EverestWithVoids) {
 }
 
 TEST(RealData, AleutiansPastTheDateLine) {
-    const std::string path = shared("aleutians_etopo1_5min_antimeridian.tif");
-    if (!isThere(path)) GTEST_SKIP() << "no shared sample data";
+    const std::string path = sample("aleutians_etopo1_5min_antimeridian.tif");
+    if (!isThere(path)) GTEST_SKIP() << path << " is not there";
     const TempFolder folder;
     build({path, "--levels", "2", "-o", folder.file("earth.osgb")});
     const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));
@@ -98,8 +96,8 @@ TEST(RealData, AleutiansPastTheDateLine) {
 }
 
 TEST(RealData, Gtopo30WithSeaMissing) {
-    const std::string path = shared("gtopo30_w020n90_cut_3E9E_50N54N.tif");
-    if (!isThere(path)) GTEST_SKIP() << "no shared sample data";
+    const std::string path = sample("gtopo30_w020n90_cut_3E9E_50N54N.tif");
+    if (!isThere(path)) GTEST_SKIP() << path << " is not there";
     const TempFolder folder;
     build({path, "--levels", "5", "-o", folder.file("earth.osgb")});
     const LoadedDatabase database = loadDatabase(folder.file("earth.osgb"));

@@ -224,11 +224,9 @@ TEST_F(Voids, HaveNoSeamBetweenBlocks) {
 }
 
 TEST_F(Voids, CutIntoMountainsOverEtopo5) {
-    const char* folder = std::getenv("OSGANALYTICBIN_SHARED_DATA");
-    const std::string path =
-        std::string(folder != nullptr ? folder : OSGBINDEM_SHARED_DATA) + "/dem/everest_srtm3_N27E086.tif";
+    const std::string path = SAMPLE_DATA "/dem/everest_srtm3_N27E086.tif";
     if (!std::filesystem::exists(path) || !std::filesystem::exists(kGlobeRaster))
-        GTEST_SKIP() << "no shared sample data";
+        GTEST_SKIP() << path << " or " << kGlobeRaster << " is not there";
     GDALAllRegister();
     Grid grid{86.0, 28.0, 1.0 / 1200.0, 1201, 1201, std::vector<double>(1201 * 1201), {}};
     const osgbindem::GdalDataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER));

@@ -132,7 +132,7 @@ TEST_F(ProgramTest, HelpHasUnitsAndAnExample) {
 }
 
 TEST_F(ProgramTest, TakesTrueGtopo30) {
-    const std::string dem = std::string(SHARED_DATA) + "/dem/gtopo30_w020n90_cut_3E9E_50N54N.tif";
+    const std::string dem = std::string(SAMPLE_DATA) + "/dem/gtopo30_w020n90_cut_3E9E_50N54N.tif";
     if (!fs::exists(dem)) GTEST_SKIP() << dem << " is absent";
     const Outcome outcome =
         run(quoted(dem) + " --levels 7 --floor -500 --cameras 2 --json " + quoted(_folder / "a.json"));
