@@ -234,7 +234,7 @@ FAULTS = [
     Fault("occlusion: backs hide what is behind them", "src/core/occlusion/GroundPlates.cpp",
           "const glm::dvec3 normal = normalOf(c);",
           "const glm::dvec3 normal = glm::dot(normalOf(c), _vertices[c[0]].up) < 0.0 ? -normalOf(c) : normalOf(c);", CORE, "GroundPlates.*"),
-    Fault("occlusion: depth buffers are exact", "src/node/cull/LevelPicture.cpp", "kDepthStep / b *", "1e-9 * kDepthStep / b *", NODE,
+    Fault("occlusion: depth buffers are exact", "src/node/cull/LevelPicture.cpp", "kDepthStep / b;", "1e-9 * kDepthStep / b;", NODE,
           "TerrainOcclusion*"),
     Fault("occlusion: order does not matter", "src/core/occlusion/HorizonBuffer.cpp",
           "body.nearest > 0.0 && farthest >= _reached", "body.nearest > 0.0", CORE, "HorizonBuffer.*"),

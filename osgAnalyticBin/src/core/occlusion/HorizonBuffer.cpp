@@ -184,9 +184,9 @@ HorizonBuffer::Outline HorizonBuffer::outlineOf(const BinHull& body) const noexc
 }
 
 bool HorizonBuffer::hides(const Outline& body) {
-    // written so that NaN is not hidden
-    // nearer by a step of the depth buffer
+    // earth up to here is nearer than the body by a step of the depth buffer
     const double farthest = body.nearest / (1.0 + _depthStep * body.nearest);
+    // written so that NaN is not hidden
     if (!(body.nearest > 0.0 && farthest >= _reached)) return false;
     use(farthest);
     if (body.isBeside || !(body.heights.lower >= _lowest)) return false;

@@ -20,8 +20,8 @@ namespace {
 // Views and corners of views that are less level than this have no picture on a vertical plane.
 constexpr double kLevel = 0.2;
 
-// What a depth buffer of 24 bits tells apart for certain, of its range: some steps, because drivers interpolate depths
-// in single precision.
+// A depth buffer of 24 bits distinguishes depths that differ by this share of its range. These are 16 steps, because
+// drivers interpolate depths in single precision.
 constexpr double kDepthStep = 0x1p-20;
 
 }  // namespace
@@ -42,14 +42,14 @@ std::optional<LevelView> LevelView::of(osg::CullStack& cullStack, const core::El
     const glm::dvec3 level = look - glm::dot(look, view.up) * view.up;
     if (!(view.pixels > 0.0 && glm::length(level) > kLevel)) return std::nullopt;
     view.forward = glm::normalize(level);
-    // depths are a + b / z, from 0 to 1 if the projection makes them -1 to 1
+    // The buffer stores a + b / z. For projections to depths from 0 to 1 the true b is twice as large.
     const double b = 0.5 * std::abs(projection(3, 2) / projection(2, 3));
+    view.depthStep = kDepthStep / b;
     for (std::size_t i = 0; i < view.corners.size(); ++i) {
         const osg::Vec4d clip(i & 1U ? 1.0 : -1.0, i & 2U ? 1.0 : -1.0, 0.5, 1.0);
         const osg::Vec4d point = clip * unproject;
         const osg::Vec3d ray(point.x(), point.y(), point.z());
-        view.corners[i] = toWorld(ray.z() * projection(2, 3) < 0.0 ? -ray : ray);
-        view.depthSteps[i] = kDepthStep / b * std::abs(ray.z());
+        view.corners[i] = toWorld(ray / std::copysign(ray.z(), ray.z() * projection(2, 3)));
     }
     return view;
 }
@@ -61,14 +61,13 @@ core::Frame LevelView::frameAt(const glm::dvec3& place) const {
 std::optional<PictureSpan> PictureSpan::of(const LevelView& view, const core::Frame& frame) {
     PictureSpan span{{HUGE_VAL, -HUGE_VAL}, 0.0, 0.0};
     double levelness = 1.0;
-    for (std::size_t i = 0; i < view.corners.size(); ++i) {
-        const glm::dvec3& corner = view.corners[i];
+    for (const glm::dvec3& corner : view.corners) {
         const double ahead = glm::dot(corner, frame.y), length = glm::length(corner);
         if (!(ahead > kLevel * length)) return std::nullopt;
         const double x = glm::dot(corner, frame.x) / ahead;
         span.across = {std::min(span.across.lower, x), std::max(span.across.upper, x)};
         levelness = std::min(levelness, ahead / length);
-        span.depthStep = std::max(span.depthStep, view.depthSteps[i] / ahead);
+        span.depthStep = std::max(span.depthStep, view.depthStep / ahead);
     }
     if (!(span.across.width() > 0.0)) return std::nullopt;
     span.drawing = span.across.width() / (128.0 * view.pixels * levelness * levelness);

@@ -17,11 +17,11 @@ namespace osgAnalyticBin {
 
 /// The lines of sight of a perspective camera that looks more or less level. Directions in ECEF.
 struct LevelView {
-    glm::dvec3 up, forward;  ///< the eye's vertical, and where the camera looks, level; unit vectors
-    std::array<glm::dvec3, 4> corners;
-    double pixels;  ///< the shorter side of the viewport
-    /// Points at s and t times a corner are told apart by depth buffers where 1 / s and 1 / t differ by more than this.
-    std::array<double, 4> depthSteps;
+    glm::dvec3 up, forward;             ///< the eye's vertical, and where the camera looks, level; unit vectors
+    std::array<glm::dvec3, 4> corners;  ///< from the eye, at depth 1 in eye space
+    double pixels;                      ///< the shorter side of the viewport
+    /// A depth buffer distinguishes two depths in eye space if their reciprocals differ by more than this.
+    double depthStep;
 
     /// Returns: nullopt for cameras that look up or down by more than 78 degrees, and those without a viewport.
     [[nodiscard]] static std::optional<LevelView> of(osg::CullStack& cullStack, const core::Ellipsoid& ellipsoid,
@@ -37,7 +37,7 @@ struct PictureSpan {
     /// By how much drivers may draw corners of triangles elsewhere: they snap them to 1/256 of a pixel, both of the
     /// tile that hides and of the hidden one. Where the view is not level, pixels are larger in this picture.
     double drawing;
-    /// 1/m: depth buffers tell two points on a line of sight apart where 1 / forward differs by more than this.
+    /// 1/m: a depth buffer distinguishes two points on a line of sight if their 1 / forward differs by more than this.
     double depthStep;
 
     /// Returns: nullopt where a corner of the view is more than 78 degrees off the picture's forward direction.
