@@ -4,7 +4,7 @@
 #
 # Installs what is missing, builds, and runs all tests: release (with the installed package, as others use it), dev
 # (assertions and sanitizers), tsan (those of threads) and scalar. `sh tests/run.sh quick` runs the release build alone.
-# Tests that need something that is not here are left out and listed; with OSGANALYTICBIN_REQUIRE_ALL=ON they fail.
+# Tests are skipped, and listed, when something that they need is missing. With OSGANALYTICBIN_REQUIRE_ALL=ON they fail.
 set -eu
 
 cd "$(dirname "$0")/.."

@@ -210,7 +210,7 @@ TEST(GroundPlates, AreLowerByTheMarginOfTheMesh) {
     EXPECT_FALSE(GroundPlates(earth, mesh, extents, 65.0).isKnown());
 }
 
-// Where backs are culled, such a mesh cannot be seen from above.
+// OpenGL does not draw such a mesh from above when it culls back faces.
 TEST(GroundPlates, AreNotKnownWhereFrontFacesLookDown) {
     Random random(1711);
     const Ellipsoid earth = wgs84();

@@ -263,7 +263,7 @@ TEST(HorizonBuffer, LowersSteepLinesByTheErrorsOfTheirCorners) {
     EXPECT_TRUE(hidesBelowTheLine(1.05 * (1.0 + kSlope) * error));
 }
 
-// Where two depths are equal after rounding, what is drawn first is seen.
+// If two depths are equal after rounding, the body that is drawn first stays visible.
 TEST(HorizonBuffer, HidesOnlyWhatADepthBufferTellsFromEarth) {
     constexpr double kForward = 1000.0, kDepthStep = 1e-5;
     EarthColumn column;

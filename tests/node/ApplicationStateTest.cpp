@@ -59,7 +59,7 @@ TEST(SeeThroughTerrain, HidesNothing) {
     }
 }
 
-// Backs may be culled, by the state of a tile as well. Then the globe is open where its front faces look down.
+// The application or a tile may cull back faces. Then a globe whose front faces look down is open from above.
 TEST(SeeThroughTerrain, HidesNothingWhereItsFrontFacesLookDown) {
     MeshGlobe globe;
     globe.scene = new osg::Group;
@@ -68,14 +68,14 @@ TEST(SeeThroughTerrain, HidesNothingWhereItsFrontFacesLookDown) {
     mirror->addChild(globe.root);
     installBins(*globe.root);
     EXPECT_TRUE(globe.drawsAntipode());
-    // as cameras of reflections do
+    // cameras that draw reflections do this
     globe.scene->getOrCreateStateSet()->setAttribute(new osg::FrontFace(osg::FrontFace::CLOCKWISE));
     EXPECT_FALSE(globe.drawsAntipode());
     mirror->setMatrix({});
     EXPECT_TRUE(globe.drawsAntipode());
 }
 
-// Inside a database a part may be drawn in front of what is nearer.
+// A tile with its own depth range may be drawn in front of nearer tiles.
 TEST(SeeThroughTerrain, IsWhatHasARangeOfDepthsOfItsOwn) {
     MeshGlobe globe;
     globe.scene = new osg::Group;

@@ -177,7 +177,7 @@ TEST(TerrainOcclusion, IsFoundAgainWhereTheCameraHasTurned) {
     }
 }
 
-// Against what is found for each view alone.
+// Compares a camera that turns with a new search for each view.
 TEST(TerrainOcclusion, HidesNothingMoreWhereTheCameraTurns) {
     Random random(1712);
     int hidden = 0;
@@ -216,8 +216,7 @@ TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
     EXPECT_TRUE(globe.drawsFarTile(cutting));
     cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 2000.0, 1e8);
     EXPECT_FALSE(globe.drawsFarTile(cutting));
-    // with a near plane so close, ridge and tile differ by three steps of a depth buffer of 24 bits: either may be
-    // drawn
+    // The depths of ridge and tile differ by three steps of a 24-bit depth buffer. A driver may draw either of them.
     cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 0.01, 1e8);
     EXPECT_TRUE(globe.drawsFarTile(cutting));
     cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 1.0, 1e8);

@@ -24,11 +24,11 @@ struct Outcome {
 /// Runs a shell command with a clean plugin path. `environment`: more assignments, parted by blanks.
 [[nodiscard]] Outcome runStock(const std::string& command, Modules modules, const std::string& environment = {});
 
-/// Whether programs can be run on a virtual display.
+/// Whether xvfb-run is installed, which makes virtual displays.
 [[nodiscard]] bool hasDisplay();
 
-/// Runs a shell command on a virtual display of its own, for `seconds` at most. The outcome is the command's, not that
-/// of the program that makes the display.
+/// Runs a shell command on its own virtual display, for `seconds` at most. Returns: the exit code of the command, not
+/// that of xvfb-run.
 [[nodiscard]] Outcome runOnDisplay(const std::string& command, int seconds, const std::string& environment = {});
 
 [[nodiscard]] bool canRunViewer();

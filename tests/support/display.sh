@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 # SPDX-License-Identifier: MIT
 #
-# Runs a command on a virtual display of its own: `sh tests/support/display.sh COMMAND...`. The exit code is the
-# command's. xvfb-run itself may fail, before the command starts or after it has ended, where several displays come and
-# go at once; it is tried again only where the command did not end.
+# Runs a command on its own virtual display: `sh tests/support/display.sh COMMAND...`. The exit code is that of the
+# command. When several displays start and stop at once, xvfb-run may fail before the command starts or after it has
+# ended. The script tries again only if the command did not end.
 set -u
 
 code=$(mktemp)

@@ -23,8 +23,8 @@ using Stream = std::unique_ptr<std::FILE, Close>;
 
 constexpr int kLongestWait = 5000;  // milliseconds
 
-/// Reads until as much is there as is expected, or nothing more comes: a terminal may pass on what was written to it
-/// piece by piece, and later.
+/// Reads until `expected` characters have come, or until nothing comes for kLongestWait. A terminal may deliver text
+/// late and in pieces.
 std::string textFrom(int handle, std::size_t expected) {
     std::string text;
     for (pollfd poll{handle, POLLIN, 0}; text.size() < expected && ::poll(&poll, 1, kLongestWait) == 1;) {

@@ -143,7 +143,7 @@ private:
         return {std::sqrt(longest2), std::sqrt(horizontal2) + 2.0 * longest2 / _radius};
     }
 
-    // Whether a triangle shows its front side upward. Backs may be culled, and hide nothing then.
+    // Whether the front side of a triangle faces up. Back faces may be culled, and then hide nothing.
     // Across a triangle the ellipsoid's normal turns by at most the triangle's width over the radius of curvature.
     [[nodiscard]] bool isUpward(const Corners& c) const {
         const glm::dvec3 normal = normalOf(c);

@@ -128,7 +128,7 @@ bool isStateSeeThrough(osg::NodeVisitor& visitor) {
         if (state && isSeeThrough(*state)) return true;
         if (state && !face) face = attribute<osg::FrontFace>(*state, Attribute::FRONTFACE);
     }
-    // whether backs are culled, a tile's own state may say
+    // a tile's own state may switch the culling of back faces on
     return (face && isClockwise(*face)) != isMirror(*cullVisitor->getModelViewMatrix());
 }
 

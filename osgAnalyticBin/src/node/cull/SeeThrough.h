@@ -17,15 +17,15 @@ namespace osgAnalyticBin {
 /// replaces it farther down does not count. Shaders that discard fragments are not known.
 [[nodiscard]] bool isSeeThrough(const osg::StateSet& state);
 
-/// The same of a state on a part of the terrain alone: also where it makes front faces of backs, or has a range of
-/// depths of its own.
+/// The same for a state on a part of the terrain. Clockwise front faces and a depth range also count here, because the
+/// rest of the terrain has others.
 [[nodiscard]] bool isPartSeeThrough(const osg::StateSet& state);
 
 /// The same of the image layers of a terrain tile, by its own and its Terrain's blending policy.
 [[nodiscard]] bool isSeeThrough(const osgTerrain::TerrainTile& tile);
 
-/// Whether one of the states that a cull traversal has met from its camera down to here is such, or front faces look
-/// down because of a state or of a camera that mirrors. False for visitors that collect no state.
+/// Whether a state between the camera and the visitor's present node makes the terrain see-through, or front faces look
+/// down because of a state or a mirroring camera. Returns: false for visitors that collect no state.
 [[nodiscard]] bool isStateSeeThrough(osg::NodeVisitor& visitor);
 
 /// Whether a node is known to draw all of its children: switches, levels of detail, sequences and classes of others may

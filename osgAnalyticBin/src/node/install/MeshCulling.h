@@ -17,7 +17,7 @@ void forEachNode(osg::Node& root, std::function<void(osg::Node&)> action);
 /// Likewise, but nothing below nodes for which `entersBelow` returns false.
 void forEachNodeWhere(osg::Node& root, std::function<bool(osg::Node&)> entersBelow);
 
-/// Whether a part of the mesh has state that shows what is behind it: isPartSeeThrough().
+/// Whether a state in the mesh makes the terrain see-through: isPartSeeThrough().
 [[nodiscard]] bool isSeeThroughMesh(osg::Node& mesh);
 
 /// Gives a node that shares its user data a copy of its own.

@@ -28,12 +28,12 @@ public:
     /// `eyeToCentre`: metres from the eye to the centre of the globe, for rounding. `across`: the range of x that the
     /// camera can see, or more; earth beside it hides nothing, and callers do not ask for bodies beside it. `drawing`:
     /// how far from its place in the picture the corner of a triangle may be drawn, in x and in y; outlines are
-    /// enlarged by it. `depthStep`: a depth buffer may take two points on a line of sight for equally far where
-    /// 1 / forward differs by no more than this (1/m).
+    /// enlarged by it. `depthStep`: the depth buffer may store the same depth for two points on a line of
+    /// sight if their 1 / forward differs by at most this (1/m).
     HorizonBuffer(double eyeToCentre, const Interval& across, double drawing = 0.0, double depthStep = 0.0);
 
-    /// Adds earth. It hides what is farther than its farthest corner, for the depth buffer, too. Earth beside or behind
-    /// the eye is left out.
+    /// Adds earth. It hides bodies that are farther than its farthest corner by more than a depth step. Earth beside or
+    /// behind the eye is left out.
     void add(const EarthColumn& column);
 
     /// Lines of sight below this position in the picture are never hidden: they may meet terrain in front of the near
