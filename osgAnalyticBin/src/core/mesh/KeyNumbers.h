@@ -44,8 +44,16 @@ private:
         std::uint64_t hash = 0;
         for (const std::uint64_t part : key) hash = (hash ^ (part >> 29) ^ part) * 0x9e3779b97f4a7c15u;
         std::size_t slot = (hash >> 20) & (_numbers.size() - 1);
-        while (_numbers[slot] != kNone && _keys[_numbers[slot]] != key) slot = (slot + 1) & (_numbers.size() - 1);
+        while (_numbers[slot] != kNone && !isSame(_keys[_numbers[slot]], key))
+            slot = (slot + 1) & (_numbers.size() - 1);
         return slot;
+    }
+
+    // == calls memcmp(), which takes longer.
+    [[nodiscard]] static bool isSame(const Key& a, const Key& b) {
+        bool is = true;
+        for (std::size_t i = 0; i < a.size(); ++i) is = is && a[i] == b[i];
+        return is;
     }
 
     std::vector<std::uint32_t> _numbers;

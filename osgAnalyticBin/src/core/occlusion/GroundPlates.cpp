@@ -53,10 +53,10 @@ CellRange cellsIn(const Interval& extents, std::size_t cells, const Interval& me
     constexpr double kInset = 0.5 * kRim;
     const auto most = static_cast<double>(cells);
     const double perCell = most / extents.width();
-    const double from = std::floor((met.lower - extents.lower) * perCell + kInset);
-    const double to = std::floor((met.upper - extents.lower) * perCell - kInset);
+    const double from = (met.lower - extents.lower) * perCell + kInset;
+    const double end = (met.upper - extents.lower) * perCell - kInset + 1.0;
     return {static_cast<std::ptrdiff_t>(std::clamp(from, 0.0, most)),
-            static_cast<std::ptrdiff_t>(std::clamp(to, -1.0, most - 1.0))};
+            static_cast<std::ptrdiff_t>(std::clamp(end, 0.0, most)) - 1};
 }
 
 }  // namespace
@@ -82,7 +82,7 @@ public:
 
 private:
     using Corners = std::array<std::uint32_t, 3>;
-    using Edge = std::array<std::uint64_t, 2>;
+    using Edge = std::array<std::uint64_t, 1>;  // from a vertex to another
     struct Vertex {
         glm::dvec3 up;
         double latitude, longitude, altitude;  // the longitude from that of the middle
@@ -90,6 +90,7 @@ private:
     };
     // The place on the ellipsoid in the middle of a cell, and the normal there.
     struct Middle {
+        Geodetic place;
         glm::dvec3 foot, up;
     };
 
@@ -98,7 +99,8 @@ private:
             for (std::size_t i = 0; i < cells * cells; ++i) {
                 const double latitude = cellOf(_plates._latitude, cells, i / cells).middle();
                 const double longitude = cellOf(_plates._longitude, cells, i % cells).middle();
-                _middles[firstNumber(cells) + i] = {_plates._ellipsoid.toEcef({latitude, longitude, 0.0}),
+                _middles[firstNumber(cells) + i] = {{latitude, longitude, 0.0},
+                                                    _plates._ellipsoid.toEcef({latitude, longitude, 0.0}),
                                                     LocalFrame(latitude, longitude).up};
             }
         }
@@ -108,15 +110,22 @@ private:
     void findVertices() {
         KeyNumbers<std::array<std::uint64_t, 3>> positions(_mesh.size());
         const double middle = _plates._longitude.middle();
+        _merged.reserve(_mesh.size());
+        _vertices.reserve(_mesh.size());
+        _positions.reserve(_mesh.size());
         for (std::size_t i = 0; i < _mesh.size(); ++i) {
             const glm::dvec3 v = _mesh.vertex(i);
             const std::uint32_t number = positions.numberOf({bitsOf(v.x), bitsOf(v.y), bitsOf(v.z)});
             _merged.push_back(number);
             if (number < _vertices.size()) continue;
             const Geodetic at = _plates._ellipsoid.toGeodetic(v);
-            const LocalFrame frame(at.latitude, at.longitude);
-            _vertices.push_back({frame.up, at.latitude, std::remainder(at.longitude - middle, 2.0 * kPi), at.altitude,
-                                 std::hypot(v.x, v.y)});
+            const double axisDistance = std::sqrt(v.x * v.x + v.y * v.y), cosLat = std::cos(at.latitude);
+            const double share = axisDistance > 0.0 ? cosLat / axisDistance : 0.0;
+            _vertices.push_back({{share * v.x, share * v.y, std::sin(at.latitude)},
+                                 at.latitude,
+                                 std::remainder(at.longitude - middle, 2.0 * kPi),
+                                 at.altitude,
+                                 axisDistance});
             _positions.push_back(v);
         }
     }
@@ -145,21 +154,20 @@ private:
 
     // Whether the front side of a triangle faces up. Back faces may be culled, and then hide nothing.
     // Across a triangle the ellipsoid's normal turns by at most the triangle's width over the radius of curvature.
-    [[nodiscard]] bool isUpward(const Corners& c) const {
+    [[nodiscard]] bool isUpward(const Corners& c, const Sides& sides) const {
         const glm::dvec3 normal = normalOf(c);
-        const double angle = 2.0 * sidesOf(c).longest / _radius;
+        const double angle = 2.0 * sides.longest / _radius;
         return glm::dot(normal, _vertices[c[0]].up) > (angle + 1e-9) * glm::length(normal);
     }
 
     // Bounds of a triangle. Its longitudes are in the same turn as those of the extents.
-    [[nodiscard]] GeodeticBin boundsOf(const Corners& c) const {
+    [[nodiscard]] GeodeticBin boundsOf(const Corners& c, const Sides& sides) const {
         const Vertex &a = _vertices[c[0]], &b = _vertices[c[1]], &d = _vertices[c[2]];
         const auto range = [&](double Vertex::*of) -> Interval {
             return {std::min({a.*of, b.*of, d.*of}), std::max({a.*of, b.*of, d.*of})};
         };
         const Interval altitude = range(&Vertex::altitude), longitude = range(&Vertex::longitude);
         const double axisDistance = 0.95 * range(&Vertex::axisDistance).lower;
-        const Sides sides = sidesOf(c);
         const double horizontal2 = sides.horizontal * sides.horizontal, mixed = 2.0 * sides.horizontal * sides.longest;
         // doc/theory/occlusion.md, section 3: how far a function may leave the plane through its values at the corners
         const double sag = horizontal2 / (6.0 * _radius);
@@ -205,25 +213,34 @@ private:
         const Corners corners = cornersOf(triangle);
         const auto [a, b, c] = corners;
         if (a == b || b == c || c == a) return;
-        const GeodeticBin bounds = boundsOf(corners);
-        if (bounds.empty() || !isUpward(corners)) {
+        const Sides sides = sidesOf(corners);
+        const GeodeticBin bounds = boundsOf(corners, sides);
+        if (bounds.empty() || !isUpward(corners, sides)) {
             forEachCell(bounds, [&](std::size_t cell) { _isDoubted[cell] = true; });
             return;
         }
-        for (const Edge& edge : {Edge{a, b}, Edge{b, c}, Edge{c, a}}) {
+        for (const Edge& edge : {edgeOf(a, b), edgeOf(b, c), edgeOf(c, a)}) {
             const std::uint32_t number = _edges.numberOf(edge);
             if (number == _edgeCounts.size()) _edgeCounts.push_back(0);
             ++_edgeCounts[number];
         }
         forEachCell(bounds, [&](std::size_t cell) {
             _low[cell] = std::min(_low[cell], bounds.altitude().lower);
-            if (!_isCovered[cell]) _isCovered[cell] = isOnNormal(corners, _middles[cell]);
+            if (!_isCovered[cell])
+                _isCovered[cell] = holds(bounds, _middles[cell]) && isOnNormal(corners, _middles[cell]);
         });
+    }
+
+    [[nodiscard]] static Edge edgeOf(std::uint32_t from, std::uint32_t to) { return {std::uint64_t{from} << 32U | to}; }
+
+    // Whether the normal through the middle of a cell may meet what has these bounds.
+    [[nodiscard]] static bool holds(const GeodeticBin& bounds, const Middle& middle) {
+        return bounds.contains({middle.place.latitude, middle.place.longitude, bounds.altitude().lower});
     }
 
     // Whether the normal through the middle of a cell meets the triangle.
     [[nodiscard]] bool isOnNormal(const Corners& c, const Middle& middle) const {
-        const auto& [foot, up] = middle;
+        const auto& [place, foot, up] = middle;
         const glm::dvec3 p = _positions[c[0]] - foot, q = _positions[c[1]] - foot, r = _positions[c[2]] - foot;
         const double pq = glm::dot(up, glm::cross(p, q));
         const double qr = glm::dot(up, glm::cross(q, r));
@@ -234,12 +251,12 @@ private:
     // Where the mesh, or the part of it that faces one way, ends: at edges that do not have one triangle on each side.
     void addBorders() {
         for (std::uint32_t i = 0; i < _edgeCounts.size(); ++i) {
-            const auto [from, to] = _edges.keys()[i];
-            const std::uint32_t other = _edges.find({to, from});
+            const auto from = static_cast<std::uint32_t>(_edges.keys()[i][0] >> 32U);
+            const auto to = static_cast<std::uint32_t>(_edges.keys()[i][0]);
+            const std::uint32_t other = _edges.find(edgeOf(to, from));
             if (_edgeCounts[i] == 1 && other != _edges.kNone && _edgeCounts[other] == 1) continue;
-            const Corners corners{static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to),
-                                  static_cast<std::uint32_t>(to)};
-            forEachCell(boundsOf(corners), [&](std::size_t cell) { _isDoubted[cell] = true; });
+            const Corners corners{from, to, to};
+            forEachCell(boundsOf(corners, sidesOf(corners)), [&](std::size_t cell) { _isDoubted[cell] = true; });
         }
     }
 
