@@ -30,7 +30,8 @@ public:
 
     void requestNodeFile(const std::string& file, osg::NodePath& path, float priority, const osg::FrameStamp* stamp,
                          osg::ref_ptr<osg::Referenced>& request, const osg::Referenced* options) override {
-        ++count;
+        // what terrain still hides is requested ahead with priorities below zero
+        if (priority >= 0.0F) ++count;
         _pager.requestNodeFile(file, path, priority, stamp, request, options);
     }
 

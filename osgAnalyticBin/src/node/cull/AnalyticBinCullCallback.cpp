@@ -7,6 +7,7 @@
 #include "../install/InstalledTile.h"
 #include "BinCulling.h"
 #include "Occluders.h"
+#include "RequestAhead.h"
 #include "TilePlan.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -290,8 +291,13 @@ void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) 
         traverse(node, nv);
         return;
     }
-    cullOrTraverse(
-        *nv, [&](osg::CullStack& cullStack) { return isCulled(*node, cullStack, *nv); }, [&] { traverse(node, nv); });
+    const auto isCulledHere = [&](osg::CullStack& cullStack) {
+        const bool is = isCulled(*node, cullStack, *nv);
+        const DatabaseView* const database = is ? CullTraversal::of(*nv).databaseView() : nullptr;
+        if (database && database->plan && database->plan->isEmerging(*this)) requestAhead(*node, *nv);
+        return is;
+    };
+    cullOrTraverse(*nv, isCulledHere, [&] { traverse(node, nv); });
 }
 
 InstalledTile* AnalyticBinCullCallback::getInstalledTile() const {

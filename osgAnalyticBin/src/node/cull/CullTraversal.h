@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "EmergingTiles.h"
 #include "GroundBelow.h"
 #include "NearMeshes.h"
 
@@ -95,6 +96,7 @@ public:
         unsigned int rest = 0;     ///< views without occlusion that follow a view in which it hid too little
         unsigned int resting = 0;  ///< how many of them are left
         std::shared_ptr<FoundOcclusion> occlusion;
+        EmergingTiles emerging;
     };
     [[nodiscard]] LastView& lastView(const Database& database);
 

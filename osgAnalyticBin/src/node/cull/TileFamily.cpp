@@ -9,6 +9,7 @@
 #include "../page/Database.h"
 #include "BinCulling.h"
 #include "Bits.h"
+#include "RequestAhead.h"
 #include "SeeThrough.h"
 #include "TilePlan.h"
 
@@ -151,7 +152,8 @@ void TileFamily::operator()(osg::Node* node, osg::NodeVisitor* nv) {
 void TileFamily::test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes,
                       core::PlaneMask undecided, const core::HorizonEye* eye, CullTraversal& traversal,
                       Verdicts& verdicts) const {
-    verdicts.members = verdicts.tested = verdicts.hidden = verdicts.separated = verdicts.occluded = 0;
+    verdicts.members = verdicts.tested = verdicts.hidden = verdicts.separated = verdicts.occluded = verdicts.emerging =
+        0;
     verdicts.lacksTiles = false;
     if (first >= _block->size()) return;
     const TileBlock::Part& part = _block->partFrom(first);
@@ -267,6 +269,8 @@ void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::Cull
         isChanged = isChanged || verdicts.lacksTiles;
         const std::uint64_t culled = this->culled(first, verdicts, nv, cullStack, view, traversal);
         const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
+        forEachBit(verdicts.members & culled & verdicts.emerging,
+                   [&](unsigned int number) { requestAhead(*group.getChild(first + number), nv); });
         forEachBit(lowestBits(here) & ~culled, [&](unsigned int number) {
             if (first + number >= group.getNumChildren()) return;
             osg::Node& child = *group.getChild(first + number);

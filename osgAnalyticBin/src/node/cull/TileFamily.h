@@ -77,6 +77,7 @@ public:
         std::uint64_t hidden = 0;     ///< behind the horizon
         std::uint64_t separated = 0;  ///< proven outside by an edge of the frustum
         std::uint64_t occluded = 0;   ///< behind terrain
+        std::uint64_t emerging = 0;   ///< of these, those that come into view soon
         bool lacksTiles = false;      ///< a tile is not where it was: the terrain may have a hole
 
         /// Slots whose bin is out of view.

@@ -37,9 +37,12 @@ public:
     /// Whether the tile of a family is known to be out of view.
     [[nodiscard]] bool isOutOfView(const ShownTile& tile) const;
 
-    /// Says that terrain hides these of the shown tiles.
-    void setOccluded(const std::vector<ShownTile>& tiles);
+    /// Says that terrain hides one of the shown tiles. `isEmerging`: it comes into view soon. After the last one
+    /// endOccluded() is called.
+    void addOccluded(const ShownTile& tile, bool isEmerging);
+    void endOccluded();
     [[nodiscard]] bool isOccluded(const AnalyticBinCullCallback& tile) const;
+    [[nodiscard]] bool isEmerging(const AnalyticBinCullCallback& tile) const;
 
     /// Searches behind the family that was found last. `undecided`: a result for other planes is not used.
     /// Returns: false where the plan has no such result; `verdicts` stays as it is then.
@@ -51,7 +54,7 @@ private:
         const TileFamily* family;
         unsigned int first;
         core::PlaneMask undecided;
-        std::uint64_t outside, insideAll, members, tested, hidden, separated, occluded;
+        std::uint64_t outside, insideAll, members, tested, hidden, separated, occluded, emerging;
         bool lacksTiles;
         std::size_t masks, end;  // in _masks
     };
@@ -59,7 +62,7 @@ private:
     std::vector<Entry> _entries;
     std::vector<core::PlaneMask> _masks;
     std::vector<ShownTile> _shown;
-    std::vector<const AnalyticBinCullCallback*> _occluded;  // by address
+    std::vector<const AnalyticBinCullCallback*> _occluded, _emerging;  // by address
     std::size_t _next = 0;
 };
 

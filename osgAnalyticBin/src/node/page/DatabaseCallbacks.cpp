@@ -80,7 +80,8 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
     if (isPastBorder) database.noteBorderInView();
     const bool isPlanned = eye || (isPastBorder && findsOccluded && planWithoutHorizon(shown, *viewpoint));
     if (findsOccluded)
-        noteOccluded(isPlanned ? cullBehindTerrain(shown, *viewpoint, last.occlusion) : OccludedTiles(), last);
+        noteOccluded(isPlanned ? cullBehindTerrain(shown, *viewpoint, last.occlusion, last.emerging) : OccludedTiles(),
+                     last);
     return eye;
 }
 

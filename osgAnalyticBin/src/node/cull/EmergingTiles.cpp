@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "EmergingTiles.h"
+
+#include "CullTraversal.h"
+#include "TilePlan.h"
+
+#include <glm/geometric.hpp>
+#include <osg/FrameStamp>
+
+#include <cstddef>
+#include <utility>
+
+namespace osgAnalyticBin {
+
+void EmergingTiles::look(const ShownDatabase& database, const LevelView& view, const glm::dvec3& eye,
+                         const FoundOcclusion& now) {
+    constexpr double kAhead = 1.0;      // seconds
+    constexpr double kPeriod = 0.125;   // seconds
+    constexpr double kLongFrame = 0.5;  // seconds: no motion is seen in it
+    const osg::FrameStamp* const stamp = database.visitor.getFrameStamp();
+    if (!stamp) return;
+    const double time = stamp->getReferenceTime();
+    const double seconds = time - std::exchange(_time, time);
+    const glm::dvec3 step = eye - std::exchange(_eye, eye);
+    if (time - _lastLook < kPeriod && time >= _lastLook) return;
+    for (auto tile = _tiles.begin(); tile != _tiles.end();)
+        tile = time >= tile->second && time - tile->second < kAhead ? std::next(tile) : _tiles.erase(tile);
+    const bool isMoving = seconds > 0.0 && seconds < kLongFrame && glm::length(step) > 0.0 && !now.isJump(step);
+    if (!isMoving) return;
+    _lastLook = time;
+    _isNearLook = !_isNearLook;
+    const double ahead = _isNearLook ? 0.5 * kAhead : kAhead;
+    FoundOcclusion then;
+    // as the search that will be made there
+    then.eye = view.frameAt(eye + (ahead / seconds + now.reach / glm::length(step)) * step);
+    then.reach = now.reach;
+    const auto span = PictureSpan::of(view, then.eye);
+    if (!span) return;
+    then.span = *span;
+    then.nearReach = now.nearReach;
+    if (!findOccluded(database, then)) return;
+    for (std::size_t i = 0; i < now.findings.size(); ++i) {
+        const bool isEmerging =
+            now.findings[i] == FoundOcclusion::Finding::Hidden && then.findings[i] == FoundOcclusion::Finding::Seen;
+        if (isEmerging) _tiles[database.view.plan->shown()[i].tile] = time;
+    }
+}
+
+}  // namespace osgAnalyticBin

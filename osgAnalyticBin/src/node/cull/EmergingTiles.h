@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "OcclusionSearch.h"
+
+#include <glm/vec3.hpp>
+
+#include <limits>
+#include <unordered_map>
+
+namespace osgAnalyticBin {
+
+/// Tiles that terrain hides now, and that come into view within the next second if the eye goes on as it does. Their
+/// files are requested before they are seen.
+class EmergingTiles {
+public:
+    /// Looks ahead eight times a second, from where the eye will be in half a second and in one second in turn. Times
+    /// are those of the visitor's frame stamp. An eye that stands still or jumps has nothing ahead. `now`: what terrain
+    /// hides in this view. Cost: that of findOccluded() at each of these times.
+    void look(const ShownDatabase& database, const LevelView& view, const glm::dvec3& eye, const FoundOcclusion& now);
+
+    /// Whether the tile was found in the last second.
+    [[nodiscard]] bool contains(const AnalyticBinCullCallback& tile) const { return _tiles.count(&tile) != 0; }
+
+private:
+    static constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+    // Of the last view, in seconds and ECEF.
+    double _time = kNever;
+    glm::dvec3 _eye{0.0};
+
+    double _lastLook = kNever;
+    bool _isNearLook = false;                                           // half a second ahead
+    std::unordered_map<const AnalyticBinCullCallback*, double> _tiles;  // and when they were found
+};
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "OcclusionSearch.h"
+
+#include "../install/InstalledTile.h"
+#include "CullTraversal.h"
+#include "TilePlan.h"
+
+#include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+using core::BinHull;
+using core::GeodeticBin;
+using core::HorizonBuffer;
+
+// A shown tile.
+struct Candidate {
+    const TilePlan::ShownTile* tile;
+    double distance;   // metres from the eye to a corner of the bin, the nearest one
+    double size;       // metres from corner to corner
+    bool isHidden;     // as far as is known
+    bool isInPicture;  // at least one quarter is
+};
+
+// A quarter of a tile's bin. Quarters are tested one by one, because more terrain is in front of the farther ones.
+struct Quarter {
+    std::size_t candidate, number;
+    HorizonBuffer::Outline outline;  // of all that is drawn with it
+};
+
+class OcclusionSearch {
+public:
+    // For eyes within the reach of the place that is given.
+    OcclusionSearch(const ShownDatabase& database, FoundOcclusion& found)
+        : _database(database),
+          _ellipsoid(database.view.ellipsoid),
+          _found(found),
+          _buffer(glm::length(found.eye.origin), found.span.across, found.span.drawing, found.span.depthStep) {}
+
+    // Returns: whether something was found.
+    [[nodiscard]] bool run() {
+        for (const TilePlan::ShownTile& tile : _database.view.plan->shown()) {
+            if (!add(tile)) return false;
+        }
+        std::sort(_order.begin(), _order.end());
+        const double nearReach = 1.01 * _found.nearReach;
+        const std::optional<double> highest = highestWithin(nearReach);
+        if (!highest || !(*highest < 0.0)) return false;
+        _found.lastClearance = std::isfinite(*highest) ? -*highest : nearestInPicture();
+        _buffer.setLowest(*highest / nearReach);
+        for (const auto& [nearest, number] : _order) {
+            const Quarter& quarter = _quarters[number];
+            if (quarter.outline.isBeside || _buffer.hides(quarter.outline)) continue;
+            addEarth(quarter);
+            _candidates[quarter.candidate].isHidden = false;
+        }
+        _found.findings.clear();
+        for (const Candidate& candidate : _candidates) {
+            const FoundOcclusion::Finding inPicture =
+                candidate.isHidden ? FoundOcclusion::Finding::Hidden : FoundOcclusion::Finding::Seen;
+            _found.findings.push_back(candidate.isInPicture ? inPicture : FoundOcclusion::Finding::Beside);
+        }
+        return true;
+    }
+
+private:
+    // Returns: false where the place of the tile is not known.
+    [[nodiscard]] bool add(const TilePlan::ShownTile& shown) {
+        const AnalyticBinCullCallback& tile = *shown.tile;
+        const GeodeticBin& bin = tile.getBin().bin();
+        const core::Interval altitude{tile.getBinLow(), tile.getBinHigh()};
+        if (bin.empty() || !std::isfinite(altitude.lower) || !std::isfinite(altitude.upper)) return false;
+        Candidate candidate{&shown, HUGE_VAL, 0.0, true, false};
+        const GeodeticBin drawn = bin.withAltitude(altitude);
+        const auto hulls = core::hullsOfQuarters(_ellipsoid, drawn, tile.getBin().margin() + _found.reach, _found.eye);
+        candidate.size = 2.0 * glm::distance(hulls.back().corners.front(), hulls.back().corners.back());
+        std::size_t number = 0;
+        for (const BinHull& hull : hulls) {
+            for (const glm::dvec3& corner : hull.corners)
+                candidate.distance = std::min(candidate.distance, glm::length(corner));
+            const HorizonBuffer::Outline outline = _buffer.outlineOf(hull);
+            candidate.isInPicture = candidate.isInPicture || !outline.isBeside;
+            _order.emplace_back(outline.nearest, _quarters.size());
+            _quarters.push_back({_candidates.size(), number++, outline});
+        }
+        _candidates.push_back(candidate);
+        return true;
+    }
+
+    // Metres along `forward`.
+    [[nodiscard]] double nearestInPicture() const {
+        const auto first = std::find_if(_order.begin(), _order.end(), [this](const auto& place) {
+            return !_quarters[place.second].outline.isBeside;
+        });
+        return first == _order.end() ? 0.0 : first->first;
+    }
+
+    // Metres above the eye of the highest point of the terrain that is in the picture and within `reach` of the eye.
+    // Returns: nullopt where that is not known.
+    [[nodiscard]] std::optional<double> highestWithin(double reach) const {
+        NearMeshes& meshes = CullTraversal::of(_database.visitor).nearMeshes();
+        const core::Interval& across = _found.span.across;
+        const double widest = std::max(std::abs(across.lower), std::abs(across.upper));
+        double highest = -HUGE_VAL;
+        std::vector<std::size_t> tiles;
+        for (const auto& [nearest, number] : _order) {
+            if (nearest > reach) break;
+            const Quarter& quarter = _quarters[number];
+            const bool isKnown = std::find(tiles.begin(), tiles.end(), quarter.candidate) != tiles.end();
+            if (isKnown || quarter.outline.isBeside) continue;
+            if (tiles.size() == NearMeshes::kMostTiles) return std::nullopt;
+            tiles.push_back(quarter.candidate);
+            const TilePlan::ShownTile& tile = *_candidates[quarter.candidate].tile;
+            const double margin = tile.tile->getBin().margin() + _found.reach;
+            const double radius = (reach + 2.0 * margin) * (1.0 + widest);
+            const core::EcefMesh* const mesh = meshes.trianglesNear(*tile.tile, *tile.mesh, _found.eye, radius);
+            if (!mesh) return std::nullopt;
+            highest = std::max(highest, highestOf(*mesh, reach, margin));
+        }
+        return highest;
+    }
+
+    // The same of triangles that may be `margin` metres away from their place.
+    [[nodiscard]] double highestOf(const core::EcefMesh& mesh, double reach, double margin) const {
+        const auto& [eye, right, ahead, up] = _found.eye;
+        // inside is where p.normal >= offset
+        struct HalfSpace {
+            glm::dvec3 normal;
+            double offset;
+        };
+        const auto [left, most] = _found.span.across;
+        const std::array<HalfSpace, 4> wedge{HalfSpace{ahead, -margin}, HalfSpace{-ahead, -reach - margin},
+                                             HalfSpace{right - left * ahead, -margin * (1.0 + std::abs(left))},
+                                             HalfSpace{most * ahead - right, -margin * (1.0 + std::abs(most))}};
+        double highest = -HUGE_VAL;
+        std::vector<double> forward(mesh.size());
+        for (std::size_t i = 0; i < mesh.size(); ++i) forward[i] = glm::dot(mesh.vertex(i) - eye, ahead);
+        std::vector<glm::dvec3> polygon, clipped;
+        for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+            const std::uint32_t* const corners = &mesh.triangles[i];
+            const auto [least, greatest] = std::minmax({forward[corners[0]], forward[corners[1]], forward[corners[2]]});
+            if (least > reach + margin || greatest < -margin) continue;
+            polygon.clear();
+            for (std::size_t k = 0; k < 3; ++k) polygon.push_back(mesh.vertex(corners[k]) - eye);
+            for (const HalfSpace& half : wedge) {
+                clipped.clear();
+                for (std::size_t k = 0; k < polygon.size(); ++k) {
+                    const glm::dvec3 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+                    const double da = glm::dot(a, half.normal) - half.offset,
+                                 db = glm::dot(b, half.normal) - half.offset;
+                    if (da >= 0.0) clipped.push_back(a);
+                    if ((da < 0.0) != (db < 0.0)) clipped.push_back(a + da / (da - db) * (b - a));
+                }
+                polygon.swap(clipped);
+            }
+            for (const glm::dvec3& point : polygon) highest = std::max(highest, glm::dot(point, up) + margin);
+        }
+        return highest;
+    }
+
+    // Lines of sight that meet earth there come from above the terrain, not from beside it.
+    [[nodiscard]] bool isOverRegion(const GeodeticBin& bin) const {
+        return !_database.region || _database.region->contains(bin);
+    }
+    [[nodiscard]] bool isQuarterOverRegion(const Quarter& quarter) const {
+        return isOverRegion(_candidates[quarter.candidate].tile->tile->getBin().bin().quarters()[quarter.number]);
+    }
+
+    void addEarth(const Quarter& quarter) {
+        const Candidate& candidate = _candidates[quarter.candidate];
+        const InstalledTile* const installed = candidate.tile->tile->getInstalledTile();
+        const core::GroundPlates* const plates = installed && candidate.tile->isSure ? installed->plates() : nullptr;
+        const bool isTileOverRegion = isOverRegion(candidate.tile->tile->getBin().bin());
+        if (!plates || (!isTileOverRegion && !isQuarterOverRegion(quarter))) return;
+        // a cell should be some strips wide
+        constexpr double kStripsOfCell = 8.0;
+        const double strips = candidate.size / std::max(candidate.distance, 1e-3 * candidate.size) /
+                              _found.span.across.width() * HorizonBuffer::kStrips;
+        std::size_t cells = 8;
+        while (cells > 2 && strips < kStripsOfCell * static_cast<double>(cells)) cells /= 2;
+        // deep enough to reach below what is behind it, and not so deep that columns part
+        const AnalyticBinCullCallback& tile = *candidate.tile->tile;
+        const double radius = _ellipsoid.polarRadius();
+        const double depth =
+            std::min(std::min(2.0 * (tile.getBinHigh() - tile.getBinLow()), 0.02 * radius) + 0.25 * candidate.distance,
+                     0.09 * radius);
+        _columns.clear();
+        // coarser cells bridge the gaps between finer ones
+        // the cell of the whole tile is added once
+        const std::size_t coarsest = candidate.isHidden && isTileOverRegion ? 1 : 2;
+        for (; cells >= coarsest; cells /= 2) plates->appendColumns(cells, quarter.number, depth, _found.eye, _columns);
+        for (core::EarthColumn& column : _columns) {
+            column.error += _found.reach;
+            _buffer.add(column);
+        }
+    }
+
+    const ShownDatabase& _database;
+    const core::Ellipsoid& _ellipsoid;
+    FoundOcclusion& _found;
+    HorizonBuffer _buffer;
+    std::vector<Candidate> _candidates;
+    std::vector<Quarter> _quarters;
+    std::vector<std::pair<double, std::size_t>> _order;  // of the quarters, by the distance of the nearest point
+    std::vector<core::EarthColumn> _columns;
+};
+
+}  // namespace
+
+bool FoundOcclusion::Tile::operator==(const Tile& other) const {
+    return std::tie(tile, mesh, isSure, plates, margin, low, high) ==
+               std::tie(other.tile, other.mesh, other.isSure, other.plates, other.margin, other.low, other.high) &&
+           bin == other.bin;
+}
+
+bool FoundOcclusion::isJump(const glm::dvec3& step) const {
+    constexpr double kJump = 0.1;  // of the clearance
+    return glm::length(step) >= kJump * lastClearance;
+}
+
+bool findOccluded(const ShownDatabase& database, FoundOcclusion& found) {
+    return OcclusionSearch(database, found).run();
+}
+
+}  // namespace osgAnalyticBin
