@@ -74,7 +74,7 @@ done
 step "Comparing the pictures and counts; the table is also in $demo/table.txt"
 rm -rf "$demo/difference"
 code=0
-"$build/bin/osgbinreport" "$demo/none" "$demo/sphere" "$demo/quadratic" --difference "$demo/difference" \
+"$build/bin/osgbinbench" report "$demo/none" "$demo/sphere" "$demo/quadratic" --difference "$demo/difference" \
     >"$demo/table.txt" || code=$?
 cat "$demo/table.txt"
 [ "$code" -eq 0 ] || give_up "the report failed (code $code)"

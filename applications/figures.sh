@@ -27,7 +27,7 @@ sh applications/packages.sh
 
 step "Build"
 cmake --preset release >/dev/null
-cmake --build --preset release -- osgbinbench osgbindem osgbinpaper osgbinscale osgdb_analyticbin \
+cmake --build --preset release -- osgbinbench osgbindem osgbinpaper osgdb_analyticbin \
     osgdb_serializers_osganalyticbin osgdb_proceduralglobe
 mkdir -p "$out"
 
@@ -57,7 +57,7 @@ step "The published experiment"
 "$build/bin/osgbinpaper" --csv "$out/paper.csv" --json "$out/paper.json" --plot "$out/paper" >"$out/paper.txt"
 
 step "Scale"
-"$build/bin/osgbinscale" --csv "$out/scale.csv" --json "$out/scale.json" --plot "$out/scale" >"$out/scale.txt"
+"$build/bin/osgbinbench" scale --csv "$out/scale.csv" --json "$out/scale.json" --plot "$out/scale" >"$out/scale.txt"
 
 step "Machine"
 {

@@ -83,6 +83,9 @@ std::string flightColumns() {
 
 std::string footer() {
     std::string text =
+        "Two commands, each with a --help of its own:\n"
+        "  osgbinbench report   compares flights that binflight left\n"
+        "  osgbinbench scale    measures how culling scales with depth and with tiles in memory\n\n"
         "At every pose every method starts from the root file alone and loads what it wants; then it is measured.\n"
         "Methods: none = no culling, always flown, as all others are judged by it; sphere = OSG's spheres and boxes,\n"
         "the database's ClusterCullingCallbacks taken away; cluster = OSG with these callbacks: the database's own, "

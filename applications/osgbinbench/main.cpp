@@ -10,6 +10,8 @@
 #include "Plot.h"
 #include "PoseBench.h"
 #include "ProgramRun.h"
+#include "ReportCommand.h"
+#include "ScaleCommand.h"
 #include "TextFile.h"
 
 #include <osg/Notify>
@@ -93,5 +95,11 @@ ExitCode run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    return osgAnalyticBin::support::runProgram("osgbinbench", [&] { return run(argc, argv); });
+    using osgAnalyticBin::support::runProgram;
+    const std::string command = argc > 1 ? argv[1] : "";
+    if (command == "report")
+        return runProgram("osgbinbench report", [&] { return osgAnalyticBin::report::run(argc - 1, argv + 1); });
+    if (command == "scale")
+        return runProgram("osgbinbench scale", [&] { return osgAnalyticBin::scale::run(argc - 1, argv + 1); });
+    return runProgram("osgbinbench", [&] { return run(argc, argv); });
 }

@@ -63,8 +63,8 @@ set(CPACK_DEBIAN_TOOLS_DESCRIPTION
     "analytic-bin culling of paged terrain for OpenSceneGraph, programs
 Programs that show what culling does (osgbinviewer), make paged globes from
 elevation rasters (osgbindem), find the bins of databases made by others
-(osgbinconv), and measure and compare culling (osgbinbench, osgbinscale,
-osgbinreport, osgbinassembly, osgbinpaper), with camera paths.")
+(osgbinconv), and measure and compare culling (osgbinbench), with camera
+paths.")
 
 # What Debian wants in every package's folder of documents.
 string(TIMESTAMP _changelog_date "%a, %d %b %Y %H:%M:%S +0000" UTC)

@@ -3,7 +3,7 @@
 //
 // Coarse meshes beside a pole, whose stored bins are right: the bound of such a mesh that the check has is rough in
 // latitude, which is no reason to call the bin too small. Oracle of the bins: core::GeodeticMeshBounds. False bins
-// elsewhere are in FalseBinTest.cpp; the tiles that this was found with in applications/osgbinscale.
+// elsewhere are in FalseBinTest.cpp; the tiles that this was found with in applications/osgbinglobe.
 
 #include "DatabaseFixture.h"
 

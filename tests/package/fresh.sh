@@ -47,7 +47,7 @@ echo "== library and programs"
 inside "apt-get install -y --no-install-recommends /tmp/packages/libosganalyticbin0_*.deb /tmp/packages/osganalyticbin-tools_*.deb"
 inside "osgconv --format analyticbin"
 said "method=quadratic"
-programs="osgbinviewer osgbindem osgbinconv osgbinbench osgbinscale osgbinreport osgbinassembly osgbinpaper"
+programs="osgbinviewer osgbindem osgbinconv osgbinbench"
 inside "for p in $programs; do \$p --version; done; ldconfig -p"
 for program in $programs; do said "^$program (osgAnalyticBin)"; done
 said "libosgAnalyticBin.so.0"

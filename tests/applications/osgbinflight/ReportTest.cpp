@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// osgbinreport over made-up flights: the parts here, the program's exit codes at the end.
+// `osgbinbench report` over made-up flights: the parts here, the program's exit codes at the end.
 
 #include "PictureDifference.h"
 #include "Report.h"
@@ -56,7 +56,7 @@ osg::ref_ptr<osg::Image> pictureWithOneOtherPixel() {
 }
 
 int exitCodeOf(const std::string& arguments) {
-    const int status = std::system(("'" REPORT_FILE "' " + arguments + " >/dev/null 2>&1").c_str());
+    const int status = std::system(("'" BENCH_FILE "' report " + arguments + " >/dev/null 2>&1").c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <ostream>
 #include <string>
 #include <support/StockPrograms.h>
@@ -16,7 +17,7 @@ namespace osgAnalyticBin {
 namespace {
 
 struct UsedProgram {
-    std::string name;
+    std::string name;                // with its command
     std::string failing;             // arguments; @: a folder that is empty
     std::vector<std::string> wrong;  // arguments
 };
@@ -31,7 +32,7 @@ protected:
         for (std::size_t at = 0; (at = arguments.find('@', at)) != std::string::npos; at += _folder.path().size())
             arguments.replace(at, 1, _folder.path());
         const test::Outcome outcome = test::runStock(
-            "env -u DISPLAY " + test::quoted(std::string(PROGRAM_FOLDER) + "/" + GetParam().name) + ' ' + arguments,
+            "env -u DISPLAY PATH=" + test::quoted(PROGRAM_FOLDER) + ":\"$PATH\" " + GetParam().name + ' ' + arguments,
             test::Modules::Present);
         EXPECT_EQ(outcome.code, code) << arguments << '\n' << outcome.text;
         EXPECT_EQ(outcome.linesWith(GetParam().name + ": "), code == 0 ? 0 : 1) << arguments << '\n' << outcome.text;
@@ -61,18 +62,21 @@ const std::vector<UsedProgram> kPrograms{
      "--compare @/old.json @/new.json",
      {"", "earth.osgb", "earth.osgb --path p.csv --methods cube", "earth.osgb --compare old.json new.json",
       "earth.osgb --path p.csv --frames 9 --plot plots"}},
+    {"osgbinbench report", "@/none @/bins", {"", "a b --labels one"}},
+    {"osgbinbench scale", "--json @/absent/scale.json", {"--cells 3", "--methods cube", "--series shape"}},
     {"osgbinconv", "--index @/earth.ive", {"", "earth.ive", "--index --check earth.ive", "--index earth.ive x.osgb"}},
     {"osgbindem",
      "@/absent.tif -o @/earth.osgb",
      {"", "-o earth.osgb", "a.tif -o earth.ive", "a.tif -o earth.osgb --cells 7",
       "a.tif -o earth.osgb --update --overwrite", "a.tif -o earth.osgb -te 1 2 0 3"}},
     {"osgbinpaper", "@/absent.tif --quiet", {"--levels 9", "--cameras none"}},
-    {"osgbinreport", "@/none @/bins", {"", "a b --labels one"}},
-    {"osgbinscale", "--json @/absent/scale.json", {"--cells 3", "--methods cube", "--series shape"}},
     {"osgbinviewer", "@/absent.osgb", {"", "earth.osgb --options metod=exact", "earth.osgb --frobnicate"}}};
 
-INSTANTIATE_TEST_SUITE_P(Programs, ExitCode, testing::ValuesIn(kPrograms),
-                         [](const auto& program) { return program.param.name; });
+INSTANTIATE_TEST_SUITE_P(Programs, ExitCode, testing::ValuesIn(kPrograms), [](const auto& program) {
+    std::string name = program.param.name;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
+});
 
 }  // namespace
 }  // namespace osgAnalyticBin

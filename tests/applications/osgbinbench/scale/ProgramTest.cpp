@@ -28,7 +28,7 @@ using test::TemporaryFolder;
 constexpr const char* kQuiet = "ASAN_OPTIONS=detect_leaks=0";
 
 Outcome runScale(const std::string& arguments) {
-    return test::runStock("timeout 300 " + test::quoted(SCALE_FILE) + ' ' + arguments, Modules::Absent, kQuiet);
+    return test::runStock("timeout 300 " + test::quoted(BENCH_FILE) + " scale " + arguments, Modules::Absent, kQuiet);
 }
 
 json jsonFile(const std::string& file) {
@@ -101,10 +101,10 @@ TEST(ScaleProgram, DrawsFigures) {
 
 TEST(ScaleProgram, SaysAtOnceThatGnuplotIsMissing) {
     const TemporaryFolder folder;
-    const Outcome outcome = test::runStock(test::quoted(SCALE_FILE) + " --plot " + test::quoted(folder.path()),
+    const Outcome outcome = test::runStock(test::quoted(BENCH_FILE) + " scale --plot " + test::quoted(folder.path()),
                                            Modules::Absent, std::string("PATH=/absent ") + kQuiet);
     EXPECT_EQ(outcome.code, 1);
-    EXPECT_EQ(outcome.text, "osgbinscale: --plot: gnuplot failed; install the package gnuplot-nox\n");
+    EXPECT_EQ(outcome.text, "osgbinbench scale: --plot: gnuplot failed; install the package gnuplot-nox\n");
 }
 
 TEST(ScaleProgram, SaysInOneLineWhatIsWrong) {
@@ -122,7 +122,7 @@ TEST(ScaleProgram, SaysInOneLineWhatIsWrong) {
     for (const auto& wrong : cases) {
         const Outcome outcome = runScale(wrong.arguments);
         EXPECT_EQ(outcome.code, wrong.code) << wrong.arguments;
-        EXPECT_EQ(outcome.linesWith("osgbinscale: "), 1) << outcome.text;
+        EXPECT_EQ(outcome.linesWith("osgbinbench scale: "), 1) << outcome.text;
         EXPECT_EQ(outcome.linesWith(wrong.part), 1) << outcome.text;
     }
     EXPECT_EQ(runScale("--help").code, 0);

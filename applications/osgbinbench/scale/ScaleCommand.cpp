@@ -1,23 +1,20 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "ScaleCommand.h"
+
 #include "Failure.h"
 #include "ModuleFolder.h"
 #include "Output.h"
-#include "ProgramRun.h"
 #include "Series.h"
 #include "Settings.h"
 #include "TextFile.h"
 
 #include <iostream>
 
+namespace osgAnalyticBin::scale {
+
 namespace {
-
-using osgAnalyticBin::support::ExitCode;
-using osgAnalyticBin::support::kSucceeded;
-using osgAnalyticBin::support::writeFile;
-
-using namespace osgAnalyticBin::scale;
 
 void measure(const Settings& settings) {
     if (!settings.plot.empty()) requireGnuplot();
@@ -26,22 +23,20 @@ void measure(const Settings& settings) {
     if (settings.measuresMemory) results.memory = measureMemory(settings);
     if (settings.measuresResidents) results.residents = measureResidents(settings);
     if (settings.measuresDepth) results.depth = measureDepth(settings);
-    if (!settings.csv.empty()) writeFile(settings.csv, csvOf(results));
-    if (!settings.json.empty()) writeFile(settings.json, jsonOf(settings, results));
+    if (!settings.csv.empty()) support::writeFile(settings.csv, csvOf(results));
+    if (!settings.json.empty()) support::writeFile(settings.json, jsonOf(settings, results));
     if (!settings.plot.empty()) plot(settings.plot, results);
     printTables(std::cout, results);
 }
 
-ExitCode run(int argc, char** argv) {
-    Settings settings;
-    if (!settingsFromCommandLine(argc, argv, settings)) return kSucceeded;
-    osgAnalyticBin::addModuleFolder();
-    measure(settings);
-    return kSucceeded;
-}
-
 }  // namespace
 
-int main(int argc, char** argv) {
-    return osgAnalyticBin::support::runProgram("osgbinscale", [&] { return run(argc, argv); });
+support::ExitCode run(int argc, char** argv) {
+    Settings settings;
+    if (!settingsFromCommandLine(argc, argv, settings)) return support::kSucceeded;
+    addModuleFolder();
+    measure(settings);
+    return support::kSucceeded;
 }
+
+}  // namespace osgAnalyticBin::scale

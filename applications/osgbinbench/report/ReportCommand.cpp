@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "ReportCommand.h"
+
 #include "Failure.h"
-#include "ProgramRun.h"
 #include "Report.h"
 
 #include <osgAnalyticBin/Version.h>
@@ -13,14 +14,13 @@
 #include <string>
 #include <vector>
 
+namespace osgAnalyticBin::report {
+
 namespace {
 
-using osgAnalyticBin::report::Mismatch;
-using osgAnalyticBin::report::Report;
-
-using osgAnalyticBin::support::ExitCode;
-using osgAnalyticBin::support::Failure;
-using osgAnalyticBin::support::UsageError;
+using support::ExitCode;
+using support::Failure;
+using support::UsageError;
 
 struct Arguments {
     std::vector<std::string> folders;
@@ -44,10 +44,10 @@ void declare(CLI::App& app, Arguments& arguments) {
         "Exit code: 0; 1 when a picture of a sound method (any but paper and corners) differs from the reference,\n"
         "or when a flight cannot be read; 2 when the command line is wrong.\n\n"
         "Example:\n"
-        "  osgbinreport demo/none demo/sphere demo/quadratic --difference demo/difference");
+        "  osgbinbench report demo/none demo/sphere demo/quadratic --difference demo/difference");
 }
 
-ExitCode report(const Arguments& arguments) {
+ExitCode compare(const Arguments& arguments) {
     if (!arguments.labels.empty() && arguments.labels.size() != arguments.folders.size())
         throw UsageError("--labels: " + std::to_string(arguments.labels.size()) + " names for " +
                          std::to_string(arguments.folders.size()) + " folders; give one for each");
@@ -57,22 +57,22 @@ ExitCode report(const Arguments& arguments) {
     report->print(std::cout);
     const std::vector<Mismatch> mismatches = report->mismatches();
     for (const Mismatch& mismatch : mismatches)
-        std::cerr << "osgbinreport: method " << mismatch.label << " draws another picture than the reference at pose "
-                  << mismatch.pose << ": " << mismatch.pixels << " pixels differ\n";
-    return mismatches.empty() ? osgAnalyticBin::support::kSucceeded : osgAnalyticBin::support::kFailed;
-}
-
-ExitCode run(int argc, char** argv) {
-    CLI::App app{"Compares flights over a database that were made with different culling methods.", "osgbinreport"};
-    app.set_version_flag("--version", std::string("osgbinreport (osgAnalyticBin) ") + osgAnalyticBin::version());
-    Arguments arguments;
-    declare(app, arguments);
-    if (!osgAnalyticBin::support::parseCommandLine(app, argc, argv)) return osgAnalyticBin::support::kSucceeded;
-    return report(arguments);
+        std::cerr << "osgbinbench report: method " << mismatch.label
+                  << " draws another picture than the reference at pose " << mismatch.pose << ": " << mismatch.pixels
+                  << " pixels differ\n";
+    return mismatches.empty() ? support::kSucceeded : support::kFailed;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-    return osgAnalyticBin::support::runProgram("osgbinreport", [&] { return run(argc, argv); });
+ExitCode run(int argc, char** argv) {
+    CLI::App app{"Compares flights over a database that were made with different culling methods.",
+                 "osgbinbench report"};
+    app.set_version_flag("--version", std::string("osgbinbench report (osgAnalyticBin) ") + version());
+    Arguments arguments;
+    declare(app, arguments);
+    if (!support::parseCommandLine(app, argc, argv)) return support::kSucceeded;
+    return compare(arguments);
 }
+
+}  // namespace osgAnalyticBin::report

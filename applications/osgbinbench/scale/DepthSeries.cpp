@@ -62,7 +62,7 @@ std::vector<DepthRow> measureDepth(const Settings& settings) {
         }
     }
     for (int pose = 0; pose < settings.poses; ++pose) {
-        std::cerr << "osgbinscale: depth, pose " << pose + 1 << " of " << settings.poses << std::endl;
+        std::cerr << "osgbinbench scale: depth, pose " << pose + 1 << " of " << settings.poses << std::endl;
         for (std::size_t i = 0; i < scenes.size(); ++i) {
             scenes[i]->settle(paths[i][static_cast<std::size_t>(pose)]);
             rows[i].tiles.add(scenes[i]->tally());

@@ -21,7 +21,7 @@ flight::CameraPose farAway() {
 }
 
 MemoryRow memoryOf(const std::string& name, const ScaleMethod& method, const Settings& settings, bool storesBins) {
-    std::cerr << "osgbinscale: memory, " << name << std::endl;
+    std::cerr << "osgbinbench scale: memory, " << name << std::endl;
     globe::GlobeOptions options;
     options.bins = storesBins;
     ScaleScene scene(method, options);

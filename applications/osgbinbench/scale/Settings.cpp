@@ -40,7 +40,7 @@ constexpr const char* kFooter =
     "paper or corners.\n"
     "Exit code: 0; 1 when something failed: one line says what; 2 when the command line is wrong.\n\n"
     "Example:\n"
-    "  osgbinscale --levels 8,20 --residents 1000,100000 --json scale.json --plot figures";
+    "  osgbinbench scale --levels 8,20 --residents 1000,100000 --json scale.json --plot figures";
 
 struct Words {
     std::vector<std::string> methods{"sphere", "quadratic+horizon+edges", "exact+horizon+edges"};
@@ -113,7 +113,7 @@ void takeSeries(const std::vector<std::string>& series, Settings& settings) {
 
 ScaleMethod scaleMethodFromName(const std::string& given) {
     const std::string name = support::currentMethodName(given);
-    if (name != given) std::cerr << "osgbinscale: " << support::noticeOfOldName(given);
+    if (name != given) std::cerr << "osgbinbench scale: " << support::noticeOfOldName(given);
     const std::size_t plus = name.find('+');
     const std::string base = name.substr(0, plus);
     const std::string suffixes = plus == std::string::npos ? std::string() : name.substr(plus);
@@ -136,8 +136,9 @@ ScaleMethod scaleMethodFromName(const std::string& given) {
 }
 
 bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {
-    CLI::App app{"Measures how culling scales with the depth of a database and with what is in memory.", "osgbinscale"};
-    app.set_version_flag("--version", std::string("osgbinscale (osgAnalyticBin) ") + osgAnalyticBin::version());
+    CLI::App app{"Measures how culling scales with the depth of a database and with what is in memory.",
+                 "osgbinbench scale"};
+    app.set_version_flag("--version", std::string("osgbinbench scale (osgAnalyticBin) ") + osgAnalyticBin::version());
     Words words;
     declare(app, settings, words);
     if (!support::parseCommandLine(app, argc, argv)) return false;

@@ -77,7 +77,7 @@ std::vector<ResidentRow> measureResidents(const Settings& settings) {
     std::vector<std::unique_ptr<PagerUpdate>> pagers;
     std::vector<ResidentRow> rows;
     for (const int residents : settings.residents) {
-        std::cerr << "osgbinscale: loading " << residents << " PagedLODs" << std::endl;
+        std::cerr << "osgbinbench scale: loading " << residents << " PagedLODs" << std::endl;
         for (const ScaleMethod& method : settings.methods) {
             ScaleScene& scene = *scenes.emplace_back(std::make_unique<ScaleScene>(method, smallMeshes()));
             scene.settle(view());
@@ -90,7 +90,7 @@ std::vector<ResidentRow> measureResidents(const Settings& settings) {
             rows.push_back(row);
         }
     }
-    std::cerr << "osgbinscale: residents, timing" << std::endl;
+    std::cerr << "osgbinbench scale: residents, timing" << std::endl;
     const auto cull = measuredInTurns(scenes, settings.rounds, [](ScaleScene& scene) { return scene.cullMs(); });
     const auto update = measuredInTurns(scenes, settings.rounds, [](ScaleScene& scene) { return scene.updateMs(); });
     const auto pagerMs = [&](unsigned int target) {
