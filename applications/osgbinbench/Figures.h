@@ -117,7 +117,8 @@ struct FlightColumn {
 
 inline constexpr std::array<FlightColumn, 5> kFlightColumns{{
     {"drawn_tiles", &FlightFigures::drawnTiles, "tiles with a mesh of their own drawn, summed over frames"},
-    {"missing_frames", &FlightFigures::missingFrames, "frames that asked for a file: something was shown too coarse"},
+    {"missing_frames", &FlightFigures::missingFrames,
+     "frames that asked for a file for what they showed: it was too coarse"},
     {"resident_tiles", &FlightFigures::residentTiles, "tiles in memory after the last frame"},
     {"files_requested", &FlightFigures::filesRequested, "files read"},
     {"bytes", &FlightFigures::bytes, "bytes of these files"},
