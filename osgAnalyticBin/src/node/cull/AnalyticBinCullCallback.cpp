@@ -292,10 +292,10 @@ void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) 
         return;
     }
     const auto isCulledHere = [&](osg::CullStack& cullStack) {
-        const bool is = isCulled(*node, cullStack, *nv);
-        const DatabaseView* const database = is ? CullTraversal::of(*nv).databaseView() : nullptr;
+        const bool culled = isCulled(*node, cullStack, *nv);
+        const DatabaseView* const database = culled ? CullTraversal::of(*nv).databaseView() : nullptr;
         if (database && database->plan && database->plan->isEmerging(*this)) requestAhead(*node, *nv);
-        return is;
+        return culled;
     };
     cullOrTraverse(*nv, isCulledHere, [&] { traverse(node, nv); });
 }

@@ -10,6 +10,7 @@
 #include <osg/FrameStamp>
 
 #include <cstddef>
+#include <iterator>
 #include <utility>
 
 namespace osgAnalyticBin {
@@ -27,8 +28,9 @@ void EmergingTiles::look(const ShownDatabase& database, const LevelView& view, c
     if (time - _lastLook < kPeriod && time >= _lastLook) return;
     for (auto tile = _tiles.begin(); tile != _tiles.end();)
         tile = time >= tile->second && time - tile->second < kAhead ? std::next(tile) : _tiles.erase(tile);
-    const bool isMoving = seconds > 0.0 && seconds < kLongFrame && glm::length(step) > 0.0 && !now.isJump(step);
-    if (!isMoving) return;
+    // an eye that stands still is rounded anew where the camera turns
+    const bool isStill = glm::length(step) <= 1e-9 * glm::length(eye);
+    if (isStill || now.isJump(step) || !(seconds > 0.0 && seconds < kLongFrame)) return;
     _lastLook = time;
     _isNearLook = !_isNearLook;
     const double ahead = _isNearLook ? 0.5 * kAhead : kAhead;

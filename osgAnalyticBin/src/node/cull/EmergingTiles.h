@@ -32,8 +32,9 @@ private:
     glm::dvec3 _eye{0.0};
 
     double _lastLook = kNever;
-    bool _isNearLook = false;                                           // half a second ahead
-    std::unordered_map<const AnalyticBinCullCallback*, double> _tiles;  // and when they were found
+    bool _isNearLook = false;  // the last look was half a second ahead
+    // When each was last found, in seconds.
+    std::unordered_map<const AnalyticBinCullCallback*, double> _tiles;
 };
 
 }  // namespace osgAnalyticBin

@@ -8,10 +8,10 @@
 
 namespace osgAnalyticBin {
 
-/// Requests the files that a tile needs next, without drawing anything: what osg::PagedLODs at the node and in plain
-/// groups below it request where they are traversed. What is seen comes first: one is taken off the priorities.
-/// PagedLODs that choose by pixels, and those below transforms, are passed over. Does nothing where the cull visitor
-/// has no request handler. `cullVisitor`: it is at the node, or at its parent.
+/// Requests the files that a tile needs next, without drawing anything: those that osg::PagedLODs at the node and in
+/// plain groups below it would request in a cull traversal. Priorities are lower by one, so that what is seen comes
+/// first. PagedLODs that choose by pixels, and those below transforms, are passed over. Does nothing where the cull
+/// visitor has no request handler. `cullVisitor`: it is at the node, or at its parent.
 void requestAhead(osg::Node& node, osg::NodeVisitor& cullVisitor);
 
 }  // namespace osgAnalyticBin
