@@ -197,6 +197,90 @@ TEST(GroundPlates, AreAsHighAsTheLowestPostOfEachCell) {
     }
 }
 
+// A grid of posts, and the altitudes that gridMesh() gave to them.
+struct Posts {
+    core::GeodeticGrid grid;
+    std::vector<double> altitudes;
+
+    Posts(const Ellipsoid& ellipsoid, const GeodeticBin& extents, const EcefMesh& mesh, std::size_t cells)
+        : grid{extents.latitude(), extents.longitude(), cells + 1, cells + 1} {
+        for (std::size_t i = 0; i < mesh.size(); ++i)
+            altitudes.push_back(ellipsoid.toGeodetic(mesh.vertex(i)).altitude);
+    }
+};
+
+TEST(GroundPlates, ColumnsOfAGridLieBelowTheMeshWithEitherDiagonal) {
+    Random random(1712);
+    int known = 0;
+    for (int trial = 0; trial < 1500; ++trial) {
+        const Ellipsoid ellipsoid = random.chance(0.5) ? wgs84() : Ellipsoid(1e5, 1e5 * random.uniform(0.996, 1.004));
+        const GeodeticBin extents = randomExtents(random, ellipsoid);
+        const auto cells = static_cast<std::uint32_t>(random.integer(2, 24));
+        EcefMesh mesh = gridMesh(random, ellipsoid, extents, cells);
+        const Posts posts(ellipsoid, extents, mesh, cells);
+        // drawn a little beside its place
+        const double room = random.uniform(0.0, 1e-4) * extents.latitude().width() * ellipsoid.polarRadius();
+        const double margin = random.chance(0.5) ? room : 0.0;
+        const glm::dvec3 aside = margin * random.direction();
+        for (std::size_t i = 0; i < mesh.size(); ++i) {
+            mesh.x[i] += aside.x;
+            mesh.y[i] += aside.y;
+            mesh.z[i] += aside.z;
+        }
+        expectBelow(random, ellipsoid, mesh, GroundPlates(ellipsoid, posts.grid, posts.altitudes, margin), known);
+    }
+    EXPECT_GT(known, 1500 * 30);
+}
+
+// Up to the rise within one cell between posts, which counts with either diagonal.
+TEST(GroundPlates, OfAGridAreThoseOfItsMesh) {
+    Random random(1713);
+    const Ellipsoid earth = wgs84();
+    for (int trial = 0; trial < 50; ++trial) {
+        const double size = random.logUniform(1e-5, 0.02);
+        const double south = random.uniform(-1.0, 1.0);
+        const GeodeticBin extents({south, south + size}, {1.0, 1.0 + size}, {-20.0, 30.0});
+        const auto cells = static_cast<std::uint32_t>(random.integer(8, 64));
+        const EcefMesh mesh = gridMesh(random, earth, extents, cells);
+        const Posts posts(earth, extents, mesh, cells);
+        const GroundPlates ofMesh(earth, mesh, extents), ofGrid(earth, posts.grid, posts.altitudes);
+        const double spacing = size / cells * 6.4e6;
+        for (const std::size_t side : kGrids) {
+            for (std::size_t i = 0; i < side * side; ++i) {
+                const double difference =
+                    ofMesh.least(side, i / side, i % side) - ofGrid.least(side, i / side, i % side);
+                EXPECT_GE(difference, -1e-2);
+                EXPECT_LE(difference, (side == 1 ? 0.0 : 50.0) + spacing * spacing / 6.3e6 + 1e-2);
+            }
+        }
+    }
+}
+
+TEST(GroundPlates, OfAGridAreNotKnownBeyondTheirDomain) {
+    const Ellipsoid earth = wgs84();
+    const auto isKnown = [&](const Interval& latitude, double width, std::size_t posts, double rise) {
+        const core::GeodeticGrid grid{latitude, {1.0, 1.0 + width}, posts, posts};
+        std::vector<double> altitudes(posts * posts, 100.0);
+        altitudes[posts + 1] += rise;
+        const bool known = GroundPlates(earth, grid, altitudes).isKnown();
+        altitudes[posts * posts - 1] = std::nan("");
+        EXPECT_FALSE(GroundPlates(earth, grid, altitudes).isKnown());
+        return known;
+    };
+    EXPECT_TRUE(isKnown({0.5, 0.501}, 0.001, 3, 1000.0));
+    EXPECT_FALSE(isKnown({0.5, 0.501}, 0.001, 2, 0.0));  // no post within
+    EXPECT_FALSE(isKnown({0.5, 0.51}, 0.0, 9, 0.0));
+    EXPECT_FALSE(isKnown({1.5, 1.5707963267948966}, 0.05, 33, 0.0));  // at the pole
+    EXPECT_TRUE(isKnown({1.4, 1.45}, 0.05, 33, 0.0));
+    EXPECT_FALSE(isKnown({0.5, 0.53}, 0.03, 4, 0.0));  // chords cut the rims
+    EXPECT_TRUE(isKnown({0.5, 0.53}, 0.03, 16, 0.0));
+    EXPECT_FALSE(isKnown({0.5, 0.9}, 0.4, 4, 0.0));  // too far apart
+    EXPECT_TRUE(isKnown({0.5, 0.9}, 0.4, 64, 0.0));
+    EXPECT_TRUE(isKnown({0.5, 0.5 + 1e-5}, 1e-5, 33, 50.0));
+    EXPECT_FALSE(isKnown({0.5, 0.5 + 1e-5}, 1e-5, 33, 3000.0));  // faces that look aside
+    EXPECT_FALSE(isKnown({0.5, 0.51}, 0.01, 9, 1e6));
+}
+
 TEST(GroundPlates, AreLowerByTheMarginOfTheMesh) {
     Random random(1710);
     const Ellipsoid earth = wgs84();
@@ -205,9 +289,9 @@ TEST(GroundPlates, AreLowerByTheMarginOfTheMesh) {
     const GroundPlates exact(earth, mesh, extents), drawn(earth, mesh, extents, 5.0);
     EXPECT_LE(drawn.least(8, 3, 4), exact.least(8, 3, 4) - 4.9);
     EXPECT_TRUE(drawn.isKnown());
-    // half a rim is 62 m along the meridian, 54 m across
-    EXPECT_TRUE(GroundPlates(earth, mesh, extents, 40.0).isKnown());
-    EXPECT_FALSE(GroundPlates(earth, mesh, extents, 65.0).isKnown());
+    // a tenth of a rim is 11 m along the meridian; some are kept in reserve
+    EXPECT_TRUE(GroundPlates(earth, mesh, extents, 8.5).isKnown());
+    EXPECT_FALSE(GroundPlates(earth, mesh, extents, 13.0).isKnown());
 }
 
 // OpenGL does not draw such a mesh from above when it culls back faces.

@@ -210,6 +210,13 @@ TEST(RegionalTerrain, HidesWhatIsBehindARidge) {
     EXPECT_TRUE(region.drawsFarTile(10.3, 0.1));
 }
 
+TEST(RegionalTerrain, HidesTheSameWhenTilesAreTestedOneByOne) {
+    RidgeRegion region;
+    BinStatistics::of(*region.visitor).setTileByTile(true);
+    EXPECT_FALSE(region.drawsFarTile(10.3, 0.1));
+    EXPECT_TRUE(region.drawsFarTile(10.3, 0.1, 20000.0));
+}
+
 TEST(RegionalTerrain, HidesNothingFromBesideTheRegion) {
     RidgeRegion region;
     for (const auto& [latitude, longitude] : {std::pair(10.3, -0.1), {10.3, -0.001}, {9.99, 0.1}, {10.61, 0.1}})

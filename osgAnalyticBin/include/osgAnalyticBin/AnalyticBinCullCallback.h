@@ -215,15 +215,15 @@ private:
     [[nodiscard]] bool readItem(const std::string& item);
     [[nodiscard]] AnalyticBin shownBin() const;
     [[nodiscard]] PreparedBin preparedBin(const AnalyticBin& shown, const core::Ellipsoid& ellipsoid) const;
-    [[nodiscard]] const core::HorizonEye* eyeOn(osg::CullStack& cullStack, osg::NodeVisitor& nv,
-                                                CullTraversal& traversal) const;
+    [[nodiscard]] const DatabaseView* viewOn(osg::CullStack& cullStack, CullTraversal& traversal) const;
+    [[nodiscard]] const core::HorizonEye* eyeWithoutDatabase(osg::CullStack& cullStack, osg::NodeVisitor& nv,
+                                                             CullTraversal& traversal) const;
     [[nodiscard]] bool standsAsInstalled(osg::CullStack& cullStack, const DatabaseView& database) const;
     [[nodiscard]] bool isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
     [[nodiscard]] core::Side sideOf(const core::PlaneSet& planes, core::PlaneMask& undecided) const;
     [[nodiscard]] Verdict verdict(core::Side side, const core::PlaneSet& planes, core::PlaneMask undecided,
                                   const core::HorizonEye* eye, CullTraversal& traversal) const;
     [[nodiscard]] bool isHiddenFrom(const core::HorizonEye& eye) const;
-    [[nodiscard]] bool isBehindTerrain(CullTraversal& traversal) const;
     [[nodiscard]] bool isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,
                                       core::PlaneMask undecided) const;
 

@@ -5,6 +5,7 @@
 #include "../EarthScale.h"
 #include "../LocalFrame.h"
 #include "../mesh/KeyNumbers.h"
+#include "PlateCells.h"
 #include "SurfaceGrid.h"
 
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
@@ -22,41 +23,13 @@ namespace osgAnalyticBin::core {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// The rim on each side of a cell, as a share of its width. Triangles that reach only into its outer half do not count
-// for the cell; columns keep out of all of it.
-constexpr double kRim = 1.0 / 64.0;
 
-constexpr std::array<std::size_t, 4> kCellsOfGrids{1, 2, 4, 8};
 // Codes of bounds: the first stands for what is not known.
 constexpr std::uint16_t kUnknown = 0, kFirstCode = 1, kLastCode = 65535;
-
-std::size_t firstNumber(std::size_t cells) {
-    return (cells * cells - 1) / 3;  // 0, 1, 5, 21
-}
-
-std::size_t numberOf(std::size_t cells, std::size_t row, std::size_t column) {
-    return firstNumber(cells) + row * cells + column;
-}
 
 Interval cellOf(const Interval& extents, std::size_t cells, std::size_t i) {
     const double width = extents.width() / static_cast<double>(cells);
     return {extents.lower + width * static_cast<double>(i), extents.lower + width * static_cast<double>(i + 1)};
-}
-
-// The cells of a grid along one axis that an interval meets, first to last; first > last: none.
-struct CellRange {
-    std::ptrdiff_t first, last;
-};
-
-// A cell counts where what is half of a rim within its edges is met.
-CellRange cellsIn(const Interval& extents, std::size_t cells, const Interval& met) {
-    constexpr double kInset = 0.5 * kRim;
-    const auto most = static_cast<double>(cells);
-    const double perCell = most / extents.width();
-    const double from = (met.lower - extents.lower) * perCell + kInset;
-    const double end = (met.upper - extents.lower) * perCell - kInset + 1.0;
-    return {static_cast<std::ptrdiff_t>(std::clamp(from, 0.0, most)),
-            static_cast<std::ptrdiff_t>(std::clamp(end, 0.0, most)) - 1};
 }
 
 }  // namespace
@@ -67,7 +40,6 @@ public:
     Builder(GroundPlates& plates, const EcefMesh& mesh, double margin)
         : _plates(plates),
           _mesh(mesh),
-          _margin(margin),
           _radius(0.9 * smallestCurvatureRadius(plates._ellipsoid)),
           _edges(mesh.triangles.size()) {
         _isCovered.fill(false);
@@ -77,7 +49,10 @@ public:
         findVertices();
         for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) addTriangle(&mesh.triangles[i]);
         addBorders();
-        encode();
+        for (std::size_t i = 0; i < kNumbers; ++i) {
+            if (!_isCovered[i] || _isDoubted[i]) _low[i] = -kInfinity;
+        }
+        plates.encode(_low, margin);
     }
 
 private:
@@ -136,52 +111,42 @@ private:
     [[nodiscard]] glm::dvec3 normalOf(const Corners& c) const {
         return glm::cross(_positions[c[1]] - _positions[c[0]], _positions[c[2]] - _positions[c[0]]);
     }
-    // Metres of the longest side of a triangle, and of the longest one along the horizon, wherever in the triangle that
-    // is measured.
-    struct Sides {
-        double longest, horizontal;
-    };
-    [[nodiscard]] Sides sidesOf(const Corners& c) const {
-        double longest2 = 0.0, horizontal2 = 0.0;
+    [[nodiscard]] TriangleSides sidesOf(const Corners& c) const {
+        double longest2 = 0.0, horizontal2 = 0.0, vertical = 0.0;
         for (std::size_t i = 0; i < 3; ++i) {
             const glm::dvec3 side = _positions[c[(i + 1) % 3]] - _positions[c[i]];
             const double rise = glm::dot(side, _vertices[c[0]].up), length2 = glm::dot(side, side);
             longest2 = std::max(longest2, length2);
             horizontal2 = std::max(horizontal2, length2 - rise * rise);
+            vertical = std::max(vertical, std::abs(rise));
         }
-        return {std::sqrt(longest2), std::sqrt(horizontal2) + 2.0 * longest2 / _radius};
+        return TriangleSides::atAnyPoint(std::sqrt(longest2), std::sqrt(horizontal2), vertical, _radius);
     }
 
     // Whether the front side of a triangle faces up. Back faces may be culled, and then hide nothing.
     // Across a triangle the ellipsoid's normal turns by at most the triangle's width over the radius of curvature.
-    [[nodiscard]] bool isUpward(const Corners& c, const Sides& sides) const {
+    [[nodiscard]] bool isUpward(const Corners& c, const TriangleSides& sides) const {
         const glm::dvec3 normal = normalOf(c);
         const double angle = 2.0 * sides.longest / _radius;
         return glm::dot(normal, _vertices[c[0]].up) > (angle + 1e-9) * glm::length(normal);
     }
 
     // Bounds of a triangle. Its longitudes are in the same turn as those of the extents.
-    [[nodiscard]] GeodeticBin boundsOf(const Corners& c, const Sides& sides) const {
+    [[nodiscard]] GeodeticBin boundsOf(const Corners& c, const TriangleSides& sides) const {
         const Vertex &a = _vertices[c[0]], &b = _vertices[c[1]], &d = _vertices[c[2]];
         const auto range = [&](double Vertex::*of) -> Interval {
             return {std::min({a.*of, b.*of, d.*of}), std::max({a.*of, b.*of, d.*of})};
         };
         const Interval altitude = range(&Vertex::altitude), longitude = range(&Vertex::longitude);
         const double axisDistance = 0.95 * range(&Vertex::axisDistance).lower;
-        const double horizontal2 = sides.horizontal * sides.horizontal, mixed = 2.0 * sides.horizontal * sides.longest;
-        // doc/theory/occlusion.md, section 3: how far a function may leave the plane through its values at the corners
-        const double sag = horizontal2 / (6.0 * _radius);
-        const double secant = 1.2 * largestCurvatureRadius(_plates._ellipsoid) / axisDistance;
-        const double aside = 1.1 * (mixed + secant * horizontal2) / (6.0 * _radius * _radius);
-        const double around = mixed / (6.0 * axisDistance * axisDistance);
-        const bool isSmall = sides.longest <= 0.05 * std::min(axisDistance, _radius) && longitude.width() < 0.2 &&
-                             altitude.lower - sag > -0.1 * _radius && altitude.upper < 0.1 * _radius;
-        if (!isSmall) return thoroughBoundsOf(c);
+        const TriangleReach reach(sides, _plates._ellipsoid, _radius, axisDistance);
+        const Interval lowered{altitude.lower - reach.sag, altitude.upper};
+        if (!TriangleReach::holdsFor(sides, _radius, axisDistance, longitude.width(), lowered))
+            return thoroughBoundsOf(c);
         const Interval latitude = range(&Vertex::latitude);
         const double middle = _plates._longitude.middle();
-        return GeodeticBin({latitude.lower - aside, latitude.upper + aside},
-                           {middle + longitude.lower - around, middle + longitude.upper + around},
-                           {altitude.lower - sag, altitude.upper});
+        return GeodeticBin({latitude.lower - reach.aside, latitude.upper + reach.aside},
+                           {middle + longitude.lower - reach.around, middle + longitude.upper + reach.around}, lowered);
     }
 
     [[nodiscard]] GeodeticBin thoroughBoundsOf(const Corners& c) const {
@@ -191,7 +156,7 @@ private:
         return bounds.bin();
     }
 
-    // Calls visit(number) for the cells of all grids that the bounds reach into farther than half of the rim. Bounds
+    // Calls visit(number) for the cells of all grids that the bounds reach into. Bounds
     // that are not known reach into all, and bounds around the axis into those at all longitudes: they do not count
     // longitudes from where the extents do.
     template <class Visit>
@@ -213,7 +178,7 @@ private:
         const Corners corners = cornersOf(triangle);
         const auto [a, b, c] = corners;
         if (a == b || b == c || c == a) return;
-        const Sides sides = sidesOf(corners);
+        const TriangleSides sides = sidesOf(corners);
         const GeodeticBin bounds = boundsOf(corners, sides);
         if (bounds.empty() || !isUpward(corners, sides)) {
             forEachCell(bounds, [&](std::size_t cell) { _isDoubted[cell] = true; });
@@ -260,34 +225,8 @@ private:
         }
     }
 
-    // Rounds each bound down to 16 bits.
-    void encode() {
-        // more than the error of altitudes
-        const double room =
-            _margin + 2e-14 * std::max(_plates._ellipsoid.equatorialRadius(), _plates._ellipsoid.polarRadius());
-        Interval known{kInfinity, -kInfinity};
-        for (std::size_t i = 0; i < kNumbers; ++i) {
-            if (_isCovered[i] && !_isDoubted[i])
-                known = {std::min(known.lower, _low[i] - room), std::max(known.upper, _low[i])};
-        }
-        if (!(known.lower <= known.upper)) return;
-        _plates._step = known.width() / static_cast<double>(kLastCode - 4);
-        _plates._base = known.lower - 2.0 * _plates._step;
-        const auto codeOf = [&](double altitude) {
-            const double code = std::floor((altitude - _plates._base) / _plates._step);
-            return static_cast<std::uint16_t>(std::clamp<double>(code, kFirstCode, kLastCode));
-        };
-        for (std::size_t i = 0; i < kNumbers; ++i) {
-            if (!_isCovered[i] || _isDoubted[i]) continue;
-            std::uint16_t code = codeOf(_low[i] - room);
-            while (code > kUnknown && _plates.decoded(code) > _low[i] - room) --code;
-            _plates._least[i] = code;
-        }
-    }
-
     GroundPlates& _plates;
     const EcefMesh& _mesh;
-    const double _margin;
     const double _radius;                // no larger than a radius of curvature at any point of the mesh
     std::vector<std::uint32_t> _merged;  // the vertex for each of the mesh
     std::vector<Vertex> _vertices;
@@ -303,21 +242,48 @@ GroundPlates::GroundPlates() noexcept : _ellipsoid(1.0, 1.0) {
     _least.fill(kUnknown);
 }
 
-GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin)
-    : _ellipsoid(ellipsoid), _latitude(extents.latitude()), _longitude(extents.longitude()) {
+GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const Interval& latitude, const Interval& longitude) noexcept
+    : _ellipsoid(ellipsoid), _latitude(latitude), _longitude(longitude) {
     _least.fill(kUnknown);
-    const bool isRound = std::abs(ellipsoid.eccentricitySquared()) <= kRoundest;
-    if (extents.empty() || !isRound || !(_latitude.width() > 0.0) || !(_longitude.width() > 0.0)) return;
-    // the narrowest half of a rim, along a parallel that may end a little nearer to the pole
-    const double poleward = std::max(std::abs(_latitude.lower), std::abs(_latitude.upper));
-    const double narrowest = std::min(_latitude.width(), 0.9 * std::cos(poleward) * _longitude.width());
-    const double halfRim = 0.5 * kRim / 8.0 * 0.9 * smallestCurvatureRadius(ellipsoid) * narrowest;
+}
+
+GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin)
+    : GroundPlates(ellipsoid, extents.latitude(), extents.longitude()) {
+    if (extents.empty() || !mayStandBeside(margin)) return;
     const auto isFinite = [](const std::vector<double>& numbers) {
         return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
     };
-    const bool isMesh = isFinite(mesh.x) && isFinite(mesh.y) && isFinite(mesh.z);
-    if (isMesh && _longitude.width() < kPi && margin >= 0.0 && (margin == 0.0 || margin < halfRim))
-        Builder(*this, mesh, margin);
+    if (isFinite(mesh.x) && isFinite(mesh.y) && isFinite(mesh.z)) Builder(*this, mesh, margin);
+}
+
+// Whether a mesh that is drawn `margin` metres away from its place still covers what is within the rims.
+bool GroundPlates::mayStandBeside(double margin) const noexcept {
+    const bool isRound = std::abs(_ellipsoid.eccentricitySquared()) <= kRoundest;
+    if (!isRound || !(_latitude.width() > 0.0) || !(_longitude.width() > 0.0)) return false;
+    // the narrowest rim, along a parallel that may end a little nearer to the pole
+    const double poleward = std::max(std::abs(_latitude.lower), std::abs(_latitude.upper));
+    const double narrowest = std::min(_latitude.width(), 0.9 * std::cos(poleward) * _longitude.width());
+    const double rim = kRim / 8.0 * 0.9 * smallestCurvatureRadius(_ellipsoid) * narrowest;
+    return _longitude.width() < kPi && margin >= 0.0 && (margin == 0.0 || margin < kMarginOfRim * rim);
+}
+
+// Rounds each bound down to 16 bits. Minus infinity: not known.
+void GroundPlates::encode(const std::array<double, kNumbers>& low, double margin) noexcept {
+    // more than the error of altitudes
+    const double room = margin + 2e-14 * std::max(_ellipsoid.equatorialRadius(), _ellipsoid.polarRadius());
+    Interval known{kInfinity, -kInfinity};
+    for (const double bound : low) {
+        if (std::isfinite(bound)) known = {std::min(known.lower, bound - room), std::max(known.upper, bound)};
+    }
+    if (!(known.lower <= known.upper)) return;
+    _step = known.width() / static_cast<double>(kLastCode - 4);
+    _base = known.lower - 2.0 * _step;
+    for (std::size_t i = 0; i < kNumbers; ++i) {
+        if (!std::isfinite(low[i])) continue;
+        const double code = std::floor((low[i] - room - _base) / _step);
+        _least[i] = static_cast<std::uint16_t>(std::clamp<double>(code, kFirstCode, kLastCode));
+        while (_least[i] > kUnknown && decoded(_least[i]) > low[i] - room) --_least[i];
+    }
 }
 
 bool GroundPlates::isKnown() const noexcept {
@@ -338,7 +304,7 @@ bool GroundPlates::fitsColumns(std::size_t cells, double depth) const noexcept {
     const double bulge = 0.55 * (1.0 / std::cos(0.5 * inner * across) - 1.0);
     // longitudes many turns away from zero are rounded coarsely
     const bool isWide = across * kRim > 64.0 * kEpsilon * (1.0 + std::abs(_longitude.lower));
-    return isWide && across * inner < 1.0 && bulge < 0.5 * kRim * along && depth >= 0.0 && depth < shallowest();
+    return isWide && across * inner < 1.0 && bulge < kBulgeOfRim * kRim * along && depth >= 0.0 && depth < shallowest();
 }
 
 double GroundPlates::shallowest() const noexcept {

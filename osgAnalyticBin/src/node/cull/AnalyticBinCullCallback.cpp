@@ -320,9 +320,12 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
     if (_setup->shape && !isShownIn(*_setup->shape, traversal)) return false;
     const auto test = [&](const core::PlaneSet& planes, core::PlaneMask& undecided) {
         const core::Side side = sideOf(planes, undecided);
-        // finding the eye takes time
-        const core::HorizonEye* const eye = side == core::Side::Outside ? nullptr : eyeOn(cullStack, nv, traversal);
-        if (eye && isBehindTerrain(traversal)) return Verdict{core::Side::Outside, Verdict::Terrain};
+        // what else is known of the view takes time to find
+        if (side == core::Side::Outside || !prepared().horizon)
+            return verdict(side, planes, undecided, nullptr, traversal);
+        const DatabaseView* const view = viewOn(cullStack, traversal);
+        if (view && view->plan && view->plan->isOccluded(*this)) return Verdict{core::Side::Outside, Verdict::Terrain};
+        const core::HorizonEye* const eye = view ? view->eye : eyeWithoutDatabase(cullStack, nv, traversal);
         return verdict(side, planes, undecided, eye, traversal);
     };
     return isCulledByBin(cullStack, nv, traversal, prepared().sphere,
@@ -340,17 +343,19 @@ bool AnalyticBinCullCallback::standsAsInstalled(osg::CullStack& cullStack, const
     return areNearlyEqual(*modelView, getLocalToEcef() * *database.modelView, reach);
 }
 
-const core::HorizonEye* AnalyticBinCullCallback::eyeOn(osg::CullStack& cullStack, osg::NodeVisitor& nv,
-                                                       CullTraversal& traversal) const {
-    if (!prepared().horizon) return nullptr;
-    if (const DatabaseView* database = traversal.databaseView()) {
-        // a camera between the database's root and the tile sees with other eyes
-        const bool isSame = database->ellipsoid == ellipsoid() &&
-                            database->projection == cullStack.getProjectionMatrix() && database->eye &&
-                            standsAsInstalled(cullStack, *database);
-        return isSame ? database->eye : nullptr;
-    }
-    if (_installed) return nullptr;
+// What the database says, where it was said of this camera and of the place where the tile stands.
+const DatabaseView* AnalyticBinCullCallback::viewOn(osg::CullStack& cullStack, CullTraversal& traversal) const {
+    const DatabaseView* const database = traversal.databaseView();
+    // a camera between the database's root and the tile sees with other eyes
+    const bool isSame = database && database->ellipsoid == ellipsoid() &&
+                        database->projection == cullStack.getProjectionMatrix() &&
+                        standsAsInstalled(cullStack, *database);
+    return isSame ? database : nullptr;
+}
+
+const core::HorizonEye* AnalyticBinCullCallback::eyeWithoutDatabase(osg::CullStack& cullStack, osg::NodeVisitor& nv,
+                                                                    CullTraversal& traversal) const {
+    if (_installed || traversal.databaseView()) return nullptr;
     // In a frame of its own the eye would have to be prepared anew for every tile.
     if (_setup->options.horizonUse != HorizonUse::Given || _frame) return nullptr;
     const Occluder occluder{ellipsoid(), std::max(0.0, -_setup->options.horizon), _setup->options.inheritViewpoint};
@@ -374,12 +379,6 @@ Verdict AnalyticBinCullCallback::verdict(core::Side side, const core::PlaneSet& 
 bool AnalyticBinCullCallback::isHiddenFrom(const core::HorizonEye& eye) const {
     const Prepared& tile = prepared();
     return _hidesByPoint ? eye.hides(*tile.horizonPoint) : eye.hides(*tile.horizon);
-}
-
-// Requires: the traversal is by the camera that the plan was made for, and the tile stands where it did then.
-bool AnalyticBinCullCallback::isBehindTerrain(CullTraversal& traversal) const {
-    const DatabaseView* const database = traversal.databaseView();
-    return database && database->plan && database->plan->isOccluded(*this);
 }
 
 bool AnalyticBinCullCallback::isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,

@@ -5,6 +5,7 @@
 
 #include "../install/InstalledTile.h"
 #include "../install/TileCallback.h"
+#include "../page/Database.h"
 #include "../surface/TilePlates.h"
 
 #include <glm/geometric.hpp>
@@ -74,7 +75,10 @@ NearMeshes::Known* NearMeshes::meshOf(const AnalyticBinCullCallback& tile, osg::
     *known = {nullptr, nullptr, tile.getLocalToEcef(), 0, {}, {}, -1.0, {}};
     // the frame of a transform that is culled itself is that of what is below it
     const bool isInOwnFrame = mesh.asTransform() && installedBinOf(mesh) == &tile;
-    if (isInOwnFrame || !readTileMesh(mesh, tile.getLocalToEcef(), known->mesh)) return nullptr;
+    if (isInOwnFrame || !tile.getInstalledTile()) return nullptr;
+    const osg::EllipsoidModel* const ellipsoid = tile.getInstalledTile()->database().ellipsoid();
+    const TerrainShape shape = tile.getTerrainShape().value_or(TerrainShape());
+    if (!ellipsoid || !readTileMesh({{&mesh}, *ellipsoid, tile.getLocalToEcef(), shape}, known->mesh)) return nullptr;
     known->tile = &tile;
     known->node = &mesh;
     return known;

@@ -41,7 +41,8 @@ Ground describe(const ShownDatabase& database, std::vector<FoundOcclusion::Tile>
     for (const TilePlan::ShownTile& shown : database.view.plan->shown()) {
         const AnalyticBinCullCallback& tile = *shown.tile;
         const InstalledTile* const installed = tile.getInstalledTile();
-        if (!installed) return Ground::Unknown;
+        const bool isFitted = !tile.getTerrainShape() || *tile.getTerrainShape() == database.view.shape;
+        if (!installed || !isFitted) return Ground::Unknown;
         if (installed->numberOfPlates() == 0) {
             installed->database().askForPlates(tile, *shown.mesh);
             ground = Ground::Awaited;
@@ -49,8 +50,11 @@ Ground describe(const ShownDatabase& database, std::vector<FoundOcclusion::Tile>
         }
         const core::GroundPlates* const plates = installed->plates();
         if (!plates || !std::isfinite(plates->least(1, 0, 0))) return Ground::Unknown;
+        // osgTerrain tiles have a sphere about their posts, and another one about their mesh
+        constexpr double kOfMesh = 0.5;
         const osg::BoundingSphere& bound = shown.mesh->getBound();
-        if (isSmall(cullingSet, {osg::Vec3d(bound.center()) * tile.getLocalToEcef(), bound.radius()}))
+        const double radius = (tile.getTerrainShape() ? kOfMesh : 1.0) * static_cast<double>(bound.radius());
+        if (isSmall(cullingSet, {osg::Vec3d(bound.center()) * tile.getLocalToEcef(), static_cast<float>(radius)}))
             return Ground::Unknown;
         tiles.push_back({&tile, shown.mesh, shown.isSure, installed->numberOfPlates(), tile.getBin().bin(),
                          tile.getBin().margin(), tile.getBinLow(), tile.getBinHigh()});

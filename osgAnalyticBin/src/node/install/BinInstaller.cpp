@@ -299,7 +299,7 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     placeCallback(tile, culled, *callback, database());
     const bool canWait = tile.meshes.size() == 1 && !culled.asTransform();
     if (!canWait || _options.occlusion == OcclusionUse::On || database().wantsPlates())
-        callback->getInstalledTile()->setPlates(tilePlates(tile.meshes, ellipsoid, tile.frame.localToEcef));
+        callback->getInstalledTile()->setPlates(tilePlates({tile.meshes, ellipsoid, tile.frame.localToEcef, shape}));
     ++_installed;
     if (_options.cluster == ClusterUse::Replace) {
         suspendClusterCullingOf(*tile.node);

@@ -311,7 +311,7 @@ std::function<core::GeodeticBin()> finderOfFilled(const FoundTile& tile, const T
     const bool isGrid = fit.isScalable && !link.stored.valid();
     const core::GeodeticBin grid = isGrid ? fit.surface.bin() : core::GeodeticBin();
     return [tile, ellipsoid, grid] {
-        return grid.empty() ? rectangleFilledBy(tile.meshes, *ellipsoid, tile.frame.localToEcef) : grid;
+        return grid.empty() ? rectangleFilledBy({tile.meshes, *ellipsoid, tile.frame.localToEcef, {}}) : grid;
     };
 }
 

@@ -195,7 +195,8 @@ void Database::makePlates() {
             _awaitPlates.pop_back();
             if (!isThere || !tile->getInstalledTile() || !_ellipsoid) continue;
         }
-        tile->getInstalledTile()->setPlates(tilePlates({mesh}, *_ellipsoid, tile->getLocalToEcef()));
+        const TerrainShape shape = tile->getTerrainShape().value_or(TerrainShape());
+        tile->getInstalledTile()->setPlates(tilePlates({{mesh}, *_ellipsoid, tile->getLocalToEcef(), shape}));
     }
 }
 

@@ -15,14 +15,15 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <typeinfo>
 
 namespace osgAnalyticBin {
 
 namespace {
 
 // osgTerrain::GeometryTechnique: the grid of a tile without heights, and the coarsest that a sample ratio makes.
-constexpr unsigned int kDefaultPosts = 20;
-constexpr unsigned int kFewestSampledPosts = 16;
+constexpr std::size_t kDefaultPosts = 20;
+constexpr std::size_t kFewestSampledPosts = 16;
 // The vertical scales up to which the sag holds.
 constexpr double kLargestScale = 10.0;
 constexpr double kLargestCell = 1.0;  // radians
@@ -31,9 +32,9 @@ constexpr double kVertexRounding = 1.1e-7;
 constexpr double kSameRadius = 1e-3;  // metres on the earth
 constexpr double kPlacing = 0.01;     // metres on the earth: heights as floats, positions as doubles, radii
 
-unsigned int sampledPosts(unsigned int posts, double sampleRatio) {
+std::size_t sampledPosts(std::size_t posts, double sampleRatio) {
     const float scaled = static_cast<float>(posts) * std::sqrt(static_cast<float>(sampleRatio));
-    return std::max(static_cast<unsigned int>(scaled), kFewestSampledPosts);
+    return std::max(static_cast<std::size_t>(scaled), kFewestSampledPosts);
 }
 
 // The rectangle of a locator whose matrix is nothing but extents.
@@ -71,10 +72,30 @@ bool isSame(const osg::EllipsoidModel& a, const osg::EllipsoidModel& b) {
            std::abs(a.getRadiusPolar() - b.getRadiusPolar()) <= same;
 }
 
+// The grid that the technique makes of a tile, not sampled.
+std::optional<core::GeodeticGrid> gridOf(osgTerrain::TerrainTile& tile, const osg::EllipsoidModel& ellipsoid) {
+    const auto* technique = tile.getTerrainTechnique();
+    if (technique && !dynamic_cast<const osgTerrain::GeometryTechnique*>(technique)) return std::nullopt;
+    const osgTerrain::Locator* locator = masterLocator(tile);
+    if (!locator || locator->getCoordinateSystemType() != osgTerrain::Locator::GEOCENTRIC ||
+        !locator->getEllipsoidModel() || !isSame(*locator->getEllipsoidModel(), ellipsoid)) {
+        return std::nullopt;
+    }
+    std::optional<core::GeodeticGrid> grid = rectangleOf(*locator);
+    const osgTerrain::Layer* layer = tile.getElevationLayer();
+    if (grid) grid->columns = layer ? layer->getNumColumns() : kDefaultPosts;
+    if (grid) grid->rows = layer ? layer->getNumRows() : kDefaultPosts;
+    return grid;
+}
+
 // Metres from the tile's middle that a vertex is at most.
 double reachOf(const core::GeodeticGrid& grid, const core::Ellipsoid& ellipsoid) {
     const double radius = std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius()) + highestTerrain(ellipsoid);
     return radius * std::min(2.0, 0.5 * (grid.latitude.width() + grid.longitude.width()));
+}
+
+double marginOf(const core::GeodeticGrid& grid, const core::Ellipsoid& ellipsoid) {
+    return kVertexRounding * reachOf(grid, ellipsoid) + kPlacing * core::earthScale(ellipsoid);
 }
 
 // Edges in the order of TileSurface::edgeLow.
@@ -106,19 +127,10 @@ const osg::HeightField* heightField(osgTerrain::TerrainTile& tile) {
 
 TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::EllipsoidModel& ellipsoid,
                                double sampleRatio) {
-    const auto* technique = tile.getTerrainTechnique();
-    if (technique && !dynamic_cast<const osgTerrain::GeometryTechnique*>(technique)) return {};
-    const osgTerrain::Locator* locator = masterLocator(tile);
-    if (!locator || locator->getCoordinateSystemType() != osgTerrain::Locator::GEOCENTRIC ||
-        !locator->getEllipsoidModel() || !isSame(*locator->getEllipsoidModel(), ellipsoid)) {
-        return {};
-    }
-    std::optional<core::GeodeticGrid> grid = rectangleOf(*locator);
+    std::optional<core::GeodeticGrid> grid = gridOf(tile, ellipsoid);
     if (!grid) return {};
 
     const osgTerrain::Layer* layer = tile.getElevationLayer();
-    unsigned int columns = layer ? layer->getNumColumns() : kDefaultPosts;
-    unsigned int rows = layer ? layer->getNumRows() : kDefaultPosts;
     const osg::HeightField* field = heightField(tile);
     const bool isBroken = layer && !field && dynamic_cast<const osgTerrain::HeightFieldLayer*>(layer);
     if (isBroken || !(sampleRatio >= 0.0)) return {};
@@ -126,12 +138,10 @@ TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::Ellipso
     const core::Ellipsoid model = toCore(ellipsoid);
     const double most = highestTerrain(model);
     if (!heights.isFinite || !(heights.low <= heights.high) || heights.low < -most || heights.high > most) return {};
-    if (sampleRatio != 1.0 && columns > kFewestSampledPosts && rows > kFewestSampledPosts) {
-        columns = sampledPosts(columns, sampleRatio);
-        rows = sampledPosts(rows, sampleRatio);
+    if (sampleRatio != 1.0 && grid->columns > kFewestSampledPosts && grid->rows > kFewestSampledPosts) {
+        grid->columns = sampledPosts(grid->columns, sampleRatio);
+        grid->rows = sampledPosts(grid->rows, sampleRatio);
     }
-    grid->columns = columns;
-    grid->rows = rows;
     if (!isOnTheGlobe(*grid)) return {};
 
     const double reach = kLargestScale * std::max(std::abs(heights.low), std::abs(heights.high));
@@ -145,13 +155,41 @@ TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::Ellipso
     TileSurface surface;
     // a skirt of negative height stands up
     const core::Interval altitude{heights.low - bounds.sag(), heights.high + std::max(0.0, -skirt)};
-    surface.bin = AnalyticBin(core::GeodeticBin(bounds.latitude(), grid->longitude, altitude),
-                              kVertexRounding * reachOf(*grid, model) + kPlacing * core::earthScale(model));
+    surface.bin = AnalyticBin(core::GeodeticBin(bounds.latitude(), grid->longitude, altitude), marginOf(*grid, model));
     surface.bin.setSag(bounds.sag());
-    surface.edgeLow = edgeLows(heights, *locator, bounds);
+    surface.edgeLow = edgeLows(heights, *masterLocator(tile), bounds);
     surface.skirt = std::max(0.0, skirt);
     surface.isScalable = true;
     return surface;
+}
+
+std::optional<TerrainPosts> terrainPosts(osgTerrain::TerrainTile& tile, const osg::EllipsoidModel& ellipsoid,
+                                         const TerrainShape& shape) {
+    if (!shape.isKnown || shape.areBoundariesEqual || shape.sampleRatio != 1.0) return std::nullopt;
+    const auto* technique = tile.getTerrainTechnique();
+    if (technique && typeid(*technique) != typeid(osgTerrain::GeometryTechnique)) return std::nullopt;
+    const std::optional<core::GeodeticGrid> grid = gridOf(tile, ellipsoid);
+    if (!grid || !isOnTheGlobe(*grid)) return std::nullopt;
+    // rows from the south, columns from the west
+    const osg::Matrixd& extents = masterLocator(tile)->getTransform();
+    if (!(extents(0, 0) > 0.0) || !(extents(1, 1) > 0.0)) return std::nullopt;
+
+    osgTerrain::Layer* const layer = tile.getElevationLayer();
+    const osg::HeightField* const field = heightField(tile);
+    const bool isBroken = !field && dynamic_cast<osgTerrain::HeightFieldLayer*>(layer);
+    // a skirt of negative height stands up
+    if (isBroken || (field && !(field->getSkirtHeight() >= 0.0f))) return std::nullopt;
+    TerrainPosts posts{*grid, {}, marginOf(*grid, toCore(ellipsoid))};
+    posts.altitudes.reserve(grid->rows * grid->columns);
+    for (unsigned int row = 0; row < grid->rows; ++row) {
+        for (unsigned int column = 0; column < grid->columns; ++column) {
+            float height = 0.0f;
+            if (layer && !layer->getValidValue(column, row, height)) return std::nullopt;
+            // as the technique multiplies
+            posts.altitudes.push_back(static_cast<double>(height * static_cast<float>(shape.verticalScale)));
+        }
+    }
+    return posts;
 }
 
 }  // namespace osgAnalyticBin

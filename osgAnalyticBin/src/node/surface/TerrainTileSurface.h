@@ -3,15 +3,32 @@
 
 #pragma once
 
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/TileSurface.h>
+#include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 
 #include <osgTerrain/TerrainTile>
+
+#include <optional>
+#include <vector>
 
 namespace osgAnalyticBin {
 
 /// The surface that osgTerrain::GeometryTechnique makes of a tile whose frame is ECEF.
 [[nodiscard]] TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::EllipsoidModel& ellipsoid,
                                              double sampleRatio);
+
+/// The posts between which osgTerrain::GeometryTechnique makes triangles, as they are shown.
+struct TerrainPosts {
+    core::GeodeticGrid grid;
+    std::vector<double> altitudes;  ///< metres, row by row from the south-west
+    double margin = 0.0;            ///< metres by which vertices may be rounded
+};
+
+/// The posts of a tile whose frame is ECEF. Returns: nullopt where its mesh is not a whole grid of such posts: with
+/// posts that are not valid, sampled, or half way to the heights of neighbours; and for other techniques.
+[[nodiscard]] std::optional<TerrainPosts> terrainPosts(osgTerrain::TerrainTile& tile,
+                                                       const osg::EllipsoidModel& ellipsoid, const TerrainShape& shape);
 
 /// The locator by which GeometryTechnique places the tile's vertices. Returns: nullptr when there is none.
 [[nodiscard]] const osgTerrain::Locator* masterLocator(osgTerrain::TerrainTile& tile);

@@ -9,6 +9,7 @@
 #include "SurfaceMesh.h"
 #include "SurfaceWalk.h"
 #include "TerrainLimits.h"
+#include "TerrainTileSurface.h"
 
 #include <osgAnalyticBin/TileFinder.h>
 
@@ -18,6 +19,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 namespace osgAnalyticBin {
 
@@ -45,16 +47,25 @@ bool hasFoldedSurface(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& 
     return false;
 }
 
-// Puts the meshes of all parts of a tile together.
+// Puts the meshes of all parts of a tile together. An osgTerrain tile has to be the only part.
 class MeshUnion final : public SurfaceWalk {
 public:
-    MeshUnion(const osg::Matrixd& localToEcef, const core::Ellipsoid* withoutSkirts, core::EcefMesh& mesh)
-        : SurfaceWalk(localToEcef), _withoutSkirts(withoutSkirts), _mesh(mesh) {}
+    MeshUnion(const TileMeshes& meshes, const core::Ellipsoid* withoutSkirts, core::EcefMesh& mesh)
+        : SurfaceWalk(meshes.localToEcef), _meshes(meshes), _withoutSkirts(withoutSkirts), _mesh(mesh) {
+        meshes.nodes.front()->accept(*this);
+        if (_posts && !_mesh.triangles.empty()) giveUp();
+    }
 
     [[nodiscard]] bool isMesh() const { return isKnown() && !_mesh.triangles.empty(); }
+    [[nodiscard]] const TerrainPosts* posts() const { return isKnown() && _posts ? &*_posts : nullptr; }
 
 private:
-    void visit(osgTerrain::TerrainTile&) override { giveUp(); }
+    void visit(osgTerrain::TerrainTile& tile) override {
+        // its vertices are ECEF in the tile's own frame
+        const bool isPlaced = localToEcef().isIdentity() && !_posts;
+        if (isPlaced) _posts = terrainPosts(tile, _meshes.ellipsoid, _meshes.shape);
+        if (!isPlaced || !_posts) giveUp();
+    }
 
     void visit(osg::Drawable& drawable) override {
         thread_local SurfaceMesh part;  // keeps its memory from tile to tile
@@ -69,51 +80,74 @@ private:
         for (const std::uint32_t vertex : part.triangles) _mesh.triangles.push_back(first + vertex);
     }
 
+    const TileMeshes& _meshes;
     const core::Ellipsoid* const _withoutSkirts;
     core::EcefMesh& _mesh;
+    std::optional<TerrainPosts> _posts;
 };
 
-}  // namespace
-
-bool readTileMesh(osg::Node& node, const osg::Matrixd& localToEcef, core::EcefMesh& mesh) {
-    MeshUnion parts(localToEcef, nullptr, mesh);
-    node.accept(parts);
-    return parts.isMesh();
+double along(const core::Interval& interval, std::size_t i, std::size_t posts) {
+    return interval.lower + interval.width() * static_cast<double>(i) / static_cast<double>(posts - 1);
 }
 
-namespace {
+// The triangles between posts, with either diagonal.
+void appendTriangles(const TerrainPosts& posts, const core::Ellipsoid& ellipsoid, core::EcefMesh& mesh) {
+    const core::GeodeticGrid& grid = posts.grid;
+    for (std::size_t i = 0; i < posts.altitudes.size(); ++i) {
+        const glm::dvec3 v =
+            ellipsoid.toEcef({along(grid.latitude, i / grid.columns, grid.rows),
+                              along(grid.longitude, i % grid.columns, grid.columns), posts.altitudes[i]});
+        mesh.x.push_back(v.x);
+        mesh.y.push_back(v.y);
+        mesh.z.push_back(v.z);
+    }
+    for (std::size_t row = 0; row + 1 < grid.rows; ++row) {
+        for (std::size_t column = 0; column + 1 < grid.columns; ++column) {
+            const auto a = static_cast<std::uint32_t>(row * grid.columns + column), b = a + 1;
+            const auto c = static_cast<std::uint32_t>(a + grid.columns), d = c + 1;
+            mesh.triangles.insert(mesh.triangles.end(), {a, b, d, a, d, c, a, b, c, b, d, c});
+        }
+    }
+}
 
 struct PlatesAndExtents {
     std::unique_ptr<const core::GroundPlates> plates;
     core::GeodeticBin extents;
 };
 
-PlatesAndExtents platesAndExtents(const std::vector<osg::ref_ptr<osg::Node>>& meshes,
-                                  const osg::EllipsoidModel& ellipsoid, const osg::Matrixd& localToEcef) {
-    if (meshes.size() != 1 || !hasValidRadii(ellipsoid)) return {};
-    const core::Ellipsoid globe = toCore(ellipsoid);
+PlatesAndExtents platesAndExtents(const TileMeshes& meshes) {
+    if (meshes.nodes.size() != 1 || !hasValidRadii(meshes.ellipsoid)) return {};
+    const core::Ellipsoid globe = toCore(meshes.ellipsoid);
     core::EcefMesh mesh;
-    MeshUnion parts(localToEcef, &globe, mesh);
-    meshes.front()->accept(parts);
+    const MeshUnion parts(meshes, &globe, mesh);
+    const double error = drawingError(globe);
+    if (const TerrainPosts* const posts = parts.posts()) {
+        return {std::make_unique<const core::GroundPlates>(globe, posts->grid, posts->altitudes, posts->margin + error),
+                {posts->grid.latitude, posts->grid.longitude, {0.0, 0.0}}};
+    }
     if (!parts.isMesh()) return {};
     const core::MeshBounds bounds(globe, mesh);
     if (bounds.bin().empty() || bounds.touchesAxis()) return {};
-    return {std::make_unique<const core::GroundPlates>(globe, mesh, bounds.bin(), drawingError(globe)), bounds.bin()};
+    return {std::make_unique<const core::GroundPlates>(globe, mesh, bounds.bin(), error), bounds.bin()};
 }
 
 }  // namespace
 
-std::unique_ptr<const core::GroundPlates> tilePlates(const std::vector<osg::ref_ptr<osg::Node>>& meshes,
-                                                     const osg::EllipsoidModel& ellipsoid,
-                                                     const osg::Matrixd& localToEcef) {
-    auto [plates, extents] = platesAndExtents(meshes, ellipsoid, localToEcef);
+std::unique_ptr<const core::GroundPlates> tilePlates(const TileMeshes& meshes) {
+    auto [plates, extents] = platesAndExtents(meshes);
     return plates && plates->isKnown() ? std::move(plates) : nullptr;
 }
 
-core::GeodeticBin rectangleFilledBy(const std::vector<osg::ref_ptr<osg::Node>>& meshes,
-                                    const osg::EllipsoidModel& ellipsoid, const osg::Matrixd& localToEcef) {
-    const auto [plates, extents] = platesAndExtents(meshes, ellipsoid, localToEcef);
+core::GeodeticBin rectangleFilledBy(const TileMeshes& meshes) {
+    const auto [plates, extents] = platesAndExtents(meshes);
     return plates && std::isfinite(plates->least(1, 0, 0)) ? extents : core::GeodeticBin();
+}
+
+bool readTileMesh(const TileMeshes& meshes, core::EcefMesh& mesh) {
+    if (meshes.nodes.size() != 1) return false;
+    const MeshUnion parts(meshes, nullptr, mesh);
+    if (const TerrainPosts* const posts = parts.posts()) appendTriangles(*posts, toCore(meshes.ellipsoid), mesh);
+    return parts.posts() || parts.isMesh();
 }
 
 }  // namespace osgAnalyticBin

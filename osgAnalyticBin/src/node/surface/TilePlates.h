@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/Export.h>
 #include <osgAnalyticBin/core/occlusion/GroundPlates.h>
 
@@ -15,21 +16,25 @@
 
 namespace osgAnalyticBin {
 
-/// Bounds of the altitudes of what a tile draws by itself, skirts folded up. `meshes` stand in a frame that
-/// `localToEcef` takes to ECEF.
-/// Returns: nullptr where they are not known: for several levels of detail, osgTerrain tiles, what tileSurface() does
-/// not know, and meshes at a pole. Cost: a fraction of a millisecond.
-[[nodiscard]] OSGANALYTICBIN_EXPORT std::unique_ptr<const core::GroundPlates> tilePlates(
-    const std::vector<osg::ref_ptr<osg::Node>>& meshes, const osg::EllipsoidModel& ellipsoid,
-    const osg::Matrixd& localToEcef);
+/// A tile's own meshes, and what has to be known to tell where they are drawn.
+struct TileMeshes {
+    std::vector<osg::ref_ptr<osg::Node>> nodes;
+    const osg::EllipsoidModel& ellipsoid;
+    const osg::Matrixd& localToEcef;  ///< from the frame that the meshes stand in
+    const TerrainShape& shape;        ///< in which osgTerrain tiles are shown
+};
+
+/// Bounds of the altitudes of what a tile draws by itself, without skirts.
+/// Returns: nullptr where they are not known: for several levels of detail, osgTerrain tiles that are not whole grids,
+/// what tileSurface() does not know, and meshes at a pole. Cost: a fraction of a millisecond; for osgTerrain tiles some
+/// ten microseconds.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::unique_ptr<const core::GroundPlates> tilePlates(const TileMeshes& meshes);
 
 /// The rectangle that such meshes fill without holes, up to half a rim of a plate on each side; empty: not known.
-[[nodiscard]] core::GeodeticBin rectangleFilledBy(const std::vector<osg::ref_ptr<osg::Node>>& meshes,
-                                                  const osg::EllipsoidModel& ellipsoid,
-                                                  const osg::Matrixd& localToEcef);
+[[nodiscard]] core::GeodeticBin rectangleFilledBy(const TileMeshes& meshes);
 
-/// Reads the triangles of all parts of a tile's mesh, skirts included, into an empty mesh. Returns: false where they
-/// are not known, as above.
-[[nodiscard]] bool readTileMesh(osg::Node& node, const osg::Matrixd& localToEcef, core::EcefMesh& mesh);
+/// Reads all triangles of a tile's only mesh, skirts included, into an empty mesh; of osgTerrain tiles those with
+/// either diagonal, and no skirts. Returns: false where they are not known, as above.
+[[nodiscard]] bool readTileMesh(const TileMeshes& meshes, core::EcefMesh& mesh);
 
 }  // namespace osgAnalyticBin

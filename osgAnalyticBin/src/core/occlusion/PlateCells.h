@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// What plates of meshes and plates of grids have in common. Source: doc/theory/occlusion.md, section 3.
+
+#pragma once
+
+#include "../EarthScale.h"
+
+#include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/core/GeodeticBin.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace osgAnalyticBin::core {
+
+/// The rim on each side of a cell, as a share of its width. Columns keep out of it.
+inline constexpr double kRim = 1.0 / 64.0;
+
+/// @{
+/// Shares of a rim: triangles that reach no farther into a cell do not count for it; meshes are drawn no farther away
+/// from their place; chords of columns bulge no farther out of the cell.
+inline constexpr double kReachOfRim = 0.5, kMarginOfRim = 0.1, kBulgeOfRim = 0.4;
+/// @}
+
+/// Cells a side.
+inline constexpr std::array<std::size_t, 4> kCellsOfGrids{1, 2, 4, 8};
+
+/// Of the cells of a grid in the row of all cells of all grids.
+[[nodiscard]] constexpr std::size_t firstNumber(std::size_t cells) {
+    return (cells * cells - 1) / 3;  // 0, 1, 5, 21
+}
+[[nodiscard]] constexpr std::size_t numberOf(std::size_t cells, std::size_t row, std::size_t column) {
+    return firstNumber(cells) + row * cells + column;
+}
+
+/// The cells of a grid along one axis that an interval meets, first to last; first > last: none.
+struct CellRange {
+    std::ptrdiff_t first, last;
+};
+
+/// A cell counts where what is farther within its edges than kReachOfRim is met.
+[[nodiscard]] inline CellRange cellsIn(const Interval& extents, std::size_t cells, const Interval& met) {
+    constexpr double kInset = kReachOfRim * kRim;
+    const auto most = static_cast<double>(cells);
+    const double perCell = most / extents.width();
+    const double from = (met.lower - extents.lower) * perCell + kInset;
+    const double end = (met.upper - extents.lower) * perCell - kInset + 1.0;
+    return {static_cast<std::ptrdiff_t>(std::clamp(from, 0.0, most)),
+            static_cast<std::ptrdiff_t>(std::clamp(end, 0.0, most)) - 1};
+}
+
+/// Metres of the longest side of a triangle, and of the longest one along the horizon and along the vertical, wherever
+/// in the triangle these are measured.
+struct TriangleSides {
+    double longest, horizontal, vertical;
+
+    /// From what is measured at the corners. Across a triangle both directions turn by at most its width over
+    /// `radius`, which is no larger than a radius of curvature of the ellipsoid.
+    [[nodiscard]] static TriangleSides atAnyPoint(double longest, double horizontal, double vertical, double radius) {
+        const double turn = 2.0 * longest * longest / radius;
+        return {longest, horizontal + turn, vertical + turn};
+    }
+};
+
+/// How far a triangle may reach beyond the altitudes, latitudes and longitudes of its corners.
+struct TriangleReach {
+    double sag;     ///< metres below the lowest corner
+    double aside;   ///< radians of latitude
+    double around;  ///< radians of longitude
+
+    /// `radius`: no larger than a radius of curvature at any point of the triangle; `axisDistance`: no larger than that
+    /// of any point.
+    TriangleReach(const TriangleSides& sides, const Ellipsoid& ellipsoid, double radius, double axisDistance) {
+        const double horizontal2 = sides.horizontal * sides.horizontal, mixed = 2.0 * sides.horizontal * sides.vertical;
+        const double secant = 1.2 * largestCurvatureRadius(ellipsoid) / axisDistance;
+        sag = horizontal2 / (6.0 * radius);
+        aside = 1.1 * (mixed + secant * horizontal2) / (6.0 * radius * radius);
+        around = mixed / (6.0 * axisDistance * axisDistance);
+    }
+
+    /// Whether triangles are small enough for these bounds to hold.
+    [[nodiscard]] static bool holdsFor(const TriangleSides& sides, double radius, double axisDistance,
+                                       double widthInLongitude, const Interval& altitude) {
+        return sides.longest <= 0.05 * std::min(axisDistance, radius) && widthInLongitude < 0.2 &&
+               altitude.lower > -0.1 * radius && altitude.upper < 0.1 * radius;
+    }
+};
+
+}  // namespace osgAnalyticBin::core

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// osgTerrain tiles that hide others. Meshes: TerrainOcclusionTest.cpp.
+
+#include "ApplicationGlobe.h"
+#include "CullFixture.h"
+#include "DatabaseFixture.h"
+#include "TileFixture.h"
+
+#include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/InstallBins.h>
+
+#include <gtest/gtest.h>
+#include <osg/Geometry>
+#include <osgTerrain/GeometryTechnique>
+#include <osgTerrain/Layer>
+#include <osgTerrain/Terrain>
+#include <osgTerrain/ValidDataOperator>
+
+#include <functional>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using osgTerrain::TerrainTile;
+
+osg::ref_ptr<TerrainTile> makePlain(double south, double north, double west, double east, unsigned int posts,
+                                    float height = 0.0f) {
+    return makeTerrainTile(extentsDeg(south, north, west, east), posts, posts,
+                           [height](unsigned int, unsigned int) { return height; });
+}
+
+// A globe of osgTerrain tiles. Along the equator stand tiles of 0.2 degrees: a plain, and in the third tile a ridge,
+// which tile 4 lies behind. The eye is above the middle of tile 0.
+struct TerrainGlobe {
+    explicit TerrainGlobe(float heightOfFarTile = 0.0f) {
+        terrain->setEllipsoidModel(new osg::EllipsoidModel);
+        for (int i = 0; i < 32; ++i) {
+            const double south = -90.0 + 45.0 * (i / 8), west = -180.0 + 45.0 * (i % 8);
+            if (i != 20) terrain->addChild(makePlain(south, south + 45.0, west, west + 45.0, 65));
+        }
+        terrain->addChild(makePlain(0.2, 45.0, 0.0, 45.0, 65));
+        for (int i = 0; i < 225; ++i) {
+            row.push_back(makePlain(0.0, 0.2, 0.2 * i, 0.2 * i + 0.2, 9,
+                                    i == 2   ? 8000.0f
+                                    : i == 4 ? heightOfFarTile
+                                             : 0.0f));
+            terrain->addChild(row.back());
+        }
+    }
+
+    [[nodiscard]] bool drawsFarTile(double nearPlane = 1.0) {
+        CullView view = CullView::lookAt(ecefDeg(0.1, 0.1, 1000.0), ecefDeg(0.1, 1.0, 1000.0), {1, 0, 0}, 30.0);
+        view.projection = osg::Matrixd::perspective(30.0, 1.0, nearPlane, 1e8);
+        update(*terrain);
+        return cull(*terrain, view, *visitor, ++frame).drawn.count(drawable(*row[4])) > 0;
+    }
+    // as the technique made it last
+    [[nodiscard]] static const osg::Drawable* drawable(TerrainTile& tile) {
+        struct First : osg::NodeVisitor {
+            First() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+            void apply(osg::Drawable& drawable) override { first = &drawable; }
+            const osg::Drawable* first = nullptr;
+        } first;
+        if (tile.getTerrainTechnique()) tile.getTerrainTechnique()->traverse(first);
+        return first.first;
+    }
+    [[nodiscard]] BinCounts counts() const { return BinStatistics::of(*visitor).getCounts(); }
+
+    osg::ref_ptr<osgTerrain::Terrain> terrain = new osgTerrain::Terrain;
+    std::vector<osg::ref_ptr<TerrainTile>> row;
+    osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    unsigned int frame = 0;
+};
+
+CullOptions withOcclusion(OcclusionUse use) {
+    CullOptions options;
+    options.occlusion = use;
+    return options;
+}
+
+TEST(OccludingTerrainTiles, HideWhatIsBehindARidge) {
+    TerrainGlobe globe;
+    installBins(*globe.terrain, withOcclusion(OcclusionUse::Off));
+    EXPECT_TRUE(globe.drawsFarTile());
+    setCullOptions(*globe.terrain, withOcclusion(OcclusionUse::On));
+    EXPECT_FALSE(globe.drawsFarTile());
+    EXPECT_GE(globe.counts().occluded, 1u);
+}
+
+TEST(OccludingTerrainTiles, GetTheirPlatesInUpdatesWhereTheyAreLeftToThemselves) {
+    TerrainGlobe globe;
+    installBins(*globe.terrain, withOcclusion(OcclusionUse::Auto));
+    int awaited = 0;
+    for (; awaited < 100 && globe.drawsFarTile(); ++awaited) continue;
+    EXPECT_GE(awaited, 1);
+    EXPECT_LT(awaited, 100);
+}
+
+TEST(OccludingTerrainTiles, FollowTheVerticalScale) {
+    TerrainGlobe globe;
+    installBins(*globe.terrain, withOcclusion(OcclusionUse::On));
+    const auto framesUntil = [&](bool isDrawn) {
+        int frames = 0;
+        while (frames < 100 && globe.drawsFarTile() != isDrawn) ++frames;
+        return frames;
+    };
+    EXPECT_EQ(framesUntil(false), 0);
+    // a ridge of 80 m hides nothing: at once, and from then on
+    globe.terrain->setVerticalScale(0.01f);
+    for (int i = 0; i < 10; ++i) EXPECT_TRUE(globe.drawsFarTile()) << i;
+    globe.terrain->setVerticalScale(1.0f);
+    EXPECT_LT(framesUntil(false), 100);
+    // depressions hide nothing
+    globe.terrain->setVerticalScale(-1.0f);
+    for (int i = 0; i < 10; ++i) EXPECT_TRUE(globe.drawsFarTile()) << i;
+}
+
+// A layer in which one height stands for none.
+void makeHole(TerrainGlobe& globe) {
+    auto& layer = static_cast<osgTerrain::HeightFieldLayer&>(*globe.row[2]->getElevationLayer());
+    layer.getHeightField()->setHeight(4, 4, -9999.0f);
+    layer.setValidDataOperator(new osgTerrain::NoDataValue(-9999.0f));
+}
+
+TEST(OccludingTerrainTiles, AreWholeGridsAsOsgMakesThem) {
+    struct OtherTechnique : osgTerrain::GeometryTechnique {};
+    const std::vector<std::function<void(TerrainGlobe&)>> others{
+        makeHole,
+        [](TerrainGlobe& globe) { globe.terrain->setEqualizeBoundaries(true); },
+        [](TerrainGlobe& globe) { globe.terrain->setSampleRatio(0.5f); },
+        [](TerrainGlobe& globe) { globe.terrain->setTerrainTechniquePrototype(new OtherTechnique); },
+        [](TerrainGlobe& globe) { globe.row[2]->setTerrainTechnique(new OtherTechnique); },
+        [](TerrainGlobe& globe) { globe.row[2]->setBlendingPolicy(TerrainTile::ENABLE_BLENDING); },
+    };
+    for (std::size_t i = 0; i < others.size(); ++i) {
+        TerrainGlobe globe;
+        others[i](globe);
+        installBins(*globe.terrain, withOcclusion(OcclusionUse::On));
+        for (int frame = 0; frame < 3; ++frame) EXPECT_TRUE(globe.drawsFarTile()) << i;
+    }
+    for (const std::size_t i : {1u, 2u}) {
+        TerrainGlobe globe;
+        installBins(*globe.terrain, withOcclusion(OcclusionUse::On));
+        EXPECT_FALSE(globe.drawsFarTile());
+        others[i](globe);
+        for (int frame = 0; frame < 3; ++frame) EXPECT_TRUE(globe.drawsFarTile()) << i;
+    }
+}
+
+// Through a plain that is cut away, the eye sees past the foot of the ridge into a pit.
+TEST(OccludingTerrainTiles, HideNothingWhereTheNearPlaneCutsThemAway) {
+    TerrainGlobe globe(-15000.0f);
+    installBins(*globe.terrain, withOcclusion(OcclusionUse::On));
+    EXPECT_FALSE(globe.drawsFarTile());
+    EXPECT_FALSE(globe.drawsFarTile(500.0));
+    EXPECT_TRUE(globe.drawsFarTile(6000.0));
+    EXPECT_TRUE(globe.drawsFarTile(60000.0));
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
