@@ -150,6 +150,22 @@ TEST(OccludingTerrainTiles, AreWholeGridsAsOsgMakesThem) {
     }
 }
 
+// Nor behind the horizon: through a hole the eye sees the other side of the globe.
+TEST(OccludingTerrainTiles, HideNothingWhereTheyHaveHoles) {
+    TerrainGlobe whole, holed;
+    makeHole(holed);
+    for (TerrainGlobe* globe : {&whole, &holed}) {
+        installBins(*globe->terrain, withOcclusion(OcclusionUse::Off));
+        const auto view = CullView::lookAt(ecefDeg(0.1, 0.5, 2e5), ecefDeg(0.1, 0.5, 0.0), {0, 0, 1}, 60.0);
+        for (int i = 0; i < 2; ++i) {
+            update(*globe->terrain);
+            (void)cull(*globe->terrain, view, *globe->visitor, ++globe->frame);
+        }
+    }
+    EXPECT_GT(whole.counts().hidden, 0u);
+    EXPECT_EQ(holed.counts().hidden, 0u);
+}
+
 // Through a plain that is cut away, the eye sees past the foot of the ridge into a pit.
 TEST(OccludingTerrainTiles, HideNothingWhereTheNearPlaneCutsThemAway) {
     TerrainGlobe globe(-15000.0f);

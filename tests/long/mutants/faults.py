@@ -228,6 +228,8 @@ FAULTS = [
           "_pending.front().farthest <= distance", "_pending.front().farthest <= 1e9 * distance", CORE, "HorizonBuffer.*"),
     Fault("state: a part's range of depths does not matter", "src/node/cull/SeeThrough.cpp", "isSeeThrough(state) || hasDepthRange(state) ||",
           "isSeeThrough(state) || (hasDepthRange(state) && false) ||", NODE, "SeeThroughTerrain.*"),
+    Fault("state: holes of osgTerrain tiles do not matter", "src/node/cull/SeeThrough.cpp", "return hasHole(tile) || isBlended(tile);",
+          "return (hasHole(tile) && false) || isBlended(tile);", NODE, "OccludingTerrainTiles.*"),
     Fault("state: mirrors turn no faces", "src/node/cull/SeeThrough.cpp", "!= isMirror(*cullVisitor->getModelViewMatrix())",
           "!= (isMirror(*cullVisitor->getModelViewMatrix()) && false)",
           NODE, "SeeThroughTerrain.*"),

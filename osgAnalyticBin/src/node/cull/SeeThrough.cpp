@@ -90,6 +90,34 @@ bool hasAlpha(const osg::Image& image) {
     return image.getPixelFormat() != GL_COMPRESSED_RGB_S3TC_DXT1_EXT && image.isImageTranslucent();
 }
 
+// osgTerrain::GeometryTechnique leaves out the triangles at posts that are not valid.
+bool hasHole(const osgTerrain::TerrainTile& tile) {
+    const osgTerrain::Layer* const layer = tile.getElevationLayer();
+    if (!layer || !layer->getValidDataOperator()) return false;
+    for (unsigned int row = 0; row < layer->getNumRows(); ++row) {
+        for (unsigned int column = 0; column < layer->getNumColumns(); ++column) {
+            float height = 0.0f;
+            if (!layer->getValidValue(column, row, height)) return true;
+        }
+    }
+    return false;
+}
+
+// As the technique decides, by the first image.
+bool isBlended(const osgTerrain::TerrainTile& tile) {
+    using Tile = osgTerrain::TerrainTile;
+    Tile::BlendingPolicy policy = tile.getBlendingPolicy();
+    if (policy == Tile::INHERIT && tile.getTerrain()) policy = tile.getTerrain()->getBlendingPolicy();
+    if (policy == Tile::DO_NOT_SET_BLENDING) return false;
+    if (policy == Tile::ENABLE_BLENDING) return true;
+    for (unsigned int i = 0; i < tile.getNumColorLayers(); ++i) {
+        const osgTerrain::Layer* const layer = tile.getColorLayer(i);
+        const osg::Image* const image = layer ? layer->getImage() : nullptr;
+        if (image) return hasAlpha(*image);
+    }
+    return false;
+}
+
 }  // namespace
 
 bool isSeeThrough(const osg::StateSet& state) {
@@ -104,19 +132,8 @@ bool isPartSeeThrough(const osg::StateSet& state) {
     return isSeeThrough(state) || hasDepthRange(state) || (face && isClockwise(*face));
 }
 
-// As osgTerrain::GeometryTechnique decides, by the first image.
 bool isSeeThrough(const osgTerrain::TerrainTile& tile) {
-    using Tile = osgTerrain::TerrainTile;
-    Tile::BlendingPolicy policy = tile.getBlendingPolicy();
-    if (policy == Tile::INHERIT && tile.getTerrain()) policy = tile.getTerrain()->getBlendingPolicy();
-    if (policy == Tile::DO_NOT_SET_BLENDING) return false;
-    if (policy == Tile::ENABLE_BLENDING) return true;
-    for (unsigned int i = 0; i < tile.getNumColorLayers(); ++i) {
-        const osgTerrain::Layer* const layer = tile.getColorLayer(i);
-        const osg::Image* const image = layer ? layer->getImage() : nullptr;
-        if (image) return hasAlpha(*image);
-    }
-    return false;
+    return hasHole(tile) || isBlended(tile);
 }
 
 bool isStateSeeThrough(osg::NodeVisitor& visitor) {

@@ -21,7 +21,8 @@ namespace osgAnalyticBin {
 /// rest of the terrain has others.
 [[nodiscard]] bool isPartSeeThrough(const osg::StateSet& state);
 
-/// The same of the image layers of a terrain tile, by its own and its Terrain's blending policy.
+/// The same of a terrain tile: of its image layers, by its own and its Terrain's blending policy, and of posts that are
+/// not valid.
 [[nodiscard]] bool isSeeThrough(const osgTerrain::TerrainTile& tile);
 
 /// Whether a state between the camera and the visitor's present node makes the terrain see-through, or front faces look
