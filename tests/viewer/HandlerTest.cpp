@@ -227,6 +227,30 @@ TEST_F(Handlers, OpenASecondWindowThatIsCulledAsTheFirst) {
     EXPECT_EQ(_viewer.getNumSlaves(), 0u);
 }
 
+// Two draw threads that enlarge the same array at once would crash.
+TEST_F(Handlers, LeaveRoomForASecondWindowInTextures) {
+    class Roomy : public osg::Texture2D {
+    public:
+        [[nodiscard]] unsigned int room() const { return _textureObjectBuffer.size(); }
+    };
+    osg::DisplaySettings::instance()->setMaxNumberOfGraphicsContexts(1);
+    const osg::ref_ptr<Roomy> overlaid = new Roomy;
+    const osg::ref_ptr<osg::Group> group = new osg::Group;
+    group->getOrCreateStateSet()->setTextureAttribute(0, overlaid);
+    CameraCulling::of(*_viewer.getCamera()).overlay().addChild(group);
+    ASSERT_EQ(overlaid->room(), 1u);
+    drawUntilIdle(_viewer);
+    // as the pager's threads make one while the window opens
+    const osg::ref_ptr<Roomy> read = new Roomy;
+    press('y');
+    ASSERT_TRUE(_spy->isOpen());
+    const unsigned int second = _spy->camera()->getGraphicsContext()->getState()->getContextID();
+    EXPECT_GT(second, 0u);
+    EXPECT_GT(overlaid->room(), second);
+    EXPECT_GT(read->room(), second);
+    press('y');
+}
+
 TEST_F(Handlers, FillOsgsStatistics) {
     drawUntilIdle(_viewer);
     osg::Stats& stats = *_viewer.getViewerStats();

@@ -40,6 +40,23 @@ private:
     const bool _wasRunning;
 };
 
+// Textures and meshes hold an array with a place for each window, which is as large as OSG's settings say when they are
+// made. Draw threads enlarge it at need, but two of them at once would spoil it: what is read from now on has one place
+// more than there are windows.
+void leaveRoomForAWindow() {
+    osg::DisplaySettings& settings = *osg::DisplaySettings::instance();
+    const unsigned int wanted = osg::GraphicsContext::getMaxContextID() + 2;
+    if (settings.getMaxNumberOfGraphicsContexts() < wanted) settings.setMaxNumberOfGraphicsContexts(wanted);
+}
+
+// Gives a place for each window to all that a view draws, its cameras' overlays and their fonts included.
+void makeRoomForWindows(osgViewer::View& view) {
+    const unsigned int windows = osg::GraphicsContext::getMaxContextID() + 1;
+    view.getCamera()->resizeGLObjectBuffers(windows);
+    for (unsigned int i = 0; i < view.getNumSlaves(); ++i) view.getSlave(i)._camera->resizeGLObjectBuffers(windows);
+    view.getSceneData()->resizeGLObjectBuffers(windows);
+}
+
 // A window as large as the camera's, beside it.
 osg::ref_ptr<osg::GraphicsContext> makeWindow(const osg::GraphicsContext& beside) {
     const osg::GraphicsContext::Traits& known = *beside.getTraits();
@@ -164,8 +181,7 @@ void SpyViewHandler::open(osgViewer::View& view) {
     state.setModeList(before->getModeList());
     state.setAttributeList(before->getAttributeList());
     view.getSlave(view.getNumSlaves() - 1)._updateSlaveCallback = _placement;
-    // arrays of the scene with a place for each window
-    view.getSceneData()->resizeGLObjectBuffers(osg::DisplaySettings::instance()->getMaxNumberOfGraphicsContexts());
+    makeRoomForWindows(view);
 }
 
 void SpyViewHandler::close(osgViewer::View& view) {
@@ -220,6 +236,7 @@ bool SpyViewHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActio
     osgViewer::View* view = viewOf(action);
     if (!view || isTaken(event)) return false;
     if (event.getEventType() == osgGA::GUIEventAdapter::FRAME) {
+        leaveRoomForAWindow();
         if (isOpen()) drawFrustum(*view);
         return false;
     }
