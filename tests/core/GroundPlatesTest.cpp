@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -19,6 +20,7 @@ namespace {
 using core::EarthColumn;
 using core::EcefMesh;
 using core::Ellipsoid;
+using core::Geodetic;
 using core::GeodeticBin;
 using core::GroundPlates;
 using core::Interval;
@@ -94,7 +96,16 @@ TEST(GroundPlates, ColumnsLieBelowTheMesh) {
     for (int trial = 0; trial < 800; ++trial) {
         const Ellipsoid ellipsoid = random.chance(0.5) ? wgs84() : Ellipsoid(1e5, 1e5 * random.uniform(0.996, 1.004));
         const GeodeticBin extents = randomExtents(random, ellipsoid);
-        EcefMesh mesh = gridMesh(random, ellipsoid, extents, static_cast<std::uint32_t>(random.integer(1, 12)));
+        const auto cells = static_cast<std::uint32_t>(random.integer(1, 12));
+        EcefMesh mesh = gridMesh(random, ellipsoid, extents, cells);
+        // nearly a grid
+        const double most = extents.latitude().width() / cells * ellipsoid.polarRadius() * random.logUniform(1e-7, 0.1);
+        for (std::size_t i = random.chance(0.5) ? 0 : mesh.size(); i < mesh.size(); ++i) {
+            const glm::dvec3 aside = random.uniform(0.0, most) * random.direction();
+            mesh.x[i] += aside.x;
+            mesh.y[i] += aside.y;
+            mesh.z[i] += aside.z;
+        }
         if (random.chance(0.3)) mesh = unmerged(mesh);
         if (random.chance(0.3)) {
             for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
@@ -243,7 +254,8 @@ TEST(GroundPlates, OfAGridAreThoseOfItsMesh) {
         const auto cells = static_cast<std::uint32_t>(random.integer(8, 64));
         const EcefMesh mesh = gridMesh(random, earth, extents, cells);
         const Posts posts(earth, extents, mesh, cells);
-        const GroundPlates ofMesh(earth, mesh, extents), ofGrid(earth, posts.grid, posts.altitudes);
+        // without vertices in common it is not known to be a grid
+        const GroundPlates ofMesh(earth, unmerged(mesh), extents), ofGrid(earth, posts.grid, posts.altitudes);
         const double spacing = size / cells * 6.4e6;
         for (const std::size_t side : kGrids) {
             for (std::size_t i = 0; i < side * side; ++i) {
@@ -254,6 +266,38 @@ TEST(GroundPlates, OfAGridAreThoseOfItsMesh) {
             }
         }
     }
+}
+
+// A mesh with one triangle turned upside down, twice there, missing or across two cells is none of a grid.
+TEST(GroundPlates, AreNotThoseOfAGridWhereATriangleIsWrong) {
+    Random random(1714);
+    const Ellipsoid earth = wgs84();
+    const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
+    const EcefMesh whole = gridMesh(random, earth, extents, 16);
+    ASSERT_TRUE(std::isfinite(GroundPlates(earth, whole, extents).least(1, 0, 0)));
+    const auto isWhole = [&](const std::function<void(std::vector<std::uint32_t>&)>& change) {
+        EcefMesh mesh = whole;
+        change(mesh.triangles);
+        return std::isfinite(GroundPlates(earth, mesh, extents).least(1, 0, 0));
+    };
+    using Triangles = std::vector<std::uint32_t>;
+    EXPECT_TRUE(isWhole([](Triangles& triangles) { triangles.insert(triangles.end(), {5, 5, 9}); }));
+    EXPECT_FALSE(isWhole([](Triangles& triangles) { std::swap(triangles[3], triangles[4]); }));
+    EXPECT_FALSE(isWhole([](Triangles& triangles) { std::copy_n(triangles.begin(), 3, triangles.begin() + 3); }));
+    EXPECT_FALSE(isWhole([](Triangles& triangles) { triangles.resize(triangles.size() - 3); }));
+    EXPECT_FALSE(isWhole([](Triangles& triangles) { triangles.insert(triangles.end(), {0, 2, 34}); }));
+    // the southernmost posts, but for the corners, stand farther north
+    EcefMesh shorter = whole;
+    for (std::size_t i = 1; i < 16; ++i) {
+        Geodetic place = earth.toGeodetic(whole.vertex(i));
+        place.latitude += 0.05 * extents.latitude().width() / 16.0;
+        const glm::dvec3 v = earth.toEcef(place);
+        shorter.x[i] = v.x;
+        shorter.y[i] = v.y;
+        shorter.z[i] = v.z;
+    }
+    EXPECT_TRUE(std::isfinite(GroundPlates(earth, whole, extents).least(8, 0, 3)));
+    EXPECT_FALSE(std::isfinite(GroundPlates(earth, shorter, extents).least(8, 0, 3)));
 }
 
 TEST(GroundPlates, OfAGridAreNotKnownBeyondTheirDomain) {

@@ -6,6 +6,7 @@
 #include "../LocalFrame.h"
 #include "../mesh/KeyNumbers.h"
 #include "PlateCells.h"
+#include "PostGrid.h"
 #include "SurfaceGrid.h"
 
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
@@ -253,7 +254,21 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, con
     const auto isFinite = [](const std::vector<double>& numbers) {
         return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
     };
-    if (isFinite(mesh.x) && isFinite(mesh.y) && isFinite(mesh.z)) Builder(*this, mesh, margin);
+    if (!isFinite(mesh.x) || !isFinite(mesh.y) || !isFinite(mesh.z)) return;
+    // those of a grid take less time
+    const auto posts = postGridOf(ellipsoid, mesh, extents);
+    if (posts && fills(posts->grid))
+        *this = GroundPlates(ellipsoid, posts->grid, posts->altitudes, margin + posts->error);
+    if (!isKnown()) Builder(*this, mesh, margin);
+}
+
+// Whether a grid reaches into all cells as far as triangles have to.
+bool GroundPlates::fills(const GeodeticGrid& grid) const noexcept {
+    constexpr double kRoom = kReachOfRim * kRim / static_cast<double>(kCellsOfGrids.back());
+    const auto isSame = [](const Interval& a, const Interval& b) {
+        return std::max(std::abs(a.lower - b.lower), std::abs(a.upper - b.upper)) <= kRoom * b.width();
+    };
+    return isSame(grid.latitude, _latitude) && isSame(grid.longitude, _longitude);
 }
 
 // Whether a mesh that is drawn `margin` metres away from its place still covers what is within the rims.

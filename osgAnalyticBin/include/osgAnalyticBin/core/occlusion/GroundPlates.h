@@ -42,7 +42,8 @@ public:
     /// Of a mesh that lies within the extents; their altitudes are ignored. A cell is known where the mesh covers all
     /// of it, and where all triangles face the same way, up or down. `margin`: how many metres away from its place the
     /// mesh may be drawn. Bounds are lowered by the margin. Nothing is known if it is wider than a tenth of a rim.
-    /// Cost: some 0.2 microseconds for each triangle. Requires: indices within the vertices.
+    /// Cost: some 0.2 microseconds for each triangle, a quarter of that where the mesh is a grid. Requires: indices
+    /// within the vertices.
     GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin = 0.0);
 
     /// Of a grid with triangles between its posts, the diagonal of each of its cells either way, front faces up.
@@ -81,6 +82,7 @@ private:
     /// Nothing is known yet.
     GroundPlates(const Ellipsoid& ellipsoid, const Interval& latitude, const Interval& longitude) noexcept;
     [[nodiscard]] bool mayStandBeside(double margin) const noexcept;
+    [[nodiscard]] bool fills(const GeodeticGrid& grid) const noexcept;
     void encode(const std::array<double, kNumbers>& low, double margin) noexcept;
 
     [[nodiscard]] double decoded(std::uint16_t code) const noexcept {

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/core/GeodeticBin.h>
+#include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
+#include <osgAnalyticBin/core/mesh/MeshBounds.h>
+
+#include <optional>
+#include <vector>
+
+namespace osgAnalyticBin::core {
+
+/// Posts that are evenly spaced in latitude and longitude.
+struct PostGrid {
+    GeodeticGrid grid;
+    std::vector<double> altitudes;  ///< metres, row by row from the south-west
+    double error = 0.0;             ///< metres by which posts may stand beside their places
+};
+
+/// The grid whose posts are the first vertices of a mesh, row by row from the south-west. The mesh lies within the
+/// extents, and fills them.
+/// Returns: nullopt unless the mesh has two triangles, front faces up, between every four posts, and no others but such
+/// without area.
+/// Cost: some 20 nanoseconds for each vertex and each triangle.
+[[nodiscard]] std::optional<PostGrid> postGridOf(const Ellipsoid& ellipsoid, const EcefMesh& mesh,
+                                                 const GeodeticBin& extents);
+
+}  // namespace osgAnalyticBin::core
