@@ -94,4 +94,13 @@ std::array<Triangle, 4> GridCell::triangles() const {
             Triangle{c[0], c[2], c[3]}};
 }
 
+EcefMesh unmerged(const EcefMesh& mesh) {
+    EcefMesh result;
+    for (const std::uint32_t vertex : mesh.triangles) {
+        result.triangles.push_back(static_cast<std::uint32_t>(result.size()));
+        addVertex(result, mesh.vertex(vertex));
+    }
+    return result;
+}
+
 }  // namespace osgAnalyticBin::test

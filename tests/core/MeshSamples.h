@@ -46,4 +46,7 @@ struct GridCell {
     std::array<glm::dvec3, 4> corners;
 };
 
+/// As many meshes have it: each triangle has vertices of its own.
+[[nodiscard]] core::EcefMesh unmerged(const core::EcefMesh& mesh);
+
 }  // namespace osgAnalyticBin::test

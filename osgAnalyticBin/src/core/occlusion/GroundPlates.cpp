@@ -264,9 +264,8 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, con
 
 // Whether a grid reaches into all cells as far as triangles have to.
 bool GroundPlates::fills(const GeodeticGrid& grid) const noexcept {
-    constexpr double kRoom = kReachOfRim * kRim / static_cast<double>(kCellsOfGrids.back());
     const auto isSame = [](const Interval& a, const Interval& b) {
-        return std::max(std::abs(a.lower - b.lower), std::abs(a.upper - b.upper)) <= kRoom * b.width();
+        return std::max(std::abs(a.lower - b.lower), std::abs(a.upper - b.upper)) <= kBorder * b.width();
     };
     return isSame(grid.latitude, _latitude) && isSame(grid.longitude, _longitude);
 }

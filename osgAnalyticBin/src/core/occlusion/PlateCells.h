@@ -28,6 +28,9 @@ inline constexpr double kReachOfRim = 0.5, kMarginOfRim = 0.1, kBulgeOfRim = 0.4
 /// Cells a side.
 inline constexpr std::array<std::size_t, 4> kCellsOfGrids{1, 2, 4, 8};
 
+/// What is no farther within the extents than this share of their width does not count for any cell.
+inline constexpr double kBorder = kReachOfRim * kRim / static_cast<double>(kCellsOfGrids.back());
+
 /// Of the cells of a grid in the row of all cells of all grids.
 [[nodiscard]] constexpr std::size_t firstNumber(std::size_t cells) {
     return (cells * cells - 1) / 3;  // 0, 1, 5, 21

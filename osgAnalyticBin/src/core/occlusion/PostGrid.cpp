@@ -5,6 +5,7 @@
 
 #include "../Constants.h"
 #include "../EarthScale.h"
+#include "PlateCells.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -13,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace osgAnalyticBin::core {
 
@@ -26,8 +28,8 @@ constexpr double kTolerance = 1e-3;  // of the spacing
 class GridSearch {
 public:
     GridSearch(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents)
-        : _ellipsoid(ellipsoid), _mesh(mesh), _middle(extents.longitude().middle()) {
-        findSizes(extents);
+        : _ellipsoid(ellipsoid), _mesh(mesh), _extents(extents), _middle(extents.longitude().middle()) {
+        findSizes();
     }
 
     [[nodiscard]] std::optional<PostGrid> run() {
@@ -51,7 +53,7 @@ private:
     }
 
     // From the size of the first triangle.
-    void findSizes(const GeodeticBin& extents) {
+    void findSizes() {
         std::size_t first = 0;
         while (first + 2 < _mesh.triangles.size() && !hasArea(triangle(first))) first += 3;
         if (first + 2 >= _mesh.triangles.size()) return;
@@ -59,8 +61,8 @@ private:
         const Geodetic a = placeOf(corners[0]), b = placeOf(corners[1]), c = placeOf(corners[2]);
         const auto [south, north] = std::minmax({a.latitude, b.latitude, c.latitude});
         const auto [west, east] = std::minmax({a.longitude, b.longitude, c.longitude});
-        const double rows = std::round(extents.latitude().width() / (north - south)) + 1.0;
-        const double columns = std::round(extents.longitude().width() / (east - west)) + 1.0;
+        const double rows = std::round(_extents.latitude().width() / (north - south)) + 1.0;
+        const double columns = std::round(_extents.longitude().width() / (east - west)) + 1.0;
         if (!(rows * columns <= static_cast<double>(_mesh.size()))) return;
         _rows = static_cast<std::size_t>(rows);
         _columns = static_cast<std::size_t>(columns);
@@ -105,9 +107,12 @@ private:
         for (std::size_t i = 0; i + 2 < _mesh.triangles.size(); i += 3) {
             const Corners corners = triangle(i);
             if (!hasArea(corners)) continue;
+            if (*std::max_element(corners.begin(), corners.end()) >= _rows * _columns) {
+                if (!isSkirt(corners)) return false;
+                continue;
+            }
             std::array<std::ptrdiff_t, 3> row{}, column{};
             for (std::size_t k = 0; k < 3; ++k) {
-                if (corners[k] >= _rows * _columns) return false;
                 row[k] = static_cast<std::ptrdiff_t>(corners[k] / _columns);
                 column[k] = static_cast<std::ptrdiff_t>(corners[k] % _columns);
             }
@@ -127,9 +132,45 @@ private:
                            [](std::uint8_t left) { return left == 0b1001 || left == 0b0110; });
     }
 
+    // Whether a triangle stays at one border of the extents. Its bounds are those of GroundPlates, with its longest
+    // side for those along the horizon and along the vertical.
+    [[nodiscard]] bool isSkirt(const Corners& corners) {
+        if (_places.empty()) _places.resize(_mesh.size());
+        Interval latitude, longitude, altitude;
+        double longest2 = 0.0, axisDistance2 = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::optional<Geodetic>& place = _places[corners[k]];
+            if (!place) place = placeOf(corners[k]);
+            const auto joined = [k](const Interval& range, double value) {
+                if (k == 0) return Interval{value, value};
+                return Interval{std::min(range.lower, value), std::max(range.upper, value)};
+            };
+            latitude = joined(latitude, place->latitude);
+            longitude = joined(longitude, place->longitude);
+            altitude = joined(altitude, place->altitude);
+            const glm::dvec3 v = _mesh.vertex(corners[k]), side = _mesh.vertex(corners[(k + 1) % 3]) - v;
+            longest2 = std::max(longest2, glm::dot(side, side));
+            axisDistance2 = std::min(axisDistance2, v.x * v.x + v.y * v.y);
+        }
+        const double radius = 0.9 * smallestCurvatureRadius(_ellipsoid), axisDistance = 0.95 * std::sqrt(axisDistance2);
+        const double longest = std::sqrt(longest2);
+        const TriangleSides sides = TriangleSides::atAnyPoint(longest, longest, longest, radius);
+        const TriangleReach reach(sides, _ellipsoid, radius, axisDistance);
+        const Interval lowered{altitude.lower - reach.sag, altitude.upper};
+        if (!TriangleReach::holdsFor(sides, radius, axisDistance, longitude.width(), lowered)) return false;
+        const auto isAtBorder = [](const Interval& met, double around, const Interval& of, double middle) {
+            const double room = kBorder * of.width() - around;
+            return middle + met.upper <= of.lower + room || middle + met.lower >= of.upper - room;
+        };
+        return isAtBorder(latitude, reach.aside, _extents.latitude(), 0.0) ||
+               isAtBorder(longitude, reach.around, _extents.longitude(), _middle);
+    }
+
     const Ellipsoid& _ellipsoid;
     const EcefMesh& _mesh;
+    const GeodeticBin& _extents;
     const double _middle;
+    std::vector<std::optional<Geodetic>> _places;  // of skirts
     std::size_t _rows = 0, _columns = 0;
     PostGrid _found;
 };
