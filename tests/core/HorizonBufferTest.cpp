@@ -19,66 +19,7 @@ namespace {
 
 using core::BinHull;
 using core::EarthColumn;
-using core::GroundPlates;
 using core::HorizonBuffer;
-using core::Interval;
-
-constexpr Interval kAcross{-1.0, 1.0};
-
-core::Frame frameOf(const OcclusionScene& scene) {
-    return {scene.eye, glm::cross(scene.forward, scene.up), scene.forward, scene.up};
-}
-
-HorizonBuffer bufferOf(const OcclusionScene& scene) {
-    return {glm::length(scene.eye), kAcross};
-}
-
-// Adds the columns of all cells. Their depth is a share of the distance from the eye. `reach`: metres that the eye may
-// be away from its place.
-void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,
-             double reach = 0.0) {
-    const GroundPlates plates(scene.ellipsoid, tile.mesh, tile.bin);
-    const double depth =
-        std::min(0.3 * glm::distance(scene.eye, tile.mesh.vertex(0)), 0.01 * scene.ellipsoid.equatorialRadius());
-    std::vector<EarthColumn> columns;
-    for (std::size_t quarter = 0; quarter < 4; ++quarter)
-        plates.appendColumns(cells, quarter, depth, frameOf(scene), columns);
-    for (EarthColumn& column : columns) {
-        column.error += reach;
-        buffer.add(column);
-    }
-}
-
-bool isBeforeTheCamera(const OcclusionScene& scene, const RealVector& point) {
-    const RealVector from = point - real(scene.eye);
-    const Real ahead = dot(from, real(scene.forward));
-    const Real across = dot(from, real(glm::cross(scene.forward, scene.up)));
-    return ahead > 0 && across >= kAcross.lower * ahead && across <= kAcross.upper * ahead;
-}
-
-// The buffer has to be asked for the nearest quarter first.
-struct Quarter {
-    GroundTile part;  // without a mesh
-    HorizonBuffer::Outline outline;
-};
-
-std::vector<Quarter> frontToBack(const OcclusionScene& scene, const HorizonBuffer& buffer, double reach = 0.0) {
-    std::vector<Quarter> sorted;
-    for (const GroundTile& tile : scene.tiles) {
-        const auto hulls = hullsOfQuarters(scene.ellipsoid, tile.bin, reach, frameOf(scene));
-        for (std::size_t i = 0; i < 4; ++i) {
-            const auto half = [](const Interval& whole, bool isUpper) -> Interval {
-                return {isUpper ? whole.middle() : whole.lower, isUpper ? whole.upper : whole.middle()};
-            };
-            const core::GeodeticBin bin(half(tile.bin.latitude(), i / 2 == 1), half(tile.bin.longitude(), i % 2 == 1),
-                                        tile.bin.altitude());
-            sorted.push_back({{{}, bin}, buffer.outlineOf(hulls[i])});
-        }
-    }
-    std::sort(sorted.begin(), sorted.end(),
-              [](const Quarter& a, const Quarter& b) { return a.outline.nearest < b.outline.nearest; });
-    return sorted;
-}
 
 constexpr int kRays = 24;
 

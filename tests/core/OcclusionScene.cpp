@@ -9,12 +9,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace osgAnalyticBin::test {
 
 using core::EcefMesh;
 using core::Ellipsoid;
 using core::GeodeticBin;
+using core::HorizonBuffer;
 using core::Interval;
 
 namespace {
@@ -134,14 +136,16 @@ OcclusionScene::OcclusionScene(Random& random, bool hasSpikes)
     land.height = land.metres * random.logUniform(1e-3, 0.3) * std::min(1.0, 0.02 / land.size);
     const Relief relief(random, land.size * random.logUniform(0.3, 3.0), land.height);
     const bool areAlike = random.chance(0.5);
+    std::vector<Triangle> drawn;
     land.spikes = hasSpikes && random.chance(0.3) ? random.uniform(0.0, 0.1) : 0.0;
     for (int row = 0; row < kTilesAcross; ++row) {
         for (int column = 0; column < kTilesAcross; ++column) {
             const std::uint32_t cells = areAlike ? kCells : kCells >> random.integer(0, 3);
             tiles.push_back(makeTile(random, ellipsoid, land, relief, row, column, cells));
-            addTriangles(triangles, tiles.back().mesh, cells, 30.0 * land.height + 0.01 * land.metres);
+            addTriangles(drawn, tiles.back().mesh, cells, 30.0 * land.height + 0.01 * land.metres);
         }
     }
+    triangles = TriangleTree(std::move(drawn));
     placeEye(*this, random, land, relief);
 }
 
@@ -159,8 +163,8 @@ bool meets(const Triangle& triangle, const RealVector& from, const RealVector& t
 }
 
 bool OcclusionScene::isBlocked(const RealVector& point) const {
-    return std::any_of(triangles.begin(), triangles.end(),
-                       [&](const Triangle& triangle) { return meets(triangle, real(eye), point); });
+    const glm::dvec3 end(static_cast<double>(point.x), static_cast<double>(point.y), static_cast<double>(point.z));
+    return triangles.any(eye, end, [&](const Triangle& triangle) { return meets(triangle, real(eye), point); });
 }
 
 RealVector OcclusionScene::pointIn(Random& random, const GroundTile& tile) const {
@@ -175,6 +179,53 @@ RealVector OcclusionScene::pointIn(Random& random, const GroundTile& tile) const
 RealVector OcclusionScene::topOf(Random& random, const GroundTile& tile) const {
     const auto in = [&](const Interval& i) { return random.uniform(i.lower, i.upper); };
     return real(ellipsoid.toEcef({in(tile.bin.latitude()), in(tile.bin.longitude()), tile.bin.altitude().upper}));
+}
+
+core::Frame frameOf(const OcclusionScene& scene) {
+    return {scene.eye, glm::cross(scene.forward, scene.up), scene.forward, scene.up};
+}
+
+HorizonBuffer bufferOf(const OcclusionScene& scene) {
+    return {glm::length(scene.eye), kAcross};
+}
+
+void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,
+             double reach) {
+    const core::GroundPlates plates(scene.ellipsoid, tile.mesh, tile.bin);
+    const double depth =
+        std::min(0.3 * glm::distance(scene.eye, tile.mesh.vertex(0)), 0.01 * scene.ellipsoid.equatorialRadius());
+    std::vector<core::EarthColumn> columns;
+    for (std::size_t quarter = 0; quarter < 4; ++quarter)
+        plates.appendColumns(cells, quarter, depth, frameOf(scene), columns);
+    for (core::EarthColumn& column : columns) {
+        column.error += reach;
+        buffer.add(column);
+    }
+}
+
+std::vector<Quarter> frontToBack(const OcclusionScene& scene, const HorizonBuffer& buffer, double reach) {
+    std::vector<Quarter> sorted;
+    for (const GroundTile& tile : scene.tiles) {
+        const auto hulls = hullsOfQuarters(scene.ellipsoid, tile.bin, reach, frameOf(scene));
+        for (std::size_t i = 0; i < 4; ++i) {
+            const auto half = [](const Interval& whole, bool isUpper) -> Interval {
+                return {isUpper ? whole.middle() : whole.lower, isUpper ? whole.upper : whole.middle()};
+            };
+            const GeodeticBin bin(half(tile.bin.latitude(), i / 2 == 1), half(tile.bin.longitude(), i % 2 == 1),
+                                  tile.bin.altitude());
+            sorted.push_back({{{}, bin}, buffer.outlineOf(hulls[i])});
+        }
+    }
+    std::sort(sorted.begin(), sorted.end(),
+              [](const Quarter& a, const Quarter& b) { return a.outline.nearest < b.outline.nearest; });
+    return sorted;
+}
+
+bool isBeforeTheCamera(const OcclusionScene& scene, const RealVector& point) {
+    const RealVector from = point - real(scene.eye);
+    const Real ahead = dot(from, real(scene.forward));
+    const Real across = dot(from, real(glm::cross(scene.forward, scene.up)));
+    return ahead > 0 && across >= kAcross.lower * ahead && across <= kAcross.upper * ahead;
 }
 
 }  // namespace osgAnalyticBin::test

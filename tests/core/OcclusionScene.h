@@ -8,8 +8,9 @@
 #include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 #include <osgAnalyticBin/core/mesh/MeshBounds.h>
+#include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
 
-#include <core/TriangleSamples.h>
+#include <core/TriangleTree.h>
 #include <support/Random.h>
 #include <vector>
 
@@ -35,9 +36,35 @@ struct OcclusionScene {
 
     core::Ellipsoid ellipsoid;
     std::vector<GroundTile> tiles;
-    std::vector<Triangle> triangles;  // of all tiles, skirts included
+    TriangleTree triangles;  // of all tiles, skirts included
     glm::dvec3 eye, forward, up;
 };
+
+/// What the camera sees, in units of the picture.
+constexpr core::Interval kAcross{-1.0, 1.0};
+
+/// Of the camera: right, forward, up.
+[[nodiscard]] core::Frame frameOf(const OcclusionScene& scene);
+
+/// A buffer for the camera, without earth.
+[[nodiscard]] core::HorizonBuffer bufferOf(const OcclusionScene& scene);
+
+/// Adds the columns of cells of the tile, `cells` a side. Their depth is a share of the distance from the eye.
+/// `reach`: metres that the eye may be away from its place.
+void addTile(core::HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,
+             double reach = 0.0);
+
+/// A part of a tile that the buffer is asked for.
+struct Quarter {
+    GroundTile part;  ///< without a mesh
+    core::HorizonBuffer::Outline outline;
+};
+
+/// The quarters of all tiles, the nearest first: so the buffer has to be asked. `reach` as above.
+[[nodiscard]] std::vector<Quarter> frontToBack(const OcclusionScene& scene, const core::HorizonBuffer& buffer,
+                                               double reach = 0.0);
+
+[[nodiscard]] bool isBeforeTheCamera(const OcclusionScene& scene, const RealVector& point);
 
 /// Whether a line from one point to another meets the triangle between them.
 [[nodiscard]] bool meets(const Triangle& triangle, const RealVector& from, const RealVector& to);

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Counts rays that reach what the horizon buffer says is behind terrain: random terrain with needles and pits, from
+// eyes above it, and rays against all of its triangles in long double. Fails when there is a single one.
+
+#include "OcclusionScene.h"
+
+#include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cinttypes>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+struct Options {
+    std::uint64_t trials = 1000000;
+    std::uint64_t seedValue = seed();
+    unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+};
+
+struct Counts {
+    std::atomic<std::uint64_t> trials{0}, wrong{0}, scenes{0}, quarters{0}, hidden{0};
+};
+
+// Rays to one part of a tile.
+constexpr int kRays = 200;
+
+void tryScene(std::uint64_t number, const Options& options, Counts& counts) {
+    Random random(1700 + number, options.seedValue);
+    const OcclusionScene scene(random);
+    core::HorizonBuffer buffer = bufferOf(scene);
+    const std::size_t cells = random.pick(std::array<std::size_t, 4>{1, 2, 4, 8});
+    for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, cells);
+    for (const auto& [part, outline] : frontToBack(scene, buffer)) {
+        ++counts.quarters;
+        if (outline.isBeside || !buffer.hides(outline)) continue;
+        ++counts.hidden;
+        for (int ray = 0; ray < kRays; ++ray) {
+            const RealVector point = scene.pointIn(random, part);
+            if (!isBeforeTheCamera(scene, point)) continue;
+            ++counts.trials;
+            if (scene.isBlocked(point)) continue;
+            ++counts.wrong;
+            std::printf("scene %" PRIu64 ": a ray reaches a quarter of a tile that is said to be hidden\n", number);
+        }
+    }
+    ++counts.scenes;
+}
+
+Options parse(int argc, char** argv) {
+    Options options;
+    for (int i = 1; i < argc; i += 2) {
+        const std::string name = argv[i];
+        const std::uint64_t value = i + 1 < argc ? std::strtoull(argv[i + 1], nullptr, 0) : 0;
+        if (name == "--trials" && value > 0) {
+            options.trials = value;
+        } else if (name == "--seed" && i + 1 < argc) {
+            options.seedValue = value;
+        } else if (name == "--threads" && value > 0) {
+            options.threads = static_cast<unsigned>(value);
+        } else {
+            std::printf("osganalyticbin_occlusion_soundness [--trials N] [--seed S] [--threads T]\n");
+            std::exit(2);
+        }
+    }
+    return options;
+}
+
+int run(int argc, char** argv) {
+    const Options options = parse(argc, argv);
+    const auto start = std::chrono::steady_clock::now();
+    Counts counts;
+    std::atomic<std::uint64_t> next{0};
+    const auto work = [&] {
+        while (counts.trials < options.trials) tryScene(next++, options, counts);
+    };
+    std::vector<std::thread> threads;
+    for (unsigned i = 0; i < options.threads; ++i) threads.emplace_back(work);
+    for (std::thread& thread : threads) thread.join();
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    std::printf("%" PRIu64 " rays to %" PRIu64 " hidden quarters of %" PRIu64 ", in %" PRIu64
+                " scenes and %.0f s: %" PRIu64 " wrong\n",
+                counts.trials.load(), counts.hidden.load(), counts.quarters.load(), counts.scenes.load(),
+                seconds.count(), counts.wrong.load());
+    return counts.wrong == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
+
+int main(int argc, char** argv) {
+    return osgAnalyticBin::test::run(argc, argv);
+}
