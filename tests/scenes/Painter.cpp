@@ -24,8 +24,11 @@ constexpr double kNearest = 1e-3;
 constexpr double kOctaves = 45.0;
 
 constexpr const char* kVertexShader = "void main() { gl_Position = ftransform(); }\n";
+constexpr const char* kPaintShader =
+    "uniform vec4 paint;\n"
+    "void main() { gl_FragColor = paint; }\n";
 // gl_FragCoord.w is 1 / w.
-constexpr const char* kFragmentShader =
+constexpr const char* kPaintAndDepthShader =
     "uniform vec4 paint;\n"
     "void main() {\n"
     "  gl_FragColor = paint;\n"
@@ -56,14 +59,15 @@ osg::ref_ptr<osg::GraphicsContext> makeContext() {
 
 }  // namespace
 
-Painter::Painter() : _context(makeContext()) {
+Painter::Painter(Depths depths) : _context(makeContext()) {
     if (!_context || !_context->realize() || !_context->makeCurrent())
         throw std::runtime_error("no graphics context: pictures need a display, such as xvfb-run gives");
     _context->getState()->initializeExtensionProcs();
     _states->setMode(GL_DEPTH_TEST, osg::StateAttribute::ON);
     _states->setMode(GL_DITHER, osg::StateAttribute::OFF);
     _flat->addShader(new osg::Shader(osg::Shader::VERTEX, kVertexShader));
-    _flat->addShader(new osg::Shader(osg::Shader::FRAGMENT, kFragmentShader));
+    _flat->addShader(
+        new osg::Shader(osg::Shader::FRAGMENT, depths == Depths::Logarithms ? kPaintAndDepthShader : kPaintShader));
 }
 
 Painter::~Painter() {

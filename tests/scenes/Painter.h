@@ -35,8 +35,14 @@ struct Painting {
 /// Has a graphics context, and colours for drawables that are known by a key. Both scenes use the same colours.
 class Painter {
 public:
+    /// How far away what is drawn is, in the depth buffer.
+    enum class Depths {
+        Logarithms,  ///< see distance(); in perspective pictures
+        OpenGL       ///< as applications have them, rounded as theirs
+    };
+
     /// Needs a display. Throws: std::runtime_error where no graphics context can be made.
-    Painter();
+    explicit Painter(Depths depths = Depths::Logarithms);
     ~Painter();
     Painter(const Painter&) = delete;
     Painter& operator=(const Painter&) = delete;
@@ -55,8 +61,8 @@ public:
     /// Forgets keys, and deletes what OpenGL held for scenes that are gone.
     void clear();
 
-    /// The clip coordinate w of a depth in a perspective picture. Depths are logarithms there: those of OpenGL would
-    /// not tell the sides of a globe apart when the near plane is some metres away.
+    /// The clip coordinate w of a logarithmic depth. Depths of OpenGL would not tell the sides of a globe apart when
+    /// the near plane is some metres away.
     [[nodiscard]] static double distance(float depth);
 
 private:

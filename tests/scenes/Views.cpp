@@ -1,0 +1,376 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+// Random low views of a real database, culled with bins and terrain occlusion and by OSG alone: what OSG shows in a
+// pixel is drawn with bins. tests/README.md tells how to run it.
+
+#include "Painter.h"
+#include "Recorder.h"
+
+#include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/InstallBins.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/FrameStamp>
+#include <osg/Notify>
+#include <osg/PagedLOD>
+#include <osgDB/FileNameUtils>
+#include <osgDB/FileUtils>
+#include <osgDB/ReadFile>
+#include <osgUtil/IntersectionVisitor>
+#include <osgUtil/LineSegmentIntersector>
+#include <osgUtil/RenderBin>
+#include <osgUtil/UpdateVisitor>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <node/CullFixture.h>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <support/Random.h>
+
+using namespace osgAnalyticBin;
+using namespace osgAnalyticBin::test;
+
+namespace {
+
+constexpr int kSkipped = 77;
+constexpr int kFramesOfAFlight = 5;
+constexpr double kHighest = 12000.0;  // metres, of all terrain
+constexpr double kFrameTime = 1.0 / 60.0;
+
+constexpr const char* kUsage =
+    "osganalyticbin_views DATABASE WEST SOUTH EAST NORTH [--views N] [--seed S] [--reach METRES] [--options TEXT]\n"
+    "  WEST ...          degrees; eyes are in this part of the database\n"
+    "  --views N         makes N views (default 1000), five on each of many short flights\n"
+    "  --seed S          the seed of the first flight (default 1), of the second S + 1, ...\n"
+    "  --options TEXT    of the bins (default occlusion=on)\n"
+    "Needs a display. Exit code: 0 when no view fails, 1 when one does, 2 for wrong arguments, 77 without a display\n"
+    "or where the database is not there.\n";
+
+struct Arguments {
+    std::string database;
+    double west = 0.0, south = 0.0, east = 0.0, north = 0.0;
+    std::uint64_t views = 1000;
+    std::uint64_t seed = 1;
+    std::string options = "occlusion=on";
+};
+
+std::optional<Arguments> parse(int count, char** values) {
+    if (count < 6 || count % 2 != 0) return std::nullopt;
+    Arguments result;
+    result.database = values[1];
+    result.west = std::atof(values[2]);
+    result.south = std::atof(values[3]);
+    result.east = std::atof(values[4]);
+    result.north = std::atof(values[5]);
+    for (int i = 6; i + 1 < count; i += 2) {
+        const std::string name = values[i];
+        const char* const value = values[i + 1];
+        if (name == "--views") {
+            result.views = std::strtoull(value, nullptr, 0);
+        } else if (name == "--seed") {
+            result.seed = std::strtoull(value, nullptr, 0);
+        } else if (name == "--options") {
+            result.options = value;
+        } else {
+            return std::nullopt;
+        }
+    }
+    return result;
+}
+
+/// Reads all files of a database that are asked for near a place, and gives drawables names, the same ones each time.
+class Loader : public osg::NodeVisitor {
+public:
+    Loader(const osg::Vec3d& middle, double reach)
+        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _middle(middle), _reach(reach) {}
+
+    void apply(osg::Drawable& drawable) override { drawable.setName("#" + std::to_string(++_drawables)); }
+    void apply(osg::PagedLOD& node) override {
+        const double distance = (node.getCenter() - _middle).length() - _reach;
+        for (unsigned int i = node.getNumChildren(); i < node.getNumFileNames(); ++i) {
+            if (distance < node.getMaxRange(i)) {
+                const std::string file = osgDB::concatPaths(node.getDatabasePath(), node.getFileName(i));
+                const osg::ref_ptr<osg::Node> child = osgDB::readRefNodeFile(file);
+                if (!child) break;
+                node.addChild(child);
+                ++_files;
+            }
+        }
+        traverse(node);
+    }
+
+    [[nodiscard]] std::size_t files() const { return _files; }
+    [[nodiscard]] std::size_t drawables() const { return _drawables; }
+
+private:
+    const osg::Vec3d _middle;
+    const double _reach;
+    std::size_t _files = 0, _drawables = 0;
+};
+
+struct Totals {
+    std::uint64_t views = 0, failures = 0, allowed = 0, pinholes = 0, withHidden = 0;
+    std::size_t byOsg = 0, byBins = 0, occluded = 0, visible = 0;
+};
+
+/// A place over the terrain, and where the camera looks and goes.
+struct Eye {
+    osg::Vec3d position, east, north, up;
+    double heading = 0.0, pitch = 0.0, roll = 0.0, turn = 0.0;
+    osg::Vec3d step{};
+
+    [[nodiscard]] osg::Matrixd view() const {
+        const osg::Vec3d level = north * std::cos(heading) + east * std::sin(heading);
+        const osg::Vec3d look = level * std::cos(pitch) + up * std::sin(pitch);
+        const osg::Vec3d head = osg::Quat(roll, look) * (up * std::cos(pitch) - level * std::sin(pitch));
+        return osg::Matrixd::lookAt(position, position + look, head);
+    }
+    void goOn() {
+        position += step;
+        heading += turn;
+    }
+};
+
+/// The database twice, with bins and without.
+class Views {
+public:
+    Views(const Arguments& arguments, const CullOptions& options, Painter& painter)
+        : _arguments(arguments), _painter(painter), _stamp(new osg::FrameStamp) {
+        _without = load();
+        _with = load();
+        (void)installBins(*_with, options);
+        for (std::size_t i = 0; i < _drawables; ++i) update();
+    }
+
+    void run(Totals& totals) {
+        for (std::uint64_t flight = _arguments.seed; totals.views < _arguments.views; ++flight) fly(flight, totals);
+    }
+
+private:
+    [[nodiscard]] osg::Vec3d at(double latitude, double longitude, double altitude) const {
+        osg::Vec3d point;
+        _ellipsoid->convertLatLongHeightToXYZ(osg::DegreesToRadians(latitude), osg::DegreesToRadians(longitude),
+                                              altitude, point.x(), point.y(), point.z());
+        return point;
+    }
+
+    osg::ref_ptr<osg::Node> load() {
+        const osg::Vec3d corner = at(_arguments.south, _arguments.west, 0.0);
+        const osg::Vec3d middle =
+            at(0.5 * (_arguments.south + _arguments.north), 0.5 * (_arguments.west + _arguments.east), 0.0);
+        // the root file of osgbindem asks for bins, which one of the two is to do without
+        osg::setNotifyLevel(osg::FATAL);
+        const osg::ref_ptr<osg::Node> root = osgDB::readRefNodeFile(_arguments.database);
+        osg::setNotifyLevel(osg::WARN);
+        if (!root) throw std::runtime_error(_arguments.database + " cannot be read");
+        Loader loader(middle, (corner - middle).length() + kHighest);
+        root->accept(loader);
+        std::printf("%zu files read, %zu drawables\n", loader.files(), loader.drawables());
+        std::fflush(stdout);
+        _drawables = loader.drawables();
+        root->getBound();
+        return root;
+    }
+
+    void update() {
+        ++_frame;
+        _time += kFrameTime;
+        _stamp->setFrameNumber(_frame);
+        _stamp->setReferenceTime(_time);
+        _stamp->setSimulationTime(_time);
+        _update->setFrameStamp(_stamp);
+        _update->setTraversalNumber(_frame);
+        _with->accept(*_update);
+    }
+
+    // Where the terrain, as finely as it is there, is met first.
+    [[nodiscard]] std::optional<osg::Vec3d> meet(const osg::Vec3d& from, const osg::Vec3d& to) const {
+        const osg::ref_ptr<osgUtil::LineSegmentIntersector> line = new osgUtil::LineSegmentIntersector(from, to);
+        osgUtil::IntersectionVisitor visitor(line);
+        _without->accept(visitor);
+        if (!line->containsIntersections()) return std::nullopt;
+        return line->getFirstIntersection().getWorldIntersectPoint();
+    }
+
+    void fly(std::uint64_t flight, Totals& totals) {
+        Random random(flight);
+        const double latitude = random.uniform(_arguments.south, _arguments.north);
+        const double longitude = random.uniform(_arguments.west, _arguments.east);
+        const auto ground = meet(at(latitude, longitude, kHighest), at(latitude, longitude, -kHighest));
+        if (!ground) return;
+        const double height = random.logUniform(2.0, 2000.0);
+        osg::Matrixd frame;
+        _ellipsoid->computeLocalToWorldTransformFromXYZ(ground->x(), ground->y(), ground->z(), frame);
+        const auto axis = [&](int i) { return osg::Vec3d(frame(i, 0), frame(i, 1), frame(i, 2)); };
+        Eye eye{*ground + axis(2) * height, axis(0), axis(1), axis(2)};
+        eye.heading = random.uniform(0.0, 2.0 * osg::PI);
+        eye.pitch = osg::DegreesToRadians(random.uniform(-25.0, 10.0));
+        eye.roll = random.chance(0.7) ? 0.0 : osg::DegreesToRadians(random.uniform(-30.0, 30.0));
+        eye.turn = random.chance(0.5) ? 0.0 : osg::DegreesToRadians(random.uniform(-2.0, 2.0));
+        if (random.chance(0.8)) {
+            const double course = eye.heading + (random.chance(0.5) ? 0.0 : random.uniform(-3.0, 3.0));
+            const double length = height * random.logUniform(1e-4, 0.3);
+            eye.step =
+                (eye.north * std::cos(course) + eye.east * std::sin(course) + eye.up * random.uniform(-0.3, 0.3)) *
+                length;
+        }
+        const double nearPlane = random.logUniform(0.1, 2.0), farPlane = nearPlane * random.logUniform(3e5, 1e7);
+        const osg::Matrixd projection = osg::Matrixd::perspective(random.uniform(15.0, 90.0), 1.0, nearPlane, farPlane);
+        _time += 10.0;
+        for (int i = 0; i < kFramesOfAFlight && totals.views < _arguments.views; ++i, eye.goOn()) {
+            update();
+            if (look(eye, projection, totals)) continue;
+            std::printf("  flight %llu, frame %d, %.1f m above the ground at first, near plane %.2f m\n",
+                        static_cast<unsigned long long>(flight), i, height, nearPlane);
+            std::fflush(stdout);
+        }
+    }
+
+    // doc/limits.md: an eye below the terrain, and a near plane that cuts it, look through the ground.
+    [[nodiscard]] bool seesThroughGround(const Eye& eye, const osg::Matrixd& projection) const {
+        if (meet(eye.position, eye.position + eye.up * (2.0 * kHighest))) return true;
+        const osg::Matrixd toWorld = osg::Matrixd::inverse(eye.view() * projection);
+        constexpr int kSteps = 8;
+        for (int i = 0; i <= kSteps; ++i) {
+            for (int j = 0; j <= kSteps; ++j) {
+                const osg::Vec3d onNear = osg::Vec3d(2.0 * i / kSteps - 1.0, 2.0 * j / kSteps - 1.0, -1.0) * toWorld;
+                if (meet(eye.position, onNear)) return true;
+            }
+        }
+        return false;
+    }
+
+    Delivery deliver(osg::Node& root, const CullView& view, Recorder& recorder, Painter* painter) {
+        recorder.setPainter(&_painter);
+        const CullResult culled = cull(root, view, recorder, _frame, _time);
+        Delivery delivery = recorder.takeDelivery();
+        if (painter) delivery.painting = painter->paint(*culled.stage, *_stamp);
+        return delivery;
+    }
+
+    // doc/limits.md: a pixel between the corners of tiles, which are rounded apart. All pixels around it are nearer.
+    [[nodiscard]] static bool isPinhole(const Painting& painting, std::size_t pixel) {
+        const int column = static_cast<int>(pixel % Painting::kWidth), row = static_cast<int>(pixel / Painting::kWidth);
+        if (std::min(column, row) == 0 || std::max(column, row) == kPictureSize - 1) return false;
+        constexpr std::size_t kRow = Painting::kWidth;
+        for (const std::size_t step : {kRow - 1, kRow, kRow + 1, std::size_t{1}}) {
+            if (painting.depths[pixel - step] >= painting.depths[pixel]) return false;
+            if (painting.depths[pixel + step] >= painting.depths[pixel]) return false;
+        }
+        return true;
+    }
+
+    // Returns: whether nothing is lost that is in a pixel.
+    bool look(const Eye& eye, const osg::Matrixd& projection, Totals& totals) {
+        CullView view;
+        view.modelView = eye.view();
+        view.projection = projection;
+        view.states = _painter.states();
+        const Delivery with = deliver(*_with, view, *_withBins, nullptr);
+        const Delivery without = deliver(*_without, view, *_byOsg, &_painter);
+        ++totals.views;
+        totals.byOsg += without.drawables.size();
+        totals.byBins += with.drawables.size();
+        const BinStatistics* const statistics = BinStatistics::find(*_withBins);
+        const std::size_t occluded = statistics ? statistics->getCounts().occluded : 0;
+        totals.occluded += occluded;
+        if (occluded > 0) ++totals.withHidden;
+        struct Seen {
+            std::size_t first = 0, count = 0;
+        };
+        std::map<std::uint32_t, Seen> pixels;
+        const std::vector<std::uint32_t>& numbers = without.painting.numbers;
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            Seen& seen = pixels[numbers[i]];
+            if (seen.count++ == 0) seen.first = i;
+        }
+        std::vector<std::pair<std::string, Seen>> lost;
+        for (const auto& [number, seen] : pixels) {
+            const std::string* const key = _painter.keyOf(number);
+            if (!key) continue;
+            ++totals.visible;
+            if (with.drawables.count(*key) == 0) lost.emplace_back(*key, seen);
+        }
+        if (lost.empty()) return true;
+        const bool arePinholes = std::all_of(lost.begin(), lost.end(), [&](const auto& drawable) {
+            return drawable.second.count == 1 && isPinhole(without.painting, drawable.second.first);
+        });
+        if (arePinholes) {
+            totals.pinholes += lost.size();
+            return true;
+        }
+        if (seesThroughGround(eye, projection)) {
+            ++totals.allowed;
+            return true;
+        }
+        ++totals.failures;
+        for (const auto& [key, seen] : lost) {
+            const std::size_t column = seen.first % Painting::kWidth, row = seen.first / Painting::kWidth;
+            std::printf("drawable %s has %zu pixels, first %zu %zu at depth %.9g, and is not drawn with bins\n",
+                        key.c_str(), seen.count, column, row, static_cast<double>(without.painting.depths[seen.first]));
+        }
+        std::printf("  %zu tiles behind terrain\n", occluded);
+        return false;
+    }
+
+    const Arguments& _arguments;
+    Painter& _painter;
+    const osg::ref_ptr<osg::EllipsoidModel> _ellipsoid = new osg::EllipsoidModel;
+    const osg::ref_ptr<osg::FrameStamp> _stamp;
+    const osg::ref_ptr<osgUtil::UpdateVisitor> _update = new osgUtil::UpdateVisitor;
+    const osg::ref_ptr<Recorder> _byOsg = new Recorder, _withBins = new Recorder;
+    osg::ref_ptr<osg::Node> _without, _with;
+    std::size_t _drawables = 0;
+    unsigned int _frame = 0;
+    double _time = 0.0;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const auto arguments = parse(argc, argv);
+    std::string error;
+    const auto options = arguments ? cullOptionsFromText(arguments->options, error) : std::nullopt;
+    if (!options) {
+        std::fprintf(stderr, "%s%s%s", error.c_str(), error.empty() ? "" : "\n", kUsage);
+        return 2;
+    }
+    if (!osgDB::fileExists(arguments->database)) {
+        std::fprintf(stderr, "%s is not there\n", arguments->database.c_str());
+        return kSkipped;
+    }
+    // Where surfaces coincide, the same one wins with bins and without.
+    osgUtil::RenderBin::setDefaultRenderBinSortMode(osgUtil::RenderBin::TRAVERSAL_ORDER);
+    std::unique_ptr<Painter> painter;
+    try {
+        painter = std::make_unique<Painter>(Painter::Depths::OpenGL);
+    } catch (const std::runtime_error& failure) {
+        std::fprintf(stderr, "%s\n", failure.what());
+        return kSkipped;
+    }
+    const auto start = std::chrono::steady_clock::now();
+    Totals totals;
+    try {
+        Views(*arguments, *options, *painter).run(totals);
+    } catch (const std::runtime_error& failure) {
+        std::fprintf(stderr, "%s\n", failure.what());
+        return 1;
+    }
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    std::printf(
+        "%llu views in %.0f s, %llu failures, %llu views through the ground, %llu pixels between corners "
+        "of tiles; drawn by OSG %zu, with bins %zu, in a "
+        "pixel %zu; %zu behind terrain, in %llu views\n",
+        static_cast<unsigned long long>(totals.views), seconds.count(),
+        static_cast<unsigned long long>(totals.failures), static_cast<unsigned long long>(totals.allowed),
+        static_cast<unsigned long long>(totals.pinholes), totals.byOsg, totals.byBins, totals.visible, totals.occluded,
+        static_cast<unsigned long long>(totals.withHidden));
+    return totals.failures == 0 ? 0 : 1;
+}
