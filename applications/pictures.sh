@@ -51,4 +51,4 @@ take at=alps press=l press=s press=s frames=25 at=peaks frames=25 at=aside frame
 near_far=DO_NOT_COMPUTE_NEAR_FAR
 view 800 450 occlusion=off at=valley press=l press=B press=F at=valley_aside picture="$doc/valley_off.jpg"
 view 800 450 occlusion=on at=valley press=l picture="$doc/valley_view.jpg" \
-    press=B press=F at=valley_aside picture="$doc/valley_on.jpg"
+    press=O picture="$doc/viewer_covered.jpg" press=O press=B press=F at=valley_aside picture="$doc/valley_on.jpg"

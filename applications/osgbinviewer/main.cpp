@@ -10,6 +10,7 @@
 #include <osgAnalyticBin/Version.h>
 #include <osgAnalyticBin/viewer/BinDisplayHandler.h>
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
+#include <osgAnalyticBin/viewer/CoveredPictureHandler.h>
 #include <osgAnalyticBin/viewer/FreezeCullHandler.h>
 #include <osgAnalyticBin/viewer/MethodSwitchHandler.h>
 #include <osgAnalyticBin/viewer/PathRecorder.h>
@@ -90,6 +91,7 @@ osg::ref_ptr<SpyViewHandler> addHandlers(osgViewer::Viewer& viewer, const viewer
     viewer.addEventHandler(stats);
     viewer.addEventHandler(new FreezeCullHandler);
     viewer.addEventHandler(new BinDisplayHandler);
+    viewer.addEventHandler(new CoveredPictureHandler);
     viewer.addEventHandler(new MethodSwitchHandler(settings.cullOptions));
     const osg::ref_ptr<PathRecorder> recorder =
         new PathRecorder(settings.record.empty() ? "recorded.csv" : settings.record);

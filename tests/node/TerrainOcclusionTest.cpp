@@ -7,6 +7,7 @@
 #include "CullFixture.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/CoveredPicture.h>
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
@@ -79,6 +80,28 @@ TEST(TerrainOcclusion, IsTheSameWhenTilesAreTestedOneByOne) {
     BinStatistics::of(*globe.visitor).setTileByTile(true);
     EXPECT_FALSE(globe.drawsFarTile());
     EXPECT_GE(globe.counts().occluded, 1u);
+}
+
+TEST(TerrainOcclusion, TellsWhatOfThePictureIsCovered) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    BinStatistics& statistics = BinStatistics::of(*globe.visitor);
+    EXPECT_FALSE(statistics.covered());
+    EXPECT_FALSE(globe.drawsFarTile());
+    ASSERT_TRUE(statistics.covered());
+    const CoveredPicture picture = *statistics.covered();
+    const auto isCovered = [&](const osg::Vec3d& place) {
+        const glm::dvec3 from = glm::dvec3(place.x(), place.y(), place.z()) - picture.eye.origin;
+        const double forward = glm::dot(from, picture.eye.y), x = glm::dot(from, picture.eye.x) / forward;
+        const double share = (x - picture.across.lower) / picture.across.width();
+        const auto strip = static_cast<std::size_t>(share * static_cast<double>(picture.heights.size()));
+        return picture.heights.at(strip).contains(glm::dot(from, picture.eye.z) / forward);
+    };
+    EXPECT_TRUE(isCovered(ecefDeg(0.1, 0.9, 0.0)));       // in the tile behind the ridge
+    EXPECT_FALSE(isCovered(ecefDeg(0.1, 0.9, 20000.0)));  // above it
+    // a camera that looks down has no horizon in front of it
+    (void)globe.draws(*globe.row[0], CullView::lookAt(ecefDeg(0.1, 0.1, 1000.0), osg::Vec3d(), {0, 0, 1}, 1.0));
+    EXPECT_FALSE(statistics.covered());
 }
 
 TEST(TerrainOcclusion, NeedsARidgeThatIsDrawnAsItWas) {

@@ -11,6 +11,7 @@
 #include <osgAnalyticBin/viewer/BinDisplayHandler.h>
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
 #include <osgAnalyticBin/viewer/CameraCulling.h>
+#include <osgAnalyticBin/viewer/CoveredPictureHandler.h>
 #include <osgAnalyticBin/viewer/FreezeCullHandler.h>
 #include <osgAnalyticBin/viewer/MethodSwitchHandler.h>
 #include <osgAnalyticBin/viewer/PathRecorder.h>
@@ -203,6 +204,21 @@ TEST_F(Handlers, ShowASlabForEachBinThatTheTraversalEndsAt) {
     EXPECT_EQ(_bins->slabs().getChild(0)->asGroup()->getNumChildren(), 2u);
     press('B');
     EXPECT_EQ(_bins->slabs().getNumChildren(), 0u);
+}
+
+TEST_F(Handlers, ShowACurtainWhereTerrainHidesTiles) {
+    const osg::ref_ptr<CoveredPictureHandler> covered = new CoveredPictureHandler;
+    _viewer.addEventHandler(covered);
+    const auto isInOverlay = [&] {
+        return CameraCulling::of(*_viewer.getCamera()).overlay().containsNode(&covered->curtain());
+    };
+    drawUntilIdle(_viewer);
+    EXPECT_FALSE(isInOverlay());
+    press('O');
+    EXPECT_TRUE(isInOverlay());
+    EXPECT_EQ(covered->curtain().getNumChildren(), 0u);  // a camera that looks down
+    press('O');
+    EXPECT_FALSE(isInOverlay());
 }
 
 TEST_F(Handlers, DoNotChangeThePictureOnceTheyAreSwitchedOff) {
@@ -401,9 +417,9 @@ TEST_F(Handlers, NameTheirKeysAndTakeNoneOfOsgs) {
         {_stats.get(), new osgViewer::HelpHandler, new osgViewer::WindowSizeHandler, new osgViewer::ThreadingHandler,
          new osgViewer::LODScaleHandler, new osgViewer::RecordCameraPathHandler, new osgViewer::ScreenCaptureHandler,
          new osgViewer::ToggleSyncToVBlankHandler, new osgGA::StateSetManipulator(new osg::StateSet)});
-    const auto ours =
-        bindingsOf({_methods.get(), _freeze.get(), _bins.get(), _spy.get(), new PathRecorder("none.csv")});
-    EXPECT_EQ(ours.size(), 7u);
+    const auto ours = bindingsOf({_methods.get(), _freeze.get(), _bins.get(), _spy.get(), new CoveredPictureHandler,
+                                  new PathRecorder("none.csv")});
+    EXPECT_EQ(ours.size(), 8u);
     EXPECT_GT(osgs.size(), 14u);
     for (const auto& [key, text] : ours) EXPECT_EQ(osgs.count(key), 0u) << key << ": " << text;
 }

@@ -10,12 +10,15 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 
 namespace osg {
 class NodeVisitor;
 }
 
 namespace osgAnalyticBin {
+
+struct CoveredPicture;
 
 /// The verdicts of bins in one cull traversal.
 struct BinCounts {
@@ -74,6 +77,12 @@ public:
     /// Default: false.
     [[nodiscard]] bool isTileByTile() const noexcept { return _isTileByTile; }
 
+    /// What of the picture terrain covers. Only for the visitor's own thread. Returns: null where no tile was looked for
+    /// behind terrain in this frame.
+    [[nodiscard]] const std::shared_ptr<const CoveredPicture>& covered() const noexcept { return _covered; }
+    /// Says what terrain covers, of the frame with this number.
+    void setCovered(std::shared_ptr<const CoveredPicture> covered, unsigned int frame) noexcept;
+
     /// Sets the counts to zero, for a visitor that traverses more than once in a frame.
     void reset() noexcept;
 
@@ -95,6 +104,7 @@ private:
     std::atomic<unsigned int> _frame{0};
     const osg::NodeVisitor* _owner = nullptr;
     bool _isTileByTile = false;
+    std::shared_ptr<const CoveredPicture> _covered;
 };
 
 }  // namespace osgAnalyticBin

@@ -183,6 +183,7 @@ TileSurvey::TileSurvey(osg::Camera& camera, osg::FrameStamp& frameStamp) {
     surveyor->pushProjectionMatrix(new osg::RefMatrix(view.projection));
     surveyor->pushModelViewMatrix(new osg::RefMatrix(view.view), osg::Transform::ABSOLUTE_RF);
     surveyor->traverse(camera);
+    _covered = BinStatistics::of(*surveyor).covered();
     surveyor->popModelViewMatrix();
     surveyor->popProjectionMatrix();
     surveyor->popViewport();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/CoveredPicture.h>
 #include <osgAnalyticBin/viewer/Export.h>
 
 #include <osg/Camera>
@@ -13,6 +14,7 @@
 #include <osg/Node>
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -65,11 +67,15 @@ public:
     /// In the order of the traversal: parents before children.
     [[nodiscard]] const std::vector<SurveyedTile>& tiles() const { return _tiles; }
 
+    /// What of the picture terrain covers. Returns: nullptr where no tile was looked for behind terrain.
+    [[nodiscard]] const CoveredPicture* covered() const { return _covered.get(); }
+
     /// Sums of tiles().
     [[nodiscard]] TileCounts counts() const;
 
 private:
     std::vector<SurveyedTile> _tiles;
+    std::shared_ptr<const CoveredPicture> _covered;
 };
 
 }  // namespace osgAnalyticBin

@@ -9,6 +9,7 @@
 #include <osg/UserDataContainer>
 
 #include <typeinfo>
+#include <utility>
 
 namespace osgAnalyticBin {
 
@@ -88,6 +89,11 @@ void BinStatistics::countOccluded() noexcept {
     increment(_occluded);
 }
 
+void BinStatistics::setCovered(std::shared_ptr<const CoveredPicture> covered, unsigned int frame) noexcept {
+    beginFrame(frame);
+    _covered = std::move(covered);
+}
+
 void BinStatistics::reset() noexcept {
     _occluded.store(0, std::memory_order_relaxed);
     _hidden.store(0, std::memory_order_relaxed);
@@ -95,6 +101,7 @@ void BinStatistics::reset() noexcept {
     _outside.store(0, std::memory_order_relaxed);
     _inside.store(0, std::memory_order_relaxed);
     _straddling.store(0, std::memory_order_relaxed);
+    _covered = nullptr;
 }
 
 BinCounts BinStatistics::getCounts() const noexcept {

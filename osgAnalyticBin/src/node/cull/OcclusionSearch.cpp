@@ -70,6 +70,7 @@ public:
             addEarth(quarter);
             _candidates[quarter.candidate].isHidden = false;
         }
+        _found.covered = covered();
         _found.findings.clear();
         for (const Candidate& candidate : _candidates) {
             const FoundOcclusion::Finding inPicture =
@@ -172,6 +173,15 @@ private:
             for (const glm::dvec3& point : polygon) highest = std::max(highest, glm::dot(point, up) + margin);
         }
         return highest;
+    }
+
+    [[nodiscard]] std::shared_ptr<const CoveredPicture> covered() const {
+        const auto picture = std::make_shared<CoveredPicture>();
+        picture->eye = _found.eye;
+        picture->across = _found.span.across;
+        for (std::size_t strip = 0; strip < HorizonBuffer::kStrips; ++strip)
+            picture->heights.push_back(_buffer.covered(strip));
+        return picture;
     }
 
     // Lines of sight that meet earth there come from above the terrain, not from beside it.

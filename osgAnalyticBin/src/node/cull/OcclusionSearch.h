@@ -6,12 +6,14 @@
 #include "LevelPicture.h"
 #include "ShownDepth.h"
 
+#include <osgAnalyticBin/CoveredPicture.h>
 #include <osgAnalyticBin/core/Frame.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -39,6 +41,7 @@ struct FoundOcclusion {
     PictureSpan span{};             ///< of the picture
     double nearReach = 0.0;         ///< metres that near planes reach at most
     std::optional<core::GeodeticBin> region;
+    std::shared_ptr<const CoveredPicture> covered;
     int uses = 0;  ///< views since then
 
     /// @{

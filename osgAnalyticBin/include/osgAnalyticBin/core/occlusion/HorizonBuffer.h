@@ -58,6 +58,9 @@ public:
     /// operations per strip that it spans.
     [[nodiscard]] bool hides(const Outline& body);
 
+    /// The heights that are covered in a strip, so far. They are empty where nothing is.
+    [[nodiscard]] Interval covered(std::size_t strip) const noexcept { return {_lower[strip], _upper[strip]}; }
+
 private:
     // A straight line in the picture: y = slope x + offset.
     struct Line {
