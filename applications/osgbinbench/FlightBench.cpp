@@ -13,7 +13,7 @@ namespace osgAnalyticBin::bench {
 
 namespace {
 
-constexpr std::size_t kFramesPerTurn = 10;
+constexpr std::size_t kFramesPerTurn = 50;
 
 class Flight {
 public:

@@ -101,7 +101,7 @@ std::string footer() {
         "oracle = what exact+horizon+edges keeps, recorded at each pose and repeated without any test: what culling\n"
         "would cost if tests were free (not in flight). all = these methods, in the combinations worth comparing.\n"
         "Afterwards the path is flown continuously, every method once, while files are being loaded: --live; with\n"
-        "--frames nothing but that. Methods take turns of 10 frames each; these are culled, and not drawn. What leaves "
+        "--frames nothing but that. Methods take turns of 50 frames each; these are culled, and not drawn. What leaves "
         "the\n"
         "view is kept in memory as long with all methods, unless --expiry says otherwise.\n\n"
         "Columns of --csv, one line for each pose and method, and keys of --json, sums over the poses:\n";

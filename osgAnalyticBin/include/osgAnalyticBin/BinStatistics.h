@@ -77,8 +77,8 @@ public:
     /// Default: false.
     [[nodiscard]] bool isTileByTile() const noexcept { return _isTileByTile; }
 
-    /// What of the picture terrain covers. Only for the visitor's own thread. Returns: null where no tile was looked for
-    /// behind terrain in this frame.
+    /// What of the picture terrain covers. Only for the visitor's own thread. Returns: null where no tile was looked
+    /// for behind terrain in this frame.
     [[nodiscard]] const std::shared_ptr<const CoveredPicture>& covered() const noexcept { return _covered; }
     /// Says what terrain covers, of the frame with this number.
     void setCovered(std::shared_ptr<const CoveredPicture> covered, unsigned int frame) noexcept;

@@ -225,7 +225,7 @@ FAULTS = [
     Fault("occlusion: the higher end of a chord counts", "src/core/occlusion/HorizonBuffer.cpp",
           "topEnd = wall.top.slope < 0.0 ? right : left", "topEnd = wall.top.slope < 0.0 ? left : right", CORE, "HorizonBuffer.*"),
     Fault("occlusion: earth hides what is nearer", "src/core/occlusion/HorizonBuffer.cpp",
-          "_pending.front().farthest <= distance", "_pending.front().farthest <= 1e9 * distance", CORE, "HorizonBuffer.*"),
+          "_waiting.front().farthest <= distance", "_waiting.front().farthest <= 1e9 * distance", CORE, "HorizonBuffer.*"),
     Fault("state: a part's range of depths does not matter", "src/node/cull/SeeThrough.cpp", "isSeeThrough(state) || hasDepthRange(state) ||",
           "isSeeThrough(state) || (hasDepthRange(state) && false) ||", NODE, "SeeThroughTerrain.*"),
     Fault("state: holes of osgTerrain tiles do not matter", "src/node/cull/SeeThrough.cpp", "return hasHole(tile) || isBlended(tile);",

@@ -74,13 +74,13 @@ void HorizonBuffer::add(const EarthColumn& column) {
     const double inPicture = pictureError(error, nearest, largest);
     if (!(bottom[0].x < bottom[1].x)) return;
     Wall wall;
-    wall.farthest = farthest + error;
     wall.highest = highest;
     wall.across = {std::max(leftmost->x, bottom[0].x) + inPicture, std::min(rightmost->x, bottom[1].x) - inPicture};
     wall.top = Line(*leftmost, *rightmost, -inPicture);
     wall.bottom = Line(bottom[0], bottom[1], inPicture);
-    _pending.push_back(wall);
-    std::push_heap(_pending.begin(), _pending.end());
+    _waiting.push_back({farthest + error, _walls.size()});
+    std::push_heap(_waiting.begin(), _waiting.end());
+    _walls.push_back(wall);
 }
 
 // The line through two points, moved up by `move` and by the effect of as large a move to the side. A negative `move`
@@ -140,11 +140,11 @@ bool HorizonBuffer::isAboveKnown(std::size_t first, std::size_t last, double hei
 
 // Puts the walls that are no farther than `distance` into the strips.
 void HorizonBuffer::use(double distance) {
-    while (!_pending.empty() && _pending.front().farthest <= distance) {
-        std::pop_heap(_pending.begin(), _pending.end());
-        _reached = std::max(_reached, _pending.back().farthest);
-        raise(_pending.back());
-        _pending.pop_back();
+    while (!_waiting.empty() && _waiting.front().farthest <= distance) {
+        std::pop_heap(_waiting.begin(), _waiting.end());
+        _reached = std::max(_reached, _waiting.back().farthest);
+        raise(_walls[_waiting.back().wall]);
+        _waiting.pop_back();
     }
 }
 

@@ -18,7 +18,7 @@ namespace osgAnalyticBin {
 void EmergingTiles::look(const ShownDatabase& database, const LevelView& view, const glm::dvec3& eye,
                          const FoundOcclusion& now) {
     constexpr double kAhead = 1.0;      // seconds
-    constexpr double kPeriod = 0.125;   // seconds
+    constexpr double kPeriod = 0.25;    // seconds
     constexpr double kLongFrame = 0.5;  // seconds: no motion is seen in it
     const osg::FrameStamp* const stamp = database.visitor.getFrameStamp();
     if (!stamp) return;

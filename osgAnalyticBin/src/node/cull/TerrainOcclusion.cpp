@@ -153,7 +153,8 @@ OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& 
         }
         found.uses = 1;
     }
-    BinStatistics::of(database.visitor).setCovered(found.covered, static_cast<unsigned int>(database.visitor.getTraversalNumber()));
+    BinStatistics::of(database.visitor)
+        .setCovered(found.covered, static_cast<unsigned int>(database.visitor.getTraversalNumber()));
     found.lastEye = eye;
     found.lastAcross = PictureSpan::of(*view, found.eye).value_or(found.span).across;
     emerging.look(database, *view, eye, found);

@@ -68,14 +68,17 @@ private:
         Line(const glm::dvec2& a, const glm::dvec2& b, double move);
         double slope, offset;
     };
-    // The picture of an upright quadrilateral of earth. Walls that are not in the strips yet wait in a heap, with the
-    // nearest on top.
+    // The picture of an upright quadrilateral of earth.
     struct Wall {
-        double farthest;
         double highest;
         Interval across;
         Line top, bottom;
-        [[nodiscard]] bool operator<(const Wall& other) const noexcept { return farthest > other.farthest; }
+    };
+    // Walls that are not in the strips yet wait in a heap, with the nearest on top.
+    struct Waiting {
+        double farthest;
+        std::size_t wall;
+        [[nodiscard]] bool operator<(const Waiting& other) const noexcept { return farthest > other.farthest; }
     };
 
     void use(double distance);
@@ -90,7 +93,8 @@ private:
     double _depthStep;
     double _lowest = -std::numeric_limits<double>::infinity();
     double _reached = 0.0;  // the farthest corner of the earth that is in the strips
-    std::vector<Wall> _pending;
+    std::vector<Wall> _walls;
+    std::vector<Waiting> _waiting;
     std::array<double, kStrips> _lower,
         _upper;  // ends of the covered interval; nothing is covered where _lower > _upper
 };
