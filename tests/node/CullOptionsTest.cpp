@@ -114,22 +114,24 @@ TEST(CullOptions, MethodsForComparisonCullByPlanesAloneUnlessTold) {
 
 TEST(CullOptions, WhatConcernsForeignDatabasesReadsBack) {
     std::string error;
-    const auto options = cullOptionsFromText("skirts=all,cluster=keep,heights=-500.5..9000,index=off", error);
+    const auto options =
+        cullOptionsFromText("skirts=all,cluster=keep,heights=-500.5..9000,techniqueMargin=50,index=off", error);
     ASSERT_TRUE(options) << error;
     const auto back = cullOptionsFromText(toText(*options), error);
     ASSERT_TRUE(back) << error;
     EXPECT_EQ(back->skirts, SkirtUse::All);
     EXPECT_EQ(back->cluster, ClusterUse::Keep);
     EXPECT_EQ(back->heights, (core::Interval{-500.5, 9000.0}));
+    EXPECT_EQ(back->techniqueMargin, 50.0);
     EXPECT_FALSE(back->index);
     EXPECT_EQ(toText(*cullOptionsFromText("skirts=cracks,cluster=replace,index=on", error)), toText(CullOptions()));
 }
 
 TEST(CullOptions, AreEqualInAllItemsOrNot) {
     std::string error;
-    for (const char* item :
-         {"method=exact", "growth=1.5", "horizon=off", "horizon=-500", "inheritviewpoint=on", "edges=off", "expiry=5",
-          "skirts=all", "cluster=keep", "heights=-500..9000", "heights=-11500..8000", "index=off"}) {
+    for (const char* item : {"method=exact", "growth=1.5", "horizon=off", "horizon=-500", "inheritviewpoint=on",
+                             "edges=off", "expiry=5", "skirts=all", "cluster=keep", "heights=-500..9000",
+                             "heights=-11500..8000", "techniquemargin=0", "index=off"}) {
         const auto options = cullOptionsFromText(item, error);
         ASSERT_TRUE(options) << error;
         EXPECT_FALSE(*options == CullOptions()) << item;
@@ -147,12 +149,13 @@ TEST(CullOptions, LaterItemsWin) {
 
 TEST(CullOptions, WhatIsWrongIsNamed) {
     const std::pair<const char*, const char*> cases[] = {
-        {"method=cube", "cube"},  {"method", "unknown method"}, {"growth=big", "big"},
-        {"growth=0.5", "0.5"},    {"growth=nan", "nan"},        {"growth=11", "11"},
-        {"colour=red", "colour"}, {"growth=1.1x", "1.1x"},      {"Method=paper", "Method"},
-        {"horizon=low", "low"},   {"horizon=1e9", "1e9"},       {"edges=maybe", "maybe"},
-        {"skirts=none", "none"},  {"cluster=off", "off"},       {"heights=9", "9"},
-        {"heights=3..1", "3..1"}, {"heights=a..b", "a..b"},     {"index=x", "x"}};
+        {"method=cube", "cube"},      {"method", "unknown method"},  {"growth=big", "big"},
+        {"growth=0.5", "0.5"},        {"growth=nan", "nan"},         {"growth=11", "11"},
+        {"colour=red", "colour"},     {"growth=1.1x", "1.1x"},       {"Meth=paper", "meth"},
+        {"horizon=low", "low"},       {"horizon=1e9", "1e9"},        {"edges=maybe", "maybe"},
+        {"skirts=none", "none"},      {"cluster=off", "off"},        {"heights=9", "9"},
+        {"heights=3..1", "3..1"},     {"heights=a..b", "a..b"},      {"index=x", "x"},
+        {"techniquemargin=-1", "-1"}, {"techniquemargin=inf", "inf"}};
     for (const auto& [text, named] : cases) {
         std::string error;
         EXPECT_FALSE(cullOptionsFromText(text, error)) << text;

@@ -150,6 +150,31 @@ TEST(OccludingTerrainTiles, AreWholeGridsAsOsgMakesThem) {
     }
 }
 
+// The far side of the globe is hidden where an application vouches for a technique, and where the eye is surely above
+// what that draws; tiles before it hide nothing, because nothing tells how low they are.
+TEST(OccludingTerrainTiles, OfATechniqueThatIsVouchedForAreTheHorizonAlone) {
+    struct OtherTechnique : osgTerrain::GeometryTechnique {};
+    TerrainGlobe globe;
+    globe.terrain->setTerrainTechniquePrototype(new OtherTechnique);
+    CullOptions options = withOcclusion(OcclusionUse::On);
+    installBins(*globe.terrain, options);
+    const auto hiddenFrom = [&](double altitude) {
+        const auto view = CullView::lookAt(ecefDeg(0.1, 0.5, altitude), ecefDeg(0.1, 1.5, 0.0), {1, 0, 0}, 60.0);
+        for (int i = 0; i < 2; ++i) {
+            update(*globe.terrain);
+            (void)cull(*globe.terrain, view, *globe.visitor, ++globe.frame);
+        }
+        return globe.counts().hidden;
+    };
+    EXPECT_EQ(hiddenFrom(9000.0), 0u);
+    options.techniqueMargin = 300.0;
+    setCullOptions(*globe.terrain, options);
+    EXPECT_GT(hiddenFrom(9000.0), 0u);
+    EXPECT_GT(hiddenFrom(8301.0), 0u);
+    EXPECT_EQ(hiddenFrom(8299.0), 0u);
+    for (int frame = 0; frame < 3; ++frame) EXPECT_TRUE(globe.drawsFarTile());
+}
+
 // Nor behind the horizon: through a hole the eye sees the other side of the globe.
 TEST(OccludingTerrainTiles, HideNothingWhereTheyHaveHoles) {
     TerrainGlobe whole, holed;

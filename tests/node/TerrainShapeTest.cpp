@@ -223,5 +223,49 @@ TEST(TerrainTechnique, OsgsOwnAsAPrototypeIsKnown) {
     EXPECT_FALSE(hills.bin(0).getBin().valid());
 }
 
+// Moves the vertices that OSG makes, by as much as an application vouches for.
+class Shifting : public osgTerrain::GeometryTechnique {
+public:
+    static constexpr double kMost = 2000.0;
+
+    Shifting() = default;
+    Shifting(const Shifting& other, const osg::CopyOp& copyop) : osgTerrain::GeometryTechnique(other, copyop) {}
+    META_Object(osgAnalyticBin, Shifting)
+
+        protected
+        : void generateGeometry(BufferData& buffer, osgTerrain::Locator* locator, const osg::Vec3d& center) override {
+        osgTerrain::GeometryTechnique::generateGeometry(buffer, locator, center);
+        Random random(52);
+        auto& vertices = dynamic_cast<osg::Vec3Array&>(*buffer._geometry->getVertexArray());
+        for (osg::Vec3& vertex : vertices) vertex += osgVector(random.direction()) * kMost;
+    }
+};
+
+CullOptions vouchingFor(double metres) {
+    CullOptions options;
+    options.techniqueMargin = metres;
+    return options;
+}
+
+TEST(TerrainTechnique, TilesOfOneThatIsVouchedForAreCulledByEnlargedBins) {
+    Hills hills;
+    hills.watch();
+    hills.terrain->setTerrainTechniquePrototype(new Shifting);
+    installBins(*hills.terrain, vouchingFor(Shifting::kMost));
+    for (const float scale : {1.0f, 0.5f, 3.0f}) {
+        hills.terrain->setVerticalScale(scale);
+        hills.update();
+        hills.update();
+        expectHeld(hills);
+        EXPECT_EQ(tilesMissed(hills), std::set<std::size_t>()) << scale;
+        const osg::Vec3d eye = ecefDeg(-30, -120, 1e5);
+        EXPECT_EQ(hills.reached.in(*hills.terrain, eye, ecefDeg(-31, -121, 0), 10.0).size(), 0u) << scale;
+    }
+    // a word that is false loses tiles
+    EXPECT_EQ(setCullOptions(*hills.terrain, vouchingFor(0.0)), hills.tiles.size());
+    hills.update();
+    EXPECT_NE(tilesMissed(hills), std::set<std::size_t>());
+}
+
 }  // namespace
 }  // namespace osgAnalyticBin::test

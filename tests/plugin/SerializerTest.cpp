@@ -67,7 +67,7 @@ TEST_P(Serializer, AllThatATileWasFittedToReadsBackExactly) {
     surface.setSag(1.0 / 7.0);
     written->setSurface(surface);
     written->setSkirt(100.0 / 3.0);
-    written->setTerrainShape(TerrainShape{10.0 / 3.0, 0.5, true, true});
+    written->setTerrainShape(TerrainShape{10.0 / 3.0, 0.5, true, HUGE_VAL});
     const osg::ref_ptr<osg::Group> node = new osg::Group;
     node->setCullCallback(written.get());
     const osg::ref_ptr<osg::Node> back = roundTrip(*node);
@@ -84,7 +84,7 @@ TEST_P(Serializer, AnInstalledTerrainStaysVisibleWhenItComesBackWithoutItsDataba
     const osg::ref_ptr<osg::Group> node = new osg::Group;
     const osg::ref_ptr<AnalyticBinCullCallback> written = new AnalyticBinCullCallback(
         AnalyticBin(GeodeticBin::fromDegrees({10, 20}, {10, 20}, {0, 5000})), osg::EllipsoidModel());
-    written->setTerrainShape(TerrainShape{10.0, 1.0, false, true});
+    written->setTerrainShape(TerrainShape{10.0, 1.0, false, 50.0});
     node->setCullCallback(written.get());
     node->setCullingActive(false);
     const osg::ref_ptr<osg::Group> below = new osg::Group;

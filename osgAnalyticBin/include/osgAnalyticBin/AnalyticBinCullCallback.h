@@ -44,12 +44,14 @@ struct TerrainShape {
     /// osgTerrain::Terrain::setSampleRatio().
     double sampleRatio = 1.0;
     bool areBoundariesEqual = false;  ///< Whether edges lie half way to the heights of neighbours.
-    bool isKnown = true;              ///< Whether osgTerrain::GeometryTechnique itself makes the meshes.
+    /// Metres by which what is drawn may lie away from the meshes of osgTerrain::GeometryTechnique; 0: it makes them;
+    /// infinity: nothing is known.
+    double techniqueMargin = 0.0;
 
     /// Whether the meshes have the same shape.
     [[nodiscard]] bool operator==(const TerrainShape& other) const {
         return verticalScale == other.verticalScale && sampleRatio == other.sampleRatio &&
-               areBoundariesEqual == other.areBoundariesEqual && isKnown == other.isKnown;
+               areBoundariesEqual == other.areBoundariesEqual && techniqueMargin == other.techniqueMargin;
     }
 };
 

@@ -103,6 +103,12 @@ struct CullOptions {
     /// on a globe with more units it grows in proportion. In a map: heights in the map's units; the default holds all
     /// terrain on earth in feet.
     core::Interval heights = kTerrainOnEarth;
+    /// An application's word for osgTerrain tiles whose technique is not osgTerrain::GeometryTechnique, or whose
+    /// vertices a shader moves: they are drawn without holes, no point of them farther than this many metres from the
+    /// mesh that GeometryTechnique makes of the same heights. Bins are enlarged by it, the tiles are culled, and hide
+    /// as the horizon; they do not hide each other. Without a value: tiles with another technique are never culled, and
+    /// shaders are taken to move nothing.
+    std::optional<double> techniqueMargin;
     /// Whether an index beside the database is used.
     bool index = true;
 
@@ -122,9 +128,9 @@ struct CullOptions {
 };
 
 /// Parses "method=paper,growth=1.1", "horizon=-500", "horizon=off", "inheritviewpoint=on", "edges=off",
-/// "occlusion=on", "expiry=3", "skirts=all", "cluster=keep", "heights=-500..9000", "index=off"; separated by commas or
-/// blanks; an empty text gives the default. Returns: nullopt when an item is unknown or malformed, with one line in
-/// `error` that names it and what is allowed.
+/// "occlusion=on", "expiry=3", "skirts=all", "cluster=keep", "heights=-500..9000", "techniquemargin=50", "index=off";
+/// separated by commas or blanks; capital letters in a name do not matter; an empty text gives the default. Returns:
+/// nullopt when an item is unknown or malformed, with one line in `error` that names it and what is allowed.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<CullOptions> cullOptionsFromText(const std::string& text,
                                                                                    std::string& error);
 

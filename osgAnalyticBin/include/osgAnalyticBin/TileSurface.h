@@ -37,6 +37,8 @@ struct TileSurface {
 /// switches all count, whatever is chosen. Below a paged or moving node nothing is known: not valid();
 /// neither on an ellipsoid without hasValidRadii(), nor where a matrix is not affine.
 /// `node` stands in a frame that `localToEcef` takes to ECEF. `sampleRatio` is osgTerrain::Terrain's.
+/// A terrain tile that has another technique already is not valid() unless `withAnyTechnique`: then its surface is that
+/// which GeometryTechnique would make.
 /// Skirts are recognised by the texture coordinates and the depth that VirtualPlanetBuilder gives them. In case of
 /// doubt they count as surface. Meshes higher than 50 km or deeper than 1000 km on the earth are not taken for terrain:
 /// not valid(). On another globe, or in another unit, both limits are in proportion to the equatorial radius; the upper
@@ -49,7 +51,8 @@ struct TileSurface {
 /// here.
 /// Cost: one pass over heights or vertices and triangles.
 [[nodiscard]] OSGANALYTICBIN_EXPORT TileSurface tileSurface(osg::Node& node, const osg::EllipsoidModel& ellipsoid,
-                                                            const osg::Matrixd& localToEcef, double sampleRatio = 1.0);
+                                                            const osg::Matrixd& localToEcef, double sampleRatio = 1.0,
+                                                            bool withAnyTechnique = false);
 
 /// 64 bits of everything that tileSurface() reads, to tell whether a tile is the one that an index was made from.
 /// Guarantee: the same on every platform and in every run, whatever the addresses and the byte order; never 0; not made

@@ -6,6 +6,7 @@
 #include <osgAnalyticBin/CullOptions.h>
 
 #include <osg/Notify>
+#include <osgDB/FileNameUtils>
 
 #include <array>
 #include <atomic>
@@ -33,6 +34,9 @@ constexpr double kDeepestHorizon = -1e6;
 
 // A day: longer means that nothing expires, and memory fills up.
 constexpr double kLongestExpiry = 86400.0;
+
+// Metres: as much as a mountain.
+constexpr double kWidestTechnique = 1e4;
 
 bool applyMethod(const std::string& value, CullOptions& options, std::string& error) {
     const std::optional<Method> method = methodFromName(value);
@@ -138,6 +142,16 @@ bool applyOcclusion(const std::string& value, CullOptions& options, std::string&
     return true;
 }
 
+bool applyTechniqueMargin(const std::string& value, CullOptions& options, std::string& error) {
+    const auto number = numbersFromText(value, 1);
+    if (!number || (*number)[0] < 0.0 || (*number)[0] > kWidestTechnique) {
+        error = "bad techniquemargin \"" + value + "\" (use metres from 0 to 10000, e.g. techniquemargin=50)";
+        return false;
+    }
+    options.techniqueMargin = (*number)[0];
+    return true;
+}
+
 bool applyIndex(const std::string& value, CullOptions& options, std::string& error) {
     return applySwitch("index", value, options.index, error);
 }
@@ -152,7 +166,7 @@ struct KnownItem {
     bool (*apply)(const std::string& value, CullOptions& options, std::string& error);
 };
 
-constexpr std::array<KnownItem, 11> kItems{{{"method", "NAME", applyMethod},
+constexpr std::array<KnownItem, 12> kItems{{{"method", "NAME", applyMethod},
                                             {"growth", "FACTOR", applyGrowth},
                                             {"horizon", "METRES|declared|off", applyHorizon},
                                             {"inheritviewpoint", "on|off", applyInheritViewpoint},
@@ -162,6 +176,7 @@ constexpr std::array<KnownItem, 11> kItems{{{"method", "NAME", applyMethod},
                                             {"skirts", "cracks|all", applySkirts},
                                             {"cluster", "replace|keep", applyCluster},
                                             {"heights", "LOW..HIGH", applyHeights},
+                                            {"techniquemargin", "METRES", applyTechniqueMargin},
                                             {"index", "on|off", applyIndex}}};
 
 // The name that edges= had; it is read in stored scenes, too.
@@ -224,7 +239,7 @@ bool CullOptions::effectiveEdges() const noexcept {
 bool CullOptions::operator==(const CullOptions& other) const noexcept {
     const auto items = [](const CullOptions& o) {
         return std::tie(o.method, o.growth, o.horizonUse, o.horizon, o.inheritViewpoint, o.edges, o.occlusion, o.expiry,
-                        o.skirts, o.cluster, o.heights.lower, o.heights.upper, o.index);
+                        o.skirts, o.cluster, o.heights.lower, o.heights.upper, o.techniqueMargin, o.index);
     };
     return items(*this) == items(other);
 }
@@ -246,7 +261,7 @@ std::optional<CullOptions> cullOptionsFromText(const std::string& text, std::str
     for (std::string item; items >> item;) {
         const std::size_t equals = item.find('=');
         const std::string value = equals == std::string::npos ? std::string() : item.substr(equals + 1);
-        if (!applyItem(item.substr(0, equals), value, options, error)) return std::nullopt;
+        if (!applyItem(osgDB::convertToLowerCase(item.substr(0, equals)), value, options, error)) return std::nullopt;
     }
     return options;
 }
@@ -266,6 +281,7 @@ std::string toText(const CullOptions& options) {
     if (!(options.heights == CullOptions::kTerrainOnEarth)) {
         text += ",heights=" + numberToText(options.heights.lower) + ".." + numberToText(options.heights.upper);
     }
+    if (options.techniqueMargin) text += ",techniquemargin=" + numberToText(*options.techniqueMargin);
     if (!options.index) text += ",index=off";
     return text;
 }

@@ -69,14 +69,18 @@ public:
             "edges=on|off",
             "Tests tiles across an edge of the frustum against the edge too; default on, for comparison off.");
         supportsOption("occlusion=on|off|auto",
-                       "Culls tiles behind terrain, on whole globes where the near plane is fixed; auto: while that "
-                       "hides a quarter of the tiles in view; default off.");
+                       "Culls tiles behind terrain, where the near plane is fixed; auto: while that hides a quarter of "
+                       "the tiles in view; default auto.");
         supportsOption("expiry=SECONDS",
                        "How long finer tiles out of view are kept when the DatabasePager has more than its target; "
                        "default 3, 0 leaves OSG's own rule alone.");
         supportsOption("heights=LOW..HIGH",
                        "Altitudes in metres that no terrain of the database leaves, for tiles that no index knows; "
                        "default -11500..9000.");
+        supportsOption(
+            "techniquemargin=METRES",
+            "Vouches for osgTerrain tiles with a technique of their own, or moved by shaders: they stay within "
+            "this distance of what GeometryTechnique makes; default: other techniques are not culled.");
         supportsOption("index=on|off", "Whether an index beside the database (DATABASE.bins) is used; default on.");
         supportsOption("skirts=cracks|all",
                        "What bins hold of skirts: what an eye above the terrain can see (default), or all, for cameras "

@@ -28,7 +28,7 @@ void AnalyticBinCullCallback::setBinText(const std::string& text) {
     setBin(bin);
 }
 
-// One of "installed", "skirt 100", "surface BIN", "terrain 1 1 0 1".
+// One of "installed", "skirt 100", "surface BIN", "terrain 1 1 0 0".
 bool AnalyticBinCullCallback::readItem(const std::string& item) {
     const std::size_t begin = std::min(item.find_first_not_of(' '), item.size());
     const std::size_t end = std::min(item.find(' ', begin), item.size());
@@ -45,8 +45,10 @@ bool AnalyticBinCullCallback::readItem(const std::string& item) {
         return _surface.valid();
     }
     const auto shape = name == "terrain" ? numbersFromText(value, 4) : std::nullopt;
-    if (shape) setTerrainShape(TerrainShape{(*shape)[0], (*shape)[1], (*shape)[2] != 0.0, (*shape)[3] != 0.0});
-    return shape.has_value();
+    if (!shape) return false;
+    const double margin = (*shape)[3] >= 0.0 ? (*shape)[3] : HUGE_VAL;
+    setTerrainShape(TerrainShape{(*shape)[0], (*shape)[1], (*shape)[2] != 0.0, margin});
+    return true;
 }
 
 std::string AnalyticBinCullCallback::getBinText() const {
@@ -55,11 +57,10 @@ std::string AnalyticBinCullCallback::getBinText() const {
     if (_installed || _wasInstalled) text += "; installed";
     if (_skirt != 0.0) text += "; skirt " + numberToText(_skirt);
     if (_surface.valid()) text += "; surface " + _surface.toText();
-    const auto number = [](bool is) { return is ? 1.0 : 0.0; };
-    if (_setup->shape) {
-        text +=
-            "; terrain " + numbersToText({_setup->shape->verticalScale, _setup->shape->sampleRatio,
-                                          number(_setup->shape->areBoundariesEqual), number(_setup->shape->isKnown)});
+    if (const auto& shape = _setup->shape) {
+        const double margin = std::isfinite(shape->techniqueMargin) ? shape->techniqueMargin : -1.0;
+        text += "; terrain " + numbersToText({shape->verticalScale, shape->sampleRatio,
+                                              shape->areBoundariesEqual ? 1.0 : 0.0, margin});
     }
     return text;
 }

@@ -96,7 +96,9 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, osg::Node& mesh, const Anal
     // the first is the highest
     const Intersector::Intersection& highest = *intersector->getIntersections().begin();
     const glm::dvec3 hit = toGlm(highest.getWorldIntersectPoint() * tile.getLocalToEcef());
-    if (!(glm::dot(hit - point, up) < 0.0)) return false;
+    // what is drawn may lie higher than what was met
+    const double raised = tile.getTerrainShape() ? tile.getTerrainShape()->techniqueMargin : 0.0;
+    if (!(glm::dot(hit - point, up) < -raised)) return false;
     _triangle = triangleOf(highest, tile.getLocalToEcef());
     _mesh = &mesh;
     _tile = &tile;

@@ -4,6 +4,7 @@
 #include "PlanarFit.h"
 
 #include "../surface/PlanarSurface.h"
+#include "../surface/TerrainTileSurface.h"
 
 #include <osgTerrain/TerrainTile>
 
@@ -21,10 +22,11 @@ core::Interval heightsOf(const CullOptions& options) {
 }
 
 // Whether the tile's own word is that it stands in a map.
-bool saysPlanar(const FoundTile& tile) {
+bool saysPlanar(const FoundTile& tile, bool withAnyTechnique) {
     return std::all_of(tile.meshes.begin(), tile.meshes.end(), [&](const osg::ref_ptr<osg::Node>& mesh) {
         auto* terrainTile = dynamic_cast<osgTerrain::TerrainTile*>(mesh.get());
-        return terrainTile ? isPlanar(*terrainTile) : tile.frame.isProjected;
+        if (!terrainTile) return tile.frame.isProjected;
+        return isPlanar(*terrainTile) && (withAnyTechnique || isDrawnByOsg(*terrainTile));
     });
 }
 
@@ -45,8 +47,8 @@ core::Interval scaled(core::Interval heights, double scale) {
 }
 
 // Skirts of an osgTerrain tile do not follow the vertical scale; those of a mesh are in its box.
-osg::BoundingBoxd boxOf(const PlanarSurface& surface, double verticalScale, const core::Interval* descendants) {
-    const double scale = surface.isScalable ? verticalScale : 1.0;
+osg::BoundingBoxd boxOf(const PlanarSurface& surface, const TerrainShape& shape, const core::Interval* descendants) {
+    const double scale = surface.isScalable ? shape.verticalScale : 1.0;
     const double ownSkirt = surface.isScalable ? surface.skirt : 0.0;
     const core::Interval own = scaled({surface.box.zMin(), surface.box.zMax()}, scale);
     osg::BoundingBoxd box = surface.box;
@@ -57,7 +59,8 @@ osg::BoundingBoxd boxOf(const PlanarSurface& surface, double verticalScale, cons
         box.zMin() = std::min(box.zMin(), theirs.lower - surface.skirt);
         box.zMax() = std::max(box.zMax(), theirs.upper + surface.raised);
     }
-    const osg::Vec3d margin(surface.margin, surface.margin, surface.margin);
+    const double most = surface.margin + (surface.isScalable ? shape.techniqueMargin : 0.0);
+    const osg::Vec3d margin(most, most, most);
     box._min -= margin;
     box._max += margin;
     return box;
@@ -67,13 +70,13 @@ osg::BoundingBoxd boxOf(const PlanarSurface& surface, double verticalScale, cons
 
 PlanarFit fitPlanarTile(const FoundTile& tile, const CullOptions& options, const TerrainShape& shape) {
     PlanarFit fit;
-    if (!saysPlanar(tile)) return fit;
+    if (!saysPlanar(tile, shape.techniqueMargin > 0.0)) return fit;
     const PlanarSurface surface = planarSurfaceOf(tile, shape.sampleRatio);
     if (!surface.box.valid()) return fit;
     fit.kind = tile.frame.ellipsoid && !surface.isScalable ? PlanarFit::Contradictory : PlanarFit::Planar;
     fit.isScalable = surface.isScalable;
     const core::Interval heights = heightsOf(options);
-    fit.box = boxOf(surface, shape.verticalScale, tile.pagedFiles.empty() ? nullptr : &heights);
+    fit.box = boxOf(surface, shape, tile.pagedFiles.empty() ? nullptr : &heights);
     return fit;
 }
 

@@ -34,11 +34,12 @@ bool hasTerrainTile(const FoundTile& tile) {
 }
 
 // Meshes of one tile are its levels of detail: any of them may be shown.
-TileSurface surfaceOf(const FoundTile& tile, const osg::EllipsoidModel& ellipsoid, double sampleRatio) {
+TileSurface surfaceOf(const FoundTile& tile, const osg::EllipsoidModel& ellipsoid, const TerrainShape& shape) {
     TileSurface surface;
     surface.isEmpty = true;
     for (const osg::ref_ptr<osg::Node>& mesh : tile.meshes) {
-        const TileSurface own = tileSurface(*mesh, ellipsoid, tile.frame.localToEcef, sampleRatio);
+        const TileSurface own =
+            tileSurface(*mesh, ellipsoid, tile.frame.localToEcef, shape.sampleRatio, shape.techniqueMargin > 0.0);
         if (own.isEmpty) continue;
         if (!own.bin.valid()) return {};
         surface.isEmpty = false;
@@ -92,7 +93,7 @@ AnalyticBin rangedBin(const TileSurface& surface, bool hasDescendants, const Dat
 }
 
 void fitSurface(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link, TileFit& fit) {
-    const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape.sampleRatio);
+    const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape);
     fit.isTerrain = surface.bin.valid();
     if (!fit.isTerrain && !surface.isEmpty && link.stored.valid()) Database::reportUntold(link);
     if (!fit.isTerrain) return;
@@ -105,7 +106,7 @@ void fitSurface(const FoundTile& tile, Database& database, const TerrainShape& s
 
 // For a tile whose bin says nothing of skirts.
 void fitSkirt(const FoundTile& tile, const TerrainShape& shape, TileFit& fit) {
-    const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape.sampleRatio);
+    const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape);
     fit.skirt = surface.skirt;
     if (!surface.bin.valid()) fit.bin.init();
 }
@@ -142,7 +143,7 @@ AnalyticBin withHeights(const AnalyticBin& bin, const core::Interval& heights) {
 // A terrain tile that another technique than OSG's own draws as it likes.
 TileFit unknownFit(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
     database.noteUnknownTechnique();
-    const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape.sampleRatio);
+    const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape);
     if (surface.bin.valid()) linkTo(surface.bin.bin(), link);
     TileFit fit;
     fit.isScalable = true;
@@ -198,7 +199,7 @@ bool nearlyHolds(const AnalyticBin& outer, const AnalyticBin& inner, double sag,
 AnalyticBin checkStored(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link,
                         TileFit& fit) {
     const osg::EllipsoidModel& model = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database.ellipsoid();
-    const TileSurface own = surfaceOf(tile, model, shape.sampleRatio);
+    const TileSurface own = surfaceOf(tile, model, shape);
     if (!own.bin.valid() && !own.isEmpty) {
         fit.bin.init();
         Database::reportUntold(link);
@@ -292,7 +293,7 @@ bool leavesHeights(const AnalyticBin& surface, const Database& database) {
 }  // namespace
 
 TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
-    if (!shape.isKnown && hasTerrainTile(tile)) return unknownFit(tile, database, shape, link);
+    if (!std::isfinite(shape.techniqueMargin) && hasTerrainTile(tile)) return unknownFit(tile, database, shape, link);
     TileFit fit = fitKnown(tile, database, shape, link);
     if (fit.surface.valid() && (link.hasNewContent || leavesHeights(fit.surface, database))) {
         Database::noteLarger(link, fit.surface);
@@ -300,6 +301,9 @@ TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& s
     if (shape.areBoundariesEqual && fit.isScalable) {
         fit.bin = withHeights(fit.bin, heightsIn(database));
         fit.surface = withHeights(fit.surface, heightsIn(database));
+    }
+    if (fit.isScalable) {
+        for (AnalyticBin* const bin : {&fit.bin, &fit.surface}) bin->setMargin(bin->margin() + shape.techniqueMargin);
     }
     return fit;
 }

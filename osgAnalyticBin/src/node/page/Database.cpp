@@ -13,6 +13,8 @@
 #include <osgTerrain/GeometryTechnique>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <typeinfo>
 #include <utility>
 
@@ -71,9 +73,12 @@ CullOptions Database::options() const {
 }
 
 void Database::setOptions(const CullOptions& options) {
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        _options = options;
+    }
     const TerrainShape present = shape();
     const std::lock_guard<std::mutex> lock(_mutex);
-    _options = options;
     _fittedShape = present;
     ++_generation;
     (void)takeMerged(_onTheirWay);
@@ -102,12 +107,14 @@ void Database::refitLateComers() {
 }
 
 TerrainShape Database::shape() const {
+    const std::optional<double> vouchedMargin = options().techniqueMargin;
     osg::ref_ptr<osgTerrain::Terrain> terrain;
-    if (!_terrain.lock(terrain)) return {};
+    if (!_terrain.lock(terrain)) return {1.0, 1.0, false, vouchedMargin.value_or(0.0)};
     // tiles get copies of it
     const osgTerrain::TerrainTechnique* technique = terrain->getTerrainTechniquePrototype();
     const bool isKnown = !technique || typeid(*technique) == typeid(osgTerrain::GeometryTechnique);
-    return {terrain->getVerticalScale(), terrain->getSampleRatio(), terrain->getEqualizeBoundaries(), isKnown};
+    return {terrain->getVerticalScale(), terrain->getSampleRatio(), terrain->getEqualizeBoundaries(),
+            vouchedMargin.value_or(isKnown ? 0.0 : HUGE_VAL)};
 }
 
 TerrainShape Database::fittedShape() const {
@@ -203,7 +210,7 @@ void Database::makePlates() {
 void Database::noteUnknownTechnique() {
     if (_hasUnknownTechnique.exchange(true, std::memory_order_relaxed)) return;
     OSG_INFO << "osgAnalyticBin: the Terrain has a technique that is not osgTerrain::GeometryTechnique; its tiles are "
-                "not culled."
+                "not culled, unless techniquemargin= says how far from the heights it draws."
              << std::endl;
 }
 

@@ -135,8 +135,6 @@ void PlanarSurface::expandBy(const PlanarSurface& other) {
 }
 
 bool isPlanar(osgTerrain::TerrainTile& tile) {
-    const auto* technique = tile.getTerrainTechnique();
-    if (technique && !dynamic_cast<const osgTerrain::GeometryTechnique*>(technique)) return false;
     const osgTerrain::Locator* locator = masterLocator(tile);
     return locator && locator->getCoordinateSystemType() != osgTerrain::Locator::GEOCENTRIC;
 }

@@ -21,7 +21,7 @@ struct PlanarSurface {
     void expandBy(const PlanarSurface& other);
 };
 
-/// Whether osgTerrain::GeometryTechnique draws the tile in the plane of a map.
+/// Whether osgTerrain::GeometryTechnique would draw the tile in the plane of a map.
 [[nodiscard]] bool isPlanar(osgTerrain::TerrainTile& tile);
 
 /// The surface of an osgTerrain tile, or of any subgraph of fixed transforms and geometry that lies flat.

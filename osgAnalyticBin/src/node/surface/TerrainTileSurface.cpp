@@ -74,8 +74,6 @@ bool isSame(const osg::EllipsoidModel& a, const osg::EllipsoidModel& b) {
 
 // The grid that the technique makes of a tile, not sampled.
 std::optional<core::GeodeticGrid> gridOf(osgTerrain::TerrainTile& tile, const osg::EllipsoidModel& ellipsoid) {
-    const auto* technique = tile.getTerrainTechnique();
-    if (technique && !dynamic_cast<const osgTerrain::GeometryTechnique*>(technique)) return std::nullopt;
     const osgTerrain::Locator* locator = masterLocator(tile);
     if (!locator || locator->getCoordinateSystemType() != osgTerrain::Locator::GEOCENTRIC ||
         !locator->getEllipsoidModel() || !isSame(*locator->getEllipsoidModel(), ellipsoid)) {
@@ -109,6 +107,11 @@ std::array<double, 4> edgeLows(const HeightRange& heights, const osgTerrain::Loc
 }
 
 }  // namespace
+
+bool isDrawnByOsg(const osgTerrain::TerrainTile& tile) {
+    const osgTerrain::TerrainTechnique* technique = tile.getTerrainTechnique();
+    return !technique || dynamic_cast<const osgTerrain::GeometryTechnique*>(technique);
+}
 
 const osgTerrain::Locator* masterLocator(osgTerrain::TerrainTile& tile) {
     const osgTerrain::Layer* elevation = tile.getElevationLayer();
@@ -165,7 +168,7 @@ TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::Ellipso
 
 std::optional<TerrainPosts> terrainPosts(osgTerrain::TerrainTile& tile, const osg::EllipsoidModel& ellipsoid,
                                          const TerrainShape& shape) {
-    if (!shape.isKnown || shape.areBoundariesEqual || shape.sampleRatio != 1.0) return std::nullopt;
+    if (shape.techniqueMargin != 0.0 || shape.areBoundariesEqual || shape.sampleRatio != 1.0) return std::nullopt;
     const auto* technique = tile.getTerrainTechnique();
     if (technique && typeid(*technique) != typeid(osgTerrain::GeometryTechnique)) return std::nullopt;
     const std::optional<core::GeodeticGrid> grid = gridOf(tile, ellipsoid);

@@ -14,7 +14,10 @@
 
 namespace osgAnalyticBin {
 
-/// The surface that osgTerrain::GeometryTechnique makes of a tile whose frame is ECEF.
+/// Whether the tile's technique is osgTerrain::GeometryTechnique or derived from it, or none yet.
+[[nodiscard]] bool isDrawnByOsg(const osgTerrain::TerrainTile& tile);
+
+/// The surface that osgTerrain::GeometryTechnique would make of a tile whose frame is ECEF.
 [[nodiscard]] TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::EllipsoidModel& ellipsoid,
                                              double sampleRatio);
 

@@ -17,8 +17,13 @@ namespace {
 // Unites the surfaces of the parts of a tile. A part that cannot be told makes the whole so.
 class SurfaceUnion final : public SurfaceWalk {
 public:
-    SurfaceUnion(const osg::EllipsoidModel& ellipsoid, const osg::Matrixd& localToEcef, double sampleRatio)
-        : SurfaceWalk(localToEcef), _model(ellipsoid), _ellipsoid(toCore(ellipsoid)), _sampleRatio(sampleRatio) {}
+    SurfaceUnion(const osg::EllipsoidModel& ellipsoid, const osg::Matrixd& localToEcef, double sampleRatio,
+                 bool withAnyTechnique)
+        : SurfaceWalk(localToEcef),
+          _model(ellipsoid),
+          _ellipsoid(toCore(ellipsoid)),
+          _sampleRatio(sampleRatio),
+          _withAnyTechnique(withAnyTechnique) {}
 
     [[nodiscard]] TileSurface result() const {
         if (!isKnown()) return {};
@@ -30,7 +35,7 @@ public:
 private:
     void visit(osgTerrain::TerrainTile& tile) override {
         // its vertices are ECEF in the tile's own frame
-        if (!localToEcef().isIdentity()) return giveUp();
+        if (!localToEcef().isIdentity() || !(_withAnyTechnique || isDrawnByOsg(tile))) return giveUp();
         unite(terrainTileSurface(tile, _model, _sampleRatio));
     }
 
@@ -57,15 +62,16 @@ private:
     const osg::EllipsoidModel& _model;
     core::Ellipsoid _ellipsoid;
     double _sampleRatio;
+    bool _withAnyTechnique;
     TileSurface _result;
 };
 
 }  // namespace
 
 TileSurface tileSurface(osg::Node& node, const osg::EllipsoidModel& ellipsoid, const osg::Matrixd& localToEcef,
-                        double sampleRatio) {
+                        double sampleRatio, bool withAnyTechnique) {
     if (!hasValidRadii(ellipsoid)) return {};
-    SurfaceUnion surface(ellipsoid, localToEcef, sampleRatio);
+    SurfaceUnion surface(ellipsoid, localToEcef, sampleRatio, withAnyTechnique);
     node.accept(surface);
     return surface.result();
 }
