@@ -223,6 +223,23 @@ TEST(TerrainTechnique, OsgsOwnAsAPrototypeIsKnown) {
     EXPECT_FALSE(hills.bin(0).getBin().valid());
 }
 
+CullOptions vouchingFor(double metres) {
+    CullOptions options;
+    options.techniqueMargin = metres;
+    return options;
+}
+
+// At the border of a region, what is drawn may end before the tiles do.
+TEST(TerrainTechnique, TilesOfOneThatIsVouchedForAreNoRegion) {
+    for (const double metres : {0.0, 100.0}) {
+        const CapturedNotes notes(osg::NOTICE);
+        Hills hills;
+        installBins(*hills.terrain, vouchingFor(metres));
+        hills.update();
+        EXPECT_EQ(notes.count("leave gaps"), metres > 0.0 ? 1u : 0u);
+    }
+}
+
 // Moves the vertices that OSG makes, by as much as an application vouches for.
 class Shifting : public osgTerrain::GeometryTechnique {
 public:
@@ -241,12 +258,6 @@ public:
     }
 };
 
-CullOptions vouchingFor(double metres) {
-    CullOptions options;
-    options.techniqueMargin = metres;
-    return options;
-}
-
 TEST(TerrainTechnique, TilesOfOneThatIsVouchedForAreCulledByEnlargedBins) {
     Hills hills;
     hills.watch();
@@ -261,7 +272,7 @@ TEST(TerrainTechnique, TilesOfOneThatIsVouchedForAreCulledByEnlargedBins) {
         const osg::Vec3d eye = ecefDeg(-30, -120, 1e5);
         EXPECT_EQ(hills.reached.in(*hills.terrain, eye, ecefDeg(-31, -121, 0), 10.0).size(), 0u) << scale;
     }
-    // a word that is false loses tiles
+    // a figure that is too small loses tiles
     EXPECT_EQ(setCullOptions(*hills.terrain, vouchingFor(0.0)), hills.tiles.size());
     hills.update();
     EXPECT_NE(tilesMissed(hills), std::set<std::size_t>());

@@ -3,6 +3,7 @@
 
 #include "GroundBelow.h"
 
+#include "../../core/EarthScale.h"
 #include "../../core/LocalFrame.h"
 #include "../GlmBridge.h"
 #include "../Inverse.h"
@@ -57,7 +58,25 @@ std::array<glm::dvec3, 3> triangleOf(const Intersector::Intersection& hit, const
     return triangle;
 }
 
+// Metres by which what is drawn may lie outside of the mesh.
+double overhang(const AnalyticBinCullCallback& tile) {
+    return tile.getTerrainShape() ? tile.getTerrainShape()->techniqueMargin : 0.0;
+}
+
 }  // namespace
+
+bool isInColumn(const core::Geodetic& place, const AnalyticBinCullCallback& tile, const core::Ellipsoid& ellipsoid) {
+    const core::GeodeticBin& bin = tile.getBin().bin();
+    if (bin.empty()) return true;
+    const core::Interval& latitude = bin.latitude();
+    constexpr double kCurved = 1.1;  // arcs are longer than chords
+    const double north = kCurved * overhang(tile) / core::smallestCurvatureRadius(ellipsoid);
+    if (place.latitude < latitude.lower - north || place.latitude > latitude.upper + north) return false;
+    if (north == 0.0) return bin.contains({place.latitude, place.longitude, bin.altitude().middle()});
+    const double east = north / std::max(std::cos(std::abs(place.latitude) + north), 1e-9);
+    return std::abs(std::remainder(place.longitude - bin.longitude().middle(), 2.0 * osg::PI)) <=
+           0.5 * bin.longitude().width() + east;
+}
 
 bool GroundBelow::isTriangleBelow(const glm::dvec3& eye, const glm::dvec3& up) const {
     const auto& [a, b, c] = _triangle;
@@ -72,6 +91,7 @@ bool GroundBelow::isTriangleBelow(const glm::dvec3& eye, const glm::dvec3& up) c
 
 bool GroundBelow::isBelow(const core::Geodetic& eye, osg::Node& mesh, const AnalyticBinCullCallback& tile,
                           const core::Ellipsoid& ellipsoid) {
+    if (overhang(tile) > 0.0) return false;
     const glm::dvec3 point = ellipsoid.toEcef(eye);
     const glm::dvec3 up = core::LocalFrame(eye.latitude, eye.longitude).up;
     // meshes may change: what was found is not believed for long
@@ -96,9 +116,7 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, osg::Node& mesh, const Anal
     // the first is the highest
     const Intersector::Intersection& highest = *intersector->getIntersections().begin();
     const glm::dvec3 hit = toGlm(highest.getWorldIntersectPoint() * tile.getLocalToEcef());
-    // what is drawn may lie higher than what was met
-    const double raised = tile.getTerrainShape() ? tile.getTerrainShape()->techniqueMargin : 0.0;
-    if (!(glm::dot(hit - point, up) < -raised)) return false;
+    if (!(glm::dot(hit - point, up) < 0.0)) return false;
     _triangle = triangleOf(highest, tile.getLocalToEcef());
     _mesh = &mesh;
     _tile = &tile;

@@ -14,11 +14,16 @@
 
 namespace osgAnalyticBin {
 
+/// Whether a place is among the latitudes and longitudes at which the tile or its descendants may draw. Those of a
+/// terrain tile that is drawn by another technique may overhang its bin. True for a bin that is not valid.
+[[nodiscard]] bool isInColumn(const core::Geodetic& place, const AnalyticBinCullCallback& tile,
+                              const core::Ellipsoid& ellipsoid);
+
 /// The triangle of the shown terrain that an eye was last above: in the next frames it mostly still is.
 class GroundBelow {
 public:
     /// Whether the mesh, a tile's own, is below the eye along the ellipsoid's normal. False in doubt: where the normal
-    /// meets no triangle, and for terrain tiles that have no mesh yet.
+    /// meets no triangle, and for terrain tiles that have no mesh yet, or one that may be drawn elsewhere.
     /// Cost: a search through the mesh's triangles, or some ten products of vectors while the eye stays above the same
     /// triangle.
     [[nodiscard]] bool isBelow(const core::Geodetic& eye, osg::Node& mesh, const AnalyticBinCullCallback& tile,

@@ -245,10 +245,7 @@ private:
     // Whether the eye may be within or below what the tile or its descendants draw.
     [[nodiscard]] bool isAbout(const AnalyticBinCullCallback& tile) const {
         if (!_place || _place->altitude > tile.getBinHigh()) return false;
-        const core::GeodeticBin& bin = tile.getBin().bin();
-        if (bin.empty()) return true;
-        if (_place->latitude < bin.latitude().lower || _place->latitude > bin.latitude().upper) return false;
-        return bin.contains({_place->latitude, _place->longitude, bin.altitude().middle()});
+        return isInColumn(*_place, tile, _database.view.ellipsoid);
     }
 
     // Rays that are seen do not enter the occluder there: it lies below the ellipsoid, but it may lie above the tile.

@@ -353,7 +353,7 @@ void BinInstaller::noteCovered(const FoundTile& tile, const TileFit& fit, const 
     coverage.setVisited();
     if (!_isBelowSelection && !_isInMesh) {
         coverage.add(link.extents);
-        if (coverage.isOfGlobe()) coverage.addMesh(finderOfFilled(tile, fit, link));
+        if (coverage.isOfGlobe() && fit.isInPlace) coverage.addMesh(finderOfFilled(tile, fit, link));
     }
     for (const std::string& file : tile.pagedFiles) (*_coverage)[file].expect(Coverage::areaOf(link.extents));
 }

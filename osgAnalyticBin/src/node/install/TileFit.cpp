@@ -302,7 +302,8 @@ TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& s
         fit.bin = withHeights(fit.bin, heightsIn(database));
         fit.surface = withHeights(fit.surface, heightsIn(database));
     }
-    if (fit.isScalable) {
+    if (fit.isScalable && shape.techniqueMargin > 0.0) {
+        fit.isInPlace = false;
         for (AnalyticBin* const bin : {&fit.bin, &fit.surface}) bin->setMargin(bin->margin() + shape.techniqueMargin);
     }
     return fit;
