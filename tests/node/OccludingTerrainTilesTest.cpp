@@ -159,8 +159,8 @@ TEST(OccludingTerrainTiles, OfATechniqueThatIsVouchedForAreTheHorizonAlone) {
     CullOptions options = withOcclusion(OcclusionUse::On);
     installBins(*globe.terrain, options);
     const auto hiddenFrom = [&](double longitude, double altitude) {
-        const auto view =
-            CullView::lookAt(ecefDeg(0.107, longitude, altitude), ecefDeg(0.107, longitude + 0.1, 0.0), {1, 0, 0}, 60.0);
+        const auto view = CullView::lookAt(ecefDeg(0.107, longitude, altitude), ecefDeg(0.107, longitude + 0.1, 0.0),
+                                           {1, 0, 0}, 60.0);
         for (int i = 0; i < 2; ++i) {
             update(*globe.terrain);
             (void)cull(*globe.terrain, view, *globe.visitor, ++globe.frame);

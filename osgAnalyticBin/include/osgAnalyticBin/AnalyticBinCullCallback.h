@@ -17,6 +17,7 @@
 #include <osg/NodeCallback>
 
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,6 +48,9 @@ struct TerrainShape {
     /// Metres by which what is drawn may lie away from the meshes of osgTerrain::GeometryTechnique; 0: it makes them;
     /// infinity: nothing is known.
     double techniqueMargin = 0.0;
+
+    /// Whether it is known where the meshes are.
+    [[nodiscard]] bool isKnown() const { return std::isfinite(techniqueMargin); }
 
     /// Whether the meshes have the same shape.
     [[nodiscard]] bool operator==(const TerrainShape& other) const {

@@ -11,6 +11,7 @@
 #include <osg/Notify>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace osgAnalyticBin {
@@ -58,7 +59,7 @@ std::string AnalyticBinCullCallback::getBinText() const {
     if (_skirt != 0.0) text += "; skirt " + numberToText(_skirt);
     if (_surface.valid()) text += "; surface " + _surface.toText();
     if (const auto& shape = _setup->shape) {
-        const double margin = std::isfinite(shape->techniqueMargin) ? shape->techniqueMargin : -1.0;
+        const double margin = shape->isKnown() ? shape->techniqueMargin : -1.0;
         text += "; terrain " + numbersToText({shape->verticalScale, shape->sampleRatio,
                                               shape->areBoundariesEqual ? 1.0 : 0.0, margin});
     }

@@ -315,8 +315,7 @@ void BinInstaller::installPlanar(FoundTile& tile, const PlanarFit& fit, const Te
     const auto mapToLocal = affineInverse(culledFrame(tile, culled));
     if (!mapToLocal) return passBy(*tile.node, true);
     // what neighbours lend to edges, and what other techniques make of heights, is not known
-    if (fit.isScalable && (shape.areBoundariesEqual || !std::isfinite(shape.techniqueMargin)))
-        return passBy(*tile.node, true);
+    if (fit.isScalable && (shape.areBoundariesEqual || !shape.isKnown())) return passBy(*tile.node, true);
     const osg::ref_ptr<PlanarBinCullCallback> callback = new PlanarBinCullCallback(
         PlanarBin(fit.box, *mapToLocal), fit.isScalable ? std::optional(shape) : std::nullopt, _options);
     placeCallback(tile, culled, *callback, database());

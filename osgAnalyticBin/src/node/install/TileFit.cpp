@@ -293,7 +293,7 @@ bool leavesHeights(const AnalyticBin& surface, const Database& database) {
 }  // namespace
 
 TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
-    if (!std::isfinite(shape.techniqueMargin) && hasTerrainTile(tile)) return unknownFit(tile, database, shape, link);
+    if (!shape.isKnown() && hasTerrainTile(tile)) return unknownFit(tile, database, shape, link);
     TileFit fit = fitKnown(tile, database, shape, link);
     if (fit.surface.valid() && (link.hasNewContent || leavesHeights(fit.surface, database))) {
         Database::noteLarger(link, fit.surface);
