@@ -54,7 +54,7 @@ constexpr core::Interval kAcross{-1.0, 1.0};
 void addTile(core::HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,
              double reach = 0.0);
 
-/// A part of a tile that the buffer is asked for.
+/// A quarter of a tile, with its outline in the buffer's picture.
 struct Quarter {
     GroundTile part;  ///< without a mesh
     core::HorizonBuffer::Outline outline;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// Counts rays that reach what the horizon buffer says is behind terrain: random terrain with needles and pits, from
-// eyes above it, and rays against all of its triangles in long double. Fails when there is a single one.
+// Makes random terrain with needles and pits, and asks the horizon buffer what is behind it for an eye above. Casts
+// rays in long double to all that is said to be hidden, and fails if a single ray gets there without meeting a
+// triangle.
 
 #include "OcclusionScene.h"
 

@@ -150,8 +150,8 @@ TEST(OccludingTerrainTiles, AreWholeGridsAsOsgMakesThem) {
     }
 }
 
-// The far side of the globe is hidden where an application vouches for a technique, and where the eye is surely above
-// what that draws; tiles before it hide nothing, because nothing tells how low they are.
+// With a technique that the application vouches for, the horizon is used if the eye is surely above what is drawn. A
+// ridge hides nothing, because nobody knows its exact height.
 TEST(OccludingTerrainTiles, OfATechniqueThatIsVouchedForAreTheHorizonAlone) {
     struct OtherTechnique : osgTerrain::GeometryTechnique {};
     TerrainGlobe globe;

@@ -35,7 +35,7 @@ struct Painting {
 /// Has a graphics context, and colours for drawables that are known by a key. Both scenes use the same colours.
 class Painter {
 public:
-    /// How far away what is drawn is, in the depth buffer.
+    /// The kind of depths in the depth buffer.
     enum class Depths {
         Logarithms,  ///< see distance(); in perspective pictures
         OpenGL       ///< as applications have them, rounded as theirs

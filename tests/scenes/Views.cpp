@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// Random low views of a real database, culled with bins and terrain occlusion and by OSG alone: what OSG shows in a
-// pixel is drawn with bins. tests/README.md tells how to run it.
+// Culls random low views of a real database twice: by OSG alone, and with bins and terrain occlusion. Checks that every
+// drawable that has a pixel in OSG's picture is drawn with bins. tests/README.md says how to run it.
 
 #include "Painter.h"
 #include "Recorder.h"
@@ -191,7 +191,7 @@ private:
         _with->accept(*_update);
     }
 
-    // Where the terrain, as finely as it is there, is met first.
+    // The first point where the segment meets the finest terrain that is loaded.
     [[nodiscard]] std::optional<osg::Vec3d> meet(const osg::Vec3d& from, const osg::Vec3d& to) const {
         const osg::ref_ptr<osgUtil::LineSegmentIntersector> line = new osgUtil::LineSegmentIntersector(from, to);
         osgUtil::IntersectionVisitor visitor(line);

@@ -45,8 +45,8 @@ struct TerrainShape {
     /// osgTerrain::Terrain::setSampleRatio().
     double sampleRatio = 1.0;
     bool areBoundariesEqual = false;  ///< Whether edges lie half way to the heights of neighbours.
-    /// Metres by which what is drawn may lie away from the meshes of osgTerrain::GeometryTechnique; 0: it makes them;
-    /// infinity: nothing is known.
+    /// The greatest distance in metres between what is drawn and the meshes of osgTerrain::GeometryTechnique; 0: these
+    /// meshes are drawn; infinity: nothing is known.
     double techniqueMargin = 0.0;
 
     /// Whether it is known where the meshes are.

@@ -77,10 +77,10 @@ public:
     /// Default: false.
     [[nodiscard]] bool isTileByTile() const noexcept { return _isTileByTile; }
 
-    /// What of the picture terrain covers. Only for the visitor's own thread. Returns: null where no tile was looked
-    /// for behind terrain in this frame.
+    /// The part of the picture that terrain covers. Only for the visitor's own thread. Returns: null if this frame had
+    /// no search for tiles behind terrain.
     [[nodiscard]] const std::shared_ptr<const CoveredPicture>& covered() const noexcept { return _covered; }
-    /// Says what terrain covers, of the frame with this number.
+    /// Sets what terrain covers in the frame with this number.
     void setCovered(std::shared_ptr<const CoveredPicture> covered, unsigned int frame) noexcept;
 
     /// Sets the counts to zero, for a visitor that traverses more than once in a frame.

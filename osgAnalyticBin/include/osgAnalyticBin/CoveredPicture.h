@@ -10,9 +10,9 @@
 
 namespace osgAnalyticBin {
 
-/// What of an eye's picture terrain is known to cover, after a search for tiles behind terrain. The picture is on the
-/// vertical plane in front of the eye, cut into strips of equal width: a point is at x = right / forward, y = up /
-/// forward. Source: doc/theory/occlusion.md, section 4.
+/// The part of an eye's picture that terrain covers, as a search for tiles behind terrain has found it. The picture is
+/// on the vertical plane in front of the eye, cut into strips of equal width: a point is at x = right / forward, y = up
+/// / forward. Source: doc/theory/occlusion.md, section 4.
 struct CoveredPicture {
     core::Frame eye{};                    ///< ECEF; its axes are right, forward and up
     core::Interval across;                ///< of x

@@ -103,11 +103,11 @@ struct CullOptions {
     /// on a globe with more units it grows in proportion. In a map: heights in the map's units; the default holds all
     /// terrain on earth in feet.
     core::Interval heights = kTerrainOnEarth;
-    /// An application's word for osgTerrain tiles whose technique is not osgTerrain::GeometryTechnique, or whose
-    /// vertices a shader moves: they are drawn without holes, no point of them farther than this many metres from the
-    /// mesh that GeometryTechnique makes of the same heights. Bins are enlarged by it, the tiles are culled, and hide
-    /// as the horizon; they do not hide each other. Without a value: tiles with another technique are never culled, and
-    /// shaders are taken to move nothing.
+    /// With a value, the application vouches for all osgTerrain tiles: they are drawn without holes, and no point of
+    /// them lies farther than this many metres from the mesh that osgTerrain::GeometryTechnique makes of the same
+    /// heights. Set it for terrain with another technique, or with shaders that move vertices. Bins are enlarged by the
+    /// value. The horizon is still used, but a value above zero keeps tiles from hiding the tiles behind them. Without
+    /// a value, tiles with another technique are never culled, and shaders are assumed to move nothing.
     std::optional<double> techniqueMargin;
     /// Whether an index beside the database is used.
     bool index = true;

@@ -37,8 +37,8 @@ struct TileSurface {
 /// switches all count, whatever is chosen. Below a paged or moving node nothing is known: not valid();
 /// neither on an ellipsoid without hasValidRadii(), nor where a matrix is not affine.
 /// `node` stands in a frame that `localToEcef` takes to ECEF. `sampleRatio` is osgTerrain::Terrain's.
-/// A terrain tile that has another technique already is not valid() unless `withAnyTechnique`: then its surface is that
-/// which GeometryTechnique would make.
+/// A terrain tile that already has another technique is not valid(), unless `withAnyTechnique` is set: its surface is
+/// then the one that GeometryTechnique would make.
 /// Skirts are recognised by the texture coordinates and the depth that VirtualPlanetBuilder gives them. In case of
 /// doubt they count as surface. Meshes higher than 50 km or deeper than 1000 km on the earth are not taken for terrain:
 /// not valid(). On another globe, or in another unit, both limits are in proportion to the equatorial radius; the upper

@@ -47,14 +47,32 @@ bool applyMethod(const std::string& value, CullOptions& options, std::string& er
     return method.has_value();
 }
 
-bool applyGrowth(const std::string& value, CullOptions& options, std::string& error) {
+// A number within a range. `meaning`: what the number is, and an example.
+template <class Number>
+bool applyNumber(const std::string& key, const std::string& value, const core::Interval& range, const char* meaning,
+                 Number& option, std::string& error) {
     const auto number = numbersFromText(value, 1);
-    if (!number || (*number)[0] < 1.0 || (*number)[0] > kMaxGrowth) {
-        error = "bad growth \"" + value + "\" (use a factor from 1 to 10, e.g. growth=1.1)";
+    if (!number || (*number)[0] < range.lower || (*number)[0] > range.upper) {
+        error = "bad " + key + " \"" + value + "\" (use " + meaning + ")";
         return false;
     }
-    options.growth = (*number)[0];
+    option = (*number)[0];
     return true;
+}
+
+bool applyGrowth(const std::string& value, CullOptions& options, std::string& error) {
+    return applyNumber("growth", value, {1.0, kMaxGrowth}, "a factor from 1 to 10, e.g. growth=1.1", options.growth,
+                       error);
+}
+
+bool applyExpiry(const std::string& value, CullOptions& options, std::string& error) {
+    return applyNumber("expiry", value, {0.0, kLongestExpiry}, "seconds from 0 to 86400, e.g. expiry=3", options.expiry,
+                       error);
+}
+
+bool applyTechniqueMargin(const std::string& value, CullOptions& options, std::string& error) {
+    return applyNumber("techniquemargin", value, {0.0, kWidestTechnique},
+                       "metres from 0 to 10000, e.g. techniquemargin=50", options.techniqueMargin, error);
 }
 
 bool applyHorizon(const std::string& value, CullOptions& options, std::string& error) {
@@ -69,16 +87,6 @@ bool applyHorizon(const std::string& value, CullOptions& options, std::string& e
     }
     options.horizonUse = HorizonUse::Given;
     options.horizon = (*number)[0];
-    return true;
-}
-
-bool applyExpiry(const std::string& value, CullOptions& options, std::string& error) {
-    const auto number = numbersFromText(value, 1);
-    if (!number || (*number)[0] < 0.0 || (*number)[0] > kLongestExpiry) {
-        error = "bad expiry \"" + value + "\" (use seconds from 0 to 86400, e.g. expiry=3)";
-        return false;
-    }
-    options.expiry = (*number)[0];
     return true;
 }
 
@@ -139,16 +147,6 @@ bool applyOcclusion(const std::string& value, CullOptions& options, std::string&
         return false;
     }
     options.occlusion = value == "on" ? OcclusionUse::On : OcclusionUse::Off;
-    return true;
-}
-
-bool applyTechniqueMargin(const std::string& value, CullOptions& options, std::string& error) {
-    const auto number = numbersFromText(value, 1);
-    if (!number || (*number)[0] < 0.0 || (*number)[0] > kWidestTechnique) {
-        error = "bad techniquemargin \"" + value + "\" (use metres from 0 to 10000, e.g. techniquemargin=50)";
-        return false;
-    }
-    options.techniqueMargin = (*number)[0];
     return true;
 }
 

@@ -10,23 +10,23 @@
 
 namespace osgAnalyticBin {
 
-/// Key `O`: draws, over the picture of the view's camera, what terrain is known to cover in it. Tiles behind that are
-/// culled with `occlusion=on`, or `auto` while it is in use. Where culling is frozen, or in a second window, it stands
-/// as a curtain before the eye that culls. Nothing is drawn while terrain hides nothing. One handler for each view.
-/// Cost: while shown, a TileSurvey for each frame.
+/// Key `O`: draws a curtain over the part of the picture that terrain covers. Tiles behind the curtain are culled with
+/// `occlusion=on`, and with `auto` while it is in use. With frozen culling and in a second window, the curtain stands
+/// in front of the eye that culls. There is no curtain while terrain hides no tile. Use one handler for each view.
+/// Cost: one TileSurvey a frame while the curtain is shown.
 class OSGANALYTICBINVIEWER_EXPORT CoveredPictureHandler : public osgGA::GUIEventHandler {
 public:
     CoveredPictureHandler();
 
     /// Default `O`.
     void setKeyEvent(int key) { _key = key; }
-    /// Whether it is drawn from the next frame on, as the key chooses.
+    /// Shows or removes the curtain from the next frame on, as the key does.
     void setShown(bool shown) { _isShown = shown; }
 
-    /// The present drawing in the world's frame; without children while nothing is drawn.
+    /// The curtain, in the world's frame. It has no children while nothing is drawn.
     [[nodiscard]] const osg::Group& curtain() const { return *_curtain; }
 
-    /// Handles the key, and draws anew at every frame. Returns: whether the key was handled.
+    /// Handles the key, and makes the curtain anew in every frame. Returns: whether the key was handled.
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
     /// The key, for osgViewer::HelpHandler.
     void getUsage(osg::ApplicationUsage& usage) const override;

@@ -14,8 +14,9 @@
 
 namespace osgAnalyticBin {
 
-/// Whether a place is among the latitudes and longitudes at which the tile or its descendants may draw. Those of a
-/// terrain tile that is drawn by another technique may overhang its bin. True for a bin that is not valid.
+/// Whether a place lies within the latitudes and longitudes at which the tile or its descendants may draw. Another
+/// technique may draw beyond those of the bin, by the margin that the application vouches for. True for a bin that is
+/// not valid.
 [[nodiscard]] bool isInColumn(const core::Geodetic& place, const AnalyticBinCullCallback& tile,
                               const core::Ellipsoid& ellipsoid);
 
@@ -23,7 +24,7 @@ namespace osgAnalyticBin {
 class GroundBelow {
 public:
     /// Whether the mesh, a tile's own, is below the eye along the ellipsoid's normal. False in doubt: where the normal
-    /// meets no triangle, and for terrain tiles that have no mesh yet, or one that may be drawn elsewhere.
+    /// meets no triangle, and for terrain tiles that have no mesh yet or whose technique may draw it elsewhere.
     /// Cost: a search through the mesh's triangles, or some ten products of vectors while the eye stays above the same
     /// triangle.
     [[nodiscard]] bool isBelow(const core::Geodetic& eye, osg::Node& mesh, const AnalyticBinCullCallback& tile,

@@ -21,7 +21,7 @@ struct TileFit {
     /// own.
     double skirt = 0.0;
     bool isScalable = false;
-    /// False: another technique may end what it draws before the surface ends.
+    /// False: another technique may draw less than the whole surface at its borders.
     bool isInPlace = true;
     /// False: the node is not terrain, and left as it is. True with a bin that is not valid: never culled.
     bool isTerrain = false;

@@ -73,12 +73,9 @@ CullOptions Database::options() const {
 }
 
 void Database::setOptions(const CullOptions& options) {
-    {
-        const std::lock_guard<std::mutex> lock(_mutex);
-        _options = options;
-    }
-    const TerrainShape present = shape();
+    const TerrainShape present = shape(options);
     const std::lock_guard<std::mutex> lock(_mutex);
+    _options = options;
     _fittedShape = present;
     ++_generation;
     (void)takeMerged(_onTheirWay);
@@ -106,8 +103,8 @@ void Database::refitLateComers() {
     if (takeMerged(_lateComers)) requestRefit();
 }
 
-TerrainShape Database::shape() const {
-    const std::optional<double> vouchedMargin = options().techniqueMargin;
+TerrainShape Database::shape(const CullOptions& options) const {
+    const std::optional<double>& vouchedMargin = options.techniqueMargin;
     osg::ref_ptr<osgTerrain::Terrain> terrain;
     if (!_terrain.lock(terrain)) return {1.0, 1.0, false, vouchedMargin.value_or(0.0)};
     // tiles get copies of it
@@ -123,7 +120,7 @@ TerrainShape Database::fittedShape() const {
 }
 
 bool Database::takeShapeChange() {
-    const TerrainShape present = shape();
+    const TerrainShape present = shape(options());
     const std::lock_guard<std::mutex> lock(_mutex);
     const bool hasChanged = !(present == _fittedShape);
     _fittedShape = present;

@@ -48,7 +48,7 @@ public:
     /// `terrain` and `index` may be null.
     Database(const CullOptions& options, const osg::EllipsoidModel* ellipsoid, osgTerrain::Terrain* terrain,
              const BinIndex* index)
-        : _ellipsoid(ellipsoid), _terrain(terrain), _index(index), _options(options), _fittedShape(shape()) {}
+        : _ellipsoid(ellipsoid), _terrain(terrain), _index(index), _options(options), _fittedShape(shape(options)) {}
 
     /// The node that the database is attached to: the CoordinateSystemNode, or, without one, the root of the scene.
     void setRoot(const osg::Node& node) { _root = &node; }
@@ -77,9 +77,9 @@ public:
     [[nodiscard]] const osg::EllipsoidModel* ellipsoid() const { return _ellipsoid.get(); }
     [[nodiscard]] const BinIndex* index() const { return _index.get(); }
 
-    /// The shape that the Terrain, if any, gives its tiles at present. Not in the pager's threads: the application may
-    /// change it meanwhile.
-    [[nodiscard]] TerrainShape shape() const;
+    /// The shape that the Terrain, if any, gives its tiles at present, as far as these options tell. Not in the pager's
+    /// threads: the application may change it meanwhile.
+    [[nodiscard]] TerrainShape shape(const CullOptions& options) const;
 
     /// The shape that tiles are fitted to: that of the last update traversal. In any thread.
     [[nodiscard]] TerrainShape fittedShape() const;

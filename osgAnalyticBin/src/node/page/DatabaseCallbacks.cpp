@@ -46,8 +46,7 @@ void noteOccluded(const OccludedTiles& tiles, CullTraversal::LastView& last) {
 }
 
 std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack,
-                                        Database& database, const DatabaseView& view) {
-    const CullOptions options = database.options();
+                                        Database& database, const CullOptions& options, const DatabaseView& view) {
     const HorizonUse horizonUse = options.effectiveHorizonUse();
     const bool isGiven = horizonUse == HorizonUse::Given;
     // an eye below the terrain looks through the backs of the faces that would hide
@@ -111,16 +110,17 @@ void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     (void)node->getBound();
     beginWithAllPlanes(*cullStack);
     CullTraversal& traversal = CullTraversal::of(*nv);
+    const CullOptions options = _database->options();
     DatabaseView view{_database.get(),
                       toCore(*_database->ellipsoid()),
-                      _database->shape(),
+                      _database->shape(options),
                       nullptr,
                       cullStack->getModelViewMatrix(),
                       cullStack->getProjectionMatrix(),
                       traversal.planes(*cullStack),
                       &traversal.plan()};
     view.plan->clear();
-    const auto eye = eyeOver(*group, *nv, *cullStack, *_database, view);
+    const auto eye = eyeOver(*group, *nv, *cullStack, *_database, options, view);
     if (eye) view.eye = &*eye;
     const CullTraversal::DatabaseScope scope(*nv, traversal, view);
     traverse(node, nv);

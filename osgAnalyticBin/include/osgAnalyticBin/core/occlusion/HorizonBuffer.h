@@ -58,7 +58,7 @@ public:
     /// operations per strip that it spans.
     [[nodiscard]] bool hides(const Outline& body);
 
-    /// The heights that are covered in a strip, so far. They are empty where nothing is.
+    /// The heights that are covered in a strip so far; an empty interval if nothing is covered.
     [[nodiscard]] Interval covered(std::size_t strip) const noexcept { return {_lower[strip], _upper[strip]}; }
 
 private:
