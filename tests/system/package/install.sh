@@ -1,0 +1,87 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+# SPDX-License-Identifier: MIT
+#
+# Installs a build, moves the installed tree, and uses it there as others would: by CMake, by pkg-config, from the shell
+# and from the stock osgconv; then installs and uninstalls, after which nothing may be left.
+# Arguments: source folder, build folder, scratch folder (emptied), library folder below a prefix.
+set -eu
+
+source=$1
+build=$2
+scratch=$3
+libdir=$4
+moved="$scratch/moved"
+unset OSG_LIBRARY_PATH LD_LIBRARY_PATH CMAKE_PREFIX_PATH PKG_CONFIG_PATH || true
+
+fail() {
+    echo "install.sh: $*" >&2
+    exit 1
+}
+
+quietly() { # runs a command and shows what it said only when it fails
+    "$@" >"$scratch/log" 2>&1 || {
+        cat "$scratch/log" >&2
+        fail "failed: $*"
+    }
+}
+
+consumer() { # name of a build folder, then more arguments of cmake
+    folder="$scratch/$1"
+    shift
+    cmake -S "$source/tests/system/consumer" -B "$folder" -G Ninja -DCMAKE_PREFIX_PATH="$moved" "$@"
+}
+
+rm -rf "$scratch"
+mkdir -p "$scratch"
+quietly cmake --install "$build" --prefix "$scratch/first"
+mv "$scratch/first" "$moved"
+export LD_LIBRARY_PATH=
+
+echo "== no installed text names a folder of the build"
+! grep -rIlF -e "$source" -e "$build" -e "$scratch" "$moved" || fail "the files above do"
+
+echo "== find_package, components core and kit"
+quietly consumer build
+quietly cmake --build "$scratch/build"
+ctest --test-dir "$scratch/build" --output-on-failure --no-tests=error
+
+echo "== component core without OpenSceneGraph; components kit and viewer say what it needs"
+quietly consumer core -DCONSUMER_COMPONENTS=core -DCMAKE_DISABLE_FIND_PACKAGE_OpenSceneGraph=ON
+quietly cmake --build "$scratch/core"
+! consumer kit -DCMAKE_DISABLE_FIND_PACKAGE_OpenSceneGraph=ON >"$scratch/log" 2>&1 || fail "kit was found without OSG"
+tr '\n' ' ' <"$scratch/log" | tr -s ' ' | grep -q "components kit and viewer need OpenSceneGraph" || {
+    cat "$scratch/log" >&2
+    fail "no clear word about OpenSceneGraph"
+}
+
+echo "== pkg-config"
+export PKG_CONFIG_PATH="$moved/$libdir/pkgconfig"
+for pair in uses_core:osgAnalyticBinCore uses_kit:osgAnalyticBin uses_viewer:osgAnalyticBinViewer; do
+    program=${pair%:*}
+    flags=$(pkg-config --cflags --libs "${pair#*:}")
+    # shellcheck disable=SC2086
+    quietly "${CXX:-c++}" "$source/tests/system/consumer/$program.cpp" -o "$scratch/$program" $flags
+    LD_LIBRARY_PATH="$moved/$libdir" "$scratch/$program" || fail "$program by pkg-config failed"
+done
+
+echo "== programs find their library where they are, tell their version, and have man pages where help2man is"
+for program in "$moved"/bin/*; do
+    name=$(basename "$program")
+    quietly "$program" --help
+    quietly "$program" --version
+    grep -Eq "^$name \(osgAnalyticBin\) [0-9]+\.[0-9]+\.[0-9]+$" "$scratch/log" || fail "$name --version says something else"
+    command -v help2man >/dev/null || continue
+    zcat "$moved/share/man/man1/$name.1.gz" | grep -q '^\.SH OPTIONS' || fail "no man page of $name, or one without options"
+done
+
+echo "== the stock osgconv finds the plugins"
+for format in analyticbin binflight proceduralglobe; do
+    OSG_LIBRARY_PATH="$moved/$libdir" osgconv --format "$format" 2>&1 | grep -q "=" || fail "no plugin $format"
+done
+
+echo "== uninstall leaves nothing"
+quietly cmake --install "$build" --prefix "$scratch/second/deeper"
+quietly cmake --build "$build" --target uninstall
+[ -z "$(find "$scratch/second" -not -type d 2>/dev/null)" ] || fail "files are left in $scratch/second"
+[ ! -e "$scratch/second/deeper" ] || fail "folders are left in $scratch/second"

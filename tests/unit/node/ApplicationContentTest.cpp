@@ -1,0 +1,363 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// What applications put on a globe on which bins are installed: instances, content of their own, clones.
+// Oracle: what OSG draws of the same scene; random scenes of all of this: tests/long/scenes. State, masks and eyes:
+// ApplicationStateTest.cpp.
+
+#include "ApplicationGlobe.h"
+
+#include <osgAnalyticBin/InstallBins.h>
+
+#include <gtest/gtest.h>
+#include <osg/Geometry>
+#include <osg/LOD>
+#include <osgDB/ReadFile>
+#include <osgDB/WriteFile>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+TEST(Instances, AreDrawnInAllOfTheirPlaces) {
+    MeshGlobe globe;
+    const osg::ref_ptr<osg::PagedLOD> instance = makePaged(makeMeshTile(extentsDeg(0, 5, 0, 5), 4000.0), "no.osgb");
+    for (const double turn : {0.0, 120.0}) {
+        const osg::ref_ptr<osg::MatrixTransform> place =
+            new osg::MatrixTransform(osg::Matrixd::rotate(osg::DegreesToRadians(turn), 0, 0, 1));
+        place->addChild(instance);
+        globe.root->addChild(place);
+    }
+    for (const bool isInstalled : {false, true}) {
+        if (isInstalled) installBins(*globe.root);
+        EXPECT_TRUE(globe.draws(*instance, downTo(2.5, 2.5))) << isInstalled;
+        EXPECT_TRUE(globe.draws(*instance, downTo(2.5, 122.5))) << isInstalled;
+    }
+    EXPECT_FALSE(globe.drawsAntipode());
+    EXPECT_EQ(installedOn(*instance), nullptr) << "no bin holds for all of its places";
+}
+
+TEST(Instances, ThatAreMadeLaterAreDrawnInAllOfTheirPlaces) {
+    MeshGlobe globe;
+    const osg::ref_ptr<osg::PagedLOD> instance = makePaged(makeMeshTile(extentsDeg(0, 5, 0, 5), 4000.0), "no.osgb");
+    globe.root->addChild(instance);
+    installBins(*globe.root);
+    const osg::ref_ptr<osg::MatrixTransform> place =
+        new osg::MatrixTransform(osg::Matrixd::rotate(osg::DegreesToRadians(120.0), 0, 0, 1));
+    place->addChild(instance);
+    globe.root->addChild(place);
+    EXPECT_TRUE(globe.draws(*instance, downTo(2.5, 2.5)));
+    EXPECT_TRUE(globe.draws(*instance, downTo(2.5, 122.5)));
+}
+
+TEST(AddedContent, OfAnApplicationsGroupIsDrawnAtOnce) {
+    FiledGlobe globe;
+    EXPECT_EQ(installedOn(*globe.group), nullptr) << "the application's group is no tile";
+    const osg::ref_ptr<osg::Node> vehicle = makeTower(ecefDeg(20, 20, 30000.0));
+    globe.group->addChild(vehicle);
+    EXPECT_TRUE(globe.draws(*vehicle, beside(ecefDeg(20, 20, 30000.0))));
+    update(*globe.root);
+    EXPECT_TRUE(globe.draws(*vehicle, beside(ecefDeg(20, 20, 30000.0))));
+    // and follows it
+    vehicle->asTransform()->asMatrixTransform()->setMatrix(osg::Matrixd::translate(ecefDeg(20, 60, 1000.0)));
+    EXPECT_TRUE(globe.draws(*vehicle, downTo(20, 60, 3000.0, 5.0)));
+    update(*globe.root);
+    EXPECT_TRUE(globe.draws(*vehicle, downTo(20, 60, 3000.0, 5.0)));
+}
+
+// A leaf of a file is a transform, whose bin stands on a group above it.
+TEST(AddedContent, IsALeafThatIsMovedByItsOwnTransform) {
+    FiledGlobe globe;
+    osg::Node* leaf = globe.group->getChild(0);
+    while (!leaf->asTransform()) leaf = leaf->asGroup()->getChild(0);
+    const osg::Vec3d place = leaf->getBound().center();
+    osg::MatrixTransform& transform = *leaf->asTransform()->asMatrixTransform();
+    EXPECT_TRUE(globe.draws(transform, CullView::lookAt(place * 1.1, {0, 0, 0}, {0, 0, 1}, 5.0)));
+    const osg::Matrixd away = osg::Matrixd::rotate(osg::DegreesToRadians(120.0), osg::Vec3d(0, 0, 1));
+    transform.setMatrix(transform.getMatrix() * away);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(globe.draws(transform, CullView::lookAt(place * away * 1.1, {0, 0, 0}, {0, 0, 1}, 5.0))) << i;
+        update(*globe.root);
+    }
+}
+
+TEST(AddedContent, IsATileThatIsATransformAndMoves) {
+    MeshGlobe globe;
+    const osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform;
+    tile->addChild(makeMeshTile(extentsDeg(10, 20, 10, 20), 1000.0));
+    setStoredBin(*tile, AnalyticBin(core::GeodeticBin::fromDegrees({10, 20}, {10, 20}, {-60000, 2000})));
+    globe.root->addChild(tile);
+    installBins(*globe.root);
+    ASSERT_NE(installedOn(*tile), nullptr);
+    EXPECT_TRUE(globe.draws(*tile, downTo(15, 15)));
+    EXPECT_FALSE(globe.draws(*tile, downTo(15, 135)));
+    tile->setMatrix(osg::Matrixd::rotate(osg::DegreesToRadians(120.0), osg::Vec3d(0, 0, 1)));
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(globe.draws(*tile, downTo(15, 135))) << i;
+        update(*globe.root);
+    }
+}
+
+TEST(AddedContent, BelowATileWidensItsBinAndThoseAbove) {
+    FiledGlobe globe;
+    osg::Group* const leaf = globe.group->getChild(0)->asGroup();
+    const osg::Vec3d place = ecefDeg(20, 20, 30000.0);
+    const osg::ref_ptr<osg::Node> tower =
+        makeTower(place * osg::Matrixd::inverse(leaf->getChild(0)->getWorldMatrices()[0]));
+    const CullView view = beside(place);
+    EXPECT_FALSE(globe.draws(*leaf, view));
+    leaf->getChild(0)->asGroup()->addChild(tower);
+    EXPECT_TRUE(globe.draws(*tower, view));
+    update(*globe.root);
+    EXPECT_TRUE(globe.draws(*tower, view));
+    EXPECT_GE(installedOn(*globe.tile)->getBin().bin().altitude().upper, 30000.0);
+    EXPECT_LE(installedOn(*globe.tile)->getBin().bin().altitude().upper, 31000.0);
+    // the tiles are culled by what they hold now
+    EXPECT_FALSE(globe.draws(*tower, beside(ecefDeg(20, 20, 60000.0))));
+    EXPECT_FALSE(globe.draws(*leaf, downTo(20, 80, 1e5, 5.0)));
+}
+
+// As FlightGear has it: trees in a level of detail, and a house.
+TEST(AddedContent, OnTheSurfaceOfATileKeepsOsgsOwnCulling) {
+    MeshGlobe globe;
+    const osg::ref_ptr<osg::Group> content = new osg::Group;
+    const osg::ref_ptr<osg::LOD> trees = new osg::LOD;
+    trees->addChild(makeTower(ecefDeg(3, 3, 0)), 0.0f, 1e9f);
+    const osg::ref_ptr<osg::MatrixTransform> house = makeTower(ecefDeg(4, 4, 0));
+    content->addChild(makeMeshTile(extentsDeg(0, 5, 0, 5), 0.0));
+    content->addChild(trees);
+    content->addChild(house);
+    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(content, "no.osgb");
+    globe.root->addChild(tile);
+    const auto drawnAt = [&](double latitude, double longitude) {
+        const CullView view = downTo(latitude, longitude, 20000.0);
+        return std::array<bool, 3>{globe.draws(*content->getChild(0), view), globe.draws(*trees, view),
+                                   globe.draws(*house, view)};
+    };
+    for (const bool isInstalled : {false, true}) {
+        if (isInstalled) installBins(*globe.root);
+        EXPECT_EQ(drawnAt(3, 3), (std::array<bool, 3>{true, true, false})) << isInstalled;
+        EXPECT_EQ(drawnAt(4, 4), (std::array<bool, 3>{true, false, true})) << isInstalled;
+        EXPECT_EQ(drawnAt(1, 1), (std::array<bool, 3>{true, false, false})) << isInstalled;
+    }
+    EXPECT_TRUE(trees->getCullingActive());
+    EXPECT_FALSE(content->getCullingActive());
+}
+
+TEST(AddedContent, OnTheSurfaceIsDrawnNoMoreOftenThanWithoutBins) {
+    MeshGlobe globe;
+    globe.root->removeChildren(0, globe.root->getNumChildren());
+    for (int row = 0; row < 5; ++row) {
+        for (int column = 0; column < 8; ++column) {
+            const double south = 0.25 * row, west = 0.25 * column;
+            const auto content = makeMeshTile(extentsDeg(south, south + 0.25, west, west + 0.25), 0.0);
+            const osg::Matrixd toLocal = osg::Matrixd::inverse(content->getMatrix());
+            for (int i = 0; i < 6; ++i) {
+                const osg::ref_ptr<osg::MatrixTransform> tower =
+                    makeTower(ecefDeg(south + 0.04 * i, west + 0.03 * i + 0.02, 0));
+                tower->setMatrix(tower->getMatrix() * toLocal);
+                const osg::ref_ptr<osg::LOD> trees = new osg::LOD;
+                trees->addChild(tower, 0.0f, 3e4f);
+                content->addChild(trees);
+            }
+            globe.root->addChild(makePaged(content, "no.osgb"));
+        }
+    }
+    const auto drawn = [&globe](const CullView& view) {
+        return cull(*globe.scene, view, *globe.visitor, ++globe.frame).drawn.size();
+    };
+    const std::array<CullView, 3> views{
+        downTo(0.6, 1.0, 15000.0), CullView::lookAt(ecefDeg(0.1, 0.1, 1500.0), ecefDeg(0.6, 0.8, 0.0), {1, 0, 0}, 55.0),
+        CullView::lookAt(ecefDeg(1.2, 1.9, 300.0), ecefDeg(1.1, 1.6, 0.0), {1, 0, 0}, 30.0)};
+    std::array<std::size_t, 3> without{};
+    std::transform(views.begin(), views.end(), without.begin(), drawn);
+    installBins(*globe.root);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        EXPECT_GT(without[i], 1u);
+        EXPECT_LE(drawn(views[i]), without[i]) << i;
+    }
+}
+
+TEST(AddedContent, OfAPagedTileItselfIsDrawn) {
+    FiledGlobe globe;
+    const osg::Vec3d place = ecefDeg(20, 20, 30000.0);
+    const osg::ref_ptr<osg::Node> tower = makeTower(place);
+    globe.tile->addChild(tower, 0.0f, 1e10f);
+    EXPECT_TRUE(globe.draws(*tower, beside(place)));
+    update(*globe.root);
+    EXPECT_TRUE(globe.draws(*tower, beside(place)));
+}
+
+TEST(AddedContent, ThatCameWithAFileIsDrawn) {
+    FiledGlobe globe;
+    const osg::Vec3d place = ecefDeg(20, 20, 30000.0);
+    const osg::ref_ptr<osg::Group> file = new osg::Group;
+    file->addChild(makeMeshTile(extentsDeg(10, 30, 0, 40), 200.0));
+    const osg::ref_ptr<osg::MatrixTransform> written = makeTower(place);
+    written->setDataVariance(osg::Object::DYNAMIC);
+    file->addChild(written);
+    ASSERT_TRUE(osgDB::writeNodeFile(*file, globe.folder / "group.osgb"));
+    pageOut(*globe.tile);
+    const osg::ref_ptr<osg::Node> content = readBelow(*globe.tile);
+    // as the pager does before it merges a file
+    (void)content->getBound();
+    putBelow(*globe.tile, content);
+    osg::Node& tower = *content->asGroup()->getChild(1);
+    EXPECT_TRUE(globe.draws(tower, beside(place)));
+    update(*globe.root);
+    EXPECT_TRUE(globe.draws(tower, beside(place)));
+}
+
+TEST(AddedContent, ThatMakesATileNoneLeavesItToOsg) {
+    FiledGlobe globe;
+    const osg::ref_ptr<osg::MatrixTransform> vehicle = makeTower(ecefDeg(20, 20, 100.0));
+    vehicle->setDataVariance(osg::Object::DYNAMIC);
+    globe.tile->addChild(vehicle, 0.0f, 1e10f);
+    setCullOptions(*globe.root, {});
+    EXPECT_EQ(installedOn(*globe.tile), nullptr);
+    EXPECT_TRUE(globe.tile->getCullingActive());
+    vehicle->setMatrix(osg::Matrixd::translate(ecefDeg(20, 100.0, 100.0)));
+    EXPECT_TRUE(globe.draws(*vehicle, downTo(20, 100.0, 3000.0, 5.0)));
+}
+
+TEST(AddedContent, IsNoticedBelowLevelsOfDetailThatTellTheirOwnBound) {
+    MeshGlobe globe;
+    const osg::ref_ptr<osg::LOD> level = new osg::LOD;
+    level->setCenter(osg::Vec3(0, 0, 0));
+    level->setRadius(7e6f);
+    globe.root->replaceChild(globe.tiles[19], level);
+    level->addChild(globe.tiles[19], 0.0f, 1e10f);
+    installBins(*globe.root);
+    EXPECT_TRUE(globe.drawsAntipode()) << "a level of detail may leave a hole";
+    const osg::Vec3d place = ecefDeg(20, -20, 30000.0);
+    const osg::ref_ptr<osg::Node> tower = makeTower(place);
+    globe.tiles[19]->addChild(tower, 0.0f, 1e10f);
+    EXPECT_TRUE(globe.draws(*tower, beside(place)));
+}
+
+TEST(AddedContent, IsNoticedWhereVerticesRiseWithinTheBoxOfTheMesh) {
+    FiledGlobe globe;
+    auto* const vertices = dynamic_cast<osg::Vec3Array*>(drawableOf(*globe.group)->asGeometry()->getVertexArray());
+    ASSERT_NE(vertices, nullptr);
+    (void)globe.root->getBound();
+    // a post in the middle, towards the corner of the tile's box
+    const osg::Vec3d up = ecefDeg(20, 20, 1.0) / ecefDeg(20, 20, 1.0).length();
+    (*vertices)[40] += osg::Vec3(up * 12000.0);
+    vertices->dirty();
+    drawableOf(*globe.group)->dirtyBound();
+    (void)globe.root->getBound();
+    update(*globe.root);
+    EXPECT_GE(installedOn(*globe.tile)->getBin().bin().altitude().upper, 12000.0);
+}
+
+TEST(AddedContent, IsHeldByBinsThatAreInstalledAgain) {
+    FiledGlobe globe;
+    osg::Node& leaf = *globe.group->getChild(0)->asGroup()->getChild(0);
+    setStoredBin(*globe.tile, AnalyticBin(extentsDeg(10, 50, 0, 40).withAltitude({-40000, 300})));
+    installBins(*globe.root);
+    // within what coarse meshes are allowed to leave a stored bin by
+    const osg::Vec3d place = ecefDeg(20, 20, 2000.0);
+    const osg::ref_ptr<osg::Node> tower = makeTower(place * osg::Matrixd::inverse(leaf.getWorldMatrices()[0]));
+    leaf.asGroup()->addChild(tower);
+    for (int round = 0; round < 2; ++round) {
+        installBins(*globe.root);
+        update(*globe.root);
+        const osg::Vec3d up = place / place.length();
+        osg::Vec3d east = osg::Vec3d(0, 0, 1) ^ up;
+        east.normalize();
+        // from below, so that the terrain is outside
+        const CullView view = CullView::lookAt(place - east * 5000.0 - up * 300.0, place, up, 2.0);
+        EXPECT_TRUE(globe.draws(*tower, view)) << round;
+    }
+}
+
+TEST(AddedContent, IsKnownToASceneThatIsSavedAtOnce) {
+    FiledGlobe globe;
+    const osg::Vec3d place = ecefDeg(20, 20, 30000.0);
+    globe.group->addChild(makeTower(place));
+    ASSERT_TRUE(osgDB::writeNodeFile(*globe.root, globe.folder / "saved.osgb"));
+    const osg::ref_ptr<osg::Node> back = osgDB::readRefNodeFile(globe.folder / "saved.osgb");
+    ASSERT_TRUE(back);
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    EXPECT_EQ(cull(*back, beside(place), *visitor).drawn.size(), 1u);
+}
+
+// A Terrain of 32 flat osgTerrain tiles below PagedLODs.
+osg::ref_ptr<osgTerrain::Terrain> makeTerrain() {
+    osg::ref_ptr<osgTerrain::Terrain> terrain = new osgTerrain::Terrain;
+    for (int i = 0; i < 32; ++i) {
+        const double south = -90.0 + 45.0 * (i / 8);
+        const double west = -180.0 + 45.0 * (i % 8);
+        terrain->addChild(makePaged(makeFlatTile(extentsDeg(south, south + 45, west, west + 45), 3000.0f), "no.osgb"));
+    }
+    return terrain;
+}
+
+std::size_t tilesDrawn(osg::Node& scene, const CullView& view) {
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    return cull(scene, view, *visitor).drawn.size();
+}
+
+TEST(Clones, OfADatabaseAreCulledByTheirOwnShape) {
+    const osg::ref_ptr<osgTerrain::Terrain> terrain = makeTerrain();
+    // looks over the tile at 3 km, up to where it is at scale 10
+    const CullView view =
+        CullView::lookAt(ecefDeg(22.5, -22.5, 60000.0), ecefDeg(23.5, -22.5, 31000.0), ecefDeg(22.5, -22.5, 0.0), 2.0);
+    installBins(*terrain);
+    const osg::ref_ptr<osgTerrain::Terrain> clone =
+        osg::clone(terrain.get(), osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_CALLBACKS);
+    clone->setVerticalScale(10.0f);
+    osg::Node& tile = *clone->getChild(19);
+    std::set<std::string> visited;
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    tile.asGroup()->getChild(0)->addCullCallback(new VisitRecorder("tile", visited));
+    (void)cull(*clone, view, *visitor);
+    EXPECT_EQ(visited.count("tile"), 1u) << "before the clone has a database of its own";
+    update(*clone);
+    ASSERT_NE(installedOn(tile), nullptr);
+    ASSERT_TRUE(installedOn(tile)->getTerrainShape().has_value());
+    EXPECT_EQ(installedOn(tile)->getTerrainShape()->verticalScale, 10.0);
+    visited.clear();
+    (void)cull(*clone, view, *visitor);
+    EXPECT_EQ(visited.count("tile"), 1u);
+    visited.clear();
+    (void)cull(*clone, CullView::lookAt(ecefDeg(22.5, 157.5, 60000.0), ecefDeg(22.5, 157.5, 0.0), {0, 0, 1}, 20.0),
+               *visitor);
+    EXPECT_EQ(visited.count("tile"), 0u) << "the clone is culled by its own bins";
+    // the original keeps its own
+    EXPECT_EQ(installedOn(*terrain->getChild(19))->getTerrainShape()->verticalScale, 1.0);
+}
+
+TEST(Clones, ThatShareCallbacksGetADatabaseOfTheirOwn) {
+    const osg::ref_ptr<osgTerrain::Terrain> terrain = makeTerrain();
+    installBins(*terrain);
+    const osg::ref_ptr<osgTerrain::Terrain> clone = osg::clone(terrain.get(), osg::CopyOp::DEEP_COPY_NODES);
+    setCullOptions(*clone, {});
+    update(*clone);
+    clone->setVerticalScale(10.0f);
+    update(*clone);
+    ASSERT_NE(installedOn(*clone->getChild(19)), nullptr);
+    EXPECT_EQ(installedOn(*clone->getChild(19))->getTerrainShape()->verticalScale, 10.0);
+    EXPECT_EQ(installedOn(*terrain->getChild(19))->getTerrainShape()->verticalScale, 1.0);
+}
+
+TEST(Clones, ThatShareCallbacksStayVisible) {
+    MeshGlobe globe;
+    // what is drawn is told by bins alone
+    for (const auto& tile : globe.tiles) drawableOf(*tile)->setCullingActive(false);
+    installBins(*globe.root);
+    const osg::ref_ptr<osg::Group> clone = osg::clone(globe.root.get(), osg::CopyOp::DEEP_COPY_NODES);
+    EXPECT_LT(tilesDrawn(*globe.root, downTo(22.5, -22.5)), 8u);
+    EXPECT_EQ(tilesDrawn(*clone, downTo(22.5, -22.5)), 32u);
+    update(*clone);
+    update(*globe.root);
+    EXPECT_EQ(installBins(*clone, CullOptions()), 32u);
+    EXPECT_LT(tilesDrawn(*clone, downTo(22.5, -22.5)), 8u);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test

@@ -1,0 +1,386 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Tiles behind a ridge. Pictures and random scenes: tests/long/scenes. What the core proves: HorizonBufferTest.cpp.
+
+#include "ApplicationGlobe.h"
+#include "CullFixture.h"
+
+#include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/CoveredPicture.h>
+#include <osgAnalyticBin/InstallBins.h>
+
+#include <gtest/gtest.h>
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/PolygonMode>
+#include <osgUtil/UpdateVisitor>
+
+#include <functional>
+#include <support/CapturedNotes.h>
+#include <support/Random.h>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+CullOptions withOcclusion() {
+    CullOptions options;
+    options.occlusion = OcclusionUse::On;
+    return options;
+}
+
+// A globe of 32 tiles, of which one has a row of tiles of 0.2 degrees along the equator: a plain, and in the third tile
+// a ridge, which tile 4 lies behind. The eye is above the middle of tile 0.
+struct RidgeGlobe : MeshGlobe {
+    explicit RidgeGlobe(double ridgeHeight = 8000.0, int tilesInRow = 10) {
+        root->removeChild(tiles[20]);
+        const auto add = [this](double south, double north, double west, double east, double height) {
+            row.push_back(makePaged(makeMeshTile(extentsDeg(south, north, west, east), height), "no.osgb"));
+            root->addChild(row.back());
+        };
+        for (int i = 0; i < tilesInRow; ++i) add(0, 0.2, 0.2 * i, 0.2 * i + 0.2, i == 2 ? ridgeHeight : 0.0);
+        add(0, 0.2, 0.2 * tilesInRow, 45, 0.0);
+        add(0.2, 45, 0, 45, 0.0);
+    }
+
+    [[nodiscard]] static CullView alongRow(double altitude = 1000.0) {
+        return CullView::lookAt(ecefDeg(0.1, 0.1, altitude), ecefDeg(0.1, 1.0, altitude), {1, 0, 0}, 30.0);
+    }
+    [[nodiscard]] bool drawsFarTile(const CullView& view = alongRow()) { return draws(*row[4], view); }
+    [[nodiscard]] BinCounts counts() const { return BinStatistics::of(*visitor).getCounts(); }
+
+    std::vector<osg::ref_ptr<osg::PagedLOD>> row;
+};
+
+TEST(TerrainOcclusion, HidesWhatIsBehindARidge) {
+    RidgeGlobe globe;
+    CullOptions without;
+    without.occlusion = OcclusionUse::Off;
+    installBins(*globe.root, without);
+    EXPECT_TRUE(globe.drawsFarTile());
+    EXPECT_EQ(globe.counts().occluded, 0u);
+    setCullOptions(*globe.root, withOcclusion());
+    EXPECT_FALSE(globe.drawsFarTile());
+    EXPECT_GE(globe.counts().occluded, 1u);
+    EXPECT_GE(globe.counts().outside, globe.counts().occluded);
+    for (const int i : {0, 1, 2})
+        EXPECT_TRUE(globe.draws(*globe.row[static_cast<std::size_t>(i)], globe.alongRow())) << i;
+    // from above the ridge, and from above a lower one
+    EXPECT_TRUE(
+        globe.drawsFarTile(CullView::lookAt(ecefDeg(0.1, 0.1, 40000.0), ecefDeg(0.1, 0.9, 0.0), {1, 0, 0}, 30.0)));
+    RidgeGlobe low(500.0);
+    installBins(*low.root, withOcclusion());
+    EXPECT_TRUE(low.drawsFarTile());
+}
+
+TEST(TerrainOcclusion, IsTheSameWhenTilesAreTestedOneByOne) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    BinStatistics::of(*globe.visitor).setTileByTile(true);
+    EXPECT_FALSE(globe.drawsFarTile());
+    EXPECT_GE(globe.counts().occluded, 1u);
+}
+
+TEST(TerrainOcclusion, TellsWhatOfThePictureIsCovered) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    BinStatistics& statistics = BinStatistics::of(*globe.visitor);
+    EXPECT_FALSE(statistics.covered());
+    EXPECT_FALSE(globe.drawsFarTile());
+    ASSERT_TRUE(statistics.covered());
+    const CoveredPicture picture = *statistics.covered();
+    const auto isCovered = [&](const osg::Vec3d& place) {
+        const glm::dvec3 from = glm::dvec3(place.x(), place.y(), place.z()) - picture.eye.origin;
+        const double forward = glm::dot(from, picture.eye.y), x = glm::dot(from, picture.eye.x) / forward;
+        const double share = (x - picture.across.lower) / picture.across.width();
+        const auto strip = static_cast<std::size_t>(share * static_cast<double>(picture.heights.size()));
+        return picture.heights.at(strip).contains(glm::dot(from, picture.eye.z) / forward);
+    };
+    EXPECT_TRUE(isCovered(ecefDeg(0.1, 0.9, 0.0)));       // in the tile behind the ridge
+    EXPECT_FALSE(isCovered(ecefDeg(0.1, 0.9, 20000.0)));  // above it
+    // a camera that looks down has no horizon in front of it
+    (void)globe.draws(*globe.row[0], CullView::lookAt(ecefDeg(0.1, 0.1, 1000.0), osg::Vec3d(), {0, 0, 1}, 1.0));
+    EXPECT_FALSE(statistics.covered());
+}
+
+TEST(TerrainOcclusion, NeedsARidgeThatIsDrawnAsItWas) {
+    const auto mask = [](RidgeGlobe& globe) { drawableOf(*globe.row[2])->setNodeMask(0); };
+    const auto remove = [](RidgeGlobe& globe) { globe.root->removeChild(globe.row[2]); };
+    const auto outline = [](RidgeGlobe& globe) {
+        globe.row[2]->getOrCreateStateSet()->setAttributeAndModes(
+            new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
+    };
+    const auto flatten = [](RidgeGlobe& globe) {
+        const osg::ref_ptr<osg::MatrixTransform> flat = makeMeshTile(extentsDeg(0, 0.2, 0.4, 0.6), 0.0);
+        globe.row[2]->replaceChild(globe.row[2]->getChild(0), flat);
+    };
+    const auto lower = [](RidgeGlobe& globe) {
+        auto* const transform = globe.row[2]->getChild(0)->asTransform()->asMatrixTransform();
+        transform->setMatrix(transform->getMatrix() * osg::Matrixd::translate(-8000.0, 0.0, 0.0));
+    };
+    const auto lowerVertices = [](RidgeGlobe& globe) {
+        osg::Geometry& geometry = *drawableOf(*globe.row[2])->asGeometry();
+        auto& vertices = static_cast<osg::Vec3Array&>(*geometry.getVertexArray());
+        for (osg::Vec3& v : vertices) v.x() -= 8000.0F;
+        vertices.dirty();
+        geometry.dirtyBound();
+    };
+    const std::vector<std::function<void(RidgeGlobe&)>> ways{mask, remove, outline, flatten, lower, lowerVertices};
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        RidgeGlobe globe;
+        installBins(*globe.root, withOcclusion());
+        EXPECT_FALSE(globe.drawsFarTile());
+        ways[i](globe);
+        EXPECT_TRUE(globe.drawsFarTile()) << i;
+        update(*globe.root);
+        EXPECT_TRUE(globe.drawsFarTile()) << i;
+    }
+}
+
+TEST(TerrainOcclusion, RestsWhereItDoesNotPayIfLeftToItself) {
+    RidgeGlobe globe;
+    CullOptions options;
+    options.occlusion = OcclusionUse::Auto;
+    installBins(*globe.root, options);
+    // plates are made in the updates after a view that could use them
+    int awaited = 0;
+    for (; awaited < 20 && globe.drawsFarTile(); ++awaited) update(*globe.root);
+    EXPECT_GE(awaited, 1);
+    EXPECT_LT(awaited, 20);
+    for (int i = 0; i < 20; ++i) EXPECT_FALSE(globe.drawsFarTile()) << i;
+    const CullView high = CullView::lookAt(ecefDeg(0.1, 0.1, 40000.0), ecefDeg(0.1, 0.9, 0.0), {1, 0, 0}, 30.0);
+    for (int i = 0; i < 600; ++i) EXPECT_TRUE(globe.drawsFarTile(high)) << i;
+    // tried again after 256 views
+    int rested = 0;
+    while (rested < 300 && globe.drawsFarTile()) ++rested;
+    EXPECT_GE(rested, 9);
+    EXPECT_LE(rested, 256);
+    for (int i = 0; i < 20; ++i) EXPECT_FALSE(globe.drawsFarTile()) << i;
+}
+
+// What was found serves the next views as well. It must not outlast the place that it was found for.
+TEST(TerrainOcclusion, IsFoundAgainWhereTheEyeHasMoved) {
+    // the lowest eye that sees the tile behind the ridge, by what is found for one view alone
+    double lowest = 1000.0, highest = 40000.0;
+    while (highest > 1.0001 * lowest) {
+        RidgeGlobe globe;
+        installBins(*globe.root, withOcclusion());
+        const double middle = 0.5 * (lowest + highest);
+        (globe.drawsFarTile(RidgeGlobe::alongRow(middle)) ? highest : lowest) = middle;
+    }
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    for (const double step : {1.0, 5.0, 20.0, 60.0, 200.0, 500.0}) {
+        for (int start = 0; start < 20; ++start) {
+            for (int i = 0; i < 20; ++i) {
+                const double altitude = highest + (0.5 + i - 10 - 0.05 * start) * step;
+                const bool isDrawn = globe.drawsFarTile(RidgeGlobe::alongRow(altitude));
+                EXPECT_TRUE(isDrawn || altitude < 1.002 * highest) << altitude << " by steps of " << step;
+                // not much is lost by looking ahead
+                EXPECT_TRUE(!isDrawn || altitude > 0.8 * highest) << altitude << " by steps of " << step;
+            }
+        }
+    }
+}
+
+TEST(TerrainOcclusion, IsFoundAgainWhereTheCameraHasTurned) {
+    // beside the row: the ridge covers only the northern part of the tile behind it
+    const auto turned = [](double north) {
+        return CullView::lookAt(ecefDeg(-0.1, 0.1, 1000.0), ecefDeg(-0.1 + north, 1.1, 1000.0), {1, 0, 0}, 8.0);
+    };
+    for (const double step : {0.002, 0.01, 0.04}) {
+        // few tiles, so that all views show the same
+        RidgeGlobe globe(8000.0, 5);
+        installBins(*globe.root, withOcclusion());
+        double north = 0.28;
+        EXPECT_FALSE(globe.drawsFarTile(turned(north)));
+        for (; north > 0.25; north -= step) (void)globe.drawsFarTile(turned(north));
+        EXPECT_TRUE(globe.drawsFarTile(turned(north))) << step;
+    }
+}
+
+// Compares a camera that turns with a new search for each view.
+TEST(TerrainOcclusion, HidesNothingMoreWhereTheCameraTurns) {
+    Random random(1712);
+    int hidden = 0;
+    for (int flight = 0; flight < 20; ++flight) {
+        RidgeGlobe globe(8000.0, 5);
+        installBins(*globe.root, withOcclusion());
+        const double fov = random.uniform(2.0, 12.0), start = random.uniform(-0.2, 0.4);
+        double north = random.uniform(-0.2, 0.4);
+        for (int i = 0; i < 20; ++i) {
+            north += random.sign() * random.logUniform(1e-4, 0.1);
+            const CullView view =
+                CullView::lookAt(ecefDeg(start, 0.1, 1000.0), ecefDeg(start + north, 1.1, 1000.0), {1, 0, 0}, fov);
+            RidgeGlobe alone(8000.0, 5);
+            installBins(*alone.root, withOcclusion());
+            const bool isDrawn = globe.drawsFarTile(view), isDrawnAlone = alone.drawsFarTile(view);
+            hidden += alone.counts().occluded > 0 ? 1 : 0;
+            EXPECT_TRUE(isDrawn || !isDrawnAlone) << "flight " << flight << ", view " << i;
+        }
+    }
+    EXPECT_GT(hidden, 50);
+}
+
+// Notes with which priority the files of a tile are requested.
+struct TileRequests : osg::NodeVisitor::DatabaseRequestHandler {
+    explicit TileRequests(const osg::Node& watched) : tile(watched) {}
+    void requestNodeFile(const std::string&, osg::NodePath& path, float priority, const osg::FrameStamp*,
+                         osg::ref_ptr<osg::Referenced>&, const osg::Referenced*) override {
+        if (path.back() == &tile && path.size() > 1 && path.front()->asGroup()) priorities.push_back(priority);
+    }
+    const osg::Node& tile;
+    std::vector<float> priorities;
+};
+
+TEST(TerrainOcclusion, RequestsWhatComesIntoViewSoon) {
+    constexpr double kFrame = 1.0 / 60.0;
+    for (const bool isTileByTile : {false, true}) {
+        RidgeGlobe globe;
+        installBins(*globe.root, withOcclusion());
+        BinStatistics::of(*globe.visitor).setTileByTile(isTileByTile);
+        const osg::ref_ptr<TileRequests> requests = new TileRequests(*globe.row[4]);
+        globe.visitor->setDatabaseRequestHandler(requests);
+        // where the eye comes out from behind the ridge
+        constexpr double kSpeed = 200.0;
+        double altitude = 6000.0, time = 0.0;
+        const auto fly = [&](double speed) {
+            altitude += kFrame * speed;
+            time += kFrame;
+            requests->priorities.clear();
+            return cull(*globe.scene, RidgeGlobe::alongRow(altitude), *globe.visitor, ++globe.frame, time)
+                       .drawn.count(drawableOf(*globe.row[4])) > 0;
+        };
+        EXPECT_FALSE(fly(0.0));
+        EXPECT_TRUE(requests->priorities.empty());
+        double firstRequest = 0.0, firstView = 0.0;
+        while (firstView == 0.0 && time < 60.0) {
+            const bool isDrawn = fly(kSpeed);
+            if (isDrawn) firstView = time;
+            if (firstRequest == 0.0 && !requests->priorities.empty()) firstRequest = time;
+            for (const float priority : requests->priorities) EXPECT_EQ(priority < 0.0F, !isDrawn);
+        }
+        ASSERT_GT(firstView, 2.0);
+        EXPECT_GT(firstRequest, firstView - 1.3);
+        EXPECT_LT(firstRequest, firstView - 0.4);
+        // back behind the ridge, where nothing is asked for once the eye stands still
+        altitude -= 5.0 * kSpeed;
+        for (int i = 0; i < 90; ++i) EXPECT_FALSE(fly(0.0));
+        EXPECT_TRUE(requests->priorities.empty());
+        for (int i = 0; i < 90; ++i) EXPECT_FALSE(fly(-kSpeed));
+        EXPECT_TRUE(requests->priorities.empty());
+    }
+}
+
+TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    EXPECT_FALSE(globe.drawsFarTile());
+    CullView parallel = RidgeGlobe::alongRow();
+    parallel.projection = osg::Matrixd::ortho(-2e4, 2e4, -2e4, 2e4, 1.0, 1e8);
+    EXPECT_TRUE(globe.drawsFarTile(parallel));
+    EXPECT_TRUE(globe.drawsFarTile(RidgeGlobe::alongRow(-200.0)));
+    // the near plane cuts the ridge, or the plain in front of it, away
+    CullView cutting = RidgeGlobe::alongRow();
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 60000.0, 1e8);
+    EXPECT_TRUE(globe.drawsFarTile(cutting));
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 8000.0, 1e8);
+    EXPECT_TRUE(globe.drawsFarTile(cutting));
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 2000.0, 1e8);
+    EXPECT_FALSE(globe.drawsFarTile(cutting));
+    // through a plain that is cut away, the eye sees past the foot of the ridge into a pit
+    RidgeGlobe pit;
+    pit.row[4]->replaceChild(pit.row[4]->getChild(0), makeMeshTile(extentsDeg(0, 0.2, 0.8, 1.0), -15000.0));
+    installBins(*pit.root, withOcclusion());
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 500.0, 1e8);
+    EXPECT_FALSE(pit.drawsFarTile(cutting));
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 6000.0, 1e8);
+    EXPECT_TRUE(pit.drawsFarTile(cutting));
+    // The depths of ridge and tile differ by three steps of a 24-bit depth buffer. A driver may draw either of them.
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 0.01, 1e8);
+    EXPECT_TRUE(globe.drawsFarTile(cutting));
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 1.0, 1e8);
+    EXPECT_FALSE(globe.drawsFarTile(cutting));
+    // where OSG computes it, anything far away in the scene may move it
+    CullView computed = RidgeGlobe::alongRow();
+    computed.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
+    {
+        const CapturedNotes notes;
+        for (int i = 0; i < 3; ++i) EXPECT_TRUE(globe.drawsFarTile(computed));
+        EXPECT_EQ(notes.count("DO_NOT_COMPUTE_NEAR_FAR"), 1u);
+    }
+    CullView nearPlane = RidgeGlobe::alongRow();
+    nearPlane.cullingMode |= osg::CullSettings::NEAR_PLANE_CULLING;
+    EXPECT_TRUE(globe.drawsFarTile(nearPlane));
+    // a scene in kilometres, and depths from 0 to 1
+    osg::ref_ptr<osg::MatrixTransform> scaled = new osg::MatrixTransform(osg::Matrixd::scale(1e-3, 1e-3, 1e-3));
+    scaled->addChild(globe.root);
+    globe.scene = scaled;
+    CullView inKilometres = RidgeGlobe::alongRow();
+    inKilometres.modelView =
+        osg::Matrixd::scale(1e3, 1e3, 1e3) * inKilometres.modelView * osg::Matrixd::scale(1e-3, 1e-3, 1e-3);
+    inKilometres.projection = osg::Matrixd::perspective(30.0, 1.0, 1e-3, 1e5);
+    EXPECT_FALSE(globe.drawsFarTile(inKilometres));
+    inKilometres.projection = osg::Matrixd::perspective(30.0, 1.0, 60.0, 1e5);
+    EXPECT_TRUE(globe.drawsFarTile(inKilometres));
+    globe.scene = globe.root;
+    CullView zeroToOne = RidgeGlobe::alongRow();
+    zeroToOne.projection = osg::Matrixd::perspective(30.0, 1.0, 60000.0, 1e8) * osg::Matrixd::scale(1, 1, 0.5) *
+                           osg::Matrixd::translate(0, 0, 0.5);
+    EXPECT_TRUE(globe.drawsFarTile(zeroToOne));
+    EXPECT_FALSE(globe.drawsFarTile());
+}
+
+TEST(TerrainOcclusion, NeedsMeshesOfTrianglesWithoutHoles) {
+    const auto cutHole = [](osg::Geometry& geometry) {
+        auto& triangles = static_cast<osg::DrawElementsUInt&>(*geometry.getPrimitiveSet(0));
+        triangles.erase(triangles.begin() + 180, triangles.begin() + 186);
+    };
+    // whose diagonals nobody knows
+    const auto makeQuads = [](osg::Geometry& geometry) {
+        constexpr unsigned int kPosts = 9;
+        const osg::ref_ptr<osg::DrawElementsUInt> quads = new osg::DrawElementsUInt(GL_QUADS);
+        for (unsigned int i = 0; i + kPosts + 1 < kPosts * kPosts; ++i) {
+            if (i % kPosts == kPosts - 1) continue;
+            for (const unsigned int corner : {i, i + 1, i + kPosts + 1, i + kPosts}) quads->push_back(corner);
+        }
+        geometry.setPrimitiveSet(0, quads);
+    };
+    const std::vector<std::function<void(osg::Geometry&)>> ways{cutHole, makeQuads};
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        for (const std::size_t tile : {std::size_t{2}, std::size_t{6}}) {
+            RidgeGlobe globe;
+            ways[i](*drawableOf(*globe.row[tile])->asGeometry());
+            installBins(*globe.root, withOcclusion());
+            EXPECT_TRUE(globe.drawsFarTile()) << i << " " << tile;
+        }
+    }
+}
+
+TEST(TerrainOcclusion, NeedsTilesThatAreNotLeftOutAsSmall) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    CullView view = RidgeGlobe::alongRow();
+    view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
+    EXPECT_FALSE(globe.drawsFarTile(view));
+    EXPECT_GE(globe.counts().occluded, 1u);
+    globe.visitor->setSmallFeatureCullingPixelSize(500.0F);
+    (void)globe.drawsFarTile(view);
+    EXPECT_EQ(globe.counts().occluded, 0u);
+}
+
+TEST(TerrainOcclusion, IsOffWithoutAHorizon) {
+    for (const bool isOff : {false, true}) {
+        RidgeGlobe globe;
+        CullOptions options = withOcclusion();
+        if (isOff) options.horizonUse = HorizonUse::Off;
+        // a globe with a hole
+        if (!isOff) globe.root->removeChild(globe.tiles[3]);
+        installBins(*globe.root, options);
+        EXPECT_TRUE(globe.drawsFarTile()) << isOff;
+    }
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
