@@ -316,6 +316,12 @@ FAULTS = [
     Fault("family: an edge is no edge in the slots", "src/core/bin/BinFamily.cpp",
           "return core::isSeparated(SlotBin(", "return true || core::isSeparated(SlotBin(", CORE, "BinFamily.*"),
 
+    # the order of requests
+    Fault("requests: all are passed on", "src/node/cull/RequestOrder.cpp", "request.lag() > kBand * _least) continue;",
+          "request.lag() > 1e9) continue;", NODE, "RequestOrder.*"),
+    Fault("requests: files that do not come hold others back", "src/node/cull/RequestOrder.cpp",
+          "if (time - sinceOf(request) <= kPatience) _least", "_least", NODE, "RequestOrder.*"),
+
     # found by the generator of scenes, and in databases of others
     Fault("stored bins are believed by a quarter of the sag", "src/node/install/TileFit.cpp", "{least + sag, least, least",
           "{least + sag, least + 0.25 * sag, least", NODE, "FalseBins.*"),

@@ -6,6 +6,7 @@
 #include "EmergingTiles.h"
 #include "GroundBelow.h"
 #include "NearMeshes.h"
+#include "RequestOrder.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinStatistics.h>
@@ -97,6 +98,7 @@ public:
         unsigned int resting = 0;  ///< how many of them are left
         std::shared_ptr<FoundOcclusion> occlusion;
         EmergingTiles emerging;
+        osg::ref_ptr<RequestOrder> requests = new RequestOrder;
     };
     [[nodiscard]] LastView& lastView(const Database& database);
 

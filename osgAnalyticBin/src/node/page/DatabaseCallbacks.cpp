@@ -27,8 +27,12 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// Whether to look for tiles behind terrain in this view.
+constexpr unsigned int kShortestRest = 8;
+
+// Whether to look for tiles behind terrain in this view. While tiles are a level behind, as after a jump, what earlier
+// views found says little.
 bool isOcclusionDue(OcclusionUse use, CullTraversal::LastView& last) {
+    if (last.requests->isBehind()) last.rest = last.resting = std::min(last.resting, kShortestRest);
     if (use != OcclusionUse::Auto || last.resting == 0) return use != OcclusionUse::Off;
     --last.resting;
     return false;
@@ -39,7 +43,7 @@ bool isOcclusionDue(OcclusionUse use, CullTraversal::LastView& last) {
 // some views.
 void noteOccluded(const OccludedTiles& tiles, CullTraversal::LastView& last) {
     if (tiles.isAwaited) return;
-    constexpr unsigned int kShortestRest = 8, kLongestRest = 256;
+    constexpr unsigned int kLongestRest = 256;
     const bool pays = 4 * tiles.hidden >= tiles.inView && tiles.hidden > 0;
     last.rest = pays ? 0 : std::clamp(2 * last.rest, kShortestRest, kLongestRest);
     last.resting = last.rest;
@@ -122,6 +126,7 @@ void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     view.plan->clear();
     const auto eye = eyeOver(*group, *nv, *cullStack, *_database, options, view);
     if (eye) view.eye = &*eye;
+    const RequestOrder::Scope requests(*traversal.lastView(*_database).requests, *nv);
     const CullTraversal::DatabaseScope scope(*nv, traversal, view);
     traverse(node, nv);
 }
