@@ -227,7 +227,7 @@ std::string jsonOf(const Settings& settings, const std::vector<std::string>& pos
 }
 
 std::string jsonOf(const Settings& settings, const std::vector<FlightFigures>& methods) {
-    Json json = headOf(settings, "flight");
+    Json json = headOf(settings, settings.jumps ? "jumps" : "flight");
     json["methods"] = flightOf(methods);
     return json.dump(2) + "\n";
 }
@@ -258,7 +258,7 @@ void printTable(std::ostream& output, const std::vector<std::string>& poses,
 }
 
 void printTable(std::ostream& output, const std::vector<FlightFigures>& methods) {
-    std::vector<std::vector<std::string>> lines{flightHead("one flight, paging live")};
+    std::vector<std::vector<std::string>> lines{flightHead("paging live")};
     for (const FlightFigures& m : methods) lines.push_back(flightLine(m));
     turned(lines).print(output);
     for (const char* const name : kComparedWith) {
