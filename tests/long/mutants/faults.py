@@ -317,8 +317,8 @@ FAULTS = [
           "return core::isSeparated(SlotBin(", "return true || core::isSeparated(SlotBin(", CORE, "BinFamily.*"),
 
     # the order of requests
-    Fault("requests: all are passed on", "src/node/cull/RequestOrder.cpp", "request.lag() > kBand * _least) continue;",
-          "request.lag() > 1e9) continue;", NODE, "RequestOrder.*"),
+    Fault("requests: all are passed on", "src/node/cull/RequestOrder.cpp", "request.lag() > kBand * _least;",
+          "request.lag() > 1e9;", NODE, "RequestOrder.*"),
     Fault("requests: files that do not come hold others back", "src/node/cull/RequestOrder.cpp",
           "if (time - sinceOf(request) <= kPatience) _least", "_least", NODE, "RequestOrder.*"),
 

@@ -11,8 +11,10 @@
 #include <gtest/gtest.h>
 #include <osg/PagedLOD>
 
+#include <cstddef>
+#include <ostream>
 #include <set>
-#include <support/Random.h>
+#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -27,30 +29,42 @@ struct NotedRequests : osg::NodeVisitor::DatabaseRequestHandler {
     std::set<const osg::Node*> nodes;
 };
 
-// A view of two tiles from their common border. No other tile has finer tiles.
-class TwoTiles {
+// A view of six tiles: five of one lag, as many as are passed on in any case and one more, and one of another lag. No
+// other tile has finer tiles.
+class SixTiles {
 public:
-    TwoTiles(double firstLag, double secondLag) {
+    SixTiles(double lagOfFive, double lagOfOne) {
         _globe.visitor->setDatabaseRequestHandler(_requests);
         for (const auto& tile : _globe.tiles) setCutoff(*tile, 0.0);
-        setCutoff(first(), kDistance / firstLag);
-        setCutoff(second(), kDistance / secondLag);
+        for (osg::PagedLOD* const tile : five()) setCutoff(*tile, kDistance / lagOfFive);
+        setCutoff(one(), kDistance / lagOfOne);
         installBins(*_globe.root);
     }
 
-    [[nodiscard]] osg::PagedLOD& first() const { return *_globe.tiles[19]; }
-    [[nodiscard]] osg::PagedLOD& second() const { return *_globe.tiles[20]; }
+    [[nodiscard]] std::vector<osg::PagedLOD*> five() const {
+        std::vector<osg::PagedLOD*> tiles;
+        for (const std::size_t i : {11u, 12u, 19u, 27u, 28u}) tiles.push_back(_globe.tiles[i]);
+        return tiles;
+    }
+    [[nodiscard]] osg::PagedLOD& one() const { return *_globe.tiles[20]; }
 
-    // The nodes whose requests reach the pager in a frame.
-    std::set<const osg::Node*> requested(double time = 0.0) {
-        // both at the same distance
-        for (osg::PagedLOD* const tile : {&first(), &second()}) {
+    // How many requests of the five, and of the one, reach the pager in a frame.
+    struct Passed {
+        std::size_t ofFive, ofOne;
+        bool operator==(const Passed& other) const { return ofFive == other.ofFive && ofOne == other.ofOne; }
+        friend std::ostream& operator<<(std::ostream& output, const Passed& passed) {
+            return output << passed.ofFive << " and " << passed.ofOne;
+        }
+    };
+    Passed passed(double time = 0.0) {
+        for (const auto& tile : _globe.tiles) {
             tile->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
             tile->setCenter(kEye + osg::Vec3d(0, 0, kDistance));
         }
         _requests->nodes.clear();
         cull(*_globe.scene, CullView::lookAt(kEye, {0, 0, 0}, {0, 0, 1}, 120.0), *_globe.visitor, ++_globe.frame, time);
-        return _requests->nodes;
+        const std::size_t ofOne = _requests->nodes.count(&one());
+        return {_requests->nodes.size() - ofOne, ofOne};
     }
 
 private:
@@ -66,53 +80,49 @@ private:
     const osg::ref_ptr<NotedRequests> _requests = new NotedRequests;
 };
 
-using Nodes = std::set<const osg::Node*>;
+using Passed = SixTiles::Passed;
 
 TEST(RequestOrder, HoldsRequestsBackUntilWhatIsMoreUrgentIsLoaded) {
-    TwoTiles tiles(0.1, 0.5);
-    EXPECT_EQ(tiles.requested(), Nodes{&tiles.first()});
-    EXPECT_EQ(tiles.requested(), Nodes{&tiles.first()});
-    tiles.first().addChild(new osg::Group);
-    EXPECT_EQ(tiles.requested(), Nodes{&tiles.second()});
-    tiles.second().addChild(new osg::Group);
-    EXPECT_TRUE(tiles.requested().empty());
+    SixTiles tiles(0.1, 0.5);
+    EXPECT_EQ(tiles.passed(), (Passed{5, 0}));
+    EXPECT_EQ(tiles.passed(), (Passed{5, 0}));
+    for (osg::PagedLOD* const tile : tiles.five()) tile->addChild(new osg::Group);
+    EXPECT_EQ(tiles.passed(), (Passed{0, 1}));
+    tiles.one().addChild(new osg::Group);
+    EXPECT_EQ(tiles.passed(), (Passed{0, 0}));
 }
 
 TEST(RequestOrder, PassesOnWhatIsNearlyAsUrgent) {
-    TwoTiles within(0.26, 0.5);
-    EXPECT_EQ(within.requested(), (Nodes{&within.first(), &within.second()}));
-    TwoTiles beyond(0.24, 0.5);
-    EXPECT_EQ(beyond.requested(), Nodes{&beyond.first()});
+    EXPECT_EQ(SixTiles(0.26, 0.5).passed(), (Passed{5, 1}));
+    EXPECT_EQ(SixTiles(0.24, 0.5).passed(), (Passed{5, 0}));
+}
+
+TEST(RequestOrder, PassesOnFourInAnyCase) {
+    EXPECT_EQ(SixTiles(0.5, 0.1).passed(), (Passed{3, 1}));
+    SixTiles tiles(0.1, 0.5);
+    tiles.five().front()->addChild(new osg::Group);
+    EXPECT_EQ(tiles.passed(), (Passed{4, 0}));
+    tiles.five().back()->addChild(new osg::Group);
+    EXPECT_EQ(tiles.passed(), (Passed{3, 1}));
 }
 
 TEST(RequestOrder, WaitsAQuarterOfASecondForAFile) {
-    TwoTiles tiles(0.1, 0.5);
-    EXPECT_EQ(tiles.requested(10.0), Nodes{&tiles.first()});
-    EXPECT_EQ(tiles.requested(10.1), Nodes{&tiles.first()});
-    EXPECT_EQ(tiles.requested(10.24), Nodes{&tiles.first()});
-    EXPECT_EQ(tiles.requested(10.26), (Nodes{&tiles.first(), &tiles.second()}));
-    EXPECT_EQ(tiles.requested(10.5), (Nodes{&tiles.first(), &tiles.second()}));
+    SixTiles tiles(0.1, 0.5);
+    for (const double time : {10.0, 10.1, 10.24}) EXPECT_EQ(tiles.passed(time), (Passed{5, 0})) << time;
+    for (const double time : {10.26, 10.5}) EXPECT_EQ(tiles.passed(time), (Passed{5, 1})) << time;
 }
 
 TEST(RequestOrder, LeavesPrioritiesOfTheApplicationAlone) {
     for (const float offset : {-3.0f, 3.0f}) {
-        TwoTiles tiles(0.1, 0.5);
-        tiles.second().setPriorityOffset(1, offset);
-        EXPECT_EQ(tiles.requested(), (Nodes{&tiles.first(), &tiles.second()})) << offset;
+        SixTiles tiles(0.1, 0.5);
+        tiles.one().setPriorityOffset(1, offset);
+        EXPECT_EQ(tiles.passed(), (Passed{5, 1})) << offset;
     }
-    TwoTiles tiles(0.1, 0.5);
-    tiles.second().setRangeMode(osg::LOD::PIXEL_SIZE_ON_SCREEN);
-    tiles.second().setRange(0, 0.0f, 10.0f);
-    tiles.second().setRange(1, 10.0f, 1e10f);
-    EXPECT_EQ(tiles.requested(), (Nodes{&tiles.first(), &tiles.second()}));
-}
-
-TEST(RequestOrder, PassesOnAtLeastOneRequest) {
-    Random random(51);
-    for (int i = 0; i < 100; ++i) {
-        TwoTiles tiles(random.logUniform(1e-4, 1.0), random.logUniform(1e-4, 1.0));
-        EXPECT_FALSE(tiles.requested().empty());
-    }
+    SixTiles tiles(0.1, 0.5);
+    tiles.one().setRangeMode(osg::LOD::PIXEL_SIZE_ON_SCREEN);
+    tiles.one().setRange(0, 0.0f, 10.0f);
+    tiles.one().setRange(1, 10.0f, 1e10f);
+    EXPECT_EQ(tiles.passed(), (Passed{5, 1}));
 }
 
 }  // namespace

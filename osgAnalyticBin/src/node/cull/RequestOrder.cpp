@@ -6,6 +6,7 @@
 #include <osg/FrameStamp>
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace osgAnalyticBin {
@@ -44,9 +45,14 @@ void RequestOrder::passOn(DatabaseRequestHandler& pager, double time) {
     for (const Request& request : _requests) {
         if (time - sinceOf(request) <= kPatience) _least = std::min(_least, request.lag());
     }
+    std::sort(_requests.begin(), _requests.end(),
+              [](const Request& some, const Request& other) { return some.lag() < other.lag(); });
+    std::size_t passed = 0;
     for (Request& request : _requests) {
         const bool isByDistance = request.lag() < 1.0;
-        if (isByDistance && request.lag() > kBand * _least) continue;
+        const bool mayWait = isByDistance && request.lag() > kBand * _least;
+        if (mayWait && passed >= kAtLeast) continue;
+        ++passed;
         const double since = sinceOf(request);
         pager.requestNodeFile(request.file, request.path, request.priority, request.stamp, *request.request,
                               request.options);

@@ -6,6 +6,7 @@
 #include <osg/NodeVisitor>
 #include <osg/ref_ptr>
 
+#include <cstddef>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -21,11 +22,12 @@ namespace osgAnalyticBin {
 /// have just become due, 0.5 where the next finer level is due, too. A request whose lag is more than kBand times the
 /// least lag is not passed on in this view. Requests that the pager has had for kPatience seconds hold nothing back,
 /// and requests whose priority is not from 0 to 1 (ranges of pixels, priorities of the application) are not held back.
-/// Guarantee: of the requests in a view at least one is passed on; tests: RequestOrder.*.
+/// Guarantee: kAtLeast requests of a view, or all, are passed on; tests: RequestOrder.*.
 /// Cost: a copy of the node path for each request. Threads: one object for each visitor and database.
 class RequestOrder final : public osg::NodeVisitor::DatabaseRequestHandler {
 public:
     static constexpr double kBand = 2.0;
+    static constexpr std::size_t kAtLeast = 4;
     static constexpr double kPatience = 0.25;  // seconds
 
     /// For the length of a traversal of the database.
