@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 # SPDX-License-Identifier: MIT
 #
-# The demo: builds the project and a terrain database of the earth, flies the stock osgviewer over it with three
-# culling methods, and compares pictures and counts. Asks nothing; the second run only flies and compares.
+# The demo: installs the packages that it needs (it says which and why), builds the programs that it needs and a terrain
+# database of the earth, flies the stock osgviewer over it with three culling methods, and compares pictures, counts and
+# cull times. Asks nothing; the second run only flies and compares.
 # Without a display, or with "DISPLAY= sh applications/demo.sh", the viewer draws on a virtual one.
 # Exit code: 0 when every step succeeded and all pictures are equal.
 
@@ -48,12 +49,12 @@ fly() {
     [ -f "$demo/$1/poses.csv" ] || give_up "the flight with method $1 did not reach its end"
 }
 
-step "Installing the Debian packages that are missing"
-sh applications/packages.sh
+step "Installing the Debian packages that are missing: what compiles, OpenSceneGraph, GDAL, and elevation data"
+sh applications/packages.sh demo
 
-step "Building the project in $build"
-cmake --preset release
-cmake --build --preset release
+step "Building osgbindem, osgbinbench and the plugins in $build"
+[ -f "$build/build.ninja" ] || cmake --preset demo
+cmake --build --preset demo
 
 mkdir -p "$demo"
 if [ -n "$(find "$demo/earth.done" -newer "$build/bin/osgbindem" 2>/dev/null)" ]; then

@@ -2,46 +2,81 @@
 # SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 # SPDX-License-Identifier: MIT
 #
-# Installs every Debian 12 package that the build, the tests and the demo need, and those named as arguments, if one is
-# missing.
+# Installs the Debian 12 packages of a group that are missing, and those named as arguments. Before, it says which and
+# why. Groups: demo (what applications/demo.sh needs), all (default: build, tests, documents, measurements, too).
+#     sh applications/packages.sh [demo|all] [PACKAGE...]
 set -eu
 
-packages="
-  ca-certificates ccache clang-format cmake doxygen g++ git help2man ninja-build pkg-config python3
-  libopenscenegraph-dev openscenegraph libglm-dev
-  libgdal-dev gdal-bin proj-data libcli11-dev nlohmann-json3-dev
-  libopenmpi-dev openmpi-bin
-  libgtest-dev librapidcheck-dev libboost-dev libhwy-dev libbenchmark-dev libccd-dev
-  xvfb xauth libgl1-mesa-dri nginx gnuplot-nox
-  ferret-datasets libncarg-data
+# Group, packages, what they are for.
+groups="
+demo | cmake g++ ninja-build | compile
+demo | libopenscenegraph-dev openscenegraph libgl1-mesa-dri | OpenSceneGraph and its viewer
+demo | libglm-dev libboost-dev libhwy-dev | headers of mathematics
+demo | libgdal-dev proj-data | osgbindem reads elevation rasters
+demo | libcli11-dev nlohmann-json3-dev | headers for command lines and JSON
+demo | ferret-datasets libncarg-data | elevation data: the earth, Trinidad
+demo | xvfb xauth | a virtual display
+all | ccache | keeps what was compiled for the next build
+all | libopenmpi-dev openmpi-bin | osgbindem on several machines
+all | libgtest-dev librapidcheck-dev libccd-dev libbenchmark-dev | tests and benchmarks
+all | gdal-bin nginx pkg-config python3 | programs that tests run
+all | ca-certificates clang-format doxygen git help2man | format, documents, man pages
+all | gnuplot-nox | diagrams
 "
 
+group=all
+case ${1:-} in demo | all) group=$1 && shift ;; esac
+
+is_installed() {
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null || true)" = installed ]
+}
+
+# Arguments: packages. Prints those that are missing, each after a space.
+missing_of() {
+    for package in "$@"; do
+        is_installed "$package" || printf ' %s' "$package"
+    done
+}
+
 missing=""
-for package in $packages "$@"; do
-    status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
-    [ "$status" = installed ] || missing="$missing $package"
-done
+reasons=""
+while IFS='|' read -r of packages reason; do
+    [ "${of% }" = demo ] || [ "${of% }" = "$group" ] || continue
+    # shellcheck disable=SC2086
+    new=$(missing_of $packages)
+    [ -n "$new" ] || continue
+    missing="$missing$new"
+    reasons="$reasons $new:$reason
+"
+done <<END
+$(printf '%s' "$groups" | sed '/^$/d')
+END
+new=$(missing_of "$@")
+if [ -n "$new" ]; then
+    missing="$missing$new"
+    reasons="$reasons $new: asked for
+"
+fi
 if [ -z "$missing" ]; then
     echo "packages: all installed"
     exit 0
 fi
 
+printf 'packages: these are missing and are installed now:\n%s' "$reasons"
 as_root=""
 if [ "$(id -u)" != 0 ]; then
     command -v sudo >/dev/null 2>&1 || {
-        echo "packages: missing$missing; run as root or install sudo" >&2
+        echo "packages: run as root or install sudo" >&2
         exit 1
     }
     as_root="sudo"
 fi
 
-echo "packages: installing$missing"
-export DEBIAN_FRONTEND=noninteractive
 log=$(mktemp)
 policy=""
 trap 'rm -f "$log"; [ -z "$policy" ] || $as_root rm -f "$policy"' EXIT
 run() {
-    $as_root env DEBIAN_FRONTEND=noninteractive "$@" >"$log" 2>&1 || {
+    $as_root env DEBIAN_FRONTEND=noninteractive LC_ALL=C "$@" >"$log" 2>&1 || {
         cat "$log" >&2
         echo "packages: \"$*\" failed" >&2
         exit 1
@@ -56,6 +91,10 @@ if is_new nginx && [ ! -e /usr/sbin/policy-rc.d ]; then
     $as_root chmod 755 "$policy"
 fi
 run apt-get update
+# apt answers no for itself and fails; what it would do stands in its last lines.
+# shellcheck disable=SC2086
+$as_root env LC_ALL=C apt-get install --no-install-recommends --assume-no $missing 2>&1 |
+    sed -nE 's/^(Need to get .* of archives|After this operation.*)\.$/packages: \1/p'
 # shellcheck disable=SC2086
 run apt-get install -y --no-install-recommends $missing
 ! is_new nginx || run update-rc.d nginx disable
