@@ -18,6 +18,7 @@
 #include <osg/ProxyNode>
 #include <osgTerrain/TerrainTile>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <exception>
@@ -185,6 +186,22 @@ private:
 
 }  // namespace
 
+namespace {
+
+/// What is stored with a tile is read as latitudes and longitudes.
+void requireGlobe(const FileRecords& records, const DatabaseFiles& files) {
+    for (const auto& [file, record] : records) {
+        const bool isMap = std::any_of(record.tiles.begin(), record.tiles.end(),
+                                       [](const TileRecord& tile) { return tile.surface.isInMap; });
+        if (isMap) {
+            throw Failure("\"" + files.rootFile() +
+                          "\" is a map, whose bins cannot be stored with its tiles; make an index: osgbinconv --index");
+        }
+    }
+}
+
+}  // namespace
+
 void copyDatabase(const DatabaseFiles& files, const std::string& output, const CopyOptions& options,
                   const WalkOptions& walk) {
     requireCopyName(output, files.rootFile(), options.overwrite);
@@ -192,6 +209,7 @@ void copyDatabase(const DatabaseFiles& files, const std::string& output, const C
     survey.images = Images::Checked;  // what is refused must not cost an older copy its files
     const BuiltIndex built = indexFrom(files, walkDatabase(
                                                   files, {}, [](const FileRecord&) {}, survey));
+    requireGlobe(built.records, files);
     CopyTarget target(output, files, built.records, options.overwrite);
     Copy copy(files, built, target, options, walk.isQuiet);
     std::vector<std::thread> threads;

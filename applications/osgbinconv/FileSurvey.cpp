@@ -41,14 +41,14 @@ FilePlace placeOf(const TileFrame& frame, bool isBelowTile, double sampleRatio) 
 }
 
 TileSurface surfaceOf(const FoundTile& tile, double sampleRatio) {
-    // As the installer does where a tile with a stored bin has no CoordinateSystemNode.
-    const osg::ref_ptr<const osg::EllipsoidModel> ellipsoid =
-        tile.frame.ellipsoid ? tile.frame.ellipsoid : new osg::EllipsoidModel;
     TileSurface whole;
+    if (!tile.frame.ellipsoid) return whole;
     bool isFirst = true;
     for (const auto& mesh : tile.meshes) {
-        const TileSurface part = osgAnalyticBin::tileSurface(*mesh, *ellipsoid, tile.frame.localToEcef, sampleRatio);
+        const TileSurface part =
+            osgAnalyticBin::tileSurface(*mesh, *tile.frame.ellipsoid, tile.frame.localToEcef, sampleRatio);
         if (!part.bin.valid()) return {};
+        whole.isInMap = part.isInMap;
         if (isFirst) whole.edgeLow = part.edgeLow;
         isFirst = false;
         whole.bin.expandBy(part.bin);

@@ -68,8 +68,8 @@ BuiltIndex indexFrom(const DatabaseFiles& files, FileRecords records) {
     built.records = std::move(records);
     const TileTree tree(built.records);
     if (tree.tiles().empty()) {
-        throw Failure("no tile of a globe in \"" + files.rootFile() +
-                      "\"; name the root file of a paged, geocentric database");
+        throw Failure("no tile of a globe or a map in \"" + files.rootFile() +
+                      "\"; name the root file of a paged database");
     }
     const std::vector<AnalyticBin> bins = binsWithCracks(tree.tiles());
     built.index = new BinIndex;

@@ -23,8 +23,9 @@ namespace bgi = boost::geometry::index;
 constexpr double kTwoPi = 6.28318530717958647693;
 // Of a tile's width.
 constexpr double kTolerance = 1e-6;
-// Margins are metres on the ground; the smallest globe that they are turned into angles on.
+// Margins are lengths on the ground; the smallest globe that they are turned into angles on.
 constexpr double kSmallestRadius = 1.0e6;
+constexpr double kMapUnitsInRadian = osgAnalyticBin::core::Ellipsoid::kMapUnitsInRadian;
 constexpr double kSmallestCosine = 1e-3;
 
 using Point = bg::model::point<double, 2, bg::cs::cartesian>;
@@ -88,7 +89,7 @@ TileRect rectOf(const osgAnalyticBin::TileSurface& surface) {
     TileRect rect;
     rect.latitude = surface.bin.bin().latitude();
     rect.longitude = surface.bin.bin().longitude();
-    const double rounding = surface.bin.margin() / kSmallestRadius;
+    const double rounding = surface.bin.margin() / (surface.isInMap ? kMapUnitsInRadian : kSmallestRadius);
     // Rounding widens a tile where meridians are close, but narrows it only by what it is where they are apart.
     const double nearestEquator = std::max({0.0, rect.latitude.lower, -rect.latitude.upper});
     const double cosine = std::max(std::cos(nearestEquator), kSmallestCosine);

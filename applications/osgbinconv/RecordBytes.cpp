@@ -114,6 +114,7 @@ void passTile(Stream& s, Tile& tile) {
     for (auto& low : tile.surface.edgeLow) s.number(low);
     s.number(tile.surface.skirt);
     s.flag(tile.surface.isScalable);
+    s.flag(tile.surface.isInMap);
     s.number(tile.fingerprint);
     s.number(tile.parent);
 }

@@ -21,6 +21,9 @@ namespace {
 
 // For files that cannot be read now.
 constexpr Interval kTerrainAltitudes = osgAnalyticBin::CullOptions::kTerrainOnEarth;
+// The unit of a map may be the foot.
+constexpr double kFeetInMetre = 1.0 / 0.3048;
+constexpr Interval kTerrainInMap{kTerrainAltitudes.lower * kFeetInMetre, kTerrainAltitudes.upper* kFeetInMetre};
 
 /// A file that stands on a way back to itself, among those that no order could be found for.
 std::string fileInACycle(const FileRecords& records, const std::map<std::string, std::size_t>& waiting) {
@@ -140,8 +143,9 @@ void TileTree::addGaps(const FileRecord& record, const Parents& above) {
             tile.isKnown = false;
             continue;
         }
-        tile.united.expandBy(AnalyticBin(tile.united.bin().withAltitude(kTerrainAltitudes)));
-        tile.skirtLow = std::min(tile.skirtLow, kTerrainAltitudes.lower);
+        const Interval& altitudes = tile.record->surface.isInMap ? kTerrainInMap : kTerrainAltitudes;
+        tile.united.expandBy(AnalyticBin(tile.united.bin().withAltitude(altitudes)));
+        tile.skirtLow = std::min(tile.skirtLow, altitudes.lower);
     }
 }
 

@@ -95,8 +95,10 @@ public:
     /// Default: CullOptions(). Valid until the next setter.
     [[nodiscard]] const CullOptions& getCullOptions() const { return _setup->options; }
 
-    /// Metres; default: those of a default osg::EllipsoidModel. With radii that are not finite and positive the tile is
-    /// never culled.
+    /// Metres; default: those of a default osg::EllipsoidModel. Both infinite: the bin is one of a map, a box in its
+    /// coordinates, with latitudes and longitudes as core::Ellipsoid::plane() has them; ECEF stands for the map's
+    /// coordinates then, and there is no horizon. With other radii that are not finite and positive the tile is never
+    /// culled.
     void setRadii(double equatorial, double polar);
 
     /// From the frame of the node's children to ECEF; default identity. The frustum test is right under any invertible
@@ -157,7 +159,7 @@ public:
     void setOptionsText(const std::string& text);
     /// toText() of the options.
     [[nodiscard]] std::string getOptionsText() const;
-    /// "EQUATORIAL POLAR" in metres; malformed: a warning, and the tile is never culled.
+    /// "EQUATORIAL POLAR" in metres, or "map"; malformed: a warning, and the tile is never culled.
     void setRadiiText(const std::string& text);
     /// The radii as setRadiiText() reads them.
     [[nodiscard]] std::string getRadiiText() const;
@@ -214,6 +216,9 @@ private:
     void discardPrepared();
     [[nodiscard]] const Prepared& prepared() const;
     [[nodiscard]] Prepared makePrepared() const;
+    [[nodiscard]] bool isInMap() const {
+        return std::isinf(_setup->equatorialRadius) && std::isinf(_setup->polarRadius);
+    }
     [[nodiscard]] core::Ellipsoid ellipsoid() const { return {_setup->equatorialRadius, _setup->polarRadius}; }
     void leaveFamily();
     void fillSlot() const;

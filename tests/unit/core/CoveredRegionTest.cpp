@@ -190,6 +190,17 @@ TEST(CoveredRegion, HoldsAllSegments) {
     EXPECT_GT(held, 0.85 * over);
 }
 
+TEST(CoveredRegion, InAMapHoldsWhatAnEyeOverItSees) {
+    constexpr double kUnits = Ellipsoid::kMapUnitsInRadian;
+    const GeodeticBin region({1000.0 / kUnits, 3000.0 / kUnits}, {-500.0 / kUnits, 500.0 / kUnits}, {0.0, 0.0});
+    const CoveredRegion covered(Ellipsoid::plane(), region);
+    EXPECT_TRUE(covered.holdsSegmentsFrom({0.0, 2000.0, 1e6}));
+    EXPECT_TRUE(covered.holdsSegmentsFrom({499.0, 1001.0, -1e3}));
+    EXPECT_FALSE(covered.holdsSegmentsFrom({501.0, 2000.0, 100.0}));
+    EXPECT_FALSE(covered.holdsSegmentsFrom({0.0, 999.0, 100.0}));
+    EXPECT_FALSE(covered.holdsSegmentsFrom({0.0, 3001.0, 100.0}));
+}
+
 TEST(CoveredRegion, IsAGlobeToo) {
     const auto eye = HorizonEye::fromEye(wgs84(), 100.0, wgs84().toEcef({0.3, 3.1, 1e7}));
     ASSERT_TRUE(eye);

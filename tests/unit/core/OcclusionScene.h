@@ -24,8 +24,8 @@ struct GroundTile {
 
 /// Tiles side by side. Where neighbours have different posts their edges differ, and skirts hang from all of them.
 struct OcclusionScene {
-    /// `hasSpikes`: needles and pits in some scenes.
-    explicit OcclusionScene(Random& random, bool hasSpikes = true);
+    /// `hasSpikes`: needles and pits in some scenes. `isMap`: in the plane of a map, else on a globe.
+    explicit OcclusionScene(Random& random, bool hasSpikes = true, bool isMap = false);
 
     /// Whether the surface or a skirt is between the eye and the point.
     [[nodiscard]] bool isBlocked(const RealVector& point) const;

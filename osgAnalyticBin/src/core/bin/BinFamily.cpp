@@ -107,8 +107,11 @@ void BinFamily::clear(std::size_t i) noexcept {
 }
 
 bool BinFamily::isSeparated(std::size_t i, const PlaneSet& planes, PlaneMask undecided) const noexcept {
-    assert(_data.exact >> i & 1);
-    return core::isSeparated(SlotBin(_data.numbers + i, _data.stride), planes, planes.size(), undecided);
+    assert(_data.filled >> i & 1);
+    const double* const numbers = _data.numbers + i;
+    if (_data.exact >> i & 1)
+        return core::isSeparated(SlotBin(numbers, _data.stride), planes, planes.size(), undecided);
+    return core::isSeparated(QuadraticBin(numbers, _data.stride), planes, planes.size(), undecided);
 }
 
 void BinFamily::classify(const PlaneSet& planes, PlaneMask undecided, FamilyVerdict& verdict) const noexcept {

@@ -151,6 +151,9 @@ bool CoveredRegion::holdsHorizon(const HorizonEye& eye, const PlaneSet& frustum)
 bool CoveredRegion::holdsSegmentsFrom(const glm::dvec3& eyeEcef) const noexcept {
     if (_extents.empty()) return false;
     const Geodetic eye = _ellipsoid.toGeodetic(eyeEcef);
+    // a rectangle is convex
+    if (_ellipsoid.isPlane())
+        return _extents.latitude().contains(eye.latitude) && _extents.longitude().contains(eye.longitude);
     const double smaller = std::min(_ellipsoid.equatorialRadius(), _ellipsoid.polarRadius());
     if (!(eye.altitude >= -0.1 * smaller)) return false;
     const double half = 0.5 * _extents.longitude().width();

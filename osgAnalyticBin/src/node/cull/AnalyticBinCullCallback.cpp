@@ -146,7 +146,8 @@ void AnalyticBinCullCallback::changeBin() {
     _binLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
     _binHigh = shown.valid() ? shown.bin().altitude().upper + shown.margin() : -kUnknown;
     const bool hasMethod = _setup->options.method != Method::None && _setup->options.method != Method::Sphere;
-    _isTested = hasMethod && shown.valid() && areValidRadii(_setup->equatorialRadius, _setup->polarRadius);
+    const bool hasGround = areValidRadii(_setup->equatorialRadius, _setup->polarRadius) || isInMap();
+    _isTested = hasMethod && shown.valid() && hasGround;
     _testsEdges = _setup->options.effectiveEdges();
     _hidesByPoint = isBox(_setup->options.method);
     discardPrepared();
@@ -178,7 +179,7 @@ AnalyticBinCullCallback::Prepared AnalyticBinCullCallback::makePrepared() const 
     if (_testsEdges && !isOwnEdge && core::ExactGeodeticBin::holds(ellipsoid, shown.bin())) {
         prepared.separable.emplace(ellipsoid, shown.bin(), shown.margin());
     }
-    if (_setup->options.effectiveHorizonUse() == HorizonUse::Off) return prepared;
+    if (_setup->options.effectiveHorizonUse() == HorizonUse::Off || isInMap()) return prepared;
     prepared.horizon.emplace(ellipsoid, shown.bin(), shown.margin());
     if (_hidesByPoint) prepared.horizonPoint.emplace(*prepared.horizon);
     if (shown.bin().altitude().upper >= 0.0) return prepared;
@@ -321,7 +322,7 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
     const auto test = [&](const core::PlaneSet& planes, core::PlaneMask& undecided) {
         const core::Side side = sideOf(planes, undecided);
         // what else is known of the view takes time to find
-        if (side == core::Side::Outside || !prepared().horizon)
+        if (side == core::Side::Outside || (!prepared().horizon && !isInMap()))
             return verdict(side, planes, undecided, nullptr, traversal);
         const DatabaseView* const view = viewOn(cullStack, traversal);
         if (view && view->plan && view->plan->isOccluded(*this)) return Verdict{core::Side::Outside, Verdict::Terrain};
@@ -357,7 +358,7 @@ const core::HorizonEye* AnalyticBinCullCallback::eyeWithoutDatabase(osg::CullSta
                                                                     CullTraversal& traversal) const {
     if (_installed || traversal.databaseView()) return nullptr;
     // In a frame of its own the eye would have to be prepared anew for every tile.
-    if (_setup->options.horizonUse != HorizonUse::Given || _frame) return nullptr;
+    if (_setup->options.horizonUse != HorizonUse::Given || _frame || isInMap()) return nullptr;
     const Occluder occluder{ellipsoid(), std::max(0.0, -_setup->options.horizon), _setup->options.inheritViewpoint};
     return traversal.horizonEye(cullStack, nv, occluder);
 }
@@ -390,6 +391,8 @@ bool AnalyticBinCullCallback::isBeyondAnEdge(CullTraversal& traversal, const cor
     if (const auto* box = std::get_if<core::OrientedBoxBin>(&tile.bin)) {
         return core::isSeparated(*box, traversal.hull(planes));
     }
+    const auto* quadratic = isInMap() ? std::get_if<core::QuadraticBin>(&tile.bin) : nullptr;
+    if (quadratic) return core::isSeparated(*quadratic, planes, planes.size(), undecided);
     const auto* exact = std::get_if<core::ExactGeodeticBin>(&tile.bin);
     if (!exact && tile.separable) exact = &*tile.separable;
     return exact && core::isSeparated(*exact, planes, planes.size(), undecided);

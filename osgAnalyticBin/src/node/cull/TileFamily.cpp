@@ -178,7 +178,7 @@ void TileFamily::findSeparated(unsigned int first, std::uint64_t candidates, con
         const core::PlaneMask undecided = verdicts.planes.undecided[number];
         const bool isAcrossEdge = (undecided & (undecided - 1)) != 0;
         if (!isAcrossEdge || !_testsEdges) return;
-        const bool isBeyond = hasBit(bins.exact(), number)
+        const bool isBeyond = hasBit(bins.exact(), number) || _ellipsoid->isPlane()
                                   ? bins.isSeparated(number, planes, undecided)
                                   : _members[first + number].tile->isBeyondAnEdge(traversal, planes, undecided);
         if (isBeyond) verdicts.separated |= std::uint64_t{1} << number;

@@ -3,8 +3,6 @@
 
 #include "BinInstaller.h"
 
-#include "../Inverse.h"
-#include "../cull/PlanarBinCullCallback.h"
 #include "../cull/Scoped.h"
 #include "../cull/SeeThrough.h"
 #include "../cull/TileFamily.h"
@@ -16,9 +14,9 @@
 #include "../surface/TilePlates.h"
 #include "ContentWatch.h"
 #include "Coverage.h"
+#include "InstalledTile.h"
 #include "Instances.h"
 #include "MeshCulling.h"
-#include "PlanarFit.h"
 #include "TileCallback.h"
 #include "TileFit.h"
 
@@ -220,14 +218,12 @@ void BinInstaller::visitTile(FoundTile& tile) {
         return passBy(*tile.node, true);
     }
     if (installsBins() && !hasStoredBin(*tile.node)) {
-        const TerrainShape shape = database().fittedShape();
-        const PlanarFit fit = fitPlanarTile(tile, _options, shape);
-        const bool isOnGlobe = fit.kind == PlanarFit::NotPlanar && tile.frame.ellipsoid;
+        const bool isOnGlobe = tile.frame.ellipsoid && !isMapPlane(*tile.frame.ellipsoid);
         if (!isOnGlobe && isBelowStored()) Database::reportUntold(*linkBetween());
-        if (fit.kind == PlanarFit::Planar) return installPlanar(tile, fit, shape);
-        if (fit.kind == PlanarFit::Contradictory || !tile.frame.ellipsoid) return passBy(*tile.node, true);
+        if (!tile.frame.ellipsoid) return passBy(*tile.node, true);
     }
-    if (installsBins()) return install(tile, hasNewContent);
+    const bool hasGround = !tile.frame.ellipsoid || !installsBins() || database().takes(*tile.frame.ellipsoid);
+    if (installsBins() && hasGround) return install(tile, hasNewContent);
     if (_options.method == Method::None) {
         for (const auto& mesh : tile.meshes) {
             suspendCulling(*mesh);
@@ -301,26 +297,14 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     if (!canWait || _options.occlusion == OcclusionUse::On || database().wantsPlates())
         callback->getInstalledTile()->setPlates(tilePlates({tile.meshes, ellipsoid, tile.frame.localToEcef, shape}));
     ++_installed;
-    if (_options.cluster == ClusterUse::Replace) {
+    // a map has no horizon in its place
+    if (_options.cluster == ClusterUse::Replace && !isMapPlane(ellipsoid)) {
         suspendClusterCullingOf(*tile.node);
         for (const auto& mesh : tile.meshes) suspendClusterCulling(*mesh);
     }
     link->callback = callback.get();
     noteCovered(tile, fit, *link);
     goOnBelow(tile, *link);
-}
-
-void BinInstaller::installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape) {
-    osg::Node& culled = culledNode(tile, _isReading);
-    const auto mapToLocal = affineInverse(culledFrame(tile, culled));
-    if (!mapToLocal) return passBy(*tile.node, true);
-    // what neighbours lend to edges, and what other techniques make of heights, is not known
-    if (fit.isScalable && (shape.areBoundariesEqual || !shape.isKnown())) return passBy(*tile.node, true);
-    const osg::ref_ptr<PlanarBinCullCallback> callback = new PlanarBinCullCallback(
-        PlanarBin(fit.box, *mapToLocal), fit.isScalable ? std::optional(shape) : std::nullopt, _options);
-    placeCallback(tile, culled, *callback, database());
-    ++_installed;
-    goOnBelow(tile, *linkTo(tile));
 }
 
 osg::ref_ptr<ParentTile> BinInstaller::linkTo(const FoundTile& tile) {

@@ -23,8 +23,6 @@ class Coverage;
 struct TileFit;
 class Database;
 struct ParentTile;
-struct PlanarFit;
-struct TerrainShape;
 
 /// Visits the loaded part of a database and installs bins on it, as installBins() promises.
 class BinInstaller : public TileFinder {
@@ -85,7 +83,6 @@ private:
     [[nodiscard]] Database& database();
     void passBy(osg::Node& node, bool isTile);
     void install(FoundTile& tile, bool hasNewContent);
-    void installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape);
     [[nodiscard]] osg::ref_ptr<ParentTile> linkTo(const FoundTile& tile);
     void noteCovered(const FoundTile& tile, const TileFit& fit, const ParentTile& link);
     void goOnBelow(const FoundTile& tile, const ParentTile& link);

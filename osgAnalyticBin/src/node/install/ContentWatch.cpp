@@ -6,7 +6,6 @@
 #include "../../core/EarthScale.h"
 #include "../GlmBridge.h"
 #include "../Spheres.h"
-#include "../cull/PlanarBinCullCallback.h"
 #include "../page/Database.h"
 #include "../page/DatabaseCallbacks.h"
 #include "InstalledTile.h"
@@ -15,7 +14,6 @@
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/TileSurface.h>
 
-#include <osg/ComputeBoundsVisitor>
 #include <osg/CoordinateSystemNode>
 #include <osg/Geometry>
 #include <osg/Transform>
@@ -97,6 +95,11 @@ std::uint64_t boundsOf(const osg::Node& mesh) {
 AnalyticBin binAbout(const osg::BoundingSphere& sphere, const core::Ellipsoid& ellipsoid) {
     const glm::dvec3 center = toGlm(osg::Vec3d(sphere.center()));
     const double radius = sphere.radius() * 1.001;
+    if (ellipsoid.isPlane()) {
+        const core::Geodetic low = ellipsoid.toGeodetic(center - radius), high = ellipsoid.toGeodetic(center + radius);
+        return AnalyticBin(core::GeodeticBin({low.latitude, high.latitude}, {low.longitude, high.longitude},
+                                             {low.altitude, high.altitude}));
+    }
     const core::Geodetic middle = ellipsoid.toGeodetic(center);
     const double fromAxis = std::hypot(center.x, center.y);
     // from the nearest centre of curvature
@@ -108,19 +111,6 @@ AnalyticBin binAbout(const osg::BoundingSphere& sphere, const core::Ellipsoid& e
                                          {middle.longitude - east, middle.longitude + east},
                                          {middle.altitude - radius, middle.altitude + radius}));
 }
-
-// The box about a mesh, masked parts included. A terrain tile that is traversed before it has its Terrain never finds
-// it afterwards.
-class BoxOfMesh : public osg::ComputeBoundsVisitor {
-public:
-    BoxOfMesh() { setNodeMaskOverride(~0u); }
-    using osg::ComputeBoundsVisitor::apply;
-    void apply(osg::Group& node) override {
-        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) return traverse(node);
-        const osg::Matrixd matrix = _matrixStack.empty() ? osg::Matrixd() : osg::Matrixd(_matrixStack.back());
-        _bb.expandBy(movedSphere(node.getBound(), matrix));
-    }
-};
 
 // Whether a node is in the scene of a database.
 bool isBelowDatabase(const osg::Node& node) {
@@ -159,17 +149,6 @@ public:
         if (_isMerged) tile->database().noteContent(callback, {content, isScaled || !content.valid()});
     }
 
-    void fitInto(const PlanarBinCullCallback& callback) const {
-        if (!callback.getInstalledTile()) return;
-        BoxOfMesh box;
-        _node.accept(box);
-        bool isHeld = true;
-        for (unsigned int i = 0; i < 8 && isHeld; ++i) {
-            isHeld = callback.getBin().holds(osg::Vec3d(box.getBoundingBox().corner(i)) * _toHere);
-        }
-        if (!isHeld) callback.getInstalledTile()->keepVisible(true);
-    }
-
 private:
     // A mesh that was fitted may stand there in another form, as osgUtil::Optimizer leaves it: its posts tell.
     static bool isHeld(const AnalyticBin& content, const AnalyticBin& bin) {
@@ -197,7 +176,6 @@ private:
 void fitIntoTilesFrom(const osg::Node& node, Content content) {
     for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
         if (const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(at)) content.fitInto(*bin);
-        if (const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(at)) content.fitInto(*planar);
     }
     if (node.asTransform()) content.leave(*node.asTransform());
     for (const osg::Group* const parent : node.getParents()) fitIntoTilesFrom(*parent, content);

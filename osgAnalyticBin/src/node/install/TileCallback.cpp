@@ -3,7 +3,6 @@
 
 #include "TileCallback.h"
 
-#include "../cull/PlanarBinCullCallback.h"
 #include "../cull/TileFamily.h"
 #include "../page/PagingExpiry.h"
 #include "../surface/SurfaceMesh.h"
@@ -26,11 +25,8 @@ namespace {
 
 // The options that a callback of ours was made with. Returns: nullptr for any other callback.
 const CullOptions* optionsOf(const osg::Callback& callback) {
-    if (const auto* geocentric = dynamic_cast<const AnalyticBinCullCallback*>(&callback)) {
-        return &geocentric->getCullOptions();
-    }
-    const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(&callback);
-    return planar ? &planar->getCullOptions() : nullptr;
+    const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(&callback);
+    return bin ? &bin->getCullOptions() : nullptr;
 }
 
 osg::Callback* installedCallback(osg::Node& node) {
@@ -98,7 +94,6 @@ void resumeSpheres(const FoundTile& tile, osg::Node& culled, const InstalledTile
 InstalledTile* installedTileOf(const osg::Node& node) {
     for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
         if (const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(at)) return bin->getInstalledTile();
-        if (const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(at)) return planar->getInstalledTile();
     }
     return nullptr;
 }
@@ -147,8 +142,7 @@ osg::Matrixd culledFrame(const FoundTile& tile, osg::Node& culled) {
     return transform ? frameInside(*transform, tile.frame) : tile.frame.localToEcef;
 }
 
-template <class Callback>
-void placeCallback(const FoundTile& tile, osg::Node& culled, Callback& callback, Database& database) {
+void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& callback, Database& database) {
     const osg::ref_ptr<InstalledTile> installed = new InstalledTile(culled, database);
     callback.setInstalledTile(installed);
     // In front: what is nested runs when the tile is kept.
@@ -161,9 +155,6 @@ void placeCallback(const FoundTile& tile, osg::Node& culled, Callback& callback,
     if (&culled != tile.node) ContentWatch::place(culled, {});
     ContentWatch::place(*tile.node, tile.meshes);
 }
-
-template void placeCallback(const FoundTile&, osg::Node&, AnalyticBinCullCallback&, Database&);
-template void placeCallback(const FoundTile&, osg::Node&, PlanarBinCullCallback&, Database&);
 
 void removeCallbacksBelow(osg::Node& subgraph) {
     forEachNode(subgraph, [](osg::Node& node) {

@@ -67,6 +67,12 @@ bool Database::isAttachedTo(const osg::Node& node) const {
     return _root == &node && terrain == dynamic_cast<const osgTerrain::Terrain*>(&node);
 }
 
+bool Database::takes(const osg::EllipsoidModel& ellipsoid) {
+    const Ground wanted = isMapPlane(ellipsoid) ? Ground::Map : Ground::Globe;
+    Ground known = Ground::Open;
+    return _ground.compare_exchange_strong(known, wanted, std::memory_order_relaxed) || known == wanted;
+}
+
 CullOptions Database::options() const {
     const std::lock_guard<std::mutex> lock(_mutex);
     return _options;
@@ -129,6 +135,12 @@ bool Database::takeShapeChange() {
 
 void Database::noteGap(const std::string& where) {
     if (_hasGap.exchange(true, std::memory_order_relaxed)) return;
+    if (_ground == Ground::Map) {
+        OSG_INFO << "osgAnalyticBin: the tiles of \"" << where
+                 << "\" leave gaps in the map, or it is not known whether they do. No tile is hidden behind terrain."
+                 << std::endl;
+        return;
+    }
     OSG_NOTICE
         << "osgAnalyticBin: the tiles of \"" << where
         << "\" leave gaps: they cover neither the tile that they are paged below nor a rectangle of latitude and "
@@ -143,7 +155,7 @@ void Database::noteCoverage(const std::string& file, const Coverage& coverage) {
     if (!coverage.isOfGlobe()) return;
     const std::lock_guard<std::mutex> lock(_mutex);
     _region.reset();
-    if (!region.empty()) _region.emplace(toCore(*_ellipsoid), region);
+    if (!region.empty()) _region.emplace(toCore(*ellipsoid()), region);
 }
 
 std::optional<core::CoveredRegion> Database::region() const {
@@ -200,7 +212,7 @@ void Database::makePlates() {
             if (!isThere || !tile->getInstalledTile() || !_ellipsoid) continue;
         }
         const TerrainShape shape = tile->getTerrainShape().value_or(TerrainShape());
-        tile->getInstalledTile()->setPlates(tilePlates({{mesh}, *_ellipsoid, tile->getLocalToEcef(), shape}));
+        tile->getInstalledTile()->setPlates(tilePlates({{mesh}, *ellipsoid(), tile->getLocalToEcef(), shape}));
     }
 }
 

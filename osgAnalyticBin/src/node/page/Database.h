@@ -6,6 +6,7 @@
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/core/horizon/CoveredRegion.h>
 #include <osgAnalyticBin/core/mesh/CrackBounds.h>
 
@@ -74,7 +75,13 @@ public:
     /// Says that a file's content is on its way into the scene, treated by the options of that generation.
     void noteRead(osg::Node& content, unsigned int generation);
 
-    [[nodiscard]] const osg::EllipsoidModel* ellipsoid() const { return _ellipsoid.get(); }
+    /// mapPlane() once a tile of a map has got a bin.
+    [[nodiscard]] const osg::EllipsoidModel* ellipsoid() const {
+        return _ground.load(std::memory_order_relaxed) == Ground::Map ? mapPlane() : _ellipsoid.get();
+    }
+    /// Whether a tile on this ellipsoid, or in the plane of a map, may have a bin: all tiles with bins are on a globe,
+    /// or all are in a map. The first one that is asked for tells which.
+    [[nodiscard]] bool takes(const osg::EllipsoidModel& ellipsoid);
     [[nodiscard]] const BinIndex* index() const { return _index.get(); }
 
     /// The shape that the Terrain, if any, gives its tiles at present, as far as these options tell. Not in the pager's
@@ -155,6 +162,7 @@ protected:
     ~Database() override = default;
 
 private:
+    enum class Ground { Open, Globe, Map };
     using TileKey = std::pair<std::string, std::size_t>;
 
     void widen(const ParentTile& tile, const Widening& by, bool isFitted);
@@ -172,6 +180,7 @@ private:
     const osg::Node* _root = nullptr;
     const osg::ref_ptr<const BinIndex> _index;
     mutable std::atomic<bool> _isRefitWanted{false};
+    std::atomic<Ground> _ground{Ground::Open};
     std::atomic<bool> _isRemoved{false};
     std::atomic<bool> _hasGap{false};
     std::atomic<bool> _hasStrayTile{false};

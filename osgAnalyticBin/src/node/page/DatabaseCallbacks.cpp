@@ -52,11 +52,12 @@ void noteOccluded(const OccludedTiles& tiles, CullTraversal::LastView& last) {
 std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack,
                                         Database& database, const CullOptions& options, const DatabaseView& view) {
     const HorizonUse horizonUse = options.effectiveHorizonUse();
-    const bool isGiven = horizonUse == HorizonUse::Given;
+    const bool isMap = view.ellipsoid.isPlane();
+    const bool isGiven = horizonUse == HorizonUse::Given && !isMap;
     // an eye below the terrain looks through the backs of the faces that would hide
     const bool isAboveTerrain = options.skirts == SkirtUse::Cracks;
     const auto region = database.region();
-    const bool isUsed = isGiven || (horizonUse == HorizonUse::Declared && isAboveTerrain && !database.hasGap());
+    const bool isUsed = isGiven || (horizonUse != HorizonUse::Off && isAboveTerrain && !database.hasGap());
     // where other tiles cover the globe, stray ones hide nothing that these do not
     const bool isPartial = database.hasGap() || region;
     const bool isRelyingOnStrays = isPartial && database.hasStrayTile();
@@ -73,6 +74,15 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
     const bool findsOccluded =
         mayFindOccluded && isFinalProjection(cullStack) && isOcclusionDue(options.occlusion, last);
     const ShownDatabase shown{node, nv, cullStack, view, findsOccluded, region ? &*region : nullptr};
+    const auto find = [&](bool isPlanned) {
+        const OccludedTiles tiles =
+            isPlanned ? cullBehindTerrain(shown, *viewpoint, last.occlusion, last.emerging) : OccludedTiles();
+        noteOccluded(tiles, last);
+    };
+    if (isMap) {
+        if (findsOccluded) find(region && planWithoutHorizon(shown, *viewpoint));
+        return std::nullopt;
+    }
     // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: the horizon
     // shall not depend on where the camera has been.
     constexpr unsigned int kFreshStart = 16;
@@ -82,9 +92,7 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
     const bool isPastBorder = refused && region && !region->holdsHorizon(*refused, view.planes);
     if (isPastBorder) database.noteBorderInView();
     const bool isPlanned = eye || (isPastBorder && findsOccluded && planWithoutHorizon(shown, *viewpoint));
-    if (findsOccluded)
-        noteOccluded(isPlanned ? cullBehindTerrain(shown, *viewpoint, last.occlusion, last.emerging) : OccludedTiles(),
-                     last);
+    if (findsOccluded) find(isPlanned);
     return eye;
 }
 

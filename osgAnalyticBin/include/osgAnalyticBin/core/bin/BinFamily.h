@@ -64,7 +64,8 @@ public:
     /// Cost: for slots in view some ten multiplications for all lanes together; no allocation, no trigonometry.
     [[nodiscard]] std::uint64_t hiddenFrom(const HorizonEye& eye, std::uint64_t candidates) const noexcept;
 
-    /// As core::isSeparated() of the bin. Requires: a slot in exact() (asserted).
+    /// As core::isSeparated() of the bin. Requires: a slot in filled() (asserted). A curved bin in quadratic form is
+    /// seldom found to be separated.
     [[nodiscard]] bool isSeparated(std::size_t i, const PlaneSet& planes, PlaneMask undecided) const noexcept;
 
 private:
