@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 #include "OptionString.h"
+#include "PhotogrammetryMetadata.h"
+#include "PhotogrammetryReader.h"
 
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/CullOptions.h>
@@ -135,7 +137,7 @@ public:
         const std::optional<osgAnalyticBin::CullOptions> cullOptions = osgAnalyticBin::cullOptionsFromText(text, error);
         if (!cullOptions) return ReadResult("analyticbin: " + error);
         const osg::ref_ptr<osgDB::Options> uncached = withoutNodeCache(options);
-        ReadResult result = osgDB::Registry::instance()->readNode(request.name, uncached.get());
+        ReadResult result = readDatabase(request.name, uncached.get());
         const osg::ref_ptr<osg::Node> node = result.getNode();
         if (!node) return result;
         report(osgAnalyticBin::installBins(*node, *cullOptions, request.name, options), *cullOptions, request.name);
@@ -145,6 +147,19 @@ public:
     }
 
 private:
+    // A photogrammetry set is a folder, which no other plugin reads.
+    static ReadResult readDatabase(const std::string& name, const osgDB::Options* options) {
+        using namespace osgAnalyticBin::plugin;
+        if (osgDB::getLowerCaseFileExtension(name) == "xml") {
+            if (osgDB::containsServerAddress(name))
+                return ReadResult("analyticbin: \"" + name +
+                                  "\": photogrammetry sets are read from a disk, not from a server");
+            const std::string path = osgDB::findDataFile(name, options);
+            if (!path.empty() && isPhotogrammetryMetadata(path)) return readPhotogrammetrySet(path, options);
+        }
+        return osgDB::Registry::instance()->readNode(name, options);
+    }
+
     static bool isIndex(const std::string& fileName) {
         return osgDB::getLowerCaseFileExtension(fileName) == kIndexExtension;
     }

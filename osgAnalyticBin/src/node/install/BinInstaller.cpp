@@ -22,6 +22,7 @@
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
+#include <osgAnalyticBin/PhotogrammetrySet.h>
 
 #include <osg/Notify>
 #include <osg/PagedLOD>
@@ -234,6 +235,7 @@ void BinInstaller::visitTile(FoundTile& tile) {
 }
 
 void BinInstaller::visitOther(osg::Node& node) {
+    if (isPhotogrammetrySet(node)) return visitSet(*node.asGroup());
     if (node.asDrawable() && hasStoredBin(node)) warnOfDrawable(node);
     // it may have been a tile when bins were last installed
     if (installedTileOf(node) && !dynamic_cast<Carrier*>(&node)) removeCallbacks({&node, {}, frame(), 0, {}});

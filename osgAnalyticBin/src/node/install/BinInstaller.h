@@ -42,7 +42,7 @@ public:
     void installAt(osg::Node& root);
 
     /// Number of callbacks installed so far.
-    [[nodiscard]] std::size_t installed() const { return _installed; }
+    [[nodiscard]] std::size_t installed() const { return _installed + _boxes; }
 
     /// Visits a node of the database; called by OSG's traversal.
     void apply(osg::Node& node) override;
@@ -82,6 +82,7 @@ private:
     [[nodiscard]] bool installsBins() const;
     [[nodiscard]] Database& database();
     void passBy(osg::Node& node, bool isTile);
+    void visitSet(osg::Group& set);
     void install(FoundTile& tile, bool hasNewContent);
     [[nodiscard]] osg::ref_ptr<ParentTile> linkTo(const FoundTile& tile);
     void noteCovered(const FoundTile& tile, const TileFit& fit, const ParentTile& link);
@@ -105,6 +106,7 @@ private:
     PagingByOptions _paging;
     std::shared_ptr<std::map<std::string, Coverage>> _coverage;  // by file
     std::size_t _installed = 0;
+    std::size_t _boxes = 0;           // of photogrammetry sets
     std::vector<osg::Node*> _groups;  // that may get families
 };
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "../boxes/BoxInstaller.h"
 #include "BinInstaller.h"
 
 #include <osgAnalyticBin/InstallBins.h>
@@ -26,6 +27,12 @@ std::size_t install(osg::Node& node, const CullOptions& options, const BinIndex*
 }
 
 }  // namespace
+
+// Culled by boxes of its vertices, whatever stands around it.
+void BinInstaller::visitSet(osg::Group& set) {
+    if (_options.method == Method::Sphere) return removeBoxes(set);
+    _boxes += installBoxes(set, _options);
+}
 
 std::size_t setCullOptions(osg::Node& node, const CullOptions& options) {
     BinInstaller installer(options);
