@@ -70,8 +70,8 @@ osg::ref_ptr<osg::Node> terrainTile(const osg::Vec3d& corner, double height) {
     return tile;
 }
 
-// A row of ten tiles eastward: a plain, and in the third tile a ridge, which tile 4 lies behind. The eye is above the
-// middle of tile 0.
+// A row of ten tiles eastward, between two others: a plain, and in the third tile a ridge, which tile 4 lies behind.
+// The eye is above the middle of tile 0.
 struct RidgeMap : MeshGlobe {
     explicit RidgeMap(double ridge = 8000.0, bool isTerrain = false) {
         root = isTerrain ? new osgTerrain::Terrain : new osg::CoordinateSystemNode;
@@ -79,11 +79,16 @@ struct RidgeMap : MeshGlobe {
         root->setCoordinateSystem(kUtm);
         scene = root;
         for (int i = 0; i < 10; ++i) {
-            const double height = i == 2 ? ridge : 0.0;
-            row.push_back(
-                makePaged(isTerrain ? terrainTile(cornerOf(i), height) : meshTile(cornerOf(i), height), "no.osgb"));
-            root->addChild(row.back());
+            row.push_back(add(cornerOf(i), i == 2 ? ridge : 0.0, isTerrain));
+            for (const double beside : {-kSize, kSize}) add(cornerOf(i) + osg::Vec3d(0.0, beside, 0.0), 0.0, isTerrain);
         }
+    }
+
+    osg::ref_ptr<osg::PagedLOD> add(const osg::Vec3d& corner, double height, bool isTerrain) const {
+        osg::ref_ptr<osg::PagedLOD> tile =
+            makePaged(isTerrain ? terrainTile(corner, height) : meshTile(corner, height), "no.osgb");
+        root->addChild(tile);
+        return tile;
     }
 
     [[nodiscard]] static osg::Vec3d cornerOf(int i) { return {500000.0 + kSize * i, 4600000.0, 0.0}; }
@@ -120,46 +125,46 @@ TEST(MapOcclusion, HidesWhatIsBehindARidge) {
     for (const bool isTerrain : {false, true}) {
         RidgeMap map(8000.0, isTerrain);
         EXPECT_TRUE(map.drawsFarTile());
-        installBins(*map.root, optionsOf("occlusion=off"));
+        installBins(*map.root, optionsOf("heights=-100..9000,occlusion=off"));
         EXPECT_TRUE(map.drawsFarTile());
         EXPECT_EQ(map.counts().occluded, 0u);
-        setCullOptions(*map.root, optionsOf("occlusion=on"));
+        setCullOptions(*map.root, optionsOf("heights=-100..9000,occlusion=on"));
         EXPECT_FALSE(map.drawsFarTile()) << isTerrain;
         EXPECT_GE(map.counts().occluded, 1u);
         for (const std::size_t i : {0u, 1u, 2u}) EXPECT_TRUE(map.drawsTile(i)) << i;
         BinStatistics::of(*map.visitor).setTileByTile(true);
         EXPECT_FALSE(map.drawsFarTile());
         RidgeMap low(500.0, isTerrain);
-        installBins(*low.root, optionsOf("occlusion=on"));
+        installBins(*low.root, optionsOf("heights=-100..9000,occlusion=on"));
         EXPECT_TRUE(low.drawsFarTile());
     }
 }
 
 TEST(MapOcclusion, NeedsAnEyeAboveTheMap) {
     RidgeMap map;
-    installBins(*map.root, optionsOf("occlusion=on"));
+    installBins(*map.root, optionsOf("heights=-100..9000,occlusion=on"));
     EXPECT_FALSE(map.drawsFarTile());
     EXPECT_TRUE(map.drawsFarTile(RidgeMap::alongRow(-200.0))) << "below";
-    EXPECT_TRUE(map.drawsFarTile(RidgeMap::alongRow(1000.0, -0.1))) << "beside";
-    EXPECT_TRUE(map.drawsFarTile(RidgeMap::alongRow(1000.0, 0.01))) << "within the border";
+    EXPECT_TRUE(map.drawsFarTile(RidgeMap::alongRow(1000.0, -1.1))) << "beside";
+    EXPECT_TRUE(map.drawsFarTile(RidgeMap::alongRow(1000.0, -0.99))) << "within the border";
     EXPECT_TRUE(map.drawsFarTile(RidgeMap::alongRow(20000.0))) << "above the ridge";
-    setCullOptions(*map.root, optionsOf("occlusion=on,horizon=off"));
+    setCullOptions(*map.root, optionsOf("heights=-100..9000,occlusion=on,horizon=off"));
     EXPECT_TRUE(map.drawsFarTile());
-    setCullOptions(*map.root, optionsOf("occlusion=on,skirts=all"));
+    setCullOptions(*map.root, optionsOf("heights=-100..9000,occlusion=on,skirts=all"));
     EXPECT_TRUE(map.drawsFarTile());
 }
 
 TEST(MapOcclusion, NeedsAMapWithoutGaps) {
     RidgeMap map;
     map.root->removeChild(map.row[7]);
-    installBins(*map.root, optionsOf("occlusion=on"));
+    installBins(*map.root, optionsOf("heights=-100..9000,occlusion=on"));
     EXPECT_TRUE(map.drawsFarTile());
 }
 
 // A row of kilometres is as far from the horizon of a globe as one likes.
 TEST(MapOcclusion, HasNoHorizon) {
     RidgeMap map(0.0);
-    installBins(*map.root, optionsOf("horizon=-100"));
+    installBins(*map.root, optionsOf("heights=-100..9000,horizon=-100"));
     EXPECT_TRUE(map.drawsTile(9, RidgeMap::alongRow(2.0)));
     EXPECT_EQ(map.counts().hidden, 0u);
 }
