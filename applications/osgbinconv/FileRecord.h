@@ -17,6 +17,8 @@ struct FilePlace {
     /// Metres; 0: not below a geocentric CoordinateSystemNode.
     double equatorialRadius = 0.0;
     double polarRadius = 0.0;
+    /// As of osgAnalyticBin::TileFrame.
+    bool isProjected = false;
     std::array<double, 16> localToEcef{};
     bool isBelowTile = false;
     /// osgTerrain::Terrain's.
@@ -24,7 +26,8 @@ struct FilePlace {
 
     [[nodiscard]] bool operator==(const FilePlace& other) const {
         return equatorialRadius == other.equatorialRadius && polarRadius == other.polarRadius &&
-               localToEcef == other.localToEcef && isBelowTile == other.isBelowTile && sampleRatio == other.sampleRatio;
+               isProjected == other.isProjected && localToEcef == other.localToEcef &&
+               isBelowTile == other.isBelowTile && sampleRatio == other.sampleRatio;
     }
 };
 

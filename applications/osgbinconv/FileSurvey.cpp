@@ -34,6 +34,7 @@ FilePlace placeOf(const TileFrame& frame, bool isBelowTile, double sampleRatio) 
         place.equatorialRadius = frame.ellipsoid->getRadiusEquator();
         place.polarRadius = frame.ellipsoid->getRadiusPolar();
     }
+    place.isProjected = frame.isProjected;
     std::copy_n(frame.localToEcef.ptr(), 16, place.localToEcef.begin());
     place.isBelowTile = isBelowTile;
     place.sampleRatio = sampleRatio;
@@ -164,6 +165,7 @@ TileFrame frameOf(const FilePlace& place, const std::string& file) {
     if (place.equatorialRadius > 0.0) {
         frame.ellipsoid = new osg::EllipsoidModel(place.equatorialRadius, place.polarRadius);
     }
+    frame.isProjected = place.isProjected;
     frame.localToEcef.set(place.localToEcef.data());
     frame.file = file;
     frame.isBelowTile = place.isBelowTile;

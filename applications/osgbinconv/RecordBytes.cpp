@@ -123,6 +123,7 @@ template <class Stream, class Place>
 void passPlace(Stream& s, Place& place) {
     s.number(place.equatorialRadius);
     s.number(place.polarRadius);
+    s.flag(place.isProjected);
     for (auto& number : place.localToEcef) s.number(number);
     s.flag(place.isBelowTile);
     s.number(place.sampleRatio);

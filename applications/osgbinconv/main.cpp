@@ -37,8 +37,8 @@ using osgAnalyticBin::support::UsageError;
 using osgbinconv::DatabaseFiles;
 
 constexpr const char* kDescription =
-    "Finds the bins of all tiles of a paged globe, by whatever program it was made.\n"
-    "Altitudes are metres above the ellipsoid, skirts count as far as cracks show them.";
+    "Finds the bins of all tiles of a paged globe or map, by whatever program it was made.\n"
+    "Altitudes are metres above the ellipsoid, or map units; skirts count as far as cracks show them.";
 
 constexpr const char* kExamples =
     "Examples:\n"

@@ -99,10 +99,10 @@ TEST(PlaneOfMap, TellsBoxesFromPlanesToRounding) {
                                               -range.upper - rounding, -range.lower, -range.upper});
         const Interval moved = box.distances(plane);
         const Side side = bin.classify(plane);
-        if (side == Side::Outside) EXPECT_LT(moved.upper, 0.0);
-        if (side == Side::Inside) EXPECT_GE(moved.lower, 0.0);
-        if (moved.upper < -0.5 * rounding) EXPECT_EQ(side, Side::Outside);
-        if (moved.lower > 0.5 * rounding) EXPECT_EQ(side, Side::Inside);
+        EXPECT_TRUE(side != Side::Outside || moved.upper < 0.0);
+        EXPECT_TRUE(side != Side::Inside || moved.lower >= 0.0);
+        EXPECT_TRUE(side == Side::Outside || moved.upper >= -0.5 * rounding);
+        EXPECT_TRUE(side == Side::Inside || moved.lower <= 0.5 * rounding);
         core::BinFamily family(3);
         family.set(1, bin);
         core::PlaneSet planes;

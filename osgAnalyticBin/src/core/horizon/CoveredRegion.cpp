@@ -153,7 +153,7 @@ bool CoveredRegion::holdsSegmentsFrom(const glm::dvec3& eyeEcef) const noexcept 
     const Geodetic eye = _ellipsoid.toGeodetic(eyeEcef);
     // a rectangle is convex
     if (_ellipsoid.isPlane())
-        return _extents.latitude().contains(eye.latitude) && _extents.longitude().contains(eye.longitude);
+        return contains({{eye.latitude, eye.latitude}, {eye.longitude, eye.longitude}, {0.0, 0.0}});
     const double smaller = std::min(_ellipsoid.equatorialRadius(), _ellipsoid.polarRadius());
     if (!(eye.altitude >= -0.1 * smaller)) return false;
     const double half = 0.5 * _extents.longitude().width();
