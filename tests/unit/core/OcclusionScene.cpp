@@ -205,8 +205,8 @@ core::Frame frameOf(const OcclusionScene& scene) {
     return {scene.eye, glm::cross(scene.forward, scene.up), scene.forward, scene.up};
 }
 
-HorizonBuffer bufferOf(const OcclusionScene& scene) {
-    return {glm::length(scene.eye), kAcross};
+HorizonBuffer bufferOf(const OcclusionScene& scene, const glm::dvec3& eyes) {
+    return {glm::length(scene.eye), kAcross, 0.0, 0.0, eyes};
 }
 
 void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,
