@@ -31,7 +31,8 @@ namespace osgAnalyticBin {
 
 namespace core {
 class PlaneSet;
-}
+class RegionalSight;
+}  // namespace core
 class CullTraversal;
 class InstalledTile;
 class TileFamily;
@@ -233,7 +234,8 @@ private:
     [[nodiscard]] bool isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
     [[nodiscard]] core::Side sideOf(const core::PlaneSet& planes, core::PlaneMask& undecided) const;
     [[nodiscard]] Verdict verdict(core::Side side, const core::PlaneSet& planes, core::PlaneMask undecided,
-                                  const core::HorizonEye* eye, CullTraversal& traversal) const;
+                                  const core::HorizonEye* eye, const core::RegionalSight* sight,
+                                  CullTraversal& traversal) const;
     [[nodiscard]] bool isHiddenFrom(const core::HorizonEye& eye) const;
     [[nodiscard]] bool isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,
                                       core::PlaneMask undecided) const;

@@ -323,11 +323,11 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
         const core::Side side = sideOf(planes, undecided);
         // what else is known of the view takes time to find
         if (side == core::Side::Outside || (!prepared().horizon && !isInMap()))
-            return verdict(side, planes, undecided, nullptr, traversal);
+            return verdict(side, planes, undecided, nullptr, nullptr, traversal);
         const DatabaseView* const view = viewOn(cullStack, traversal);
         if (view && view->plan && view->plan->isOccluded(*this)) return Verdict{core::Side::Outside, Verdict::Terrain};
         const core::HorizonEye* const eye = view ? view->eye : eyeWithoutDatabase(cullStack, nv, traversal);
-        return verdict(side, planes, undecided, eye, traversal);
+        return verdict(side, planes, undecided, eye, view ? view->sight : nullptr, traversal);
     };
     return isCulledByBin(cullStack, nv, traversal, prepared().sphere,
                          [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
@@ -368,9 +368,11 @@ core::Side AnalyticBinCullCallback::sideOf(const core::PlaneSet& planes, core::P
 }
 
 Verdict AnalyticBinCullCallback::verdict(core::Side side, const core::PlaneSet& planes, core::PlaneMask undecided,
-                                         const core::HorizonEye* eye, CullTraversal& traversal) const {
+                                         const core::HorizonEye* eye, const core::RegionalSight* sight,
+                                         CullTraversal& traversal) const {
     if (side == core::Side::Outside) return {side, Verdict::Plane};
-    if (eye && isHiddenFrom(*eye)) return {core::Side::Outside, Verdict::Horizon};
+    if (eye && isHiddenFrom(*eye) && (!sight || sight->holds(*prepared().horizon)))
+        return {core::Side::Outside, Verdict::Horizon};
     if (side == core::Side::Straddling && _testsEdges && isBeyondAnEdge(traversal, planes, undecided)) {
         return {core::Side::Outside, Verdict::Edge};
     }

@@ -13,6 +13,7 @@
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/edge/FrustumHull.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
+#include <osgAnalyticBin/core/horizon/RegionalSight.h>
 
 #include <osg/CullStack>
 #include <osg/NodeVisitor>
@@ -51,7 +52,8 @@ struct DatabaseView {
     const osg::RefMatrix* modelView;
     const osg::RefMatrix* projection;
     core::PlaneSet planes;
-    TilePlan* plan;  // nullptr: none was made
+    TilePlan* plan;                              // nullptr: none was made
+    const core::RegionalSight* sight = nullptr;  // nullptr: the eye sees past no border of a region
 };
 
 /// What one cull visitor knows of the frustum that it is in: prepared once per frustum, read by every tile. Lives in

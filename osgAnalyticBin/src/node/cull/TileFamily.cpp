@@ -189,10 +189,13 @@ void TileFamily::lookUp(const osg::Group& group, unsigned int first, core::Plane
                         const DatabaseView& view, CullTraversal& traversal, Verdicts& verdicts) const {
     if (!view.plan || !view.plan->find(*this, first, undecided, verdicts)) {
         test(group, first, view.planes, undecided, view.eye, traversal, verdicts);
-    } else if (!view.eye && verdicts.hidden != 0) {
-        findSeparated(first, verdicts.members & verdicts.hidden, view.planes, traversal, verdicts);
-        verdicts.hidden = 0;
     }
+    if (verdicts.hidden == 0 || (view.eye && !view.sight)) return;
+    // the plan does not look at borders, and may be that of an eye which came to nothing
+    std::uint64_t seen = verdicts.hidden;
+    if (view.eye) seen &= ~_block->partFrom(first).bins.heldIn(*view.sight, seen);
+    findSeparated(first, verdicts.members & seen, view.planes, traversal, verdicts);
+    verdicts.hidden &= ~seen;
 }
 
 // Which of the tiles are culled, one bit each.
@@ -207,7 +210,7 @@ std::uint64_t TileFamily::culled(unsigned int first, const Verdicts& verdicts, c
         const AnalyticBinCullCallback& tile = *_members[first + number].tile;
         core::PlaneMask undecided = verdicts.planes.undecided[number];
         const core::Side side = tile.sideOf(view.planes, undecided);
-        const Verdict verdict = tile.verdict(side, view.planes, undecided, view.eye, traversal);
+        const Verdict verdict = tile.verdict(side, view.planes, undecided, view.eye, view.sight, traversal);
         const std::uint64_t bit = std::uint64_t{1} << number;
         if (verdict.side == core::Side::Outside) culled |= bit;
         if (verdict.side == core::Side::Inside) inside |= bit;

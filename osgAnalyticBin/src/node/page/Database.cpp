@@ -163,10 +163,9 @@ std::optional<core::CoveredRegion> Database::region() const {
     return _region;
 }
 
-void Database::noteBorderInView() {
-    if (_hasBorderInView.exchange(true, std::memory_order_relaxed)) return;
-    OSG_NOTICE << "osgAnalyticBin: the camera is so high above the regional database, or so near its border, that it "
-                  "sees past it. The horizon is not used in such views."
+void Database::noteEyeBesideRegion() {
+    if (_hasEyeBesideRegion.exchange(true, std::memory_order_relaxed)) return;
+    OSG_NOTICE << "osgAnalyticBin: the camera is not over the regional database. The horizon is not used in such views."
                << std::endl;
 }
 

@@ -115,8 +115,8 @@ public:
     /// The region that a regional database covers; none: the database covers the globe, or has a gap.
     [[nodiscard]] std::optional<core::CoveredRegion> region() const;
 
-    /// Says that an eye sees past the border of the region, where the horizon hides nothing. Says so to the user once.
-    void noteBorderInView();
+    /// Says that an eye is not over the region, where the horizon hides nothing. Says so to the user once.
+    void noteEyeBesideRegion();
 
     /// Says that a tile does not stand where its bin was stored or installed. Its place is a gap, and no horizon is
     /// used, not even a given one.
@@ -187,7 +187,7 @@ private:
     std::atomic<bool> _hasMovedTile{false};
     std::atomic<bool> _hasUnknownTechnique{false};
     std::atomic<bool> _hasUnknownNearPlane{false};
-    std::atomic<bool> _hasBorderInView{false};
+    std::atomic<bool> _hasEyeBesideRegion{false};
     std::atomic<bool> _wantsPlates{false};
     mutable std::mutex _mutex;  // guards what follows
     CullOptions _options;
