@@ -107,6 +107,7 @@ struct FlightFigures {
     std::uint64_t bytes = 0;
     double cullMs = 0.0;
     double cullMedianMs = 0.0;
+    double cull99thMs = 0.0;
 };
 
 struct FlightColumn {
@@ -125,5 +126,6 @@ inline constexpr std::array<FlightColumn, 5> kFlightColumns{{
 }};
 
 inline constexpr const char* kCullMedianColumn = "cull_median_ms";
+inline constexpr const char* kCull99thColumn = "cull_99th_ms";
 
 }  // namespace osgAnalyticBin::bench
