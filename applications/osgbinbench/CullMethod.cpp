@@ -58,7 +58,8 @@ std::string CullMethod::sceneName(const std::string& database, const std::string
         if (!binOptions.empty()) parameters += "," + binOptions;
         if (!usesHorizon) parameters += ",horizon=off";
         parameters += usesEdges ? ",edges=on" : ",edges=off";
-        parameters += usesOcclusion ? ",occlusion=on" : ",occlusion=off";
+        const std::string use = usesOcclusion ? (mayRest ? "auto" : "on") : "off";
+        parameters += ",occlusion=" + use;
     }
     return database + ".(" + parameters + ").analyticbin";
 }
@@ -80,7 +81,8 @@ CullMethod cullMethodFromName(const std::string& name) {
         return method;
     }
     std::string base = name;
-    method.usesOcclusion = takeSuffix(base, "+occlusion");
+    method.mayRest = takeSuffix(base, "+autoocclusion");
+    method.usesOcclusion = method.mayRest || takeSuffix(base, "+occlusion");
     method.usesEdges = takeSuffix(base, "+edges");
     method.usesHorizon = takeSuffix(base, "+horizon");
     if (std::find(kBinBases.begin(), kBinBases.end(), base) != kBinBases.end()) method.loaderMethod = base;
@@ -90,7 +92,8 @@ CullMethod cullMethodFromName(const std::string& name) {
     throw UsageError(
         "--methods: unknown method \"" + name +
         "\"; use none, sphere, cluster, oracle, all, or box, orientedbox, corners, paper, quadratic or exact, these "
-        "with +horizon, +edges or +horizon+edges; quadratic and exact with +horizon, also +occlusion");
+        "with +horizon, +edges or +horizon+edges; quadratic and exact with +horizon, also +occlusion or "
+        "+autoocclusion");
 }
 
 std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& names) {

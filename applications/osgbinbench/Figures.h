@@ -108,6 +108,7 @@ struct FlightFigures {
     std::uint64_t completeMs = 0;
     double cullMs = 0.0;
     double cullMedianMs = 0.0;
+    double cull99thMs = 0.0;
 };
 
 struct FlightColumn {
@@ -128,5 +129,6 @@ inline constexpr std::array<FlightColumn, 6> kFlightColumns{{
 }};
 
 inline constexpr const char* kCullMedianColumn = "cull_median_ms";
+inline constexpr const char* kCull99thColumn = "cull_99th_ms";
 
 }  // namespace osgAnalyticBin::bench

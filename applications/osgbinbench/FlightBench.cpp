@@ -41,7 +41,11 @@ public:
 
     [[nodiscard]] FlightFigures figures() {
         std::sort(_times.begin(), _times.end());
-        if (!_times.empty()) _figures.cullMedianMs = _times[(_times.size() - 1) / 2];
+        const auto percentile = [&](std::size_t part) { return _times[(_times.size() - 1) * part / 100]; };
+        if (!_times.empty()) {
+            _figures.cullMedianMs = percentile(50);
+            _figures.cull99thMs = percentile(99);
+        }
         _figures.residentTiles = residentTiles(_scene.root());
         return _figures;
     }

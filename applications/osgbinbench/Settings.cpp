@@ -95,9 +95,9 @@ std::string footer() {
         "quadratic, exact = analytic bins. The last six cull by the frustum's planes alone; +horizon adds the horizon\n"
         "(boxes: of one point), +edges tiles beyond an edge of the frustum (boxes: a frustum beyond a face), in "
         "this\n"
-        "order; +occlusion behind them adds tiles behind terrain, looked for in every view (occlusion=on). The "
-        "default\n"
-        "of the bins is quadratic+horizon+edges, with occlusion=auto.\n"
+        "order; +occlusion behind them adds tiles behind terrain, looked for in every view (occlusion=on),\n"
+        "+autoocclusion the same while it pays (occlusion=auto). The default of the bins is\n"
+        "quadratic+horizon+edges+autoocclusion.\n"
         "oracle = what exact+horizon+edges keeps, recorded at each pose and repeated without any test: what culling\n"
         "would cost if tests were free (not in flight). all = these methods, in the combinations worth comparing.\n"
         "Afterwards the path is flown continuously, every method once, while files are being loaded: --live; with\n"
@@ -111,7 +111,8 @@ std::string footer() {
     return text + "\nKeys of the object \"live\" of --json, and columns of --csv with --frames and --jumps:\n" +
            flightColumns() +
            "  cull_ms              milliseconds of all cull traversals and their sorting, summed\n"
-           "  cull_median_ms       of one, median\n\n"
+           "  cull_median_ms       of one, median\n"
+           "  cull_99th_ms         of one, 99th percentile\n\n"
            "\"paths\" in --json holds the sums of the poses whose names share the text before the first _, \"by_pose\" "
            "the\n"
            "figures of every pose, in the order of \"pose_names\".\n\n" +
@@ -209,8 +210,8 @@ void check(const Settings& settings) {
     if (binOptions->edges)
         throw UsageError("--options: name methods with or without +edges in --methods instead of edges=on or off");
     if (settings.binOptions.find("occlusion=") != std::string::npos)
-        throw UsageError("--options: name methods with +occlusion in --methods instead of \"" + settings.binOptions +
-                         "\"");
+        throw UsageError("--options: name methods with +occlusion or +autoocclusion in --methods instead of \"" +
+                         settings.binOptions + "\"");
     if (settings.frames > 0 && settings.jumps) throw UsageError("--jumps: leave --frames out");
     const bool isLive = settings.frames > 0 || settings.jumps;
     if (isLive && !settings.pictures.empty())
