@@ -56,7 +56,8 @@ public:
 
 osg::ref_ptr<BoxIndex> indexOf(const osg::Node& set, const CullOptions& options) {
     const std::string metadata = metadataFileOf(set);
-    if (!options.index || metadata.empty() || !osgDB::fileExists(boxIndexPath(metadata))) return nullptr;
+    const bool isWanted = options.index && options.method != Method::None;
+    if (!isWanted || metadata.empty() || !osgDB::fileExists(boxIndexPath(metadata))) return nullptr;
     std::string error;
     osg::ref_ptr<BoxIndex> index = BoxIndex::read(boxIndexPath(metadata), error);
     if (!index) OSG_WARN << "osgAnalyticBin: " << error << "; the set is culled without it." << std::endl;
