@@ -9,7 +9,7 @@ set -eu
 packages="
   ca-certificates ccache clang-format cmake doxygen g++ git help2man ninja-build pkg-config python3
   libopenscenegraph-dev openscenegraph libglm-dev
-  libgdal-dev gdal-bin proj-data libcli11-dev nlohmann-json3-dev
+  libgdal-dev libproj-dev gdal-bin proj-data libcli11-dev nlohmann-json3-dev
   libopenmpi-dev openmpi-bin
   libgtest-dev librapidcheck-dev libboost-dev libhwy-dev libbenchmark-dev libccd-dev
   xvfb xauth libgl1-mesa-dri nginx gnuplot-nox

@@ -61,7 +61,7 @@ bool BoxCullCallback::isCulled(const osg::Node& node, osg::CullStack& cullStack,
     }
     if (_set->isRemoved() || !_tile->test().isTested) return false;
     const BoxTest& test = _tile->test();
-    const osg::BoundingSphere& sphere = test.isComplete ? test.box.sphere() : node.getBound();
+    const osg::BoundingSphere& sphere = test.sphereOf(node);
     return isCulledByBin(cullStack, nv, boxTraversalOf(nv), sphere,
                          [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
                              const core::Side side = test.sideOf(frustum.getPlaneList(), undecided, node);

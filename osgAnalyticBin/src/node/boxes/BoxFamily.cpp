@@ -36,7 +36,7 @@ void enter(osg::Node& child, const BoxSlots::Slot& slot, osg::NodeVisitor& nv) {
 // Whether what is in view is culled all the same: as a small feature, or behind an occluder.
 bool isCulledInView(const BoxTest& test, const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) {
     if (!test.isTested) return false;
-    const osg::BoundingSphere& sphere = test.isComplete ? test.box.sphere() : node.getBound();
+    const osg::BoundingSphere& sphere = test.sphereOf(node);
     return isSmall(cullStack.getCurrentCullingSet(), sphere) || isOccluded(cullStack, nv.getNodePath(), sphere);
 }
 

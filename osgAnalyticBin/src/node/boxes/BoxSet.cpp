@@ -5,13 +5,31 @@
 
 #include <osg/Notify>
 
+#include <algorithm>
+
 namespace osgAnalyticBin {
+
+namespace {
+
+bool holds(const osg::BoundingSphere& sphere, const osg::BoundingBoxd& box) {
+    if (!sphere.valid()) return false;
+    const osg::Vec3d center = sphere.center();
+    double farthest = 0.0;
+    for (unsigned int i = 0; i < 8; ++i) farthest = std::max(farthest, (box.corner(i) - center).length());
+    constexpr double kRounding = 1e-12;
+    return farthest * (1.0 + kRounding) <= static_cast<double>(sphere.radius());
+}
+
+}  // namespace
 
 void BoxTile::set(const MeshBox& box, bool isComplete) {
     _box = box;
     _test.isComplete = isComplete;
     _test.isTested = box.box().valid();
-    if (_test.isTested) _test.box = TestedBox(box.box());
+    // what is not loaded is where OSG's own sphere says, as far as anybody knows
+    const bool isBySphere = _test.isTested && !isComplete && holds(_sphere, box.box());
+    _test.asksNode = !isComplete && !isBySphere;
+    if (_test.isTested) _test.box = isBySphere ? TestedBox(_sphere) : TestedBox(box.box());
     if (_slots) _slots->slots[_slot].test = _test;
 }
 
@@ -25,8 +43,10 @@ bool BoxTile::isLikeParent() const {
     constexpr double kShare = 0.9;
     const BoxTile* above = _parent.get();
     while (above && above->_followsParent) above = above->_parent.get();
-    if (!above || !_test.isTested || !above->_test.isTested || !_test.isComplete || !above->_test.isComplete)
-        return false;
+    if (!above || !_test.isTested || !above->_test.isTested) return false;
+    if (isBySphere() && above->isBySphere())
+        return _sphere.center() == above->_sphere.center() && _sphere.radius() >= above->_sphere.radius();
+    if (!_test.isComplete || !above->_test.isComplete) return false;
     const osg::Vec3d own = _box.box()._max - _box.box()._min;
     const osg::Vec3d all = above->_box.box()._max - above->_box.box()._min;
     return own.x() >= kShare * all.x() && own.y() >= kShare * all.y() && own.z() >= kShare * all.z();

@@ -23,15 +23,19 @@ namespace osgAnalyticBin {
 
 /// How a LOD of a photogrammetry set is tested.
 struct BoxTest {
-    TestedBox box;
+    TestedBox box;            ///< what has to be out of view: the box, or a sphere that holds it
     bool isTested = false;    ///< otherwise it is never culled
+    bool asksNode = false;    ///< whether OSG's own sphere of the node has to be out of view, too
     bool isComplete = false;  ///< whether the box holds all that is paged below, loaded or not
 
-    /// What is not loaded is where OSG's own sphere says, as far as anybody knows.
     [[nodiscard]] core::Side sideOf(const osg::Polytope::PlaneList& planes, core::PlaneMask& undecided,
                                     const osg::Node& node) const {
         if (!isTested) return core::Side::Straddling;
-        return box.classify(planes, undecided, isComplete ? nullptr : &node.getBound());
+        return box.classify(planes, undecided, asksNode ? &node.getBound() : nullptr);
+    }
+    /// What is tested for other reasons than the planes: small features, occluders.
+    [[nodiscard]] const osg::BoundingSphere& sphereOf(const osg::Node& node) const {
+        return asksNode ? node.getBound() : box.sphere();
     }
 };
 
@@ -56,8 +60,9 @@ protected:
 /// What is known of a LOD of a photogrammetry set. Cull traversals read it; it changes in update traversals alone.
 class BoxTile final : public osg::Referenced {
 public:
-    /// `parent`: the LOD above it; null: none.
-    explicit BoxTile(BoxTile* parent) : _parent(parent) {}
+    /// `parent`: the LOD above it; null: none. `sphere`: the one that the LOD was given; not valid: none, it follows
+    /// the children.
+    BoxTile(BoxTile* parent, const osg::BoundingSphere& sphere) : _parent(parent), _sphere(sphere) {}
 
     /// `isComplete`: the box holds all that is paged below, loaded or not.
     void set(const MeshBox& box, bool isComplete);
@@ -67,8 +72,8 @@ public:
 
     /// Says that the tile is not tested by itself: who keeps its parent keeps it.
     void setFollowsParent() { _followsParent = true; }
-    /// Whether its box differs so little from that of the next tile above that is tested, that a test would say no
-    /// more.
+    /// Whether what is tested of it differs so little from that of the next tile above that is tested, that a test
+    /// would say no more.
     [[nodiscard]] bool isLikeParent() const;
 
     [[nodiscard]] BoxTile* parent() { return _parent.get(); }
@@ -80,7 +85,11 @@ protected:
     ~BoxTile() override = default;
 
 private:
+    // Whether the tile's own sphere says more than its box, and holds it.
+    [[nodiscard]] bool isBySphere() const { return !_test.isComplete && _test.isTested && !_test.asksNode; }
+
     const osg::ref_ptr<BoxTile> _parent;
+    const osg::BoundingSphere _sphere;
     MeshBox _box;
     BoxTest _test;
     bool _followsParent = false;
