@@ -108,7 +108,7 @@ private:
         const osg::ref_ptr<osg::PagedLOD> node = new osg::PagedLOD;
         const osg::ref_ptr<osg::Geode> mesh = meshOf(part);
         node->addChild(mesh);
-        const osg::BoundingSphere sphere = sphereOf(part, mesh->getBound());
+        const osg::BoundingSphere sphere = sphereOf(part);
         node->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
         node->setCenter(sphere.center());
         node->setRadius(sphere.radius());
@@ -120,13 +120,25 @@ private:
         return node;
     }
 
-    // A false sphere knows the ground alone, and half of that.
-    [[nodiscard]] osg::BoundingSphere sphereOf(const Part& part, osg::BoundingSphere sphere) const {
+    // About the vertices of all levels, which are among those of the finest. A false sphere holds those in its middle.
+    [[nodiscard]] osg::BoundingSphere sphereOf(const Part& part) const {
+        const int steps = int(2 * kCells) << std::max(0, _sample.levels - 1 - std::max(part.level, kChain));
+        const int all = part.level < kChain ? 2 * steps : steps;
+        osg::BoundingBox box;
+        for (int row = 0; row <= all; ++row) {
+            for (int column = 0; column <= all; ++column) {
+                const double x = part.west + column * part.side / all;
+                const double y = part.south + row * part.side / all;
+                for (const bool hasTowers : {false, true})
+                    box.expandBy(
+                        osg::Vec3d(x, y, photogrammetryHeight(x, y, hasTowers && _sample.towersFrom < _sample.levels)));
+            }
+        }
         const fs::path file = fs::path("Data") / _tile / fileName(part);
         const bool isFalseRoot = file == kTileWithFalseSphere;
         const bool isFalsePart = _tile == "Tile_+000_+001" && part.level == 2 && part.number == 0;
-        if (_sample.hasFalseSpheres && (isFalseRoot || isFalsePart)) sphere.radius() *= 0.35F;
-        return sphere;
+        const float share = _sample.hasFalseSpheres && (isFalseRoot || isFalsePart) ? 0.35F : 1.0F;
+        return {box.center(), share * box.radius()};
     }
 
     // The height field, finer along the chain; towers are steep slopes in it.
@@ -139,7 +151,7 @@ private:
             for (unsigned int column = 0; column <= cells; ++column) {
                 const double x = part.west + column * step;
                 const double y = part.south + row * step;
-                vertices->push_back(osg::Vec3d(x, y, photogrammetryHeight(x, y)));
+                vertices->push_back(osg::Vec3d(x, y, photogrammetryHeight(x, y, part.level >= _sample.towersFrom)));
                 texels->push_back(osg::Vec2d(double(column) / cells, double(row) / cells));
             }
         }
@@ -193,13 +205,13 @@ private:
 
 }  // namespace
 
-double photogrammetryHeight(double x, double y) {
+double photogrammetryHeight(double x, double y, bool hasTowers) {
     const double ground = 12.0 * std::sin(x / 90.0) * std::cos(y / 120.0) + 15.0;
     const auto isInTower = [](double at) {
         const double inCell = at - kTowerSpacing * std::floor(at / kTowerSpacing);
         return inCell > 70.0 && inCell < 70.0 + kTowerSide;
     };
-    return isInTower(x) && isInTower(y) ? ground + kTower : ground;
+    return hasTowers && isInTower(x) && isInTower(y) ? ground + kTower : ground;
 }
 
 std::string writePhotogrammetrySample(const std::string& folder, const PhotogrammetrySample& sample) {

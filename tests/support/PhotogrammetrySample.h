@@ -16,7 +16,10 @@ struct PhotogrammetrySample {
     std::string origin = "0,0,0";
     double tileMetres = 200.0;
     unsigned int textureSize = 32;
-    /// Two nodes have spheres that do not hold their vertices: a root, and one two levels below.
+    /// The level from which on the meshes have the towers.
+    int towersFrom = 0;
+    /// Two nodes have spheres that do not hold their vertices: a root, and one two levels below. The others hold those
+    /// of all levels.
     bool hasFalseSpheres = true;
 };
 
@@ -28,6 +31,6 @@ inline constexpr const char* kFileWithFalseSphere = "Data/Tile_+000_+001/Tile_+0
 [[nodiscard]] std::string writePhotogrammetrySample(const std::string& folder, const PhotogrammetrySample& sample = {});
 
 /// Metres above the ground of the set's frame, at a place in it: towers are steps.
-[[nodiscard]] double photogrammetryHeight(double x, double y);
+[[nodiscard]] double photogrammetryHeight(double x, double y, bool hasTowers = true);
 
 }  // namespace osgAnalyticBin::test

@@ -147,13 +147,19 @@ public:
     }
 
 private:
+    // OSG reports the last reader's error alone, which is that of its http client.
+    static ReadResult refusedFromServer(const std::string& name) {
+        OSG_WARN << "analyticbin: \"" << name
+                 << "\": photogrammetry sets are read from a disk, not from a server; mount or copy the folder."
+                 << std::endl;
+        return ReadResult::FILE_NOT_HANDLED;
+    }
+
     // A photogrammetry set is a folder, which no other plugin reads.
     static ReadResult readDatabase(const std::string& name, const osgDB::Options* options) {
         using namespace osgAnalyticBin::plugin;
         if (osgDB::getLowerCaseFileExtension(name) == "xml") {
-            if (osgDB::containsServerAddress(name))
-                return ReadResult("analyticbin: \"" + name +
-                                  "\": photogrammetry sets are read from a disk, not from a server");
+            if (osgDB::containsServerAddress(name)) return refusedFromServer(name);
             const std::string path = osgDB::findDataFile(name, options);
             if (!path.empty() && isPhotogrammetryMetadata(path)) return readPhotogrammetrySet(path, options);
         }

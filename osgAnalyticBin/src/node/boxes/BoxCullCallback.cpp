@@ -20,11 +20,11 @@ struct TraversalOfThread {
 };
 thread_local TraversalOfThread traversalOfThread;
 
-CullTraversal& traversalOf(osg::NodeVisitor& visitor) {
+}  // namespace
+
+CullTraversal& boxTraversalOf(osg::NodeVisitor& visitor) {
     return traversalOfThread.visitor == &visitor ? *traversalOfThread.traversal : CullTraversal::of(visitor);
 }
-
-}  // namespace
 
 BoxCullCallback::BoxCullCallback(const BoxCullCallback& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop),
@@ -59,13 +59,12 @@ bool BoxCullCallback::isCulled(const osg::Node& node, osg::CullStack& cullStack,
         setUndecided(cullStack.getCurrentCullingSet().getFrustum(), 0);
         return false;
     }
-    if (_set->isRemoved() || !_tile->isTested()) return false;
-    const TestedBox& box = _tile->tested();
-    // what is not loaded is where OSG's sphere says, as far as anybody knows
-    const osg::BoundingSphere* const also = _tile->isComplete() ? nullptr : &node.getBound();
-    return isCulledByBin(cullStack, nv, traversalOf(nv), also ? *also : box.sphere(),
+    if (_set->isRemoved() || !_tile->test().isTested) return false;
+    const BoxTest& test = _tile->test();
+    const osg::BoundingSphere& sphere = test.sphereOf(node);
+    return isCulledByBin(cullStack, nv, boxTraversalOf(nv), sphere,
                          [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
-                             const core::Side side = box.classify(frustum.getPlaneList(), undecided, also);
+                             const core::Side side = test.sideOf(frustum.getPlaneList(), undecided, node);
                              return Verdict{side, Verdict::Plane};
                          });
 }

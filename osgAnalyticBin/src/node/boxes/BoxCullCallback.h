@@ -10,6 +10,11 @@
 
 namespace osgAnalyticBin {
 
+class CullTraversal;
+
+/// What a cull visitor knows; quick within a set.
+[[nodiscard]] CullTraversal& boxTraversalOf(osg::NodeVisitor& visitor);
+
 /// The cull callback of a LOD of a photogrammetry set, whose own sphere is not tested any more. It says of itself that
 /// it is a plain osg::NodeCallback: a scene that is saved holds nothing of it.
 /// Guarantee: a LOD is never culled if a vertex of it, or of what is loaded below, is inside all planes; nor, where its
@@ -26,8 +31,6 @@ public:
     static void place(osg::LOD& node, BoxSet& set, BoxTile& tile);
     /// Takes it off again.
     static void remove(osg::LOD& node);
-
-    [[nodiscard]] const BoxTile& tile() const { return *_tile; }
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 

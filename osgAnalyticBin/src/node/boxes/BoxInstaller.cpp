@@ -4,9 +4,11 @@
 #include "BoxInstaller.h"
 
 #include "../install/FindCallback.h"
+#include "../install/MeshCulling.h"
 #include "../install/TileCallback.h"
 #include "../page/PagingExpiry.h"
 #include "BoxCullCallback.h"
+#include "BoxFamily.h"
 #include "BoxReadFileCallback.h"
 #include "SetMarks.h"
 
@@ -19,6 +21,7 @@
 #include <osgDB/Registry>
 
 #include <algorithm>
+#include <typeinfo>
 
 namespace osgAnalyticBin {
 
@@ -29,8 +32,14 @@ class BoxRemover : public osg::NodeVisitor {
 public:
     BoxRemover() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
 
+    void apply(osg::Group& node) override {
+        BoxFamily::remove(node);
+        traverse(node);
+    }
+
     void apply(osg::LOD& node) override {
         BoxCullCallback::remove(node);
+        resumeCullingOf(node);
         traverse(node);
     }
 
@@ -47,7 +56,8 @@ public:
 
 osg::ref_ptr<BoxIndex> indexOf(const osg::Node& set, const CullOptions& options) {
     const std::string metadata = metadataFileOf(set);
-    if (!options.index || metadata.empty() || !osgDB::fileExists(boxIndexPath(metadata))) return nullptr;
+    const bool isWanted = options.index && options.method != Method::None;
+    if (!isWanted || metadata.empty() || !osgDB::fileExists(boxIndexPath(metadata))) return nullptr;
     std::string error;
     osg::ref_ptr<BoxIndex> index = BoxIndex::read(boxIndexPath(metadata), error);
     if (!index) OSG_WARN << "osgAnalyticBin: " << error << "; the set is culled without it." << std::endl;
@@ -61,6 +71,13 @@ osg::ref_ptr<osgDB::Options> readingOptions(const osgDB::Options* own) {
     options->setObjectCacheHint(
         static_cast<osgDB::Options::CacheHintOptions>(options->getObjectCacheHint() & ~osgDB::Options::CACHE_NODES));
     return options;
+}
+
+// Where it does not depend on the children.
+osg::BoundingSphere sphereOf(const osg::LOD& node) {
+    const bool isOwn = node.getCenterMode() == osg::LOD::USER_DEFINED_CENTER && node.getRadius() >= 0.0F &&
+                       !node.getComputeBoundingSphereCallback() && !node.getInitialBound().valid();
+    return isOwn ? osg::BoundingSphere(node.getCenter(), node.getRadius()) : osg::BoundingSphere();
 }
 
 }  // namespace
@@ -82,7 +99,7 @@ BoxInstaller::Content BoxInstaller::install(osg::Node& node, const std::string& 
     std::vector<Content> below;
     Pagings pagings;
     for (const FoundLod& lod : content.lods) {
-        tiles.emplace_back(new BoxTile(lod.parent ? tiles[*lod.parent].get() : parent));
+        tiles.emplace_back(new BoxTile(lod.parent ? tiles[*lod.parent].get() : parent, sphereOf(*lod.node)));
         below.push_back(installBelow(*lod.node, file, *tiles.back()));
         if (auto* const paged = dynamic_cast<osg::PagedLOD*>(lod.node)) {
             followPaging(*paged, file, *tiles.back(), pagings);
@@ -110,11 +127,42 @@ BoxInstaller::Content BoxInstaller::place(const LodContent& content, const std::
         if (!fits[i] && content.lods[i].parent) fits[*content.lods[i].parent] = false;
         all.isMisfit = all.isMisfit || (_set.index() && !fits[i]);
         tiles[i]->set(box, fits[i]);
-        BoxCullCallback::place(*content.lods[i].node, _set, *tiles[i]);
     }
-    _installed += tiles.size();
+    placeCallbacks(content, tiles);
     if (all.isMisfit) _set.noteMisfit(file);
     return all;
+}
+
+bool BoxInstaller::isInGroup(const osg::Node& node) const {
+    if (node.getNumParents() != 1) return false;
+    const osg::Group& parent = *node.getParent(0);
+    return &parent == _root || typeid(parent) == typeid(osg::Group);
+}
+
+// In a chain of single children, each about as large as the one above, one test is enough. Children of groups are
+// tested by their families.
+void BoxInstaller::placeCallbacks(const LodContent& content, const std::vector<osg::ref_ptr<BoxTile>>& tiles) {
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        osg::LOD& node = *content.lods[i].node;
+        const bool isInChain = tiles.size() == 1 || content.lods[i].parent;
+        if (isInChain && _set.options().method != Method::None && _set.isLikeParent(*tiles[i])) {
+            tiles[i]->setFollowsParent();
+            suspendCullingOf(node);
+        } else if (isInGroup(node)) {
+            _members[&node] = tiles[i];
+        } else {
+            BoxCullCallback::place(node, _set, *tiles[i]);
+        }
+    }
+    for (osg::Group* const group : content.groups) placeFamily(*group);
+    _installed += tiles.size();
+}
+
+void BoxInstaller::placeFamily(osg::Group& group) const {
+    BoxFamily::place(group, _set, [this](const osg::Node& node) -> BoxTile* {
+        const auto found = _members.find(&node);
+        return found == _members.end() ? nullptr : found->second.get();
+    });
 }
 
 BoxInstaller::Content BoxInstaller::installBelow(osg::LOD& node, const std::string& file, BoxTile& tile) {
@@ -163,11 +211,12 @@ std::size_t installBoxes(osg::Group& root, const CullOptions& options) {
     removeBoxes(root);
     const osg::ref_ptr<BoxIndex> index = indexOf(root, options);
     const osg::ref_ptr<BoxSet> set = new BoxSet(options, index.get());
-    BoxInstaller installer(*set);
+    BoxInstaller installer(*set, &root);
     for (unsigned int i = 0; i < root.getNumChildren(); ++i) {
         osg::Node& tile = *root.getChild(i);
         (void)installer.install(tile, photogrammetryFileOf(tile), nullptr);
     }
+    installer.placeFamily(root);
     const osg::ref_ptr<BoxSetCullCallback> cull = new BoxSetCullCallback;
     cull->setNestedCallback(root.getCullCallback());
     root.setCullCallback(cull);
@@ -178,6 +227,7 @@ std::size_t installBoxes(osg::Group& root, const CullOptions& options) {
 void removeBoxes(osg::Group& root) {
     if (const osg::ref_ptr<osg::Callback> cull = findCallback<BoxSetCullCallback>(root.getCullCallback()))
         takeOff(root, *cull);
+    BoxFamily::remove(root);
     const osg::ref_ptr<BoxSetUpdateCallback> update = findCallback<BoxSetUpdateCallback>(root.getUpdateCallback());
     if (!update) return;
     update->set().setRemoved();

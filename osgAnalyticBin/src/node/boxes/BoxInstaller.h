@@ -11,6 +11,7 @@
 #include <osgDB/Options>
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,7 +23,8 @@ class BoxReadFileCallback;
 /// Installs boxes on the LODs of the files of a photogrammetry set.
 class BoxInstaller final {
 public:
-    explicit BoxInstaller(BoxSet& set) : _set(set) {}
+    /// `root`: of the set, where all of it is visited; null: a file of it.
+    explicit BoxInstaller(BoxSet& set, const osg::Group* root = nullptr) : _set(set), _root(root) {}
 
     struct Content {
         MeshBox box;            ///< all vertices that are loaded
@@ -34,6 +36,9 @@ public:
 
     /// Says what is there without changing it; the index is taken not to know it.
     [[nodiscard]] Content survey(osg::Node& node) const;
+
+    /// Has a group cull those of its children on which boxes were installed.
+    void placeFamily(osg::Group& group) const;
 
     /// Number of LODs that got boxes.
     [[nodiscard]] std::size_t installed() const { return _installed; }
@@ -49,11 +54,16 @@ private:
     [[nodiscard]] bool isKnown(const std::string& file, std::size_t lods) const;
     [[nodiscard]] Content place(const LodContent& content, const std::vector<Content>& below, const std::string& file,
                                 const std::vector<osg::ref_ptr<BoxTile>>& tiles);
+    void placeCallbacks(const LodContent& content, const std::vector<osg::ref_ptr<BoxTile>>& tiles);
     Content installBelow(osg::LOD& node, const std::string& file, BoxTile& tile);
     void followPaging(osg::PagedLOD& node, const std::string& file, BoxTile& tile, Pagings& pagings) const;
     [[nodiscard]] Paging makePaging(osgDB::Options* own) const;
 
+    [[nodiscard]] bool isInGroup(const osg::Node& node) const;
+
     BoxSet& _set;
+    const osg::Group* const _root;
+    std::map<const osg::Node*, osg::ref_ptr<BoxTile>> _members;  // of groups
     std::size_t _installed = 0;
 };
 

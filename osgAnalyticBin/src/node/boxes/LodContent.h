@@ -24,8 +24,9 @@ struct FoundLod {
 
 /// What stands in a file of a photogrammetry set, the files paged below it left out.
 struct LodContent {
-    std::vector<FoundLod> lods;  ///< in preorder
-    MeshBox beside;              ///< vertices below no LOD
+    std::vector<FoundLod> lods;       ///< in preorder
+    std::vector<osg::Group*> groups;  ///< plain groups
+    MeshBox beside;                   ///< vertices below no LOD
 
     /// All that stands below each LOD in the file, and what `below` adds to them, one for each LOD.
     [[nodiscard]] std::vector<MeshBox> boxes(const std::vector<MeshBox>& below) const;

@@ -67,16 +67,6 @@ bool isGlobeBroken(const osg::CoordinateSystemNode& node) {
     return node.getEllipsoidModel() && !hasValidRadii(*node.getEllipsoidModel());
 }
 
-// What looks like a tile, where nobody looks for tiles.
-bool hasTileBelow(osg::Node& subgraph) {
-    bool has = false;
-    forEachNode(subgraph, [&has](osg::Node& node) {
-        has = has || hasStoredBin(node) || dynamic_cast<osg::PagedLOD*>(&node) ||
-              dynamic_cast<osgTerrain::TerrainTile*>(&node);
-    });
-    return has;
-}
-
 // Whether a globe is the one that what is above it stands on.
 bool isSameGlobe(const TileFrame& above, const TileFrame& inside) {
     if (!above.ellipsoid || !inside.ellipsoid || above.isProjected || inside.isProjected) return false;
@@ -200,8 +190,10 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const Scoped paging(_paging, PagingByOptions());
     const Scoped coverage(_coverage, std::make_shared<CoverageByFile>());
     (*_coverage)[frame().file].expectGlobe();
-    const std::size_t before = _installed;
+    const std::size_t before = _installed, boxesBefore = _boxes;
     TileFinder::apply(node);
+    // photogrammetry alone is no globe with gaps
+    if (_boxes > boxesBefore && _installed == before && _paging.empty()) _coverage->clear();
     finish();
     if (isRefit) return;
     if (installsBins() && (_installed > before || !_paging.empty())) return attachDatabase(node, *own);
@@ -263,11 +255,6 @@ void BinInstaller::passBy(osg::Node& node, bool isTile) {
     }
     const Scoped selective(_isBelowSelection, _isBelowSelection || (!isTile && !drawsAllChildren(node)));
     traverseBelow(node);
-}
-
-void BinInstaller::visitMoving(osg::Transform& node) {
-    removeCallbacksBelow(node);
-    if (installsBins() && hasTileBelow(node)) database().noteStrayTile(frame().file);
 }
 
 // It keeps OSG's own culling; how deep it lies is not known.

@@ -2,13 +2,19 @@
 // SPDX-License-Identifier: MIT
 
 #include "../boxes/BoxInstaller.h"
+#include "../page/Database.h"
 #include "BinInstaller.h"
+#include "MeshCulling.h"
+#include "TileCallback.h"
 
 #include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/PhotogrammetrySet.h>
 
 #include <osg/NodeCallback>
 #include <osg/Notify>
+#include <osg/PagedLOD>
 #include <osg/ValueObject>
+#include <osgTerrain/TerrainTile>
 
 #include <typeinfo>
 
@@ -26,12 +32,28 @@ std::size_t install(osg::Node& node, const CullOptions& options, const BinIndex*
     return installer.installed();
 }
 
+// What looks like a tile, where nobody looks for tiles.
+bool hasTileBelow(osg::Node& subgraph) {
+    bool has = false;
+    forEachNode(subgraph, [&has](osg::Node& node) {
+        has = has || hasStoredBin(node) || dynamic_cast<osg::PagedLOD*>(&node) ||
+              dynamic_cast<osgTerrain::TerrainTile*>(&node);
+    });
+    return has;
+}
+
 }  // namespace
 
 // Culled by boxes of its vertices, whatever stands around it.
 void BinInstaller::visitSet(osg::Group& set) {
     if (_options.method == Method::Sphere) return removeBoxes(set);
     _boxes += installBoxes(set, _options);
+}
+
+void BinInstaller::visitMoving(osg::Transform& node) {
+    if (isPhotogrammetrySet(node)) return visitSet(node);
+    removeCallbacksBelow(node);
+    if (installsBins() && hasTileBelow(node)) database().noteStrayTile(frame().file);
 }
 
 std::size_t setCullOptions(osg::Node& node, const CullOptions& options) {
