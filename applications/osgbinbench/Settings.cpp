@@ -132,9 +132,10 @@ struct Words {
 
 void declare(CLI::App& app, Settings& settings, Words& words) {
     app.footer(footer());
-    app.add_option("DATABASE", settings.database, "root file of a paged globe that OSG reads");
+    app.add_option("DATABASE", settings.database, "root file of a paged globe or map that OSG reads");
     app.add_option("--path", settings.paths,
-                   "camera path, CSV: degrees and metres, as data/paths/demo.csv;\nmay be given several times")
+                   "camera path, CSV: degrees and metres, as data/paths/demo.csv; over\na map eyeX, eyeY, lookX, lookY "
+                   "in place of degrees; may be given\nseveral times")
         ->allow_extra_args(false);
     app.add_option("--methods", settings.methods,
                    "comma-separated, see below, or all (default: none,sphere,cluster,\n"
@@ -233,7 +234,7 @@ std::string threadingName(Model model) {
 }
 
 bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {
-    CLI::App app{"Measures the culling of a paged globe, method by method, along a camera path.", "osgbinbench"};
+    CLI::App app{"Measures the culling of a paged globe or map, method by method, along a camera path.", "osgbinbench"};
     app.set_version_flag("--version", std::string("osgbinbench (osgAnalyticBin) ") + osgAnalyticBin::version());
     Words words;
     declare(app, settings, words);

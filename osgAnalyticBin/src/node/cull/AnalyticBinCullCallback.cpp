@@ -15,7 +15,6 @@
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
-#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <osg/CullStack>
 #include <osg/Notify>
@@ -146,8 +145,8 @@ void AnalyticBinCullCallback::changeBin() {
     _binLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
     _binHigh = shown.valid() ? shown.bin().altitude().upper + shown.margin() : -kUnknown;
     const bool hasMethod = _setup->options.method != Method::None && _setup->options.method != Method::Sphere;
-    const bool hasGround = areValidRadii(_setup->equatorialRadius, _setup->polarRadius) || isInMap();
-    _isTested = hasMethod && shown.valid() && hasGround;
+    _isTested =
+        hasMethod && shown.valid() && (areValidRadii(_setup->equatorialRadius, _setup->polarRadius) || isInMap());
     _testsEdges = _setup->options.effectiveEdges();
     _hidesByPoint = isBox(_setup->options.method);
     discardPrepared();

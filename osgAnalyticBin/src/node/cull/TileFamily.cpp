@@ -121,7 +121,8 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
     if (!isSame) return false;
     _nodes[slot] = &child;
     _block->addMember(slot);
-    _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), typeid(child) == typeid(osg::PagedLOD),
+    _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child),
+                      typeid(child) == typeid(osg::PagedLOD) || typeid(child) == typeid(Carrier),
                       tile->getInstalledTile()->isSeeThrough(), meshPartsOf(child)};
     tile->getInstalledTile()->joinFamily(*_block, slot);
     // osgUtil::Optimizer may have changed the form of the mesh: the new form is as good
@@ -237,11 +238,11 @@ std::uint64_t TileFamily::culled(unsigned int first, const Verdicts& verdicts, c
     return culled;
 }
 
-// A plain PagedLOD without other callbacks is entered as osgUtil::CullVisitor does it, but for the calls that lead to
-// the tile's own callback, which would do nothing: its family has tested it.
+// A plain PagedLOD or carrier without other callbacks is entered as osgUtil::CullVisitor does it, but for the calls
+// that lead to the tile's own callback, which would do nothing: its family has tested it.
 void TileFamily::enter(osg::Node& child, const Member& member, osg::NodeVisitor& nv, CullTraversal& traversal) {
     const bool isAlone = child.getCullCallback() == member.tile && !member.tile->getNestedCallback();
-    if (!member.isPlainlyPaged || !isAlone || child.getCullingActive() || typeid(nv) != typeid(osgUtil::CullVisitor)) {
+    if (!member.isPlain || !isAlone || child.getCullingActive() || typeid(nv) != typeid(osgUtil::CullVisitor)) {
         traversal.setKept(&child);
         child.accept(nv);
         traversal.setKept(nullptr);
