@@ -92,8 +92,8 @@ double perPose(double sum, std::size_t poses) {
 }
 
 constexpr std::array<BarChart, 3> kBarCharts{{
-    {"drawn", "Tiles drawn for each tile needed, sums over the poses of a path", "tiles drawn / tiles needed", "%.2f",
-     true, false,
+    {"drawn", "Tiles drawn for each tile needed, sums over the poses of a path",
+     "tiles drawn / tiles needed (logarithmic)", "%.2f", true, false,
      [](const Figures& sum, std::size_t) {
          return sum.truthTiles > 0 ? static_cast<double>(sum.drawnTiles) / static_cast<double>(sum.truthTiles)
                                    : std::nan("");

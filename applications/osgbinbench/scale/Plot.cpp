@@ -63,7 +63,8 @@ std::string flightPlot(const std::vector<DepthRow>& rows) {
 }
 
 std::string residentPlot(const std::vector<ResidentRow>& rows) {
-    return "set title 'Cull time of one view'\nset xlabel 'PagedLODs in memory'\nset logscale x\n"
+    return "set title 'Cull time of one view'\nset xlabel 'PagedLODs in memory (logarithmic)'\nset logscale x\n"
+           "set rmargin 6\n"
            "set ylabel 'milliseconds'\nset yrange [0:*]\n" +
            linesOf<ResidentRow>(
                rows, [](const ResidentRow& row) { return std::pair(static_cast<double>(row.pagedLods), row.cullMs); });
@@ -74,7 +75,7 @@ std::string memoryPlot(const std::vector<MemoryRow>& rows) {
     for (const MemoryRow& row : rows) data += "\"" + row.method + "\" " + textFrom(row.bytesPerTile / 1024.0) + "\n";
     return data +
            "EOD\nset title 'Memory of a tile'\nset ylabel 'KiB'\nset yrange [0:*]\nset style fill solid 0.6\n"
-           "set boxwidth 0.6\nunset key\nset xtics rotate by -15\nplot $bars using 0:2:xtic(1) with boxes\n";
+           "set boxwidth 0.6\nunset key\nset xtics rotate by 20 right\nplot $bars using 0:2:xtic(1) with boxes\n";
 }
 
 void runGnuplot(const std::string& commands) {

@@ -19,7 +19,7 @@ namespace osgAnalyticBin {
 
 namespace {
 
-constexpr float kFaceAlpha = 0.22F;
+constexpr float kFaceAlpha = 0.3F;
 constexpr std::array<TileVerdict, 6> kVerdicts{TileVerdict::Inside, TileVerdict::Straddling, TileVerdict::Outside,
                                                TileVerdict::Hidden, TileVerdict::BeyondEdge, TileVerdict::Occluded};
 const osg::Vec4 kQuadraticColour(1.0F, 1.0F, 1.0F, 1.0F);

@@ -25,9 +25,9 @@ namespace osgAnalyticBin {
 namespace {
 
 constexpr double kRadiansPerStep = 3.14159265358979323846 / 180.0;
-constexpr int kFewestSteps = 4;
+constexpr int kFewestSteps = 16;
 
-// Of a box's parameter: chords of at most a degree.
+// Of a box's parameter: chords of at most a degree, and finer in tiles near by, so that terrain does not come through.
 int stepsOf(const core::Interval& angles) {
     return std::max(kFewestSteps, static_cast<int>(std::ceil(angles.width() / kRadiansPerStep)));
 }
@@ -57,7 +57,8 @@ private:
 
     [[nodiscard]] double unitAt(int axis, int step) const { return 2.0 * step / _steps[std::size_t(axis)] - 1.0; }
 
-    // The face where one parameter is -1 or 1.
+    // The face where one parameter is -1 or 1, counterclockwise from outside: latitude, longitude and altitude are a
+    // left-handed frame.
     void addFace(int fixed, double side) {
         const int u = (fixed + 1) % 3;
         const int v = (fixed + 2) % 3;
@@ -77,7 +78,9 @@ private:
         for (unsigned int j = 0; j < static_cast<unsigned int>(rows); ++j) {
             for (unsigned int i = 0; i < static_cast<unsigned int>(columns); ++i) {
                 const unsigned int at = first + j * width + i;
-                for (const unsigned int index : {at, at + 1, at + width + 1, at, at + width + 1, at + width}) {
+                const unsigned int right = side > 0.0 ? at + width : at + 1;
+                const unsigned int left = side > 0.0 ? at + 1 : at + width;
+                for (const unsigned int index : {at, right, at + width + 1, at, at + width + 1, left}) {
                     _mesh.triangles.push_back(index);
                 }
             }
@@ -137,16 +140,21 @@ osg::ref_ptr<osg::Node> makeSlab(const SlabMesh& mesh, const osg::Vec4& faces, c
         const auto geometry = makeIndexed(*vertices, GL_TRIANGLES, mesh.triangles, faces);
         osg::StateSet& state = *geometry->getOrCreateStateSet();
         state.setMode(GL_BLEND, osg::StateAttribute::ON);
-        state.setAttributeAndModes(new osg::CullFace, osg::StateAttribute::OFF);
+        // The bottom, which flat terrain coincides with, is not seen from above.
+        state.setAttributeAndModes(new osg::CullFace);
         state.setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0.0, 1.0, false));
         state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
         geode->addDrawable(geometry);
     }
     const auto lines = makeIndexed(*vertices, GL_LINES, mesh.lines, edges);
-    lines->getOrCreateStateSet()->setAttributeAndModes(new osg::LineWidth(1.5F));
-    lines->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
+    osg::StateSet& state = *lines->getOrCreateStateSet();
+    state.setAttributeAndModes(new osg::LineWidth(1.5F));
+    state.setMode(GL_BLEND, osg::StateAttribute::ON);
+    // Edges of neighbours and of the quadratic approximation nearly coincide: the last one drawn wins along its length.
+    // What is clamped to the far plane has no lines.
+    state.setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false));
     // after the faces of all slabs
-    lines->getOrCreateStateSet()->setRenderBinDetails(20, "RenderBin");
+    state.setRenderBinDetails(faces.a() > 0.0F ? 20 : 21, "RenderBin");
     geode->addDrawable(lines);
     osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform(osg::Matrixd::translate(mesh.origin));
     placed->addChild(geode);

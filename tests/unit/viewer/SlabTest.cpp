@@ -77,6 +77,33 @@ TEST_P(Slab, HasTwelveEdgesAndClosedFaces) {
     for (const unsigned int index : mesh.lines) ASSERT_LT(index, mesh.vertices.size());
 }
 
+bool holds(const core::GeodeticBin& bin, const osg::Vec3d& ecef) {
+    const osg::EllipsoidModel ellipsoid(kEarth.equatorialRadius(), kEarth.polarRadius());
+    core::Geodetic at{};
+    ellipsoid.convertXYZToLatLongHeight(ecef.x(), ecef.y(), ecef.z(), at.latitude, at.longitude, at.altitude);
+    return bin.contains(at);
+}
+
+// Bins that are thicker than the step, and have no pole, where triangles may have no area.
+TEST(SlabFaces, AreCounterclockwiseFromOutside) {
+    constexpr double kStep = 2000.0;
+    for (const core::GeodeticBin& bin :
+         {binDeg({10, 11}, {20, 21}, {-500, 4000}), binDeg({-45, 0}, {90, 135}, {-12000, 3000}),
+          binDeg({30, 50}, {170, 200}, {0, 9000})}) {
+        const SlabMesh mesh = slabMesh(bin, kEarth, SlabShape::Bin);
+        for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+            const osg::Vec3d a = mesh.vertices[mesh.triangles[i]];
+            const osg::Vec3d b = mesh.vertices[mesh.triangles[i + 1]];
+            const osg::Vec3d c = mesh.vertices[mesh.triangles[i + 2]];
+            osg::Vec3d step = (b - a) ^ (c - a);
+            step *= kStep / step.length();
+            const osg::Vec3d middle = mesh.origin + (a + b + c) / 3.0;
+            ASSERT_FALSE(holds(bin, middle + step)) << i;
+            ASSERT_TRUE(holds(bin, middle - step)) << i;
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, Slab, ::testing::ValuesIn(kBins));
 
 TEST(QuadraticSlab, LeavesTheBinByNoMoreThanTheRemainder) {

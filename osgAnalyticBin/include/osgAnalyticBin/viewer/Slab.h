@@ -29,14 +29,15 @@ enum class SlabShape {
     Quadratic  ///< its second-order Taylor model: what a quadratic bin tests; wide tiles are culled by the closed form
 };
 
-/// The six curved faces of a bin, a vertex every degree or finer.
+/// The six curved faces of a bin, a vertex every degree or finer; triangles are counterclockwise from outside.
 /// Guarantee: every vertex of SlabShape::Bin is on the bin's surface to the rounding of float; the faces leave it by
 /// 500 m at most, the sag of chords of a degree both ways; tests: Slab.*.
 /// Requires: a bin that is not empty.
 [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT SlabMesh slabMesh(const core::GeodeticBin& bin,
                                                             const core::Ellipsoid& ellipsoid, SlabShape shape);
 
-/// Faces, translucent where the colour is, and edges; in ECEF.
+/// Faces that look towards the eye, translucent where the colour is, and edges; in ECEF. Slabs without faces are drawn
+/// after those that have some.
 [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT osg::ref_ptr<osg::Node> makeSlab(const SlabMesh& mesh, const osg::Vec4& faces,
                                                                            const osg::Vec4& edges);
 
