@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 
 #include "DatabaseCopy.h"
-#include "DatabaseFiles.h"
 #include "Failure.h"
 #include "IndexBuilder.h"
 #include "IndexReport.h"
 #include "Interruption.h"
+#include "ModuleFolder.h"
 #include "ProgramRun.h"
 
 #include <osgAnalyticBin/Version.h>
@@ -111,7 +111,9 @@ void prepareProcess() {
     if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::ALWAYS);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, requestStop);
     std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error like a full disk
-    osgbinconv::prepareReaders();
+    osgAnalyticBin::addModuleFolder();
+    osgAnalyticBin::indexing::loadSerializers();
+    osgAnalyticBin::indexing::checkAllReads();
 }
 
 ExitCode run(int argc, char** argv) {

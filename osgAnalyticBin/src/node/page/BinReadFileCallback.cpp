@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <exception>
 #include <ios>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -37,6 +38,22 @@ std::string placeText(const Database& database, const TileFrame& frame) {
     if (ellipsoid) numbers.insert(numbers.end(), {ellipsoid->getRadiusEquator(), ellipsoid->getRadiusPolar()});
     return std::to_string(database.number()) + ' ' + numbersToText(numbers);
 }
+
+// Has the thread that makes the index give way.
+class BusyPager {
+public:
+    explicit BusyPager(osg::ref_ptr<AutoIndex> index) : _index(std::move(index)) {
+        if (_index) _index->noteRead(1);
+    }
+    ~BusyPager() {
+        if (_index) _index->noteRead(-1);
+    }
+    BusyPager(const BusyPager&) = delete;
+    BusyPager& operator=(const BusyPager&) = delete;
+
+private:
+    const osg::ref_ptr<AutoIndex> _index;
+};
 
 }  // namespace
 
@@ -86,6 +103,7 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readNode(const std::string&
                                                               const osgDB::Options* options) {
     // No node and no error: the pager says nothing, and asks again in the next frame.
     if (!_failures.mayRead(fileName, FailedReads::Clock::now())) return ReadResult::FILE_LOADED;
+    const BusyPager busy(_database->adoption().index());
     ReadResult result = readOrFail(fileName, options);
     _failures.note(fileName, result.validNode(), FailedReads::Clock::now());
     if (result.validNode()) _database->noteRead(*result.getNode(), _generation);
@@ -155,7 +173,7 @@ void BinReadFileCallback::treat(osg::Node& node, const Expected& expected) const
     BinInstaller installer(_options);
     installer.continueBelow(_database.get(), expected.frame, expected.parent.get());
     node.accept(installer);
-    installer.finish();
+    installer.finish(&node);
 }
 
 }  // namespace osgAnalyticBin
