@@ -140,8 +140,10 @@ TEST_F(AutoIndex, EndsWithItsBinsOrItsSceneAndLeavesNothingHalfWritten) {
     for (const bool isRemoved : {true, false}) {
         for (int i = 0; i < 20; ++i) {
             open();
-            if (isRemoved) removeBins(*_scene);
-            if (isRemoved) EXPECT_FALSE(isIndexAwaited(*_scene));
+            if (isRemoved) {
+                removeBins(*_scene);
+                EXPECT_FALSE(isIndexAwaited(*_scene));
+            }
             _scene = nullptr;
             _root = nullptr;
             EXPECT_FALSE(std::filesystem::exists(binIndexName(_file) + ".making"));

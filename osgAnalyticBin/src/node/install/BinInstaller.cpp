@@ -16,6 +16,7 @@
 #include "../surface/TilePlates.h"
 #include "ContentWatch.h"
 #include "Coverage.h"
+#include "InstalledTile.h"
 #include "Instances.h"
 #include "MeshCulling.h"
 #include "PlanarFit.h"
@@ -323,8 +324,10 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     link->callback = callback.get();
     link->isBeingInstalled = true;
     _links.push_back(link);
-    if (fit.awaitsIndex && database().adoption().isAwaited())
-        _awaiting.push_back({link, tileFingerprint(tile), fit.ownSkirt, !tile.pagedFiles.empty()});
+    if (fit.awaitsIndex && database().adoption().isAwaited()) {
+        callback->getInstalledTile()->keep(*link);
+        _awaiting.push_back({link.get(), tileFingerprint(tile), fit.ownSkirt, !tile.pagedFiles.empty()});
+    }
     noteCovered(tile, fit, *link);
     goOnBelow(tile, *link);
 }

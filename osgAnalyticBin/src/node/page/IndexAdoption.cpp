@@ -19,9 +19,10 @@ constexpr std::size_t kMostContents = 65536;
 
 // Returns: whether the tile waits for more.
 bool adoptTile(const AwaitingTile& waiting, const AutoIndex& index, Database& database) {
-    const ParentTile& tile = *waiting.tile;
+    osg::ref_ptr<const ParentTile> link;
     osg::ref_ptr<AnalyticBinCullCallback> callback;
-    if (!tile.callback.lock(callback)) return false;
+    if (!waiting.tile.lock(link) || !link->callback.lock(callback)) return false;
+    const ParentTile& tile = *link;
     const bool isWhole = index.isWhole();
     const auto entry = index.find(tile.file, tile.ordinal);
     if (!entry || entry->fingerprint != waiting.fingerprint) {

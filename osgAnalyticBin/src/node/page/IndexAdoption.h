@@ -23,7 +23,7 @@ struct ParentTile;
 
 /// A tile whose bin is to become that of the index when the index knows it.
 struct AwaitingTile {
-    osg::ref_ptr<const ParentTile> tile;
+    osg::observer_ptr<const ParentTile> tile;  // which has a reference to the database
     std::uint64_t fingerprint = 0;
     double skirt = 0.0;    ///< metres, of its own mesh
     bool isPaged = false;  ///< whether files are below it
