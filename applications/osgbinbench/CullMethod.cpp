@@ -53,6 +53,8 @@ bool takeSuffix(std::string& name, const std::string& suffix) {
 std::string CullMethod::sceneName(const std::string& database, const std::string& binOptions) const {
     std::string parameters = "method=" + loaderMethod;
     if (usesBins()) {
+        // an index that becomes complete meanwhile would change the figures
+        parameters += ",index=on";
         // the last item of a key counts
         if (usesHorizon) parameters += ",horizon=declared";
         if (!binOptions.empty()) parameters += "," + binOptions;

@@ -5,7 +5,6 @@
 
 #include "CopyTarget.h"
 #include "Failure.h"
-#include "FileSurvey.h"
 #include "IndexBuilder.h"
 #include "Interruption.h"
 #include "Progress.h"
@@ -92,7 +91,8 @@ void storeBins(osg::Node& scene, const FileRecord& record, const BinIndex& index
         double surfaceLow;
     };
     std::map<osg::Node*, Stored> bins;
-    for (const osgAnalyticBin::FoundTile& tile : osgAnalyticBin::findTiles(scene, frameOf(record.place, record.file))) {
+    for (const osgAnalyticBin::FoundTile& tile :
+         osgAnalyticBin::findTiles(scene, osgAnalyticBin::indexing::frameOf(record.place, record.file))) {
         const BinIndex::Entry* entry = tile.frame.file == record.file ? index.find(record.file, tile.ordinal) : nullptr;
         if (!entry) continue;
         // a node that stands in two places has one bin for both
@@ -112,7 +112,7 @@ void storeBins(osg::Node& scene, const FileRecord& record, const BinIndex& index
 
 class Copy {
 public:
-    Copy(const DatabaseFiles& files, const BuiltIndex& built, CopyTarget& target, const CopyOptions& options,
+    Copy(const DatabaseFiles& files, const MadeIndex& built, CopyTarget& target, const CopyOptions& options,
          bool isQuiet)
         : _files(files), _built(built), _target(target), _options(options), _progress("copied", isQuiet) {
         for (const auto& [file, record] : built.records) {
@@ -173,7 +173,7 @@ private:
     }
 
     const DatabaseFiles& _files;
-    const BuiltIndex& _built;
+    const MadeIndex& _built;
     CopyTarget& _target;
     const CopyOptions _options;
     std::vector<const FileRecord*> _waiting;
@@ -207,8 +207,7 @@ void copyDatabase(const DatabaseFiles& files, const std::string& output, const C
     requireCopyName(output, files.rootFile(), options.overwrite);
     WalkOptions survey = walk;
     survey.images = Images::Checked;  // what is refused must not cost an older copy its files
-    const BuiltIndex built = indexFrom(files, walkDatabase(
-                                                  files, {}, [](const FileRecord&) {}, survey));
+    const MadeIndex built = buildIndex(files, survey);
     requireGlobe(built.records, files);
     CopyTarget target(output, files, built.records, options.overwrite);
     Copy copy(files, built, target, options, walk.isQuiet);

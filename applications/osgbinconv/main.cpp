@@ -3,11 +3,11 @@
 
 #include "BoxIndexBuilder.h"
 #include "DatabaseCopy.h"
-#include "DatabaseFiles.h"
 #include "Failure.h"
 #include "IndexBuilder.h"
 #include "IndexReport.h"
 #include "Interruption.h"
+#include "ModuleFolder.h"
 #include "ProgramRun.h"
 
 #include <osgAnalyticBin/Version.h>
@@ -114,7 +114,9 @@ void prepareProcess() {
     if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::ALWAYS);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, requestStop);
     std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error like a full disk
-    osgbinconv::prepareReaders();
+    osgAnalyticBin::addModuleFolder();
+    osgAnalyticBin::indexing::loadSerializers();
+    osgAnalyticBin::indexing::checkAllReads();
 }
 
 ExitCode runOnPhotogrammetry(const Arguments& arguments) {

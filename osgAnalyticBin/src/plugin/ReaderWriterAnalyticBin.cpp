@@ -83,7 +83,9 @@ public:
             "techniquemargin=METRES",
             "Vouches for osgTerrain tiles with a technique of their own, or moved by shaders: they stay within "
             "this distance of what GeometryTechnique makes; default: other techniques are not culled.");
-        supportsOption("index=on|off", "Whether an index beside the database (DATABASE.bins) is used; default on.");
+        supportsOption("index=auto|on|off",
+                       "Whether an index beside the database (DATABASE.bins) is used; auto (default): made in the "
+                       "background where there is none.");
         supportsOption("skirts=cracks|all",
                        "What bins hold of skirts: what an eye above the terrain can see (default), or all, for cameras "
                        "below it.");
@@ -140,7 +142,8 @@ public:
         ReadResult result = readDatabase(request.name, uncached.get());
         const osg::ref_ptr<osg::Node> node = result.getNode();
         if (!node) return result;
-        report(osgAnalyticBin::installBins(*node, *cullOptions, request.name, options), *cullOptions, request.name);
+        const std::size_t installed = osgAnalyticBin::installBins(*node, *cullOptions, request.name, options);
+        report(installed, *cullOptions, request.name, osgAnalyticBin::isIndexAwaited(*node));
         // the plugins that the database needs are loaded now, and have said what they know
         if (options) reportUnknown(osgAnalyticBin::plugin::parsedOptionString(options->getOptionString()));
         return node.get();
@@ -186,7 +189,8 @@ private:
         }
     }
 
-    static void report(std::size_t installed, const osgAnalyticBin::CullOptions& options, const std::string& name) {
+    static void report(std::size_t installed, const osgAnalyticBin::CullOptions& options, const std::string& name,
+                       bool isIndexAwaited) {
         using osgAnalyticBin::Method;
         const bool wantsBins = options.method != Method::Sphere && options.method != Method::None;
         if (wantsBins && installed == 0) {
@@ -195,7 +199,7 @@ private:
         } else if (wantsBins) {
             OSG_NOTICE << "analyticbin: \"" << name << "\" has bins on " << installed
                        << " tiles, and on those that are loaded later (" << osgAnalyticBin::toText(options) << ")."
-                       << std::endl;
+                       << (isIndexAwaited ? " Their index is being made." : "") << std::endl;
         }
     }
 };

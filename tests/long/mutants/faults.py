@@ -31,7 +31,7 @@ FAULTS = [
     Fault("no tolerance of longitudes", "src/core/GeodeticBin.cpp",
           "kAngleTolerance = 2e-15", "kAngleTolerance = 0.0", CORE, "GeodeticBin.*"),
     Fault("an option is not listed", "src/plugin/ReaderWriterAnalyticBin.cpp",
-          'supportsOption("skirts=cracks|all",', 'supportsOption("index=on|off",', PLUGIN, "OptionString.*"),
+          'supportsOption("skirts=cracks|all",', 'supportsOption("index=auto|on|off",', PLUGIN, "OptionString.*"),
 
     # the polynomial and its proof
     Fault("no remainder", "src/core/bin/QuadraticBin.cpp", "(mapping.remainder(box) + margin)", "(margin)",

@@ -56,7 +56,7 @@ public:
 
 osg::ref_ptr<BoxIndex> indexOf(const osg::Node& set, const CullOptions& options) {
     const std::string metadata = metadataFileOf(set);
-    const bool isWanted = options.index && options.method != Method::None;
+    const bool isWanted = options.index != IndexUse::Off && options.method != Method::None;
     if (!isWanted || metadata.empty() || !osgDB::fileExists(boxIndexPath(metadata))) return nullptr;
     std::string error;
     osg::ref_ptr<BoxIndex> index = BoxIndex::read(boxIndexPath(metadata), error);

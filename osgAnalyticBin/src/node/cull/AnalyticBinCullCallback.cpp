@@ -78,6 +78,7 @@ AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& 
       _setup(other._setup),
       _frame(other._frame ? std::make_unique<const LocalFrame>(*other._frame) : nullptr),
       _bin(other._bin),
+      _declared(other._declared),
       _surface(other._surface),
       _surfaceLow(other._surfaceLow),
       _surfaceHigh(other._surfaceHigh),
@@ -109,7 +110,9 @@ AnalyticBinCullCallback::~AnalyticBinCullCallback() {
 AnalyticBin AnalyticBinCullCallback::shownBin() const {
     AnalyticBin bin = _setup->shape ? _bin.exaggerated(_setup->shape->verticalScale) : _bin;
     const core::Interval& altitude = bin.bin().altitude();
-    if (bin.valid()) bin.setBin(bin.bin().withAltitude({altitude.lower - _skirt, altitude.upper}));
+    // what is loaded counts with its skirts
+    if (bin.valid() && !_declared.valid())
+        bin.setBin(bin.bin().withAltitude({altitude.lower - _skirt, altitude.upper}));
     return bin;
 }
 
@@ -172,7 +175,7 @@ AnalyticBinCullCallback::Prepared AnalyticBinCullCallback::makePrepared() const 
         new osg::EllipsoidModel(_setup->equatorialRadius, _setup->polarRadius);
     osg::BoundingSphere sphere = shown.boundingSphere(*model);
     if (_frame) sphere = movedSphere(sphere, _frame->fromEcef);
-    Prepared prepared{preparedBin(shown, ellipsoid), {}, {}, sphere, sphere, {}, {}};
+    Prepared prepared{preparedBin(shown, ellipsoid), {}, {}, sphere, sphere, {}, {}, {}};
     const bool isOwnEdge =
         isBox(_setup->options.method) || std::holds_alternative<core::ExactGeodeticBin>(prepared.bin);
     if (_testsEdges && !isOwnEdge && core::ExactGeodeticBin::holds(ellipsoid, shown.bin())) {
@@ -180,6 +183,7 @@ AnalyticBinCullCallback::Prepared AnalyticBinCullCallback::makePrepared() const 
     }
     if (_setup->options.effectiveHorizonUse() == HorizonUse::Off || isInMap()) return prepared;
     prepared.horizon.emplace(ellipsoid, shown.bin(), shown.margin());
+    if (_declared.valid()) prepared.declaredHorizon.emplace(ellipsoid, _declared.bin(), _declared.margin());
     if (_hidesByPoint) prepared.horizonPoint.emplace(*prepared.horizon);
     if (shown.bin().altitude().upper >= 0.0) return prepared;
     AnalyticBin column = shown;
@@ -212,13 +216,20 @@ void AnalyticBinCullCallback::fillSlot() const {
     const bool isForComparison = !bins.quadratic && !bins.exact;
     if (prepared.horizon) bins.column = prepared.columnHorizon ? &*prepared.columnHorizon : &*prepared.horizon;
     if (prepared.horizon && !isForComparison) bins.horizon = &*prepared.horizon;
+    if (prepared.declaredHorizon) bins.declared = &*prepared.declaredHorizon;
     const bool hasOwnColumn = isForComparison || prepared.columnHorizon.has_value();
-    _installed->fillSlot(
-        {prepared.sphere, prepared.columnSphere, _binHigh, _binLow, _surfaceHigh, _surfaceLow, hasOwnColumn}, bins);
+    _installed->fillSlot({prepared.sphere, prepared.columnSphere, _binHigh, _binLow, _surfaceHigh, _surfaceLow,
+                          hasOwnColumn, _declared.valid()},
+                         bins);
 }
 
 void AnalyticBinCullCallback::setBin(const AnalyticBin& bin) {
+    setLoadedBin(bin, {});
+}
+
+void AnalyticBinCullCallback::setLoadedBin(const AnalyticBin& bin, const AnalyticBin& declared) {
     _bin = bin;
+    _declared = declared;
     changeBin();
 }
 
@@ -292,9 +303,15 @@ void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) 
         return;
     }
     const auto isCulledHere = [&](osg::CullStack& cullStack) {
+        const core::PlaneMask before = cullStack.getCurrentCullingSet().getFrustum().getCurrentMask();
         const bool culled = isCulled(*node, cullStack, *nv);
         const DatabaseView* const database = culled ? CullTraversal::of(*nv).databaseView() : nullptr;
-        if (database && database->plan && database->plan->isEmerging(*this)) requestAhead(*node, *nv);
+        if (culled && _declared.valid()) {
+            setUndecided(cullStack.getCurrentCullingSet().getFrustum(), before);
+            requestFilesOutOfView(*node, cullStack, *nv);
+        } else if (database && database->plan && database->plan->isEmerging(*this)) {
+            requestAhead(*node, *nv);
+        }
         return culled;
     };
     cullOrTraverse(*nv, isCulledHere, [&] { traverse(node, nv); });
@@ -376,6 +393,19 @@ Verdict AnalyticBinCullCallback::verdict(core::Side side, const core::PlaneSet& 
         return {core::Side::Outside, Verdict::Edge};
     }
     return {side, Verdict::Plane};
+}
+
+void AnalyticBinCullCallback::requestFilesOutOfView(osg::Node& node, osg::CullStack& cullStack,
+                                                    osg::NodeVisitor& nv) const {
+    const DatabaseView* const view = viewOn(cullStack, CullTraversal::of(nv));
+    const core::HorizonEye* const eye = view ? view->eye : nullptr;
+    if (mayRequestBelow(eye)) requestOutOfView(node, nv, eye);
+}
+
+bool AnalyticBinCullCallback::mayRequestBelow(const core::HorizonEye* eye) const {
+    if (!_declared.valid()) return false;
+    const Prepared& tile = prepared();
+    return !eye || !tile.declaredHorizon || !eye->hides(*tile.declaredHorizon);
 }
 
 bool AnalyticBinCullCallback::isHiddenFrom(const core::HorizonEye& eye) const {

@@ -273,7 +273,12 @@ void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::Cull
         isChanged = isChanged || verdicts.lacksTiles;
         const std::uint64_t culled = this->culled(first, verdicts, nv, cullStack, view, traversal);
         const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
-        forEachBit(verdicts.members & culled & verdicts.emerging,
+        const std::uint64_t loadedOnly = first < _block->size() ? _block->partFrom(first).loadedOnly : 0;
+        forEachBit(verdicts.members & culled & loadedOnly, [&](unsigned int number) {
+            if (!view.eye || !_block->isDeclaredHidden(first + number, *view.eye))
+                requestOutOfView(*group.getChild(first + number), nv, view.eye);
+        });
+        forEachBit(verdicts.members & culled & verdicts.emerging & ~loadedOnly,
                    [&](unsigned int number) { requestAhead(*group.getChild(first + number), nv); });
         forEachBit(lowestBits(here) & ~culled, [&](unsigned int number) {
             if (first + number >= group.getNumChildren()) return;

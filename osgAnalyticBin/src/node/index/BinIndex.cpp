@@ -76,7 +76,7 @@ osg::ref_ptr<BinIndex> readByOsg(const std::string& name, const osgDB::Options* 
 }  // namespace
 
 BinIndex::BinIndex(const BinIndex& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), _source(other._source), _files(other._files) {}
+    : osg::Object(other, copyop), _source(other._source), _files(other._files), _stamps(other._stamps) {}
 
 BinIndex::~BinIndex() = default;
 

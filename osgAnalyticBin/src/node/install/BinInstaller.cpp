@@ -104,15 +104,26 @@ void BinInstaller::refit(osg::Node& node, Database& database) {
     }
     node.accept(*this);
     placeFamilies();
+    publishTiles(nullptr);
+    database.widenLoaded();
     _refitted = nullptr;
 }
 
-void BinInstaller::finish() {
+void BinInstaller::publishTiles(osg::Node* content) {
+    for (const auto& link : _links) link->isBeingInstalled = false;
+    _links.clear();
+    if (_database) _database->adoption().await(content, std::move(_awaiting));
+    _awaiting.clear();
+}
+
+void BinInstaller::finish(osg::Node* content) {
     for (const auto& [file, coverage] : *_coverage) {
         if (installsBins()) database().noteCoverage(file, coverage);
     }
     _coverage->clear();
     placeFamilies();
+    publishTiles(content);
+    if (!_isReading && _database) _database->widenLoaded();
 }
 
 // Called after the walk: families that are placed during it would need more stack in deep scenes.
@@ -139,6 +150,8 @@ void BinInstaller::installAt(osg::Node& root) {
     if (_database) _database->setOptions(_options);
     root.accept(*this);
     placeFamilies();
+    publishTiles(nullptr);
+    if (_database) _database->widenLoaded();
     if (!isGlobe && _database && installsBins()) attachUpdate(root, *_database);
 }
 
@@ -278,6 +291,8 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);
     osg::Node& culled = culledNode(tile, _isReading);
     if (const osg::Matrixd frame = culledFrame(tile, culled); !frame.isIdentity()) callback->setLocalToEcef(frame);
+    if (fit.loaded.valid()) callback->setLoadedBin(fit.loaded, fit.bin);
+    link->isLoadedOnly = fit.loaded.valid();
     if (fit.isScalable) callback->setTerrainShape(shape);
     if (fit.skirt > 0.0) callback->setSkirt(fit.skirt);
     callback->setSurface(fit.surface);
@@ -292,6 +307,12 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
         for (const auto& mesh : tile.meshes) suspendClusterCulling(*mesh);
     }
     link->callback = callback.get();
+    link->isBeingInstalled = true;
+    _links.push_back(link);
+    if (fit.awaitsIndex && database().adoption().isAwaited()) {
+        callback->getInstalledTile()->keep(*link);
+        _awaiting.push_back({link.get(), tileFingerprint(tile), fit.ownSkirt, !tile.pagedFiles.empty()});
+    }
     noteCovered(tile, fit, *link);
     goOnBelow(tile, *link);
 }

@@ -19,6 +19,7 @@
 namespace osgAnalyticBin {
 
 class BinReadFileCallback;
+struct AwaitingTile;
 class Coverage;
 struct TileFit;
 class Database;
@@ -75,8 +76,10 @@ private:
     void continueBelow(Database* database, const TileFrame& frame, const ParentTile* parent);
     // Fits the loaded tiles of an installed database anew.
     void refit(osg::Node& node, Database& database);
-    // Looks whether the tiles of each file cover what they are paged below.
-    void finish();
+    // Looks whether the tiles of each file cover what they are paged below. `content`: what was read; null: a scene.
+    void finish(osg::Node* content = nullptr);
+    // Has others see the tiles.
+    void publishTiles(osg::Node* content);
     void placeFamilies();
 
     [[nodiscard]] bool installsBins() const;
@@ -107,7 +110,9 @@ private:
     std::shared_ptr<std::map<std::string, Coverage>> _coverage;  // by file
     std::size_t _installed = 0;
     std::size_t _boxes = 0;           // of photogrammetry sets
-    std::vector<osg::Node*> _groups;  // that may get families
+    std::vector<osg::Node*> _groups;               // that may get families
+    std::vector<osg::ref_ptr<ParentTile>> _links;  // of tiles that it has installed bins on
+    std::vector<AwaitingTile> _awaiting;
 };
 
 }  // namespace osgAnalyticBin

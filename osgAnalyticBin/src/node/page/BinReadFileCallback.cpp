@@ -13,6 +13,7 @@
 #include <osgDB/Registry>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -27,6 +28,22 @@ std::string placeText(const Database& database, const TileFrame& frame) {
     if (ellipsoid) numbers.insert(numbers.end(), {ellipsoid->getRadiusEquator(), ellipsoid->getRadiusPolar()});
     return std::to_string(database.number()) + ' ' + numbersToText(numbers);
 }
+
+// Has the thread that makes the index give way.
+class BusyPager {
+public:
+    explicit BusyPager(osg::ref_ptr<AutoIndex> index) : _index(std::move(index)) {
+        if (_index) _index->noteRead(1);
+    }
+    ~BusyPager() {
+        if (_index) _index->noteRead(-1);
+    }
+    BusyPager(const BusyPager&) = delete;
+    BusyPager& operator=(const BusyPager&) = delete;
+
+private:
+    const osg::ref_ptr<AutoIndex> _index;
+};
 
 }  // namespace
 
@@ -69,6 +86,7 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readNode(const std::string&
                                                               const osgDB::Options* options) {
     // No node and no error: the pager says nothing, and asks again in the next frame.
     if (!_failures.mayRead(fileName, FailedReads::Clock::now())) return ReadResult::FILE_LOADED;
+    const BusyPager busy(_database->adoption().index());
     ReadResult result = readCarefully(fileName, [&] {
         const bool cached = options && (options->getObjectCacheHint() & osgDB::Options::CACHE_NODES);
         return cached ? readThroughCache(fileName, *options) : readTreated(fileName, options);
@@ -128,7 +146,7 @@ void BinReadFileCallback::treat(osg::Node& node, const Expected& expected) const
     BinInstaller installer(_options);
     installer.continueBelow(_database.get(), expected.frame, expected.parent.get());
     node.accept(installer);
-    installer.finish();
+    installer.finish(&node);
 }
 
 }  // namespace osgAnalyticBin

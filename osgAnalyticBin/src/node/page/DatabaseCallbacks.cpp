@@ -171,6 +171,8 @@ void DatabaseUpdateCallback::runOnClone(osg::Node& node, osg::NodeVisitor& nv) {
         BinInstaller installer(_database->options());
         installer.setIndex(_database->index());
         installer.installAt(node);
+        if (const osg::ref_ptr<Database> own = attachedDatabase(node))
+            own->adoption().setIndex(_database->adoption().index().get());
     }
     if (nested) {
         nested->run(&node, &nv);

@@ -3,23 +3,19 @@
 
 #pragma once
 
-#include "DatabaseFiles.h"
-#include "FileRecord.h"
-
 #include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/index/DatabaseFiles.h>
+#include <osgAnalyticBin/index/FileRecord.h>
 
 #include <osg/Node>
 
 #include <string>
 
-namespace osgbinconv {
-
-/// The frame of a file's content.
-[[nodiscard]] osgAnalyticBin::TileFrame frameOf(const FilePlace& place, const std::string& file);
+namespace osgAnalyticBin::indexing {
 
 /// What an index needs to know of the scene of one file: its tiles with their surfaces, and the files paged below them.
 /// The scene is not changed. Throws Failure when it names files outside of the database's folder.
 [[nodiscard]] FileRecord surveyFile(osg::Node& scene, const std::string& file, const FilePlace& place,
                                     const DatabaseFiles& files);
 
-}  // namespace osgbinconv
+}  // namespace osgAnalyticBin::indexing

@@ -11,7 +11,7 @@
 #include <map>
 #include <utility>
 
-namespace osgbinconv {
+namespace osgAnalyticBin::indexing {
 
 using osgAnalyticBin::core::Interval;
 
@@ -124,4 +124,4 @@ Neighbourhood findNeighbours(const std::vector<TreeTile>& tiles) {
     return result;
 }
 
-}  // namespace osgbinconv
+}  // namespace osgAnalyticBin::indexing

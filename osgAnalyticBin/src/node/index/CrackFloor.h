@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace osgbinconv {
+namespace osgAnalyticBin::indexing {
 
 /// What each tile is culled by: what it and its descendants draw, lowered to what their skirts show.
 ///
@@ -32,4 +32,4 @@ namespace osgbinconv {
 /// is a pole.
 [[nodiscard]] bool coversTheGlobe(const std::vector<TreeTile>& tiles);
 
-}  // namespace osgbinconv
+}  // namespace osgAnalyticBin::indexing

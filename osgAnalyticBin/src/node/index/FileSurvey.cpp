@@ -3,10 +3,9 @@
 
 #include "FileSurvey.h"
 
-#include "Failure.h"
-
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/index/Failure.h>
 
 #include <osg/PagedLOD>
 #include <osg/ProxyNode>
@@ -18,9 +17,7 @@
 #include <filesystem>
 #include <set>
 
-namespace osgbinconv {
-
-using osgAnalyticBin::support::Failure;
+namespace osgAnalyticBin::indexing {
 
 using osgAnalyticBin::FoundTile;
 using osgAnalyticBin::TileFrame;
@@ -182,4 +179,4 @@ FileRecord surveyFile(osg::Node& scene, const std::string& file, const FilePlace
     return std::move(survey.record);
 }
 
-}  // namespace osgbinconv
+}  // namespace osgAnalyticBin::indexing

@@ -3,10 +3,9 @@
 
 #pragma once
 
-#include "DatabaseWalk.h"
-#include "FileRecord.h"
-
 #include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/index/DatabaseWalk.h>
+#include <osgAnalyticBin/index/FileRecord.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace osgbinconv {
+namespace osgAnalyticBin::indexing {
 
 /// A tile of the whole database.
 struct TreeTile {
@@ -68,4 +67,4 @@ private:
     Gaps _unknownTiles;
 };
 
-}  // namespace osgbinconv
+}  // namespace osgAnalyticBin::indexing

@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "DatabaseFiles.h"
-
-#include "Failure.h"
-#include "ModuleFolder.h"
 #include "NestedReads.h"
 
 #include <osgAnalyticBin/TileFile.h>
+#include <osgAnalyticBin/index/DatabaseFiles.h>
+#include <osgAnalyticBin/index/Failure.h>
 
 #include <osgDB/FileNameUtils>
 #include <osgDB/Options>
@@ -18,9 +16,7 @@
 #include <ios>
 #include <sys/stat.h>
 
-namespace osgbinconv {
-
-using osgAnalyticBin::support::Failure;
+namespace osgAnalyticBin::indexing {
 
 namespace fs = std::filesystem;
 
@@ -64,6 +60,7 @@ osg::ref_ptr<osg::Node> DatabaseFiles::read(const std::string& file, Images imag
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
     options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
     options->getDatabasePathList().push_front(osgDB::getFilePath(path));
+    options->setReadFileCallback(NestedReads::callback());
     const NestedReads nested(*this, file, images);
     osg::ref_ptr<osg::Node> node;
     try {
@@ -85,9 +82,7 @@ std::string DatabaseFiles::checked(const std::string& file, const std::string& n
     return file == _rootName ? std::string() : file;
 }
 
-void prepareReaders() {
-    osgAnalyticBin::addModuleFolder();
-    NestedReads::prepare();
+void loadSerializers() {
     osgDB::Registry& registry = *osgDB::Registry::instance();
     for (const char* library : {"serializers_osg", "serializers_osgterrain", "serializers_osgsim",
                                 "serializers_osganalyticbin", "serializers_osgfx", "serializers_osgtext"}) {
@@ -95,4 +90,8 @@ void prepareReaders() {
     }
 }
 
-}  // namespace osgbinconv
+void checkAllReads() {
+    osgDB::Registry::instance()->setReadFileCallback(NestedReads::callback());
+}
+
+}  // namespace osgAnalyticBin::indexing

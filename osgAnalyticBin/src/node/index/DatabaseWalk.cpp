@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "DatabaseWalk.h"
-
-#include "Failure.h"
 #include "FileSurvey.h"
-#include "Interruption.h"
-#include "Progress.h"
+
+#include <osgAnalyticBin/index/DatabaseWalk.h>
+#include <osgAnalyticBin/index/Failure.h>
 
 #include <condition_variable>
 #include <exception>
@@ -15,10 +13,7 @@
 #include <thread>
 #include <vector>
 
-namespace osgbinconv {
-
-using osgAnalyticBin::support::Failure;
-using osgAnalyticBin::support::throwIfStopRequested;
+namespace osgAnalyticBin::indexing {
 
 namespace {
 
@@ -40,9 +35,8 @@ struct Done {
 /// The files that wait, those that are done, and what the threads share besides.
 class Walk {
 public:
-    Walk(const DatabaseFiles& files, std::vector<FileRecord> known, const std::function<void(const FileRecord&)>& keep,
-         const WalkOptions& options)
-        : _files(files), _images(options.images), _keep(keep), _progress("read", options.isQuiet) {
+    Walk(const DatabaseFiles& files, std::vector<FileRecord> known, WalkObserver& observer, Images images)
+        : _files(files), _images(images), _observer(observer) {
         for (FileRecord& record : known) _known[record.file] = std::move(record);
     }
 
@@ -56,7 +50,10 @@ public:
     /// The body of each thread.
     void work() {
         try {
-            while (const std::optional<Job> job = next()) finish(doneOf(*job), job->share);
+            while (const std::optional<Job> job = next()) {
+                _observer.beforeFile();
+                finish(doneOf(*job), job->share);
+            }
         } catch (...) {
             fail(std::current_exception());
         }
@@ -65,7 +62,6 @@ public:
     /// Requires: the threads have ended. Throws what they threw.
     FileRecords result() {
         if (_error) std::rethrow_exception(_error);
-        _progress.finish();
         return std::move(_records);
     }
 
@@ -74,7 +70,6 @@ private:
         std::unique_lock<std::mutex> guard(_mutex);
         while (true) {
             if (_error || (_waiting.empty() && _busy == 0)) return std::nullopt;
-            throwIfStopRequested();
             if (!_waiting.empty()) break;
             _changed.wait(guard);
         }
@@ -101,7 +96,7 @@ private:
         record.stamp = stamp;
         record.place = job.place;
         const std::lock_guard<std::mutex> guard(_keepMutex);
-        _keep(record);
+        _observer.keep(record);
         return {std::move(record), false};
     }
 
@@ -113,7 +108,7 @@ private:
         const std::size_t below = _waiting.size() - before;
         for (std::size_t i = before; i < _waiting.size(); ++i) _waiting[i].share = share / static_cast<double>(below);
         const double ownShare = below == 0 ? share : 0.0;
-        done.isKnown ? _progress.addKnown(record.tiles.size(), ownShare) : _progress.add(record.tiles.size(), ownShare);
+        _observer.done(record, done.isKnown, ownShare);
         _records[record.file] = std::move(record);
         --_busy;
         _changed.notify_all();
@@ -137,13 +132,12 @@ private:
 
     const DatabaseFiles& _files;
     const Images _images;
-    const std::function<void(const FileRecord&)>& _keep;
+    WalkObserver& _observer;
     std::map<std::string, FileRecord> _known;
     std::mutex _keepMutex;
 
     std::mutex _mutex;
     std::condition_variable _changed;
-    Progress _progress;
     std::vector<Job> _waiting;
     int _busy = 0;
     std::map<std::string, FilePlace> _places;
@@ -153,14 +147,21 @@ private:
 
 }  // namespace
 
-FileRecords walkDatabase(const DatabaseFiles& files, std::vector<FileRecord> known,
-                         const std::function<void(const FileRecord&)>& keep, const WalkOptions& options) {
-    Walk walk(files, std::move(known), keep, options);
+WalkObserver::~WalkObserver() = default;
+
+void WalkObserver::keep(const FileRecord&) {}
+
+void WalkObserver::done(const FileRecord&, bool, double) {}
+
+FileRecords walkDatabase(const DatabaseFiles& files, std::vector<FileRecord> known, WalkObserver& observer, int threads,
+                         Images images) {
+    Walk walk(files, std::move(known), observer, images);
     walk.start();
-    std::vector<std::thread> threads;
-    for (int i = 0; i < options.threads; ++i) threads.emplace_back([&walk] { walk.work(); });
-    for (std::thread& thread : threads) thread.join();
+    std::vector<std::thread> others;
+    for (int i = 1; i < threads; ++i) others.emplace_back([&walk] { walk.work(); });
+    walk.work();
+    for (std::thread& thread : others) thread.join();
     return walk.result();
 }
 
-}  // namespace osgbinconv
+}  // namespace osgAnalyticBin::indexing

@@ -3,15 +3,24 @@
 
 #pragma once
 
-#include "DatabaseFiles.h"
+#include <osgAnalyticBin/index/DatabaseFiles.h>
 
+#include <osg/ref_ptr>
+#include <osgDB/Callbacks>
 #include <osgDB/ReaderWriter>
 
 #include <functional>
 #include <string>
 #include <vector>
 
-namespace osgbinconv {
+namespace osgAnalyticBin::indexing {
+
+/// Whether a name, made relative to the root file's folder already, leads elsewhere.
+[[nodiscard]] bool leavesFolder(const std::string& file);
+
+/// What is said of such a file, and what to do.
+constexpr const char* kIsOutside =
+    "which is outside of the database's folder; name its files by paths below that folder";
 
 /// While it lives, what OSG reads in this thread because a file of a database names it (the content of proxies, height
 /// fields, images, shaders, fonts) is looked for below the database's folder and on OSG's data path alone, and servers
@@ -28,8 +37,8 @@ public:
     /// Why the file must not be used, in one line: the first name that leads elsewhere; empty: nothing is wrong.
     [[nodiscard]] const std::string& refusal() const { return _refusal; }
 
-    /// Once, before the first of them.
-    static void prepare();
+    /// What has to stand in the options of a read, or in the registry, for this to be.
+    [[nodiscard]] static osg::ref_ptr<osgDB::ReadFileCallback> callback();
 
     using Result = osgDB::ReaderWriter::ReadResult;
     using Reader = std::function<Result(const std::string& path)>;
@@ -63,4 +72,4 @@ private:
     std::string _refusal;
 };
 
-}  // namespace osgbinconv
+}  // namespace osgAnalyticBin::indexing

@@ -16,7 +16,7 @@
 #include <exception>
 #include <filesystem>
 
-namespace osgbinconv {
+namespace osgAnalyticBin::indexing {
 
 namespace fs = std::filesystem;
 
@@ -104,9 +104,8 @@ NestedReads::~NestedReads() {
     current = nullptr;
 }
 
-void NestedReads::prepare() {
-    // In the registry and not in options: OSG reads fonts, and more in its older formats, without any.
-    osgDB::Registry::instance()->setReadFileCallback(new ReadsOfThread);
+osg::ref_ptr<osgDB::ReadFileCallback> NestedReads::callback() {
+    return new ReadsOfThread;
 }
 
 std::string NestedReads::fileFrom(const std::string& referring, const std::string& name) const {
@@ -183,4 +182,4 @@ NestedReads::Result NestedReads::readFont(const std::string& path, const Reader&
     return isOfferedFont(path) ? nothing() : readPart(path, nothing(), reader);
 }
 
-}  // namespace osgbinconv
+}  // namespace osgAnalyticBin::indexing

@@ -3,16 +3,13 @@
 
 #include "TileTree.h"
 
-#include "Failure.h"
-
 #include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/index/Failure.h>
 
 #include <algorithm>
 #include <set>
 
-namespace osgbinconv {
-
-using osgAnalyticBin::support::Failure;
+namespace osgAnalyticBin::indexing {
 
 using osgAnalyticBin::AnalyticBin;
 using osgAnalyticBin::core::Interval;
@@ -162,4 +159,4 @@ void TileTree::unite() {
     }
 }
 
-}  // namespace osgbinconv
+}  // namespace osgAnalyticBin::indexing

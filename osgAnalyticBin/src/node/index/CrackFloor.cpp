@@ -11,7 +11,7 @@
 #include <optional>
 #include <utility>
 
-namespace osgbinconv {
+namespace osgAnalyticBin::indexing {
 
 using osgAnalyticBin::AnalyticBin;
 using osgAnalyticBin::TileSurface;
@@ -223,4 +223,4 @@ bool coversTheGlobe(const std::vector<TreeTile>& tiles) {
     return !top.empty();
 }
 
-}  // namespace osgbinconv
+}  // namespace osgAnalyticBin::indexing

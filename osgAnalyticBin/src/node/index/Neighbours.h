@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace osgbinconv {
+namespace osgAnalyticBin::indexing {
 
 /// The latitudes and longitudes of a tile's own surface, in radians, and by how much they may be wrong.
 struct TileRect {
@@ -55,4 +55,4 @@ inline constexpr std::size_t kMostBeside = 256;
 /// Tiles without known surface have no neighbours and are none.
 [[nodiscard]] Neighbourhood findNeighbours(const std::vector<TreeTile>& tiles);
 
-}  // namespace osgbinconv
+}  // namespace osgAnalyticBin::indexing

@@ -3,35 +3,31 @@
 
 #pragma once
 
-#include "FileRecord.h"
+#include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/index/FileRecord.h>
 
 #include <osg/Node>
 #include <osg/ref_ptr>
 
 #include <string>
 
-namespace osgbinconv {
+namespace osgAnalyticBin::indexing {
 
 /// What becomes of images, shaders and fonts that are files of their own: stand-ins, whatever they are called; the
 /// same, but names that lead out of the folder are refused; read, or refused.
 enum class Images { Left, Checked, Read };
 
-/// Whether a name, made relative to the root file's folder already, leads elsewhere.
-[[nodiscard]] bool leavesFolder(const std::string& file);
-
-/// What is said of such a file, and what to do.
-constexpr const char* kIsOutside =
-    "which is outside of the database's folder; name its files by paths below that folder";
-
 /// The files of a database, named by their paths relative to the root file's folder; "" is the root file.
-class DatabaseFiles final {
+class OSGANALYTICBIN_EXPORT DatabaseFiles final {
 public:
     /// Throws Failure when there is no such local file.
     explicit DatabaseFiles(const std::string& rootFile);
 
+    /// As it was named.
     [[nodiscard]] const std::string& rootFile() const { return _rootFile; }
     /// Without its folder.
     [[nodiscard]] const std::string& rootName() const { return _rootName; }
+    /// Of a file that is named as above.
     [[nodiscard]] std::string pathOf(const std::string& file) const;
     /// 0 and 0 for a file that is not there.
     [[nodiscard]] FileStamp stampOf(const std::string& file) const;
@@ -51,7 +47,12 @@ private:
     std::string _folder;
 };
 
-/// Makes ready what OpenSceneGraph loads on first use, so that threads find everything loaded.
-void prepareReaders();
+/// Loads what OpenSceneGraph's readers load on first use, so that threads find it loaded.
+OSGANALYTICBIN_EXPORT void loadSerializers();
 
-}  // namespace osgbinconv
+/// Has what OpenSceneGraph reads without options (fonts, and more in its older formats) follow the rules of Images,
+/// too, while DatabaseFiles::read() runs. Replaces the read callback of osgDB::Registry: for programs that read nothing
+/// else.
+OSGANALYTICBIN_EXPORT void checkAllReads();
+
+}  // namespace osgAnalyticBin::indexing

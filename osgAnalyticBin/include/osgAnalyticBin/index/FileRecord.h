@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <osgAnalyticBin/BinIndex.h>
+#include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/TileSurface.h>
 
 #include <array>
@@ -10,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace osgbinconv {
+namespace osgAnalyticBin::indexing {
 
 /// Where the content of a file stands, as far as the file that names it says.
 struct FilePlace {
@@ -24,12 +27,16 @@ struct FilePlace {
     /// osgTerrain::Terrain's.
     double sampleRatio = 1.0;
 
+    /// Whether all is the same.
     [[nodiscard]] bool operator==(const FilePlace& other) const {
         return equatorialRadius == other.equatorialRadius && polarRadius == other.polarRadius &&
                isProjected == other.isProjected && localToEcef == other.localToEcef &&
                isBelowTile == other.isBelowTile && sampleRatio == other.sampleRatio;
     }
 };
+
+/// The frame of a file's content.
+[[nodiscard]] OSGANALYTICBIN_EXPORT TileFrame frameOf(const FilePlace& place, const std::string& file);
 
 /// A file that is paged below another one.
 struct FileLink {
@@ -48,15 +55,7 @@ struct TileRecord {
 };
 
 /// Whether a file is still the one that was read.
-struct FileStamp {
-    std::uint64_t size = 0;
-    std::int64_t time = 0;
-    std::int64_t nanoseconds = 0;
-
-    [[nodiscard]] bool operator==(const FileStamp& other) const {
-        return size == other.size && time == other.time && nanoseconds == other.nanoseconds;
-    }
-};
+using FileStamp = BinIndex::Stamp;
 
 /// All that is kept of a file once it has been read.
 struct FileRecord {
@@ -73,4 +72,4 @@ struct FileRecord {
     std::vector<FileLink> links;
 };
 
-}  // namespace osgbinconv
+}  // namespace osgAnalyticBin::indexing
