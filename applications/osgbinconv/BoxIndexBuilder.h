@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "DatabaseWalk.h"
+#include "IndexBuilder.h"
 
 #include <string>
 

@@ -65,7 +65,7 @@ Horizon horizonOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cull
     const HorizonUse horizonUse = options.effectiveHorizonUse();
     const bool isMap = view.ellipsoid.isPlane();
     // nothing else is looked for
-    if (isMap && options.occlusion == OcclusionUse::Off) return std::nullopt;
+    if (isMap && options.occlusion == OcclusionUse::Off) return {};
     const bool isGiven = horizonUse == HorizonUse::Given && !isMap;
     // an eye below the terrain looks through the backs of the faces that would hide
     const bool isAboveTerrain = options.skirts == SkirtUse::Cracks;
