@@ -36,6 +36,10 @@ FAULTS = [
     # the polynomial and its proof
     Fault("no remainder", "src/core/bin/QuadraticBin.cpp", "(mapping.remainder(box) + margin)", "(margin)",
           CORE, "*QuadraticBin*"),
+    Fault("an eye beside a map", "src/core/horizon/CoveredRegion.cpp", "contains({{eye.latitude, eye.latitude}",
+          "!contains({{eye.latitude, eye.latitude}", CORE, "CoveredRegion*"),
+    Fault("the nearest point of a map's box for the farthest", "src/core/bin/QuadraticBin.cpp",
+          "first(i)) < 0.0 ? -first(i) : first(i)", "first(i)) < 0.0 ? first(i) : -first(i)", CORE, "PlaneOfMap*"),
     Fault("no margin", "src/core/bin/QuadraticBin.cpp", "remainder(box) + margin)", "remainder(box))", CORE, "*QuadraticBin*"),
     Fault("no rounding of the polynomial", "src/core/bin/QuadraticBin.cpp", "kRounding = 128.0 *", "kRounding = 0.0 *", CORE,
           "*QuadraticBin*:PlaneSet*:PlaneKernels*:Classify*:Planets*"),

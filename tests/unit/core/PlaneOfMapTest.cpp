@@ -185,6 +185,8 @@ TEST(PlaneOfMap, BoundsOfMeshesAreThoseOfTheirVertices) {
     }
     core::EcefMesh broken{{0.0, 1.0, 1.0}, {0.0, 0.0, 1.0}, {0.0, NAN, 0.0}, {0, 1, 2}};
     EXPECT_TRUE(core::MeshBounds(plane, broken).bin().empty());
+    const core::EcefMesh far{{0.0, 1.0, 1.0}, {1.1 * kUnits, 0.0, 1.0}, {0.0, 0.0, 0.0}, {0, 1, 2}};
+    EXPECT_TRUE(core::MeshBounds(plane, far).bin().empty());
 }
 
 // Tiles of a thousand kilometres have cracks of metres: nothing beside heights.

@@ -32,20 +32,12 @@ constexpr double kSize = 20000.0;
 osg::ref_ptr<osg::Node> meshTile(const osg::Vec3d& corner, double height) {
     const osg::Vec3d middle = corner + osg::Vec3d(0.5 * kSize, 0.5 * kSize, 0.0);
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-    const osg::ref_ptr<osg::DrawElementsUInt> triangles = new osg::DrawElementsUInt(GL_TRIANGLES);
     const double step = kSize / (kPosts - 1);
-    for (unsigned int j = 0; j < kPosts; ++j) {
-        for (unsigned int i = 0; i < kPosts; ++i) {
-            vertices->push_back(osg::Vec3d(step * i - 0.5 * kSize, step * j - 0.5 * kSize, height));
-            if (i == 0 || j == 0) continue;
-            const unsigned int at = j * kPosts + i;
-            for (const unsigned int k : {at - kPosts - 1, at - kPosts, at, at - kPosts - 1, at, at - 1})
-                triangles->push_back(k);
-        }
-    }
+    for (unsigned int i = 0; i < kPosts * kPosts; ++i)
+        vertices->push_back(osg::Vec3d(step * (i % kPosts) - 0.5 * kSize, step * (i / kPosts) - 0.5 * kSize, height));
     const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     geometry->setVertexArray(vertices);
-    geometry->addPrimitiveSet(triangles);
+    geometry->addPrimitiveSet(gridTriangles(kPosts));
     const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
     geode->addDrawable(geometry);
     const osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(osg::Matrixd::translate(middle));

@@ -150,6 +150,12 @@ TEST(PlanarDatabase, WhatIsNoTerrainIsLeftAsItIs) {
     EXPECT_EQ(installedOn(*root, triangles({a + high, b + high, c + high})), Callback::None) << "in orbit";
     const float nan = std::nanf("");
     EXPECT_EQ(installedOn(*root, triangles({a, b, c, a, b, osg::Vec3(nan, 0, 0)})), Callback::None) << "broken";
+    PlanarMap far;
+    far.origin.y() = 1.5e10;
+    for (const bool isTerrain : {false, true}) {
+        far.isTerrain = isTerrain;
+        EXPECT_EQ(installedOn(*root, far.mesh(0, 0, 0)), Callback::None) << "farther than latitudes reach";
+    }
     const osg::ref_ptr<osg::MatrixTransform> moving = new osg::MatrixTransform;
     moving->setDataVariance(osg::Object::DYNAMIC);
     moving->addChild(triangles({a, b, c}));
@@ -159,6 +165,15 @@ TEST(PlanarDatabase, WhatIsNoTerrainIsLeftAsItIs) {
     root->addChild(triangles({a, b, c}));
     EXPECT_EQ(installBins(*root), 0u);
     EXPECT_TRUE(root->getChild(0)->getCullingActive());
+}
+
+TEST(PlanarDatabase, TextTellsAMap) {
+    const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback;
+    EXPECT_NE(callback->getRadiiText(), "map");
+    callback->setRadiiText("map");
+    EXPECT_EQ(callback->getRadiiText(), "map");
+    callback->setRadiiText("6378137 6356752");
+    EXPECT_EQ(callback->getRadiiText(), "6378137 6356752");
 }
 
 TEST(PlanarDatabase, SpheresTakeItBackAndClusterCallbacksStay) {

@@ -60,16 +60,11 @@ osg::ref_ptr<osg::Node> terrainTile(const PlanarMap& map, const Square& square) 
 osg::ref_ptr<osg::Node> polygonalTile(const PlanarMap& map, const Square& square) {
     const osg::Vec3d middle(square.x + 0.5 * square.width, square.y + 0.5 * square.width, 0.0);
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
-    const osg::ref_ptr<osg::DrawElementsUInt> triangles = new osg::DrawElementsUInt(GL_TRIANGLES);
     for (unsigned int j = 0; j < kPosts; ++j) {
         for (unsigned int i = 0; i < kPosts; ++i) {
             const double x = square.postX(i);
             const double y = square.postY(j);
             vertices->push_back(osg::Vec3d(x, y, map.height(x, y, square.width)) - middle);
-            if (i == 0 || j == 0) continue;
-            const unsigned int at = j * kPosts + i;
-            for (const unsigned int k : {at - kPosts - 1, at - kPosts, at, at - kPosts - 1, at, at - 1})
-                triangles->push_back(k);
         }
     }
     const osg::ref_ptr<osg::DrawElementsUInt> skirt = new osg::DrawElementsUInt(GL_QUAD_STRIP);
@@ -87,7 +82,7 @@ osg::ref_ptr<osg::Node> polygonalTile(const PlanarMap& map, const Square& square
     hang(0, 0);
     const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     geometry->setVertexArray(vertices);
-    geometry->addPrimitiveSet(triangles);
+    geometry->addPrimitiveSet(gridTriangles(kPosts));
     geometry->addPrimitiveSet(skirt);
     const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
     geode->addDrawable(geometry);
@@ -98,6 +93,18 @@ osg::ref_ptr<osg::Node> polygonalTile(const PlanarMap& map, const Square& square
 }
 
 }  // namespace
+
+osg::ref_ptr<osg::DrawElementsUInt> gridTriangles(unsigned int posts) {
+    osg::ref_ptr<osg::DrawElementsUInt> triangles = new osg::DrawElementsUInt(GL_TRIANGLES);
+    for (unsigned int j = 1; j < posts; ++j) {
+        for (unsigned int i = 1; i < posts; ++i) {
+            const unsigned int at = j * posts + i;
+            for (const unsigned int k : {at - posts - 1, at - posts, at, at - posts - 1, at, at - 1})
+                triangles->push_back(k);
+        }
+    }
+    return triangles;
+}
 
 double PlanarMap::height(double x, double y, double width) const {
     const double u = (x - origin.x()) / size;

@@ -28,6 +28,8 @@ public:
     /// Of map units. A power of two, so that converting does not round; in the angles of positions on the earth, maps
     /// in metres, feet or degrees are small.
     static constexpr double kMapUnitsInRadian = 8589934592.0;
+    /// Map units. What is farther away along x or y has no bin, because latitudes end at the poles.
+    static constexpr double kFarthestInMap = kMapUnitsInRadian;
 
     /// Metres.
     Ellipsoid(double equatorialRadius, double polarRadius) noexcept;

@@ -374,15 +374,17 @@ void MeshBounds::findInMap(const EcefMesh& mesh) {
     _altitudes = mesh.z;
     _altitudeError = _sag = _axisError = 0.0;
     Extremes x, y, z;
-    double poison = 0.0;
+    bool isNear = true;
     for (std::size_t i = 0; i < mesh.size(); ++i) {
         const Geodetic place = plane.toGeodetic(mesh.vertex(i));
+        // written so that NaN is far
+        isNear = isNear && std::abs(mesh.x[i]) <= Ellipsoid::kFarthestInMap &&
+                 std::abs(mesh.y[i]) <= Ellipsoid::kFarthestInMap && std::isfinite(mesh.z[i]);
         x.add(i % kLanes, place.longitude);
         y.add(i % kLanes, place.latitude);
         z.add(i % kLanes, place.altitude);
-        poison += (mesh.x[i] - mesh.x[i]) + (mesh.y[i] - mesh.y[i]) + (mesh.z[i] - mesh.z[i]);
     }
-    if (poison == 0.0) _bin = GeodeticBin(y.range(), x.range(), z.range());
+    if (isNear) _bin = GeodeticBin(y.range(), x.range(), z.range());
 }
 
 void MeshBounds::find(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {

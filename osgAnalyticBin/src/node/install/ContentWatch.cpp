@@ -96,6 +96,8 @@ AnalyticBin binAbout(const osg::BoundingSphere& sphere, const core::Ellipsoid& e
     const glm::dvec3 center = toGlm(osg::Vec3d(sphere.center()));
     const double radius = sphere.radius() * 1.001;
     if (ellipsoid.isPlane()) {
+        const double farthest = std::max(std::abs(center.x), std::abs(center.y)) + radius;
+        if (!(farthest <= core::Ellipsoid::kFarthestInMap)) return {};
         const core::Geodetic low = ellipsoid.toGeodetic(center - radius), high = ellipsoid.toGeodetic(center + radius);
         return AnalyticBin(core::GeodeticBin({low.latitude, high.latitude}, {low.longitude, high.longitude},
                                              {low.altitude, high.altitude}));

@@ -86,6 +86,10 @@ std::optional<core::GeodeticGrid> gridOf(osgTerrain::TerrainTile& tile, const os
     if (!locator || !standsOn(*locator, ellipsoid)) return std::nullopt;
     std::optional<core::GeodeticGrid> grid =
         rectangleOf(*locator, isMapPlane(ellipsoid) ? core::Ellipsoid::kMapUnitsInRadian : 1.0);
+    const bool isFar =
+        grid && isMapPlane(ellipsoid) &&
+        !(largestCoordinate({grid->latitude, grid->longitude, {0.0, 0.0}}) <= core::Ellipsoid::kFarthestInMap);
+    if (isFar) return std::nullopt;
     const osgTerrain::Layer* layer = tile.getElevationLayer();
     if (grid) grid->columns = layer ? layer->getNumColumns() : kDefaultPosts;
     if (grid) grid->rows = layer ? layer->getNumRows() : kDefaultPosts;

@@ -60,6 +60,20 @@ TEST(CameraPath, TakesColumnsInAnyOrder) {
     EXPECT_DOUBLE_EQ(path->front().eye.latitude, kPi / 180.0);
 }
 
+TEST(CameraPath, OverAMapHasCoordinatesInPlaceOfAngles) {
+    const std::string header = "name,eyeX,eyeY,eyeAlt,lookX,lookY,lookAlt,fovDeg,near,far\n";
+    std::string error;
+    std::istringstream input(header + "p,500000.25,4600000.5,900,510000,4600000,800,60,1,2\n");
+    const auto path = readCameraPath(input, "path.csv", error);
+    ASSERT_TRUE(path.has_value()) << error;
+    EXPECT_EQ(core::Ellipsoid::plane().toEcef(path->front().eye), glm::dvec3(500000.25, 4600000.5, 900.0));
+    EXPECT_EQ(core::Ellipsoid::plane().toEcef(path->front().look), glm::dvec3(510000.0, 4600000.0, 800.0));
+    std::istringstream mixed(
+        "name,eyeX,eyeY,eyeAlt,lookLonDeg,lookLatDeg,lookAlt,fovDeg,near,far\np,1,2,3,4,5,6,7,8,9\n");
+    EXPECT_FALSE(readCameraPath(mixed, "path.csv", error).has_value());
+    EXPECT_EQ(error, "path.csv: column \"lookY\" is missing");
+}
+
 TEST(CameraPath, NamesFileAndLineOfABrokenLine) {
     const std::string good = "a,0,0,1000,0,0,0,60,1,2\n";
     EXPECT_TRUE(contains(errorOf(kHeader + good + "b,0,0,1000,0,zero,0,60,1,2\n"), "path.csv:3: lookLonDeg"));

@@ -7,7 +7,11 @@
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
+#include <osg/Geometry>
 #include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+
+#include <array>
 
 namespace osgAnalyticBin::flight {
 namespace {
@@ -49,6 +53,24 @@ TEST(CameraView, IsDefinedAboveAPole) {
     const osg::Matrixd view = viewMatrixOf(poseOf({osg::PI_2, 0.0, 1e6}, {osg::PI_2, 0.0, 0.0}), earth());
     EXPECT_TRUE(view.valid());
     EXPECT_LT((osg::Vec3d(0.0, 0.0, 6356752.3142 + 1e6) * view).length(), 1.0);
+}
+
+TEST(CameraView, StandsUprightInAMapWhereverThatIs) {
+    const osg::ref_ptr<osg::Geometry> mesh = new osg::Geometry;
+    const std::array<osg::Vec3, 3> corners{osg::Vec3(0, 0, 5), osg::Vec3(100, 0, 5), osg::Vec3(0, 100, 5)};
+    mesh->setVertexArray(new osg::Vec3Array(corners.begin(), corners.end()));
+    mesh->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 3));
+    const osg::ref_ptr<osg::PagedLOD> tile = new osg::PagedLOD;
+    tile->addChild(mesh, 0.0F, 1e10F);
+    const osg::ref_ptr<osg::CoordinateSystemNode> map = new osg::CoordinateSystemNode("WKT", "PROJCS[\"map\"]");
+    map->addChild(tile);
+    const osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform(osg::Matrixd::translate(0.0, 0.0, 5e6));
+    moved->addChild(map);
+    const core::Ellipsoid plane = core::Ellipsoid::plane();
+    const CameraPose pose = poseOf(plane.toGeodetic({50.0, 20.0, 30.0}), plane.toGeodetic({150.0, 20.0, 30.0}));
+    const osg::Matrixd view = viewMatrixOf(pose, globeOf(*moved));
+    EXPECT_LT((osg::Vec3d(50.0, 20.0, 5e6 + 30.0) * view).length(), kMetre);
+    EXPECT_LT((osg::Vec3d(90.0, 20.0, 5e6 + 37.0) * view - osg::Vec3d(0.0, 7.0, -40.0)).length(), kMetre);
 }
 
 TEST(CameraView, FollowsATransformAboveTheGlobe) {
