@@ -227,12 +227,6 @@ void AnalyticBinCullCallback::setBin(const AnalyticBin& bin) {
     setLoadedBin(bin, {});
 }
 
-void AnalyticBinCullCallback::setLoadedBin(const AnalyticBin& bin, const AnalyticBin& declared) {
-    _bin = bin;
-    _declared = declared;
-    changeBin();
-}
-
 void AnalyticBinCullCallback::setTerrainShape(const std::optional<TerrainShape>& shape) {
     leaveFamily();
     changeSetup([&](Setup& setup) { setup.shape = shape; });
@@ -391,19 +385,6 @@ Verdict AnalyticBinCullCallback::verdict(core::Side side, const core::PlaneSet& 
         return {core::Side::Outside, Verdict::Edge};
     }
     return {side, Verdict::Plane};
-}
-
-void AnalyticBinCullCallback::requestFilesOutOfView(osg::Node& node, osg::CullStack& cullStack,
-                                                    osg::NodeVisitor& nv) const {
-    const DatabaseView* const view = viewOn(cullStack, CullTraversal::of(nv));
-    const core::HorizonEye* const eye = view ? view->eye : nullptr;
-    if (mayRequestBelow(eye)) requestOutOfView(node, nv, eye);
-}
-
-bool AnalyticBinCullCallback::mayRequestBelow(const core::HorizonEye* eye) const {
-    if (!_declared.valid()) return false;
-    const Prepared& tile = prepared();
-    return !eye || !tile.declaredHorizon || !eye->hides(*tile.declaredHorizon);
 }
 
 bool AnalyticBinCullCallback::isHiddenFrom(const core::HorizonEye& eye) const {
