@@ -108,15 +108,6 @@ AnalyticBinCullCallback::~AnalyticBinCullCallback() {
     discardPrepared();
 }
 
-AnalyticBin AnalyticBinCullCallback::shownBin() const {
-    AnalyticBin bin = _setup->shape ? _bin.exaggerated(_setup->shape->verticalScale) : _bin;
-    const core::Interval& altitude = bin.bin().altitude();
-    // what is loaded counts with its skirts
-    if (bin.valid() && !_declared.valid())
-        bin.setBin(bin.bin().withAltitude({altitude.lower - _skirt, altitude.upper}));
-    return bin;
-}
-
 AnalyticBinCullCallback::PreparedBin AnalyticBinCullCallback::preparedBin(const AnalyticBin& shown,
                                                                           const core::Ellipsoid& ellipsoid) const {
     const core::ParameterBox box = core::parameterBox(shown.bin());

@@ -10,6 +10,15 @@
 
 namespace osgAnalyticBin {
 
+AnalyticBin AnalyticBinCullCallback::shownBin() const {
+    AnalyticBin bin = _setup->shape ? _bin.exaggerated(_setup->shape->verticalScale) : _bin;
+    const core::Interval& altitude = bin.bin().altitude();
+    // what is loaded counts with its skirts
+    if (bin.valid() && !_declared.valid())
+        bin.setBin(bin.bin().withAltitude({altitude.lower - _skirt, altitude.upper}));
+    return bin;
+}
+
 void AnalyticBinCullCallback::setLoadedBin(const AnalyticBin& bin, const AnalyticBin& declared) {
     _bin = bin;
     _declared = declared;

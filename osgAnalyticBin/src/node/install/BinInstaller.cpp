@@ -121,13 +121,6 @@ void BinInstaller::refit(osg::Node& node, Database& database) {
     _refitted = nullptr;
 }
 
-void BinInstaller::publishTiles(osg::Node* content) {
-    for (const auto& link : _links) link->isBeingInstalled = false;
-    _links.clear();
-    if (_database) _database->adoption().await(content, std::move(_awaiting));
-    _awaiting.clear();
-}
-
 void BinInstaller::finish(osg::Node* content) {
     for (const auto& [file, coverage] : *_coverage) {
         if (installsBins()) database().noteCoverage(file, coverage);

@@ -12,9 +12,17 @@
 #include <osgDB/Registry>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
+
+void BinInstaller::publishTiles(osg::Node* content) {
+    for (const auto& link : _links) link->isBeingInstalled = false;
+    _links.clear();
+    if (_database) _database->adoption().await(content, std::move(_awaiting));
+    _awaiting.clear();
+}
 
 void BinInstaller::followPaging(osg::PagedLOD& node, const ParentTile* parent, bool isTile) {
     const osg::ref_ptr<osgDB::Options> own = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
