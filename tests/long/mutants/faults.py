@@ -33,6 +33,13 @@ FAULTS = [
     Fault("an option is not listed", "src/plugin/ReaderWriterAnalyticBin.cpp",
           'supportsOption("skirts=cracks|all",', 'supportsOption("index=auto|on|off",', PLUGIN, "OptionString.*"),
 
+    Fault("loaded bins do not grow", "src/node/page/Database.cpp",
+          "    tile.setLoadedBin(grown, declared);", "", NODE, "AutoIndex.WhereItIsOff*"),
+    Fault("a tile from elsewhere is not looked at", "src/node/install/ContentWatch.cpp",
+          "fitLoadedInto(node, isKnown ? united : AnalyticBin());", ";", NODE, "LoadedBins.*"),
+    Fault("tiles out of view ask for no files", "src/node/cull/TileFamily.cpp",
+          "requestOutOfView(*group.getChild(first + number), nv, view.eye);", ";", NODE, "LoadedBins.*"),
+
     # the polynomial and its proof
     Fault("no remainder", "src/core/bin/QuadraticBin.cpp", "(mapping.remainder(box) + margin)", "(margin)",
           CORE, "*QuadraticBin*"),

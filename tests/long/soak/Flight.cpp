@@ -27,6 +27,7 @@ constexpr std::size_t kMostDatabases = 4;
 CullOptions defaultOptions() {
     CullOptions options;
     options.expiry = 0.1;
+    options.index = IndexUse::On;  // what the thread that makes one takes would count as growth
     return options;
 }
 

@@ -183,6 +183,23 @@ TEST_F(AutoIndex, IsNotMadeWhereItIsOffOrTilesHaveStoredBins) {
     EXPECT_FALSE(isIndexAwaited(*_scene));
 }
 
+TEST_F(AutoIndex, WhereItIsOffBinsGrowWithWhatIsMergedBeforeThatIsCulled) {
+    CullOptions options;
+    options.index = IndexUse::Off;
+    _scene = osgDB::readRefNodeFile(_file);
+    _root = dynamic_cast<osg::PagedLOD*>(_scene->asGroup()->getChild(0));
+    (void)installBins(*_scene, options, _file);
+    EXPECT_NEAR(highOfRoot(), 200.0, 1.0);
+    const osg::ref_ptr<osg::Node> children = readBelow(*_root);
+    putBelow(*_root, children);
+    update(*_scene);
+    EXPECT_NEAR(highOfRoot(), 700.0, 1.0);
+    EXPECT_FALSE(isRootWhole());
+    // and hold it when bins are fitted anew
+    (void)setCullOptions(*_scene, options);
+    EXPECT_NEAR(highOfRoot(), 700.0, 1.0);
+}
+
 // Says that the files of a tile are requested.
 struct Requests : osg::NodeVisitor::DatabaseRequestHandler {
     void requestNodeFile(const std::string& file, osg::NodePath&, float, const osg::FrameStamp*,
@@ -225,19 +242,6 @@ TEST(LoadedBins, ATileIsCulledByWhatIsLoadedAndAsksForFilesWhereSpheresWould) {
         EXPECT_FALSE(globe.drawsPlain(3000.0, 9.0));
         EXPECT_EQ(globe.requests->files.count("no.osgb"), 0u);
     }
-}
-
-TEST(LoadedBins, GrowWithWhatIsMergedBelowBeforeItIsCulled) {
-    FiledGlobe globe;
-    installBins(*globe.root);
-    const double before = installedOn(*globe.tile)->getBin().bin().altitude().upper;
-    const osg::ref_ptr<osg::Node> content = readBelow(*globe.tile);
-    ASSERT_TRUE(content);
-    putBelow(*globe.tile, content);
-    update(*globe.root);
-    AnalyticBin united = installedOn(*globe.tile)->getBin();
-    EXPECT_GE(united.bin().altitude().upper, before);
-    EXPECT_TRUE(installedOn(*globe.tile)->getDeclaredBin().valid());
 }
 
 // As an application does that hands a treated tile to another place, or a cache that keeps it.

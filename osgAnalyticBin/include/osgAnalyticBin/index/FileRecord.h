@@ -19,10 +19,13 @@ namespace osgAnalyticBin::indexing {
 struct FilePlace {
     /// Metres; 0: not below a geocentric CoordinateSystemNode.
     double equatorialRadius = 0.0;
+    /// Metres.
     double polarRadius = 0.0;
     /// As of osgAnalyticBin::TileFrame.
     bool isProjected = false;
+    /// From the frame of the content, row by row.
     std::array<double, 16> localToEcef{};
+    /// See TileFrame.
     bool isBelowTile = false;
     /// osgTerrain::Terrain's.
     double sampleRatio = 1.0;
@@ -44,11 +47,15 @@ struct FileLink {
     std::string file;
     /// Ordinal of the tile that it is paged below, in the file that names it; -1: none.
     std::int32_t tile = -1;
+    /// Where it stands.
     FilePlace place;
 };
 
+/// What is kept of a tile.
 struct TileRecord {
+    /// What the tile draws by itself.
     osgAnalyticBin::TileSurface surface;
+    /// tileFingerprint() of the tile.
     std::uint64_t fingerprint = 0;
     /// Ordinal of the tile in the same file that it stands below; -1: none.
     std::int32_t parent = -1;
@@ -61,6 +68,7 @@ using FileStamp = BinIndex::Stamp;
 struct FileRecord {
     /// Path relative to the root file's folder; "" for the root file.
     std::string file;
+    /// Of the file when it was read.
     FileStamp stamp;
     /// Where it was read.
     FilePlace place;
@@ -68,7 +76,9 @@ struct FileRecord {
     bool isRead = false;
     /// Whether the file draws anything that is part of no tile.
     bool hasOtherContent = false;
+    /// In preorder.
     std::vector<TileRecord> tiles;
+    /// Files that it pages.
     std::vector<FileLink> links;
 };
 

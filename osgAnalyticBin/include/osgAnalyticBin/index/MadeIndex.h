@@ -16,7 +16,9 @@ namespace osgAnalyticBin::indexing {
 
 /// An index, and what it took to make it.
 struct MadeIndex {
+    /// The bins of all tiles.
     osg::ref_ptr<BinIndex> index;
+    /// That it was made from.
     FileRecords records;
     /// Where the tiles cover the whole globe: the altitude in metres that no surface goes below.
     std::optional<double> horizon;

@@ -107,15 +107,6 @@ AnalyticBinCullCallback::~AnalyticBinCullCallback() {
     discardPrepared();
 }
 
-AnalyticBin AnalyticBinCullCallback::shownBin() const {
-    AnalyticBin bin = _setup->shape ? _bin.exaggerated(_setup->shape->verticalScale) : _bin;
-    const core::Interval& altitude = bin.bin().altitude();
-    // what is loaded counts with its skirts
-    if (bin.valid() && !_declared.valid())
-        bin.setBin(bin.bin().withAltitude({altitude.lower - _skirt, altitude.upper}));
-    return bin;
-}
-
 AnalyticBinCullCallback::PreparedBin AnalyticBinCullCallback::preparedBin(const AnalyticBin& shown,
                                                                           const core::Ellipsoid& ellipsoid) const {
     const core::ParameterBox box = core::parameterBox(shown.bin());
@@ -225,12 +216,6 @@ void AnalyticBinCullCallback::fillSlot() const {
 
 void AnalyticBinCullCallback::setBin(const AnalyticBin& bin) {
     setLoadedBin(bin, {});
-}
-
-void AnalyticBinCullCallback::setLoadedBin(const AnalyticBin& bin, const AnalyticBin& declared) {
-    _bin = bin;
-    _declared = declared;
-    changeBin();
 }
 
 void AnalyticBinCullCallback::setTerrainShape(const std::optional<TerrainShape>& shape) {
@@ -393,19 +378,6 @@ Verdict AnalyticBinCullCallback::verdict(core::Side side, const core::PlaneSet& 
         return {core::Side::Outside, Verdict::Edge};
     }
     return {side, Verdict::Plane};
-}
-
-void AnalyticBinCullCallback::requestFilesOutOfView(osg::Node& node, osg::CullStack& cullStack,
-                                                    osg::NodeVisitor& nv) const {
-    const DatabaseView* const view = viewOn(cullStack, CullTraversal::of(nv));
-    const core::HorizonEye* const eye = view ? view->eye : nullptr;
-    if (mayRequestBelow(eye)) requestOutOfView(node, nv, eye);
-}
-
-bool AnalyticBinCullCallback::mayRequestBelow(const core::HorizonEye* eye) const {
-    if (!_declared.valid()) return false;
-    const Prepared& tile = prepared();
-    return !eye || !tile.declaredHorizon || !eye->hides(*tile.declaredHorizon);
 }
 
 bool AnalyticBinCullCallback::isHiddenFrom(const core::HorizonEye& eye) const {

@@ -74,6 +74,15 @@ public:
     }
 };
 
+// Whether OSG would cull a node by its sphere.
+bool isSphereCulled(osg::CullStack& cullStack, const osg::Node& node) {
+    osg::CullingSet& cullingSet = cullStack.getCurrentCullingSet();
+    const osg::Polytope::ClippingMask before = cullingSet.getFrustum().getResultMask();
+    const bool isCulled = cullingSet.isCulled(node.getBound());
+    cullingSet.getFrustum().setResultMask(before);
+    return isCulled;
+}
+
 class RequestsOutOfView final : public Requests {
 public:
     // `entered`: the node whose frame the cull visitor is in already; null: it is at the parent.
@@ -105,11 +114,7 @@ private:
     [[nodiscard]] bool isAsking(const osg::Node& node) {
         const AnalyticBinCullCallback* const tile = installedBinOf(node);
         if (tile && !tile->mayRequestBelow(_eye)) return false;
-        osg::CullingSet& cullingSet = asCullStack()->getCurrentCullingSet();
-        const osg::Polytope::ClippingMask before = cullingSet.getFrustum().getResultMask();
-        const bool isCulled = cullingSet.isCulled(node.getBound());
-        cullingSet.getFrustum().setResultMask(before);
-        return !isCulled;
+        return !isSphereCulled(*asCullStack(), node);
     }
 
     const core::HorizonEye* const _eye;
@@ -136,7 +141,10 @@ void requestAhead(osg::Node& node, osg::NodeVisitor& cullVisitor) {
 
 void requestOutOfView(osg::Node& node, osg::NodeVisitor& cullVisitor, const core::HorizonEye* eye) {
     if (!cullVisitor.getDatabaseRequestHandler() || !cullVisitor.asCullStack()) return;
-    RequestsOutOfView requests(cullVisitor, eye, isAt(node, cullVisitor) ? &node : nullptr);
+    const bool isEntered = isAt(node, cullVisitor);
+    // a visitor takes longer to make than a sphere to test
+    if (!isEntered && isSphereCulled(*cullVisitor.asCullStack(), node)) return;
+    RequestsOutOfView requests(cullVisitor, eye, isEntered ? &node : nullptr);
     request(node, requests);
 }
 

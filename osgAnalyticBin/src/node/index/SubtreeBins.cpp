@@ -35,42 +35,47 @@ void SubtreeBins::add(const FileRecord& record) {
     _waiting[record.file] = {record, below.size()};
 }
 
+void SubtreeBins::unite(const Content& inner, Content& outer, bool isTile) {
+    outer.isKnown = outer.isKnown && inner.isKnown;
+    outer.united.expandBy(inner.united);
+    if (inner.lacksFiles && isTile && outer.united.valid())
+        outer.united.expandBy(AnalyticBin(outer.united.bin().withAltitude(CullOptions::kTerrainOnEarth)));
+    outer.lacksFiles = !isTile && (outer.lacksFiles || inner.lacksFiles);
+}
+
+// Publishes a file below which all is known. Returns: what it draws.
+SubtreeBins::Content SubtreeBins::finish(const FileRecord& record) const {
+    Content whole;
+    whole.isKnown = !record.isRead || !record.hasOtherContent;
+    whole.lacksFiles = !record.isRead;
+    std::vector<Content> tiles;
+    for (const TileRecord& tile : record.tiles) {
+        const AnalyticBin own = withSkirt(tile.surface);
+        tiles.push_back({own, own.valid(), false});
+    }
+    const auto above = [&](std::int32_t tile) -> Content& {
+        return tile >= 0 ? tiles[static_cast<std::size_t>(tile)] : whole;
+    };
+    for (const FileLink& link : record.links) unite(_complete.at(link.file), above(link.tile), link.tile >= 0);
+    // tiles stand behind those above them
+    for (std::size_t i = tiles.size(); i-- > 0;)
+        unite(tiles[i], above(record.tiles[i].parent), record.tiles[i].parent >= 0);
+    std::vector<BinIndex::Entry> entries;
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const AnalyticBin& own = record.tiles[i].surface.bin;
+        entries.push_back({tiles[i].isKnown ? tiles[i].united : AnalyticBin(),
+                           own.valid() ? own.bin().altitude().lower : 0.0, record.tiles[i].fingerprint});
+    }
+    if (record.isRead) _publish(record.file, std::move(entries));
+    return whole;
+}
+
 void SubtreeBins::complete(const FileRecord& first) {
     std::vector<FileRecord> ready{first};
     while (!ready.empty()) {
         const FileRecord record = std::move(ready.back());
         ready.pop_back();
-        Content whole;
-        whole.isKnown = record.isRead ? !record.hasOtherContent : true;
-        whole.lacksFiles = !record.isRead;
-        std::vector<Content> tiles;
-        for (const TileRecord& tile : record.tiles) {
-            const AnalyticBin own = withSkirt(tile.surface);
-            tiles.push_back({own, own.valid(), false});
-        }
-        const auto unite = [](const Content& inner, Content& outer, bool isTile) {
-            outer.isKnown = outer.isKnown && inner.isKnown;
-            outer.united.expandBy(inner.united);
-            if (inner.lacksFiles && isTile && outer.united.valid())
-                outer.united.expandBy(AnalyticBin(outer.united.bin().withAltitude(CullOptions::kTerrainOnEarth)));
-            outer.lacksFiles = !isTile && (outer.lacksFiles || inner.lacksFiles);
-        };
-        for (const FileLink& link : record.links) {
-            const bool isTile = link.tile >= 0;
-            unite(_complete.at(link.file), isTile ? tiles[static_cast<std::size_t>(link.tile)] : whole, isTile);
-        }
-        for (std::size_t i = tiles.size(); i-- > 0;) {
-            const std::int32_t parent = record.tiles[i].parent;
-            unite(tiles[i], parent >= 0 ? tiles[static_cast<std::size_t>(parent)] : whole, parent >= 0);
-        }
-        std::vector<BinIndex::Entry> entries;
-        for (std::size_t i = 0; i < tiles.size(); ++i) {
-            const AnalyticBin& own = record.tiles[i].surface.bin;
-            entries.push_back({tiles[i].isKnown ? tiles[i].united : AnalyticBin(),
-                               own.valid() ? own.bin().altitude().lower : 0.0, record.tiles[i].fingerprint});
-        }
-        _complete[record.file] = whole;
-        if (record.isRead) _publish(record.file, std::move(entries));
+        _complete[record.file] = finish(record);
         const auto above = _namedBy.find(record.file);
         if (above == _namedBy.end()) continue;
         for (const std::string& file : above->second) {

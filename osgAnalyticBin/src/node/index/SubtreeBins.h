@@ -42,6 +42,8 @@ private:
         std::size_t awaited = 0;
     };
 
+    static void unite(const Content& inner, Content& outer, bool isTile);
+    [[nodiscard]] Content finish(const FileRecord& record) const;
     void complete(const FileRecord& record);
 
     const Publish _publish;
