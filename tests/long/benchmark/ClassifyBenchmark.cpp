@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 
 // The time of one tile against the four side planes of a frustum, for every method: BM_Classify with nine tiles in ten
-// outside, BM_ClassifyHalf with half of them; likewise BM_Family and BM_FamilyHalf of four siblings at once. Before
-// anything is timed, all answers are compared with the oracle.
+// outside, BM_ClassifyHalf with half of them; likewise BM_Family and BM_FamilyHalf of four siblings at once.
+// BM_Occlusion: what the core does in a search behind terrain, for each tile. Before anything is timed, all answers are
+// compared with the oracle.
 
 #include "FamilyBenchmark.h"
+#include "OcclusionBenchmark.h"
 #include "TileMix.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
@@ -245,7 +247,8 @@ int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return EXIT_FAILURE;
     osgAnalyticBin::test::Suite suite;
-    if (!suite.add() || !osgAnalyticBin::test::addFamilyBenchmarks()) {
+    if (!suite.add() || !osgAnalyticBin::test::addFamilyBenchmarks() ||
+        !osgAnalyticBin::test::addOcclusionBenchmark()) {
         std::fprintf(stderr, "osganalyticbin_benchmark: a method culls tiles that it must keep; nothing is timed\n");
         return EXIT_FAILURE;
     }

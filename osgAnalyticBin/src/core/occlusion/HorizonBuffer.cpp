@@ -64,7 +64,7 @@ void HorizonBuffer::add(const EarthColumn& column) {
     for (std::size_t i = 0; i < 4; ++i) {
         if (!place(column.top[i], top[i])) return;
     }
-    for (const glm::dvec3& corner : column.top) _nearestEarth = std::min(_nearestEarth, glm::length(corner));
+    for (const glm::dvec3& corner : column.top) _nearestEarth2 = std::min(_nearestEarth2, glm::dot(corner, corner));
     const auto [leftmost, rightmost] =
         std::minmax_element(top.begin(), top.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
     const std::size_t first = stripAt(leftmost->x, 0.0), last = stripAt(rightmost->x, 1.0);

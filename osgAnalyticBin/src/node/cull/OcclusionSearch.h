@@ -63,10 +63,10 @@ struct FoundOcclusion {
 
 /// Looks for shown tiles behind the terrain of others.
 /// Requires: a plan that has what is shown; of `found`: everything but findings, and the tiles.
-/// Guarantee: every line of sight to a tile that is found hidden meets the mesh of another shown tile before, for all of
-/// the eyes; source: doc/theory/occlusion.md, sections 4 and 5.
-/// Returns: false where the near plane may cut into terrain, or where the place of a tile is not known.
-/// Cost: a sort of the shown tiles, and a few microseconds for each that is not hidden.
+/// Guarantee: every line of sight to a tile that is found hidden meets the mesh of another shown tile before, for all
+/// of the eyes; source: doc/theory/occlusion.md, sections 4 and 5. Returns: false where the near plane may cut into
+/// terrain, or where the place of a tile is not known. Cost: a sort of the shown tiles, and a few microseconds for each
+/// that is not hidden.
 [[nodiscard]] bool findOccluded(const ShownDatabase& database, FoundOcclusion& found);
 
 }  // namespace osgAnalyticBin

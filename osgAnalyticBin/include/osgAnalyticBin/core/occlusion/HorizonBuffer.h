@@ -9,6 +9,7 @@
 #include <glm/vec2.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -61,7 +62,7 @@ public:
     [[nodiscard]] bool hides(const Outline& body);
 
     /// Metres from the eye's place to the nearest upper corner of all earth in front of it; infinite where there is none.
-    [[nodiscard]] double nearestEarth() const noexcept { return _nearestEarth; }
+    [[nodiscard]] double nearestEarth() const noexcept { return std::sqrt(_nearestEarth2); }
 
     /// The heights that are covered in a strip so far; an empty interval if nothing is covered.
     [[nodiscard]] Interval covered(std::size_t strip) const noexcept { return {_lower[strip], _upper[strip]}; }
@@ -97,7 +98,7 @@ private:
     double _drawing;
     double _depthStep;
     glm::dvec3 _eyes;
-    double _nearestEarth = std::numeric_limits<double>::infinity();
+    double _nearestEarth2 = std::numeric_limits<double>::infinity();  // squared
     double _lowest = -std::numeric_limits<double>::infinity();
     double _reached = 0.0;  // the farthest corner of the earth that is in the strips
     std::vector<Wall> _walls;

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "OcclusionBenchmark.h"
+
+#include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
+
+#include <benchmark/benchmark.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <core/OcclusionScene.h>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::HorizonBuffer;
+
+constexpr std::size_t kCells = 4;
+constexpr int kScenes = 6;
+constexpr int kRays = 16;
+
+// What a search does for a view, with the plates there already.
+class Search {
+public:
+    explicit Search(Random& random) : _scene(random, false), _frame(frameOf(_scene)) {
+        for (const GroundTile& tile : _scene.tiles) _plates.emplace_back(_scene.ellipsoid, tile.mesh, tile.bin);
+    }
+
+    [[nodiscard]] std::size_t tiles() const { return _plates.size(); }
+
+    // Returns: the numbers of the hidden quarters, four for each tile.
+    [[nodiscard]] std::vector<std::size_t> hidden() const {
+        HorizonBuffer buffer = bufferOf(_scene);
+        std::vector<HorizonBuffer::Outline> outlines;
+        std::vector<std::pair<double, std::size_t>> order;
+        for (const GroundTile& tile : _scene.tiles) {
+            for (const auto& hull : core::hullsOfQuarters(_scene.ellipsoid, tile.bin, 0.0, _frame)) {
+                outlines.push_back(buffer.outlineOf(hull));
+                order.emplace_back(outlines.back().nearest, order.size());
+            }
+        }
+        std::sort(order.begin(), order.end());
+        std::vector<std::size_t> hidden;
+        std::vector<core::EarthColumn> columns;
+        for (const auto& [nearest, quarter] : order) {
+            if (outlines[quarter].isBeside) continue;
+            if (buffer.hides(outlines[quarter])) {
+                hidden.push_back(quarter);
+                continue;
+            }
+            columns.clear();
+            const double depth = 0.01 * _scene.ellipsoid.equatorialRadius();
+            _plates[quarter / 4].appendColumns(kCells, quarter % 4, depth, _frame, columns);
+            for (const core::EarthColumn& column : columns) buffer.add(column);
+        }
+        return hidden;
+    }
+
+    [[nodiscard]] bool isRight(Random& random) const {
+        for (const std::size_t quarter : hidden()) {
+            const GroundTile part{{}, _scene.tiles[quarter / 4].bin.quarters()[quarter % 4]};
+            for (int ray = 0; ray < kRays; ++ray) {
+                const RealVector point = _scene.pointIn(random, part);
+                if (isBeforeTheCamera(_scene, point) && !_scene.isBlocked(point)) return false;
+            }
+        }
+        return true;
+    }
+
+private:
+    OcclusionScene _scene;
+    core::Frame _frame;
+    std::vector<core::GroundPlates> _plates;
+};
+
+}  // namespace
+
+bool addOcclusionBenchmark() {
+    Random random(202);
+    const auto searches = std::make_shared<std::vector<Search>>();
+    for (int i = 0; i < kScenes; ++i) searches->emplace_back(random);
+    const bool areRight = std::all_of(searches->begin(), searches->end(),
+                                      [&random](const Search& search) { return search.isRight(random); });
+    benchmark::RegisterBenchmark("BM_Occlusion", [searches](benchmark::State& state) {
+        std::size_t tiles = 0;
+        for (auto _ : state) {
+            for (const Search& search : *searches) {
+                benchmark::DoNotOptimize(search.hidden());
+                tiles += search.tiles();
+            }
+        }
+        state.SetItemsProcessed(static_cast<std::int64_t>(tiles));
+    });
+    return areRight;
+}
+
+}  // namespace osgAnalyticBin::test
