@@ -33,7 +33,9 @@ public:
     /// Returns: nullptr when the index does not know the file, or the file has no such node.
     [[nodiscard]] const osg::BoundingBoxf* find(const std::string& file, std::size_t ordinal) const;
 
+    /// Number of files that it knows.
     [[nodiscard]] std::size_t numFiles() const { return _files.size(); }
+    /// Number of LODs in these files.
     [[nodiscard]] std::size_t numBoxes() const;
     /// All files by name.
     [[nodiscard]] const std::map<std::string, Boxes>& files() const { return _files; }
@@ -41,10 +43,12 @@ public:
     /// Writes the index; a file of that name is replaced when the new one is complete. Returns: whether it was written;
     /// otherwise `error` says why not.
     [[nodiscard]] bool write(const std::string& path, std::string& error) const;
+    /// Writes the index to a stream. Returns: whether the stream took it.
     [[nodiscard]] bool write(std::ostream& out) const;
 
     /// Returns: nullptr when it cannot be read; then `error` says why.
     [[nodiscard]] static osg::ref_ptr<BoxIndex> read(const std::string& path, std::string& error);
+    /// Reads an index from a stream. Returns: nullptr when it is none, cut short or damaged; then `error` says which.
     [[nodiscard]] static osg::ref_ptr<BoxIndex> read(std::istream& in, std::string& error);
 
 protected:

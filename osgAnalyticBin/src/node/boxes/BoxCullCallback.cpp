@@ -17,6 +17,7 @@ namespace {
 struct TraversalOfThread {
     const osg::NodeVisitor* visitor = nullptr;
     CullTraversal* traversal = nullptr;
+    BinCounts counts;
 };
 thread_local TraversalOfThread traversalOfThread;
 
@@ -24,6 +25,18 @@ thread_local TraversalOfThread traversalOfThread;
 
 CullTraversal& boxTraversalOf(osg::NodeVisitor& visitor) {
     return traversalOfThread.visitor == &visitor ? *traversalOfThread.traversal : CullTraversal::of(visitor);
+}
+
+void countBoxes(osg::NodeVisitor& visitor, const BinCounts& counts) {
+    if (visitor.getVisitorType() != osg::NodeVisitor::CULL_VISITOR) return;
+    if (traversalOfThread.visitor != &visitor) {
+        BinCounts ofFrame = counts;
+        ofFrame.frame = visitor.getTraversalNumber();
+        return CullTraversal::of(visitor).add(ofFrame);
+    }
+    traversalOfThread.counts.outside += counts.outside;
+    traversalOfThread.counts.inside += counts.inside;
+    traversalOfThread.counts.straddling += counts.straddling;
 }
 
 BoxCullCallback::BoxCullCallback(const BoxCullCallback& other, const osg::CopyOp& copyop)
@@ -82,9 +95,11 @@ void BoxSetCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     osg::Polytope& frustum = cullStack->getCurrentCullingSet().getFrustum();
     setUndecided(frustum, static_cast<core::PlaneMask>((std::uint64_t{1} << frustum.getPlaneList().size()) - 1));
     const TraversalOfThread outer = traversalOfThread;
-    traversalOfThread = {nv, &CullTraversal::of(*nv)};
+    traversalOfThread = {nv, &CullTraversal::of(*nv), {}};
     traverse(node, nv);
+    const BinCounts counts = traversalOfThread.counts;
     traversalOfThread = outer;
+    countBoxes(*nv, counts);
 }
 
 BoxSetUpdateCallback::BoxSetUpdateCallback(const BoxSetUpdateCallback& other, const osg::CopyOp& copyop)

@@ -10,10 +10,14 @@
 
 namespace osgAnalyticBin {
 
+struct BinCounts;
 class CullTraversal;
 
 /// What a cull visitor knows; quick within a set.
 [[nodiscard]] CullTraversal& boxTraversalOf(osg::NodeVisitor& visitor);
+
+/// Counts tested boxes; within a set all at once at its end.
+void countBoxes(osg::NodeVisitor& visitor, const BinCounts& counts);
 
 /// The cull callback of a LOD of a photogrammetry set, whose own sphere is not tested any more. It says of itself that
 /// it is a plain osg::NodeCallback: a scene that is saved holds nothing of it.

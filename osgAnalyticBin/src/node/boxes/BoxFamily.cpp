@@ -90,11 +90,10 @@ void BoxFamily::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         return;
     }
     const OccluderScope occluders(*cullStack);
-    cullChildren(*node->asGroup(), *nv, *cullStack, boxTraversalOf(*nv));
+    cullChildren(*node->asGroup(), *nv, *cullStack);
 }
 
-void BoxFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack,
-                             CullTraversal& traversal) const {
+void BoxFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack) const {
     const core::PlaneMask before = cullStack.getCurrentCullingSet().getFrustum().getCurrentMask();
     const std::vector<BoxSlots::Slot>& slots = _slots->slots;
     BinCounts counts;
@@ -117,9 +116,7 @@ void BoxFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullS
         enter(child, slots[i], nv);
         setUndecided(cullStack.getCurrentCullingSet().getFrustum(), before);
     }
-    if (nv.getVisitorType() != osg::NodeVisitor::CULL_VISITOR) return;
-    counts.frame = nv.getTraversalNumber();
-    traversal.add(counts);
+    countBoxes(nv, counts);
 }
 
 }  // namespace osgAnalyticBin

@@ -13,8 +13,6 @@
 
 namespace osgAnalyticBin {
 
-class CullTraversal;
-
 /// The cull callback of a group that has LODs of a photogrammetry set among its children. It tests their boxes, which
 /// lie side by side in memory, enters those that are kept, and reads nothing of the others. Children that it does not
 /// know, because they were added later, are entered. LODs need no callback of their own then.
@@ -41,8 +39,7 @@ protected:
 private:
     BoxFamily(osg::Group& group, BoxSet& set, const std::function<BoxTile*(const osg::Node&)>& tileOf);
     [[nodiscard]] bool culls(const osg::Node& group, osg::CullStack& cullStack) const;
-    void cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack,
-                      CullTraversal& traversal) const;
+    void cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack) const;
 
     const osg::Node* _group = nullptr;
     osg::ref_ptr<BoxSet> _set;
