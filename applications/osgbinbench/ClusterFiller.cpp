@@ -168,8 +168,7 @@ std::vector<glm::dvec3> verticesOf(const FoundTile& tile) {
 }
 
 bool fill(const FoundTile& tile) {
-    const auto cluster =
-        clusterOf(verticesOf(tile), toCore(tile.frame.ellipsoid ? *tile.frame.ellipsoid : osg::EllipsoidModel()));
+    const auto cluster = clusterOf(verticesOf(tile), toCore(*tile.frame.ellipsoid));
     if (!cluster) return false;
     const osg::Matrixd ecefToLocal = osg::Matrixd::inverse(callbackFrame(tile));
     const glm::dvec3& p = cluster->controlPoint;
@@ -211,7 +210,10 @@ std::size_t fillClusterCallbacks(osg::Node& graph, const osg::EllipsoidModel* pa
     frame.ellipsoid = pageOf;
     frame.isBelowTile = pageOf != nullptr;
     std::size_t filled = 0;
-    for (const FoundTile& tile : findTiles(graph, frame)) filled += !tile.frame.isProjected && fill(tile) ? 1U : 0U;
+    for (const FoundTile& tile : findTiles(graph, frame)) {
+        const bool isOnGlobe = tile.frame.ellipsoid && !isMapPlane(*tile.frame.ellipsoid);
+        if (isOnGlobe && fill(tile)) ++filled;
+    }
     return filled;
 }
 

@@ -53,12 +53,15 @@ bool takeSuffix(std::string& name, const std::string& suffix) {
 std::string CullMethod::sceneName(const std::string& database, const std::string& binOptions) const {
     std::string parameters = "method=" + loaderMethod;
     if (usesBins()) {
+        // an index that becomes complete meanwhile would change the figures
+        parameters += ",index=on";
         // the last item of a key counts
         if (usesHorizon) parameters += ",horizon=declared";
         if (!binOptions.empty()) parameters += "," + binOptions;
         if (!usesHorizon) parameters += ",horizon=off";
         parameters += usesEdges ? ",edges=on" : ",edges=off";
-        parameters += usesOcclusion ? ",occlusion=on" : ",occlusion=off";
+        const std::string use = usesOcclusion ? (mayRest ? "auto" : "on") : "off";
+        parameters += ",occlusion=" + use;
     }
     return database + ".(" + parameters + ").analyticbin";
 }
@@ -80,7 +83,8 @@ CullMethod cullMethodFromName(const std::string& name) {
         return method;
     }
     std::string base = name;
-    method.usesOcclusion = takeSuffix(base, "+occlusion");
+    method.mayRest = takeSuffix(base, "+autoocclusion");
+    method.usesOcclusion = method.mayRest || takeSuffix(base, "+occlusion");
     method.usesEdges = takeSuffix(base, "+edges");
     method.usesHorizon = takeSuffix(base, "+horizon");
     if (std::find(kBinBases.begin(), kBinBases.end(), base) != kBinBases.end()) method.loaderMethod = base;
@@ -90,7 +94,8 @@ CullMethod cullMethodFromName(const std::string& name) {
     throw UsageError(
         "--methods: unknown method \"" + name +
         "\"; use none, sphere, cluster, oracle, all, or box, orientedbox, corners, paper, quadratic or exact, these "
-        "with +horizon, +edges or +horizon+edges; quadratic and exact with +horizon, also +occlusion");
+        "with +horizon, +edges or +horizon+edges; quadratic and exact with +horizon, also +occlusion or "
+        "+autoocclusion");
 }
 
 std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& names) {

@@ -11,7 +11,7 @@
 namespace osgAnalyticBin::bench {
 
 /// A way to cull a database, by the name that the command line and the tables use:
-/// BASE[+horizon][+edges][+occlusion]. A plain base culls by the frustum's planes alone.
+/// BASE[+horizon][+edges][+occlusion or +autoocclusion]. A plain base culls by the frustum's planes alone.
 struct CullMethod {
     std::string name;
     /// What the pseudo-loader analyticbin is asked for.
@@ -20,6 +20,8 @@ struct CullMethod {
     bool usesEdges = false;
     /// Whether terrain hides terrain.
     bool usesOcclusion = false;
+    /// Whether occlusion rests by itself where it does not pay.
+    bool mayRest = false;
     /// What becomes of the database's own ClusterCullingCallbacks; bins see to it by themselves.
     Clusters clusters = Clusters::Keep;
     /// Whether the camera culls nothing at all.

@@ -96,7 +96,7 @@ struct MethodFigures {
     [[nodiscard]] Figures sum() const;
 };
 
-/// The same for a continuous flight, with paging live.
+/// The same for a continuous flight, or for jumps from pose to pose, with paging live.
 struct FlightFigures {
     std::string method;
     std::uint64_t frames = 0;
@@ -105,8 +105,10 @@ struct FlightFigures {
     std::uint64_t residentTiles = 0;
     std::uint64_t filesRequested = 0;
     std::uint64_t bytes = 0;
+    std::uint64_t completeMs = 0;
     double cullMs = 0.0;
     double cullMedianMs = 0.0;
+    double cull99thMs = 0.0;
 };
 
 struct FlightColumn {
@@ -115,15 +117,18 @@ struct FlightColumn {
     const char* meaning;
 };
 
-inline constexpr std::array<FlightColumn, 5> kFlightColumns{{
+inline constexpr std::array<FlightColumn, 6> kFlightColumns{{
     {"drawn_tiles", &FlightFigures::drawnTiles, "tiles with a mesh of their own drawn, summed over frames"},
     {"missing_frames", &FlightFigures::missingFrames,
      "frames that asked for a file for what they showed: it was too coarse"},
     {"resident_tiles", &FlightFigures::residentTiles, "tiles in memory after the last frame"},
     {"files_requested", &FlightFigures::filesRequested, "files read"},
     {"bytes", &FlightFigures::bytes, "bytes of these files"},
+    {"complete_ms", &FlightFigures::completeMs,
+     "milliseconds from each jump until nothing was missing, summed; 0 without --jumps"},
 }};
 
 inline constexpr const char* kCullMedianColumn = "cull_median_ms";
+inline constexpr const char* kCull99thColumn = "cull_99th_ms";
 
 }  // namespace osgAnalyticBin::bench

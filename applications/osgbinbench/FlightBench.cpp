@@ -25,25 +25,57 @@ public:
     }
 
     void takeTurn(const flight::CameraPose* begin, const flight::CameraPose* end) {
-        const std::uint64_t files = _watch.reads->nodeFiles();
-        const std::uint64_t bytes = _watch.reads->nodeBytes();
-        _scene.resume();
+        const Turn turn(*this);
         for (const flight::CameraPose* pose = begin; pose != end; ++pose) fly(*pose);
-        _scene.pause();
-        _figures.filesRequested += _watch.reads->nodeFiles() - files;
-        _figures.bytes += _watch.reads->nodeBytes() - bytes;
+    }
+
+    void jumpTo(const flight::CameraPose& pose, double timeout) {
+        const Turn turn(*this);
+        const auto begin = Clock::now();
+        while (fly(pose)) {
+            if (Clock::now() - begin > std::chrono::duration<double>(timeout)) throw _scene.lateAt(pose);
+        }
+        const auto passed = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - begin);
+        _figures.completeMs += static_cast<std::uint64_t>(passed.count());
     }
 
     [[nodiscard]] FlightFigures figures() {
         std::sort(_times.begin(), _times.end());
-        if (!_times.empty()) _figures.cullMedianMs = _times[(_times.size() - 1) / 2];
+        const auto percentile = [&](std::size_t part) { return _times[(_times.size() - 1) * part / 100]; };
+        if (!_times.empty()) {
+            _figures.cullMedianMs = percentile(50);
+            _figures.cull99thMs = percentile(99);
+        }
         _figures.residentTiles = residentTiles(_scene.root());
         return _figures;
     }
 
 private:
-    void fly(const flight::CameraPose& pose) {
-        const auto end = std::chrono::steady_clock::now() + _period;
+    using Clock = std::chrono::steady_clock;
+
+    // While a method has its turn its pager runs, and what is read counts.
+    class Turn {
+    public:
+        explicit Turn(Flight& flight)
+            : _flight(flight), _files(flight._watch.reads->nodeFiles()), _bytes(flight._watch.reads->nodeBytes()) {
+            flight._scene.resume();
+        }
+        ~Turn() {
+            _flight._scene.pause();
+            _flight._figures.filesRequested += _flight._watch.reads->nodeFiles() - _files;
+            _flight._figures.bytes += _flight._watch.reads->nodeBytes() - _bytes;
+        }
+        Turn(const Turn&) = delete;
+        Turn& operator=(const Turn&) = delete;
+
+    private:
+        Flight& _flight;
+        const std::uint64_t _files, _bytes;
+    };
+
+    // Returns: whether something was missing.
+    bool fly(const flight::CameraPose& pose) {
+        const auto end = Clock::now() + _period;
         const PagedScene::Frame frame = _scene.flyFrame(pose, _period.count());
         ++_figures.frames;
         _figures.missingFrames += frame.wanted > 0 ? 1U : 0U;
@@ -51,6 +83,7 @@ private:
         _times.push_back(frame.cullMs);
         _figures.drawnTiles += _scene.census().tiles.size();
         std::this_thread::sleep_until(end);
+        return frame.wanted > 0;
     }
 
     MethodScene _scene;
@@ -60,11 +93,8 @@ private:
     std::vector<double> _times;
 };
 
-}  // namespace
-
-std::vector<FlightFigures> flyContinuously(const Settings& settings, const std::vector<CullMethod>& methods,
-                                           const std::vector<flight::CameraPose>& frames, FileWatch& watch) {
-    std::cerr << "osgbinbench: " << frames.size() << " frames with paging live" << std::endl;
+std::vector<std::unique_ptr<Flight>> flightsOf(const Settings& settings, const std::vector<CullMethod>& methods,
+                                               FileWatch& watch) {
     std::vector<std::unique_ptr<Flight>> flights;
     for (const CullMethod& method : methods) {
         if (method.replaysVerdicts)
@@ -72,14 +102,38 @@ std::vector<FlightFigures> flyContinuously(const Settings& settings, const std::
         else
             flights.push_back(std::make_unique<Flight>(method, settings, watch));
     }
+    return flights;
+}
+
+std::vector<FlightFigures> figuresOf(const std::vector<std::unique_ptr<Flight>>& flights) {
+    std::vector<FlightFigures> figures;
+    for (const auto& flight : flights) figures.push_back(flight->figures());
+    return figures;
+}
+
+}  // namespace
+
+std::vector<FlightFigures> flyContinuously(const Settings& settings, const std::vector<CullMethod>& methods,
+                                           const std::vector<flight::CameraPose>& frames, FileWatch& watch) {
+    std::cerr << "osgbinbench: " << frames.size() << " frames with paging live" << std::endl;
+    const auto flights = flightsOf(settings, methods, watch);
     for (std::size_t begin = 0; begin < frames.size(); begin += kFramesPerTurn) {
         const std::size_t end = std::min(begin + kFramesPerTurn, frames.size());
         for (std::size_t i = 0; i < flights.size(); ++i)
             flights[(i + begin / kFramesPerTurn) % flights.size()]->takeTurn(&frames[begin], frames.data() + end);
     }
-    std::vector<FlightFigures> figures;
-    for (const auto& flight : flights) figures.push_back(flight->figures());
-    return figures;
+    return figuresOf(flights);
+}
+
+std::vector<FlightFigures> jump(const Settings& settings, const std::vector<CullMethod>& methods,
+                                const std::vector<flight::CameraPose>& poses, FileWatch& watch) {
+    std::cerr << "osgbinbench: " << poses.size() << " jumps with paging live" << std::endl;
+    const auto flights = flightsOf(settings, methods, watch);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        for (std::size_t k = 0; k < flights.size(); ++k)
+            flights[(k + i) % flights.size()]->jumpTo(poses[i], settings.timeout);
+    }
+    return figuresOf(flights);
 }
 
 }  // namespace osgAnalyticBin::bench

@@ -23,4 +23,10 @@ namespace osgAnalyticBin::bench {
                                                          const std::vector<flight::CameraPose>& frames,
                                                          FileWatch& watch);
 
+/// Has every method jump from pose to pose with paging live, from the root file alone on, and stand at each until
+/// nothing is missing. Methods take turns, pose by pose. Throws: Failure also when a pose takes longer than the
+/// timeout.
+[[nodiscard]] std::vector<FlightFigures> jump(const Settings& settings, const std::vector<CullMethod>& methods,
+                                              const std::vector<flight::CameraPose>& poses, FileWatch& watch);
+
 }  // namespace osgAnalyticBin::bench

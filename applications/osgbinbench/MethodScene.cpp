@@ -118,12 +118,15 @@ void MethodScene::settle(const flight::CameraPose& pose) {
     }
 }
 
+Failure MethodScene::lateAt(const flight::CameraPose& pose) const {
+    return Failure("pose " + pose.name + ", method " + _method.name + ": files are still missing after " +
+                   flight::textFrom(_settings.timeout) + " s; raise --timeout, or look for missing files");
+}
+
 void MethodScene::awaitFiles(const flight::CameraPose& pose, std::chrono::steady_clock::time_point begin) const {
     do {
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
-        if (passed.count() > _settings.timeout)
-            throw Failure("pose " + pose.name + ", method " + _method.name + ": files are still missing after " +
-                          flight::textFrom(_settings.timeout) + " s; raise --timeout, or look for missing files");
+        if (passed.count() > _settings.timeout) throw lateAt(pose);
         if (_paged->isReading()) std::this_thread::sleep_for(kLook);
     } while (_paged->isReading());
 }

@@ -8,6 +8,7 @@
 #include "ClusterRemover.h"
 #include "CullMethod.h"
 #include "ExpiryRaiser.h"
+#include "Failure.h"
 #include "PagedScene.h"
 #include "ReadCounter.h"
 #include "Settings.h"
@@ -56,6 +57,9 @@ public:
 
     /// One frame from a pose, `seconds` after the last one, wherever the pager is. Requires: as settle().
     PagedScene::Frame flyFrame(const flight::CameraPose& pose, double seconds);
+
+    /// What to throw when files are still missing at a pose after the timeout.
+    [[nodiscard]] support::Failure lateAt(const flight::CameraPose& pose) const;
 
     /// What a cull traversal at the pose last set does.
     [[nodiscard]] Census census() { return TileCensus::take(*_camera, _paged->frameStamp()); }

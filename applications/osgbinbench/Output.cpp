@@ -54,6 +54,7 @@ Json flightOf(const std::vector<FlightFigures>& methods) {
         for (const FlightColumn& column : kFlightColumns) sums[column.name] = method.*column.count;
         sums[kCullColumn] = method.cullMs;
         sums[kCullMedianColumn] = method.cullMedianMs;
+        sums[kCull99thColumn] = method.cull99thMs;
     }
     return json;
 }
@@ -61,14 +62,15 @@ Json flightOf(const std::vector<FlightFigures>& methods) {
 std::vector<std::string> flightHead(const std::string& first) {
     std::vector<std::string> cells{first, "frames"};
     for (const FlightColumn& column : kFlightColumns) cells.emplace_back(column.name);
-    cells.insert(cells.end(), {kCullColumn, kCullMedianColumn});
+    cells.insert(cells.end(), {kCullColumn, kCullMedianColumn, kCull99thColumn});
     return cells;
 }
 
 std::vector<std::string> flightLine(const FlightFigures& m) {
     std::vector<std::string> cells{m.method, std::to_string(m.frames)};
     for (const FlightColumn& column : kFlightColumns) cells.push_back(std::to_string(m.*column.count));
-    cells.insert(cells.end(), {withDecimals(m.cullMs, 3), withDecimals(m.cullMedianMs, 4)});
+    cells.insert(cells.end(),
+                 {withDecimals(m.cullMs, 3), withDecimals(m.cullMedianMs, 4), withDecimals(m.cull99thMs, 4)});
     return cells;
 }
 
@@ -77,7 +79,8 @@ std::vector<std::string> flightRatios(const FlightFigures& m, const FlightFigure
                                    ratio(static_cast<double>(m.frames), static_cast<double>(reference.frames))};
     for (const FlightColumn& column : kFlightColumns)
         cells.push_back(ratio(static_cast<double>(m.*column.count), static_cast<double>(reference.*column.count)));
-    cells.insert(cells.end(), {ratio(m.cullMs, reference.cullMs), ratio(m.cullMedianMs, reference.cullMedianMs)});
+    cells.insert(cells.end(), {ratio(m.cullMs, reference.cullMs), ratio(m.cullMedianMs, reference.cullMedianMs),
+                               ratio(m.cull99thMs, reference.cull99thMs)});
     return cells;
 }
 
@@ -201,11 +204,12 @@ std::string csvOf(const std::vector<std::string>& poses, const std::vector<Metho
 std::string csvOf(const std::vector<FlightFigures>& methods) {
     std::string text = "method,frames";
     for (const FlightColumn& column : kFlightColumns) text += std::string(",") + column.name;
-    text += std::string(",") + kCullColumn + "," + kCullMedianColumn + "\n";
+    text += std::string(",") + kCullColumn + "," + kCullMedianColumn + "," + kCull99thColumn + "\n";
     for (const FlightFigures& method : methods) {
         text += method.method + "," + std::to_string(method.frames);
         for (const FlightColumn& column : kFlightColumns) text += "," + std::to_string(method.*column.count);
-        text += "," + flight::textFrom(method.cullMs) + "," + flight::textFrom(method.cullMedianMs) + "\n";
+        text += "," + flight::textFrom(method.cullMs) + "," + flight::textFrom(method.cullMedianMs) + "," +
+                flight::textFrom(method.cull99thMs) + "\n";
     }
     return text;
 }
@@ -227,7 +231,7 @@ std::string jsonOf(const Settings& settings, const std::vector<std::string>& pos
 }
 
 std::string jsonOf(const Settings& settings, const std::vector<FlightFigures>& methods) {
-    Json json = headOf(settings, "flight");
+    Json json = headOf(settings, settings.jumps ? "jumps" : "flight");
     json["methods"] = flightOf(methods);
     return json.dump(2) + "\n";
 }
@@ -258,7 +262,7 @@ void printTable(std::ostream& output, const std::vector<std::string>& poses,
 }
 
 void printTable(std::ostream& output, const std::vector<FlightFigures>& methods) {
-    std::vector<std::vector<std::string>> lines{flightHead("one flight, paging live")};
+    std::vector<std::vector<std::string>> lines{flightHead("paging live")};
     for (const FlightFigures& m : methods) lines.push_back(flightLine(m));
     turned(lines).print(output);
     for (const char* const name : kComparedWith) {

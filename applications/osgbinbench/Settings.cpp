@@ -95,21 +95,24 @@ std::string footer() {
         "quadratic, exact = analytic bins. The last six cull by the frustum's planes alone; +horizon adds the horizon\n"
         "(boxes: of one point), +edges tiles beyond an edge of the frustum (boxes: a frustum beyond a face), in "
         "this\n"
-        "order; +occlusion behind them adds tiles behind terrain, looked for in every view (occlusion=on). The "
-        "default\n"
-        "of the bins is quadratic+horizon+edges, with occlusion=auto.\n"
+        "order; +occlusion behind them adds tiles behind terrain, looked for in every view (occlusion=on),\n"
+        "+autoocclusion the same while it pays (occlusion=auto). The default of the bins is\n"
+        "quadratic+horizon+edges+autoocclusion.\n"
         "oracle = what exact+horizon+edges keeps, recorded at each pose and repeated without any test: what culling\n"
         "would cost if tests were free (not in flight). all = these methods, in the combinations worth comparing.\n"
         "Afterwards the path is flown continuously, every method once, while files are being loaded: --live; with\n"
-        "--frames nothing but that. Methods take turns of 50 frames each; these are culled, and not drawn. What leaves "
+        "--frames nothing but that. With --jumps the camera stands still at each pose instead. Methods take turns of "
+        "50 frames each; these are culled, and not drawn. What leaves "
         "the\n"
         "view is kept in memory as long with all methods, unless --expiry says otherwise.\n\n"
         "Columns of --csv, one line for each pose and method, and keys of --json, sums over the poses:\n";
     for (const CountColumn& column : kCountColumns) text += line(column.name, column.meaning);
     for (const TimeColumn& column : kTimeColumns) text += line(column.name, column.meaning);
-    return text + "\nKeys of the object \"live\" of --json, and columns of --csv with --frames:\n" + flightColumns() +
+    return text + "\nKeys of the object \"live\" of --json, and columns of --csv with --frames and --jumps:\n" +
+           flightColumns() +
            "  cull_ms              milliseconds of all cull traversals and their sorting, summed\n"
-           "  cull_median_ms       of one, median\n\n"
+           "  cull_median_ms       of one, median\n"
+           "  cull_99th_ms         of one, 99th percentile\n\n"
            "\"paths\" in --json holds the sums of the poses whose names share the text before the first _, \"by_pose\" "
            "the\n"
            "figures of every pose, in the order of \"pose_names\".\n\n" +
@@ -129,9 +132,10 @@ struct Words {
 
 void declare(CLI::App& app, Settings& settings, Words& words) {
     app.footer(footer());
-    app.add_option("DATABASE", settings.database, "root file of a paged globe that OSG reads");
+    app.add_option("DATABASE", settings.database, "root file of a paged globe or map that OSG reads");
     app.add_option("--path", settings.paths,
-                   "camera path, CSV: degrees and metres, as data/paths/demo.csv;\nmay be given several times")
+                   "camera path, CSV: degrees and metres, as data/paths/demo.csv; over\na map eyeX, eyeY, lookX, lookY "
+                   "in place of degrees; may be given\nseveral times")
         ->allow_extra_args(false);
     app.add_option("--methods", settings.methods,
                    "comma-separated, see below, or all (default: none,sphere,cluster,\n"
@@ -171,8 +175,10 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
         ->check(CLI::Range(0, 100000));
     app.add_option("--frames", settings.frames, "only fly continuously, that many frames in all,\n1 to 1000000")
         ->check(CLI::Range(1, 1000000));
+    app.add_flag("--jumps", settings.jumps,
+                 "only jump from pose to pose with paging live, and stand at\neach until nothing is missing");
     app.add_option("--frame-rate", settings.frameRate,
-                   "frames a second of the continuous flight at most, so that\nthe pager has time: 0.1 to 10000 "
+                   "frames a second of flights and jumps at most, so that\nthe pager has time: 0.1 to 10000 "
                    "(default 60)")
         ->check(support::within(0.1, 10000.0));
     app.add_option("--expiry", words.expiry,
@@ -205,12 +211,14 @@ void check(const Settings& settings) {
     if (binOptions->edges)
         throw UsageError("--options: name methods with or without +edges in --methods instead of edges=on or off");
     if (settings.binOptions.find("occlusion=") != std::string::npos)
-        throw UsageError("--options: name methods with +occlusion in --methods instead of \"" + settings.binOptions +
-                         "\"");
-    if (settings.frames > 0 && !settings.pictures.empty())
-        throw UsageError("--pictures: a continuous flight takes none; leave --frames out");
-    if (settings.frames > 0 && !settings.plot.empty())
-        throw UsageError("--plot: a continuous flight has no poses to show; leave --frames out");
+        throw UsageError("--options: name methods with +occlusion or +autoocclusion in --methods instead of \"" +
+                         settings.binOptions + "\"");
+    if (settings.frames > 0 && settings.jumps) throw UsageError("--jumps: leave --frames out");
+    const bool isLive = settings.frames > 0 || settings.jumps;
+    if (isLive && !settings.pictures.empty())
+        throw UsageError("--pictures: with paging live none are taken; leave --frames and --jumps out");
+    if (isLive && !settings.plot.empty())
+        throw UsageError("--plot: with paging live there is nothing to show; leave --frames and --jumps out");
     requireFolder("--csv", settings.csv);
     requireFolder("--json", settings.json);
     requireFolder("--pictures", settings.pictures);
@@ -226,7 +234,7 @@ std::string threadingName(Model model) {
 }
 
 bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {
-    CLI::App app{"Measures the culling of a paged globe, method by method, along a camera path.", "osgbinbench"};
+    CLI::App app{"Measures the culling of a paged globe or map, method by method, along a camera path.", "osgbinbench"};
     app.set_version_flag("--version", std::string("osgbinbench (osgAnalyticBin) ") + osgAnalyticBin::version());
     Words words;
     declare(app, settings, words);

@@ -41,16 +41,6 @@ const AnalyticBinCullCallback* binCallback(const osg::Node& node) {
     return nullptr;
 }
 
-AnalyticBin shownBin(const AnalyticBinCullCallback& callback) {
-    AnalyticBin bin = callback.getTerrainShape()
-                          ? callback.getBin().exaggerated(callback.getTerrainShape()->verticalScale)
-                          : callback.getBin();
-    if (!bin.valid()) return bin;
-    const core::Interval altitude = bin.bin().altitude();
-    bin.setBin(bin.bin().withAltitude({altitude.lower - callback.getSkirt(), altitude.upper}));
-    return bin;
-}
-
 // The bin of the path's last node, a tile; the kit culls a tile that is a transform in a group that stands for it.
 AnalyticBin binOfTile(const osg::NodePath& path) {
     const AnalyticBinCullCallback* callback = binCallback(*path.back());
@@ -58,7 +48,7 @@ AnalyticBin binOfTile(const osg::NodePath& path) {
         const osg::Group& parent = *path[path.size() - 2]->asGroup();
         if (parent.getNumChildren() == 1) callback = binCallback(parent);
     }
-    return callback ? shownBin(*callback) : AnalyticBin();
+    return callback ? callback->shownBin() : AnalyticBin();
 }
 
 class ResidentCounter : public osg::NodeVisitor {

@@ -7,9 +7,12 @@
 #include "SurfaceBin.h"
 
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
 #include <osgAnalyticBin/core/edge/FrustumHull.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
+#include <osgAnalyticBin/core/rivals/BoxBins.h>
 
 #include <osg/Polytope>
 
@@ -42,17 +45,21 @@ public:
           _planes(frustumPlanes(camera, globe.localToWorld)),
           _hull(_planes, _planes.size()) {}
 
-    void setOccluder(double depth) { _horizon = core::HorizonEye::fromEye(_ellipsoid, depth, _eye); }
+    /// A map has no horizon.
+    void setOccluder(double depth) {
+        if (!_ellipsoid.isPlane()) _horizon = core::HorizonEye::fromEye(_ellipsoid, depth, _eye);
+    }
 
     /// Whether the hull of the bin meets the frustum.
     [[nodiscard]] bool meets(const AnalyticBin& shown) const {
         const core::GeodeticBin& bin = shown.bin();
+        if (_ellipsoid.isPlane()) {
+            const core::QuadraticBin box(core::GeodeticMapping(_ellipsoid), core::parameterBox(bin), shown.margin());
+            return meets(box) && !core::isSeparated(core::BoxBin(_ellipsoid, bin, shown.margin()), _hull);
+        }
         if (!core::ExactGeodeticBin::holds(_ellipsoid, bin)) return true;
         const core::ExactGeodeticBin exact(_ellipsoid, bin, shown.margin());
-        core::PlaneMask undecided = (core::PlaneMask{1} << _planes.size()) - 1;
-        if (core::classify(exact, _planes, _planes.size(), undecided) == core::Side::Outside) return false;
-        return !core::isSeparated(core::ReverseBin(exact, bin), _hull) &&
-               !core::isSeparated(exact, _planes, _planes.size(), undecided, _planes.size());
+        return meets(exact) && !core::isSeparated(core::ReverseBin(exact, bin), _hull);
     }
 
     [[nodiscard]] bool hides(const AnalyticBin& shown) const {
@@ -62,6 +69,13 @@ public:
     [[nodiscard]] const glm::dvec3& eye() const { return _eye; }
 
 private:
+    template <class Bin>
+    [[nodiscard]] bool meets(const Bin& bin) const {
+        core::PlaneMask undecided = (core::PlaneMask{1} << _planes.size()) - 1;
+        return core::classify(bin, _planes, _planes.size(), undecided) != core::Side::Outside &&
+               !core::isSeparated(bin, _planes, _planes.size(), undecided, _planes.size());
+    }
+
     core::Ellipsoid _ellipsoid;
     glm::dvec3 _eye;
     std::vector<core::Plane> _planes;
@@ -98,6 +112,7 @@ double leastDistance(const core::GeodeticBin& bin, const core::Ellipsoid& ellips
 
 double occluderDepth(const std::vector<core::GeodeticBin>& bins, const core::Ellipsoid& ellipsoid,
                      const glm::dvec3& eye) {
+    if (ellipsoid.isPlane()) return 0.0;
     struct Surface {
         double distance, depth;
     };

@@ -61,8 +61,10 @@ void measure(const Settings& settings) {
     if (!path) throw Failure(error);
     const std::vector<CullMethod> methods = cullMethodsFromNames(settings.methods);
     FileWatch watch;
-    if (settings.frames > 0) {
-        const auto figures = flyContinuously(settings, methods, continuousPath(*path, settings.frames), watch);
+    if (settings.frames > 0 || settings.jumps) {
+        const auto figures = settings.jumps
+                                 ? jump(settings, methods, *path, watch)
+                                 : flyContinuously(settings, methods, continuousPath(*path, settings.frames), watch);
         write(settings, csvOf(figures), jsonOf(settings, figures));
         return printTable(std::cout, figures);
     }

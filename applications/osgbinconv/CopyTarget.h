@@ -3,8 +3,7 @@
 
 #pragma once
 
-#include "DatabaseFiles.h"
-#include "DatabaseWalk.h"
+#include "IndexBuilder.h"
 
 #include <osg/Node>
 

@@ -5,7 +5,6 @@
 
 #include "CopyTarget.h"
 #include "Failure.h"
-#include "FileSurvey.h"
 #include "IndexBuilder.h"
 #include "Interruption.h"
 #include "Progress.h"
@@ -18,6 +17,7 @@
 #include <osg/ProxyNode>
 #include <osgTerrain/TerrainTile>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <exception>
@@ -91,7 +91,8 @@ void storeBins(osg::Node& scene, const FileRecord& record, const BinIndex& index
         double surfaceLow;
     };
     std::map<osg::Node*, Stored> bins;
-    for (const osgAnalyticBin::FoundTile& tile : osgAnalyticBin::findTiles(scene, frameOf(record.place, record.file))) {
+    for (const osgAnalyticBin::FoundTile& tile :
+         osgAnalyticBin::findTiles(scene, osgAnalyticBin::indexing::frameOf(record.place, record.file))) {
         const BinIndex::Entry* entry = tile.frame.file == record.file ? index.find(record.file, tile.ordinal) : nullptr;
         if (!entry) continue;
         // a node that stands in two places has one bin for both
@@ -111,7 +112,7 @@ void storeBins(osg::Node& scene, const FileRecord& record, const BinIndex& index
 
 class Copy {
 public:
-    Copy(const DatabaseFiles& files, const BuiltIndex& built, CopyTarget& target, const CopyOptions& options,
+    Copy(const DatabaseFiles& files, const MadeIndex& built, CopyTarget& target, const CopyOptions& options,
          bool isQuiet)
         : _files(files), _built(built), _target(target), _options(options), _progress("copied", isQuiet) {
         for (const auto& [file, record] : built.records) {
@@ -172,7 +173,7 @@ private:
     }
 
     const DatabaseFiles& _files;
-    const BuiltIndex& _built;
+    const MadeIndex& _built;
     CopyTarget& _target;
     const CopyOptions _options;
     std::vector<const FileRecord*> _waiting;
@@ -185,13 +186,29 @@ private:
 
 }  // namespace
 
+namespace {
+
+/// What is stored with a tile is read as latitudes and longitudes.
+void requireGlobe(const FileRecords& records, const DatabaseFiles& files) {
+    for (const auto& [file, record] : records) {
+        const bool isMap = std::any_of(record.tiles.begin(), record.tiles.end(),
+                                       [](const TileRecord& tile) { return tile.surface.isInMap; });
+        if (isMap) {
+            throw Failure("\"" + files.rootFile() +
+                          "\" is a map, whose bins cannot be stored with its tiles; make an index: osgbinconv --index");
+        }
+    }
+}
+
+}  // namespace
+
 void copyDatabase(const DatabaseFiles& files, const std::string& output, const CopyOptions& options,
                   const WalkOptions& walk) {
     requireCopyName(output, files.rootFile(), options.overwrite);
     WalkOptions survey = walk;
     survey.images = Images::Checked;  // what is refused must not cost an older copy its files
-    const BuiltIndex built = indexFrom(files, walkDatabase(
-                                                  files, {}, [](const FileRecord&) {}, survey));
+    const MadeIndex built = buildIndex(files, survey);
+    requireGlobe(built.records, files);
     CopyTarget target(output, files, built.records, options.overwrite);
     Copy copy(files, built, target, options, walk.isQuiet);
     std::vector<std::thread> threads;

@@ -3,26 +3,36 @@
 
 #pragma once
 
-#include "DatabaseFiles.h"
-#include "DatabaseWalk.h"
+#include <osgAnalyticBin/index/DatabaseFiles.h>
+#include <osgAnalyticBin/index/DatabaseWalk.h>
+#include <osgAnalyticBin/index/MadeIndex.h>
 
-#include <osgAnalyticBin/BinIndex.h>
-
-#include <optional>
+#include <functional>
+#include <vector>
 
 namespace osgbinconv {
 
-/// An index, and what it took to make it.
-struct BuiltIndex {
-    osg::ref_ptr<osgAnalyticBin::BinIndex> index;
-    FileRecords records;
-    /// Where the tiles cover the whole globe: the altitude in metres that no surface goes below.
-    std::optional<double> horizon;
+using osgAnalyticBin::indexing::DatabaseFiles;
+using osgAnalyticBin::indexing::FileLink;
+using osgAnalyticBin::indexing::FilePlace;
+using osgAnalyticBin::indexing::FileRecord;
+using osgAnalyticBin::indexing::FileRecords;
+using osgAnalyticBin::indexing::Images;
+using osgAnalyticBin::indexing::MadeIndex;
+using osgAnalyticBin::indexing::TileRecord;
+
+struct WalkOptions {
+    int threads = 1;
+    bool isQuiet = false;
+    Images images = Images::Left;
 };
 
-/// The index of the bins in the records; tells on stderr, in a line each, what is missing or unknown.
-/// Throws Failure when there is no tile, or when a file is paged below itself.
-[[nodiscard]] BuiltIndex indexFrom(const DatabaseFiles& files, FileRecords records);
+/// Reads a database, with progress on stderr, and makes its index; tells on stderr, in a line each, what is missing or
+/// unknown. `known`: records of an earlier run; `keep` gets each new one, never two at a time.
+/// Throws what walkDatabase() and indexFrom() throw; Interrupted when the user stops the program.
+[[nodiscard]] MadeIndex buildIndex(const DatabaseFiles& files, const WalkOptions& options,
+                                   std::vector<FileRecord> known = {},
+                                   const std::function<void(const FileRecord&)>& keep = {});
 
 /// Writes "earth.ive.bins" beside a database. Finished files are kept in "earth.ive.bins.part", from which a second run
 /// goes on; the result does not depend on it. `keepsRecords`: it stays, so that the next run reads only the files that

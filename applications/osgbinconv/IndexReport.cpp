@@ -100,8 +100,7 @@ void checkIndex(const DatabaseFiles& files, const WalkOptions& options) {
     std::string error;
     const osg::ref_ptr<BinIndex> found = BinIndex::read(name, error);
     if (!found) throw Failure(error);
-    const BuiltIndex built = indexFrom(files, walkDatabase(
-                                                  files, {}, [](const FileRecord&) {}, options));
+    const MadeIndex built = buildIndex(files, options);
     Differences differences;
     differences.compare(*built.index, *found);
     differences.compare(*found, *built.index);

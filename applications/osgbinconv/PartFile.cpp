@@ -37,7 +37,7 @@ std::uint32_t checksumOf(const std::string& bytes) {
     return crc.checksum();
 }
 
-constexpr const char* kHead = "osgBinsPart 2\n";
+constexpr const char* kHead = "osgBinsPart 3\n";
 
 /// Returns: nullopt at the end of what is whole.
 std::optional<std::uint32_t> readNumber(std::istream& in) {

@@ -114,6 +114,7 @@ void passTile(Stream& s, Tile& tile) {
     for (auto& low : tile.surface.edgeLow) s.number(low);
     s.number(tile.surface.skirt);
     s.flag(tile.surface.isScalable);
+    s.flag(tile.surface.isInMap);
     s.number(tile.fingerprint);
     s.number(tile.parent);
 }
@@ -122,6 +123,7 @@ template <class Stream, class Place>
 void passPlace(Stream& s, Place& place) {
     s.number(place.equatorialRadius);
     s.number(place.polarRadius);
+    s.flag(place.isProjected);
     for (auto& number : place.localToEcef) s.number(number);
     s.flag(place.isBelowTile);
     s.number(place.sampleRatio);

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "FileRecord.h"
+#include "IndexBuilder.h"
 
 #include <optional>
 #include <string>

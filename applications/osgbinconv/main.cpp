@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "BoxIndexBuilder.h"
 #include "DatabaseCopy.h"
-#include "DatabaseFiles.h"
 #include "Failure.h"
 #include "IndexBuilder.h"
 #include "IndexReport.h"
 #include "Interruption.h"
+#include "ModuleFolder.h"
 #include "ProgramRun.h"
 
 #include <osgAnalyticBin/Version.h>
@@ -36,8 +37,8 @@ using osgAnalyticBin::support::UsageError;
 using osgbinconv::DatabaseFiles;
 
 constexpr const char* kDescription =
-    "Finds the bins of all tiles of a paged globe, by whatever program it was made.\n"
-    "Altitudes are metres above the ellipsoid, skirts count as far as cracks show them.";
+    "Finds the bins of all tiles of a paged globe or map, by whatever program it was made.\n"
+    "Altitudes are metres above the ellipsoid, or map units; skirts count as far as cracks show them.";
 
 constexpr const char* kExamples =
     "Examples:\n"
@@ -45,6 +46,7 @@ constexpr const char* kExamples =
     "  osgbinconv earth.ive bins/earth.osgb     writes a copy with the bins in its files; the folder has to be there\n"
     "  osgbinconv --print earth.ive.bins        tells what is in an index\n"
     "  osgbinconv --check earth.ive             compares earth.ive.bins with its database\n"
+    "  osgbinconv --index metadata.xml          writes metadata.xml.boxes, the boxes of a photogrammetry set\n"
     "An index that was interrupted is kept in earth.ive.bins.part; the same command goes on where it ended.\n"
     "A copy that was killed leaves earth.osgb.copying; the same command makes it anew.\n"
     "Exit codes: 0 done, 1 an error or an index that does not fit, 2 a wrong command line, 130 interrupted.";
@@ -74,7 +76,8 @@ void declare(CLI::App& app, Arguments& arguments) {
                  "changed since")
         ->needs(index);
     app.add_option("FILE", arguments.files,
-                   "the root file of a database, with --print an index;\nthen the root file of a copy, *.osgb")
+                   "the root file of a database, or the metadata.xml of a photogrammetry\nset; with --print an index; "
+                   "then the root file of a copy, *.osgb")
         ->required();
     app.add_flag("--overwrite", arguments.copy.overwrite, "replace the files of an older copy");
     app.add_option("--cluster", arguments.cluster,
@@ -111,7 +114,18 @@ void prepareProcess() {
     if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::ALWAYS);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, requestStop);
     std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error like a full disk
-    osgbinconv::prepareReaders();
+    osgAnalyticBin::addModuleFolder();
+    osgAnalyticBin::indexing::loadSerializers();
+    osgAnalyticBin::indexing::checkAllReads();
+}
+
+ExitCode runOnPhotogrammetry(const Arguments& arguments) {
+    const std::string& file = arguments.files.front();
+    if (arguments.files.size() == 2) throw UsageError("photogrammetry sets are not copied; give --index");
+    if (arguments.keepsRecords) throw UsageError("--keep-records is not for photogrammetry sets; leave it out");
+    if (arguments.isIndex) osgbinconv::writeBoxIndex(file, arguments.walk);
+    if (arguments.isCheck) osgbinconv::checkBoxIndex(file, arguments.walk);
+    return kSucceeded;
 }
 
 ExitCode run(int argc, char** argv) {
@@ -127,6 +141,7 @@ ExitCode run(int argc, char** argv) {
         osgbinconv::printIndex(file);
         return kSucceeded;
     }
+    if (osgbinconv::isPhotogrammetry(file)) return runOnPhotogrammetry(arguments);
     const DatabaseFiles files(file);
     if (arguments.files.size() == 2) {
         arguments.copy.keepClusters = arguments.cluster == "keep";

@@ -20,6 +20,9 @@ constexpr double kLargestDistance = 1e12;
 constexpr double kLowestAltitude = -6.3e6;
 constexpr double kLongestTime = 1e9;
 
+// Map units: far from where a latitude ends.
+constexpr double kLargestCoordinate = 1e9;
+
 struct NumberColumn {
     const char* name;
     double lowest;
@@ -43,8 +46,30 @@ constexpr std::array<NumberColumn, NumberCount> kNumbers{{{"eyeLatDeg", -90.0, 9
                                                           {"eyeRight", -kLargestDistance, kLargestDistance, true}}};
 constexpr const char* kNameColumn = "name";
 
+// In place of the angles, for a map.
+constexpr NumberColumn inMap(const char* name) {
+    return {name, -kLargestCoordinate, kLargestCoordinate};
+}
+
+NumberColumn numberColumn(std::size_t i, bool isMap) {
+    if (!isMap) return kNumbers[i];
+    switch (i) {
+        case EyeLat:
+            return inMap("eyeY");
+        case EyeLon:
+            return inMap("eyeX");
+        case LookLat:
+            return inMap("lookY");
+        case LookLon:
+            return inMap("lookX");
+        default:
+            return kNumbers[i];
+    }
+}
+
 struct Columns {
     std::size_t name = 0;
+    bool isMap = false;
     std::array<std::optional<std::size_t>, NumberCount> numbers;
 };
 
@@ -58,13 +83,16 @@ std::optional<Columns> columnsOf(const CsvTable& table, std::string& error) {
     const auto name = require(kNameColumn);
     if (!name) return std::nullopt;
     columns.name = *name;
+    columns.isMap = table.column(numberColumn(EyeLon, true).name).has_value();
+    std::vector<std::string> known{kNameColumn};
     for (std::size_t i = 0; i < kNumbers.size(); ++i) {
-        columns.numbers[i] = kNumbers[i].isOptional ? table.column(kNumbers[i].name) : require(kNumbers[i].name);
-        if (!columns.numbers[i] && !kNumbers[i].isOptional) return std::nullopt;
+        const NumberColumn number = numberColumn(i, columns.isMap);
+        columns.numbers[i] = number.isOptional ? table.column(number.name) : require(number.name);
+        if (!columns.numbers[i] && !number.isOptional) return std::nullopt;
+        known.emplace_back(number.name);
     }
-    const auto unknown = std::find_if(table.columns.begin(), table.columns.end(), [](const std::string& column) {
-        return column != kNameColumn && std::none_of(kNumbers.begin(), kNumbers.end(),
-                                                     [&](const NumberColumn& known) { return column == known.name; });
+    const auto unknown = std::find_if(table.columns.begin(), table.columns.end(), [&](const std::string& column) {
+        return std::find(known.begin(), known.end(), column) == known.end();
     });
     if (unknown == table.columns.end()) return columns;
     error = table.fileName + ": unknown column \"" + *unknown + "\"";
@@ -78,8 +106,9 @@ bool isFileName(const std::string& name) {
     return !name.empty() && std::all_of(name.begin(), name.end(), allowed);
 }
 
-core::Geodetic fromDegrees(double latitudeDeg, double longitudeDeg, double altitude) {
-    return {latitudeDeg * kRadiansPerDegree, longitudeDeg * kRadiansPerDegree, altitude};
+core::Geodetic positionOf(double latitude, double longitude, double altitude, bool isMap) {
+    const double radians = isMap ? 1.0 / core::Ellipsoid::kMapUnitsInRadian : kRadiansPerDegree;
+    return {latitude * radians, longitude * radians, altitude};
 }
 
 // What is wrong with the numbers together; empty when nothing is.
@@ -97,10 +126,11 @@ std::optional<CameraPose> poseOf(const CsvTable& table, const CsvTable::Row& row
         if (!columns.numbers[i]) continue;
         const std::string& cell = row.cells[*columns.numbers[i]];
         const auto number = numberFrom(cell);
-        if (!number || *number < kNumbers[i].lowest || *number > kNumbers[i].highest) {
+        const NumberColumn column = numberColumn(i, columns.isMap);
+        if (!number || *number < column.lowest || *number > column.highest) {
             error = atLine(table, row,
-                           std::string(kNumbers[i].name) + " is \"" + cell + "\", not a number from " +
-                               textFrom(kNumbers[i].lowest) + " to " + textFrom(kNumbers[i].highest));
+                           std::string(column.name) + " is \"" + cell + "\", not a number from " +
+                               textFrom(column.lowest) + " to " + textFrom(column.highest));
             return std::nullopt;
         }
         n[i] = *number;
@@ -113,8 +143,8 @@ std::optional<CameraPose> poseOf(const CsvTable& table, const CsvTable::Row& row
         return std::nullopt;
     }
     return CameraPose{name,
-                      fromDegrees(n[EyeLat], n[EyeLon], n[EyeAlt]),
-                      fromDegrees(n[LookLat], n[LookLon], n[LookAlt]),
+                      positionOf(n[EyeLat], n[EyeLon], n[EyeAlt], columns.isMap),
+                      positionOf(n[LookLat], n[LookLon], n[LookAlt], columns.isMap),
                       n[Fov] * kRadiansPerDegree,
                       n[Near],
                       n[Far],

@@ -9,6 +9,8 @@
 #include <osg/Transform>
 
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace osgAnalyticBin::flight {
 
@@ -35,21 +37,36 @@ private:
     Globe& _globe;
 };
 
+core::Ellipsoid ellipsoidOf(const Globe& globe) {
+    return {globe.ellipsoid->getRadiusEquator(), globe.ellipsoid->getRadiusPolar()};
+}
+
 osg::Vec3d toWorld(const core::Geodetic& position, const Globe& globe) {
-    osg::Vec3d ecef;
-    globe.ellipsoid->convertLatLongHeightToXYZ(position.latitude, position.longitude, position.altitude, ecef.x(),
-                                               ecef.y(), ecef.z());
-    return ecef * globe.localToWorld;
+    const glm::dvec3 ecef = ellipsoidOf(globe).toEcef(position);
+    return osg::Vec3d(ecef.x, ecef.y, ecef.z) * globe.localToWorld;
 }
 
-osg::Vec3d verticalAt(const core::Geodetic& p) {
-    return {std::cos(p.latitude) * std::cos(p.longitude), std::cos(p.latitude) * std::sin(p.longitude),
-            std::sin(p.latitude)};
+osg::Vec3d verticalAt(const core::Geodetic& p, const Globe& globe) {
+    const glm::dvec3 up = ellipsoidOf(globe).up(p.latitude, p.longitude);
+    return {up.x, up.y, up.z};
 }
 
-osg::Vec3d northAt(const core::Geodetic& p) {
+osg::Vec3d northAt(const core::Geodetic& p, const Globe& globe) {
+    if (isMapPlane(*globe.ellipsoid)) return {0.0, 1.0, 0.0};
     return {-std::sin(p.latitude) * std::cos(p.longitude), -std::sin(p.latitude) * std::sin(p.longitude),
             std::cos(p.latitude)};
+}
+
+// Where the first tile stands in a map, if it does.
+std::optional<Globe> mapOf(osg::Node& scene) {
+    const std::vector<FoundTile> tiles = findTiles(scene);
+    const bool isMap = !tiles.empty() && tiles.front().frame.ellipsoid && isMapPlane(*tiles.front().frame.ellipsoid);
+    if (!isMap) return std::nullopt;
+    const FoundTile& tile = tiles.front();
+    osg::NodePath path =
+        tile.node->getParentalNodePaths(scene.getNumParents() > 0 ? scene.getParent(0) : nullptr).front();
+    path.pop_back();
+    return Globe{mapPlane(), osg::Matrixd::inverse(tile.frame.localToEcef) * osg::computeLocalToWorld(path)};
 }
 
 osg::Vec3d directionToWorld(const osg::Vec3d& direction, const Globe& globe) {
@@ -61,6 +78,7 @@ osg::Vec3d directionToWorld(const osg::Vec3d& direction, const Globe& globe) {
 }  // namespace
 
 Globe globeOf(osg::Node& scene) {
+    if (const auto map = mapOf(scene)) return *map;
     Globe globe;
     GlobeFinder finder(globe);
     scene.accept(finder);
@@ -73,9 +91,9 @@ osg::Matrixd viewMatrixOf(const CameraPose& pose, const Globe& globe) {
     const osg::Vec3d look = toWorld(pose.look, globe);
     osg::Vec3d direction = look - eye;
     direction.normalize();
-    const osg::Vec3d vertical = directionToWorld(verticalAt(pose.eye), globe);
+    const osg::Vec3d vertical = directionToWorld(verticalAt(pose.eye, globe), globe);
     const bool straight = (direction ^ vertical).length() < kStraight;
-    const osg::Vec3d up = straight ? directionToWorld(northAt(pose.eye), globe) : vertical;
+    const osg::Vec3d up = straight ? directionToWorld(northAt(pose.eye, globe), globe) : vertical;
     osg::Matrixd view = osg::Matrixd::lookAt(eye, look, osg::Quat(pose.roll, direction) * up);
     view.postMultTranslate(osg::Vec3d(-pose.eyeRight, 0.0, 0.0));
     return view;

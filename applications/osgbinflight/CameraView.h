@@ -10,14 +10,14 @@
 
 namespace osgAnalyticBin::flight {
 
-/// The globe of a scene: its ellipsoid, and where it stands in the world.
+/// The globe of a scene: its ellipsoid, and where it stands in the world. That of a map is mapPlane().
 struct Globe {
     osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;
     osg::Matrixd localToWorld;
 };
 
-/// The globe of the scene's first CoordinateSystemNode with an ellipsoid; without one OSG's default ellipsoid, in
-/// place.
+/// The map that the scene's first tile stands in, if it does; else the globe of the first CoordinateSystemNode with an
+/// ellipsoid; without one OSG's default ellipsoid, in place.
 [[nodiscard]] Globe globeOf(osg::Node& scene);
 
 /// From the world to the eye. Up is the local vertical at the pose's `eye`, or north where the view goes straight up or

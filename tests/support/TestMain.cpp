@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <support/Random.h>
+#include <support/TemporaryFolder.h>
 
 namespace {
 
@@ -26,6 +28,9 @@ class Listener final : public ::testing::EmptyTestEventListener {
 
 int main(int argc, char** argv) {
     ::testing::InitGoogleTest(&argc, argv);
+    // where indexes are kept that programs and the kit make by themselves
+    const osgAnalyticBin::test::TemporaryFolder cache;
+    ::setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
     ::testing::UnitTest::GetInstance()->listeners().Append(new Listener);  // which takes ownership
     return RUN_ALL_TESTS();
 }

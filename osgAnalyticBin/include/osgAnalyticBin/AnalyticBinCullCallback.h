@@ -31,7 +31,8 @@ namespace osgAnalyticBin {
 
 namespace core {
 class PlaneSet;
-}
+class RegionalSight;
+}  // namespace core
 class CullTraversal;
 class InstalledTile;
 class TileFamily;
@@ -85,18 +86,34 @@ public:
 
     META_Object(osgAnalyticBin, AnalyticBinCullCallback)
 
-        /// The box that holds all that the tile and its descendants draw.
+        /// The box that holds all that the tile and its descendants draw, or will draw when they are loaded.
         void setBin(const AnalyticBin& bin);
-    /// The bin as it was set, before any terrain shape.
+    /// The bin that the tile is culled by, before any terrain shape.
     [[nodiscard]] const AnalyticBin& getBin() const { return _bin; }
+
+    /// For installers, where what may be paged in below the tile is known by declared heights alone. `bin`: holds what
+    /// the tile and those of its descendants draw that are loaded, whole skirts included. `declared`: the larger bin
+    /// that holds what is not loaded yet, too. The tile is culled by `bin`. While `declared` may be in view, files
+    /// below the tile are requested where OSG's spheres would request them.
+    void setLoadedBin(const AnalyticBin& bin, const AnalyticBin& declared);
+    /// See setLoadedBin(). Not valid: getBin() holds all descendants.
+    [[nodiscard]] const AnalyticBin& getDeclaredBin() const { return _declared; }
+    /// Whether files below the tile may hold what neither getBin() holds nor the horizon hides. `eye`: on the bin's
+    /// ellipsoid; null: there is no horizon.
+    [[nodiscard]] bool mayRequestBelow(const core::HorizonEye* eye) const;
+
+    /// The bin that the tile is culled by, in its present shape and with the skirts that count.
+    [[nodiscard]] AnalyticBin shownBin() const;
 
     /// How the tile is culled. Options for installers alone are ignored.
     void setCullOptions(const CullOptions& options);
     /// Default: CullOptions(). Valid until the next setter.
     [[nodiscard]] const CullOptions& getCullOptions() const { return _setup->options; }
 
-    /// Metres; default: those of a default osg::EllipsoidModel. With radii that are not finite and positive the tile is
-    /// never culled.
+    /// Metres; default: those of a default osg::EllipsoidModel. Both infinite: the bin is one of a map, a box in its
+    /// coordinates, with latitudes and longitudes as core::Ellipsoid::plane() has them; ECEF stands for the map's
+    /// coordinates then, and there is no horizon. With other radii that are not finite and positive the tile is never
+    /// culled.
     void setRadii(double equatorial, double polar);
 
     /// From the frame of the node's children to ECEF; default identity. The frustum test is right under any invertible
@@ -157,7 +174,7 @@ public:
     void setOptionsText(const std::string& text);
     /// toText() of the options.
     [[nodiscard]] std::string getOptionsText() const;
-    /// "EQUATORIAL POLAR" in metres; malformed: a warning, and the tile is never culled.
+    /// "EQUATORIAL POLAR" in metres, or "map"; malformed: a warning, and the tile is never culled.
     void setRadiiText(const std::string& text);
     /// The radii as setRadiiText() reads them.
     [[nodiscard]] std::string getRadiiText() const;
@@ -193,6 +210,7 @@ private:
         osg::BoundingSphere columnSphere;
         std::optional<core::HorizonBin> columnHorizon;   // where it is not that of the bin
         std::optional<core::HorizonPoint> horizonPoint;  // in place of the bin's horizon, for boxes
+        std::optional<core::HorizonBin> declaredHorizon;
     };
     // What most tiles of a database have in common. A setter replaces the whole object; nothing changes it.
     struct Setup {
@@ -214,12 +232,15 @@ private:
     void discardPrepared();
     [[nodiscard]] const Prepared& prepared() const;
     [[nodiscard]] Prepared makePrepared() const;
+    [[nodiscard]] bool isInMap() const {
+        return std::isinf(_setup->equatorialRadius) && std::isinf(_setup->polarRadius);
+    }
     [[nodiscard]] core::Ellipsoid ellipsoid() const { return {_setup->equatorialRadius, _setup->polarRadius}; }
     void leaveFamily();
     void fillSlot() const;
     void refuse(const char* why);
     [[nodiscard]] bool readItem(const std::string& item);
-    [[nodiscard]] AnalyticBin shownBin() const;
+    void requestFilesOutOfView(osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
     [[nodiscard]] PreparedBin preparedBin(const AnalyticBin& shown, const core::Ellipsoid& ellipsoid) const;
     [[nodiscard]] const DatabaseView* viewOn(osg::CullStack& cullStack, CullTraversal& traversal) const;
     [[nodiscard]] const core::HorizonEye* eyeWithoutDatabase(osg::CullStack& cullStack, osg::NodeVisitor& nv,
@@ -228,7 +249,8 @@ private:
     [[nodiscard]] bool isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
     [[nodiscard]] core::Side sideOf(const core::PlaneSet& planes, core::PlaneMask& undecided) const;
     [[nodiscard]] Verdict verdict(core::Side side, const core::PlaneSet& planes, core::PlaneMask undecided,
-                                  const core::HorizonEye* eye, CullTraversal& traversal) const;
+                                  const core::HorizonEye* eye, const core::RegionalSight* sight,
+                                  CullTraversal& traversal) const;
     [[nodiscard]] bool isHiddenFrom(const core::HorizonEye& eye) const;
     [[nodiscard]] bool isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,
                                       core::PlaneMask undecided) const;
@@ -242,6 +264,7 @@ private:
     std::shared_ptr<const Setup> _setup;
     std::unique_ptr<const LocalFrame> _frame;  // null: ECEF
     AnalyticBin _bin;
+    AnalyticBin _declared;
     AnalyticBin _surface;
     double _surfaceLow;
     double _surfaceHigh;

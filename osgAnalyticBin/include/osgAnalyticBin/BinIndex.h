@@ -15,6 +15,7 @@
 #include <iosfwd>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace osgDB {
@@ -51,6 +52,20 @@ public:
         std::int64_t time = 0;
     };
 
+    /// Whether a file is still the one that was read. A file that is not there has zeros.
+    struct Stamp {
+        std::uint64_t size = 0;        ///< bytes
+        std::int64_t time = 0;         ///< seconds since 1970, when the file was changed last
+        std::int64_t nanoseconds = 0;  ///< of the same time
+
+        /// Whether all numbers are the same.
+        [[nodiscard]] bool operator==(const Stamp& other) const {
+            return size == other.size && time == other.time && nanoseconds == other.nanoseconds;
+        }
+    };
+    /// By file, named as in find().
+    using Stamps = std::map<std::string, Stamp>;
+
     BinIndex() = default;
     /// A copy of all entries.
     BinIndex(const BinIndex& other, const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
@@ -83,6 +98,13 @@ public:
     /// Sets what the index was made from.
     void setSource(const Source& source) { _source = source; }
 
+    /// Of all files that the index was made from; empty where the index is believed whatever became of them, because it
+    /// was made on purpose and may have been copied with its database. An index that a viewer has made by itself
+    /// (IndexUse::Auto) has them.
+    [[nodiscard]] const Stamps& stamps() const { return _stamps; }
+    /// See stamps().
+    void setStamps(Stamps stamps) { _stamps = std::move(stamps); }
+
     /// Reads to the end of the stream. Memory is allocated only for data that has been read.
     /// Returns: null, with one line in `error`, for what is broken, truncated, foreign or of a newer version.
     [[nodiscard]] static osg::ref_ptr<BinIndex> read(std::istream& in, std::string& error);
@@ -102,6 +124,7 @@ protected:
 private:
     Source _source;
     std::map<std::string, std::vector<Entry>> _files;
+    Stamps _stamps;
 };
 
 /// The surfaceFingerprint() of a tile's own mesh. For several meshes: one number computed from all fingerprints. 0: no

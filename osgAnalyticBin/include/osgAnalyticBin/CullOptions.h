@@ -68,6 +68,14 @@ enum class ClusterUse {
     Keep      ///< kept; they cull in addition to the bins
 };
 
+/// Whether an index of the bins of a whole database is used.
+enum class IndexUse {
+    Off,  ///< never
+    On,   ///< where there is one beside the database
+    Auto  ///< the default: where there is none, one is made in the background, and kept beside the database or in the
+          ///< user's cache folder; for databases in local files, whose tiles have no stored bins
+};
+
 /// The options of culling, from an installer, a plugin option string or a stored database.
 struct CullOptions {
     /// How tiles are culled.
@@ -109,8 +117,8 @@ struct CullOptions {
     /// value. The horizon is still used, but a value above zero keeps tiles from hiding the tiles behind them. Without
     /// a value, tiles with another technique are never culled, and shaders are assumed to move nothing.
     std::optional<double> techniqueMargin;
-    /// Whether an index beside the database is used.
-    bool index = true;
+    /// Whether an index is used, and made where there is none.
+    IndexUse index = IndexUse::Auto;
 
     /// The use of the horizon with this method, after ByMethod is resolved.
     [[nodiscard]] OSGANALYTICBIN_EXPORT HorizonUse effectiveHorizonUse() const noexcept;

@@ -19,8 +19,10 @@ namespace osgAnalyticBin {
 
 /// The coordinate frame of a file's content, and the file that it comes from.
 struct TileFrame {
-    osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;  ///< null: below no globe and no stored bin
-    osg::Matrixd localToEcef;                           ///< in a map: to the map
+    /// Null: below no globe and no stored bin. Of a tile in a map: mapPlane(); of a tile without a stored bin it is
+    /// null where it cannot be told what the tile stands on.
+    osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;
+    osg::Matrixd localToEcef;  ///< in a map: to the map
     /// Whether the coordinate system's text names a map projection. Without an ellipsoid, the tiles are in that map;
     /// with one, their meshes decide.
     bool isProjected = false;
@@ -54,6 +56,11 @@ struct FoundTile {
 [[nodiscard]] OSGANALYTICBIN_EXPORT bool hasValidRadii(const osg::EllipsoidModel& ellipsoid);
 /// Likewise.
 [[nodiscard]] OSGANALYTICBIN_EXPORT bool areValidRadii(double equatorial, double polar);
+
+/// Stands for the plane of a map, as core::Ellipsoid::plane() does: both radii are infinite.
+[[nodiscard]] OSGANALYTICBIN_EXPORT const osg::EllipsoidModel* mapPlane();
+/// Whether the model stands for a map, where positions have no altitudes above a globe.
+[[nodiscard]] OSGANALYTICBIN_EXPORT bool isMapPlane(const osg::EllipsoidModel& ellipsoid);
 
 /// The frame of a transform's children, where the transform stands in `frame`.
 [[nodiscard]] OSGANALYTICBIN_EXPORT osg::Matrixd frameInside(const osg::Transform& node, const TileFrame& frame);

@@ -30,12 +30,15 @@ struct TileSurface {
     bool isEmpty = false;
     /// An osgTerrain tile, whose heights follow osgTerrain::Terrain's vertical scale.
     bool isScalable = false;
+    /// In the plane of a map.
+    bool isInMap = false;
 };
 
 /// The surface of a tile's own mesh: an osgTerrain::TerrainTile (read, neither traversed nor changed) as
 /// osgTerrain::GeometryTechnique draws it, or any subgraph of fixed transforms and geometry. Children of LODs and
 /// switches all count, whatever is chosen. Below a paged or moving node nothing is known: not valid();
-/// neither on an ellipsoid without hasValidRadii(), nor where a matrix is not affine.
+/// neither on an ellipsoid without hasValidRadii() that is not mapPlane(), nor where a matrix is not affine.
+/// In a map, where `ellipsoid` is mapPlane(), an osgTerrain tile is one whose locator is not geocentric.
 /// `node` stands in a frame that `localToEcef` takes to ECEF. `sampleRatio` is osgTerrain::Terrain's.
 /// A terrain tile that already has another technique is not valid(), unless `withAnyTechnique` is set: its surface is
 /// then the one that GeometryTechnique would make.

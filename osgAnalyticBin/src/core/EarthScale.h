@@ -10,9 +10,10 @@
 namespace osgAnalyticBin::core {
 
 /// What lengths that were found for the earth in metres are to be multiplied by on another globe, or in another unit.
-/// Exactly 1 for WGS 84.
+/// Exactly 1 for WGS 84. The unit of a map is not known: what holds in feet holds in metres, too.
 [[nodiscard]] inline double earthScale(const Ellipsoid& ellipsoid) noexcept {
-    constexpr double kEarth = 6378137.0;
+    constexpr double kEarth = 6378137.0, kFeetInMetre = 1.0 / 0.3048;
+    if (ellipsoid.isPlane()) return kFeetInMetre;
     return ellipsoid.equatorialRadius() / kEarth;
 }
 

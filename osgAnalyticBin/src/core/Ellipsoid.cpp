@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "LocalFrame.h"
+
 #include <osgAnalyticBin/core/Ellipsoid.h>
 
 #include <glm/geometric.hpp>
@@ -8,6 +10,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace osgAnalyticBin::core {
 
@@ -65,15 +68,25 @@ Direction normalAtFoot(const MeridianAxes& p) noexcept {
     return {z / u, p.alongLarger / p.smaller / (u + k)};
 }
 
+bool arePlane(double equatorialRadius, double polarRadius) noexcept {
+    return std::isinf(equatorialRadius) && std::isinf(polarRadius);
+}
+
 }  // namespace
 
 Ellipsoid::Ellipsoid(double equatorialRadius, double polarRadius) noexcept
-    : _a(equatorialRadius),
-      _b(polarRadius),
-      _squaredRatio((polarRadius / equatorialRadius) * (polarRadius / equatorialRadius)),
-      _e2((1.0 - polarRadius / equatorialRadius) * (1.0 + polarRadius / equatorialRadius)) {
-    assert(std::isfinite(equatorialRadius) && equatorialRadius > 0.0);
-    assert(std::isfinite(polarRadius) && polarRadius > 0.0);
+    : _a(arePlane(equatorialRadius, polarRadius) ? kMapUnitsInRadian : equatorialRadius),
+      _b(arePlane(equatorialRadius, polarRadius) ? kMapUnitsInRadian : polarRadius),
+      _squaredRatio((_b / _a) * (_b / _a)),
+      _e2((1.0 - _b / _a) * (1.0 + _b / _a)),
+      _isPlane(arePlane(equatorialRadius, polarRadius)) {
+    assert(std::isfinite(_a) && equatorialRadius > 0.0);
+    assert(std::isfinite(_b) && polarRadius > 0.0);
+}
+
+Ellipsoid Ellipsoid::plane() noexcept {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return {kInfinity, kInfinity};
 }
 
 double Ellipsoid::primeVerticalRadius(double sinLatitude, double cosLatitude) const noexcept {
@@ -85,7 +98,14 @@ double Ellipsoid::meridionalRadius(double sinLatitude, double cosLatitude) const
     return _a * _squaredRatio / (w * std::sqrt(w));
 }
 
+glm::dvec3 Ellipsoid::up(double latitude, double longitude) const noexcept {
+    if (_isPlane) return {0.0, 0.0, 1.0};
+    return LocalFrame(latitude, longitude).up;
+}
+
 glm::dvec3 Ellipsoid::toEcef(const Geodetic& position) const noexcept {
+    if (_isPlane)
+        return {kMapUnitsInRadian * position.longitude, kMapUnitsInRadian * position.latitude, position.altitude};
     const double sinLat = std::sin(position.latitude);
     const double cosLat = std::cos(position.latitude);
     const double n = primeVerticalRadius(sinLat, cosLat);
@@ -95,6 +115,7 @@ glm::dvec3 Ellipsoid::toEcef(const Geodetic& position) const noexcept {
 }
 
 Geodetic Ellipsoid::toGeodetic(const glm::dvec3& ecef) const noexcept {
+    if (_isPlane) return {ecef.y / kMapUnitsInRadian, ecef.x / kMapUnitsInRadian, ecef.z};
     const double rho = std::hypot(ecef.x, ecef.y);
     const double z = std::abs(ecef.z);
     double sine = 0.0;

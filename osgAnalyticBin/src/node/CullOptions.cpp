@@ -27,6 +27,9 @@ constexpr std::array<std::pair<Method, const char*>, 8> kMethodNames{{{Method::Q
                                                                       {Method::Sphere, "sphere"},
                                                                       {Method::None, "none"}}};
 
+constexpr std::array<std::pair<IndexUse, const char*>, 3> kIndexNames{
+    {{IndexUse::Auto, "auto"}, {IndexUse::On, "on"}, {IndexUse::Off, "off"}}};
+
 constexpr double kMaxGrowth = 10.0;
 
 // Deeper than any sea, shallower than half of the smallest radius of a planet that is flown over.
@@ -151,7 +154,13 @@ bool applyOcclusion(const std::string& value, CullOptions& options, std::string&
 }
 
 bool applyIndex(const std::string& value, CullOptions& options, std::string& error) {
-    return applySwitch("index", value, options.index, error);
+    for (const auto& [use, name] : kIndexNames) {
+        if (value != name) continue;
+        options.index = use;
+        return true;
+    }
+    error = "bad index \"" + value + "\" (use auto, on or off)";
+    return false;
 }
 
 bool applyInheritViewpoint(const std::string& value, CullOptions& options, std::string& error) {
@@ -175,7 +184,7 @@ constexpr std::array<KnownItem, 12> kItems{{{"method", "NAME", applyMethod},
                                             {"cluster", "replace|keep", applyCluster},
                                             {"heights", "LOW..HIGH", applyHeights},
                                             {"techniquemargin", "METRES", applyTechniqueMargin},
-                                            {"index", "on|off", applyIndex}}};
+                                            {"index", "auto|on|off", applyIndex}}};
 
 // The name that edges= had; it is read in stored scenes, too.
 constexpr const char* kOldEdges = "reverse";
@@ -280,7 +289,7 @@ std::string toText(const CullOptions& options) {
         text += ",heights=" + numberToText(options.heights.lower) + ".." + numberToText(options.heights.upper);
     }
     if (options.techniqueMargin) text += ",techniquemargin=" + numberToText(*options.techniqueMargin);
-    if (!options.index) text += ",index=off";
+    if (options.index != IndexUse::Auto) text += options.index == IndexUse::On ? ",index=on" : ",index=off";
     return text;
 }
 

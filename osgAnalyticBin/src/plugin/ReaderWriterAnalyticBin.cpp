@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 #include "OptionString.h"
+#include "PhotogrammetryMetadata.h"
+#include "PhotogrammetryReader.h"
 
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/CullOptions.h>
@@ -81,7 +83,9 @@ public:
             "techniquemargin=METRES",
             "Vouches for osgTerrain tiles with a technique of their own, or moved by shaders: they stay within "
             "this distance of what GeometryTechnique makes; default: other techniques are not culled.");
-        supportsOption("index=on|off", "Whether an index beside the database (DATABASE.bins) is used; default on.");
+        supportsOption("index=auto|on|off",
+                       "Whether an index beside the database (DATABASE.bins) is used; auto (default): made in the "
+                       "background where there is none.");
         supportsOption("skirts=cracks|all",
                        "What bins hold of skirts: what an eye above the terrain can see (default), or all, for cameras "
                        "below it.");
@@ -135,16 +139,36 @@ public:
         const std::optional<osgAnalyticBin::CullOptions> cullOptions = osgAnalyticBin::cullOptionsFromText(text, error);
         if (!cullOptions) return ReadResult("analyticbin: " + error);
         const osg::ref_ptr<osgDB::Options> uncached = withoutNodeCache(options);
-        ReadResult result = osgDB::Registry::instance()->readNode(request.name, uncached.get());
+        ReadResult result = readDatabase(request.name, uncached.get());
         const osg::ref_ptr<osg::Node> node = result.getNode();
         if (!node) return result;
-        report(osgAnalyticBin::installBins(*node, *cullOptions, request.name, options), *cullOptions, request.name);
+        const std::size_t installed = osgAnalyticBin::installBins(*node, *cullOptions, request.name, options);
+        report(installed, *cullOptions, request.name, osgAnalyticBin::isIndexAwaited(*node));
         // the plugins that the database needs are loaded now, and have said what they know
         if (options) reportUnknown(osgAnalyticBin::plugin::parsedOptionString(options->getOptionString()));
         return node.get();
     }
 
 private:
+    // OSG reports the last reader's error alone, which is that of its http client.
+    static ReadResult refusedFromServer(const std::string& name) {
+        OSG_WARN << "analyticbin: \"" << name
+                 << "\": photogrammetry sets are read from a disk, not from a server; mount or copy the folder."
+                 << std::endl;
+        return ReadResult::FILE_NOT_HANDLED;
+    }
+
+    // A photogrammetry set is a folder, which no other plugin reads.
+    static ReadResult readDatabase(const std::string& name, const osgDB::Options* options) {
+        using namespace osgAnalyticBin::plugin;
+        if (osgDB::getLowerCaseFileExtension(name) == "xml") {
+            if (osgDB::containsServerAddress(name)) return refusedFromServer(name);
+            const std::string path = osgDB::findDataFile(name, options);
+            if (!path.empty() && isPhotogrammetryMetadata(path)) return readPhotogrammetrySet(path, options);
+        }
+        return osgDB::Registry::instance()->readNode(name, options);
+    }
+
     static bool isIndex(const std::string& fileName) {
         return osgDB::getLowerCaseFileExtension(fileName) == kIndexExtension;
     }
@@ -165,7 +189,8 @@ private:
         }
     }
 
-    static void report(std::size_t installed, const osgAnalyticBin::CullOptions& options, const std::string& name) {
+    static void report(std::size_t installed, const osgAnalyticBin::CullOptions& options, const std::string& name,
+                       bool isIndexAwaited) {
         using osgAnalyticBin::Method;
         const bool wantsBins = options.method != Method::Sphere && options.method != Method::None;
         if (wantsBins && installed == 0) {
@@ -174,7 +199,7 @@ private:
         } else if (wantsBins) {
             OSG_NOTICE << "analyticbin: \"" << name << "\" has bins on " << installed
                        << " tiles, and on those that are loaded later (" << osgAnalyticBin::toText(options) << ")."
-                       << std::endl;
+                       << (isIndexAwaited ? " Their index is being made." : "") << std::endl;
         }
     }
 };

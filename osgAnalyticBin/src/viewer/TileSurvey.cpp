@@ -39,16 +39,6 @@ const AnalyticBinCullCallback* binCallbackOf(osg::Node& node) {
     return nullptr;
 }
 
-// As AnalyticBinCullCallback itself takes it.
-AnalyticBin shownBin(const AnalyticBinCullCallback& callback) {
-    const auto& shape = callback.getTerrainShape();
-    AnalyticBin bin = shape ? callback.getBin().exaggerated(shape->verticalScale) : callback.getBin();
-    if (!bin.valid()) return bin;
-    const core::Interval altitude = bin.bin().altitude();
-    bin.setBin(bin.bin().withAltitude({altitude.lower - callback.getSkirt(), altitude.upper}));
-    return bin;
-}
-
 class Surveyor : public osgUtil::CullVisitor {
 public:
     Surveyor(const EllipsoidOfTile& known, const osg::Matrixd& view, std::vector<SurveyedTile>& tiles)
@@ -107,7 +97,7 @@ private:
         found.node = &node;
         found.isCulled = true;
         if (const AnalyticBinCullCallback* callback = binCallbackOf(node)) {
-            found.bin = shownBin(*callback);
+            found.bin = callback->shownBin();
             found.ellipsoid = _known.at(tile);
             found.ecefToWorld = osg::Matrixd::inverse(callback->getLocalToEcef()) * insideToWorld(node);
         }

@@ -38,7 +38,7 @@ constexpr int kRays = 200;
 
 void tryScene(std::uint64_t number, const Options& options, Counts& counts) {
     Random random(1700 + number, options.seedValue);
-    const OcclusionScene scene(random);
+    const OcclusionScene scene(random, true, number % 4 == 3);
     core::HorizonBuffer buffer = bufferOf(scene);
     const std::size_t cells = random.pick(std::array<std::size_t, 4>{1, 2, 4, 8});
     for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, cells);

@@ -26,7 +26,17 @@ using core::Interval;
 
 constexpr std::array<std::size_t, 4> kGrids{1, 2, 4, 8};
 
+GeodeticBin randomExtentsInMap(Random& random) {
+    constexpr double kUnits = Ellipsoid::kMapUnitsInRadian;
+    const double height = random.logUniform(1.0, 1e6), width = height * random.uniform(0.3, 3.0);
+    const double south = random.uniform(-1e7, 1e7), west = random.uniform(-6e7, 6e7);
+    const double relief = height * random.logUniform(1e-4, 0.3);
+    return GeodeticBin({south / kUnits, (south + height) / kUnits}, {west / kUnits, (west + width) / kUnits},
+                       {-relief, relief});
+}
+
 GeodeticBin randomExtents(Random& random, const Ellipsoid& ellipsoid) {
+    if (ellipsoid.isPlane()) return randomExtentsInMap(random);
     const double size = random.logUniform(1e-6, 0.3);
     const double south = random.uniform(-1.5, 1.5 - size);
     const double west = random.chance(0.2) ? 3.14159 - 0.5 * size : random.uniform(-3.2, 3.2);
@@ -48,9 +58,12 @@ RealVector randomPointOf(Random& random, const EarthColumn& column) {
 
 // Whether the ellipsoid's normal through a point meets a triangle above it. The point may be too high by `room` metres.
 bool isBelow(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const RealVector& point, Real room) {
-    const RealGeodetic at = ecefToGeodetic(ellipsoid, point);
-    const RealVector up{std::cos(at.latitude) * std::cos(at.longitude), std::cos(at.latitude) * std::sin(at.longitude),
-                        std::sin(at.latitude)};
+    RealVector up{0, 0, 1};
+    if (!ellipsoid.isPlane()) {
+        const RealGeodetic at = ecefToGeodetic(ellipsoid, point);
+        up = {std::cos(at.latitude) * std::cos(at.longitude), std::cos(at.latitude) * std::sin(at.longitude),
+              std::sin(at.latitude)};
+    }
     const Real high = static_cast<Real>(ellipsoid.equatorialRadius());
     for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
         if (meets(triangleAt(mesh, i), point + (-room) * up, point + high * up)) return true;
@@ -79,11 +92,11 @@ void expectBelow(Random& random, const Ellipsoid& ellipsoid, const EcefMesh& mes
     }
 }
 
-TEST(GroundPlates, ColumnsLieBelowTheMesh) {
-    Random random(1701);
-    int known = 0;
+// Of random meshes, on globes or in maps.
+void expectBelow(Random& random, bool isMap, int& known) {
     for (int trial = 0; trial < 800; ++trial) {
-        const Ellipsoid ellipsoid = random.chance(0.5) ? wgs84() : Ellipsoid(1e5, 1e5 * random.uniform(0.996, 1.004));
+        Ellipsoid ellipsoid = Ellipsoid::plane();
+        if (!isMap) ellipsoid = random.chance(0.5) ? wgs84() : Ellipsoid(1e5, 1e5 * random.uniform(0.996, 1.004));
         const GeodeticBin extents = randomExtents(random, ellipsoid);
         const auto cells = static_cast<std::uint32_t>(random.integer(1, 12));
         EcefMesh mesh = gridMesh(random, ellipsoid, extents, cells);
@@ -102,6 +115,19 @@ TEST(GroundPlates, ColumnsLieBelowTheMesh) {
         }
         expectBelow(random, ellipsoid, mesh, GroundPlates(ellipsoid, mesh, extents), known);
     }
+}
+
+TEST(GroundPlates, ColumnsLieBelowTheMesh) {
+    Random random(1701);
+    int known = 0;
+    expectBelow(random, false, known);
+    EXPECT_GT(known, 800 * 40);
+}
+
+TEST(GroundPlates, ColumnsLieBelowTheMeshInAMap) {
+    Random random(1719);
+    int known = 0;
+    expectBelow(random, true, known);
     EXPECT_GT(known, 800 * 40);
 }
 

@@ -23,11 +23,11 @@ using core::HorizonBuffer;
 
 constexpr int kRays = 24;
 
-TEST(HorizonBuffer, HidesNothingThatARayReaches) {
-    Random random(1700);
+// Returns: how many quarters of tiles are hidden.
+int hideNothingThatARayReaches(Random& random, int scenes, bool isMap) {
     int hidden = 0;
-    for (int i = 0; i < 80; ++i) {
-        const OcclusionScene scene(random);
+    for (int i = 0; i < scenes; ++i) {
+        const OcclusionScene scene(random, true, isMap);
         HorizonBuffer buffer = bufferOf(scene);
         const std::size_t cells = random.pick(std::array<std::size_t, 3>{2, 4, 8});
         for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, cells);
@@ -36,11 +36,21 @@ TEST(HorizonBuffer, HidesNothingThatARayReaches) {
             ++hidden;
             for (int ray = 0; ray < kRays; ++ray) {
                 const RealVector point = scene.pointIn(random, part);
-                ASSERT_TRUE(!isBeforeTheCamera(scene, point) || scene.isBlocked(point)) << "scene " << i;
+                EXPECT_TRUE(!isBeforeTheCamera(scene, point) || scene.isBlocked(point)) << "scene " << i;
             }
         }
     }
-    EXPECT_GT(hidden, 150);
+    return hidden;
+}
+
+TEST(HorizonBuffer, HidesNothingThatARayReaches) {
+    Random random(1700);
+    EXPECT_GT(hideNothingThatARayReaches(random, 80, false), 150);
+}
+
+TEST(HorizonBuffer, HidesNothingThatARayReachesInAMap) {
+    Random random(1718);
+    EXPECT_GT(hideNothingThatARayReaches(random, 80, true), 60);
 }
 
 // A view serves eyes around its own: an eye that is elsewhere is the same as points that are.
@@ -67,6 +77,39 @@ TEST(HorizonBuffer, HidesNothingThatARayReachesFromAnEyeWithinTheErrors) {
         }
     }
     EXPECT_GT(hidden, 30);
+}
+
+// The same where the eye may be farther away along one axis than along another: a camera that flies ahead.
+TEST(HorizonBuffer, HidesNothingThatARayReachesFromAnyOfTheEyes) {
+    Random random(1713);
+    int hidden = 0;
+    for (int i = 0; i < 60; ++i) {
+        const OcclusionScene scene(random);
+        const double altitude = scene.ellipsoid.toGeodetic(scene.eye).altitude;
+        const double height = std::abs(altitude - scene.tiles[0].bin.altitude().lower);
+        glm::dvec3 eyes(0.0);
+        for (const int axis : {0, 1, 2}) eyes[axis] = random.logUniform(1e-4, axis == 1 ? 3.0 : 0.3) * height;
+        HorizonBuffer buffer = bufferOf(scene, eyes);
+        for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, 8);
+        OcclusionScene moved = scene;
+        for (const auto& [part, outline] : frontToBack(scene, buffer)) {
+            if (!buffer.hides(outline)) continue;
+            ++hidden;
+            for (int ray = 0; ray < kRays / 4; ++ray) {
+                // corners of the box are worst
+                const auto share = [&] {
+                    return random.chance(0.5) ? 0.999 * random.sign() : random.uniform(-1.0, 1.0);
+                };
+                const core::Frame frame = frameOf(scene);
+                moved.eye = frame.toOuter({share() * eyes.x, share() * eyes.y, share() * eyes.z});
+                // an eye below the ground looks through the backs of faces
+                if (moved.isBlocked(real(moved.eye + 0.1 * scene.ellipsoid.polarRadius() * scene.up))) continue;
+                const RealVector point = scene.pointIn(random, part);
+                ASSERT_TRUE(!isBeforeTheCamera(moved, point) || moved.isBlocked(point)) << "scene " << i;
+            }
+        }
+    }
+    EXPECT_GT(hidden, 60);
 }
 
 TEST(HorizonBuffer, HidesMuchOfWhatNoRayReaches) {
@@ -188,8 +231,10 @@ TEST(HorizonBuffer, LowersSteepLinesByTheErrorsOfTheirCorners) {
         column.bottom[i] = pointAt(x, -1.0, kForward);
     }
     column.error = 1.0;
-    // the error of a corner's place in the picture; |x| and |y| are at most 1
-    const double error = 2.0 * column.error / (kForward - column.error);
+    // the errors of a corner's place in the picture; |x| is at most 0.5, |y| at most 1
+    const double across = 1.5 * column.error / (kForward - column.error);
+    const double upward = 2.0 * column.error / (kForward - column.error);
+    const double error = upward + kSlope * across;
     // this line rises to the right: in a strip it is lowest at the left end
     const double strip = kAcross.width() / static_cast<double>(HorizonBuffer::kStrips), left = 0.25;
     const auto hidesBelowTheLine = [&](double below) {
@@ -200,8 +245,8 @@ TEST(HorizonBuffer, LowersSteepLinesByTheErrorsOfTheirCorners) {
         body.reach = 1e-6;
         return buffer.hides(buffer.outlineOf(body));
     };
-    EXPECT_FALSE(hidesBelowTheLine(0.95 * (1.0 + kSlope) * error));
-    EXPECT_TRUE(hidesBelowTheLine(1.05 * (1.0 + kSlope) * error));
+    EXPECT_FALSE(hidesBelowTheLine(0.95 * error));
+    EXPECT_TRUE(hidesBelowTheLine(1.05 * error));
 }
 
 // If two depths are equal after rounding, the body that is drawn first stays visible.
@@ -225,6 +270,28 @@ TEST(HorizonBuffer, HidesOnlyWhatADepthBufferTellsFromEarth) {
     EXPECT_TRUE(hides(kForward + 0.001, 0.0));
     EXPECT_FALSE(hides(farthestEqual - 0.001, kDepthStep));
     EXPECT_TRUE(hides(farthestEqual + 0.001, kDepthStep));
+}
+
+// Of two bodies behind a wall, the one that is farther by less than a step of depth is hidden from no eye of the box.
+TEST(HorizonBuffer, TellsDepthsApartForTheEyeFarthestBack) {
+    constexpr double kForward = 1000.0, kDepthStep = 1e-5, kBack = 200.0;
+    EarthColumn column;
+    for (std::size_t i = 0; i < 4; ++i) {
+        column.top[i] = pointAt(i % 2 == 0 ? -0.5 : 0.5, 0.5, kForward);
+        column.bottom[i] = pointAt(i % 2 == 0 ? -0.5 : 0.5, -0.5, kForward);
+    }
+    column.error = 1e-6;
+    const auto hides = [&](double forward) {
+        HorizonBuffer buffer(0.0, kAcross, 0.0, kDepthStep, {0.0, kBack, 0.0});
+        buffer.add(column);
+        BinHull body;
+        body.corners.fill(pointAt(0.0, 0.0, forward));
+        body.reach = 1e-6;
+        return buffer.hides(buffer.outlineOf(body));
+    };
+    const double farthestEqual = 1.0 / (1.0 / (kForward + kBack) - kDepthStep) - kBack;
+    EXPECT_FALSE(hides(farthestEqual - 0.01));
+    EXPECT_TRUE(hides(farthestEqual + 0.01));
 }
 
 TEST(HorizonBuffer, LeavesOutWhatHasNoPlaceInThePicture) {

@@ -78,21 +78,20 @@ GroundTile makeTile(Random& random, const Ellipsoid& ellipsoid, const Land& land
     return tile;
 }
 
-void addSkirt(std::vector<Triangle>& triangles, const glm::dvec3& a, const glm::dvec3& b, double depth) {
-    const glm::dvec3 down = -depth * glm::normalize(a);
+void addSkirt(std::vector<Triangle>& triangles, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& down) {
     triangles.push_back({a, b, a + down});
     triangles.push_back({b, b + down, a + down});
 }
 
-// The mesh, and skirts that hang from its edges.
-void addTriangles(std::vector<Triangle>& triangles, const EcefMesh& mesh, std::uint32_t cells, double depth) {
+// The mesh, and skirts that hang from its edges, `down` from its first post.
+void addTriangles(std::vector<Triangle>& triangles, const EcefMesh& mesh, std::uint32_t cells, const glm::dvec3& down) {
     for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) triangles.push_back(triangleAt(mesh, i));
     const auto post = [&](std::uint32_t y, std::uint32_t x) { return mesh.vertex(y * (cells + 1) + x); };
     for (std::uint32_t i = 0; i < cells; ++i) {
-        addSkirt(triangles, post(0, i), post(0, i + 1), depth);
-        addSkirt(triangles, post(cells, i), post(cells, i + 1), depth);
-        addSkirt(triangles, post(i, 0), post(i + 1, 0), depth);
-        addSkirt(triangles, post(i, cells), post(i + 1, cells), depth);
+        addSkirt(triangles, post(0, i), post(0, i + 1), down);
+        addSkirt(triangles, post(cells, i), post(cells, i + 1), down);
+        addSkirt(triangles, post(i, 0), post(i + 1, 0), down);
+        addSkirt(triangles, post(i, cells), post(i + 1, cells), down);
     }
 }
 
@@ -107,8 +106,7 @@ void placeEye(OcclusionScene& scene, Random& random, const Land& land, const Rel
                                                : highest + land.height * random.logUniform(1e-4, 10.0);
     scene.eye = scene.ellipsoid.toEcef({latitude, longitude, altitude});
     const core::Geodetic place = scene.ellipsoid.toGeodetic(scene.eye);
-    scene.up = {std::cos(place.latitude) * std::cos(place.longitude),
-                std::cos(place.latitude) * std::sin(place.longitude), std::sin(place.latitude)};
+    scene.up = scene.ellipsoid.up(place.latitude, place.longitude);
     // between posts the mesh may be higher than the relief
     if (scene.isBlocked(real(scene.eye + 100.0 * (land.height + land.metres) * scene.up)))
         scene.eye += (highest + land.height - altitude) * scene.up;
@@ -119,14 +117,8 @@ void placeEye(OcclusionScene& scene, Random& random, const Land& land, const Rel
     scene.forward = glm::normalize(toward - glm::dot(toward, scene.up) * scene.up);
 }
 
-}  // namespace
-
-OcclusionScene::OcclusionScene(Random& random, bool hasSpikes)
-    : ellipsoid(random.chance(0.7) ? wgs84() : Ellipsoid(random.logUniform(1e3, 1e8), 1.0)) {
-    if (ellipsoid.polarRadius() == 1.0) {
-        const double radius = ellipsoid.equatorialRadius();
-        ellipsoid = Ellipsoid(radius, radius * random.uniform(0.996, 1.004));
-    }
+// Where six by six tiles are.
+Land landOnGlobe(Random& random, const Ellipsoid& ellipsoid) {
     Land land{};
     land.size = random.logUniform(1e-5, 0.1);
     land.southmost = random.uniform(-1.4, 1.4 - kTilesAcross * land.size);
@@ -134,6 +126,32 @@ OcclusionScene::OcclusionScene(Random& random, bool hasSpikes)
     land.width = land.size / std::cos(land.southmost + 0.5 * kTilesAcross * land.size);
     land.metres = land.size * ellipsoid.equatorialRadius();
     land.height = land.metres * random.logUniform(1e-3, 0.3) * std::min(1.0, 0.02 / land.size);
+    return land;
+}
+
+Land landInMap(Random& random) {
+    constexpr double kUnits = Ellipsoid::kMapUnitsInRadian;
+    Land land{};
+    land.metres = random.logUniform(10.0, 3e5);
+    land.height = land.metres * random.logUniform(1e-3, 0.3);
+    land.size = land.metres / kUnits;
+    land.width = land.size * random.uniform(0.5, 2.0);
+    land.southmost = random.sign() * random.logUniform(1.0, 1e7) / kUnits;
+    land.westmost = random.sign() * random.logUniform(1.0, 6e7) / kUnits;
+    return land;
+}
+
+Ellipsoid randomGlobe(Random& random) {
+    if (random.chance(0.7)) return wgs84();
+    const double radius = random.logUniform(1e3, 1e8);
+    return {radius, radius * random.uniform(0.996, 1.004)};
+}
+
+}  // namespace
+
+OcclusionScene::OcclusionScene(Random& random, bool hasSpikes, bool isMap)
+    : ellipsoid(isMap ? Ellipsoid::plane() : randomGlobe(random)) {
+    Land land = isMap ? landInMap(random) : landOnGlobe(random, ellipsoid);
     const Relief relief(random, land.size * random.logUniform(0.3, 3.0), land.height);
     const bool areAlike = random.chance(0.5);
     std::vector<Triangle> drawn;
@@ -142,7 +160,9 @@ OcclusionScene::OcclusionScene(Random& random, bool hasSpikes)
         for (int column = 0; column < kTilesAcross; ++column) {
             const std::uint32_t cells = areAlike ? kCells : kCells >> random.integer(0, 3);
             tiles.push_back(makeTile(random, ellipsoid, land, relief, row, column, cells));
-            addTriangles(drawn, tiles.back().mesh, cells, 30.0 * land.height + 0.01 * land.metres);
+            const glm::dvec3 post = tiles.back().mesh.vertex(0);
+            const glm::dvec3 below = isMap ? glm::dvec3(0.0, 0.0, -1.0) : -glm::normalize(post);
+            addTriangles(drawn, tiles.back().mesh, cells, (30.0 * land.height + 0.01 * land.metres) * below);
         }
     }
     triangles = TriangleTree(std::move(drawn));
@@ -185,8 +205,8 @@ core::Frame frameOf(const OcclusionScene& scene) {
     return {scene.eye, glm::cross(scene.forward, scene.up), scene.forward, scene.up};
 }
 
-HorizonBuffer bufferOf(const OcclusionScene& scene) {
-    return {glm::length(scene.eye), kAcross};
+HorizonBuffer bufferOf(const OcclusionScene& scene, const glm::dvec3& eyes) {
+    return {glm::length(scene.eye), kAcross, 0.0, 0.0, eyes};
 }
 
 void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,

@@ -24,8 +24,8 @@ struct GroundTile {
 
 /// Tiles side by side. Where neighbours have different posts their edges differ, and skirts hang from all of them.
 struct OcclusionScene {
-    /// `hasSpikes`: needles and pits in some scenes.
-    explicit OcclusionScene(Random& random, bool hasSpikes = true);
+    /// `hasSpikes`: needles and pits in some scenes. `isMap`: in the plane of a map, else on a globe.
+    explicit OcclusionScene(Random& random, bool hasSpikes = true, bool isMap = false);
 
     /// Whether the surface or a skirt is between the eye and the point.
     [[nodiscard]] bool isBlocked(const RealVector& point) const;
@@ -46,8 +46,8 @@ constexpr core::Interval kAcross{-1.0, 1.0};
 /// Of the camera: right, forward, up.
 [[nodiscard]] core::Frame frameOf(const OcclusionScene& scene);
 
-/// A buffer for the camera, without earth.
-[[nodiscard]] core::HorizonBuffer bufferOf(const OcclusionScene& scene);
+/// A buffer for the camera, without earth. `eyes`: metres that the eye may be away from its place, along each axis.
+[[nodiscard]] core::HorizonBuffer bufferOf(const OcclusionScene& scene, const glm::dvec3& eyes = glm::dvec3(0.0));
 
 /// Adds the columns of cells of the tile, `cells` a side. Their depth is a share of the distance from the eye.
 /// `reach`: metres that the eye may be away from its place.

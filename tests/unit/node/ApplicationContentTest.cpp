@@ -148,6 +148,28 @@ TEST(AddedContent, OnTheSurfaceOfATileKeepsOsgsOwnCulling) {
     EXPECT_FALSE(content->getCullingActive());
 }
 
+// A group of small things is none of the surface, however far they stand apart.
+TEST(AddedContent, OnTheSurfaceKeepsOsgsCullingOfItsGroups) {
+    MeshGlobe globe;
+    const osg::ref_ptr<osg::MatrixTransform> content = makeMeshTile(extentsDeg(0, 5, 0, 5), 0.0);
+    const osg::Matrixd toLocal = osg::Matrixd::inverse(content->getMatrix());
+    const osg::ref_ptr<osg::Group> wood = new osg::Group;
+    for (const double place : {1.0, 4.0}) {
+        const osg::ref_ptr<osg::MatrixTransform> tree = makeTower(ecefDeg(place, place, 0));
+        tree->setMatrix(tree->getMatrix() * toLocal);
+        wood->addChild(tree);
+    }
+    content->addChild(wood);
+    globe.root->addChild(makePaged(content, "no.osgb"));
+    installBins(*globe.root);
+    EXPECT_GT(wood->getBound().radius(), 0.25f * content->getBound().radius());
+    EXPECT_TRUE(wood->getCullingActive());
+    EXPECT_FALSE(content->getCullingActive());
+    EXPECT_FALSE(content->getChild(0)->getCullingActive());
+    removeBins(*globe.root);
+    EXPECT_TRUE(content->getCullingActive());
+}
+
 TEST(AddedContent, OnTheSurfaceIsDrawnNoMoreOftenThanWithoutBins) {
     MeshGlobe globe;
     globe.root->removeChildren(0, globe.root->getNumChildren());

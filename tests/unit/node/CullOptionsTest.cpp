@@ -123,8 +123,8 @@ TEST(CullOptions, WhatConcernsForeignDatabasesReadsBack) {
     EXPECT_EQ(back->cluster, ClusterUse::Keep);
     EXPECT_EQ(back->heights, (core::Interval{-500.5, 9000.0}));
     EXPECT_EQ(back->techniqueMargin, 50.0);
-    EXPECT_FALSE(back->index);
-    EXPECT_EQ(toText(*cullOptionsFromText("skirts=cracks,cluster=replace,index=on", error)), toText(CullOptions()));
+    EXPECT_EQ(back->index, IndexUse::Off);
+    EXPECT_EQ(toText(*cullOptionsFromText("skirts=cracks,cluster=replace,index=auto", error)), toText(CullOptions()));
 }
 
 TEST(CullOptions, AreEqualInAllItemsOrNot) {

@@ -4,6 +4,7 @@
 // What the installer does to databases of other builders: which nodes get bins, from which heights, and what is given
 // back. Their surfaces are tested in TileSurfaceTest.cpp, indexes in StaleIndexTest.cpp.
 
+#include "ApplicationGlobe.h"
 #include "CullFixture.h"
 #include "DatabaseFixture.h"
 #include "TileFixture.h"
@@ -68,6 +69,8 @@ TEST_F(ForeignDatabase, PagedLodsAndLeavesGetBins) {
         EXPECT_TRUE(installedOn(*node)->getBin().valid());
         EXPECT_FALSE(node->getCullingActive());
     }
+    // in the scene that is drawn next
+    update(*_scene);
     EXPECT_TRUE(isWithinHeights(*_single, *_root));
 }
 
@@ -95,7 +98,7 @@ TEST_F(ForeignDatabase, HeightsAreThoseOfTheOptionsAndALeafsHighIsItsOwn) {
     options.heights = {-150.0, 5000.0};
     load(options);
     for (osg::Node* node : {static_cast<osg::Node*>(_root), static_cast<osg::Node*>(_north)}) {
-        const AnalyticBin& bin = installedOn(*node)->getBin();
+        const AnalyticBin& bin = installedOn(*node)->getDeclaredBin();
         EXPECT_EQ(bin.bin().altitude().upper, 5000.0);
         EXPECT_LE(bin.bin().altitude().lower, -150.0);
         EXPECT_GE(bin.bin().altitude().lower + bin.sag(), -150.001);

@@ -197,6 +197,12 @@ TEST(OccludingTerrainTiles, HideNothingWhereTheyHaveHoles) {
 // Through a plain that is cut away, the eye sees past the foot of the ridge into a pit.
 TEST(OccludingTerrainTiles, HideNothingWhereTheNearPlaneCutsThemAway) {
     TerrainGlobe globe(-15000.0f);
+    // with bins as deep as the pit, so that nothing but the near plane shows it
+    for (std::size_t i = 0; i < 10; ++i) {
+        const double west = 0.2 * static_cast<double>(i);
+        setStoredBin(*globe.row[i],
+                     AnalyticBin(extentsDeg(0.0, 0.2, west, west + 0.2).withAltitude({-2e4, 9e3}), 10.0));
+    }
     installBins(*globe.terrain, withOcclusion(OcclusionUse::On));
     EXPECT_FALSE(globe.drawsFarTile());
     EXPECT_FALSE(globe.drawsFarTile(500.0));

@@ -173,6 +173,7 @@ void fly(osg::Group& installed, osg::Group& plain, const PlanarMap& map, test::R
     EXPECT_EQ(meshes.withSpheres, 0u);
 }
 
+// With whole skirts, which are seen from below the map.
 Tally flownTally(const PlanarMap& map, const std::string& options) {
     const test::TemporaryFolder folder;
     const auto installed = map.build(folder.path());
@@ -198,7 +199,7 @@ void expectFewerThanWithSpheres(const Tally& tally) {
 }
 
 TEST(PlanarDatabase, TerrainTilesAreCulledWellAndNeverWhenSeen) {
-    const Tally tally = flownTally(PlanarMap(), "heights=0..2600");
+    const Tally tally = flownTally(PlanarMap(), "skirts=all,heights=0..2600");
     expectFewerThanWithSpheres(tally);
     EXPECT_GT(tally.beyondEdge, 0u);
 }
@@ -206,7 +207,7 @@ TEST(PlanarDatabase, TerrainTilesAreCulledWellAndNeverWhenSeen) {
 TEST(PlanarDatabase, MeshesAreCulledWellAndNeverWhenSeen) {
     PlanarMap map;
     map.isTerrain = false;
-    const Tally tally = flownTally(map, "heights=0..2600");
+    const Tally tally = flownTally(map, "skirts=all,heights=0..2600");
     expectFewerThanWithSpheres(tally);
 }
 
@@ -231,7 +232,7 @@ TEST(PlanarDatabase, ShownInAnotherShapeNothingIsCulledUntilItIsFitted) {
 TEST(PlanarDatabase, FollowsTheVerticalScale) {
     PlanarMap map;
     map.verticalScale = 3.0;
-    const Tally tally = flownTally(map, "heights=0..2600");
+    const Tally tally = flownTally(map, "skirts=all,heights=0..2600");
     EXPECT_LT(tally.withBins, tally.withSpheres);
 }
 
@@ -239,9 +240,9 @@ TEST(PlanarDatabase, UndeclaredHeightsHoldTerrainInFeet) {
     PlanarMap map;
     map.heightUnit = 0.3048;
     map.origin.z() = 0.0;
-    (void)flownTally(map, "");
+    (void)flownTally(map, "skirts=all");
     map.isTerrain = false;
-    (void)flownTally(map, "");
+    (void)flownTally(map, "skirts=all");
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ Callback installedOn(osg::CoordinateSystemNode& root, const osg::ref_ptr<osg::No
     EXPECT_EQ(installed, callback ? 1u : 0u);
     EXPECT_EQ(tile->getCullingActive(), callback == nullptr);
     if (!callback) return Callback::None;
-    return dynamic_cast<AnalyticBinCullCallback*>(callback) ? Callback::Geocentric : Callback::Planar;
+    const auto& bin = dynamic_cast<AnalyticBinCullCallback&>(*callback);
+    return bin.getRadiiText() == "map" ? Callback::Planar : Callback::Geocentric;
 }
 
 TEST(PlanarDatabase, IsToldByItsCoordinateSystemOrItsLocators) {

@@ -78,14 +78,37 @@ TEST(RegionalHorizon, IsUsedWhereItIsWithinTheRegion) {
     EXPECT_FALSE(region.drawsFarTile(30.0, 20.0, 160000.0));
 }
 
-TEST(RegionalHorizon, IsNotUsedByAnEyeThatSeesPastTheBorder) {
+TEST(RegionalHorizon, IsNotUsedByAnEyeBesideTheRegion) {
     WideRegion region;
     installBins(*region.root);
     const CapturedNotes notes(osg::NOTICE);
-    for (const auto& [latitude, longitude] : {std::pair(48.0, 20.0), {30.0, 38.0}, {30.0, -3.0}, {5.0, 20.0}})
+    for (const auto& [latitude, longitude] : {std::pair(30.0, -3.0), {5.0, 20.0}, {51.0, 20.0}, {30.0, 41.0}})
         EXPECT_TRUE(region.drawsFarTile(latitude, longitude)) << latitude << ' ' << longitude;
-    EXPECT_TRUE(region.drawsFarTile(30.0, 30.0, 160000.0));
-    EXPECT_EQ(notes.count("sees past it"), 1u);
+    EXPECT_EQ(notes.count("not over the regional database"), 1u);
+}
+
+// The eye sees past the border in other directions.
+TEST(RegionalHorizon, HidesTilesInDirectionsInWhichTheRegionReachesIt) {
+    WideRegion region;
+    installBins(*region.root);
+    for (const bool isTileByTile : {false, true}) {
+        BinStatistics::of(*region.visitor).setTileByTile(isTileByTile);
+        EXPECT_FALSE(region.drawsFarTile(48.0, 20.0));
+        EXPECT_FALSE(region.drawsFarTile(30.0, 38.0));
+        EXPECT_FALSE(region.drawsFarTile(20.0, 30.0, 160000.0));
+    }
+}
+
+TEST(RegionalHorizon, HidesNothingInDirectionsInWhichTheEyeSeesPastABorder) {
+    WideRegion region;
+    installBins(*region.root);
+    for (const bool isTileByTile : {false, true}) {
+        BinStatistics::of(*region.visitor).setTileByTile(isTileByTile);
+        // great circles bulge to the north
+        EXPECT_TRUE(region.drawsFarTile(49.5, 20.0));
+        // the tile reaches across the border that the line of sight is along
+        EXPECT_TRUE(region.drawsFarTile(30.0, 39.8));
+    }
 }
 
 TEST(RegionalHorizon, IsNotUsedWhereATileIsMissing) {
@@ -178,11 +201,11 @@ TEST(RegionalHorizon, HasHolesAtThePolesWhereTilesDoNotReachThem) {
 TEST(RegionalHorizon, FollowsTheTilesWhenBinsAreInstalledAnew) {
     WideRegion region;
     installBins(*region.root);
-    EXPECT_TRUE(region.drawsFarTile(30.0, 38.0));
+    EXPECT_TRUE(region.drawsFarTile(30.0, 41.0));
     for (int row = 0; row < 8; ++row)
         for (int column = 8; column < 10; ++column) region.add(row, column, 0.0);
     installBins(*region.root);
-    EXPECT_FALSE(region.drawsFarTile(30.0, 38.0));
+    EXPECT_FALSE(region.drawsFarTile(30.0, 41.0));
 }
 
 // Ten tiles of 0.2 degrees from west to east, in three rows; the third column is a ridge.

@@ -120,12 +120,12 @@ TEST_F(StaleIndex, AnIndexThatFitsTellsTheHeights) {
 TEST_F(StaleIndex, IsIgnoredWhereItIsOff) {
     write(500.0, 6000.0);
     CullOptions options;
-    options.index = false;
+    options.index = IndexUse::Off;
     const CapturedNotes notes;
     load(options);
     page();
     pageSingle();
-    EXPECT_EQ(highOf(*_root), CullOptions::kTerrainOnEarth.upper);
+    EXPECT_EQ(installedOn(*_root)->getDeclaredBin().bin().altitude().upper, CullOptions::kTerrainOnEarth.upper);
     EXPECT_NEAR(highOf(*_single), 6000.0, 1.0);
     EXPECT_EQ(notes.count(""), 0u);
 }

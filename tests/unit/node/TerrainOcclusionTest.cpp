@@ -37,6 +37,9 @@ struct RidgeGlobe : MeshGlobe {
         root->removeChild(tiles[20]);
         const auto add = [this](double south, double north, double west, double east, double height) {
             row.push_back(makePaged(makeMeshTile(extentsDeg(south, north, west, east), height), "no.osgb"));
+            // what is below the tiles may have any height
+            setStoredBin(*row.back(),
+                         AnalyticBin(extentsDeg(south, north, west, east).withAltitude({-12000.0, 9000.0}), 10.0));
             root->addChild(row.back());
         };
         for (int i = 0; i < tilesInRow; ++i) add(0, 0.2, 0.2 * i, 0.2 * i + 0.2, i == 2 ? ridgeHeight : 0.0);

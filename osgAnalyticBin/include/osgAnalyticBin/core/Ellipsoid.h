@@ -18,12 +18,24 @@ struct Geodetic {
 };
 
 /// An ellipsoid of revolution about the z axis, oblate, prolate or a sphere, in earth-centred earth-fixed
-/// (ECEF) coordinates.
-/// Requires: both radii finite and positive (asserted).
+/// (ECEF) coordinates; or the plane z = 0 of a map, in the map's coordinates and units, which stand for ECEF and metres
+/// then. Positions in a map have angles, too: x is the longitude and y the latitude, times kMapUnitsInRadian. This is
+/// the limit of ellipsoids that are large: an upper bound of what the curvature of an ellipsoid with that radius does
+/// holds for the plane.
+/// Requires: both radii finite and positive, or both infinite for a plane (asserted).
 class Ellipsoid final {
 public:
+    /// Of map units. A power of two, so that converting does not round; in the angles of positions on the earth, maps
+    /// in metres, feet or degrees are small.
+    static constexpr double kMapUnitsInRadian = 8589934592.0;
+
     /// Metres.
     Ellipsoid(double equatorialRadius, double polarRadius) noexcept;
+
+    /// The plane of a map.
+    [[nodiscard]] static Ellipsoid plane() noexcept;
+    /// Whether it is the plane of a map. Its radii are kMapUnitsInRadian.
+    [[nodiscard]] bool isPlane() const noexcept { return _isPlane; }
 
     /// a, metres.
     [[nodiscard]] double equatorialRadius() const noexcept { return _a; }
@@ -47,7 +59,10 @@ public:
     /// M, the radius of curvature along the meridian, at the latitude with the given sine and cosine.
     [[nodiscard]] double meridionalRadius(double sinLatitude, double cosLatitude) const noexcept;
 
-    /// Converts to ECEF metres.
+    /// The outward normal at a latitude and longitude, of unit length.
+    [[nodiscard]] glm::dvec3 up(double latitude, double longitude) const noexcept;
+
+    /// Converts to ECEF metres. In a map without rounding, as long as no number is subnormal.
     /// Source: [DMA] geodetic to rectangular; doc/theory/derivation.md, section 1.
     /// Guarantee: within 16 epsilon of the larger radius plus the altitude, for b/a from 0.01 to 100;
     /// tests: Ellipsoid.ConvertsLikeLongDouble*.
@@ -64,10 +79,13 @@ public:
     [[nodiscard]] Geodetic toGeodetic(const glm::dvec3& ecef) const noexcept;
 
     /// The largest value of n.x over the solid ellipsoid: sqrt(a2 (nx2 + ny2) + b2 nz2).
+    /// Requires: no plane.
     [[nodiscard]] double support(const glm::dvec3& direction) const noexcept;
 
     /// Whether both radii are the same numbers.
-    [[nodiscard]] bool operator==(const Ellipsoid& other) const noexcept { return _a == other._a && _b == other._b; }
+    [[nodiscard]] bool operator==(const Ellipsoid& other) const noexcept {
+        return _a == other._a && _b == other._b && _isPlane == other._isPlane;
+    }
     /// Whether a radius differs.
     [[nodiscard]] bool operator!=(const Ellipsoid& other) const noexcept { return !(*this == other); }
 
@@ -76,6 +94,7 @@ private:
     double _b;
     double _squaredRatio;
     double _e2;
+    bool _isPlane;
 };
 
 }  // namespace osgAnalyticBin::core

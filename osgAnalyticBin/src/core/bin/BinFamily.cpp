@@ -107,8 +107,11 @@ void BinFamily::clear(std::size_t i) noexcept {
 }
 
 bool BinFamily::isSeparated(std::size_t i, const PlaneSet& planes, PlaneMask undecided) const noexcept {
-    assert(_data.exact >> i & 1);
-    return core::isSeparated(SlotBin(_data.numbers + i, _data.stride), planes, planes.size(), undecided);
+    assert(_data.filled >> i & 1);
+    const double* const numbers = _data.numbers + i;
+    if (_data.exact >> i & 1)
+        return core::isSeparated(SlotBin(numbers, _data.stride), planes, planes.size(), undecided);
+    return core::isSeparated(QuadraticBin(numbers, _data.stride), planes, planes.size(), undecided);
 }
 
 void BinFamily::classify(const PlaneSet& planes, PlaneMask undecided, FamilyVerdict& verdict) const noexcept {
@@ -117,6 +120,16 @@ void BinFamily::classify(const PlaneSet& planes, PlaneMask undecided, FamilyVerd
 
 std::uint64_t BinFamily::hiddenFrom(const HorizonEye& eye, std::uint64_t candidates) const noexcept {
     return kernels::activeKernels.hidden(_data, eye.data(), candidates & _data.filled);
+}
+
+std::uint64_t BinFamily::heldIn(const RegionalSight& sight, std::uint64_t candidates) const noexcept {
+    const double* const first = _data.numbers + row::kBinRows * _data.stride;
+    std::uint64_t held = 0;
+    for (std::uint64_t left = candidates & _data.filled; left != 0; left &= left - 1) {
+        const unsigned i = kernels::firstBit(left);
+        if (sight.holds(first + i, _data.stride)) held |= kFirst << i;
+    }
+    return held;
 }
 
 }  // namespace osgAnalyticBin::core

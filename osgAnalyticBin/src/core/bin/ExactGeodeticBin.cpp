@@ -70,7 +70,7 @@ double farthestAltitude(const Interval& altitude) {
 }  // namespace
 
 bool ExactGeodeticBin::holds(const Ellipsoid& ellipsoid, const GeodeticBin& bin) noexcept {
-    return !bin.empty() && bin.altitude().lower > -CurvatureBounds(ellipsoid).smallestRadius;
+    return !bin.empty() && !ellipsoid.isPlane() && bin.altitude().lower > -CurvatureBounds(ellipsoid).smallestRadius;
 }
 
 ExactGeodeticBin::ExactGeodeticBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept

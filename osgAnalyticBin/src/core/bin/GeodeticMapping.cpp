@@ -64,6 +64,8 @@ glm::dvec3 GeodeticMapping::value(const glm::dvec3& parameters) const noexcept {
 }
 
 glm::dmat3 GeodeticMapping::jacobian(const glm::dvec3& parameters) const noexcept {
+    constexpr double kUnits = Ellipsoid::kMapUnitsInRadian;
+    if (_ellipsoid.isPlane()) return glm::dmat3({0.0, kUnits, 0.0}, {kUnits, 0.0, 0.0}, {0.0, 0.0, 1.0});
     const LocalFrame frame(parameters.x, parameters.y);
     const double h = parameters.z;
     const double m = _ellipsoid.meridionalRadius(frame.sinLat, frame.cosLat);
@@ -74,6 +76,7 @@ glm::dmat3 GeodeticMapping::jacobian(const glm::dvec3& parameters) const noexcep
 }
 
 Hessians GeodeticMapping::hessians(const glm::dvec3& parameters) const noexcept {
+    if (_ellipsoid.isPlane()) return {};
     const LocalFrame frame(parameters.x, parameters.y);
     const double h = parameters.z;
     const double e2 = _ellipsoid.eccentricitySquared();
@@ -92,6 +95,7 @@ Hessians GeodeticMapping::hessians(const glm::dvec3& parameters) const noexcept 
 }
 
 double GeodeticMapping::remainder(const ParameterBox& box) const noexcept {
+    if (_ellipsoid.isPlane()) return 0.0;
     const LatitudeBounds bound = latitudeBounds(_ellipsoid, box);
     const double h = std::max(std::abs(box.center.z - box.halfSize.z), std::abs(box.center.z + box.halfSize.z));
     const double mh = bound.meridional + h;
@@ -108,6 +112,7 @@ double GeodeticMapping::remainder(const ParameterBox& box) const noexcept {
 }
 
 double GeodeticMapping::termMagnitude(const ParameterBox& box) const noexcept {
+    if (_ellipsoid.isPlane()) return 0.0;
     const double sinLat = std::abs(std::sin(box.center.x));
     const double cosLat = std::abs(std::cos(box.center.x));
     const double h = std::abs(box.center.z);

@@ -99,6 +99,16 @@ Interval QuadraticBin::distanceRange(const Plane& plane) const noexcept {
     return {range.lower - slack, range.upper + slack};
 }
 
+glm::dvec3 QuadraticBin::supportPoint(const glm::dvec3& direction) const noexcept {
+    glm::dvec3 point = value();
+    for (std::size_t i = 0; i < 3; ++i) point += glm::dot(direction, first(i)) < 0.0 ? -first(i) : first(i);
+    return point;
+}
+
+double QuadraticBin::reach() const noexcept {
+    return (glm::length(value()) + _numbers[row::Reach]) * kNormalTolerance;
+}
+
 double QuadraticBin::bulge() const noexcept {
     // The model less the trilinear interpolant of its corners is the sum of 1/2 H_ii (x_i^2 - 1).
     return 0.5 * (glm::length(second(0)) + glm::length(second(1)) + glm::length(second(2)));

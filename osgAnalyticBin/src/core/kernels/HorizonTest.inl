@@ -39,29 +39,38 @@ struct HiddenBelow {
     Real cosine;
 };
 
-// Whether all of the bin is behind the horizon, by the largest cosine between the eye's direction and the bin's:
-// section 8 of doc/theory/derivation.md on the unit sphere. Written so that NaN is not hidden.
+// The largest cosine between a direction and those of a bin is the larger of the two: section 8 of
+// doc/theory/derivation.md on the unit sphere.
+template <class Real>
+struct LargestCosine {
+    Real south, north;
+};
+
+// `equatorial`: the length of x and y.
 template <class Real, class Bin>
-INLINE Truth<Real> isBehindHorizon(const Bin& bin, const HorizonEyeData& eye) {
+INLINE LargestCosine<Real> largestCosine(const Bin& bin, Real x, Real y, Real z, Real equatorial) {
     const Real zero = broadcast<Real>(0.0);
-    const Real x = broadcast<Real>(eye.x);
-    const Real y = broadcast<Real>(eye.y);
-    const Real z = broadcast<Real>(eye.z);
     const Real cosHalf = bin[row::CosHalfWidth];
     const Real sinHalf = bin[row::SinHalfWidth];
     const Real along = x * bin[row::CosMiddleLongitude] + y * bin[row::SinMiddleLongitude];
     const Real across = magnitude(y * bin[row::CosMiddleLongitude] - x * bin[row::SinMiddleLongitude]);
-    // The eye's longitude differs from the middle by an angle of [0, pi]; is it at most the half width?
+    // The direction's longitude differs from the middle by an angle of [0, pi]; is it at most the half width?
     const Truth<Real> holdsLongitude = along * sinHalf - across * cosHalf >= zero;
-    const Real c = select(holdsLongitude, broadcast<Real>(eye.equatorial), along * cosHalf + across * sinHalf);
+    const Real c = select(holdsLongitude, equatorial, along * cosHalf + across * sinHalf);
     const Real cosSouth = bin[row::CosSouthern];
     const Real sinSouth = bin[row::SinSouthern];
     const Real cosNorth = bin[row::CosNorthern];
     const Real sinNorth = bin[row::SinNorthern];
     const Truth<Real> peak = both(cosSouth * z - sinSouth * c > zero, cosNorth * z - sinNorth * c < zero);
     const Real within = root(c * c + z * z);
+    return {select(peak, within, c * cosSouth + z * sinSouth), select(peak, within, c * cosNorth + z * sinNorth)};
+}
+
+// Whether all of the bin is behind the horizon. Written so that NaN is not hidden.
+template <class Real, class Bin>
+INLINE Truth<Real> isBehindHorizon(const Bin& bin, const HorizonEyeData& eye) {
+    const LargestCosine<Real> largest = largestCosine(bin, broadcast<Real>(eye.x), broadcast<Real>(eye.y),
+                                                      broadcast<Real>(eye.z), broadcast<Real>(eye.equatorial));
     const HiddenBelow<Real> below(eye, bin[row::InverseRadius], bin[row::CosMargin], bin[row::SinMargin]);
-    const Truth<Real> south = select(peak, within, c * cosSouth + z * sinSouth) < below.cosine;
-    const Truth<Real> north = select(peak, within, c * cosNorth + z * sinNorth) < below.cosine;
-    return both(below.isAny, both(south, north));
+    return both(below.isAny, both(largest.south < below.cosine, largest.north < below.cosine));
 }

@@ -98,6 +98,7 @@ GeodeticGridBounds::GeodeticGridBounds(const Ellipsoid& ellipsoid, const Geodeti
     const double row = grid.latitude.width() / static_cast<double>(grid.rows - 1);
     const double column = grid.longitude.width() / static_cast<double>(grid.columns - 1);
     assert(grid.columns >= 2 && grid.rows >= 2 && row <= kMaxCell && column <= kMaxCell && reach >= 0.0);
+    if (ellipsoid.isPlane()) return;
 
     const double cosHalfColumn = std::cos(0.5 * column);
     if (grid.latitude.upper > 0.0)

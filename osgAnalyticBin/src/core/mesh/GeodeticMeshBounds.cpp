@@ -45,13 +45,17 @@ void GeodeticMeshBounds::expandByVertex(const glm::dvec3& ecef) noexcept {
     const Geodetic position = _ellipsoid.toGeodetic(ecef);
     include(_latitude, position.latitude);
     include(_altitude, position.altitude);
-    if (std::hypot(ecef.x, ecef.y) > _axisTolerance) {
+    if (_ellipsoid.isPlane() || std::hypot(ecef.x, ecef.y) > _axisTolerance) {
         include(_relativeLongitude, wrapped(position.longitude - _referenceLongitude));
     }
 }
 
 void GeodeticMeshBounds::expandByTriangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) noexcept {
     const glm::dvec3 corners[3] = {a, b, c};
+    if (_ellipsoid.isPlane()) {
+        for (const glm::dvec3& corner : corners) expandByVertex(corner);
+        return;
+    }
     const glm::dvec3 sum = a + b + c;
 
     // Altitude is the distance to a convex body: at most the vertices', at least that to a supporting plane.

@@ -368,8 +368,27 @@ void MeshBounds::findByTriangles(const Ellipsoid& ellipsoid, const EcefMesh& mes
     _sag = *std::min_element(_altitudes.begin(), _altitudes.end()) - _bin.altitude().lower;
 }
 
+// Triangles do not leave the box about their corners.
+void MeshBounds::findInMap(const EcefMesh& mesh) {
+    const Ellipsoid plane = Ellipsoid::plane();
+    _altitudes = mesh.z;
+    _altitudeError = _sag = _axisError = 0.0;
+    Extremes x, y, z;
+    double poison = 0.0;
+    for (std::size_t i = 0; i < mesh.size(); ++i) {
+        const Geodetic place = plane.toGeodetic(mesh.vertex(i));
+        x.add(i % kLanes, place.longitude);
+        y.add(i % kLanes, place.latitude);
+        z.add(i % kLanes, place.altitude);
+        poison += (mesh.x[i] - mesh.x[i]) + (mesh.y[i] - mesh.y[i]) + (mesh.z[i] - mesh.z[i]);
+    }
+    if (poison == 0.0) _bin = GeodeticBin(y.range(), x.range(), z.range());
+}
+
 void MeshBounds::find(const Ellipsoid& ellipsoid, const EcefMesh& mesh) {
     _bin = GeodeticBin();
+    _isQuick = ellipsoid.isPlane();
+    if (_isQuick) return findInMap(mesh);
     _isQuick = mesh.size() > 0 && findInClosedForm(ellipsoid, mesh);
     if (!_isQuick && mesh.size() > 0) findByTriangles(ellipsoid, mesh);
 }

@@ -3,7 +3,6 @@
 
 #include "../Constants.h"
 #include "../EarthScale.h"
-#include "../LocalFrame.h"
 #include "../mesh/KeyNumbers.h"
 #include "PlateCells.h"
 #include "PostGrid.h"
@@ -77,7 +76,7 @@ private:
                 const double longitude = cellOf(_plates._longitude, cells, i % cells).middle();
                 _middles[firstNumber(cells) + i] = {{latitude, longitude, 0.0},
                                                     _plates._ellipsoid.toEcef({latitude, longitude, 0.0}),
-                                                    LocalFrame(latitude, longitude).up};
+                                                    _plates._ellipsoid.up(latitude, longitude)};
             }
         }
     }
@@ -95,15 +94,18 @@ private:
             _merged.push_back(number);
             if (number < _vertices.size()) continue;
             const Geodetic at = _plates._ellipsoid.toGeodetic(v);
-            const double axisDistance = std::sqrt(v.x * v.x + v.y * v.y), cosLat = std::cos(at.latitude);
-            const double share = axisDistance > 0.0 ? cosLat / axisDistance : 0.0;
-            _vertices.push_back({{share * v.x, share * v.y, std::sin(at.latitude)},
-                                 at.latitude,
-                                 std::remainder(at.longitude - middle, 2.0 * kPi),
-                                 at.altitude,
-                                 axisDistance});
+            const double axisDistance = axisDistanceOf(_plates._ellipsoid, v);
+            _vertices.push_back({upAt(v, at, axisDistance), at.latitude,
+                                 std::remainder(at.longitude - middle, 2.0 * kPi), at.altitude, axisDistance});
             _positions.push_back(v);
         }
+    }
+
+    // As Ellipsoid::up(), with less trigonometry.
+    [[nodiscard]] glm::dvec3 upAt(const glm::dvec3& v, const Geodetic& place, double axisDistance) const {
+        if (_plates._ellipsoid.isPlane()) return {0.0, 0.0, 1.0};
+        const double share = axisDistance > 0.0 ? std::cos(place.latitude) / axisDistance : 0.0;
+        return {share * v.x, share * v.y, std::sin(place.latitude)};
     }
 
     [[nodiscard]] Corners cornersOf(const std::uint32_t* triangle) const {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace osgAnalyticBin::core {
 
@@ -20,20 +21,26 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // The rounding of a vector from the eye, in units of the longest vector from the centre.
 constexpr double kVectorRounding = 16.0 * kEpsilon;
 
-// The error of a position in the picture, for a point that is wrong by `metres`; doc/theory/occlusion.md, section 4.
-double pictureError(double metres, double forward, double largest) {
-    return metres / (forward - metres) * (1.0 + largest) + 16.0 * kEpsilon * (1.0 + largest);
+// The error of a position in the picture, for a point that is wrong by up to `metres` along each axis;
+// doc/theory/occlusion.md, section 4. `spot`: how far the position is from the middle of the picture, at most.
+glm::dvec2 pictureError(const glm::dvec3& metres, double forward, const glm::dvec2& spot) {
+    const double inverse = 1.0 / (forward - metres.y);
+    const auto [x, y] = std::make_pair(std::abs(spot.x), std::abs(spot.y));
+    return {(metres.x + x * metres.y) * inverse + 16.0 * kEpsilon * (1.0 + x),
+            (metres.z + y * metres.y) * inverse + 16.0 * kEpsilon * (1.0 + y)};
 }
 
 }  // namespace
 
-HorizonBuffer::HorizonBuffer(double eyeToCentre, const Interval& across, double drawing, double depthStep)
+HorizonBuffer::HorizonBuffer(double eyeToCentre, const Interval& across, double drawing, double depthStep,
+                             const glm::dvec3& eyes)
     : _eyeToCentre(eyeToCentre),
       _across(across),
       _step(across.width() / static_cast<double>(kStrips)),
       _perStep(1.0 / _step),
       _drawing(drawing),
-      _depthStep(depthStep) {
+      _depthStep(depthStep),
+      _eyes(eyes) {
     _lower.fill(kInfinity);
     _upper.fill(-kInfinity);
 }
@@ -42,13 +49,14 @@ HorizonBuffer::HorizonBuffer(double eyeToCentre, const Interval& across, double 
 // smaller than that of the column, and it ends in straight lines.
 void HorizonBuffer::add(const EarthColumn& column) {
     constexpr double kSteepest = 1e3;
-    double nearest = kInfinity, farthest = 0.0, largest = 0.0;
+    double nearest = kInfinity, farthest = 0.0;
+    glm::dvec2 largest(0.0);
     const auto place = [&](const glm::dvec3& corner, glm::dvec2& spot) {
         const double forward = corner.y, inverse = 1.0 / forward;
         spot = {corner.x * inverse, corner.z * inverse};
         nearest = std::min(nearest, forward);
         farthest = std::max(farthest, forward);
-        largest = std::max({largest, std::abs(spot.x), std::abs(spot.y)});
+        largest = glm::max(largest, glm::abs(spot));
         // written so that NaN is left out; rays near the picture's plane would make positions as large as one likes
         return forward > 0.0 && std::abs(spot.x) < kSteepest && std::abs(spot.y) < kSteepest;
     };
@@ -56,6 +64,7 @@ void HorizonBuffer::add(const EarthColumn& column) {
     for (std::size_t i = 0; i < 4; ++i) {
         if (!place(column.top[i], top[i])) return;
     }
+    for (const glm::dvec3& corner : column.top) _nearestEarth = std::min(_nearestEarth, glm::length(corner));
     const auto [leftmost, rightmost] =
         std::minmax_element(top.begin(), top.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
     const std::size_t first = stripAt(leftmost->x, 0.0), last = stripAt(rightmost->x, 1.0);
@@ -68,27 +77,27 @@ void HorizonBuffer::add(const EarthColumn& column) {
     };
     if (!place(below(leftmost), bottom[0]) || !place(below(rightmost), bottom[1])) return;
     // the length of a vector from the eye is at most forward (1 + |x| + |y|)
-    const double longest = _eyeToCentre + farthest * (1.0 + 2.0 * largest);
+    const double longest = _eyeToCentre + farthest * (1.0 + largest.x + largest.y);
     const double error = column.error + kVectorRounding * longest;
-    if (!(column.error >= 0.0 && nearest > 4.0 * error)) return;
-    const double inPicture = pictureError(error, nearest, largest);
+    if (!(column.error >= 0.0 && nearest > 4.0 * error && nearest > 1.5 * (_eyes.y + error))) return;
+    const glm::dvec2 inPicture = pictureError(_eyes + error, nearest, largest);
     if (!(bottom[0].x < bottom[1].x)) return;
     Wall wall;
     wall.highest = highest;
-    wall.across = {std::max(leftmost->x, bottom[0].x) + inPicture, std::min(rightmost->x, bottom[1].x) - inPicture};
-    wall.top = Line(*leftmost, *rightmost, -inPicture);
-    wall.bottom = Line(bottom[0], bottom[1], inPicture);
+    wall.across = {std::max(leftmost->x, bottom[0].x) + inPicture.x, std::min(rightmost->x, bottom[1].x) - inPicture.x};
+    wall.top = Line(*leftmost, *rightmost, -1.0, inPicture);
+    wall.bottom = Line(bottom[0], bottom[1], 1.0, inPicture);
     _waiting.push_back({farthest + error, _walls.size()});
     std::push_heap(_waiting.begin(), _waiting.end());
     _walls.push_back(wall);
 }
 
-// The line through two points, moved up by `move` and by the effect of as large a move to the side. A negative `move`
-// moves it down. Units of the picture. doc/theory/occlusion.md, section 4.
-HorizonBuffer::Line::Line(const glm::dvec2& a, const glm::dvec2& b, double move) {
+// The line through two points that may be elsewhere by `error`, no lower than the true one (`side` 1) or no higher
+// (-1). Units of the picture. doc/theory/occlusion.md, section 4.
+HorizonBuffer::Line::Line(const glm::dvec2& a, const glm::dvec2& b, double side, const glm::dvec2& error) {
     slope = (b.y - a.y) / (b.x - a.x);
     const double rounding = 16.0 * kEpsilon * (std::abs(slope) * (1.0 + std::abs(a.x)) + 1.0 + std::abs(a.y));
-    offset = a.y - slope * a.x + std::copysign((1.0 + std::abs(slope)) * std::abs(move) + rounding, move);
+    offset = a.y - slope * a.x + side * (error.y + std::abs(slope) * error.x + rounding);
 }
 
 // A wall is convex, and so is its picture: at each x the wall covers the interval between its two lines. Within a strip
@@ -158,36 +167,39 @@ HorizonBuffer::Outline HorizonBuffer::outlineOf(const BinHull& body) const noexc
         size2 = std::max(size2, glm::dot(corner, corner));
     }
     const double reach = body.reach + kVectorRounding * (_eyeToCentre + std::sqrt(size2));
+    const glm::dvec3 reachAndEyes = _eyes + reach;
     outline.nearest -= reach;
     if (!(std::isfinite(sum) && body.reach >= 0.0)) {
         outline.nearest = -kInfinity;
         return outline;
     }
-    if (!(outline.nearest > 0.0)) {
+    if (!(outline.nearest > _eyes.y)) {
         // beyond the planes through the eye and the sides of the picture
         const auto isBeyond = [&](double x, double side) {
-            return std::all_of(body.corners.begin(), body.corners.end(), [&](const glm::dvec3& corner) {
-                return side * (corner.x - x * corner.y) > 1.001 * reach * (1.0 + std::abs(x));
-            });
+            const double room = 1.001 * (reachAndEyes.x + std::abs(x) * reachAndEyes.y);
+            return std::all_of(body.corners.begin(), body.corners.end(),
+                               [&](const glm::dvec3& corner) { return side * (corner.x - x * corner.y) > room; });
         };
-        outline.isBeside = farthest < -reach || isBeyond(_across.lower, -1.0) || isBeyond(_across.upper, 1.0);
+        outline.isBeside = farthest < -reachAndEyes.y || isBeyond(_across.lower, -1.0) || isBeyond(_across.upper, 1.0);
         return outline;
     }
     for (const glm::dvec3& corner : body.corners) {
         const double inverse = 1.0 / corner.y, x = corner.x * inverse, y = corner.z * inverse;
-        const double error = pictureError(reach, corner.y, std::max(std::abs(x), std::abs(y))) + _drawing;
-        outline.across = {std::min(outline.across.lower, x - error), std::max(outline.across.upper, x + error)};
-        outline.heights = {std::min(outline.heights.lower, y - error), std::max(outline.heights.upper, y + error)};
+        const glm::dvec2 error = pictureError(reachAndEyes, corner.y, {x, y}) + _drawing;
+        outline.across = {std::min(outline.across.lower, x - error.x), std::max(outline.across.upper, x + error.x)};
+        outline.heights = {std::min(outline.heights.lower, y - error.y), std::max(outline.heights.upper, y + error.y)};
     }
     outline.isBeside = outline.across.upper < _across.lower || outline.across.lower > _across.upper;
     return outline;
 }
 
 bool HorizonBuffer::hides(const Outline& body) {
-    // earth up to here is nearer than the body by a step of the depth buffer
-    const double farthest = body.nearest / (1.0 + _depthStep * body.nearest);
+    // Earth up to here is nearer than the body by a step of the depth buffer. That is hardest for the eye that is
+    // farthest back.
+    const double fromBack = body.nearest + _eyes.y;
+    const double farthest = fromBack / (1.0 + _depthStep * fromBack) - _eyes.y;
     // written so that NaN is not hidden
-    if (!(body.nearest > 0.0 && farthest >= _reached)) return false;
+    if (!(body.nearest > _eyes.y && farthest >= _reached)) return false;
     use(farthest);
     if (body.isBeside || !(body.heights.lower >= _lowest)) return false;
     // the rounding of the quotient; that of the strips' edges is in the errors of the corners

@@ -10,8 +10,11 @@
 #include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 
+#include <glm/vec3.hpp>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace osgAnalyticBin::core {
@@ -53,6 +56,11 @@ struct CellRange {
     const double end = (met.upper - extents.lower) * perCell - kInset + 1.0;
     return {static_cast<std::ptrdiff_t>(std::clamp(from, 0.0, most)),
             static_cast<std::ptrdiff_t>(std::clamp(end, 0.0, most)) - 1};
+}
+
+/// Metres of a point from the axis. A plane has none: as far away as it is on large ellipsoids.
+[[nodiscard]] inline double axisDistanceOf(const Ellipsoid& ellipsoid, const glm::dvec3& point) {
+    return ellipsoid.isPlane() ? ellipsoid.equatorialRadius() : std::sqrt(point.x * point.x + point.y * point.y);
 }
 
 /// Metres of the longest side of a triangle, and of the longest one along the horizon and along the vertical, wherever

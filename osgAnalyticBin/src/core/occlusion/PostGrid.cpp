@@ -75,6 +75,13 @@ private:
         _found.grid = {latitude, {_middle + longitude.lower, _middle + longitude.upper}, _columns, _rows};
         const double along = latitude.width() / static_cast<double>(_rows - 1);
         const double across = longitude.width() / static_cast<double>(_columns - 1);
+        findAltitudes(along, across);
+        const double smallest = smallestCurvatureRadius(_ellipsoid);
+        return _found.error <= kTolerance * smallest * std::min(along, std::cos(latitude.upper) * across);
+    }
+
+    // Of the posts above their places, and how far vertices are beside these.
+    void findAltitudes(double along, double across) {
         std::vector<glm::dvec2> meridians;
         for (std::size_t column = 0; column < _columns; ++column) {
             const double at = _found.grid.longitude.lower + across * static_cast<double>(column);
@@ -82,13 +89,18 @@ private:
         }
         double aside2 = 0.0;
         for (std::size_t row = 0; row < _rows; ++row) {
-            const double at = latitude.lower + along * static_cast<double>(row);
+            const double at = _found.grid.latitude.lower + along * static_cast<double>(row);
             const double sinLat = std::sin(at), cosLat = std::cos(at);
             const double radius = _ellipsoid.primeVerticalRadius(sinLat, cosLat);
             for (std::size_t column = 0; column < _columns; ++column) {
                 const glm::dvec2 meridian = meridians[column];
-                const glm::dvec3 up(cosLat * meridian.x, cosLat * meridian.y, sinLat);
-                const glm::dvec3 foot(radius * up.x, radius * up.y, _ellipsoid.squaredRatio() * radius * up.z);
+                glm::dvec3 up(cosLat * meridian.x, cosLat * meridian.y, sinLat);
+                glm::dvec3 foot(radius * up.x, radius * up.y, _ellipsoid.squaredRatio() * radius * up.z);
+                if (_ellipsoid.isPlane()) {
+                    foot = _ellipsoid.toEcef(
+                        {at, _found.grid.longitude.lower + across * static_cast<double>(column), 0.0});
+                    up = {0.0, 0.0, 1.0};
+                }
                 const glm::dvec3 fromFoot = _mesh.vertex(row * _columns + column) - foot;
                 const double altitude = glm::dot(fromFoot, up);
                 const glm::dvec3 aside = fromFoot - altitude * up;
@@ -97,8 +109,6 @@ private:
             }
         }
         _found.error = std::sqrt(aside2);
-        const double smallest = smallestCurvatureRadius(_ellipsoid);
-        return _found.error <= kTolerance * smallest * std::min(along, std::cos(latitude.upper) * across);
     }
 
     // Each triangle leaves out one of four posts. Two that leave out opposite ones fill the place between the posts.
@@ -137,7 +147,7 @@ private:
     [[nodiscard]] bool isSkirt(const Corners& corners) {
         if (_places.empty()) _places.resize(_mesh.size());
         Interval latitude, longitude, altitude;
-        double longest2 = 0.0, axisDistance2 = std::numeric_limits<double>::infinity();
+        double longest2 = 0.0, nearest = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < 3; ++k) {
             std::optional<Geodetic>& place = _places[corners[k]];
             if (!place) place = placeOf(corners[k]);
@@ -150,9 +160,9 @@ private:
             altitude = joined(altitude, place->altitude);
             const glm::dvec3 v = _mesh.vertex(corners[k]), side = _mesh.vertex(corners[(k + 1) % 3]) - v;
             longest2 = std::max(longest2, glm::dot(side, side));
-            axisDistance2 = std::min(axisDistance2, v.x * v.x + v.y * v.y);
+            nearest = std::min(nearest, axisDistanceOf(_ellipsoid, v));
         }
-        const double radius = 0.9 * smallestCurvatureRadius(_ellipsoid), axisDistance = 0.95 * std::sqrt(axisDistance2);
+        const double radius = 0.9 * smallestCurvatureRadius(_ellipsoid), axisDistance = 0.95 * nearest;
         const double longest = std::sqrt(longest2);
         const TriangleSides sides = TriangleSides::atAnyPoint(longest, longest, longest, radius);
         const TriangleReach reach(sides, _ellipsoid, radius, axisDistance);

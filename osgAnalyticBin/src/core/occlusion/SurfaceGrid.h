@@ -28,7 +28,12 @@ public:
                 const std::array<double, Most>& longitudes, std::size_t count, const Frame& frame) noexcept
         : _axesRatio(ellipsoid.squaredRatio()),
           _polar(frame.x.z, frame.y.z, frame.z.z),
-          _origin(glm::dot(frame.origin, frame.x), glm::dot(frame.origin, frame.y), glm::dot(frame.origin, frame.z)) {
+          _origin(glm::dot(frame.origin, frame.x), glm::dot(frame.origin, frame.y), glm::dot(frame.origin, frame.z)),
+          _isPlane(ellipsoid.isPlane()) {
+        if (_isPlane) {
+            layOut(latitudes, longitudes, count, frame);
+            return;
+        }
         for (std::size_t i = 0; i < count; ++i) {
             _sinLat[i] = std::sin(latitudes[i]);
             _cosLat[i] = std::cos(latitudes[i]);
@@ -44,10 +49,11 @@ public:
     /// The points of one latitude and altitude.
     struct Ring {
         double axisDistance;
-        glm::dvec3 middle;  ///< on the globe's axis
+        glm::dvec3 middle;  ///< on the globe's axis; in a map, where x is 0
     };
     /// [DERIVATION] section 1: ECEF of a geodetic position is rho (cos l, sin l, 0) + z (0, 0, 1).
     [[nodiscard]] Ring ring(std::size_t row, double altitude) const noexcept {
+        if (_isPlane) return {1.0, _northing[row] + altitude * _polar - _origin};
         const double z = (_axesRatio * _radius[row] + altitude) * _sinLat[row];
         return {(_radius[row] + altitude) * _cosLat[row], z * _polar - _origin};
     }
@@ -58,9 +64,21 @@ public:
     }
 
 private:
+    void layOut(const std::array<double, Most>& latitudes, const std::array<double, Most>& longitudes,
+                std::size_t count, const Frame& frame) noexcept {
+        for (std::size_t i = 0; i < count; ++i) {
+            const double x = Ellipsoid::kMapUnitsInRadian * longitudes[i];
+            const double y = Ellipsoid::kMapUnitsInRadian * latitudes[i];
+            _meridian[i] = x * glm::dvec3(frame.x.x, frame.y.x, frame.z.x);
+            _northing[i] = y * glm::dvec3(frame.x.y, frame.y.y, frame.z.y);
+        }
+    }
+
     double _axesRatio;           // of the polar to the equatorial axis, squared
     glm::dvec3 _polar, _origin;  // the globe's axis and the frame's origin, along the frame's axes
+    bool _isPlane;
     std::array<double, Most> _sinLat, _cosLat, _radius;
+    std::array<glm::dvec3, Most> _northing;  // of a plane's rows, along the frame's axes
     std::array<glm::dvec3, Most> _meridian;  // the direction from the globe's axis, along the frame's axes
 };
 

@@ -5,6 +5,8 @@
 #include "../LocalFrame.h"
 
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
 #include <osgAnalyticBin/core/rivals/BoxBins.h>
 
 #include <glm/common.hpp>
@@ -37,17 +39,23 @@ Extents wholeGlobe(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double ma
     return {glm::dvec3(0.0), glm::dvec3(reach), reach};
 }
 
-Extents extentsAlong(const Axes& axes, const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) {
-    if (!ExactGeodeticBin::holds(ellipsoid, bin)) return wholeGlobe(ellipsoid, bin, margin);
-    const ExactGeodeticBin exact(ellipsoid, bin, margin);
+template <class Bin>
+Extents extentsAlong(const Axes& axes, const Bin& bin) {
     Extents extents;
-    extents.reach = exact.reach();
+    extents.reach = bin.reach();
     for (glm::length_t i = 0; i < 3; ++i) {
-        const Interval range = exact.distanceRange({axes[static_cast<std::size_t>(i)], 0.0});
+        const Interval range = bin.distanceRange({axes[static_cast<std::size_t>(i)], 0.0});
         extents.center[i] = range.middle();
         extents.halfSize[i] = 0.5 * range.width();
     }
     return extents;
+}
+
+Extents extentsAlong(const Axes& axes, const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) {
+    if (ellipsoid.isPlane())
+        return extentsAlong(axes, QuadraticBin(GeodeticMapping(ellipsoid), parameterBox(bin), margin));
+    if (!ExactGeodeticBin::holds(ellipsoid, bin)) return wholeGlobe(ellipsoid, bin, margin);
+    return extentsAlong(axes, ExactGeodeticBin(ellipsoid, bin, margin));
 }
 
 const Axes& ecefAxes() {
@@ -55,7 +63,8 @@ const Axes& ecefAxes() {
     return axes;
 }
 
-Axes eastNorthUp(const Geodetic& position) {
+Axes eastNorthUp(const Ellipsoid& ellipsoid, const Geodetic& position) {
+    if (ellipsoid.isPlane()) return ecefAxes();
     const LocalFrame frame(position.latitude, position.longitude);
     return {frame.east, frame.north, frame.up};
 }
@@ -103,7 +112,7 @@ Plane BoxBin::face(std::size_t i) const noexcept {
 }
 
 OrientedBoxBin::OrientedBoxBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept
-    : _center(0.0), _axes(eastNorthUp(bin.center())) {
+    : _center(0.0), _axes(eastNorthUp(ellipsoid, bin.center())) {
     const Extents extents = extentsAlong(_axes, ellipsoid, bin, margin);
     for (std::size_t i = 0; i < 3; ++i) {
         const auto k = static_cast<glm::length_t>(i);

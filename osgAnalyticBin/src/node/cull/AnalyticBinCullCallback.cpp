@@ -15,7 +15,6 @@
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
-#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <osg/CullStack>
 #include <osg/Notify>
@@ -79,6 +78,7 @@ AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& 
       _setup(other._setup),
       _frame(other._frame ? std::make_unique<const LocalFrame>(*other._frame) : nullptr),
       _bin(other._bin),
+      _declared(other._declared),
       _surface(other._surface),
       _surfaceLow(other._surfaceLow),
       _surfaceHigh(other._surfaceHigh),
@@ -110,7 +110,9 @@ AnalyticBinCullCallback::~AnalyticBinCullCallback() {
 AnalyticBin AnalyticBinCullCallback::shownBin() const {
     AnalyticBin bin = _setup->shape ? _bin.exaggerated(_setup->shape->verticalScale) : _bin;
     const core::Interval& altitude = bin.bin().altitude();
-    if (bin.valid()) bin.setBin(bin.bin().withAltitude({altitude.lower - _skirt, altitude.upper}));
+    // what is loaded counts with its skirts
+    if (bin.valid() && !_declared.valid())
+        bin.setBin(bin.bin().withAltitude({altitude.lower - _skirt, altitude.upper}));
     return bin;
 }
 
@@ -146,7 +148,8 @@ void AnalyticBinCullCallback::changeBin() {
     _binLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
     _binHigh = shown.valid() ? shown.bin().altitude().upper + shown.margin() : -kUnknown;
     const bool hasMethod = _setup->options.method != Method::None && _setup->options.method != Method::Sphere;
-    _isTested = hasMethod && shown.valid() && areValidRadii(_setup->equatorialRadius, _setup->polarRadius);
+    _isTested =
+        hasMethod && shown.valid() && (areValidRadii(_setup->equatorialRadius, _setup->polarRadius) || isInMap());
     _testsEdges = _setup->options.effectiveEdges();
     _hidesByPoint = isBox(_setup->options.method);
     discardPrepared();
@@ -172,14 +175,15 @@ AnalyticBinCullCallback::Prepared AnalyticBinCullCallback::makePrepared() const 
         new osg::EllipsoidModel(_setup->equatorialRadius, _setup->polarRadius);
     osg::BoundingSphere sphere = shown.boundingSphere(*model);
     if (_frame) sphere = movedSphere(sphere, _frame->fromEcef);
-    Prepared prepared{preparedBin(shown, ellipsoid), {}, {}, sphere, sphere, {}, {}};
+    Prepared prepared{preparedBin(shown, ellipsoid), {}, {}, sphere, sphere, {}, {}, {}};
     const bool isOwnEdge =
         isBox(_setup->options.method) || std::holds_alternative<core::ExactGeodeticBin>(prepared.bin);
     if (_testsEdges && !isOwnEdge && core::ExactGeodeticBin::holds(ellipsoid, shown.bin())) {
         prepared.separable.emplace(ellipsoid, shown.bin(), shown.margin());
     }
-    if (_setup->options.effectiveHorizonUse() == HorizonUse::Off) return prepared;
+    if (_setup->options.effectiveHorizonUse() == HorizonUse::Off || isInMap()) return prepared;
     prepared.horizon.emplace(ellipsoid, shown.bin(), shown.margin());
+    if (_declared.valid()) prepared.declaredHorizon.emplace(ellipsoid, _declared.bin(), _declared.margin());
     if (_hidesByPoint) prepared.horizonPoint.emplace(*prepared.horizon);
     if (shown.bin().altitude().upper >= 0.0) return prepared;
     AnalyticBin column = shown;
@@ -212,13 +216,20 @@ void AnalyticBinCullCallback::fillSlot() const {
     const bool isForComparison = !bins.quadratic && !bins.exact;
     if (prepared.horizon) bins.column = prepared.columnHorizon ? &*prepared.columnHorizon : &*prepared.horizon;
     if (prepared.horizon && !isForComparison) bins.horizon = &*prepared.horizon;
+    if (prepared.declaredHorizon) bins.declared = &*prepared.declaredHorizon;
     const bool hasOwnColumn = isForComparison || prepared.columnHorizon.has_value();
-    _installed->fillSlot(
-        {prepared.sphere, prepared.columnSphere, _binHigh, _binLow, _surfaceHigh, _surfaceLow, hasOwnColumn}, bins);
+    _installed->fillSlot({prepared.sphere, prepared.columnSphere, _binHigh, _binLow, _surfaceHigh, _surfaceLow,
+                          hasOwnColumn, _declared.valid()},
+                         bins);
 }
 
 void AnalyticBinCullCallback::setBin(const AnalyticBin& bin) {
+    setLoadedBin(bin, {});
+}
+
+void AnalyticBinCullCallback::setLoadedBin(const AnalyticBin& bin, const AnalyticBin& declared) {
     _bin = bin;
+    _declared = declared;
     changeBin();
 }
 
@@ -292,9 +303,15 @@ void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) 
         return;
     }
     const auto isCulledHere = [&](osg::CullStack& cullStack) {
+        const core::PlaneMask before = cullStack.getCurrentCullingSet().getFrustum().getCurrentMask();
         const bool culled = isCulled(*node, cullStack, *nv);
         const DatabaseView* const database = culled ? CullTraversal::of(*nv).databaseView() : nullptr;
-        if (database && database->plan && database->plan->isEmerging(*this)) requestAhead(*node, *nv);
+        if (culled && _declared.valid()) {
+            setUndecided(cullStack.getCurrentCullingSet().getFrustum(), before);
+            requestFilesOutOfView(*node, cullStack, *nv);
+        } else if (database && database->plan && database->plan->isEmerging(*this)) {
+            requestAhead(*node, *nv);
+        }
         return culled;
     };
     cullOrTraverse(*nv, isCulledHere, [&] { traverse(node, nv); });
@@ -321,12 +338,12 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
     const auto test = [&](const core::PlaneSet& planes, core::PlaneMask& undecided) {
         const core::Side side = sideOf(planes, undecided);
         // what else is known of the view takes time to find
-        if (side == core::Side::Outside || !prepared().horizon)
-            return verdict(side, planes, undecided, nullptr, traversal);
+        if (side == core::Side::Outside || (!prepared().horizon && !isInMap()))
+            return verdict(side, planes, undecided, nullptr, nullptr, traversal);
         const DatabaseView* const view = viewOn(cullStack, traversal);
         if (view && view->plan && view->plan->isOccluded(*this)) return Verdict{core::Side::Outside, Verdict::Terrain};
         const core::HorizonEye* const eye = view ? view->eye : eyeWithoutDatabase(cullStack, nv, traversal);
-        return verdict(side, planes, undecided, eye, traversal);
+        return verdict(side, planes, undecided, eye, view ? view->sight : nullptr, traversal);
     };
     return isCulledByBin(cullStack, nv, traversal, prepared().sphere,
                          [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
@@ -357,7 +374,7 @@ const core::HorizonEye* AnalyticBinCullCallback::eyeWithoutDatabase(osg::CullSta
                                                                     CullTraversal& traversal) const {
     if (_installed || traversal.databaseView()) return nullptr;
     // In a frame of its own the eye would have to be prepared anew for every tile.
-    if (_setup->options.horizonUse != HorizonUse::Given || _frame) return nullptr;
+    if (_setup->options.horizonUse != HorizonUse::Given || _frame || isInMap()) return nullptr;
     const Occluder occluder{ellipsoid(), std::max(0.0, -_setup->options.horizon), _setup->options.inheritViewpoint};
     return traversal.horizonEye(cullStack, nv, occluder);
 }
@@ -367,13 +384,28 @@ core::Side AnalyticBinCullCallback::sideOf(const core::PlaneSet& planes, core::P
 }
 
 Verdict AnalyticBinCullCallback::verdict(core::Side side, const core::PlaneSet& planes, core::PlaneMask undecided,
-                                         const core::HorizonEye* eye, CullTraversal& traversal) const {
+                                         const core::HorizonEye* eye, const core::RegionalSight* sight,
+                                         CullTraversal& traversal) const {
     if (side == core::Side::Outside) return {side, Verdict::Plane};
-    if (eye && isHiddenFrom(*eye)) return {core::Side::Outside, Verdict::Horizon};
+    if (eye && isHiddenFrom(*eye) && (!sight || sight->holds(*prepared().horizon)))
+        return {core::Side::Outside, Verdict::Horizon};
     if (side == core::Side::Straddling && _testsEdges && isBeyondAnEdge(traversal, planes, undecided)) {
         return {core::Side::Outside, Verdict::Edge};
     }
     return {side, Verdict::Plane};
+}
+
+void AnalyticBinCullCallback::requestFilesOutOfView(osg::Node& node, osg::CullStack& cullStack,
+                                                    osg::NodeVisitor& nv) const {
+    const DatabaseView* const view = viewOn(cullStack, CullTraversal::of(nv));
+    const core::HorizonEye* const eye = view ? view->eye : nullptr;
+    if (mayRequestBelow(eye)) requestOutOfView(node, nv, eye);
+}
+
+bool AnalyticBinCullCallback::mayRequestBelow(const core::HorizonEye* eye) const {
+    if (!_declared.valid()) return false;
+    const Prepared& tile = prepared();
+    return !eye || !tile.declaredHorizon || !eye->hides(*tile.declaredHorizon);
 }
 
 bool AnalyticBinCullCallback::isHiddenFrom(const core::HorizonEye& eye) const {
@@ -390,6 +422,8 @@ bool AnalyticBinCullCallback::isBeyondAnEdge(CullTraversal& traversal, const cor
     if (const auto* box = std::get_if<core::OrientedBoxBin>(&tile.bin)) {
         return core::isSeparated(*box, traversal.hull(planes));
     }
+    const auto* quadratic = isInMap() ? std::get_if<core::QuadraticBin>(&tile.bin) : nullptr;
+    if (quadratic) return core::isSeparated(*quadratic, planes, planes.size(), undecided);
     const auto* exact = std::get_if<core::ExactGeodeticBin>(&tile.bin);
     if (!exact && tile.separable) exact = &*tile.separable;
     return exact && core::isSeparated(*exact, planes, planes.size(), undecided);

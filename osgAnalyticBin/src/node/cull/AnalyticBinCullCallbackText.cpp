@@ -16,6 +16,13 @@
 
 namespace osgAnalyticBin {
 
+namespace {
+
+// In place of radii.
+constexpr const char* kMap = "map";
+
+}  // namespace
+
 void AnalyticBinCullCallback::setBinText(const std::string& text) {
     std::istringstream items(text);
     std::string item;
@@ -80,6 +87,7 @@ std::string AnalyticBinCullCallback::getOptionsText() const {
 }
 
 void AnalyticBinCullCallback::setRadiiText(const std::string& text) {
+    if (text == kMap) return setRadii(HUGE_VAL, HUGE_VAL);
     const auto radii = numbersFromText(text, 2);
     if (radii && (*radii)[0] > 0.0 && (*radii)[1] > 0.0) {
         setRadii((*radii)[0], (*radii)[1]);
@@ -89,6 +97,7 @@ void AnalyticBinCullCallback::setRadiiText(const std::string& text) {
 }
 
 std::string AnalyticBinCullCallback::getRadiiText() const {
+    if (isInMap()) return kMap;
     return numbersToText({_setup->equatorialRadius, _setup->polarRadius});
 }
 

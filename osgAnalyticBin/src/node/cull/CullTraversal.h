@@ -6,12 +6,14 @@
 #include "EmergingTiles.h"
 #include "GroundBelow.h"
 #include "NearMeshes.h"
+#include "RequestOrder.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/edge/FrustumHull.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
+#include <osgAnalyticBin/core/horizon/RegionalSight.h>
 
 #include <osg/CullStack>
 #include <osg/NodeVisitor>
@@ -50,7 +52,8 @@ struct DatabaseView {
     const osg::RefMatrix* modelView;
     const osg::RefMatrix* projection;
     core::PlaneSet planes;
-    TilePlan* plan;  // nullptr: none was made
+    TilePlan* plan;                              // nullptr: none was made
+    const core::RegionalSight* sight = nullptr;  // nullptr: the eye sees past no border of a region
 };
 
 /// What one cull visitor knows of the frustum that it is in: prepared once per frustum, read by every tile. Lives in
@@ -97,6 +100,7 @@ public:
         unsigned int resting = 0;  ///< how many of them are left
         std::shared_ptr<FoundOcclusion> occlusion;
         EmergingTiles emerging;
+        osg::ref_ptr<RequestOrder> requests = new RequestOrder;
     };
     [[nodiscard]] LastView& lastView(const Database& database);
 

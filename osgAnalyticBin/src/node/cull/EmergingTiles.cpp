@@ -36,8 +36,8 @@ void EmergingTiles::look(const ShownDatabase& database, const LevelView& view, c
     const double ahead = _isNearLook ? 0.5 * kAhead : kAhead;
     FoundOcclusion then;
     // as the search that will be made there
-    then.eye = view.frameAt(eye + (ahead / seconds + now.reach / glm::length(step)) * step);
-    then.reach = now.reach;
+    then.lastClearance = now.lastClearance;
+    then.aimAlong(view.frameAt(eye + ahead / seconds * step), step);
     const auto span = PictureSpan::of(view, then.eye);
     if (!span) return;
     then.span = *span;

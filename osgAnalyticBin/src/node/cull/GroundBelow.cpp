@@ -4,7 +4,6 @@
 #include "GroundBelow.h"
 
 #include "../../core/EarthScale.h"
-#include "../../core/LocalFrame.h"
 #include "../GlmBridge.h"
 #include "../Inverse.h"
 #include "../install/MeshCulling.h"
@@ -93,7 +92,7 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, osg::Node& mesh, const Anal
                           const core::Ellipsoid& ellipsoid) {
     if (overhang(tile) > 0.0) return false;
     const glm::dvec3 point = ellipsoid.toEcef(eye);
-    const glm::dvec3 up = core::LocalFrame(eye.latitude, eye.longitude).up;
+    const glm::dvec3 up = ellipsoid.up(eye.latitude, eye.longitude);
     // meshes may change: what was found is not believed for long
     constexpr int kMostUses = 16;
     const bool isSame = _mesh.get() == &mesh && _tile.get() == &tile && ++_uses < kMostUses;

@@ -3,7 +3,6 @@
 
 #include "LevelPicture.h"
 
-#include "../../core/LocalFrame.h"
 #include "../GlmBridge.h"
 #include "../Inverse.h"
 
@@ -37,7 +36,7 @@ std::optional<LevelView> LevelView::of(osg::CullStack& cullStack, const core::El
     LevelView view;
     view.pixels = std::min(viewport->width(), viewport->height());
     const core::Geodetic place = ellipsoid.toGeodetic(eye);
-    view.up = core::LocalFrame(place.latitude, place.longitude).up;
+    view.up = ellipsoid.up(place.latitude, place.longitude);
     const glm::dvec3 look = glm::normalize(toWorld({0.0, 0.0, -1.0}));
     const glm::dvec3 level = look - glm::dot(look, view.up) * view.up;
     if (!(view.pixels > 0.0 && glm::length(level) > kLevel)) return std::nullopt;

@@ -62,7 +62,7 @@ const core::EcefMesh* NearMeshes::trianglesNear(const AnalyticBinCullCallback& t
 
 NearMeshes::Known* NearMeshes::meshOf(const AnalyticBinCullCallback& tile, osg::Node& mesh) {
     // meshes may change: what was read is not believed for long
-    constexpr int kMostUses = 4;
+    constexpr int kMostUses = 16;
     Known* known = nullptr;
     for (Known& one : _known) {
         if (one.tile.get() == &tile && one.node.get() == &mesh) known = &one;

@@ -46,12 +46,12 @@ struct Quarter {
 
 class OcclusionSearch {
 public:
-    // For eyes within the reach of the place that is given.
     OcclusionSearch(const ShownDatabase& database, FoundOcclusion& found)
         : _database(database),
           _ellipsoid(database.view.ellipsoid),
           _found(found),
-          _buffer(glm::length(found.eye.origin), found.span.across, found.span.drawing, found.span.depthStep) {}
+          _buffer(glm::length(found.eye.origin), found.span.across, found.span.drawing, found.span.depthStep,
+                  found.eyes) {}
 
     // Returns: whether something was found.
     [[nodiscard]] bool run() {
@@ -62,7 +62,6 @@ public:
         const double nearReach = 1.01 * _found.nearReach;
         const std::optional<double> highest = highestWithin(nearReach);
         if (!highest || !(*highest < 0.0)) return false;
-        _found.lastClearance = std::isfinite(*highest) ? -*highest : nearestInPicture();
         _buffer.setLowest(*highest / nearReach);
         for (const auto& [nearest, number] : _order) {
             const Quarter& quarter = _quarters[number];
@@ -70,6 +69,7 @@ public:
             addEarth(quarter);
             _candidates[quarter.candidate].isHidden = false;
         }
+        _found.lastClearance = std::min(-*highest, _buffer.nearestEarth());
         _found.covered = covered();
         _found.findings.clear();
         for (const Candidate& candidate : _candidates) {
@@ -89,7 +89,7 @@ private:
         if (bin.empty() || !std::isfinite(altitude.lower) || !std::isfinite(altitude.upper)) return false;
         Candidate candidate{&shown, HUGE_VAL, 0.0, true, false};
         const GeodeticBin drawn = bin.withAltitude(altitude);
-        const auto hulls = core::hullsOfQuarters(_ellipsoid, drawn, tile.getBin().margin() + _found.reach, _found.eye);
+        const auto hulls = core::hullsOfQuarters(_ellipsoid, drawn, tile.getBin().margin(), _found.eye);
         candidate.size = 2.0 * glm::distance(hulls.back().corners.front(), hulls.back().corners.back());
         std::size_t number = 0;
         for (const BinHull& hull : hulls) {
@@ -104,14 +104,6 @@ private:
         return true;
     }
 
-    // Metres along `forward`.
-    [[nodiscard]] double nearestInPicture() const {
-        const auto first = std::find_if(_order.begin(), _order.end(), [this](const auto& place) {
-            return !_quarters[place.second].outline.isBeside;
-        });
-        return first == _order.end() ? 0.0 : first->first;
-    }
-
     // Metres above the eye of the highest point of the terrain that is in the picture and within `reach` of the eye.
     // Returns: nullopt where that is not known.
     [[nodiscard]] std::optional<double> highestWithin(double reach) const {
@@ -121,15 +113,15 @@ private:
         double highest = -HUGE_VAL;
         std::vector<std::size_t> tiles;
         for (const auto& [nearest, number] : _order) {
-            if (nearest > reach) break;
+            if (nearest - _found.eyes.y > reach) break;
             const Quarter& quarter = _quarters[number];
             const bool isKnown = std::find(tiles.begin(), tiles.end(), quarter.candidate) != tiles.end();
             if (isKnown || quarter.outline.isBeside) continue;
             if (tiles.size() == NearMeshes::kMostTiles) return std::nullopt;
             tiles.push_back(quarter.candidate);
             const TilePlan::ShownTile& tile = *_candidates[quarter.candidate].tile;
-            const double margin = tile.tile->getBin().margin() + _found.reach;
-            const double radius = (reach + 2.0 * margin) * (1.0 + widest);
+            const glm::dvec3 margin = _found.eyes + tile.tile->getBin().margin();
+            const double radius = (reach + 2.0 * std::max(margin.x, margin.y)) * (1.0 + widest);
             const core::EcefMesh* const mesh = meshes.trianglesNear(*tile.tile, *tile.mesh, _found.eye, radius);
             if (!mesh) return std::nullopt;
             highest = std::max(highest, highestOf(*mesh, reach, margin));
@@ -137,8 +129,8 @@ private:
         return highest;
     }
 
-    // The same of triangles that may be `margin` metres away from their place.
-    [[nodiscard]] double highestOf(const core::EcefMesh& mesh, double reach, double margin) const {
+    // The same of triangles that may be `margin` metres away from their place, along each axis.
+    [[nodiscard]] double highestOf(const core::EcefMesh& mesh, double reach, const glm::dvec3& margin) const {
         const auto& [eye, right, ahead, up] = _found.eye;
         // inside is where p.normal >= offset
         struct HalfSpace {
@@ -146,9 +138,9 @@ private:
             double offset;
         };
         const auto [left, most] = _found.span.across;
-        const std::array<HalfSpace, 4> wedge{HalfSpace{ahead, -margin}, HalfSpace{-ahead, -reach - margin},
-                                             HalfSpace{right - left * ahead, -margin * (1.0 + std::abs(left))},
-                                             HalfSpace{most * ahead - right, -margin * (1.0 + std::abs(most))}};
+        const std::array<HalfSpace, 4> wedge{HalfSpace{ahead, -margin.y}, HalfSpace{-ahead, -reach - margin.y},
+                                             HalfSpace{right - left * ahead, -margin.x - margin.y * std::abs(left)},
+                                             HalfSpace{most * ahead - right, -margin.x - margin.y * std::abs(most)}};
         double highest = -HUGE_VAL;
         std::vector<double> forward(mesh.size());
         for (std::size_t i = 0; i < mesh.size(); ++i) forward[i] = glm::dot(mesh.vertex(i) - eye, ahead);
@@ -156,7 +148,7 @@ private:
         for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
             const std::uint32_t* const corners = &mesh.triangles[i];
             const auto [least, greatest] = std::minmax({forward[corners[0]], forward[corners[1]], forward[corners[2]]});
-            if (least > reach + margin || greatest < -margin) continue;
+            if (least > reach + margin.y || greatest < -margin.y) continue;
             polygon.clear();
             for (std::size_t k = 0; k < 3; ++k) polygon.push_back(mesh.vertex(corners[k]) - eye);
             for (const HalfSpace& half : wedge) {
@@ -170,7 +162,7 @@ private:
                 }
                 polygon.swap(clipped);
             }
-            for (const glm::dvec3& point : polygon) highest = std::max(highest, glm::dot(point, up) + margin);
+            for (const glm::dvec3& point : polygon) highest = std::max(highest, glm::dot(point, up) + margin.z);
         }
         return highest;
     }
@@ -215,10 +207,7 @@ private:
         // the cell of the whole tile is added once
         const std::size_t coarsest = candidate.isHidden && isTileOverRegion ? 1 : 2;
         for (; cells >= coarsest; cells /= 2) plates->appendColumns(cells, quarter.number, depth, _found.eye, _columns);
-        for (core::EarthColumn& column : _columns) {
-            column.error += _found.reach;
-            _buffer.add(column);
-        }
+        for (const core::EarthColumn& column : _columns) _buffer.add(column);
     }
 
     const ShownDatabase& _database;
@@ -239,8 +228,32 @@ bool FoundOcclusion::Tile::operator==(const Tile& other) const {
            bin == other.bin;
 }
 
+void FoundOcclusion::aimAlong(const core::Frame& from, const glm::dvec3& step) {
+    constexpr double kViews = 16.0;  // to the middle of the way that is foreseen
+    // Shares of the clearance: farther, terrain near the eye hides too little. What is straight ahead only grows.
+    constexpr double kAhead = 0.25, kAside = 0.03;
+    constexpr double kWobble = 0.02;  // of the way
+    // a camera that only turns has an eye that is rounded anew in each view
+    const double rounding = 1e-9 * glm::length(from.origin);
+    const glm::dvec3 along(glm::dot(step, from.x), glm::dot(step, from.y), glm::dot(step, from.z));
+    const double aside = std::hypot(along.x, along.z), length = glm::length(step);
+    const double views =
+        std::min({kViews, kAside * lastClearance / (aside + kWobble * length), kAhead * lastClearance / length});
+    eye = from;
+    eyes = glm::dvec3(rounding);
+    if (!(length > rounding && views > 0.0)) return;
+    eye.origin += views * step;
+    eyes += (1.0 + kWobble) * views * glm::abs(along) + kWobble * views * length;
+}
+
+bool FoundOcclusion::holds(const glm::dvec3& place) const {
+    const glm::dvec3 from = place - eye.origin;
+    return std::abs(glm::dot(from, eye.x)) <= eyes.x && std::abs(glm::dot(from, eye.y)) <= eyes.y &&
+           std::abs(glm::dot(from, eye.z)) <= eyes.z;
+}
+
 bool FoundOcclusion::isJump(const glm::dvec3& step) const {
-    constexpr double kJump = 0.1;  // of the clearance
+    constexpr double kJump = 0.5;  // of the clearance
     return glm::length(step) >= kJump * lastClearance;
 }
 

@@ -19,7 +19,7 @@
 
 namespace osgAnalyticBin {
 
-/// What terrain hides from every eye within some metres of a place. It is kept from view to view, because finding it
+/// What terrain hides from every eye near a place. It is kept from view to view, because finding it
 /// out takes longer than all other culling.
 struct FoundOcclusion {
     /// A tile, as it was then.
@@ -37,7 +37,7 @@ struct FoundOcclusion {
     std::vector<Tile> tiles;        ///< all that were shown
     std::vector<Finding> findings;  ///< of the tiles
     core::Frame eye{};              ///< the place, and the axes of the picture
-    double reach = 0.0;             ///< metres from the place
+    glm::dvec3 eyes{0.0};           ///< metres that eyes may be away from the place, along each axis of the picture
     PictureSpan span{};             ///< of the picture
     double nearReach = 0.0;         ///< metres that near planes reach at most
     std::optional<core::GeodeticBin> region;
@@ -51,14 +51,20 @@ struct FoundOcclusion {
     double lastClearance = 0.0;   ///< metres from the eye to terrain in the picture, roughly
     /// @}
 
+    /// Aims at the views of an eye that goes on with this step from view to view, from `from` on.
+    void aimAlong(const core::Frame& from, const glm::dvec3& step);
+
+    /// Whether this is one of the eyes.
+    [[nodiscard]] bool holds(const glm::dvec3& place) const;
+
     /// Whether the eye has moved too far since the last view for a motion that goes on.
     [[nodiscard]] bool isJump(const glm::dvec3& step) const;
 };
 
 /// Looks for shown tiles behind the terrain of others.
 /// Requires: a plan that has what is shown; of `found`: everything but findings, and the tiles.
-/// Guarantee: every line of sight to a tile that is found hidden meets the mesh of another shown tile before, for every
-/// eye within the reach; source: doc/theory/occlusion.md, sections 4 and 5.
+/// Guarantee: every line of sight to a tile that is found hidden meets the mesh of another shown tile before, for all of
+/// the eyes; source: doc/theory/occlusion.md, sections 4 and 5.
 /// Returns: false where the near plane may cut into terrain, or where the place of a tile is not known.
 /// Cost: a sort of the shown tiles, and a few microseconds for each that is not hidden.
 [[nodiscard]] bool findOccluded(const ShownDatabase& database, FoundOcclusion& found);

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <osgAnalyticBin/core/horizon/Horizon.h>
+
 #include <osg/Node>
 #include <osg/NodeVisitor>
 
@@ -13,5 +15,10 @@ namespace osgAnalyticBin {
 /// first. PagedLODs that choose by pixels, and those below transforms, are passed over. Does nothing where the cull
 /// visitor has no request handler. `cullVisitor`: it is at the node, or at its parent.
 void requestAhead(osg::Node& node, osg::NodeVisitor& cullVisitor);
+
+/// The same for a tile that is out of view with all its descendants that are loaded, where the others may be in view:
+/// requests no files but those that OSG would request by its spheres, and none below tiles whose descendants are known.
+/// PagedLODs of all kinds count. `eye`: nothing is requested behind its horizon; null: there is none.
+void requestOutOfView(osg::Node& node, osg::NodeVisitor& cullVisitor, const core::HorizonEye* eye);
 
 }  // namespace osgAnalyticBin

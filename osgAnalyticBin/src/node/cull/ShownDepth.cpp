@@ -354,8 +354,6 @@ std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& databas
             depth = std::min(2.0 * depth + step, deepest);
             continue;
         }
-        const bool isPastBorder = database.region && !database.region->holdsHorizon(*eye, database.view.planes);
-        if (isPastBorder) return std::nullopt;
         LowestShown lowest(database, &*eye, place, deepest);
         lowest.search(database.root);
         if (lowest.hasHole()) return std::nullopt;
@@ -382,7 +380,7 @@ std::optional<core::HorizonEye> eyeAboveDepth(const ShownDatabase& database, con
     return isTrusted(database, lowest, place) ? eye : std::nullopt;
 }
 
-bool planWithoutHorizon(const ShownDatabase& database, const Viewpoint& viewpoint) {
+bool planInMap(const ShownDatabase& database, const Viewpoint& viewpoint) {
     const std::optional<core::Geodetic> place = placeOf(viewpoint, database.view.ellipsoid);
     LowestShown lowest(database, nullptr, place, kUnknownDepth);
     lowest.search(database.root);

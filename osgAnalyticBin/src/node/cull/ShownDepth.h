@@ -34,12 +34,13 @@ struct ShownDatabase {
 /// far below the ellipsoid, do not count. Nothing at all is drawn below `deepest` (metres), infinite where no altitude
 /// is declared. `depth` (metres) is where the search starts, best that of the last frame; it returns the depth found.
 /// Requires: tiles that cover the globe, or the region, without gaps.
-/// Guarantee: nothing is hidden that is seen past the shown surfaces; the eye's occluder is no deeper than `depth` was
+/// Guarantee: nothing is hidden that is seen past the shown surfaces, by lines of sight that stay over the tiles until
+/// they meet the occluder; the eye's occluder is no deeper than `depth` was
 /// or 1.05 times the depth found, but for eyes below the ellipsoid; tests: ShownDepth.*, HoledGlobe.*.
 /// Returns: nullopt when something of unknown depth is shown and no altitude is declared, when nothing can be hidden,
-/// when a tile in view may not be drawn or can be seen through, when the eye sees past the border of a region, and when
-/// the eye is not known to be above the ground below it. Cost: one short test for every tile shown on the near side of
-/// the horizon. Source: doc/theory/horizon.md, section 8.
+/// when a tile in view may not be drawn or can be seen through, and when the eye is not known to be above the ground
+/// below it. Cost: one short test for every tile shown on the near side of the horizon. Source: doc/theory/horizon.md,
+/// section 8.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& database,
                                                                                         const Viewpoint& viewpoint,
                                                                                         double deepest, double& depth);
@@ -48,8 +49,8 @@ struct ShownDatabase {
 [[nodiscard]] std::optional<core::HorizonEye> eyeAboveDepth(const ShownDatabase& database, const Viewpoint& viewpoint,
                                                             double depth);
 
-/// Makes the plan of what is shown where no horizon can be used.
+/// Makes the plan of what is shown of a map, which has no horizon.
 /// Returns: whether all that is shown in view is drawn and opaque, and the eye is above the ground below it.
-[[nodiscard]] bool planWithoutHorizon(const ShownDatabase& database, const Viewpoint& viewpoint);
+[[nodiscard]] bool planInMap(const ShownDatabase& database, const Viewpoint& viewpoint);
 
 }  // namespace osgAnalyticBin

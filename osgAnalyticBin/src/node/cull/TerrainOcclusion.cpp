@@ -76,34 +76,29 @@ bool serves(FoundOcclusion& found, const std::vector<FoundOcclusion::Tile>& tile
             const glm::dvec3& eye, const std::optional<PictureSpan>& span, double nearReach) {
     // meshes around the eye may change
     constexpr int kMostUses = 64;
-    return found.uses++ < kMostUses && glm::distance(eye, found.eye.origin) <= found.reach && span &&
-           isWithin(span->across, found.span.across) && span->drawing <= found.span.drawing &&
-           span->depthStep <= found.span.depthStep && nearReach <= found.nearReach &&
-           found.region == regionOf(database) && found.tiles == tiles;
+    return found.uses++ < kMostUses && found.holds(eye) && span && isWithin(span->across, found.span.across) &&
+           span->drawing <= found.span.drawing && span->depthStep <= found.span.depthStep &&
+           nearReach <= found.nearReach && found.region == regionOf(database) && found.tiles == tiles;
 }
 
 // Prepares a search that serves as many of the next views as it can, if the camera goes on as it does.
 void aim(FoundOcclusion& found, const LevelView& view, const glm::dvec3& eye, const PictureSpan& span,
          const std::optional<PictureSpan>& spanThen) {
-    constexpr double kViews = 8.0;         // to the middle of the way that is foreseen
-    constexpr double kOfClearance = 0.03;  // farther, terrain near the eye hides too little
-    constexpr double kMostTurned = 0.1;    // of the picture's width
+    constexpr double kViews = 8.0;       // for which a turn is foreseen
+    constexpr double kMostTurned = 0.1;  // of the picture's width
+    // the vertical turns as the eye moves
+    constexpr double kLeastTurned = 1e-3;
     const glm::dvec3 step = eye - found.lastEye;
-    const double length = glm::length(step);
-    // a camera that only turns has an eye that is rounded anew in each view
-    const double rounding = 1e-9 * glm::length(eye);
-    found.eye = view.frameAt(eye);
-    found.reach = rounding;
+    const bool goesOn = spanThen && !found.isJump(step);
+    found.aimAlong(view.frameAt(eye), goesOn ? step : glm::dvec3(0.0));
     found.span = span;
     found.span.drawing *= 1.25;
     found.span.depthStep *= 1.25;
-    if (!spanThen || found.isJump(step)) return;
-    if (length > rounding) {
-        found.reach = std::max(rounding, std::min(kViews * length, kOfClearance * found.lastClearance));
-        found.eye.origin += 0.999 * found.reach / length * step;
-    }
-    const double most = kMostTurned * span.across.width();
-    const auto room = [&](double turned) { return std::clamp(kViews * turned, 0.0, most); };
+    if (!goesOn) return;
+    const double width = span.across.width();
+    const auto room = [&](double turned) {
+        return std::clamp(kViews * turned, kLeastTurned * width, kMostTurned * width);
+    };
     found.span.across.lower -= room(found.lastAcross.lower - spanThen->across.lower);
     found.span.across.upper += room(spanThen->across.upper - found.lastAcross.upper);
 }

@@ -121,7 +121,8 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
     if (!isSame) return false;
     _nodes[slot] = &child;
     _block->addMember(slot);
-    _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), typeid(child) == typeid(osg::PagedLOD),
+    _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child),
+                      typeid(child) == typeid(osg::PagedLOD) || typeid(child) == typeid(Carrier),
                       tile->getInstalledTile()->isSeeThrough(), meshPartsOf(child)};
     tile->getInstalledTile()->joinFamily(*_block, slot);
     // osgUtil::Optimizer may have changed the form of the mesh: the new form is as good
@@ -178,7 +179,7 @@ void TileFamily::findSeparated(unsigned int first, std::uint64_t candidates, con
         const core::PlaneMask undecided = verdicts.planes.undecided[number];
         const bool isAcrossEdge = (undecided & (undecided - 1)) != 0;
         if (!isAcrossEdge || !_testsEdges) return;
-        const bool isBeyond = hasBit(bins.exact(), number)
+        const bool isBeyond = hasBit(bins.exact(), number) || _ellipsoid->isPlane()
                                   ? bins.isSeparated(number, planes, undecided)
                                   : _members[first + number].tile->isBeyondAnEdge(traversal, planes, undecided);
         if (isBeyond) verdicts.separated |= std::uint64_t{1} << number;
@@ -189,10 +190,13 @@ void TileFamily::lookUp(const osg::Group& group, unsigned int first, core::Plane
                         const DatabaseView& view, CullTraversal& traversal, Verdicts& verdicts) const {
     if (!view.plan || !view.plan->find(*this, first, undecided, verdicts)) {
         test(group, first, view.planes, undecided, view.eye, traversal, verdicts);
-    } else if (!view.eye && verdicts.hidden != 0) {
-        findSeparated(first, verdicts.members & verdicts.hidden, view.planes, traversal, verdicts);
-        verdicts.hidden = 0;
     }
+    if (verdicts.hidden == 0 || (view.eye && !view.sight)) return;
+    // the plan does not look at borders, and may be that of an eye which came to nothing
+    std::uint64_t seen = verdicts.hidden;
+    if (view.eye) seen &= ~_block->partFrom(first).bins.heldIn(*view.sight, seen);
+    findSeparated(first, verdicts.members & seen, view.planes, traversal, verdicts);
+    verdicts.hidden &= ~seen;
 }
 
 // Which of the tiles are culled, one bit each.
@@ -207,7 +211,7 @@ std::uint64_t TileFamily::culled(unsigned int first, const Verdicts& verdicts, c
         const AnalyticBinCullCallback& tile = *_members[first + number].tile;
         core::PlaneMask undecided = verdicts.planes.undecided[number];
         const core::Side side = tile.sideOf(view.planes, undecided);
-        const Verdict verdict = tile.verdict(side, view.planes, undecided, view.eye, traversal);
+        const Verdict verdict = tile.verdict(side, view.planes, undecided, view.eye, view.sight, traversal);
         const std::uint64_t bit = std::uint64_t{1} << number;
         if (verdict.side == core::Side::Outside) culled |= bit;
         if (verdict.side == core::Side::Inside) inside |= bit;
@@ -234,11 +238,11 @@ std::uint64_t TileFamily::culled(unsigned int first, const Verdicts& verdicts, c
     return culled;
 }
 
-// A plain PagedLOD without other callbacks is entered as osgUtil::CullVisitor does it, but for the calls that lead to
-// the tile's own callback, which would do nothing: its family has tested it.
+// A plain PagedLOD or carrier without other callbacks is entered as osgUtil::CullVisitor does it, but for the calls
+// that lead to the tile's own callback, which would do nothing: its family has tested it.
 void TileFamily::enter(osg::Node& child, const Member& member, osg::NodeVisitor& nv, CullTraversal& traversal) {
     const bool isAlone = child.getCullCallback() == member.tile && !member.tile->getNestedCallback();
-    if (!member.isPlainlyPaged || !isAlone || child.getCullingActive() || typeid(nv) != typeid(osgUtil::CullVisitor)) {
+    if (!member.isPlain || !isAlone || child.getCullingActive() || typeid(nv) != typeid(osgUtil::CullVisitor)) {
         traversal.setKept(&child);
         child.accept(nv);
         traversal.setKept(nullptr);
@@ -269,7 +273,12 @@ void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::Cull
         isChanged = isChanged || verdicts.lacksTiles;
         const std::uint64_t culled = this->culled(first, verdicts, nv, cullStack, view, traversal);
         const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
-        forEachBit(verdicts.members & culled & verdicts.emerging,
+        const std::uint64_t loadedOnly = first < _block->size() ? _block->partFrom(first).loadedOnly : 0;
+        forEachBit(verdicts.members & culled & loadedOnly, [&](unsigned int number) {
+            if (!view.eye || !_block->isDeclaredHidden(first + number, *view.eye))
+                requestOutOfView(*group.getChild(first + number), nv, view.eye);
+        });
+        forEachBit(verdicts.members & culled & verdicts.emerging & ~loadedOnly,
                    [&](unsigned int number) { requestAhead(*group.getChild(first + number), nv); });
         forEachBit(lowestBits(here) & ~culled, [&](unsigned int number) {
             if (first + number >= group.getNumChildren()) return;

@@ -62,7 +62,7 @@ public:
     struct Member {
         osg::ref_ptr<const AnalyticBinCullCallback> tile;
         osg::PagedLOD* paged = nullptr;  ///< the node, if it is one
-        bool isPlainlyPaged = false;     ///< an osg::PagedLOD, and not of a class derived from it
+        bool isPlain = false;            ///< an osg::PagedLOD, and not of a class derived from it, or a carrier
         bool isSeeThrough = false;
         MeshParts meshParts;
     };

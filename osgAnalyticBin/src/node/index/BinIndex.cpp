@@ -76,7 +76,7 @@ osg::ref_ptr<BinIndex> readByOsg(const std::string& name, const osgDB::Options* 
 }  // namespace
 
 BinIndex::BinIndex(const BinIndex& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop), _source(other._source), _files(other._files) {}
+    : osg::Object(other, copyop), _source(other._source), _files(other._files), _stamps(other._stamps) {}
 
 BinIndex::~BinIndex() = default;
 
@@ -107,7 +107,8 @@ std::size_t BinIndex::tileCount() const {
 }
 
 std::uint64_t tileFingerprint(const FoundTile& tile) {
-    std::uint64_t result = 0;
+    // the same mesh on a globe is another tile
+    std::uint64_t result = tile.frame.ellipsoid && isMapPlane(*tile.frame.ellipsoid) ? 1 : 0;
     for (const auto& mesh : tile.meshes) {
         // of a single mesh its own number; the factor is odd, so that nothing gets lost
         result = result * 31 + surfaceFingerprint(*mesh, tile.frame.localToEcef);

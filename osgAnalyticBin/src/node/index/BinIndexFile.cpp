@@ -7,6 +7,8 @@
 //   for each file, in order of their names: u32 bytes shared with the name before  u32 further bytes  u32 tiles  these
 //   bytes for each tile, in order of the files: 4 doubles south north west east (radians)  5 floats low high margin sag
 //   own-low (metres)  u32 flags (1: the bin is valid)  u64 fingerprint u32 CRC-32 of everything before
+// and, where the index has stamps: u64 number of files  for each, in order of their names: its name as above, u64 bytes
+//   i64 time  i64 nanoseconds  u32 CRC-32 of everything before
 // The checksum is Boost.CRC's: the core needs Boost's headers anyway, so that no further library is linked for it.
 
 #include <osgAnalyticBin/BinIndex.h>
@@ -151,15 +153,40 @@ BinIndex::Entry readTile(Reader& in) {
     return tile;
 }
 
+std::size_t sharedBytes(const std::string& a, const std::string& b) {
+    const auto ends =
+        std::mismatch(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(std::min(a.size(), b.size())), b.begin());
+    return static_cast<std::size_t>(ends.first - a.begin());
+}
+
+void writeStamps(Writer& out, const BinIndex::Stamps& stamps) {
+    out.number(static_cast<std::uint64_t>(stamps.size()));
+    std::string before;
+    for (const auto& [name, stamp] : stamps) {
+        const std::size_t shared = sharedBytes(before, name);
+        out.number(static_cast<std::uint32_t>(shared));
+        out.number(static_cast<std::uint32_t>(name.size() - shared));
+        out.bytes(std::string_view(name).substr(shared));
+        out.number(stamp.size);
+        out.number(stamp.time);
+        out.number(stamp.nanoseconds);
+        before = name;
+    }
+    out.number(out.checksum());
+}
+
 struct FileHead {
     std::string name;
     std::uint32_t tiles = 0;
 };
 
-std::size_t sharedBytes(const std::string& a, const std::string& b) {
-    const auto ends =
-        std::mismatch(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(std::min(a.size(), b.size())), b.begin());
-    return static_cast<std::size_t>(ends.first - a.begin());
+// Returns: the name that follows the bytes that it shares with the one before.
+std::string readName(Reader& in, std::uint32_t shared, std::uint32_t further, const std::string* before) {
+    if (shared > (before ? before->size() : 0) || further > kLongestName) throw Refusal{kDamaged};
+    std::string name = before ? before->substr(0, shared) : std::string();
+    name += in.bytes(further);
+    if (name.size() > kLongestName || (before && name <= *before)) throw Refusal{kDamaged};
+    return name;
 }
 
 FileHead readFileHead(Reader& in, const FileHead* before) {
@@ -167,11 +194,30 @@ FileHead readFileHead(Reader& in, const FileHead* before) {
     const auto further = in.number<std::uint32_t>();
     FileHead head;
     head.tiles = in.number<std::uint32_t>();
-    if (shared > (before ? before->name.size() : 0) || further > kLongestName) throw Refusal{kDamaged};
-    head.name = before ? before->name.substr(0, shared) : std::string();
-    head.name += in.bytes(further);
-    if (head.name.size() > kLongestName || (before && head.name <= before->name)) throw Refusal{kDamaged};
+    head.name = readName(in, shared, further, before ? &before->name : nullptr);
     return head;
+}
+
+BinIndex::Stamps readStamps(Reader& in) {
+    BinIndex::Stamps stamps;
+    const auto files = in.number<std::uint64_t>();
+    for (std::uint64_t i = 0; i < files; ++i) {
+        const auto shared = in.number<std::uint32_t>();
+        const auto further = in.number<std::uint32_t>();
+        const std::string* const before = stamps.empty() ? nullptr : &stamps.rbegin()->first;
+        const std::string name = readName(in, shared, further, before);
+        BinIndex::Stamp stamp;
+        stamp.size = in.number<std::uint64_t>();
+        stamp.time = in.number<std::int64_t>();
+        stamp.nanoseconds = in.number<std::int64_t>();
+        stamps.emplace_hint(stamps.end(), name, stamp);
+    }
+    return stamps;
+}
+
+void requireChecksum(Reader& in) {
+    const std::uint32_t checksum = in.checksum();
+    if (in.number<std::uint32_t>() != checksum) throw Refusal{kDamaged};
 }
 
 std::vector<FileHead> readFileHeads(Reader& in, std::uint64_t files, std::uint64_t tiles) {
@@ -211,8 +257,11 @@ osg::ref_ptr<BinIndex> readIndex(std::istream& stream) {
         for (std::uint32_t i = 0; i < head.tiles; ++i) entries.push_back(readTile(in));
         index->setTiles(head.name, std::move(entries));
     }
-    const std::uint32_t checksum = in.checksum();
-    if (in.number<std::uint32_t>() != checksum) throw Refusal{kDamaged};
+    requireChecksum(in);
+    if (stream.peek() == std::istream::traits_type::eof()) return index;
+    index->setStamps(readStamps(in));
+    requireChecksum(in);
+    if (index->stamps().empty()) throw Refusal{kDamaged};
     if (stream.peek() != std::istream::traits_type::eof()) throw Refusal{"goes on after its end"};
     return index;
 }
@@ -270,6 +319,7 @@ bool BinIndex::write(std::ostream& stream) const {
         for (const Entry& tile : file.second) writeTile(out, tile);
     }
     out.number(out.checksum());
+    if (!_stamps.empty()) writeStamps(out, _stamps);
     return static_cast<bool>(stream);
 }
 

@@ -3,8 +3,6 @@
 
 #include "BinInstaller.h"
 
-#include "../Inverse.h"
-#include "../cull/PlanarBinCullCallback.h"
 #include "../cull/Scoped.h"
 #include "../cull/SeeThrough.h"
 #include "../cull/TileFamily.h"
@@ -16,14 +14,15 @@
 #include "../surface/TilePlates.h"
 #include "ContentWatch.h"
 #include "Coverage.h"
+#include "InstalledTile.h"
 #include "Instances.h"
 #include "MeshCulling.h"
-#include "PlanarFit.h"
 #include "TileCallback.h"
 #include "TileFit.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
+#include <osgAnalyticBin/PhotogrammetrySet.h>
 
 #include <osg/Notify>
 #include <osg/PagedLOD>
@@ -68,16 +67,6 @@ bool isGlobeBroken(const osg::CoordinateSystemNode& node) {
     return node.getEllipsoidModel() && !hasValidRadii(*node.getEllipsoidModel());
 }
 
-// What looks like a tile, where nobody looks for tiles.
-bool hasTileBelow(osg::Node& subgraph) {
-    bool has = false;
-    forEachNode(subgraph, [&has](osg::Node& node) {
-        has = has || hasStoredBin(node) || dynamic_cast<osg::PagedLOD*>(&node) ||
-              dynamic_cast<osgTerrain::TerrainTile*>(&node);
-    });
-    return has;
-}
-
 // Whether a globe is the one that what is above it stands on.
 bool isSameGlobe(const TileFrame& above, const TileFrame& inside) {
     if (!above.ellipsoid || !inside.ellipsoid || above.isProjected || inside.isProjected) return false;
@@ -115,15 +104,26 @@ void BinInstaller::refit(osg::Node& node, Database& database) {
     }
     node.accept(*this);
     placeFamilies();
+    publishTiles(nullptr);
+    database.widenLoaded();
     _refitted = nullptr;
 }
 
-void BinInstaller::finish() {
+void BinInstaller::publishTiles(osg::Node* content) {
+    for (const auto& link : _links) link->isBeingInstalled = false;
+    _links.clear();
+    if (_database) _database->adoption().await(content, std::move(_awaiting));
+    _awaiting.clear();
+}
+
+void BinInstaller::finish(osg::Node* content) {
     for (const auto& [file, coverage] : *_coverage) {
         if (installsBins()) database().noteCoverage(file, coverage);
     }
     _coverage->clear();
     placeFamilies();
+    publishTiles(content);
+    if (!_isReading && _database) _database->widenLoaded();
 }
 
 // Called after the walk: families that are placed during it would need more stack in deep scenes.
@@ -150,6 +150,8 @@ void BinInstaller::installAt(osg::Node& root) {
     if (_database) _database->setOptions(_options);
     root.accept(*this);
     placeFamilies();
+    publishTiles(nullptr);
+    if (_database) _database->widenLoaded();
     if (!isGlobe && _database && installsBins()) attachUpdate(root, *_database);
 }
 
@@ -201,8 +203,10 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const Scoped paging(_paging, PagingByOptions());
     const Scoped coverage(_coverage, std::make_shared<CoverageByFile>());
     (*_coverage)[frame().file].expectGlobe();
-    const std::size_t before = _installed;
+    const std::size_t before = _installed, boxesBefore = _boxes;
     TileFinder::apply(node);
+    // photogrammetry alone is no globe with gaps
+    if (_boxes > boxesBefore && _installed == before && _paging.empty()) _coverage->clear();
     finish();
     if (isRefit) return;
     if (installsBins() && (_installed > before || !_paging.empty())) return attachDatabase(node, *own);
@@ -220,14 +224,12 @@ void BinInstaller::visitTile(FoundTile& tile) {
         return passBy(*tile.node, true);
     }
     if (installsBins() && !hasStoredBin(*tile.node)) {
-        const TerrainShape shape = database().fittedShape();
-        const PlanarFit fit = fitPlanarTile(tile, _options, shape);
-        const bool isOnGlobe = fit.kind == PlanarFit::NotPlanar && tile.frame.ellipsoid;
+        const bool isOnGlobe = tile.frame.ellipsoid && !isMapPlane(*tile.frame.ellipsoid);
         if (!isOnGlobe && isBelowStored()) Database::reportUntold(*linkBetween());
-        if (fit.kind == PlanarFit::Planar) return installPlanar(tile, fit, shape);
-        if (fit.kind == PlanarFit::Contradictory || !tile.frame.ellipsoid) return passBy(*tile.node, true);
+        if (!tile.frame.ellipsoid) return passBy(*tile.node, true);
     }
-    if (installsBins()) return install(tile, hasNewContent);
+    const bool hasGround = !tile.frame.ellipsoid || !installsBins() || database().takes(*tile.frame.ellipsoid);
+    if (installsBins() && hasGround) return install(tile, hasNewContent);
     if (_options.method == Method::None) {
         for (const auto& mesh : tile.meshes) {
             suspendCulling(*mesh);
@@ -238,6 +240,7 @@ void BinInstaller::visitTile(FoundTile& tile) {
 }
 
 void BinInstaller::visitOther(osg::Node& node) {
+    if (isPhotogrammetrySet(node)) return visitSet(*node.asGroup());
     if (node.asDrawable() && hasStoredBin(node)) warnOfDrawable(node);
     // it may have been a tile when bins were last installed
     if (installedTileOf(node) && !dynamic_cast<Carrier*>(&node)) removeCallbacks({&node, {}, frame(), 0, {}});
@@ -267,11 +270,6 @@ void BinInstaller::passBy(osg::Node& node, bool isTile) {
     traverseBelow(node);
 }
 
-void BinInstaller::visitMoving(osg::Transform& node) {
-    removeCallbacksBelow(node);
-    if (installsBins() && hasTileBelow(node)) database().noteStrayTile(frame().file);
-}
-
 // It keeps OSG's own culling; how deep it lies is not known.
 void BinInstaller::visitTooDeep(osg::Node&) {
     if (!installsBins()) return;
@@ -293,6 +291,8 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);
     osg::Node& culled = culledNode(tile, _isReading);
     if (const osg::Matrixd frame = culledFrame(tile, culled); !frame.isIdentity()) callback->setLocalToEcef(frame);
+    if (fit.loaded.valid()) callback->setLoadedBin(fit.loaded, fit.bin);
+    link->isLoadedOnly = fit.loaded.valid();
     if (fit.isScalable) callback->setTerrainShape(shape);
     if (fit.skirt > 0.0) callback->setSkirt(fit.skirt);
     callback->setSurface(fit.surface);
@@ -301,26 +301,20 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     if (!canWait || _options.occlusion == OcclusionUse::On || database().wantsPlates())
         callback->getInstalledTile()->setPlates(tilePlates({tile.meshes, ellipsoid, tile.frame.localToEcef, shape}));
     ++_installed;
-    if (_options.cluster == ClusterUse::Replace) {
+    // a map has no horizon in its place
+    if (_options.cluster == ClusterUse::Replace && !isMapPlane(ellipsoid)) {
         suspendClusterCullingOf(*tile.node);
         for (const auto& mesh : tile.meshes) suspendClusterCulling(*mesh);
     }
     link->callback = callback.get();
+    link->isBeingInstalled = true;
+    _links.push_back(link);
+    if (fit.awaitsIndex && database().adoption().isAwaited()) {
+        callback->getInstalledTile()->keep(*link);
+        _awaiting.push_back({link.get(), tileFingerprint(tile), fit.ownSkirt, !tile.pagedFiles.empty()});
+    }
     noteCovered(tile, fit, *link);
     goOnBelow(tile, *link);
-}
-
-void BinInstaller::installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape) {
-    osg::Node& culled = culledNode(tile, _isReading);
-    const auto mapToLocal = affineInverse(culledFrame(tile, culled));
-    if (!mapToLocal) return passBy(*tile.node, true);
-    // what neighbours lend to edges, and what other techniques make of heights, is not known
-    if (fit.isScalable && (shape.areBoundariesEqual || !shape.isKnown())) return passBy(*tile.node, true);
-    const osg::ref_ptr<PlanarBinCullCallback> callback = new PlanarBinCullCallback(
-        PlanarBin(fit.box, *mapToLocal), fit.isScalable ? std::optional(shape) : std::nullopt, _options);
-    placeCallback(tile, culled, *callback, database());
-    ++_installed;
-    goOnBelow(tile, *linkTo(tile));
 }
 
 osg::ref_ptr<ParentTile> BinInstaller::linkTo(const FoundTile& tile) {

@@ -19,12 +19,11 @@
 namespace osgAnalyticBin {
 
 class BinReadFileCallback;
+struct AwaitingTile;
 class Coverage;
 struct TileFit;
 class Database;
 struct ParentTile;
-struct PlanarFit;
-struct TerrainShape;
 
 /// Visits the loaded part of a database and installs bins on it, as installBins() promises.
 class BinInstaller : public TileFinder {
@@ -44,7 +43,7 @@ public:
     void installAt(osg::Node& root);
 
     /// Number of callbacks installed so far.
-    [[nodiscard]] std::size_t installed() const { return _installed; }
+    [[nodiscard]] std::size_t installed() const { return _installed + _boxes; }
 
     /// Visits a node of the database; called by OSG's traversal.
     void apply(osg::Node& node) override;
@@ -77,15 +76,17 @@ private:
     void continueBelow(Database* database, const TileFrame& frame, const ParentTile* parent);
     // Fits the loaded tiles of an installed database anew.
     void refit(osg::Node& node, Database& database);
-    // Looks whether the tiles of each file cover what they are paged below.
-    void finish();
+    // Looks whether the tiles of each file cover what they are paged below. `content`: what was read; null: a scene.
+    void finish(osg::Node* content = nullptr);
+    // Has others see the tiles.
+    void publishTiles(osg::Node* content);
     void placeFamilies();
 
     [[nodiscard]] bool installsBins() const;
     [[nodiscard]] Database& database();
     void passBy(osg::Node& node, bool isTile);
+    void visitSet(osg::Group& set);
     void install(FoundTile& tile, bool hasNewContent);
-    void installPlanar(FoundTile& tile, const PlanarFit& fit, const TerrainShape& shape);
     [[nodiscard]] osg::ref_ptr<ParentTile> linkTo(const FoundTile& tile);
     void noteCovered(const FoundTile& tile, const TileFit& fit, const ParentTile& link);
     void goOnBelow(const FoundTile& tile, const ParentTile& link);
@@ -108,7 +109,10 @@ private:
     PagingByOptions _paging;
     std::shared_ptr<std::map<std::string, Coverage>> _coverage;  // by file
     std::size_t _installed = 0;
-    std::vector<osg::Node*> _groups;  // that may get families
+    std::size_t _boxes = 0;           // of photogrammetry sets
+    std::vector<osg::Node*> _groups;               // that may get families
+    std::vector<osg::ref_ptr<ParentTile>> _links;  // of tiles that it has installed bins on
+    std::vector<AwaitingTile> _awaiting;
 };
 
 }  // namespace osgAnalyticBin

@@ -6,7 +6,6 @@
 #include "../../core/EarthScale.h"
 #include "../GlmBridge.h"
 #include "../Spheres.h"
-#include "../cull/PlanarBinCullCallback.h"
 #include "../page/Database.h"
 #include "../page/DatabaseCallbacks.h"
 #include "InstalledTile.h"
@@ -15,7 +14,6 @@
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/TileSurface.h>
 
-#include <osg/ComputeBoundsVisitor>
 #include <osg/CoordinateSystemNode>
 #include <osg/Geometry>
 #include <osg/Transform>
@@ -97,6 +95,11 @@ std::uint64_t boundsOf(const osg::Node& mesh) {
 AnalyticBin binAbout(const osg::BoundingSphere& sphere, const core::Ellipsoid& ellipsoid) {
     const glm::dvec3 center = toGlm(osg::Vec3d(sphere.center()));
     const double radius = sphere.radius() * 1.001;
+    if (ellipsoid.isPlane()) {
+        const core::Geodetic low = ellipsoid.toGeodetic(center - radius), high = ellipsoid.toGeodetic(center + radius);
+        return AnalyticBin(core::GeodeticBin({low.latitude, high.latitude}, {low.longitude, high.longitude},
+                                             {low.altitude, high.altitude}));
+    }
     const core::Geodetic middle = ellipsoid.toGeodetic(center);
     const double fromAxis = std::hypot(center.x, center.y);
     // from the nearest centre of curvature
@@ -108,19 +111,6 @@ AnalyticBin binAbout(const osg::BoundingSphere& sphere, const core::Ellipsoid& e
                                          {middle.longitude - east, middle.longitude + east},
                                          {middle.altitude - radius, middle.altitude + radius}));
 }
-
-// The box about a mesh, masked parts included. A terrain tile that is traversed before it has its Terrain never finds
-// it afterwards.
-class BoxOfMesh : public osg::ComputeBoundsVisitor {
-public:
-    BoxOfMesh() { setNodeMaskOverride(~0u); }
-    using osg::ComputeBoundsVisitor::apply;
-    void apply(osg::Group& node) override {
-        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) return traverse(node);
-        const osg::Matrixd matrix = _matrixStack.empty() ? osg::Matrixd() : osg::Matrixd(_matrixStack.back());
-        _bb.expandBy(movedSphere(node.getBound(), matrix));
-    }
-};
 
 // Whether a node is in the scene of a database.
 bool isBelowDatabase(const osg::Node& node) {
@@ -159,17 +149,6 @@ public:
         if (_isMerged) tile->database().noteContent(callback, {content, isScaled || !content.valid()});
     }
 
-    void fitInto(const PlanarBinCullCallback& callback) const {
-        if (!callback.getInstalledTile()) return;
-        BoxOfMesh box;
-        _node.accept(box);
-        bool isHeld = true;
-        for (unsigned int i = 0; i < 8 && isHeld; ++i) {
-            isHeld = callback.getBin().holds(osg::Vec3d(box.getBoundingBox().corner(i)) * _toHere);
-        }
-        if (!isHeld) callback.getInstalledTile()->keepVisible(true);
-    }
-
 private:
     // A mesh that was fitted may stand there in another form, as osgUtil::Optimizer leaves it: its posts tell.
     static bool isHeld(const AnalyticBin& content, const AnalyticBin& bin) {
@@ -197,10 +176,35 @@ private:
 void fitIntoTilesFrom(const osg::Node& node, Content content) {
     for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
         if (const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(at)) content.fitInto(*bin);
-        if (const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(at)) content.fitInto(*planar);
     }
     if (node.asTransform()) content.leave(*node.asTransform());
     for (const osg::Group* const parent : node.getParents()) fitIntoTilesFrom(*parent, content);
+}
+
+// What the tiles next below a node are culled by, together. Returns: false when one of them has no known bin.
+bool uniteTiles(const osg::Node& node, AnalyticBin& united) {
+    if (installedTileOf(node)) {
+        const AnalyticBinCullCallback* const tile = installedBinOf(node);
+        const AnalyticBin shown = tile ? tile->shownBin() : AnalyticBin();
+        united.expandBy(shown);
+        return shown.valid();
+    }
+    const osg::Group* const group = dynamic_cast<const osgTerrain::TerrainTile*>(&node) ? nullptr : node.asGroup();
+    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
+        if (!uniteTiles(*group->getChild(i), united)) return false;
+    }
+    return true;
+}
+
+// Looks whether the tiles from the node upwards that are culled by what is loaded hold what others below are culled by.
+// Those that do were held by the ones above when they were looked at themselves.
+void fitLoadedInto(const osg::Node& node, const AnalyticBin& shown) {
+    if (const AnalyticBinCullCallback* const tile = installedBinOf(node)) {
+        if (!tile->getDeclaredBin().valid() || (shown.valid() && tile->getBin().contains(shown))) return;
+        tile->getInstalledTile()->keepVisible(true);
+        tile->getInstalledTile()->database().noteLoaded(*tile, shown);
+    }
+    for (const osg::Group* const parent : node.getParents()) fitLoadedInto(*parent, shown);
 }
 
 // Says that the mesh of the tile that a watched node belongs to has changed. The next update makes the tile's family
@@ -315,6 +319,9 @@ void ContentWatch::check(const osg::Node& node) const {
         const osg::BoundingSphere& sphere = child.getBound();  // has others look at what is below it, too
         if (const ContentWatch* const watch = ownWatchOf(child)) {
             if (watch->_isPending) watch->check(child);
+            AnalyticBin united;
+            const bool isKnown = uniteTiles(child, united);
+            if (!isKnown || united.valid()) fitLoadedInto(node, isKnown ? united : AnalyticBin());
             _isPending = _isPending || watch->_isPending;
         } else if (isOwnFrame && isFitted(child, true)) {
             ++fitted;

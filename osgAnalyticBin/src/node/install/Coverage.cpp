@@ -88,17 +88,16 @@ core::GeodeticBin Coverage::extents() const {
     if (longitudes.empty()) return {};
     std::sort(longitudes.begin(), longitudes.end(),
               [](const core::Interval& a, const core::Interval& b) { return a.lower < b.lower; });
-    double east = longitudes.front().lower, widest = 0.0, afterWidest = east;
-    const auto goOnTo = [&](double lower, double upper) {
-        if (lower - east > widest) {
-            widest = lower - east;
-            afterWidest = lower;
-        }
-        east = std::max(east, upper);
-    };
-    for (const core::Interval& longitude : longitudes) goOnTo(longitude.lower, longitude.upper);
-    goOnTo(longitudes.front().lower + 2.0 * kPi, east);
-    return {latitude, {afterWidest, afterWidest + 2.0 * kPi - widest}, {0.0, 0.0}};
+    const double west = longitudes.front().lower;
+    double east = west;
+    core::Interval widest{0.0, 0.0};
+    for (const core::Interval& longitude : longitudes) {
+        if (longitude.lower - east > widest.width()) widest = {east, longitude.lower};
+        east = std::max(east, longitude.upper);
+    }
+    // turns would round the small angles of a map
+    if (west + 2.0 * kPi - east >= widest.width()) return {latitude, {west, east}, {0.0, 0.0}};
+    return {latitude, {widest.upper, widest.lower + 2.0 * kPi}, {0.0, 0.0}};
 }
 
 bool Coverage::reachesPoles() const {

@@ -1,14 +1,26 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "../boxes/BoxInstaller.h"
+#include "../index/AutoIndex.h"
+#include "../page/Database.h"
+#include "../page/DatabaseCallbacks.h"
 #include "BinInstaller.h"
+#include "MeshCulling.h"
+#include "TileCallback.h"
 
 #include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/PhotogrammetrySet.h>
 
 #include <osg/NodeCallback>
 #include <osg/Notify>
+#include <osg/PagedLOD>
 #include <osg/ValueObject>
+#include <osgTerrain/TerrainTile>
 
+#include <chrono>
+#include <functional>
+#include <limits>
 #include <typeinfo>
 
 namespace osgAnalyticBin {
@@ -25,7 +37,47 @@ std::size_t install(osg::Node& node, const CullOptions& options, const BinIndex*
     return installer.installed();
 }
 
+// What looks like a tile, where nobody looks for tiles.
+bool hasTileBelow(osg::Node& subgraph) {
+    bool has = false;
+    forEachNode(subgraph, [&has](osg::Node& node) {
+        has = has || hasStoredBin(node) || dynamic_cast<osg::PagedLOD*>(&node) ||
+              dynamic_cast<osgTerrain::TerrainTile*>(&node);
+    });
+    return has;
+}
+
+// Visits the databases that are attached to nodes of a scene.
+void forEachDatabase(osg::Node& node, const std::function<void(Database&)>& visit) {
+    forEachNode(node, [&visit](osg::Node& at) {
+        if (const osg::ref_ptr<Database> database = attachedDatabase(at)) visit(*database);
+    });
+}
+
+// Starts to make an index, if tiles wait for one.
+void makeIndex(osg::Node& node, AutoIndex* index) {
+    bool isAwaited = false;
+    forEachDatabase(node, [&](Database& database) {
+        const bool isAwaitedHere = index && database.adoption().hasWaiting();
+        database.adoption().setIndex(isAwaitedHere ? index : nullptr);
+        isAwaited = isAwaited || isAwaitedHere;
+    });
+    if (isAwaited) index->start();
+}
+
 }  // namespace
+
+// Culled by boxes of its vertices, whatever stands around it.
+void BinInstaller::visitSet(osg::Group& set) {
+    if (_options.method == Method::Sphere) return removeBoxes(set);
+    _boxes += installBoxes(set, _options);
+}
+
+void BinInstaller::visitMoving(osg::Transform& node) {
+    if (isPhotogrammetrySet(node)) return visitSet(node);
+    removeCallbacksBelow(node);
+    if (installsBins() && hasTileBelow(node)) database().noteStrayTile(frame().file);
+}
 
 std::size_t setCullOptions(osg::Node& node, const CullOptions& options) {
     BinInstaller installer(options);
@@ -40,13 +92,31 @@ std::size_t installBins(osg::Node& node, const CullOptions& options) {
 
 std::size_t installBins(osg::Node& node, const CullOptions& options, const std::string& databaseFileName,
                         const osgDB::Options* readOptions) {
-    osg::ref_ptr<BinIndex> index;
-    if (options.index && !databaseFileName.empty()) {
-        std::string error;
-        index = readBinIndex(databaseFileName, readOptions, error);
-        if (!error.empty()) OSG_WARN << "osgAnalyticBin: " << error << std::endl;
-    }
-    return install(node, options, index.get());
+    const ChosenIndex chosen = chooseIndex(databaseFileName, readOptions, options.index);
+    const std::size_t installed = install(node, options, chosen.index.get());
+    makeIndex(node, chosen.making.get());
+    return installed;
+}
+
+bool isIndexAwaited(osg::Node& node) {
+    bool isAwaited = false;
+    forEachDatabase(node, [&isAwaited](Database& database) {
+        const osg::ref_ptr<AutoIndex> index = database.adoption().index();
+        isAwaited = isAwaited || (index && !index->isWhole());
+    });
+    return isAwaited;
+}
+
+bool waitForIndex(osg::Node& node, double seconds) {
+    bool isWhole = true;
+    forEachDatabase(node, [&](Database& database) {
+        const osg::ref_ptr<AutoIndex> index = database.adoption().index();
+        if (!index) return;
+        isWhole = index->waitUntilWhole(std::chrono::duration<double>(seconds)) && isWhole;
+        database.adoption().adopt(database, std::numeric_limits<std::size_t>::max());
+        database.widenLoaded();
+    });
+    return isWhole;
 }
 
 std::size_t installBinsByIndex(osg::Node& node, const CullOptions& options, const BinIndex& index) {

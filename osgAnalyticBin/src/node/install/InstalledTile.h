@@ -84,6 +84,9 @@ public:
     /// Whether a change of the mesh was noticed since bins were installed.
     [[nodiscard]] bool isMeshChanged() const { return _isMeshChanged.load(std::memory_order_relaxed); }
 
+    /// Keeps what others observe as long as the tile is there.
+    void keep(const osg::Referenced& observed) { _kept = &observed; }
+
     /// Switches OSG's sphere test off on a node where it is on.
     void suspendSphere(osg::Node& node);
 
@@ -113,6 +116,7 @@ private:
     bool _isSlotFilled = false;
     std::atomic<bool> _isSeeThrough{false};
     std::atomic<bool> _isMoved{false};
+    osg::ref_ptr<const osg::Referenced> _kept;
     bool _wasCulledActive = false;                    // of the culled node, which owns this and must not be owned by it
     std::vector<osg::ref_ptr<osg::Node>> _suspended;  // other nodes
     std::size_t _suspensions = 0;                     // calls of suspendSphere()

@@ -3,7 +3,6 @@
 
 #include "TileCallback.h"
 
-#include "../cull/PlanarBinCullCallback.h"
 #include "../cull/TileFamily.h"
 #include "../page/PagingExpiry.h"
 #include "../surface/SurfaceMesh.h"
@@ -13,11 +12,16 @@
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 
+#include <osg/Drawable>
 #include <osg/Group>
+#include <osg/NodeVisitor>
 #include <osg/PagedLOD>
 #include <osg/Transform>
+#include <osgTerrain/TerrainTile>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -26,11 +30,8 @@ namespace {
 
 // The options that a callback of ours was made with. Returns: nullptr for any other callback.
 const CullOptions* optionsOf(const osg::Callback& callback) {
-    if (const auto* geocentric = dynamic_cast<const AnalyticBinCullCallback*>(&callback)) {
-        return &geocentric->getCullOptions();
-    }
-    const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(&callback);
-    return planar ? &planar->getCullOptions() : nullptr;
+    const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(&callback);
+    return bin ? &bin->getCullOptions() : nullptr;
 }
 
 osg::Callback* installedCallback(osg::Node& node) {
@@ -46,28 +47,48 @@ osg::Node* installedNode(osg::Node& node) {
     return carrier && installedCallback(*carrier) ? carrier : nullptr;
 }
 
-// Whether a node of a mesh is far smaller than the mesh: a tree or a house on it, of which a kept tile need not show
-// anything.
-bool isOnSurface(const osg::Node& node, const osg::Node& mesh) {
-    constexpr float kLargest = 0.25f;
-    const osg::BoundingSphere& bound = node.getBound();
-    return bound.valid() && bound.radius() < kLargest * mesh.getBound().radius();
-}
+// Finds the nodes above the large parts of a mesh, which are its surface. What else it holds are trees and houses on
+// the surface, alone or in groups of any size, of which a kept tile need not show anything.
+class SurfacePaths : public osg::NodeVisitor {
+public:
+    explicit SurfacePaths(osg::Node& mesh) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {
+        setNodeMaskOverride(~0u);
+        mesh.accept(*this);
+        if (_parts.size() < 2 || !areSound()) {
+            _nodes.clear();
+            return;
+        }
+        constexpr float kSmallest = 0.25f;
+        const float least = kSmallest * mesh.getBound().radius();
+        for (const auto& [part, path] : _parts) {
+            const osg::BoundingSphere& bound = part->getBound();
+            const bool isSmall = bound.valid() && bound.radius() < least;
+            if (!isSmall) _nodes.insert(path.begin(), path.end());
+        }
+    }
+    void apply(osg::Node& node) override {
+        if (dynamic_cast<osgTerrain::TerrainTile*>(&node)) {
+            _nodes.insert(getNodePath().begin(), getNodePath().end());
+        } else {
+            traverse(node);
+        }
+    }
+    void apply(osg::Drawable& part) override { _parts.emplace_back(&part, getNodePath()); }
 
-// Whether a mesh has a surface and other parts, which may stand on it. Where all parts are small, they are the surface.
-bool hasSurfaceAndMore(osg::Node& mesh) {
-    std::vector<const osg::Drawable*> parts;
-    forEachNode(mesh, [&parts](osg::Node& node) {
-        if (const osg::Drawable* const drawable = node.asDrawable()) parts.push_back(drawable);
-    });
-    if (parts.size() < 2) return false;
-    thread_local SurfaceMesh read;
-    // OSG's bounds need vertices for all indices
-    const bool isSound = std::all_of(parts.begin(), parts.end(),
-                                     [](const osg::Drawable* part) { return readMesh(*part, osg::Matrixd(), read); });
-    return isSound && std::any_of(parts.begin(), parts.end(),
-                                  [&](const osg::Drawable* part) { return !isOnSurface(*part, mesh); });
-}
+    // Where all parts are small, they are the surface.
+    [[nodiscard]] bool has(const osg::Node& node) const { return _nodes.empty() || _nodes.count(&node) > 0; }
+
+private:
+    // OSG's bounds need vertices for all indices.
+    [[nodiscard]] bool areSound() const {
+        thread_local SurfaceMesh read;
+        return std::all_of(_parts.begin(), _parts.end(),
+                           [](const auto& part) { return readMesh(*part.first, osg::Matrixd(), read); });
+    }
+
+    std::vector<std::pair<const osg::Drawable*, osg::NodePath>> _parts;
+    std::set<const osg::Node*> _nodes;
+};
 
 // The nodes of a tile that have no sphere test while bins cull it, some of them more than once. Drawables keep their
 // boxes, and what stands on the surface keeps OSG's own tests.
@@ -76,9 +97,9 @@ void forEachSphere(const FoundTile& tile, osg::Node& culled, const Action& actio
     action(culled);
     action(*tile.node);
     for (const auto& mesh : tile.meshes) {
-        const bool hasContent = hasSurfaceAndMore(*mesh);
+        const SurfacePaths surface(*mesh);
         forEachNodeWhere(*mesh, [&](osg::Node& node) {
-            if (hasContent && isOnSurface(node, *mesh)) return false;
+            if (!surface.has(node)) return false;
             if (!node.asDrawable()) action(node);
             return true;
         });
@@ -98,7 +119,6 @@ void resumeSpheres(const FoundTile& tile, osg::Node& culled, const InstalledTile
 InstalledTile* installedTileOf(const osg::Node& node) {
     for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
         if (const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(at)) return bin->getInstalledTile();
-        if (const auto* planar = dynamic_cast<const PlanarBinCullCallback*>(at)) return planar->getInstalledTile();
     }
     return nullptr;
 }
@@ -147,8 +167,7 @@ osg::Matrixd culledFrame(const FoundTile& tile, osg::Node& culled) {
     return transform ? frameInside(*transform, tile.frame) : tile.frame.localToEcef;
 }
 
-template <class Callback>
-void placeCallback(const FoundTile& tile, osg::Node& culled, Callback& callback, Database& database) {
+void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& callback, Database& database) {
     const osg::ref_ptr<InstalledTile> installed = new InstalledTile(culled, database);
     callback.setInstalledTile(installed);
     // In front: what is nested runs when the tile is kept.
@@ -161,9 +180,6 @@ void placeCallback(const FoundTile& tile, osg::Node& culled, Callback& callback,
     if (&culled != tile.node) ContentWatch::place(culled, {});
     ContentWatch::place(*tile.node, tile.meshes);
 }
-
-template void placeCallback(const FoundTile&, osg::Node&, AnalyticBinCullCallback&, Database&);
-template void placeCallback(const FoundTile&, osg::Node&, PlanarBinCullCallback&, Database&);
 
 void removeCallbacksBelow(osg::Node& subgraph) {
     forEachNode(subgraph, [](osg::Node& node) {

@@ -40,7 +40,7 @@ protected:
 /// Whether the kit noticed that the mesh of a tile was moved after bins were installed on it.
 [[nodiscard]] bool hasMoved(osg::Node& tile);
 
-/// The callback of a geodetic bin that an installer made for this very node. Returns: nullptr when there is none.
+/// The callback of a bin that an installer made for this very node. Returns: nullptr when there is none.
 [[nodiscard]] const AnalyticBinCullCallback* installedBinOf(const osg::Node& node);
 
 /// The node that is culled for a tile: its own, or a group above it, which is put there where the tile has just been
@@ -51,10 +51,9 @@ protected:
 /// map.
 [[nodiscard]] osg::Matrixd culledFrame(const FoundTile& tile, osg::Node& culled);
 
-/// Puts the callback (of a geodetic or a planar bin) in front of those of `culled`, and switches OSG's sphere test off
+/// Puts the callback in front of those of `culled`, and switches OSG's sphere test off
 /// there and on the tile. From then on the tile notices what is added below it.
-template <class Callback>
-void placeCallback(const FoundTile& tile, osg::Node& culled, Callback& callback, Database& database);
+void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& callback, Database& database);
 
 /// Takes a cull callback off a node. What is nested in it stays there while it stands on other nodes, too: clones of a
 /// scene may share callbacks.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "../cull/Scoped.h"
+#include "../surface/MapGround.h"
 #include "TileCallback.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
@@ -139,6 +140,15 @@ bool hasValidRadii(const osg::EllipsoidModel& ellipsoid) {
     return areValidRadii(ellipsoid.getRadiusEquator(), ellipsoid.getRadiusPolar());
 }
 
+const osg::EllipsoidModel* mapPlane() {
+    static const osg::ref_ptr<const osg::EllipsoidModel> plane = new osg::EllipsoidModel(HUGE_VAL, HUGE_VAL);
+    return plane.get();
+}
+
+bool isMapPlane(const osg::EllipsoidModel& ellipsoid) {
+    return std::isinf(ellipsoid.getRadiusEquator()) && std::isinf(ellipsoid.getRadiusPolar());
+}
+
 osg::Matrixd frameInside(const osg::Transform& node, const TileFrame& frame) {
     osg::Matrixd inside;
     // Without a CoordinateSystemNode above, a tile's own frame is ECEF, whatever moves the globe.
@@ -203,6 +213,7 @@ void TileFinder::visit(osg::Node& node, bool isTile) {
     if (_depth >= kDeepest) return visitTooDeep(node);
     const Scoped globe(_frame.ellipsoid, _frame.isKnown() ? _frame.ellipsoid : wgs84());
     FoundTile tile{&node, ownMeshes(node), _frame, _ordinal++, filesBelow(node, _frame.file)};
+    if (!hasStoredBin(node)) tile.frame.ellipsoid = groundOf(tile);
     const Scoped scope(_tile, static_cast<const osg::Node*>(&node));
     const Scoped depth(_depth, _depth + 1);
     visitTile(tile);

@@ -101,6 +101,12 @@ void fitSurface(const FoundTile& tile, Database& database, const TerrainShape& s
     fit.surface = surface.bin;
     fit.bin = rangedBin(surface, !tile.pagedFiles.empty(), database, link);
     fit.isScalable = surface.isScalable;
+    fit.ownSkirt = surface.skirt;
+    // what is drawn, and nothing else; exaggeration would not treat skirts as heights
+    const core::Interval& altitude = surface.bin.bin().altitude();
+    const bool isScaled = surface.isScalable && shape.verticalScale != 1.0;
+    if (!isScaled && !shape.areBoundariesEqual)
+        fit.loaded = withAltitude(surface.bin, {altitude.lower - surface.skirt, altitude.upper}, 0.0);
     if (database.options().skirts == SkirtUse::All || link.edges.areOnBorder()) fit.skirt = surface.skirt;
 }
 
@@ -111,23 +117,34 @@ void fitSkirt(const FoundTile& tile, const TerrainShape& shape, TileFit& fit) {
     if (!surface.bin.valid()) fit.bin.init();
 }
 
-// Returns: whether the index knows the tile as it is.
+// The bin of a whole index, lowered where edges may dip below those of neighbours: its floor is that of their edges.
+AnalyticBin dippedBin(const AnalyticBin& bin, const Database& database, const ParentTile& link) {
+    const double relief = heightsIn(database).width() + bin.sag();
+    const double dip = core::dipBehindEdge(toCore(*database.ellipsoid()), bin.bin(), link.edges, relief);
+    const core::Interval& altitude = bin.bin().altitude();
+    return withAltitude(bin, {altitude.lower - dip, altitude.upper}, bin.sag() + dip);
+}
+
+// Returns: whether the index knows the tile as it is. `isContradicted`: it knows another tile in its place.
 bool fitIndexed(const FoundTile& tile, const Database& database, const TerrainShape& shape, ParentTile& link,
-                TileFit& fit) {
-    const BinIndex::Entry* entry = database.index() ? database.index()->find(tile.frame.file, tile.ordinal) : nullptr;
+                TileFit& fit, bool& isContradicted) {
+    bool isWhole = false;
+    const auto entry = database.indexEntry(tile.frame.file, tile.ordinal, isWhole);
     const bool isAsKnown = entry && entry->fingerprint == tileFingerprint(tile);
+    isContradicted = !isAsKnown && (entry || isWhole);
     if (!isAsKnown) return false;
     fit.isTerrain = true;
     fit.bin = entry->bin;
     fit.isScalable = hasTerrainTile(tile);
+    fit.awaitsIndex = !isWhole;
     if (!fit.bin.valid()) return true;
     linkTo(fit.bin.bin(), link);
     fit.surface = surfaceAbove(entry->ownLow, fit.bin);
-    // the floor of an index is that of its neighbours' edges
-    const double relief = heightsIn(database).width() + fit.bin.sag();
-    const double dip = core::dipBehindEdge(toCore(*database.ellipsoid()), fit.bin.bin(), link.edges, relief);
-    const core::Interval& altitude = fit.bin.bin().altitude();
-    fit.bin = withAltitude(fit.bin, {altitude.lower - dip, altitude.upper}, fit.bin.sag() + dip);
+    if (!isWhole) {
+        fit.ownSkirt = surfaceOf(tile, *tile.frame.ellipsoid, shape).skirt;
+        return true;
+    }
+    fit.bin = dippedBin(fit.bin, database, link);
     if (link.edges.areOnBorder()) fitSkirt(tile, shape, fit);
     return true;
 }
@@ -270,9 +287,11 @@ TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& 
     TileFit fit;
     // an index does not know how far skirts hang, nor meshes of other sample ratios
     const bool isIndexFit = database.options().skirts == SkirtUse::Cracks && shape.sampleRatio == 1.0;
-    if (!isIndexFit || !fitIndexed(tile, database, shape, link, fit)) {
+    bool isContradicted = false;
+    if (!isIndexFit || !fitIndexed(tile, database, shape, link, fit, isContradicted)) {
         fitSurface(tile, database, shape, link, fit);
-        if (isIndexFit && database.index() && fit.isTerrain) Database::reportMisfit(link, fit.bin);
+        fit.awaitsIndex = isIndexFit && !isContradicted;
+        if (isContradicted && fit.isTerrain) Database::reportMisfit(link, fit.bin);
         if (!fit.isScalable || shape.sampleRatio == 1.0) checkUnstored(fit.surface, fit.surface.sag(), database, link);
     } else {
         checkUnstored(fit.bin, fit.bin.sag(), database, link);
@@ -281,6 +300,15 @@ TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& 
     fit.bin.setBin(core::withGaps(toCore(*database.ellipsoid()), fit.bin.bin(), link.edges));
     correct(tile, database, link, fit);
     return fit;
+}
+
+// What a tile and its loaded descendants are culled by, whole: not valid where that is not known.
+AnalyticBin shownBy(const TileFit& fit, const TerrainShape& shape) {
+    if (fit.loaded.valid()) return fit.loaded;
+    const AnalyticBin shown = fit.isScalable ? fit.bin.exaggerated(shape.verticalScale) : fit.bin;
+    if (!shown.valid()) return shown;
+    const core::Interval& altitude = shown.bin().altitude();
+    return withAltitude(shown, {altitude.lower - fit.skirt, altitude.upper}, 0.0);
 }
 
 // Whether tiles above it whose bins hold the declared heights may be too low for a surface, or not deep enough.
@@ -293,7 +321,10 @@ bool leavesHeights(const AnalyticBin& surface, const Database& database) {
 }  // namespace
 
 TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
-    if (!shape.isKnown() && hasTerrainTile(tile)) return unknownFit(tile, database, shape, link);
+    if (!shape.isKnown() && hasTerrainTile(tile)) {
+        Database::noteLoaded(link, {});
+        return unknownFit(tile, database, shape, link);
+    }
     TileFit fit = fitKnown(tile, database, shape, link);
     if (fit.surface.valid() && (link.hasNewContent || leavesHeights(fit.surface, database))) {
         Database::noteLarger(link, fit.surface);
@@ -304,8 +335,28 @@ TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& s
     }
     if (fit.isScalable && shape.techniqueMargin > 0.0) {
         fit.isInPlace = false;
-        for (AnalyticBin* const bin : {&fit.bin, &fit.surface}) bin->setMargin(bin->margin() + shape.techniqueMargin);
+        for (AnalyticBin* const bin : {&fit.bin, &fit.loaded, &fit.surface})
+            bin->setMargin(bin->margin() + shape.techniqueMargin);
     }
+    if (!fit.bin.valid()) fit.loaded.init();
+    fit.awaitsIndex = fit.awaitsIndex && fit.isTerrain && !shape.areBoundariesEqual;
+    if (fit.isTerrain) Database::noteLoaded(link, shownBy(fit, shape));
+    return fit;
+}
+
+IndexedFit fitByEntry(const BinIndex::Entry& entry, bool isWhole, double ownSkirt, const Database& database,
+                      const TerrainShape& shape, const ParentTile& link) {
+    IndexedFit fit;
+    fit.bin = entry.bin;
+    if (!fit.bin.valid()) return fit;
+    if (isWhole) {
+        fit.bin = dippedBin(fit.bin, database, link);
+        fit.bin.setBin(core::withGaps(toCore(*database.ellipsoid()), fit.bin.bin(), link.edges));
+        if (link.edges.areOnBorder()) fit.skirt = ownSkirt;
+    }
+    const Widening correction = database.correction(link.file, link.ordinal);
+    if (correction.any()) fit.bin = correction.widened(fit.bin);
+    if (fit.bin.valid()) fit.bin.setMargin(fit.bin.margin() + shape.techniqueMargin);
     return fit;
 }
 

@@ -15,12 +15,17 @@ namespace osgAnalyticBin {
 /// What a tile is culled by, at vertical scale 1.
 struct TileFit {
     AnalyticBin bin;      ///< with all descendants; not valid: see isTerrain
+    AnalyticBin loaded;   ///< without those that are not loaded, with whole skirts; not valid: `bin` is right without
     AnalyticBin surface;  ///< what it draws by itself; not valid: not known
     /// Metres that skirts hang below the bin, where they are to count: with SkirtUse::All, and on the outer border of a
     /// database, where no neighbour stands before them. Assumes: descendants' skirts hang no longer than the tile's
     /// own.
     double skirt = 0.0;
     bool isScalable = false;
+    /// Metres that skirts of its own mesh hang, where that was asked for.
+    double ownSkirt = 0.0;
+    /// Whether an index that is being made will say more.
+    bool awaitsIndex = false;
     /// False: another technique may draw less than the whole surface at its borders.
     bool isInPlace = true;
     /// False: the node is not terrain, and left as it is. True with a bin that is not valid: never culled.
@@ -33,6 +38,17 @@ struct TileFit {
 /// `link.parent`, `link.file`, `link.ordinal` and what is stored above have to be set in `link`; the rest is set here.
 /// Source: doc/theory/tiles.md, sections 2 and 4.
 [[nodiscard]] TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link);
+
+/// What a tile is culled by that an index knows.
+struct IndexedFit {
+    AnalyticBin bin;     ///< not valid: never
+    double skirt = 0.0;  ///< see TileFit
+};
+
+/// From an entry of an index. `isWhole`: false where it is not that of the whole index yet. `ownSkirt`: metres.
+/// `link`: the tile, with its edges.
+[[nodiscard]] IndexedFit fitByEntry(const BinIndex::Entry& entry, bool isWhole, double ownSkirt,
+                                    const Database& database, const TerrainShape& shape, const ParentTile& link);
 
 /// Finds the rectangle that the tile's own surface fills without holes, whatever its bin holds beside it: empty where
 /// that is not known. Cost of a call: a fraction of a millisecond.

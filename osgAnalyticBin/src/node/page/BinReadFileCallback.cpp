@@ -7,27 +7,18 @@
 #include "../install/BinInstaller.h"
 #include "../install/SharedTiles.h"
 #include "../install/TileCallback.h"
+#include "CarefulRead.h"
 
-#include <osgAnalyticBin/TileFile.h>
-
-#include <osg/Notify>
 #include <osgDB/FileCache>
 #include <osgDB/Registry>
 
 #include <algorithm>
-#include <exception>
-#include <ios>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
 
 namespace {
-
-osgDB::ReaderWriter::ReadResult unreadable(const std::string& fileName, const char* why) {
-    OSG_WARN << "osgAnalyticBin: \"" << fileName << "\" could not be read: " << why
-             << "; its parent tile stays visible." << std::endl;
-    return osgDB::ReaderWriter::ReadResult(osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE);
-}
 
 // Which installation, and where on its globe. A tile's bin holds for one Database alone: another may have other
 // corrections, another shape of terrain, or a horizon that the tile was never counted in.
@@ -37,6 +28,22 @@ std::string placeText(const Database& database, const TileFrame& frame) {
     if (ellipsoid) numbers.insert(numbers.end(), {ellipsoid->getRadiusEquator(), ellipsoid->getRadiusPolar()});
     return std::to_string(database.number()) + ' ' + numbersToText(numbers);
 }
+
+// Has the thread that makes the index give way.
+class BusyPager {
+public:
+    explicit BusyPager(osg::ref_ptr<AutoIndex> index) : _index(std::move(index)) {
+        if (_index) _index->noteRead(1);
+    }
+    ~BusyPager() {
+        if (_index) _index->noteRead(-1);
+    }
+    BusyPager(const BusyPager&) = delete;
+    BusyPager& operator=(const BusyPager&) = delete;
+
+private:
+    const osg::ref_ptr<AutoIndex> _index;
+};
 
 }  // namespace
 
@@ -75,34 +82,18 @@ const BinReadFileCallback::Expected& BinReadFileCallback::expected(const std::st
     return cached == _expected.end() ? _unexpected : cached->second;
 }
 
-osgDB::ReaderWriter::ReadResult BinReadFileCallback::readUntreated(const std::string& fileName,
-                                                                   const osgDB::Options* options) {
-    if (_previous) return _previous->readNode(fileName, options);
-    osgDB::ReadFileCallback* global = osgDB::Registry::instance()->getReadFileCallback();
-    return global ? global->readNode(fileName, options) : readTileFile(fileName, options);
-}
-
 osgDB::ReaderWriter::ReadResult BinReadFileCallback::readNode(const std::string& fileName,
                                                               const osgDB::Options* options) {
     // No node and no error: the pager says nothing, and asks again in the next frame.
     if (!_failures.mayRead(fileName, FailedReads::Clock::now())) return ReadResult::FILE_LOADED;
-    ReadResult result = readOrFail(fileName, options);
+    const BusyPager busy(_database->adoption().index());
+    ReadResult result = readCarefully(fileName, [&] {
+        const bool cached = options && (options->getObjectCacheHint() & osgDB::Options::CACHE_NODES);
+        return cached ? readThroughCache(fileName, *options) : readTreated(fileName, options);
+    });
     _failures.note(fileName, result.validNode(), FailedReads::Clock::now());
     if (result.validNode()) _database->noteRead(*result.getNode(), _generation);
     return result;
-}
-
-osgDB::ReaderWriter::ReadResult BinReadFileCallback::readOrFail(const std::string& fileName,
-                                                                const osgDB::Options* options) {
-    try {
-        const bool cached = options && (options->getObjectCacheHint() & osgDB::Options::CACHE_NODES);
-        return cached ? readThroughCache(fileName, *options) : readTreated(fileName, options);
-    } catch (const std::ios_base::failure&) {
-        return unreadable(fileName, "it ends too early");
-    } catch (const std::exception& error) {
-        // A corrupt file may ask for absurd amounts of memory; the pager's thread must outlive that.
-        return unreadable(fileName, error.what());
-    }
 }
 
 // A tile gets into the cache only when its bins are installed, so that nobody ever finds it half treated.
@@ -130,7 +121,7 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readThroughCache(const std:
 
 osgDB::ReaderWriter::ReadResult BinReadFileCallback::readTreated(const std::string& fileName,
                                                                  const osgDB::Options* options) {
-    ReadResult result = readUntreated(fileName, options);
+    ReadResult result = readUntreated(fileName, options, _previous.get());
     osg::Node* const node = result.getNode();
     if (!node) return result;
     const Expected& known = expected(fileName, options);
@@ -155,7 +146,7 @@ void BinReadFileCallback::treat(osg::Node& node, const Expected& expected) const
     BinInstaller installer(_options);
     installer.continueBelow(_database.get(), expected.frame, expected.parent.get());
     node.accept(installer);
-    installer.finish();
+    installer.finish(&node);
 }
 
 }  // namespace osgAnalyticBin

@@ -50,7 +50,6 @@ protected:
 private:
     using ReadResult = osgDB::ReaderWriter::ReadResult;
 
-    [[nodiscard]] ReadResult readOrFail(const std::string& fileName, const osgDB::Options* options);
     [[nodiscard]] ReadResult readThroughCache(const std::string& fileName, const osgDB::Options& options);
     [[nodiscard]] ReadResult readTreated(const std::string& fileName, const osgDB::Options* options);
     struct Expected {
@@ -60,8 +59,6 @@ private:
 
     [[nodiscard]] const Expected& expected(const std::string& fileName, const osgDB::Options* options) const;
     void treat(osg::Node& node, const Expected& expected) const;
-    [[nodiscard]] osgDB::ReaderWriter::ReadResult readUntreated(const std::string& fileName,
-                                                                const osgDB::Options* options);
 
     const CullOptions _options;
     const osg::ref_ptr<Database> _database;

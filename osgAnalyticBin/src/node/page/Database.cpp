@@ -22,6 +22,8 @@ namespace osgAnalyticBin {
 
 namespace {
 
+constexpr std::size_t kMostToWiden = 65536;
+
 using Contents = std::vector<osg::observer_ptr<osg::Node>>;
 
 std::string nameOf(const ParentTile& tile) {
@@ -40,6 +42,17 @@ bool takeMerged(Contents& contents) {
     };
     contents.erase(std::remove_if(contents.begin(), contents.end(), isGone), contents.end());
     return found;
+}
+
+// `shown`: see Database::noteLoaded().
+void growLoadedBin(AnalyticBinCullCallback& tile, const AnalyticBin& shown) {
+    const AnalyticBin declared = tile.getDeclaredBin();
+    if (!declared.valid()) return;
+    if (!shown.valid()) return tile.setBin(declared);
+    if (tile.getBin().contains(shown)) return;
+    AnalyticBin grown = tile.getBin();
+    grown.expandBy(shown);
+    tile.setLoadedBin(grown, declared);
 }
 
 }  // namespace
@@ -67,6 +80,12 @@ bool Database::isAttachedTo(const osg::Node& node) const {
     return _root == &node && terrain == dynamic_cast<const osgTerrain::Terrain*>(&node);
 }
 
+bool Database::takes(const osg::EllipsoidModel& ellipsoid) {
+    const Ground wanted = isMapPlane(ellipsoid) ? Ground::Map : Ground::Globe;
+    Ground known = Ground::Open;
+    return _ground.compare_exchange_strong(known, wanted, std::memory_order_relaxed) || known == wanted;
+}
+
 CullOptions Database::options() const {
     const std::lock_guard<std::mutex> lock(_mutex);
     return _options;
@@ -81,6 +100,19 @@ void Database::setOptions(const CullOptions& options) {
     (void)takeMerged(_onTheirWay);
     _lateComers.insert(_lateComers.end(), _onTheirWay.begin(), _onTheirWay.end());
     _onTheirWay.clear();
+}
+
+void Database::setRemoved() {
+    _isRemoved.store(true, std::memory_order_relaxed);
+    _adoption.setIndex(nullptr);
+}
+
+std::optional<BinIndex::Entry> Database::indexEntry(const std::string& file, std::size_t ordinal, bool& isWhole) const {
+    const osg::ref_ptr<AutoIndex> made = _index ? nullptr : _adoption.index();
+    isWhole = _index || (made && made->isWhole());
+    if (made) return made->find(file, ordinal);
+    const BinIndex::Entry* const entry = _index ? _index->find(file, ordinal) : nullptr;
+    return entry ? std::optional(*entry) : std::nullopt;
 }
 
 unsigned int Database::generation() const {
@@ -129,6 +161,12 @@ bool Database::takeShapeChange() {
 
 void Database::noteGap(const std::string& where) {
     if (_hasGap.exchange(true, std::memory_order_relaxed)) return;
+    if (_ground == Ground::Map) {
+        OSG_INFO << "osgAnalyticBin: the tiles of \"" << where
+                 << "\" leave gaps in the map, or it is not known whether they do. No tile is hidden behind terrain."
+                 << std::endl;
+        return;
+    }
     OSG_NOTICE
         << "osgAnalyticBin: the tiles of \"" << where
         << "\" leave gaps: they cover neither the tile that they are paged below nor a rectangle of latitude and "
@@ -143,7 +181,7 @@ void Database::noteCoverage(const std::string& file, const Coverage& coverage) {
     if (!coverage.isOfGlobe()) return;
     const std::lock_guard<std::mutex> lock(_mutex);
     _region.reset();
-    if (!region.empty()) _region.emplace(toCore(*_ellipsoid), region);
+    if (!region.empty()) _region.emplace(toCore(*ellipsoid()), region);
 }
 
 std::optional<core::CoveredRegion> Database::region() const {
@@ -151,10 +189,9 @@ std::optional<core::CoveredRegion> Database::region() const {
     return _region;
 }
 
-void Database::noteBorderInView() {
-    if (_hasBorderInView.exchange(true, std::memory_order_relaxed)) return;
-    OSG_NOTICE << "osgAnalyticBin: the camera is so high above the regional database, or so near its border, that it "
-                  "sees past it. The horizon is not used in such views."
+void Database::noteEyeBesideRegion() {
+    if (_hasEyeBesideRegion.exchange(true, std::memory_order_relaxed)) return;
+    OSG_NOTICE << "osgAnalyticBin: the camera is not over the regional database. The horizon is not used in such views."
                << std::endl;
 }
 
@@ -200,7 +237,7 @@ void Database::makePlates() {
             if (!isThere || !tile->getInstalledTile() || !_ellipsoid) continue;
         }
         const TerrainShape shape = tile->getTerrainShape().value_or(TerrainShape());
-        tile->getInstalledTile()->setPlates(tilePlates({{mesh}, *_ellipsoid, tile->getLocalToEcef(), shape}));
+        tile->getInstalledTile()->setPlates(tilePlates({{mesh}, *ellipsoid(), tile->getLocalToEcef(), shape}));
     }
 }
 
@@ -260,14 +297,34 @@ void Database::widen(const ParentTile& tile, const Widening& by, bool isFitted) 
     if (isFitted || (tile.widening ? tile.widening->contains(by) : !by.any())) return;
     if (!tile.widening) tile.widening = std::make_unique<Widening>();
     tile.widening->expandBy(by);
-    _toWiden.emplace_back(tile.callback, by);
+    _toWiden.push_back({tile.callback, by});
+}
+
+void Database::noteLoaded(const ParentTile& tile, const AnalyticBin& shown) {
+    for (const ParentTile* at = tile.parent.get(); at; at = at->parent.get()) {
+        if (!at->isTile || !at->isLoadedOnly) continue;
+        if (at->isBeingInstalled) {
+            osg::ref_ptr<AnalyticBinCullCallback> callback;
+            if (at->callback.lock(callback)) growLoadedBin(*callback, shown);
+            continue;
+        }
+        const std::lock_guard<std::mutex> lock(at->database->_mutex);
+        if (shown.valid() && at->loaded.valid() && at->loaded.contains(shown)) continue;
+        at->loaded.expandBy(shown);
+        at->database->_toGrow.push_back({at->callback, shown});
+    }
+}
+
+void Database::noteLoaded(const AnalyticBinCullCallback& above, const AnalyticBin& shown) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    // where no update traversal ever comes, tiles stay visible
+    if (_toGrow.size() < kMostToWiden) _toGrow.push_back({const_cast<AnalyticBinCullCallback*>(&above), shown, true});
 }
 
 void Database::noteContent(const AnalyticBinCullCallback& tile, const Widening& by) {
     const std::lock_guard<std::mutex> lock(_mutex);
     // where no update traversal ever comes, tiles stay visible
-    constexpr std::size_t kMostToWiden = 65536;
-    if (_toWiden.size() < kMostToWiden) _toWiden.emplace_back(const_cast<AnalyticBinCullCallback*>(&tile), by);
+    if (_toWiden.size() < kMostToWiden) _toWiden.push_back({const_cast<AnalyticBinCullCallback*>(&tile), by, true});
 }
 
 Widening Database::correction(const std::string& file, std::size_t ordinal) const {
@@ -298,20 +355,55 @@ void Database::update() {
     refitLateComers();
     renewFamilies();
     makePlates();
-    std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, Widening>> toWiden;
+    constexpr std::size_t kMostTiles = 32;
+    if (const osg::ref_ptr<AutoIndex> made = _adoption.index()) {
+        for (const std::string& line : made->takeNotes()) OSG_NOTICE << "osgAnalyticBin: " << line << std::endl;
+    }
+    _adoption.adopt(*this, kMostTiles);
+    widenLoaded();
+}
+
+void Database::widenLoaded() {
+    applyWidenings();
+    growLoadedBins();
+}
+
+void Database::applyWidenings() {
+    std::vector<Widened> toWiden;
     {
         const std::lock_guard<std::mutex> lock(_mutex);
         toWiden.swap(_toWiden);
     }
-    for (const auto& [observed, widening] : toWiden) {
+    for (const auto& [observed, widening, isLoaded] : toWiden) {
         osg::ref_ptr<AnalyticBinCullCallback> callback;
         if (!observed.lock(callback)) {
             // paged out, or fitted anew while the tile was on its way
             requestRefit();
             continue;
         }
-        callback->setBin(widening.widened(callback->getBin()));
+        const AnalyticBin& declared = callback->getDeclaredBin();
+        if (widening.isBoundless || !declared.valid()) {
+            callback->setBin(widening.widened(callback->getBin()));
+        } else {
+            callback->setLoadedBin(isLoaded ? widening.widened(callback->getBin()) : callback->getBin(),
+                                   widening.widened(declared));
+        }
         if (callback->getInstalledTile()) callback->getInstalledTile()->keepVisible(false);
+    }
+}
+
+// A tile that was paged out meanwhile has nothing below it.
+void Database::growLoadedBins() {
+    std::vector<Grown> toGrow;
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        toGrow.swap(_toGrow);
+    }
+    for (const auto& [observed, shown, wasKeptVisible] : toGrow) {
+        osg::ref_ptr<AnalyticBinCullCallback> callback;
+        if (!observed.lock(callback)) continue;
+        growLoadedBin(*callback, shown);
+        if (wasKeptVisible && callback->getInstalledTile()) callback->getInstalledTile()->keepVisible(false);
     }
 }
 

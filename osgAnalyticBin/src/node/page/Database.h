@@ -3,9 +3,12 @@
 
 #pragma once
 
+#include "IndexAdoption.h"
+
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/core/horizon/CoveredRegion.h>
 #include <osgAnalyticBin/core/mesh/CrackBounds.h>
 
@@ -48,7 +51,12 @@ public:
     /// `terrain` and `index` may be null.
     Database(const CullOptions& options, const osg::EllipsoidModel* ellipsoid, osgTerrain::Terrain* terrain,
              const BinIndex* index)
-        : _ellipsoid(ellipsoid), _terrain(terrain), _index(index), _options(options), _fittedShape(shape(options)) {}
+        : _ellipsoid(ellipsoid),
+          _terrain(terrain),
+          _index(index),
+          _adoption(!index && options.index == IndexUse::Auto),
+          _options(options),
+          _fittedShape(shape(options)) {}
 
     /// The node that the database is attached to: the CoordinateSystemNode, or, without one, the root of the scene.
     void setRoot(const osg::Node& node) { _root = &node; }
@@ -68,14 +76,25 @@ public:
     [[nodiscard]] unsigned int generation() const;
 
     /// Says that bins are taken off: what is read from now on gets none.
-    void setRemoved() { _isRemoved.store(true, std::memory_order_relaxed); }
+    void setRemoved();
     [[nodiscard]] bool isRemoved() const { return _isRemoved.load(std::memory_order_relaxed); }
 
     /// Says that a file's content is on its way into the scene, treated by the options of that generation.
     void noteRead(osg::Node& content, unsigned int generation);
 
-    [[nodiscard]] const osg::EllipsoidModel* ellipsoid() const { return _ellipsoid.get(); }
+    /// mapPlane() once a tile of a map has got a bin.
+    [[nodiscard]] const osg::EllipsoidModel* ellipsoid() const {
+        return _ground.load(std::memory_order_relaxed) == Ground::Map ? mapPlane() : _ellipsoid.get();
+    }
+    /// Whether a tile on this ellipsoid, or in the plane of a map, may have a bin: all tiles with bins are on a globe,
+    /// or all are in a map. The first one that is asked for tells which.
+    [[nodiscard]] bool takes(const osg::EllipsoidModel& ellipsoid);
     [[nodiscard]] const BinIndex* index() const { return _index.get(); }
+    /// What index there is knows of a tile. `isWhole`: whether it knows all tiles.
+    [[nodiscard]] std::optional<BinIndex::Entry> indexEntry(const std::string& file, std::size_t ordinal,
+                                                            bool& isWhole) const;
+    /// The index that is being made, and the tiles that wait for it.
+    [[nodiscard]] IndexAdoption& adoption() { return _adoption; }
 
     /// The shape that the Terrain, if any, gives its tiles at present, as far as these options tell. Not in the pager's
     /// threads: the application may change it meanwhile.
@@ -108,8 +127,8 @@ public:
     /// The region that a regional database covers; none: the database covers the globe, or has a gap.
     [[nodiscard]] std::optional<core::CoveredRegion> region() const;
 
-    /// Says that an eye sees past the border of the region, where the horizon hides nothing. Says so to the user once.
-    void noteBorderInView();
+    /// Says that an eye is not over the region, where the horizon hides nothing. Says so to the user once.
+    void noteEyeBesideRegion();
 
     /// Says that a tile does not stand where its bin was stored or installed. Its place is a gap, and no horizon is
     /// used, not even a given one.
@@ -145,19 +164,34 @@ public:
     /// visible until the next update widens the bin.
     void noteContent(const AnalyticBinCullCallback& tile, const Widening& by);
 
+    /// Says what a tile and its loaded descendants are culled by. Tiles above it of which no more is known than what is
+    /// loaded grow with the next update. Not valid: nobody knows; these are then culled by their declared bins.
+    static void noteLoaded(const ParentTile& tile, const AnalyticBin& shown);
+
+    /// Says that a tile which is loaded, or on its way, is not held by the bin of a tile above it: likewise. The tile
+    /// above is kept visible meanwhile.
+    void noteLoaded(const AnalyticBinCullCallback& above, const AnalyticBin& shown);
+
     /// What the reports said of a tile or its descendants.
     [[nodiscard]] Widening correction(const std::string& file, std::size_t ordinal) const;
 
     /// In the update traversal, before takeShapeChange(): widens the loaded tiles that were reported.
     void update();
 
+    /// Where no cull traversal runs, after bins were installed on what is in the scene: widens tiles by what was found
+    /// below them.
+    void widenLoaded();
+
 protected:
     ~Database() override = default;
 
 private:
+    enum class Ground { Open, Globe, Map };
     using TileKey = std::pair<std::string, std::size_t>;
 
     void widen(const ParentTile& tile, const Widening& by, bool isFitted);
+    void applyWidenings();
+    void growLoadedBins();
     static void widenFrom(const ParentTile& tile, const Widening& by);
     static void warn(const ParentTile& tile, bool Database::*hasWarned, const char* what);
     void refitLateComers();
@@ -171,14 +205,16 @@ private:
     const osg::observer_ptr<osgTerrain::Terrain> _terrain;
     const osg::Node* _root = nullptr;
     const osg::ref_ptr<const BinIndex> _index;
+    IndexAdoption _adoption;
     mutable std::atomic<bool> _isRefitWanted{false};
+    std::atomic<Ground> _ground{Ground::Open};
     std::atomic<bool> _isRemoved{false};
     std::atomic<bool> _hasGap{false};
     std::atomic<bool> _hasStrayTile{false};
     std::atomic<bool> _hasMovedTile{false};
     std::atomic<bool> _hasUnknownTechnique{false};
     std::atomic<bool> _hasUnknownNearPlane{false};
-    std::atomic<bool> _hasBorderInView{false};
+    std::atomic<bool> _hasEyeBesideRegion{false};
     std::atomic<bool> _wantsPlates{false};
     mutable std::mutex _mutex;  // guards what follows
     CullOptions _options;
@@ -189,7 +225,18 @@ private:
     std::vector<osg::observer_ptr<osg::Node>> _lateComers;  // treated by earlier ones
     bool _hasWarnedOfIndex = false, _hasWarnedOfStored = false, _hasWarnedOfUntold = false;
     std::map<TileKey, Widening> _corrections;
-    std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, Widening>> _toWiden;
+    struct Widened {
+        osg::observer_ptr<AnalyticBinCullCallback> callback;
+        Widening by;
+        bool isLoaded = false;  // it is there already
+    };
+    struct Grown {
+        osg::observer_ptr<AnalyticBinCullCallback> callback;
+        AnalyticBin shown;
+        bool wasKeptVisible = false;
+    };
+    std::vector<Widened> _toWiden;
+    std::vector<Grown> _toGrow;
     mutable std::vector<osg::observer_ptr<osg::Group>> _changedGroups;
     std::vector<std::pair<osg::observer_ptr<const AnalyticBinCullCallback>, osg::observer_ptr<osg::Node>>> _awaitPlates;
 };
@@ -211,6 +258,12 @@ struct ParentTile : public osg::Referenced {
     osg::ref_ptr<Database> database;
     // By how much its callback has to be widened; null: not at all. Guarded by the database.
     mutable std::unique_ptr<Widening> widening;
+    // Whether its bin holds no more than what is loaded.
+    bool isLoadedOnly = false;
+    // Whether no other thread than the one that installs bins can have it yet.
+    mutable bool isBeingInstalled = false;
+    // All that was noted as loaded. Guarded by the database.
+    mutable AnalyticBin loaded;
 
 protected:
     ~ParentTile() override = default;

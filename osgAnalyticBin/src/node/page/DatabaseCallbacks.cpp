@@ -27,8 +27,12 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// Whether to look for tiles behind terrain in this view.
+constexpr unsigned int kShortestRest = 8;
+
+// Whether to look for tiles behind terrain in this view. While tiles are a level behind, as after a jump, what earlier
+// views found says little.
 bool isOcclusionDue(OcclusionUse use, CullTraversal::LastView& last) {
+    if (last.requests->isBehind()) last.rest = last.resting = std::min(last.resting, kShortestRest);
     if (use != OcclusionUse::Auto || last.resting == 0) return use != OcclusionUse::Off;
     --last.resting;
     return false;
@@ -39,29 +43,47 @@ bool isOcclusionDue(OcclusionUse use, CullTraversal::LastView& last) {
 // some views.
 void noteOccluded(const OccludedTiles& tiles, CullTraversal::LastView& last) {
     if (tiles.isAwaited) return;
-    constexpr unsigned int kShortestRest = 8, kLongestRest = 256;
+    constexpr unsigned int kLongestRest = 256;
     const bool pays = 4 * tiles.hidden >= tiles.inView && tiles.hidden > 0;
     last.rest = pays ? 0 : std::clamp(2 * last.rest, kShortestRest, kLongestRest);
     last.resting = last.rest;
 }
 
-std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack,
-                                        Database& database, const CullOptions& options, const DatabaseView& view) {
+// What is hidden by the horizon in a view.
+struct Horizon {
+    std::optional<core::HorizonEye> eye;
+    std::optional<core::RegionalSight> sight;  // of an eye over a region
+};
+
+bool isOver(const core::CoveredRegion& region, const glm::dvec3& eye) {
+    const core::Geodetic at = region.ellipsoid().toGeodetic(eye);
+    return region.contains({{at.latitude, at.latitude}, {at.longitude, at.longitude}, {0.0, 0.0}});
+}
+
+Horizon horizonOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack, Database& database,
+                    const CullOptions& options, const DatabaseView& view) {
     const HorizonUse horizonUse = options.effectiveHorizonUse();
-    const bool isGiven = horizonUse == HorizonUse::Given;
+    const bool isMap = view.ellipsoid.isPlane();
+    // nothing else is looked for
+    if (isMap && options.occlusion == OcclusionUse::Off) return std::nullopt;
+    const bool isGiven = horizonUse == HorizonUse::Given && !isMap;
     // an eye below the terrain looks through the backs of the faces that would hide
     const bool isAboveTerrain = options.skirts == SkirtUse::Cracks;
     const auto region = database.region();
-    const bool isUsed = isGiven || (horizonUse == HorizonUse::Declared && isAboveTerrain && !database.hasGap());
+    const bool isUsed = isGiven || (horizonUse != HorizonUse::Off && isAboveTerrain && !database.hasGap());
     // where other tiles cover the globe, stray ones hide nothing that these do not
     const bool isPartial = database.hasGap() || region;
     const bool isRelyingOnStrays = isPartial && database.hasStrayTile();
-    if (!isUsed || isRelyingOnStrays || isStateSeeThrough(nv)) return std::nullopt;
+    if (!isUsed || isRelyingOnStrays || isStateSeeThrough(nv)) return {};
     const auto viewpoint = Viewpoint::of(cullStack, nv, options.inheritViewpoint);
-    if (!viewpoint) return std::nullopt;
+    if (!viewpoint) return {};
     const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
     if (isGiven && (!isAboveTerrain || isPartial))
-        return eyeAboveDepth({node, nv, cullStack, view, false, nullptr}, *viewpoint, deepest);
+        return {eyeAboveDepth({node, nv, cullStack, view, false, nullptr}, *viewpoint, deepest), {}};
+    if (region && !(viewpoint->eye() && isOver(*region, *viewpoint->eye()))) {
+        if (!isMap) database.noteEyeBesideRegion();
+        return {};
+    }
     CullTraversal::LastView& last = CullTraversal::of(nv).lastView(database);
     const bool mayFindOccluded = viewpoint->eye() && isAboveTerrain && !isForComparison(options.method);
     if (mayFindOccluded && options.occlusion == OcclusionUse::On && !isFinalProjection(cullStack))
@@ -69,19 +91,24 @@ std::optional<core::HorizonEye> eyeOver(osg::Group& node, osg::NodeVisitor& nv, 
     const bool findsOccluded =
         mayFindOccluded && isFinalProjection(cullStack) && isOcclusionDue(options.occlusion, last);
     const ShownDatabase shown{node, nv, cullStack, view, findsOccluded, region ? &*region : nullptr};
+    const auto find = [&](bool isPlanned) {
+        const OccludedTiles tiles =
+            isPlanned ? cullBehindTerrain(shown, *viewpoint, last.occlusion, last.emerging) : OccludedTiles();
+        noteOccluded(tiles, last);
+    };
+    if (isMap) {
+        if (findsOccluded) find(region && planInMap(shown, *viewpoint));
+        return {};
+    }
     // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: the horizon
     // shall not depend on where the camera has been.
     constexpr unsigned int kFreshStart = 16;
     if (nv.getTraversalNumber() % kFreshStart == 0) last.depth = 0.0;
     const auto eye = eyeAboveWhatIsShown(shown, *viewpoint, deepest, last.depth);
-    const auto refused = eye ? std::nullopt : viewpoint->above(view.ellipsoid, last.depth);
-    const bool isPastBorder = refused && region && !region->holdsHorizon(*refused, view.planes);
-    if (isPastBorder) database.noteBorderInView();
-    const bool isPlanned = eye || (isPastBorder && findsOccluded && planWithoutHorizon(shown, *viewpoint));
-    if (findsOccluded)
-        noteOccluded(isPlanned ? cullBehindTerrain(shown, *viewpoint, last.occlusion, last.emerging) : OccludedTiles(),
-                     last);
-    return eye;
+    if (findsOccluded) find(eye.has_value());
+    if (!region || !eye) return {eye, {}};
+    const auto sight = core::RegionalSight::from(*eye, *region, view.planes);
+    return sight ? Horizon{eye, sight} : Horizon();
 }
 
 // Culled or kept siblings before the database leave a part of the planes behind.
@@ -120,8 +147,10 @@ void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
                       traversal.planes(*cullStack),
                       &traversal.plan()};
     view.plan->clear();
-    const auto eye = eyeOver(*group, *nv, *cullStack, *_database, options, view);
-    if (eye) view.eye = &*eye;
+    const Horizon horizon = horizonOver(*group, *nv, *cullStack, *_database, options, view);
+    if (horizon.eye) view.eye = &*horizon.eye;
+    if (horizon.sight && !horizon.sight->holdsAll()) view.sight = &*horizon.sight;
+    const RequestOrder::Scope requests(*traversal.lastView(*_database).requests, *nv);
     const CullTraversal::DatabaseScope scope(*nv, traversal, view);
     traverse(node, nv);
 }
@@ -142,6 +171,8 @@ void DatabaseUpdateCallback::runOnClone(osg::Node& node, osg::NodeVisitor& nv) {
         BinInstaller installer(_database->options());
         installer.setIndex(_database->index());
         installer.installAt(node);
+        if (const osg::ref_ptr<Database> own = attachedDatabase(node))
+            own->adoption().setIndex(_database->adoption().index().get());
     }
     if (nested) {
         nested->run(&node, &nv);

@@ -56,7 +56,9 @@ TileSurface meshSurface(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
     if (bounds.bin().empty() || !isTerrain) return {};
 
     TileSurface result;
-    result.bin = AnalyticBin(bounds.bin(), drawingError(ellipsoid) + bounds.axisError());
+    const double error =
+        ellipsoid.isPlane() ? drawingErrorInMap(largestCoordinate(bounds.bin())) : drawingError(ellipsoid);
+    result.bin = AnalyticBin(bounds.bin(), error + bounds.axisError());
     result.bin.setSag(bounds.sag());
     result.edgeLow = edgeLows(bounds, skirts, chordSag(skirts.borderChord2, ellipsoid));
     result.skirt = skirts.depth;

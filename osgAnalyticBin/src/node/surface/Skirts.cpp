@@ -50,25 +50,34 @@ struct Pair {
 class DepthMeasure {
 public:
     explicit DepthMeasure(const core::Ellipsoid& ellipsoid)
-        : _equatorial(1.0 / (ellipsoid.equatorialRadius() * ellipsoid.equatorialRadius())),
+        : _isPlane(ellipsoid.isPlane()),
+          _equatorial(1.0 / (ellipsoid.equatorialRadius() * ellipsoid.equatorialRadius())),
           _polar(1.0 / (ellipsoid.polarRadius() * ellipsoid.polarRadius())),
           _shallowest2(kShallowest * kShallowest * core::earthScale(ellipsoid) * core::earthScale(ellipsoid)) {}
 
     [[nodiscard]] double depth2(const glm::dvec3& upper, const glm::dvec3& lower) const {
         const glm::dvec3 hanging = upper - lower;
-        const glm::dvec3 up(upper.x * _equatorial, upper.y * _equatorial, upper.z * _polar);
+        const glm::dvec3 up = _isPlane ? glm::dvec3(0.0, 0.0, 1.0)
+                                       : glm::dvec3(upper.x * _equatorial, upper.y * _equatorial, upper.z * _polar);
         const double depth2 = glm::dot(hanging, hanging);
         const double along = glm::dot(hanging, up);
         const bool plumb = along > 0.0 && along * along >= kPlumbCosine * kPlumbCosine * depth2 * glm::dot(up, up);
         return plumb && depth2 >= _shallowest2 ? depth2 : std::numeric_limits<double>::quiet_NaN();
     }
 
+    // Whether the first is the upper one of two, straight below each other.
+    [[nodiscard]] bool isUpper(const glm::dvec3& a, const glm::dvec3& b) const {
+        return _isPlane ? a.z > b.z : glm::dot(a, a) > glm::dot(b, b);
+    }
+
 private:
+    bool _isPlane;
     double _equatorial, _polar, _shallowest2;
 };
 
 // Returns: no pairs unless every border vertex has exactly one partner.
-std::vector<Pair> pairsOf(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& marks) {
+std::vector<Pair> pairsOf(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& marks,
+                          const DepthMeasure& measure) {
     std::vector<std::uint32_t> border(mesh.size());
     std::size_t count = 0;
     for (std::uint32_t i = 0; i < mesh.size(); ++i) {
@@ -91,9 +100,7 @@ std::vector<Pair> pairsOf(const SurfaceMesh& mesh, const std::vector<std::uint8_
         const std::uint32_t other = firstAt[place];
         if (paired[other]) return {};
         paired[other] = 1;
-        const glm::dvec3 a = mesh.vertex(other);
-        const glm::dvec3 b = mesh.vertex(i);
-        const bool otherIsUpper = glm::dot(a, a) > glm::dot(b, b);
+        const bool otherIsUpper = measure.isUpper(mesh.vertex(other), mesh.vertex(i));
         pairs.push_back({otherIsUpper ? other : i, otherIsUpper ? i : other});
     }
     if (2 * pairs.size() != count) return {};
@@ -158,10 +165,10 @@ MeshSkirts foldSkirts(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
         skirts.marks[i] = edgesAt(mesh.texCoords[i]);
     }
     if (!inUnitSquare) return {};
-    const std::vector<Pair> pairs = pairsOf(mesh, skirts.marks);
+    const DepthMeasure measure(ellipsoid);
+    const std::vector<Pair> pairs = pairsOf(mesh, skirts.marks, measure);
     if (pairs.empty()) return {};
 
-    const DepthMeasure measure(ellipsoid);
     double shallowest2 = std::numeric_limits<double>::infinity();
     double deepest2 = 0.0;
     bool plumb = true;

@@ -5,13 +5,32 @@
 
 #include "../../core/EarthScale.h"
 
+#include <osgAnalyticBin/core/GeodeticBin.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace osgAnalyticBin {
 
 /// The rounding of float vertices when they are drawn: a centimetre on the earth, in metres.
 [[nodiscard]] inline double drawingError(const core::Ellipsoid& ellipsoid) {
     return 0.01 * core::earthScale(ellipsoid);
+}
+
+/// The same in a map, where vertices are stored with coordinates of up to `largest` units: as much again for those of
+/// descendants.
+[[nodiscard]] inline double drawingErrorInMap(double largest) {
+    constexpr double kFloatRounding = 2.4e-7;
+    return kFloatRounding * largest;
+}
+
+/// The largest coordinate of a bin in a map, in its units.
+[[nodiscard]] inline double largestCoordinate(const core::GeodeticBin& bin) {
+    const auto largest = [](const core::Interval& range) {
+        return std::max(std::abs(range.lower), std::abs(range.upper));
+    };
+    return std::max(core::Ellipsoid::kMapUnitsInRadian * std::max(largest(bin.latitude()), largest(bin.longitude())),
+                    largest(bin.altitude()));
 }
 
 /// What is higher is no terrain: 50 km on the earth, in proportion on larger globes and in smaller units. Small bodies

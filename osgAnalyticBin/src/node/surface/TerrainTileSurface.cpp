@@ -7,6 +7,7 @@
 #include "HeightRange.h"
 #include "TerrainLimits.h"
 
+#include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 
 #include <osgTerrain/GeometryTechnique>
@@ -37,8 +38,8 @@ std::size_t sampledPosts(std::size_t posts, double sampleRatio) {
     return std::max(static_cast<std::size_t>(scaled), kFewestSampledPosts);
 }
 
-// The rectangle of a locator whose matrix is nothing but extents.
-std::optional<core::GeodeticGrid> rectangleOf(const osgTerrain::Locator& locator) {
+// The rectangle of a locator whose matrix is nothing but extents. `radian`: of its units.
+std::optional<core::GeodeticGrid> rectangleOf(const osgTerrain::Locator& locator, double radian) {
     const osg::Matrixd& m = locator.getTransform();
     osg::Matrixd extents;
     extents(0, 0) = m(0, 0);
@@ -46,8 +47,9 @@ std::optional<core::GeodeticGrid> rectangleOf(const osgTerrain::Locator& locator
     extents(3, 0) = m(3, 0);
     extents(3, 1) = m(3, 1);
     if (!(m == extents)) return std::nullopt;
-    const auto between = [](double from, double width) {
-        return width < 0.0 ? core::Interval{from + width, from} : core::Interval{from, from + width};
+    const auto between = [radian](double from, double width) {
+        const double to = (from + width) / radian;
+        return width < 0.0 ? core::Interval{to, from / radian} : core::Interval{from / radian, to};
     };
     core::GeodeticGrid grid;
     grid.longitude = between(m(3, 0), m(0, 0));
@@ -72,14 +74,18 @@ bool isSame(const osg::EllipsoidModel& a, const osg::EllipsoidModel& b) {
            std::abs(a.getRadiusPolar() - b.getRadiusPolar()) <= same;
 }
 
+bool standsOn(const osgTerrain::Locator& locator, const osg::EllipsoidModel& ellipsoid) {
+    const bool isGeocentric = locator.getCoordinateSystemType() == osgTerrain::Locator::GEOCENTRIC;
+    if (isMapPlane(ellipsoid)) return !isGeocentric;
+    return isGeocentric && locator.getEllipsoidModel() && isSame(*locator.getEllipsoidModel(), ellipsoid);
+}
+
 // The grid that the technique makes of a tile, not sampled.
 std::optional<core::GeodeticGrid> gridOf(osgTerrain::TerrainTile& tile, const osg::EllipsoidModel& ellipsoid) {
     const osgTerrain::Locator* locator = masterLocator(tile);
-    if (!locator || locator->getCoordinateSystemType() != osgTerrain::Locator::GEOCENTRIC ||
-        !locator->getEllipsoidModel() || !isSame(*locator->getEllipsoidModel(), ellipsoid)) {
-        return std::nullopt;
-    }
-    std::optional<core::GeodeticGrid> grid = rectangleOf(*locator);
+    if (!locator || !standsOn(*locator, ellipsoid)) return std::nullopt;
+    std::optional<core::GeodeticGrid> grid =
+        rectangleOf(*locator, isMapPlane(ellipsoid) ? core::Ellipsoid::kMapUnitsInRadian : 1.0);
     const osgTerrain::Layer* layer = tile.getElevationLayer();
     if (grid) grid->columns = layer ? layer->getNumColumns() : kDefaultPosts;
     if (grid) grid->rows = layer ? layer->getNumRows() : kDefaultPosts;
@@ -90,6 +96,11 @@ std::optional<core::GeodeticGrid> gridOf(osgTerrain::TerrainTile& tile, const os
 double reachOf(const core::GeodeticGrid& grid, const core::Ellipsoid& ellipsoid) {
     const double radius = std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius()) + highestTerrain(ellipsoid);
     return radius * std::min(2.0, 0.5 * (grid.latitude.width() + grid.longitude.width()));
+}
+
+// By which the whole grid and those of descendants may leave their bin in a map.
+double marginInMap(const core::GeodeticGrid& grid, const core::Interval& altitude) {
+    return drawingErrorInMap(largestCoordinate({grid.latitude, grid.longitude, altitude}));
 }
 
 double marginOf(const core::GeodeticGrid& grid, const core::Ellipsoid& ellipsoid) {
@@ -158,7 +169,8 @@ TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::Ellipso
     TileSurface surface;
     // a skirt of negative height stands up
     const core::Interval altitude{heights.low - bounds.sag(), heights.high + std::max(0.0, -skirt)};
-    surface.bin = AnalyticBin(core::GeodeticBin(bounds.latitude(), grid->longitude, altitude), marginOf(*grid, model));
+    const double margin = model.isPlane() ? marginInMap(*grid, altitude) : marginOf(*grid, model);
+    surface.bin = AnalyticBin(core::GeodeticBin(bounds.latitude(), grid->longitude, altitude), margin);
     surface.bin.setSag(bounds.sag());
     surface.edgeLow = edgeLows(heights, *masterLocator(tile), bounds);
     surface.skirt = std::max(0.0, skirt);
@@ -182,7 +194,8 @@ std::optional<TerrainPosts> terrainPosts(osgTerrain::TerrainTile& tile, const os
     const bool isBroken = !field && dynamic_cast<osgTerrain::HeightFieldLayer*>(layer);
     // a skirt of negative height stands up
     if (isBroken || (field && !(field->getSkirtHeight() >= 0.0f))) return std::nullopt;
-    TerrainPosts posts{*grid, {}, marginOf(*grid, toCore(ellipsoid))};
+    const core::Ellipsoid model = toCore(ellipsoid);
+    TerrainPosts posts{*grid, {}, model.isPlane() ? 0.0 : marginOf(*grid, model)};
     posts.altitudes.reserve(grid->rows * grid->columns);
     for (unsigned int row = 0; row < grid->rows; ++row) {
         for (unsigned int column = 0; column < grid->columns; ++column) {
@@ -190,6 +203,9 @@ std::optional<TerrainPosts> terrainPosts(osgTerrain::TerrainTile& tile, const os
             if (layer && !layer->getValidValue(column, row, height)) return std::nullopt;
             // as the technique multiplies
             posts.altitudes.push_back(static_cast<double>(height * static_cast<float>(shape.verticalScale)));
+            // vertices are stored about the tile's middle
+            const double farthest = reachOf(*grid, model) + std::abs(posts.altitudes.back());
+            if (model.isPlane()) posts.margin = std::max(posts.margin, drawingErrorInMap(farthest));
         }
     }
     return posts;

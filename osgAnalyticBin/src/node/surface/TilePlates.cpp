@@ -13,6 +13,7 @@
 
 #include <osgAnalyticBin/TileFinder.h>
 
+#include <glm/geometric.hpp>
 #include <osg/Geometry>
 
 #include <algorithm>
@@ -57,6 +58,10 @@ public:
     }
 
     [[nodiscard]] bool isMesh() const { return isKnown() && !_mesh.triangles.empty(); }
+    // How far from its place the mesh may be drawn.
+    [[nodiscard]] double drawingError(const core::Ellipsoid& globe) const {
+        return globe.isPlane() ? drawingErrorInMap(_farthest) : osgAnalyticBin::drawingError(globe);
+    }
     [[nodiscard]] const TerrainPosts* posts() const { return isKnown() && _posts ? &*_posts : nullptr; }
 
 private:
@@ -73,6 +78,9 @@ private:
         if (part.triangles.empty()) return;
         if (_withoutSkirts && hasFoldedSurface(part, foldSkirts(part, *_withoutSkirts).marks)) return giveUp();
         dropUnusedVertices(part);
+        const glm::dvec3 origin = toGlm(localToEcef().getTrans());
+        for (std::size_t i = 0; i < part.size(); ++i)
+            _farthest = std::max(_farthest, glm::distance(origin, part.vertex(i)));
         const auto first = static_cast<std::uint32_t>(_mesh.size());
         _mesh.x.insert(_mesh.x.end(), part.x.begin(), part.x.end());
         _mesh.y.insert(_mesh.y.end(), part.y.begin(), part.y.end());
@@ -84,6 +92,7 @@ private:
     const core::Ellipsoid* const _withoutSkirts;
     core::EcefMesh& _mesh;
     std::optional<TerrainPosts> _posts;
+    double _farthest = 0.0;  // of a vertex from the origin of its frame
 };
 
 double along(const core::Interval& interval, std::size_t i, std::size_t posts) {
@@ -116,11 +125,12 @@ struct PlatesAndExtents {
 };
 
 PlatesAndExtents platesAndExtents(const TileMeshes& meshes) {
-    if (meshes.nodes.size() != 1 || !hasValidRadii(meshes.ellipsoid)) return {};
+    const bool hasGround = hasValidRadii(meshes.ellipsoid) || isMapPlane(meshes.ellipsoid);
+    if (meshes.nodes.size() != 1 || !hasGround) return {};
     const core::Ellipsoid globe = toCore(meshes.ellipsoid);
     core::EcefMesh mesh;
     const MeshUnion parts(meshes, &globe, mesh);
-    const double error = drawingError(globe);
+    const double error = parts.drawingError(globe);
     if (const TerrainPosts* const posts = parts.posts()) {
         return {std::make_unique<const core::GroundPlates>(globe, posts->grid, posts->altitudes, posts->margin + error),
                 {posts->grid.latitude, posts->grid.longitude, {0.0, 0.0}}};

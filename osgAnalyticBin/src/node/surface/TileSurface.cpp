@@ -29,6 +29,7 @@ public:
         if (!isKnown()) return {};
         TileSurface surface = _result;
         surface.isEmpty = !surface.bin.valid();
+        surface.isInMap = _ellipsoid.isPlane();
         return surface;
     }
 
@@ -70,7 +71,7 @@ private:
 
 TileSurface tileSurface(osg::Node& node, const osg::EllipsoidModel& ellipsoid, const osg::Matrixd& localToEcef,
                         double sampleRatio, bool withAnyTechnique) {
-    if (!hasValidRadii(ellipsoid)) return {};
+    if (!hasValidRadii(ellipsoid) && !isMapPlane(ellipsoid)) return {};
     SurfaceUnion surface(ellipsoid, localToEcef, sampleRatio, withAnyTechnique);
     node.accept(surface);
     return surface.result();

@@ -100,6 +100,7 @@ TEST(CullMethod, TerrainHidesTerrainOnlyWhereItIsNamed) {
         EXPECT_EQ(optionsOf(name).occlusion, OcclusionUse::On) << name;
         EXPECT_EQ(optionsOf(name).effectiveHorizonUse(), HorizonUse::Declared) << name;
     }
+    EXPECT_EQ(optionsOf("quadratic+horizon+edges+autoocclusion").occlusion, OcclusionUse::Auto);
     EXPECT_TRUE(optionsOf("exact+horizon+edges+occlusion").effectiveEdges());
     EXPECT_FALSE(optionsOf("exact+horizon+occlusion").effectiveEdges());
 }
@@ -115,7 +116,8 @@ TEST(CullMethod, RefusesWhatIsUnknownOrMakesNoSense) {
     for (const char* const name :
          {"spheres", "sphere+horizon", "none+edges", "cluster+horizon", "oracle+horizon", "orientedboxes",
           "exact+edges+horizon", "exact+horizon+horizon", "exact+", "+horizon", "", "exact+occlusion",
-          "exact+edges+occlusion", "box+horizon+occlusion", "exact+horizon+occlusion+edges", "sphere+occlusion"})
+          "exact+edges+occlusion", "box+horizon+occlusion", "exact+horizon+occlusion+edges", "sphere+occlusion",
+          "exact+autoocclusion", "exact+horizon+occlusion+autoocclusion"})
         EXPECT_THROW((void)cullMethodFromName(name), Failure) << name;
 }
 

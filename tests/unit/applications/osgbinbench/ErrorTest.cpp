@@ -38,7 +38,8 @@ TEST(Errors, OfTheCommandLineNameTheOption) {
     expectUsageError(test::runBenchBlind(good + " --methods sphere+horizon"), "unknown method \"sphere+horizon\"");
     expectUsageError(test::runBenchBlind(good + " --options horizon=off"), "--options: leave +horizon out");
     expectUsageError(test::runBenchBlind(good + " --options edges=off"), "--options: name methods with or without");
-    expectUsageError(test::runBenchBlind(good + " --options occlusion=on"), "--options: name methods with +occlusion");
+    expectUsageError(test::runBenchBlind(good + " --options occlusion=on"),
+                     "--options: name methods with +occlusion or +autoocclusion");
     expectUsageError(test::runBenchBlind(good + " --size 640"), "--size: \"640\"");
     expectUsageError(test::runBenchBlind(good + " --size 640x480x3"), "--size: ");
     expectUsageError(test::runBenchBlind(good + " --threading Many"), "--threading: unknown model \"Many\"");

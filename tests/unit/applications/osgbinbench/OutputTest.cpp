@@ -86,7 +86,8 @@ TEST(Output, JsonHoldsTheLiveFlightBesideTheSums) {
     EXPECT_EQ(json["live"]["frames"], 7);
     EXPECT_EQ(json["live"]["methods"]["sphere"]["files_requested"], 5);
     EXPECT_DOUBLE_EQ(json["live"]["methods"]["sphere"]["cull_ms"].get<double>(), 2.0);
-    for (const char* const key : {"drawn_tiles", "resident_tiles", "missing_frames", "bytes", "cull_median_ms"})
+    for (const char* const key :
+         {"drawn_tiles", "resident_tiles", "missing_frames", "bytes", "cull_median_ms", "cull_99th_ms"})
         EXPECT_TRUE(json["live"]["methods"]["sphere"].contains(key)) << key;
     EXPECT_FALSE(nlohmann::json::parse(jsonOf(Settings(), {"a", "b"}, twoMethods())).contains("live"));
 }

@@ -158,6 +158,21 @@ TEST(Program, FliesContinuously) {
     }
 }
 
+TEST(Program, JumpsAndWaitsUntilNothingIsMissing) {
+    if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
+    const Bench bench;
+    ASSERT_FALSE(bench.database.empty());
+    const Json jumps = bench.run("jumps", "--jumps --methods sphere,exact+horizon");
+    const Json poses = bench.run("poses", "--live 0 --flush 0 --methods sphere,exact+horizon");
+    ASSERT_EQ(jumps.size(), 3U);
+    for (const auto& [name, method] : jumps.items()) {
+        EXPECT_GT(method["missing_frames"], 0) << name;
+        EXPECT_GT(method["complete_ms"], 0) << name;
+        EXPECT_GT(method["drawn_tiles"], poses[name]["drawn_tiles"]) << name << ": of more frames than poses";
+        EXPECT_LE(method["files_requested"], poses[name]["files_requested"]) << name << ": what is there serves again";
+    }
+}
+
 TEST(Program, KeepsTilesInFlightAsLongAsItIsTold) {
     if (!test::hasDisplay()) GTEST_SKIP() << "needs xvfb-run";
     const Bench bench;
@@ -201,6 +216,7 @@ TEST(Program, FliesOnceMoreWithPagingLive) {
         EXPECT_GT(method["resident_tiles"], 32);
         EXPECT_GT(method["drawn_tiles"], 0);
         EXPECT_GT(method["cull_median_ms"], 0.0);
+        EXPECT_GE(method["cull_99th_ms"], method["cull_median_ms"]);
     }
 }
 

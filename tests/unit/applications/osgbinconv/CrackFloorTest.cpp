@@ -5,15 +5,15 @@
 // beside any other that is neither above nor below it.
 
 #include <gtest/gtest.h>
-#include <osgbinconv/CrackFloor.h>
-#include <osgbinconv/Neighbours.h>
 
 #include <algorithm>
 #include <cmath>
+#include <index/CrackFloor.h>
+#include <index/Neighbours.h>
 #include <memory>
 #include <support/Random.h>
 
-namespace osgbinconv {
+namespace osgAnalyticBin::indexing {
 namespace {
 
 using osgAnalyticBin::AnalyticBin;
@@ -222,4 +222,4 @@ TEST(CrackFloor, AncestorsAreMetOnceByHoweverManyWays) {
 }
 
 }  // namespace
-}  // namespace osgbinconv
+}  // namespace osgAnalyticBin::indexing

@@ -225,7 +225,7 @@ TEST(SmallRun, BadCommandLinesAreOneLine) {
     writeBytes(folder / "text.osgb", "no scene");
     expectFailure(runBinconv("--quiet --index " + test::quoted(folder / "text.osgb")), "text.osgb");
     writeSmallFile(folder / "cow.osgb", *makeSmallTile(""));
-    expectFailure(runBinconv("--quiet --index " + test::quoted(folder / "cow.osgb")), "no tile of a globe");
+    expectFailure(runBinconv("--quiet --index " + test::quoted(folder / "cow.osgb")), "no tile of a globe or a map");
     EXPECT_FALSE(fs::exists(folder / "cow.osgb.bins"));
     EXPECT_FALSE(fs::exists(folder / "cow.osgb.bins.part"));
 }

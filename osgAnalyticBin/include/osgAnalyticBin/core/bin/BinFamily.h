@@ -9,6 +9,7 @@
 #include <osgAnalyticBin/core/bin/KernelData.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
+#include <osgAnalyticBin/core/horizon/RegionalSight.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -64,7 +65,11 @@ public:
     /// Cost: for slots in view some ten multiplications for all lanes together; no allocation, no trigonometry.
     [[nodiscard]] std::uint64_t hiddenFrom(const HorizonEye& eye, std::uint64_t candidates) const noexcept;
 
-    /// As core::isSeparated() of the bin. Requires: a slot in exact() (asserted).
+    /// Returns: the candidates of which RegionalSight::holds() is true. Cost: as there, for each candidate.
+    [[nodiscard]] std::uint64_t heldIn(const RegionalSight& sight, std::uint64_t candidates) const noexcept;
+
+    /// As core::isSeparated() of the bin. Requires: a slot in filled() (asserted). A curved bin in quadratic form is
+    /// seldom found to be separated.
     [[nodiscard]] bool isSeparated(std::size_t i, const PlaneSet& planes, PlaneMask undecided) const noexcept;
 
 private:

@@ -9,7 +9,7 @@
 
 namespace osgAnalyticBin::core {
 
-/// (latitude, longitude, altitude) to ECEF on an ellipsoid of revolution.
+/// (latitude, longitude, altitude) to ECEF on an ellipsoid of revolution; in the plane of a map it is linear.
 /// Source: [JJ] eq. (4), corrected; doc/theory/derivation.md, section 2.
 class GeodeticMapping final : public AnalyticMapping {
 public:

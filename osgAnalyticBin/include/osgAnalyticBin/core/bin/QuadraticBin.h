@@ -48,6 +48,15 @@ public:
     /// The model's point at a position of the unit box.
     [[nodiscard]] glm::dvec3 modelPoint(const glm::dvec3& unit) const noexcept;
 
+    /// @{
+    /// For isSeparated(): of the linear part of the model, which is the whole of it where the mapping is linear.
+    [[nodiscard]] glm::dvec3 hullPoint() const noexcept { return value(); }
+    /// A point of it that is farthest along the direction.
+    [[nodiscard]] glm::dvec3 supportPoint(const glm::dvec3& direction) const noexcept;
+    /// No point of the bin is farther from the origin.
+    [[nodiscard]] double reach() const noexcept;
+    /// @}
+
     /// What the kernels read: row::Quadratic.
     [[nodiscard]] const std::array<double, row::QuadraticEnd>& numbers() const noexcept { return _numbers; }
 

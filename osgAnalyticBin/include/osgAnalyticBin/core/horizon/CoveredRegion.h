@@ -5,8 +5,6 @@
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
-#include <osgAnalyticBin/core/PlaneSet.h>
-#include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <glm/vec3.hpp>
 
@@ -14,7 +12,7 @@ namespace osgAnalyticBin::core {
 
 /// The part of the globe that a regional database covers without gaps: all altitudes between two latitudes and two
 /// longitudes. Terrain hides what is behind it where lines of sight stay over the region; a line of sight that comes
-/// from beside the region may pass below the terrain's border.
+/// from beside the region may pass below the terrain's border. RegionalSight: lines of sight to the horizon.
 /// Source: doc/theory/horizon.md, section 10.
 class CoveredRegion final {
 public:
@@ -22,18 +20,13 @@ public:
     /// |e²| above 0.01.
     CoveredRegion(const Ellipsoid& ellipsoid, const GeodeticBin& extents) noexcept;
 
+    [[nodiscard]] const Ellipsoid& ellipsoid() const noexcept { return _ellipsoid; }
+
     /// Latitudes and longitudes of the region.
     [[nodiscard]] const GeodeticBin& extents() const noexcept { return _extents; }
 
     /// Whether every position of the bin is over the region.
     [[nodiscard]] bool contains(const GeodeticBin& bin) const noexcept;
-
-    /// Whether every line of sight that meets the occluder of this eye stays over the region until it does. Lines that
-    /// leave one of the planes (ECEF, positive inside) do not matter. Never for orthographic cameras.
-    /// Requires: the eye was made for the same ellipsoid.
-    /// Guarantee: true only if it is so; tests: CoveredRegion.HoldsAllLinesOfSightToTheOccluder.
-    /// Cost: some microseconds.
-    [[nodiscard]] bool holdsHorizon(const HorizonEye& eye, const PlaneSet& frustum) const noexcept;
 
     /// Whether every segment from the eye to a point over the region stays over it. Points and eye are at most a tenth
     /// of the smaller radius below the ellipsoid.

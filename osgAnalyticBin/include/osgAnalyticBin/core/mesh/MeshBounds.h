@@ -68,6 +68,7 @@ public:
     [[nodiscard]] double sag() const noexcept { return _sag; }
 
 private:
+    void findInMap(const EcefMesh& mesh);
     [[nodiscard]] bool findInClosedForm(const Ellipsoid& ellipsoid, const EcefMesh& mesh);
     void findByTriangles(const Ellipsoid& ellipsoid, const EcefMesh& mesh);
 

@@ -29,8 +29,10 @@ public:
     /// camera can see, or more; earth beside it hides nothing, and callers do not ask for bodies beside it. `drawing`:
     /// how far from its place in the picture the corner of a triangle may be drawn, in x and in y; outlines are
     /// enlarged by it. `depthStep`: the depth buffer may store the same depth for two points on a line of
-    /// sight if their 1 / forward differs by at most this (1/m).
-    HorizonBuffer(double eyeToCentre, const Interval& across, double drawing = 0.0, double depthStep = 0.0);
+    /// sight if their 1 / forward differs by at most this (1/m). `eyes`: metres that the eye may be away from its place
+    /// along each axis: what is hidden is hidden from all these eyes, which look along the same axes.
+    HorizonBuffer(double eyeToCentre, const Interval& across, double drawing = 0.0, double depthStep = 0.0,
+                  const glm::dvec3& eyes = glm::dvec3(0.0));
 
     /// Adds earth. It hides bodies that are farther than its farthest corner by more than a depth step. Earth beside or
     /// behind the eye is left out.
@@ -42,8 +44,8 @@ public:
 
     /// Where a body is in the picture.
     struct Outline {
-        double nearest;    ///< metres along `forward`, of its nearest point
-        Interval across;   ///< of the picture, only where `nearest` is positive
+        double nearest;    ///< metres along `forward` from the eye's place, of its nearest point
+        Interval across;   ///< of the picture, only where the body is in front of all eyes
         Interval heights;  ///< likewise
         bool isBeside;     ///< left or right of the picture, or behind the eye
     };
@@ -58,6 +60,9 @@ public:
     /// operations per strip that it spans.
     [[nodiscard]] bool hides(const Outline& body);
 
+    /// Metres from the eye's place to the nearest upper corner of all earth in front of it; infinite where there is none.
+    [[nodiscard]] double nearestEarth() const noexcept { return _nearestEarth; }
+
     /// The heights that are covered in a strip so far; an empty interval if nothing is covered.
     [[nodiscard]] Interval covered(std::size_t strip) const noexcept { return {_lower[strip], _upper[strip]}; }
 
@@ -65,7 +70,7 @@ private:
     // A straight line in the picture: y = slope x + offset.
     struct Line {
         Line() = default;
-        Line(const glm::dvec2& a, const glm::dvec2& b, double move);
+        Line(const glm::dvec2& a, const glm::dvec2& b, double side, const glm::dvec2& error);
         double slope, offset;
     };
     // The picture of an upright quadrilateral of earth.
@@ -91,6 +96,8 @@ private:
     double _step, _perStep;
     double _drawing;
     double _depthStep;
+    glm::dvec3 _eyes;
+    double _nearestEarth = std::numeric_limits<double>::infinity();
     double _lowest = -std::numeric_limits<double>::infinity();
     double _reached = 0.0;  // the farthest corner of the earth that is in the strips
     std::vector<Wall> _walls;

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/index/DatabaseFiles.h>
+#include <osgAnalyticBin/index/FileRecord.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin::indexing {
+
+/// The records of a database's files, by their names.
+using FileRecords = std::map<std::string, FileRecord>;
+
+/// What follows a walk over the files of a database. What its functions throw ends the walk.
+class OSGANALYTICBIN_EXPORT WalkObserver {
+public:
+    virtual ~WalkObserver();
+    /// Before a file is read, in the thread that will read it. May be called by several threads at once.
+    virtual void beforeFile() {}
+    /// A file was read. Never two calls at a time.
+    virtual void keep(const FileRecord& record);
+    /// A file is done. Never two calls at a time. `isKnown`: its record is one of an earlier walk. `share`: of the
+    /// whole walk, what is done with this file; all shares make up 1.
+    virtual void done(const FileRecord& record, bool isKnown, double share);
+};
+
+/// Reads every file of a database once, each in one of several threads, and forgets its scene at once. Goes deep first:
+/// what is paged below a file is done soon after it. `known` are records of an earlier walk, taken where the file has
+/// not changed. The result does not depend on the threads. With one thread the files are read in the caller's.
+/// Throws Failure when the root file cannot be read, or when a file is named that is outside of the folder or stands in
+/// two frames; and what the observer throws.
+[[nodiscard]] OSGANALYTICBIN_EXPORT FileRecords walkDatabase(const DatabaseFiles& files, std::vector<FileRecord> known,
+                                                             WalkObserver& observer, int threads,
+                                                             Images images = Images::Left);
+
+}  // namespace osgAnalyticBin::indexing

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/BinIndex.h>
+#include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/index/DatabaseFiles.h>
+#include <osgAnalyticBin/index/DatabaseWalk.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin::indexing {
+
+/// An index, and what it took to make it.
+struct MadeIndex {
+    osg::ref_ptr<BinIndex> index;
+    FileRecords records;
+    /// Where the tiles cover the whole globe: the altitude in metres that no surface goes below.
+    std::optional<double> horizon;
+    /// What is missing or unknown, a line each.
+    std::vector<std::string> warnings;
+};
+
+/// The index of the bins in the records of all files. Throws Failure when there is no tile, or when a file is paged
+/// below itself.
+[[nodiscard]] OSGANALYTICBIN_EXPORT MadeIndex indexFrom(const DatabaseFiles& files, FileRecords records);
+
+}  // namespace osgAnalyticBin::indexing

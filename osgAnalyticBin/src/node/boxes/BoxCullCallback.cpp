@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "BoxCullCallback.h"
+
+#include "../cull/BinCulling.h"
+#include "../install/FindCallback.h"
+#include "../install/TileCallback.h"
+
+#include <cstdint>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// The visitor that traverses a set in this thread, which a look into its user data would tell more slowly.
+struct TraversalOfThread {
+    const osg::NodeVisitor* visitor = nullptr;
+    CullTraversal* traversal = nullptr;
+};
+thread_local TraversalOfThread traversalOfThread;
+
+}  // namespace
+
+CullTraversal& boxTraversalOf(osg::NodeVisitor& visitor) {
+    return traversalOfThread.visitor == &visitor ? *traversalOfThread.traversal : CullTraversal::of(visitor);
+}
+
+BoxCullCallback::BoxCullCallback(const BoxCullCallback& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop),
+      osg::Callback(other, copyop),
+      osg::NodeCallback(other, copyop),
+      _set(other._set),
+      _tile(other._tile),
+      _wasCullingActive(other._wasCullingActive) {}
+
+void BoxCullCallback::place(osg::LOD& node, BoxSet& set, BoxTile& tile) {
+    const osg::ref_ptr<BoxCullCallback> callback = new BoxCullCallback(&set, &tile);
+    callback->_wasCullingActive = node.getCullingActive();
+    callback->setNestedCallback(node.getCullCallback());
+    node.setCullCallback(callback);
+    node.setCullingActive(false);
+}
+
+void BoxCullCallback::remove(osg::LOD& node) {
+    const osg::ref_ptr<BoxCullCallback> callback = findCallback<BoxCullCallback>(node.getCullCallback());
+    if (!callback) return;
+    takeOff(node, *callback);
+    node.setCullingActive(callback->_wasCullingActive);
+}
+
+void BoxCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    cullOrTraverse(
+        *nv, [&](osg::CullStack& cullStack) { return isCulled(*node, cullStack, *nv); }, [&] { traverse(node, nv); });
+}
+
+bool BoxCullCallback::isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
+    if (_set->options().method == Method::None) {
+        setUndecided(cullStack.getCurrentCullingSet().getFrustum(), 0);
+        return false;
+    }
+    if (_set->isRemoved() || !_tile->test().isTested) return false;
+    const BoxTest& test = _tile->test();
+    const osg::BoundingSphere& sphere = test.sphereOf(node);
+    return isCulledByBin(cullStack, nv, boxTraversalOf(nv), sphere,
+                         [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
+                             const core::Side side = test.sideOf(frustum.getPlaneList(), undecided, node);
+                             return Verdict{side, Verdict::Plane};
+                         });
+}
+
+BoxSetCullCallback::BoxSetCullCallback(const BoxSetCullCallback& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop) {}
+
+void BoxSetCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    osg::CullStack* const cullStack = nv->asCullStack();
+    if (!cullStack) {
+        traverse(node, nv);
+        return;
+    }
+    // culled or kept siblings before the set leave a part of the planes behind
+    osg::Polytope& frustum = cullStack->getCurrentCullingSet().getFrustum();
+    setUndecided(frustum, static_cast<core::PlaneMask>((std::uint64_t{1} << frustum.getPlaneList().size()) - 1));
+    const TraversalOfThread outer = traversalOfThread;
+    traversalOfThread = {nv, &CullTraversal::of(*nv)};
+    traverse(node, nv);
+    traversalOfThread = outer;
+}
+
+BoxSetUpdateCallback::BoxSetUpdateCallback(const BoxSetUpdateCallback& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop), _set(other._set) {}
+
+void BoxSetUpdateCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    _set->update();
+    // a set may have very many tiles, and nothing to update below them
+    if (getNestedCallback() || node->getNumChildrenRequiringUpdateTraversal() > 0) traverse(node, nv);
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "BoxInstaller.h"
+
+#include "../install/FindCallback.h"
+#include "../install/MeshCulling.h"
+#include "../install/TileCallback.h"
+#include "../page/PagingExpiry.h"
+#include "BoxCullCallback.h"
+#include "BoxFamily.h"
+#include "BoxReadFileCallback.h"
+#include "SetMarks.h"
+
+#include <osgAnalyticBin/PhotogrammetrySet.h>
+#include <osgAnalyticBin/TileFinder.h>
+
+#include <osg/NodeVisitor>
+#include <osg/Notify>
+#include <osgDB/FileUtils>
+#include <osgDB/Registry>
+
+#include <algorithm>
+#include <typeinfo>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// Takes boxes off all LODs.
+class BoxRemover : public osg::NodeVisitor {
+public:
+    BoxRemover() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+
+    void apply(osg::Group& node) override {
+        BoxFamily::remove(node);
+        traverse(node);
+    }
+
+    void apply(osg::LOD& node) override {
+        BoxCullCallback::remove(node);
+        resumeCullingOf(node);
+        traverse(node);
+    }
+
+    void apply(osg::PagedLOD& node) override {
+        const auto* const options = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
+        auto* const callback = options ? dynamic_cast<BoxReadFileCallback*>(options->getReadFileCallback()) : nullptr;
+        if (callback) {
+            restoreExpiry(node, callback->expiry());
+            node.setDatabaseOptions(osg::ref_ptr(callback->replaced()).get());
+        }
+        apply(static_cast<osg::LOD&>(node));
+    }
+};
+
+osg::ref_ptr<BoxIndex> indexOf(const osg::Node& set, const CullOptions& options) {
+    const std::string metadata = metadataFileOf(set);
+    const bool isWanted = options.index != IndexUse::Off && options.method != Method::None;
+    if (!isWanted || metadata.empty() || !osgDB::fileExists(boxIndexPath(metadata))) return nullptr;
+    std::string error;
+    osg::ref_ptr<BoxIndex> index = BoxIndex::read(boxIndexPath(metadata), error);
+    if (!index) OSG_WARN << "osgAnalyticBin: " << error << "; the set is culled without it." << std::endl;
+    return index;
+}
+
+// Boxes are tested, and files read, without osgDB's cache of nodes: each tile stands in one place.
+osg::ref_ptr<osgDB::Options> readingOptions(const osgDB::Options* own) {
+    const osgDB::Options* const base = own ? own : osgDB::Registry::instance()->getOptions();
+    osg::ref_ptr<osgDB::Options> options = base ? base->cloneOptions() : new osgDB::Options;
+    options->setObjectCacheHint(
+        static_cast<osgDB::Options::CacheHintOptions>(options->getObjectCacheHint() & ~osgDB::Options::CACHE_NODES));
+    return options;
+}
+
+// Where it does not depend on the children.
+osg::BoundingSphere sphereOf(const osg::LOD& node) {
+    const bool isOwn = node.getCenterMode() == osg::LOD::USER_DEFINED_CENTER && node.getRadius() >= 0.0F &&
+                       !node.getComputeBoundingSphereCallback() && !node.getInitialBound().valid();
+    return isOwn ? osg::BoundingSphere(node.getCenter(), node.getRadius()) : osg::BoundingSphere();
+}
+
+}  // namespace
+
+bool BoxInstaller::isKnown(const std::string& file, std::size_t lods) const {
+    if (!_set.index()) return false;
+    const auto found = _set.index()->files().find(file);
+    return found != _set.index()->files().end() && found->second.size() == lods;
+}
+
+BoxInstaller::Content BoxInstaller::survey(osg::Node& node) const {
+    const LodContent content = findLods(node);
+    return {content.all(content.boxes(std::vector<MeshBox>(content.lods.size()))), true};
+}
+
+BoxInstaller::Content BoxInstaller::install(osg::Node& node, const std::string& file, BoxTile* parent) {
+    const LodContent content = findLods(node);
+    std::vector<osg::ref_ptr<BoxTile>> tiles;
+    std::vector<Content> below;
+    Pagings pagings;
+    for (const FoundLod& lod : content.lods) {
+        tiles.emplace_back(new BoxTile(lod.parent ? tiles[*lod.parent].get() : parent, sphereOf(*lod.node)));
+        below.push_back(installBelow(*lod.node, file, *tiles.back()));
+        if (auto* const paged = dynamic_cast<osg::PagedLOD*>(lod.node)) {
+            followPaging(*paged, file, *tiles.back(), pagings);
+        }
+    }
+    return place(content, below, file, tiles);
+}
+
+// Gives the tiles of a file their boxes.
+BoxInstaller::Content BoxInstaller::place(const LodContent& content, const std::vector<Content>& below,
+                                          const std::string& file, const std::vector<osg::ref_ptr<BoxTile>>& tiles) {
+    std::vector<MeshBox> loaded;
+    for (const Content& files : below) loaded.push_back(files.box);
+    const std::vector<MeshBox> boxes = content.boxes(loaded);
+    std::vector<bool> fits(tiles.size(), isKnown(file, tiles.size()));
+    Content all{content.all(boxes), _set.index() && !isKnown(file, tiles.size())};
+    for (std::size_t i = tiles.size(); i-- > 0;) {
+        MeshBox box = boxes[i];
+        if (fits[i]) {
+            const osg::BoundingBoxf& known = *_set.index()->find(file, i);
+            const MeshBox whole = known.valid() ? MeshBox(known) : MeshBox::boundless();
+            fits[i] = !below[i].isMisfit && whole.contains(box);
+            box.expandBy(whole);
+        }
+        if (!fits[i] && content.lods[i].parent) fits[*content.lods[i].parent] = false;
+        all.isMisfit = all.isMisfit || (_set.index() && !fits[i]);
+        tiles[i]->set(box, fits[i]);
+    }
+    placeCallbacks(content, tiles);
+    if (all.isMisfit) _set.noteMisfit(file);
+    return all;
+}
+
+bool BoxInstaller::isInGroup(const osg::Node& node) const {
+    if (node.getNumParents() != 1) return false;
+    const osg::Group& parent = *node.getParent(0);
+    return &parent == _root || typeid(parent) == typeid(osg::Group);
+}
+
+// In a chain of single children, each about as large as the one above, one test is enough. Children of groups are
+// tested by their families.
+void BoxInstaller::placeCallbacks(const LodContent& content, const std::vector<osg::ref_ptr<BoxTile>>& tiles) {
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        osg::LOD& node = *content.lods[i].node;
+        const bool isInChain = tiles.size() == 1 || content.lods[i].parent;
+        if (isInChain && _set.options().method != Method::None && _set.isLikeParent(*tiles[i])) {
+            tiles[i]->setFollowsParent();
+            suspendCullingOf(node);
+        } else if (isInGroup(node)) {
+            _members[&node] = tiles[i];
+        } else {
+            BoxCullCallback::place(node, _set, *tiles[i]);
+        }
+    }
+    for (osg::Group* const group : content.groups) placeFamily(*group);
+    _installed += tiles.size();
+}
+
+void BoxInstaller::placeFamily(osg::Group& group) const {
+    BoxFamily::place(group, _set, [this](const osg::Node& node) -> BoxTile* {
+        const auto found = _members.find(&node);
+        return found == _members.end() ? nullptr : found->second.get();
+    });
+}
+
+BoxInstaller::Content BoxInstaller::installBelow(osg::LOD& node, const std::string& file, BoxTile& tile) {
+    Content below;
+    for (unsigned int i = 0; i < node.getNumChildren(); ++i) {
+        if (!isPagedChildOf(node, i)) continue;
+        const std::string& name = static_cast<osg::PagedLOD&>(node).getFileName(i);
+        const Content content = install(*node.getChild(i), pagedFilePath(file, name), &tile);
+        below.box.expandBy(content.box);
+        below.isMisfit = below.isMisfit || content.isMisfit;
+    }
+    return below;
+}
+
+BoxInstaller::Paging BoxInstaller::makePaging(osgDB::Options* own) const {
+    const osg::ref_ptr<osgDB::Options> options = readingOptions(own);
+    const osg::ref_ptr<BoxReadFileCallback> callback =
+        new BoxReadFileCallback(&_set, own, options->getReadFileCallback());
+    options->setReadFileCallback(callback);
+    return {own, options, callback.get()};
+}
+
+// One callback for all PagedLODs of a file, unless they came with several options, or name a file twice.
+void BoxInstaller::followPaging(osg::PagedLOD& node, const std::string& file, BoxTile& tile, Pagings& pagings) const {
+    raiseExpiry(node, _set.options().expiry);
+    const osg::ref_ptr<osgDB::Options> own = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
+    const auto takes = [&](const Paging& paging) {
+        if (paging.own != own) return false;
+        for (unsigned int i = 0; i < node.getNumFileNames(); ++i) {
+            if (isPagedChildOf(node, i) && paging.callback->expects(node.getDatabasePath() + node.getFileName(i)))
+                return false;
+        }
+        return true;
+    };
+    auto paging = std::find_if(pagings.begin(), pagings.end(), takes);
+    if (paging == pagings.end()) paging = pagings.insert(pagings.end(), makePaging(own.get()));
+    for (unsigned int i = 0; i < node.getNumFileNames(); ++i) {
+        if (!isPagedChildOf(node, i)) continue;
+        paging->callback->expect(node.getDatabasePath() + node.getFileName(i), pagedFilePath(file, node.getFileName(i)),
+                                 &tile);
+    }
+    node.setDatabaseOptions(paging->options.get());
+}
+
+std::size_t installBoxes(osg::Group& root, const CullOptions& options) {
+    removeBoxes(root);
+    const osg::ref_ptr<BoxIndex> index = indexOf(root, options);
+    const osg::ref_ptr<BoxSet> set = new BoxSet(options, index.get());
+    BoxInstaller installer(*set, &root);
+    for (unsigned int i = 0; i < root.getNumChildren(); ++i) {
+        osg::Node& tile = *root.getChild(i);
+        (void)installer.install(tile, photogrammetryFileOf(tile), nullptr);
+    }
+    installer.placeFamily(root);
+    const osg::ref_ptr<BoxSetCullCallback> cull = new BoxSetCullCallback;
+    cull->setNestedCallback(root.getCullCallback());
+    root.setCullCallback(cull);
+    root.addUpdateCallback(new BoxSetUpdateCallback(set));
+    return installer.installed();
+}
+
+void removeBoxes(osg::Group& root) {
+    if (const osg::ref_ptr<osg::Callback> cull = findCallback<BoxSetCullCallback>(root.getCullCallback()))
+        takeOff(root, *cull);
+    BoxFamily::remove(root);
+    const osg::ref_ptr<BoxSetUpdateCallback> update = findCallback<BoxSetUpdateCallback>(root.getUpdateCallback());
+    if (!update) return;
+    update->set().setRemoved();
+    root.removeUpdateCallback(update);
+    BoxRemover remover;
+    root.accept(remover);
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "BoxReadFileCallback.h"
+
+#include "../page/CarefulRead.h"
+#include "BoxInstaller.h"
+
+namespace osgAnalyticBin {
+
+osgDB::ReaderWriter::ReadResult BoxReadFileCallback::readNode(const std::string& fileName,
+                                                              const osgDB::Options* options) {
+    using ReadResult = osgDB::ReaderWriter::ReadResult;
+    // No node and no error: the pager says nothing, and asks again in the next frame.
+    if (!_failures.mayRead(fileName, FailedReads::Clock::now())) return ReadResult::FILE_LOADED;
+    ReadResult result = readCarefully(fileName, [&] {
+        ReadResult read = readUntreated(fileName, options, _previous.get());
+        const auto found = _expected.find(fileName);
+        if (read.validNode() && found != _expected.end()) treat(*read.getNode(), found->second);
+        return read;
+    });
+    _failures.note(fileName, result.validNode(), FailedReads::Clock::now());
+    return result;
+}
+
+void BoxReadFileCallback::treat(osg::Node& node, const Expected& expected) const {
+    if (_set->isRemoved()) return;
+    BoxInstaller installer(*_set);
+    // what others hold, too, keeps OSG's spheres
+    const bool isOwn = node.referenceCount() == 1;
+    const auto content = isOwn ? installer.install(node, expected.file, expected.parent.get()) : installer.survey(node);
+    _set->grow(*expected.parent, content.box, content.isMisfit);
+}
+
+}  // namespace osgAnalyticBin

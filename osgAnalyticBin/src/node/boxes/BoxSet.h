@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "MeshBox.h"
+
+#include <osgAnalyticBin/BoxIndex.h>
+#include <osgAnalyticBin/CullOptions.h>
+
+#include <osg/CullingSet>
+#include <osg/Node>
+#include <osg/Referenced>
+#include <osg/ref_ptr>
+
+#include <atomic>
+#include <cstddef>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+/// How a LOD of a photogrammetry set is tested.
+struct BoxTest {
+    TestedBox box;            ///< what has to be out of view: the box, or a sphere that holds it
+    bool isTested = false;    ///< otherwise it is never culled
+    bool asksNode = false;    ///< whether OSG's own sphere of the node has to be out of view, too
+    bool isComplete = false;  ///< whether the box holds all that is paged below, loaded or not
+
+    [[nodiscard]] core::Side sideOf(const osg::Polytope::PlaneList& planes, core::PlaneMask& undecided,
+                                    const osg::Node& node) const {
+        if (!isTested) return core::Side::Straddling;
+        return box.classify(planes, undecided, asksNode ? &node.getBound() : nullptr);
+    }
+    /// What is tested for other reasons than the planes: small features, occluders.
+    [[nodiscard]] const osg::BoundingSphere& sphereOf(const osg::Node& node) const {
+        return asksNode ? node.getBound() : box.sphere();
+    }
+};
+
+/// The children of a group, with all that their tests need, side by side.
+class BoxSlots final : public osg::Referenced {
+public:
+    struct Slot {
+        BoxTest test;
+        const osg::Node* node = nullptr;  ///< the child; null: no LOD of the set
+        bool isPlain = false;             ///< a LOD or PagedLOD, and not of a class derived from these
+        bool wasCullingActive = true;
+    };
+
+    explicit BoxSlots(std::size_t count) : slots(count) {}
+
+    std::vector<Slot> slots;
+
+protected:
+    ~BoxSlots() override = default;
+};
+
+/// What is known of a LOD of a photogrammetry set. Cull traversals read it; it changes in update traversals alone.
+class BoxTile final : public osg::Referenced {
+public:
+    /// `parent`: the LOD above it; null: none. `sphere`: the one that the LOD was given; not valid: none, it follows
+    /// the children.
+    BoxTile(BoxTile* parent, const osg::BoundingSphere& sphere) : _parent(parent), _sphere(sphere) {}
+
+    /// `isComplete`: the box holds all that is paged below, loaded or not.
+    void set(const MeshBox& box, bool isComplete);
+
+    /// Has a slot follow the tile.
+    void join(BoxSlots& slots, std::size_t number);
+
+    /// Says that the tile is not tested by itself: who keeps its parent keeps it.
+    void setFollowsParent() { _followsParent = true; }
+    /// Whether what is tested of it differs so little from that of the next tile above that is tested, that a test
+    /// would say no more.
+    [[nodiscard]] bool isLikeParent() const;
+
+    [[nodiscard]] BoxTile* parent() { return _parent.get(); }
+    [[nodiscard]] const MeshBox& box() const { return _box; }
+    [[nodiscard]] bool isComplete() const { return _test.isComplete; }
+    [[nodiscard]] const BoxTest& test() const { return _test; }
+
+protected:
+    ~BoxTile() override = default;
+
+private:
+    // Whether the tile's own sphere says more than its box, and holds it.
+    [[nodiscard]] bool isBySphere() const { return !_test.isComplete && _test.isTested && !_test.asksNode; }
+
+    const osg::ref_ptr<BoxTile> _parent;
+    const osg::BoundingSphere _sphere;
+    MeshBox _box;
+    BoxTest _test;
+    bool _followsParent = false;
+    osg::ref_ptr<BoxSlots> _slots;
+    std::size_t _slot = 0;
+};
+
+/// A photogrammetry set that is culled by boxes. Threads: all but update().
+class BoxSet final : public osg::Referenced {
+public:
+    /// `index` may be null.
+    BoxSet(const CullOptions& options, BoxIndex* index) : _options(options), _index(index) {}
+
+    [[nodiscard]] const CullOptions& options() const { return _options; }
+    [[nodiscard]] const BoxIndex* index() const { return _index.get(); }
+
+    /// Says that boxes are taken off: what has them still is not culled by them.
+    void setRemoved() { _isRemoved.store(true, std::memory_order_relaxed); }
+    [[nodiscard]] bool isRemoved() const { return _isRemoved.load(std::memory_order_relaxed); }
+
+    /// Says that the content of a file, or a LOD, does not fit the index. Warns once.
+    void noteMisfit(const std::string& file);
+
+    /// Says what was read below a tile. It and the tiles above it grow in the next update. `isMisfit`: the index does
+    /// not know the content, and no tile above it is complete.
+    void grow(BoxTile& tile, const MeshBox& box, bool isMisfit);
+
+    /// BoxTile::isLikeParent(), where tiles above may be in the scene. In any thread.
+    [[nodiscard]] bool isLikeParent(const BoxTile& tile);
+
+    /// In update traversals.
+    void update();
+
+protected:
+    ~BoxSet() override = default;
+
+private:
+    struct Growth {
+        osg::ref_ptr<BoxTile> tile;
+        MeshBox box;
+        bool isMisfit;
+    };
+
+    const CullOptions _options;
+    const osg::ref_ptr<const BoxIndex> _index;
+    std::atomic<bool> _isRemoved{false}, _hasWarned{false};
+    std::mutex _mutex;  // guards what follows, and changes of tiles in the scene
+    std::vector<Growth> _growths;
+};
+
+}  // namespace osgAnalyticBin

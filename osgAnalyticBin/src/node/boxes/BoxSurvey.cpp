@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// makeBoxIndex(): reads all files of a set, each once, and adds up their boxes from the leaves.
+
+#include "../page/CarefulRead.h"
+#include "LodContent.h"
+
+#include <osgAnalyticBin/BoxIndex.h>
+#include <osgAnalyticBin/PhotogrammetrySet.h>
+#include <osgAnalyticBin/TileFile.h>
+#include <osgAnalyticBin/TileFinder.h>
+
+#include <osg/PagedLOD>
+#include <osgDB/FileNameUtils>
+#include <osgDB/FileUtils>
+
+#include <algorithm>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+/// What a file holds; its scene is forgotten.
+struct Surveyed {
+    struct Lod {
+        MeshBox own;
+        std::vector<std::string> files;
+        std::optional<std::size_t> parent;
+    };
+    std::vector<Lod> lods;
+    MeshBox beside;
+};
+
+Surveyed surveyed(osg::Node& node, const std::string& file) {
+    const LodContent content = findLods(node);
+    Surveyed result{{}, content.beside};
+    for (const FoundLod& lod : content.lods) {
+        result.lods.push_back({lod.own, {}, lod.parent});
+        const auto* const paged = dynamic_cast<const osg::PagedLOD*>(lod.node);
+        for (unsigned int i = 0; paged && i < paged->getNumFileNames(); ++i) {
+            if (isPagedChildOf(*paged, i))
+                result.lods.back().files.push_back(pagedFilePath(file, paged->getFileName(i)));
+        }
+    }
+    return result;
+}
+
+class Survey {
+public:
+    Survey(std::string folder, const BoxIndexProgress& progress) : _folder(std::move(folder)), _progress(progress) {}
+
+    void start(const std::vector<std::string>& roots) {
+        for (const std::string& root : roots) enter(root, 1.0 / static_cast<double>(roots.size()));
+    }
+
+    /// The body of each thread.
+    void work() {
+        while (const std::optional<Job> job = next()) finish(*job, read(job->file));
+    }
+
+    [[nodiscard]] bool isStopped() const { return _isStopped; }
+
+    /// Requires: the threads have ended.
+    [[nodiscard]] osg::ref_ptr<BoxIndex> result() {
+        const osg::ref_ptr<BoxIndex> index = new BoxIndex;
+        for (const auto& [file, content] : _files) {
+            if (!content) continue;
+            const std::vector<MeshBox> boxes = boxesOf(*content);
+            BoxIndex::Boxes known;
+            for (const MeshBox& box : boxes) known.push_back(box.toFloat());
+            index->add(file, std::move(known));
+        }
+        return index;
+    }
+
+private:
+    struct Job {
+        std::string file;
+        double share;
+    };
+
+    // With the mutex held, or before the threads are there.
+    void enter(const std::string& file, double share) {
+        if (_files.emplace(file, std::nullopt).second) _waiting.push_back({file, share});
+    }
+
+    std::optional<Job> next() {
+        std::unique_lock<std::mutex> guard(_mutex);
+        _changed.wait(guard, [&] { return _isStopped || !_waiting.empty() || _busy == 0; });
+        if (_progress.goesOn && !_progress.goesOn()) _isStopped = true;
+        if (_isStopped || _waiting.empty()) {
+            _changed.notify_all();
+            return std::nullopt;
+        }
+        Job job = std::move(_waiting.back());
+        _waiting.pop_back();
+        ++_busy;
+        return job;
+    }
+
+    std::optional<Surveyed> read(const std::string& file) {
+        const std::string path = osgDB::concatPaths(_folder, file);
+        // missing children are not drawn either
+        if (!osgDB::fileExists(path)) return std::nullopt;
+        std::string why = "cannot be read";
+        try {
+            const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+            options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
+            osgDB::ReaderWriter::ReadResult result = readTileFile(path, options.get());
+            if (result.validNode()) return surveyed(*result.getNode(), file);
+        } catch (const std::exception& error) {
+            why += std::string(": ") + error.what();
+        }
+        const std::lock_guard<std::mutex> guard(_mutex);
+        if (_progress.unreadable) _progress.unreadable("\"" + path + "\" " + why + "; it counts as empty");
+        return std::nullopt;
+    }
+
+    void finish(const Job& job, std::optional<Surveyed> content) {
+        const std::lock_guard<std::mutex> guard(_mutex);
+        const std::size_t lods = content ? content->lods.size() : 0;
+        std::size_t files = 0;
+        for (std::size_t i = 0; i < lods; ++i) files += content->lods[i].files.size();
+        for (std::size_t i = 0; i < lods; ++i) {
+            for (const std::string& file : content->lods[i].files) enter(file, job.share / static_cast<double>(files));
+        }
+        _files[job.file] = std::move(content);
+        --_busy;
+        if (_progress.fileDone) _progress.fileDone(lods, files == 0 ? job.share : 0.0);
+        _changed.notify_all();
+    }
+
+    // All that is in a file and below it.
+    const MeshBox& wholeOf(const std::string& file) {
+        const auto known = _wholes.find(file);
+        if (known != _wholes.end()) return known->second;
+        // what is paged below itself has no end
+        _wholes[file] = MeshBox::boundless();
+        const auto found = _files.find(file);
+        MeshBox whole;
+        if (found != _files.end() && found->second) {
+            const std::vector<MeshBox> boxes = boxesOf(*found->second);
+            whole.expandBy(found->second->beside);
+            for (const MeshBox& box : boxes) whole.expandBy(box);
+        }
+        return _wholes[file] = whole;
+    }
+
+    std::vector<MeshBox> boxesOf(const Surveyed& content) {
+        std::vector<MeshBox> boxes(content.lods.size());
+        for (std::size_t i = boxes.size(); i-- > 0;) {
+            const Surveyed::Lod& lod = content.lods[i];
+            boxes[i].expandBy(lod.own);
+            for (const std::string& file : lod.files) boxes[i].expandBy(wholeOf(file));
+            if (lod.parent) boxes[*lod.parent].expandBy(boxes[i]);
+        }
+        return boxes;
+    }
+
+    const std::string _folder;
+    const BoxIndexProgress& _progress;
+    std::mutex _mutex;
+    std::condition_variable _changed;
+    std::vector<Job> _waiting;
+    int _busy = 0;
+    bool _isStopped = false;
+    std::map<std::string, std::optional<Surveyed>> _files;
+    std::map<std::string, MeshBox> _wholes;
+};
+
+}  // namespace
+
+osg::ref_ptr<BoxIndex> makeBoxIndex(const std::string& metadataFile, int threads, const BoxIndexProgress& progress,
+                                    std::string& error) {
+    const PhotogrammetryFiles files = findPhotogrammetryFiles(metadataFile, error);
+    if (files.roots.empty()) return nullptr;
+    Survey survey(osgDB::getFilePath(metadataFile), progress);
+    survey.start(files.roots);
+    std::vector<std::thread> workers;
+    for (int i = 0; i < threads; ++i) workers.emplace_back([&survey] { survey.work(); });
+    for (std::thread& worker : workers) worker.join();
+    if (survey.isStopped()) {
+        error = "was stopped";
+        return nullptr;
+    }
+    osg::ref_ptr<BoxIndex> index = survey.result();
+    if (index->numFiles() == 0) {
+        error = "no tile of \"" + metadataFile + "\" can be read";
+        return nullptr;
+    }
+    return index;
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "LodContent.h"
+
+#include "../cull/Scoped.h"
+
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+#include <osg/PositionAttitudeTransform>
+#include <osg/ShapeDrawable>
+#include <osg/Switch>
+
+#include <typeinfo>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+template <class... Types>
+bool isOneOf(const osg::Node& node) {
+    return ((typeid(node) == typeid(Types)) || ...);
+}
+
+bool staysInPlace(osg::Node& node) {
+    return !node.getUpdateCallback() && !node.getComputeBoundingSphereCallback();
+}
+
+// Deeper files are nobody's; the recursion has to end before the stack does.
+constexpr int kDeepest = 1000;
+
+class LodFinder {
+public:
+    void visit(osg::Node& node) {
+        const Scoped depth(_depth, _depth + 1);
+        if (_depth > kDeepest || !staysInPlace(node)) return add(MeshBox::boundless());
+        if (osg::Drawable* const drawable = node.asDrawable()) return add(boxOf(*drawable));
+        if (isOneOf<osg::LOD, osg::PagedLOD>(node)) return visitLod(static_cast<osg::LOD&>(node));
+        if (isOneOf<osg::MatrixTransform, osg::PositionAttitudeTransform>(node))
+            return visitTransform(*node.asTransform());
+        if (!isOneOf<osg::Group, osg::Geode, osg::Switch>(node)) return add(MeshBox::boundless());
+        if (isOneOf<osg::Group>(node)) content.groups.push_back(node.asGroup());
+        visitChildren(*node.asGroup());
+    }
+
+    LodContent content;
+
+private:
+    static MeshBox boxOf(osg::Drawable& drawable) {
+        const bool isKnown = isOneOf<osg::Geometry, osg::ShapeDrawable>(drawable) &&
+                             !drawable.getComputeBoundingBoxCallback() && !drawable.getDrawCallback();
+        if (!isKnown) return MeshBox::boundless();
+        // an initial bound makes it larger, at most
+        return MeshBox(drawable.getBoundingBox());
+    }
+
+    void add(const MeshBox& box) {
+        const MeshBox here = _toFrame ? box.moved(*_toFrame) : box;
+        (_lod ? content.lods[*_lod].own : content.beside).expandBy(here);
+    }
+
+    void visitChildren(osg::Group& group) {
+        for (unsigned int i = 0; i < group.getNumChildren(); ++i) visit(*group.getChild(i));
+    }
+
+    void visitLod(osg::LOD& node) {
+        if (_toFrame) return add(MeshBox::boundless());
+        const Scoped lod(_lod, std::optional(content.lods.size()));
+        content.lods.push_back({&node, _parent, {}});
+        const Scoped parent(_parent, _lod);
+        for (unsigned int i = 0; i < node.getNumChildren(); ++i) {
+            if (!isPagedChildOf(node, i)) visit(*node.getChild(i));
+        }
+    }
+
+    void visitTransform(osg::Transform& node) {
+        const bool isFixed =
+            node.getReferenceFrame() == osg::Transform::RELATIVE_RF && node.getDataVariance() != osg::Object::DYNAMIC;
+        if (!isFixed) return add(MeshBox::boundless());
+        osg::Matrixd matrix = _toFrame.value_or(osg::Matrixd());
+        node.computeLocalToWorldMatrix(matrix, nullptr);
+        const Scoped toFrame(_toFrame, std::optional(matrix));
+        visitChildren(node);
+    }
+
+    std::optional<osg::Matrixd> _toFrame;
+    std::optional<std::size_t> _lod, _parent;
+    int _depth = 0;
+};
+
+}  // namespace
+
+std::vector<MeshBox> LodContent::boxes(const std::vector<MeshBox>& below) const {
+    std::vector<MeshBox> boxes(lods.size());
+    // children stand behind their parents
+    for (std::size_t i = lods.size(); i-- > 0;) {
+        boxes[i].expandBy(lods[i].own);
+        boxes[i].expandBy(below[i]);
+        if (lods[i].parent) boxes[*lods[i].parent].expandBy(boxes[i]);
+    }
+    return boxes;
+}
+
+MeshBox LodContent::all(const std::vector<MeshBox>& boxes) const {
+    MeshBox all = beside;
+    for (std::size_t i = 0; i < lods.size(); ++i) {
+        if (!lods[i].parent) all.expandBy(boxes[i]);
+    }
+    return all;
+}
+
+LodContent findLods(osg::Node& node) {
+    LodFinder finder;
+    finder.visit(node);
+    return std::move(finder.content);
+}
+
+bool isPagedChildOf(const osg::LOD& node, unsigned int child) {
+    const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&node);
+    return paged && child < paged->getNumFileNames() && !paged->getFileName(child).empty();
+}
+
+}  // namespace osgAnalyticBin

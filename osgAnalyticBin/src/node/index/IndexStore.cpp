@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "IndexStore.h"
+
+#include <boost/crc.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace osgAnalyticBin::indexing {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMagicBytes = 8;
+constexpr const char* kIndexMagic = "\x89osgBins";
+
+// A temporary file that one process at a time may write. It is removed unless it becomes the file.
+class LockedFile {
+public:
+    explicit LockedFile(const std::string& path) : _path(path + ".making") {
+        _handle = ::open(_path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (_handle < 0) {
+            error = std::strerror(errno);
+            return;
+        }
+        struct stat own {
+        }, named{};
+        const bool isLocked = ::flock(_handle, LOCK_EX | LOCK_NB) == 0;
+        // another process may have renamed it meanwhile
+        const bool isNamed = isLocked && ::fstat(_handle, &own) == 0 && ::stat(_path.c_str(), &named) == 0 &&
+                             own.st_ino == named.st_ino && own.st_dev == named.st_dev;
+        if (isNamed) return;
+        isBusy = true;
+        ::close(_handle);
+        _handle = -1;
+    }
+    ~LockedFile() {
+        if (_handle < 0) return;
+        if (!_isRenamed) ::unlink(_path.c_str());
+        ::close(_handle);
+    }
+    LockedFile(const LockedFile&) = delete;
+    LockedFile& operator=(const LockedFile&) = delete;
+
+    [[nodiscard]] bool become(const BinIndex& index, const std::string& path) {
+        std::ofstream out(_path, std::ios::binary | std::ios::trunc);
+        errno = 0;
+        const bool isWritten = out && index.write(out) && out.flush();
+        out.close();
+        _isRenamed = isWritten && out && std::rename(_path.c_str(), path.c_str()) == 0;
+        if (!_isRenamed) error = errno != 0 ? std::strerror(errno) : "the disk may be full";
+        return _isRenamed;
+    }
+    [[nodiscard]] bool isOpen() const { return _handle >= 0; }
+
+    bool isBusy = false;
+    std::string error;
+
+private:
+    const std::string _path;
+    int _handle = -1;
+    bool _isRenamed = false;
+};
+
+// Whether a file may be replaced: there is none, or it is an index, whole or broken at its end.
+bool isOurs(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    if (!in) {
+        std::error_code ignored;
+        return !fs::exists(path, ignored);
+    }
+    std::string magic(kMagicBytes, '\0');
+    in.read(magic.data(), static_cast<std::streamsize>(magic.size()));
+    return in.gcount() == 0 || magic == kIndexMagic;
+}
+
+bool keepAt(const BinIndex& index, const std::string& path, std::string& error) {
+    if (!isOurs(path)) {
+        error = "\"" + path + "\" is no index";
+        return false;
+    }
+    LockedFile file(path);
+    if (file.isBusy) return true;
+    if (file.isOpen() && file.become(index, path)) return true;
+    error = "cannot write \"" + path + "\": " + file.error;
+    return false;
+}
+
+std::string cacheFolder() {
+    const char* const xdg = std::getenv("XDG_CACHE_HOME");
+    if (xdg && *xdg == '/') return std::string(xdg) + "/osgAnalyticBin";
+    const char* const home = std::getenv("HOME");
+    if (home && *home == '/') return std::string(home) + "/.cache/osgAnalyticBin";
+    return {};
+}
+
+}  // namespace
+
+bool isCurrent(const BinIndex& index, const DatabaseFiles& files, const std::function<void()>& checkpoint) {
+    for (const auto& [file, stamp] : index.stamps()) {
+        checkpoint();
+        if (!(files.stampOf(file) == stamp)) return false;
+    }
+    return true;
+}
+
+std::string cachedIndexName(const std::string& rootFile) {
+    const std::string folder = cacheFolder();
+    std::error_code failure;
+    const std::string path = fs::canonical(rootFile, failure).string();
+    if (folder.empty() || failure) return {};
+    boost::crc_optimal<64, 0x42F0E1EBA9EA3693u, 0xFFFFFFFFFFFFFFFFu, 0xFFFFFFFFFFFFFFFFu, true, true> crc;
+    crc.process_bytes(path.data(), path.size());
+    char name[32];
+    std::snprintf(name, sizeof name, "/%016llx.bins", static_cast<unsigned long long>(crc.checksum()));
+    return folder + name;
+}
+
+std::string keepIndex(const BinIndex& index, const std::string& rootFile, std::string& error) {
+    const std::string beside = binIndexName(rootFile);
+    if (keepAt(index, beside, error)) return beside;
+    const std::string cached = cachedIndexName(rootFile);
+    if (cached.empty()) return {};
+    std::error_code failure;
+    fs::create_directories(fs::path(cached).parent_path(), failure);
+    return keepAt(index, cached, error) ? cached : std::string();
+}
+
+}  // namespace osgAnalyticBin::indexing

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgDB/Options>
+#include <osgDB/ReadFile>
+#include <osgDB/ReaderWriter>
+
+#include <functional>
+#include <string>
+
+namespace osgAnalyticBin {
+
+/// A read that failed, with a line that says why.
+[[nodiscard]] osgDB::ReaderWriter::ReadResult unreadable(const std::string& fileName, const char* why);
+
+/// Reads as whoever read before would do it: the callback that was there, if any, else the Registry's, else OSG.
+[[nodiscard]] osgDB::ReaderWriter::ReadResult readUntreated(const std::string& fileName, const osgDB::Options* options,
+                                                            osgDB::ReadFileCallback* previous);
+
+/// Runs `read`; what it throws becomes unreadable(): a corrupt file may ask for absurd amounts of memory, and the
+/// pager's thread must outlive that.
+[[nodiscard]] osgDB::ReaderWriter::ReadResult readCarefully(
+    const std::string& fileName, const std::function<osgDB::ReaderWriter::ReadResult()>& read);
+
+}  // namespace osgAnalyticBin

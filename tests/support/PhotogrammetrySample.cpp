@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/Image>
+#include <osg/PagedLOD>
+#include <osg/Texture2D>
+#include <osgDB/WriteFile>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <support/PhotogrammetrySample.h>
+
+namespace osgAnalyticBin::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kChain = 2;  // levels with a single child
+constexpr unsigned int kCells = 12;
+constexpr double kTower = 90.0;  // metres above the ground
+constexpr double kTowerSide = 12.0;
+constexpr double kTowerSpacing = 160.0;
+// A node is refined when its sphere is wider than this on the screen.
+constexpr float kRefinePixels = 220.0F;
+
+// A part of a tile, at one level: its file is named for the level and the number in it.
+struct Part {
+    int level = 0;
+    int number = 0;
+    double west = 0.0, south = 0.0, side = 0.0;
+};
+
+class SampleWriter {
+public:
+    SampleWriter(fs::path folder, const PhotogrammetrySample& sample) : _folder(std::move(folder)), _sample(sample) {}
+
+    bool write() {
+        std::error_code problem;
+        for (int row = 0; row < _sample.tilesPerSide; ++row) {
+            for (int column = 0; column < _sample.tilesPerSide; ++column) {
+                _tile = tileName(column, row);
+                fs::create_directories(_folder / "Data" / _tile, problem);
+                const double side = _sample.tileMetres;
+                const double west = (column - 0.5 * _sample.tilesPerSide) * side;
+                const double south = (row - 0.5 * _sample.tilesPerSide) * side;
+                if (problem || !writeFile({0, 0, west, south, side})) return false;
+            }
+        }
+        return writeMetadata();
+    }
+
+private:
+    static std::string tileName(int column, int row) {
+        char name[32];
+        std::snprintf(name, sizeof name, "Tile_+%03d_+%03d", column, row);
+        return name;
+    }
+
+    bool writeMetadata() const {
+        std::ofstream out(_folder / "metadata.xml");
+        out << "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<ModelMetadata version=\"1\">\n"
+               "\t<!--Spatial Reference System-->\n\t<SRS>"
+            << _sample.srs << "</SRS>\n\t<!--Origin in Spatial Reference System-->\n\t<SRSOrigin>" << _sample.origin
+            << "</SRSOrigin>\n\t<Texture>\n\t\t<ColorSource>Visible</ColorSource>\n\t</Texture>\n</ModelMetadata>\n";
+        return static_cast<bool>(out.flush());
+    }
+
+    [[nodiscard]] std::string fileName(const Part& part) const {
+        if (part.level == 0) return _tile + ".osgb";
+        return _tile + "_L" + std::to_string(part.level) + "_" + std::to_string(part.number) + ".osgb";
+    }
+
+    [[nodiscard]] bool isLast(const Part& part) const { return part.level + 1 >= _sample.levels; }
+
+    // The parts that are in one file with this one: itself and its siblings.
+    [[nodiscard]] static std::vector<Part> partsOfFile(const Part& first) {
+        if (first.level < kChain) return {first};
+        std::vector<Part> parts;
+        const double half = first.side / 2.0;
+        for (int i = 0; i < 4; ++i)
+            parts.push_back(
+                {first.level, 4 * first.number + i, first.west + (i % 2) * half, first.south + (i / 2) * half, half});
+        return parts;
+    }
+
+    // All parts of a file, in a group where there are several, and the files below. `area`: what the file covers.
+    bool writeFile(const Part& area) {
+        const std::vector<Part> parts = partsOfFile(area);
+        osg::ref_ptr<osg::Node> root;
+        const osg::ref_ptr<osg::Group> group = new osg::Group;
+        for (const Part& part : parts) group->addChild(nodeOf(part));
+        root = parts.size() == 1 ? group->getChild(0) : group.get();
+        const std::string path = (_folder / "Data" / _tile / fileName(area)).string();
+        if (!osgDB::writeNodeFile(*root, path)) return false;
+        return std::all_of(parts.begin(), parts.end(),
+                           [this](const Part& part) { return isLast(part) || writeFile(below(part)); });
+    }
+
+    static Part below(const Part& part) { return {part.level + 1, part.number, part.west, part.south, part.side}; }
+
+    osg::ref_ptr<osg::Node> nodeOf(const Part& part) {
+        const osg::ref_ptr<osg::PagedLOD> node = new osg::PagedLOD;
+        const osg::ref_ptr<osg::Geode> mesh = meshOf(part);
+        node->addChild(mesh);
+        const osg::BoundingSphere sphere = sphereOf(part);
+        node->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+        node->setCenter(sphere.center());
+        node->setRadius(sphere.radius());
+        node->setRangeMode(osg::LOD::PIXEL_SIZE_ON_SCREEN);
+        node->setRange(0, 0.0F, isLast(part) ? FLT_MAX : kRefinePixels);
+        if (isLast(part)) return node;
+        node->setRange(1, kRefinePixels, FLT_MAX);
+        node->setFileName(1, fileName(below(part)));
+        return node;
+    }
+
+    // About the vertices of all levels, which are among those of the finest. A false sphere holds those in its middle.
+    [[nodiscard]] osg::BoundingSphere sphereOf(const Part& part) const {
+        const int steps = int(2 * kCells) << std::max(0, _sample.levels - 1 - std::max(part.level, kChain));
+        const int all = part.level < kChain ? 2 * steps : steps;
+        osg::BoundingBox box;
+        for (int row = 0; row <= all; ++row) {
+            for (int column = 0; column <= all; ++column) {
+                const double x = part.west + column * part.side / all;
+                const double y = part.south + row * part.side / all;
+                for (const bool hasTowers : {false, true})
+                    box.expandBy(
+                        osg::Vec3d(x, y, photogrammetryHeight(x, y, hasTowers && _sample.towersFrom < _sample.levels)));
+            }
+        }
+        const fs::path file = fs::path("Data") / _tile / fileName(part);
+        const bool isFalseRoot = file == kTileWithFalseSphere;
+        const bool isFalsePart = _tile == "Tile_+000_+001" && part.level == 2 && part.number == 0;
+        const float share = _sample.hasFalseSpheres && (isFalseRoot || isFalsePart) ? 0.35F : 1.0F;
+        return {box.center(), share * box.radius()};
+    }
+
+    // The height field, finer along the chain; towers are steep slopes in it.
+    osg::ref_ptr<osg::Geode> meshOf(const Part& part) {
+        const unsigned int cells = kCells << std::max(0, std::min(part.level, kChain) - 1);
+        const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+        const osg::ref_ptr<osg::Vec2Array> texels = new osg::Vec2Array;
+        const double step = part.side / cells;
+        for (unsigned int row = 0; row <= cells; ++row) {
+            for (unsigned int column = 0; column <= cells; ++column) {
+                const double x = part.west + column * step;
+                const double y = part.south + row * step;
+                vertices->push_back(osg::Vec3d(x, y, photogrammetryHeight(x, y, part.level >= _sample.towersFrom)));
+                texels->push_back(osg::Vec2d(double(column) / cells, double(row) / cells));
+            }
+        }
+        const osg::ref_ptr<osg::DrawElementsUShort> triangles = new osg::DrawElementsUShort(GL_TRIANGLES);
+        for (unsigned int row = 0; row < cells; ++row) {
+            for (unsigned int column = 0; column < cells; ++column) {
+                const unsigned int a = row * (cells + 1) + column;
+                for (const unsigned int i : {a, a + 1, a + cells + 2, a, a + cells + 2, a + cells + 1})
+                    triangles->push_back(static_cast<GLushort>(i));
+            }
+        }
+        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+        geometry->setVertexArray(vertices);
+        geometry->setTexCoordArray(0, texels);
+        geometry->addPrimitiveSet(triangles);
+        const osg::ref_ptr<osg::Vec4Array> white = new osg::Vec4Array(1, new osg::Vec4(1, 1, 1, 1));
+        geometry->setColorArray(white, osg::Array::BIND_OVERALL);
+        geometry->getOrCreateStateSet()->setTextureAttributeAndModes(0, textureOf(part));
+        geometry->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+        const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+        geode->addDrawable(geometry);
+        return geode;
+    }
+
+    // Colours by height and place, so that a lost part shows.
+    [[nodiscard]] osg::ref_ptr<osg::Texture2D> textureOf(const Part& part) const {
+        const auto size = static_cast<int>(_sample.textureSize);
+        const osg::ref_ptr<osg::Image> image = new osg::Image;
+        image->allocateImage(size, size, 1, GL_RGB, GL_UNSIGNED_BYTE);
+        for (int row = 0; row < size; ++row) {
+            for (int column = 0; column < size; ++column) {
+                const double x = part.west + (column + 0.5) * part.side / size;
+                const double y = part.south + (row + 0.5) * part.side / size;
+                const double h = photogrammetryHeight(x, y);
+                unsigned char* const texel =
+                    image->data(static_cast<unsigned int>(column), static_cast<unsigned int>(row));
+                texel[0] = static_cast<unsigned char>(90 + std::lround(1.2 * std::clamp(h, 0.0, 120.0)));
+                texel[1] = static_cast<unsigned char>(120 + std::lround(60.0 * std::sin(x / 7.0)));
+                texel[2] = static_cast<unsigned char>(90 + std::lround(60.0 * std::cos(y / 9.0)));
+            }
+        }
+        const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
+        texture->setResizeNonPowerOfTwoHint(false);
+        return texture;
+    }
+
+    const fs::path _folder;
+    const PhotogrammetrySample& _sample;
+    std::string _tile;
+};
+
+}  // namespace
+
+double photogrammetryHeight(double x, double y, bool hasTowers) {
+    const double ground = 12.0 * std::sin(x / 90.0) * std::cos(y / 120.0) + 15.0;
+    const auto isInTower = [](double at) {
+        const double inCell = at - kTowerSpacing * std::floor(at / kTowerSpacing);
+        return inCell > 70.0 && inCell < 70.0 + kTowerSide;
+    };
+    return hasTowers && isInTower(x) && isInTower(y) ? ground + kTower : ground;
+}
+
+std::string writePhotogrammetrySample(const std::string& folder, const PhotogrammetrySample& sample) {
+    SampleWriter writer(folder, sample);
+    return writer.write() ? (fs::path(folder) / "metadata.xml").string() : std::string();
+}
+
+}  // namespace osgAnalyticBin::test

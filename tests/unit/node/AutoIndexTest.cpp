@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// The index that is made in the background, and what tiles are culled by before there is one.
+
+#include "ApplicationGlobe.h"
+#include "CullFixture.h"
+#include "DatabaseFixture.h"
+
+#include <osgAnalyticBin/BinIndex.h>
+#include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/InstallBins.h>
+
+#include <gtest/gtest.h>
+#include <osgDB/ReadFile>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <support/CapturedNotes.h>
+#include <support/TemporaryFolder.h>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+constexpr double kSeconds = 60.0;
+
+class AutoIndex : public ::testing::Test {
+protected:
+    AutoIndex() {
+        ::setenv("XDG_CACHE_HOME", _cache.path().c_str(), 1);
+        write(700.0, 900.0);
+    }
+    ~AutoIndex() override { ::unsetenv("XDG_CACHE_HOME"); }
+
+    void write(double leafHeight, double singleHeight) {
+        _file = writeMeshDatabase(_folder.path(), leafHeight, singleHeight);
+    }
+    void open() {
+        _scene = osgDB::readRefNodeFile(_file);
+        ASSERT_TRUE(_scene);
+        _root = dynamic_cast<osg::PagedLOD*>(_scene->asGroup()->getChild(0));
+        ASSERT_TRUE(_root);
+        EXPECT_EQ(installBins(*_scene, {}, _file), 1u);
+    }
+    [[nodiscard]] bool isRootWhole() const { return !installedOn(*_root)->getDeclaredBin().valid(); }
+    [[nodiscard]] double highOfRoot() const { return installedOn(*_root)->getBin().bin().altitude().upper; }
+    [[nodiscard]] std::size_t cachedFiles() const {
+        std::size_t count = 0;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(_cache.path()))
+            count += entry.is_regular_file() ? 1U : 0U;
+        return count;
+    }
+
+    TemporaryFolder _folder, _cache;
+    std::string _file;
+    osg::ref_ptr<osg::Node> _scene;
+    osg::ref_ptr<osg::PagedLOD> _root;
+};
+
+TEST_F(AutoIndex, IsMadeInTheBackgroundAndUsedAtOnceTheNextTime) {
+    open();
+    EXPECT_TRUE(isIndexAwaited(*_scene) || isRootWhole());
+    ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
+    EXPECT_FALSE(isIndexAwaited(*_scene));
+    EXPECT_TRUE(isRootWhole());
+    EXPECT_NEAR(highOfRoot(), 900.0, 1.0);  // of a tile that is not loaded
+    std::string error;
+    const osg::ref_ptr<BinIndex> kept = BinIndex::read(binIndexName(_file), error);
+    ASSERT_TRUE(kept) << error;
+    EXPECT_EQ(kept->stamps().size(), 3u);
+    EXPECT_EQ(cachedFiles(), 0u);
+    EXPECT_FALSE(std::filesystem::exists(binIndexName(_file) + ".making"));
+
+    const CapturedNotes notes;
+    open();
+    EXPECT_FALSE(isIndexAwaited(*_scene));
+    EXPECT_NEAR(highOfRoot(), 900.0, 1.0);
+    EXPECT_EQ(notes.count(""), 0u);
+}
+
+TEST_F(AutoIndex, LoadedTilesGetItsBinsInUpdateTraversals) {
+    open();
+    const osg::ref_ptr<osg::Node> children = readBelow(*_root);
+    putBelow(*_root, children);
+    osg::Node& north = *children->asGroup()->getChild(1);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (isIndexAwaited(*_scene) && std::chrono::steady_clock::now() < end) update(*_scene);
+    for (int i = 0; i < 4; ++i) update(*_scene);
+    EXPECT_TRUE(isRootWhole());
+    EXPECT_FALSE(installedOn(north)->getDeclaredBin().valid());
+    EXPECT_NEAR(installedOn(north)->getBin().bin().altitude().upper, 900.0, 1.0);
+}
+
+TEST_F(AutoIndex, IsMadeAnewWhenAFileHasChanged) {
+    open();
+    ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
+    write(700.0, 2000.0);
+    open();
+    ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
+    EXPECT_NEAR(highOfRoot(), 2000.0, 1.0);
+}
+
+TEST_F(AutoIndex, IsKeptInTheCacheFolderWhereItCannotStandBesideTheDatabase) {
+    (void)_folder.write("root.osgb.bins", "of another program");
+    const CapturedNotes notes;
+    open();
+    ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
+    _scene = nullptr;
+    EXPECT_EQ(notes.count("is no such thing"), 1u);
+    EXPECT_EQ(cachedFiles(), 1u);
+    std::ifstream in(binIndexName(_file));
+    std::string text;
+    std::getline(in, text);
+    EXPECT_EQ(text, "of another program");
+    open();
+    EXPECT_FALSE(isIndexAwaited(*_scene));
+    EXPECT_NEAR(highOfRoot(), 900.0, 1.0);
+}
+
+TEST_F(AutoIndex, ABrokenOneGivesOneWarningAndIsMadeAnew) {
+    open();
+    ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
+    _scene = nullptr;
+    std::filesystem::resize_file(binIndexName(_file), std::filesystem::file_size(binIndexName(_file)) - 20);
+    const CapturedNotes notes;
+    open();
+    ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
+    _scene = nullptr;
+    EXPECT_EQ(notes.count("index of bins ends too early"), 1u);
+    std::string error;
+    EXPECT_TRUE(BinIndex::read(binIndexName(_file), error)) << error;
+}
+
+TEST_F(AutoIndex, EndsWithItsBinsOrItsSceneAndLeavesNothingHalfWritten) {
+    for (const bool isRemoved : {true, false}) {
+        for (int i = 0; i < 20; ++i) {
+            open();
+            if (isRemoved) {
+                removeBins(*_scene);
+                EXPECT_FALSE(isIndexAwaited(*_scene));
+            }
+            _scene = nullptr;
+            _root = nullptr;
+            EXPECT_FALSE(std::filesystem::exists(binIndexName(_file) + ".making"));
+            std::string error;
+            if (!std::filesystem::exists(binIndexName(_file))) continue;
+            EXPECT_TRUE(BinIndex::read(binIndexName(_file), error)) << error;
+            std::filesystem::remove(binIndexName(_file));
+        }
+    }
+}
+
+TEST_F(AutoIndex, TwoAtOnceKeepOneWholeIndex) {
+    for (int i = 0; i < 10; ++i) {
+        std::filesystem::remove(binIndexName(_file));
+        open();
+        const osg::ref_ptr<osg::Node> first = _scene;
+        open();
+        EXPECT_TRUE(waitForIndex(*first, kSeconds));
+        EXPECT_TRUE(waitForIndex(*_scene, kSeconds));
+        std::string error;
+        EXPECT_TRUE(BinIndex::read(binIndexName(_file), error)) << error;
+        EXPECT_EQ(cachedFiles(), 0u);
+    }
+}
+
+TEST_F(AutoIndex, IsNotMadeWhereItIsOffOrTilesHaveStoredBins) {
+    for (const IndexUse use : {IndexUse::Off, IndexUse::On}) {
+        CullOptions options;
+        options.index = use;
+        _scene = osgDB::readRefNodeFile(_file);
+        (void)installBins(*_scene, options, _file);
+        EXPECT_FALSE(isIndexAwaited(*_scene));
+    }
+    _scene = osgDB::readRefNodeFile(_file);
+    setStoredBin(*_scene->asGroup()->getChild(0), AnalyticBin(extentsDeg(10, 50, 0, 40).withAltitude({-5e4, 900})));
+    (void)installBins(*_scene, {}, _file);
+    EXPECT_FALSE(isIndexAwaited(*_scene));
+}
+
+// Says that the files of a tile are requested.
+struct Requests : osg::NodeVisitor::DatabaseRequestHandler {
+    void requestNodeFile(const std::string& file, osg::NodePath&, float, const osg::FrameStamp*,
+                         osg::ref_ptr<osg::Referenced>&, const osg::Referenced*) override {
+        files.insert(file);
+    }
+    std::set<std::string> files;
+};
+
+// A plain of 0.2 degrees on a globe: its files may hold any terrain on earth.
+struct PlainGlobe : MeshGlobe {
+    PlainGlobe() {
+        plain = makePaged(makeMeshTile(extentsDeg(10.0, 10.2, 10.0, 10.2), 0.0), "no.osgb", 1e9F);
+        root->addChild(plain);
+        visitor->setDatabaseRequestHandler(requests);
+    }
+    // From the south at this altitude, the lower edge of the picture this many degrees above the plain.
+    [[nodiscard]] bool drawsPlain(double altitude, double above) {
+        const double distance = 2.0e5;
+        const double up = distance * std::tan((above + 5.0) / 57.29578);
+        requests->files.clear();
+        return draws(*plain, CullView::lookAt(ecefDeg(8.3, 10.1, altitude), ecefDeg(10.1, 10.1, up), {0, 0, 1}, 10.0));
+    }
+
+    osg::ref_ptr<osg::PagedLOD> plain;
+    osg::ref_ptr<Requests> requests = new Requests;
+};
+
+TEST(LoadedBins, ATileIsCulledByWhatIsLoadedAndAsksForFilesWhereSpheresWould) {
+    for (const bool isTileByTile : {false, true}) {
+        PlainGlobe globe;
+        installBins(*globe.root);
+        BinStatistics::of(*globe.visitor).setTileByTile(isTileByTile);
+        EXPECT_TRUE(globe.drawsPlain(3000.0, -3.0));
+        EXPECT_EQ(globe.requests->files.count("no.osgb"), 1u);
+        // above the mesh, within the sphere of some 15 km
+        EXPECT_FALSE(globe.drawsPlain(3000.0, 2.0));
+        EXPECT_EQ(globe.requests->files.count("no.osgb"), 1u);
+        // above the sphere
+        EXPECT_FALSE(globe.drawsPlain(3000.0, 9.0));
+        EXPECT_EQ(globe.requests->files.count("no.osgb"), 0u);
+    }
+}
+
+TEST(LoadedBins, GrowWithWhatIsMergedBelowBeforeItIsCulled) {
+    FiledGlobe globe;
+    installBins(*globe.root);
+    const double before = installedOn(*globe.tile)->getBin().bin().altitude().upper;
+    const osg::ref_ptr<osg::Node> content = readBelow(*globe.tile);
+    ASSERT_TRUE(content);
+    putBelow(*globe.tile, content);
+    update(*globe.root);
+    AnalyticBin united = installedOn(*globe.tile)->getBin();
+    EXPECT_GE(united.bin().altitude().upper, before);
+    EXPECT_TRUE(installedOn(*globe.tile)->getDeclaredBin().valid());
+}
+
+// As an application does that hands a treated tile to another place, or a cache that keeps it.
+TEST(LoadedBins, ATileThatComesFromElsewhereKeepsTheTileAboveVisibleUntilItIsHeld) {
+    PlainGlobe globe, other;
+    const osg::ref_ptr<osg::Group> content = new osg::Group;
+    const osg::ref_ptr<osg::PagedLOD> hill =
+        makePaged(makeMeshTile(extentsDeg(10.0, 10.1, 10.0, 10.1), 8000.0), "hill.osgb", 1e9F);
+    content->addChild(hill);
+    other.root->addChild(content);
+    installBins(*other.root);
+    installBins(*globe.root);
+    other.root->removeChild(content);
+    EXPECT_FALSE(globe.drawsPlain(8500.0, 1.9));
+    globe.plain->addChild(content);
+    const auto drawsHill = [&] {
+        return globe.draws(*hill,
+                           CullView::lookAt(ecefDeg(8.3, 10.1, 8500.0), ecefDeg(10.1, 10.1, 2.4e4), {0, 0, 1}, 10.0));
+    };
+    EXPECT_TRUE(drawsHill());
+    update(*globe.root);
+    EXPECT_TRUE(drawsHill());
+    EXPECT_GT(installedOn(*globe.plain)->getBin().bin().altitude().upper, 7000.0);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test

@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// What is culled of photogrammetry sets, through OSG's own pager. The oracle: the same set without culling, of which
+// every drawable with a vertex in the field of view has to be drawn.
+
+#include "PhotogrammetryFixture.h"
+
+#include <osgAnalyticBin/InstallBins.h>
+
+#include <osg/Geometry>
+#include <osg/PagedLOD>
+
+#include <PagedFlight.h>
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <sstream>
+#include <support/Random.h>
+
+namespace osgAnalyticBin {
+namespace {
+
+namespace fs = std::filesystem;
+
+using test::CapturedNotes;
+using test::CullView;
+using test::PagedFlight;
+
+// A drawable by what it is in the frame of the tiles.
+std::string keyOf(const osg::Drawable& drawable) {
+    const osg::BoundingBox box = drawable.getBoundingBox();
+    std::ostringstream key;
+    key << box.xMin() << ' ' << box.yMin() << ' ' << box.zMin() << ' ' << box.xMax() << ' ' << box.yMax() << ' '
+        << box.zMax() << ' ' << drawable.asGeometry()->getVertexArray()->getNumElements();
+    return key.str();
+}
+
+bool hasVertexInside(const osg::Drawable& drawable, const osg::Matrixd& toEye, const CullView& view) {
+    const auto& vertices = dynamic_cast<const osg::Vec3Array&>(*drawable.asGeometry()->getVertexArray());
+    osg::Polytope frustum;
+    frustum.setToUnitFrustum(false, false);
+    frustum.transformProvidingInverse(toEye * view.projection);
+    const auto& planes = frustum.getPlaneList();
+    return std::any_of(vertices.begin(), vertices.end(), [&](const osg::Vec3& vertex) {
+        return std::all_of(planes.begin(), planes.end(),
+                           [&](const osg::Plane& plane) { return plane.distance(osg::Vec3d(vertex)) > 0.0; });
+    });
+}
+
+class BoxSets : public test::PhotogrammetryFixture {
+protected:
+    // A set that is flown over.
+    struct Flown {
+        explicit Flown(const osg::ref_ptr<osg::Node>& read) : scene(read), flight(*scene, 100000) {}
+
+        // Returns: the drawables of the view when all that it asks for is there.
+        std::set<const osg::Drawable*> drawn(const CullView& view) {
+            EXPECT_TRUE(flight.load(view));
+            flight.frame(view);
+            const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+            return test::cull(*scene, view, *visitor).drawn;
+        }
+        std::set<std::string> keys(const CullView& view) {
+            std::set<std::string> keys;
+            for (const osg::Drawable* drawable : drawn(view)) keys.insert(keyOf(*drawable));
+            return keys;
+        }
+
+        osg::ref_ptr<osg::Node> scene;
+        PagedFlight flight;
+    };
+
+    // Low and high, over the set and beside it, wide and narrow.
+    static std::vector<CullView> views(int count) {
+        const osg::EllipsoidModel earth;
+        osg::Matrixd toEcef;
+        earth.computeLocalToWorldTransformFromLatLongHeight(osg::DegreesToRadians(47.5), osg::DegreesToRadians(11.2),
+                                                            0.0, toEcef);
+        test::Random random(101);
+        std::vector<CullView> views;
+        for (int i = 0; i < count; ++i) {
+            const osg::Vec3d eye(random.uniform(-400, 400), random.uniform(-400, 400), random.logUniform(40, 600));
+            const osg::Vec3d look(random.uniform(-300, 300), random.uniform(-300, 300), random.uniform(0, 100));
+            views.push_back(CullView::lookAt(eye * toEcef, look * toEcef,
+                                             osg::Matrixd::transform3x3(osg::Vec3d(0, 0, 1), toEcef),
+                                             random.chance(0.5) ? 20.0 : 60.0));
+        }
+        return views;
+    }
+
+    // What has a vertex in view and is not among the drawn.
+    static std::vector<std::string> lost(Flown& all, const CullView& view, const std::set<std::string>& drawn) {
+        CullView everything = view;
+        everything.cullingMode = osg::CullSettings::NO_CULLING;
+        std::vector<std::string> lost;
+        const osg::Matrixd toEye = setIn(*all.scene)->getMatrix() * view.modelView;
+        for (const osg::Drawable* drawable : all.drawn(everything)) {
+            if (hasVertexInside(*drawable, toEye, view) && drawn.count(keyOf(*drawable)) == 0)
+                lost.push_back(keyOf(*drawable));
+        }
+        return lost;
+    }
+
+    std::size_t lostBy(const std::string& options) {
+        Flown all(read("method=none"));
+        Flown culled(read(options));
+        std::size_t count = 0;
+        for (const CullView& view : views(25)) count += lost(all, view, culled.keys(view)).size();
+        return count;
+    }
+};
+
+TEST_F(BoxSets, LoseNothingThatIsInView) {
+    EXPECT_EQ(lostBy("method=quadratic"), 0U);
+    makeIndex();
+    EXPECT_EQ(lostBy("method=quadratic"), 0U);
+}
+
+// Otherwise the test above says little.
+TEST_F(BoxSets, WithOsgsSpheresLoseDrawables) {
+    EXPECT_GT(lostBy("method=sphere"), 0U);
+}
+
+TEST_F(BoxSets, AskForNoMoreFilesThanSpheres) {
+    test::PhotogrammetrySample sample;
+    sample.hasFalseSpheres = false;
+    sample.towersFrom = 0;  // so that the spheres hold what is below
+    write(sample);
+    for (const bool isIndexed : {false, true}) {
+        if (isIndexed) makeIndex();
+        std::size_t fewer = 0;
+        for (const CullView& view : views(12)) {
+            Flown spheres(read("method=sphere"));
+            Flown boxes(read());
+            const std::set<std::string> bySpheres = spheres.keys(view);
+            const std::set<std::string> byBoxes = boxes.keys(view);
+            const std::size_t files = test::loadedTiles(*boxes.scene);
+            EXPECT_LE(files, test::loadedTiles(*spheres.scene));
+            EXPECT_LE(byBoxes.size(), bySpheres.size());
+            fewer += test::loadedTiles(*spheres.scene) - files;
+        }
+        // boxes that hold everything are tighter than spheres
+        EXPECT_TRUE(fewer > 0 || !isIndexed);
+    }
+}
+
+TEST_F(BoxSets, TolerateMissingChildren) {
+    fs::remove(_folder / test::kFileWithFalseSphere);
+    makeIndex();
+    Flown boxes(read());
+    const CullView view = views(1).front();
+    CullView down = view;
+    const osg::Vec3d middle = setIn(*boxes.scene)->getMatrix().getTrans();
+    const osg::Vec3d up = middle / middle.length();
+    down.modelView = osg::Matrixd::lookAt(middle + up * 700.0, middle, osg::Vec3d(0, 0, 1));
+    boxes.flight.frames(down, 40);
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    // each place is drawn once, at some level: the parent where the child is missing
+    EXPECT_GE(test::cull(*boxes.scene, down, *visitor).drawn.size(), 9U);
+}
+
+TEST_F(BoxSets, KeepVisibleWhatDoesNotFitTheIndex) {
+    test::PhotogrammetrySample low;
+    low.towersFrom = 100;  // none
+    write(low);
+    makeIndex();
+    const std::string index = test::textOfFile(boxIndexPath(_metadata));
+    write({});
+    ASSERT_EQ(index, test::textOfFile(boxIndexPath(_metadata)));
+    const CapturedNotes notes;
+    EXPECT_EQ(lostBy("method=quadratic"), 0U);
+    EXPECT_EQ(notes.count("does not fit the index of boxes"), 1U);
+}
+
+TEST_F(BoxSets, AreCulledWithoutABrokenIndex) {
+    (void)_folder.write("metadata.xml.boxes", "osgAnalyticBin boxes 1\n1 Data/");
+    const CapturedNotes notes;
+    EXPECT_TRUE(read());
+    EXPECT_EQ(notes.count("make it again: osgbinconv --index"), 1U);
+}
+
+// Callbacks, culling flags, options and expiry of all nodes, as text.
+class Flags : public osg::NodeVisitor {
+public:
+    Flags() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::Node& node) override {
+        text << node.className() << bool(node.getCullCallback()) << bool(node.getUpdateCallback())
+             << node.getCullingActive();
+        if (auto* const paged = dynamic_cast<osg::PagedLOD*>(&node)) {
+            text << bool(paged->getDatabaseOptions());
+            for (unsigned int i = 0; i < paged->getNumMinimumExpiryTimes(); ++i) text << paged->getMinimumExpiryTime(i);
+        }
+        text << '\n';
+        traverse(node);
+    }
+    std::ostringstream text;
+};
+
+std::string flagsOf(osg::Node& node) {
+    Flags flags;
+    node.accept(flags);
+    return flags.text.str();
+}
+
+TEST_F(BoxSets, AreAsBeforeWhenBoxesAreTakenOff) {
+    makeIndex();
+    const osg::ref_ptr<osg::Node> scene = read("method=sphere");
+    const std::string before = flagsOf(*scene);
+    EXPECT_GT(installBins(*scene, {}), 0U);
+    EXPECT_NE(flagsOf(*scene), before);
+    removeBins(*scene);
+    EXPECT_EQ(flagsOf(*scene), before);
+}
+
+TEST_F(BoxSets, FollowOtherOptions) {
+    makeIndex();
+    Flown boxes(read());
+    const CullView view = views(1).front();
+    const std::size_t culled = boxes.keys(view).size();
+    CullOptions none;
+    none.method = Method::None;
+    EXPECT_GT(setCullOptions(*boxes.scene, none), 0U);
+    EXPECT_GT(boxes.keys(view).size(), culled);
+    setCullOptions(*boxes.scene, {});
+    EXPECT_EQ(boxes.keys(view).size(), culled);
+}
+
+TEST_F(BoxSets, KeepBrokenFilesApart) {
+    makeIndex();
+    for (const auto& entry : fs::recursive_directory_iterator(_folder / "Data")) {
+        const std::string name = entry.path().filename().string();
+        if (name.find("_L3_") != std::string::npos) fs::resize_file(entry.path(), 300);
+    }
+    Flown boxes(read());
+    const CapturedNotes notes;
+    const CullView view = views(1).front();
+    boxes.flight.frames(view, 30);
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    EXPECT_FALSE(test::cull(*boxes.scene, view, *visitor).drawn.empty());
+    // each file is tried once in this second, not in every frame
+    EXPECT_LE(notes.count("could not be read"), 36U);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin
