@@ -238,12 +238,12 @@ void GdalRaster::warp(const RasterOptions& options) {
 
 std::vector<PixelWindow> GdalRaster::sourceWindows(const PixelWindow& window) const {
     // Small blocks keep the rectangles around turned footprints tight.
-    constexpr int kBlock = 64;
+    constexpr int kSide = 64;
     std::vector<PixelWindow> result;
-    for (int row = window.row; row < window.row + window.height; row += kBlock) {
-        for (int column = window.column; column < window.column + window.width; column += kBlock) {
-            const auto source = sourceWindow({column, row, std::min(kBlock, window.column + window.width - column),
-                                              std::min(kBlock, window.row + window.height - row)});
+    for (int row = window.row; row < window.row + window.height; row += kSide) {
+        for (int column = window.column; column < window.column + window.width; column += kSide) {
+            const auto source = sourceWindow({column, row, std::min(kSide, window.column + window.width - column),
+                                              std::min(kSide, window.row + window.height - row)});
             if (source) result.push_back(*source);
         }
     }

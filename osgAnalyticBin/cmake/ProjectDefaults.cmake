@@ -11,7 +11,11 @@ set(OSGANALYTICBIN_OSG_PLUGIN_DIR "osgPlugins-${OPENSCENEGRAPH_VERSION}"
 
 # An installed tree finds its own library wherever it is moved. Packages for /usr set CMAKE_SKIP_INSTALL_RPATH.
 file(RELATIVE_PATH _library_from_bin "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
-set(CMAKE_INSTALL_RPATH "$ORIGIN/${_library_from_bin}")
+set(OSGANALYTICBIN_ORIGIN "$ORIGIN")
+if(APPLE)
+  set(OSGANALYTICBIN_ORIGIN "@loader_path")
+endif()
+set(CMAKE_INSTALL_RPATH "${OSGANALYTICBIN_ORIGIN}/${_library_from_bin}")
 
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
@@ -40,9 +44,14 @@ function(osganalyticbin_defaults target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET hidden
                                              VISIBILITY_INLINES_HIDDEN ON)
-  target_compile_options(
-    ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -ffp-contract=off
-                      $<$<BOOL:${OSGANALYTICBIN_WERROR}>:-Werror>)
+  if(MSVC)
+    target_compile_options(${target} PRIVATE /W4 /permissive- /fp:precise $<$<BOOL:${OSGANALYTICBIN_WERROR}>:/WX>)
+    target_compile_definitions(${target} PRIVATE NOMINMAX)
+  else()
+    target_compile_options(
+      ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -ffp-contract=off
+                        $<$<BOOL:${OSGANALYTICBIN_WERROR}>:-Werror>)
+  endif()
   if(OSGANALYTICBIN_SANITIZERS)
     target_compile_options(${target} PRIVATE -fsanitize=${OSGANALYTICBIN_SANITIZERS} ${OSGANALYTICBIN_NO_SANITIZERS}
                                              -fno-omit-frame-pointer)
@@ -59,7 +68,7 @@ function(osganalyticbin_osg_module target)
   set_target_properties(
     ${target} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY
                                    "${PROJECT_BINARY_DIR}/lib/${OSGANALYTICBIN_OSG_PLUGIN_DIR}"
-                         INSTALL_RPATH "$ORIGIN/..")
+                         INSTALL_RPATH "${OSGANALYTICBIN_ORIGIN}/..")
   install(TARGETS ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/${OSGANALYTICBIN_OSG_PLUGIN_DIR}"
                                     COMPONENT runtime)
 endfunction()

@@ -5,15 +5,22 @@
 #include "Series.h"
 
 #include <iostream>
+
+#if defined(__GLIBC__)
 #include <malloc.h>
+#endif
 
 namespace osgAnalyticBin::scale {
 
 namespace {
 
 double allocatedBytes() {
+#if defined(__GLIBC__)
     const struct mallinfo2 info = mallinfo2();
     return static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
+#else
+    throw support::Failure("--memory-tiles: memory can be measured with glibc alone");
+#endif
 }
 
 flight::CameraPose farAway() {

@@ -3,7 +3,9 @@
 
 #pragma once
 
-#if defined(_WIN32)
+#if defined(_WIN32) && defined(OSGANALYTICBIN_STATIC)
+#define OSGANALYTICBIN_EXPORT
+#elif defined(_WIN32)
 #if defined(osgAnalyticBin_EXPORTS)
 #define OSGANALYTICBIN_EXPORT __declspec(dllexport)
 #else

@@ -3,10 +3,35 @@
 
 #include "Text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
+#if !defined(__cpp_lib_to_chars)
+#include <locale>
+#include <sstream>
+#endif
+
 namespace osgAnalyticBin {
+
+namespace {
+
+// All of a text without blanks.
+std::optional<double> numberFromText(const char* begin, const char* end) {
+    double value = 0.0;
+#if defined(__cpp_lib_to_chars)
+    const auto [next, error] = std::from_chars(begin, end, value);
+    if (error != std::errc() || next != end) return std::nullopt;
+#else  // the C++ library of macOS reads integers alone
+    std::istringstream text(std::string(begin, end));
+    text.imbue(std::locale::classic());
+    if (*begin == '+' || !(text >> value) || text.peek() != std::istringstream::traits_type::eof()) return std::nullopt;
+#endif
+    if (!std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+}  // namespace
 
 std::optional<std::vector<double>> numbersFromText(const std::string& text, std::size_t count) {
     std::vector<double> values;
@@ -15,11 +40,10 @@ std::optional<std::vector<double>> numbersFromText(const std::string& text, std:
     while (true) {
         while (at != end && (*at == ' ' || *at == '\t')) ++at;
         if (at == end) break;
-        double value = 0.0;
-        const auto [next, error] = std::from_chars(at, end, value);
-        if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
-        if (next != end && *next != ' ' && *next != '\t') return std::nullopt;
-        values.push_back(value);
+        const char* const next = std::find_if(at, end, [](char c) { return c == ' ' || c == '\t'; });
+        const std::optional<double> value = numberFromText(at, next);
+        if (!value) return std::nullopt;
+        values.push_back(*value);
         if (values.size() > count) return std::nullopt;
         at = next;
     }

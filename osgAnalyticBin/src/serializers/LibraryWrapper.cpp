@@ -8,4 +8,10 @@ USE_SERIALIZER_WRAPPER(osgAnalyticBin_ContentWatch)
 USE_SERIALIZER_WRAPPER(osgAnalyticBin_InstallBinsCallback)
 USE_SERIALIZER_WRAPPER(osgAnalyticBin_PackedTerrain)
 
-extern "C" __attribute__((visibility("default"))) void wrapper_serializer_library_osgAnalyticBin(void) {}
+#if defined(_WIN32)
+#define OSGANALYTICBIN_WRAPPER_EXPORT __declspec(dllexport)
+#else
+#define OSGANALYTICBIN_WRAPPER_EXPORT __attribute__((visibility("default")))
+#endif
+
+extern "C" OSGANALYTICBIN_WRAPPER_EXPORT void wrapper_serializer_library_osgAnalyticBin(void) {}

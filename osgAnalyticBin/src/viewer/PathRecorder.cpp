@@ -13,9 +13,11 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include <system_error>
 
 namespace osgAnalyticBin {
 
@@ -125,7 +127,9 @@ bool writeCameraPathFile(const std::string& fileName, const std::vector<Recorded
         std::ofstream out(temporary);
         if (out) writeCameraPath(out, path, columns);
         out.close();
-        if (out && std::rename(temporary.c_str(), fileName.c_str()) == 0) return true;
+        std::error_code problem;
+        if (out) std::filesystem::rename(temporary, fileName, problem);  // replaces a file, also on Windows
+        if (out && !problem) return true;
     }
     std::remove(temporary.c_str());
     error = fileName + ": cannot be written";

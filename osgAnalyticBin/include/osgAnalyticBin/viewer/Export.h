@@ -3,7 +3,9 @@
 
 #pragma once
 
-#if defined(_WIN32)
+#if defined(_WIN32) && defined(OSGANALYTICBIN_STATIC)
+#define OSGANALYTICBINVIEWER_EXPORT
+#elif defined(_WIN32)
 #if defined(osgAnalyticBinViewer_EXPORTS)
 #define OSGANALYTICBINVIEWER_EXPORT __declspec(dllexport)
 #else

@@ -8,6 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#if defined(_MSC_VER) && !defined(__clang__)
+#include <intrin.h>
+#endif
+
 /// The frustum and horizon tests, compiled for several instruction sets from one source. The forms agree bit for bit.
 /// Tests run in stages over all planes: sphere, coarse form, fine form, exact range. When one finds a plane outside, or
 /// leaves none open, the next is left out.
@@ -15,7 +19,13 @@ namespace osgAnalyticBin::core::kernels {
 
 /// The number of the lowest bit. Requires: one is set.
 [[nodiscard]] inline unsigned firstBit(std::uint64_t bits) noexcept {
+#if defined(_MSC_VER) && !defined(__clang__)
+    unsigned long first = 0;
+    _BitScanForward64(&first, bits);
+    return static_cast<unsigned>(first);
+#else
     return static_cast<unsigned>(__builtin_ctzll(bits));
+#endif
 }
 
 /// What planes are to a bin, one bit each; the masks do not overlap. One register: masks of 32 bits that are stored one

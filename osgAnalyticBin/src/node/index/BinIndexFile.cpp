@@ -21,10 +21,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <istream>
 #include <ostream>
 #include <string_view>
+#include <system_error>
 
 namespace osgAnalyticBin {
 
@@ -327,7 +329,12 @@ bool BinIndex::write(const std::string& path, std::string& error) const {
     std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
     const bool isWritten = out && write(out) && out.flush();
     out.close();
-    if (isWritten && out && std::rename(temporary.c_str(), path.c_str()) == 0) return true;
+    if (isWritten && out) {
+        std::error_code problem;
+        std::filesystem::rename(temporary, path, problem);  // replaces a file that is there, also on Windows
+        if (!problem) return true;
+        errno = problem.default_error_condition().value();
+    }
     error = systemMessage("write", path) + "; make room or choose another folder";
     std::remove(temporary.c_str());
     return false;
