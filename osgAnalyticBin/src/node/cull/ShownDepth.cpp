@@ -56,7 +56,8 @@ struct NearGround {
 // Looks for the lowest surface among the tiles that an eye sees over its horizon.
 class LowestShown {
 public:
-    LowestShown(const ShownDatabase& database, const core::HorizonEye& eye, const std::optional<core::Geodetic>& place,
+    // `eye` null: nothing is behind the horizon.
+    LowestShown(const ShownDatabase& database, const core::HorizonEye* eye, const std::optional<core::Geodetic>& place,
                 double deepest)
         : _database(database),
           _visitor(database.visitor),
@@ -112,7 +113,7 @@ private:
     std::size_t test(const osg::Group& group, const TileFamily& family, unsigned int first,
                      TileFamily::Verdicts& verdicts) {
         const DatabaseView& view = _database.view;
-        family.test(group, first, view.planes, _undecided, &_eye, _traversal, verdicts);
+        family.test(group, first, view.planes, _undecided, _eye, _traversal, verdicts);
         if (verdicts.lacksTiles) _hasHole = true;
         if (!view.plan) return TilePlan::kAlone;
         return view.plan->add(family, first, _undecided, verdicts, group.getNumChildren() - first);
@@ -135,7 +136,7 @@ private:
         const bool mayBePassedOver = isOutOfView || !hasBit(verdicts.tested, number);
         if (mayBePassedOver && !isAboutEye) {
             const bool isBin = !hasBit(block.partFrom(slot).withOwnColumns, number);
-            const bool isHidden = block.isColumnHidden(slot, _eye);
+            const bool isHidden = _eye && block.isColumnHidden(slot, *_eye);
             if (isBin || isBesideFrustum(numbers.column) || isHidden) return;
         }
         const Scoped undecided(_undecided, isOutOfView ? _undecided : verdicts.planes.undecided[number]);
@@ -187,7 +188,7 @@ private:
         numbers.surfaceHigh = bin.getSurfaceHigh();
         const bool isFitted = !bin.getTerrainShape() || *bin.getTerrainShape() == _database.view.shape;
         const SearchedTile tile{bin, numbers, isFitted, nullptr, isAbout(bin)};
-        const bool isHidden = bin.isColumnHiddenFrom(_eye);
+        const bool isHidden = _eye && bin.isColumnHiddenFrom(*_eye);
         if (!tile.isAboutEye && (isBeside(tile) || isHidden)) return;
         // its place may be empty
         if (!standsAsInstalled(node, bin)) _hasHole = true;
@@ -304,7 +305,7 @@ private:
     const ShownDatabase& _database;
     osg::NodeVisitor& _visitor;
     CullTraversal& _traversal;
-    const core::HorizonEye& _eye;
+    const core::HorizonEye* const _eye;
     const std::optional<core::Geodetic> _place;  // of the eye
     const double _deepest;
     osg::Polytope::PlaneList _planes;
@@ -353,7 +354,7 @@ std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& databas
             depth = std::min(2.0 * depth + step, deepest);
             continue;
         }
-        LowestShown lowest(database, *eye, place, deepest);
+        LowestShown lowest(database, &*eye, place, deepest);
         lowest.search(database.root);
         if (lowest.hasHole()) return std::nullopt;
         if (lowest.depth() <= depth) {
@@ -374,9 +375,16 @@ std::optional<core::HorizonEye> eyeAboveDepth(const ShownDatabase& database, con
     const auto eye = viewpoint.above(database.view.ellipsoid, depth);
     if (!eye) return std::nullopt;
     const std::optional<core::Geodetic> place = placeOf(viewpoint, database.view.ellipsoid);
-    LowestShown lowest(database, *eye, place, depth);
+    LowestShown lowest(database, &*eye, place, depth);
     lowest.search(database.root);
     return isTrusted(database, lowest, place) ? eye : std::nullopt;
+}
+
+bool planWithoutHorizon(const ShownDatabase& database, const Viewpoint& viewpoint) {
+    const std::optional<core::Geodetic> place = placeOf(viewpoint, database.view.ellipsoid);
+    LowestShown lowest(database, nullptr, place, kUnknownDepth);
+    lowest.search(database.root);
+    return isTrusted(database, lowest, place);
 }
 
 }  // namespace osgAnalyticBin
