@@ -214,6 +214,12 @@ FAULTS = [
     Fault("saved scenes forget the skirt", "src/node/cull/AnalyticBinCullCallbackText.cpp",
           'if (_skirt != 0.0) text += "; skirt " + numberToText(_skirt);', "", PLUGIN, "*Serializer*"),
 
+    # content of tiles
+    Fault("content: groups of small things lose OSG's culling", "src/node/install/TileCallback.cpp",
+          "if (!surface.has(node)) return false;", "", NODE, "AddedContent.*"),
+    Fault("content: houses beside something that moves have bins", "src/node/install/BinInstaller.cpp",
+          " || isSmallPart(tile)", "", NODE, "AddedContent.*"),
+
     # terrain that hides terrain
     Fault("region: the picture is a half-plane narrower", "src/core/horizon/RegionalSight.cpp",
           "- std::max(upward, upward * data.cosDip)", "- std::min(upward, upward * data.cosDip)", CORE, "RegionalSight.*"),

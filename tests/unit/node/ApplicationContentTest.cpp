@@ -19,6 +19,7 @@
 #include <array>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -168,6 +169,42 @@ TEST(AddedContent, OnTheSurfaceKeepsOsgsCullingOfItsGroups) {
     EXPECT_FALSE(content->getChild(0)->getCullingActive());
     removeBins(*globe.root);
     EXPECT_TRUE(content->getCullingActive());
+}
+
+// A file of one transform with ground, a house, a tower in the air, and a mill that an application moves.
+TEST(AddedContent, BesideOneThatMovesKeepsOsgsOwnCullingAndIsHeldByTheBinsAbove) {
+    FiledGlobe globe;
+    const osg::ref_ptr<osg::MatrixTransform> content = makeMeshTile(extentsDeg(10, 30, 0, 40), 200.0);
+    const osg::Matrixd toLocal = osg::Matrixd::inverse(content->getMatrix());
+    std::vector<osg::ref_ptr<osg::MatrixTransform>> things;
+    const osg::Vec3d inTheAir = ecefDeg(15, 10, 30000.0);
+    for (const osg::Vec3d& place : {ecefDeg(20, 20, 200.0), inTheAir, ecefDeg(25, 30, 200.0)}) {
+        things.push_back(makeTower(place));
+        things.back()->setMatrix(things.back()->getMatrix() * toLocal);
+        content->addChild(things.back());
+    }
+    osg::MatrixTransform& mill = *things[2];
+    mill.setDataVariance(osg::Object::DYNAMIC);
+    pageOut(*globe.tile);
+    const osg::ref_ptr<osg::Group> file = new osg::Group;
+    file->addChild(content);
+    putBelow(*globe.tile, file);
+    installBins(*globe.root);
+    update(*globe.root);
+    EXPECT_NE(installedOn(*content->getChild(0)), nullptr) << "the ground";
+    for (const auto& thing : things) {
+        EXPECT_EQ(installedOn(*thing), nullptr);
+        EXPECT_TRUE(thing->getCullingActive());
+    }
+    EXPECT_TRUE(globe.draws(*things[0], downTo(20, 20, 3000.0, 5.0)));
+    EXPECT_TRUE(globe.draws(*things[1], beside(inTheAir)));
+    EXPECT_FALSE(globe.draws(*things[0], downTo(12, 5, 3000.0, 5.0)));
+    EXPECT_TRUE(globe.draws(mill, downTo(25, 30, 3000.0, 5.0)));
+    mill.setMatrix(osg::Matrixd::translate(ecefDeg(25, 33, 40000.0)) * toLocal);
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_TRUE(globe.draws(mill, beside(ecefDeg(25, 33, 40000.0)))) << i;
+        update(*globe.root);
+    }
 }
 
 TEST(AddedContent, OnTheSurfaceIsDrawnNoMoreOftenThanWithoutBins) {

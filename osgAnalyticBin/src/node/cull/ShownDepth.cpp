@@ -380,7 +380,7 @@ std::optional<core::HorizonEye> eyeAboveDepth(const ShownDatabase& database, con
     return isTrusted(database, lowest, place) ? eye : std::nullopt;
 }
 
-bool planInMap(const ShownDatabase& database, const Viewpoint& viewpoint) {
+bool planWithoutHorizon(const ShownDatabase& database, const Viewpoint& viewpoint) {
     const std::optional<core::Geodetic> place = placeOf(viewpoint, database.view.ellipsoid);
     LowestShown lowest(database, nullptr, place, kUnknownDepth);
     lowest.search(database.root);

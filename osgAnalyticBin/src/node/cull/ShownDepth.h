@@ -49,8 +49,8 @@ struct ShownDatabase {
 [[nodiscard]] std::optional<core::HorizonEye> eyeAboveDepth(const ShownDatabase& database, const Viewpoint& viewpoint,
                                                             double depth);
 
-/// Makes the plan of what is shown of a map, which has no horizon.
+/// Makes the plan of what is shown where no horizon can be used.
 /// Returns: whether all that is shown in view is drawn and opaque, and the eye is above the ground below it.
-[[nodiscard]] bool planInMap(const ShownDatabase& database, const Viewpoint& viewpoint);
+[[nodiscard]] bool planWithoutHorizon(const ShownDatabase& database, const Viewpoint& viewpoint);
 
 }  // namespace osgAnalyticBin

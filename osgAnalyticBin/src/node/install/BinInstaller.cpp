@@ -278,7 +278,7 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     link->hasNewContent = hasNewContent;
     const TerrainShape shape = database().fittedShape();
     const TileFit fit = fitTile(tile, database(), shape, *link);
-    if (!fit.isTerrain) return passBy(*tile.node, true);
+    if (!fit.isTerrain || isSmallPart(tile)) return passBy(*tile.node, true);
 
     const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database().ellipsoid();
     const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);

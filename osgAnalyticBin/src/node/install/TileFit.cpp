@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <typeinfo>
 
 namespace osgAnalyticBin {
 
@@ -358,6 +359,20 @@ IndexedFit fitByEntry(const BinIndex::Entry& entry, bool isWhole, double ownSkir
     if (correction.any()) fit.bin = correction.widened(fit.bin);
     if (fit.bin.valid()) fit.bin.setMargin(fit.bin.margin() + shape.techniqueMargin);
     return fit;
+}
+
+bool isSmallPart(const FoundTile& tile) {
+    constexpr float kLargest = 0.25f;
+    const osg::Node& node = *tile.node;
+    const bool isLeaf = tile.frame.isBelowTile && !hasStoredBin(node) && !dynamic_cast<const osg::PagedLOD*>(&node) &&
+                        !dynamic_cast<const osgTerrain::TerrainTile*>(&node);
+    if (!isLeaf || !node.getBound().valid()) return false;
+    const auto groupAbove = [](const osg::Node& below) {
+        return below.getNumParents() == 1 ? below.getParent(0) : nullptr;
+    };
+    const osg::Group* above = groupAbove(node);
+    while (above && typeid(*above) == typeid(osg::Group)) above = groupAbove(*above);
+    return above && above->asTransform() && node.getBound().radius() < kLargest * above->getBound().radius();
 }
 
 std::function<core::GeodeticBin()> finderOfFilled(const FoundTile& tile, const TileFit& fit, const ParentTile& link) {

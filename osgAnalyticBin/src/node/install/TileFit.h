@@ -50,6 +50,10 @@ struct IndexedFit {
 [[nodiscard]] IndexedFit fitByEntry(const BinIndex::Entry& entry, bool isWhole, double ownSkirt,
                                     const Database& database, const TerrainShape& shape, const ParentTile& link);
 
+/// Whether a leaf is a small part of a transform that is no tile itself, because something in it moves: a house or a
+/// tree beside the ground. A bin of its own would cost more than it saves.
+[[nodiscard]] bool isSmallPart(const FoundTile& tile);
+
 /// Finds the rectangle that the tile's own surface fills without holes, whatever its bin holds beside it: empty where
 /// that is not known. Cost of a call: a fraction of a millisecond.
 [[nodiscard]] std::function<core::GeodeticBin()> finderOfFilled(const FoundTile& tile, const TileFit& fit,

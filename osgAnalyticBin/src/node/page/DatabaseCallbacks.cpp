@@ -55,9 +55,17 @@ struct Horizon {
     std::optional<core::RegionalSight> sight;  // of an eye over a region
 };
 
-bool isOver(const core::CoveredRegion& region, const glm::dvec3& eye) {
-    const core::Geodetic at = region.ellipsoid().toGeodetic(eye);
+bool isOver(const core::CoveredRegion& region, const Viewpoint& viewpoint) {
+    if (!viewpoint.eye()) return false;
+    const core::Geodetic at = region.ellipsoid().toGeodetic(*viewpoint.eye());
     return region.contains({{at.latitude, at.latitude}, {at.longitude, at.longitude}, {0.0, 0.0}});
+}
+
+Horizon over(const std::optional<core::CoveredRegion>& region, const std::optional<core::HorizonEye>& eye,
+             const core::PlaneSet& planes) {
+    if (!region || !eye) return {eye, {}};
+    const auto sight = core::RegionalSight::from(*eye, *region, planes);
+    return sight ? Horizon{eye, sight} : Horizon();
 }
 
 Horizon horizonOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack, Database& database,
@@ -80,7 +88,7 @@ Horizon horizonOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cull
     const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
     if (isGiven && (!isAboveTerrain || isPartial))
         return {eyeAboveDepth({node, nv, cullStack, view, false, nullptr}, *viewpoint, deepest), {}};
-    if (region && !(viewpoint->eye() && isOver(*region, *viewpoint->eye()))) {
+    if (region && !isOver(*region, *viewpoint)) {
         if (!isMap) database.noteEyeBesideRegion();
         return {};
     }
@@ -97,7 +105,7 @@ Horizon horizonOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cull
         noteOccluded(tiles, last);
     };
     if (isMap) {
-        if (findsOccluded) find(region && planInMap(shown, *viewpoint));
+        if (findsOccluded) find(region && planWithoutHorizon(shown, *viewpoint));
         return {};
     }
     // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: the horizon
@@ -105,10 +113,9 @@ Horizon horizonOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cull
     constexpr unsigned int kFreshStart = 16;
     if (nv.getTraversalNumber() % kFreshStart == 0) last.depth = 0.0;
     const auto eye = eyeAboveWhatIsShown(shown, *viewpoint, deepest, last.depth);
-    if (findsOccluded) find(eye.has_value());
-    if (!region || !eye) return {eye, {}};
-    const auto sight = core::RegionalSight::from(*eye, *region, view.planes);
-    return sight ? Horizon{eye, sight} : Horizon();
+    // coarse meshes, while finer ones are awaited, may be too deep for a horizon
+    if (findsOccluded) find(eye || (region && planWithoutHorizon(shown, *viewpoint)));
+    return over(region, eye, view.planes);
 }
 
 // Culled or kept siblings before the database leave a part of the planes behind.

@@ -20,6 +20,7 @@ public:
     /// |e²| above 0.01.
     CoveredRegion(const Ellipsoid& ellipsoid, const GeodeticBin& extents) noexcept;
 
+    /// What the region is a part of.
     [[nodiscard]] const Ellipsoid& ellipsoid() const noexcept { return _ellipsoid; }
 
     /// Latitudes and longitudes of the region.
