@@ -22,27 +22,27 @@ namespace osgAnalyticBin::test {
 
 namespace {
 
-constexpr int kColumns = 8, kRows = 6;
+constexpr int kTileColumns = 8, kTileRows = 6;
 constexpr double kWidthDeg = 0.25, kHeightDeg = 0.125;
-constexpr int kPosts = 17, kFarPosts = 5;
+constexpr int kNearPosts = 17, kFarPosts = 5;
 constexpr float kTileRange = 60000.0f, kWoodRange = 25000.0f, kTreeRange = 8000.0f, kHouseRange = 10000.0f;
-const double kRadiansPerDegree = osg::PI / 180.0;
+const double kDegree = osg::PI / 180.0;
 
 // Places within a tile, as shares of its width and height from the south-west.
 struct Place {
     double east, north;
 };
 
-double altitudeAt(double latitude, double longitude) {
-    return 150.0 +
-           150.0 * std::sin(latitude * 900.0 * kRadiansPerDegree) * std::cos(longitude * 700.0 * kRadiansPerDegree);
+double groundAt(double latitude, double longitude) {
+    return 150.0 + 150.0 * std::sin(latitude * 900.0 * kDegree) * std::cos(longitude * 700.0 * kDegree);
 }
 
 class Tile {
 public:
-    Tile(int row, int column) : _south(row * kHeightDeg), _west(column * kWidthDeg), _number(row * kColumns + column) {
-        const double latitude = (_south + 0.5 * kHeightDeg) * kRadiansPerDegree;
-        const double longitude = (_west + 0.5 * kWidthDeg) * kRadiansPerDegree;
+    Tile(int row, int column)
+        : _south(row * kHeightDeg), _west(column * kWidthDeg), _number(row * kTileColumns + column) {
+        const double latitude = (_south + 0.5 * kHeightDeg) * kDegree;
+        const double longitude = (_west + 0.5 * kWidthDeg) * kDegree;
         _ellipsoid->computeLocalToWorldTransformFromLatLongHeight(latitude, longitude, 0.0, _toEcef);
         _toLocal.invert(_toEcef);
     }
@@ -50,7 +50,7 @@ public:
     // The content of the tile's file.
     [[nodiscard]] osg::ref_ptr<osg::Node> make() const {
         const osg::ref_ptr<osg::MatrixTransform> tile = new osg::MatrixTransform(_toEcef);
-        tile->addChild(land(kPosts));
+        tile->addChild(land(kNearPosts));
         tile->addChild(wood());
         for (int i = 0; i < 6; ++i) tile->addChild(house({0.1 + 0.15 * i, 0.15 + 0.12 * ((i * 5) % 7)}));
         if (_number % 4 == 0) tile->addChild(airfield());
@@ -77,8 +77,8 @@ private:
     [[nodiscard]] osg::Vec3d at(const Place& place, double above = 0.0) const {
         const double latitude = _south + place.north * kHeightDeg, longitude = _west + place.east * kWidthDeg;
         osg::Vec3d ecef;
-        _ellipsoid->convertLatLongHeightToXYZ(latitude * kRadiansPerDegree, longitude * kRadiansPerDegree,
-                                              altitudeAt(latitude, longitude) + above, ecef.x(), ecef.y(), ecef.z());
+        _ellipsoid->convertLatLongHeightToXYZ(latitude * kDegree, longitude * kDegree,
+                                              groundAt(latitude, longitude) + above, ecef.x(), ecef.y(), ecef.z());
         return ecef * _toLocal;
     }
 
@@ -223,8 +223,8 @@ private:
 std::string writeSceneryDatabase(const std::string& folder) {
     const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode("WKT", "");
     root->setEllipsoidModel(new osg::EllipsoidModel);
-    for (int row = 0; row < kRows; ++row) {
-        for (int column = 0; column < kColumns; ++column) {
+    for (int row = 0; row < kTileRows; ++row) {
+        for (int column = 0; column < kTileColumns; ++column) {
             const Tile tile(row, column);
             const std::string file = "tile_" + std::to_string(row) + "_" + std::to_string(column) + ".osgb";
             if (!osgDB::writeNodeFile(*tile.make(), folder + "/" + file)) return {};

@@ -22,7 +22,7 @@ using core::Interval;
 namespace {
 
 constexpr int kTilesAcross = 6;
-constexpr std::uint32_t kCells = 16;  // of a tile, at most
+constexpr std::uint32_t kMostCells = 16;  // of a tile, at most
 
 // Where the tiles lie, and how rough they are.
 struct Land {
@@ -158,7 +158,7 @@ OcclusionScene::OcclusionScene(Random& random, bool hasSpikes, bool isMap)
     land.spikes = hasSpikes && random.chance(0.3) ? random.uniform(0.0, 0.1) : 0.0;
     for (int row = 0; row < kTilesAcross; ++row) {
         for (int column = 0; column < kTilesAcross; ++column) {
-            const std::uint32_t cells = areAlike ? kCells : kCells >> random.integer(0, 3);
+            const std::uint32_t cells = areAlike ? kMostCells : kMostCells >> random.integer(0, 3);
             tiles.push_back(makeTile(random, ellipsoid, land, relief, row, column, cells));
             const glm::dvec3 post = tiles.back().mesh.vertex(0);
             const glm::dvec3 below = isMap ? glm::dvec3(0.0, 0.0, -1.0) : -glm::normalize(post);

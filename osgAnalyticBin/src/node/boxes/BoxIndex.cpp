@@ -23,11 +23,11 @@ namespace osgAnalyticBin {
 namespace {
 
 constexpr std::string_view kHead = "osgAnalyticBin boxes 1";
-constexpr std::string_view kUnknown = "unknown";
+constexpr std::string_view kUnknownBox = "unknown";
 constexpr std::string_view kEnd = "end ";
 
 std::string textOf(const osg::BoundingBoxf& box) {
-    if (!box.valid()) return std::string(kUnknown);
+    if (!box.valid()) return std::string(kUnknownBox);
     std::string text;
     for (const float number : {box.xMin(), box.yMin(), box.zMin(), box.xMax(), box.yMax(), box.zMax()}) {
         char digits[32];
@@ -39,7 +39,7 @@ std::string textOf(const osg::BoundingBoxf& box) {
 }
 
 std::optional<osg::BoundingBoxf> boxFrom(std::string_view text) {
-    if (text == kUnknown) return osg::BoundingBoxf();
+    if (text == kUnknownBox) return osg::BoundingBoxf();
     float numbers[6] = {};
     const char* at = text.data();
     const char* const end = at + text.size();

@@ -109,7 +109,7 @@ private:
     PagingByOptions _paging;
     std::shared_ptr<std::map<std::string, Coverage>> _coverage;  // by file
     std::size_t _installed = 0;
-    std::size_t _boxes = 0;           // of photogrammetry sets
+    std::size_t _boxes = 0;                        // of photogrammetry sets
     std::vector<osg::Node*> _groups;               // that may get families
     std::vector<osg::ref_ptr<ParentTile>> _links;  // of tiles that it has installed bins on
     std::vector<AwaitingTile> _awaiting;

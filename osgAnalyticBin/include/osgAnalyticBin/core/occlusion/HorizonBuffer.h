@@ -61,7 +61,8 @@ public:
     /// operations per strip that it spans.
     [[nodiscard]] bool hides(const Outline& body);
 
-    /// Metres from the eye's place to the nearest upper corner of all earth in front of it; infinite where there is none.
+    /// Metres from the eye's place to the nearest upper corner of all earth in front of it; infinite where there is
+    /// none.
     [[nodiscard]] double nearestEarth() const noexcept { return std::sqrt(_nearestEarth2); }
 
     /// The heights that are covered in a strip so far; an empty interval if nothing is covered.
