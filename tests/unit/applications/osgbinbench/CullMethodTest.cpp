@@ -107,7 +107,7 @@ TEST(CullMethod, TerrainHidesTerrainOnlyWhereItIsNamed) {
 
 TEST(CullMethod, NamesThePseudoLoader) {
     EXPECT_EQ(cullMethodFromName("exact+horizon+edges").sceneName("a/earth.osgb", "skirts=all"),
-              "a/earth.osgb.(method=exact,horizon=declared,skirts=all,edges=on,occlusion=off).analyticbin");
+              "a/earth.osgb.(method=exact,index=on,horizon=declared,skirts=all,edges=on,occlusion=off).analyticbin");
     EXPECT_EQ(cullMethodFromName("cluster").sceneName("earth.osgb", "horizon=-5"),
               "earth.osgb.(method=sphere).analyticbin");
 }
