@@ -138,7 +138,7 @@ FAULTS = [
     Fault("a near plane behind the horizon's eye", "src/node/cull/Viewpoint.cpp",
           "if (_nearReach > 0.0 && !(_nearReach < distanceTo(ellipsoid, depth, _point))) return std::nullopt;",
           "(void)&distanceTo;", NODE, "*NearFar*:Projections*:HorizonCulling*"),
-    Fault("skirts are not in the bin", "src/node/cull/AnalyticBinCullCallback.cpp", "altitude.lower - _skirt", "altitude.lower",
+    Fault("skirts are not in the bin", "src/node/cull/LoadedBin.cpp", "altitude.lower - _skirt", "altitude.lower",
           NODE, "*Skirt*:Border*:*Surface*"),
     Fault("eyes of other cameras", "src/node/cull/AnalyticBinCullCallback.cpp",
           "database->projection == cullStack.getProjectionMatrix() &&\n", "", NODE, "NestedCamera*:*Stereo*"),
@@ -198,7 +198,7 @@ FAULTS = [
           "HoledGlobe.*"),
     Fault("tiles that stand in several places hide whatever they are drawn as", "src/node/install/BinInstaller.cpp",
           "if (installsBins()) database().noteStrayTile(tile.frame.file);", "", NODE, "TilesWithoutBins.*"),
-    Fault("tiles that move hide whatever they are drawn as", "src/node/install/BinInstaller.cpp",
+    Fault("tiles that move hide whatever they are drawn as", "src/node/install/InstallBins.cpp",
           "if (installsBins() && hasTileBelow(node)) database().noteStrayTile(frame().file);", "(void)hasTileBelow(node);", NODE, "TilesWithoutBins.*"),
     Fault("tiles that are moved away leave no hole", "src/node/cull/ShownDepth.cpp",
           "if (!standsAsInstalled(node, bin)) _hasHole = true;", "", NODE, "HoledGlobe.*"),
@@ -360,8 +360,6 @@ FAULTS = [
     # found by the generator of scenes, and in databases of others
     Fault("stored bins are believed by a quarter of the sag", "src/node/install/TileFit.cpp", "{least + sag, least, least",
           "{least + sag, least + 0.25 * sag, least", NODE, "FalseBins.*"),
-    Fault("what stands on a tile loses OSG's own culling", "src/node/install/TileCallback.cpp",
-          "if (hasContent && isOnSurface(node, *mesh)) return false;", "(void)hasContent;", NODE, "AddedContent.*"),
     Fault("clusters in the mesh of a leaf cull", "src/node/install/BinInstaller.cpp", "} else if (!_isInMesh) {", "} else {", NODE,
           "ClusterCulling.*"),
 
