@@ -8,6 +8,7 @@
 #include <osgAnalyticBin/index/Failure.h>
 
 #include <osgDB/FileNameUtils>
+#include <osgDB/ObjectWrapper>
 #include <osgDB/Options>
 #include <osgDB/Registry>
 
@@ -82,11 +83,12 @@ std::string DatabaseFiles::checked(const std::string& file, const std::string& n
     return file == _rootName ? std::string() : file;
 }
 
+// By a class of each: OSG locks its tables first and loads a library then, and the other way round may block for ever.
 void loadSerializers() {
-    osgDB::Registry& registry = *osgDB::Registry::instance();
-    for (const char* library : {"serializers_osg", "serializers_osgterrain", "serializers_osgsim",
-                                "serializers_osganalyticbin", "serializers_osgfx", "serializers_osgtext"}) {
-        (void)registry.loadLibrary(registry.createLibraryNameForExtension(library));
+    osgDB::ObjectWrapperManager& tables = *osgDB::Registry::instance()->getObjectWrapperManager();
+    for (const char* const name : {"osg::Node", "osgTerrain::TerrainTile", "osgSim::LightPointNode",
+                                   "osgAnalyticBin::AnalyticBinCullCallback", "osgFX::Effect", "osgText::Text"}) {
+        (void)tables.findWrapper(name);
     }
 }
 
