@@ -64,7 +64,6 @@ protected:
 
 TEST_F(AutoIndex, IsMadeInTheBackgroundAndUsedAtOnceTheNextTime) {
     open();
-    EXPECT_TRUE(isIndexAwaited(*_scene) || isRootWhole());
     ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
     EXPECT_FALSE(isIndexAwaited(*_scene));
     EXPECT_TRUE(isRootWhole());
