@@ -167,7 +167,8 @@ private:
         geometry->setVertexArray(vertices);
         geometry->setTexCoordArray(0, texels);
         geometry->addPrimitiveSet(triangles);
-        const osg::ref_ptr<osg::Vec4Array> white = new osg::Vec4Array(1, new osg::Vec4(1, 1, 1, 1));
+        const osg::ref_ptr<osg::Vec4Array> white = new osg::Vec4Array;
+        white->push_back(osg::Vec4(1, 1, 1, 1));
         geometry->setColorArray(white, osg::Array::BIND_OVERALL);
         geometry->getOrCreateStateSet()->setTextureAttributeAndModes(0, textureOf(part));
         geometry->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
