@@ -17,19 +17,18 @@
 
 namespace osgbinconv {
 
+using osgAnalyticBin::BinIndex;
 using osgAnalyticBin::support::Failure;
 
 namespace {
-
-constexpr const char* kMagic = "\x89osgBins";
 
 /// The index is going to be replaced: it must be one.
 void requireNothingForeign(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
     if (!in) return;
-    std::string magic(8, '\0');
+    std::string magic(BinIndex::kMagic.size(), '\0');
     in.read(magic.data(), static_cast<std::streamsize>(magic.size()));
-    if (in && magic != kMagic) throw Failure("\"" + path + "\" is no index of bins; move it away");
+    if (in && magic != BinIndex::kMagic) throw Failure("\"" + path + "\" is no index of bins; move it away");
 }
 
 class ReportedWalk final : public osgAnalyticBin::indexing::WalkObserver {

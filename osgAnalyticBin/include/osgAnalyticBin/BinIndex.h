@@ -15,6 +15,7 @@
 #include <iosfwd>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,9 @@ struct FoundTile;
 /// Threads: reading members are const and may be called by any number of threads at once.
 class OSGANALYTICBIN_EXPORT BinIndex : public osg::Object {
 public:
+    /// The first bytes of an index in a file.
+    static constexpr std::string_view kMagic{"\x89osgBins", 8};
+
     /// What the index knows of a tile.
     struct Entry {
         /// The bin for culling: it holds the tile, all its descendants, and the parts of their skirts that cracks can

@@ -23,14 +23,7 @@ namespace {
 void enter(osg::Node& child, const BoxSlots::Slot& slot, osg::NodeVisitor& nv) {
     const bool isAsUsual = slot.isPlain && !child.getCullCallback() && !child.getCullingActive();
     if (!isAsUsual || typeid(nv) != typeid(osgUtil::CullVisitor)) return child.accept(nv);
-    if (!nv.validNodeMask(child)) return;
-    auto& visitor = static_cast<osgUtil::CullVisitor&>(nv);
-    osg::StateSet* const state = child.getStateSet();
-    visitor.pushOntoNodePath(&child);
-    if (state) visitor.pushStateSet(state);
-    child.traverse(visitor);
-    if (state) visitor.popStateSet();
-    visitor.popFromNodePath();
+    enterWithoutTest(child, static_cast<osgUtil::CullVisitor&>(nv));
 }
 
 // Whether what is in view is culled all the same: as a small feature, or behind an occluder.

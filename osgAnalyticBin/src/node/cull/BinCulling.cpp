@@ -5,6 +5,8 @@
 
 #include "../page/Database.h"
 
+#include <osgUtil/CullVisitor>
+
 namespace osgAnalyticBin {
 
 bool isSmall(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere) {
@@ -14,6 +16,16 @@ bool isSmall(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere) {
     const bool culled = cullingSet.isCulled(sphere);
     cullingSet.setCullingMask(mask);
     return culled;
+}
+
+void enterWithoutTest(osg::Node& node, osgUtil::CullVisitor& visitor) {
+    if (!visitor.validNodeMask(node)) return;
+    osg::StateSet* const state = node.getStateSet();
+    visitor.pushOntoNodePath(&node);
+    if (state) visitor.pushStateSet(state);
+    node.traverse(visitor);
+    if (state) visitor.popStateSet();
+    visitor.popFromNodePath();
 }
 
 bool isShownIn(const TerrainShape& fitted, const CullTraversal& traversal) {

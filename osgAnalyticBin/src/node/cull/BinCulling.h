@@ -17,6 +17,10 @@
 
 #include <cstddef>
 
+namespace osgUtil {
+class CullVisitor;
+}
+
 namespace osgAnalyticBin {
 
 /// Where a bin lies, and by which test.
@@ -55,6 +59,11 @@ private:
     osg::CullStack& _cullStack;
     core::PlaneMask _before;
 };
+
+/// Enters a node without cull callbacks of others as osgUtil::CullVisitor does it, without its test of the sphere: for
+/// nodes that were tested together with their siblings. Requires: a visitor of this very type, and a node that it
+/// enters by apply(osg::LOD&) or apply(osg::Group&).
+void enterWithoutTest(osg::Node& node, osgUtil::CullVisitor& visitor);
 
 /// Whether the database that is traversed is shown in the shape that a bin was fitted to. Another shape is asked to be
 /// fitted to; without a database the answer is no.

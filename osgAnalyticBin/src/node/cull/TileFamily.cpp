@@ -248,14 +248,7 @@ void TileFamily::enter(osg::Node& child, const Member& member, osg::NodeVisitor&
         traversal.setKept(nullptr);
         return;
     }
-    if (!nv.validNodeMask(child)) return;
-    auto& visitor = static_cast<osgUtil::CullVisitor&>(nv);
-    osg::StateSet* const state = child.getStateSet();
-    visitor.pushOntoNodePath(&child);
-    if (state) visitor.pushStateSet(state);
-    child.traverse(visitor);
-    if (state) visitor.popStateSet();
-    visitor.popFromNodePath();
+    enterWithoutTest(child, static_cast<osgUtil::CullVisitor&>(nv));
 }
 
 void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack,

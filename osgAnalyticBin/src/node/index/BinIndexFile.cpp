@@ -32,7 +32,6 @@ namespace osgAnalyticBin {
 
 namespace {
 
-constexpr std::string_view kMagic("\x89osgBins", 8);
 constexpr std::uint32_t kVersion = 1;
 constexpr std::uint32_t kValid = 1;
 constexpr std::uint32_t kLongestName = 4096;
@@ -232,7 +231,7 @@ std::vector<FileHead> readFileHeads(Reader& in, std::uint64_t files, std::uint64
 }
 
 void requireMagic(Reader& in) {
-    for (const char byte : kMagic) {
+    for (const char byte : BinIndex::kMagic) {
         if (static_cast<char>(in.number<std::uint8_t>()) != byte) throw Refusal{"is no such thing"};
     }
 }
@@ -298,7 +297,7 @@ osg::ref_ptr<BinIndex> BinIndex::read(const std::string& path, std::string& erro
 
 bool BinIndex::write(std::ostream& stream) const {
     Writer out(stream);
-    out.bytes(kMagic);
+    out.bytes(BinIndex::kMagic);
     out.number(kVersion);
     out.number(static_cast<std::uint32_t>(_source.name.size()));
     out.number(_source.size);

@@ -21,9 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMagicBytes = 8;
-constexpr const char* kIndexMagic = "\x89osgBins";
-
 // A temporary file that one process at a time may write. It is removed unless it becomes the file.
 class LockedFile {
 public:
@@ -79,9 +76,9 @@ bool isOurs(const std::string& path) {
         std::error_code ignored;
         return !fs::exists(path, ignored);
     }
-    std::string magic(kMagicBytes, '\0');
+    std::string magic(BinIndex::kMagic.size(), '\0');
     in.read(magic.data(), static_cast<std::streamsize>(magic.size()));
-    return in.gcount() == 0 || magic == kIndexMagic;
+    return in.gcount() == 0 || magic == BinIndex::kMagic;
 }
 
 bool keepAt(const BinIndex& index, const std::string& path, std::string& error) {
