@@ -7,11 +7,12 @@
 //   or "unknown"
 //   end, the number of files and that of boxes
 
+#include "../WholeFile.h"
+
 #include <osgAnalyticBin/BoxIndex.h>
 
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <istream>
 #include <optional>
@@ -90,14 +91,8 @@ bool BoxIndex::write(std::ostream& out) const {
 }
 
 bool BoxIndex::write(const std::string& path, std::string& error) const {
-    const std::string partial = path + ".part";
-    std::ofstream out(partial, std::ios::binary);
-    const bool isWritten = out && write(out);
-    out.close();
-    if (isWritten && out && std::rename(partial.c_str(), path.c_str()) == 0) return true;
-    (void)std::remove(partial.c_str());
-    error = "\"" + path + "\" cannot be written";
-    return false;
+    return writeWholeFile(
+        path, [this](std::ostream& out) { return write(out); }, error);
 }
 
 osg::ref_ptr<BoxIndex> BoxIndex::read(std::istream& in, std::string& error) {

@@ -11,6 +11,8 @@
 //   i64 time  i64 nanoseconds  u32 CRC-32 of everything before
 // The checksum is Boost.CRC's: the core needs Boost's headers anyway, so that no further library is linked for it.
 
+#include "../WholeFile.h"
+
 #include <osgAnalyticBin/BinIndex.h>
 
 #include <algorithm>
@@ -19,14 +21,11 @@
 #include <boost/endian/conversion.hpp>
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <istream>
 #include <ostream>
 #include <string_view>
-#include <system_error>
 
 namespace osgAnalyticBin {
 
@@ -265,10 +264,6 @@ osg::ref_ptr<BinIndex> readIndex(std::istream& stream) {
     return index;
 }
 
-std::string systemMessage(const std::string& what, const std::string& path) {
-    return "cannot " + what + " \"" + path + "\": " + std::strerror(errno);
-}
-
 }  // namespace
 
 osg::ref_ptr<BinIndex> BinIndex::read(std::istream& in, std::string& error) {
@@ -287,7 +282,7 @@ osg::ref_ptr<BinIndex> BinIndex::read(const std::string& path, std::string& erro
     errno = 0;
     std::ifstream in(path, std::ios::binary);
     if (!in) {
-        error = systemMessage("read", path);
+        error = "cannot read \"" + path + "\": " + std::strerror(errno);
         return nullptr;
     }
     osg::ref_ptr<BinIndex> index = read(in, error);
@@ -323,20 +318,8 @@ bool BinIndex::write(std::ostream& stream) const {
 }
 
 bool BinIndex::write(const std::string& path, std::string& error) const {
-    const std::string temporary = path + ".tmp";
-    errno = 0;
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    const bool isWritten = out && write(out) && out.flush();
-    out.close();
-    if (isWritten && out) {
-        std::error_code problem;
-        std::filesystem::rename(temporary, path, problem);  // replaces a file that is there, also on Windows
-        if (!problem) return true;
-        errno = problem.default_error_condition().value();
-    }
-    error = systemMessage("write", path) + "; make room or choose another folder";
-    std::remove(temporary.c_str());
-    return false;
+    return writeWholeFile(
+        path, [this](std::ostream& out) { return write(out); }, error);
 }
 
 }  // namespace osgAnalyticBin

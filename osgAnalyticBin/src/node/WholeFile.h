@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <string>
+
+namespace osgAnalyticBin {
+
+/// Writes a file whole: a file of that name is replaced when the new one is complete; otherwise nothing is left behind.
+/// `write`: whether the stream took everything. Returns: whether the file was written; otherwise `error` says why not.
+[[nodiscard]] bool writeWholeFile(const std::string& path, const std::function<bool(std::ostream&)>& write,
+                                  std::string& error);
+
+}  // namespace osgAnalyticBin
