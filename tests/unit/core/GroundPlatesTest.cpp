@@ -92,7 +92,7 @@ void expectBelow(Random& random, const Ellipsoid& ellipsoid, const EcefMesh& mes
     }
 }
 
-// Of random meshes, on globes or in maps.
+// Plates of random meshes on globes and in maps.
 void expectBelow(Random& random, bool isMap, int& known) {
     for (int trial = 0; trial < 800; ++trial) {
         Ellipsoid ellipsoid = Ellipsoid::plane();

@@ -173,7 +173,7 @@ void fly(osg::Group& installed, osg::Group& plain, const PlanarMap& map, test::R
     EXPECT_EQ(meshes.withSpheres, 0u);
 }
 
-// With whole skirts, which are seen from below the map.
+// With skirts=all, because eyes below the map see whole skirts.
 Tally flownTally(const PlanarMap& map, const std::string& options) {
     const test::TemporaryFolder folder;
     const auto installed = map.build(folder.path());

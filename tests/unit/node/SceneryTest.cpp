@@ -80,7 +80,7 @@ CullView randomView(Random& random) {
     return CullView::lookAt(eye, at, eye, 60.0);
 }
 
-// What small features there are is OSG's to say: pixels that it takes from a picture without bins.
+// OSG decides which features are small enough to be left out, with bins and without.
 TEST(Scenery, LosesNoSmallFeaturesButThoseThatOsgDrops) {
     constexpr auto kSides = osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING;
     constexpr auto kSmall = osg::CullSettings::SMALL_FEATURE_CULLING;

@@ -32,8 +32,8 @@ public:
 /// Reads every file of a database once, each in one of several threads, and forgets its scene at once. Goes deep first:
 /// what is paged below a file is done soon after it. `known` are records of an earlier walk, taken where the file has
 /// not changed. The result does not depend on the threads. With one thread the files are read in the caller's.
-/// Throws Failure when the root file cannot be read, or when a file is named that is outside of the folder or stands in
-/// two frames; and what the observer throws.
+/// Throws Failure when the root file cannot be read, when a file outside of the folder is paged, or when a file is
+/// paged in two frames that differ; and what the observer throws.
 [[nodiscard]] OSGANALYTICBIN_EXPORT FileRecords walkDatabase(const DatabaseFiles& files, std::vector<FileRecord> known,
                                                              WalkObserver& observer, int threads,
                                                              Images images = Images::Left);

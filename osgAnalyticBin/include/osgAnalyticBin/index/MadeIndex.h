@@ -14,11 +14,11 @@
 
 namespace osgAnalyticBin::indexing {
 
-/// An index, and what it took to make it.
+/// An index with the records that it was made from.
 struct MadeIndex {
     /// The bins of all tiles.
     osg::ref_ptr<BinIndex> index;
-    /// That it was made from.
+    /// Of all files of the database.
     FileRecords records;
     /// Where the tiles cover the whole globe: the altitude in metres that no surface goes below.
     std::optional<double> horizon;

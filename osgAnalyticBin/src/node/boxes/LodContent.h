@@ -34,9 +34,9 @@ struct LodContent {
     [[nodiscard]] MeshBox all(const std::vector<MeshBox>& boxes) const;
 };
 
-/// Looks for the LODs of a file. Meshes below transforms that stay as they are count. What may move, and what is drawn
-/// otherwise than its vertices say (billboards, text), is boundless, and LODs below a transform are, too: these are not
-/// listed. The node is not changed; bounds of drawables are computed.
+/// Finds the LODs of a file and the boxes of their meshes, those below static transforms included. Content that may
+/// move, and drawables that are not drawn where their vertices are (billboards, text), have no bounds. LODs below a
+/// transform have none either, and are not listed. The node is not changed, but bounds of its drawables are computed.
 [[nodiscard]] LodContent findLods(osg::Node& node);
 
 /// Whether a LOD pages this child in.

@@ -43,7 +43,7 @@ void SubtreeBins::unite(const Content& inner, Content& outer, bool isTile) {
     outer.lacksFiles = !isTile && (outer.lacksFiles || inner.lacksFiles);
 }
 
-// Publishes a file below which all is known. Returns: what it draws.
+// Publishes the bins of a file when all files below it are known. Returns: what the file and those below it draw.
 SubtreeBins::Content SubtreeBins::finish(const FileRecord& record) const {
     Content whole;
     whole.isKnown = !record.isRead || !record.hasOtherContent;

@@ -67,7 +67,7 @@ void makeIndex(osg::Node& node, AutoIndex* index) {
 
 }  // namespace
 
-// Culled by boxes of its vertices, whatever stands around it.
+// A set is culled by boxes of its vertices, also below other nodes.
 void BinInstaller::visitSet(osg::Group& set) {
     if (_options.method == Method::Sphere) return removeBoxes(set);
     _boxes += installBoxes(set, _options);

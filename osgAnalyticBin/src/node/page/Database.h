@@ -90,7 +90,8 @@ public:
     /// or all are in a map. The first one that is asked for tells which.
     [[nodiscard]] bool takes(const osg::EllipsoidModel& ellipsoid);
     [[nodiscard]] const BinIndex* index() const { return _index.get(); }
-    /// What index there is knows of a tile. `isWhole`: whether it knows all tiles.
+    /// The entry of a tile in the index that is in use or being made. Returns: nullopt where there is no index, or no
+    /// entry yet. `isWhole`: whether the index is complete.
     [[nodiscard]] std::optional<BinIndex::Entry> indexEntry(const std::string& file, std::size_t ordinal,
                                                             bool& isWhole) const;
     /// The index that is being made, and the tiles that wait for it.
@@ -164,8 +165,8 @@ public:
     /// visible until the next update widens the bin.
     void noteContent(const AnalyticBinCullCallback& tile, const Widening& by);
 
-    /// Says what a tile and its loaded descendants are culled by. Tiles above it of which no more is known than what is
-    /// loaded grow with the next update. Not valid: nobody knows; these are then culled by their declared bins.
+    /// Says what a tile and its loaded descendants are culled by. The loaded bins of the tiles above it grow to hold
+    /// that in the next update. Not valid: it is not known, and these tiles are culled by their declared bins.
     static void noteLoaded(const ParentTile& tile, const AnalyticBin& shown);
 
     /// Says that a tile which is loaded, or on its way, is not held by the bin of a tile above it: likewise. The tile

@@ -65,7 +65,7 @@ public:
     /// Cost: for slots in view some ten multiplications for all lanes together; no allocation, no trigonometry.
     [[nodiscard]] std::uint64_t hiddenFrom(const HorizonEye& eye, std::uint64_t candidates) const noexcept;
 
-    /// Returns: the candidates of which RegionalSight::holds() is true. Cost: as there, for each candidate.
+    /// Returns: the candidates for which RegionalSight::holds() is true. Cost: that of holds() for each candidate.
     [[nodiscard]] std::uint64_t heldIn(const RegionalSight& sight, std::uint64_t candidates) const noexcept;
 
     /// As core::isSeparated() of the bin. Requires: a slot in filled() (asserted). A curved bin in quadratic form is
