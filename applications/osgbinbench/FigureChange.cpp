@@ -21,8 +21,8 @@ namespace {
 constexpr const char* kYardstick = "sphere";
 constexpr double kLeastNoise = 0.05;
 // What belongs to the view rather than to a method.
-constexpr std::array<const char*, 5> kNeutral{"truth_tiles", "surface_tiles", "visible_tiles", "hidden_tiles",
-                                              "frames"};
+constexpr std::array<const char*, 6> kNeutral{"truth_tiles",   "surface_tiles", "visible_tiles",
+                                              "visible_files", "hidden_tiles",  "frames"};
 
 std::string numberText(double value) {
     return std::trunc(value) == value ? withDecimals(value, 0) : withDecimals(value, 4);

@@ -16,6 +16,7 @@ struct Figures {
     std::uint64_t surfaceTiles = 0;
     std::uint64_t hiddenTiles = 0;
     std::uint64_t visibleTiles = 0;
+    std::uint64_t visibleFiles = 0;
     std::uint64_t nodes = 0;
     std::uint64_t testedTiles = 0;
     std::uint64_t keptTiles = 0;
@@ -46,12 +47,14 @@ struct CountColumn {
     const char* meaning;
 };
 
-inline constexpr std::array<CountColumn, 19> kCountColumns{{
+inline constexpr std::array<CountColumn, 20> kCountColumns{{
     {"truth_tiles", &Figures::truthTiles,
      "tiles needed: the hull of the tile's bin, finer descendants in it, meets the frustum, not behind the globe"},
     {"surface_tiles", &Figures::surfaceTiles, "the same, more strictly, of the tile's own surface alone"},
     {"hidden_tiles", &Figures::hiddenTiles, "tiles whose bin meets the frustum, but behind the globe"},
     {"visible_tiles", &Figures::visibleTiles, "tiles with a pixel of their own, skirts included"},
+    {"visible_files", &Figures::visibleFiles,
+     "files that bring these and the tiles above them: the least that has to be read"},
     {"nodes", &Figures::nodes, "nodes and drawables that the cull traversal reached"},
     {"tested_tiles", &Figures::testedTiles, "tiles that it reached"},
     {"kept_tiles", &Figures::keptTiles, "tiles that it went into"},
@@ -104,6 +107,7 @@ struct FlightFigures {
     std::uint64_t missingFrames = 0;
     std::uint64_t residentTiles = 0;
     std::uint64_t filesRequested = 0;
+    std::uint64_t askedAgain = 0;
     std::uint64_t bytes = 0;
     std::uint64_t completeMs = 0;
     double cullMs = 0.0;
@@ -117,12 +121,13 @@ struct FlightColumn {
     const char* meaning;
 };
 
-inline constexpr std::array<FlightColumn, 6> kFlightColumns{{
+inline constexpr std::array<FlightColumn, 7> kFlightColumns{{
     {"drawn_tiles", &FlightFigures::drawnTiles, "tiles with a mesh of their own drawn, summed over frames"},
     {"missing_frames", &FlightFigures::missingFrames,
      "frames that asked for a file for what they showed: it was too coarse"},
     {"resident_tiles", &FlightFigures::residentTiles, "tiles in memory after the last frame"},
     {"files_requested", &FlightFigures::filesRequested, "files read"},
+    {"asked_again", &FlightFigures::askedAgain, "times that a file was asked for which earlier frames had given up"},
     {"bytes", &FlightFigures::bytes, "bytes of these files"},
     {"complete_ms", &FlightFigures::completeMs,
      "milliseconds from each jump until nothing was missing, summed; 0 without --jumps"},

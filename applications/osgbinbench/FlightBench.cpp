@@ -79,6 +79,7 @@ private:
         const PagedScene::Frame frame = _scene.flyFrame(pose, _period.count());
         ++_figures.frames;
         _figures.missingFrames += frame.wanted > 0 ? 1U : 0U;
+        _figures.askedAgain += frame.askedAgain;
         _figures.cullMs += frame.cullMs;
         _times.push_back(frame.cullMs);
         _figures.drawnTiles += _scene.census().tiles.size();

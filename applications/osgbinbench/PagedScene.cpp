@@ -8,6 +8,8 @@
 #include <chrono>
 #include <limits>
 #include <thread>
+#include <unordered_map>
+#include <utility>
 
 namespace osgAnalyticBin::bench {
 
@@ -24,29 +26,42 @@ protected:
     ~OwnScene() override = default;
 };
 
-class CountingRequests : public flight::RequestCounter {
+}  // namespace
+
+class PagedScene::Requests final : public osg::NodeVisitor::DatabaseRequestHandler {
 public:
-    explicit CountingRequests(osgDB::DatabasePager& pager) : _pager(pager) {}
+    explicit Requests(osgDB::DatabasePager& pager) : _pager(pager) {}
+
+    void beginFrame() {
+        ++_frame;
+        wanted = 0;
+        askedAgain = 0;
+    }
 
     void requestNodeFile(const std::string& file, osg::NodePath& path, float priority, const osg::FrameStamp* stamp,
                          osg::ref_ptr<osg::Referenced>& request, const osg::Referenced* options) override {
         // what terrain still hides is requested ahead with priorities below zero
-        if (priority >= 0.0F) ++count;
+        if (priority >= 0.0F) ++wanted;
+        const auto [asked, isNew] = _frameOf.try_emplace(file, _frame);
+        if (!isNew && std::exchange(asked->second, _frame) + 1 < _frame) ++askedAgain;
         _pager.requestNodeFile(file, path, priority, stamp, request, options);
     }
 
+    std::uint64_t wanted = 0;
+    std::uint64_t askedAgain = 0;
+
 private:
     osgDB::DatabasePager& _pager;
+    std::uint64_t _frame = 0;
+    std::unordered_map<std::string, std::uint64_t> _frameOf;  // that asked for a file last
 };
-
-}  // namespace
 
 PagedScene::PagedScene(osg::Node& root, osg::Camera& camera)
     : _camera(camera),
       _scene(new OwnScene),
       _frameStamp(new osg::FrameStamp),
       _update(new osgUtil::UpdateVisitor),
-      _requests(new CountingRequests(*_scene->getDatabasePager())) {
+      _requests(new Requests(*_scene->getDatabasePager())) {
     _scene->setSceneData(&root);
     _update->setFrameStamp(_frameStamp);
     forgetFrames();
@@ -68,10 +83,10 @@ PagedScene::Frame PagedScene::step(double seconds) {
     // The traversals that follow must not find bounds to compute.
     (void)_scene->getSceneData()->getBound();
     pager().signalBeginFrame(_frameStamp);
-    _requests->count = 0;
+    _requests->beginFrame();
     const double cullMs = _stage->cull(_camera, *_frameStamp);
     pager().signalEndFrame();
-    return {cullMs, _requests->count};
+    return {cullMs, _requests->wanted, _requests->askedAgain};
 }
 
 void PagedScene::keepEverything() {

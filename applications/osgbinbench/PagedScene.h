@@ -21,7 +21,8 @@ public:
     /// What one frame's cull traversal did.
     struct Frame {
         double cullMs = 0.0;
-        std::uint64_t wanted = 0;  ///< files asked for: not loaded yet
+        std::uint64_t wanted = 0;      ///< files asked for: not loaded yet
+        std::uint64_t askedAgain = 0;  ///< files asked for, ahead too, that earlier frames had ceased to ask for
     };
 
     /// `camera` has `root` for its only child, a viewport, and the view of every frame.
@@ -53,6 +54,8 @@ public:
     [[nodiscard]] osg::FrameStamp& frameStamp() { return *_frameStamp; }
 
 private:
+    class Requests;
+
     [[nodiscard]] osgDB::DatabasePager& pager() const { return *_scene->getDatabasePager(); }
     [[nodiscard]] bool isThreadBusy() const;
 
@@ -60,7 +63,7 @@ private:
     osg::ref_ptr<osgViewer::Scene> _scene;
     osg::ref_ptr<osg::FrameStamp> _frameStamp;
     osg::ref_ptr<osgUtil::UpdateVisitor> _update;
-    osg::ref_ptr<flight::RequestCounter> _requests;
+    osg::ref_ptr<Requests> _requests;
     std::optional<CullStage> _stage;
 };
 

@@ -37,6 +37,14 @@ CullMethod binMethod() {
     return method;
 }
 
+std::uint64_t pagesOf(const std::vector<DrawnTile>& tiles, const std::map<std::string, std::uint64_t>& visible) {
+    std::set<std::string> pages;
+    for (const DrawnTile& tile : tiles) {
+        if (visible.count(tile.key) != 0) pages.insert(tile.pages.begin(), tile.pages.end());
+    }
+    return pages.size();
+}
+
 void countFalseVerdicts(Figures& figures, const Census& census, const NeededTiles& needed,
                         const std::map<std::string, std::uint64_t>& visible) {
     const std::set<std::string> drawn = census.keys();
@@ -146,6 +154,7 @@ std::vector<Figures> PoseBench::measure(const flight::CameraPose& pose) {
         f.surfaceTiles = needed.bySurface.size();
         f.hiddenTiles = needed.hidden;
         f.visibleTiles = visible.size();
+        f.visibleFiles = pagesOf(reference.census.tiles, visible);
         f.residentTiles = visits[i].residentTiles;
         f.filesRequested = visits[i].files;
         f.bytes = visits[i].bytes;

@@ -99,7 +99,7 @@ void TileCensus::enter(osg::Node& node) {
     if (!isTile(getNodePath())) return;
     _openTiles.emplace_back();
     _openTiles.back().node = &node;
-    _openTiles.back().drawn.key = keyOfPath();
+    describePath(_openTiles.back().drawn);
     _openTiles.back().drawn.bin = binOfTile(getNodePath());
 }
 
@@ -122,17 +122,17 @@ void TileCensus::draw(osg::Drawable& drawable) {
     _openTiles.back().drawn.meshes.push_back({&drawable, localToWorld});
 }
 
-std::string TileCensus::keyOfPath() const {
+void TileCensus::describePath(DrawnTile& tile) const {
     const osg::NodePath& path = const_cast<TileCensus*>(this)->getNodePath();
-    std::string key;
     for (std::size_t i = 1; i < path.size(); ++i) {
         const osg::Group* const parent = path[i - 1]->asGroup();
         // a group that stands for its only child is there with bins, and is not without
         if (parent && isPlainGroup(*parent) && parent->getNumChildren() == 1) continue;
-        if (!key.empty()) key += '/';
-        key += std::to_string(parent ? parent->getChildIndex(path[i]) : 0U);
+        if (!tile.key.empty()) tile.key += '/';
+        tile.key += std::to_string(parent ? parent->getChildIndex(path[i]) : 0U);
+        const auto* const lod = dynamic_cast<const osg::PagedLOD*>(parent);
+        if (lod && isPaged(*lod, *path[i])) tile.pages.push_back(tile.key);
     }
-    return key;
 }
 
 }  // namespace osgAnalyticBin::bench

@@ -31,6 +31,8 @@ struct DrawnTile {
     /// The bin by which the kit culls it, as it is shown: for the Terrain's vertical scale, with the skirts that count.
     /// Invalid where the kit has installed none.
     AnalyticBin bin;
+    /// The keys of the pages that had to be read for it, from the coarsest on; the root file is none.
+    std::vector<std::string> pages{};
 };
 
 /// What one cull traversal of a scene does.
@@ -71,7 +73,7 @@ private:
     void leave(osg::Node& node) override;
     void draw(osg::Drawable& drawable) override;
 
-    [[nodiscard]] std::string keyOfPath() const;
+    void describePath(DrawnTile& tile) const;
 
     std::vector<OpenTile> _openTiles;
     Census _census;
