@@ -103,6 +103,7 @@ void describe(const DatabaseSpec& d, std::ostream& out) {
     if (!d.isMap) out << ", radii " << d.equatorial << " " << d.polar;
     if (d.storesBins) out << ", stored bins" << (d.groupsLeaves ? " (groups above leaves)" : "");
     if (!d.hasSkirts) out << ", no skirts";
+    if (d.hasSkirts && !d.hasQuads) out << ", skirts of triangles";
     if (d.leavesArePaged) out << ", leaves are PagedLODs";
     if (d.requestsBins) out << ", InstallBinsCallback";
     if (d.verticalScale != 1.0) out << ", vertical scale " << d.verticalScale;
@@ -145,7 +146,7 @@ bool TileKey::holds(const TileKey& other) const {
 }
 
 double DatabaseSpec::tileWidth(int level) const {
-    return (isMap ? 64000.0 : 2.0 * osg::PI) / columns / (1 << level);
+    return (isMap ? size() : 2.0 * osg::PI) / columns / (1 << level);
 }
 
 osg::Matrixd DatabaseSpec::toWorld(int frame) const {

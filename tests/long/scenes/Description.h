@@ -61,11 +61,12 @@ struct DatabaseSpec {
     bool storesBins = false;
     bool groupsLeaves = true;  ///< stored bins of the last level are on a group above the mesh, and not on the mesh
     bool hasSkirts = true;
+    bool hasQuads = true;         ///< skirts are made of quads, and not of triangles
     bool isLoaded = false;        ///< the files' content is there from the beginning
     bool leavesArePaged = false;  ///< tiles of the last level are PagedLODs without files
     bool requestsBins = false;    ///< bins are installed by an InstallBinsCallback, and not by installBins()
     double relief = 3000.0;       ///< heights are within plus and minus this, metres
-    double waves = 5.0;           ///< hills and valleys: radians of the sine for a radian of latitude
+    double waves = 5.0;  ///< hills and valleys: radians of the sine for a radian of latitude, for 50 km in a map
     double verticalScale = 1.0;
     double range = 3.0;  ///< tiles are refined nearer than this many of their radii
     CullOptions options;
@@ -76,8 +77,13 @@ struct DatabaseSpec {
     /// Whether the tiles cover the whole globe.
     [[nodiscard]] bool isWhole() const { return !isMap && shownColumns == columns && rows == columns / 2; }
     [[nodiscard]] double scale() const { return equatorial / 6378137.0; }
+    /// Metres: a globe's radius; the width of a map that shows all its columns.
+    [[nodiscard]] double size() const { return isMap ? 64000.0 : equatorial; }
     /// Radians; in a map, metres.
     [[nodiscard]] double tileWidth(int level) const;
+    /// From hill to hill along a meridian: radians; in a map, metres.
+    [[nodiscard]] double waveLength() const { return (isMap ? 5e4 : 1.0) * 2.0 * osg::PI / waves; }
+    void setWaveLength(double length) { waves = (isMap ? 5e4 : 1.0) * 2.0 * osg::PI / length; }
     /// From the database's own frame to the world's in a frame.
     [[nodiscard]] osg::Matrixd toWorld(int frame) const;
 };

@@ -243,6 +243,15 @@ void chooseSlots(DatabaseSpec& database) {
     database.leavesArePaged = false;
 }
 
+// Many that one view shows.
+void chooseSmallTiles(Random& random, DatabaseSpec& database) {
+    database.columns = random.pick(std::array<int, 3>{16, 32, 64});
+    const bool isWhole = database.columns == 16 && random.chance(0.5);
+    database.shownColumns = isWhole ? database.columns : random.integer(5, 10);
+    database.rows = isWhole ? database.columns / 2 : random.integer(4, 8);
+    database.firstRow = isWhole ? 0 : random.integer(0, database.columns / 2 - database.rows);
+}
+
 void chooseTheme(Random& random, Description& description) {
     const double theme = random.uniform();
     DatabaseSpec& database = description.databases.front();
@@ -260,18 +269,29 @@ void chooseTheme(Random& random, Description& description) {
         if (random.chance(0.5)) database.verticalScale = 10.0;
         if (database.options.horizonUse == HorizonUse::Given) database.options.horizonUse = HorizonUse::ByMethod;
         database.options.heights = CullOptions::kTerrainOnEarth;
-    } else if (theme < 0.45 && !database.isMap) {
-        // the smaller the globe, the higher its mountains are beside its radius
+    } else if (theme < (database.isMap ? 0.9 : 0.45)) {
         description.theme = Theme::Hills;
         if (database.mesh == MeshKind::Terrain) database.mesh = MeshKind::Local;
-        database.equatorial = random.logUniform(2e3, 4e5);
-        database.polar = database.equatorial * random.uniform(0.996, 1.004);
-        database.relief = database.equatorial * random.logUniform(0.005, 0.09);
-        database.waves = random.logUniform(5.0, 60.0);
-        database.posts = random.integer(5, 17);
+        if (!database.isMap) {
+            // the smaller the globe, the higher its mountains are beside its radius
+            database.equatorial = random.logUniform(2e3, 4e5);
+            database.polar = database.equatorial * random.uniform(0.996, 1.004);
+            chooseSmallTiles(random, database);
+        }
+        // wide enough for plates to stand in hills
+        const double waveLength = database.tileWidth(0) * random.logUniform(1.0, 8.0);
+        database.setWaveLength(waveLength);
+        const double highest = 0.09 * database.size();
+        const double unit = database.isMap ? 1.0 : database.size();
+        database.relief = std::min(highest, 0.16 * waveLength * unit * random.logUniform(0.02, 0.7));
+        database.posts = random.integer(9, 17);
+        // the kit knows the surfaces of triangles alone
+        database.hasQuads = random.chance(0.2);
         database.levels = std::min(database.levels, 1);
         database.verticalScale = 1.0;
         database.options.occlusion = OcclusionUse::On;
+        // else nothing hides terrain
+        if (random.chance(0.8)) database.options.skirts = SkirtUse::Cracks;
         database.options.heights = {-database.relief - 1.0, database.relief + 1.0};
         if (database.options.horizonUse != HorizonUse::Declared) database.options.horizonUse = HorizonUse::ByMethod;
     }
@@ -287,7 +307,8 @@ Description randomDescription(std::uint64_t seed) {
     for (int i = 0; i < databases; ++i) description.databases.push_back(randomDatabase(random, i));
     chooseTheme(random, description);
     const int frames = random.integer(3, 6);
-    PartMaker(random, description, frames).addAll();
+    // terrain with gaps hides nothing
+    if (description.theme != Theme::Hills || random.chance(0.4)) PartMaker(random, description, frames).addAll();
     for (int frame = 1; frame <= frames; ++frame) {
         // what terrain hides is kept from view to view
         const bool isFlight = frame > 1 && description.theme == Theme::Hills && random.chance(0.6);

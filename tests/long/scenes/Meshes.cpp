@@ -83,7 +83,8 @@ struct MeshMaker {
     }
 
     void addSkirt(osg::Geometry& geometry) {
-        const osg::ref_ptr<osg::DrawElementsUInt> skirt = new osg::DrawElementsUInt(GL_QUAD_STRIP);
+        const osg::ref_ptr<osg::DrawElementsUInt> skirt =
+            new osg::DrawElementsUInt(database.hasQuads ? GL_QUAD_STRIP : GL_TRIANGLE_STRIP);
         const std::vector<unsigned int> border = borderOf(static_cast<unsigned int>(posts));
         const auto first = static_cast<unsigned int>(vertices->size());
         const auto across = static_cast<unsigned int>(posts);
@@ -156,7 +157,7 @@ Extents extentsOf(const DatabaseSpec& database, const TileKey& tile) {
 }
 
 double surfaceHeight(const DatabaseSpec& database, double latitude, double longitude) {
-    const double unit = database.isMap ? 1e-4 : database.waves;
+    const double unit = database.waves / (database.isMap ? 5e4 : 1.0);
     return database.relief * std::sin(unit * latitude + 1.0) * std::cos(1.7 * unit * longitude);
 }
 

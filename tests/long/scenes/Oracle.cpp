@@ -32,24 +32,42 @@ public:
         }
     }
 
-    [[nodiscard]] bool isHidden(const Sight& sight) {
-        if (_last && _last->block(sight.start, sight.end)) return true;
+    [[nodiscard]] bool isHidden(const Sight& sight) { return isBlocked(sight.start, sight.end) || isAllowed(sight); }
+
+private:
+    [[nodiscard]] bool isBlocked(const osg::Vec3d& from, const osg::Vec3d& to) {
+        if (_last && _last->block(from, to)) return true;
         for (auto& [delivered, triangles] : _drawn) {
             if (!triangles) triangles = std::make_unique<Triangles>(*delivered->drawable, delivered->modelView);
-            if (!triangles->block(sight.start, sight.end)) continue;
+            if (!triangles->block(from, to)) continue;
             _last = triangles.get();
             return true;
         }
-        return isAllowed(sight);
+        return false;
     }
 
-private:
-    [[nodiscard]] bool isAllowed(const Sight& sight) const {
+    // Samples are of surfaces: where terrain hides terrain, an eye above the ground sees them from in front.
+    [[nodiscard]] bool isAllowed(const Sight& sight) {
+        const bool isHilly = _description.theme == Theme::Hills;
         return std::any_of(_met.begin(), _met.end(), [&](const MetDatabase* met) {
-            return std::any_of(_allowed.begin(), _allowed.end(), [&](const AllowedOccluder& occluder) {
-                return occluder.database == met->number && mayHide(occluder, _description, *met, sight);
-            });
+            const auto isAllowedBy = [&](const AllowedOccluder& occluder) {
+                return occluder.database == met->number && mayHide(occluder, _description, *met, sight) &&
+                       (!isHilly || occluder.fromEverywhere || isUnderground(*met, sight));
+            };
+            return std::any_of(_allowed.begin(), _allowed.end(), isAllowedBy);
         });
+    }
+
+    // Whether terrain is above the eye, or above the near plane where the line of sight begins.
+    [[nodiscard]] bool isUnderground(const MetDatabase& met, const Sight& sight) {
+        const DatabaseSpec& database = _description.databases[static_cast<std::size_t>(met.number)];
+        const auto hasTerrainAbove = [&](const osg::Vec3d& point) {
+            osg::Vec3d up(0.0, 0.0, 1.0);
+            if (!database.isMap) up = point * osg::Matrixd::inverse(met.modelView);
+            up.normalize();
+            return isBlocked(point, point + osg::Matrixd::transform3x3(up, met.modelView) * database.size());
+        };
+        return hasTerrainAbove(sight.start) || (sight.isPerspective && hasTerrainAbove(osg::Vec3d()));
     }
 
     const Description& _description;

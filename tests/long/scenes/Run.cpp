@@ -361,7 +361,7 @@ std::vector<AllowedOccluder> Runner::allowed() const {
     std::vector<AllowedOccluder> result;
     for (std::size_t i = 0; i < _description.databases.size(); ++i) {
         const DatabaseSpec& database = _description.databases[i];
-        if (database.isMap) continue;
+        if (database.isMap && _description.theme != Theme::Hills) continue;
         const int number = static_cast<int>(i);
         const double relief = database.relief * largestScale(database, number);
         const bool fromEverywhere = !database.hasSkirts && database.levels > 0;

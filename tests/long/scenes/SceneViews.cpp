@@ -21,10 +21,6 @@ struct Look {
     double widestDeg = 110.0;  // field of view
 };
 
-double sizeOf(const DatabaseSpec& database) {
-    return database.isMap ? 64000.0 : database.equatorial;
-}
-
 double highestOf(const DatabaseSpec& database) {
     return database.relief * std::max(1.0, std::abs(database.verticalScale)) + 1.0;
 }
@@ -89,7 +85,7 @@ Look lookAtTile(Random& random, const Description& description, const TileKey& t
     const Extents e = extentsOf(database, tile);
     const double latitude = e.south + random.uniform() * (e.north - e.south);
     const double longitude = e.west + random.uniform() * (e.east - e.west);
-    const double size = sizeOf(database);
+    const double size = database.size();
     const double altitude = random.logUniform(1e-6, 3.0) * size;
     const double away = std::min(1.5, std::sqrt(2.0 * altitude / size) * random.uniform(0.0, 1.5));
     const double bearing = random.uniform(0.0, 6.28);
@@ -140,8 +136,9 @@ Look lookThroughValley(Random& random, const Description& description, const Til
     const double longitude = e.west + random.uniform() * (e.east - e.west);
     const double above = database.relief * random.logUniform(0.01, 1.0);
     const double altitude = surfaceHeight(database, latitude, longitude) + above;
-    const double distance = random.logUniform(0.01, 1.0), bearing = random.uniform(0.0, 6.28);
-    const double eastward = distance * std::sin(bearing) / std::max(0.1, std::cos(latitude));
+    const double distance = random.logUniform(0.1, 5.0) * database.waveLength();
+    const double bearing = random.uniform(0.0, 6.28);
+    const double eastward = distance * std::sin(bearing) / (database.isMap ? 1.0 : std::max(0.1, std::cos(latitude)));
     const osg::Vec3d center = place(database, latitude + distance * std::cos(bearing), longitude + eastward,
                                     database.relief * random.uniform(-1.0, 1.0));
     const osg::Matrixd world = database.toWorld(frame);
@@ -172,7 +169,7 @@ Look anyLook(Random& random, const Description& description, int frame) {
     Look look = isSummit   ? lookAtSummit(random, description, tile, frame)
                 : isValley ? lookThroughValley(random, description, tile, frame)
                            : lookAtTile(random, description, tile, frame);
-    const double size = sizeOf(database);
+    const double size = database.size();
     if (random.chance(0.07)) look.eye += vectorOf(random.direction()) * random.logUniform(0.01, 1.0) * size;
     if (random.chance(0.1)) look.center += vectorOf(random.direction()) * random.logUniform(0.001, 1.0) * size;
     return look;
@@ -204,7 +201,7 @@ ViewSpec randomView(Random& random, const Description& description, int frame) {
     double farthest = 0.0;
     for (const DatabaseSpec& database : description.databases)
         farthest =
-            std::max(farthest, (look.eye - osg::Vec3d() * database.toWorld(frame)).length() + 2.0 * sizeOf(database));
+            std::max(farthest, (look.eye - osg::Vec3d() * database.toWorld(frame)).length() + 2.0 * database.size());
     ViewSpec view;
     const osg::Vec3d along = look.center - look.eye;
     const bool isUpright = (along ^ look.up).length() > 0.01 * along.length() && random.chance(0.7);

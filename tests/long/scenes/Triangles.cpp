@@ -55,7 +55,7 @@ Triangles::Triangles(const osg::Drawable& drawable, const osg::Matrixd& matrix) 
     for (const auto& primitives : geometry->getPrimitiveSetList()) {
         osg::TriangleIndexFunctor<IndexCollector> collector;
         primitives->accept(collector);
-        std::vector<Triangle>& target = primitives->getMode() == GL_QUAD_STRIP ? skirts : surface;
+        std::vector<Triangle>& target = primitives->getMode() == GL_TRIANGLES ? surface : skirts;
         for (std::size_t i = 0; i + 2 < collector.indices.size(); i += 3)
             target.push_back(
                 {points[collector.indices[i]], points[collector.indices[i + 1]], points[collector.indices[i + 2]]});

@@ -17,7 +17,7 @@ using Triangle = std::array<osg::Vec3d, 3>;
 /// The triangles of a drawable in another frame.
 struct Triangles {
     std::vector<Triangle> surface;
-    std::vector<Triangle> skirts;  ///< of quad strips
+    std::vector<Triangle> skirts;  ///< of strips
     osg::Vec3d center;
     double radius = -1.0;
 
