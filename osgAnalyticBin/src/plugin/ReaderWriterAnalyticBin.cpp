@@ -8,6 +8,7 @@
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/NameParameters.h>
 
 #include <osg/Notify>
 #include <osgDB/FileNameUtils>
@@ -22,19 +23,6 @@ namespace {
 
 constexpr const char* kExtension = "analyticbin";
 constexpr const char* kIndexExtension = "bins";
-
-// "earth.osgb.(method=paper,growth=1.1)" parted into "earth.osgb" and "method=paper,growth=1.1".
-struct NameAndParameters {
-    std::string name;
-    std::string parameters;
-};
-
-NameAndParameters parted(const std::string& text) {
-    if (text.empty() || text.back() != ')') return {text, {}};
-    const std::size_t open = text.rfind(".(");
-    if (open == std::string::npos) return {text, {}};
-    return {text.substr(0, open), text.substr(open + 2, text.size() - open - 3)};
-}
 
 // The database under its own name stays as it is in OSG's object cache: without bins. With them it is kept there by OSG
 // under the name that ends in .analyticbin.
@@ -128,7 +116,7 @@ public:
 
     ReadResult readNode(const std::string& fileName, const osgDB::Options* options) const override {
         if (osgDB::getLowerCaseFileExtension(fileName) != kExtension) return ReadResult::FILE_NOT_HANDLED;
-        const NameAndParameters request = parted(osgDB::getNameLessExtension(fileName));
+        const auto request = osgAnalyticBin::nameParametersFrom(osgDB::getNameLessExtension(fileName));
         if (request.name.empty()) return ReadResult::FILE_NOT_HANDLED;
 
         std::string error;

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <osgAnalyticBin/viewer/Export.h>
+
 #include <cstddef>
 #include <iosfwd>
 #include <optional>
@@ -24,24 +26,27 @@ struct CsvTable {
     std::vector<Row> rows;
 
     /// Returns: nullopt when there is no such column.
-    [[nodiscard]] std::optional<std::size_t> column(const std::string& name) const;
+    [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<std::size_t> column(const std::string& name) const;
 };
 
 /// Reads a table; the file name only serves the messages.
 /// Returns: nullopt, with one line in `error` that names the file and the line, when the header is missing or names a
 /// column twice, or when a row has more or fewer cells than the header.
-[[nodiscard]] std::optional<CsvTable> readCsv(std::istream& input, const std::string& fileName, std::string& error);
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<CsvTable> readCsv(std::istream& input,
+                                                                          const std::string& fileName,
+                                                                          std::string& error);
 
 /// Returns: "file:line: text", the form in which every broken line is reported.
-[[nodiscard]] std::string atLine(const CsvTable& table, const CsvTable::Row& row, const std::string& text);
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::string atLine(const CsvTable& table, const CsvTable::Row& row,
+                                                             const std::string& text);
 
 /// Returns: nullopt unless the whole text is one finite number, written with a decimal point whatever the locale.
-[[nodiscard]] std::optional<double> numberFrom(const std::string& text);
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<double> numberFrom(const std::string& text);
 
 /// The shortest text that reads back to the same number.
-[[nodiscard]] std::string textFrom(double number);
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::string textFrom(double number);
 
 /// `text` without leading and trailing blanks.
-[[nodiscard]] std::string trimmed(const std::string& text);
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::string trimmed(const std::string& text);
 
 }  // namespace osgAnalyticBin::flight
