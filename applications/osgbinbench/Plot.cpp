@@ -15,9 +15,7 @@ using support::Failure;
 
 void plot(const std::string& folder, const std::vector<Diagram>& diagrams) {
     namespace fs = std::filesystem;
-    std::error_code problem;
-    fs::create_directories(folder, problem);
-    if (problem) throw Failure("--plot: folder " + folder + " cannot be made");
+    support::makeFolder("--plot", folder);
     for (const Diagram& diagram : diagrams) {
         support::writeFile((fs::path(folder) / (diagram.name + ".csv")).string(), diagram.data);
         support::writeFile((fs::path(folder) / (diagram.name + ".gp")).string(), diagram.script);

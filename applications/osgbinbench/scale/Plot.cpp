@@ -5,7 +5,8 @@
 #include "GnuplotRun.h"
 #include "Output.h"
 
-#include <CsvTable.h>
+#include <osgAnalyticBin/viewer/CsvTable.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <functional>
