@@ -16,7 +16,6 @@
 #include <osg/Notify>
 
 #include <algorithm>
-#include <csignal>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -31,7 +30,6 @@ using osgAnalyticBin::support::ExitCode;
 using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::Interrupted;
 using osgAnalyticBin::support::kSucceeded;
-using osgAnalyticBin::support::stopRequested;
 using osgAnalyticBin::support::UsageError;
 
 using osgbinconv::DatabaseFiles;
@@ -106,14 +104,9 @@ void requireSense(const Arguments& arguments) {
     }
 }
 
-void requestStop(int) {
-    stopRequested.store(true);
-}
-
 void prepareProcess() {
     if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::ALWAYS);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, requestStop);
-    std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error like a full disk
+    osgAnalyticBin::support::stopOnSignals();
     osgAnalyticBin::addModuleFolder();
     osgAnalyticBin::indexing::loadSerializers();
     osgAnalyticBin::indexing::checkAllReads();
