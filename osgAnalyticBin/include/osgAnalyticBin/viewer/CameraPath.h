@@ -32,7 +32,7 @@ struct CameraPose {
 /// lookLonDeg, lookAlt, fovDeg, near, far in any order, and, where wanted, time (seconds, growing; without it each pose
 /// is one second after the one before, from 0), rollDeg and eyeRight (both 0 without). Angles are in degrees, the rest
 /// in metres, altitudes above the ellipsoid. For a map eyeX, eyeY, lookX and lookY, in map units, stand for longitudes
-/// and latitudes (core::Ellipsoid::plane()). `#` starts a comment line. The file name only serves the messages.
+/// and latitudes (core::Ellipsoid::plane()). `#` starts a comment line. The file name is used in messages only.
 /// Returns: at least one pose; nullopt, with one line in `error` that names the file and the line, when a column is
 /// missing or unknown, a number is malformed or out of range, time does not grow, a name is used twice, or there is no
 /// pose.

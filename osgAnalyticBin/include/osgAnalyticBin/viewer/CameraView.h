@@ -17,8 +17,8 @@ struct Globe {
     osg::Matrixd localToWorld;
 };
 
-/// The map that the scene's first tile stands in, if it does; else the globe of the first CoordinateSystemNode with an
-/// ellipsoid; without one OSG's default ellipsoid, in place.
+/// The map of the scene's first tile, if that tile is in a map; else the globe of the first CoordinateSystemNode with
+/// an ellipsoid; else OSG's default ellipsoid in world coordinates.
 [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT Globe globeOf(osg::Node& scene);
 
 /// The "up" of a view without roll, in the world's frame: the local vertical at the eye, or north where the view goes
@@ -29,7 +29,7 @@ struct Globe {
 /// From the world to the eye. Up is upWithoutRoll(), turned by the roll.
 [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT osg::Matrixd viewMatrixOf(const CameraPose& pose, const Globe& globe);
 
-/// Perspective with the pose's vertical field of view, near and far plane, sheared for an eye that stands aside.
+/// Perspective with the pose's vertical field of view, near and far plane, sheared when `eyeRight` is not 0.
 /// `aspect` is width / height.
 [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT osg::Matrixd projectionMatrixOf(const CameraPose& pose, const Globe& globe,
                                                                           double aspect);

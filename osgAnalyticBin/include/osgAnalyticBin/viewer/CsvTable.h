@@ -29,14 +29,14 @@ struct CsvTable {
     [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<std::size_t> column(const std::string& name) const;
 };
 
-/// Reads a table; the file name only serves the messages.
+/// Reads a table; the file name is used in messages only.
 /// Returns: nullopt, with one line in `error` that names the file and the line, when the header is missing or names a
 /// column twice, or when a row has more or fewer cells than the header.
 [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<CsvTable> readCsv(std::istream& input,
                                                                           const std::string& fileName,
                                                                           std::string& error);
 
-/// Returns: "file:line: text", the form in which every broken line is reported.
+/// Returns: "file:line: text", the form of all messages about a line.
 [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::string atLine(const CsvTable& table, const CsvTable::Row& row,
                                                              const std::string& text);
 
