@@ -32,12 +32,12 @@ void beginOrGoOn(const Settings& settings, const std::string& sources, std::size
     const std::size_t done = state.count();
     if (isSame && !settings.restart) {
         if (done > 0 && !settings.quiet) {
-            std::cout << "goes on: " << done << " of " << parts << " parts are there" << std::endl;
+            std::cout << "resumes: " << done << " of " << parts << " parts are done" << std::endl;
         }
         return;
     }
     if (done > 0 && !settings.quiet) {
-        std::cout << "starts anew: \"" << folder.partial() << "\" was "
+        std::cout << "starts again: \"" << folder.partial() << "\" was "
                   << (isSame ? "to be removed" : "built from other settings or rasters") << std::endl;
     }
     folder.clear();

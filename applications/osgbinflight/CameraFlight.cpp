@@ -103,7 +103,7 @@ void CameraFlight::flyOn(osgViewer::Viewer& viewer) {
 void CameraFlight::begin(osgViewer::Viewer& viewer) {
     if (!viewer.getCamera()->getGraphicsContext() || !viewer.getCamera()->getViewport())
         return fail(viewer, "the viewer's camera has no window");
-    if (!viewer.getSceneData()->getBound().valid()) return fail(viewer, "there is nothing to fly over");
+    if (!viewer.getSceneData()->getBound().valid()) return fail(viewer, "the database is empty");
     if (!prepareFolder()) return fail(viewer, "folder \"" + _options.out + "\" cannot be made or emptied");
     viewer.setCameraManipulator(nullptr);
     prepareCamera(*viewer.getCamera());

@@ -31,7 +31,7 @@ bool lock(int handle, const std::string& path) {
 LockedFile::LockedFile(std::string path, const std::string& program, const std::string& output, int flags)
     : _path(std::move(path)), _handle(::open(_path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | flags, 0666)) {
     if (_handle < 0)
-        throw Failure("cannot write \"" + _path + "\": " + std::strerror(errno) + "; choose another folder");
+        throw Failure("cannot write \"" + output + "\": " + std::strerror(errno) + "; choose another folder");
     if (lock(_handle, _path)) return;
     ::close(_handle);
     throw Failure("another " + program + " is writing \"" + output + "\"; wait for it or choose another name");

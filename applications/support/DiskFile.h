@@ -10,7 +10,7 @@ namespace osgAnalyticBin::support {
 /// A file that is open for reading and writing, made if it is missing, and locked against other programs.
 class LockedFile final {
 public:
-    /// `program` and `output`: for the message when another one has it. `flags`: as open() takes them, more than
+    /// `program` and `output`: for messages. `flags`: as open() takes them, more than
     /// needed. Throws: Failure.
     LockedFile(std::string path, const std::string& program, const std::string& output, int flags = 0);
     LockedFile(const LockedFile&) = delete;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Plot.h"
+#include "Diagram.h"
 
 #include "Failure.h"
 #include "GnuplotRun.h"
@@ -9,7 +9,7 @@
 
 #include <filesystem>
 
-namespace osgAnalyticBin::bench {
+namespace osgAnalyticBin::report {
 
 using support::Failure;
 
@@ -31,4 +31,4 @@ void plot(const std::string& folder, const std::vector<Diagram>& diagrams) {
     }
 }
 
-}  // namespace osgAnalyticBin::bench
+}  // namespace osgAnalyticBin::report
