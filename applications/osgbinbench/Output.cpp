@@ -116,6 +116,15 @@ void printRatios(std::ostream& output, const Json& methods) {
     }
 }
 
+std::string csvByMethod(const Json& methods) {
+    std::vector<Json> rows;
+    for (const auto& method : methods.items()) {
+        rows.push_back({{"method", method.key()}});
+        rows.back().update(method.value());
+    }
+    return report::csvOf(rows);
+}
+
 void printByPath(std::ostream& output, const std::vector<std::string>& poses,
                  const std::vector<MethodFigures>& methods) {
     const std::vector<PathGroup> groups = pathGroupsOf(poses);
@@ -161,13 +170,7 @@ std::string csvOf(const std::vector<std::string>& poses, const std::vector<Metho
 }
 
 std::string csvOf(const std::vector<FlightFigures>& methods) {
-    std::vector<Json> rows;
-    const Json flights = flightOf(methods);
-    for (const auto& [name, figures] : flights.items()) {
-        rows.push_back({{"method", name}});
-        rows.back().update(figures);
-    }
-    return report::csvOf(rows);
+    return csvByMethod(flightOf(methods));
 }
 
 std::string jsonOf(const Settings& settings, const std::vector<std::string>& poses,

@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // What is in a record, and in which order: another one for each change.
-constexpr std::uint64_t kFormat = 0x6F73676254736B32U;
+constexpr std::uint64_t kRecordFormat = 0x6F73676254736B32U;
 
 /// One description of the bytes for both directions.
 template <class Stream, class Record, class Numbers>
@@ -53,7 +53,7 @@ void passRecord(Stream& s, Record& record, Numbers& heights) {
 
 std::string headOf(const TileId& tile) {
     RecordWriter out;
-    out.number(kFormat);
+    out.number(kRecordFormat);
     for (const int number : {tile.level, tile.x, tile.y}) out.number(number);
     return out.bytes;
 }
