@@ -40,7 +40,10 @@ Diagram lines(const std::string& name, const std::string& commands, const std::v
     std::vector<Json> points;
     for (const Row& row : rows) {
         auto point = std::find_if(points.begin(), points.end(), [&](const Json& p) { return p["x"] == row.*x; });
-        if (point == points.end()) point = points.insert(points.end(), {{"x", row.*x}});
+        if (point == points.end()) {
+            point = points.insert(points.end(), Json());
+            (*point)["x"] = row.*x;
+        }
         (*point)[row.method] = y(row);
     }
     std::size_t columns = 1;

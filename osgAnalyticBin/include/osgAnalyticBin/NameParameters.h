@@ -9,7 +9,7 @@ namespace osgAnalyticBin {
 
 /// What a pseudo-loader is asked for, without its extension: "earth.osgb" and "method=paper,growth=1.1".
 struct NameParameters {
-    std::string name;
+    std::string name;        ///< what stands before the brackets
     std::string parameters;  ///< empty when there are no brackets
 };
 

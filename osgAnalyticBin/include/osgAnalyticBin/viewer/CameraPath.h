@@ -15,14 +15,14 @@ namespace osgAnalyticBin::flight {
 
 /// One stop of a camera path. Radians and metres.
 struct CameraPose {
-    std::string name;  ///< letters, digits, `_` and `-`: it names the picture's file too; empty: the writer gives one
-    core::Geodetic eye;
-    core::Geodetic look;  ///< a point on the line of sight
-    double verticalFov = 0.0;
-    double nearPlane = 0.0;
-    double farPlane = 0.0;
-    double time = 0.0;  ///< seconds
-    double roll = 0.0;  ///< of up, clockwise about the line of sight, from the local vertical
+    std::string name;    ///< letters, digits, `_` and `-`: it names the picture's file too; empty: the writer gives one
+    core::Geodetic eye;  ///< where the camera stands
+    core::Geodetic look;       ///< a point on the line of sight
+    double verticalFov = 0.0;  ///< the whole angle
+    double nearPlane = 0.0;    ///< from the eye along the line of sight
+    double farPlane = 0.0;     ///< as nearPlane
+    double time = 0.0;         ///< seconds
+    double roll = 0.0;         ///< of up, clockwise about the line of sight, from the local vertical
     /// How far the eye stands to the right of `eye`: the view's direction stays, the frustum is sheared so that the
     /// plane through the look point is shown unchanged. Plus and minus half a base make a stereo pair.
     double eyeRight = 0.0;

@@ -13,8 +13,8 @@ namespace osgAnalyticBin::flight {
 
 /// The globe of a scene: its ellipsoid, and where it stands in the world. That of a map is mapPlane().
 struct Globe {
-    osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;
-    osg::Matrixd localToWorld;
+    osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;  ///< its radii
+    osg::Matrixd localToWorld;                          ///< from ECEF, or the map, to the world
 };
 
 /// The map of the scene's first tile, if that tile is in a map; else the globe of the first CoordinateSystemNode with

@@ -16,14 +16,15 @@ namespace osgAnalyticBin::flight {
 /// A file of comma-separated values whose first line names the columns. Lines that start with `#` and empty lines are
 /// skipped; blanks around a cell are dropped; there are no quotes.
 struct CsvTable {
+    /// A line of the file.
     struct Row {
-        std::size_t line = 0;  ///< line number in the file, from 1
-        std::vector<std::string> cells;
+        std::size_t line = 0;            ///< line number in the file, from 1
+        std::vector<std::string> cells;  ///< a text for each column
     };
 
-    std::string fileName;
-    std::vector<std::string> columns;
-    std::vector<Row> rows;
+    std::string fileName;              ///< for messages
+    std::vector<std::string> columns;  ///< their names, from the first line
+    std::vector<Row> rows;             ///< all other lines
 
     /// Returns: nullopt when there is no such column.
     [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<std::size_t> column(const std::string& name) const;
