@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 # SPDX-License-Identifier: MIT
 #
-# Installs what is missing, builds, and runs all tests: release (with the installed package, as others use it), dev
-# (assertions and sanitizers), tsan (those of threads) and scalar. `sh tests/run.sh quick` runs the release build alone.
+# Installs what is missing, builds, and runs all tests: release (with each public header by itself, and the installed
+# package, as others use it), dev (assertions and sanitizers), tsan (those of threads), scalar, and a program with static
+# libraries. `sh tests/run.sh quick` runs the release build alone.
 # Tests are skipped, and listed, when something that they need is missing. With OSGANALYTICBIN_REQUIRE_ALL=ON they fail.
 set -eu
 
@@ -35,6 +36,8 @@ step "format"
 git ls-files '*.cpp' '*.h' 2>/dev/null | xargs -r clang-format --dry-run --Werror
 
 build release
+step "each public header by itself"
+build release --target all_verify_interface_header_sets
 test_preset release
 [ "${1:-}" != quick ] || exit 0
 
@@ -44,5 +47,8 @@ build tsan --target osganalyticbin_threads_tests osgdb_serializers_osganalyticbi
 test_preset tsan -L threads
 build scalar --target osganalyticbin_core_tests
 test_preset scalar -L core
+build static --target osgAnalyticBinViewer
+step "a static kit and viewer library, as others use them"
+sh tests/system/package/buildtree.sh "$PWD" "$PWD/build/static" "$PWD/build/static/buildtree"
 
 step "all tests passed"

@@ -4,8 +4,7 @@
 #include "BenchViewer.h"
 
 #include "Failure.h"
-
-#include <osg/GLExtensions>
+#include "WithoutAnisotropy.h"
 
 namespace osgAnalyticBin::bench {
 
@@ -33,33 +32,14 @@ osg::ref_ptr<osg::GraphicsContext> makeDrawingSurface(int width, int height) {
     return surface;
 }
 
-// Mesa's software renderer (22.3) never comes back from filtering the terrain's textures anisotropically where they are
-// seen at a grazing angle.
-class WithoutAnisotropy : public osg::Operation {
-public:
-    WithoutAnisotropy() : osg::Operation("without anisotropic filtering", false) {}
-
-    void operator()(osg::Object* object) override {
-        const auto* const surface = dynamic_cast<osg::GraphicsContext*>(object);
-        if (surface && surface->getState())
-            osg::GLExtensions::Get(surface->getState()->getContextID(), true)->isTextureFilterAnisotropicSupported =
-                false;
-    }
-};
-
 void prepareCamera(osg::Camera& camera, osg::GraphicsContext& surface) {
     camera.setGraphicsContext(&surface);
     camera.setViewport(new osg::Viewport(0, 0, surface.getTraits()->width, surface.getTraits()->height));
     const GLenum buffer = surface.getTraits()->doubleBuffer ? GL_BACK : GL_FRONT;
     camera.setDrawBuffer(buffer);
     camera.setReadBuffer(buffer);
-    camera.setProjectionResizePolicy(osg::Camera::FIXED);
-    camera.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-    camera.setLODScale(1.0F);
-    osg::StateSet& state = *camera.getOrCreateStateSet();
-    state.setMode(GL_MULTISAMPLE_ARB, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
-    state.setMode(GL_DITHER, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
-    state.setRenderBinDetails(0, "TraversalOrderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
+    flight::makeComparable(camera);
+    camera.getOrCreateStateSet()->setMode(GL_DITHER, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
 }
 
 }  // namespace
@@ -69,7 +49,7 @@ BenchViewer::BenchViewer(int width, int height, osgViewer::ViewerBase::Threading
     _viewer.setThreadingModel(threading);
     prepareCamera(*_viewer.getCamera(), *makeDrawingSurface(width, height));
     _viewer.getCamera()->addFinalDrawCallback(_capture);
-    _viewer.setRealizeOperation(new WithoutAnisotropy);
+    _viewer.setRealizeOperation(new flight::WithoutAnisotropy);
     _viewer.setKeyEventSetsDone(0);
     _viewer.setQuitEventSetsDone(false);
 }

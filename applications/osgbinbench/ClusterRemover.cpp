@@ -5,7 +5,6 @@
 
 #include "ClusterFiller.h"
 #include "NodeWalk.h"
-#include "ReadInFront.h"
 
 #include <osg/ClusterCullingCallback>
 
@@ -67,19 +66,13 @@ std::size_t countClusterCallbacks(osg::Node& graph) {
     return counter.count;
 }
 
-osg::ref_ptr<ClusterRemover> ClusterRemover::install() {
-    const osg::ref_ptr<ClusterRemover> remover = new ClusterRemover;
-    remover->_next = flight::readInFront(*remover);
-    return remover;
-}
-
 void ClusterRemover::setTreatment(Clusters treatment, const osg::EllipsoidModel* globe) {
     _treatment = treatment;
     _ellipsoid = globe;
 }
 
-osgDB::ReaderWriter::ReadResult ClusterRemover::readNode(const std::string& fileName, const osgDB::Options* options) {
-    osgDB::ReaderWriter::ReadResult result = _next->readNode(fileName, options);
+ClusterRemover::Result ClusterRemover::readNode(const std::string& fileName, const osgDB::Options* options) {
+    Result result = ReadInFront::readNode(fileName, options);
     if (!result.getNode()) return result;
     if (_treatment == Clusters::Remove) removeClusterCallbacks(*result.getNode());
     if (_treatment == Clusters::Fill) fill(*result.getNode());

@@ -3,8 +3,9 @@
 
 #pragma once
 
+#include "ReadInFront.h"
+
 #include <osg/CoordinateSystemNode>
-#include <osgDB/Callbacks>
 
 #include <atomic>
 #include <cstddef>
@@ -28,18 +29,14 @@ enum class Clusters {
 };
 
 /// A callback of the Registry that removes or fills the cluster callbacks of whatever is read: pages that the
-/// DatabasePager loads too. Everything else goes on to the callback that was there before.
-/// Threads: the calls come from the DatabasePager's threads.
-class ClusterRemover : public osgDB::ReadFileCallback {
+/// DatabasePager loads too. At first it keeps all.
+class ClusterRemover : public flight::ReadInFront<ClusterRemover> {
 public:
-    /// Puts a remover that keeps all in front of the Registry's callback. Must not be called while files are read.
-    [[nodiscard]] static osg::ref_ptr<ClusterRemover> install();
-
     /// `globe` is that of the pages read next; with nullptr the root file has to be read next. Must not be called while
     /// files are read.
     void setTreatment(Clusters treatment, const osg::EllipsoidModel* globe = nullptr);
 
-    osgDB::ReaderWriter::ReadResult readNode(const std::string& fileName, const osgDB::Options* options) override;
+    Result readNode(const std::string& fileName, const osgDB::Options* options) override;
 
 protected:
     ~ClusterRemover() override = default;
@@ -47,7 +44,6 @@ protected:
 private:
     void fill(osg::Node& graph);
 
-    osg::ref_ptr<osgDB::ReadFileCallback> _next;
     std::atomic<Clusters> _treatment{Clusters::Keep};
     std::mutex _mutex;
     osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;  // of the globe whose pages are read; null before its root file

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "CameraPath.h"
+#include <osgAnalyticBin/viewer/CameraPath.h>
 
 #include <vector>
 

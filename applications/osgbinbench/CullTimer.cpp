@@ -36,7 +36,7 @@ public:
     // `caches`: null where this turn does not time cold caches.
     void take(CacheFlusher* caches) {
         // Where a visitor's memory happens to lie costs some percent: each turn has another one.
-        CullStage stage(*_requests);
+        flight::CullStage stage(*_requests);
         for (int i = 0; i < kUntimedPerTurn; ++i) (void)nextMs(stage);
         for (int i = 0; i < kTimedPerTurn; ++i) _warm.push_back(nextMs(stage));
         if (!caches || caches->buffer().empty()) return;
@@ -48,7 +48,7 @@ public:
 
 private:
     // Frames are numbered on: what is done every so many frames has its share in every run.
-    double nextMs(CullStage& stage) {
+    double nextMs(flight::CullStage& stage) {
         _frameStamp->setFrameNumber(_frameStamp->getFrameNumber() + 1);
         return stage.cull(_scene.camera(), *_frameStamp);
     }

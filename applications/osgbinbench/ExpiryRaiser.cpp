@@ -4,7 +4,6 @@
 #include "ExpiryRaiser.h"
 
 #include "NodeWalk.h"
-#include "ReadInFront.h"
 
 #include <osg/PagedLOD>
 
@@ -31,14 +30,8 @@ private:
 
 }  // namespace
 
-osg::ref_ptr<ExpiryRaiser> ExpiryRaiser::install() {
-    const osg::ref_ptr<ExpiryRaiser> raiser = new ExpiryRaiser;
-    raiser->_next = flight::readInFront(*raiser);
-    return raiser;
-}
-
-osgDB::ReaderWriter::ReadResult ExpiryRaiser::readNode(const std::string& fileName, const osgDB::Options* options) {
-    osgDB::ReaderWriter::ReadResult result = _next->readNode(fileName, options);
+ExpiryRaiser::Result ExpiryRaiser::readNode(const std::string& fileName, const osgDB::Options* options) {
+    Result result = ReadInFront::readNode(fileName, options);
     ExpiryWalk walk(_seconds);
     if (result.getNode() && _seconds > 0.0) result.getNode()->accept(walk);
     return result;

@@ -11,6 +11,12 @@ Figures& Figures::operator+=(const Figures& other) {
     return *this;
 }
 
+Figures sumOf(const MethodFigures& method, const PathGroup& group) {
+    Figures sum;
+    for (const std::size_t pose : group.poses) sum += method.poses[pose];
+    return sum;
+}
+
 Figures MethodFigures::sum() const {
     Figures sum;
     for (const Figures& pose : poses) sum += pose;

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "PathGroups.h"
+
 #include <array>
 #include <cstdint>
 #include <string>
@@ -98,6 +100,12 @@ struct MethodFigures {
 
     [[nodiscard]] Figures sum() const;
 };
+
+using report::PathGroup;
+using report::pathGroupsOf;
+
+/// What a method did at the poses of one group. Requires: figures for each of them.
+[[nodiscard]] Figures sumOf(const MethodFigures& method, const PathGroup& group);
 
 /// The same for a continuous flight, or for jumps from pose to pose, with paging live.
 struct FlightFigures {

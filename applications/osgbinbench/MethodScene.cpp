@@ -3,8 +3,9 @@
 
 #include "MethodScene.h"
 
-#include "CsvTable.h"
 #include "Failure.h"
+
+#include <osgAnalyticBin/viewer/CsvTable.h>
 
 #include <osgDB/DatabasePager>
 #include <osgDB/Registry>
@@ -92,7 +93,7 @@ void MethodScene::load() {
     forget();
     treatFiles(nullptr);
     const osg::ref_ptr<osg::Node> root = read();
-    if (!root->getBound().valid()) throw Failure(_settings.database + ": there is nothing to fly over");
+    if (!root->getBound().valid()) throw Failure(_settings.database + ": the database is empty");
     if (_settings.verticalScale != 1.0) scaleVertically(*root, _settings.verticalScale, _settings.database);
     _globe = flight::globeOf(*root);
     _camera->addChild(root);

@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include "CameraPath.h"
-#include "CameraView.h"
 #include "ClusterRemover.h"
 #include "CullMethod.h"
 #include "ExpiryRaiser.h"
@@ -13,6 +11,9 @@
 #include "ReadCounter.h"
 #include "Settings.h"
 #include "TileCensus.h"
+
+#include <osgAnalyticBin/viewer/CameraPath.h>
+#include <osgAnalyticBin/viewer/CameraView.h>
 
 #include <chrono>
 #include <optional>

@@ -3,32 +3,26 @@
 
 #include "Output.h"
 
-#include "CsvTable.h"
 #include "CullMethod.h"
 #include "PathGroups.h"
-#include "TextFile.h"
+#include "RowTable.h"
 #include "TextTable.h"
 
 #include <osg/Version>
 
 #include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
+#include <ostream>
 
 namespace osgAnalyticBin::bench {
 
-using support::withDecimals;
-
 namespace {
 
-using Json = nlohmann::ordered_json;
+using report::cellText;
+using report::Json;
+using report::ratioText;
 using report::TextTable;
 
 constexpr std::array<const char*, 2> kComparedWith{"sphere", "cluster"};
-
-std::string ratio(double value, double reference) {
-    return reference > 0.0 ? withDecimals(value / reference, 3) : "-";
-}
 
 Json headOf(const Settings& settings, const char* mode) {
     Json json;
@@ -59,67 +53,6 @@ Json flightOf(const std::vector<FlightFigures>& methods) {
     return json;
 }
 
-std::vector<std::string> flightHead(const std::string& first) {
-    std::vector<std::string> cells{first, "frames"};
-    for (const FlightColumn& column : kFlightColumns) cells.emplace_back(column.name);
-    cells.insert(cells.end(), {kCullColumn, kCullMedianColumn, kCull99thColumn});
-    return cells;
-}
-
-std::vector<std::string> flightLine(const FlightFigures& m) {
-    std::vector<std::string> cells{m.method, std::to_string(m.frames)};
-    for (const FlightColumn& column : kFlightColumns) cells.push_back(std::to_string(m.*column.count));
-    cells.insert(cells.end(),
-                 {withDecimals(m.cullMs, 3), withDecimals(m.cullMedianMs, 4), withDecimals(m.cull99thMs, 4)});
-    return cells;
-}
-
-std::vector<std::string> flightRatios(const FlightFigures& m, const FlightFigures& reference) {
-    std::vector<std::string> cells{m.method,
-                                   ratio(static_cast<double>(m.frames), static_cast<double>(reference.frames))};
-    for (const FlightColumn& column : kFlightColumns)
-        cells.push_back(ratio(static_cast<double>(m.*column.count), static_cast<double>(reference.*column.count)));
-    cells.insert(cells.end(), {ratio(m.cullMs, reference.cullMs), ratio(m.cullMedianMs, reference.cullMedianMs),
-                               ratio(m.cull99thMs, reference.cull99thMs)});
-    return cells;
-}
-
-template <class Method>
-const Method* find(const std::vector<Method>& methods, const std::string& name) {
-    const auto found = std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.method == name; });
-    return found == methods.end() ? nullptr : &*found;
-}
-
-std::vector<std::string> headLine(const std::string& first) {
-    std::vector<std::string> cells{first};
-    for (const CountColumn& column : kCountColumns) cells.emplace_back(column.name);
-    for (const TimeColumn& column : kTimeColumns)
-        if (!column.isSpread) cells.emplace_back(column.name);
-    return cells;
-}
-
-const char* const kOverOracle = "over_oracle";
-const char* const kColdOverOracle = "cold_over_oracle";
-
-// Times as multiples of what culling would cost if tests were free.
-std::array<std::string, 2> overOracle(const Figures& sum, const Figures& oracle) {
-    return {ratio(sum.cullMs, oracle.cullMs), ratio(sum.cullColdMs, oracle.cullColdMs)};
-}
-
-void append(std::vector<std::string>& cells, const std::array<std::string, 2>& more) {
-    cells.insert(cells.end(), more.begin(), more.end());
-}
-
-std::vector<std::string> ratioLine(const MethodFigures& method, const Figures& reference) {
-    const Figures sum = method.sum();
-    std::vector<std::string> cells{method.method};
-    for (const CountColumn& column : kCountColumns)
-        cells.push_back(ratio(static_cast<double>(sum.*column.count), static_cast<double>(reference.*column.count)));
-    for (const TimeColumn& column : kTimeColumns)
-        if (!column.isSpread) cells.push_back(ratio(sum.*column.ms, reference.*column.ms));
-    return cells;
-}
-
 Json sumsOf(const Figures& sum) {
     Json sums;
     for (const CountColumn& column : kCountColumns) sums[column.name] = sum.*column.count;
@@ -136,93 +69,119 @@ Json byPose(const MethodFigures& method) {
     return columns;
 }
 
+Json sumsOf(const std::vector<MethodFigures>& methods) {
+    Json sums;
+    for (const MethodFigures& method : methods) sums[method.method] = sumsOf(method.sum());
+    return sums;
+}
+
+Json sumsOf(const std::vector<MethodFigures>& methods, const PathGroup& group) {
+    Json sums;
+    for (const MethodFigures& method : methods) sums[method.method] = sumsOf(sumOf(method, group));
+    return sums;
+}
+
+// Gives each method its times as multiples of what culling would cost if tests were free, where that was measured.
+void addTimesOverOracle(Json& methods) {
+    if (!methods.contains(kOracleMethod)) return;
+    for (const auto& [title, column] : {std::pair("over_oracle", kCullColumn), {"cold_over_oracle", kCullColdColumn}}) {
+        const double oracle = methods[kOracleMethod][column].get<double>();
+        for (Json& sums : methods) sums[title] = ratioText(sums[column].get<double>(), oracle);
+    }
+}
+
+// A column for each method: the longer a table's lines, the harder they are to read.
+void print(std::ostream& output, const std::string& title, const Json& methods, int decimals) {
+    TextTable table(1);
+    std::vector<std::string> head{title};
+    for (const auto& method : methods.items()) head.push_back(method.key());
+    table.add(std::move(head));
+    for (const auto& figure : methods.front().items()) {
+        if (figure.key().find("_spread") != std::string::npos) continue;
+        std::vector<std::string> cells{figure.key()};
+        for (const Json& sums : methods) cells.push_back(cellText(sums[figure.key()], decimals));
+        table.add(std::move(cells));
+    }
+    table.print(output);
+}
+
+void printRatios(std::ostream& output, const Json& methods) {
+    for (const char* const name : kComparedWith) {
+        if (!methods.contains(name)) continue;
+        Json ratios;
+        for (const auto& method : methods.items())
+            ratios[method.key()] = report::ratiosOf(method.value(), methods[name]);
+        output << '\n';
+        print(output, std::string("ratio to ") + name, ratios, 0);
+    }
+}
+
+std::string csvByMethod(const Json& methods) {
+    std::vector<Json> rows;
+    for (const auto& method : methods.items()) {
+        rows.push_back({{"method", method.key()}});
+        rows.back().update(method.value());
+    }
+    return report::csvOf(rows);
+}
+
 void printByPath(std::ostream& output, const std::vector<std::string>& poses,
                  const std::vector<MethodFigures>& methods) {
     const std::vector<PathGroup> groups = pathGroupsOf(poses);
     if (groups.size() < 2) return;
-    const MethodFigures* const oracle = find(methods, kOracleMethod);
-    std::vector<std::string> head{"sums by path",     "method",    "truth_tiles",     "drawn_tiles",
-                                  "drawn/truth",      "triangles", "files_requested", "false_culls",
-                                  "differing_pixels", kCullColumn, kCullColdColumn};
-    if (oracle) append(head, {kOverOracle, kColdOverOracle});
+    std::vector<std::string> columns{"truth_tiles",      "drawn_tiles",     "drawn/truth",
+                                     "triangles",        "files_requested", "false_culls",
+                                     "differing_pixels", kCullColumn,       kCullColdColumn};
+    Json first = sumsOf(methods);
+    addTimesOverOracle(first);
+    for (const char* const title : {"over_oracle", "cold_over_oracle"})
+        if (first.front().contains(title)) columns.emplace_back(title);
     TextTable table(2);
-    table.add(head);
+    std::vector<std::string> head{"sums by path", "method"};
+    head.insert(head.end(), columns.begin(), columns.end());
+    table.add(std::move(head));
     for (const PathGroup& group : groups) {
         table.addGap();
-        for (const MethodFigures& method : methods) {
-            const Figures sum = sumOf(method, group);
-            std::vector<std::string> cells{
-                group.name,
-                method.method,
-                std::to_string(sum.truthTiles),
-                std::to_string(sum.drawnTiles),
-                ratio(static_cast<double>(sum.drawnTiles), static_cast<double>(sum.truthTiles)),
-                std::to_string(sum.triangles),
-                std::to_string(sum.filesRequested),
-                std::to_string(sum.falseCulls),
-                std::to_string(sum.differingPixels),
-                withDecimals(sum.cullMs, 3),
-                withDecimals(sum.cullColdMs, 3)};
-            if (oracle) append(cells, overOracle(sum, sumOf(*oracle, group)));
-            table.add(cells);
+        Json sums = sumsOf(methods, group);
+        addTimesOverOracle(sums);
+        for (auto& [method, figures] : sums.items()) {
+            figures["drawn/truth"] =
+                ratioText(figures["drawn_tiles"].get<double>(), figures["truth_tiles"].get<double>());
+            std::vector<std::string> cells{group.name, method};
+            for (const std::string& column : columns) cells.push_back(cellText(figures[column], 3));
+            table.add(std::move(cells));
         }
     }
     output << '\n';
     table.print(output);
 }
 
-// The longer a table's lines, the harder they are to read: columns become lines.
-TextTable turned(const std::vector<std::vector<std::string>>& lines) {
-    TextTable table(1);
-    for (std::size_t column = 0; column < lines.front().size(); ++column) {
-        std::vector<std::string> cells;
-        for (const auto& line : lines) cells.push_back(line[column]);
-        table.add(std::move(cells));
-    }
-    return table;
-}
-
 }  // namespace
 
 std::string csvOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods) {
-    std::string text = "pose,method";
-    for (const CountColumn& column : kCountColumns) text += std::string(",") + column.name;
-    for (const TimeColumn& column : kTimeColumns) text += std::string(",") + column.name;
-    text += "\n";
+    std::vector<Json> rows;
     for (std::size_t i = 0; i < poses.size(); ++i) {
         for (const MethodFigures& method : methods) {
-            const Figures& figures = method.poses[i];
-            text += poses[i] + "," + method.method;
-            for (const CountColumn& column : kCountColumns) text += "," + std::to_string(figures.*column.count);
-            for (const TimeColumn& column : kTimeColumns) text += "," + flight::textFrom(figures.*column.ms);
-            text += "\n";
+            rows.push_back({{"pose", poses[i]}, {"method", method.method}});
+            rows.back().update(sumsOf(method.poses[i]));
         }
     }
-    return text;
+    return report::csvOf(rows);
 }
 
 std::string csvOf(const std::vector<FlightFigures>& methods) {
-    std::string text = "method,frames";
-    for (const FlightColumn& column : kFlightColumns) text += std::string(",") + column.name;
-    text += std::string(",") + kCullColumn + "," + kCullMedianColumn + "," + kCull99thColumn + "\n";
-    for (const FlightFigures& method : methods) {
-        text += method.method + "," + std::to_string(method.frames);
-        for (const FlightColumn& column : kFlightColumns) text += "," + std::to_string(method.*column.count);
-        text += "," + flight::textFrom(method.cullMs) + "," + flight::textFrom(method.cullMedianMs) + "," +
-                flight::textFrom(method.cull99thMs) + "\n";
-    }
-    return text;
+    return csvByMethod(flightOf(methods));
 }
 
 std::string jsonOf(const Settings& settings, const std::vector<std::string>& poses,
                    const std::vector<MethodFigures>& methods, const std::vector<FlightFigures>& live) {
     Json json = headOf(settings, "poses");
     json["poses"] = poses.size();
-    for (const MethodFigures& method : methods) json["methods"][method.method] = sumsOf(method.sum());
+    json["methods"] = sumsOf(methods);
     for (const PathGroup& group : pathGroupsOf(poses)) {
         Json& path = json["paths"][group.name];
         path["poses"] = group.poses.size();
-        for (const MethodFigures& method : methods) path["methods"][method.method] = sumsOf(sumOf(method, group));
+        path["methods"] = sumsOf(methods, group);
     }
     if (!live.empty()) json["live"] = {{"frames", live.front().frames}, {"methods", flightOf(live)}};
     json["pose_names"] = poses;
@@ -238,41 +197,18 @@ std::string jsonOf(const Settings& settings, const std::vector<FlightFigures>& m
 
 void printTable(std::ostream& output, const std::vector<std::string>& poses,
                 const std::vector<MethodFigures>& methods) {
-    std::vector<std::vector<std::string>> lines{headLine("sums over poses")};
-    const MethodFigures* const oracle = find(methods, kOracleMethod);
-    if (oracle) append(lines.front(), {kOverOracle, kColdOverOracle});
-    for (const MethodFigures& method : methods) {
-        const Figures sum = method.sum();
-        lines.push_back({method.method});
-        for (const CountColumn& column : kCountColumns) lines.back().push_back(std::to_string(sum.*column.count));
-        for (const TimeColumn& column : kTimeColumns)
-            if (!column.isSpread) lines.back().push_back(withDecimals(sum.*column.ms, 3));
-        if (oracle) append(lines.back(), overOracle(sum, oracle->sum()));
-    }
-    turned(lines).print(output);
-    for (const char* const name : kComparedWith) {
-        const MethodFigures* const reference = find(methods, name);
-        if (!reference) continue;
-        lines = {headLine(std::string("ratio to ") + name)};
-        for (const MethodFigures& method : methods) lines.push_back(ratioLine(method, reference->sum()));
-        output << '\n';
-        turned(lines).print(output);
-    }
+    const Json sums = sumsOf(methods);
+    Json shown = sums;
+    addTimesOverOracle(shown);
+    print(output, "sums over poses", shown, 3);
+    printRatios(output, sums);
     printByPath(output, poses, methods);
 }
 
 void printTable(std::ostream& output, const std::vector<FlightFigures>& methods) {
-    std::vector<std::vector<std::string>> lines{flightHead("paging live")};
-    for (const FlightFigures& m : methods) lines.push_back(flightLine(m));
-    turned(lines).print(output);
-    for (const char* const name : kComparedWith) {
-        const FlightFigures* const reference = find(methods, name);
-        if (!reference) continue;
-        lines = {flightHead(std::string("ratio to ") + name)};
-        for (const FlightFigures& m : methods) lines.push_back(flightRatios(m, *reference));
-        output << '\n';
-        turned(lines).print(output);
-    }
+    const Json figures = flightOf(methods);
+    print(output, "paging live", figures, 4);
+    printRatios(output, figures);
 }
 
 }  // namespace osgAnalyticBin::bench

@@ -64,7 +64,7 @@ private:
     osg::ref_ptr<osg::FrameStamp> _frameStamp;
     osg::ref_ptr<osgUtil::UpdateVisitor> _update;
     osg::ref_ptr<Requests> _requests;
-    std::optional<CullStage> _stage;
+    std::optional<flight::CullStage> _stage;
 };
 
 }  // namespace osgAnalyticBin::bench

@@ -9,6 +9,7 @@
 #include "Figures.h"
 #include "NumberRange.h"
 #include "ProgramRun.h"
+#include "TextFile.h"
 
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Version.h>
@@ -17,7 +18,6 @@
 
 #include <array>
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -25,7 +25,6 @@
 
 namespace osgAnalyticBin::bench {
 
-using support::Failure;
 using support::UsageError;
 
 namespace {
@@ -59,14 +58,6 @@ void takeSize(const std::string& text, Settings& settings) {
                          std::to_string(kLargestPicture) + ", for example 1280x720");
     settings.width = width;
     settings.height = height;
-}
-
-// What would only be found out at the end of a long flight is looked at before.
-void requireFolder(const char* option, const std::string& file) {
-    if (file.empty()) return;
-    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-    if (!std::filesystem::is_directory(folder))
-        throw Failure(std::string(option) + ": there is no folder " + folder.string() + "; make it first");
 }
 
 std::string line(const char* name, const char* meaning) {
@@ -219,10 +210,10 @@ void check(const Settings& settings) {
         throw UsageError("--pictures: with paging live none are taken; leave --frames and --jumps out");
     if (isLive && !settings.plot.empty())
         throw UsageError("--plot: with paging live there is nothing to show; leave --frames and --jumps out");
-    requireFolder("--csv", settings.csv);
-    requireFolder("--json", settings.json);
-    requireFolder("--pictures", settings.pictures);
-    requireFolder("--plot", settings.plot);
+    support::requireFolderOf("--csv", settings.csv);
+    support::requireFolderOf("--json", settings.json);
+    support::requireFolderOf("--pictures", settings.pictures);
+    support::requireFolderOf("--plot", settings.plot);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include "CopyTarget.h"
 
-#include "DiskFile.h"
 #include "Failure.h"
 
 #include <osgDB/FileNameUtils>
@@ -13,7 +12,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -90,14 +88,18 @@ CopyTarget::CopyTarget(const std::string& rootFile, const DatabaseFiles& source,
     : _rootFile(rootFile),
       _folder(osgDB::getFilePath(rootFile)),
       _extension(osgDB::getLowerCaseFileExtension(rootFile)),
-      _marker(markerOf(rootFile)) {
+      _marker(markerOf(rootFile)),
+      _lock(_marker, "osgbinconv", rootFile) {
     if (_folder.empty()) _folder = ".";
-    lock(source.rootFile());
+    std::ifstream in(_marker, std::ios::binary);
+    const std::string left{std::istreambuf_iterator<char>(in), {}};
+    _goesOn = left == markOf(source.rootFile());
+    _keepsMarker = !left.empty();
     try {
         requireFree(source, records, overwrite || _goesOn);
         mark(source.rootFile());
     } catch (...) {
-        unlock();
+        removeMarker();
         throw;
     }
     // an old copy must not look whole while its files are replaced
@@ -107,34 +109,20 @@ CopyTarget::CopyTarget(const std::string& rootFile, const DatabaseFiles& source,
 
 CopyTarget::~CopyTarget() {
     for (const std::string& path : _written) std::remove(path.c_str());
-    unlock();
-}
-
-void CopyTarget::lock(const std::string& sourceFile) {
-    _lock = ::open(_marker.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (_lock < 0) {
-        throw Failure("cannot write \"" + _marker + "\": " + std::strerror(errno) + "; choose another folder");
-    }
-    if (!osgAnalyticBin::support::lockFile(_lock, _marker)) {
-        ::close(_lock);
-        throw Failure("another osgbinconv is writing \"" + _rootFile + "\"; wait for it or choose another name");
-    }
-    std::ifstream in(_marker, std::ios::binary);
-    const std::string left{std::istreambuf_iterator<char>(in), {}};
-    _goesOn = left == markOf(sourceFile);
-    _keepsMarker = !left.empty();
+    removeMarker();
 }
 
 void CopyTarget::mark(const std::string& sourceFile) {
     const std::string text = markOf(sourceFile);
-    if (::ftruncate(_lock, 0) == 0 && ::pwrite(_lock, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size()))
+    const int handle = _lock.handle();
+    if (::ftruncate(handle, 0) == 0 &&
+        ::pwrite(handle, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size()))
         return;
     throw Failure("cannot write \"" + _marker + "\": " + std::strerror(errno) + "; make room or choose another folder");
 }
 
-void CopyTarget::unlock() {
-    if (!_keepsMarker) ::unlink(_marker.c_str());
-    ::close(_lock);
+void CopyTarget::removeMarker() {
+    if (!_keepsMarker) _lock.remove();
 }
 
 void CopyTarget::requireFree(const DatabaseFiles& source, const FileRecords& records, bool overwrite) const {

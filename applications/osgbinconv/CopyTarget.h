@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "DiskFile.h"
 #include "IndexBuilder.h"
 
 #include <osg/Node>
@@ -45,16 +46,15 @@ public:
 
 private:
     [[nodiscard]] std::string pathOf(const std::string& file) const;
-    void lock(const std::string& sourceFile);
     void mark(const std::string& sourceFile);
-    void unlock();
+    void removeMarker();
     void requireFree(const DatabaseFiles& source, const FileRecords& records, bool overwrite) const;
 
     std::string _rootFile;
     std::string _folder;
     std::string _extension;
     std::string _marker;
-    int _lock = -1;
+    const osgAnalyticBin::support::LockedFile _lock;
     /// Whether an earlier copy of the same database was killed.
     bool _goesOn = false;
     /// Whether files of an earlier copy may be left.

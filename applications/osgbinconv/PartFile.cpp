@@ -3,12 +3,11 @@
 
 #include "PartFile.h"
 
-#include "DiskFile.h"
+#include "Checksum.h"
 #include "Failure.h"
 #include "RecordBytes.h"
+#include "RecordStream.h"
 
-#include <boost/crc.hpp>
-#include <boost/endian/conversion.hpp>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -21,64 +20,37 @@ using osgAnalyticBin::support::Failure;
 
 namespace {
 
-constexpr std::size_t kNumberBytes = 4;
 // Of one file's record; more is damage.
 constexpr std::uint32_t kMostBytes = std::uint32_t{1} << 28;
 
-std::string numberBytes(std::uint32_t number) {
-    unsigned char bytes[kNumberBytes];
-    boost::endian::store_little_u32(bytes, number);
-    return {reinterpret_cast<const char*>(bytes), sizeof bytes};
-}
+constexpr const char* kHead = "osgBinsPart 4\n";
 
-std::uint32_t checksumOf(const std::string& bytes) {
-    boost::crc_32_type crc;
-    crc.process_bytes(bytes.data(), bytes.size());
-    return crc.checksum();
+// Returns: false at the end of what is there.
+bool readBytes(std::istream& in, std::string& bytes) {
+    return static_cast<bool>(in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())));
 }
-
-constexpr const char* kHead = "osgBinsPart 3\n";
 
 /// Returns: nullopt at the end of what is whole.
-std::optional<std::uint32_t> readNumber(std::istream& in) {
-    unsigned char bytes[kNumberBytes];
-    if (!in.read(reinterpret_cast<char*>(bytes), sizeof bytes)) return std::nullopt;
-    return boost::endian::load_little_u32(bytes);
-}
-
 std::optional<FileRecord> readRecord(std::istream& in, std::uint64_t most) {
-    const auto size = readNumber(in);
-    if (!size || *size > most || *size > kMostBytes) return std::nullopt;
-    std::string bytes(*size, '\0');
-    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    const auto checksum = readNumber(in);
-    if (!checksum || *checksum != checksumOf(bytes)) return std::nullopt;
-    return recordFrom(bytes);
+    std::uint32_t size = 0;
+    std::string bytes(sizeof size, '\0');
+    if (!readBytes(in, bytes)) return std::nullopt;
+    osgAnalyticBin::RecordReader(bytes).number(size);
+    if (size > most || size > kMostBytes) return std::nullopt;
+    bytes.resize(size);
+    if (!readBytes(in, bytes)) return std::nullopt;
+    const auto whole = osgAnalyticBin::support::wholeBytes(bytes);
+    return whole ? recordFrom(*whole) : std::nullopt;
 }
 
 }  // namespace
 
-PartFile::PartFile(const std::string& path) : _path(path) {
-    _handle = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    if (_handle < 0) fail("write");
-    if (!osgAnalyticBin::support::lockFile(_handle, path)) {
-        ::close(_handle);
-        throw Failure("another osgbinconv is writing \"" + path + "\"; wait for it");
-    }
-    try {
-        load();
-    } catch (...) {
-        ::close(_handle);
-        throw;
-    }
-}
-
-PartFile::~PartFile() {
-    if (_handle >= 0) ::close(_handle);
+PartFile::PartFile(const std::string& path) : _path(path), _lock(path, "osgbinconv", path, O_APPEND) {
+    load();
 }
 
 void PartFile::load() {
-    const off_t end = ::lseek(_handle, 0, SEEK_END);
+    const off_t end = ::lseek(_lock.handle(), 0, SEEK_END);
     std::ifstream in(_path, std::ios::binary);
     std::string found(std::strlen(kHead), '\0');
     in.read(found.data(), static_cast<std::streamsize>(found.size()));
@@ -88,16 +60,17 @@ void PartFile::load() {
         _records.push_back(std::move(*record));
         whole = in.tellg();
     }
-    if (::ftruncate(_handle, whole) != 0) fail("write");
+    if (::ftruncate(_lock.handle(), whole) != 0) fail();
 }
 
 void PartFile::append(const FileRecord& record) {
-    const std::string bytes = bytesOf(record);
-    write(numberBytes(static_cast<std::uint32_t>(bytes.size())) + bytes + numberBytes(checksumOf(bytes)));
+    osgAnalyticBin::RecordWriter out;
+    out.text(osgAnalyticBin::support::withChecksum(bytesOf(record)));
+    write(out.bytes);
 }
 
 void PartFile::clear() {
-    if (::ftruncate(_handle, 0) != 0) fail("write");
+    if (::ftruncate(_lock.handle(), 0) != 0) fail();
     write(kHead);
 }
 
@@ -107,21 +80,21 @@ void PartFile::keepOnly(const std::map<std::string, FileRecord>& records) {
 }
 
 void PartFile::remove() {
-    ::unlink(_path.c_str());
+    _lock.remove();
 }
 
 void PartFile::write(const std::string& bytes) {
     for (std::size_t done = 0; done < bytes.size();) {
-        const ssize_t count = ::write(_handle, bytes.data() + done, bytes.size() - done);
+        const ssize_t count = ::write(_lock.handle(), bytes.data() + done, bytes.size() - done);
         if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) fail("write");
+        if (count <= 0) fail();
         done += static_cast<std::size_t>(count);
     }
 }
 
-void PartFile::fail(const std::string& what) {
+void PartFile::fail() {
     _hasFailed = true;
-    throw Failure("cannot " + what + " \"" + _path + "\": " + std::strerror(errno) +
+    throw Failure("cannot write \"" + _path + "\": " + std::strerror(errno) +
                   "; make room, or make the folder writable");
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "DiskFile.h"
 #include "IndexBuilder.h"
 
 #include <map>
@@ -18,9 +19,6 @@ class PartFile final {
 public:
     /// Opens the file and takes what is whole in it. Throws Failure.
     explicit PartFile(const std::string& path);
-    PartFile(const PartFile&) = delete;
-    PartFile& operator=(const PartFile&) = delete;
-    ~PartFile();
 
     /// What an earlier run has left; to be called once.
     [[nodiscard]] std::vector<FileRecord> takeRecords() { return std::move(_records); }
@@ -41,10 +39,10 @@ private:
     void load();
     void clear();
     void write(const std::string& bytes);
-    [[noreturn]] void fail(const std::string& what);
+    [[noreturn]] void fail();
 
     std::string _path;
-    int _handle = -1;
+    const osgAnalyticBin::support::LockedFile _lock;
     bool _hasFailed = false;
     std::vector<FileRecord> _records;
 };

@@ -16,7 +16,6 @@
 #include <osg/Notify>
 
 #include <algorithm>
-#include <csignal>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -31,24 +30,23 @@ using osgAnalyticBin::support::ExitCode;
 using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::Interrupted;
 using osgAnalyticBin::support::kSucceeded;
-using osgAnalyticBin::support::stopRequested;
 using osgAnalyticBin::support::UsageError;
 
 using osgbinconv::DatabaseFiles;
 
 constexpr const char* kDescription =
-    "Finds the bins of all tiles of a paged globe or map, by whatever program it was made.\n"
+    "Computes the bins of all tiles of a paged globe or map, made by any program.\n"
     "Altitudes are metres above the ellipsoid, or map units; skirts count as far as cracks show them.";
 
 constexpr const char* kExamples =
     "Examples:\n"
     "  osgbinconv --index earth.ive             writes earth.ive.bins beside the database, which stays as it is\n"
     "  osgbinconv earth.ive bins/earth.osgb     writes a copy with the bins in its files; the folder has to be there\n"
-    "  osgbinconv --print earth.ive.bins        tells what is in an index\n"
+    "  osgbinconv --print earth.ive.bins        prints what is in an index\n"
     "  osgbinconv --check earth.ive             compares earth.ive.bins with its database\n"
     "  osgbinconv --index metadata.xml          writes metadata.xml.boxes, the boxes of a photogrammetry set\n"
-    "An index that was interrupted is kept in earth.ive.bins.part; the same command goes on where it ended.\n"
-    "A copy that was killed leaves earth.osgb.copying; the same command makes it anew.\n"
+    "An interrupted index is kept in earth.ive.bins.part; the same command resumes it.\n"
+    "A copy that was killed leaves earth.osgb.copying; the same command makes it again.\n"
     "Exit codes: 0 done, 1 an error or an index that does not fit, 2 a wrong command line, 130 interrupted.";
 
 /// The command line as it was typed.
@@ -106,14 +104,9 @@ void requireSense(const Arguments& arguments) {
     }
 }
 
-void requestStop(int) {
-    stopRequested.store(true);
-}
-
 void prepareProcess() {
     if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::ALWAYS);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, requestStop);
-    std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error like a full disk
+    osgAnalyticBin::support::stopOnSignals();
     osgAnalyticBin::addModuleFolder();
     osgAnalyticBin::indexing::loadSerializers();
     osgAnalyticBin::indexing::checkAllReads();

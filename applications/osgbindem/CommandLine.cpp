@@ -30,16 +30,16 @@ using osgAnalyticBin::support::UsageError;
 namespace {
 
 constexpr const char* kDescription =
-    "Turns elevation rasters into a paged globe for OpenSceneGraph whose tiles know their bins.\n"
-    "Where several rasters have data the finest one counts; where none has, the height is 0 m.";
+    "Builds a paged globe for OpenSceneGraph from elevation rasters, with bins stored in its tiles.\n"
+    "Where rasters overlap, the finest one is used; where none has data, the height is 0 m.";
 
 constexpr const char* kExamples =
     "Example, heights of the first raster in metres and of the second in feet:\n"
     "  osgbindem world.tif rockies.nc --height-unit m ft -o earth.osgb\n"
     "writes earth.osgb and the folder earth_tiles beside it. Large rasters are read fastest when tiled\n"
     "(gdal_translate -co TILED=YES).\n"
-    "A run that was interrupted, killed or out of room leaves the finished parts in earth_tiles.partial; the same\n"
-    "command goes on with them, another one starts anew. Remove the folder if you do not want them.\n"
+    "A run that was interrupted, killed or out of disk space leaves the finished parts in earth_tiles.partial. The\n"
+    "same command resumes from them; another command starts again. Remove the folder if you do not want them.\n"
     "A finished database is replaced only with --overwrite, and brought up to date with --update.\n"
     "Under mpirun, ranks share the parts: mpirun -n 8 osgbindem world.tif -o earth.osgb, with the output in a folder\n"
     "that all of them see.\n"
@@ -170,18 +170,19 @@ void declare(CLI::App& app, Arguments& arguments) {
                    "unit of the heights: m, ft or metres per unit;\none for all rasters or one for each (default m); "
                    "--scale is its older name")
         ->delimiter(',');
-    app.add_option("--nodata", settings.nodata, "number that stands for missing heights, in place of the rasters' own");
+    app.add_option("--nodata", settings.nodata, "value that marks missing heights, instead of the one in the rasters");
     app.add_option(
            "--te", arguments.region,
            "build this part of the earth: WEST SOUTH EAST NORTH in degrees, also as -te\n(default: the whole earth)")
         ->expected(4);
     app.add_option(
         "--geoid", settings.geoid,
-        "what the heights of all rasters are above: none (they are used as they are), egm96, or FILE,\na grid "
-        "of the geoid that PROJ reads (default: what a raster's vertical reference says, else none)");
-    app.add_option("--blend", settings.blend,
-                   "metres inside the border of a raster or an image over which it gives way to coarser ones,\n0 for "
-                   "none (default: a post of the coarser one, an eighth of the finer one at most)");
+        "vertical reference of all rasters: none (heights are used unchanged), egm96, or FILE,\na geoid grid "
+        "that PROJ reads (default: the vertical reference in the raster, else none)");
+    app.add_option(
+        "--blend", settings.blend,
+        "width in metres of the band inside the border of a raster or an image where it blends into\ncoarser "
+        "ones, 0 for none (default: a post of the coarser one, at most an eighth of the finer one)");
     app.add_option("--levels", settings.levels,
                    "levels of tiles below the 16 x 8 start tiles, 0 to 20\n(default: as fine as the finest raster)");
     app.add_option("--image", settings.images,
@@ -193,12 +194,13 @@ void declare(CLI::App& app, Arguments& arguments) {
                    "cells along the edge of a tile, even, 4 to 240\n(default: from the rasters)");
     app.add_option(
         "--lod-factor", settings.lodFactor,
-        "distance at which a tile gives way to finer ones,\nin half diagonals of the tile, 3 to 100 (default 4)");
+        "distance at which a tile is replaced by finer ones,\nin half diagonals of the tile, 3 to 100 (default 4)");
     app.add_option(
         "--threads", settings.threads,
         "number of threads (default: one per core);\nunder mpirun, of each rank (default: its share of cores)");
-    app.add_option("--memory", settings.memoryMib,
-                   "MiB for what is read of the rasters, 16 to 65536 (default 256);\nthe tiles at work come on top");
+    app.add_option(
+        "--memory", settings.memoryMib,
+        "MiB for data read from the rasters, 16 to 65536 (default 256);\ntiles that are being built need more");
     app.add_flag("!--full-resolution", settings.useOverviews,
                  "do not read a raster's overviews where --levels needs nothing finer");
     app.add_flag("--compress", settings.compress, "compress the files with zlib");
@@ -206,8 +208,8 @@ void declare(CLI::App& app, Arguments& arguments) {
                  "store tiles as grids of heights, a fifth of the bytes or less;\nthey need this library's modules "
                  "where they are shown");
     auto* overwrite = app.add_flag("--overwrite", settings.overwrite,
-                                   "replace a finished database OUTPUT; until the new one is complete it stays");
-    auto* restart = app.add_flag("--restart", settings.restart, "do not go on with what an interrupted run has left");
+                                   "replace a finished database OUTPUT when the new one is complete");
+    auto* restart = app.add_flag("--restart", settings.restart, "do not resume an interrupted run");
     app.add_flag(
            "--update", settings.update,
            "build only the tiles of the database OUTPUT that differ because rasters\nor images were added, replaced "

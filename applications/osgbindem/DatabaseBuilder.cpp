@@ -20,6 +20,8 @@ namespace osgbindem {
 
 using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::Interrupted;
+using osgAnalyticBin::support::stopRequested;
+using osgAnalyticBin::support::throwIfStopRequested;
 
 namespace {
 
@@ -30,12 +32,12 @@ void beginOrGoOn(const Settings& settings, const std::string& sources, std::size
     const std::size_t done = state.count();
     if (isSame && !settings.restart) {
         if (done > 0 && !settings.quiet) {
-            std::cout << "goes on: " << done << " of " << parts << " parts are there" << std::endl;
+            std::cout << "resumes: " << done << " of " << parts << " parts are done" << std::endl;
         }
         return;
     }
     if (done > 0 && !settings.quiet) {
-        std::cout << "starts anew: \"" << folder.partial() << "\" was "
+        std::cout << "starts again: \"" << folder.partial() << "\" was "
                   << (isSame ? "to be removed" : "built from other settings or rasters") << std::endl;
     }
     folder.clear();
@@ -55,52 +57,68 @@ std::string interruption(const DatabaseFolder& folder, const BuildState& state, 
     return "interrupted; " + (kept.empty() ? "nothing was left behind" : kept);
 }
 
-std::vector<Task> planFor(const Settings& settings, const TileLayout& layout) {
-    DemMosaic mosaic(settings, layout.spacingDeg(layout.deepestLevel()));
-    EdgeDepths depths(mosaic, layout);
-    return planTasks(mosaic, depths, layout);
-}
-
-/// `done`: becomes how many of the other ranks are done.
 void buildParts(const Site& site, const std::vector<Task>& plan, const std::string& sources, DatabaseFolder& folder,
-                const Ranks& ranks, int& done) {
-    TaskBoard board(plan);
+                const Ranks& ranks, Meetings& meetings) {
+    // What another rank has begun counts as done: nobody else says how far it is.
+    const auto claim = [&site](const Task& task) {
+        if (site.state.claim(task.tile)) return true;
+        site.progress.add(task.weight);
+        return false;
+    };
+    TaskBoard board(plan, ranks.count() > 1 ? TaskBoard::Claim(claim) : TaskBoard::Claim());
+    if (ranks.count() > 1) board.hold();
     StartTiles starts(site.settings, site.layout);
     const FinishedTasks finished = finishedTasks(site, plan);
     Threads threads(site.settings.threads, board, [&] {
         TileBuilder builder(site.settings, site.layout, site.files);
         doTasks(site, board, builder);
-        if (!board.isFinished()) return;
+        if (board.hasFailed()) return;
         builder.setFinishedTasks(finished);
         starts.build(builder);
     });
     if (ranks.count() > 1) {
-        done = serveRanks(ranks, threads, board, site.progress, [&] {
+        const auto interrupted = [&] {
             // Others may be writing still, and mpirun has no patience: all is left as it is, as after a kill.
             std::cerr << "osgbindem: " + interruption(folder, site.state, plan.size()) + "\n" << std::flush;
             Ranks::leaveAfterSignal();
-        });
+        };
+        watchOthers(
+            ranks, board, [&] { return threads.areRunning() && !board.isFinished(); }, interrupted);
+        try {
+            if (!board.hasFailed())
+                meetings.hold([&] {
+                    if (stopRequested) interrupted();
+                });
+            board.release();
+        } catch (...) {
+            board.fail(std::current_exception());
+        }
     }
     threads.join();
+    if (board.hasFailed()) {
+        ranks.sendFailure({});
+        meetings.giveUp();
+    }
     board.rethrow();
     folder.complete(starts.rootBytes(), sources);
 }
 
-/// Rank 0's part. `done`: see buildParts.
-void buildWith(const Settings& settings, const Ranks& ranks, int& done) {
+void buildWith(const Settings& settings, const Ranks& ranks, Meetings& meetings) {
     prepareNodeFiles();
     const TileLayout layout = checkedLayoutFor(settings);
     DatabaseFolder folder(settings.output);
     folder.lock();
     if (!settings.overwrite) folder.requireNone();
     const BuildState state(folder.stateFolder());
-    const std::vector<Task> plan = planFor(settings, layout);
+    const std::vector<Task> plan = planTasks(settings, layout);
     const std::string sources = describeSources(settings, layout);
     beginOrGoOn(settings, sources, plan.size(), folder, state);
+    if (ranks.count() > 1) state.forgetClaims();
+    meetings.hold([] { throwIfStopRequested(); });
     try {
         const TileFiles files = folder.files(layout);
         Progress progress(!settings.quiet, weightOf(plan));
-        buildParts({settings, layout, files, state, progress}, plan, sources, folder, ranks, done);
+        buildParts({settings, layout, files, state, progress}, plan, sources, folder, ranks, meetings);
         progress.finish();
     } catch (const Interrupted&) {
         throw Interrupted(interruption(folder, state, plan.size()));
@@ -113,15 +131,9 @@ void buildWith(const Settings& settings, const Ranks& ranks, int& done) {
 }  // namespace
 
 void buildDatabase(const Settings& settings, const Ranks& ranks) {
-    if (!ranks.isFirst()) return workForFirstRank(settings, ranks);
-    int done = 0;
-    try {
-        buildWith(settings, ranks, done);
-    } catch (...) {
-        if (ranks.count() > 1) ranks.endOthers(done);
-        throw;
-    }
-    if (ranks.count() > 1) ranks.endOthers(done);
+    if (!ranks.isFirst()) return helpFirstRank(settings, ranks);
+    Meetings meetings(ranks);
+    buildWith(settings, ranks, meetings);
 }
 
 }  // namespace osgbindem

@@ -4,18 +4,14 @@
 #include "DatabaseFolder.h"
 
 #include "BuildState.h"
-#include "DiskFile.h"
 #include "Failure.h"
 #include "NodeFile.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <system_error>
-#include <unistd.h>
 
 namespace osgbindem {
 
@@ -53,7 +49,6 @@ DatabaseFolder::DatabaseFolder(const std::string& rootFile) : _rootFile(rootFile
     _partial = _tiles + ".partial";
     _old = _tiles + ".old";
     _oldState = _tiles + ".state";
-    _lockFile = _tiles + ".lock";
     _newRoot = rootFile + ".partial";
     _sources = rootFile + ".sources";
     _newSources = _sources + ".partial";
@@ -71,15 +66,14 @@ DatabaseFolder::DatabaseFolder(const std::string& rootFile) : _rootFile(rootFile
 }
 
 DatabaseFolder::~DatabaseFolder() {
-    if (_lock < 0) return;
+    if (!_lock) return;
     std::error_code ignored;
     if (!fs::exists(mergeFile(), ignored)) {
         if (BuildState(stateFolder()).count() == 0) fs::remove_all(_partial, ignored);
         fs::remove(_newRoot, ignored);
         fs::remove(_newSources, ignored);
     }
-    ::unlink(_lockFile.c_str());
-    ::close(_lock);
+    _lock->remove();
 }
 
 void DatabaseFolder::requireOwnFolder(const std::string& folder, bool mayHaveState) const {
@@ -96,17 +90,7 @@ void DatabaseFolder::requireOwnFolder(const std::string& folder, bool mayHaveSta
 }
 
 void DatabaseFolder::lock() {
-    _lock = ::open(_lockFile.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (_lock < 0) {
-        const std::error_code error(errno, std::generic_category());
-        throw Failure("cannot write to the folder of \"" + _rootFile + "\": " + error.message() +
-                      "; choose another folder");
-    }
-    if (!osgAnalyticBin::support::lockFile(_lock, _lockFile)) {
-        ::close(_lock);
-        _lock = -1;
-        throw Failure("another osgbindem is writing \"" + _rootFile + "\"; wait for it or choose another name");
-    }
+    _lock.emplace(_tiles + ".lock", "osgbindem", _rootFile);
     if (fs::exists(mergeFile())) carryMergeThrough();
 }
 

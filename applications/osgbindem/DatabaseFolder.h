@@ -3,8 +3,10 @@
 
 #pragma once
 
+#include "DiskFile.h"
 #include "TileFiles.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -77,8 +79,7 @@ private:
     std::string _partial;
     std::string _old;
     std::string _oldState;
-    std::string _lockFile;
-    int _lock = -1;
+    std::optional<osgAnalyticBin::support::LockedFile> _lock;
 };
 
 }  // namespace osgbindem

@@ -153,7 +153,7 @@ void updateDatabase(const Settings& settings) {
         Updater updater(settings, layout, standing, files, area, findings);
         while (const auto task = board.next()) {
             updater.update(*task, progress);
-            board.finish(*task);
+            board.finish();
         }
         if (board.isFinished()) starts.build(updater.builder());
     });

@@ -51,10 +51,6 @@ bool Ranks::isSpeaker() {
     return true;
 }
 
-void Ranks::sendToOthers(Word word) const {
-    for (int rank = 1; rank < _count; ++rank) send(rank, word);
-}
-
 void Ranks::leaveAfterSignal() {
     std::_Exit(kInterrupted);
 }
@@ -94,39 +90,47 @@ Ranks::Ranks() {
 Ranks::~Ranks() {
     int isInitialised = 0;
     MPI_Initialized(&isInitialised);
-    if (isInitialised != 0) MPI_Finalize();
+    if (isInitialised == 0) return;
+    while (failureElsewhere()) {
+    }
+    MPI_Finalize();
 }
 
-void Ranks::send(int rank, Word word, const std::string& text) const {
-    MPI_Send(text.data(), static_cast<int>(text.size()), MPI_CHAR, rank, static_cast<int>(word), MPI_COMM_WORLD);
+void Ranks::sendFailure(const std::string& text) const {
+    constexpr std::size_t kMost = 1000;  // short messages never wait for who receives them
+    const int size = static_cast<int>(std::min(text.size(), kMost));
+    for (int rank = 0; rank < _count; ++rank) {
+        if (rank != _rank) MPI_Send(text.data(), size, MPI_CHAR, rank, 0, MPI_COMM_WORLD);
+    }
 }
 
-std::optional<Message> Ranks::receive() const {
+std::optional<std::string> Ranks::failureElsewhere() const {
     if (_count == 1) return std::nullopt;
     int isThere = 0;
     MPI_Status status;
-    if (MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &isThere, &status) != MPI_SUCCESS || isThere == 0) {
+    if (MPI_Iprobe(MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, &isThere, &status) != MPI_SUCCESS || isThere == 0) {
         return std::nullopt;
     }
     int size = 0;
     MPI_Get_count(&status, MPI_CHAR, &size);
-    Message message{status.MPI_SOURCE, static_cast<Word>(status.MPI_TAG),
-                    std::string(static_cast<std::size_t>(size), '\0')};
-    MPI_Recv(message.text.data(), size, MPI_CHAR, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-    return message;
+    std::string text(static_cast<std::size_t>(size), '\0');
+    MPI_Recv(text.data(), size, MPI_CHAR, status.MPI_SOURCE, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    return text;
 }
 
-void Ranks::endOthers(int done) const {
+bool Ranks::meet(bool hasFailed, const std::function<void()>& glance) const {
     constexpr std::chrono::seconds kPatience{60};
-    if (done < _count - 1) sendToOthers(Word::Stop);
+    if (_count == 1) return hasFailed;
+    const int mine = hasFailed ? 1 : 0;
+    int any = 0;
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Iallreduce(&mine, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD, &request);
     const auto begin = std::chrono::steady_clock::now();
-    while (done < _count - 1) {
-        if (std::chrono::steady_clock::now() - begin > kPatience) MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
-        const auto message = receive();
-        if (!message) waitABit();
-        if (message && message->word == Word::Done) ++done;
+    for (int isThere = 0; MPI_Test(&request, &isThere, MPI_STATUS_IGNORE) == MPI_SUCCESS && isThere == 0; waitABit()) {
+        if (hasFailed && std::chrono::steady_clock::now() - begin > kPatience) MPI_Abort(MPI_COMM_WORLD, EXIT_FAILURE);
+        if (glance) glance();
     }
-    sendToOthers(Word::End);
+    return any != 0;
 }
 
 #else
@@ -139,13 +143,15 @@ Ranks::Ranks() {
 
 Ranks::~Ranks() = default;
 
-void Ranks::send(int, Word, const std::string&) const {}
+void Ranks::sendFailure(const std::string&) const {}
 
-std::optional<Message> Ranks::receive() const {
+std::optional<std::string> Ranks::failureElsewhere() const {
     return std::nullopt;
 }
 
-void Ranks::endOthers(int) const {}
+bool Ranks::meet(bool hasFailed, const std::function<void()>&) const {
+    return hasFailed;
+}
 
 #endif
 

@@ -3,30 +3,11 @@
 
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
 namespace osgbindem {
-
-/// What programs under mpirun say to each other.
-enum class Word : int {
-    // to rank 0
-    Want,      ///< a thread has nothing to do
-    Finished,  ///< text: the task
-    Failed,    ///< text: the error
-    Done,      ///< nothing more will be written
-    // from rank 0
-    Do,      ///< text: the task
-    NoMore,  ///< no task is left
-    Stop,    ///< another one has failed
-    End,     ///< the program may end
-};
-
-struct Message {
-    int rank = 0;
-    Word word = Word::End;
-    std::string text;
-};
 
 /// The programs that mpirun has started together; a single one without mpirun, or in a build without MPI. Only mpirun's
 /// environment makes MPI start, which takes a tenth of a second. To be used by the thread that made it.
@@ -45,22 +26,18 @@ public:
     /// started.
     [[nodiscard]] static bool isSpeaker();
 
-    [[nodiscard]] int rank() const { return _rank; }
     [[nodiscard]] int count() const { return _count; }
     [[nodiscard]] bool isFirst() const { return _rank == 0; }
     /// Of those on this machine.
     [[nodiscard]] int countHere() const { return _countHere; }
 
-    /// Short texts only.
-    void send(int rank, Word word, const std::string& text = {}) const;
-    void sendToOthers(Word word) const;
-    /// Returns at once: nullopt when nobody has said anything.
-    [[nodiscard]] std::optional<Message> receive() const;
-
-    /// Rank 0, before it ends: lets the others end, those first that have not said so already by Done, of which
-    /// `done` came in. Kills them when they do not answer.
-    void endOthers(int done) const;
-
+    /// Tells all others why this one cannot go on: a short text.
+    void sendFailure(const std::string& text) const;
+    /// Returns at once: what another one said by sendFailure(); nullopt when none has.
+    [[nodiscard]] std::optional<std::string> failureElsewhere() const;
+    /// Waits until every rank has come to this call, without using the processor; `glance` is called meanwhile. Kills
+    /// all when the others of a rank that has failed do not come within a minute. Returns: whether any has failed.
+    [[nodiscard]] bool meet(bool hasFailed, const std::function<void()>& glance) const;
     /// Ends the program, MPI's part left out, as mpirun wants it after a signal.
     [[noreturn]] static void leaveAfterSignal();
 

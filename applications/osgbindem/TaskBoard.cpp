@@ -14,23 +14,28 @@ using osgAnalyticBin::support::throwIfStopRequested;
 std::optional<Task> TaskBoard::next() {
     constexpr std::chrono::milliseconds kGlance{50};  // at whether the user wants to stop
     std::unique_lock<std::mutex> guard(_mutex);
-    while (!isOver()) {
+    while (!_error && (_isHeld || !isDone())) {
         throwIfStopRequested();
-        if (_next < _tasks.size()) return _tasks[_next++];
+        while (_next < _tasks.size()) {
+            const Task& task = _tasks[_next++];
+            if (_claim && !_claim(task)) continue;
+            ++_busy;
+            return task;
+        }
         _changed.wait_for(guard, kGlance);
     }
     return std::nullopt;
 }
 
-std::optional<Task> TaskBoard::take() {
+void TaskBoard::finish() {
     const std::lock_guard<std::mutex> guard(_mutex);
-    if (isOver() || _next == _tasks.size()) return std::nullopt;
-    return _tasks[_next++];
+    --_busy;
+    _changed.notify_all();
 }
 
-void TaskBoard::finish(const Task&) {
+void TaskBoard::release() {
     const std::lock_guard<std::mutex> guard(_mutex);
-    ++_finished;
+    _isHeld = false;
     _changed.notify_all();
 }
 
@@ -43,7 +48,7 @@ void TaskBoard::fail(std::exception_ptr error) {
 
 bool TaskBoard::isFinished() const {
     const std::lock_guard<std::mutex> guard(_mutex);
-    return _finished == _tasks.size();
+    return isDone();
 }
 
 bool TaskBoard::hasFailed() const {

@@ -7,50 +7,50 @@
 
 #include <condition_variable>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <vector>
 
 namespace osgbindem {
 
-/// Hands tasks to the threads of a program.
-class TaskSource {
+/// The tasks of the plan, for the threads of a program, and what has become of them.
+class TaskBoard final {
 public:
-    virtual ~TaskSource() = default;
+    /// Whether a task is this program's to do; the others leave it alone then.
+    using Claim = std::function<bool(const Task&)>;
+
+    /// With a `claim` other programs may do tasks too.
+    explicit TaskBoard(std::vector<Task> tasks, Claim claim = {})
+        : _tasks(std::move(tasks)), _claim(std::move(claim)) {}
 
     /// Waits for a task. Returns: nullopt when all are finished, or one has failed. Throws Interrupted.
-    [[nodiscard]] virtual std::optional<Task> next() = 0;
-    /// The record of the task is there.
-    virtual void finish(const Task& task) = 0;
+    [[nodiscard]] std::optional<Task> next();
+    /// The record of a task is there.
+    void finish();
     /// Stops all threads. Only the first error counts.
-    virtual void fail(std::exception_ptr error) = 0;
-};
+    void fail(std::exception_ptr error);
 
-/// The tasks of the plan and what has become of them.
-class TaskBoard final : public TaskSource {
-public:
-    explicit TaskBoard(std::vector<Task> tasks) : _tasks(std::move(tasks)) {}
+    /// Threads that find no task left wait until release(): other programs are not done yet.
+    void hold() { _isHeld = true; }
+    void release();
 
-    [[nodiscard]] std::optional<Task> next() override;
-    void finish(const Task& task) override;
-    void fail(std::exception_ptr error) override;
-
-    /// As next(), without waiting: nullopt when none is left that nobody has begun.
-    [[nodiscard]] std::optional<Task> take();
-
+    /// Whether nothing is left for this program to do.
     [[nodiscard]] bool isFinished() const;
     [[nodiscard]] bool hasFailed() const;
     /// Throws what made the threads stop.
     void rethrow() const;
 
 private:
-    [[nodiscard]] bool isOver() const { return _error || _finished == _tasks.size(); }
+    [[nodiscard]] bool isDone() const { return _next == _tasks.size() && _busy == 0; }
 
     mutable std::mutex _mutex;
     std::condition_variable _changed;
     const std::vector<Task> _tasks;
+    const Claim _claim;
     std::size_t _next = 0;
-    std::size_t _finished = 0;
+    int _busy = 0;
+    bool _isHeld = false;
     std::exception_ptr _error;
 };
 

@@ -31,10 +31,10 @@ void doTask(const Task& task, const Site& site, TileBuilder& builder) {
 
 }  // namespace
 
-void doTasks(const Site& site, TaskSource& tasks, TileBuilder& builder) {
+void doTasks(const Site& site, TaskBoard& tasks, TileBuilder& builder) {
     while (const auto task = tasks.next()) {
         doTask(*task, site, builder);
-        tasks.finish(*task);
+        tasks.finish();
     }
     builder.setLeafDone({});
 }
@@ -50,7 +50,7 @@ FinishedTasks finishedTasks(const Site& site, const std::vector<Task>& tasks) {
     };
 }
 
-Threads::Threads(int count, TaskSource& tasks, const std::function<void()>& body) : _running(count) {
+Threads::Threads(int count, TaskBoard& tasks, const std::function<void()>& body) : _running(count) {
     for (int i = 0; i < count; ++i) {
         _threads.emplace_back([this, &tasks, body] {
             try {

@@ -27,15 +27,15 @@ struct Site {
 };
 
 /// Does tasks as long as there are some, those left out that an earlier run has done and whose files are whole.
-void doTasks(const Site& site, TaskSource& tasks, TileBuilder& builder);
+void doTasks(const Site& site, TaskBoard& tasks, TileBuilder& builder);
 
 /// Finds what tasks have left. Requires: they are finished. Finding throws Failure when their records are gone.
 [[nodiscard]] FinishedTasks finishedTasks(const Site& site, const std::vector<Task>& tasks);
 
-/// Threads with one body, whose errors go to the source of their tasks.
+/// Threads with one body, whose errors go to the board of their tasks.
 class Threads final {
 public:
-    Threads(int count, TaskSource& tasks, const std::function<void()>& body);
+    Threads(int count, TaskBoard& tasks, const std::function<void()>& body);
     Threads(const Threads&) = delete;
     Threads& operator=(const Threads&) = delete;
     ~Threads() { join(); }

@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include "Checksum.h"
 #include "DemMosaic.h"
 #include "EdgeDepths.h"
+#include "FileSum.h"
 #include "HeightGrid.h"
 #include "ImageMosaic.h"
 #include "Settings.h"

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "Checksum.h"
+#include "FileSum.h"
 #include "TileLayout.h"
 
 #include <string>

@@ -69,4 +69,10 @@ std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLay
     return tasks;
 }
 
+std::vector<Task> planTasks(const Settings& settings, const TileLayout& layout) {
+    DemMosaic mosaic(settings, layout.spacingDeg(layout.deepestLevel()));
+    EdgeDepths depths(mosaic, layout);
+    return planTasks(mosaic, depths, layout);
+}
+
 }  // namespace osgbindem

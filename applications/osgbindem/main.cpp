@@ -13,7 +13,6 @@
 #include <gdal.h>
 #include <osg/Notify>
 
-#include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <new>
@@ -24,13 +23,8 @@ namespace {
 using osgAnalyticBin::support::ExitCode;
 using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::kSucceeded;
-using osgAnalyticBin::support::stopRequested;
 
 using osgbindem::Settings;
-
-void requestStop(int) {
-    stopRequested.store(true);
-}
 
 /// A setting of GDAL's that the user's environment may have otherwise.
 void setUnlessGiven(const char* name, const char* value) {
@@ -44,8 +38,7 @@ void prepareProcess(const Settings& settings) {
     setUnlessGiven("GDAL_HTTP_RETRY_DELAY", "1");
     CPLSetErrorHandler(CPLQuietErrorHandler);
     if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::ALWAYS);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, requestStop);
-    std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error like a full disk
+    osgAnalyticBin::support::stopOnSignals();
 }
 
 ExitCode run(int argc, char** argv) {

@@ -3,8 +3,9 @@
 
 #include "CameraFlight.h"
 
-#include "CsvTable.h"
 #include "TileCounter.h"
+
+#include <osgAnalyticBin/viewer/CsvTable.h>
 
 #include <osg/Notify>
 #include <osg/Version>
@@ -102,7 +103,7 @@ void CameraFlight::flyOn(osgViewer::Viewer& viewer) {
 void CameraFlight::begin(osgViewer::Viewer& viewer) {
     if (!viewer.getCamera()->getGraphicsContext() || !viewer.getCamera()->getViewport())
         return fail(viewer, "the viewer's camera has no window");
-    if (!viewer.getSceneData()->getBound().valid()) return fail(viewer, "there is nothing to fly over");
+    if (!viewer.getSceneData()->getBound().valid()) return fail(viewer, "the database is empty");
     if (!prepareFolder()) return fail(viewer, "folder \"" + _options.out + "\" cannot be made or emptied");
     viewer.setCameraManipulator(nullptr);
     prepareCamera(*viewer.getCamera());
@@ -121,15 +122,10 @@ bool CameraFlight::prepareFolder() {
 }
 
 void CameraFlight::prepareCamera(osg::Camera& camera) {
-    camera.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    makeComparable(camera);
     camera.setCullingMode(camera.getCullingMode() & ~osg::CullSettings::SMALL_FEATURE_CULLING);
-    camera.setLODScale(1.0f);
-    camera.setProjectionResizePolicy(osg::Camera::FIXED);
     camera.addFinalDrawCallback(_capture);
     camera.getStats()->collectStats("rendering", true);
-    osg::StateSet& state = *camera.getOrCreateStateSet();
-    state.setMode(GL_MULTISAMPLE_ARB, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
-    state.setRenderBinDetails(0, "TraversalOrderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
 }
 
 // Every frame, because a window manager may change the window's size.

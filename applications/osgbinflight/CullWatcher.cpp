@@ -5,9 +5,6 @@
 
 #include <osgAnalyticBin/BinStatistics.h>
 
-#include <osg/Billboard>
-#include <osg/LOD>
-#include <osg/Projection>
 #include <osg/TriangleIndexFunctor>
 
 namespace osgAnalyticBin::flight {
@@ -52,35 +49,6 @@ void CullWatcher::watch(osg::Camera& camera, osg::FrameStamp& frameStamp) {
     const osg::ref_ptr<osgUtil::StateGraph> stateGraph = new osgUtil::StateGraph;
     const osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
     cullScene(*this, camera, frameStamp, *stateGraph, *stage);
-}
-
-template <class NodeType>
-void CullWatcher::visit(NodeType& node) {
-    enter(node);
-    osgUtil::CullVisitor::apply(node);
-    leave(node);
-}
-
-void CullWatcher::apply(osg::Node& node) {
-    visit(node);
-}
-void CullWatcher::apply(osg::Geode& node) {
-    visit(node);
-}
-void CullWatcher::apply(osg::Group& node) {
-    visit(node);
-}
-void CullWatcher::apply(osg::LOD& node) {
-    visit(node);
-}
-void CullWatcher::apply(osg::Transform& node) {
-    visit(node);
-}
-void CullWatcher::apply(osg::Projection& node) {
-    visit(node);
-}
-void CullWatcher::apply(osg::Camera& node) {
-    visit(node);
 }
 
 void CullWatcher::apply(osg::Drawable& drawable) {

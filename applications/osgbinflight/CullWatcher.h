@@ -3,7 +3,11 @@
 
 #pragma once
 
+#include <osg/Billboard>
 #include <osg/Camera>
+#include <osg/Geode>
+#include <osg/LOD>
+#include <osg/Projection>
 #include <osgUtil/CullVisitor>
 
 #include <cstdint>
@@ -37,13 +41,13 @@ public:
     void watch(osg::Camera& camera, osg::FrameStamp& frameStamp);
 
     using osgUtil::CullVisitor::apply;
-    void apply(osg::Node& node) override;
-    void apply(osg::Geode& node) override;
-    void apply(osg::Group& node) override;
-    void apply(osg::LOD& node) override;
-    void apply(osg::Transform& node) override;
-    void apply(osg::Projection& node) override;
-    void apply(osg::Camera& node) override;
+    void apply(osg::Node& node) override { visit(node); }
+    void apply(osg::Geode& node) override { visit(node); }
+    void apply(osg::Group& node) override { visit(node); }
+    void apply(osg::LOD& node) override { visit(node); }
+    void apply(osg::Transform& node) override { visit(node); }
+    void apply(osg::Projection& node) override { visit(node); }
+    void apply(osg::Camera& node) override { visit(node); }
     void apply(osg::Drawable& drawable) override;
     void apply(osg::Billboard& node) override;
 
@@ -62,7 +66,11 @@ protected:
 
 private:
     template <class NodeType>
-    void visit(NodeType& node);
+    void visit(NodeType& node) {
+        enter(node);
+        osgUtil::CullVisitor::apply(node);
+        leave(node);
+    }
 
     osg::ref_ptr<RequestCounter> _wanted;
 };

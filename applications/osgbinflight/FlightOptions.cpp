@@ -3,8 +3,9 @@
 
 #include "FlightOptions.h"
 
-#include "CsvTable.h"
 #include "ParameterReader.h"
+
+#include <osgAnalyticBin/viewer/CsvTable.h>
 
 #include <cmath>
 
@@ -46,13 +47,6 @@ ParameterReader readerInto(FlightOptions& options) {
 }
 
 }  // namespace
-
-FlightName flightNameOf(const std::string& fileName) {
-    const std::string stem = fileName.substr(0, fileName.rfind('.'));
-    const std::size_t open = stem.rfind(".(");
-    if (open == std::string::npos || stem.back() != ')') return {stem, {}};
-    return {stem.substr(0, open), stem.substr(open + 2, stem.size() - open - 3)};
-}
 
 bool applyParameters(const std::string& parameters, FlightOptions& options, std::string& error) {
     return readerInto(options).readBracketed(parameters, error);

@@ -15,15 +15,6 @@ struct FlightOptions {
     double timeout = 120.0;         ///< seconds that one pose may take to load and draw
 };
 
-/// A name such as "path.csv.(out=DIR,frames=15).binflight" taken apart.
-struct FlightName {
-    std::string pathFile;    ///< "path.csv"
-    std::string parameters;  ///< "out=DIR,frames=15"; empty when there are no brackets
-};
-
-/// Takes the last extension and the brackets before it off.
-[[nodiscard]] FlightName flightNameOf(const std::string& fileName);
-
 /// Reads "out=DIR,frames=15,timeout=120" into `options`. A folder's name may hold blanks, but no comma.
 /// Returns: false, with one line in `error`, when an item is unknown or malformed.
 [[nodiscard]] bool applyParameters(const std::string& parameters, FlightOptions& options, std::string& error);

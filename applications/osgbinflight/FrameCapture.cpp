@@ -24,6 +24,15 @@ osg::ref_ptr<osg::Image> readPicture(const osg::Camera& camera) {
 
 }  // namespace
 
+void makeComparable(osg::Camera& camera) {
+    camera.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    camera.setLODScale(1.0F);
+    camera.setProjectionResizePolicy(osg::Camera::FIXED);
+    osg::StateSet& state = *camera.getOrCreateStateSet();
+    state.setMode(GL_MULTISAMPLE_ARB, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
+    state.setRenderBinDetails(0, "TraversalOrderBin", osg::StateSet::OVERRIDE_RENDERBIN_DETAILS);
+}
+
 void FrameCapture::request(unsigned int frameNumber) {
     const std::lock_guard<std::mutex> lock(_mutex);
     _frameNumber = frameNumber;

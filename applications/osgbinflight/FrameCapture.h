@@ -10,6 +10,10 @@
 
 namespace osgAnalyticBin::flight {
 
+/// Makes pictures of a camera comparable to the pixel: near and far stay as they are set, nothing is smoothed, and
+/// drawing goes in traversal order (coplanar surfaces then come out alike).
+void makeComparable(osg::Camera& camera);
+
 /// A final draw callback that reads the picture of one frame back, right before the buffers are swapped.
 /// Threads: the camera draws in a thread of its own, perhaps while the next frame is prepared; therefore a picture is
 /// asked for by frame number, and fetched in a later frame.

@@ -3,12 +3,15 @@
 
 #include "PoseTable.h"
 
-#include "CsvTable.h"
+#include "TextFile.h"
+
+#include <osgAnalyticBin/viewer/CsvTable.h>
 
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 namespace osgAnalyticBin::flight {
 
@@ -31,7 +34,8 @@ constexpr std::array<CountColumn, 9> kCounts{{{"tilesTested", &TileCounts::teste
 // The largest integer up to which a double is exact.
 constexpr double kLargestCount = 9007199254740992.0;
 
-void writeRows(std::ostream& output, const std::vector<PoseRecord>& records, const std::string& remark) {
+std::string textOf(const std::vector<PoseRecord>& records, const std::string& remark) {
+    std::ostringstream output;
     output << "# " << remark << "\nname";
     for (const CountColumn& column : kCounts) output << ',' << column.name;
     output << ",files,cullMs,frameMs,picture\n";
@@ -41,6 +45,7 @@ void writeRows(std::ostream& output, const std::vector<PoseRecord>& records, con
         output << ',' << record.files << ',' << textFrom(record.cullMs) << ',' << textFrom(record.frameMs) << ','
                << record.picture << '\n';
     }
+    return output.str();
 }
 
 /// The cells of one row by column name; the first thing wrong ends up in `error`.
@@ -96,15 +101,9 @@ PoseRecord recordOf(RowReader row) {
 
 bool writePoseTable(const std::string& folder, const std::vector<PoseRecord>& records, const std::string& remark,
                     std::string& error) {
-    const std::filesystem::path file = std::filesystem::path(folder) / kPoseTableName;
-    const std::filesystem::path unfinished = file.string() + ".tmp";
-    std::ofstream output(unfinished);
-    writeRows(output, records, remark);
-    output.close();
-    std::error_code problem;
-    if (output) std::filesystem::rename(unfinished, file, problem);
-    if (output && !problem) return true;
-    error = file.string() + ": cannot be written";
+    const std::string file = (std::filesystem::path(folder) / kPoseTableName).string();
+    if (support::replaceFile(file, textOf(records, remark))) return true;
+    error = file + ": cannot be written";
     return false;
 }
 

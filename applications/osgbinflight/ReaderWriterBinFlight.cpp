@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 
 #include "CameraFlight.h"
-#include "CameraPath.h"
 #include "FlightOptions.h"
+
+#include <osgAnalyticBin/NameParameters.h>
+#include <osgAnalyticBin/viewer/CameraPath.h>
 
 #include <osg/Group>
 #include <osg/LightSource>
@@ -16,7 +18,6 @@ namespace {
 
 using osgAnalyticBin::flight::CameraFlight;
 using osgAnalyticBin::flight::CameraPose;
-using osgAnalyticBin::flight::FlightName;
 using osgAnalyticBin::flight::FlightOptions;
 
 }  // namespace
@@ -42,9 +43,9 @@ public:
 
     ReadResult readNode(const std::string& fileName, const Options* options) const override {
         if (!acceptsExtension(osgDB::getLowerCaseFileExtension(fileName))) return ReadResult::FILE_NOT_HANDLED;
-        const FlightName name = osgAnalyticBin::flight::flightNameOf(fileName);
-        const std::string pathFile = osgDB::findDataFile(name.pathFile, options);
-        if (pathFile.empty()) return ReadResult(name.pathFile + ": no such camera path");
+        const auto name = osgAnalyticBin::nameParametersFrom(osgDB::getNameLessExtension(fileName));
+        const std::string pathFile = osgDB::findDataFile(name.name, options);
+        if (pathFile.empty()) return ReadResult(name.name + ": no such camera path");
 
         FlightOptions flightOptions;
         std::string error;

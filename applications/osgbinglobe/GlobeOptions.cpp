@@ -3,7 +3,9 @@
 
 #include "GlobeOptions.h"
 
-#include <CsvTable.h>
+#include <osgAnalyticBin/NameParameters.h>
+#include <osgAnalyticBin/viewer/CsvTable.h>
+
 #include <ParameterReader.h>
 #include <cmath>
 #include <cstdio>
@@ -56,21 +58,6 @@ std::string ofGlobe(const std::string& message) {
     return std::string(kGlobeExtension) + ": " + message;
 }
 
-// A name without its extension: what stands before the brackets, and in them.
-struct Parts {
-    std::string name;
-    std::string parameters;
-};
-
-Parts partsOf(const std::string& stem) {
-    if (stem.empty() || stem.back() != ')') return {stem, {}};
-    const std::size_t open = stem.rfind('(');
-    if (open == std::string::npos) return {stem, {}};
-    std::string name = stem.substr(0, open);
-    if (!name.empty() && name.back() == '.') name.pop_back();
-    return {name, stem.substr(open + 1, stem.size() - open - 2)};
-}
-
 std::optional<TileId> tileFrom(const std::string& name) {
     TileId tile;
     char rest = 0;
@@ -96,7 +83,7 @@ bool GlobeOptions::operator==(const GlobeOptions& other) const {
 
 std::optional<GlobeName> globeNameOf(const std::string& fileName, const std::string& optionString, std::string& error) {
     const std::string file = withoutFolder(fileName);
-    const Parts parts = partsOf(file.substr(0, file.rfind('.')));
+    const NameParameters parts = nameParametersFrom(file.substr(0, file.rfind('.')));
     GlobeName result;
     const flight::ParameterReader reader = readerInto(result.options);
     result.tile = tileFrom(parts.name);

@@ -3,7 +3,7 @@
 
 #include "HomeView.h"
 
-#include "CameraView.h"
+#include <osgAnalyticBin/viewer/CameraView.h>
 
 namespace osgAnalyticBin::viewer {
 

@@ -3,8 +3,7 @@
 
 #pragma once
 
-#include "CameraPath.h"
-
+#include <osgAnalyticBin/viewer/CameraPath.h>
 #include <osgAnalyticBin/viewer/SpyViewHandler.h>
 
 #include <osgViewer/Viewer>

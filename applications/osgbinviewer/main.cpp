@@ -6,6 +6,7 @@
 #include "ProgramRun.h"
 #include "Settings.h"
 #include "Steps.h"
+#include "WithoutAnisotropy.h"
 
 #include <osgAnalyticBin/Version.h>
 #include <osgAnalyticBin/viewer/BinDisplayHandler.h>
@@ -16,7 +17,6 @@
 #include <osgAnalyticBin/viewer/PathRecorder.h>
 #include <osgAnalyticBin/viewer/SpyViewHandler.h>
 
-#include <osg/GLExtensions>
 #include <osgDB/Registry>
 #include <osgGA/AnimationPathManipulator>
 #include <osgGA/DriveManipulator>
@@ -40,18 +40,6 @@ namespace {
 using namespace osgAnalyticBin;
 using support::ExitCode;
 using support::kSucceeded;
-
-// Mesa's software renderer (22.3) may never come back from filtering terrain anisotropically.
-class WithoutAnisotropy : public osg::Operation {
-public:
-    WithoutAnisotropy() : osg::Operation("without anisotropic filtering", false) {}
-
-    void operator()(osg::Object* object) override {
-        const auto* const surface = dynamic_cast<osg::GraphicsContext*>(object);
-        if (!surface || !surface->getState()) return;
-        osg::GLExtensions::Get(surface->getState()->getContextID(), true)->isTextureFilterAnisotropicSupported = false;
-    }
-};
 
 // As osgviewer's, but that the one for terrain is the first choice.
 osg::ref_ptr<osgGA::CameraManipulator> makeManipulator(const viewer::Settings& settings, osg::Node& scene) {
@@ -150,7 +138,7 @@ ExitCode runSteps(osgViewer::Viewer& viewer, const viewer::Settings& settings, S
         poses = *path;
     }
     viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
-    viewer.setRealizeOperation(new WithoutAnisotropy);
+    viewer.setRealizeOperation(new flight::WithoutAnisotropy);
     realize(viewer);
     viewer::Steps(viewer, spy, poses).run(settings.steps);
     return kSucceeded;

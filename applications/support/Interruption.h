@@ -15,7 +15,10 @@ public:
     explicit Interrupted(const std::string& message = "interrupted") : std::runtime_error(message) {}
 };
 
-/// Set by the signal handler of main().
+/// From here on SIGINT, SIGTERM and SIGHUP set stopRequested, and a limit of file sizes is an error like a full disk.
+void stopOnSignals();
+
+/// Set by signals: stopOnSignals().
 inline std::atomic<bool> stopRequested{false};
 
 inline void throwIfStopRequested() {

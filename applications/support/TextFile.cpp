@@ -28,6 +28,19 @@ void writeFile(const std::string& file, const std::string& text) {
         throw Failure(file + ": cannot be written; check that its folder is there and not full");
 }
 
+void requireFolderOf(const char* option, const std::string& file) {
+    if (file.empty()) return;
+    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+    if (!std::filesystem::is_directory(folder))
+        throw Failure(std::string(option) + ": there is no folder " + folder.string() + "; make it first");
+}
+
+void makeFolder(const char* option, const std::string& folder) {
+    std::error_code problem;
+    std::filesystem::create_directories(folder, problem);
+    if (problem) throw Failure(std::string(option) + ": folder " + folder + " cannot be made");
+}
+
 std::string withDecimals(double value, int decimals) {
     char text[64];
     std::snprintf(text, sizeof text, "%.*f", decimals, value);

@@ -14,6 +14,13 @@ namespace osgAnalyticBin::support {
 /// As replaceFile. Throws: Failure.
 void writeFile(const std::string& file, const std::string& text);
 
+/// For what would only be found out at the end of a long run. Throws: Failure when the folder of a file, which an
+/// option names, is not there; an empty name is none.
+void requireFolderOf(const char* option, const std::string& file);
+
+/// Makes a folder that an option names, unless it is there. Throws: Failure.
+void makeFolder(const char* option, const std::string& folder);
+
 /// The value with so many decimals.
 [[nodiscard]] std::string withDecimals(double value, int decimals);
 

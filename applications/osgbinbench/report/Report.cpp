@@ -3,14 +3,15 @@
 
 #include "Report.h"
 
+#include "PathGroups.h"
 #include "PictureDifference.h"
+#include "RowTable.h"
+#include "TextFile.h"
 #include "TextTable.h"
 
 #include <osgDB/WriteFile>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <ostream>
 
@@ -19,6 +20,7 @@ namespace osgAnalyticBin::report {
 namespace {
 
 using flight::PoseRecord;
+using support::withDecimals;
 
 constexpr const char* kRatioBase = "sphere";
 
@@ -60,63 +62,43 @@ Figures sumOf(const Flight& run, const std::vector<std::size_t>& poses) {
     return sum;
 }
 
-std::string decimals(double value, int digits) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.*f", digits, value);
-    return text;
-}
-
 std::vector<std::string> lineOf(const std::string& title, const std::string& label, const Figures& f) {
     return {title,
             label,
-            decimals(f.tested, 0),
-            decimals(f.kept, 0),
-            decimals(f.drawn, 0),
-            decimals(f.triangles, 0),
-            decimals(f.files, 0),
-            decimals(f.cullMs, 3),
-            decimals(f.frameMs, 2),
-            decimals(f.pixels, 0)};
+            withDecimals(f.tested, 0),
+            withDecimals(f.kept, 0),
+            withDecimals(f.drawn, 0),
+            withDecimals(f.triangles, 0),
+            withDecimals(f.files, 0),
+            withDecimals(f.cullMs, 3),
+            withDecimals(f.frameMs, 2),
+            withDecimals(f.pixels, 0)};
 }
 
 std::vector<std::string> ratioLineOf(const std::string& title, const std::string& label, const Figures& f,
                                      const Figures& base) {
     std::vector<std::string> cells{title, label};
-    for (const auto figure : kRatioFigures)
-        cells.push_back(base.*figure > 0.0 ? decimals(f.*figure / (base.*figure), 3) : "-");
+    for (const auto figure : kRatioFigures) cells.push_back(ratioText(f.*figure, base.*figure));
     return cells;
 }
 
-std::string groupOf(const std::string& poseName) {
-    return poseName.substr(0, poseName.find('_'));
-}
-
-struct Group {
-    std::string name;
-    std::vector<std::size_t> poses;
-};
-
-// In the order of the path.
-std::vector<Group> groupsOf(const std::vector<PoseRecord>& poses) {
-    std::vector<Group> groups;
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        const std::string name = groupOf(poses[i].name);
-        auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& group) { return group.name == name; });
-        if (found == groups.end()) found = groups.insert(groups.end(), Group{name, {}});
-        found->poses.push_back(i);
-    }
-    groups.erase(std::remove_if(groups.begin(), groups.end(), [](const Group& g) { return g.poses.size() < 2; }),
+// In the order of the path; poses that stand alone are no group.
+std::vector<PathGroup> groupsOf(const std::vector<PoseRecord>& poses) {
+    std::vector<std::string> names;
+    for (const PoseRecord& pose : poses) names.push_back(pose.name);
+    std::vector<PathGroup> groups = pathGroupsOf(names);
+    groups.erase(std::remove_if(groups.begin(), groups.end(), [](const PathGroup& g) { return g.poses.size() < 2; }),
                  groups.end());
     return groups;
 }
 
-Group allOf(const std::vector<PoseRecord>& poses) {
-    Group all{"all poses", {}};
+PathGroup allOf(const std::vector<PoseRecord>& poses) {
+    PathGroup all{"all poses", {}};
     for (std::size_t i = 0; i < poses.size(); ++i) all.poses.push_back(i);
     return all;
 }
 
-void addSums(TextTable& table, const std::vector<Flight>& runs, const Group& group) {
+void addSums(TextTable& table, const std::vector<Flight>& runs, const PathGroup& group) {
     const std::string title = "sum of " + group.name + (group.name == "all poses" ? "" : "_*");
     table.addGap();
     for (const Flight& run : runs)
@@ -197,7 +179,7 @@ void Report::print(std::ostream& output) const {
     for (std::size_t i = 0; i < poses.size(); ++i)
         for (const Flight& run : _runs)
             table.add(lineOf(&run == &_runs.front() ? poses[i].name : "", run.label, figuresOf(run, i)));
-    for (const Group& group : groupsOf(poses)) addSums(table, _runs, group);
+    for (const PathGroup& group : groupsOf(poses)) addSums(table, _runs, group);
     addSums(table, _runs, allOf(poses));
     table.print(output);
 }

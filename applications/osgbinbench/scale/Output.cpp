@@ -3,19 +3,17 @@
 
 #include "Output.h"
 
-#include <CsvTable.h>
-#include <TextTable.h>
+#include "RowTable.h"
+#include "TextTable.h"
+
 #include <algorithm>
-#include <cstdio>
-#include <nlohmann/json.hpp>
 #include <ostream>
 
 namespace osgAnalyticBin::scale {
 
 namespace {
 
-using flight::textFrom;
-using Json = nlohmann::ordered_json;
+using report::Json;
 
 Json jsonOf(const TileTally& tiles) {
     return {{"tested_tiles", tiles.tested},
@@ -83,53 +81,23 @@ Json residentRatios(std::vector<ResidentRow> rows) {
     return ratiosOf(rows, [](const ResidentRow& row) { return row.cullMs; });
 }
 
-// The columns of all lists, in the order in which they first come.
-std::vector<std::string> columnsOf(const Json& lists) {
-    std::vector<std::string> columns;
-    for (const auto& list : lists) {
-        for (const auto& row : list) {
-            for (const auto& item : row.items())
-                if (std::find(columns.begin(), columns.end(), item.key()) == columns.end())
-                    columns.push_back(item.key());
-        }
-    }
-    return columns;
-}
-
-std::string cellOf(const Json& value) {
-    if (value.is_string()) return value.get<std::string>();
-    return value.is_number_float() ? textFrom(value.get<double>()) : value.dump();
-}
-
 Json listsOf(const Results& results) {
     return {
         {"depth", listOf(results.depth)}, {"residents", listOf(results.residents)}, {"memory", listOf(results.memory)}};
 }
 
-std::string shortText(const Json& value) {
-    if (!value.is_number_float()) return cellOf(value);
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value.get<double>());
-    return text;
-}
-
 }  // namespace
 
 std::string csvOf(const Results& results) {
+    std::vector<Json> rows;
     const Json lists = listsOf(results);
-    const std::vector<std::string> columns = columnsOf(lists);
-    std::string text = "series";
-    for (const std::string& column : columns) text += "," + column;
-    text += "\n";
     for (const auto& list : lists.items()) {
-        for (const auto& row : list.value()) {
-            text += list.key();
-            for (const std::string& column : columns)
-                text += "," + (row.contains(column) ? cellOf(row[column]) : std::string());
-            text += "\n";
+        for (const Json& row : list.value()) {
+            rows.push_back({{"series", list.key()}});
+            rows.back().update(row);
         }
     }
-    return text;
+    return report::csvOf(rows);
 }
 
 std::string jsonOf(const Settings& settings, const Results& results) {
@@ -151,7 +119,7 @@ void printTables(std::ostream& output, const Results& results) {
         table.add(std::move(titles));
         for (const auto& row : list.value()) {
             std::vector<std::string> cells;
-            for (const auto& value : row) cells.push_back(shortText(value));
+            for (const auto& value : row) cells.push_back(report::cellText(value, 4));
             table.add(std::move(cells));
         }
         output << list.key() << '\n';

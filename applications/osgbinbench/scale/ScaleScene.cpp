@@ -111,11 +111,9 @@ ScaleScene::ScaleScene(const ScaleMethod& method, const globe::GlobeOptions& opt
       _frameStamp(new osg::FrameStamp),
       _globe(flight::globeOf(*_root)),
       _pagedLods(pagedLodsBelow(*_root).size()),
-      _visitor(new osgUtil::CullVisitor),
-      _stateGraph(new osgUtil::StateGraph),
-      _stage(new osgUtil::RenderStage),
       _loader(new TileLoader),
-      _deaf(new flight::RequestCounter) {
+      _deaf(new flight::RequestCounter),
+      _stage(*_loader) {
     _camera->setViewport(0, 0, kWidth, kHeight);
     _camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
     if (method.cullsNothing) _camera->setCullingMode(osg::CullSettings::NO_CULLING);
@@ -129,16 +127,6 @@ void ScaleScene::nextFrame() {
     _frameStamp->setFrameNumber(frame);
     _frameStamp->setReferenceTime(frame / kFrameRate);
     _frameStamp->setSimulationTime(frame / kFrameRate);
-    _visitor->reset();
-    _stateGraph->clean();
-    _stage->reset();
-}
-
-void ScaleScene::cull(osg::NodeVisitor::DatabaseRequestHandler& requests) {
-    _visitor->setDatabaseRequestHandler(&requests);
-    flight::cullScene(*_visitor, *_camera, *_frameStamp, *_stateGraph, *_stage);
-    _stage->sort();
-    _stateGraph->prune();
 }
 
 void ScaleScene::settle(const flight::CameraPose& pose) {
@@ -148,7 +136,8 @@ void ScaleScene::settle(const flight::CameraPose& pose) {
                                                 _eyeEcef.y(), _eyeEcef.z());
     do {
         nextFrame();
-        cull(*_loader);
+        _stage.setRequestHandler(*_loader);
+        (void)_stage.cull(*_camera, *_frameStamp);
     } while (_loader->load(_pagedLods));
 }
 
@@ -180,9 +169,8 @@ TileTally ScaleScene::tally() {
 
 double ScaleScene::cullMs() {
     nextFrame();
-    const Stopwatch watch;
-    cull(*_deaf);
-    return watch.ms();
+    _stage.setRequestHandler(*_deaf);
+    return _stage.cull(*_camera, *_frameStamp);
 }
 
 double ScaleScene::updateMs() {

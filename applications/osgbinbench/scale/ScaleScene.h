@@ -3,13 +3,14 @@
 
 #pragma once
 
+#include "CullStage.h"
 #include "Settings.h"
+
+#include <osgAnalyticBin/viewer/CameraView.h>
 
 #include <osg/Camera>
 #include <osg/PagedLOD>
-#include <osgUtil/CullVisitor>
 
-#include <CameraView.h>
 #include <GlobeOptions.h>
 #include <chrono>
 #include <cstddef>
@@ -79,7 +80,6 @@ public:
 
 private:
     void nextFrame();
-    void cull(osg::NodeVisitor::DatabaseRequestHandler& requests);
 
     ScaleMethod _method;
     osg::ref_ptr<osg::Group> _root;
@@ -90,12 +90,9 @@ private:
     std::size_t _pagedLods = 0;
     std::deque<osg::ref_ptr<osg::PagedLOD>> _frontier;
     bool _isFilling = false;
-    // What osgUtil::SceneView keeps from frame to frame for its cull stage.
-    osg::ref_ptr<osgUtil::CullVisitor> _visitor;
-    osg::ref_ptr<osgUtil::StateGraph> _stateGraph;
-    osg::ref_ptr<osgUtil::RenderStage> _stage;
     osg::ref_ptr<TileLoader> _loader;
     osg::ref_ptr<osg::NodeVisitor::DatabaseRequestHandler> _deaf;
+    flight::CullStage _stage;
 };
 
 /// Milliseconds since it was made.

@@ -6,18 +6,17 @@
 #include "Failure.h"
 #include "MethodName.h"
 #include "ProgramRun.h"
+#include "TextFile.h"
 
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Version.h>
 
 #include <CLI/CLI.hpp>
 
-#include <filesystem>
 #include <iostream>
 
 namespace osgAnalyticBin::scale {
 
-using support::Failure;
 using support::UsageError;
 
 namespace {
@@ -80,20 +79,6 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
                    "folder for depth, flight, residents and memory as .svg\nand .png (needs gnuplot)");
 }
 
-// What would only be found out at the end is looked at before.
-void requireFolderOf(const char* option, const std::string& file) {
-    if (file.empty()) return;
-    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-    if (!std::filesystem::is_directory(folder))
-        throw Failure(std::string(option) + ": there is no folder " + folder.string() + "; make it first");
-}
-
-void makeFolder(const char* option, const std::string& folder) {
-    std::error_code problem;
-    std::filesystem::create_directories(folder, problem);
-    if (problem) throw Failure(std::string(option) + ": folder " + folder + " cannot be made");
-}
-
 void takeSeries(const std::vector<std::string>& series, Settings& settings) {
     settings.measuresDepth = settings.measuresResidents = settings.measuresMemory = false;
     for (const std::string& name : series) {
@@ -146,9 +131,9 @@ bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {
     for (const std::string& name : words.methods) settings.methods.push_back(scaleMethodFromName(name));
     if (settings.cells % 2 != 0)
         throw UsageError("--cells: " + std::to_string(settings.cells) + " is odd; give an even number");
-    requireFolderOf("--csv", settings.csv);
-    requireFolderOf("--json", settings.json);
-    if (!settings.plot.empty()) makeFolder("--plot", settings.plot);
+    support::requireFolderOf("--csv", settings.csv);
+    support::requireFolderOf("--json", settings.json);
+    if (!settings.plot.empty()) support::makeFolder("--plot", settings.plot);
     return true;
 }
 

@@ -3,13 +3,11 @@
 
 #include "CullRun.h"
 
+#include "CullWatcher.h"
+
 #include <osgAnalyticBin/QuadraticBinCullCallback.h>
 
-#include <osg/FrameStamp>
-#include <osg/Viewport>
-#include <osgUtil/CullVisitor>
 #include <osgUtil/RenderStage>
-#include <osgUtil/StateGraph>
 
 #include <algorithm>
 #include <chrono>
@@ -51,34 +49,27 @@ void collectDrawables(const osgUtil::StateGraph& graph, std::unordered_set<const
     for (const auto& child : graph._children) collectDrawables(*child.second, drawables);
 }
 
-// One cull traversal as osgUtil::SceneView does it.
 class Traversal {
 public:
-    Traversal() : _visitor(new osgUtil::CullVisitor), _viewport(new osg::Viewport(0, 0, 1600, 900)) {}
+    explicit Traversal(osg::Node& scene) : _visitor(new osgUtil::CullVisitor), _camera(new osg::Camera) {
+        _camera->setViewport(0, 0, 1600, 900);
+        _camera->setCullingMode(osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING);
+        _camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+        _camera->addChild(&scene);
+    }
 
     // Returns: milliseconds.
-    double run(osg::Node& scene, const Camera& camera) {
+    double run(const Camera& camera) {
         _graph = new osgUtil::StateGraph;
         const osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
-        stage->setViewport(_viewport.get());
         const osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
         stamp->setFrameNumber(++_frame);
+        _camera->setProjectionMatrix(camera.projection);
+        _camera->setViewMatrix(camera.modelView);
         _visitor->reset();
-        _visitor->setFrameStamp(stamp.get());
-        _visitor->setTraversalNumber(_frame);
-        _visitor->setCullingMode(osg::CullSettings::VIEW_FRUSTUM_SIDES_CULLING);
-        _visitor->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-        _visitor->setStateGraph(_graph.get());
-        _visitor->setRenderStage(stage.get());
-        _visitor->pushViewport(_viewport.get());
-        _visitor->pushProjectionMatrix(new osg::RefMatrix(camera.projection));
-        _visitor->pushModelViewMatrix(new osg::RefMatrix(camera.modelView), osg::Transform::ABSOLUTE_RF);
         const auto before = std::chrono::steady_clock::now();
-        scene.accept(*_visitor);
+        flight::cullScene(*_visitor, *_camera, *stamp, *_graph, *stage);
         const auto after = std::chrono::steady_clock::now();
-        _visitor->popModelViewMatrix();
-        _visitor->popProjectionMatrix();
-        _visitor->popViewport();
         return std::chrono::duration<double, std::milli>(after - before).count();
     }
 
@@ -90,7 +81,7 @@ public:
 
 private:
     osg::ref_ptr<osgUtil::CullVisitor> _visitor;
-    osg::ref_ptr<osg::Viewport> _viewport;
+    osg::ref_ptr<osg::Camera> _camera;
     osg::ref_ptr<osgUtil::StateGraph> _graph;
     unsigned int _frame = 0;
 };
@@ -120,12 +111,12 @@ CullFigures cullAssembly(const Assembly& assembly, const std::vector<Camera>& ca
                          Culling culling) {
     std::vector<char> reached(assembly.parts.size());
     for (std::size_t i = 0; i < reached.size(); ++i) install(assembly.parts[i], culling, reached[i]);
-    Traversal traversal;
+    Traversal traversal(*assembly.scene);
     CullFigures figures;
-    if (!cameras.empty()) traversal.run(*assembly.scene, cameras.front());  // bounds are computed here, not below
+    if (!cameras.empty()) traversal.run(cameras.front());  // bounds are computed here, not below
     for (std::size_t c = 0; c < cameras.size(); ++c) {
         std::fill(reached.begin(), reached.end(), char{0});
-        figures.milliseconds += traversal.run(*assembly.scene, cameras[c]) / static_cast<double>(cameras.size());
+        figures.milliseconds += traversal.run(cameras[c]) / static_cast<double>(cameras.size());
         const std::unordered_set<const osg::Drawable*> drawables = traversal.drawables();
         figures.drawn += drawables.size();
         for (std::size_t i = 0; i < reached.size(); ++i) {

@@ -41,19 +41,12 @@ std::array<glm::dvec3, 4> Camera::edges() const noexcept {
 
 Camera cameraAt(const core::Ellipsoid& ellipsoid, const core::Geodetic& position, double azimuthDeg, double pitchDeg,
                 double fovDeg) noexcept {
-    const double azimuth = azimuthDeg * kRadiansPerDegree;
-    const double pitch = -pitchDeg * kRadiansPerDegree;
-    const glm::dvec3 radial(std::cos(position.longitude), std::sin(position.longitude), 0.0);
-    const glm::dvec3 axis(0.0, 0.0, 1.0);
-    const glm::dvec3 east = glm::cross(axis, radial);
-    const glm::dvec3 north = std::cos(position.latitude) * axis - std::sin(position.latitude) * radial;
-    const glm::dvec3 zenith = std::cos(position.latitude) * radial + std::sin(position.latitude) * axis;
-    const glm::dvec3 level = std::sin(azimuth) * east + std::cos(azimuth) * north;
+    const CameraAxes axes = cameraAxes(position, azimuthDeg * kRadiansPerDegree, -pitchDeg * kRadiansPerDegree);
     Camera camera;
     camera.eye = ellipsoid.toEcef(position);
-    camera.forward = std::cos(pitch) * level + std::sin(pitch) * zenith;
-    camera.right = glm::normalize(glm::cross(level, zenith));
-    camera.up = glm::cross(camera.right, camera.forward);
+    camera.forward = axes.forward;
+    camera.right = axes.right;
+    camera.up = axes.up;
     camera.fovDeg = fovDeg;
     return camera;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "Terrain.h"
+#include "ViewKind.h"
 
 #include <osgAnalyticBin/core/Plane.h>
 
@@ -31,14 +32,6 @@ struct Camera {
 
     /// Half the height of the picture one metre from the eye.
     [[nodiscard]] double tangent() const noexcept;
-};
-
-/// A kind of view: cameras are drawn at random within its limits.
-struct ViewKind {
-    const char* name;
-    double fovDeg;
-    double lowest, highest;     // metres above the ground
-    double pitchFrom, pitchTo;  // degrees below the horizontal
 };
 
 inline constexpr std::array<ViewKind, 6> kViewKinds{{{"low, fov 60", 60.0, 2e2, 5e3, -5.0, 10.0},

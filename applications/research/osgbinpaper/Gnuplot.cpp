@@ -88,9 +88,7 @@ set key center center horizontal samplen 2
 }
 
 Gnuplot::Gnuplot(const std::string& folder) : _folder(folder) {
-    std::error_code problem;
-    fs::create_directories(folder, problem);
-    if (problem || !fs::is_directory(folder)) throw Failure("cannot make the folder \"" + folder + "\" for --plot");
+    support::makeFolder("--plot", folder);
     if (support::runGnuplot({{"--version"}, "", "", "/dev/null"}) != 0)
         throw Failure("cannot run gnuplot; install the package gnuplot-nox, or leave --plot out");
 }

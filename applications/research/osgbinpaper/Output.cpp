@@ -4,21 +4,19 @@
 #include "Output.h"
 
 #include "Claims.h"
-#include "Failure.h"
+#include "RowTable.h"
 #include "TextFile.h"
 #include "TextTable.h"
 
-#include <nlohmann/json.hpp>
 #include <ostream>
 
 namespace osgAnalyticBin::paper {
 
-using support::Failure;
 using support::withDecimals;
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using report::Json;
 using report::TextTable;
 
 std::vector<std::string> headLine(const std::string& first) {
@@ -62,14 +60,19 @@ void addLevels(TextTable& table, const ViewResult& sum, int levels) {
     }
 }
 
+Json jsonOf(const Counts& counts) {
+    Json json;
+    for (const CountColumn& column : kCountColumns) json[column.name] = counts.*column.count;
+    return json;
+}
+
 Json jsonOf(const ViewResult& view) {
     Json json;
     json["cameras"] = view.cameras;
     json["seen_leaves"] = view.seen();
     for (std::size_t method = 0; method < kMethods; ++method) {
-        const Counts counts = sumOf(view.methods[method]);
         Json& sums = json["methods"][kMethodNames[method]];
-        for (const CountColumn& column : kCountColumns) sums[column.name] = counts.*column.count;
+        sums = jsonOf(sumOf(view.methods[method]));
         sums["ns"] = view.nanoseconds[method];
     }
     return json;
@@ -87,29 +90,22 @@ Json jsonOf(const WrongCull& worst) {
 
 }  // namespace
 
-void writeFile(const std::string& file, const std::string& text) {
-    if (!support::replaceFile(file, text))
-        throw Failure("cannot write \"" + file + "\"; check that its folder is there and not full");
-}
-
 std::string csvOf(const Results& results, int levels) {
-    std::string text = "view,level,method,cameras,seen_leaves";
-    for (const CountColumn& column : kCountColumns) text += std::string(",") + column.name;
-    text += "\n";
+    std::vector<Json> rows;
     for (std::size_t kind = 0; kind < kViewKinds.size(); ++kind) {
         const ViewResult& view = results.views[kind];
         for (std::size_t level = 0; level <= static_cast<std::size_t>(levels); ++level) {
             for (std::size_t method = 0; method < kMethods; ++method) {
-                text += std::string("\"") + kViewKinds[kind].name + "\"," + std::to_string(level) + "," +
-                        kMethodNames[method] + "," + std::to_string(view.cameras) + "," +
-                        std::to_string(view.seenLeaves[level]);
-                for (const CountColumn& column : kCountColumns)
-                    text += "," + std::to_string(view.methods[method][level].*column.count);
-                text += "\n";
+                rows.push_back({{"view", kViewKinds[kind].name},
+                                {"level", level},
+                                {"method", kMethodNames[method]},
+                                {"cameras", view.cameras},
+                                {"seen_leaves", view.seenLeaves[level]}});
+                rows.back().update(jsonOf(view.methods[method][level]));
             }
         }
     }
-    return text;
+    return report::csvOf(rows);
 }
 
 std::string jsonOf(const Settings& settings, const Results& results) {

@@ -10,9 +10,6 @@
 
 namespace osgAnalyticBin::paper {
 
-/// Throws: Failure when a file cannot be written; what is there under its name stays as it was then.
-void writeFile(const std::string& file, const std::string& text);
-
 /// A line for each kind of view, level and method, after a line of column names; counts only, the same for the same
 /// seed.
 [[nodiscard]] std::string csvOf(const Results& results, int levels);

@@ -15,7 +15,7 @@ namespace osgAnalyticBin::paper {
 namespace {
 
 constexpr const char* kDescription =
-    "Remakes the published experiment on culling by analytic bins (Ju & Jong): real terrain, a quadtree from 128 "
+    "Repeats the published experiment on culling by analytic bins (Ju & Jong): real terrain, a quadtree from 128 "
     "start\n"
     "tiles, random cameras, the same recursion for every method, and every verdict set against a proof.";
 

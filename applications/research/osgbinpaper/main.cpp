@@ -5,6 +5,7 @@
 #include "Figures.h"
 #include "Output.h"
 #include "ProgramRun.h"
+#include "TextFile.h"
 
 #include <cpl_error.h>
 #include <gdal.h>
@@ -17,6 +18,7 @@ namespace {
 using osgAnalyticBin::support::ExitCode;
 using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::kSucceeded;
+using osgAnalyticBin::support::writeFile;
 
 using namespace osgAnalyticBin::paper;
 

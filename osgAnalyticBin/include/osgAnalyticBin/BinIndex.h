@@ -56,7 +56,7 @@ public:
         std::int64_t time = 0;
     };
 
-    /// Whether a file is still the one that was read. A file that is not there has zeros.
+    /// Tells whether a file has changed since it was read. All numbers are 0 for a missing file.
     struct Stamp {
         std::uint64_t size = 0;        ///< bytes
         std::int64_t time = 0;         ///< seconds since 1970, when the file was changed last
@@ -102,8 +102,8 @@ public:
     /// Sets what the index was made from.
     void setSource(const Source& source) { _source = source; }
 
-    /// Of all files that the index was made from; empty where the index is believed whatever became of them, because it
-    /// was made on purpose and may have been copied with its database. An index that a viewer has made by itself
+    /// Size and time of each file that the index was made from. An index of osgbinconv has none: it is used even when
+    /// the times differ, because it may have been copied together with its database. An index made in the background
     /// (IndexUse::Auto) has them.
     [[nodiscard]] const Stamps& stamps() const { return _stamps; }
     /// See stamps().

@@ -30,11 +30,11 @@ struct BinCounts {
     std::uint32_t inside = 0;
     /// Tiles that are kept although some plane is undecided.
     std::uint32_t straddling = 0;
-    /// Of those outside: behind the horizon.
+    /// Bins outside because they are behind the horizon.
     std::uint32_t hidden = 0;
-    /// Of those outside: beyond an edge of the frustum, though outside no single plane.
+    /// Bins outside because they are beyond an edge of the frustum, but outside no single plane.
     std::uint32_t beyondEdge = 0;
-    /// Of those outside: behind terrain.
+    /// Bins outside because they are behind terrain.
     std::uint32_t occluded = 0;
     /// Frame number of the traversal.
     unsigned int frame = 0;

@@ -43,12 +43,13 @@ public:
     /// Writes the index; a file of that name is replaced when the new one is complete. Returns: whether it was written;
     /// otherwise `error` says why not.
     [[nodiscard]] bool write(const std::string& path, std::string& error) const;
-    /// Writes the index to a stream. Returns: whether the stream took it.
+    /// Writes the index to a stream. Returns: false when the stream fails.
     [[nodiscard]] bool write(std::ostream& out) const;
 
     /// Returns: nullptr when it cannot be read; then `error` says why.
     [[nodiscard]] static osg::ref_ptr<BoxIndex> read(const std::string& path, std::string& error);
-    /// Reads an index from a stream. Returns: nullptr when it is none, cut short or damaged; then `error` says which.
+    /// Reads an index from a stream. Returns: nullptr for anything else, a truncated or a damaged index; `error` says
+    /// which.
     [[nodiscard]] static osg::ref_ptr<BoxIndex> read(std::istream& in, std::string& error);
 
 protected:
@@ -61,13 +62,13 @@ private:
 /// "set/metadata.xml" -> "set/metadata.xml.boxes".
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::string boxIndexPath(const std::string& metadataFile);
 
-/// What makeBoxIndex() tells and is told. All are called by one thread at a time.
+/// Callbacks of makeBoxIndex(). Never two of them run at the same time.
 struct BoxIndexProgress {
     /// A file is done; `share` of the whole set, the sum is 1.
     std::function<void(std::size_t boxes, double share)> fileDone;
-    /// A file that cannot be read: what and why, in a line.
+    /// A file cannot be read; `line` names the file and the reason.
     std::function<void(const std::string& line)> unreadable;
-    /// Whether to go on. When it returns false the index is not made.
+    /// Called after each file. Returns: false to stop; then no index is made.
     std::function<bool()> goesOn;
 };
 

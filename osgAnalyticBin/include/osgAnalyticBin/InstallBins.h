@@ -37,8 +37,8 @@ OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions
 
 /// The same for the root of a database that was read from a file. If there is an index beside the file, and the options
 /// allow it, the index gives the heights of tiles that are not loaded yet. An index that cannot be used gives one
-/// warning. Where there is none, the default options have one made in a thread of low priority, which ends with
-/// removeBins() or with the scene; tiles use what is known of it from the next update traversals on.
+/// warning. Without an index, the default options make one in a thread of low priority. This thread ends with
+/// removeBins() or with the scene. Tiles use the parts that are finished from the next update traversal on.
 /// `readOptions`: the options that the database was read with, for archives and http; null: none. Returns: as
 /// above.
 OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions& options,
@@ -48,9 +48,9 @@ OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions
 /// Whether an index of a database below the node is being made (IndexUse::Auto).
 [[nodiscard]] OSGANALYTICBIN_EXPORT bool isIndexAwaited(osg::Node& node);
 
-/// Waits until the index of each database below the node that is being made is complete, and has the loaded tiles use
-/// it: for programs that compare or measure. Call it between frames. Returns: false when one was not complete after
-/// this time, or cannot be made; then culling goes on without.
+/// Waits until each index that is being made for a database below the node is complete, and applies it to the loaded
+/// tiles. Use it in programs that compare or measure. Call it between frames. Returns: false when an index cannot be
+/// made or is not complete after this time; culling works without it.
 OSGANALYTICBIN_EXPORT bool waitForIndex(osg::Node& node, double seconds);
 
 /// The same with an index that the application has read.

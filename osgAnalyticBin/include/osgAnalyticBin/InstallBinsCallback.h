@@ -17,9 +17,9 @@ namespace osgAnalyticBin {
 /// it once, and draws the database with its own spheres.
 class OSGANALYTICBIN_EXPORT InstallBinsCallback : public osg::NodeCallback {
 public:
-    /// Will install by these options.
+    /// Installs bins with these options.
     explicit InstallBinsCallback(const CullOptions& options = {}) : _options(options) {}
-    /// A copy that will install as the original did.
+    /// Copies the options; the copy installs bins even if the original has done so.
     InstallBinsCallback(const InstallBinsCallback& other, const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
 
     META_Object(osgAnalyticBin, InstallBinsCallback)

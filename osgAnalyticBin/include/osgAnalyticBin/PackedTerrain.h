@@ -14,19 +14,19 @@ namespace osgAnalyticBin {
 /// properties of osg::Node and osg::Drawable are stored, such as the state set.
 class PackedTerrain final : public osg::Geometry {
 public:
-    /// Of no grid: it cannot be read again.
+    /// Without a grid. What it writes cannot be read back.
     PackedTerrain() = default;
-    /// Packs the grid at once.
+    /// Packs the grid immediately.
     explicit PackedTerrain(const TerrainGrid& grid) : _bytes(packed(grid)) {
         setUseDisplayList(false);
         setUseVertexBufferObjects(true);
     }
-    /// As osg::Geometry, with the bytes.
+    /// Copies as osg::Geometry does, and the packed bytes too.
     PackedTerrain(const PackedTerrain& other, const osg::CopyOp& copy)
         : osg::Geometry(other, copy), _bytes(other._bytes) {}
 
     /// @{
-    /// As every osg::Object.
+    /// The usual members of an osg::Object.
     osg::Object* cloneType() const override { return new PackedTerrain; }
     osg::Object* clone(const osg::CopyOp& copy) const override { return new PackedTerrain(*this, copy); }
     const char* libraryName() const override { return "osgAnalyticBin"; }

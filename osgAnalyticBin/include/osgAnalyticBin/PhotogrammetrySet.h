@@ -31,14 +31,14 @@ struct PhotogrammetryFiles {
                                                                                 std::string& error);
 
 /// Declares that the tiles below a node are a photogrammetry set: installBins() then culls its LODs by boxes of their
-/// vertices instead of by bins. The node is a group or a transform, all below it stands in one frame of coordinates.
-/// `metadataFile`: beside which the index is looked for; may be empty.
+/// vertices instead of by bins. The node is a group or a transform; everything below it is in one coordinate frame.
+/// `metadataFile`: the index is expected beside this file; may be empty.
 OSGANALYTICBIN_EXPORT void markPhotogrammetrySet(osg::Group& set, const std::string& metadataFile);
 
 /// Whether markPhotogrammetrySet() was called for the node, before or after it was stored in a file.
 [[nodiscard]] OSGANALYTICBIN_EXPORT bool isPhotogrammetrySet(const osg::Node& node);
 
-/// Says which file of the set, relative to the metadata, a child of the set was read from.
+/// Records the file, relative to the metadata, that a child of the set was read from.
 OSGANALYTICBIN_EXPORT void setPhotogrammetryFile(osg::Node& tile, const std::string& file);
 
 }  // namespace osgAnalyticBin

@@ -18,11 +18,11 @@ class CullStack;
 namespace osgAnalyticBin {
 
 /// The cull callback of a node that holds any mapped box: the piece of a pipe, a curved panel, a map tile. It culls as
-/// AnalyticBinCullCallback does. It is not stored in files: make it again.
-/// Leave culling active on the node: OSG's own sphere test comes first, and the bin is asked about what is left. With
-/// setCullingActive(false) the bin decides alone, and the groups above lose their spheres too, which takes up to twice
-/// as long (doc/theory/accuracy.md); do that only where the sphere does not hold what the node draws, as with what is
-/// paged in later.
+/// AnalyticBinCullCallback does. It is not stored in files; the application installs it after loading.
+/// Leave culling active on the node: OSG's own sphere test runs first, and the bin tests the nodes that pass. With
+/// setCullingActive(false) only the bin is tested, and OSG stops testing the groups above the node. This takes up to
+/// twice as long (doc/theory/accuracy.md). Use it only where the sphere does not hold what the node draws, for example
+/// with paged children.
 /// Frame: the bin is in the frame of the node's children; transforms above the node need nothing.
 /// Guarantee: a node is never culled by its bin if a point of the bin is inside all planes;
 /// tests: QuadraticBinCullCallback.*.

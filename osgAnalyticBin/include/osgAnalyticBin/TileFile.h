@@ -12,9 +12,9 @@
 namespace osgAnalyticBin {
 
 /// Reads a tile as osgDB::Registry does, but stops at the end of a truncated file. OSG's own reader would continue with
-/// undefined values and block the pager's thread for minutes. Local files in OSG's native formats are guarded; all
-/// others, those in archives and on servers among them, are left to the Registry. Throws: std::exception when a guarded
-/// file ends too early or asks for more memory than there is.
+/// undefined values and block the pager's thread for minutes. This works for local files in OSG's native formats; other
+/// files, also those in archives and on servers, are read by the Registry alone. Throws: std::exception when such a
+/// local file ends too early or needs more memory than there is.
 [[nodiscard]] OSGANALYTICBIN_EXPORT osgDB::ReaderWriter::ReadResult readTileFile(const std::string& fileName,
                                                                                  const osgDB::Options* options);
 

@@ -19,8 +19,8 @@ namespace osgAnalyticBin {
 
 /// The coordinate frame of a file's content, and the file that it comes from.
 struct TileFrame {
-    /// Null: below no globe and no stored bin. Of a tile in a map: mapPlane(); of a tile without a stored bin it is
-    /// null where it cannot be told what the tile stands on.
+    /// mapPlane() for a tile in a map. Null where there is neither a globe above nor a stored bin, and for a tile
+    /// without a stored bin of which it is not known whether it is on a globe or in a map.
     osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;
     osg::Matrixd localToEcef;  ///< in a map: to the map
     /// Whether the coordinate system's text names a map projection. Without an ellipsoid, the tiles are in that map;
@@ -51,25 +51,25 @@ struct FoundTile {
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::string pagedFilePath(const std::string& referringFile,
                                                               const std::string& name);
 
-/// Whether an ellipsoid's radii, metres, are finite and positive. A CoordinateSystemNode with others has no globe, and
-/// what is below it is no tile of one.
+/// Whether an ellipsoid's radii, metres, are finite and positive. A CoordinateSystemNode with other radii is not
+/// treated as a globe, and the nodes below it are not its tiles.
 [[nodiscard]] OSGANALYTICBIN_EXPORT bool hasValidRadii(const osg::EllipsoidModel& ellipsoid);
-/// Likewise.
+/// The same test for two radii.
 [[nodiscard]] OSGANALYTICBIN_EXPORT bool areValidRadii(double equatorial, double polar);
 
-/// Stands for the plane of a map, as core::Ellipsoid::plane() does: both radii are infinite.
+/// The model that represents the plane of a map, like core::Ellipsoid::plane(): both radii are infinite.
 [[nodiscard]] OSGANALYTICBIN_EXPORT const osg::EllipsoidModel* mapPlane();
 /// Whether the model stands for a map, where positions have no altitudes above a globe.
 [[nodiscard]] OSGANALYTICBIN_EXPORT bool isMapPlane(const osg::EllipsoidModel& ellipsoid);
 
-/// The frame of a transform's children, where the transform stands in `frame`.
+/// The frame of the children of a transform that is in `frame`.
 [[nodiscard]] OSGANALYTICBIN_EXPORT osg::Matrixd frameInside(const osg::Transform& node, const TileFrame& frame);
 
 /// Visits the tiles of a scene graph in preorder, always in the same order. It changes nothing and does not traverse
 /// osgTerrain tiles. It does not go below transforms that may move.
 class OSGANALYTICBIN_EXPORT TileFinder : public osg::NodeVisitor {
 public:
-    /// Starts in this frame: for what is paged below a database that is known already.
+    /// Starts in this frame. Use it for a file that is paged below a known database.
     explicit TileFinder(const TileFrame& frame = {});
 
     /// Visits a node; called by OSG's traversal.

@@ -15,7 +15,7 @@
 
 namespace osgAnalyticBin {
 
-/// What one tile draws by itself: without what is paged below it, and without its skirts.
+/// The surface of one tile, without tiles that are paged below it and without skirts.
 struct TileSurface {
     /// Extents, and altitudes at vertical scale 1, chords between posts included; sag() says how much of the depth is
     /// chords. margin() is the rounding of float vertices. Not valid(): the node is no geocentric terrain, or its
@@ -26,7 +26,7 @@ struct TileSurface {
     /// The greatest length of skirts below the surface in metres, at any vertical scale; 0: no skirts, or skirts that
     /// cannot be told from the surface and are in `bin`.
     double skirt = 0.0;
-    /// Nothing is drawn at all; `bin` is not valid then.
+    /// The tile draws nothing; `bin` is not valid then.
     bool isEmpty = false;
     /// An osgTerrain tile, whose heights follow osgTerrain::Terrain's vertical scale.
     bool isScalable = false;

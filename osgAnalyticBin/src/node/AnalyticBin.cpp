@@ -206,7 +206,7 @@ std::optional<double> storedSurfaceLow(const osg::Node& node) {
     const auto number = numbersFromText(text, 1);
     if (number) return number->front();
     OSG_WARN << "osgAnalyticBin: the stored lowest altitude \"" << text.substr(0, 80)
-             << "\" is not a number; the horizon goes by the lowest declared." << std::endl;
+             << "\" is not a number; the horizon uses the declared lowest altitude." << std::endl;
     return std::nullopt;
 }
 

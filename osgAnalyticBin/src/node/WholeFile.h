@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <osgAnalyticBin/Export.h>
+
 #include <functional>
 #include <iosfwd>
 #include <string>
@@ -11,7 +13,8 @@ namespace osgAnalyticBin {
 
 /// Writes a file whole: a file of that name is replaced when the new one is complete; otherwise nothing is left behind.
 /// `write`: whether the stream took everything. Returns: whether the file was written; otherwise `error` says why not.
-[[nodiscard]] bool writeWholeFile(const std::string& path, const std::function<bool(std::ostream&)>& write,
-                                  std::string& error);
+[[nodiscard]] OSGANALYTICBIN_EXPORT bool writeWholeFile(const std::string& path,
+                                                        const std::function<bool(std::ostream&)>& write,
+                                                        std::string& error);
 
 }  // namespace osgAnalyticBin

@@ -35,7 +35,7 @@ osg::ref_ptr<osg::Node> readTile(const std::string& path, const osgDB::Options* 
 void warnOfMissing(const std::string& metadataFile, const std::vector<std::string>& missing, const char* what) {
     if (missing.empty()) return;
     OSG_WARN << "analyticbin: \"" << metadataFile << "\": " << missing.size() << ' ' << what << ", the first is \""
-             << missing.front() << "\"; the set is shown without." << std::endl;
+             << missing.front() << "\"; the set is shown without them." << std::endl;
 }
 
 // Returns: nullptr when no tile can be read.
@@ -62,7 +62,7 @@ osg::ref_ptr<osg::MatrixTransform> readTiles(const std::string& metadataFile, co
 ReadResult placed(const std::string& metadataFile, const PhotogrammetryMetadata& metadata, osg::MatrixTransform& set) {
     if (metadata.srs.empty()) {
         OSG_WARN << "analyticbin: \"" << metadataFile
-                 << "\" names no SRS; the set stands in its own coordinates, on no globe." << std::endl;
+                 << "\" has no SRS; the set is shown in its own coordinates, not on a globe." << std::endl;
         return &set;
     }
     osg::ComputeBoundsVisitor bounds;

@@ -8,6 +8,7 @@
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/NameParameters.h>
 
 #include <osg/Notify>
 #include <osgDB/FileNameUtils>
@@ -22,19 +23,6 @@ namespace {
 
 constexpr const char* kExtension = "analyticbin";
 constexpr const char* kIndexExtension = "bins";
-
-// "earth.osgb.(method=paper,growth=1.1)" parted into "earth.osgb" and "method=paper,growth=1.1".
-struct NameAndParameters {
-    std::string name;
-    std::string parameters;
-};
-
-NameAndParameters parted(const std::string& text) {
-    if (text.empty() || text.back() != ')') return {text, {}};
-    const std::size_t open = text.rfind(".(");
-    if (open == std::string::npos) return {text, {}};
-    return {text.substr(0, open), text.substr(open + 2, text.size() - open - 3)};
-}
 
 // The database under its own name stays as it is in OSG's object cache: without bins. With them it is kept there by OSG
 // under the name that ends in .analyticbin.
@@ -62,9 +50,9 @@ public:
                        "and orientedbox are there for comparison, the first two cull visible tiles; sphere leaves "
                        "OSG's culling alone; none culls nothing.");
         supportsOption("horizon=METRES|declared|off",
-                       "Culls tiles behind the horizon of the lowest surface shown, taken to be no lower than this "
-                       "altitude, below which nothing is drawn (declared: than the database declares); default "
-                       "declared, for comparison off.");
+                       "Culls tiles behind the horizon of the lowest surface shown. METRES: altitude below which "
+                       "nothing is drawn; declared: the altitude that the database declares; default declared, for "
+                       "comparison off.");
         supportsOption("inheritviewpoint=on|off",
                        "The horizon also for cameras that inherit a view point (shadow passes); default off.");
         supportsOption(
@@ -73,16 +61,17 @@ public:
         supportsOption("occlusion=on|off|auto",
                        "Culls tiles behind terrain, where the near plane is fixed; auto: while that hides a quarter of "
                        "the tiles in view; default auto.");
-        supportsOption("expiry=SECONDS",
-                       "How long finer tiles out of view are kept when the DatabasePager has more than its target; "
-                       "default 3, 0 leaves OSG's own rule alone.");
+        supportsOption(
+            "expiry=SECONDS",
+            "Time for which finer tiles out of view are kept when the DatabasePager has more than its target; "
+            "default 3, 0 leaves OSG's own rule alone.");
         supportsOption("heights=LOW..HIGH",
-                       "Altitudes in metres that no terrain of the database leaves, for tiles that no index knows; "
+                       "Range of altitudes in metres of all terrain in the database, for tiles that are in no index; "
                        "default -11500..9000.");
         supportsOption(
             "techniquemargin=METRES",
-            "Vouches for osgTerrain tiles with a technique of their own, or moved by shaders: they stay within "
-            "this distance of what GeometryTechnique makes; default: other techniques are not culled.");
+            "Declares that osgTerrain tiles with another technique, or moved by shaders, stay within this distance "
+            "of the mesh that GeometryTechnique makes; default: other techniques are not culled.");
         supportsOption("index=auto|on|off",
                        "Whether an index beside the database (DATABASE.bins) is used; auto (default): made in the "
                        "background where there is none.");
@@ -128,7 +117,7 @@ public:
 
     ReadResult readNode(const std::string& fileName, const osgDB::Options* options) const override {
         if (osgDB::getLowerCaseFileExtension(fileName) != kExtension) return ReadResult::FILE_NOT_HANDLED;
-        const NameAndParameters request = parted(osgDB::getNameLessExtension(fileName));
+        const auto request = osgAnalyticBin::nameParametersFrom(osgDB::getNameLessExtension(fileName));
         if (request.name.empty()) return ReadResult::FILE_NOT_HANDLED;
 
         std::string error;
@@ -194,8 +183,7 @@ private:
         using osgAnalyticBin::Method;
         const bool wantsBins = options.method != Method::Sphere && options.method != Method::None;
         if (wantsBins && installed == 0) {
-            OSG_WARN << "analyticbin: no tile found in \"" << name << "\"; OSG's own culling stays in charge there."
-                     << std::endl;
+            OSG_WARN << "analyticbin: no tile found in \"" << name << "\"; OSG's own culling is used." << std::endl;
         } else if (wantsBins) {
             OSG_NOTICE << "analyticbin: \"" << name << "\" has bins on " << installed
                        << " tiles, and on those that are loaded later (" << osgAnalyticBin::toText(options) << ")."

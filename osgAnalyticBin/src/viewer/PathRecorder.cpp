@@ -3,6 +3,7 @@
 
 #include "ViewTools.h"
 
+#include <osgAnalyticBin/viewer/CameraView.h>
 #include <osgAnalyticBin/viewer/PathRecorder.h>
 
 #include <osg/Notify>
@@ -12,22 +13,16 @@
 #include <osgViewer/View>
 
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <limits>
-#include <sstream>
-#include <system_error>
 
 namespace osgAnalyticBin {
 
+using flight::CameraPose;
+using flight::PathColumns;
+
 namespace {
 
-const double kDegreesPerRadian = 180.0 / osg::PI;
 // Camera paths go no deeper: an eye near the earth's centre is none that somebody flies to.
 constexpr double kLowestAltitude = -6.3e6;
-// Below this sine of the angle to the vertical a view has no "up" but north: as osgbinbench takes it.
-constexpr double kStraight = 1e-4;
 
 core::Geodetic toGeodetic(const SceneGlobe& globe, const osg::Vec3d& position) {
     const osg::Vec3d ecef = position * osg::Matrixd::inverse(globe.toWorld);
@@ -35,20 +30,6 @@ core::Geodetic toGeodetic(const SceneGlobe& globe, const osg::Vec3d& position) {
     globe.ellipsoid->convertXYZToLatLongHeight(ecef.x(), ecef.y(), ecef.z(), geodetic.latitude, geodetic.longitude,
                                                geodetic.altitude);
     return geodetic;
-}
-
-osg::Vec3d upWithoutRoll(const SceneGlobe& globe, const core::Geodetic& eye, const osg::Vec3d& sight) {
-    const double sinLatitude = std::sin(eye.latitude);
-    const double cosLatitude = std::cos(eye.latitude);
-    const osg::Vec3d outward(std::cos(eye.longitude), std::sin(eye.longitude), 0.0);
-    const auto toWorld = [&](const osg::Vec3d& direction) {
-        osg::Vec3d world = osg::Matrixd::transform3x3(direction, globe.toWorld);
-        world.normalize();
-        return world;
-    };
-    const osg::Vec3d vertical = toWorld(outward * cosLatitude + osg::Vec3d(0.0, 0.0, sinLatitude));
-    if ((sight ^ vertical).length() >= kStraight) return vertical;
-    return toWorld(outward * -sinLatitude + osg::Vec3d(0.0, 0.0, cosLatitude));
 }
 
 // Clockwise about the line of sight, radians.
@@ -74,16 +55,16 @@ bool drawnPlanes(osg::Camera& camera, double& nearPlane, double& farPlane) {
 
 }  // namespace
 
-std::optional<RecordedPose> recordedPose(osg::Camera& camera, double time) {
+std::optional<CameraPose> recordedPose(osg::Camera& camera, double time) {
     const auto globe = globeOf(camera);
-    RecordedPose pose;
+    CameraPose pose;
     pose.time = time;
     double verticalFovDeg = 0.0;
     double aspect = 0.0;
     if (!globe || !camera.getProjectionMatrixAsPerspective(verticalFovDeg, aspect, pose.nearPlane, pose.farPlane)) {
         return std::nullopt;
     }
-    pose.verticalFov = verticalFovDeg / kDegreesPerRadian;
+    pose.verticalFov = osg::DegreesToRadians(verticalFovDeg);
     (void)drawnPlanes(camera, pose.nearPlane, pose.farPlane);
     osg::Vec3d eye;
     osg::Vec3d center;
@@ -98,42 +79,8 @@ std::optional<RecordedPose> recordedPose(osg::Camera& camera, double time) {
     pose.look =
         toGeodetic(*globe, ground && (*ground - eye).length() > kShortestSight ? *ground : eye + sight * distance);
     if (pose.eye.altitude < kLowestAltitude || pose.look.altitude < kLowestAltitude) return std::nullopt;
-    pose.roll = rollOf(sight, up, upWithoutRoll(*globe, pose.eye, sight));
+    pose.roll = rollOf(sight, up, flight::upWithoutRoll({globe->ellipsoid, globe->toWorld}, pose.eye, sight));
     return pose;
-}
-
-void writeCameraPath(std::ostream& out, const std::vector<RecordedPose>& path, PathColumns columns) {
-    const bool isInTime = columns == PathColumns::PosesInTime;
-    out.precision(std::numeric_limits<double>::max_digits10);
-    out << "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg,near,far"
-        << (isInTime ? ",time,rollDeg" : "") << '\n';
-    std::size_t number = 0;
-    for (const RecordedPose& pose : path) {
-        out << 'p' << ++number;
-        for (const core::Geodetic& point : {pose.eye, pose.look}) {
-            out << ',' << point.latitude * kDegreesPerRadian << ',' << point.longitude * kDegreesPerRadian << ','
-                << point.altitude;
-        }
-        out << ',' << pose.verticalFov * kDegreesPerRadian << ',' << pose.nearPlane << ',' << pose.farPlane;
-        if (isInTime) out << ',' << pose.time << ',' << pose.roll * kDegreesPerRadian;
-        out << '\n';
-    }
-}
-
-bool writeCameraPathFile(const std::string& fileName, const std::vector<RecordedPose>& path, PathColumns columns,
-                         std::string& error) {
-    const std::string temporary = fileName + ".part";
-    {
-        std::ofstream out(temporary);
-        if (out) writeCameraPath(out, path, columns);
-        out.close();
-        std::error_code problem;
-        if (out) std::filesystem::rename(temporary, fileName, problem);  // replaces a file, also on Windows
-        if (out && !problem) return true;
-    }
-    std::remove(temporary.c_str());
-    error = fileName + ": cannot be written";
-    return false;
 }
 
 PathRecorder::PathRecorder(const std::string& fileName, double interval, PathColumns columns)
@@ -151,9 +98,9 @@ void PathRecorder::setRecording(bool recording) {
 void PathRecorder::write() {
     if (_isWritten) return;
     std::string error;
-    const bool isGood = writeCameraPathFile(_fileName, _path, _columns, error);
+    const bool isGood = flight::writeCameraPathFile(_fileName, _path, _columns, error);
     _isWritten = true;
-    if (!isGood) OSG_WARN << "PathRecorder: " << error << "; choose another file." << std::endl;
+    if (!isGood) OSG_WARN << "PathRecorder: " << error << std::endl;
 }
 
 void PathRecorder::record(osg::Camera& camera, double time) {

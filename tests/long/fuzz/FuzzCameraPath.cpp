@@ -5,7 +5,8 @@
 
 #include "Fuzz.h"
 
-#include <CameraPath.h>
+#include <osgAnalyticBin/viewer/CameraPath.h>
+
 #include <cmath>
 #include <sstream>
 #include <string>

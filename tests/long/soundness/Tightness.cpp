@@ -11,8 +11,7 @@
 
 #include "Heights.h"
 #include "TileTraversal.h"
-
-#include <glm/geometric.hpp>
+#include "ViewKind.h"
 
 #include <algorithm>
 #include <array>
@@ -32,20 +31,17 @@ namespace {
 using core::Geodetic;
 
 struct Row {
-    const char* name;
-    double fovDeg;
-    double lowest, highest;     // eye above ground, metres
-    double pitchFrom, pitchTo;  // degrees below the horizontal
-    double bar;                 // most excess of exact with reverse and hull, percent
+    paper::ViewKind view;
+    double bar;  // most excess of exact with reverse and hull, percent
 };
 
-constexpr std::array<Row, 7> kRows{{{"fov 60 down 100-10000 km", 60, 1e5, 1e7, 90, 90, 1.5},
-                                    {"fov 60 oblique 10-500 km", 60, 1e4, 5e5, 15, 60, 1.5},
-                                    {"fov 60 level 0.2-5 km", 60, 200, 5e3, -5, 10, 1.5},
-                                    {"fov 60 level 5-100 km", 60, 5e3, 1e5, -5, 10, 1.5},
-                                    {"fov 10 level 0.2-5 km", 10, 200, 5e3, -2, 5, 4.0},
-                                    {"fov 10 down 15-30 deg", 10, 1e3, 1e5, 15, 30, 4.0},
-                                    {"fov 10 down from orbit", 10, 2e5, 1e6, 30, 90, 4.0}}};
+constexpr std::array<Row, 7> kRows{{{{"fov 60 down 100-10000 km", 60, 1e5, 1e7, 90, 90}, 1.5},
+                                    {{"fov 60 oblique 10-500 km", 60, 1e4, 5e5, 15, 60}, 1.5},
+                                    {{"fov 60 level 0.2-5 km", 60, 200, 5e3, -5, 10}, 1.5},
+                                    {{"fov 60 level 5-100 km", 60, 5e3, 1e5, -5, 10}, 1.5},
+                                    {{"fov 10 level 0.2-5 km", 10, 200, 5e3, -2, 5}, 4.0},
+                                    {{"fov 10 down 15-30 deg", 10, 1e3, 1e5, 15, 30}, 4.0},
+                                    {{"fov 10 down from orbit", 10, 2e5, 1e6, 30, 90}, 4.0}}};
 
 struct Options {
     int cameras = 100;
@@ -54,23 +50,18 @@ struct Options {
     double depth = 12000.0;
 };
 
-View randomView(Random& random, const Row& row, const Heights& heights) {
+View randomView(Random& random, const paper::ViewKind& kind, const Heights& heights) {
     Geodetic position{std::asin(random.uniform(-1.0, 1.0)), random.uniform(-kPi, kPi), 0.0};
-    position.altitude = heights.groundAt(position) + random.logUniform(row.lowest, row.highest);
+    position.altitude = heights.groundAt(position) + random.logUniform(kind.lowest, kind.highest);
     View view;
     view.eye = wgs84().toEcef(position);
     const double azimuth = random.uniform(-kPi, kPi);
-    const double pitch = -random.uniform(row.pitchFrom, row.pitchTo) * kRadiansPerDegree;
-    const glm::dvec3 radial(std::cos(position.longitude), std::sin(position.longitude), 0.0);
-    const glm::dvec3 z(0.0, 0.0, 1.0);
-    const glm::dvec3 east = glm::cross(z, radial);
-    const glm::dvec3 north = std::cos(position.latitude) * z - std::sin(position.latitude) * radial;
-    const glm::dvec3 up = std::cos(position.latitude) * radial + std::sin(position.latitude) * z;
-    const glm::dvec3 level = std::sin(azimuth) * east + std::cos(azimuth) * north;
-    view.forward = std::cos(pitch) * level + std::sin(pitch) * up;
-    view.right = glm::normalize(glm::cross(level, up));
-    view.up = glm::cross(view.right, view.forward);
-    view.halfWidth = std::tan(0.5 * row.fovDeg * kRadiansPerDegree);
+    const double pitch = -random.uniform(kind.pitchFrom, kind.pitchTo) * kRadiansPerDegree;
+    const paper::CameraAxes axes = paper::cameraAxes(position, azimuth, pitch);
+    view.forward = axes.forward;
+    view.right = axes.right;
+    view.up = axes.up;
+    view.halfWidth = std::tan(0.5 * kind.fovDeg * kRadiansPerDegree);
     return view;
 }
 
@@ -81,7 +72,7 @@ Counts runRow(const Options& options, const Heights& heights, std::size_t row) {
         threads.emplace_back([&, t] {
             for (int i = static_cast<int>(t); i < options.cameras; i += static_cast<int>(options.threads)) {
                 Random random(1000 * static_cast<std::uint64_t>(i) + row);
-                const View view = randomView(random, kRows[row], heights);
+                const View view = randomView(random, kRows[row].view, heights);
                 counts[t].add(countLeaves(view, heights, options.depth));
             }
         });
@@ -103,7 +94,7 @@ double excess(const Counts& counts, Method m) {
 }
 
 bool report(const Row& row, const Counts& counts) {
-    std::printf("%-25s %8llu", row.name, static_cast<unsigned long long>(counts.truth));
+    std::printf("%-25s %8llu", row.view.name, static_cast<unsigned long long>(counts.truth));
     for (std::size_t m = 0; m < kMethods; ++m) {
         std::printf(" %+9.2f%s", excess(counts, static_cast<Method>(m)), counts.missed[m] > 0 ? "!" : " ");
     }

@@ -3,6 +3,7 @@
 
 #include <osgAnalyticBin/viewer/BinDisplayHandler.h>
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
+#include <osgAnalyticBin/viewer/CameraPath.h>
 #include <osgAnalyticBin/viewer/FreezeCullHandler.h>
 #include <osgAnalyticBin/viewer/MethodSwitchHandler.h>
 #include <osgAnalyticBin/viewer/PathRecorder.h>
@@ -10,6 +11,9 @@
 
 #include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
+
+#include <sstream>
+#include <string>
 
 int main() {
     osgViewer::Viewer viewer;
@@ -20,5 +24,14 @@ int main() {
     viewer.addEventHandler(new osgAnalyticBin::MethodSwitchHandler);
     viewer.addEventHandler(new osgAnalyticBin::BinStatsHandler(*stats));
     viewer.addEventHandler(stats);
-    return viewer.getEventHandlers().size() == 6 ? 0 : 1;
+    std::stringstream path;
+    osgAnalyticBin::flight::CameraPose pose;
+    pose.eye.altitude = 1000.0;
+    pose.verticalFov = 1.0;
+    pose.nearPlane = 1.0;
+    pose.farPlane = 1e6;
+    osgAnalyticBin::flight::writeCameraPath(path, {pose}, osgAnalyticBin::flight::PathColumns::Poses);
+    std::string error;
+    const auto read = osgAnalyticBin::flight::readCameraPath(path, "path", error);
+    return viewer.getEventHandlers().size() == 6 && read && read->front().name == "p1" ? 0 : 1;
 }

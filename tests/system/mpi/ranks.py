@@ -141,7 +141,7 @@ class Ranks:
             os.kill(ranks[2], signal.SIGKILL)
         said = self.stopped(folder, process)
         require("noticed that process rank 2" in said, f"nothing is said of the lost rank: {said}")
-        require("goes on: " in self.complete(folder, self.build(folder)), "a program alone does not go on")
+        require("resumes: " in self.complete(folder, self.build(folder)), "a program alone does not go on")
 
     def a_stopped_run(self):
         folder = self.folder("stopped")
@@ -151,7 +151,7 @@ class Ranks:
         self.stopped(folder, process)
         was_complete = (folder / "earth.osgb").exists()
         said = self.complete(folder, MPIRUN + ["-n", "2"] + self.build(folder))
-        require(was_complete or "goes on: " in said, "ranks do not go on")
+        require(was_complete or "resumes: " in said, "ranks do not go on")
 
     def two_at_once(self):
         folder = self.folder("twice")

@@ -114,7 +114,7 @@ TEST_F(Photogrammetry, WithoutAReferenceSystemStandsInItsOwnCoordinates) {
     const CapturedNotes notes;
     const osg::ref_ptr<osg::Node> scene = read();
     ASSERT_TRUE(scene);
-    EXPECT_EQ(notes.count("names no SRS"), 1U);
+    EXPECT_EQ(notes.count("has no SRS"), 1U);
     EXPECT_TRUE(setIn(*scene)->getMatrix().isIdentity());
     EXPECT_TRUE(isPhotogrammetrySet(*scene));
 }

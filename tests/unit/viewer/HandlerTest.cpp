@@ -5,13 +5,12 @@
 // The event handlers in a whole viewer that draws into a pbuffer; keys are pressed as a user would. Needs a display
 // (Xvfb will do); skipped where no graphics context can be made.
 
-#include "CsvTable.h"
-
 #include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/viewer/BinDisplayHandler.h>
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
 #include <osgAnalyticBin/viewer/CameraCulling.h>
 #include <osgAnalyticBin/viewer/CoveredPictureHandler.h>
+#include <osgAnalyticBin/viewer/CsvTable.h>
 #include <osgAnalyticBin/viewer/FreezeCullHandler.h>
 #include <osgAnalyticBin/viewer/MethodSwitchHandler.h>
 #include <osgAnalyticBin/viewer/PathRecorder.h>

@@ -3,10 +3,10 @@
 //
 // Recorded camera paths. Oracle: what osgbinbench makes of them.
 
-#include "CameraPath.h"
-#include "CameraView.h"
 #include "ViewerScene.h"
 
+#include <osgAnalyticBin/viewer/CameraPath.h>
+#include <osgAnalyticBin/viewer/CameraView.h>
 #include <osgAnalyticBin/viewer/PathRecorder.h>
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ namespace {
 
 using test::ViewerScene;
 
-std::vector<RecordedPose> somePath(ViewerScene& scene) {
-    std::vector<RecordedPose> path;
+std::vector<flight::CameraPose> somePath(ViewerScene& scene) {
+    std::vector<flight::CameraPose> path;
     for (const double pitch : {0.5, 30.0, 65.0, 89.0}) {
         scene.lookFrom(-33.0 + pitch, 150.0 + pitch, 1000.0 * (1.0 + pitch * pitch), pitch, 35.0);
         const auto pose = recordedPose(scene.camera(), 0.5 * double(path.size()));
@@ -32,10 +32,10 @@ std::vector<RecordedPose> somePath(ViewerScene& scene) {
 
 TEST(PathRecorder, WritesWhatIsReadBackEqual) {
     ViewerScene scene;
-    const std::vector<RecordedPose> path = somePath(scene);
+    const std::vector<flight::CameraPose> path = somePath(scene);
     ASSERT_EQ(path.size(), 4u);
     std::stringstream text;
-    writeCameraPath(text, path, PathColumns::Poses);
+    flight::writeCameraPath(text, path, flight::PathColumns::Poses);
     std::string error;
     const auto read = flight::readCameraPath(text, "recorded", error);
     ASSERT_TRUE(read) << error;
@@ -91,10 +91,10 @@ TEST(PathRecorder, TellsTheRollAndPlaysIt) {
 
 TEST(PathRecorder, WritesTimeAndRollThatAreReadBack) {
     ViewerScene scene;
-    std::vector<RecordedPose> path = somePath(scene);
+    std::vector<flight::CameraPose> path = somePath(scene);
     for (std::size_t i = 0; i < path.size(); ++i) path[i].roll = 0.3 - 0.2 * double(i);
     std::stringstream text;
-    writeCameraPath(text, path, PathColumns::PosesInTime);
+    flight::writeCameraPath(text, path, flight::PathColumns::PosesInTime);
     std::string error;
     const auto read = flight::readCameraPath(text, "recorded", error);
     ASSERT_TRUE(read) << error;
@@ -121,14 +121,14 @@ TEST(PathRecorder, HasNoPoseThatOsgbinbenchRefuses) {
 
 TEST(PathRecorder, LeavesTheOldFileWhereTheNewCannotBeWritten) {
     std::string error;
-    EXPECT_FALSE(writeCameraPathFile("/no/such/folder/path.csv", {}, PathColumns::Poses, error));
+    EXPECT_FALSE(flight::writeCameraPathFile("/no/such/folder/path.csv", {}, flight::PathColumns::Poses, error));
     EXPECT_NE(error.find("/no/such/folder/path.csv"), std::string::npos);
     test::TemporaryFolder folder;
     ViewerScene scene;
     const std::string file = folder.path() + "/path.csv";
-    EXPECT_TRUE(writeCameraPathFile(file, somePath(scene), PathColumns::Poses, error));
+    EXPECT_TRUE(flight::writeCameraPathFile(file, somePath(scene), flight::PathColumns::Poses, error));
     EXPECT_TRUE(flight::readCameraPathFile(file, error)) << error;
-    EXPECT_FALSE(std::ifstream(file + ".part"));
+    EXPECT_FALSE(std::ifstream(file + ".tmp"));
 }
 
 }  // namespace

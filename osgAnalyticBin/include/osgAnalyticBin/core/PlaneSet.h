@@ -61,7 +61,7 @@ private:
 /// tests: PlaneKernels.EveryTargetAgreesWithTheScalarForm.
 /// Cost: for most bins one sphere test of all planes together; no allocation, no trigonometry.
 [[nodiscard]] Side classify(const ExactGeodeticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept;
-/// Likewise for a bin of any mapping.
+/// The same for a bin of any mapping.
 [[nodiscard]] Side classify(const QuadraticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept;
 
 /// Every other bin, plane by plane.

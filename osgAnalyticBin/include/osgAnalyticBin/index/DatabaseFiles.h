@@ -13,9 +13,12 @@
 
 namespace osgAnalyticBin::indexing {
 
-/// What becomes of images, shaders and fonts that are files of their own: stand-ins, whatever they are called; the
-/// same, but names that lead out of the folder are refused; read, or refused.
-enum class Images { Left, Checked, Read };
+/// How images, shaders and fonts in separate files are treated.
+enum class Images {
+    Left,     ///< replaced by stand-ins, whatever their names are
+    Checked,  ///< replaced by stand-ins; a name that leads out of the folder is an error
+    Read      ///< read; a name that leads out of the folder is an error
+};
 
 /// The files of a database, named by their paths relative to the root file's folder; "" is the root file.
 class OSGANALYTICBIN_EXPORT DatabaseFiles final {
@@ -23,13 +26,13 @@ public:
     /// Throws Failure when there is no such local file.
     explicit DatabaseFiles(const std::string& rootFile);
 
-    /// As it was named.
+    /// The root file, as the constructor got it.
     [[nodiscard]] const std::string& rootFile() const { return _rootFile; }
-    /// Without its folder.
+    /// The name of the root file without its folder.
     [[nodiscard]] const std::string& rootName() const { return _rootName; }
-    /// Of a file that is named as above.
+    /// The path of a file that is named as above.
     [[nodiscard]] std::string pathOf(const std::string& file) const;
-    /// 0 and 0 for a file that is not there.
+    /// Size and time of a file; 0 for a missing file.
     [[nodiscard]] FileStamp stampOf(const std::string& file) const;
 
     /// The scene of a file, as the pager would get it. May be called by several threads.
@@ -50,9 +53,9 @@ private:
 /// Loads what OpenSceneGraph's readers load on first use, so that threads find it loaded.
 OSGANALYTICBIN_EXPORT void loadSerializers();
 
-/// Has what OpenSceneGraph reads without options (fonts, and more in its older formats) follow the rules of Images,
-/// too, while DatabaseFiles::read() runs. Replaces the read callback of osgDB::Registry: for programs that read nothing
-/// else.
+/// Applies the rules of Images also to files that OpenSceneGraph reads without options (fonts, and others in its older
+/// formats) while DatabaseFiles::read() runs. It replaces the read callback of osgDB::Registry, so call it only in
+/// programs that read nothing else.
 OSGANALYTICBIN_EXPORT void checkAllReads();
 
 }  // namespace osgAnalyticBin::indexing

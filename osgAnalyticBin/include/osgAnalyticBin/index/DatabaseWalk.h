@@ -16,7 +16,7 @@ namespace osgAnalyticBin::indexing {
 /// The records of a database's files, by their names.
 using FileRecords = std::map<std::string, FileRecord>;
 
-/// What follows a walk over the files of a database. What its functions throw ends the walk.
+/// Observes a walk over the files of a database. An exception from one of its functions ends the walk.
 class OSGANALYTICBIN_EXPORT WalkObserver {
 public:
     virtual ~WalkObserver();
@@ -24,14 +24,14 @@ public:
     virtual void beforeFile() {}
     /// A file was read. Never two calls at a time.
     virtual void keep(const FileRecord& record);
-    /// A file is done. Never two calls at a time. `isKnown`: its record is one of an earlier walk. `share`: of the
-    /// whole walk, what is done with this file; all shares make up 1.
+    /// A file is done. Never two calls at a time. `isKnown`: its record is from an earlier walk. `share`: the part
+    /// of the whole walk that is done with this file; the sum of all shares is 1.
     virtual void done(const FileRecord& record, bool isKnown, double share);
 };
 
-/// Reads every file of a database once, each in one of several threads, and forgets its scene at once. Goes deep first:
-/// what is paged below a file is done soon after it. `known` are records of an earlier walk, taken where the file has
-/// not changed. The result does not depend on the threads. With one thread the files are read in the caller's.
+/// Reads every file of a database once, in several threads, and keeps a record of it, not its scene. The walk is depth
+/// first: the files paged below a file follow soon after it. `known`: records of an earlier walk, used for files that
+/// have not changed. The result does not depend on the number of threads. With one, files are read in the caller's.
 /// Throws Failure when the root file cannot be read, when a file outside of the folder is paged, or when a file is
 /// paged in two frames that differ; and what the observer throws.
 [[nodiscard]] OSGANALYTICBIN_EXPORT FileRecords walkDatabase(const DatabaseFiles& files, std::vector<FileRecord> known,

@@ -15,22 +15,22 @@
 
 namespace osgAnalyticBin::indexing {
 
-/// Where the content of a file stands, as far as the file that names it says.
+/// The coordinate frame of a file's content, as the file that names it gives it.
 struct FilePlace {
     /// Metres; 0: not below a geocentric CoordinateSystemNode.
     double equatorialRadius = 0.0;
     /// Metres.
     double polarRadius = 0.0;
-    /// As of osgAnalyticBin::TileFrame.
+    /// TileFrame::isProjected.
     bool isProjected = false;
-    /// From the frame of the content, row by row.
+    /// The matrix from the content's frame to ECEF, row by row.
     std::array<double, 16> localToEcef{};
-    /// See TileFrame.
+    /// TileFrame::isBelowTile.
     bool isBelowTile = false;
-    /// osgTerrain::Terrain's.
+    /// osgTerrain::Terrain::getSampleRatio().
     double sampleRatio = 1.0;
 
-    /// Whether all is the same.
+    /// Whether all members are equal.
     [[nodiscard]] bool operator==(const FilePlace& other) const {
         return equatorialRadius == other.equatorialRadius && polarRadius == other.polarRadius &&
                isProjected == other.isProjected && localToEcef == other.localToEcef &&
@@ -47,11 +47,11 @@ struct FileLink {
     std::string file;
     /// Ordinal of the tile that it is paged below, in the file that names it; -1: none.
     std::int32_t tile = -1;
-    /// Where it stands.
+    /// The frame of its content.
     FilePlace place;
 };
 
-/// What is kept of a tile.
+/// The record of a tile.
 struct TileRecord {
     /// What the tile draws by itself.
     osgAnalyticBin::TileSurface surface;
@@ -64,13 +64,13 @@ struct TileRecord {
 /// Whether a file is still the one that was read.
 using FileStamp = BinIndex::Stamp;
 
-/// All that is kept of a file once it has been read.
+/// The record of a file that has been read.
 struct FileRecord {
     /// Path relative to the root file's folder; "" for the root file.
     std::string file;
-    /// Of the file when it was read.
+    /// Size and time of the file when it was read.
     FileStamp stamp;
-    /// Where it was read.
+    /// The frame in which it was read.
     FilePlace place;
     /// False for a file that is missing or cannot be read.
     bool isRead = false;

@@ -22,7 +22,7 @@ struct MadeIndex {
     FileRecords records;
     /// Where the tiles cover the whole globe: the altitude in metres that no surface goes below.
     std::optional<double> horizon;
-    /// What is missing or unknown, a line each.
+    /// Missing files and tiles without a bin, a line each.
     std::vector<std::string> warnings;
 };
 

@@ -18,8 +18,8 @@ class View;
 
 namespace osgAnalyticBin {
 
-/// Key `y`: opens or closes a second window that looks at the view's camera from aside: it shows what that camera
-/// draws, and its frustum. Drag in the window to go round, scroll to come nearer. One handler for each view.
+/// Key `y`: opens or closes a second window that shows the view's camera from the side: what that camera draws,
+/// and its frustum. Drag in the window to orbit, scroll to zoom. One handler for each view.
 class OSGANALYTICBINVIEWER_EXPORT SpyViewHandler : public osgGA::GUIEventHandler {
 public:
     SpyViewHandler();

@@ -59,7 +59,7 @@ struct TileCounts {
 /// in the event phase, where it repeats the last frame. Cost: one walk over the loaded scene, and one cull traversal.
 class OSGANALYTICBINVIEWER_EXPORT TileSurvey {
 public:
-    /// Of no tiles.
+    /// An empty survey.
     TileSurvey() = default;
     /// Runs the cull traversal.
     TileSurvey(osg::Camera& camera, osg::FrameStamp& frameStamp);
@@ -67,7 +67,7 @@ public:
     /// In the order of the traversal: parents before children.
     [[nodiscard]] const std::vector<SurveyedTile>& tiles() const { return _tiles; }
 
-    /// What of the picture terrain covers. Returns: nullptr where no tile was looked for behind terrain.
+    /// The part of the picture that terrain covers. Returns: nullptr when there was no search for tiles behind terrain.
     [[nodiscard]] const CoveredPicture* covered() const { return _covered.get(); }
 
     /// Sums of tiles().

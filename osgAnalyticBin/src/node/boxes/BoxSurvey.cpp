@@ -3,6 +3,7 @@
 //
 // makeBoxIndex(): reads all files of a set, each once, and adds up their boxes from the leaves.
 
+#include "../WorkQueue.h"
 #include "../page/CarefulRead.h"
 #include "LodContent.h"
 
@@ -16,10 +17,8 @@
 #include <osgDB/FileUtils>
 
 #include <algorithm>
-#include <condition_variable>
-#include <mutex>
+#include <map>
 #include <optional>
-#include <thread>
 
 namespace osgAnalyticBin {
 
@@ -54,18 +53,16 @@ class Survey {
 public:
     Survey(std::string folder, const BoxIndexProgress& progress) : _folder(std::move(folder)), _progress(progress) {}
 
-    void start(const std::vector<std::string>& roots) {
+    void run(const std::vector<std::string>& roots, int threads) {
         for (const std::string& root : roots) enter(root, 1.0 / static_cast<double>(roots.size()));
-    }
-
-    /// The body of each thread.
-    void work() {
-        while (const std::optional<Job> job = next()) finish(*job, read(job->file));
+        _queue.run(
+            threads, [this](const Job& job) { return read(job.file); },
+            [this](const Job& job, Read read) { finish(job, std::move(read)); });
     }
 
     [[nodiscard]] bool isStopped() const { return _isStopped; }
 
-    /// Requires: the threads have ended.
+    /// Requires: run().
     [[nodiscard]] osg::ref_ptr<BoxIndex> result() {
         const osg::ref_ptr<BoxIndex> index = new BoxIndex;
         for (const auto& [file, content] : _files) {
@@ -84,45 +81,34 @@ private:
         double share;
     };
 
-    // With the mutex held, or before the threads are there.
+    struct Read {
+        std::optional<Surveyed> content;
+        std::string complaint;  // empty where there is none
+    };
+
     void enter(const std::string& file, double share) {
-        if (_files.emplace(file, std::nullopt).second) _waiting.push_back({file, share});
+        if (_files.emplace(file, std::nullopt).second) _queue.push({file, share});
     }
 
-    std::optional<Job> next() {
-        std::unique_lock<std::mutex> guard(_mutex);
-        _changed.wait(guard, [&] { return _isStopped || !_waiting.empty() || _busy == 0; });
-        if (_progress.goesOn && !_progress.goesOn()) _isStopped = true;
-        if (_isStopped || _waiting.empty()) {
-            _changed.notify_all();
-            return std::nullopt;
-        }
-        Job job = std::move(_waiting.back());
-        _waiting.pop_back();
-        ++_busy;
-        return job;
-    }
-
-    std::optional<Surveyed> read(const std::string& file) {
+    [[nodiscard]] Read read(const std::string& file) const {
         const std::string path = osgDB::concatPaths(_folder, file);
         // missing children are not drawn either
-        if (!osgDB::fileExists(path)) return std::nullopt;
+        if (!osgDB::fileExists(path)) return {};
         std::string why = "cannot be read";
         try {
             const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
             options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
             osgDB::ReaderWriter::ReadResult result = readTileFile(path, options.get());
-            if (result.validNode()) return surveyed(*result.getNode(), file);
+            if (result.validNode()) return {surveyed(*result.getNode(), file), {}};
         } catch (const std::exception& error) {
             why += std::string(": ") + error.what();
         }
-        const std::lock_guard<std::mutex> guard(_mutex);
-        if (_progress.unreadable) _progress.unreadable("\"" + path + "\" " + why + "; it counts as empty");
-        return std::nullopt;
+        return {std::nullopt, "\"" + path + "\" " + why + "; it counts as empty"};
     }
 
-    void finish(const Job& job, std::optional<Surveyed> content) {
-        const std::lock_guard<std::mutex> guard(_mutex);
+    void finish(const Job& job, Read read) {
+        if (!read.complaint.empty() && _progress.unreadable) _progress.unreadable(read.complaint);
+        std::optional<Surveyed>& content = read.content;
         const std::size_t lods = content ? content->lods.size() : 0;
         std::size_t files = 0;
         for (std::size_t i = 0; i < lods; ++i) files += content->lods[i].files.size();
@@ -130,9 +116,10 @@ private:
             for (const std::string& file : content->lods[i].files) enter(file, job.share / static_cast<double>(files));
         }
         _files[job.file] = std::move(content);
-        --_busy;
         if (_progress.fileDone) _progress.fileDone(lods, files == 0 ? job.share : 0.0);
-        _changed.notify_all();
+        if (!_progress.goesOn || _progress.goesOn()) return;
+        _isStopped = true;
+        _queue.stop();
     }
 
     // All that is in a file and below it.
@@ -164,10 +151,7 @@ private:
 
     const std::string _folder;
     const BoxIndexProgress& _progress;
-    std::mutex _mutex;
-    std::condition_variable _changed;
-    std::vector<Job> _waiting;
-    int _busy = 0;
+    WorkQueue<Job> _queue;
     bool _isStopped = false;
     std::map<std::string, std::optional<Surveyed>> _files;
     std::map<std::string, MeshBox> _wholes;
@@ -180,10 +164,7 @@ osg::ref_ptr<BoxIndex> makeBoxIndex(const std::string& metadataFile, int threads
     const PhotogrammetryFiles files = findPhotogrammetryFiles(metadataFile, error);
     if (files.roots.empty()) return nullptr;
     Survey survey(osgDB::getFilePath(metadataFile), progress);
-    survey.start(files.roots);
-    std::vector<std::thread> workers;
-    for (int i = 0; i < threads; ++i) workers.emplace_back([&survey] { survey.work(); });
-    for (std::thread& worker : workers) worker.join();
+    survey.run(files.roots, threads);
     if (survey.isStopped()) {
         error = "was stopped";
         return nullptr;

@@ -1,16 +1,14 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "../WorkQueue.h"
 #include "FileSurvey.h"
 
 #include <osgAnalyticBin/index/DatabaseWalk.h>
 #include <osgAnalyticBin/index/Failure.h>
 
-#include <condition_variable>
-#include <exception>
 #include <mutex>
-#include <optional>
-#include <thread>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin::indexing {
@@ -32,7 +30,7 @@ struct Done {
     bool isKnown = false;
 };
 
-/// The files that wait, those that are done, and what the threads share besides.
+/// The files that are done, and what the threads share besides.
 class Walk {
 public:
     Walk(const DatabaseFiles& files, std::vector<FileRecord> known, WalkObserver& observer, Images images)
@@ -40,46 +38,20 @@ public:
         for (FileRecord& record : known) _known[record.file] = std::move(record);
     }
 
-    void start() {
-        _places[""] = FilePlace();
+    /// Throws what a thread throws.
+    FileRecords run(int threads) {
         FilePlace& root = _places[""];
         root.localToEcef = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-        _waiting.push_back({"", root, 1.0});
-    }
-
-    /// The body of each thread.
-    void work() {
-        try {
-            while (const std::optional<Job> job = next()) {
-                _observer.beforeFile();
-                finish(doneOf(*job), job->share);
-            }
-        } catch (...) {
-            fail(std::current_exception());
-        }
-    }
-
-    /// Requires: the threads have ended. Throws what they threw.
-    FileRecords result() {
-        if (_error) std::rethrow_exception(_error);
+        _queue.push({"", root, 1.0});
+        _queue.run(
+            threads, [this](const Job& job) { return doneOf(job); },
+            [this](const Job& job, Done done) { finish(std::move(done), job.share); });
         return std::move(_records);
     }
 
 private:
-    std::optional<Job> next() {
-        std::unique_lock<std::mutex> guard(_mutex);
-        while (true) {
-            if (_error || (_waiting.empty() && _busy == 0)) return std::nullopt;
-            if (!_waiting.empty()) break;
-            _changed.wait(guard);
-        }
-        Job job = std::move(_waiting.back());
-        _waiting.pop_back();
-        ++_busy;
-        return job;
-    }
-
     Done doneOf(const Job& job) {
+        _observer.beforeFile();
         const FileStamp stamp = _files.stampOf(job.file);
         const auto known = _known.find(job.file);  // nobody changes it any more
         if (known != _known.end() && known->second.stamp == stamp && known->second.place == job.place) {
@@ -102,32 +74,26 @@ private:
 
     void finish(Done done, double share) {
         FileRecord& record = done.record;
-        const std::lock_guard<std::mutex> guard(_mutex);
-        const std::size_t before = _waiting.size();
-        for (const FileLink& link : record.links) enter(link);
-        const std::size_t below = _waiting.size() - before;
-        for (std::size_t i = before; i < _waiting.size(); ++i) _waiting[i].share = share / static_cast<double>(below);
-        const double ownShare = below == 0 ? share : 0.0;
+        std::vector<Job> below;
+        for (const FileLink& link : record.links) {
+            if (isNew(link)) below.push_back({link.file, link.place, 0.0});
+        }
+        for (Job& job : below) {
+            job.share = share / static_cast<double>(below.size());
+            _queue.push(std::move(job));
+        }
+        const double ownShare = below.empty() ? share : 0.0;
         _observer.done(record, done.isKnown, ownShare);
         _records[record.file] = std::move(record);
-        --_busy;
-        _changed.notify_all();
     }
 
-    void enter(const FileLink& link) {
+    bool isNew(const FileLink& link) {
         const auto [place, isNew] = _places.emplace(link.file, link.place);
-        if (isNew) {
-            _waiting.push_back({link.file, link.place, 0.0});
-        } else if (!link.file.empty() && !(place->second == link.place)) {
+        if (!isNew && !link.file.empty() && !(place->second == link.place)) {
             throw Failure("\"" + _files.pathOf(link.file) +
                           "\" is paged in two places that differ; an index needs each file in one place");
         }
-    }
-
-    void fail(std::exception_ptr error) {
-        const std::lock_guard<std::mutex> guard(_mutex);
-        if (!_error) _error = std::move(error);
-        _changed.notify_all();
+        return isNew;
     }
 
     const DatabaseFiles& _files;
@@ -136,13 +102,9 @@ private:
     std::map<std::string, FileRecord> _known;
     std::mutex _keepMutex;
 
-    std::mutex _mutex;
-    std::condition_variable _changed;
-    std::vector<Job> _waiting;
-    int _busy = 0;
+    WorkQueue<Job> _queue;
     std::map<std::string, FilePlace> _places;
     FileRecords _records;
-    std::exception_ptr _error;
 };
 
 }  // namespace
@@ -155,13 +117,7 @@ void WalkObserver::done(const FileRecord&, bool, double) {}
 
 FileRecords walkDatabase(const DatabaseFiles& files, std::vector<FileRecord> known, WalkObserver& observer, int threads,
                          Images images) {
-    Walk walk(files, std::move(known), observer, images);
-    walk.start();
-    std::vector<std::thread> others;
-    for (int i = 1; i < threads; ++i) others.emplace_back([&walk] { walk.work(); });
-    walk.work();
-    for (std::thread& thread : others) thread.join();
-    return walk.result();
+    return Walk(files, std::move(known), observer, images).run(threads);
 }
 
 }  // namespace osgAnalyticBin::indexing

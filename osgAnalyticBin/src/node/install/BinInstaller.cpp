@@ -170,7 +170,7 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     if (isForeign && installsBins()) Database::reportUntold(*linkBetween());
     if (installsBins() && isGlobeBroken(node)) {
         OSG_WARN << "osgAnalyticBin: the radii of the globe \"" << node.getName() << "\" in \"" << frame().file
-                 << "\" are not two positive numbers; what is below it gets no bins." << std::endl;
+                 << "\" are not two positive numbers; nodes below it get no bins." << std::endl;
         _options.method = Method::Sphere;
     }
     const Scoped parent(_parent, isForeign ? nullptr : _parent);
@@ -268,7 +268,8 @@ void BinInstaller::visitTooDeep(osg::Node&) {
     if (!installsBins()) return;
     if (!database().hasGap()) {
         OSG_WARN << "osgAnalyticBin: \"" << frame().file
-                 << "\" has tiles nested hundreds deep; the innermost have no bins. No horizon." << std::endl;
+                 << "\" has tiles nested hundreds deep; the innermost get no bins, and the horizon is not used."
+                 << std::endl;
     }
     database().noteGap(frame().file);
 }

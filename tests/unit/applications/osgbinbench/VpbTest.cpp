@@ -4,7 +4,8 @@
 // Databases of VirtualPlanetBuilder, and the camera path that was made for them. Skipped where the samples are absent.
 
 #include "BenchProgram.h"
-#include "CameraPath.h"
+
+#include <osgAnalyticBin/viewer/CameraPath.h>
 
 #include <gtest/gtest.h>
 

@@ -55,7 +55,7 @@ protected:
 
 TEST_F(Resume, WhatIsDoneIsNotDoneAgain) {
     const auto time = fs::last_write_time(partial("X05_Y4/L01_X10_Y8.osgb"));
-    EXPECT_EQ(firstLine(), "goes on: 128 of 128 parts are there");
+    EXPECT_EQ(firstLine(), "resumes: 128 of 128 parts are done");
     EXPECT_EQ(fs::last_write_time(out("earth_tiles/X05_Y4/L01_X10_Y8.osgb")), time);
     expectTheSameFiles();
 }
@@ -73,7 +73,7 @@ TEST_F(Resume, PartsThatAreMissingOrDamagedAreDoneAgain) {
         .put('\7');
     std::ofstream(partial("X06_Y0/L01_X12_Y0.osgb.tmp")) << "half";
     fs::remove(partial("state/X06_Y0/L00_X6_Y0.task"));
-    EXPECT_EQ(firstLine({"--threads", "3"}), "goes on: 126 of 128 parts are there");
+    EXPECT_EQ(firstLine({"--threads", "3"}), "resumes: 126 of 128 parts are done");
     expectTheSameFiles();
 }
 
@@ -87,12 +87,12 @@ TEST_F(Resume, OverAFinishedDatabaseOnlyWhenItIsToldTo) {
     EXPECT_EQ(refused.exitCode, 1);
     EXPECT_NE(refused.errors.find("--overwrite"), std::string::npos) << refused.errors;
     EXPECT_TRUE(filesBelow(_folder.file("out/earth_tiles")) == finished);
-    EXPECT_EQ(firstLine({"--overwrite"}), "goes on: 128 of 128 parts are there");
+    EXPECT_EQ(firstLine({"--overwrite"}), "resumes: 128 of 128 parts are done");
     expectTheSameFiles();
 }
 
 TEST_F(Resume, AnotherCommandStartsAnew) {
-    EXPECT_EQ(firstLine({"--lod-factor", "5"}).rfind("starts anew: ", 0), 0U);
+    EXPECT_EQ(firstLine({"--lod-factor", "5"}).rfind("starts again: ", 0), 0U);
     EXPECT_FALSE(fs::exists(partial("")));
 }
 
@@ -100,11 +100,11 @@ TEST_F(Resume, AnotherRasterOfTheSameNameStartsAnew) {
     TestRaster::globe(1.0, [](double latitude, double longitude) {
         return 2.0 * hills(latitude, longitude);
     }).write(raster());
-    EXPECT_EQ(firstLine().rfind("starts anew: ", 0), 0U);
+    EXPECT_EQ(firstLine().rfind("starts again: ", 0), 0U);
 }
 
 TEST_F(Resume, RestartStartsAnew) {
-    EXPECT_EQ(firstLine({"--restart"}).rfind("starts anew: ", 0), 0U);
+    EXPECT_EQ(firstLine({"--restart"}).rfind("starts again: ", 0), 0U);
     expectTheSameFiles();
 }
 

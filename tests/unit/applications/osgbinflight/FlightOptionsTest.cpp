@@ -5,20 +5,29 @@
 
 #include "FlightOptions.h"
 
+#include <osgAnalyticBin/NameParameters.h>
+
 #include <gtest/gtest.h>
 
 namespace osgAnalyticBin::flight {
 namespace {
 
-TEST(FlightName, TakesTheBracketsOff) {
-    const FlightName name = flightNameOf("a.b/path.csv.(out=x/y.z,frames=3).binflight");
-    EXPECT_EQ(name.pathFile, "a.b/path.csv");
-    EXPECT_EQ(name.parameters, "out=x/y.z,frames=3");
+TEST(NameParameters, AreWhatStandsInTheLastBrackets) {
+    const NameParameters name = nameParametersFrom("a.b/path.csv.(out=x (1)/y.z,frames=3)");
+    EXPECT_EQ(name.name, "a.b/path.csv");
+    EXPECT_EQ(name.parameters, "out=x (1)/y.z,frames=3");
 }
 
-TEST(FlightName, NeedsNoBrackets) {
-    EXPECT_EQ(flightNameOf("path.csv.binflight").pathFile, "path.csv");
-    EXPECT_TRUE(flightNameOf("path.csv.binflight").parameters.empty());
+TEST(NameParameters, MayBeMissing) {
+    for (const char* const name : {"path.csv", "earth (1)", ""}) {
+        EXPECT_EQ(nameParametersFrom(name).name, name);
+        EXPECT_TRUE(nameParametersFrom(name).parameters.empty());
+    }
+}
+
+TEST(NameParameters, NeedNoName) {
+    EXPECT_TRUE(nameParametersFrom("(levels=12)").name.empty());
+    EXPECT_EQ(nameParametersFrom("(levels=12)").parameters, "levels=12");
 }
 
 TEST(FlightOptions, ReadsEveryParameter) {

@@ -25,7 +25,7 @@ public:
     /// The present mixture, of unit length, moved inward by its own rounding. NaN when the planes cancel out.
     [[nodiscard]] Plane candidate() const noexcept;
 
-    /// Takes a point of the bin that is farthest inside the present mixture.
+    /// Continues with a point of the bin that is farthest inside the present mixture.
     /// Returns: false when the search is over, since the hulls meet.
     [[nodiscard]] bool learn(const glm::dvec3& point) noexcept;
 

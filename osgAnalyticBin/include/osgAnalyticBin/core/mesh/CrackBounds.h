@@ -30,7 +30,7 @@ struct TileEdges {
     /// Default: none.
     Border border;
 
-    /// Whether any edge is.
+    /// Whether any edge is on the border.
     [[nodiscard]] bool areOnBorder() const noexcept {
         return border.south || border.east || border.north || border.west;
     }

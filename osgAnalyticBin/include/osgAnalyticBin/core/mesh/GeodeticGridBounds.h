@@ -39,9 +39,9 @@ public:
     /// `reach`: metres, the largest altitude of a post either way. Requires: 0 or more (asserted).
     GeodeticGridBounds(const Ellipsoid& ellipsoid, const GeodeticGrid& grid, double reach) noexcept;
 
-    /// False when chords may sag below the centres of curvature, where latitudes and altitudes say nothing of a point:
-    /// on flat ellipsoids, and with cells that are wide beside the smallest radius of curvature. Nothing is known of
-    /// such a grid, and its tile must not be culled. Always true where |e2| is below 0.1 and the reach below a tenth of
+    /// False when chords may sag below the centres of curvature, where a point has no unique latitude and altitude: on
+    /// flat ellipsoids, and with cells that are wide compared with the smallest radius of curvature. Such a grid has no
+    /// bounds, and its tile must not be culled. Always true where |e2| is below 0.1 and the reach below a tenth of
     /// the radii.
     [[nodiscard]] bool isKnown() const noexcept { return _isKnown; }
 

@@ -40,7 +40,7 @@ struct EcefMesh {
 class MeshBounds final {
 public:
     MeshBounds() = default;
-    /// Finds the bin at once; see find().
+    /// Calls find().
     MeshBounds(const Ellipsoid& ellipsoid, const EcefMesh& mesh) { find(ellipsoid, mesh); }
 
     /// Replaces the bin that was found before. Requires: indices within the vertices.

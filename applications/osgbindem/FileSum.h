@@ -10,9 +10,6 @@
 
 namespace osgbindem {
 
-/// Tells damaged bytes from whole ones; no protection against forgers. Some gigabytes a second.
-[[nodiscard]] std::uint64_t checksumOf(std::string_view bytes, std::uint64_t seed = 0) noexcept;
-
 /// What the files below a tile add up to, in whatever order they were written or read back.
 struct FileSum {
     std::uint64_t files = 0;

@@ -5,10 +5,14 @@
 
 #include <chrono>
 
-namespace osgAnalyticBin::bench {
+namespace osgAnalyticBin::flight {
 
 CullStage::CullStage(osg::NodeVisitor::DatabaseRequestHandler& files)
     : _visitor(new osgUtil::CullVisitor), _stateGraph(new osgUtil::StateGraph), _stage(new osgUtil::RenderStage) {
+    setRequestHandler(files);
+}
+
+void CullStage::setRequestHandler(osg::NodeVisitor::DatabaseRequestHandler& files) {
     _visitor->setDatabaseRequestHandler(&files);
 }
 
@@ -17,10 +21,10 @@ double CullStage::cull(osg::Camera& camera, osg::FrameStamp& frameStamp) {
     _stateGraph->clean();
     _stage->reset();
     const auto begin = std::chrono::steady_clock::now();
-    flight::cullScene(*_visitor, camera, frameStamp, *_stateGraph, *_stage);
+    cullScene(*_visitor, camera, frameStamp, *_stateGraph, *_stage);
     _stage->sort();
     _stateGraph->prune();
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
 
-}  // namespace osgAnalyticBin::bench
+}  // namespace osgAnalyticBin::flight

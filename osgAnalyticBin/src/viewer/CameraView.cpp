@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "CameraView.h"
+#include "ViewTools.h"
 
 #include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/viewer/CameraView.h>
 
-#include <osg/NodeVisitor>
 #include <osg/Transform>
 
 #include <cmath>
@@ -18,24 +18,6 @@ namespace {
 
 // Sine of the angle to the vertical below which the horizon has no "up": 0.006 degrees.
 constexpr double kStraight = 1e-4;
-
-class GlobeFinder : public osg::NodeVisitor {
-public:
-    explicit GlobeFinder(Globe& globe) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _globe(globe) {}
-
-    using osg::NodeVisitor::apply;
-    void apply(osg::CoordinateSystemNode& node) override {
-        if (_globe.ellipsoid || !node.getEllipsoidModel() || !hasValidRadii(*node.getEllipsoidModel())) return;
-        _globe.ellipsoid = node.getEllipsoidModel();
-        _globe.localToWorld = osg::computeLocalToWorld(getNodePath());
-    }
-    void apply(osg::Node& node) override {
-        if (!_globe.ellipsoid) traverse(node);
-    }
-
-private:
-    Globe& _globe;
-};
 
 core::Ellipsoid ellipsoidOf(const Globe& globe) {
     return {globe.ellipsoid->getRadiusEquator(), globe.ellipsoid->getRadiusPolar()};
@@ -79,11 +61,14 @@ osg::Vec3d directionToWorld(const osg::Vec3d& direction, const Globe& globe) {
 
 Globe globeOf(osg::Node& scene) {
     if (const auto map = mapOf(scene)) return *map;
-    Globe globe;
-    GlobeFinder finder(globe);
-    scene.accept(finder);
-    if (!globe.ellipsoid) globe.ellipsoid = new osg::EllipsoidModel;
-    return globe;
+    if (const auto globe = osgAnalyticBin::globeOf(scene)) return {globe->ellipsoid, globe->toWorld};
+    return {new osg::EllipsoidModel, osg::Matrixd()};
+}
+
+osg::Vec3d upWithoutRoll(const Globe& globe, const core::Geodetic& eye, const osg::Vec3d& sight) {
+    const osg::Vec3d vertical = directionToWorld(verticalAt(eye, globe), globe);
+    const bool isStraight = (sight ^ vertical).length() < kStraight;
+    return isStraight ? directionToWorld(northAt(eye, globe), globe) : vertical;
 }
 
 osg::Matrixd viewMatrixOf(const CameraPose& pose, const Globe& globe) {
@@ -91,9 +76,7 @@ osg::Matrixd viewMatrixOf(const CameraPose& pose, const Globe& globe) {
     const osg::Vec3d look = toWorld(pose.look, globe);
     osg::Vec3d direction = look - eye;
     direction.normalize();
-    const osg::Vec3d vertical = directionToWorld(verticalAt(pose.eye, globe), globe);
-    const bool straight = (direction ^ vertical).length() < kStraight;
-    const osg::Vec3d up = straight ? directionToWorld(northAt(pose.eye, globe), globe) : vertical;
+    const osg::Vec3d up = upWithoutRoll(globe, pose.eye, direction);
     osg::Matrixd view = osg::Matrixd::lookAt(eye, look, osg::Quat(pose.roll, direction) * up);
     view.postMultTranslate(osg::Vec3d(-pose.eyeRight, 0.0, 0.0));
     return view;

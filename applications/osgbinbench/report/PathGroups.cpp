@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace osgAnalyticBin::bench {
+namespace osgAnalyticBin::report {
 
 std::vector<PathGroup> pathGroupsOf(const std::vector<std::string>& poses) {
     std::vector<PathGroup> groups;
@@ -18,10 +18,4 @@ std::vector<PathGroup> pathGroupsOf(const std::vector<std::string>& poses) {
     return groups;
 }
 
-Figures sumOf(const MethodFigures& method, const PathGroup& group) {
-    Figures sum;
-    for (const std::size_t pose : group.poses) sum += method.poses[pose];
-    return sum;
-}
-
-}  // namespace osgAnalyticBin::bench
+}  // namespace osgAnalyticBin::report

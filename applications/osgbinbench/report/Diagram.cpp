@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Plot.h"
+#include "Diagram.h"
 
 #include "Failure.h"
 #include "GnuplotRun.h"
@@ -9,15 +9,13 @@
 
 #include <filesystem>
 
-namespace osgAnalyticBin::bench {
+namespace osgAnalyticBin::report {
 
 using support::Failure;
 
 void plot(const std::string& folder, const std::vector<Diagram>& diagrams) {
     namespace fs = std::filesystem;
-    std::error_code problem;
-    fs::create_directories(folder, problem);
-    if (problem) throw Failure("--plot: folder " + folder + " cannot be made");
+    support::makeFolder("--plot", folder);
     for (const Diagram& diagram : diagrams) {
         support::writeFile((fs::path(folder) / (diagram.name + ".csv")).string(), diagram.data);
         support::writeFile((fs::path(folder) / (diagram.name + ".gp")).string(), diagram.script);
@@ -33,4 +31,4 @@ void plot(const std::string& folder, const std::vector<Diagram>& diagrams) {
     }
 }
 
-}  // namespace osgAnalyticBin::bench
+}  // namespace osgAnalyticBin::report

@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "CameraPath.h"
+#include "../node/WholeFile.h"
 
-#include "CsvTable.h"
+#include <osgAnalyticBin/viewer/CameraPath.h>
+#include <osgAnalyticBin/viewer/CsvTable.h>
 
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <limits>
 #include <map>
 
 namespace osgAnalyticBin::flight {
@@ -15,6 +17,7 @@ namespace osgAnalyticBin::flight {
 namespace {
 
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
+constexpr double kDegreesPerRadian = 180.0 / 3.14159265358979323846;
 // Far beyond the moon, and far from where a double stops to resolve metres.
 constexpr double kLargestDistance = 1e12;
 constexpr double kLowestAltitude = -6.3e6;
@@ -215,6 +218,36 @@ std::optional<std::vector<CameraPose>> readCameraPathFiles(const std::vector<std
         }
     }
     return joined;
+}
+
+void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path, PathColumns columns) {
+    const bool isInTime = columns == PathColumns::PosesInTime;
+    out.precision(std::numeric_limits<double>::max_digits10);
+    out << kNameColumn;
+    for (std::size_t i = EyeLat; i <= Far; ++i) out << ',' << kNumbers[i].name;
+    if (isInTime) out << ',' << kNumbers[Time].name << ',' << kNumbers[Roll].name;
+    out << '\n';
+    std::size_t number = 0;
+    for (const CameraPose& pose : path) {
+        ++number;
+        out << (pose.name.empty() ? "p" + std::to_string(number) : pose.name);
+        for (const core::Geodetic& point : {pose.eye, pose.look}) {
+            out << ',' << point.latitude * kDegreesPerRadian << ',' << point.longitude * kDegreesPerRadian << ','
+                << point.altitude;
+        }
+        out << ',' << pose.verticalFov * kDegreesPerRadian << ',' << pose.nearPlane << ',' << pose.farPlane;
+        if (isInTime) out << ',' << pose.time << ',' << pose.roll * kDegreesPerRadian;
+        out << '\n';
+    }
+}
+
+bool writeCameraPathFile(const std::string& fileName, const std::vector<CameraPose>& path, PathColumns columns,
+                         std::string& error) {
+    const auto write = [&](std::ostream& out) {
+        writeCameraPath(out, path, columns);
+        return out.good();
+    };
+    return writeWholeFile(fileName, write, error);
 }
 
 }  // namespace osgAnalyticBin::flight

@@ -8,13 +8,14 @@
 #include <osg/Camera>
 #include <osg/FrameStamp>
 
-namespace osgAnalyticBin::bench {
+namespace osgAnalyticBin::flight {
 
 /// What osgUtil::SceneView keeps from frame to frame for its cull stage, without a window.
 class CullStage {
 public:
     /// `files` takes the requests of PagedLODs.
     explicit CullStage(osg::NodeVisitor::DatabaseRequestHandler& files);
+    void setRequestHandler(osg::NodeVisitor::DatabaseRequestHandler& files);
 
     /// Culls a camera's scene as osgViewer does before it draws, and sorts what is found.
     /// Requires: a camera with a viewport, and no update traversal meanwhile. Returns: how long it took, milliseconds.
@@ -26,4 +27,4 @@ private:
     osg::ref_ptr<osgUtil::RenderStage> _stage;
 };
 
-}  // namespace osgAnalyticBin::bench
+}  // namespace osgAnalyticBin::flight

@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-namespace osgbindem {
+namespace osgAnalyticBin::support {
 
 namespace {
 
@@ -31,11 +31,18 @@ std::uint64_t checksumOf(std::string_view bytes, std::uint64_t seed) noexcept {
     return mixed(sum, word);
 }
 
-void FileSum::add(const TileId& tile, std::string_view content) noexcept {
-    ++files;
-    bytes += content.size();
-    const std::uint64_t place = (static_cast<std::uint64_t>(tile.x) << 32) | static_cast<std::uint64_t>(tile.y);
-    checksum += checksumOf(content, mixed(static_cast<std::uint64_t>(tile.level), place));
+std::string withChecksum(std::string bytes) {
+    const std::uint64_t checksum = checksumOf(bytes);
+    return std::move(bytes.append(reinterpret_cast<const char*>(&checksum), sizeof checksum));
 }
 
-}  // namespace osgbindem
+std::optional<std::string_view> wholeBytes(std::string_view bytes) noexcept {
+    std::uint64_t checksum = 0;
+    if (bytes.size() < sizeof checksum) return std::nullopt;
+    const std::string_view whole = bytes.substr(0, bytes.size() - sizeof checksum);
+    std::memcpy(&checksum, bytes.data() + whole.size(), sizeof checksum);
+    if (checksum != checksumOf(whole)) return std::nullopt;
+    return whole;
+}
+
+}  // namespace osgAnalyticBin::support

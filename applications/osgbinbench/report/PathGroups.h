@@ -3,13 +3,11 @@
 
 #pragma once
 
-#include "Figures.h"
-
 #include <cstddef>
 #include <string>
 #include <vector>
 
-namespace osgAnalyticBin::bench {
+namespace osgAnalyticBin::report {
 
 /// Poses that belong together: their names share the text before the first `_`, which names the path.
 struct PathGroup {
@@ -20,7 +18,4 @@ struct PathGroup {
 /// The groups in the order in which their first poses come; every pose is in one.
 [[nodiscard]] std::vector<PathGroup> pathGroupsOf(const std::vector<std::string>& poses);
 
-/// What a method did at the poses of one group. Requires: figures for each of them.
-[[nodiscard]] Figures sumOf(const MethodFigures& method, const PathGroup& group);
-
-}  // namespace osgAnalyticBin::bench
+}  // namespace osgAnalyticBin::report

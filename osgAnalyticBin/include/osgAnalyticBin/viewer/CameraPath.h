@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/viewer/Export.h>
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin::flight {
+
+/// One stop of a camera path. Radians and metres.
+struct CameraPose {
+    std::string name;    ///< letters, digits, `_` and `-`: it names the picture's file too; empty: the writer gives one
+    core::Geodetic eye;  ///< where the camera stands
+    core::Geodetic look;       ///< a point on the line of sight
+    double verticalFov = 0.0;  ///< the whole angle
+    double nearPlane = 0.0;    ///< from the eye along the line of sight
+    double farPlane = 0.0;     ///< as nearPlane
+    double time = 0.0;         ///< seconds
+    double roll = 0.0;         ///< of up, clockwise about the line of sight, from the local vertical
+    /// How far the eye stands to the right of `eye`: the view's direction stays, the frustum is sheared so that the
+    /// plane through the look point is shown unchanged. Plus and minus half a base make a stereo pair.
+    double eyeRight = 0.0;
+};
+
+/// Reads a camera path: comma-separated values with the columns name, eyeLatDeg, eyeLonDeg, eyeAlt, lookLatDeg,
+/// lookLonDeg, lookAlt, fovDeg, near, far in any order, and, where wanted, time (seconds, growing; without it each pose
+/// is one second after the one before, from 0), rollDeg and eyeRight (both 0 without). Angles are in degrees, the rest
+/// in metres, altitudes above the ellipsoid. For a map eyeX, eyeY, lookX and lookY, in map units, stand for longitudes
+/// and latitudes (core::Ellipsoid::plane()). `#` starts a comment line. The file name is used in messages only.
+/// Returns: at least one pose; nullopt, with one line in `error` that names the file and the line, when a column is
+/// missing or unknown, a number is malformed or out of range, time does not grow, a name is used twice, or there is no
+/// pose.
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<std::vector<CameraPose>> readCameraPath(
+    std::istream& input, const std::string& fileName, std::string& error);
+
+/// Opens and reads a file.
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<std::vector<CameraPose>> readCameraPathFile(
+    const std::string& fileName, std::string& error);
+
+/// Reads several files, one or more, and joins them to one path: the first pose of each is one second after the last of
+/// the file before.
+/// Returns: nullopt, with one line in `error`, when a file is broken or two share a pose's name.
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<std::vector<CameraPose>> readCameraPathFiles(
+    const std::vector<std::string>& fileNames, std::string& error);
+
+/// Which columns a camera path has.
+enum class PathColumns {
+    Poses,       ///< name, eyeLatDeg, eyeLonDeg, eyeAlt, lookLatDeg, lookLonDeg, lookAlt, fovDeg, near, far
+    PosesInTime  ///< and time, rollDeg
+};
+
+/// Writes a camera path over a globe. Metres and seconds read back exactly, angles but for the last bit. Poses without
+/// a name are p1, p2 and so on; `eyeRight` is not written.
+OSGANALYTICBINVIEWER_EXPORT void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path,
+                                                 PathColumns columns);
+
+/// Replaces a file when the new one is complete. Returns: false, with one line in `error`, when that fails; what was
+/// there before stays.
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT bool writeCameraPathFile(const std::string& fileName,
+                                                                   const std::vector<CameraPose>& path,
+                                                                   PathColumns columns, std::string& error);
+
+}  // namespace osgAnalyticBin::flight

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/viewer/CameraPath.h>
+#include <osgAnalyticBin/viewer/Export.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Matrixd>
+
+namespace osgAnalyticBin::flight {
+
+/// The globe of a scene: its ellipsoid, and where it stands in the world. That of a map is mapPlane().
+struct Globe {
+    osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;  ///< its radii
+    osg::Matrixd localToWorld;                          ///< from ECEF, or the map, to the world
+};
+
+/// The map of the scene's first tile, if that tile is in a map; else the globe of the first CoordinateSystemNode with
+/// an ellipsoid; else OSG's default ellipsoid in world coordinates.
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT Globe globeOf(osg::Node& scene);
+
+/// The "up" of a view without roll, in the world's frame: the local vertical at the eye, or north where the view goes
+/// straight up or down. `sight`: along the view, in the world's frame, of unit length.
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT osg::Vec3d upWithoutRoll(const Globe& globe, const core::Geodetic& eye,
+                                                                   const osg::Vec3d& sight);
+
+/// From the world to the eye. Up is upWithoutRoll(), turned by the roll.
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT osg::Matrixd viewMatrixOf(const CameraPose& pose, const Globe& globe);
+
+/// Perspective with the pose's vertical field of view, near and far plane, sheared when `eyeRight` is not 0.
+/// `aspect` is width / height.
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT osg::Matrixd projectionMatrixOf(const CameraPose& pose, const Globe& globe,
+                                                                          double aspect);
+
+}  // namespace osgAnalyticBin::flight

@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+# SPDX-License-Identifier: MIT
+"""Compares the figures of README.md with those of osgAnalyticBin/doc/results.md and guide.md that they are taken from.
+Argument: the source folder."""
+
+import pathlib
+import re
+import sys
+
+
+def table(text, head):
+    """The rows below a line that begins with this, as lists of cells."""
+    lines = text.splitlines()
+    starts = [i for i, line in enumerate(lines) if line.startswith(head)]
+    if len(starts) != 1:
+        sys.exit(f"not one table that begins with \"{head}\"")
+    rows = []
+    for line in lines[starts[0] + 2:]:
+        if not line.startswith("|"):
+            break
+        rows.append([cell.strip() for cell in line.strip("|").split("|")])
+    return rows
+
+
+def number(cell):
+    """Written with or without emphasis and spaces between thousands."""
+    return cell.replace("*", "").replace(" ", "")
+
+
+def differences(readme, results, guide):
+    # README's words for the rows of results, in any order
+    names = {"tiles drawn": "tiles drawn", "files": "files read", "tiles in memory": "tiles in memory",
+             "cull time, warm caches": "cull time, data in the processor's caches",
+             "cull time, cold caches": "cull time, caches cold"}
+    shown = table(readme, "| | spheres |")
+    for row in table(results, "| sums of the"):
+        own = [cells for cells in shown if cells[0].startswith(names[row[0]])]
+        if [[number(cell) for cell in cells[1:]] for cells in own] != [row[1:]]:
+            yield f"\"{names[row[0]]}\": README has {own}, results.md has {row[1:]}"
+    total = [row for row in table(results, "| path | poses | needed |") if "all" in row[0]][-1]
+    for words, figure in ((f"over {total[1]} views", "poses"), (f"at most {total[2]} are", "tiles needed")):
+        if words not in readme:
+            yield f"{figure}: README does not say \"{words}\", as results.md does"
+    for tiles in re.findall(r"\((\d+) tiles in place of (\d+) in", " ".join(readme.split())):
+        if not all(re.search(rf"\b{count}\b", guide) for count in tiles):
+            yield f"README has {tiles} tiles in a valley, guide.md has others"
+
+
+def main():
+    root = pathlib.Path(sys.argv[1])
+    texts = [(root / name).read_text(encoding="utf-8")
+             for name in ("README.md", "osgAnalyticBin/doc/results.md", "osgAnalyticBin/doc/guide.md")]
+    found = list(differences(*texts))
+    print("\n".join(found) or "the figures agree")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
