@@ -5,6 +5,7 @@
 
 #include "ClusterFiller.h"
 #include "NodeWalk.h"
+#include "RasterCulling.h"
 #include "ReadInFront.h"
 
 #include <osg/ClusterCullingCallback>
@@ -82,7 +83,7 @@ osgDB::ReaderWriter::ReadResult ClusterRemover::readNode(const std::string& file
     osgDB::ReaderWriter::ReadResult result = _next->readNode(fileName, options);
     if (!result.getNode()) return result;
     if (_treatment == Clusters::Remove) removeClusterCallbacks(*result.getNode());
-    if (_treatment == Clusters::Fill) fill(*result.getNode());
+    if (_treatment == Clusters::Fill || _treatment == Clusters::FillForRaster) fill(*result.getNode());
     return result;
 }
 
@@ -96,6 +97,7 @@ void ClusterRemover::fill(osg::Node& graph) {
         if (finder.ellipsoid) _ellipsoid = finder.ellipsoid;
     }
     fillClusterCallbacks(graph, pageOf.get());
+    if (_treatment == Clusters::FillForRaster) prepareRasterTiles(graph, pageOf.get());
 }
 
 }  // namespace osgAnalyticBin::bench

@@ -5,6 +5,7 @@
 
 #include "CsvTable.h"
 #include "Failure.h"
+#include "RasterCulling.h"
 
 #include <osgDB/DatabasePager>
 #include <osgDB/Registry>
@@ -95,6 +96,7 @@ void MethodScene::load() {
     if (!root->getBound().valid()) throw Failure(_settings.database + ": there is nothing to fly over");
     if (_settings.verticalScale != 1.0) scaleVertically(*root, _settings.verticalScale, _settings.database);
     _globe = flight::globeOf(*root);
+    if (_method.usesRaster()) installRaster(*root, _settings.width, _settings.height);
     _camera->addChild(root);
     _paged.emplace(*root, *_camera);
 }
