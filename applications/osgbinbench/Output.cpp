@@ -84,6 +84,25 @@ std::vector<std::string> flightRatios(const FlightFigures& m, const FlightFigure
     return cells;
 }
 
+std::vector<std::string> drawnHead(const std::string& first) {
+    std::vector<std::string> cells{first, "frames"};
+    for (const DrawnColumn& column : kDrawnColumns) cells.emplace_back(column.name);
+    return cells;
+}
+
+std::vector<std::string> drawnLine(const DrawnFigures& m) {
+    std::vector<std::string> cells{m.method, std::to_string(m.frames)};
+    for (const DrawnColumn& column : kDrawnColumns) cells.push_back(withDecimals(m.*column.ms, 3));
+    return cells;
+}
+
+std::vector<std::string> drawnRatios(const DrawnFigures& m, const DrawnFigures& reference) {
+    std::vector<std::string> cells{m.method,
+                                   ratio(static_cast<double>(m.frames), static_cast<double>(reference.frames))};
+    for (const DrawnColumn& column : kDrawnColumns) cells.push_back(ratio(m.*column.ms, reference.*column.ms));
+    return cells;
+}
+
 template <class Method>
 const Method* find(const std::vector<Method>& methods, const std::string& name) {
     const auto found = std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.method == name; });
@@ -182,6 +201,22 @@ TextTable turned(const std::vector<std::vector<std::string>>& lines) {
     return table;
 }
 
+template <class Flights, class Head, class Line, class Ratios>
+void printFlights(std::ostream& output, const Flights& methods, const std::string& title, const Head& head,
+                  const Line& line, const Ratios& ratios) {
+    std::vector<std::vector<std::string>> lines{head(title)};
+    for (const auto& m : methods) lines.push_back(line(m));
+    turned(lines).print(output);
+    for (const char* const name : kComparedWith) {
+        const auto* const reference = find(methods, name);
+        if (!reference) continue;
+        lines = {head(std::string("ratio to ") + name)};
+        for (const auto& m : methods) lines.push_back(ratios(m, *reference));
+        output << '\n';
+        turned(lines).print(output);
+    }
+}
+
 }  // namespace
 
 std::string csvOf(const std::vector<std::string>& poses, const std::vector<MethodFigures>& methods) {
@@ -214,6 +249,18 @@ std::string csvOf(const std::vector<FlightFigures>& methods) {
     return text;
 }
 
+std::string csvOf(const std::vector<DrawnFigures>& methods) {
+    std::string text = "method,frames";
+    for (const DrawnColumn& column : kDrawnColumns) text += std::string(",") + column.name;
+    text += "\n";
+    for (const DrawnFigures& method : methods) {
+        text += method.method + "," + std::to_string(method.frames);
+        for (const DrawnColumn& column : kDrawnColumns) text += "," + flight::textFrom(method.*column.ms);
+        text += "\n";
+    }
+    return text;
+}
+
 std::string jsonOf(const Settings& settings, const std::vector<std::string>& poses,
                    const std::vector<MethodFigures>& methods, const std::vector<FlightFigures>& live) {
     Json json = headOf(settings, "poses");
@@ -233,6 +280,16 @@ std::string jsonOf(const Settings& settings, const std::vector<std::string>& pos
 std::string jsonOf(const Settings& settings, const std::vector<FlightFigures>& methods) {
     Json json = headOf(settings, settings.jumps ? "jumps" : "flight");
     json["methods"] = flightOf(methods);
+    return json.dump(2) + "\n";
+}
+
+std::string jsonOf(const Settings& settings, const std::vector<DrawnFigures>& methods) {
+    Json json = headOf(settings, "drawn");
+    for (const DrawnFigures& method : methods) {
+        Json& times = json["methods"][method.method];
+        times["frames"] = method.frames;
+        for (const DrawnColumn& column : kDrawnColumns) times[column.name] = method.*column.ms;
+    }
     return json.dump(2) + "\n";
 }
 
@@ -262,17 +319,11 @@ void printTable(std::ostream& output, const std::vector<std::string>& poses,
 }
 
 void printTable(std::ostream& output, const std::vector<FlightFigures>& methods) {
-    std::vector<std::vector<std::string>> lines{flightHead("paging live")};
-    for (const FlightFigures& m : methods) lines.push_back(flightLine(m));
-    turned(lines).print(output);
-    for (const char* const name : kComparedWith) {
-        const FlightFigures* const reference = find(methods, name);
-        if (!reference) continue;
-        lines = {flightHead(std::string("ratio to ") + name)};
-        for (const FlightFigures& m : methods) lines.push_back(flightRatios(m, *reference));
-        output << '\n';
-        turned(lines).print(output);
-    }
+    printFlights(output, methods, "paging live", flightHead, flightLine, flightRatios);
+}
+
+void printTable(std::ostream& output, const std::vector<DrawnFigures>& methods) {
+    printFlights(output, methods, "drawn with paging live", drawnHead, drawnLine, drawnRatios);
 }
 
 }  // namespace osgAnalyticBin::bench

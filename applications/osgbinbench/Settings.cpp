@@ -81,6 +81,12 @@ std::string flightColumns() {
     return text;
 }
 
+std::string drawnColumns() {
+    std::string text;
+    for (const DrawnColumn& column : kDrawnColumns) text += line(column.name, column.meaning);
+    return text;
+}
+
 std::string footer() {
     std::string text =
         "Two commands, each with a --help of its own:\n"
@@ -115,6 +121,9 @@ std::string footer() {
            "  cull_ms              milliseconds of all cull traversals and their sorting, summed\n"
            "  cull_median_ms       of one, median\n"
            "  cull_99th_ms         of one, 99th percentile\n\n"
+           "The same with --draw, over three flights of each method but none:\n" +
+           drawnColumns() +
+           "\n"
            "\"paths\" in --json holds the sums of the poses whose names share the text before the first _, \"by_pose\" "
            "the\n"
            "figures of every pose, in the order of \"pose_names\".\n\n" +
@@ -177,6 +186,8 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
         ->check(CLI::Range(0, 100000));
     app.add_option("--frames", settings.frames, "only fly continuously, that many frames in all,\n1 to 1000000")
         ->check(CLI::Range(1, 1000000));
+    app.add_flag("--draw", settings.draw,
+                 "draws the frames of --frames in a viewer, as fast as they\ncome, and times them instead of counting");
     app.add_flag("--jumps", settings.jumps,
                  "only jump from pose to pose with paging live, and stand at\neach until nothing is missing");
     app.add_option("--frame-rate", settings.frameRate,
@@ -216,6 +227,7 @@ void check(const Settings& settings) {
         throw UsageError("--options: name methods with +occlusion or +autoocclusion in --methods instead of \"" +
                          settings.binOptions + "\"");
     if (settings.frames > 0 && settings.jumps) throw UsageError("--jumps: leave --frames out");
+    if (settings.draw && settings.frames == 0) throw UsageError("--draw: give --frames, how many are to be drawn");
     const bool isLive = settings.frames > 0 || settings.jumps;
     if (isLive && !settings.pictures.empty())
         throw UsageError("--pictures: with paging live none are taken; leave --frames and --jumps out");
