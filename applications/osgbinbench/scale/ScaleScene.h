@@ -64,6 +64,10 @@ public:
     /// Requires: settle(). Throws: Failure when the globe has no more.
     void fill(std::size_t pagedLods);
 
+    /// Repeats from now on, without a test, what the method decides at the pose. Requires: settle(), and that no more
+    /// tiles are loaded; settle() anew begins with the root file.
+    void replay();
+
     [[nodiscard]] TileTally tally();
 
     /// Milliseconds of one cull traversal and its sorting.
@@ -74,14 +78,16 @@ public:
 
     [[nodiscard]] osg::Group& root() { return *_root; }
     [[nodiscard]] osg::FrameStamp& frameStamp() { return *_frameStamp; }
-    [[nodiscard]] const std::string& method() const { return _method.name; }
+    [[nodiscard]] const ScaleMethod& method() const { return _method; }
     [[nodiscard]] std::size_t pagedLods() const { return _pagedLods; }
 
 private:
+    void readRoot();
     void nextFrame();
     void cull(osg::NodeVisitor::DatabaseRequestHandler& requests);
 
     ScaleMethod _method;
+    globe::GlobeOptions _options;
     osg::ref_ptr<osg::Group> _root;
     osg::ref_ptr<osg::Camera> _camera;
     osg::ref_ptr<osg::FrameStamp> _frameStamp;
@@ -90,6 +96,7 @@ private:
     std::size_t _pagedLods = 0;
     std::deque<osg::ref_ptr<osg::PagedLOD>> _frontier;
     bool _isFilling = false;
+    bool _isReplaying = false;
     // What osgUtil::SceneView keeps from frame to frame for its cull stage.
     osg::ref_ptr<osgUtil::CullVisitor> _visitor;
     osg::ref_ptr<osgUtil::StateGraph> _stateGraph;
