@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 # SPDX-License-Identifier: MIT
 #
-# Remakes the tables and figures of osgAnalyticBin/doc/results.md but those of other programs (sections 7 and 9): builds
+# Remakes the tables and figures of osgAnalyticBin/doc/results.md but those of other programs (sections 5 and 7): builds
 # the project, the demo's database and a regional one, flies all camera paths over them, draws flights, jumps from pose
 # to pose from disk and over a slow line, repeats the published experiment, and measures how culling scales. Some
 # 15 minutes on two cores; run it on a quiet machine, for it measures times. Everything goes to the folder figures/.
@@ -60,10 +60,12 @@ on_display "$build/bin/osgbinbench" "$out/earth.osgb" $high --methods "$peers,ex
 
 step "Low views, over the globe and over a region"
 # shellcheck disable=SC2086
-on_display "$build/bin/osgbinbench" "$out/earth.osgb" $low --methods "$peers,quadratic+horizon+edges,$default" \
-    --size 640x360 --repeats 12 --live 0 --csv "$out/low.csv" --json "$out/low.json" >"$out/low.txt"
+on_display "$build/bin/osgbinbench" "$out/earth.osgb" $low --size 640x360 \
+    --methods "$peers,quadratic+horizon+edges,quadratic+horizon+edges+occlusion,$default" \
+    --repeats 12 --live 0 --csv "$out/low.csv" --json "$out/low.json" >"$out/low.txt"
 # shellcheck disable=SC2086
-on_display "$build/bin/osgbinbench" "$out/region.osgb" $low --methods "sphere,cluster,cluster+raster,$default" \
+on_display "$build/bin/osgbinbench" "$out/region.osgb" $low \
+    --methods sphere,cluster,cluster+raster,quadratic+horizon+edges,quadratic+horizon+edges+occlusion \
     --size 640x360 --repeats 8 --live 0 --csv "$out/region.csv" --json "$out/region.json" >"$out/region.txt"
 
 step "Frames of flights"
