@@ -122,9 +122,9 @@ void BenchViewer::sortByState() {
 
 void BenchViewer::startTimes() {
     osg::Camera& camera = *_viewer.getCamera();
-    if (!camera.getStats()) camera.setStats(new osg::Stats("camera"));
-    if (camera.getStats()->collectStats("rendering") == false) camera.addFinalDrawCallback(new FinishDrawing);
-    camera.getStats()->collectStats("rendering", true);
+    osg::Stats& stats = *camera.getStats();
+    if (!stats.collectStats("rendering")) camera.addFinalDrawCallback(new FinishDrawing);
+    stats.collectStats("rendering", true);
     _times.clear();
     _firstTimed = _firstUnread = _viewer.getFrameStamp()->getFrameNumber() + 1;
     _begin = std::chrono::steady_clock::now();
