@@ -2,10 +2,12 @@
 # SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 # SPDX-License-Identifier: MIT
 #
-# Remakes every table and figure of osgAnalyticBin/doc/results.md: builds the project and the demo's database, flies all
-# shipped camera paths, repeats the published experiment, and measures how culling scales. Some ten minutes on two cores;
-# run it on a quiet machine, for it measures times. Everything goes to the folder figures/.
+# Remakes the tables and figures of osgAnalyticBin/doc/results.md but those of other programs (sections 5 and 7): builds
+# the project, the demo's database and a regional one, flies all camera paths over them, draws flights, jumps from pose
+# to pose from disk and over a slow line, repeats the published experiment, and measures how culling scales. Some
+# 15 minutes on two cores; run it on a quiet machine, for it measures times. Everything goes to the folder figures/.
 # Arguments: none, or "commit" to put the pictures that results.md shows into osgAnalyticBin/doc/results/.
+# GTOPO30=FILE in the environment: a raster of 30 arc seconds, for the published experiment with terrain behind terrain.
 
 set -eu
 cd "$(dirname "$0")/.."
@@ -32,32 +34,73 @@ cmake --build --preset release -- osgbinbench osgbindem osgbinpaper osgdb_analyt
 mkdir -p "$out"
 
 if [ -n "$(find "$out/earth.done" -newer "$build/bin/osgbindem" 2>/dev/null)" ]; then
-    step "The database is there already"
+    step "The databases are there already"
 else
-    step "Database of the earth"
-    "$build/bin/osgbindem" /usr/share/ferret-vis/data/etopo5.cdf /usr/share/ncarg/data/cdf/trinidad.nc --height-unit m ft \
-        --overwrite -o "$out/earth.osgb"
+    step "Databases of the earth and of a region"
+    rasters="/usr/share/ferret-vis/data/etopo5.cdf /usr/share/ncarg/data/cdf/trinidad.nc --height-unit m ft"
+    # shellcheck disable=SC2086
+    "$build/bin/osgbindem" $rasters --overwrite -o "$out/earth.osgb"
+    # shellcheck disable=SC2086
+    "$build/bin/osgbindem" $rasters -te -107 36 -103 39 --overwrite -o "$out/region.osgb"
 fi
 
-paths=""
-for path in nadir oblique horizon rockies pole dateline sensor10 sensor2 stereo turning; do
-    paths="$paths --path data/paths/$path.csv"
+path_options() {
+    for path in "$@"; do printf ' --path data/paths/%s.csv' "$path"; done
+}
+high=$(path_options nadir oblique horizon rockies pole dateline sensor10 sensor2 stereo turning)
+low=$(path_options valley nap hilltop helicopter drone approach)
+peers=sphere,cluster,cluster+raster,orientedbox+horizon+edges
+default=quadratic+horizon+edges+autoocclusion
+
+step "High views"
+# shellcheck disable=SC2086
+on_display "$build/bin/osgbinbench" "$out/earth.osgb" $high --methods "$peers,exact+horizon+edges,$default,oracle" \
+    --size 640x360 --repeats 12 --live 0 --csv "$out/paths.csv" --json "$out/paths.json" --plot "$out/paths" \
+    >"$out/paths.txt"
+
+step "Low views, over the globe and over a region"
+# shellcheck disable=SC2086
+on_display "$build/bin/osgbinbench" "$out/earth.osgb" $low --size 640x360 \
+    --methods "$peers,quadratic+horizon+edges,quadratic+horizon+edges+occlusion,$default" \
+    --repeats 12 --live 0 --csv "$out/low.csv" --json "$out/low.json" >"$out/low.txt"
+# shellcheck disable=SC2086
+on_display "$build/bin/osgbinbench" "$out/region.osgb" $low \
+    --methods sphere,cluster,cluster+raster,quadratic+horizon+edges,quadratic+horizon+edges+occlusion \
+    --size 640x360 --repeats 8 --live 0 --csv "$out/region.csv" --json "$out/region.json" >"$out/region.txt"
+
+step "Frames of flights"
+for threading in SingleThreaded DrawThreadPerContext; do
+    for path in helicopter approach; do
+        on_display "$build/bin/osgbinbench" "$out/earth.osgb" --path "data/paths/$path.csv" --frames 150 --draw \
+            --threading "$threading" --methods "sphere,cluster,$default" --size 640x360 \
+            --json "$out/frames_${path}_$threading.json" >"$out/frames_${path}_$threading.txt"
+    done
 done
 
-step "All shipped camera paths"
+step "Jumps, from disk and over a line of 20 ms"
+jumps="--path data/paths/demo.csv --jumps --size 640x360 --methods $peers,quadratic+horizon+edges,$default"
 # shellcheck disable=SC2086
-on_display "$build/bin/osgbinbench" "$out/earth.osgb" $paths --size 640x360 --csv "$out/paths.csv" \
-    --json "$out/paths.json" --plot "$out/paths" >"$out/paths.txt"
+on_display "$build/bin/osgbinbench" "$out/earth.osgb" $jumps --json "$out/jumps_disk.json" >"$out/jumps_disk.txt"
+# shellcheck disable=SC2086
+on_display python3 applications/latency.py "$out" --milliseconds 20 -- \
+    "$build/bin/osgbinbench" URL/earth.osgb $jumps --json "$out/jumps_http.json" >"$out/jumps_http.txt"
 
 step "All methods"
 on_display "$build/bin/osgbinbench" "$out/earth.osgb" --path data/paths/demo.csv --methods all --size 640x360 --live 0 \
-    --csv "$out/methods.csv" --json "$out/methods.json" >"$out/methods.txt"
+    --repeats 16 --csv "$out/methods.csv" --json "$out/methods.json" >"$out/methods.txt"
 
 step "The published experiment"
 "$build/bin/osgbinpaper" --csv "$out/paper.csv" --json "$out/paper.json" --plot "$out/paper" >"$out/paper.txt"
 
+if [ -n "${GTOPO30:-}" ]; then
+    step "The same over 30 arc seconds, with terrain behind terrain"
+    "$build/bin/osgbinpaper" "$GTOPO30" --levels 8 --occlusion --cameras 200 --json "$out/paper_gtopo30.json" \
+        >"$out/paper_gtopo30.txt"
+fi
+
 step "Scale"
-"$build/bin/osgbinbench" scale --csv "$out/scale.csv" --json "$out/scale.json" --plot "$out/scale" >"$out/scale.txt"
+"$build/bin/osgbinbench" scale --levels 4,8,12,16,20,24 --rounds 6 --csv "$out/scale.csv" --json "$out/scale.json" \
+    --plot "$out/scale" >"$out/scale.txt"
 
 step "Machine"
 {

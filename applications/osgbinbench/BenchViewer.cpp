@@ -32,6 +32,15 @@ osg::ref_ptr<osg::GraphicsContext> makeDrawingSurface(int width, int height) {
     return surface;
 }
 
+// A software renderer draws while the program goes on: a frame's time is to hold all of it.
+class FinishDrawing : public osg::Camera::DrawCallback {
+public:
+    void operator()(osg::RenderInfo&) const override { glFinish(); }
+};
+
+// So many frames later a frame has been drawn, in whatever threading model.
+constexpr unsigned int kFramesBehind = 3;
+
 void prepareCamera(osg::Camera& camera, osg::GraphicsContext& surface) {
     camera.setGraphicsContext(&surface);
     camera.setViewport(new osg::Viewport(0, 0, surface.getTraits()->width, surface.getTraits()->height));
@@ -85,6 +94,48 @@ osg::ref_ptr<osg::Image> BenchViewer::picture() {
         if (osg::ref_ptr<osg::Image> picture = _capture->take()) return picture;
     }
     throw Failure("a picture was never drawn; try --threading SingleThreaded");
+}
+
+void BenchViewer::sortByState() {
+    _viewer.getCamera()->getOrCreateStateSet()->setRenderBinToInherit();
+}
+
+void BenchViewer::startTimes() {
+    osg::Camera& camera = *_viewer.getCamera();
+    osg::Stats& stats = *camera.getStats();
+    if (!stats.collectStats("rendering")) camera.addFinalDrawCallback(new FinishDrawing);
+    stats.collectStats("rendering", true);
+    _times.clear();
+    _firstTimed = _firstUnread = _viewer.getFrameStamp()->getFrameNumber() + 1;
+    _begin = std::chrono::steady_clock::now();
+}
+
+void BenchViewer::timeFrame() {
+    drawFrame();
+    const auto end = std::chrono::steady_clock::now();
+    _times.push_back({0.0, 0.0, std::chrono::duration<double, std::milli>(end - _begin).count()});
+    _begin = end;
+    const unsigned int frame = _viewer.getFrameStamp()->getFrameNumber();
+    if (frame >= _firstTimed + kFramesBehind) collectTimes(frame - kFramesBehind + 1);
+}
+
+void BenchViewer::collectTimes(unsigned int before) {
+    for (; _firstUnread < before; ++_firstUnread) {
+        FrameTimes& times = _times[_firstUnread - _firstTimed];
+        const auto read = [&](const char* name, double& ms) {
+            if (_viewer.getCamera()->getStats()->getAttribute(_firstUnread, name, ms)) ms *= 1000.0;
+        };
+        read("Cull traversal time taken", times.cullMs);
+        read("Draw traversal time taken", times.drawMs);
+    }
+}
+
+std::vector<FrameTimes> BenchViewer::takeTimes() {
+    const unsigned int end = _viewer.getFrameStamp()->getFrameNumber() + 1;
+    for (unsigned int i = 0; i < kFramesBehind; ++i) drawFrame();
+    collectTimes(end);
+    if (!_times.empty()) _times.erase(_times.begin());
+    return std::move(_times);
 }
 
 void BenchViewer::rest() {

@@ -8,7 +8,17 @@
 #include <osg/Image>
 #include <osgViewer/Viewer>
 
+#include <chrono>
+#include <vector>
+
 namespace osgAnalyticBin::bench {
+
+/// Milliseconds of one frame. The viewer's own statistics, drawing until the pixels are there.
+struct FrameTimes {
+    double cullMs = 0.0;
+    double drawMs = 0.0;
+    double frameMs = 0.0;  ///< from the frame's begin to the next one's
+};
 
 /// The one viewer of the process: draws now this scene, now that one, on an invisible surface.
 /// Pictures are comparable to the pixel: near and far stay as they are set, nothing small is culled, nothing is
@@ -31,14 +41,30 @@ public:
     /// Throws: Failure when it does not come.
     [[nodiscard]] osg::ref_ptr<osg::Image> picture();
 
+    /// Draws from now on as other viewers do: what is opaque by its state, not in the order of the traversal.
+    void sortByState();
+
+    /// Frames are timed from now on.
+    void startTimes();
+
+    /// Draws a frame as fast as it comes.
+    void timeFrame();
+
+    /// The times of all timed frames but the first, which has nothing loaded, once they have been drawn.
+    [[nodiscard]] std::vector<FrameTimes> takeTimes();
+
     /// Ends all drawing, so that the scene may be looked at by others; the next frame starts it again.
     void rest();
 
 private:
     void drawFrame();
+    void collectTimes(unsigned int before);
 
     osgViewer::Viewer _viewer;
     osg::ref_ptr<flight::FrameCapture> _capture;
+    std::vector<FrameTimes> _times;  // of frames from _firstTimed on
+    unsigned int _firstTimed = 0, _firstUnread = 0;
+    std::chrono::steady_clock::time_point _begin;
 };
 
 }  // namespace osgAnalyticBin::bench

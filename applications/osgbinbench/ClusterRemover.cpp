@@ -5,6 +5,7 @@
 
 #include "ClusterFiller.h"
 #include "NodeWalk.h"
+#include "RasterCulling.h"
 
 #include <osg/ClusterCullingCallback>
 
@@ -75,7 +76,7 @@ ClusterRemover::Result ClusterRemover::readNode(const std::string& fileName, con
     Result result = ReadInFront::readNode(fileName, options);
     if (!result.getNode()) return result;
     if (_treatment == Clusters::Remove) removeClusterCallbacks(*result.getNode());
-    if (_treatment == Clusters::Fill) fill(*result.getNode());
+    if (_treatment == Clusters::Fill || _treatment == Clusters::FillForRaster) fill(*result.getNode());
     return result;
 }
 
@@ -89,6 +90,7 @@ void ClusterRemover::fill(osg::Node& graph) {
         if (finder.ellipsoid) _ellipsoid = finder.ellipsoid;
     }
     fillClusterCallbacks(graph, pageOf.get());
+    if (_treatment == Clusters::FillForRaster) prepareRasterTiles(graph, pageOf.get());
 }
 
 }  // namespace osgAnalyticBin::bench

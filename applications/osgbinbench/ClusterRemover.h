@@ -25,7 +25,8 @@ std::size_t removeClusterCallbacks(osg::Node& graph);
 enum class Clusters {
     Keep,
     Remove,
-    Fill  ///< kept; where a file has none its tiles get such as VirtualPlanetBuilder makes
+    Fill,          ///< kept; where a file has none its tiles get such as VirtualPlanetBuilder makes
+    FillForRaster  ///< as Fill, and tiles are prepared for RasterCulling.h
 };
 
 /// A callback of the Registry that removes or fills the cluster callbacks of whatever is read: pages that the

@@ -19,9 +19,10 @@ namespace {
 // The bases that bins stand behind.
 constexpr std::array<const char*, 6> kBinBases{"box", "orientedbox", "corners", "paper", "quadratic", "exact"};
 
-constexpr std::array<const char*, 20> kAll{"none",
+constexpr std::array<const char*, 21> kAll{"none",
                                            "sphere",
                                            "cluster",
+                                           kRasterMethod,
                                            "box",
                                            "box+horizon",
                                            "orientedbox",
@@ -77,9 +78,11 @@ CullMethod cullMethodFromName(const std::string& name) {
     method.name = name;
     method.cullsNothing = name == kReferenceMethod;
     // stock OSG, "cluster" with what a builder of databases gives it
-    if (method.cullsNothing || name == "sphere" || name == "cluster") {
+    if (method.cullsNothing || name == "sphere" || name == "cluster" || name == kRasterMethod) {
         method.loaderMethod = method.cullsNothing ? "none" : "sphere";
-        method.clusters = name == "cluster" ? Clusters::Fill : Clusters::Remove;
+        method.clusters = name == "cluster"       ? Clusters::Fill
+                          : name == kRasterMethod ? Clusters::FillForRaster
+                                                  : Clusters::Remove;
         return method;
     }
     std::string base = name;
@@ -91,11 +94,11 @@ CullMethod cullMethodFromName(const std::string& name) {
     // terrain hides terrain for an eye that has a horizon, and not in the methods for comparison
     const bool makesSense = !method.usesOcclusion || (method.usesHorizon && (base == "exact" || base == "quadratic"));
     if (!method.loaderMethod.empty() && makesSense) return method;
-    throw UsageError(
-        "--methods: unknown method \"" + name +
-        "\"; use none, sphere, cluster, oracle, all, or box, orientedbox, corners, paper, quadratic or exact, these "
-        "with +horizon, +edges or +horizon+edges; quadratic and exact with +horizon, also +occlusion or "
-        "+autoocclusion");
+    throw UsageError("--methods: unknown method \"" + name +
+                     "\"; use none, sphere, cluster, cluster+raster, oracle, all, or box, orientedbox, corners, paper, "
+                     "quadratic or exact, these "
+                     "with +horizon, +edges or +horizon+edges; quadratic and exact with +horizon, also +occlusion or "
+                     "+autoocclusion");
 }
 
 std::vector<CullMethod> cullMethodsFromNames(const std::vector<std::string>& names) {

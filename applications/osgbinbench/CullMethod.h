@@ -29,6 +29,9 @@ struct CullMethod {
     /// Whether what the bins decide at a pose is repeated without tests.
     bool replaysVerdicts = false;
 
+    /// Whether terrain hides terrain in a small depth buffer: RasterCulling.h.
+    [[nodiscard]] bool usesRaster() const { return clusters == Clusters::FillForRaster; }
+
     [[nodiscard]] bool usesBins() const { return loaderMethod != "sphere" && loaderMethod != "none"; }
 
     /// The name under which OSG reads the database with this method. `binOptions` go to the bins alone; an altitude of
@@ -43,11 +46,14 @@ inline constexpr const char* kReferenceMethod = "none";
 inline constexpr const char* kOracleMethod = "oracle";
 inline constexpr const char* kReplayedMethod = "exact+horizon+edges";
 
+/// Stock OSG with cluster callbacks, and terrain behind terrain left out as games do it.
+inline constexpr const char* kRasterMethod = "cluster+raster";
+
 /// Stands for all methods that are worth comparing.
 inline constexpr const char* kAllMethods = "all";
 
-/// "none", "sphere", "cluster", "oracle", and box, orientedbox, corners, paper, quadratic and exact with their
-/// suffixes. Throws: Failure for a name that is unknown or makes no sense.
+/// "none", "sphere", "cluster", "cluster+raster", "oracle", and box, orientedbox, corners, paper, quadratic and exact
+/// with their suffixes. Throws: Failure for a name that is unknown or makes no sense.
 [[nodiscard]] CullMethod cullMethodFromName(const std::string& name);
 
 /// The methods in the order given, each once. The reference comes first, whether it was named or not, and the method

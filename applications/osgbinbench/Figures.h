@@ -123,6 +123,39 @@ struct FlightFigures {
     double cull99thMs = 0.0;
 };
 
+/// The same for flights that are drawn: milliseconds.
+struct DrawnFigures {
+    std::string method;
+    std::uint64_t frames = 0;
+    double cullMs = 0.0;
+    double drawMs = 0.0;
+    double work1stMs = 0.0;
+    double workMedianMs = 0.0;
+    double work99thMs = 0.0;
+    double frameMs = 0.0;
+    double frame1stMs = 0.0;
+    double frameMedianMs = 0.0;
+    double frame99thMs = 0.0;
+};
+
+struct DrawnColumn {
+    const char* name;
+    double DrawnFigures::*ms;
+    const char* meaning;
+};
+
+inline constexpr std::array<DrawnColumn, 9> kDrawnColumns{{
+    {"cull_ms", &DrawnFigures::cullMs, "milliseconds of the cull traversals, summed over frames"},
+    {"draw_ms", &DrawnFigures::drawMs, "of drawing, until the pixels are there"},
+    {"work_1st_ms", &DrawnFigures::work1stMs, "cull and draw of one frame, 1st percentile"},
+    {"work_median_ms", &DrawnFigures::workMedianMs, "median"},
+    {"work_99th_ms", &DrawnFigures::work99thMs, "99th percentile"},
+    {"frame_ms", &DrawnFigures::frameMs, "from frame to frame, summed: update and what the pager brings besides"},
+    {"frame_1st_ms", &DrawnFigures::frame1stMs, "of one, 1st percentile"},
+    {"frame_median_ms", &DrawnFigures::frameMedianMs, "median"},
+    {"frame_99th_ms", &DrawnFigures::frame99thMs, "99th percentile"},
+}};
+
 struct FlightColumn {
     const char* name;
     std::uint64_t FlightFigures::*count;

@@ -4,6 +4,7 @@
 #include "MethodScene.h"
 
 #include "Failure.h"
+#include "RasterCulling.h"
 
 #include <osgAnalyticBin/viewer/CsvTable.h>
 
@@ -96,6 +97,7 @@ void MethodScene::load() {
     if (!root->getBound().valid()) throw Failure(_settings.database + ": the database is empty");
     if (_settings.verticalScale != 1.0) scaleVertically(*root, _settings.verticalScale, _settings.database);
     _globe = flight::globeOf(*root);
+    if (_method.usesRaster()) installRaster(*root, _settings.width, _settings.height);
     _camera->addChild(root);
     _paged.emplace(*root, *_camera);
 }

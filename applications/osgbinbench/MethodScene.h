@@ -59,6 +59,9 @@ public:
     /// One frame from a pose, `seconds` after the last one, wherever the pager is. Requires: as settle().
     PagedScene::Frame flyFrame(const flight::CameraPose& pose, double seconds);
 
+    /// The view of the camera. Requires: load().
+    void setPose(const flight::CameraPose& pose);
+
     /// What to throw when files are still missing at a pose after the timeout.
     [[nodiscard]] support::Failure lateAt(const flight::CameraPose& pose) const;
 
@@ -75,7 +78,6 @@ public:
 private:
     void forget();
     void treatFiles(const osg::EllipsoidModel* globe);
-    void setPose(const flight::CameraPose& pose);
     void awaitFiles(const flight::CameraPose& pose, std::chrono::steady_clock::time_point begin) const;
     [[nodiscard]] osg::ref_ptr<osg::Node> read() const;
 

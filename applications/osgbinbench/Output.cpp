@@ -53,6 +53,16 @@ Json flightOf(const std::vector<FlightFigures>& methods) {
     return json;
 }
 
+Json drawnOf(const std::vector<DrawnFigures>& methods) {
+    Json json;
+    for (const DrawnFigures& method : methods) {
+        Json& times = json[method.method];
+        times["frames"] = method.frames;
+        for (const DrawnColumn& column : kDrawnColumns) times[column.name] = method.*column.ms;
+    }
+    return json;
+}
+
 Json sumsOf(const Figures& sum) {
     Json sums;
     for (const CountColumn& column : kCountColumns) sums[column.name] = sum.*column.count;
@@ -173,6 +183,10 @@ std::string csvOf(const std::vector<FlightFigures>& methods) {
     return csvByMethod(flightOf(methods));
 }
 
+std::string csvOf(const std::vector<DrawnFigures>& methods) {
+    return csvByMethod(drawnOf(methods));
+}
+
 std::string jsonOf(const Settings& settings, const std::vector<std::string>& poses,
                    const std::vector<MethodFigures>& methods, const std::vector<FlightFigures>& live) {
     Json json = headOf(settings, "poses");
@@ -195,6 +209,12 @@ std::string jsonOf(const Settings& settings, const std::vector<FlightFigures>& m
     return json.dump(2) + "\n";
 }
 
+std::string jsonOf(const Settings& settings, const std::vector<DrawnFigures>& methods) {
+    Json json = headOf(settings, "drawn");
+    json["methods"] = drawnOf(methods);
+    return json.dump(2) + "\n";
+}
+
 void printTable(std::ostream& output, const std::vector<std::string>& poses,
                 const std::vector<MethodFigures>& methods) {
     const Json sums = sumsOf(methods);
@@ -208,6 +228,12 @@ void printTable(std::ostream& output, const std::vector<std::string>& poses,
 void printTable(std::ostream& output, const std::vector<FlightFigures>& methods) {
     const Json figures = flightOf(methods);
     print(output, "paging live", figures, 4);
+    printRatios(output, figures);
+}
+
+void printTable(std::ostream& output, const std::vector<DrawnFigures>& methods) {
+    const Json figures = drawnOf(methods);
+    print(output, "drawn with paging live", figures, 3);
     printRatios(output, figures);
 }
 

@@ -72,6 +72,12 @@ std::string flightColumns() {
     return text;
 }
 
+std::string drawnColumns() {
+    std::string text;
+    for (const DrawnColumn& column : kDrawnColumns) text += line(column.name, column.meaning);
+    return text;
+}
+
 std::string footer() {
     std::string text =
         "Two commands, each with a --help of its own:\n"
@@ -81,7 +87,9 @@ std::string footer() {
         "Methods: none = no culling, always flown, as all others are judged by it; sphere = OSG's spheres and boxes,\n"
         "the database's ClusterCullingCallbacks taken away; cluster = OSG with these callbacks: the database's own, "
         "else\n"
-        "such as VirtualPlanetBuilder makes, from every tile's mesh; box, orientedbox = boxes about the bins, along\n"
+        "such as VirtualPlanetBuilder makes, from every tile's mesh; cluster+raster = the same, and terrain behind\n"
+        "terrain left out as games do it: least heights drawn into a depth buffer of 256 pixels' width, the boxes of\n"
+        "stored bins tested against it, nothing proven; box, orientedbox = boxes about the bins, along\n"
         "the axes of ECEF or east, north, up; corners, paper = rules that cull visible tiles, for comparison;\n"
         "quadratic, exact = analytic bins. The last six cull by the frustum's planes alone; +horizon adds the horizon\n"
         "(boxes: of one point), +edges tiles beyond an edge of the frustum (boxes: a frustum beyond a face), in "
@@ -104,6 +112,9 @@ std::string footer() {
            "  cull_ms              milliseconds of all cull traversals and their sorting, summed\n"
            "  cull_median_ms       of one, median\n"
            "  cull_99th_ms         of one, 99th percentile\n\n"
+           "The same with --draw, over three flights of each method but none:\n" +
+           drawnColumns() +
+           "\n"
            "\"paths\" in --json holds the sums of the poses whose names share the text before the first _, \"by_pose\" "
            "the\n"
            "figures of every pose, in the order of \"pose_names\".\n\n" +
@@ -166,6 +177,8 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
         ->check(CLI::Range(0, 100000));
     app.add_option("--frames", settings.frames, "only fly continuously, that many frames in all,\n1 to 1000000")
         ->check(CLI::Range(1, 1000000));
+    app.add_flag("--draw", settings.draw,
+                 "draws the frames of --frames in a viewer, as fast as they\ncome, and times them instead of counting");
     app.add_flag("--jumps", settings.jumps,
                  "only jump from pose to pose with paging live, and stand at\neach until nothing is missing");
     app.add_option("--frame-rate", settings.frameRate,
@@ -205,6 +218,7 @@ void check(const Settings& settings) {
         throw UsageError("--options: name methods with +occlusion or +autoocclusion in --methods instead of \"" +
                          settings.binOptions + "\"");
     if (settings.frames > 0 && settings.jumps) throw UsageError("--jumps: leave --frames out");
+    if (settings.draw && settings.frames == 0) throw UsageError("--draw: give --frames, how many are to be drawn");
     const bool isLive = settings.frames > 0 || settings.jumps;
     if (isLive && !settings.pictures.empty())
         throw UsageError("--pictures: with paging live none are taken; leave --frames and --jumps out");

@@ -33,6 +33,7 @@ struct Settings {
     int flush = CacheFlusher::defaultMebibytes();  ///< touched before each cull with cold caches; 0: none of these
     int live = 10;                                 ///< frames from pose to pose of the flight after the poses; 0: none
     int frames = 0;                                ///< of the continuous flight alone; 0: stop at every pose first
+    bool draw = false;                             ///< the frames of the continuous flight, in a viewer
     bool jumps = false;                            ///< from pose to pose with the pager running, and nothing else
     double frameRate = 60.0;                       ///< frames a second of the continuous flight, at most
     double expiry = CullOptions::kDefaultExpiry;   ///< seconds, of methods without bins in flight; 0: OSG's own rule

@@ -3,6 +3,7 @@
 
 #include "Compare.h"
 #include "ContinuousPath.h"
+#include "DrawnFlight.h"
 #include "Failure.h"
 #include "FlightBench.h"
 #include "ModuleFolder.h"
@@ -61,6 +62,11 @@ void measure(const Settings& settings) {
     if (!path) throw Failure(error);
     const std::vector<CullMethod> methods = cullMethodsFromNames(settings.methods);
     FileWatch watch;
+    if (settings.draw) {
+        const auto figures = flyDrawn(settings, methods, continuousPath(*path, settings.frames), watch);
+        write(settings, csvOf(figures), jsonOf(settings, figures));
+        return printTable(std::cout, figures);
+    }
     if (settings.frames > 0 || settings.jumps) {
         const auto figures = settings.jumps
                                  ? jump(settings, methods, *path, watch)

@@ -65,6 +65,7 @@ std::vector<DepthRow> measureDepth(const Settings& settings) {
         std::cerr << "osgbinbench scale: depth, pose " << pose + 1 << " of " << settings.poses << std::endl;
         for (std::size_t i = 0; i < scenes.size(); ++i) {
             scenes[i]->settle(paths[i][static_cast<std::size_t>(pose)]);
+            if (scenes[i]->method().replaysVerdicts) scenes[i]->replay();
             rows[i].tiles.add(scenes[i]->tally());
         }
         const auto times = measuredInTurns(scenes, settings.rounds, [](ScaleScene& scene) { return scene.cullMs(); });

@@ -50,7 +50,8 @@ std::vector<MemoryRow> measureMemory(const Settings& settings) {
     std::vector<MemoryRow> rows{memoryOf("no bins", sphere, settings, false),
                                 memoryOf("stored bins", sphere, settings, true)};
     for (const ScaleMethod& method : settings.methods)
-        if (method.name != sphere.name) rows.push_back(memoryOf(method.name, method, settings, true));
+        if (method.name != sphere.name && !method.replaysVerdicts)
+            rows.push_back(memoryOf(method.name, method, settings, true));
     return rows;
 }
 

@@ -86,6 +86,7 @@ std::vector<ResidentRow> measureResidents(const Settings& settings) {
             ResidentRow row;
             row.pagedLods = scene.pagedLods();
             row.method = method.name;
+            if (method.replaysVerdicts) scene.replay();
             row.tiles = scene.tally();
             rows.push_back(row);
         }

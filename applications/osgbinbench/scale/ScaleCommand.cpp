@@ -10,6 +10,9 @@
 #include "Settings.h"
 #include "TextFile.h"
 
+#include <osg/Notify>
+
+#include <cstdlib>
 #include <iostream>
 
 namespace osgAnalyticBin::scale {
@@ -34,6 +37,8 @@ void measure(const Settings& settings) {
 support::ExitCode run(int argc, char** argv) {
     Settings settings;
     if (!settingsFromCommandLine(argc, argv, settings)) return support::kSucceeded;
+    // globes are read again and again, and the plugin says each time that they have bins
+    if (std::getenv("OSG_NOTIFY_LEVEL") == nullptr) osg::setNotifyLevel(osg::WARN);
     addModuleFolder();
     measure(settings);
     return support::kSucceeded;

@@ -4,6 +4,7 @@
 #include "ScaleScene.h"
 
 #include "Failure.h"
+#include "VerdictReplay.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
@@ -106,19 +107,31 @@ bool TileLoader::load(std::size_t& pagedLods) {
 
 ScaleScene::ScaleScene(const ScaleMethod& method, const globe::GlobeOptions& options)
     : _method(method),
-      _root(readGlobe(method, options)),
+      _options(options),
       _camera(new osg::Camera),
       _frameStamp(new osg::FrameStamp),
-      _globe(flight::globeOf(*_root)),
-      _pagedLods(pagedLodsBelow(*_root).size()),
       _loader(new TileLoader),
       _deaf(new flight::RequestCounter),
       _stage(*_loader) {
     _camera->setViewport(0, 0, kWidth, kHeight);
     _camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
     if (method.cullsNothing) _camera->setCullingMode(osg::CullSettings::NO_CULLING);
-    _camera->addChild(_root);
+    readRoot();
     nextFrame();
+}
+
+void ScaleScene::readRoot() {
+    _root = readGlobe(_method, _options);
+    _camera->removeChildren(0, _camera->getNumChildren());
+    _camera->addChild(_root);
+    _globe = flight::globeOf(*_root);
+    _pagedLods = pagedLodsBelow(*_root).size();
+    _isReplaying = false;
+}
+
+void ScaleScene::replay() {
+    bench::replayVerdicts(*_camera, *_frameStamp);
+    _isReplaying = true;
 }
 
 void ScaleScene::nextFrame() {
@@ -130,6 +143,7 @@ void ScaleScene::nextFrame() {
 }
 
 void ScaleScene::settle(const flight::CameraPose& pose) {
+    if (_isReplaying) readRoot();
     _camera->setViewMatrix(flight::viewMatrixOf(pose, _globe));
     _camera->setProjectionMatrix(flight::projectionMatrixOf(pose, _globe, _camera->getViewport()->aspectRatio()));
     _globe.ellipsoid->convertLatLongHeightToXYZ(pose.eye.latitude, pose.eye.longitude, pose.eye.altitude, _eyeEcef.x(),

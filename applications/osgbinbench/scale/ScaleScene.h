@@ -65,6 +65,10 @@ public:
     /// Requires: settle(). Throws: Failure when the globe has no more.
     void fill(std::size_t pagedLods);
 
+    /// Repeats from now on, without a test, what the method decides at the pose. Requires: settle(), and that no more
+    /// tiles are loaded; settle() anew begins with the root file.
+    void replay();
+
     [[nodiscard]] TileTally tally();
 
     /// Milliseconds of one cull traversal and its sorting.
@@ -75,13 +79,15 @@ public:
 
     [[nodiscard]] osg::Group& root() { return *_root; }
     [[nodiscard]] osg::FrameStamp& frameStamp() { return *_frameStamp; }
-    [[nodiscard]] const std::string& method() const { return _method.name; }
+    [[nodiscard]] const ScaleMethod& method() const { return _method; }
     [[nodiscard]] std::size_t pagedLods() const { return _pagedLods; }
 
 private:
+    void readRoot();
     void nextFrame();
 
     ScaleMethod _method;
+    globe::GlobeOptions _options;
     osg::ref_ptr<osg::Group> _root;
     osg::ref_ptr<osg::Camera> _camera;
     osg::ref_ptr<osg::FrameStamp> _frameStamp;
@@ -90,6 +96,7 @@ private:
     std::size_t _pagedLods = 0;
     std::deque<osg::ref_ptr<osg::PagedLOD>> _frontier;
     bool _isFilling = false;
+    bool _isReplaying = false;
     osg::ref_ptr<TileLoader> _loader;
     osg::ref_ptr<osg::NodeVisitor::DatabaseRequestHandler> _deaf;
     flight::CullStage _stage;

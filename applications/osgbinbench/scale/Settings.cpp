@@ -3,6 +3,7 @@
 
 #include "Settings.h"
 
+#include "CullMethod.h"
 #include "Failure.h"
 #include "MethodName.h"
 #include "ProgramRun.h"
@@ -36,13 +37,13 @@ constexpr const char* kFooter =
     "Times are first quartiles: what else the machine does only adds to them; cull_spread_ms is the distance to the\n"
     "third. Figures of the flight are sums over its poses. deepest_tiles: drawn tiles of the deepest level.\n\n"
     "Methods: none, sphere (OSG's own), and BASE[+horizon][+edges] with BASE quadratic, exact, box, orientedbox,\n"
-    "paper or corners.\n"
+    "paper or corners; oracle repeats what exact+horizon+edges keeps, without a test.\n"
     "Exit code: 0; 1 when something failed: one line says what; 2 when the command line is wrong.\n\n"
     "Example:\n"
     "  osgbinbench scale --levels 8,20 --residents 1000,100000 --json scale.json --plot figures";
 
 struct Words {
-    std::vector<std::string> methods{"sphere", "quadratic+horizon+edges", "exact+horizon+edges"};
+    std::vector<std::string> methods{"sphere", "quadratic+horizon+edges", "exact+horizon+edges", bench::kOracleMethod};
     std::vector<std::string> series{"depth", "residents", "memory"};
 };
 
@@ -52,7 +53,7 @@ void declare(CLI::App& app, Settings& settings, Words& words) {
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--methods", words.methods,
-                   "comma-separated (default: sphere, quadratic+horizon+edges,\nexact+horizon+edges)")
+                   "comma-separated (default: sphere, quadratic+horizon+edges,\nexact+horizon+edges, oracle)")
         ->delimiter(',')
         ->allow_extra_args(false);
     app.add_option("--levels", settings.levels, "numbers of levels, 0 to 24 (default 4,8,12,16,20)")
@@ -99,6 +100,12 @@ void takeSeries(const std::vector<std::string>& series, Settings& settings) {
 ScaleMethod scaleMethodFromName(const std::string& given) {
     const std::string name = support::currentMethodName(given);
     if (name != given) std::cerr << "osgbinbench scale: " << support::noticeOfOldName(given);
+    if (name == bench::kOracleMethod) {
+        ScaleMethod oracle = scaleMethodFromName(bench::kReplayedMethod);
+        oracle.name = name;
+        oracle.replaysVerdicts = true;
+        return oracle;
+    }
     const std::size_t plus = name.find('+');
     const std::string base = name.substr(0, plus);
     const std::string suffixes = plus == std::string::npos ? std::string() : name.substr(plus);
@@ -107,10 +114,10 @@ ScaleMethod scaleMethodFromName(const std::string& given) {
     const bool hasBins = method && *method != Method::Sphere && *method != Method::None;
     const bool isKnown = isPlain || suffixes == "+horizon" || suffixes == "+edges" || suffixes == "+horizon+edges";
     if (!method || !isKnown || (!hasBins && !isPlain))
-        throw UsageError(
-            "--methods: unknown method \"" + name +
-            "\"; use none, sphere, or quadratic, exact, box, orientedbox, paper or corners with +horizon, +edges or "
-            "+horizon+edges after it");
+        throw UsageError("--methods: unknown method \"" + name +
+                         "\"; use none, sphere, oracle, or quadratic, exact, box, orientedbox, paper or corners with "
+                         "+horizon, +edges or "
+                         "+horizon+edges after it");
     if (!hasBins) return {name, "method=" + base, *method == Method::None};
     const bool usesHorizon = suffixes.find("+horizon") != std::string::npos;
     const bool usesEdges = suffixes.find("+edges") != std::string::npos;

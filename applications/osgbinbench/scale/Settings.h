@@ -15,6 +15,8 @@ struct ScaleMethod {
     std::string parameters;
     /// Whether the camera culls nothing at all.
     bool cullsNothing = false;
+    /// Whether what bins decide is repeated without tests: osgbinbench's oracle.
+    bool replaysVerdicts = false;
 };
 
 /// Throws: Failure for an unknown name.

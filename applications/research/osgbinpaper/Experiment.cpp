@@ -16,7 +16,7 @@ constexpr std::size_t kTimedCameras = 16;
 class ViewRun {
 public:
     ViewRun(Terrain& terrain, const ExperimentSettings& settings, std::size_t kind, Results& results)
-        : _terrain(terrain), _settings(settings), _kind(kind), _results(results) {}
+        : _terrain(terrain), _occlusion(terrain), _settings(settings), _kind(kind), _results(results) {}
 
     void add(std::size_t number) {
         const Camera camera = randomCamera(_terrain, _kind, number, _settings.seed);
@@ -26,6 +26,7 @@ public:
         countLeaves(tree.tree, view);
         for (std::size_t method = 0; method < kMethods; ++method)
             judge(tree, camera, number, static_cast<Method>(method), view);
+        if (_settings.hidesBehindTerrain) hide(tree, camera);
         if (_settings.isTimed && _timed.size() < kTimedCameras) _timed.push_back(std::move(tree));
     }
 
@@ -54,6 +55,12 @@ private:
         keepWorst(check.worst(), number, _results.worst[indexOf(method)]);
     }
 
+    void hide(const TimedTree& timed, const Camera& camera) {
+        std::vector<Verdict> verdicts(timed.tree.tiles.size(), Verdict::Untested);
+        cull(timed.tree, timed.frustum, Method::Exact, verdicts);
+        _results.occlusion[_kind].add(_occlusion.count(timed.tree, verdicts, camera));
+    }
+
     void keepWorst(const std::optional<WrongCull>& found, std::size_t number, std::optional<WrongCull>& worst) const {
         if (!found || (worst && !isWorse(*found, *worst))) return;
         worst = found;
@@ -62,6 +69,7 @@ private:
     }
 
     Terrain& _terrain;
+    TerrainOcclusion _occlusion;
     const ExperimentSettings& _settings;
     std::size_t _kind;
     Results& _results;

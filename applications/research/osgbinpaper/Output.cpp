@@ -78,6 +78,32 @@ Json jsonOf(const ViewResult& view) {
     return json;
 }
 
+void addOcclusion(TextTable& table, const std::string& name, const OcclusionCounts& counts) {
+    table.add({name, std::to_string(counts.cameras), std::to_string(counts.drawn), std::to_string(counts.hidden),
+               std::to_string(counts.seenHidden)});
+}
+
+// Empty unless it was asked for.
+TextTable occlusionTable(const Results& results) {
+    TextTable table(1);
+    OcclusionCounts sum;
+    for (const OcclusionCounts& counts : results.occlusion) sum.add(counts);
+    if (sum.cameras == 0) return table;
+    table.add({"behind terrain", "cameras", "drawn by exact", "hidden", "hidden but seen"});
+    for (std::size_t kind = 0; kind < kViewKinds.size(); ++kind)
+        addOcclusion(table, kViewKinds[kind].name, results.occlusion[kind]);
+    addOcclusion(table, "all views", sum);
+    table.addGap();
+    return table;
+}
+
+Json jsonOf(const OcclusionCounts& counts) {
+    return {{"cameras", counts.cameras},
+            {"drawn", counts.drawn},
+            {"hidden", counts.hidden},
+            {"hidden_but_seen", counts.seenHidden}};
+}
+
 Json jsonOf(const WrongCull& worst) {
     return {{"view", kViewKinds[worst.kind].name},
             {"camera", worst.number},
@@ -118,6 +144,8 @@ std::string jsonOf(const Settings& settings, const Results& results) {
     json.update(jsonOf(results.sum()));
     for (std::size_t kind = 0; kind < kViewKinds.size(); ++kind)
         json["views"][kViewKinds[kind].name] = jsonOf(results.views[kind]);
+    for (std::size_t kind = 0; kind < kViewKinds.size() && settings.experiment.hidesBehindTerrain; ++kind)
+        json["occlusion"][kViewKinds[kind].name] = jsonOf(results.occlusion[kind]);
     for (std::size_t method = 0; method < kMethods; ++method) {
         if (results.worst[method]) json["worst"][kMethodNames[method]] = jsonOf(*results.worst[method]);
     }
@@ -131,6 +159,7 @@ void printTables(std::ostream& output, const Results& results, int levels) {
         addView(views, kViewKinds[kind].name, results.views[kind]);
     addView(views, "all views", results.sum());
     views.print(output);
+    occlusionTable(results).print(output);
     TextTable byLevel(1);
     addLevels(byLevel, results.sum(), levels);
     byLevel.print(output);

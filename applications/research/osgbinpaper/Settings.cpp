@@ -57,6 +57,10 @@ void declare(CLI::App& app, Settings& settings) {
     app.add_option("--cameras", experiment.cameras, "cameras of each of the six kinds of view (default: 400)")
         ->check(CLI::Range(1, 100000));
     app.add_option("--seed", experiment.seed, "seed of the cameras (default: 1)");
+    app.add_flag(
+        "--occlusion", experiment.hidesBehindTerrain,
+        "count, too, which of the leaves that exact keeps lie behind terrain, as meshes of 33 x 33 posts: for\n"
+        "cameras whose whole picture is ahead of them, and no line of sight to a hidden one may be free");
     app.add_option("--csv", settings.csv, "write the counts to this file, a line for each view, level and method");
     app.add_option("--json", settings.json, "write sums, times and findings to this file");
     app.add_option("--plot", settings.plotFolder,

@@ -48,11 +48,11 @@ TEST(CullMethod, FliesTheReferenceFirstAndEveryMethodOnce) {
 
 TEST(CullMethod, AllStandsForWhatIsWorthComparing) {
     const std::vector<std::string> names = namesOf(cullMethodsFromNames({"exact", "all"}));
-    EXPECT_EQ(names.size(), 20U);
+    EXPECT_EQ(names.size(), 21U);
     EXPECT_EQ(names[0], "none");
     EXPECT_EQ(names[1], "exact") << "each once, in the order given";
-    for (const char* const name : {"sphere", "cluster", "box", "orientedbox+horizon+edges", "exact+horizon+edges",
-                                   "exact+horizon+edges+occlusion"})
+    for (const char* const name : {"sphere", "cluster", "cluster+raster", "box", "orientedbox+horizon+edges",
+                                   "exact+horizon+edges", "exact+horizon+edges+occlusion"})
         EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
 }
 
@@ -70,6 +70,9 @@ TEST(CullMethod, KnowsWhatBecomesOfTheClusterCallbacks) {
     EXPECT_TRUE(cullMethodFromName("none").cullsNothing);
     EXPECT_EQ(cullMethodFromName("sphere").clusters, Clusters::Remove);
     EXPECT_EQ(cullMethodFromName("cluster").clusters, Clusters::Fill);
+    EXPECT_EQ(cullMethodFromName("cluster+raster").clusters, Clusters::FillForRaster);
+    EXPECT_TRUE(cullMethodFromName("cluster+raster").usesRaster());
+    EXPECT_FALSE(cullMethodFromName("cluster+raster").usesBins());
     EXPECT_EQ(cullMethodFromName("quadratic+horizon").clusters, Clusters::Keep);
 }
 
@@ -113,11 +116,26 @@ TEST(CullMethod, NamesThePseudoLoader) {
 }
 
 TEST(CullMethod, RefusesWhatIsUnknownOrMakesNoSense) {
-    for (const char* const name :
-         {"spheres", "sphere+horizon", "none+edges", "cluster+horizon", "oracle+horizon", "orientedboxes",
-          "exact+edges+horizon", "exact+horizon+horizon", "exact+", "+horizon", "", "exact+occlusion",
-          "exact+edges+occlusion", "box+horizon+occlusion", "exact+horizon+occlusion+edges", "sphere+occlusion",
-          "exact+autoocclusion", "exact+horizon+occlusion+autoocclusion"})
+    for (const char* const name : {"spheres",
+                                   "sphere+horizon",
+                                   "sphere+raster",
+                                   "exact+raster",
+                                   "none+edges",
+                                   "cluster+horizon",
+                                   "oracle+horizon",
+                                   "orientedboxes",
+                                   "exact+edges+horizon",
+                                   "exact+horizon+horizon",
+                                   "exact+",
+                                   "+horizon",
+                                   "",
+                                   "exact+occlusion",
+                                   "exact+edges+occlusion",
+                                   "box+horizon+occlusion",
+                                   "exact+horizon+occlusion+edges",
+                                   "sphere+occlusion",
+                                   "exact+autoocclusion",
+                                   "exact+horizon+occlusion+autoocclusion"})
         EXPECT_THROW((void)cullMethodFromName(name), Failure) << name;
 }
 

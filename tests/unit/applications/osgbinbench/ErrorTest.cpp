@@ -51,6 +51,7 @@ TEST(Errors, OfTheCommandLineNameTheOption) {
     expectUsageError(test::runBenchBlind(good + " --expiry own"), "--expiry: own");
     expectUsageError(test::runBenchBlind(good + " --flush -1"), "--flush");
     expectUsageError(test::runBenchBlind(good + " --frames 10 --pictures pictures"), "--pictures: ");
+    expectUsageError(test::runBenchBlind(good + " --draw"), "--draw: ");
     expectOneLine(test::runBenchBlind(good + " --csv " + folder.path() + "/absent/p.csv"), "--csv: there is no folder");
 }
 

@@ -53,6 +53,26 @@ TEST(GlobePlugin, SaysWhatIsWrong) {
     EXPECT_NE(result.message().find("malformed parameter \"cells=3\""), std::string::npos) << result.message();
 }
 
+TEST(ScaleProgram, TheOracleDrawsWhatItRepeats) {
+    const TemporaryFolder folder;
+    const Outcome outcome = runScale(
+        "--series depth,residents --levels 3 --methods exact+horizon+edges,oracle --residents 1,300 --poses 3 --cells "
+        "4 "
+        "--rounds 1 --json " +
+        test::quoted(folder / "scale.json"));
+    ASSERT_EQ(outcome.code, 0) << outcome.text;
+    const json result = jsonFile(folder / "scale.json");
+    for (const char* const series : {"depth", "residents"}) {
+        const json& rows = result[series];
+        ASSERT_EQ(rows.size() % 2, 0U);
+        for (std::size_t i = 0; i < rows.size(); i += 2) {
+            EXPECT_EQ(rows[i]["drawn_tiles"], rows[i + 1]["drawn_tiles"]) << series;
+            EXPECT_EQ(rows[i + 1]["method"], "oracle");
+            EXPECT_GT(rows[i + 1]["cull_ms"], 0.0);
+        }
+    }
+}
+
 TEST(ScaleProgram, WritesWhatItMeasured) {
     const TemporaryFolder folder;
     const Outcome outcome = runScale(

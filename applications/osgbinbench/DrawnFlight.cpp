@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "DrawnFlight.h"
+
+#include "BenchViewer.h"
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+namespace osgAnalyticBin::bench {
+
+namespace {
+
+constexpr int kRounds = 3;
+
+/// One method's frames, of all its flights.
+class DrawnFlight {
+public:
+    DrawnFlight(const CullMethod& method, const Settings& settings, FileWatch& watch)
+        : _scene(method, settings, watch) {}
+
+    void fly(BenchViewer& viewer, const std::vector<flight::CameraPose>& frames) {
+        _scene.load();
+        viewer.show(_scene.root(), _scene.camera().getCullingMode());
+        viewer.startTimes();
+        for (const flight::CameraPose& pose : frames) {
+            _scene.setPose(pose);
+            viewer.setView(_scene.camera().getViewMatrix(), _scene.camera().getProjectionMatrix());
+            viewer.timeFrame();
+        }
+        const std::vector<FrameTimes> times = viewer.takeTimes();
+        _times.insert(_times.end(), times.begin(), times.end());
+        viewer.rest();
+        _scene.pause();
+    }
+
+    [[nodiscard]] DrawnFigures figures() const {
+        DrawnFigures figures;
+        figures.method = _scene.method().name;
+        figures.frames = _times.size();
+        const auto sorted = [&](const auto& of) {
+            std::vector<double> values;
+            for (const FrameTimes& frame : _times) values.push_back(of(frame));
+            std::sort(values.begin(), values.end());
+            return values;
+        };
+        const auto at = [](const std::vector<double>& values, std::size_t part) {
+            return values.empty() ? 0.0 : values[(values.size() - 1) * part / 100];
+        };
+        const auto work = sorted([](const FrameTimes& frame) { return frame.cullMs + frame.drawMs; });
+        const auto whole = sorted([](const FrameTimes& frame) { return frame.frameMs; });
+        for (const FrameTimes& frame : _times) {
+            figures.cullMs += frame.cullMs;
+            figures.drawMs += frame.drawMs;
+            figures.frameMs += frame.frameMs;
+        }
+        figures.work1stMs = at(work, 1);
+        figures.workMedianMs = at(work, 50);
+        figures.work99thMs = at(work, 99);
+        figures.frame1stMs = at(whole, 1);
+        figures.frameMedianMs = at(whole, 50);
+        figures.frame99thMs = at(whole, 99);
+        return figures;
+    }
+
+private:
+    MethodScene _scene;
+    std::vector<FrameTimes> _times;
+};
+
+std::vector<std::unique_ptr<DrawnFlight>> flightsThatDraw(const Settings& settings,
+                                                          const std::vector<CullMethod>& methods, FileWatch& watch) {
+    std::vector<std::unique_ptr<DrawnFlight>> flights;
+    for (const CullMethod& method : methods) {
+        if (method.replaysVerdicts || method.cullsNothing)
+            std::cerr << "osgbinbench: " << method.name << " is not drawn in flight" << std::endl;
+        else
+            flights.push_back(std::make_unique<DrawnFlight>(method, settings, watch));
+    }
+    return flights;
+}
+
+}  // namespace
+
+std::vector<DrawnFigures> flyDrawn(const Settings& settings, const std::vector<CullMethod>& methods,
+                                   const std::vector<flight::CameraPose>& frames, FileWatch& watch) {
+    BenchViewer viewer(settings.width, settings.height, settings.threading);
+    viewer.sortByState();
+    const auto flights = flightsThatDraw(settings, methods, watch);
+    for (std::size_t round = 0; round < kRounds; ++round) {
+        std::cerr << "osgbinbench: " << frames.size() << " frames drawn with paging live, round " << round + 1 << " of "
+                  << kRounds << std::endl;
+        for (std::size_t i = 0; i < flights.size(); ++i) flights[(i + round) % flights.size()]->fly(viewer, frames);
+    }
+    std::vector<DrawnFigures> figures;
+    for (const auto& flight : flights) figures.push_back(flight->figures());
+    return figures;
+}
+
+}  // namespace osgAnalyticBin::bench
