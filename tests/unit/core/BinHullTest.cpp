@@ -45,7 +45,7 @@ TEST(BinHull, HoldsTheQuartersOfTheBin) {
         glm::dvec3 inHull(0.0);
         for (std::size_t i = 0; i < 8; ++i) {
             inHull += (i % 2 != 0 ? l : 1.0 - l) * (i / 2 % 2 != 0 ? p : 1.0 - p) * (i / 4 != 0 ? h : 1.0 - h) *
-                      hull.corners[i];
+                      hull.corner(i);
         }
         ASSERT_LE(glm::distance(point, frame.toOuter(inHull)), hull.reach);
         if (p == 0.5 && l == 0.5 && size > 1e-3)

@@ -73,8 +73,13 @@ bool isBelow(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const RealVector&
 
 std::vector<EarthColumn> columnsOf(const GroundPlates& plates, std::size_t cells, double depth) {
     std::vector<EarthColumn> columns;
-    for (std::size_t quarter = 0; quarter < (cells == 1 ? 1 : 4); ++quarter)
-        plates.appendColumns(cells, quarter, depth, core::Frame(), columns);
+    core::EarthColumns some;
+    for (std::size_t quarter = 0; quarter < (cells == 1 ? 1 : 4); ++quarter) {
+        plates.columns(cells, cells, quarter, depth, core::Frame(), some);
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            if (some.isKnown(i)) columns.push_back(some[i]);
+        }
+    }
     return columns;
 }
 

@@ -23,6 +23,20 @@ using core::HorizonBuffer;
 
 constexpr int kRays = 24;
 
+void add(HorizonBuffer& buffer, const EarthColumn& column) {
+    core::EarthColumns columns;
+    columns.append(column);
+    buffer.add(columns);
+}
+
+// The points within `reach` metres of a point.
+BinHull ball(const glm::dvec3& centre, double reach) {
+    BinHull body{};
+    for (std::size_t i = 0; i < 8; ++i) body.setCorner(i, centre);
+    body.reach = reach;
+    return body;
+}
+
 // Returns: how many quarters of tiles are hidden.
 int hideNothingThatARayReaches(Random& random, int scenes, bool isMap) {
     int hidden = 0;
@@ -190,7 +204,7 @@ TEST(HorizonBuffer, HidesOnlyWhatIsInThePictureOfEarthInFront) {
         const int count = random.integer(1, 30);
         for (int i = 0; i < count; ++i) {
             const EarthColumn column = randomColumn(random);
-            buffer.add(column);
+            add(buffer, column);
             columns.push_back(perturbed(random, column));
         }
         for (int i = 0; i < 300; ++i) {
@@ -205,12 +219,12 @@ TEST(HorizonBuffer, HidesOnlyWhatIsInThePictureOfEarthInFront) {
             // mostly front to back, or no answer would be yes
             const double forward = random.chance(0.1) ? random.logUniform(1e3, 2e5) : 1e3 * std::pow(200.0, i / 300.0);
             const double size = forward * random.logUniform(1e-9, 1e-2);
-            BinHull body;
-            for (glm::dvec3& corner : body.corners)
-                corner = pointAt(x, y, forward) + random.uniform(0.0, size) * random.direction();
+            BinHull body{};
+            for (std::size_t corner = 0; corner < 8; ++corner)
+                body.setCorner(corner, pointAt(x, y, forward) + random.uniform(0.0, size) * random.direction());
             body.reach = random.chance(0.5) ? size : 1e-9 * size;
             if (!buffer.hides(buffer.outlineOf(body))) continue;
-            const glm::dvec3 point = random.pick(body.corners) + 0.999 * body.reach * random.direction();
+            const glm::dvec3 point = body.corner(static_cast<std::size_t>(random.integer(0, 7))) + 0.999 * body.reach * random.direction();
             if (std::abs(point.x) > point.y) continue;
             ++hidden;
             ASSERT_TRUE(std::any_of(columns.begin(), columns.end(),
@@ -239,10 +253,8 @@ TEST(HorizonBuffer, LowersSteepLinesByTheErrorsOfTheirCorners) {
     const double strip = kAcross.width() / static_cast<double>(HorizonBuffer::kStrips), left = 0.25;
     const auto hidesBelowTheLine = [&](double below) {
         HorizonBuffer buffer(0.0, kAcross);
-        buffer.add(column);
-        BinHull body;
-        body.corners.fill(pointAt(left + 0.3 * strip, kSlope * left - below, 2.0 * kForward));
-        body.reach = 1e-6;
+        add(buffer, column);
+        const BinHull body = ball(pointAt(left + 0.3 * strip, kSlope * left - below, 2.0 * kForward), 1e-6);
         return buffer.hides(buffer.outlineOf(body));
     };
     EXPECT_FALSE(hidesBelowTheLine(0.95 * error));
@@ -260,10 +272,8 @@ TEST(HorizonBuffer, HidesOnlyWhatADepthBufferTellsFromEarth) {
     column.error = 1e-6;
     const auto hides = [&](double forward, double depthStep) {
         HorizonBuffer buffer(0.0, kAcross, 0.0, depthStep);
-        buffer.add(column);
-        BinHull body;
-        body.corners.fill(pointAt(0.0, 0.0, forward));
-        body.reach = 1e-6;
+        add(buffer, column);
+        const BinHull body = ball(pointAt(0.0, 0.0, forward), 1e-6);
         return buffer.hides(buffer.outlineOf(body));
     };
     const double farthestEqual = 1.0 / (1.0 / kForward - kDepthStep);
@@ -283,10 +293,8 @@ TEST(HorizonBuffer, TellsDepthsApartForTheEyeFarthestBack) {
     column.error = 1e-6;
     const auto hides = [&](double forward) {
         HorizonBuffer buffer(0.0, kAcross, 0.0, kDepthStep, {0.0, kBack, 0.0});
-        buffer.add(column);
-        BinHull body;
-        body.corners.fill(pointAt(0.0, 0.0, forward));
-        body.reach = 1e-6;
+        add(buffer, column);
+        const BinHull body = ball(pointAt(0.0, 0.0, forward), 1e-6);
         return buffer.hides(buffer.outlineOf(body));
     };
     const double farthestEqual = 1.0 / (1.0 / (kForward + kBack) - kDepthStep) - kBack;
@@ -316,14 +324,14 @@ TEST(HorizonBuffer, LeavesOutWhatHasNoPlaceInThePicture) {
     const BinHull behindTheEye = bodyOf(core::GeodeticBin({-0.006, -0.004}, {-0.001, 0.003}, {0.0, 500.0}));
     const auto hides = [&](const EarthColumn& column, const BinHull& body) {
         HorizonBuffer buffer(glm::length(eye.origin), kAcross);
-        buffer.add(column);
+        add(buffer, column);
         return buffer.hides(buffer.outlineOf(body));
     };
     EXPECT_TRUE(hides(wall(0.002, 0.003), behind));
     EXPECT_FALSE(hides(wall(0.007, 0.008), behind));  // farther
     HorizonBuffer nearPlaneIsFar(glm::length(eye.origin), kAcross);
     nearPlaneIsFar.setLowest(0.0);
-    nearPlaneIsFar.add(wall(0.002, 0.003));
+    add(nearPlaneIsFar, wall(0.002, 0.003));
     EXPECT_FALSE(nearPlaneIsFar.hides(nearPlaneIsFar.outlineOf(behind)));
     EXPECT_FALSE(hides(wall(0.002, 0.0056), behind));  // partly
     EXPECT_FALSE(hides(wall(-0.001, 0.003), behind));  // about the eye
@@ -345,7 +353,7 @@ TEST(HorizonBuffer, LeavesOutWhatHasNoPlaceInThePicture) {
     endless.reach = std::nan("");
     EXPECT_FALSE(hides(wall(0.002, 0.003), endless));
     BinHull nowhere = behind;
-    nowhere.corners[5].z = std::nan("");
+    nowhere.z[5] = std::nan("");
     EXPECT_FALSE(hides(wall(0.002, 0.003), nowhere));
     endless.reach = 1e9;
     EXPECT_FALSE(hides(wall(0.002, 0.003), endless));

@@ -214,12 +214,11 @@ void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTil
     const core::GroundPlates plates(scene.ellipsoid, tile.mesh, tile.bin);
     const double depth =
         std::min(0.3 * glm::distance(scene.eye, tile.mesh.vertex(0)), 0.01 * scene.ellipsoid.equatorialRadius());
-    std::vector<core::EarthColumn> columns;
-    for (std::size_t quarter = 0; quarter < 4; ++quarter)
-        plates.appendColumns(cells, quarter, depth, frameOf(scene), columns);
-    for (core::EarthColumn& column : columns) {
-        column.error += reach;
-        buffer.add(column);
+    core::EarthColumns columns;
+    for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+        plates.columns(cells, cells, quarter, depth, frameOf(scene), columns);
+        columns.addToErrors(reach);
+        buffer.add(columns);
     }
 }
 
