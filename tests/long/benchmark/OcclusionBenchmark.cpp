@@ -41,9 +41,10 @@ public:
         std::vector<std::pair<double, std::size_t>> order;
         for (std::size_t tile = 0; tile < _plates.size(); ++tile) {
             const core::GeodeticBin& bin = _scene.tiles[tile].bin;
-            if (buffer.isBeside(core::ballAround(_scene.ellipsoid, bin, 0.0, _frame))) continue;
+            const core::BinBody body(_scene.ellipsoid, bin, 0.0, _frame);
+            if (buffer.isBeside(body.ball())) continue;
             std::size_t quarter = 4 * tile;
-            for (const auto& hull : core::hullsOfQuarters(_scene.ellipsoid, bin, 0.0, _frame)) {
+            for (const auto& hull : body.quarters()) {
                 const HorizonBuffer::Outline outline = buffer.outlineOf(hull);
                 if (!outline.isBeside) {
                     order.emplace_back(outline.nearest, outlines.size());
@@ -81,7 +82,7 @@ public:
 
 private:
     OcclusionScene _scene;
-    core::Frame _frame;
+    core::InverseFrame _frame;
     std::vector<core::GroundPlates> _plates;
 };
 

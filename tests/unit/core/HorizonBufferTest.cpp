@@ -319,7 +319,7 @@ TEST(HorizonBuffer, LeavesOutWhatHasNoPlaceInThePicture) {
         column.error = 1e-6;
         return column;
     };
-    const auto bodyOf = [&](const core::GeodeticBin& bin) { return hullsOfQuarters(earth, bin, 0.0, eye).front(); };
+    const auto bodyOf = [&](const core::GeodeticBin& bin) { return core::BinBody(earth, bin, 0.0, eye).quarters().front(); };
     const BinHull behind = bodyOf(core::GeodeticBin({0.005, 0.007}, {-0.001, 0.003}, {0.0, 500.0}));
     const BinHull behindTheEye = bodyOf(core::GeodeticBin({-0.006, -0.004}, {-0.001, 0.003}, {0.0, 500.0}));
     const auto hides = [&](const EarthColumn& column, const BinHull& body) {

@@ -225,7 +225,7 @@ void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTil
 std::vector<Quarter> frontToBack(const OcclusionScene& scene, const HorizonBuffer& buffer, double reach) {
     std::vector<Quarter> sorted;
     for (const GroundTile& tile : scene.tiles) {
-        const auto hulls = hullsOfQuarters(scene.ellipsoid, tile.bin, reach, frameOf(scene));
+        const auto hulls = core::BinBody(scene.ellipsoid, tile.bin, reach, frameOf(scene)).quarters();
         for (std::size_t i = 0; i < 4; ++i) {
             const auto half = [](const Interval& whole, bool isUpper) -> Interval {
                 return {isUpper ? whole.middle() : whole.lower, isUpper ? whole.upper : whole.middle()};

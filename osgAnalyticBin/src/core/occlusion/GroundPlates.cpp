@@ -252,6 +252,11 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const Interval& latitude,
       _middle{std::sin(latitude.middle()), std::cos(latitude.middle()), std::sin(longitude.middle()),
               std::cos(longitude.middle())} {
     _least.fill(kUnknown);
+    const double widest = std::max(latitude.width(), longitude.width());
+    if (!(widest <= 2.0 * kernels::kFarthestFromMiddle)) return;
+    for (const std::size_t cells : kCellsOfGrids) {
+        if (fitsColumns(cells)) _fitting |= static_cast<std::uint8_t>(cells);
+    }
 }
 
 GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin)
@@ -316,7 +321,7 @@ double GroundPlates::least(std::size_t cells, std::size_t row, std::size_t colum
 }
 
 // Whether columns keep within the rims of a grid's cells.
-bool GroundPlates::fitsColumns(std::size_t cells, double depth) const noexcept {
+bool GroundPlates::fitsColumns(std::size_t cells) const noexcept {
     const double across = _longitude.width() / static_cast<double>(cells);
     const double along = _latitude.width() / static_cast<double>(cells);
     const double inner = 1.0 - 2.0 * kRim;
@@ -326,7 +331,7 @@ bool GroundPlates::fitsColumns(std::size_t cells, double depth) const noexcept {
     const double bulge = 0.55 * square / (1.0 - square);
     // longitudes many turns away from zero are rounded coarsely
     const bool isWide = across * kRim > 64.0 * kEpsilon * (1.0 + std::abs(_longitude.lower));
-    return isWide && across * inner < 1.0 && bulge < kBulgeOfRim * kRim * along && depth >= 0.0 && depth < shallowest();
+    return isWide && across * inner < 1.0 && bulge < kBulgeOfRim * kRim * along;
 }
 
 double GroundPlates::shallowest() const noexcept {
@@ -365,26 +370,17 @@ struct QuarterCells {
 };
 constexpr std::array<QuarterCells, 4> kQuarters{QuarterCells(0), QuarterCells(1), QuarterCells(2), QuarterCells(3)};
 
-// A frame's axes and its place, seen along the axes.
-void setFrame(kernels::CellGround& ground, const Frame& frame) {
-    const std::array<glm::dvec3, 3> axes{frame.x, frame.y, frame.z};
-    for (std::size_t i = 0; i < 3; ++i) {
-        ground.x[i] = axes[i].x, ground.y[i] = axes[i].y, ground.z[i] = axes[i].z;
-        ground.eye[i] = glm::dot(frame.origin, axes[i]);
-    }
-}
-
 }  // namespace
 
 void GroundPlates::columns(std::size_t finest, std::size_t coarsest, std::size_t quarter, double depth,
-                           const Frame& frame, EarthColumns& columns) const noexcept {
+                           const InverseFrame& frame, EarthColumns& columns) const noexcept {
     const QuarterCells& cells = kQuarters[quarter];
     const std::size_t first = QuarterCells::first(finest);
     columns._size = 0;
-    if (!(std::max(_latitude.width(), _longitude.width()) <= 2.0 * kernels::kFarthestFromMiddle)) return;
+    if (!(depth >= 0.0 && depth < shallowest())) return;
     std::array<double, EarthColumns::kMost> high{};
     for (std::size_t grid = finest; grid >= coarsest; grid /= 2) {
-        const bool isFit = fitsColumns(grid, depth);
+        const bool isFit = (_fitting & grid) != 0;
         for (std::size_t i = QuarterCells::first(grid); i < QuarterCells::first(grid / 2); ++i, ++columns._size) {
             const std::uint16_t code = _least[cells.number[i]];
             const double altitude = decoded(code);
@@ -394,7 +390,7 @@ void GroundPlates::columns(std::size_t finest, std::size_t coarsest, std::size_t
                 32.0 * kEpsilon * (_ellipsoid.equatorialRadius() + std::abs(high[columns._size]) + depth);
         }
     }
-    kernels::CellGround ground{_ellipsoid.isPlane(),
+    const kernels::CellGround ground{_ellipsoid.isPlane(),
                                _ellipsoid.equatorialRadius(),
                                _ellipsoid.squaredRatio(),
                                _latitude.middle(),
@@ -406,11 +402,10 @@ void GroundPlates::columns(std::size_t finest, std::size_t coarsest, std::size_t
                                _latitude.width(),
                                _longitude.width(),
                                depth,
-                               {},
-                               {},
-                               {},
-                               {}};
-    setFrame(ground, frame);
+                               {frame.x.x, frame.x.y, frame.x.z},
+                               {frame.y.x, frame.y.y, frame.y.z},
+                               {frame.z.x, frame.z.y, frame.z.z},
+                               {frame.origin.x, frame.origin.y, frame.origin.z}};
     kernels::activeOcclusion.columns(ground,
                                      {cells.south.data() + first, cells.north.data() + first, cells.west.data() + first,
                                       cells.east.data() + first, high.data(), columns._size},

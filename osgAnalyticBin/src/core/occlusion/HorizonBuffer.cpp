@@ -11,6 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <tuple>
+#include <utility>
 
 namespace osgAnalyticBin::core {
 
@@ -30,6 +33,8 @@ HorizonBuffer::HorizonBuffer(double eyeToCentre, const Interval& across, double 
     static_assert(kStrips == kernels::StripNumbers::kStrips && std::tuple_size_v<Wall> == WallRow::kCount);
     _lower.fill(kInfinity);
     _upper.fill(-kInfinity);
+    _lists.fill(kNone);
+    _walls.reserve(512);
 }
 
 void HorizonBuffer::add(const EarthColumns& columns) {
@@ -46,9 +51,9 @@ void HorizonBuffer::add(const EarthColumns& columns) {
         const Strips strips = stripsOf(wall);
         // what is no higher than earth in front of it covers nothing more
         if (strips.first >= strips.last || !isAboveKnown(strips, wall[WallRow::Highest])) continue;
-        _waiting.push_back({wall[WallRow::Farthest], _walls.size()});
-        std::push_heap(_waiting.begin(), _waiting.end());
-        _walls.push_back(wall);
+        const std::size_t range = rangeOf(wall[WallRow::Farthest]);
+        _walls.push_back({wall, std::exchange(_lists[range], static_cast<std::int32_t>(_walls.size()))});
+        _nearestList = std::min(_nearestList, range);
     }
 }
 
@@ -69,18 +74,39 @@ bool HorizonBuffer::isAboveKnown(const Strips& strips, double height) const noex
     return kernels::activeOcclusion.isAbove(_upper.data(), strips.first, strips.last, height);
 }
 
+// The list of a distance. Each power of two has 64 of them; what is nearer than the first or farther than the last is in
+// these.
+std::size_t HorizonBuffer::rangeOf(double distance) noexcept {
+    constexpr unsigned kFractionBits = 52, kListBits = 6;
+    constexpr std::int64_t kFirst = (std::int64_t{1023} - 8) << kListBits;  // 2^-8
+    std::int64_t bits;
+    std::memcpy(&bits, &distance, sizeof bits);
+    const std::int64_t range = (bits >> (kFractionBits - kListBits)) - kFirst;
+    return static_cast<std::size_t>(std::clamp<std::int64_t>(range, 0, kRanges - 1));
+}
+
 // Puts the walls that are no farther than `distance` into the strips.
 void HorizonBuffer::use(double distance) {
-    while (!_waiting.empty() && _waiting.front().farthest <= distance) {
-        std::pop_heap(_waiting.begin(), _waiting.end());
-        _reached = std::max(_reached, _waiting.back().farthest);
-        const Wall& wall = _walls[_waiting.back().wall];
-        const Strips strips = stripsOf(wall);
-        if (isAboveKnown(strips, wall[WallRow::Highest])) {
-            kernels::activeOcclusion.raise(_picture, wall.data(), strips.first, strips.last, _lower.data(),
+    const std::size_t last = rangeOf(distance);
+    for (; _nearestList <= last; ++_nearestList) {
+        if (_lists[_nearestList] != kNone) useList(_nearestList, distance);
+        if (_nearestList == last) break;
+    }
+}
+
+void HorizonBuffer::useList(std::size_t range, double distance) {
+    std::int32_t* from = &_lists[range];
+    while (*from != kNone) {
+        Waiting& waiting = _walls[static_cast<std::size_t>(*from)];
+        if (waiting.wall[WallRow::Farthest] <= distance) {
+            _reached = std::max(_reached, waiting.wall[WallRow::Farthest]);
+            const Strips strips = stripsOf(waiting.wall);
+            kernels::activeOcclusion.raise(_picture, waiting.wall.data(), strips.first, strips.last, _lower.data(),
                                            _upper.data());
+            *from = waiting.next;
+        } else {
+            from = &waiting.next;
         }
-        _waiting.pop_back();
     }
 }
 

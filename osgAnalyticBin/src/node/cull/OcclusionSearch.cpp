@@ -50,6 +50,7 @@ public:
         : _database(database),
           _ellipsoid(database.view.ellipsoid),
           _found(found),
+          _frame(found.eye),
           _buffer(glm::length(found.eye.origin), found.span.across, found.span.drawing, found.span.depthStep,
                   found.eyes) {}
 
@@ -89,12 +90,12 @@ private:
         if (bin.empty() || !std::isfinite(altitude.lower) || !std::isfinite(altitude.upper)) return false;
         Candidate candidate{&shown, HUGE_VAL, 0.0, true, false};
         const GeodeticBin drawn = bin.withAltitude(altitude);
-        const double margin = tile.getBin().margin();
-        if (_buffer.isBeside(core::ballAround(_ellipsoid, drawn, margin, _found.eye))) {
+        const core::BinBody body(_ellipsoid, drawn, tile.getBin().margin(), _frame);
+        if (_buffer.isBeside(body.ball())) {
             _candidates.push_back(candidate);
             return true;
         }
-        const auto hulls = core::hullsOfQuarters(_ellipsoid, drawn, margin, _found.eye);
+        const auto hulls = body.quarters();
         candidate.size = 2.0 * glm::distance(hulls.back().corner(0), hulls.back().corner(7));
         std::size_t number = 0;
         for (const BinHull& hull : hulls) {
@@ -212,13 +213,14 @@ private:
         // coarser cells bridge the gaps between finer ones
         // the cell of the whole tile is added once
         const std::size_t coarsest = candidate.isHidden && isTileOverRegion ? 1 : 2;
-        plates->columns(cells, coarsest, quarter.number, depth, _found.eye, _columns);
+        plates->columns(cells, coarsest, quarter.number, depth, _frame, _columns);
         _buffer.add(_columns);
     }
 
     const ShownDatabase& _database;
     const core::Ellipsoid& _ellipsoid;
     FoundOcclusion& _found;
+    const core::InverseFrame _frame;
     HorizonBuffer _buffer;
     std::vector<Candidate> _candidates;
     std::vector<Quarter> _quarters;

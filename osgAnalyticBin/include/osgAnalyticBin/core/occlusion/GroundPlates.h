@@ -90,18 +90,18 @@ public:
 
     /// Makes a column of earth, `depth` metres deep, for each cell in one quarter of the tile, of the grids of `finest`
     /// cells a side to `coarsest`, row by row, in the coordinates of `frame`. Quarters are numbered as
-    /// hullsOfQuarters() does. The single cell of the coarsest grid belongs to all quarters.
+    /// BinBody::quarters() does. The single cell of the coarsest grid belongs to all quarters.
     /// Guarantee: every point of a column, up to its `error`, has the mesh above it, along the ellipsoid's normal;
     /// tests: GroundPlates.ColumnsLieBelowTheMesh*. Corners are where their latitude, longitude and altitude are, up to
     /// the error; test: GroundPlates.CornersOfColumnsAreWrongByTheirErrorAtMost. Nothing is known of cells too wide for
     /// the rim: with angles in radians, where the square of the width in longitude exceeds about an eleventh of the
     /// width in latitude; nor of tiles wider than a radian.
     /// Requires: `finest` and `coarsest` as in least(). Cost: a few nanoseconds a column.
-    void columns(std::size_t finest, std::size_t coarsest, std::size_t quarter, double depth, const Frame& frame,
+    void columns(std::size_t finest, std::size_t coarsest, std::size_t quarter, double depth, const InverseFrame& frame,
                  EarthColumns& columns) const noexcept;
 
 private:
-    [[nodiscard]] bool fitsColumns(std::size_t cells, double depth) const noexcept;
+    [[nodiscard]] bool fitsColumns(std::size_t cells) const noexcept;
     [[nodiscard]] double shallowest() const noexcept;
 
     static constexpr std::size_t kNumbers = 1 + 4 + 16 + 64;
@@ -122,6 +122,7 @@ private:
     Interval _latitude, _longitude;
     std::array<double, 4> _middle{};  // sine and cosine of the middle latitude, then longitude
     double _base = 0.0, _step = 0.0;  // of the codes
+    std::uint8_t _fitting = 0;        // the grids, by their cells a side, whose cells have columns
     std::array<std::uint16_t, kNumbers> _least;  // 0: not known
 };
 

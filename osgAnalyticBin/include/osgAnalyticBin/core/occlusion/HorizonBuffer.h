@@ -4,7 +4,7 @@
 #pragma once
 
 #include <osgAnalyticBin/core/bin/KernelData.h>
-#include <osgAnalyticBin/core/occlusion/BinHull.h>
+#include <osgAnalyticBin/core/occlusion/BinBody.h>
 #include <osgAnalyticBin/core/occlusion/GroundPlates.h>
 
 #include <glm/vec3.hpp>
@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -78,18 +79,21 @@ public:
 private:
     // The picture of an upright quadrilateral of earth: kernels::WallRow says what the numbers are.
     using Wall = std::array<double, 8>;
-    // Walls that are not in the strips yet wait in a heap, with the nearest on top.
+    // Walls that are not in the strips yet wait in lists, one for each range of distances.
+    static constexpr std::size_t kRanges = 40 * 64;
     struct Waiting {
-        double farthest;
-        std::size_t wall;
-        [[nodiscard]] bool operator<(const Waiting& other) const noexcept { return farthest > other.farthest; }
+        Wall wall;
+        std::int32_t next;  // in the list; kNone: the last one
     };
+    static constexpr std::int32_t kNone = -1;
 
     struct Strips {
         std::size_t first, last;  // the one behind the last
     };
 
+    [[nodiscard]] static std::size_t rangeOf(double distance) noexcept;
     void use(double distance);
+    void useList(std::size_t range, double distance);
     [[nodiscard]] std::size_t stripAt(double x, double toRight) const noexcept;
     [[nodiscard]] Strips stripsOf(const Wall& wall) const noexcept;
     [[nodiscard]] bool isAboveKnown(const Strips& strips, double height) const noexcept;
@@ -100,8 +104,9 @@ private:
     double _nearestEarth2 = std::numeric_limits<double>::infinity();  // squared
     double _lowest = -std::numeric_limits<double>::infinity();
     double _reached = 0.0;  // the farthest corner of the earth that is in the strips
-    std::vector<Wall> _walls;
-    std::vector<Waiting> _waiting;
+    std::vector<Waiting> _walls;
+    std::array<std::int32_t, kRanges> _lists;
+    std::size_t _nearestList = kRanges;  // those before it are empty
     std::array<double, kStrips> _lower,
         _upper;  // ends of the covered interval; nothing is covered where _lower > _upper
 };

@@ -3,7 +3,7 @@
 //
 // Oracle: the interpolated point of the eight corners, which is in their hull, beside the point in long double.
 
-#include <osgAnalyticBin/core/occlusion/BinHull.h>
+#include <osgAnalyticBin/core/occlusion/BinBody.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using core::BinHull;
 using core::Ellipsoid;
 using core::GeodeticBin;
 
-TEST(BinHull, HoldsTheQuartersOfTheBin) {
+TEST(BinBody, IsInTheHullsOfItsQuarters) {
     Random random(1711);
     double closest = 1e300;
     for (int trial = 0; trial < 20000; ++trial) {
@@ -35,7 +35,7 @@ TEST(BinHull, HoldsTheQuartersOfTheBin) {
         frame.y = glm::normalize(glm::cross(frame.x, random.direction()));
         frame.z = glm::cross(frame.x, frame.y);
         const int quarter = random.integer(0, 3);
-        const BinHull hull = hullsOfQuarters(ellipsoid, bin, 0.0, frame)[static_cast<std::size_t>(quarter)];
+        const BinHull hull = core::BinBody(ellipsoid, bin, 0.0, frame).quarters()[static_cast<std::size_t>(quarter)];
         // at the middle the interpolation is worst
         const auto share = [&] { return random.chance(0.5) ? 0.5 : random.uniform(); };
         const double p = share(), l = share(), h = random.uniform();
@@ -54,10 +54,10 @@ TEST(BinHull, HoldsTheQuartersOfTheBin) {
     EXPECT_LT(closest, 1.1);
 }
 
-TEST(BinHull, IsBoundlessOnFlatEllipsoids) {
+TEST(BinBody, IsBoundlessOnFlatEllipsoids) {
     const GeodeticBin bin({0.1, 0.2}, {0.1, 0.2}, {0.0, 1.0});
     const auto reachOf = [&](double polarRadius, double margin) {
-        return hullsOfQuarters(Ellipsoid(6e6, polarRadius), bin, margin, core::Frame()).front().reach;
+        return core::BinBody(Ellipsoid(6e6, polarRadius), bin, margin, core::Frame()).quarters().front().reach;
     };
     EXPECT_TRUE(std::isinf(reachOf(5e6, 0.0)));
     EXPECT_DOUBLE_EQ(reachOf(6e6, 7.0), reachOf(6e6, 0.0) + 7.0);
