@@ -54,6 +54,31 @@ TEST(BinBody, IsInTheHullsOfItsQuarters) {
     EXPECT_LT(closest, 1.1);
 }
 
+TEST(BinBody, IsInItsBall) {
+    Random random(1712);
+    for (int trial = 0; trial < 100000; ++trial) {
+        const bool isMap = random.chance(0.2);
+        const double radius = random.logUniform(1.0, 1e9);
+        const Ellipsoid ellipsoid =
+            isMap ? Ellipsoid::plane() : Ellipsoid(radius, radius * random.uniform(0.996, 1.004));
+        const double size = random.logUniform(1e-7, 3.0), wider = random.logUniform(1e-7, 6.2);
+        const double south = random.uniform(-1.57, 1.57 - size), west = random.uniform(-4.0, 4.0);
+        const double low = radius * random.uniform(-0.1, 0.1), margin = radius * random.logUniform(1e-9, 1e-2);
+        const GeodeticBin bin({south, south + size}, {west, west + wider},
+                              {low, low + radius * random.logUniform(1e-6, 0.1)});
+        core::Frame frame{radius * random.uniform(0.0, 1.1) * random.direction(), random.direction(), {}, {}};
+        frame.y = glm::normalize(glm::cross(frame.x, random.direction()));
+        frame.z = glm::cross(frame.x, frame.y);
+        const core::BinBall ball = core::BinBody(ellipsoid, bin, margin, frame).ball();
+        // corners are worst
+        const auto share = [&] { return random.chance(0.7) ? std::floor(random.uniform(0.0, 2.0)) : random.uniform(); };
+        const glm::dvec3 point = ellipsoid.toEcef(
+            {south + share() * size, west + share() * wider, low + share() * bin.altitude().width()});
+        const glm::dvec3 inMargin = point + 0.999 * margin * random.direction();
+        ASSERT_LE(glm::distance(inMargin, frame.toOuter(ball.centre)), ball.radius) << "trial " << trial;
+    }
+}
+
 TEST(BinBody, IsBoundlessOnFlatEllipsoids) {
     const GeodeticBin bin({0.1, 0.2}, {0.1, 0.2}, {0.0, 1.0});
     const auto reachOf = [&](double polarRadius, double margin) {

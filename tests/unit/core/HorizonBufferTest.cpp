@@ -12,7 +12,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <core/kernels/OcclusionKernels.h>
+#include <core/kernels/PlaneKernels.h>
 #include <cstdio>
+#include <cstring>
+#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -99,10 +103,7 @@ TEST(HorizonBuffer, HidesNothingThatARayReachesFromAnyOfTheEyes) {
     int hidden = 0;
     for (int i = 0; i < 60; ++i) {
         const OcclusionScene scene(random);
-        const double altitude = scene.ellipsoid.toGeodetic(scene.eye).altitude;
-        const double height = std::abs(altitude - scene.tiles[0].bin.altitude().lower);
-        glm::dvec3 eyes(0.0);
-        for (const int axis : {0, 1, 2}) eyes[axis] = random.logUniform(1e-4, axis == 1 ? 3.0 : 0.3) * height;
+        const glm::dvec3 eyes = randomEyes(random, scene);
         HorizonBuffer buffer = bufferOf(scene, eyes);
         for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, 8);
         OcclusionScene moved = scene;
@@ -110,14 +111,7 @@ TEST(HorizonBuffer, HidesNothingThatARayReachesFromAnyOfTheEyes) {
             if (!buffer.hides(outline)) continue;
             ++hidden;
             for (int ray = 0; ray < kRays / 4; ++ray) {
-                // corners of the box are worst
-                const auto share = [&] {
-                    return random.chance(0.5) ? 0.999 * random.sign() : random.uniform(-1.0, 1.0);
-                };
-                const core::Frame frame = frameOf(scene);
-                moved.eye = frame.toOuter({share() * eyes.x, share() * eyes.y, share() * eyes.z});
-                // an eye below the ground looks through the backs of faces
-                if (moved.isBlocked(real(moved.eye + 0.1 * scene.ellipsoid.polarRadius() * scene.up))) continue;
+                if (!moveEye(moved, random, frameOf(scene), eyes)) continue;
                 const RealVector point = scene.pointIn(random, part);
                 ASSERT_TRUE(!isBeforeTheCamera(moved, point) || moved.isBlocked(point)) << "scene " << i;
             }
@@ -259,6 +253,57 @@ TEST(HorizonBuffer, LowersSteepLinesByTheErrorsOfTheirCorners) {
     };
     EXPECT_FALSE(hidesBelowTheLine(0.95 * error));
     EXPECT_TRUE(hidesBelowTheLine(1.05 * error));
+}
+
+TEST(HorizonBuffer, FindsBallsBesideThePicture) {
+    Random random(1719);
+    int beside = 0;
+    for (int trial = 0; trial < 300000; ++trial) {
+        const double radius = random.logUniform(1e-3, 1e6);
+        const glm::dvec3 centre = random.logUniform(1e-2, 10.0) * radius * random.direction();
+        const glm::dvec3 eyes = random.logUniform(1e-6, 1.0) * radius * glm::abs(random.direction());
+        const core::Interval across{random.uniform(-3.0, 0.0), random.uniform(0.1, 3.0)};
+        const HorizonBuffer buffer(random.logUniform(1e-3, 1e7), across, 0.0, 0.0, eyes);
+        if (!buffer.isBeside({centre, radius})) continue;
+        ++beside;
+        // the point that is nearest to a side of the picture, from a corner of the box of eyes, or any other one
+        const double side = random.pick(std::array<double, 2>{across.lower, across.upper});
+        const glm::dvec3 normal = random.sign() * glm::normalize(glm::dvec3(1.0, -side, 0.0));
+        const glm::dvec3 point = centre + radius * (random.chance(0.5) ? normal : random.direction());
+        const glm::dvec3 from = point - eyes * glm::dvec3(random.sign(), random.sign(), random.sign());
+        ASSERT_TRUE(from.y < 0.0 || from.x < across.lower * from.y || from.x > across.upper * from.y)
+            << "trial " << trial;
+    }
+    EXPECT_GT(beside, 60000);
+}
+
+// Vectors of any width and single numbers give the same outlines and the same pictures, bit for bit.
+TEST(HorizonBuffer, IsTheSameForAllInstructionSets) {
+    const auto picture = [](std::vector<double>& numbers) {
+        Random random(1720);
+        for (int i = 0; i < 20; ++i) {
+            const OcclusionScene scene(random, true, i % 4 == 3);
+            HorizonBuffer buffer = bufferOf(scene, randomEyes(random, scene));
+            for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, std::size_t{2} << i % 3);
+            for (const auto& [part, outline] : frontToBack(scene, buffer)) {
+                numbers.push_back(buffer.hides(outline));
+                numbers.insert(numbers.end(), {outline.nearest, outline.across.lower, outline.across.upper,
+                                               outline.heights.lower, outline.heights.upper, outline.distance});
+            }
+            for (std::size_t strip = 0; strip < HorizonBuffer::kStrips; ++strip) {
+                numbers.push_back(buffer.covered(strip).lower);
+                numbers.push_back(buffer.covered(strip).upper);
+            }
+            numbers.push_back(buffer.nearestEarth());
+        }
+    };
+    std::vector<double> vector, scalar;
+    picture(vector);
+    core::kernels::activeOcclusion = core::kernels::kScalarOcclusion;
+    picture(scalar);
+    core::kernels::chooseKernels();
+    ASSERT_EQ(vector.size(), scalar.size());
+    EXPECT_EQ(std::memcmp(vector.data(), scalar.data(), vector.size() * sizeof(double)), 0);
 }
 
 // If two depths are equal after rounding, the body that is drawn first stays visible.

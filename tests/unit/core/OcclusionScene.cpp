@@ -209,6 +209,22 @@ HorizonBuffer bufferOf(const OcclusionScene& scene, const glm::dvec3& eyes) {
     return {glm::length(scene.eye), kAcross, 0.0, 0.0, eyes};
 }
 
+glm::dvec3 randomEyes(Random& random, const OcclusionScene& scene) {
+    const double altitude = scene.ellipsoid.toGeodetic(scene.eye).altitude;
+    const double height = std::abs(altitude - scene.tiles[0].bin.altitude().lower);
+    glm::dvec3 eyes(0.0);
+    for (const int axis : {0, 1, 2}) eyes[axis] = random.logUniform(1e-4, axis == 1 ? 3.0 : 0.3) * height;
+    return eyes;
+}
+
+bool moveEye(OcclusionScene& scene, Random& random, const core::Frame& frame, const glm::dvec3& eyes) {
+    // corners of the box are worst
+    const auto share = [&] { return random.chance(0.5) ? 0.999 * random.sign() : random.uniform(-1.0, 1.0); };
+    const double right = share() * eyes.x, ahead = share() * eyes.y, up = share() * eyes.z;
+    scene.eye = frame.toOuter({right, ahead, up});
+    return !scene.isBlocked(real(scene.eye + 0.1 * scene.ellipsoid.polarRadius() * scene.up));
+}
+
 void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,
              double reach) {
     const core::GroundPlates plates(scene.ellipsoid, tile.mesh, tile.bin);
