@@ -53,7 +53,9 @@ void tryScene(std::uint64_t number, const Options& options, Counts& counts) {
         for (int ray = 0; ray < kRays; ++ray) {
             const bool isNewEye = options.hasBoxes && ray % kRaysOfEye == 0;
             if (isNewEye) isAboveGround = moveEye(seen, random, frameOf(scene), eyes);
-            const RealVector point = seen.pointIn(random, part);
+            // what an eye of a box sees and the one in the middle does not is at the top
+            const bool isTop = options.hasBoxes && random.chance(0.7);
+            const RealVector point = isTop ? seen.topOf(random, part) : seen.pointIn(random, part);
             if (!isAboveGround || !isBeforeTheCamera(seen, point)) continue;
             ++counts.trials;
             if (seen.isBlocked(point)) continue;

@@ -213,7 +213,7 @@ glm::dvec3 randomEyes(Random& random, const OcclusionScene& scene) {
     const double altitude = scene.ellipsoid.toGeodetic(scene.eye).altitude;
     const double height = std::abs(altitude - scene.tiles[0].bin.altitude().lower);
     glm::dvec3 eyes(0.0);
-    for (const int axis : {0, 1, 2}) eyes[axis] = random.logUniform(1e-4, axis == 1 ? 3.0 : 0.3) * height;
+    for (const int axis : {0, 1, 2}) eyes[axis] = random.logUniform(1e-3, axis == 1 ? 3.0 : 1.0) * height;
     return eyes;
 }
 

@@ -56,6 +56,10 @@ public:
 
     // Returns: whether something was found.
     [[nodiscard]] bool run() {
+        const std::size_t tiles = _database.view.plan->shown().size();
+        _candidates.reserve(tiles);
+        _quarters.reserve(2 * tiles);
+        _order.reserve(2 * tiles);
         for (const TilePlan::ShownTile& tile : _database.view.plan->shown()) {
             if (!add(tile)) return false;
         }
@@ -179,6 +183,7 @@ private:
         const auto picture = std::make_shared<CoveredPicture>();
         picture->eye = _found.eye;
         picture->across = _found.span.across;
+        picture->heights.reserve(HorizonBuffer::kStrips);
         for (std::size_t strip = 0; strip < HorizonBuffer::kStrips; ++strip)
             picture->heights.push_back(_buffer.covered(strip));
         return picture;
