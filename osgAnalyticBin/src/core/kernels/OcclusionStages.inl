@@ -107,30 +107,37 @@ struct Parallel {
     Real sine, cosine;
 };
 
+// Where the numbers of some columns go, corner by corner.
+template <class Real>
+struct CornerRows {
+    double* to;
+    std::size_t stride;
+
+    INLINE void put(const Triple<Real>& corner) {
+        store(corner.x, to);
+        store(corner.y, to + stride);
+        store(corner.z, to + 2 * stride);
+        to += 3 * stride;
+    }
+    INLINE void putFour(const Ring<Real>& southern, const Ring<Real>& northern, const Meridian<Real>& west,
+                        const Meridian<Real>& east) {
+        put(southern.at(west));
+        put(southern.at(east));
+        put(northern.at(west));
+        put(northern.at(east));
+    }
+};
+
 template <class Real>
 INLINE void columnsOf(const CellGround& ground, const CellRows& cells, double* corners, std::size_t stride) {
     for (std::size_t first = 0; first < cells.count; first += lanesOf<Real>()) {
         const Meridian<Real> west(ground, load<Real>(cells.west + first)), east(ground, load<Real>(cells.east + first));
-        const Real high = load<Real>(cells.high + first), low = high - broadcast<Real>(ground.depth);
-        double* to = corners + first;
-        const auto put = [&](const Ring<Real>& ring, const Meridian<Real>& meridian) ATTRIBUTES {
-            const Triple<Real> point = ring.at(meridian);
-            store(point.x, to);
-            store(point.y, to + stride);
-            store(point.z, to + 2 * stride);
-            to += 3 * stride;
-        };
         const Parallel<Real> south(ground, load<Real>(cells.south + first)),
             north(ground, load<Real>(cells.north + first));
-        const auto putFour = [&](Real altitude) ATTRIBUTES {
-            const Ring<Real> southern = south.ring(altitude), northern = north.ring(altitude);
-            put(southern, west);
-            put(southern, east);
-            put(northern, west);
-            put(northern, east);
-        };
-        putFour(high);
-        putFour(low);
+        const Real high = load<Real>(cells.high + first), low = high - broadcast<Real>(ground.depth);
+        CornerRows<Real> rows{corners + first, stride};
+        rows.putFour(south.ring(high), north.ring(high), west, east);
+        rows.putFour(south.ring(low), north.ring(low), west, east);
     }
 }
 
