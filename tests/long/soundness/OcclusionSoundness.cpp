@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// Makes random terrain with needles and pits, and asks the horizon buffer what is behind it for an eye above, or for all
-// eyes in a box. Casts rays in long double to all that is said to be hidden, and fails if a single ray gets there
+// Makes random terrain with needles and pits, and asks the horizon buffer what is behind it for an eye above, or for
+// all eyes in a box. Casts rays in long double to all that is said to be hidden, and fails if a single ray gets there
 // without meeting a triangle.
 
 #include "OcclusionScene.h"

@@ -72,8 +72,8 @@ TEST(BinBody, IsInItsBall) {
         const core::BinBall ball = core::BinBody(ellipsoid, bin, margin, frame).ball();
         // corners are worst
         const auto share = [&] { return random.chance(0.7) ? std::floor(random.uniform(0.0, 2.0)) : random.uniform(); };
-        const glm::dvec3 point = ellipsoid.toEcef(
-            {south + share() * size, west + share() * wider, low + share() * bin.altitude().width()});
+        const glm::dvec3 point =
+            ellipsoid.toEcef({south + share() * size, west + share() * wider, low + share() * bin.altitude().width()});
         const glm::dvec3 inMargin = point + 0.999 * margin * random.direction();
         ASSERT_LE(glm::distance(inMargin, frame.toOuter(ball.centre)), ball.radius) << "trial " << trial;
     }

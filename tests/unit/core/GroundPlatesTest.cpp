@@ -368,8 +368,8 @@ TEST(GroundPlates, CornersOfColumnsAreWrongByTheirErrorAtMost) {
         GeodeticBin extents = randomExtents(random, ellipsoid);
         const EcefMesh mesh = gridMesh(random, ellipsoid, extents, 16);
         const GroundPlates plates(ellipsoid, mesh, extents);
-        core::Frame frame{ellipsoid.toEcef({extents.latitude().lower, extents.longitude().upper, 100.0}),
-                          random.direction(), {}, {}};
+        core::Frame frame{
+            ellipsoid.toEcef({extents.latitude().lower, extents.longitude().upper, 100.0}), random.direction(), {}, {}};
         frame.y = glm::normalize(glm::cross(frame.x, random.direction()));
         frame.z = glm::cross(frame.x, frame.y);
         const std::size_t cells = random.pick(kGrids), quarter = static_cast<std::size_t>(random.integer(0, 3));
@@ -390,8 +390,8 @@ TEST(GroundPlates, CornersOfColumnsAreWrongByTheirErrorAtMost) {
                 const Real l = at(extents.longitude(), east, corner % 2 == 1);
                 const double high = plates.least(cells, row, east), h = corner < 4 ? high : high - depth;
                 constexpr Real kUnits = Ellipsoid::kMapUnitsInRadian;
-                const RealVector place = ellipsoid.isPlane() ? RealVector{kUnits * l, kUnits * p, h}
-                                                             : geodeticToEcef(ellipsoid, p, l, h);
+                const RealVector place =
+                    ellipsoid.isPlane() ? RealVector{kUnits * l, kUnits * p, h} : geodeticToEcef(ellipsoid, p, l, h);
                 const RealVector from = place - real(frame.origin);
                 const glm::dvec3& computed = corner < 4 ? column.top[corner] : column.bottom[corner - 4];
                 const std::array<glm::dvec3, 3> axes{frame.x, frame.y, frame.z};

@@ -223,7 +223,8 @@ TEST(HorizonBuffer, HidesOnlyWhatIsInThePictureOfEarthInFront) {
                 body.setCorner(corner, pointAt(x, y, forward) + random.uniform(0.0, size) * random.direction());
             body.reach = random.chance(0.5) ? size : 1e-9 * size;
             if (!buffer.hides(buffer.outlineOf(body))) continue;
-            const glm::dvec3 point = body.corner(static_cast<std::size_t>(random.integer(0, 7))) + 0.999 * body.reach * random.direction();
+            const glm::dvec3 point =
+                body.corner(static_cast<std::size_t>(random.integer(0, 7))) + 0.999 * body.reach * random.direction();
             if (std::abs(point.x) > point.y) continue;
             ++hidden;
             ASSERT_TRUE(std::any_of(columns.begin(), columns.end(),
@@ -380,7 +381,9 @@ TEST(HorizonBuffer, LeavesOutWhatHasNoPlaceInThePicture) {
         column.error = 1e-6;
         return column;
     };
-    const auto bodyOf = [&](const core::GeodeticBin& bin) { return core::BinBody(earth, bin, 0.0, eye).quarters().front(); };
+    const auto bodyOf = [&](const core::GeodeticBin& bin) {
+        return core::BinBody(earth, bin, 0.0, eye).quarters().front();
+    };
     const BinHull behind = bodyOf(core::GeodeticBin({0.005, 0.007}, {-0.001, 0.003}, {0.0, 500.0}));
     const BinHull behindTheEye = bodyOf(core::GeodeticBin({-0.006, -0.004}, {-0.001, 0.003}, {0.0, 500.0}));
     const auto hides = [&](const EarthColumn& column, const BinHull& body) {

@@ -39,9 +39,9 @@ std::uint64_t hidden(const FamilyData& data, const HorizonEyeData& eye, std::uin
 }  // namespace scalar
 
 constexpr PlaneKernels kScalarKernels{scalar::bin, scalar::family, scalar::hidden};
-constexpr OcclusionKernels kScalarOcclusion{scalar::columnsOf<double>,     scalar::wallsOf<double>,
-                                            scalar::outlineOf<double>,     scalar::isAboveOneOf<double>,
-                                            scalar::raiseStrips<double>,   scalar::coversHeights<double>};
+constexpr OcclusionKernels kScalarOcclusion{scalar::columnsOf<double>,   scalar::wallsOf<double>,
+                                            scalar::outlineOf<double>,   scalar::isAboveOneOf<double>,
+                                            scalar::raiseStrips<double>, scalar::coversHeights<double>};
 
 #ifndef OSGANALYTICBIN_SIMD
 PlaneKernels activeKernels = kScalarKernels;

@@ -56,8 +56,7 @@ double BinBody::largestRadius() const noexcept {
 BinBall BinBody::ball() const noexcept {
     const Interval &latitude = _bin.latitude(), &longitude = _bin.longitude(), &altitude = _bin.altitude();
     const bool isMap = _ellipsoid.isPlane();
-    const Ring middle =
-        isMap ? ringInMap(latitude.middle(), altitude.middle()) : ring(_latitude, altitude.middle());
+    const Ring middle = isMap ? ringInMap(latitude.middle(), altitude.middle()) : ring(_latitude, altitude.middle());
     const glm::dvec3 meridian =
         isMap ? longitude.middle() * _frame.x : _longitude.cosine * _frame.x + _longitude.sine * _frame.y;
     // from the middle along its meridian, along a parallel and along a vertical
@@ -73,8 +72,7 @@ std::array<BinHull, 4> BinBody::quarters() const noexcept {
     const bool isMap = _ellipsoid.isPlane();
     const std::array<Angle, 3> rows = _latitude.withEnds(north), columns = _longitude.withEnds(east);
     std::array<glm::dvec3, 3> meridians;
-    for (std::size_t i = 0; i < 3; ++i)
-        meridians[i] = columns[i].cosine * _frame.x + columns[i].sine * _frame.y;
+    for (std::size_t i = 0; i < 3; ++i) meridians[i] = columns[i].cosine * _frame.x + columns[i].sine * _frame.y;
     if (isMap) meridians = {longitude.lower * _frame.x, longitude.middle() * _frame.x, longitude.upper * _frame.x};
     // the cosine of the latitude nearest to the equator
     const bool isAcrossEquator = isMap || rows[0].sine * rows[2].sine <= 0.0;

@@ -22,12 +22,9 @@ using kernels::WallRow;
 
 HorizonBuffer::HorizonBuffer(double eyeToCentre, const Interval& across, double drawing, double depthStep,
                              const glm::dvec3& eyes)
-    : _picture{eyeToCentre,
-               across.lower,
-               across.upper,
-               across.width() / static_cast<double>(kStrips),
-               drawing,
-               {eyes.x, eyes.y, eyes.z}},
+    : _picture{eyeToCentre,  across.lower,
+               across.upper, across.width() / static_cast<double>(kStrips),
+               drawing,      {eyes.x, eyes.y, eyes.z}},
       _perStep(1.0 / _picture.step),
       _depthStep(depthStep) {
     static_assert(kStrips == kernels::StripNumbers::kStrips && std::tuple_size_v<Wall> == WallRow::kCount);
@@ -74,8 +71,8 @@ bool HorizonBuffer::isAboveKnown(const Strips& strips, double height) const noex
     return kernels::activeOcclusion.isAbove(_upper.data(), strips.first, strips.last, height);
 }
 
-// The list of a distance. Each power of two has 64 of them; what is nearer than the first or farther than the last is in
-// these.
+// The list of a distance. Each power of two has 64 of them; what is nearer than the first or farther than the last is
+// in these.
 std::size_t HorizonBuffer::rangeOf(double distance) noexcept {
     constexpr unsigned kFractionBits = 52, kListBits = 6;
     constexpr std::int64_t kFirst = (std::int64_t{1023} - 8) << kListBits;  // 2^-8

@@ -38,7 +38,8 @@ struct Candidate {
     bool isInPicture;  // at least one quarter is
 };
 
-// A quarter of a tile's bin that is not beside the picture. Quarters are tested one by one, because more terrain is in front of the farther ones.
+// A quarter of a tile's bin that is not beside the picture. Quarters are tested one by one, because more terrain is in
+// front of the farther ones.
 struct Quarter {
     std::size_t candidate, number;
     HorizonBuffer::Outline outline;  // of all that is drawn with it

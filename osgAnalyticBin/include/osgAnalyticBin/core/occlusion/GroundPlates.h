@@ -120,9 +120,9 @@ private:
 
     Ellipsoid _ellipsoid;
     Interval _latitude, _longitude;
-    std::array<double, 4> _middle{};  // sine and cosine of the middle latitude, then longitude
-    double _base = 0.0, _step = 0.0;  // of the codes
-    std::uint8_t _fitting = 0;        // the grids, by their cells a side, whose cells have columns
+    std::array<double, 4> _middle{};             // sine and cosine of the middle latitude, then longitude
+    double _base = 0.0, _step = 0.0;             // of the codes
+    std::uint8_t _fitting = 0;                   // the grids, by their cells a side, whose cells have columns
     std::array<std::uint16_t, kNumbers> _least;  // 0: not known
 };
 
