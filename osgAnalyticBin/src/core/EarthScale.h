@@ -32,6 +32,9 @@ namespace osgAnalyticBin::core {
     return std::max({a * a / b, b * b / a, a});
 }
 
+/// The largest |e²| of an ellipsoid for which the bounds of doc/theory/occlusion.md hold.
+inline constexpr double kRoundest = 0.01;
+
 /// Terrain is nowhere deeper than this part of the smallest radius of curvature.
 inline constexpr double kDeepestPost = 0.5;
 

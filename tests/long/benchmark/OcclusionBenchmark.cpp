@@ -37,27 +37,34 @@ public:
     // Returns: the numbers of the hidden quarters, four for each tile.
     [[nodiscard]] std::vector<std::size_t> hidden() const {
         HorizonBuffer buffer = bufferOf(_scene);
-        std::vector<HorizonBuffer::Outline> outlines;
+        std::vector<std::pair<std::size_t, HorizonBuffer::Outline>> outlines;  // quarters in the picture
         std::vector<std::pair<double, std::size_t>> order;
-        for (const GroundTile& tile : _scene.tiles) {
-            for (const auto& hull : core::hullsOfQuarters(_scene.ellipsoid, tile.bin, 0.0, _frame)) {
-                outlines.push_back(buffer.outlineOf(hull));
-                order.emplace_back(outlines.back().nearest, order.size());
+        for (std::size_t tile = 0; tile < _plates.size(); ++tile) {
+            const core::GeodeticBin& bin = _scene.tiles[tile].bin;
+            const core::BinBody body(_scene.ellipsoid, bin, 0.0, _frame);
+            if (buffer.isBeside(body.ball())) continue;
+            std::size_t quarter = 4 * tile;
+            for (const auto& hull : body.quarters()) {
+                const HorizonBuffer::Outline outline = buffer.outlineOf(hull);
+                if (!outline.isBeside) {
+                    order.emplace_back(outline.nearest, outlines.size());
+                    outlines.emplace_back(quarter, outline);
+                }
+                ++quarter;
             }
         }
         std::sort(order.begin(), order.end());
         std::vector<std::size_t> hidden;
-        std::vector<core::EarthColumn> columns;
-        for (const auto& [nearest, quarter] : order) {
-            if (outlines[quarter].isBeside) continue;
-            if (buffer.hides(outlines[quarter])) {
+        core::EarthColumns columns;
+        for (const auto& [nearest, number] : order) {
+            const auto& [quarter, outline] = outlines[number];
+            if (buffer.hides(outline)) {
                 hidden.push_back(quarter);
                 continue;
             }
-            columns.clear();
             const double depth = 0.01 * _scene.ellipsoid.equatorialRadius();
-            _plates[quarter / 4].appendColumns(kCells, quarter % 4, depth, _frame, columns);
-            for (const core::EarthColumn& column : columns) buffer.add(column);
+            _plates[quarter / 4].columns(kCells, kCells, quarter % 4, depth, _frame, columns);
+            buffer.add(columns);
         }
         return hidden;
     }
@@ -75,7 +82,7 @@ public:
 
 private:
     OcclusionScene _scene;
-    core::Frame _frame;
+    core::InverseFrame _frame;
     std::vector<core::GroundPlates> _plates;
 };
 

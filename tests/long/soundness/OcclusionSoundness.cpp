@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-// Makes random terrain with needles and pits, and asks the horizon buffer what is behind it for an eye above. Casts
-// rays in long double to all that is said to be hidden, and fails if a single ray gets there without meeting a
-// triangle.
+// Makes random terrain with needles and pits, and asks the horizon buffer what is behind it for an eye above, or for
+// all eyes in a box. Casts rays in long double to all that is said to be hidden, and fails if a single ray gets there
+// without meeting a triangle.
 
 #include "OcclusionScene.h"
 
@@ -27,30 +27,38 @@ struct Options {
     std::uint64_t trials = 1000000;
     std::uint64_t seedValue = seed();
     unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+    bool hasBoxes = false;  // each search is for a box of eyes
 };
 
 struct Counts {
     std::atomic<std::uint64_t> trials{0}, wrong{0}, scenes{0}, quarters{0}, hidden{0};
 };
 
-// Rays to one part of a tile.
-constexpr int kRays = 200;
+// Rays to one part of a tile, and from one of its eyes.
+constexpr int kRays = 200, kRaysOfEye = 20;
 
 void tryScene(std::uint64_t number, const Options& options, Counts& counts) {
     Random random(1700 + number, options.seedValue);
     const OcclusionScene scene(random, true, number % 4 == 3);
-    core::HorizonBuffer buffer = bufferOf(scene);
+    const glm::dvec3 eyes = options.hasBoxes ? randomEyes(random, scene) : glm::dvec3(0.0);
+    core::HorizonBuffer buffer = bufferOf(scene, eyes);
     const std::size_t cells = random.pick(std::array<std::size_t, 4>{1, 2, 4, 8});
     for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, cells);
+    OcclusionScene seen = scene;  // from one of the eyes
+    bool isAboveGround = true;
     for (const auto& [part, outline] : frontToBack(scene, buffer)) {
         ++counts.quarters;
         if (outline.isBeside || !buffer.hides(outline)) continue;
         ++counts.hidden;
         for (int ray = 0; ray < kRays; ++ray) {
-            const RealVector point = scene.pointIn(random, part);
-            if (!isBeforeTheCamera(scene, point)) continue;
+            const bool isNewEye = options.hasBoxes && ray % kRaysOfEye == 0;
+            if (isNewEye) isAboveGround = moveEye(seen, random, frameOf(scene), eyes);
+            // what an eye of a box sees and the one in the middle does not is at the top
+            const bool isTop = options.hasBoxes && random.chance(0.7);
+            const RealVector point = isTop ? seen.topOf(random, part) : seen.pointIn(random, part);
+            if (!isAboveGround || !isBeforeTheCamera(seen, point)) continue;
             ++counts.trials;
-            if (scene.isBlocked(point)) continue;
+            if (seen.isBlocked(point)) continue;
             ++counts.wrong;
             std::printf("scene %" PRIu64 ": a ray reaches a quarter of a tile that is said to be hidden\n", number);
         }
@@ -62,6 +70,11 @@ Options parse(int argc, char** argv) {
     Options options;
     for (int i = 1; i < argc; i += 2) {
         const std::string name = argv[i];
+        if (name == "--boxes") {
+            options.hasBoxes = true;
+            --i;
+            continue;
+        }
         const std::uint64_t value = i + 1 < argc ? std::strtoull(argv[i + 1], nullptr, 0) : 0;
         if (name == "--trials" && value > 0) {
             options.trials = value;
@@ -70,7 +83,7 @@ Options parse(int argc, char** argv) {
         } else if (name == "--threads" && value > 0) {
             options.threads = static_cast<unsigned>(value);
         } else {
-            std::printf("osganalyticbin_occlusion_soundness [--trials N] [--seed S] [--threads T]\n");
+            std::printf("osganalyticbin_occlusion_soundness [--boxes] [--trials N] [--seed S] [--threads T]\n");
             std::exit(2);
         }
     }

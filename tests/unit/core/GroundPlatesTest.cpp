@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -73,8 +74,13 @@ bool isBelow(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const RealVector&
 
 std::vector<EarthColumn> columnsOf(const GroundPlates& plates, std::size_t cells, double depth) {
     std::vector<EarthColumn> columns;
-    for (std::size_t quarter = 0; quarter < (cells == 1 ? 1 : 4); ++quarter)
-        plates.appendColumns(cells, quarter, depth, core::Frame(), columns);
+    core::EarthColumns some;
+    for (std::size_t quarter = 0; quarter < (cells == 1 ? 1 : 4); ++quarter) {
+        plates.columns(cells, cells, quarter, depth, core::Frame(), some);
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            if (some.isKnown(i)) columns.push_back(some[i]);
+        }
+    }
     return columns;
 }
 
@@ -350,6 +356,61 @@ TEST(GroundPlates, AreNotKnownWhereNoColumnFits) {
     EXPECT_TRUE(std::isfinite(known.least(8, 4, 4)));
     EXPECT_TRUE(columnsOf(known, 8, 1e6).empty());
     EXPECT_TRUE(columnsOf(known, 8, std::nan("")).empty());
+}
+
+// Oracle: positions in long double. Both sines and cosines of sums, and products, are rounded.
+TEST(GroundPlates, CornersOfColumnsAreWrongByTheirErrorAtMost) {
+    Random random(1721);
+    constexpr Real kRim = 1.0L / 64;
+    Real worst = 0;
+    int wide = 0;
+    for (int trial = 0; trial < 3000; ++trial) {
+        const Ellipsoid ellipsoid = trial % 4 == 3 ? Ellipsoid::plane() : wgs84();
+        // the widest tiles that have columns are worst for the series of sines and cosines
+        const double south = random.uniform(-1.0, 0.0), west = random.uniform(-3.0, 2.0);
+        const GeodeticBin widest({south, south + 0.999}, {west, west + 0.8}, {-1e3, 1e3});
+        const GeodeticBin extents = trial % 4 == 0 ? widest : randomExtents(random, ellipsoid);
+        const EcefMesh mesh = gridMesh(random, ellipsoid, extents, 16);
+        const GroundPlates plates(ellipsoid, mesh, extents);
+        core::Frame frame{
+            ellipsoid.toEcef({extents.latitude().lower, extents.longitude().upper, 100.0}), random.direction(), {}, {}};
+        frame.y = glm::normalize(glm::cross(frame.x, random.direction()));
+        frame.z = glm::cross(frame.x, frame.y);
+        const std::size_t cells = random.pick(kGrids), quarter = static_cast<std::size_t>(random.integer(0, 3));
+        const std::size_t half = cells / 2, here = std::max<std::size_t>(half, 1);
+        const double depth = 1e-3 * ellipsoid.equatorialRadius();
+        core::EarthColumns columns;
+        plates.columns(cells, cells, quarter, depth, frame, columns);
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            if (!columns.isKnown(i)) continue;
+            wide += trial % 4 == 0;
+            const EarthColumn column = columns[i];
+            const std::size_t row = quarter / 2 * half + i / here, east = quarter % 2 * half + i % here;
+            for (std::size_t corner = 0; corner < 8; ++corner) {
+                const auto at = [&](const Interval& range, std::size_t cell, bool isUpper) {
+                    const Real inCell = isUpper ? 1 - kRim : kRim;
+                    return Real{range.lower} + (Real{range.upper} - range.lower) * (cell + inCell) / cells;
+                };
+                const Real p = at(extents.latitude(), row, corner / 2 % 2 == 1);
+                const Real l = at(extents.longitude(), east, corner % 2 == 1);
+                const double high = plates.least(cells, row, east), h = corner < 4 ? high : high - depth;
+                constexpr Real kUnits = Ellipsoid::kMapUnitsInRadian;
+                const RealVector place =
+                    ellipsoid.isPlane() ? RealVector{kUnits * l, kUnits * p, h} : geodeticToEcef(ellipsoid, p, l, h);
+                const RealVector from = place - real(frame.origin);
+                const glm::dvec3& computed = corner < 4 ? column.top[corner] : column.bottom[corner - 4];
+                const std::array<glm::dvec3, 3> axes{frame.x, frame.y, frame.z};
+                for (int axis = 0; axis < 3; ++axis) {
+                    const Real wrong =
+                        std::abs(dot(from, real(axes[static_cast<std::size_t>(axis)])) - Real{computed[axis]});
+                    ASSERT_LE(wrong, column.error) << "trial " << trial;
+                    worst = std::max(worst, wrong / column.error);
+                }
+            }
+        }
+    }
+    std::printf("%.2Lf of the error at most, %d columns of the widest tiles\n", worst, wide);
+    EXPECT_GT(wide, 1000);
 }
 
 }  // namespace

@@ -12,7 +12,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <core/kernels/OcclusionKernels.h>
+#include <core/kernels/PlaneKernels.h>
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
+#include <vector>
+
+#ifdef OSGANALYTICBIN_SIMD
+#include <hwy/highway.h>
+#endif
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -22,6 +31,20 @@ using core::EarthColumn;
 using core::HorizonBuffer;
 
 constexpr int kRays = 24;
+
+void add(HorizonBuffer& buffer, const EarthColumn& column) {
+    core::EarthColumns columns;
+    columns.append(column);
+    buffer.add(columns);
+}
+
+// The points within `reach` metres of a point.
+BinHull ball(const glm::dvec3& centre, double reach) {
+    BinHull body{};
+    for (std::size_t i = 0; i < 8; ++i) body.setCorner(i, centre);
+    body.reach = reach;
+    return body;
+}
 
 // Returns: how many quarters of tiles are hidden.
 int hideNothingThatARayReaches(Random& random, int scenes, bool isMap) {
@@ -85,10 +108,7 @@ TEST(HorizonBuffer, HidesNothingThatARayReachesFromAnyOfTheEyes) {
     int hidden = 0;
     for (int i = 0; i < 60; ++i) {
         const OcclusionScene scene(random);
-        const double altitude = scene.ellipsoid.toGeodetic(scene.eye).altitude;
-        const double height = std::abs(altitude - scene.tiles[0].bin.altitude().lower);
-        glm::dvec3 eyes(0.0);
-        for (const int axis : {0, 1, 2}) eyes[axis] = random.logUniform(1e-4, axis == 1 ? 3.0 : 0.3) * height;
+        const glm::dvec3 eyes = randomEyes(random, scene);
         HorizonBuffer buffer = bufferOf(scene, eyes);
         for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, 8);
         OcclusionScene moved = scene;
@@ -96,14 +116,7 @@ TEST(HorizonBuffer, HidesNothingThatARayReachesFromAnyOfTheEyes) {
             if (!buffer.hides(outline)) continue;
             ++hidden;
             for (int ray = 0; ray < kRays / 4; ++ray) {
-                // corners of the box are worst
-                const auto share = [&] {
-                    return random.chance(0.5) ? 0.999 * random.sign() : random.uniform(-1.0, 1.0);
-                };
-                const core::Frame frame = frameOf(scene);
-                moved.eye = frame.toOuter({share() * eyes.x, share() * eyes.y, share() * eyes.z});
-                // an eye below the ground looks through the backs of faces
-                if (moved.isBlocked(real(moved.eye + 0.1 * scene.ellipsoid.polarRadius() * scene.up))) continue;
+                if (!moveEye(moved, random, frameOf(scene), eyes)) continue;
                 const RealVector point = scene.pointIn(random, part);
                 ASSERT_TRUE(!isBeforeTheCamera(moved, point) || moved.isBlocked(point)) << "scene " << i;
             }
@@ -190,7 +203,7 @@ TEST(HorizonBuffer, HidesOnlyWhatIsInThePictureOfEarthInFront) {
         const int count = random.integer(1, 30);
         for (int i = 0; i < count; ++i) {
             const EarthColumn column = randomColumn(random);
-            buffer.add(column);
+            add(buffer, column);
             columns.push_back(perturbed(random, column));
         }
         for (int i = 0; i < 300; ++i) {
@@ -205,12 +218,13 @@ TEST(HorizonBuffer, HidesOnlyWhatIsInThePictureOfEarthInFront) {
             // mostly front to back, or no answer would be yes
             const double forward = random.chance(0.1) ? random.logUniform(1e3, 2e5) : 1e3 * std::pow(200.0, i / 300.0);
             const double size = forward * random.logUniform(1e-9, 1e-2);
-            BinHull body;
-            for (glm::dvec3& corner : body.corners)
-                corner = pointAt(x, y, forward) + random.uniform(0.0, size) * random.direction();
+            BinHull body{};
+            for (std::size_t corner = 0; corner < 8; ++corner)
+                body.setCorner(corner, pointAt(x, y, forward) + random.uniform(0.0, size) * random.direction());
             body.reach = random.chance(0.5) ? size : 1e-9 * size;
             if (!buffer.hides(buffer.outlineOf(body))) continue;
-            const glm::dvec3 point = random.pick(body.corners) + 0.999 * body.reach * random.direction();
+            const glm::dvec3 point =
+                body.corner(static_cast<std::size_t>(random.integer(0, 7))) + 0.999 * body.reach * random.direction();
             if (std::abs(point.x) > point.y) continue;
             ++hidden;
             ASSERT_TRUE(std::any_of(columns.begin(), columns.end(),
@@ -239,15 +253,75 @@ TEST(HorizonBuffer, LowersSteepLinesByTheErrorsOfTheirCorners) {
     const double strip = kAcross.width() / static_cast<double>(HorizonBuffer::kStrips), left = 0.25;
     const auto hidesBelowTheLine = [&](double below) {
         HorizonBuffer buffer(0.0, kAcross);
-        buffer.add(column);
-        BinHull body;
-        body.corners.fill(pointAt(left + 0.3 * strip, kSlope * left - below, 2.0 * kForward));
-        body.reach = 1e-6;
+        add(buffer, column);
+        const BinHull body = ball(pointAt(left + 0.3 * strip, kSlope * left - below, 2.0 * kForward), 1e-6);
         return buffer.hides(buffer.outlineOf(body));
     };
     EXPECT_FALSE(hidesBelowTheLine(0.95 * error));
     EXPECT_TRUE(hidesBelowTheLine(1.05 * error));
 }
+
+TEST(HorizonBuffer, FindsBallsBesideThePicture) {
+    Random random(1719);
+    int beside = 0;
+    for (int trial = 0; trial < 300000; ++trial) {
+        const double radius = random.logUniform(1e-3, 1e6);
+        const glm::dvec3 centre = random.logUniform(1e-2, 10.0) * radius * random.direction();
+        const glm::dvec3 eyes = random.logUniform(1e-6, 1.0) * radius * glm::abs(random.direction());
+        const core::Interval across{random.uniform(-3.0, 0.0), random.uniform(0.1, 3.0)};
+        const HorizonBuffer buffer(random.logUniform(1e-3, 1e7), across, 0.0, 0.0, eyes);
+        if (!buffer.isBeside({centre, radius})) continue;
+        ++beside;
+        // the point that is nearest to a side of the picture, from a corner of the box of eyes, or any other one
+        const double side = random.pick(std::array<double, 2>{across.lower, across.upper});
+        const glm::dvec3 normal = random.sign() * glm::normalize(glm::dvec3(1.0, -side, 0.0));
+        const glm::dvec3 point = centre + radius * (random.chance(0.5) ? normal : random.direction());
+        const glm::dvec3 from = point - eyes * glm::dvec3(random.sign(), random.sign(), random.sign());
+        ASSERT_TRUE(from.y < 0.0 || from.x < across.lower * from.y || from.x > across.upper * from.y)
+            << "trial " << trial;
+    }
+    EXPECT_GT(beside, 40000);
+}
+
+#ifdef OSGANALYTICBIN_SIMD
+
+// Vectors of any width and single numbers give the same outlines and the same pictures, bit for bit.
+TEST(HorizonBuffer, IsTheSameForAllInstructionSets) {
+    const auto picture = [](std::vector<double>& numbers) {
+        Random random(1720);
+        for (int i = 0; i < 20; ++i) {
+            const OcclusionScene scene(random, true, i % 4 == 3);
+            HorizonBuffer buffer = bufferOf(scene, randomEyes(random, scene));
+            for (const GroundTile& tile : scene.tiles) addTile(buffer, scene, tile, std::size_t{2} << i % 3);
+            for (const auto& [part, outline] : frontToBack(scene, buffer)) {
+                numbers.push_back(buffer.hides(outline));
+                numbers.insert(numbers.end(), {outline.nearest, outline.across.lower, outline.across.upper,
+                                               outline.heights.lower, outline.heights.upper, outline.distance});
+            }
+            for (std::size_t strip = 0; strip < HorizonBuffer::kStrips; ++strip) {
+                numbers.push_back(buffer.covered(strip).lower);
+                numbers.push_back(buffer.covered(strip).upper);
+            }
+            numbers.push_back(buffer.nearestEarth());
+        }
+    };
+    std::vector<double> scalar;
+    core::kernels::activeOcclusion = core::kernels::kScalarOcclusion;
+    picture(scalar);
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        hwy::SetSupportedTargetsForTest(target);
+        core::kernels::chooseKernels();
+        std::vector<double> vector;
+        picture(vector);
+        ASSERT_EQ(vector.size(), scalar.size());
+        EXPECT_EQ(std::memcmp(vector.data(), scalar.data(), vector.size() * sizeof(double)), 0)
+            << hwy::TargetName(target);
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    core::kernels::chooseKernels();
+}
+
+#endif
 
 // If two depths are equal after rounding, the body that is drawn first stays visible.
 TEST(HorizonBuffer, HidesOnlyWhatADepthBufferTellsFromEarth) {
@@ -260,10 +334,8 @@ TEST(HorizonBuffer, HidesOnlyWhatADepthBufferTellsFromEarth) {
     column.error = 1e-6;
     const auto hides = [&](double forward, double depthStep) {
         HorizonBuffer buffer(0.0, kAcross, 0.0, depthStep);
-        buffer.add(column);
-        BinHull body;
-        body.corners.fill(pointAt(0.0, 0.0, forward));
-        body.reach = 1e-6;
+        add(buffer, column);
+        const BinHull body = ball(pointAt(0.0, 0.0, forward), 1e-6);
         return buffer.hides(buffer.outlineOf(body));
     };
     const double farthestEqual = 1.0 / (1.0 / kForward - kDepthStep);
@@ -283,10 +355,8 @@ TEST(HorizonBuffer, TellsDepthsApartForTheEyeFarthestBack) {
     column.error = 1e-6;
     const auto hides = [&](double forward) {
         HorizonBuffer buffer(0.0, kAcross, 0.0, kDepthStep, {0.0, kBack, 0.0});
-        buffer.add(column);
-        BinHull body;
-        body.corners.fill(pointAt(0.0, 0.0, forward));
-        body.reach = 1e-6;
+        add(buffer, column);
+        const BinHull body = ball(pointAt(0.0, 0.0, forward), 1e-6);
         return buffer.hides(buffer.outlineOf(body));
     };
     const double farthestEqual = 1.0 / (1.0 / (kForward + kBack) - kDepthStep) - kBack;
@@ -311,19 +381,21 @@ TEST(HorizonBuffer, LeavesOutWhatHasNoPlaceInThePicture) {
         column.error = 1e-6;
         return column;
     };
-    const auto bodyOf = [&](const core::GeodeticBin& bin) { return hullsOfQuarters(earth, bin, 0.0, eye).front(); };
+    const auto bodyOf = [&](const core::GeodeticBin& bin) {
+        return core::BinBody(earth, bin, 0.0, eye).quarters().front();
+    };
     const BinHull behind = bodyOf(core::GeodeticBin({0.005, 0.007}, {-0.001, 0.003}, {0.0, 500.0}));
     const BinHull behindTheEye = bodyOf(core::GeodeticBin({-0.006, -0.004}, {-0.001, 0.003}, {0.0, 500.0}));
     const auto hides = [&](const EarthColumn& column, const BinHull& body) {
         HorizonBuffer buffer(glm::length(eye.origin), kAcross);
-        buffer.add(column);
+        add(buffer, column);
         return buffer.hides(buffer.outlineOf(body));
     };
     EXPECT_TRUE(hides(wall(0.002, 0.003), behind));
     EXPECT_FALSE(hides(wall(0.007, 0.008), behind));  // farther
     HorizonBuffer nearPlaneIsFar(glm::length(eye.origin), kAcross);
     nearPlaneIsFar.setLowest(0.0);
-    nearPlaneIsFar.add(wall(0.002, 0.003));
+    add(nearPlaneIsFar, wall(0.002, 0.003));
     EXPECT_FALSE(nearPlaneIsFar.hides(nearPlaneIsFar.outlineOf(behind)));
     EXPECT_FALSE(hides(wall(0.002, 0.0056), behind));  // partly
     EXPECT_FALSE(hides(wall(-0.001, 0.003), behind));  // about the eye
@@ -345,7 +417,7 @@ TEST(HorizonBuffer, LeavesOutWhatHasNoPlaceInThePicture) {
     endless.reach = std::nan("");
     EXPECT_FALSE(hides(wall(0.002, 0.003), endless));
     BinHull nowhere = behind;
-    nowhere.corners[5].z = std::nan("");
+    nowhere.z[5] = std::nan("");
     EXPECT_FALSE(hides(wall(0.002, 0.003), nowhere));
     endless.reach = 1e9;
     EXPECT_FALSE(hides(wall(0.002, 0.003), endless));

@@ -209,24 +209,39 @@ HorizonBuffer bufferOf(const OcclusionScene& scene, const glm::dvec3& eyes) {
     return {glm::length(scene.eye), kAcross, 0.0, 0.0, eyes};
 }
 
+glm::dvec3 randomEyes(Random& random, const OcclusionScene& scene) {
+    const double altitude = scene.ellipsoid.toGeodetic(scene.eye).altitude;
+    const double height = std::abs(altitude - scene.tiles[0].bin.altitude().lower);
+    glm::dvec3 eyes(0.0);
+    for (const int axis : {0, 1, 2}) eyes[axis] = random.logUniform(1e-3, axis == 1 ? 3.0 : 1.0) * height;
+    return eyes;
+}
+
+bool moveEye(OcclusionScene& scene, Random& random, const core::Frame& frame, const glm::dvec3& eyes) {
+    // corners of the box are worst
+    const auto share = [&] { return random.chance(0.5) ? 0.999 * random.sign() : random.uniform(-1.0, 1.0); };
+    const double right = share() * eyes.x, ahead = share() * eyes.y, up = share() * eyes.z;
+    scene.eye = frame.toOuter({right, ahead, up});
+    return !scene.isBlocked(real(scene.eye + 0.1 * scene.ellipsoid.polarRadius() * scene.up));
+}
+
 void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,
              double reach) {
     const core::GroundPlates plates(scene.ellipsoid, tile.mesh, tile.bin);
     const double depth =
         std::min(0.3 * glm::distance(scene.eye, tile.mesh.vertex(0)), 0.01 * scene.ellipsoid.equatorialRadius());
-    std::vector<core::EarthColumn> columns;
-    for (std::size_t quarter = 0; quarter < 4; ++quarter)
-        plates.appendColumns(cells, quarter, depth, frameOf(scene), columns);
-    for (core::EarthColumn& column : columns) {
-        column.error += reach;
-        buffer.add(column);
+    core::EarthColumns columns;
+    for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+        plates.columns(cells, cells, quarter, depth, frameOf(scene), columns);
+        columns.addToErrors(reach);
+        buffer.add(columns);
     }
 }
 
 std::vector<Quarter> frontToBack(const OcclusionScene& scene, const HorizonBuffer& buffer, double reach) {
     std::vector<Quarter> sorted;
     for (const GroundTile& tile : scene.tiles) {
-        const auto hulls = hullsOfQuarters(scene.ellipsoid, tile.bin, reach, frameOf(scene));
+        const auto hulls = core::BinBody(scene.ellipsoid, tile.bin, reach, frameOf(scene)).quarters();
         for (std::size_t i = 0; i < 4; ++i) {
             const auto half = [](const Interval& whole, bool isUpper) -> Interval {
                 return {isUpper ? whole.middle() : whole.lower, isUpper ? whole.upper : whole.middle()};

@@ -49,6 +49,14 @@ constexpr core::Interval kAcross{-1.0, 1.0};
 /// A buffer for the camera, without earth. `eyes`: metres that the eye may be away from its place, along each axis.
 [[nodiscard]] core::HorizonBuffer bufferOf(const OcclusionScene& scene, const glm::dvec3& eyes = glm::dvec3(0.0));
 
+/// How far eyes may be away from the scene's place, along each axis of the camera: farther ahead than aside, as of a
+/// camera that flies on.
+[[nodiscard]] glm::dvec3 randomEyes(Random& random, const OcclusionScene& scene);
+
+/// Moves the eye to a random place in such a box about the frame's origin, often to one of its sides. Returns: whether
+/// it is above the ground there; an eye below it looks through the backs of faces.
+[[nodiscard]] bool moveEye(OcclusionScene& scene, Random& random, const core::Frame& frame, const glm::dvec3& eyes);
+
 /// Adds the columns of cells of the tile, `cells` a side. Their depth is a share of the distance from the eye.
 /// `reach`: metres that the eye may be away from its place.
 void addTile(core::HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTile& tile, std::size_t cells,

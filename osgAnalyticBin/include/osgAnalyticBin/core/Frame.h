@@ -32,4 +32,22 @@ struct Frame {
     }
 };
 
+/// The outer frame, seen from a shape: what converts many points to its coordinates.
+struct InverseFrame {
+    // NOLINTNEXTLINE(google-explicit-constructor): the same frame, prepared
+    InverseFrame(const Frame& frame) noexcept
+        : x(frame.x.x, frame.y.x, frame.z.x),
+          y(frame.x.y, frame.y.y, frame.z.y),
+          z(frame.x.z, frame.y.z, frame.z.z),
+          origin(turned(frame.origin)) {}
+
+    /// A direction of the outer frame, in coordinates of the shape's.
+    [[nodiscard]] glm::dvec3 turned(const glm::dvec3& v) const noexcept { return v.x * x + v.y * y + v.z * z; }
+
+    /// @{
+    /// The outer frame's axes, and the place of the shape, along the axes of the shape's frame.
+    glm::dvec3 x, y, z, origin;
+    /// @}
+};
+
 }  // namespace osgAnalyticBin::core

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 
 #include "../Constants.h"
-#include "../occlusion/SurfaceGrid.h"
+#include "../EarthScale.h"
 
 #include <osgAnalyticBin/core/horizon/CoveredRegion.h>
+
+#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "OcclusionKernels.h"
 #include "ScalarTests.h"
+
+#include <algorithm>
 
 namespace osgAnalyticBin::core::kernels {
 
@@ -12,6 +15,7 @@ namespace scalar {
 #define ATTRIBUTES
 #include "BinStages.inl"
 #include "FamilyStages.inl"
+#include "OcclusionStages.inl"
 #undef INLINE
 #undef NOINLINE
 #undef ATTRIBUTES
@@ -35,9 +39,13 @@ std::uint64_t hidden(const FamilyData& data, const HorizonEyeData& eye, std::uin
 }  // namespace scalar
 
 constexpr PlaneKernels kScalarKernels{scalar::bin, scalar::family, scalar::hidden};
+constexpr OcclusionKernels kScalarOcclusion{scalar::columnsOf<double>,   scalar::wallsOf<double>,
+                                            scalar::outlineOf<double>,   scalar::isAboveOneOf<double>,
+                                            scalar::raiseStrips<double>, scalar::coversHeights<double>};
 
 #ifndef OSGANALYTICBIN_SIMD
 PlaneKernels activeKernels = kScalarKernels;
+OcclusionKernels activeOcclusion = kScalarOcclusion;
 
 void chooseKernels() noexcept {}
 #endif

@@ -42,6 +42,9 @@ inline double negated(double x) {
 inline double root(double x) {
     return std::sqrt(x);
 }
+inline double leastLane(double x) {
+    return x;
+}
 inline double select(bool where, double yes, double no) {
     return where ? yes : no;
 }
@@ -107,6 +110,10 @@ std::uint32_t anyLane(std::uint32_t bits) {
 template <class Real>
 void store(std::uint32_t bits, std::uint32_t* to) {
     *to = bits;
+}
+
+inline void store(double x, double* to) {
+    *to = x;
 }
 
 template <class Real>

@@ -5,7 +5,11 @@
 // bit for bit. Highway compiles this file once for each instruction set.
 
 #include "core/Constants.h"
+#include "core/kernels/OcclusionKernels.h"
 #include "core/kernels/PlaneKernels.h"
+
+#include <algorithm>
+#include <cmath>
 
 // In this order: the first of the two includes this file again.
 // clang-format off
@@ -29,6 +33,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "core/kernels/HorizonTest.inl"
 #include "core/kernels/BinStages.inl"
 #include "core/kernels/FamilyStages.inl"
+#include "core/kernels/OcclusionStages.inl"
 #undef INLINE
 #undef NOINLINE
 #undef ATTRIBUTES
@@ -49,6 +54,31 @@ std::uint64_t hidden(const FamilyData& data, const HorizonEyeData& eye, std::uin
     return hiddenOfFamily<Wide, Narrow>(data, eye, candidates);
 }
 
+void columns(const CellGround& ground, const CellRows& cells, double* corners, std::size_t stride) {
+    columnsOf<Wide>(ground, cells, corners, stride);
+}
+
+Walls walls(const PictureData& picture, const ColumnRows& rows, double* numbers) {
+    return wallsOf<Wide>(picture, rows, numbers);
+}
+
+void outline(const PictureData& picture, const BodyData& body, OutlineData& data) {
+    outlineOf<Wide>(picture, body, data);
+}
+
+bool isAbove(const double* heights, std::size_t first, std::size_t last, double height) {
+    return isAboveOneOf<Wide>(heights, first, last, height);
+}
+
+void raise(const PictureData& picture, const double* wall, std::size_t first, std::size_t last, double* lower,
+           double* upper) {
+    raiseStrips<Wide>(picture, wall, first, last, lower, upper);
+}
+
+bool covers(const double* lower, const double* upper, std::size_t first, std::size_t last, double low, double high) {
+    return coversHeights<Wide>(lower, upper, first, last, low, high);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace osgAnalyticBin::core::kernels
 HWY_AFTER_NAMESPACE();
@@ -59,6 +89,12 @@ namespace osgAnalyticBin::core::kernels {
 HWY_EXPORT(bin);
 HWY_EXPORT(family);
 HWY_EXPORT(hidden);
+HWY_EXPORT(columns);
+HWY_EXPORT(walls);
+HWY_EXPORT(outline);
+HWY_EXPORT(isAbove);
+HWY_EXPORT(raise);
+HWY_EXPORT(covers);
 
 namespace {
 
@@ -70,11 +106,14 @@ struct ChooseAtStart {
 
 // Constant initialisation first: whoever classifies before this file's turn gets the scalar form.
 PlaneKernels activeKernels = kScalarKernels;
+OcclusionKernels activeOcclusion = kScalarOcclusion;
 const ChooseAtStart kChooseAtStart;
 
 void chooseKernels() noexcept {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     activeKernels = {&HWY_DYNAMIC_DISPATCH(bin), &HWY_DYNAMIC_DISPATCH(family), &HWY_DYNAMIC_DISPATCH(hidden)};
+    activeOcclusion = {&HWY_DYNAMIC_DISPATCH(columns), &HWY_DYNAMIC_DISPATCH(walls), &HWY_DYNAMIC_DISPATCH(outline),
+                       &HWY_DYNAMIC_DISPATCH(isAbove), &HWY_DYNAMIC_DISPATCH(raise), &HWY_DYNAMIC_DISPATCH(covers)};
 }
 
 }  // namespace osgAnalyticBin::core::kernels

@@ -52,6 +52,10 @@ HWY_INLINE Real root(Real x) {
     return hn::Sqrt(x);
 }
 template <class Real>
+HWY_INLINE double leastLane(Real x) {
+    return hn::GetLane(hn::MinOfLanes(Tag<Real>(), x));
+}
+template <class Real>
 HWY_INLINE Real select(Truth<Real> where, Real yes, Real no) {
     return hn::IfThenElse(where, yes, no);
 }
@@ -131,6 +135,11 @@ template <class Real>
 HWY_INLINE void store(Bits<Real> of, std::uint32_t* to) {
     const hn::Rebind<std::uint32_t, Tag<Real>> narrow;
     hn::StoreU(hn::TruncateTo(narrow, of), narrow, to);
+}
+
+template <class Real>
+HWY_INLINE void store(Real x, double* to) {
+    hn::StoreU(x, Tag<Real>(), to);
 }
 
 template <class Real>

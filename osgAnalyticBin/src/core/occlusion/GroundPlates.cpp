@@ -3,10 +3,10 @@
 
 #include "../Constants.h"
 #include "../EarthScale.h"
+#include "../kernels/OcclusionKernels.h"
 #include "../mesh/KeyNumbers.h"
 #include "PlateCells.h"
 #include "PostGrid.h"
-#include "SurfaceGrid.h"
 
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
 #include <osgAnalyticBin/core/occlusion/GroundPlates.h>
@@ -246,8 +246,17 @@ GroundPlates::GroundPlates() noexcept : _ellipsoid(1.0, 1.0) {
 }
 
 GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const Interval& latitude, const Interval& longitude) noexcept
-    : _ellipsoid(ellipsoid), _latitude(latitude), _longitude(longitude) {
+    : _ellipsoid(ellipsoid),
+      _latitude(latitude),
+      _longitude(longitude),
+      _middle{std::sin(latitude.middle()), std::cos(latitude.middle()), std::sin(longitude.middle()),
+              std::cos(longitude.middle())} {
     _least.fill(kUnknown);
+    const double widest = std::max(latitude.width(), longitude.width());
+    if (!(widest <= 2.0 * kernels::kFarthestFromMiddle)) return;
+    for (const std::size_t cells : kCellsOfGrids) {
+        if (fitsColumns(cells)) _fitting |= static_cast<std::uint8_t>(cells);
+    }
 }
 
 GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin)
@@ -312,51 +321,119 @@ double GroundPlates::least(std::size_t cells, std::size_t row, std::size_t colum
 }
 
 // Whether columns keep within the rims of a grid's cells.
-bool GroundPlates::fitsColumns(std::size_t cells, double depth) const noexcept {
+bool GroundPlates::fitsColumns(std::size_t cells) const noexcept {
     const double across = _longitude.width() / static_cast<double>(cells);
     const double along = _latitude.width() / static_cast<double>(cells);
     const double inner = 1.0 - 2.0 * kRim;
-    // doc/theory/occlusion.md, section 2: how far chords of a parallel leave it toward the pole, in latitude
-    const double bulge = 0.55 * (1.0 / std::cos(0.5 * inner * across) - 1.0);
+    // doc/theory/occlusion.md, section 2: how far chords of a parallel leave it toward the pole, in latitude;
+    // cos x >= 1 - x²/2
+    const double square = 0.125 * inner * across * inner * across;
+    const double bulge = 0.55 * square / (1.0 - square);
     // longitudes many turns away from zero are rounded coarsely
     const bool isWide = across * kRim > 64.0 * kEpsilon * (1.0 + std::abs(_longitude.lower));
-    return isWide && across * inner < 1.0 && bulge < kBulgeOfRim * kRim * along && depth >= 0.0 && depth < shallowest();
+    return isWide && across * inner < 1.0 && bulge < kBulgeOfRim * kRim * along;
 }
 
 double GroundPlates::shallowest() const noexcept {
     return 0.1 * std::min(_ellipsoid.equatorialRadius(), _ellipsoid.polarRadius());
 }
 
-void GroundPlates::appendColumns(std::size_t cells, std::size_t quarter, double depth, const Frame& frame,
-                                 std::vector<EarthColumn>& columns) const {
-    if (!fitsColumns(cells, depth)) return;
-    // both sides of the part of each cell that is within the rims
-    constexpr std::size_t kSides = kCellsOfGrids.back();
-    const std::size_t half = cells / 2, here = std::max<std::size_t>(half, 1);
-    const std::size_t south = quarter / 2 * half, west = quarter % 2 * half;
-    std::array<double, kSides> latitudes{}, longitudes{};
-    for (std::size_t i = 0; i < 2 * here; ++i) {
-        const double at = static_cast<double>(i / 2) + (i % 2 == 0 ? kRim : 1.0 - kRim);
-        const double perCell = 1.0 / static_cast<double>(cells);
-        latitudes[i] = _latitude.lower + _latitude.width() * perCell * (static_cast<double>(south) + at);
-        longitudes[i] = _longitude.lower + _longitude.width() * perCell * (static_cast<double>(west) + at);
-    }
-    const SurfaceGrid<kSides> grid(_ellipsoid, latitudes, longitudes, 2 * here, frame);
-    for (std::size_t row = 0; row < here; ++row) {
-        for (std::size_t column = 0; column < here; ++column) {
-            const double high = least(cells, south + row, west + column);
-            if (!(std::abs(high) < shallowest())) continue;
-            EarthColumn& earth = columns.emplace_back();
-            earth.error = 32.0 * kEpsilon * (_ellipsoid.equatorialRadius() + std::abs(high) + depth);
-            for (std::size_t i = 0; i < 4; i += 2) {
-                const auto top = grid.ring(2 * row + i / 2, high), bottom = grid.ring(2 * row + i / 2, high - depth);
-                for (std::size_t side = 0; side < 2; ++side) {
-                    earth.top[i + side] = grid.point(top, 2 * column + side);
-                    earth.bottom[i + side] = grid.point(bottom, 2 * column + side);
-                }
+namespace {
+
+// The cells of all grids in one quarter of a tile, the finest grid first: where their columns end, in heights and
+// widths of the tile from its middle, and their numbers.
+struct QuarterCells {
+    static constexpr std::size_t kCount = 16 + 4 + 1 + 1;
+    // vectors may begin at any cell
+    std::array<double, kCount + kernels::kMostLanes> south{}, north{}, west{}, east{};
+    std::array<std::size_t, kCount> number{};
+
+    constexpr explicit QuarterCells(std::size_t quarter) {
+        std::size_t i = 0;
+        for (std::size_t cells = kCellsOfGrids.back(); cells > 0; cells /= 2) {
+            const std::size_t half = cells / 2, here = half > 0 ? half : 1;
+            for (std::size_t k = 0; k < here * here; ++k, ++i) {
+                const std::size_t row = quarter / 2 * half + k / here, column = quarter % 2 * half + k % here;
+                const auto share = [cells](std::size_t from, double at) {
+                    return (static_cast<double>(from) + at) / static_cast<double>(cells) - 0.5;
+                };
+                south[i] = share(row, kRim), north[i] = share(row, 1.0 - kRim);
+                west[i] = share(column, kRim), east[i] = share(column, 1.0 - kRim);
+                number[i] = numberOf(cells, row, column);
             }
         }
     }
+    // How many cells come before those of a grid.
+    [[nodiscard]] static constexpr std::size_t first(std::size_t cells) {
+        return cells == 8 ? 0 : cells == 4 ? 16 : cells == 2 ? 20 : cells == 1 ? 21 : kCount;
+    }
+};
+constexpr std::array<QuarterCells, 4> kQuarters{QuarterCells(0), QuarterCells(1), QuarterCells(2), QuarterCells(3)};
+
+}  // namespace
+
+void GroundPlates::columns(std::size_t finest, std::size_t coarsest, std::size_t quarter, double depth,
+                           const InverseFrame& frame, EarthColumns& columns) const noexcept {
+    const QuarterCells& cells = kQuarters[quarter];
+    const std::size_t first = QuarterCells::first(finest);
+    columns._size = 0;
+    if (!(depth >= 0.0 && depth < shallowest())) return;
+    std::array<double, EarthColumns::kMost> high{};
+    for (std::size_t grid = finest; grid >= coarsest; grid /= 2) {
+        const bool isFit = (_fitting & grid) != 0;
+        for (std::size_t i = QuarterCells::first(grid); i < QuarterCells::first(grid / 2); ++i, ++columns._size) {
+            const std::uint16_t code = _least[cells.number[i]];
+            const double altitude = decoded(code);
+            const bool isKnown = isFit && code != kUnknown && std::abs(altitude) < shallowest();
+            high[columns._size] = isKnown ? altitude : std::numeric_limits<double>::quiet_NaN();
+            columns._error[columns._size] =
+                32.0 * kEpsilon * (_ellipsoid.equatorialRadius() + std::abs(high[columns._size]) + depth);
+        }
+    }
+    const kernels::CellGround ground{_ellipsoid.isPlane(),
+                                     _ellipsoid.equatorialRadius(),
+                                     _ellipsoid.squaredRatio(),
+                                     _latitude.middle(),
+                                     _longitude.middle(),
+                                     _middle[0],
+                                     _middle[1],
+                                     _middle[2],
+                                     _middle[3],
+                                     _latitude.width(),
+                                     _longitude.width(),
+                                     depth,
+                                     {frame.x.x, frame.x.y, frame.x.z},
+                                     {frame.y.x, frame.y.y, frame.y.z},
+                                     {frame.z.x, frame.z.y, frame.z.z},
+                                     {frame.origin.x, frame.origin.y, frame.origin.z}};
+    kernels::activeOcclusion.columns(ground,
+                                     {cells.south.data() + first, cells.north.data() + first, cells.west.data() + first,
+                                      cells.east.data() + first, high.data(), columns._size},
+                                     columns._corners.data(), EarthColumns::kMost);
+}
+
+EarthColumn EarthColumns::operator[](std::size_t column) const noexcept {
+    EarthColumn result;
+    const auto at = [&](std::size_t corner) {
+        const double* const x = _corners.data() + 3 * corner * kMost + column;
+        return glm::dvec3(x[0], x[kMost], x[2 * kMost]);
+    };
+    for (std::size_t i = 0; i < 4; ++i) result.top[i] = at(i), result.bottom[i] = at(i + 4);
+    result.error = _error[column];
+    return result;
+}
+
+void EarthColumns::append(const EarthColumn& column) noexcept {
+    for (std::size_t i = 0; i < 8; ++i) {
+        const glm::dvec3& corner = i < 4 ? column.top[i] : column.bottom[i - 4];
+        double* const x = _corners.data() + 3 * i * kMost + _size;
+        x[0] = corner.x, x[kMost] = corner.y, x[2 * kMost] = corner.z;
+    }
+    _error[_size++] = column.error;
+}
+
+void EarthColumns::addToErrors(double metres) noexcept {
+    for (double& error : _error) error += metres;
 }
 
 }  // namespace osgAnalyticBin::core

@@ -72,7 +72,9 @@ NearMeshes::Known* NearMeshes::meshOf(const AnalyticBinCullCallback& tile, osg::
     if (isSame && ++known->uses < kMostUses) return known;
     if (!known && _known.size() < kMostTiles) known = &_known.emplace_back();
     if (!known) known = &_known[_oldest++ % kMostTiles];
-    *known = {nullptr, nullptr, tile.getLocalToEcef(), 0, {}, {}, -1.0, {}};
+    // those that were read for the same view are not read again for the same view
+    const auto early = static_cast<int>(known - _known.data()) * kMostUses / static_cast<int>(kMostTiles);
+    *known = {nullptr, nullptr, tile.getLocalToEcef(), early, {}, {}, -1.0, {}};
     // the frame of a transform that is culled itself is that of what is below it
     const bool isInOwnFrame = mesh.asTransform() && installedBinOf(mesh) == &tile;
     if (isInOwnFrame || !tile.getInstalledTile()) return nullptr;

@@ -21,7 +21,7 @@ public:
     /// Returns: all triangles of a tile's own mesh that come within `radius` metres of the vertical through the eye,
     /// and some others, ECEF; nullptr where the mesh cannot be read. The result is valid until the next call. Cost: one
     /// pass over the mesh when the eye has moved some times the radius. The mesh is read when its tile was not asked
-    /// for lately, when a change of it was noticed, and after every 16th use.
+    /// for lately, when a change of it was noticed, and after 16 uses at most.
     [[nodiscard]] const core::EcefMesh* trianglesNear(const AnalyticBinCullCallback& tile, osg::Node& mesh,
                                                       const core::Frame& eye, double radius);
 

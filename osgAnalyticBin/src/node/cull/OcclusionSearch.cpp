@@ -38,7 +38,8 @@ struct Candidate {
     bool isInPicture;  // at least one quarter is
 };
 
-// A quarter of a tile's bin. Quarters are tested one by one, because more terrain is in front of the farther ones.
+// A quarter of a tile's bin that is not beside the picture. Quarters are tested one by one, because more terrain is in
+// front of the farther ones.
 struct Quarter {
     std::size_t candidate, number;
     HorizonBuffer::Outline outline;  // of all that is drawn with it
@@ -50,11 +51,16 @@ public:
         : _database(database),
           _ellipsoid(database.view.ellipsoid),
           _found(found),
+          _frame(found.eye),
           _buffer(glm::length(found.eye.origin), found.span.across, found.span.drawing, found.span.depthStep,
                   found.eyes) {}
 
     // Returns: whether something was found.
     [[nodiscard]] bool run() {
+        const std::size_t tiles = _database.view.plan->shown().size();
+        _candidates.reserve(tiles);
+        _quarters.reserve(2 * tiles);
+        _order.reserve(2 * tiles);
         for (const TilePlan::ShownTile& tile : _database.view.plan->shown()) {
             if (!add(tile)) return false;
         }
@@ -65,7 +71,7 @@ public:
         _buffer.setLowest(*highest / nearReach);
         for (const auto& [nearest, number] : _order) {
             const Quarter& quarter = _quarters[number];
-            if (quarter.outline.isBeside || _buffer.hides(quarter.outline)) continue;
+            if (_buffer.hides(quarter.outline)) continue;
             addEarth(quarter);
             _candidates[quarter.candidate].isHidden = false;
         }
@@ -89,16 +95,23 @@ private:
         if (bin.empty() || !std::isfinite(altitude.lower) || !std::isfinite(altitude.upper)) return false;
         Candidate candidate{&shown, HUGE_VAL, 0.0, true, false};
         const GeodeticBin drawn = bin.withAltitude(altitude);
-        const auto hulls = core::hullsOfQuarters(_ellipsoid, drawn, tile.getBin().margin(), _found.eye);
-        candidate.size = 2.0 * glm::distance(hulls.back().corners.front(), hulls.back().corners.back());
+        const core::BinBody body(_ellipsoid, drawn, tile.getBin().margin(), _frame);
+        if (_buffer.isBeside(body.ball())) {
+            _candidates.push_back(candidate);
+            return true;
+        }
+        const auto hulls = body.quarters();
+        candidate.size = 2.0 * glm::distance(hulls.back().corner(0), hulls.back().corner(7));
         std::size_t number = 0;
         for (const BinHull& hull : hulls) {
-            for (const glm::dvec3& corner : hull.corners)
-                candidate.distance = std::min(candidate.distance, glm::length(corner));
             const HorizonBuffer::Outline outline = _buffer.outlineOf(hull);
-            candidate.isInPicture = candidate.isInPicture || !outline.isBeside;
-            _order.emplace_back(outline.nearest, _quarters.size());
-            _quarters.push_back({_candidates.size(), number++, outline});
+            candidate.distance = std::min(candidate.distance, outline.distance);
+            if (!outline.isBeside) {
+                candidate.isInPicture = true;
+                _order.emplace_back(outline.nearest, _quarters.size());
+                _quarters.push_back({_candidates.size(), number, outline});
+            }
+            ++number;
         }
         _candidates.push_back(candidate);
         return true;
@@ -116,7 +129,7 @@ private:
             if (nearest - _found.eyes.y > reach) break;
             const Quarter& quarter = _quarters[number];
             const bool isKnown = std::find(tiles.begin(), tiles.end(), quarter.candidate) != tiles.end();
-            if (isKnown || quarter.outline.isBeside) continue;
+            if (isKnown) continue;
             if (tiles.size() == NearMeshes::kMostTiles) return std::nullopt;
             tiles.push_back(quarter.candidate);
             const TilePlan::ShownTile& tile = *_candidates[quarter.candidate].tile;
@@ -171,6 +184,7 @@ private:
         const auto picture = std::make_shared<CoveredPicture>();
         picture->eye = _found.eye;
         picture->across = _found.span.across;
+        picture->heights.reserve(HorizonBuffer::kStrips);
         for (std::size_t strip = 0; strip < HorizonBuffer::kStrips; ++strip)
             picture->heights.push_back(_buffer.covered(strip));
         return picture;
@@ -202,22 +216,22 @@ private:
         const double depth =
             std::min(std::min(2.0 * (tile.getBinHigh() - tile.getBinLow()), 0.02 * radius) + 0.25 * candidate.distance,
                      0.09 * radius);
-        _columns.clear();
         // coarser cells bridge the gaps between finer ones
         // the cell of the whole tile is added once
         const std::size_t coarsest = candidate.isHidden && isTileOverRegion ? 1 : 2;
-        for (; cells >= coarsest; cells /= 2) plates->appendColumns(cells, quarter.number, depth, _found.eye, _columns);
-        for (const core::EarthColumn& column : _columns) _buffer.add(column);
+        plates->columns(cells, coarsest, quarter.number, depth, _frame, _columns);
+        _buffer.add(_columns);
     }
 
     const ShownDatabase& _database;
     const core::Ellipsoid& _ellipsoid;
     FoundOcclusion& _found;
+    const core::InverseFrame _frame;
     HorizonBuffer _buffer;
     std::vector<Candidate> _candidates;
     std::vector<Quarter> _quarters;
     std::vector<std::pair<double, std::size_t>> _order;  // of the quarters, by the distance of the nearest point
-    std::vector<core::EarthColumn> _columns;
+    core::EarthColumns _columns;
 };
 
 }  // namespace

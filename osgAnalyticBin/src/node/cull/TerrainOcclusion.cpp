@@ -36,7 +36,7 @@ enum class Ground {
 // Notes the tiles that are shown.
 Ground describe(const ShownDatabase& database, std::vector<FoundOcclusion::Tile>& tiles) {
     osg::CullingSet& cullingSet = database.cullStack.getCurrentCullingSet();
-    tiles.clear();
+    tiles.reserve(database.view.plan->shown().size());
     Ground ground = Ground::Known;
     for (const TilePlan::ShownTile& shown : database.view.plan->shown()) {
         const AnalyticBinCullCallback& tile = *shown.tile;

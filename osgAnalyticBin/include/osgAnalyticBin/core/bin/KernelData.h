@@ -135,4 +135,12 @@ struct FamilyData {
     std::uint64_t empty;    ///< the other slots, up to the family's size
 };
 
+/// The picture of a HorizonBuffer.
+struct PictureData {
+    double eyeToCentre;        ///< metres, for rounding
+    double left, right, step;  ///< of x; the width of a strip
+    double drawing;            ///< how far from its place a corner may be drawn
+    double eyes[3];            ///< metres that the eye may be away from its place
+};
+
 }  // namespace osgAnalyticBin::core

@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -19,7 +20,7 @@
 namespace osgAnalyticBin::core {
 
 /// A convex body within the earth below a terrain's surface: the hull of eight corners, in metres, in the frame that
-/// appendColumns() was given.
+/// GroundPlates::columns() was given.
 struct EarthColumn {
     /// @{
     /// The corners of a cell, south-west, south-east, north-west, north-east.
@@ -29,10 +30,36 @@ struct EarthColumn {
     double error = 0.0;
 };
 
+/// The columns of some cells, in rows of numbers for vectors.
+class EarthColumns final {
+public:
+    /// More than the cells of all grids in a quarter of a tile.
+    static constexpr std::size_t kMost = 24;
+
+    [[nodiscard]] std::size_t size() const noexcept { return _size; }
+    /// Nothing is known of some cells; their columns hide nothing.
+    [[nodiscard]] bool isKnown(std::size_t column) const noexcept { return std::isfinite(_error[column]); }
+    /// Requires: column < size().
+    [[nodiscard]] EarthColumn operator[](std::size_t column) const noexcept;
+    /// Requires: size() < kMost.
+    void append(const EarthColumn& column) noexcept;
+    void clear() noexcept { _size = 0; }
+    /// For eyes that may be so many metres away from their place.
+    void addToErrors(double metres) noexcept;
+
+private:
+    friend class GroundPlates;
+    friend class HorizonBuffer;
+
+    std::size_t _size = 0;
+    std::array<double, 24 * kMost> _corners{};  // x, y and z of the upper corners, then of the lower ones
+    std::array<double, kMost> _error{};         // NaN where nothing is known
+};
+
 /// Lower bounds of the altitude of a tile's surface, cell by cell, in grids of 1, 2, 4 and 8 cells a side over the
 /// tile's latitudes and longitudes. Each cell has a rim that its column of earth keeps out of: room for the chords of
 /// parallels, and for triangles of the next cell whose chords cross the common edge.
-/// Memory: 250 bytes, 16 bits for each bound.
+/// Memory: 290 bytes, 16 bits for each bound.
 /// Source: doc/theory/occlusion.md, sections 2 and 3.
 class GroundPlates final {
 public:
@@ -61,18 +88,20 @@ public:
     /// infinity: not known. Requires: such a grid and cell.
     [[nodiscard]] double least(std::size_t cells, std::size_t row, std::size_t column) const noexcept;
 
-    /// Appends a column of earth, `depth` metres deep, for each known cell of a grid in one quarter of the tile, row by
-    /// row, in the coordinates of `frame`. Quarters are numbered as hullsOfQuarters() does. The single cell of the
-    /// coarsest grid belongs to all quarters.
+    /// Makes a column of earth, `depth` metres deep, for each cell in one quarter of the tile, of the grids of `finest`
+    /// cells a side to `coarsest`, row by row, in the coordinates of `frame`. Quarters are numbered as
+    /// BinBody::quarters() does. The single cell of the coarsest grid belongs to all quarters.
     /// Guarantee: every point of a column, up to its `error`, has the mesh above it, along the ellipsoid's normal;
-    /// tests: GroundPlates.ColumnsLieBelowTheMesh*. It appends nothing for cells too wide for the rim: with angles in
-    /// radians, where the square of the width in longitude exceeds about an eleventh of the width in latitude.
-    /// Requires: `cells` as in least(). Cost: a few ten nanoseconds a column.
-    void appendColumns(std::size_t cells, std::size_t quarter, double depth, const Frame& frame,
-                       std::vector<EarthColumn>& columns) const;
+    /// tests: GroundPlates.ColumnsLieBelowTheMesh*. Corners are where their latitude, longitude and altitude are, up to
+    /// the error; test: GroundPlates.CornersOfColumnsAreWrongByTheirErrorAtMost. Nothing is known of cells too wide for
+    /// the rim: with angles in radians, where the square of the width in longitude exceeds about an eleventh of the
+    /// width in latitude; nor of tiles wider than a radian.
+    /// Requires: `finest` and `coarsest` as in least(). Cost: a few nanoseconds a column.
+    void columns(std::size_t finest, std::size_t coarsest, std::size_t quarter, double depth, const InverseFrame& frame,
+                 EarthColumns& columns) const noexcept;
 
 private:
-    [[nodiscard]] bool fitsColumns(std::size_t cells, double depth) const noexcept;
+    [[nodiscard]] bool fitsColumns(std::size_t cells) const noexcept;
     [[nodiscard]] double shallowest() const noexcept;
 
     static constexpr std::size_t kNumbers = 1 + 4 + 16 + 64;
@@ -91,7 +120,9 @@ private:
 
     Ellipsoid _ellipsoid;
     Interval _latitude, _longitude;
+    std::array<double, 4> _middle{};             // sine and cosine of the middle latitude, then longitude
     double _base = 0.0, _step = 0.0;             // of the codes
+    std::uint8_t _fitting = 0;                   // the grids, by their cells a side, whose cells have columns
     std::array<std::uint16_t, kNumbers> _least;  // 0: not known
 };
 
