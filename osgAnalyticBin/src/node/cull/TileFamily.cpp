@@ -195,6 +195,11 @@ void TileFamily::test(const osg::Group& group, unsigned int first, const core::P
                   traversal, verdicts);
 }
 
+void TileFamily::fetchKept(unsigned int first, const Verdicts& verdicts) const {
+    forEachBit(verdicts.members & ~verdicts.outOfView(),
+               [&](unsigned int number) { _members[first + number].entry.fetch(); });
+}
+
 void TileFamily::findSeparated(unsigned int first, std::uint64_t candidates, const core::PlaneSet& planes,
                                CullTraversal& traversal, Verdicts& verdicts) const {
     const core::BinFamily& bins = _block->partFrom(first).bins;
@@ -213,6 +218,7 @@ void TileFamily::lookUp(const osg::Group& group, unsigned int first, core::Plane
                         const DatabaseView& view, CullTraversal& traversal, Verdicts& verdicts) const {
     if (!view.plan || !view.plan->find(*this, first, undecided, verdicts)) {
         test(group, first, view.planes, undecided, view.eye, traversal, verdicts);
+        fetchKept(first, verdicts);
     }
     if (verdicts.hidden == 0 || (view.eye && !view.sight)) return;
     // the plan does not look at borders, and may be that of an eye which came to nothing
@@ -296,8 +302,6 @@ void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::Cull
         });
         forEachBit(verdicts.members & culled & verdicts.emerging & ~loadedOnly,
                    [&](unsigned int number) { requestAhead(*group.getChild(first + number), nv); });
-        forEachBit(verdicts.members & lowestBits(here) & ~culled,
-                   [&](unsigned int number) { _members[first + number].entry.fetch(); });
         forEachBit(lowestBits(here) & ~culled, [&](unsigned int number) {
             if (first + number >= group.getNumChildren()) return;
             osg::Node& child = *group.getChild(first + number);

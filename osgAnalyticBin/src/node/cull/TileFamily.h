@@ -92,6 +92,9 @@ public:
     void test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes, core::PlaneMask undecided,
               const core::HorizonEye* eye, CullTraversal& traversal, Verdicts& verdicts) const;
 
+    /// Has the memory fetched that entering the tiles in view reads.
+    void fetchKept(unsigned int first, const Verdicts& verdicts) const;
+
     [[nodiscard]] const Member& member(unsigned int i) const { return _members[i]; }
     [[nodiscard]] const TileBlock& block() const { return *_block; }
 
