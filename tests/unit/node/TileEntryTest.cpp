@@ -53,8 +53,8 @@ std::vector<Leaf> leavesIn(osgUtil::RenderBin& bin) {
             std::vector<const osg::StateSet*> states;
             for (const auto* above = graph; above; above = above->_parent) states.push_back(above->getStateSet());
             for (const auto& leaf : graph->_leaves) {
-                found.push_back({leaf->_traversalOrderNumber,
-                                 {leaf->getDrawable(), *leaf->_modelview, leaf->_depth, states}});
+                found.push_back(
+                    {leaf->_traversalOrderNumber, {leaf->getDrawable(), *leaf->_modelview, leaf->_depth, states}});
             }
         }
         for (const auto& [number, child] : from.getRenderBinList()) collect(*child);
@@ -104,7 +104,8 @@ protected:
         installBins(*root, *cullOptionsFromText("index=off", error));
         PagedFlight flight(*root);
         const osg::Vec3d middle = map.origin + osg::Vec3d(0.5, 0.5, 0.0) * map.size;
-        EXPECT_TRUE(flight.load(CullView::lookAt(middle + osg::Vec3d(0.0, 0.0, 4000.0), middle, {0.0, 1.0, 0.0}, 150.0)));
+        EXPECT_TRUE(
+            flight.load(CullView::lookAt(middle + osg::Vec3d(0.0, 0.0, 4000.0), middle, {0.0, 1.0, 0.0}, 150.0)));
     }
 
     CullView randomView() {

@@ -295,9 +295,9 @@ bool TileEntry::isMeshAsKnown(const osgUtil::CullVisitor& visitor, Footprint::No
         if (part.kind == Kind::Terrain) continue;
         const osg::Group& group = static_cast<const osg::Group&>(node);
         notes.add(OpenGroup::childrenOf(group), 1);
-        const bool isRelative = part.kind != Kind::Transform ||
-                                static_cast<const osg::MatrixTransform&>(node).getReferenceFrame() ==
-                                    osg::Transform::RELATIVE_RF;
+        const bool isRelative =
+            part.kind != Kind::Transform ||
+            static_cast<const osg::MatrixTransform&>(node).getReferenceFrame() == osg::Transform::RELATIVE_RF;
         if (group.getNumChildren() != part.children || !isRelative) return false;
         for (std::size_t k = i + 1; k < _parts.size() && _parts[k].node; ++k) {
             if (_parts[k].above == i && group.getChild(_parts[k].place) != _parts[k].node) return false;

@@ -271,7 +271,8 @@ std::uint64_t TileFamily::culled(unsigned int first, const Verdicts& verdicts, c
 // tile's own callback, which would do nothing: its family has tested it.
 void TileFamily::enter(osg::Node& child, const Member& member, osg::NodeVisitor& nv, CullTraversal& traversal) {
     const bool isAlone = child.getCullCallback() == member.tile && !member.tile->getNestedCallback();
-    if (!member.entry.isPossible() || !isAlone || child.getCullingActive() || typeid(nv) != typeid(osgUtil::CullVisitor)) {
+    if (!member.entry.isPossible() || !isAlone || child.getCullingActive() ||
+        typeid(nv) != typeid(osgUtil::CullVisitor)) {
         traversal.setKept(&child);
         child.accept(nv);
         traversal.setKept(nullptr);
