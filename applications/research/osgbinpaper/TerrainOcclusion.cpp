@@ -19,7 +19,6 @@ namespace osgAnalyticBin::paper {
 
 namespace {
 
-using core::EarthColumn;
 using core::Geodetic;
 using core::HorizonBuffer;
 using support::kDegreesPerRadian;
@@ -122,19 +121,20 @@ OcclusionCounts TerrainOcclusion::count(const TileTree& tree, const std::vector<
     std::vector<std::size_t> leaves;
     for (std::size_t i = 0; i < tree.tiles.size(); ++i)
         if (tree.tiles[i].isLeaf() && isKept(verdicts[i])) leaves.push_back(i);
+    const core::InverseFrame frame(view->frame);
     HorizonBuffer buffer(glm::length(camera.eye), view->across);
     std::vector<Body> bodies;
-    std::vector<EarthColumn> columns;
+    core::EarthColumns columns;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         const core::GeodeticBin& box = tree.boxes[leaves[i]];
         const Surface& surface = surfaceOf(tree.tiles[leaves[i]], box);
-        const auto hulls = core::hullsOfQuarters(ellipsoid, box, 0.0, view->frame);
+        const auto hulls = core::BinBody(ellipsoid, box, 0.0, frame).quarters();
         for (std::size_t quarter = 0; quarter < kQuarters; ++quarter) {
-            surface.plates.appendColumns(kPlates, quarter, kDepth, view->frame, columns);
+            surface.plates.columns(kPlates, kPlates, quarter, kDepth, frame, columns);
+            buffer.add(columns);
             bodies.push_back({i, buffer.outlineOf(hulls[quarter])});
         }
     }
-    for (const EarthColumn& column : columns) buffer.add(column);
     const std::vector<bool> hidden = hiddenOf(buffer, std::move(bodies), leaves.size());
     OcclusionCounts counts{1, leaves.size(), 0, 0};
     for (std::size_t i = 0; i < leaves.size(); ++i) {
