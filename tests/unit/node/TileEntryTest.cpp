@@ -16,15 +16,10 @@
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 #include <osgUtil/CullVisitor>
-#include <osgUtil/RenderBin>
-#include <osgUtil/RenderLeaf>
-#include <osgUtil/StateGraph>
 
-#include <algorithm>
 #include <functional>
 #include <support/Random.h>
 #include <support/TemporaryFolder.h>
-#include <tuple>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -32,39 +27,6 @@ namespace {
 
 // Kept tiles are entered by OSG.
 struct OtherVisitor : osgUtil::CullVisitor {};
-
-// A leaf: the drawable, its matrix, its depth, the states above it.
-struct Leaf {
-    const osg::Drawable* drawable;
-    osg::Matrixd matrix;
-    float depth;
-    std::vector<const osg::StateSet*> states;
-
-    bool operator==(const Leaf& other) const {
-        return drawable == other.drawable && matrix == other.matrix && depth == other.depth && states == other.states;
-    }
-};
-
-// In the order in which they were delivered.
-std::vector<Leaf> leavesIn(osgUtil::RenderBin& bin) {
-    std::vector<std::pair<unsigned int, Leaf>> found;
-    const std::function<void(osgUtil::RenderBin&)> collect = [&](osgUtil::RenderBin& from) {
-        for (const osgUtil::StateGraph* graph : from.getStateGraphList()) {
-            std::vector<const osg::StateSet*> states;
-            for (const auto* above = graph; above; above = above->_parent) states.push_back(above->getStateSet());
-            for (const auto& leaf : graph->_leaves) {
-                found.push_back(
-                    {leaf->_traversalOrderNumber, {leaf->getDrawable(), *leaf->_modelview, leaf->_depth, states}});
-            }
-        }
-        for (const auto& [number, child] : from.getRenderBinList()) collect(*child);
-    };
-    collect(bin);
-    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::vector<Leaf> leaves;
-    for (auto& [order, leaf] : found) leaves.push_back(std::move(leaf));
-    return leaves;
-}
 
 // Returns: the number of leaves.
 std::size_t expectSameLeaves(osg::Node& scene, const CullView& view) {
