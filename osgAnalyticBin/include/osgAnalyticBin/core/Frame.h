@@ -34,7 +34,8 @@ struct Frame {
 
 /// The outer frame, seen from a shape: what converts many points to its coordinates.
 struct InverseFrame {
-    // NOLINTNEXTLINE(google-explicit-constructor): the same frame, prepared
+    /// Prepares a frame.
+    // NOLINTNEXTLINE(google-explicit-constructor): the same frame
     InverseFrame(const Frame& frame) noexcept
         : x(frame.x.x, frame.y.x, frame.z.x),
           y(frame.x.y, frame.y.y, frame.z.y),

@@ -137,10 +137,12 @@ struct FamilyData {
 
 /// The picture of a HorizonBuffer.
 struct PictureData {
-    double eyeToCentre;        ///< metres, for rounding
-    double left, right, step;  ///< of x; the width of a strip
-    double drawing;            ///< how far from its place a corner may be drawn
-    double eyes[3];            ///< metres that the eye may be away from its place
+    double eyeToCentre;  ///< metres, for rounding
+    double left;         ///< the least x
+    double right;        ///< the greatest x
+    double step;         ///< the width of a strip
+    double drawing;      ///< how far from its place a corner may be drawn
+    double eyes[3];      ///< metres that the eye may be away from its place
 };
 
 }  // namespace osgAnalyticBin::core

@@ -24,14 +24,19 @@ struct BinHull {
     /// Metres.
     double reach;
 
+    /// Requires, here and in setCorner(): i < 8.
     [[nodiscard]] glm::dvec3 corner(std::size_t i) const noexcept { return {x[i], y[i], z[i]}; }
+    /// Sets a corner.
     void setCorner(std::size_t i, const glm::dvec3& at) noexcept { x[i] = at.x, y[i] = at.y, z[i] = at.z; }
 };
 
 /// A ball, in metres, in the same coordinates.
 struct BinBall {
+    /// @{
+    /// In metres.
     glm::dvec3 centre;
     double radius;
+    /// @}
 };
 
 /// The body of a bin, in the coordinates of a frame. All but the frame has to live as long.

@@ -36,6 +36,7 @@ public:
     /// More than the cells of all grids in a quarter of a tile.
     static constexpr std::size_t kMost = 24;
 
+    /// Number of columns.
     [[nodiscard]] std::size_t size() const noexcept { return _size; }
     /// Nothing is known of some cells; their columns hide nothing.
     [[nodiscard]] bool isKnown(std::size_t column) const noexcept { return std::isfinite(_error[column]); }
@@ -43,6 +44,7 @@ public:
     [[nodiscard]] EarthColumn operator[](std::size_t column) const noexcept;
     /// Requires: size() < kMost.
     void append(const EarthColumn& column) noexcept;
+    /// Leaves no column.
     void clear() noexcept { _size = 0; }
     /// For eyes that may be so many metres away from their place.
     void addToErrors(double metres) noexcept;
