@@ -16,11 +16,15 @@
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 #include <osgUtil/CullVisitor>
-#include <osgUtil/UpdateVisitor>
+#include <osgUtil/RenderBin>
+#include <osgUtil/RenderLeaf>
+#include <osgUtil/StateGraph>
 
+#include <algorithm>
 #include <functional>
 #include <support/Random.h>
 #include <support/TemporaryFolder.h>
+#include <tuple>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -28,6 +32,39 @@ namespace {
 
 // Kept tiles are entered by OSG.
 struct OtherVisitor : osgUtil::CullVisitor {};
+
+// A leaf: the drawable, its matrix, its depth, the states above it.
+struct Leaf {
+    const osg::Drawable* drawable;
+    osg::Matrixd matrix;
+    float depth;
+    std::vector<const osg::StateSet*> states;
+
+    bool operator==(const Leaf& other) const {
+        return drawable == other.drawable && matrix == other.matrix && depth == other.depth && states == other.states;
+    }
+};
+
+// In the order in which they were delivered.
+std::vector<Leaf> leavesIn(osgUtil::RenderBin& bin) {
+    std::vector<std::pair<unsigned int, Leaf>> found;
+    const std::function<void(osgUtil::RenderBin&)> collect = [&](osgUtil::RenderBin& from) {
+        for (const osgUtil::StateGraph* graph : from.getStateGraphList()) {
+            std::vector<const osg::StateSet*> states;
+            for (const auto* above = graph; above; above = above->_parent) states.push_back(above->getStateSet());
+            for (const auto& leaf : graph->_leaves) {
+                found.push_back(
+                    {leaf->_traversalOrderNumber, {leaf->getDrawable(), *leaf->_modelview, leaf->_depth, states}});
+            }
+        }
+        for (const auto& [number, child] : from.getRenderBinList()) collect(*child);
+    };
+    collect(bin);
+    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<Leaf> leaves;
+    for (auto& [order, leaf] : found) leaves.push_back(std::move(leaf));
+    return leaves;
+}
 
 // Returns: the number of leaves.
 std::size_t expectSameLeaves(osg::Node& scene, const CullView& view) {
@@ -166,70 +203,6 @@ TEST(TileEntry, DeliversWhatOsgDeliversOnAGlobe) {
         leaves += expectSameLeaves(*globe, view);
     }
     EXPECT_GT(leaves, 300u);
-}
-
-struct OneTile {
-    osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
-    const core::GeodeticBin extents = extentsDeg(0.0, 10.0, 0.0, 10.0);
-    const osg::ref_ptr<osg::MatrixTransform> mesh = makeMeshTile(extents, 100.0);
-    const CullView view = CullView::lookAt(ecefDeg(5.0, 5.0, 2e6), ecefDeg(5.0, 5.0, 0.0), {0.0, 0.0, 1.0}, 60.0);
-
-    OneTile() { globe->setEllipsoidModel(new osg::EllipsoidModel); }
-};
-
-TEST(TileEntry, LeavesMeshesThatHangInTwoPlacesToOsg) {
-    OneTile scene;
-    osg::Node& geode = *scene.mesh->getChild(0);
-    const osg::ref_ptr<osg::Node> geometry = geode.asGroup()->getChild(0);
-    const osg::ref_ptr<osg::Group> dark = new osg::Group;
-    dark->getOrCreateStateSet()->setAttributeAndModes(new osg::Depth);
-    dark->addChild(geometry);
-    scene.mesh->replaceChild(&geode, dark);
-    scene.mesh->addChild(geometry);
-    scene.globe->addChild(makePaged(scene.mesh, "no.osgb"));
-    EXPECT_GT(installBins(*scene.globe, {}), 0u);
-    EXPECT_EQ(expectSameLeaves(*scene.globe, scene.view), 2u);
-}
-
-TEST(TileEntry, GoesOnWhereTheApplicationEmptiesAFile) {
-    OneTile scene;
-    const osg::ref_ptr<osg::PagedLOD> paged = makePaged(scene.mesh, "finer.osgb", 1e7f);
-    const osg::ref_ptr<osg::Group> file = new osg::Group;
-    for (const double west : {0.0, 5.0}) {
-        for (const double south : {0.0, 5.0})
-            file->addChild(makeMeshTile(extentsDeg(south, south + 5.0, west, west + 5.0), 100.0));
-    }
-    putBelow(*paged, file);
-    scene.globe->addChild(paged);
-    EXPECT_GT(installBins(*scene.globe, {}), 0u);
-    EXPECT_EQ(expectSameLeaves(*scene.globe, scene.view), 4u);
-    const osg::ref_ptr<osgUtil::UpdateVisitor> update = new osgUtil::UpdateVisitor;
-    file->removeChildren(0, file->getNumChildren());
-    for (unsigned int frame = 2; frame < 5; ++frame) {
-        EXPECT_EQ(expectSameLeaves(*scene.globe, scene.view), 0u);
-        update->setTraversalNumber(frame);
-        scene.globe->accept(*update);
-    }
-}
-
-TEST(TileEntry, MovesPlanesByWholeMatrices) {
-    OneTile scene;
-    scene.globe->addChild(makePaged(scene.mesh, "no.osgb"));
-    EXPECT_GT(installBins(*scene.globe, {}), 0u);
-    osg::Matrixd matrix = scene.mesh->getMatrix();
-    for (int row = 0; row < 4; ++row) {
-        for (int column = 0; column < 4; ++column) matrix(row, column) *= 0.5;  // the same place, written otherwise
-    }
-    scene.mesh->setMatrix(matrix);
-    const osg::ref_ptr<osgUtil::UpdateVisitor> update = new osgUtil::UpdateVisitor;
-    Random random(3);
-    for (unsigned int frame = 2; frame < 40; ++frame) {
-        update->setTraversalNumber(frame);
-        scene.globe->accept(*update);
-        const osg::Vec3d at = ecefDeg(random.uniform(-2.0, 12.0), random.uniform(-2.0, 12.0), 0.0);
-        const CullView view = CullView::lookAt(ecefDeg(5.0, 5.0, 1e6), at, {0.0, 0.0, 1.0}, 10.0);
-        (void)expectSameLeaves(*scene.globe, view);
-    }
 }
 
 }  // namespace

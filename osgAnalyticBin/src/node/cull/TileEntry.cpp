@@ -16,7 +16,6 @@
 #include <osgTerrain/GeometryTechnique>
 #include <osgTerrain/TerrainTile>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -77,8 +76,7 @@ bool needsNoFrustumOfMesh(osgUtil::CullVisitor& visitor) {
     const auto mode = visitor.getComputeNearFarMode();
     return (mode == osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR ||
             mode == osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES) &&
-           visitor.getCurrentCullingSet().getStateFrustumList().empty() &&
-           visitor.getProjectionCullingStack().back().getStateFrustumList().empty();
+           visitor.getCurrentCullingSet().getStateFrustumList().empty();
 }
 
 // Whether a traversal goes through the node as if it had no cull callback.
@@ -92,16 +90,14 @@ bool isPassive(const osg::Node& node, const osgUtil::CullVisitor& visitor) {
 bool isOutside(const osg::BoundingBox& box, const osg::Plane& plane, const osg::Matrix* toPlane) {
     constexpr double kRounding = 1e-12;
     osg::Vec3d normal(plane[0], plane[1], plane[2]);
-    double farthest = 0.0, size = 0.0;
+    double farthest = plane[3], size = std::abs(plane[3]);
     const auto add = [&](double part) {
         farthest += part;
         size += std::abs(part);
     };
-    add(plane[3] * (toPlane ? (*toPlane)(3, 3) : 1.0));
     if (toPlane) {
         for (int i = 0; i < 3; ++i) add(normal[i] * toPlane->getTrans()[i]);
         normal = osg::Matrix::transform3x3(*toPlane, normal);
-        for (int i = 0; i < 3; ++i) normal[i] += plane[3] * (*toPlane)(i, 3);
     }
     for (int i = 0; i < 3; ++i) add(normal[i] * (normal[i] >= 0.0 ? box._max[i] : box._min[i]));
     return farthest < -kRounding * size;
@@ -129,8 +125,7 @@ public:
     // Returns: false where the tile has no mesh yet, or another than osgTerrain::GeometryTechnique makes.
     [[nodiscard]] bool draw(osgTerrain::TerrainTile& tile, Footprint::Notes& notes) {
         auto* const technique = tile.getTerrainTechnique();
-        if (!technique || technique->getTerrainTile() != &tile || !OpenTile::wasTraversed(tile) ||
-            !isExactly<osgTerrain::GeometryTechnique>(*technique))
+        if (!technique || !OpenTile::wasTraversed(tile) || !isExactly<osgTerrain::GeometryTechnique>(*technique))
             return false;
         const auto* const mesh = OpenTechnique::meshOf(static_cast<osgTerrain::GeometryTechnique&>(*technique));
         notes.add(technique, kLinesOfGroup);
@@ -150,7 +145,6 @@ public:
         if (!isWhole || !isRelative || !isExactly<osg::Geometry>(geometry) || !isPassive(transform, _visitor) ||
             !isPassive(geode, _visitor) || !isPassive(geometry, _visitor))
             return false;
-        if (transform.isCullingActive() && isSmall(_visitor.getCurrentCullingSet(), transform.getBound())) return true;
         const StateScope ofTile(_visitor, tile.getStateSet()), ofTransform(_visitor, transform.getStateSet()),
             ofGeode(_visitor, geode.getStateSet());
         enterFrame(transform);
@@ -172,7 +166,7 @@ private:
     // As osgUtil::CullVisitor::apply(osg::Drawable&).
     void draw(osg::Geometry& geometry) {
         const osg::BoundingBox& box = geometry.getBoundingBox();
-        if (geometry.isCullingActive() && isBesideFrustum(box)) return;
+        if (geometry.getCullingActive() && isBesideFrustum(box)) return;
         if (box.valid() && !countsForNearFar(geometry)) return;
         const float depth = box.valid() ? depthOf(box.center()) : 0.0f;
         if (std::isnan(depth)) return;
@@ -224,8 +218,6 @@ TileEntry::TileEntry(osg::Node& tile, const MeshParts& parts)
     std::array<Part, kMostParts> known;
     int transforms = 0;
     for (std::size_t i = 0; i < known.size() && parts[i]; ++i) {
-        // one that hangs below two others is drawn in two places
-        if (std::find(parts.begin(), parts.begin() + i, parts[i]) != parts.begin() + i) return;
         Part& part = known[i];
         part = {parts[i].get(), kindOf(*parts[i]), 0, 0, 0};
         transforms += part.kind == Kind::Transform ? 1 : 0;
@@ -265,7 +257,7 @@ bool TileEntry::enterShownLevel(osgUtil::CullVisitor& visitor, CullTraversal& tr
     const float range = visitor.getDistanceToViewPoint(_paged->getCenter(), true);
     std::optional<unsigned int> shown;
     for (unsigned int i = 0; i < ranges.size(); ++i) {
-        if (!(ranges[i].first <= range && range < ranges[i].second)) continue;
+        if (range < ranges[i].first || range >= ranges[i].second) continue;
         if (shown || i >= _paged->getNumChildren()) return false;
         shown = i;
     }

@@ -161,7 +161,7 @@ bool TileFamily::enterFamilyOf(osg::Node& node, osgUtil::CullVisitor& visitor, C
     notes.add(&node, 4);
     notes.add(&family, 5);
     notes.add(family._block, 2);
-    if (family._block->size() > 0) notes.add(&family._block->partFrom(0), 3);
+    notes.add(&family._block->partFrom(0), 3);
     notes.add(family._nodes.data(), 1);
     notes.add(family._members.data(), 16);
     osg::StateSet* const state = node.getStateSet();
