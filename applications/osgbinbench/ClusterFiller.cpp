@@ -40,15 +40,12 @@ bool fill(const FoundTile& tile) {
 }  // namespace
 
 std::optional<Cluster> clusterOf(const std::vector<glm::dvec3>& verticesEcef, const core::Ellipsoid& ellipsoid) {
-    if (verticesEcef.empty()) return std::nullopt;
-    const std::vector<Vertex> vertices = placed(verticesEcef, ellipsoid);
-    const core::Geodetic middle = middleOf(vertices);
-    const glm::dvec3 center = ellipsoid.toEcef(middle);
+    const auto surface = surfaceOf(verticesEcef, ellipsoid);
+    if (!surface) return std::nullopt;
+    const glm::dvec3 center = ellipsoid.toEcef(surface->middle);
     const double r = ellipsoid.polarRadius();
-    const auto isAround = [&](const Vertex& v) { return !(glm::dot(upAt(v.position), upAt(middle)) > 0.0); };
-    if (std::any_of(vertices.begin(), vertices.end(), isAround)) return std::nullopt;
     double farthest = 0.0;
-    for (const Vertex& v : withoutSkirts(vertices, middle)) {
+    for (const Vertex& v : surface->vertices) {
         const double chord = glm::distance(v.ecef, center);
         const double around = 2.0 * std::asin(std::min(1.0, 0.5 * chord / r));
         const double dip = std::acos(r / (r + std::abs(v.position.altitude)));
@@ -61,15 +58,8 @@ std::optional<Cluster> clusterOf(const std::vector<glm::dvec3>& verticesEcef, co
 
 std::size_t fillClusterCallbacks(osg::Node& graph, const osg::EllipsoidModel* pageOf) {
     if (countClusterCallbacks(graph) > 0) return 0;
-    TileFrame frame;
-    frame.ellipsoid = pageOf;
-    frame.isBelowTile = pageOf != nullptr;
-    std::size_t filled = 0;
-    for (const FoundTile& tile : findTiles(graph, frame)) {
-        const bool isOnGlobe = tile.frame.ellipsoid && !isMapPlane(*tile.frame.ellipsoid);
-        if (isOnGlobe && fill(tile)) ++filled;
-    }
-    return filled;
+    const std::vector<FoundTile> tiles = tilesOnGlobe(graph, pageOf);
+    return static_cast<std::size_t>(std::count_if(tiles.begin(), tiles.end(), fill));
 }
 
 }  // namespace osgAnalyticBin::bench

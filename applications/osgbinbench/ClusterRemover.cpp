@@ -7,18 +7,9 @@
 #include "NodeWalk.h"
 #include "RasterCulling.h"
 
-#include <osg/ClusterCullingCallback>
-
 namespace osgAnalyticBin::bench {
 
 namespace {
-
-osg::ClusterCullingCallback* clusterCallbackOf(osg::Node& node) {
-    for (osg::Callback* callback = node.getCullCallback(); callback; callback = callback->getNestedCallback()) {
-        if (auto* const cluster = dynamic_cast<osg::ClusterCullingCallback*>(callback)) return cluster;
-    }
-    return nullptr;
-}
 
 class Remover : public NodeWalk {
 public:
@@ -54,6 +45,13 @@ private:
 };
 
 }  // namespace
+
+osg::ClusterCullingCallback* clusterCallbackOf(osg::Node& node) {
+    for (osg::Callback* callback = node.getCullCallback(); callback; callback = callback->getNestedCallback()) {
+        if (auto* const cluster = dynamic_cast<osg::ClusterCullingCallback*>(callback)) return cluster;
+    }
+    return nullptr;
+}
 
 std::size_t removeClusterCallbacks(osg::Node& graph) {
     Remover remover;

@@ -5,6 +5,7 @@
 
 #include "ReadInFront.h"
 
+#include <osg/ClusterCullingCallback>
 #include <osg/CoordinateSystemNode>
 
 #include <atomic>
@@ -12,6 +13,9 @@
 #include <mutex>
 
 namespace osgAnalyticBin::bench {
+
+/// The first ClusterCullingCallback among a node's cull callbacks; nullptr: it has none.
+[[nodiscard]] osg::ClusterCullingCallback* clusterCallbackOf(osg::Node& node);
 
 /// Takes every ClusterCullingCallback off the graph, those of nodes and those of drawables; other callbacks in the
 /// same chain stay. osgTerrain's tiles are not traversed: one that is, before it has its Terrain, never finds it.

@@ -96,8 +96,8 @@ CullMethod cullMethodFromName(const std::string& name) {
     if (!method.loaderMethod.empty() && makesSense) return method;
     throw UsageError("--methods: unknown method \"" + name +
                      "\"; use none, sphere, cluster, cluster+raster, oracle, all, or box, orientedbox, corners, paper, "
-                     "quadratic or exact, these "
-                     "with +horizon, +edges or +horizon+edges; quadratic and exact with +horizon, also +occlusion or "
+                     "quadratic or exact, these with +horizon, +edges or +horizon+edges; quadratic and exact with "
+                     "+horizon, also +occlusion or "
                      "+autoocclusion");
 }
 

@@ -5,8 +5,9 @@
 
 #include "CacheFlusher.h"
 #include "CullStage.h"
+#include "Quantiles.h"
 
-#include <algorithm>
+#include <utility>
 
 namespace osgAnalyticBin::bench {
 
@@ -18,10 +19,8 @@ constexpr int kTimedPerTurn = 3;
 constexpr int kRoundsForOneCold = 4;
 
 CullTime timeOf(std::vector<double> times) {
-    if (times.empty()) return {};
-    std::sort(times.begin(), times.end());
-    const auto at = [&](std::size_t part) { return times[(times.size() - 1) * part / 4]; };
-    return {at(2), at(3) - at(1)};
+    const support::Quantiles quantiles(std::move(times));
+    return {quantiles.at(2, 4), quantiles.at(3, 4) - quantiles.at(1, 4)};
 }
 
 /// The traversals of one scene, as those of a viewer that stands still.

@@ -4,10 +4,11 @@
 #include "DrawnFlight.h"
 
 #include "BenchViewer.h"
+#include "Quantiles.h"
 
-#include <algorithm>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 namespace osgAnalyticBin::bench {
 
@@ -15,7 +16,7 @@ namespace {
 
 constexpr int kRounds = 3;
 
-/// One method's frames, of all its flights.
+/// The frames of all flights of one method.
 class DrawnFlight {
 public:
     DrawnFlight(const CullMethod& method, const Settings& settings, FileWatch& watch)
@@ -40,28 +41,21 @@ public:
         DrawnFigures figures;
         figures.method = _scene.method().name;
         figures.frames = _times.size();
-        const auto sorted = [&](const auto& of) {
-            std::vector<double> values;
-            for (const FrameTimes& frame : _times) values.push_back(of(frame));
-            std::sort(values.begin(), values.end());
-            return values;
-        };
-        const auto at = [](const std::vector<double>& values, std::size_t part) {
-            return values.empty() ? 0.0 : values[(values.size() - 1) * part / 100];
-        };
-        const auto work = sorted([](const FrameTimes& frame) { return frame.cullMs + frame.drawMs; });
-        const auto whole = sorted([](const FrameTimes& frame) { return frame.frameMs; });
+        std::vector<double> workMs, frameMs;
         for (const FrameTimes& frame : _times) {
             figures.cullMs += frame.cullMs;
             figures.drawMs += frame.drawMs;
             figures.frameMs += frame.frameMs;
+            workMs.push_back(frame.cullMs + frame.drawMs);
+            frameMs.push_back(frame.frameMs);
         }
-        figures.work1stMs = at(work, 1);
-        figures.workMedianMs = at(work, 50);
-        figures.work99thMs = at(work, 99);
-        figures.frame1stMs = at(whole, 1);
-        figures.frameMedianMs = at(whole, 50);
-        figures.frame99thMs = at(whole, 99);
+        const support::Quantiles work(std::move(workMs)), whole(std::move(frameMs));
+        figures.work1stMs = work.at(1, 100);
+        figures.workMedianMs = work.at(50, 100);
+        figures.work99thMs = work.at(99, 100);
+        figures.frame1stMs = whole.at(1, 100);
+        figures.frameMedianMs = whole.at(50, 100);
+        figures.frame99thMs = whole.at(99, 100);
         return figures;
     }
 

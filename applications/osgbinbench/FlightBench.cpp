@@ -3,6 +3,8 @@
 
 #include "FlightBench.h"
 
+#include "Quantiles.h"
+
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -40,12 +42,9 @@ public:
     }
 
     [[nodiscard]] FlightFigures figures() {
-        std::sort(_times.begin(), _times.end());
-        const auto percentile = [&](std::size_t part) { return _times[(_times.size() - 1) * part / 100]; };
-        if (!_times.empty()) {
-            _figures.cullMedianMs = percentile(50);
-            _figures.cull99thMs = percentile(99);
-        }
+        const support::Quantiles times(_times);
+        _figures.cullMedianMs = times.at(50, 100);
+        _figures.cull99thMs = times.at(99, 100);
         _figures.residentTiles = residentTiles(_scene.root());
         return _figures;
     }

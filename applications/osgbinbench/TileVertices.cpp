@@ -39,13 +39,33 @@ struct Range {
     [[nodiscard]] double middle() const { return 0.5 * (lower + upper); }
 };
 
+glm::dvec3 upAt(const core::Geodetic& p, const core::Ellipsoid& ellipsoid) {
+    return ellipsoid.up(p.latitude, p.longitude);
+}
+
+// The middle of the vertices' latitudes and longitudes, on the ellipsoid. Requires: a vertex.
+core::Geodetic middleOf(const std::vector<Vertex>& vertices) {
+    glm::dvec3 sum(0.0);
+    for (const Vertex& v : vertices) sum += v.ecef;
+    const double about = std::atan2(sum.y, sum.x);
+    Range latitude;
+    Range longitude;
+    for (const Vertex& v : vertices) {
+        latitude.expandBy(v.position.latitude);
+        if (std::abs(v.position.latitude) < 0.5 * kPi - kAtPole)
+            longitude.expandBy(std::remainder(v.position.longitude - about, 2.0 * kPi));
+    }
+    return {latitude.middle(), about + longitude.middle(), 0.0};
+}
+
 // Finds which vertices stand below another one, in columns about the verticals of a tile's ellipsoid.
 class Columns {
 public:
     // Requires: no vertex a quarter turn from the middle or farther.
-    Columns(const std::vector<Vertex>& vertices, const core::Geodetic& middle)
-        : _east(-std::sin(middle.longitude), std::cos(middle.longitude), 0.0),
-          _north(glm::cross(upAt(middle), _east)),
+    Columns(const std::vector<Vertex>& vertices, const core::Geodetic& middle, const core::Ellipsoid& ellipsoid)
+        : _ellipsoid(ellipsoid),
+          _east(-std::sin(middle.longitude), std::cos(middle.longitude), 0.0),
+          _north(glm::cross(upAt(middle, ellipsoid), _east)),
           _width(1e-12) {
         for (const Vertex& v : vertices) _width = std::max(_width, 2.0 * glm::length(placeOf(v)) / kColumns);
         for (const Vertex& v : vertices) {
@@ -71,9 +91,9 @@ private:
     // Of a column's width.
     static constexpr double kNear = 0.25;
 
-    // Of the vertical, across that of the middle: the same for all that stands above each other.
+    // The vertical's components across the vertical of the middle: equal for vertices above each other.
     [[nodiscard]] glm::dvec2 placeOf(const Vertex& v) const {
-        const glm::dvec3 up = upAt(v.position);
+        const glm::dvec3 up = upAt(v.position, _ellipsoid);
         return {glm::dot(up, _east), glm::dot(up, _north)};
     }
 
@@ -82,6 +102,7 @@ private:
         return whole(place.x) * 4 * static_cast<std::int64_t>(kColumns) + whole(place.y);
     }
 
+    const core::Ellipsoid& _ellipsoid;
     glm::dvec3 _east, _north;
     double _width;
     std::unordered_map<std::int64_t, const Vertex*> _highest;
@@ -133,37 +154,31 @@ std::vector<glm::dvec3> verticesOf(const FoundTile& tile) {
     return vertices;
 }
 
-std::vector<Vertex> placed(const std::vector<glm::dvec3>& verticesEcef, const core::Ellipsoid& ellipsoid) {
+std::optional<TileSurface> surfaceOf(const std::vector<glm::dvec3>& verticesEcef, const core::Ellipsoid& ellipsoid) {
+    if (verticesEcef.empty()) return std::nullopt;
     std::vector<Vertex> vertices;
     for (const glm::dvec3& v : verticesEcef) vertices.push_back({v, ellipsoid.toGeodetic(v)});
-    return vertices;
-}
-
-core::Geodetic middleOf(const std::vector<Vertex>& vertices) {
-    glm::dvec3 sum(0.0);
-    for (const Vertex& v : vertices) sum += v.ecef;
-    const double about = std::atan2(sum.y, sum.x);
-    Range latitude;
-    Range longitude;
-    for (const Vertex& v : vertices) {
-        latitude.expandBy(v.position.latitude);
-        if (std::abs(v.position.latitude) < 0.5 * kPi - kAtPole)
-            longitude.expandBy(std::remainder(v.position.longitude - about, 2.0 * kPi));
-    }
-    return {latitude.middle(), about + longitude.middle(), 0.0};
-}
-
-glm::dvec3 upAt(const core::Geodetic& p) {
-    return {std::cos(p.latitude) * std::cos(p.longitude), std::cos(p.latitude) * std::sin(p.longitude),
-            std::sin(p.latitude)};
-}
-
-std::vector<Vertex> withoutSkirts(const std::vector<Vertex>& vertices, const core::Geodetic& middle) {
-    const Columns columns(vertices, middle);
-    std::vector<Vertex> surface;
-    std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(surface),
+    TileSurface surface;
+    surface.middle = middleOf(vertices);
+    const glm::dvec3 up = upAt(surface.middle, ellipsoid);
+    const auto isNear = [&](const Vertex& v) { return glm::dot(upAt(v.position, ellipsoid), up) > 0.0; };
+    if (!std::all_of(vertices.begin(), vertices.end(), isNear)) return std::nullopt;
+    const Columns columns(vertices, surface.middle, ellipsoid);
+    std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(surface.vertices),
                  [&](const Vertex& v) { return !columns.isBelowAnother(v); });
     return surface;
+}
+
+std::vector<FoundTile> tilesOnGlobe(osg::Node& graph, const osg::EllipsoidModel* pageOf) {
+    TileFrame frame;
+    frame.ellipsoid = pageOf;
+    frame.isBelowTile = pageOf != nullptr;
+    std::vector<FoundTile> tiles = findTiles(graph, frame);
+    const auto isOnGlobe = [](const FoundTile& tile) {
+        return tile.frame.ellipsoid && !isMapPlane(*tile.frame.ellipsoid);
+    };
+    tiles.erase(std::stable_partition(tiles.begin(), tiles.end(), isOnGlobe), tiles.end());
+    return tiles;
 }
 
 }  // namespace osgAnalyticBin::bench

@@ -7,8 +7,10 @@
 #include <osgAnalyticBin/core/Ellipsoid.h>
 
 #include <glm/vec3.hpp>
+#include <osg/CoordinateSystemNode>
 #include <osg/Matrixd>
 
+#include <optional>
 #include <vector>
 
 namespace osgAnalyticBin::bench {
@@ -25,16 +27,18 @@ struct Vertex {
 /// The vertices of a tile's own meshes, ECEF. Returns: none of a tile of osgTerrain, which has no mesh yet.
 [[nodiscard]] std::vector<glm::dvec3> verticesOf(const FoundTile& tile);
 
-[[nodiscard]] std::vector<Vertex> placed(const std::vector<glm::dvec3>& verticesEcef, const core::Ellipsoid& ellipsoid);
+/// The surface of a tile.
+struct TileSurface {
+    std::vector<Vertex> vertices;  ///< without those that hang below others, as those of skirts do
+    core::Geodetic middle;         ///< of the latitudes and longitudes of all vertices, on the ellipsoid
+};
 
-/// The middle of the vertices' latitudes and longitudes, on the ellipsoid. Requires: a vertex.
-[[nodiscard]] core::Geodetic middleOf(const std::vector<Vertex>& vertices);
+/// Returns: nullopt without vertices, and where one is a quarter turn from the middle or farther.
+[[nodiscard]] std::optional<TileSurface> surfaceOf(const std::vector<glm::dvec3>& verticesEcef,
+                                                   const core::Ellipsoid& ellipsoid);
 
-/// The ellipsoid's vertical.
-[[nodiscard]] glm::dvec3 upAt(const core::Geodetic& position);
-
-/// The vertices that do not hang below others, as those of skirts do. `middle`: as middleOf() gives it.
-/// Requires: no vertex a quarter turn from the middle or farther.
-[[nodiscard]] std::vector<Vertex> withoutSkirts(const std::vector<Vertex>& vertices, const core::Geodetic& middle);
+/// The tiles of a file that are on a globe. `pageOf`: for a file that is paged below a globe, its ellipsoid; nullptr
+/// for a root file.
+[[nodiscard]] std::vector<FoundTile> tilesOnGlobe(osg::Node& graph, const osg::EllipsoidModel* pageOf);
 
 }  // namespace osgAnalyticBin::bench

@@ -3,6 +3,7 @@
 
 #include "RasterCulling.h"
 
+#include "ClusterRemover.h"
 #include "DepthRaster.h"
 #include "GlmBridge.h"
 #include "TileOccluder.h"
@@ -26,12 +27,6 @@ namespace {
 constexpr std::array<int, 3> kCells{4, 8, 16};
 // Of a cell; smaller ones cost more than they hide.
 constexpr float kPixels = 6.0F;
-
-osg::ClusterCullingCallback* clusterIn(osg::Callback* callback) {
-    for (; callback; callback = callback->getNestedCallback())
-        if (auto* const cluster = dynamic_cast<osg::ClusterCullingCallback*>(callback)) return cluster;
-    return nullptr;
-}
 
 /// On a tile, in front of its other callbacks: what the walk needs to know, and what it has found.
 class RasterTile final : public osg::Callback {
@@ -65,15 +60,11 @@ RasterTile* rasterTileOf(osg::Node& node) {
 }
 
 std::vector<OccluderGrid> gridsOf(const FoundTile& tile, const core::Ellipsoid& ellipsoid) {
-    const std::vector<Vertex> vertices = placed(verticesOf(tile), ellipsoid);
-    if (vertices.empty()) return {};
-    const core::Geodetic middle = middleOf(vertices);
-    const auto isNear = [&](const Vertex& v) { return glm::dot(upAt(v.position), upAt(middle)) > 0.0; };
-    if (!std::all_of(vertices.begin(), vertices.end(), isNear)) return {};
-    const std::vector<Vertex> surface = withoutSkirts(vertices, middle);
+    const auto surface = surfaceOf(verticesOf(tile), ellipsoid);
+    if (!surface) return {};
     std::vector<OccluderGrid> grids;
     for (const int cells : kCells)
-        if (std::optional<OccluderGrid> grid = occluderOf(surface, middle, ellipsoid, cells))
+        if (std::optional<OccluderGrid> grid = occluderOf(surface->vertices, surface->middle, ellipsoid, cells))
             grids.push_back(std::move(*grid));
     return grids;
 }
@@ -84,9 +75,9 @@ bool prepare(const FoundTile& tile) {
     std::optional<std::array<glm::dvec3, 8>> box;
     const AnalyticBin bin = hasStoredBin(*tile.node) ? storedBin(*tile.node) : AnalyticBin();
     if (bin.valid()) box = boxCorners(bin, ellipsoid);
-    osg::Callback* const before = tile.node->getCullCallback();
-    const osg::ref_ptr<RasterTile> prepared = new RasterTile(gridsOf(tile, ellipsoid), box, clusterIn(before));
-    prepared->setNestedCallback(before);
+    const osg::ref_ptr<RasterTile> prepared =
+        new RasterTile(gridsOf(tile, ellipsoid), box, clusterCallbackOf(*tile.node));
+    prepared->setNestedCallback(tile.node->getCullCallback());
     tile.node->setCullCallback(prepared);
     return true;
 }
@@ -233,15 +224,8 @@ private:
 }  // namespace
 
 std::size_t prepareRasterTiles(osg::Node& graph, const osg::EllipsoidModel* pageOf) {
-    TileFrame frame;
-    frame.ellipsoid = pageOf;
-    frame.isBelowTile = pageOf != nullptr;
-    std::size_t prepared = 0;
-    for (const FoundTile& tile : findTiles(graph, frame)) {
-        const bool isOnGlobe = tile.frame.ellipsoid && !isMapPlane(*tile.frame.ellipsoid);
-        if (isOnGlobe && prepare(tile)) ++prepared;
-    }
-    return prepared;
+    const std::vector<FoundTile> tiles = tilesOnGlobe(graph, pageOf);
+    return static_cast<std::size_t>(std::count_if(tiles.begin(), tiles.end(), prepare));
 }
 
 void installRaster(osg::Node& root, int width, int height) {

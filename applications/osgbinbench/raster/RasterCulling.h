@@ -22,8 +22,8 @@ namespace osgAnalyticBin::bench {
 /// fillClusterCallbacks(). A file that was prepared before is left as it is. Returns: how many tiles were prepared.
 std::size_t prepareRasterTiles(osg::Node& graph, const osg::EllipsoidModel* pageOf);
 
-/// Has the scene's cull traversals begin with the walk. The root stands in the frame of the globe, ECEF. Only for
-/// perspective cameras; others hide nothing. Requires: one camera a frame.
+/// Adds the walk at the beginning of the scene's cull traversals. The root's frame is ECEF. Cameras without perspective
+/// hide nothing. Requires: one camera a frame.
 void installRaster(osg::Node& root, int width, int height);
 
 /// Of the depth buffer; its height follows from the picture's.

@@ -24,7 +24,7 @@ struct OccluderGrid {
     std::vector<glm::vec3> nodes;
 };
 
-/// `surface`: the vertices without those of skirts; `middle`: as middleOf() gives it; `cells`: along one edge.
+/// `surface`: the vertices without those of skirts; `middle`: TileSurface's; `cells`: along one edge.
 /// Returns: nullopt where a node has no vertex near.
 /// Guarantee: no point of the grid is above the triangles of a mesh on a regular grid in latitude and longitude that
 /// it divides; test: TileOccluder.IsNowhereAboveTheMesh.

@@ -4,6 +4,7 @@
 #include "ScaleScene.h"
 
 #include "Failure.h"
+#include "Quantiles.h"
 #include "VerdictReplay.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
@@ -78,9 +79,8 @@ void TileTally::add(const TileTally& other) {
 }
 
 Timing timingOf(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const auto at = [&](std::size_t part) { return values[(values.size() - 1) * part / 4]; };
-    return {at(1), at(3) - at(1)};
+    const support::Quantiles quantiles(std::move(values));
+    return {quantiles.at(1, 4), quantiles.at(3, 4) - quantiles.at(1, 4)};
 }
 
 std::vector<osg::ref_ptr<osg::PagedLOD>> loadChildren(osg::PagedLOD& node) {

@@ -116,8 +116,7 @@ ScaleMethod scaleMethodFromName(const std::string& given) {
     if (!method || !isKnown || (!hasBins && !isPlain))
         throw UsageError("--methods: unknown method \"" + name +
                          "\"; use none, sphere, oracle, or quadratic, exact, box, orientedbox, paper or corners with "
-                         "+horizon, +edges or "
-                         "+horizon+edges after it");
+                         "+horizon, +edges or +horizon+edges after it");
     if (!hasBins) return {name, "method=" + base, *method == Method::None};
     const bool usesHorizon = suffixes.find("+horizon") != std::string::npos;
     const bool usesEdges = suffixes.find("+edges") != std::string::npos;

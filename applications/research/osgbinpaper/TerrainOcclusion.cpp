@@ -36,8 +36,7 @@ struct LevelView {
 
 std::optional<LevelView> levelViewOf(const Camera& camera, const core::Ellipsoid& ellipsoid) {
     const Geodetic eye = ellipsoid.toGeodetic(camera.eye);
-    const glm::dvec3 up(std::cos(eye.latitude) * std::cos(eye.longitude),
-                        std::cos(eye.latitude) * std::sin(eye.longitude), std::sin(eye.latitude));
+    const glm::dvec3 up = ellipsoid.up(eye.latitude, eye.longitude);
     const glm::dvec3 ahead = glm::normalize(glm::cross(up, camera.right));
     const glm::dvec3 right = glm::cross(ahead, up);
     double left = std::numeric_limits<double>::infinity();

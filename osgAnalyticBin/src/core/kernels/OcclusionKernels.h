@@ -13,7 +13,7 @@
 /// agree bit for bit. Source of all formulas: doc/theory/occlusion.md.
 namespace osgAnalyticBin::core::kernels {
 
-/// Numbers are read and written in vectors of up to this many.
+/// The largest number of lanes of a vector.
 inline constexpr std::size_t kMostLanes = 8;
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();

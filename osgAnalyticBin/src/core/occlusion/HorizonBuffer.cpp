@@ -85,10 +85,11 @@ std::size_t HorizonBuffer::rangeOf(double distance) noexcept {
 // Puts the walls that are no farther than `distance` into the strips.
 void HorizonBuffer::use(double distance) {
     const std::size_t last = rangeOf(distance);
-    for (; _nearestList <= last; ++_nearestList) {
-        if (_lists[_nearestList] != kNone) useList(_nearestList, distance);
-        if (_nearestList == last) break;
+    for (std::size_t range = _nearestList; range <= last; ++range) {
+        if (_lists[range] != kNone) useList(range, distance);
     }
+    // farther walls may be left in the last list
+    _nearestList = std::max(_nearestList, last);
 }
 
 void HorizonBuffer::useList(std::size_t range, double distance) {

@@ -72,7 +72,7 @@ NearMeshes::Known* NearMeshes::meshOf(const AnalyticBinCullCallback& tile, osg::
     if (isSame && ++known->uses < kMostUses) return known;
     if (!known && _known.size() < kMostTiles) known = &_known.emplace_back();
     if (!known) known = &_known[_oldest++ % kMostTiles];
-    // those that were read for the same view are not read again for the same view
+    // what was read in one view shall not all be read again in one view
     const auto early = static_cast<int>(known - _known.data()) * kMostUses / static_cast<int>(kMostTiles);
     *known = {nullptr, nullptr, tile.getLocalToEcef(), early, {}, {}, -1.0, {}};
     // the frame of a transform that is culled itself is that of what is below it

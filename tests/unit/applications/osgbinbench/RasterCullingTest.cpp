@@ -156,12 +156,11 @@ TEST(TileOccluder, IsNowhereAboveTheMesh) {
     const Heights heights = [&](double north, double east) {
         return table[static_cast<std::size_t>(std::lround(32 * north) * 33 + std::lround(32 * east))];
     };
-    const std::vector<Vertex> vertices = placed(posts(46.0, 10.0, heights, true), kEarth);
-    const Geodetic middle = middleOf(vertices);
-    const std::vector<Vertex> surface = withoutSkirts(vertices, middle);
-    EXPECT_EQ(surface.size(), 33U * 33U);
+    const auto surface = surfaceOf(posts(46.0, 10.0, heights, true), kEarth);
+    ASSERT_TRUE(surface);
+    EXPECT_EQ(surface->vertices.size(), 33U * 33U);
     for (const int cells : {4, 8, 16}) {
-        const auto grid = occluderOf(surface, middle, kEarth, cells);
+        const auto grid = occluderOf(surface->vertices, surface->middle, kEarth, cells);
         ASSERT_TRUE(grid);
         const auto row = static_cast<std::size_t>(cells) + 1;
         ASSERT_EQ(grid->nodes.size(), row * row);
@@ -182,9 +181,10 @@ TEST(TileOccluder, IsNowhereAboveTheMesh) {
 }
 
 TEST(TileOccluder, ThereIsNoneWhereVerticesAreTooSparse) {
-    const std::vector<Vertex> corners = placed(
+    const auto corners = surfaceOf(
         {kEarth.toEcef({0.8, 0.1, 0.0}), kEarth.toEcef({0.8, 0.11, 0.0}), kEarth.toEcef({0.81, 0.1, 0.0})}, kEarth);
-    EXPECT_FALSE(occluderOf(corners, middleOf(corners), kEarth, 4));
+    ASSERT_TRUE(corners);
+    EXPECT_FALSE(occluderOf(corners->vertices, corners->middle, kEarth, 4));
     EXPECT_FALSE(occluderOf({}, {}, kEarth, 4));
 }
 
@@ -243,8 +243,9 @@ std::size_t drawnFrom(osg::Node& scene, double latitude, double longitude, doubl
     const osg::Vec3d ahead = at(kEarth.toEcef({eye.latitude + 0.01 * kDegree, eye.longitude, altitude}));
     visitor->pushViewport(new osg::Viewport(0, 0, 1280, 720));
     visitor->pushProjectionMatrix(new osg::RefMatrix(osg::Matrixd::perspective(60, 16.0 / 9, 1, 1e6)));
-    visitor->pushModelViewMatrix(new osg::RefMatrix(osg::Matrixd::lookAt(at(eyeEcef), ahead, at(upAt(eye)))),
-                                 osg::Transform::ABSOLUTE_RF);
+    visitor->pushModelViewMatrix(
+        new osg::RefMatrix(osg::Matrixd::lookAt(at(eyeEcef), ahead, at(kEarth.up(eye.latitude, eye.longitude)))),
+        osg::Transform::ABSOLUTE_RF);
     scene.accept(*visitor);
     visitor->popModelViewMatrix();
     visitor->popProjectionMatrix();
