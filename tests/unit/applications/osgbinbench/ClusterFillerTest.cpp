@@ -5,13 +5,13 @@
 
 #include "ClusterFiller.h"
 #include "ClusterRemover.h"
+#include "PlacedMesh.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <osg/ClusterCullingCallback>
-#include <osg/Geometry>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 #include <osgDB/ReadFile>
@@ -103,19 +103,7 @@ TEST(ClusterOf, ThereIsNoneForTilesThatReachAround) {
 // A tile as databases have them: a mesh about an origin of its own, and a finer file or none.
 osg::ref_ptr<osg::Node> tile(double south, double west, const std::string& finer) {
     const Ellipsoid earth(6378137.0, 6356752.3142);
-    const std::vector<glm::dvec3> vertices = posts(earth, south, west, 5.0, 100.0);
-    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    const osg::ref_ptr<osg::Vec3Array> array = new osg::Vec3Array;
-    for (const glm::dvec3& v : vertices) {
-        const glm::dvec3 local = v - vertices[0];
-        array->push_back(osg::Vec3(osg::Vec3d(local.x, local.y, local.z)));
-    }
-    geometry->setVertexArray(array);
-    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(array->size())));
-    const osg::ref_ptr<osg::MatrixTransform> placed =
-        new osg::MatrixTransform(osg::Matrixd::translate(vertices[0].x, vertices[0].y, vertices[0].z));
-    placed->setDataVariance(osg::Object::STATIC);
-    placed->addChild(geometry);
+    const osg::ref_ptr<osg::Node> placed = test::placedMesh(posts(earth, south, west, 5.0, 100.0), GL_TRIANGLES);
     if (finer.empty()) return placed;
     const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
     paged->addChild(placed, 1e6F, 1e10F);

@@ -5,6 +5,7 @@
 // double precision; heights of the mesh that an occluder was made from; a ridge and what stands before and behind it.
 
 #include "DepthRaster.h"
+#include "PlacedMesh.h"
 #include "RasterCulling.h"
 #include "TileOccluder.h"
 
@@ -13,8 +14,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <gtest/gtest.h>
-#include <osg/Geometry>
-#include <osg/MatrixTransform>
 #include <osgUtil/CullVisitor>
 
 #include <cmath>
@@ -210,19 +209,7 @@ osg::ref_ptr<osg::Node> tile(double south, double west, double low, double high)
     const Heights ridge = [&](double north, double) {
         return low + (high - low) * (1.0 - std::abs(2.0 * north - 1.0));
     };
-    const std::vector<glm::dvec3> vertices = posts(south, west, ridge, true);
-    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    const osg::ref_ptr<osg::Vec3Array> array = new osg::Vec3Array;
-    for (const glm::dvec3& v : vertices) {
-        const glm::dvec3 local = v - vertices[0];
-        array->push_back(osg::Vec3(osg::Vec3d(local.x, local.y, local.z)));
-    }
-    geometry->setVertexArray(array);
-    geometry->addPrimitiveSet(new osg::DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(array->size())));
-    const osg::ref_ptr<osg::MatrixTransform> placed =
-        new osg::MatrixTransform(osg::Matrixd::translate(vertices[0].x, vertices[0].y, vertices[0].z));
-    placed->setDataVariance(osg::Object::STATIC);
-    placed->addChild(geometry);
+    const osg::ref_ptr<osg::Node> placed = test::placedMesh(posts(south, west, ridge, true), GL_POINTS);
     setStoredBin(
         *placed,
         AnalyticBin(core::GeodeticBin::fromDegrees({south, south + 0.1}, {west, west + 0.1}, {low, high}), 1.0));
