@@ -98,11 +98,7 @@ public:
     }
 
     Delivery deliver(const ViewSpec& spec, osg::FrameStamp& stamp, Painter* painter) {
-        CullView view;
-        view.modelView = spec.view;
-        view.projection = spec.projection;
-        view.cullingMode = spec.cullingMode;
-        view.computeNearFar = spec.computeNearFar;
+        CullView view = viewOf(spec);
         _recorder->setSmallFeatureCullingPixelSize(static_cast<float>(spec.smallFeaturePixels));
         root->getBound();
         if (painter) view.states = painter->states();
@@ -111,6 +107,16 @@ public:
         Delivery delivery = _recorder->takeDelivery();
         if (painter) delivery.painting = painter->paint(*culled.stage, stamp);
         return delivery;
+    }
+
+    /// Whether OSG's own visitor, for which the kit enters tiles by itself, delivers the same as a derived one.
+    [[nodiscard]] bool deliversTheSameToAll(const ViewSpec& spec, const osg::FrameStamp& stamp) {
+        const auto leavesFor = [&](osgUtil::CullVisitor& visitor) {
+            visitor.setSmallFeatureCullingPixelSize(static_cast<float>(spec.smallFeaturePixels));
+            return leavesIn(
+                *cull(*root, viewOf(spec), visitor, stamp.getFrameNumber(), stamp.getReferenceTime()).stage);
+        };
+        return leavesFor(*_plain) == leavesFor(*_derived);
     }
 
     [[nodiscard]] std::set<std::string> takeRequests() { return _recorder->takeRequests(); }
@@ -124,7 +130,19 @@ public:
     osg::ref_ptr<osg::Group> root;
 
 private:
+    struct DerivedVisitor : osgUtil::CullVisitor {};
+
+    static CullView viewOf(const ViewSpec& spec) {
+        CullView view;
+        view.modelView = spec.view;
+        view.projection = spec.projection;
+        view.cullingMode = spec.cullingMode;
+        view.computeNearFar = spec.computeNearFar;
+        return view;
+    }
+
     const osg::ref_ptr<Recorder> _recorder = new Recorder;
+    const osg::ref_ptr<osgUtil::CullVisitor> _plain = new osgUtil::CullVisitor, _derived = new DerivedVisitor;
     const osg::ref_ptr<osgUtil::UpdateVisitor> _update = new osgUtil::UpdateVisitor;
 };
 
@@ -187,6 +205,8 @@ private:
         if (auto failure = _painter ? comparePictures(without, with, frame) : compare(without, with, view, frame))
             return failure;
         if (auto failure = checkDrawn(without, with, view, frame)) return failure;
+        if (!_painter && !_with.deliversTheSameToAll(view, *_stamp))
+            return Failure{frame, "OSG's own visitor gets something else than a derived one", ""};
         page();
         return std::nullopt;
     }

@@ -7,10 +7,14 @@
 #include <osg/FrameStamp>
 #include <osg/Geometry>
 #include <osg/Viewport>
+#include <osgUtil/RenderLeaf>
 #include <osgUtil/RenderStage>
 #include <osgUtil/StateGraph>
 
+#include <algorithm>
+#include <functional>
 #include <iterator>
+#include <utility>
 
 namespace osgAnalyticBin::test {
 
@@ -57,6 +61,26 @@ void collectDrawn(const osgUtil::RenderBin& bin, std::set<const osg::Drawable*>&
 }
 
 }  // namespace
+
+std::vector<Leaf> leavesIn(osgUtil::RenderBin& bin) {
+    std::vector<std::pair<unsigned int, Leaf>> found;
+    const std::function<void(osgUtil::RenderBin&)> collect = [&](osgUtil::RenderBin& from) {
+        for (const osgUtil::StateGraph* graph : from.getStateGraphList()) {
+            std::vector<const osg::StateSet*> states;
+            for (const auto* above = graph; above; above = above->_parent) states.push_back(above->getStateSet());
+            for (const auto& leaf : graph->_leaves) {
+                found.push_back(
+                    {leaf->_traversalOrderNumber, {leaf->getDrawable(), *leaf->_modelview, leaf->_depth, states}});
+            }
+        }
+        for (const auto& [number, child] : from.getRenderBinList()) collect(*child);
+    };
+    collect(bin);
+    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<Leaf> leaves;
+    for (auto& [order, leaf] : found) leaves.push_back(std::move(leaf));
+    return leaves;
+}
 
 CullResult cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& visitor, unsigned int frame,
                 double time) {

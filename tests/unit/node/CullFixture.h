@@ -45,6 +45,21 @@ struct CullResult {
     osg::ref_ptr<osgUtil::RenderStage> stage;
 };
 
+/// A leaf of a render bin: the drawable, its matrix, its depth, the states above it.
+struct Leaf {
+    const osg::Drawable* drawable;
+    osg::Matrixd matrix;
+    float depth;
+    std::vector<const osg::StateSet*> states;
+
+    bool operator==(const Leaf& other) const {
+        return drawable == other.drawable && matrix == other.matrix && depth == other.depth && states == other.states;
+    }
+};
+
+/// The leaves of a render bin and those in it, in the order in which they were delivered.
+std::vector<Leaf> leavesIn(osgUtil::RenderBin& bin);
+
 /// Runs one cull traversal, as osgUtil::SceneView does; occluders in the scene take part. `time`: of the frame, in
 /// seconds.
 CullResult cull(osg::Node& scene, const CullView& view, osgUtil::CullVisitor& visitor, unsigned int frame = 1,

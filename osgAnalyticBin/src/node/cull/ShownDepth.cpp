@@ -100,6 +100,8 @@ private:
             const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
             const std::uint64_t passedOver =
                 first < family.size() ? passedOverIn(verdicts, family.block().partFrom(first)) : 0;
+            // what the search reads of these tiles OSG's traversal reads, too
+            family.fetchKept(first, verdicts);
             forEachBit(lowestBits(here) & ~passedOver, [&](unsigned int number) {
                 if (_hasHole) return;
                 osg::Node& child = *group.getChild(first + number);

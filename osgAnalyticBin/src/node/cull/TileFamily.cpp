@@ -9,6 +9,7 @@
 #include "../page/Database.h"
 #include "BinCulling.h"
 #include "Bits.h"
+#include "CullCallbacks.h"
 #include "RequestAhead.h"
 #include "SeeThrough.h"
 #include "TilePlan.h"
@@ -30,12 +31,12 @@ using MeshParts = TileFamily::MeshParts;
 
 // Collects the nodes of a mesh. Returns: whether OSG draws the whole mesh as long as it enters each of them, and there
 // is room for all.
-bool appendParts(const osg::Node& node, MeshParts& parts, std::size_t& count) {
+bool appendParts(osg::Node& node, MeshParts& parts, std::size_t& count) {
     if (count == parts.size()) return false;
     parts[count++] = &node;
     if (dynamic_cast<const osgTerrain::TerrainTile*>(&node)) return typeid(node) == typeid(osgTerrain::TerrainTile);
     // a group without children draws nothing
-    const osg::Group* const group = node.asGroup();
+    osg::Group* const group = node.asGroup();
     bool areKnown = drawsAllChildren(node) && (!group || group->getNumChildren() > 0);
     for (unsigned int i = 0; areKnown && group && i < group->getNumChildren(); ++i) {
         areKnown = appendParts(*group->getChild(i), parts, count);
@@ -44,8 +45,8 @@ bool appendParts(const osg::Node& node, MeshParts& parts, std::size_t& count) {
 }
 
 // The mesh of a tile. Returns: nullptr where the tile has several or none.
-const osg::Node* meshOf(const osg::Node& tile) {
-    const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&tile);
+osg::Node* meshOf(osg::Node& tile) {
+    auto* const paged = dynamic_cast<osg::PagedLOD*>(&tile);
     if (!paged) return &tile;
     const bool isSingle = paged->getNumChildren() > 0 && paged->getNumFileNames() > 0 && paged->getFileName(0).empty();
     for (unsigned int i = 1; i < paged->getNumFileNames(); ++i) {
@@ -54,8 +55,8 @@ const osg::Node* meshOf(const osg::Node& tile) {
     return isSingle ? paged->getChild(0) : nullptr;
 }
 
-MeshParts meshPartsOf(const osg::Node& tile) {
-    const osg::Node* const mesh = meshOf(tile);
+MeshParts meshPartsOf(osg::Node& tile) {
+    osg::Node* const mesh = meshOf(tile);
     MeshParts parts;
     std::size_t count = 0;
     if (!mesh || !appendParts(*mesh, parts, count)) return {};
@@ -121,9 +122,9 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
     if (!isSame) return false;
     _nodes[slot] = &child;
     _block->addMember(slot);
-    _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child),
-                      typeid(child) == typeid(osg::PagedLOD) || typeid(child) == typeid(Carrier),
-                      tile->getInstalledTile()->isSeeThrough(), meshPartsOf(child)};
+    const MeshParts parts = meshPartsOf(child);
+    _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), tile->getInstalledTile()->isSeeThrough(), parts,
+                      TileEntry(child, parts)};
     tile->getInstalledTile()->joinFamily(*_block, slot);
     // osgUtil::Optimizer may have changed the form of the mesh: the new form is as good
     if (_members[slot].meshParts.front()) tile->getInstalledTile()->trustMesh();
@@ -150,6 +151,28 @@ void TileFamily::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     cullChildren(*node->asGroup(), *nv, *cullStack, *view, *traversal);
 }
 
+bool TileFamily::enterFamilyOf(osg::Node& node, osgUtil::CullVisitor& visitor, CullTraversal& traversal,
+                               Footprint::Notes& notes) {
+    osg::Callback* const callback = node.getCullCallback();
+    if (!callback || !isExactly<TileFamily>(*callback) || !isExactly<osg::Group>(node)) return false;
+    const TileFamily& family = static_cast<const TileFamily&>(*callback->asNodeCallback());
+    const DatabaseView* const view = traversal.isTileByTile() ? nullptr : traversal.databaseView();
+    if (!view || !visitor.validNodeMask(node) || !family.culls(node, visitor, *view)) return false;
+    notes.add(&node, 4);
+    notes.add(&family, 5);
+    notes.add(family._block, 2);
+    if (family._block->size() > 0) notes.add(&family._block->partFrom(0), 3);
+    notes.add(family._nodes.data(), 1);
+    notes.add(family._members.data(), 16);
+    osg::StateSet* const state = node.getStateSet();
+    visitor.pushOntoNodePath(&node);
+    if (state) visitor.pushStateSet(state);
+    family.cullChildren(*node.asGroup(), visitor, visitor, *view, traversal);
+    if (state) visitor.popStateSet();
+    visitor.popFromNodePath();
+    return true;
+}
+
 void TileFamily::test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes,
                       core::PlaneMask undecided, const core::HorizonEye* eye, CullTraversal& traversal,
                       Verdicts& verdicts) const {
@@ -172,6 +195,11 @@ void TileFamily::test(const osg::Group& group, unsigned int first, const core::P
                   traversal, verdicts);
 }
 
+void TileFamily::fetchKept(unsigned int first, const Verdicts& verdicts) const {
+    forEachBit(verdicts.members & ~verdicts.outOfView(),
+               [&](unsigned int number) { _members[first + number].entry.fetch(); });
+}
+
 void TileFamily::findSeparated(unsigned int first, std::uint64_t candidates, const core::PlaneSet& planes,
                                CullTraversal& traversal, Verdicts& verdicts) const {
     const core::BinFamily& bins = _block->partFrom(first).bins;
@@ -190,6 +218,7 @@ void TileFamily::lookUp(const osg::Group& group, unsigned int first, core::Plane
                         const DatabaseView& view, CullTraversal& traversal, Verdicts& verdicts) const {
     if (!view.plan || !view.plan->find(*this, first, undecided, verdicts)) {
         test(group, first, view.planes, undecided, view.eye, traversal, verdicts);
+        fetchKept(first, verdicts);
     }
     if (verdicts.hidden == 0 || (view.eye && !view.sight)) return;
     // the plan does not look at borders, and may be that of an eye which came to nothing
@@ -238,17 +267,18 @@ std::uint64_t TileFamily::culled(unsigned int first, const Verdicts& verdicts, c
     return culled;
 }
 
-// A plain PagedLOD or carrier without other callbacks is entered as osgUtil::CullVisitor does it, but for the calls
-// that lead to the tile's own callback, which would do nothing: its family has tested it.
+// A plain tile without other callbacks is entered as osgUtil::CullVisitor does it, but for the calls that lead to the
+// tile's own callback, which would do nothing: its family has tested it.
 void TileFamily::enter(osg::Node& child, const Member& member, osg::NodeVisitor& nv, CullTraversal& traversal) {
     const bool isAlone = child.getCullCallback() == member.tile && !member.tile->getNestedCallback();
-    if (!member.isPlain || !isAlone || child.getCullingActive() || typeid(nv) != typeid(osgUtil::CullVisitor)) {
+    if (!member.entry.isPossible() || !isAlone || child.getCullingActive() ||
+        typeid(nv) != typeid(osgUtil::CullVisitor)) {
         traversal.setKept(&child);
         child.accept(nv);
         traversal.setKept(nullptr);
         return;
     }
-    enterWithoutTest(child, static_cast<osgUtil::CullVisitor&>(nv));
+    member.entry.enter(child, static_cast<osgUtil::CullVisitor&>(nv), traversal);
 }
 
 void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "TileBlock.h"
+#include "TileEntry.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/core/Plane.h>
@@ -54,17 +55,15 @@ public:
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
-    /// The nodes of a tile's own mesh, all of which have to be entered for all of it to be drawn. None: not known, or
-    /// more than these.
-    using MeshParts = std::array<osg::ref_ptr<const osg::Node>, 4>;
+    using MeshParts = TileEntry::MeshParts;
 
     /// A tile as it was when the family was made.
     struct Member {
         osg::ref_ptr<const AnalyticBinCullCallback> tile;
         osg::PagedLOD* paged = nullptr;  ///< the node, if it is one
-        bool isPlain = false;            ///< an osg::PagedLOD, and not of a class derived from it, or a carrier
         bool isSeeThrough = false;
         MeshParts meshParts;
+        TileEntry entry;
     };
 
     /// The results for up to TileBlock::Part::kMost children, one bit each.
@@ -93,6 +92,9 @@ public:
     void test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes, core::PlaneMask undecided,
               const core::HorizonEye* eye, CullTraversal& traversal, Verdicts& verdicts) const;
 
+    /// Has the memory fetched that entering the tiles in view reads.
+    void fetchKept(unsigned int first, const Verdicts& verdicts) const;
+
     [[nodiscard]] const Member& member(unsigned int i) const { return _members[i]; }
     [[nodiscard]] const TileBlock& block() const { return *_block; }
 
@@ -101,6 +103,12 @@ public:
 
     /// The number of children when the family was made.
     [[nodiscard]] std::size_t size() const { return _nodes.size(); }
+
+    /// Enters a plain group whose only cull callback is a family that culls in this traversal, as OSG does, but for the
+    /// test of the group's sphere: the family's tiles have tests of their own. `notes`: takes what is read for it.
+    /// Returns: false for any other node; nothing was done then.
+    [[nodiscard]] static bool enterFamilyOf(osg::Node& node, osgUtil::CullVisitor& visitor, CullTraversal& traversal,
+                                            Footprint::Notes& notes);
 
 protected:
     ~TileFamily() override;

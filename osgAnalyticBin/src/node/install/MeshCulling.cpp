@@ -145,6 +145,10 @@ bool isClusterCulling(const osg::Callback& callback) {
     return typeid(callback) == typeid(SuspendedCluster) || typeid(callback) == typeid(osg::ClusterCullingCallback);
 }
 
+bool isSuspendedCluster(const osg::Callback& callback) {
+    return &typeid(callback) == &typeid(SuspendedCluster);
+}
+
 void suspendClusterCullingOf(osg::Node& node) {
     for (const auto& callback : cullCallbacks(node)) {
         auto* cluster = dynamic_cast<osg::ClusterCullingCallback*>(callback.get());

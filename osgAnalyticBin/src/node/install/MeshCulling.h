@@ -42,6 +42,9 @@ void resumeClusterCulling(osg::Node& mesh);
 /// Whether a callback is an osg::ClusterCullingCallback, suspended or not.
 [[nodiscard]] bool isClusterCulling(const osg::Callback& callback);
 
+/// Whether it is one that culls nothing.
+[[nodiscard]] bool isSuspendedCluster(const osg::Callback& callback);
+
 /// The same for one node alone.
 void suspendClusterCullingOf(osg::Node& node);
 void resumeClusterCullingOf(osg::Node& node);

@@ -1,0 +1,317 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TileEntry.h"
+
+#include "../install/MeshCulling.h"
+#include "../install/TileCallback.h"
+#include "BinCulling.h"
+#include "CullCallbacks.h"
+#include "CullTraversal.h"
+#include "TileFamily.h"
+
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osgTerrain/GeometryTechnique>
+#include <osgTerrain/TerrainTile>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// cache lines that a traversal reads of an object
+constexpr unsigned int kLinesOfGroup = 4, kLinesOfTransform = 6, kLinesOfGeometry = 5, kLinesOfTile = 6;
+
+// What OSG keeps for derived classes.
+struct OpenGroup : public osg::Group {
+    [[nodiscard]] static const void* childrenOf(const osg::Group& group) {
+        return (group.*(&OpenGroup::_children)).data();
+    }
+};
+struct OpenTile : public osgTerrain::TerrainTile {
+    [[nodiscard]] static bool wasTraversed(const osgTerrain::TerrainTile& tile) {
+        return tile.*(&OpenTile::_hasBeenTraversal);
+    }
+};
+struct OpenTechnique : public osgTerrain::GeometryTechnique {
+    [[nodiscard]] static const BufferData* meshOf(const osgTerrain::GeometryTechnique& technique) {
+        return (technique.*(&OpenTechnique::_currentBufferData)).get();
+    }
+};
+struct OpenVisitor : public osgUtil::CullVisitor {
+    [[nodiscard]] static osg::RefMatrix* matrix(osgUtil::CullVisitor& visitor, const osg::Matrix& value) {
+        return (visitor.*(&OpenVisitor::createOrReuseMatrix))(value);
+    }
+    // as osg::CullStack::pushModelViewMatrix() does it
+    static void setCorners(osgUtil::CullVisitor& visitor, const osg::Matrix& matrix) {
+        const osg::Vec3 look(osg::Vec3d(-matrix(0, 2), -matrix(1, 2), -matrix(2, 2)));
+        const unsigned int farthest = (look.x() >= 0 ? 1u : 0u) | (look.y() >= 0 ? 2u : 0u) | (look.z() >= 0 ? 4u : 0u);
+        visitor.*(&OpenVisitor::_bbCornerFar) = farthest;
+        visitor.*(&OpenVisitor::_bbCornerNear) = ~farthest & 7u;
+    }
+};
+
+class StateScope {
+public:
+    StateScope(osgUtil::CullVisitor& visitor, const osg::StateSet* state) : _visitor(visitor), _state(state) {
+        if (_state) _visitor.pushStateSet(_state);
+    }
+    ~StateScope() {
+        if (_state) _visitor.popStateSet();
+    }
+    StateScope(const StateScope&) = delete;
+    StateScope& operator=(const StateScope&) = delete;
+
+private:
+    osgUtil::CullVisitor& _visitor;
+    const osg::StateSet* const _state;
+};
+
+// The other modes of near and far planes keep the frustum in the mesh's frame.
+bool needsNoFrustumOfMesh(osgUtil::CullVisitor& visitor) {
+    const auto mode = visitor.getComputeNearFarMode();
+    return (mode == osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR ||
+            mode == osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES) &&
+           visitor.getCurrentCullingSet().getStateFrustumList().empty() &&
+           visitor.getProjectionCullingStack().back().getStateFrustumList().empty();
+}
+
+// Whether a traversal goes through the node as if it had no cull callback.
+bool isPassive(const osg::Node& node, const osgUtil::CullVisitor& visitor) {
+    const osg::Callback* const callback = node.getCullCallback();
+    return visitor.validNodeMask(node) &&
+           (!callback || (isSuspendedCluster(*callback) && !callback->getNestedCallback()));
+}
+
+// Whether all of a box is outside of the plane, by more than rounding. `toPlane`: from the box's frame.
+bool isOutside(const osg::BoundingBox& box, const osg::Plane& plane, const osg::Matrix* toPlane) {
+    constexpr double kRounding = 1e-12;
+    osg::Vec3d normal(plane[0], plane[1], plane[2]);
+    double farthest = 0.0, size = 0.0;
+    const auto add = [&](double part) {
+        farthest += part;
+        size += std::abs(part);
+    };
+    add(plane[3] * (toPlane ? (*toPlane)(3, 3) : 1.0));
+    if (toPlane) {
+        for (int i = 0; i < 3; ++i) add(normal[i] * toPlane->getTrans()[i]);
+        normal = osg::Matrix::transform3x3(*toPlane, normal);
+        for (int i = 0; i < 3; ++i) normal[i] += plane[3] * (*toPlane)(i, 3);
+    }
+    for (int i = 0; i < 3; ++i) add(normal[i] * (normal[i] >= 0.0 ? box._max[i] : box._min[i]));
+    return farthest < -kRounding * size;
+}
+
+}  // namespace
+
+// Delivers drawables in the frame of the visitor, or of one transform in it.
+class TileEntry::Delivery {
+public:
+    explicit Delivery(osgUtil::CullVisitor& visitor) : _visitor(visitor) {}
+
+    void draw(const std::array<Part, kMostParts>& parts, std::size_t number) {
+        osg::Node& node = *parts[number].node;
+        if (parts[number].kind == Kind::Geometry) return draw(static_cast<osg::Geometry&>(node));
+        const StateScope state(_visitor, node.getStateSet());
+        const bool isTransform = parts[number].kind == Kind::Transform;
+        if (isTransform) enterFrame(static_cast<osg::MatrixTransform&>(node));
+        for (std::size_t i = number + 1; i < parts.size() && parts[i].node; ++i) {
+            if (parts[i].above == number) draw(parts, i);
+        }
+        if (isTransform) leaveFrame();
+    }
+
+    // Returns: false where the tile has no mesh yet, or another than osgTerrain::GeometryTechnique makes.
+    [[nodiscard]] bool draw(osgTerrain::TerrainTile& tile, Footprint::Notes& notes) {
+        auto* const technique = tile.getTerrainTechnique();
+        if (!technique || technique->getTerrainTile() != &tile || !OpenTile::wasTraversed(tile) ||
+            !isExactly<osgTerrain::GeometryTechnique>(*technique))
+            return false;
+        const auto* const mesh = OpenTechnique::meshOf(static_cast<osgTerrain::GeometryTechnique&>(*technique));
+        notes.add(technique, kLinesOfGroup);
+        if (!mesh || !mesh->_transform || !mesh->_geode || !mesh->_geometry) return false;
+        notes.add(mesh, 1);
+        osg::MatrixTransform& transform = *mesh->_transform;
+        osg::Geode& geode = *mesh->_geode;
+        osg::Geometry& geometry = *mesh->_geometry;
+        notes.add(&transform, kLinesOfTransform);
+        notes.add(OpenGroup::childrenOf(transform), 1);
+        notes.add(&geode, kLinesOfGroup);
+        notes.add(OpenGroup::childrenOf(geode), 1);
+        notes.add(&geometry, kLinesOfGeometry);
+        const bool isWhole = transform.getNumChildren() == 1 && transform.getChild(0) == &geode &&
+                             geode.getNumChildren() == 1 && geode.getChild(0) == &geometry;
+        const bool isRelative = transform.getReferenceFrame() == osg::Transform::RELATIVE_RF;
+        if (!isWhole || !isRelative || !isExactly<osg::Geometry>(geometry) || !isPassive(transform, _visitor) ||
+            !isPassive(geode, _visitor) || !isPassive(geometry, _visitor))
+            return false;
+        if (transform.isCullingActive() && isSmall(_visitor.getCurrentCullingSet(), transform.getBound())) return true;
+        const StateScope ofTile(_visitor, tile.getStateSet()), ofTransform(_visitor, transform.getStateSet()),
+            ofGeode(_visitor, geode.getStateSet());
+        enterFrame(transform);
+        draw(geometry);
+        return true;
+    }
+
+private:
+    void enterFrame(osg::MatrixTransform& transform) {
+        _frame = &transform.getMatrix();
+        _matrix = OpenVisitor::matrix(_visitor, *_visitor.getModelViewMatrix());
+        _matrix->preMult(*_frame);
+    }
+    void leaveFrame() {
+        _frame = nullptr;
+        _matrix = _visitor.getModelViewMatrix();
+    }
+
+    // As osgUtil::CullVisitor::apply(osg::Drawable&).
+    void draw(osg::Geometry& geometry) {
+        const osg::BoundingBox& box = geometry.getBoundingBox();
+        if (geometry.isCullingActive() && isBesideFrustum(box)) return;
+        if (box.valid() && !countsForNearFar(geometry)) return;
+        const float depth = box.valid() ? depthOf(box.center()) : 0.0f;
+        if (std::isnan(depth)) return;
+        const StateScope state(_visitor, geometry.getStateSet());
+        _visitor.addDrawableAndDepth(&geometry, _matrix, depth);
+    }
+
+    [[nodiscard]] bool isBesideFrustum(const osg::BoundingBox& box) const {
+        osg::Polytope& frustum = _visitor.getCurrentCullingSet().getFrustum();
+        core::PlaneMask undecided = frustum.getCurrentMask();
+        if (!box.valid()) return false;
+        for (std::size_t i = 0; undecided != 0 && i < frustum.getPlaneList().size(); ++i, undecided >>= 1) {
+            if ((undecided & 1) != 0 && isOutside(box, frustum.getPlaneList()[i], _frame)) return true;
+        }
+        return false;
+    }
+
+    // Returns: false where OSG leaves the drawable out because it is behind the eye.
+    [[nodiscard]] bool countsForNearFar(osg::Geometry& geometry) {
+        if (_visitor.getComputeNearFarMode() == osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR) return true;
+        if (_frame) OpenVisitor::setCorners(_visitor, *_matrix);
+        const bool counts = _visitor.updateCalculatedNearFar(*_matrix, geometry, false);
+        if (_frame) OpenVisitor::setCorners(_visitor, *_visitor.getModelViewMatrix());
+        return counts;
+    }
+
+    // As CullVisitor::getDistanceFromEyePoint().
+    [[nodiscard]] float depthOf(const osg::Vec3& at) const {
+        const osg::Matrix& m = *_matrix;
+        return static_cast<float>(-(at[0] * m(0, 2) + at[1] * m(1, 2) + at[2] * m(2, 2) + m(3, 2)));
+    }
+
+    osgUtil::CullVisitor& _visitor;
+    osg::RefMatrix* _matrix = _visitor.getModelViewMatrix();
+    const osg::Matrix* _frame = nullptr;  // to the visitor's
+};
+
+TileEntry::Kind TileEntry::kindOf(const osg::Node& node) {
+    if (isExactly<osg::Group>(node) || isExactly<osg::Geode>(node) || isExactly<Carrier>(node)) return Kind::Group;
+    if (isExactly<osg::MatrixTransform>(node)) return Kind::Transform;
+    if (isExactly<osg::Geometry>(node)) return Kind::Geometry;
+    return isExactly<osgTerrain::TerrainTile>(node) ? Kind::Terrain : Kind::Unknown;
+}
+
+TileEntry::TileEntry(osg::Node& tile, const MeshParts& parts)
+    : _paged(isExactly<osg::PagedLOD>(tile) ? static_cast<osg::PagedLOD*>(&tile) : nullptr),
+      _isPossible(_paged || kindOf(tile) == Kind::Group || kindOf(tile) == Kind::Terrain),
+      _isOwnMesh(parts.front() == &tile) {
+    std::array<Part, kMostParts> known;
+    int transforms = 0;
+    for (std::size_t i = 0; i < known.size() && parts[i]; ++i) {
+        // one that hangs below two others is drawn in two places
+        if (std::find(parts.begin(), parts.begin() + i, parts[i]) != parts.begin() + i) return;
+        Part& part = known[i];
+        part = {parts[i].get(), kindOf(*parts[i]), 0, 0, 0};
+        transforms += part.kind == Kind::Transform ? 1 : 0;
+        const bool isTerrainBelow = part.kind == Kind::Terrain && i > 0;
+        if (part.kind == Kind::Unknown || isTerrainBelow || transforms > 1) return;
+        if (part.kind == Kind::Group || part.kind == Kind::Transform)
+            part.children = static_cast<unsigned char>(part.node->asGroup()->getNumChildren());
+        for (std::size_t above = 0; above < i; ++above) {
+            const osg::Group* const group = parts[above]->asGroup();
+            if (!group || !group->containsNode(part.node)) continue;
+            part.above = static_cast<unsigned char>(above);
+            part.place = static_cast<unsigned char>(group->getChildIndex(part.node));
+        }
+    }
+    _parts = known;
+}
+
+void TileEntry::enter(osg::Node& tile, osgUtil::CullVisitor& visitor, CullTraversal& traversal) const {
+    Footprint::Notes notes(_footprint);
+    notes.add(&tile, kLinesOfTile);
+    if (!visitor.validNodeMask(tile)) return;
+    const bool isEntered = _isOwnMesh ? drawMesh(visitor, notes) : _paged && enterShownLevel(visitor, traversal, notes);
+    if (!isEntered) enterWithoutTest(tile, visitor);
+}
+
+// As osg::PagedLOD::traverse() where one child is shown and no file is asked for.
+bool TileEntry::enterShownLevel(osgUtil::CullVisitor& visitor, CullTraversal& traversal,
+                                Footprint::Notes& notes) const {
+    const osg::FrameStamp* const now = visitor.getFrameStamp();
+    const osg::LOD::RangeList& ranges = _paged->getRangeList();
+    if (!now || visitor.getTraversalMode() != osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN ||
+        _paged->getRangeMode() != osg::LOD::DISTANCE_FROM_EYE_POINT || _paged->getNumFileNames() == 0)
+        return false;
+    notes.add(OpenGroup::childrenOf(*_paged), 1);
+    notes.add(ranges.data(), 1);
+    notes.add(&_paged->getFileName(0), 3);
+    const float range = visitor.getDistanceToViewPoint(_paged->getCenter(), true);
+    std::optional<unsigned int> shown;
+    for (unsigned int i = 0; i < ranges.size(); ++i) {
+        if (!(ranges[i].first <= range && range < ranges[i].second)) continue;
+        if (shown || i >= _paged->getNumChildren()) return false;
+        shown = i;
+    }
+    if (!shown) return false;
+    _paged->setFrameNumberOfLastTraversal(now->getFrameNumber());
+    _paged->setTimeStamp(*shown, now->getReferenceTime());
+    _paged->setFrameNumber(*shown, now->getFrameNumber());
+    const StateScope state(visitor, _paged->getStateSet());
+    visitor.pushOntoNodePath(_paged);
+    osg::Node& child = *_paged->getChild(*shown);
+    const bool isDrawn = &child == _parts.front().node && drawMesh(visitor, notes);
+    if (!isDrawn && !TileFamily::enterFamilyOf(child, visitor, traversal, notes)) child.accept(visitor);
+    visitor.popFromNodePath();
+    return true;
+}
+
+bool TileEntry::drawMesh(osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const {
+    if (!_parts.front().node || !needsNoFrustumOfMesh(visitor) || !isMeshAsKnown(visitor, notes)) return false;
+    Delivery delivery(visitor);
+    if (_parts.front().kind == Kind::Terrain)
+        return delivery.draw(static_cast<osgTerrain::TerrainTile&>(*_parts.front().node), notes);
+    delivery.draw(_parts, 0);
+    return true;
+}
+
+bool TileEntry::isMeshAsKnown(const osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const {
+    for (std::size_t i = 0; i < _parts.size() && _parts[i].node; ++i) {
+        const Part& part = _parts[i];
+        const osg::Node& node = *part.node;
+        const bool isTile = i == 0 && _isOwnMesh;
+        if (!isTile) notes.add(&node, part.kind == Kind::Transform ? kLinesOfTransform : kLinesOfGeometry);
+        if (!isTile && !isPassive(node, visitor)) return false;
+        if (part.kind == Kind::Geometry) continue;
+        if (node.getCullingActive()) return false;
+        if (part.kind == Kind::Terrain) continue;
+        const osg::Group& group = static_cast<const osg::Group&>(node);
+        notes.add(OpenGroup::childrenOf(group), 1);
+        const bool isRelative =
+            part.kind != Kind::Transform ||
+            static_cast<const osg::MatrixTransform&>(node).getReferenceFrame() == osg::Transform::RELATIVE_RF;
+        if (group.getNumChildren() != part.children || !isRelative) return false;
+        for (std::size_t k = i + 1; k < _parts.size() && _parts[k].node; ++k) {
+            if (_parts[k].above == i && group.getChild(_parts[k].place) != _parts[k].node) return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace osgAnalyticBin

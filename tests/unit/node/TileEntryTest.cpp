@@ -1,0 +1,236 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// What is delivered of kept tiles. Oracle: OSG's own traversal of the same scene, by a visitor of a derived class.
+
+#include "DatabaseFixture.h"
+#include "PagedFlight.h"
+#include "PlanarMap.h"
+
+#include <osgAnalyticBin/InstallBins.h>
+
+#include <gtest/gtest.h>
+#include <osg/Depth>
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osg/PagedLOD>
+#include <osgUtil/CullVisitor>
+#include <osgUtil/UpdateVisitor>
+
+#include <functional>
+#include <support/Random.h>
+#include <support/TemporaryFolder.h>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+// Kept tiles are entered by OSG.
+struct OtherVisitor : osgUtil::CullVisitor {};
+
+// Returns: the number of leaves.
+std::size_t expectSameLeaves(osg::Node& scene, const CullView& view) {
+    const osg::ref_ptr<osgUtil::CullVisitor> plain = new osgUtil::CullVisitor;
+    const osg::ref_ptr<osgUtil::CullVisitor> other = new OtherVisitor;
+    const CullResult here = cull(scene, view, *plain), there = cull(scene, view, *other);
+    const std::vector<Leaf> leaves = leavesIn(*here.stage);
+    EXPECT_EQ(leaves.size(), leavesIn(*there.stage).size());
+    EXPECT_TRUE(leaves == leavesIn(*there.stage));
+    EXPECT_EQ(here.projection, there.projection);
+    return leaves.size();
+}
+
+void forEach(osg::Node& scene, const std::function<void(osg::Node&)>& action) {
+    struct All : osg::NodeVisitor {
+        explicit All(const std::function<void(osg::Node&)>& visit)
+            : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), action(visit) {
+            setNodeMaskOverride(~0u);
+        }
+        void apply(osg::Node& node) override {
+            nodes.emplace_back(&node);
+            traverse(node);
+        }
+        const std::function<void(osg::Node&)>& action;
+        std::vector<osg::ref_ptr<osg::Node>> nodes;
+    } all(action);
+    scene.accept(all);
+    for (const auto& node : all.nodes) action(*node);
+}
+
+class MapEntry : public testing::TestWithParam<bool> {
+protected:
+    MapEntry() {
+        map.isTerrain = GetParam();
+        root = map.build(folder.path());
+        std::string error;
+        installBins(*root, *cullOptionsFromText("index=off", error));
+        PagedFlight flight(*root);
+        const osg::Vec3d middle = map.origin + osg::Vec3d(0.5, 0.5, 0.0) * map.size;
+        EXPECT_TRUE(
+            flight.load(CullView::lookAt(middle + osg::Vec3d(0.0, 0.0, 4000.0), middle, {0.0, 1.0, 0.0}, 150.0)));
+    }
+
+    CullView randomView() {
+        const auto place = [&] {
+            return map.origin + osg::Vec3d(random.uniform(0.2, 0.8), random.uniform(0.2, 0.8), 0.0) * map.size;
+        };
+        CullView view = CullView::lookAt(place() + osg::Vec3d(0.0, 0.0, random.logUniform(3000.0, 30000.0)), place(),
+                                         {0.0, 0.1, 1.0}, random.uniform(10.0, 100.0));
+        view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
+        return view;
+    }
+
+    std::size_t expectSame(int views) {
+        std::size_t leaves = 0;
+        for (int i = 0; i < views; ++i) {
+            CullView view = randomView();
+            for (const auto mode : {osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR,
+                                    osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES,
+                                    osg::CullSettings::COMPUTE_NEAR_FAR_USING_PRIMITIVES}) {
+                view.computeNearFar = mode;
+                leaves += expectSameLeaves(*root, view);
+            }
+        }
+        return leaves;
+    }
+
+    TemporaryFolder folder;
+    PlanarMap map;
+    osg::ref_ptr<osg::Group> root;
+    Random random{20261125};
+};
+
+TEST_P(MapEntry, DeliversWhatOsgDelivers) {
+    EXPECT_GT(expectSame(100), 1000u);
+}
+
+TEST_P(MapEntry, DeliversStatesOfAllNodes) {
+    forEach(*root, [](osg::Node& node) {
+        node.getOrCreateStateSet()->setRenderBinDetails(static_cast<int>(node.className()[0]), "RenderBin");
+    });
+    EXPECT_GT(expectSame(30), 300u);
+}
+
+TEST_P(MapEntry, HeedsNodeMasks) {
+    forEach(*root, [this](osg::Node& node) {
+        if (!dynamic_cast<osg::CoordinateSystemNode*>(&node) && random.chance(0.1)) node.setNodeMask(0);
+    });
+    expectSame(30);
+}
+
+TEST_P(MapEntry, LeavesWhatTheApplicationChangesToOsg) {
+    struct LeaveOut : osg::NodeCallback {
+        void operator()(osg::Node*, osg::NodeVisitor*) override {}
+    };
+    forEach(*root, [this](osg::Node& node) {
+        if (random.chance(0.05)) node.setCullingActive(!node.getCullingActive());
+        auto* const transform = dynamic_cast<osg::MatrixTransform*>(&node);
+        if (transform && random.chance(0.1)) transform->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+        if (!node.asDrawable() && !node.getCullCallback() && random.chance(0.05)) node.setCullCallback(new LeaveOut);
+        if (node.asGeode() && random.chance(0.2)) node.asGeode()->addDrawable(new osg::Geometry);
+        if (transform && random.chance(0.1)) transform->preMult(osg::Matrix::rotate(0.3, 0.2, 1.0, 0.1));
+    });
+    expectSame(30);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, MapEntry, testing::Bool(),
+                         [](const auto& kind) { return kind.param ? "Terrain" : "Meshes"; });
+
+// Transforms that turn: the tiles of osgTerrain on a globe.
+TEST(TileEntry, DeliversWhatOsgDeliversOnAGlobe) {
+    const TemporaryFolder folder;
+    Random random(20261126);
+    osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
+    globe->setEllipsoidModel(new osg::EllipsoidModel);
+    for (double south = -90.0; south < 90.0; south += 30.0) {
+        for (double west = -180.0; west < 180.0; west += 30.0) {
+            const core::GeodeticBin extents = extentsDeg(south, south + 30.0, west, west + 30.0);
+            const osg::ref_ptr<osg::MatrixTransform> frame = new osg::MatrixTransform;
+            const osg::Matrixd turn = osg::Matrixd::rotate(random.uniform(0.0, 3.0), osg::Vec3d(1.0, 2.0, 3.0));
+            frame->setMatrix(turn);
+            const osg::ref_ptr<osg::MatrixTransform> back = new osg::MatrixTransform(osg::Matrixd::inverse(turn));
+            back->addChild(makeMeshTile(extents, 100.0));
+            frame->addChild(back);
+            globe->addChild(makePaged(random.chance(0.5) ? frame : makeMeshTile(extents, 100.0), "no.osgb"));
+        }
+    }
+    EXPECT_GT(installBins(*globe, {}), 0u);
+    std::size_t leaves = 0;
+    for (int i = 0; i < 100; ++i) {
+        const auto place = [&](double altitude) {
+            return ecefDeg(random.uniform(-89.0, 89.0), random.uniform(-180.0, 180.0), altitude);
+        };
+        CullView view = CullView::lookAt(place(random.logUniform(1e4, 3e7)), place(0.0), {0.1, 0.2, 1.0}, 60.0);
+        if (i % 2) view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
+        leaves += expectSameLeaves(*globe, view);
+    }
+    EXPECT_GT(leaves, 300u);
+}
+
+struct OneTile {
+    osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
+    const core::GeodeticBin extents = extentsDeg(0.0, 10.0, 0.0, 10.0);
+    const osg::ref_ptr<osg::MatrixTransform> mesh = makeMeshTile(extents, 100.0);
+    const CullView view = CullView::lookAt(ecefDeg(5.0, 5.0, 2e6), ecefDeg(5.0, 5.0, 0.0), {0.0, 0.0, 1.0}, 60.0);
+
+    OneTile() { globe->setEllipsoidModel(new osg::EllipsoidModel); }
+};
+
+TEST(TileEntry, LeavesMeshesThatHangInTwoPlacesToOsg) {
+    OneTile scene;
+    osg::Node& geode = *scene.mesh->getChild(0);
+    const osg::ref_ptr<osg::Node> geometry = geode.asGroup()->getChild(0);
+    const osg::ref_ptr<osg::Group> dark = new osg::Group;
+    dark->getOrCreateStateSet()->setAttributeAndModes(new osg::Depth);
+    dark->addChild(geometry);
+    scene.mesh->replaceChild(&geode, dark);
+    scene.mesh->addChild(geometry);
+    scene.globe->addChild(makePaged(scene.mesh, "no.osgb"));
+    EXPECT_GT(installBins(*scene.globe, {}), 0u);
+    EXPECT_EQ(expectSameLeaves(*scene.globe, scene.view), 2u);
+}
+
+TEST(TileEntry, GoesOnWhereTheApplicationEmptiesAFile) {
+    OneTile scene;
+    const osg::ref_ptr<osg::PagedLOD> paged = makePaged(scene.mesh, "finer.osgb", 1e7f);
+    const osg::ref_ptr<osg::Group> file = new osg::Group;
+    for (const double west : {0.0, 5.0}) {
+        for (const double south : {0.0, 5.0})
+            file->addChild(makeMeshTile(extentsDeg(south, south + 5.0, west, west + 5.0), 100.0));
+    }
+    putBelow(*paged, file);
+    scene.globe->addChild(paged);
+    EXPECT_GT(installBins(*scene.globe, {}), 0u);
+    EXPECT_EQ(expectSameLeaves(*scene.globe, scene.view), 4u);
+    const osg::ref_ptr<osgUtil::UpdateVisitor> update = new osgUtil::UpdateVisitor;
+    file->removeChildren(0, file->getNumChildren());
+    for (unsigned int frame = 2; frame < 5; ++frame) {
+        EXPECT_EQ(expectSameLeaves(*scene.globe, scene.view), 0u);
+        update->setTraversalNumber(frame);
+        scene.globe->accept(*update);
+    }
+}
+
+TEST(TileEntry, MovesPlanesByWholeMatrices) {
+    OneTile scene;
+    scene.globe->addChild(makePaged(scene.mesh, "no.osgb"));
+    EXPECT_GT(installBins(*scene.globe, {}), 0u);
+    osg::Matrixd matrix = scene.mesh->getMatrix();
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column) matrix(row, column) *= 0.5;  // the same place, written otherwise
+    }
+    scene.mesh->setMatrix(matrix);
+    const osg::ref_ptr<osgUtil::UpdateVisitor> update = new osgUtil::UpdateVisitor;
+    Random random(3);
+    for (unsigned int frame = 2; frame < 40; ++frame) {
+        update->setTraversalNumber(frame);
+        scene.globe->accept(*update);
+        const osg::Vec3d at = ecefDeg(random.uniform(-2.0, 12.0), random.uniform(-2.0, 12.0), 0.0);
+        const CullView view = CullView::lookAt(ecefDeg(5.0, 5.0, 1e6), at, {0.0, 0.0, 1.0}, 10.0);
+        (void)expectSameLeaves(*scene.globe, view);
+    }
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
