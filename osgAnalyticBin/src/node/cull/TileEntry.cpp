@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <optional>
 
 namespace osgAnalyticBin {
@@ -112,7 +113,7 @@ bool isOutside(const osg::BoundingBox& box, const osg::Plane& plane, const osg::
 // Delivers drawables in the frame of the visitor, or of one transform in it.
 class TileEntry::Delivery {
 public:
-    explicit Delivery(osgUtil::CullVisitor& visitor) : _visitor(visitor) {}
+    Delivery(osgUtil::CullVisitor& visitor, const BoundedMesh& bounded) : _visitor(visitor), _bounded(bounded) {}
 
     void draw(const std::array<Part, kMostParts>& parts, std::size_t number) {
         osg::Node& node = *parts[number].node;
@@ -150,6 +151,7 @@ public:
         if (!isWhole || !isRelative || !isExactly<osg::Geometry>(geometry) || !isPassive(transform, _visitor) ||
             !isPassive(geode, _visitor) || !isPassive(geometry, _visitor))
             return false;
+        _bounded.computeBoundOf(transform);
         if (transform.isCullingActive() && isSmall(_visitor.getCurrentCullingSet(), transform.getBound())) return true;
         const StateScope ofTile(_visitor, tile.getStateSet()), ofTransform(_visitor, transform.getStateSet()),
             ofGeode(_visitor, geode.getStateSet());
@@ -206,9 +208,18 @@ private:
     }
 
     osgUtil::CullVisitor& _visitor;
+    const BoundedMesh& _bounded;
     osg::RefMatrix* _matrix = _visitor.getModelViewMatrix();
     const osg::Matrix* _frame = nullptr;  // to the visitor's
 };
+
+void TileEntry::BoundedMesh::computeBoundOf(const osg::Node& mesh) const {
+    if (_mesh.load(std::memory_order_acquire) == &mesh) return;
+    static std::mutex mutex;
+    const std::lock_guard<std::mutex> lock(mutex);
+    mesh.getBound();
+    _mesh.store(&mesh, std::memory_order_release);
+}
 
 TileEntry::Kind TileEntry::kindOf(const osg::Node& node) {
     if (isExactly<osg::Group>(node) || isExactly<osg::Geode>(node) || isExactly<Carrier>(node)) return Kind::Group;
@@ -231,6 +242,7 @@ TileEntry::TileEntry(osg::Node& tile, const MeshParts& parts)
         transforms += part.kind == Kind::Transform ? 1 : 0;
         const bool isTerrainBelow = part.kind == Kind::Terrain && i > 0;
         if (part.kind == Kind::Unknown || isTerrainBelow || transforms > 1) return;
+        if (part.kind == Kind::Geometry) part.node->getBound();  // now, not in several cull threads at once
         if (part.kind == Kind::Group || part.kind == Kind::Transform)
             part.children = static_cast<unsigned char>(part.node->asGroup()->getNumChildren());
         for (std::size_t above = 0; above < i; ++above) {
@@ -284,7 +296,7 @@ bool TileEntry::enterShownLevel(osgUtil::CullVisitor& visitor, CullTraversal& tr
 
 bool TileEntry::drawMesh(osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const {
     if (!_parts.front().node || !needsNoFrustumOfMesh(visitor) || !isMeshAsKnown(visitor, notes)) return false;
-    Delivery delivery(visitor);
+    Delivery delivery(visitor, _bounded);
     if (_parts.front().kind == Kind::Terrain)
         return delivery.draw(static_cast<osgTerrain::TerrainTile&>(*_parts.front().node), notes);
     delivery.draw(_parts, 0);

@@ -11,6 +11,7 @@
 #include <osgUtil/CullVisitor>
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 
 namespace osgAnalyticBin {
@@ -52,6 +53,18 @@ private:
         unsigned char place = 0;     // among that one's children
         unsigned char children = 0;  // of a group or transform
     };
+    /// The mesh whose bound is known to be computed. osgTerrain makes meshes in the update traversal, and OSG computes
+    /// their bounds in all cull threads at once: one may read what another is writing.
+    class BoundedMesh {
+    public:
+        BoundedMesh() = default;
+        BoundedMesh(const BoundedMesh&) {}
+        BoundedMesh& operator=(const BoundedMesh&) { return *this; }
+        void computeBoundOf(const osg::Node& mesh) const;
+
+    private:
+        mutable std::atomic<const osg::Node*> _mesh{nullptr};
+    };
     class Delivery;
 
     [[nodiscard]] static Kind kindOf(const osg::Node& node);
@@ -65,6 +78,7 @@ private:
     bool _isOwnMesh = false;                // the first part is the tile
     std::array<Part, kMostParts> _parts{};  // no nodes: the mesh is not known
     Footprint _footprint;
+    BoundedMesh _bounded;
 };
 
 }  // namespace osgAnalyticBin
