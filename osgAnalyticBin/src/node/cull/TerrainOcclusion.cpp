@@ -113,7 +113,6 @@ OccludedTiles noteIn(TilePlan& plan, const FoundOcclusion& found, const Emerging
         ++tiles.hidden;
         plan.addOccluded(tile, emerging.contains(*tile.tile));
     }
-    plan.endOccluded();
     return tiles;
 }
 
