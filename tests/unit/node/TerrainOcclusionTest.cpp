@@ -3,6 +3,7 @@
 //
 // Tiles behind a ridge. Pictures and random scenes: tests/long/scenes. What the core proves: HorizonBufferTest.cpp.
 
+#include "../../../osgAnalyticBin/src/node/cull/OcclusionSearch.h"
 #include "ApplicationGlobe.h"
 #include "CullFixture.h"
 
@@ -16,7 +17,9 @@
 #include <osg/PolygonMode>
 #include <osgUtil/UpdateVisitor>
 
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <support/CapturedNotes.h>
 #include <support/Random.h>
 #include <vector>
@@ -224,6 +227,86 @@ TEST(TerrainOcclusion, HidesNothingMoreWhereTheCameraTurns) {
         }
     }
     EXPECT_GT(hidden, 50);
+}
+
+// A search takes longer than all other culling.
+TEST(TerrainOcclusion, ServesManyViewsOfAStraightFlight) {
+    for (const double altitude : {200.0, 1000.0, 1717.0}) {
+        RidgeGlobe globe;
+        installBins(*globe.root, withOcclusion());
+        const BinStatistics& statistics = BinStatistics::of(*globe.visitor);
+        std::shared_ptr<const CoveredPicture> last;
+        int searches = 0;
+        for (int i = 0; i < 200; ++i) {
+            const double east = 0.1 + 1e-5 * i;
+            (void)globe.drawsFarTile(
+                CullView::lookAt(ecefDeg(0.1, east, altitude), ecefDeg(0.1, east + 0.9, altitude), {1, 0, 0}, 30.0));
+            searches += statistics.covered() != last ? 1 : 0;
+            last = statistics.covered();
+        }
+        EXPECT_LE(searches, 10) << altitude;
+    }
+}
+
+// Compares a flight over tiles that leave the view one after the other with a new search for each view.
+TEST(TerrainOcclusion, HidesNothingMoreWhereTilesLeaveTheView) {
+    RidgeGlobe globe(8000.0, 5);
+    installBins(*globe.root, withOcclusion());
+    int hidden = 0;
+    for (int i = 0; i < 400; ++i) {
+        const double east = 0.05 + 7e-4 * i, altitude = 1000.0 + 5.0 * i;
+        const CullView view =
+            CullView::lookAt(ecefDeg(0.1, east, altitude), ecefDeg(0.1, east + 0.9, altitude), {1, 0, 0}, 30.0);
+        const bool isDrawn = globe.drawsFarTile(view);
+        if (i % 8 != 0) continue;
+        RidgeGlobe alone(8000.0, 5);
+        installBins(*alone.root, withOcclusion());
+        const bool isDrawnAlone = alone.drawsFarTile(view);
+        hidden += isDrawnAlone ? 0 : 1;
+        EXPECT_TRUE(isDrawn || !isDrawnAlone) << "view " << i;
+    }
+    EXPECT_GT(hidden, 20);
+}
+
+TEST(TerrainOcclusion, OutlastsOnlyTilesThatHidNothingOrAreOutOfView) {
+    using Finding = FoundOcclusion::Finding;
+    const core::Ellipsoid ellipsoid(6378137.0, 6356752.3142);
+    // the half-space north of the equator
+    core::PlaneSet view;
+    view.push_back({{0.0, 0.0, 1.0}, 0.0});
+    std::uint64_t plates = 0;
+    const auto tile = [&](double south, double north, double margin = 0.0) {
+        return FoundOcclusion::Tile{nullptr, nullptr, true, ++plates, extentsDeg(south, north, 1, 2),
+                                    margin,  0.0,     10.0};
+    };
+    FoundOcclusion first;
+    first.tiles = {tile(1, 2), tile(2, 3), tile(-3, -2), tile(3, 4)};
+    first.findings = {Finding::Seen, Finding::Hidden, Finding::Seen, Finding::Seen};
+    const auto isLeftOut = [&](const std::vector<std::size_t>& shown, const FoundOcclusion& from) {
+        FoundOcclusion found = from;
+        for (const std::size_t i : shown) found.shown.push_back(found.tiles[i]);
+        found.leaveOut(view, ellipsoid);
+        EXPECT_EQ(found.tiles.size(), found.findings.size());
+        for (std::size_t i = 0; found.tiles == found.shown && i < shown.size(); ++i)
+            EXPECT_EQ(found.findings[i], from.findings[shown[i]]);
+        return found.tiles == found.shown;
+    };
+    EXPECT_TRUE(isLeftOut({0, 2, 3}, first));
+    EXPECT_TRUE(isLeftOut({0, 1, 3}, first));
+    EXPECT_TRUE(isLeftOut({0, 3}, first));
+    EXPECT_FALSE(isLeftOut({1, 2, 3}, first));
+    EXPECT_FALSE(isLeftOut({0, 1, 2}, first));
+    // another one has come
+    FoundOcclusion changed = first;
+    changed.shown = {changed.tiles[0], tile(2, 3), changed.tiles[3]};
+    changed.leaveOut(view, ellipsoid);
+    EXPECT_EQ(changed.tiles, first.tiles);
+    // what may reach into the view by its margin, or by the bulge of its sides
+    for (const auto& near : {tile(-1, -0.001, 200.0), tile(-1, 1e-4)}) {
+        FoundOcclusion reaching = first;
+        reaching.tiles[2] = near;
+        EXPECT_FALSE(isLeftOut({0, 1, 3}, reaching));
+    }
 }
 
 // Notes with which priority the files of a tile are requested.

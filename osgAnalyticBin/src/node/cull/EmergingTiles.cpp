@@ -16,7 +16,7 @@
 namespace osgAnalyticBin {
 
 void EmergingTiles::look(const ShownDatabase& database, const LevelView& view, const glm::dvec3& eye,
-                         const FoundOcclusion& now) {
+                         const FoundOcclusion& now, bool isBusy) {
     constexpr double kAhead = 1.0;      // seconds
     constexpr double kPeriod = 0.25;    // seconds
     constexpr double kLongFrame = 0.5;  // seconds: no motion is seen in it
@@ -25,7 +25,7 @@ void EmergingTiles::look(const ShownDatabase& database, const LevelView& view, c
     const double time = stamp->getReferenceTime();
     const double seconds = time - std::exchange(_time, time);
     const glm::dvec3 step = eye - std::exchange(_eye, eye);
-    if (time - _lastLook < kPeriod && time >= _lastLook) return;
+    if (time - _lastLook < (isBusy ? 2.0 : 1.0) * kPeriod && time >= _lastLook) return;
     for (auto tile = _tiles.begin(); tile != _tiles.end();)
         tile = time >= tile->second && time - tile->second < kAhead ? std::next(tile) : _tiles.erase(tile);
     // an eye that stands still is rounded anew where the camera turns
@@ -41,7 +41,6 @@ void EmergingTiles::look(const ShownDatabase& database, const LevelView& view, c
     const auto span = PictureSpan::of(view, then.eye);
     if (!span) return;
     then.span = *span;
-    then.nearReach = now.nearReach;
     if (!findOccluded(database, then)) return;
     for (std::size_t i = 0; i < now.findings.size(); ++i) {
         const bool isEmerging =

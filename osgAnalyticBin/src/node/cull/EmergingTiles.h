@@ -16,10 +16,12 @@ namespace osgAnalyticBin {
 /// files are requested before they are seen.
 class EmergingTiles {
 public:
-    /// Looks ahead eight times a second, from where the eye will be in half a second and in one second in turn. Times
+    /// Looks ahead four times a second, from where the eye will be in half a second and in one second in turn. Times
     /// are those of the visitor's frame stamp. An eye that stands still or jumps has nothing ahead. `now`: what terrain
-    /// hides in this view. Cost: that of findOccluded() at each of these times.
-    void look(const ShownDatabase& database, const LevelView& view, const glm::dvec3& eye, const FoundOcclusion& now);
+    /// hides in this view. `isBusy`: it was looked for in this view, so that looking ahead had better wait for another
+    /// one. Cost: that of findOccluded() at each of these times.
+    void look(const ShownDatabase& database, const LevelView& view, const glm::dvec3& eye, const FoundOcclusion& now,
+              bool isBusy);
 
     /// Whether the tile was found in the last second.
     [[nodiscard]] bool contains(const AnalyticBinCullCallback& tile) const { return _tiles.count(&tile) != 0; }

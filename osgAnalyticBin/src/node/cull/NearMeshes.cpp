@@ -52,7 +52,7 @@ const core::EcefMesh* NearMeshes::trianglesNear(const AnalyticBinCullCallback& t
     // half of the room is for the eye's motion, the other half for its vertical, which turns as it moves
     const double room = 0.5 * (known->radius - radius);
     if (glm::distance(eye.origin, known->eye) <= room) return &known->near;
-    constexpr double kWider = 16.0;
+    constexpr double kWider = 4.0;
     known->eye = eye.origin;
     known->radius = kWider * radius;
     known->near = {};

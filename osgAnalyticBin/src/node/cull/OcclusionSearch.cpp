@@ -65,17 +65,21 @@ public:
             if (!add(tile)) return false;
         }
         std::sort(_order.begin(), _order.end());
-        const double nearReach = 1.01 * _found.nearReach;
-        const std::optional<double> highest = highestWithin(nearReach);
-        if (!highest || !(*highest < 0.0)) return false;
-        _buffer.setLowest(*highest / nearReach);
+        double clearance = HUGE_VAL;
+        if (_found.nearReach > 0.0) {
+            const double nearReach = 1.01 * _found.nearReach;
+            const std::optional<double> highest = highestWithin(nearReach);
+            if (!highest || !(*highest < 0.0)) return false;
+            clearance = -*highest;
+            _buffer.setLowest(*highest / nearReach);
+        }
         for (const auto& [nearest, number] : _order) {
             const Quarter& quarter = _quarters[number];
             if (_buffer.hides(quarter.outline)) continue;
             addEarth(quarter);
             _candidates[quarter.candidate].isHidden = false;
         }
-        _found.lastClearance = std::min(-*highest, _buffer.nearestEarth());
+        _found.lastClearance = std::min(clearance, _buffer.nearestEarth());
         _found.covered = covered();
         _found.findings.clear();
         for (const Candidate& candidate : _candidates) {
@@ -240,6 +244,41 @@ bool FoundOcclusion::Tile::operator==(const Tile& other) const {
     return std::tie(tile, mesh, isSure, plates, margin, low, high) ==
                std::tie(other.tile, other.mesh, other.isSure, other.plates, other.margin, other.low, other.high) &&
            bin == other.bin;
+}
+
+namespace {
+
+bool isOutOfView(const FoundOcclusion::Tile& tile, const core::PlaneSet& view, const core::Ellipsoid& ellipsoid) {
+    constexpr double kRoom = 1.0;  // metres, more than rounding
+    const GeodeticBin drawn = tile.bin.withAltitude({tile.low, tile.high});
+    const auto quarters = core::BinBody(ellipsoid, drawn, tile.margin, core::Frame()).quarters();
+    return std::all_of(quarters.begin(), quarters.end(), [&](const BinHull& hull) {
+        for (std::size_t i = 0; i < view.size(); ++i) {
+            double highest = -HUGE_VAL;
+            for (std::size_t k = 0; k < hull.x.size(); ++k)
+                highest = std::max(highest, view[i].distance(hull.corner(k)));
+            if (highest < -(hull.reach + kRoom)) return true;
+        }
+        return false;
+    });
+}
+
+}  // namespace
+
+void FoundOcclusion::leaveOut(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid) {
+    if (tiles.size() <= shown.size() || findings.size() != tiles.size()) return;
+    std::vector<std::size_t> left;
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        if (left.size() < shown.size() && tiles[i] == shown[left.size()]) {
+            left.push_back(i);
+        } else if (findings[i] == Finding::Seen && !isOutOfView(tiles[i], view, ellipsoid)) {
+            return;
+        }
+    }
+    if (left.size() != shown.size()) return;
+    for (std::size_t i = 0; i < left.size(); ++i) findings[i] = findings[left[i]];
+    findings.resize(left.size());
+    tiles = shown;
 }
 
 void FoundOcclusion::aimAlong(const core::Frame& from, const glm::dvec3& step) {

@@ -7,8 +7,10 @@
 #include "ShownDepth.h"
 
 #include <osgAnalyticBin/CoveredPicture.h>
+#include <osgAnalyticBin/Export.h>
 #include <osgAnalyticBin/core/Frame.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
 
 #include <glm/vec3.hpp>
 
@@ -30,16 +32,17 @@ struct FoundOcclusion {
         std::uint64_t plates;  ///< their number
         core::GeodeticBin bin;
         double margin, low, high;
-        [[nodiscard]] bool operator==(const Tile& other) const;
+        [[nodiscard]] OSGANALYTICBIN_EXPORT bool operator==(const Tile& other) const;
     };
     enum class Finding : std::uint8_t { Beside, Seen, Hidden };
 
     std::vector<Tile> tiles;        ///< all that were shown
+    std::vector<Tile> shown;        ///< all that this view shows; kept, because allocating takes long
     std::vector<Finding> findings;  ///< of the tiles
     core::Frame eye{};              ///< the place, and the axes of the picture
     glm::dvec3 eyes{0.0};           ///< metres that eyes may be away from the place, along each axis of the picture
     PictureSpan span{};             ///< of the picture
-    double nearReach = 0.0;         ///< metres that near planes reach at most
+    double nearReach = 0.0;         ///< metres that near planes reach at most; 0: they do not count
     std::optional<core::GeodeticBin> region;
     std::shared_ptr<const CoveredPicture> covered;
     int uses = 0;  ///< views since then
@@ -53,6 +56,10 @@ struct FoundOcclusion {
 
     /// Aims at the views of an eye that goes on with this step from view to view, from `from` on.
     void aimAlong(const core::Frame& from, const glm::dvec3& step);
+
+    /// Leaves tiles out that are shown no more, where what was found holds without them: such as hid nothing, and such
+    /// as are out of view. Source: doc/theory/occlusion.md, section 5.
+    OSGANALYTICBIN_EXPORT void leaveOut(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid);
 
     /// Whether this is one of the eyes.
     [[nodiscard]] bool holds(const glm::dvec3& place) const;

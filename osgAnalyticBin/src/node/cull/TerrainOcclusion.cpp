@@ -36,7 +36,7 @@ enum class Ground {
 // Notes the tiles that are shown.
 Ground describe(const ShownDatabase& database, std::vector<FoundOcclusion::Tile>& tiles) {
     osg::CullingSet& cullingSet = database.cullStack.getCurrentCullingSet();
-    tiles.reserve(database.view.plan->shown().size());
+    tiles.clear();
     Ground ground = Ground::Known;
     for (const TilePlan::ShownTile& shown : database.view.plan->shown()) {
         const AnalyticBinCullCallback& tile = *shown.tile;
@@ -72,13 +72,13 @@ bool isWithin(const core::Interval& inner, const core::Interval& outer) {
 }
 
 // Whether what was found holds for a view of these tiles.
-bool serves(FoundOcclusion& found, const std::vector<FoundOcclusion::Tile>& tiles, const ShownDatabase& database,
-            const glm::dvec3& eye, const std::optional<PictureSpan>& span, double nearReach) {
+bool serves(FoundOcclusion& found, const ShownDatabase& database, const glm::dvec3& eye,
+            const std::optional<PictureSpan>& span, double nearReach) {
     // meshes around the eye may change
     constexpr int kMostUses = 64;
     return found.uses++ < kMostUses && found.holds(eye) && span && isWithin(span->across, found.span.across) &&
            span->drawing <= found.span.drawing && span->depthStep <= found.span.depthStep &&
-           nearReach <= found.nearReach && found.region == regionOf(database) && found.tiles == tiles;
+           nearReach <= found.nearReach && found.region == regionOf(database) && found.tiles == found.shown;
 }
 
 // Prepares a search that serves as many of the next views as it can, if the camera goes on as it does.
@@ -113,7 +113,6 @@ OccludedTiles noteIn(TilePlan& plan, const FoundOcclusion& found, const Emerging
         ++tiles.hidden;
         plan.addOccluded(tile, emerging.contains(*tile.tile));
     }
-    plan.endOccluded();
     return tiles;
 }
 
@@ -131,16 +130,18 @@ OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& 
     if (!view) return {};
     if (!kept) kept = std::make_shared<FoundOcclusion>();
     FoundOcclusion& found = *kept;
-    std::vector<FoundOcclusion::Tile> tiles;
-    const Ground ground = describe(database, tiles);
+    const Ground ground = describe(database, found.shown);
     if (ground != Ground::Known) return {0, 0, ground == Ground::Awaited};
     const auto spanThen = PictureSpan::of(*view, found.eye);
-    if (!serves(found, tiles, database, eye, spanThen, viewpoint.nearReach())) {
+    found.leaveOut(database.view.planes, database.view.ellipsoid);
+    const bool isServed = serves(found, database, eye, spanThen, viewpoint.nearReach());
+    if (!isServed) {
         const auto span = PictureSpan::of(*view, view->frameAt(eye));
         if (!span) return {};
         aim(found, *view, eye, *span, spanThen);
-        found.tiles = std::move(tiles);
-        found.nearReach = viewpoint.nearReach();
+        found.tiles = found.shown;
+        // it is rounded anew in each view
+        found.nearReach = 1.001 * viewpoint.nearReach();
         found.region = regionOf(database);
         if (!findOccluded(database, found)) {
             kept = nullptr;
@@ -152,7 +153,7 @@ OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& 
         .setCovered(found.covered, static_cast<unsigned int>(database.visitor.getTraversalNumber()));
     found.lastEye = eye;
     found.lastAcross = PictureSpan::of(*view, found.eye).value_or(found.span).across;
-    emerging.look(database, *view, eye, found);
+    emerging.look(database, *view, eye, found, !isServed);
     return noteIn(*database.view.plan, found, emerging);
 }
 

@@ -41,21 +41,24 @@ void TilePlan::addOccluded(const ShownTile& tile, bool isEmerging) {
         _entries[tile.result].occluded |= std::uint64_t{1} << tile.slot;
         _entries[tile.result].emerging |= std::uint64_t{isEmerging} << tile.slot;
     }
-    _occluded.push_back(tile.tile);
-    if (isEmerging) _emerging.push_back(tile.tile);
+    _occluded.add(tile.tile);
+    if (isEmerging) _emerging.add(tile.tile);
 }
 
-void TilePlan::endOccluded() {
-    std::sort(_occluded.begin(), _occluded.end(), std::less<>());
-    std::sort(_emerging.begin(), _emerging.end(), std::less<>());
+void TilePlan::Tiles::clear() {
+    _tiles.clear();
+    _isSorted = true;
 }
 
-bool TilePlan::isOccluded(const AnalyticBinCullCallback& tile) const {
-    return std::binary_search(_occluded.begin(), _occluded.end(), &tile, std::less<>());
+void TilePlan::Tiles::add(const AnalyticBinCullCallback* tile) {
+    _tiles.push_back(tile);
+    _isSorted = false;
 }
 
-bool TilePlan::isEmerging(const AnalyticBinCullCallback& tile) const {
-    return std::binary_search(_emerging.begin(), _emerging.end(), &tile, std::less<>());
+bool TilePlan::Tiles::contains(const AnalyticBinCullCallback& tile) {
+    if (!_isSorted) std::sort(_tiles.begin(), _tiles.end(), std::less<>());
+    _isSorted = true;
+    return std::binary_search(_tiles.begin(), _tiles.end(), &tile, std::less<>());
 }
 
 bool TilePlan::find(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
