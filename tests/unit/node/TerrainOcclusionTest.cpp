@@ -11,6 +11,7 @@
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
+#include <osg/Depth>
 #include <osg/Geode>
 #include <osg/Geometry>
 #include <osg/PolygonMode>
@@ -333,6 +334,18 @@ TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
                            osg::Matrixd::translate(0, 0, 0.5);
     EXPECT_TRUE(globe.drawsFarTile(zeroToOne));
     EXPECT_FALSE(globe.drawsFarTile());
+}
+
+// A hundredth of the depth buffer's range has as many steps as the whole with the near plane a hundred times as near.
+TEST(TerrainOcclusion, NeedsARangeOfDepthsThatTellsRidgeAndTileApart) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    CullView view = RidgeGlobe::alongRow();
+    view.projection = osg::Matrixd::perspective(30.0, 1.0, 1.0, 1e8);
+    EXPECT_FALSE(globe.drawsFarTile(view));
+    view.states = new osg::StateSet;
+    view.states->setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.99, 1.0));
+    EXPECT_TRUE(globe.drawsFarTile(view));
 }
 
 TEST(TerrainOcclusion, NeedsMeshesOfTrianglesWithoutHoles) {
