@@ -130,7 +130,20 @@ TEST(TerrainOcclusion, NeedsARidgeThatIsDrawnAsItWas) {
         vertices.dirty();
         geometry.dirtyBound();
     };
-    const std::vector<std::function<void(RidgeGlobe&)>> ways{mask, remove, outline, flatten, lower, lowerVertices};
+    const auto giveTriangles = [](RidgeGlobe& globe) {
+        osg::Geometry& geometry = *drawableOf(*globe.row[2])->asGeometry();
+        const auto& all = static_cast<const osg::DrawElementsUInt&>(*geometry.getPrimitiveSet(0));
+        geometry.setPrimitiveSet(0, new osg::DrawElementsUInt(GL_TRIANGLES, all.begin() + 186, all.end()));
+    };
+    const auto cutTriangles = [](RidgeGlobe& globe) {
+        osg::Geometry& geometry = *drawableOf(*globe.row[2])->asGeometry();
+        auto& triangles = static_cast<osg::DrawElementsUInt&>(*geometry.getPrimitiveSet(0));
+        triangles.erase(triangles.begin() + 90, triangles.begin() + 186);
+        triangles.dirty();
+        geometry.dirtyBound();
+    };
+    const std::vector<std::function<void(RidgeGlobe&)>> ways{mask,  remove,        outline,       flatten,
+                                                             lower, lowerVertices, giveTriangles, cutTriangles};
     for (std::size_t i = 0; i < ways.size(); ++i) {
         RidgeGlobe globe;
         installBins(*globe.root, withOcclusion());

@@ -95,7 +95,13 @@ std::uint64_t boundsOf(const osg::Node& mesh) {
         mix(hash, reinterpret_cast<std::uintptr_t>(vertices));
         mix(hash, std::uint64_t{vertices->getNumElements()});
         mix(hash, std::uint64_t{vertices->getModifiedCount()});
-        mix(hash, std::uint64_t{geometry->getNumPrimitiveSets()});
+        for (const auto& primitives : geometry->getPrimitiveSetList()) {
+            mix(hash, reinterpret_cast<std::uintptr_t>(primitives.get()));
+            if (!primitives) continue;
+            mix(hash, std::uint64_t{primitives->getMode()});
+            mix(hash, std::uint64_t{primitives->getNumIndices()});
+            mix(hash, std::uint64_t{primitives->getModifiedCount()});
+        }
     });
     return hash | 1;
 }
