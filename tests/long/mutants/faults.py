@@ -183,6 +183,12 @@ FAULTS = [
     # what applications do with a database
     Fault("copies of callbacks cull", "src/node/install/InstalledTile.h", "return node == _culled;", "return true;", NODE,
           "Clones.*"),
+    Fault("osgTerrain tiles keep their heights", "src/node/install/ContentWatch.cpp",
+          "mix(hash, surfaceFingerprint(const_cast<osg::Node&>(part), osg::Matrixd()));", "", NODE, "OccludingTerrainTiles.*"),
+    Fault("the horizon keeps the altitudes of meshes that change", "src/node/cull/ShownDepth.cpp",
+          "if (installed && installed->isMeshChanged()) return", "if (installed && false) return", NODE, "OccludingTerrainTiles.*"),
+    Fault("ranges of depths do not count", "src/node/cull/TerrainOcclusion.cpp",
+          "view->depthStep /= depthRangeOfState(database.visitor);", "", NODE, "TerrainOcclusion.*"),
     Fault("new content does not keep tiles visible", "src/node/install/ContentWatch.cpp", "tile->keepVisible(true);\n        if",
           "if", NODE, "AddedContent.*"),
     Fault("bins do not grow", "src/node/install/ContentWatch.cpp",

@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include <core/kernels/OcclusionKernels.h>
 #include <core/kernels/PlaneKernels.h>
 #ifdef OSGANALYTICBIN_SIMD
 #include <hwy/highway.h>
@@ -200,6 +201,14 @@ TEST(PlaneSet, NothingIsInsideOfMorePlanesThanItHolds) {
     };
     EXPECT_DEBUG_DEATH(overflow(around), "kMaxPlanes");
     EXPECT_DEBUG_DEATH(overflow(away), "kMaxPlanes");
+}
+
+// Objects of applications may ask before the vectors are chosen.
+const bool kHasKernelsAtStart =
+    core::kernels::activeKernels.bin != nullptr && core::kernels::activeOcclusion.walls != nullptr;
+
+TEST(PlaneKernels, AreThereBeforeAllElse) {
+    EXPECT_TRUE(kHasKernelsAtStart);
 }
 
 #ifdef OSGANALYTICBIN_SIMD

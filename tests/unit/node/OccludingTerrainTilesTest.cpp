@@ -13,6 +13,8 @@
 
 #include <gtest/gtest.h>
 #include <osg/Geometry>
+#include <osg/PagedLOD>
+#include <osg/Shape>
 #include <osgTerrain/GeometryTechnique>
 #include <osgTerrain/Layer>
 #include <osgTerrain/Terrain>
@@ -208,6 +210,79 @@ TEST(OccludingTerrainTiles, HideNothingWhereTheNearPlaneCutsThemAway) {
     EXPECT_FALSE(globe.drawsFarTile(500.0));
     EXPECT_TRUE(globe.drawsFarTile(6000.0));
     EXPECT_TRUE(globe.drawsFarTile(60000.0));
+}
+
+void setHeights(TerrainTile& tile, float height) {
+    osg::HeightField& field = *static_cast<osgTerrain::HeightFieldLayer&>(*tile.getElevationLayer()).getHeightField();
+    for (unsigned int i = 0; i < field.getNumColumns() * field.getNumRows(); ++i)
+        field.setHeight(i % field.getNumColumns(), i / field.getNumColumns(), height);
+}
+
+// A tile alone, and one below a PagedLOD, as databases have it.
+void pageTile(TerrainGlobe& globe, std::size_t i) {
+    const osg::ref_ptr<osg::PagedLOD> paged = makePaged(globe.row[i], "no.osgb");
+    globe.terrain->replaceChild(globe.row[i], paged);
+}
+
+TEST(OccludingTerrainTiles, NeedHeightsThatAreAsTheyWere) {
+    using Change = std::function<void(TerrainTile&)>;
+    const std::vector<Change> changes{
+        [](TerrainTile& tile) { setHeights(tile, 0.0f); },
+        [](TerrainTile& tile) { tile.setElevationLayer(makePlain(0.0, 0.2, 0.4, 0.6, 9)->getElevationLayer()); },
+    };
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        for (const bool isPaged : {false, true}) {
+            TerrainGlobe globe;
+            if (isPaged) pageTile(globe, 2);
+            installBins(*globe.terrain, withOcclusion(OcclusionUse::On));
+            EXPECT_FALSE(globe.drawsFarTile());
+            changes[i](*globe.row[2]);
+            globe.row[2]->setDirty(true);
+            globe.row[2]->dirtyBound();
+            for (int frame = 0; frame < 3; ++frame) EXPECT_TRUE(globe.drawsFarTile()) << i << isPaged << frame;
+        }
+    }
+}
+
+TEST(OccludingTerrainTiles, AreDrawnWhereTheyHaveRisenOutOfTheirBins) {
+    const CullView view = CullView::lookAt(ecefDeg(0.1, 0.1, 6000.0), ecefDeg(0.1, 2.0, 8000.0), {1, 0, 0}, 2.0);
+    for (const bool isPaged : {false, true}) {
+        for (const float scale : {1.0f, 0.5f}) {
+            TerrainGlobe globe;
+            if (isPaged) pageTile(globe, 8);
+            globe.terrain->setVerticalScale(scale);
+            installBins(*globe.terrain, withOcclusion(OcclusionUse::Off));
+            const auto isDrawn = [&] {
+                update(*globe.terrain);
+                const CullResult result = cull(*globe.terrain, view, *globe.visitor, ++globe.frame);
+                return result.drawn.count(globe.drawable(*globe.row[8])) > 0;
+            };
+            EXPECT_FALSE(isDrawn());
+            setHeights(*globe.row[8], 8000.0f / scale);
+            globe.row[8]->setDirty(true);
+            globe.row[8]->dirtyBound();
+            for (int frame = 0; frame < 3; ++frame) EXPECT_TRUE(isDrawn()) << isPaged << scale << frame;
+        }
+    }
+}
+
+// Over tiles that have sunk the eye sees what was behind its horizon.
+TEST(OccludingTerrainTiles, ThatHaveSunkLowerTheHorizon) {
+    const CullView view = CullView::lookAt(ecefDeg(0.1, 0.1, 1000.0), ecefDeg(0.1, 1.4, 0.0), {1, 0, 0}, 2.0);
+    TerrainGlobe globe;
+    installBins(*globe.terrain, withOcclusion(OcclusionUse::Off));
+    const auto isDrawn = [&] {
+        update(*globe.terrain);
+        const CullResult result = cull(*globe.terrain, view, *globe.visitor, ++globe.frame);
+        return result.drawn.count(globe.drawable(*globe.row[9])) > 0;
+    };
+    EXPECT_FALSE(isDrawn());
+    for (std::size_t i = 3; i < 9; ++i) {
+        setHeights(*globe.row[i], -3000.0f);
+        globe.row[i]->setDirty(true);
+        globe.row[i]->dirtyBound();
+    }
+    for (int frame = 0; frame < 3; ++frame) EXPECT_TRUE(isDrawn()) << frame;
 }
 
 }  // namespace

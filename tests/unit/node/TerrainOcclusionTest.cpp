@@ -12,6 +12,7 @@
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
+#include <osg/Depth>
 #include <osg/Geode>
 #include <osg/Geometry>
 #include <osg/PolygonMode>
@@ -132,7 +133,20 @@ TEST(TerrainOcclusion, NeedsARidgeThatIsDrawnAsItWas) {
         vertices.dirty();
         geometry.dirtyBound();
     };
-    const std::vector<std::function<void(RidgeGlobe&)>> ways{mask, remove, outline, flatten, lower, lowerVertices};
+    const auto giveTriangles = [](RidgeGlobe& globe) {
+        osg::Geometry& geometry = *drawableOf(*globe.row[2])->asGeometry();
+        const auto& all = static_cast<const osg::DrawElementsUInt&>(*geometry.getPrimitiveSet(0));
+        geometry.setPrimitiveSet(0, new osg::DrawElementsUInt(GL_TRIANGLES, all.begin() + 186, all.end()));
+    };
+    const auto cutTriangles = [](RidgeGlobe& globe) {
+        osg::Geometry& geometry = *drawableOf(*globe.row[2])->asGeometry();
+        auto& triangles = static_cast<osg::DrawElementsUInt&>(*geometry.getPrimitiveSet(0));
+        triangles.erase(triangles.begin() + 90, triangles.begin() + 186);
+        triangles.dirty();
+        geometry.dirtyBound();
+    };
+    const std::vector<std::function<void(RidgeGlobe&)>> ways{mask,  remove,        outline,       flatten,
+                                                             lower, lowerVertices, giveTriangles, cutTriangles};
     for (std::size_t i = 0; i < ways.size(); ++i) {
         RidgeGlobe globe;
         installBins(*globe.root, withOcclusion());
@@ -416,6 +430,18 @@ TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
                            osg::Matrixd::translate(0, 0, 0.5);
     EXPECT_TRUE(globe.drawsFarTile(zeroToOne));
     EXPECT_FALSE(globe.drawsFarTile());
+}
+
+// A hundredth of the depth buffer's range has as many steps as the whole with the near plane a hundred times as near.
+TEST(TerrainOcclusion, NeedsARangeOfDepthsThatTellsRidgeAndTileApart) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    CullView view = RidgeGlobe::alongRow();
+    view.projection = osg::Matrixd::perspective(30.0, 1.0, 1.0, 1e8);
+    EXPECT_FALSE(globe.drawsFarTile(view));
+    view.states = new osg::StateSet;
+    view.states->setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.99, 1.0));
+    EXPECT_TRUE(globe.drawsFarTile(view));
 }
 
 TEST(TerrainOcclusion, NeedsMeshesOfTrianglesWithoutHoles) {

@@ -43,10 +43,21 @@ constexpr OcclusionKernels kScalarOcclusion{scalar::columnsOf<double>,   scalar:
                                             scalar::outlineOf<double>,   scalar::isAboveOneOf<double>,
                                             scalar::raiseStrips<double>, scalar::coversHeights<double>};
 
-#ifndef OSGANALYTICBIN_SIMD
+// Constant initialisation, which needs the numbers in the same file: whoever classifies before this file's turn gets
+// the scalar form.
 PlaneKernels activeKernels = kScalarKernels;
 OcclusionKernels activeOcclusion = kScalarOcclusion;
 
+#ifdef OSGANALYTICBIN_SIMD
+namespace {
+
+struct ChooseAtStart {
+    ChooseAtStart() noexcept { chooseKernels(); }
+};
+const ChooseAtStart kChooseAtStart;
+
+}  // namespace
+#else
 void chooseKernels() noexcept {}
 #endif
 

@@ -96,19 +96,6 @@ HWY_EXPORT(isAbove);
 HWY_EXPORT(raise);
 HWY_EXPORT(covers);
 
-namespace {
-
-struct ChooseAtStart {
-    ChooseAtStart() noexcept { chooseKernels(); }
-};
-
-}  // namespace
-
-// Constant initialisation first: whoever classifies before this file's turn gets the scalar form.
-PlaneKernels activeKernels = kScalarKernels;
-OcclusionKernels activeOcclusion = kScalarOcclusion;
-const ChooseAtStart kChooseAtStart;
-
 void chooseKernels() noexcept {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     activeKernels = {&HWY_DYNAMIC_DISPATCH(bin), &HWY_DYNAMIC_DISPATCH(family), &HWY_DYNAMIC_DISPATCH(hidden)};

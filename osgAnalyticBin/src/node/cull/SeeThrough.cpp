@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <typeinfo>
 
 namespace osgAnalyticBin {
@@ -147,6 +148,18 @@ bool isStateSeeThrough(osg::NodeVisitor& visitor) {
     }
     // a tile's own state may switch the culling of back faces on
     return (face && isClockwise(*face)) != isMirror(*cullVisitor->getModelViewMatrix());
+}
+
+double depthRangeOfState(osg::NodeVisitor& visitor) {
+    osgUtil::CullVisitor* const cullVisitor = visitor.asCullVisitor();
+    double narrowest = 1.0;
+    for (const auto* graph = cullVisitor ? cullVisitor->getCurrentStateGraph() : nullptr; graph;
+         graph = graph->_parent) {
+        const auto* const depth =
+            graph->_stateset ? attribute<osg::Depth>(*graph->_stateset, Attribute::DEPTH) : nullptr;
+        if (depth) narrowest = std::min(narrowest, std::abs(depth->getZFar() - depth->getZNear()));
+    }
+    return narrowest;
 }
 
 bool drawsAllChildren(const osg::Node& node) {

@@ -29,6 +29,10 @@ namespace osgAnalyticBin {
 /// down because of a state or a mirroring camera. Returns: false for visitors that collect no state.
 [[nodiscard]] bool isStateSeeThrough(osg::NodeVisitor& visitor);
 
+/// The share of the depth buffer's range that states between the camera and the visitor's present node leave to the
+/// terrain. State that replaces another farther down counts, too. Returns: 1 for visitors that collect no state.
+[[nodiscard]] double depthRangeOfState(osg::NodeVisitor& visitor);
+
 /// Whether a node is known to draw all of its children: switches, levels of detail, sequences and classes of others may
 /// leave some out.
 [[nodiscard]] bool drawsAllChildren(const osg::Node& node);

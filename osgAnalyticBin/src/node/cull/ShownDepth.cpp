@@ -183,9 +183,13 @@ private:
     }
 
     void searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool mayLeaveOut) {
+        // the next update fits its bin to what its mesh has become
+        const InstalledTile* const installed = bin.getInstalledTile();
+        if (installed && installed->isMeshChanged() && installed->isKeptVisible()) _hasHole = true;
         TileBlock::Slot numbers;
         if (const osg::BoundingSphere* const column = bin.ecefColumnSphere()) numbers.column = *column;
         numbers.binLow = bin.getBinLow();
+        numbers.binHigh = bin.getBinHigh();
         numbers.surfaceLow = bin.getSurfaceLow();
         numbers.surfaceHigh = bin.getSurfaceHigh();
         const bool isFitted = !bin.getTerrainShape() || *bin.getTerrainShape() == _database.view.shape;
@@ -264,7 +268,7 @@ private:
     }
 
     void show(const SearchedTile& tile, osg::Node& mesh) {
-        if (tile.isAboutEye && _place->altitude <= tile.numbers.surfaceHigh)
+        if (tile.isAboutEye && _place->altitude <= surfaceOf(tile).upper)
             _nearGround.push_back({&tile.callback, &mesh});
         // tiles about the eye are searched even beside the frustum, for the ground alone
         if (tile.isAboutEye && isBeside(tile)) return;
@@ -275,8 +279,15 @@ private:
         }
         // what a tile draws by itself is in its bin
         if (tile.isFitted && tile.numbers.binLow >= -_depth) return;
-        const double own = tile.isFitted ? -tile.numbers.surfaceLow : kUnknownDepth;
+        const double own = tile.isFitted ? -surfaceOf(tile).lower : kUnknownDepth;
         _depth = std::max(_depth, std::min(own, _deepest));
+    }
+
+    // The altitudes of what a tile draws by itself. Its bin alone follows changes of the mesh.
+    [[nodiscard]] static core::Interval surfaceOf(const SearchedTile& tile) {
+        const InstalledTile* const installed = tile.callback.getInstalledTile();
+        if (installed && installed->isMeshChanged()) return {tile.numbers.binLow, tile.numbers.binHigh};
+        return {tile.numbers.surfaceLow, tile.numbers.surfaceHigh};
     }
 
     // As osg::PagedLOD chooses; where that is not certain all that it may show counts.

@@ -7,6 +7,7 @@
 #include "../page/Database.h"
 #include "BinCulling.h"
 #include "CullTraversal.h"
+#include "SeeThrough.h"
 #include "TilePlan.h"
 
 #include <glm/geometric.hpp>
@@ -126,8 +127,9 @@ OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& 
     if (database.cullStack.getCurrentCullingSet().getCullingMask() & kNear) return {};
     const glm::dvec3& eye = *viewpoint.eye();
     if (database.region && !database.region->holdsSegmentsFrom(eye)) return {};
-    const auto view = LevelView::of(database.cullStack, database.view.ellipsoid, eye);
+    auto view = LevelView::of(database.cullStack, database.view.ellipsoid, eye);
     if (!view) return {};
+    view->depthStep /= depthRangeOfState(database.visitor);
     if (!kept) kept = std::make_shared<FoundOcclusion>();
     FoundOcclusion& found = *kept;
     const Ground ground = describe(database, found.shown);

@@ -8,6 +8,7 @@
 #include "../Spheres.h"
 #include "../page/Database.h"
 #include "../page/DatabaseCallbacks.h"
+#include "../surface/TerrainTileSurface.h"
 #include "InstalledTile.h"
 #include "TileCallback.h"
 
@@ -30,6 +31,10 @@ namespace {
 
 const ContentWatch* watchOf(const osg::Node& node) {
     return dynamic_cast<const ContentWatch*>(node.getComputeBoundingSphereCallback());
+}
+
+const osgTerrain::TerrainTile* asTerrain(const osg::Node& node) {
+    return dynamic_cast<const osgTerrain::TerrainTile*>(&node);
 }
 
 void mix(std::uint64_t& hash, std::uint64_t value) {
@@ -63,7 +68,7 @@ void mixFrame(std::uint64_t& hash, const osg::Transform& transform) {
 template <class Visit>
 void forEachPart(const osg::Node& node, const Visit& visit) {
     visit(node);
-    if (watchOf(node) || dynamic_cast<const osgTerrain::TerrainTile*>(&node)) return;
+    if (watchOf(node) || asTerrain(node)) return;
     const osg::Group* const group = node.asGroup();
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) forEachPart(*group->getChild(i), visit);
 }
@@ -75,18 +80,28 @@ std::uint64_t frameOf(const osg::Node& node) {
     return hash;
 }
 
-// What changes when vertices do. Never 0.
+// What changes when vertices or heights do. Never 0.
 std::uint64_t boundsOf(const osg::Node& mesh) {
     std::uint64_t hash = 1;
     forEachPart(mesh, [&hash](const osg::Node& part) {
         if (part.asDrawable()) mixBound(hash, part.getBound());
+        if (const auto* const terrain = asTerrain(part)) {
+            mix(hash, surfaceFingerprint(const_cast<osg::Node&>(part), osg::Matrixd()));
+            mix(hash, std::uint64_t{isDrawnByOsg(*terrain)});
+        }
         const osg::Geometry* const geometry = part.asGeometry();
         const osg::Array* const vertices = geometry ? geometry->getVertexArray() : nullptr;
         if (!vertices) return;
         mix(hash, reinterpret_cast<std::uintptr_t>(vertices));
         mix(hash, std::uint64_t{vertices->getNumElements()});
         mix(hash, std::uint64_t{vertices->getModifiedCount()});
-        mix(hash, std::uint64_t{geometry->getNumPrimitiveSets()});
+        for (const auto& primitives : geometry->getPrimitiveSetList()) {
+            mix(hash, reinterpret_cast<std::uintptr_t>(primitives.get()));
+            if (!primitives) continue;
+            mix(hash, std::uint64_t{primitives->getMode()});
+            mix(hash, std::uint64_t{primitives->getNumIndices()});
+            mix(hash, std::uint64_t{primitives->getModifiedCount()});
+        }
     });
     return hash | 1;
 }
@@ -126,7 +141,8 @@ bool isBelowDatabase(const osg::Node& node) {
 class Content {
 public:
     // `isMerged`: it is in the scene, and what it does not fit into may be widened.
-    Content(osg::Node& node, bool isMerged) : _node(node), _sphere(node.getBound()), _isMerged(isMerged) {}
+    Content(osg::Node& node, const osg::BoundingSphere& sphere, bool isMerged)
+        : _node(node), _isTerrain(asTerrain(node)), _sphere(sphere), _isMerged(isMerged) {}
 
     // Goes from the frame inside a transform to the one outside.
     void leave(const osg::Transform& transform) {
@@ -139,19 +155,28 @@ public:
     void fitInto(const AnalyticBinCullCallback& callback) {
         InstalledTile* const tile = callback.getInstalledTile();
         if (!tile || !callback.getBin().valid()) return;
-        // the bin is that of the terrain before it is exaggerated, the content is not
-        const bool isScaled = callback.getTerrainShape() && callback.getTerrainShape()->verticalScale != 1.0;
+        const bool isOther = !isOfSameShape(callback.getTerrainShape());
         const osg::EllipsoidModel& model = *tile->database().ellipsoid();
         const AnalyticBin about = binAbout(movedSphere(_sphere, callback.getLocalToEcef()), toCore(model));
-        if (!isScaled && isHeld(about, callback.getBin())) return;
+        if (!isOther && isHeld(about, callback.getBin())) return;
         const AnalyticBin& own = surfaceOn(model, callback.getLocalToEcef());
-        if (!isScaled && isHeld(own, callback.getBin())) return;
+        if (!isOther && (_isTerrain ? callback.getBin().contains(own) : isHeld(own, callback.getBin()))) return;
         const AnalyticBin& content = own.valid() ? own : about;
         tile->keepVisible(true);
-        if (_isMerged) tile->database().noteContent(callback, {content, isScaled || !content.valid()});
+        if (_isMerged) tile->database().noteContent(callback, {content, isOther || !content.valid()});
     }
 
 private:
+    // Bins are those of the terrain before it is exaggerated. So is what is known of osgTerrain tiles, and nothing
+    // else.
+    [[nodiscard]] bool isOfSameShape(const std::optional<TerrainShape>& shape) const {
+        if (!_isTerrain) return !shape || shape->verticalScale == 1.0;
+        if (!shape) return false;
+        TerrainShape whole;
+        whole.verticalScale = shape->verticalScale;
+        return *shape == whole;
+    }
+
     // A mesh that was fitted may stand there in another form, as osgUtil::Optimizer leaves it: its posts tell.
     static bool isHeld(const AnalyticBin& content, const AnalyticBin& bin) {
         if (!content.valid()) return false;
@@ -168,6 +193,7 @@ private:
     }
 
     osg::Node& _node;
+    bool _isTerrain;
     osg::BoundingSphere _sphere;
     bool _isMerged;
     osg::Matrixd _toHere;
@@ -191,7 +217,7 @@ bool uniteTiles(const osg::Node& node, AnalyticBin& united) {
         united.expandBy(shown);
         return shown.valid();
     }
-    const osg::Group* const group = dynamic_cast<const osgTerrain::TerrainTile*>(&node) ? nullptr : node.asGroup();
+    const osg::Group* const group = asTerrain(node) ? nullptr : node.asGroup();
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
         if (!uniteTiles(*group->getChild(i), united)) return false;
     }
@@ -239,10 +265,10 @@ void ContentWatch::place(osg::Node& node, const std::vector<osg::ref_ptr<osg::No
     watch->_frame = frameOf(node);
     watch->_previous = node.getComputeBoundingSphereCallback();
     for (const auto& mesh : fitted) {
-        if (mesh != &node) watch->_fitted.push_back({mesh, structureOf(*mesh), 0});
+        if (mesh != &node || asTerrain(node)) watch->_fitted.push_back({mesh, structureOf(*mesh), 0});
     }
     const bool isMesh = std::find(fitted.begin(), fitted.end(), &node) != fitted.end();
-    const osg::Group* const group = isMesh ? node.asGroup() : nullptr;
+    const osg::Group* const group = isMesh && !asTerrain(node) ? node.asGroup() : nullptr;
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
         watch->_fitted.push_back({&child, structureOf(child), 0});
@@ -273,12 +299,16 @@ void ContentWatch::look() const {
 
 osg::BoundingSphere ContentWatch::computeBound(const osg::Node& node) const {
     if (&node == _node) check(node);
+    return boundOf(node);
+}
+
+osg::BoundingSphere ContentWatch::boundOf(const osg::Node& node) const {
     return _previous ? _previous->computeBound(node) : node.computeBound();
 }
 
 bool ContentWatch::hasNewContent(const osg::Node& node) {
     const ContentWatch* const watch = watchOf(node);
-    const osg::Group* const group = dynamic_cast<const osgTerrain::TerrainTile*>(&node) ? nullptr : node.asGroup();
+    const osg::Group* const group = asTerrain(node) ? nullptr : node.asGroup();
     for (unsigned int i = 0; watch && watch->_node == &node && group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
         if (!ownWatchOf(child) && !watch->isFitted(child, false)) return true;
@@ -314,7 +344,7 @@ void ContentWatch::check(const osg::Node& node) const {
     _isPending = false;
     const bool isOwnFrame = frameOf(node) == _frame;
     // osgTerrain draws nothing of what is below its tiles
-    const osg::Group* const group = dynamic_cast<const osgTerrain::TerrainTile*>(&node) ? nullptr : node.asGroup();
+    const osg::Group* const group = asTerrain(node) ? nullptr : node.asGroup();
     std::size_t fitted = 0;
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
@@ -329,11 +359,16 @@ void ContentWatch::check(const osg::Node& node) const {
             ++fitted;
         } else if (sphere.valid() && !isAbsolute(child)) {
             const bool isMerged = isBelowDatabase(node);
-            fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), isMerged));
+            fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere, isMerged));
             _isPending = _isPending || !isMerged;
         }
     }
     if (group && fitted < _fitted.size()) doubtMeshOf(node, !isOwnFrame || isPartMoved(*group));
+    if (group || _fitted.empty() || isFitted(node, true)) return;
+    // an osgTerrain tile that has other heights
+    _isPending = !isBelowDatabase(node);
+    fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(node), boundOf(node), !_isPending));
+    doubtMeshOf(node, false);
 }
 
 }  // namespace osgAnalyticBin

@@ -65,6 +65,8 @@ private:
     [[nodiscard]] static const ContentWatch* ownWatchOf(const osg::Node& node);
     [[nodiscard]] bool isFitted(const osg::Node& child, bool withBounds) const;
     void check(const osg::Node& node) const;
+    // As it is without the watch.
+    [[nodiscard]] osg::BoundingSphere boundOf(const osg::Node& node) const;
 
     // Whether a transform in a fitted mesh has another matrix now, while the mesh still has the same parts.
     [[nodiscard]] bool isPartMoved(const osg::Group& group) const;
