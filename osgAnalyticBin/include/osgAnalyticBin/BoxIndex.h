@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/Export.h>
 
 #include <osg/BoundingBox>
@@ -14,18 +15,22 @@
 #include <iosfwd>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace osgAnalyticBin {
 
-/// The boxes of a whole photogrammetry set, made once by `osgbinconv --index` and kept beside its metadata:
-/// "metadata.xml" -> "metadata.xml.boxes". Each osg::LOD of the set has one; it holds the vertices of the node and of
-/// all that is paged below it, in the coordinates of the files.
-/// Threads: reading members are const and may be called by any number of threads at once.
+/// The boxes of a whole photogrammetry set, made once by `osgbinconv --index` or in the background, and kept beside its
+/// metadata: "metadata.xml" -> "metadata.xml.boxes". Each osg::LOD of the set has one; it holds the vertices of the
+/// node and of all that is paged below it, in the coordinates of the files. Threads: reading members are const and may
+/// be called by any number of threads at once.
 class OSGANALYTICBIN_EXPORT BoxIndex final : public osg::Referenced {
 public:
     /// The boxes of a file's LODs, in preorder. Not valid: not known, the node is never culled.
     using Boxes = std::vector<osg::BoundingBoxf>;
+
+    /// What a file of an index begins with.
+    static constexpr std::string_view kMagic{"osgAnalyticBin boxes 1"};
 
     /// `file`: path relative to the folder of the metadata, as by pagedFilePath().
     void add(const std::string& file, Boxes boxes) { _files[file] = std::move(boxes); }
@@ -39,6 +44,11 @@ public:
     [[nodiscard]] std::size_t numBoxes() const;
     /// All files by name.
     [[nodiscard]] const std::map<std::string, Boxes>& files() const { return _files; }
+
+    /// Files that the index was made from, as BinIndex::stamps(). Empty: the index holds whatever their times are.
+    [[nodiscard]] const BinIndex::Stamps& stamps() const { return _stamps; }
+    /// See stamps().
+    void setStamps(BinIndex::Stamps stamps) { _stamps = std::move(stamps); }
 
     /// Writes the index; a file of that name is replaced when the new one is complete. Returns: whether it was written;
     /// otherwise `error` says why not.
@@ -57,6 +67,7 @@ protected:
 
 private:
     std::map<std::string, Boxes> _files;
+    BinIndex::Stamps _stamps;
 };
 
 /// "set/metadata.xml" -> "set/metadata.xml.boxes".

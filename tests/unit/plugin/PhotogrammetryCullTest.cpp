@@ -48,8 +48,15 @@ bool hasVertexInside(const osg::Drawable& drawable, const osg::Matrixd& toEye, c
     });
 }
 
+constexpr double kSeconds = 60.0;
+
 class BoxSets : public test::PhotogrammetryFixture {
 protected:
+    [[nodiscard]] osg::ref_ptr<BoxIndex> keptIndex() const {
+        std::string error;
+        return BoxIndex::read(boxIndexPath(_metadata), error);
+    }
+
     // A set that is flown over.
     struct Flown {
         explicit Flown(const osg::ref_ptr<osg::Node>& read) : scene(read), flight(*scene, 100000) {}
@@ -102,6 +109,7 @@ protected:
         return lost;
     }
 
+    // The index that is made in the background, if one is, comes at any time.
     std::size_t lostBy(const std::string& options) {
         Flown all(read("method=none"));
         Flown culled(read(options));
@@ -112,9 +120,10 @@ protected:
 };
 
 TEST_F(BoxSets, LoseNothingThatIsInView) {
-    EXPECT_EQ(lostBy("method=quadratic"), 0U);
+    EXPECT_EQ(lostBy("index=off"), 0U);
+    EXPECT_EQ(lostBy("index=auto"), 0U);
     makeIndex();
-    EXPECT_EQ(lostBy("method=quadratic"), 0U);
+    EXPECT_EQ(lostBy("index=on"), 0U);
 }
 
 // Otherwise the test above says little.
@@ -132,7 +141,7 @@ TEST_F(BoxSets, AskForNoMoreFilesThanSpheres) {
         std::size_t fewer = 0;
         for (const CullView& view : views(12)) {
             Flown spheres(read("method=sphere"));
-            Flown boxes(read());
+            Flown boxes(read("index=on"));
             const std::set<std::string> bySpheres = spheres.keys(view);
             const std::set<std::string> byBoxes = boxes.keys(view);
             const std::size_t files = test::loadedTiles(*boxes.scene);
@@ -176,8 +185,97 @@ TEST_F(BoxSets, KeepVisibleWhatDoesNotFitTheIndex) {
 TEST_F(BoxSets, AreCulledWithoutABrokenIndex) {
     (void)_folder.write("metadata.xml.boxes", "osgAnalyticBin boxes 1\n1 Data/");
     const CapturedNotes notes;
-    EXPECT_TRUE(read());
-    EXPECT_EQ(notes.count("make it again: osgbinconv --index"), 1U);
+    EXPECT_TRUE(read("index=on"));
+    EXPECT_EQ(notes.count("make it again: osgbinconv --index; the set is culled without it"), 1U);
+}
+
+TEST_F(BoxSets, GetAnIndexInTheBackgroundWhichIsUsedAtOnceTheNextTime) {
+    osg::ref_ptr<osg::Node> scene = read();
+    // an index that is being made goes on
+    EXPECT_GT(setCullOptions(*scene, {}), 0U);
+    ASSERT_TRUE(waitForIndex(*scene, kSeconds));
+    EXPECT_FALSE(isIndexAwaited(*scene));
+    scene = nullptr;
+    const auto kept = keptIndex();
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(kept->stamps().size(), kept->numFiles());
+    std::string error;
+    const auto byHand = makeBoxIndex(_metadata, 2, {}, error);
+    ASSERT_TRUE(byHand) << error;
+    EXPECT_TRUE(byHand->stamps().empty());
+    EXPECT_EQ(kept->files(), byHand->files());
+
+    const CapturedNotes notes;
+    scene = read();
+    EXPECT_FALSE(isIndexAwaited(*scene));
+    EXPECT_EQ(notes.count("Their index is being made"), 0U);
+}
+
+TEST_F(BoxSets, GetANewIndexWhenAFileChangesIsAddedOrIsRemoved) {
+    const auto isMadeAnew = [&] {
+        const osg::ref_ptr<osg::Node> scene = read();
+        return isIndexAwaited(*scene) && waitForIndex(*scene, kSeconds);
+    };
+    EXPECT_TRUE(isMadeAnew());
+    fs::resize_file(_folder / test::kFileWithFalseSphere, 300);
+    EXPECT_TRUE(isMadeAnew());
+    fs::remove(_folder / test::kFileWithFalseSphere);
+    EXPECT_TRUE(isMadeAnew());
+    fs::copy(_folder / "Data/Tile_+000_+000", _folder / "Data/Tile_+009_+009");
+    fs::rename(_folder / "Data/Tile_+009_+009/Tile_+000_+000.osgb",
+               _folder / "Data/Tile_+009_+009/Tile_+009_+009.osgb");
+    EXPECT_TRUE(isMadeAnew());
+    EXPECT_FALSE(isMadeAnew());
+}
+
+TEST_F(BoxSets, KeepTheirIndexInTheCacheFolderWhereItCannotStandBesideThem) {
+    (void)_folder.write("metadata.xml.boxes", "of another program");
+    osg::ref_ptr<osg::Node> scene = read();
+    ASSERT_TRUE(waitForIndex(*scene, kSeconds));
+    EXPECT_EQ(test::textOfFile(boxIndexPath(_metadata)), "of another program");
+    EXPECT_FALSE(fs::is_empty(_cache.path()));
+    scene = read();
+    EXPECT_FALSE(isIndexAwaited(*scene));
+}
+
+TEST_F(BoxSets, GiveLoadedTilesTheBoxesOfTheIndexThatIsMade) {
+    test::PhotogrammetrySample sample;
+    sample.hasFalseSpheres = false;
+    write(sample);
+    std::size_t fewer = 0;
+    for (const CullView& view : views(12)) {
+        makeIndex();
+        Flown byHand(read());
+        fs::remove(boxIndexPath(_metadata));
+        Flown without(read("index=off"));
+        Flown late(read("index=off"));
+        // the roots are loaded
+        setCullOptions(*late.scene, {});
+        ASSERT_TRUE(waitForIndex(*late.scene, kSeconds));
+        EXPECT_EQ(late.keys(view), byHand.keys(view));
+        (void)without.keys(view);
+        const std::size_t files = test::loadedTiles(*late.scene);
+        EXPECT_EQ(files, test::loadedTiles(*byHand.scene));
+        fewer += test::loadedTiles(*without.scene) - files;
+    }
+    EXPECT_GT(fewer, 0U);
+}
+
+TEST_F(BoxSets, KeepVisibleWhatIsLoadedAndDoesNotFitTheIndexThatIsMade) {
+    Flown all(read("method=none"));
+    Flown culled(read("index=off"));
+    for (const CullView& view : views(12)) {
+        (void)lost(all, view, {});
+        (void)culled.keys(view);
+    }
+    test::PhotogrammetrySample low;
+    low.towersFrom = 100;  // none
+    write(low);
+    const CapturedNotes notes;
+    setCullOptions(*culled.scene, {});
+    ASSERT_TRUE(waitForIndex(*culled.scene, kSeconds));
+    EXPECT_EQ(notes.count("does not fit the index of boxes"), 1U);
+    for (const CullView& view : views(12)) EXPECT_TRUE(lost(all, view, culled.keys(view)).empty());
 }
 
 // Callbacks, culling flags, options and expiry of all nodes, as text.

@@ -15,6 +15,7 @@
 #include <osgDB/ReaderWriter>
 #include <osgDB/Registry>
 
+#include <cstdlib>
 #include <string>
 #include <support/CapturedNotes.h>
 #include <support/PhotogrammetrySample.h>
@@ -25,6 +26,8 @@ namespace osgAnalyticBin::test {
 /// A photogrammetry set in a folder of its own.
 class PhotogrammetryFixture : public ::testing::Test {
 protected:
+    PhotogrammetryFixture() { ::setenv("XDG_CACHE_HOME", _cache.path().c_str(), 1); }
+    ~PhotogrammetryFixture() override { ::unsetenv("XDG_CACHE_HOME"); }
     void SetUp() override { write({}); }
 
     void write(const PhotogrammetrySample& sample) {
@@ -63,7 +66,7 @@ protected:
         return dynamic_cast<osg::MatrixTransform*>(globe ? globe->getChild(0) : &scene);
     }
 
-    TemporaryFolder _folder;
+    TemporaryFolder _folder, _cache;
     std::string _metadata;
 };
 

@@ -20,6 +20,9 @@ enum class Images {
     Read      ///< read; a name that leads out of the folder is an error
 };
 
+/// Size and time of a file; 0 for a missing file.
+[[nodiscard]] FileStamp stampOfPath(const std::string& path);
+
 /// The files of a database, named by their paths relative to the root file's folder; "" is the root file.
 class OSGANALYTICBIN_EXPORT DatabaseFiles final {
 public:
@@ -32,8 +35,8 @@ public:
     [[nodiscard]] const std::string& rootName() const { return _rootName; }
     /// The path of a file that is named as above.
     [[nodiscard]] std::string pathOf(const std::string& file) const;
-    /// Size and time of a file; 0 for a missing file.
-    [[nodiscard]] FileStamp stampOf(const std::string& file) const;
+    /// stampOfPath() of a file that is named as above.
+    [[nodiscard]] FileStamp stampOf(const std::string& file) const { return stampOfPath(pathOf(file)); }
 
     /// The scene of a file, as the pager would get it. May be called by several threads.
     /// Returns: null, with the reason in `error`, for a file that is missing or broken.

@@ -5,6 +5,7 @@
 //   osgAnalyticBin boxes 1
 //   for each file: its number of LODs, a blank, and its name; then a line for each LOD: least x y z, greatest x y z,
 //   or "unknown"
+//   where the index has stamps, for each file: stamp, bytes, seconds, nanoseconds, and its name
 //   end, the number of files and that of boxes
 
 #include "../WholeFile.h"
@@ -23,8 +24,8 @@ namespace osgAnalyticBin {
 
 namespace {
 
-constexpr std::string_view kHead = "osgAnalyticBin boxes 1";
 constexpr std::string_view kUnknownBox = "unknown";
+constexpr std::string_view kStamp = "stamp ";
 constexpr std::string_view kEnd = "end ";
 
 std::string textOf(const osg::BoundingBoxf& box) {
@@ -54,13 +55,33 @@ std::optional<osg::BoundingBoxf> boxFrom(std::string_view text) {
     return at == end && box.valid() ? std::optional(box) : std::nullopt;
 }
 
+// Takes a number and the blank behind it from the front of a line.
+template <class Number>
+bool take(std::string_view& line, Number& number) {
+    const auto [next, error] = std::from_chars(line.data(), line.data() + line.size(), number);
+    const auto blank = static_cast<std::size_t>(next - line.data());
+    if (error != std::errc() || blank + 1 >= line.size() || line[blank] != ' ') return false;
+    line.remove_prefix(blank + 1);
+    return true;
+}
+
 // "3 Data/a.osgb" makes 3 and the name.
 std::optional<std::pair<std::size_t, std::string>> fileFrom(std::string_view line) {
     std::size_t count = 0;
-    const auto [next, error] = std::from_chars(line.data(), line.data() + line.size(), count);
-    const auto blank = static_cast<std::size_t>(next - line.data());
-    if (error != std::errc() || blank + 1 >= line.size() || line[blank] != ' ') return std::nullopt;
-    return std::pair(count, std::string(line.substr(blank + 1)));
+    if (!take(line, count)) return std::nullopt;
+    return std::pair(count, std::string(line));
+}
+
+bool startsWith(std::string_view line, std::string_view word) {
+    return line.compare(0, word.size(), word) == 0;
+}
+
+// Returns: whether the line is a stamp.
+bool addStamp(std::string_view line, BinIndex::Stamps& stamps) {
+    line.remove_prefix(kStamp.size());
+    BinIndex::Stamp stamp;
+    const bool isStamp = take(line, stamp.size) && take(line, stamp.time) && take(line, stamp.nanoseconds);
+    return isStamp && stamps.emplace(line, stamp).second;
 }
 
 std::string endOf(const BoxIndex& index) {
@@ -81,11 +102,13 @@ std::size_t BoxIndex::numBoxes() const {
 }
 
 bool BoxIndex::write(std::ostream& out) const {
-    out << kHead << '\n';
+    out << kMagic << '\n';
     for (const auto& [file, boxes] : _files) {
         out << boxes.size() << ' ' << file << '\n';
         for (const osg::BoundingBoxf& box : boxes) out << textOf(box) << '\n';
     }
+    for (const auto& [file, stamp] : _stamps)
+        out << kStamp << stamp.size << ' ' << stamp.time << ' ' << stamp.nanoseconds << ' ' << file << '\n';
     out << endOf(*this) << '\n';
     return static_cast<bool>(out.flush());
 }
@@ -98,14 +121,18 @@ bool BoxIndex::write(const std::string& path, std::string& error) const {
 osg::ref_ptr<BoxIndex> BoxIndex::read(std::istream& in, std::string& error) {
     const osg::ref_ptr<BoxIndex> index = new BoxIndex;
     std::string line;
-    if (!std::getline(in, line) || line != kHead) {
+    if (!std::getline(in, line) || line != kMagic) {
         error = "is no index of boxes, or of another version";
         return nullptr;
     }
     while (std::getline(in, line)) {
-        if (line.compare(0, kEnd.size(), kEnd) == 0) {
+        if (startsWith(line, kEnd)) {
             if (line == endOf(*index)) return index;
             break;
+        }
+        if (startsWith(line, kStamp)) {
+            if (!addStamp(line, index->_stamps)) break;
+            continue;
         }
         const auto file = fileFrom(line);
         Boxes boxes;

@@ -54,14 +54,11 @@ public:
     }
 };
 
-osg::ref_ptr<BoxIndex> indexOf(const osg::Node& set, const CullOptions& options) {
-    const std::string metadata = metadataFileOf(set);
-    const bool isWanted = options.index != IndexUse::Off && options.method != Method::None;
-    if (!isWanted || metadata.empty() || !osgDB::fileExists(boxIndexPath(metadata))) return nullptr;
-    std::string error;
-    osg::ref_ptr<BoxIndex> index = BoxIndex::read(boxIndexPath(metadata), error);
-    if (!index) OSG_WARN << "osgAnalyticBin: " << error << "; the set is culled without it." << std::endl;
-    return index;
+// `before`: the boxes that the set has; null: none. An index that is being made for them goes on.
+ChosenBoxIndex indexFor(const osg::Node& set, const CullOptions& options, const BoxSet* before) {
+    if (options.method == Method::None) return {};
+    if (before && before->making() && options.index == IndexUse::Auto) return {nullptr, before->making()};
+    return chooseBoxIndex(metadataFileOf(set), options.index);
 }
 
 // Boxes are tested, and files read, without osgDB's cache of nodes: each tile stands in one place.
@@ -83,9 +80,9 @@ osg::BoundingSphere sphereOf(const osg::LOD& node) {
 }  // namespace
 
 bool BoxInstaller::isKnown(const std::string& file, std::size_t lods) const {
-    if (!_set.index()) return false;
-    const auto found = _set.index()->files().find(file);
-    return found != _set.index()->files().end() && found->second.size() == lods;
+    if (!_index) return false;
+    const auto found = _index->files().find(file);
+    return found != _index->files().end() && found->second.size() == lods;
 }
 
 BoxInstaller::Content BoxInstaller::survey(osg::Node& node) const {
@@ -105,7 +102,9 @@ BoxInstaller::Content BoxInstaller::install(osg::Node& node, const std::string& 
             followPaging(*paged, file, *tiles.back(), pagings);
         }
     }
-    return place(content, below, file, tiles);
+    const Content all = place(content, below, file, tiles);
+    if (!_index) _set.awaitIndex(node, file, parent, tiles);
+    return all;
 }
 
 // Gives the tiles of a file their boxes.
@@ -115,17 +114,17 @@ BoxInstaller::Content BoxInstaller::place(const LodContent& content, const std::
     for (const Content& files : below) loaded.push_back(files.box);
     const std::vector<MeshBox> boxes = content.boxes(loaded);
     std::vector<bool> fits(tiles.size(), isKnown(file, tiles.size()));
-    Content all{content.all(boxes), _set.index() && !isKnown(file, tiles.size())};
+    Content all{content.all(boxes), _index && !isKnown(file, tiles.size())};
     for (std::size_t i = tiles.size(); i-- > 0;) {
         MeshBox box = boxes[i];
         if (fits[i]) {
-            const osg::BoundingBoxf& known = *_set.index()->find(file, i);
+            const osg::BoundingBoxf& known = *_index->find(file, i);
             const MeshBox whole = known.valid() ? MeshBox(known) : MeshBox::boundless();
             fits[i] = !below[i].isMisfit && whole.contains(box);
             box.expandBy(whole);
         }
         if (!fits[i] && content.lods[i].parent) fits[*content.lods[i].parent] = false;
-        all.isMisfit = all.isMisfit || (_set.index() && !fits[i]);
+        all.isMisfit = all.isMisfit || (_index && !fits[i]);
         tiles[i]->set(box, fits[i]);
     }
     placeCallbacks(content, tiles);
@@ -208,9 +207,9 @@ void BoxInstaller::followPaging(osg::PagedLOD& node, const std::string& file, Bo
 }
 
 std::size_t installBoxes(osg::Group& root, const CullOptions& options) {
+    const osg::ref_ptr<BoxSet> before = boxSetOf(root);
+    const osg::ref_ptr<BoxSet> set = new BoxSet(options, indexFor(root, options, before.get()));
     removeBoxes(root);
-    const osg::ref_ptr<BoxIndex> index = indexOf(root, options);
-    const osg::ref_ptr<BoxSet> set = new BoxSet(options, index.get());
     BoxInstaller installer(*set, &root);
     for (unsigned int i = 0; i < root.getNumChildren(); ++i) {
         osg::Node& tile = *root.getChild(i);
@@ -221,7 +220,14 @@ std::size_t installBoxes(osg::Group& root, const CullOptions& options) {
     cull->setNestedCallback(root.getCullCallback());
     root.setCullCallback(cull);
     root.addUpdateCallback(new BoxSetUpdateCallback(set));
+    const bool isStarted = before && before->making() == set->making();
+    if (set->making() && !isStarted) set->making()->start();
     return installer.installed();
+}
+
+BoxSet* boxSetOf(osg::Node& node) {
+    const osg::ref_ptr<BoxSetUpdateCallback> update = findCallback<BoxSetUpdateCallback>(node.getUpdateCallback());
+    return update ? &update->set() : nullptr;
 }
 
 void removeBoxes(osg::Group& root) {

@@ -24,7 +24,8 @@ class BoxReadFileCallback;
 class BoxInstaller final {
 public:
     /// `root`: of the set, where all of it is visited; null: a file of it.
-    explicit BoxInstaller(BoxSet& set, const osg::Group* root = nullptr) : _set(set), _root(root) {}
+    explicit BoxInstaller(BoxSet& set, const osg::Group* root = nullptr)
+        : _set(set), _index(set.index()), _root(root) {}
 
     struct Content {
         MeshBox box;            ///< all vertices that are loaded
@@ -62,6 +63,7 @@ private:
     [[nodiscard]] bool isInGroup(const osg::Node& node) const;
 
     BoxSet& _set;
+    const osg::ref_ptr<const BoxIndex> _index;
     const osg::Group* const _root;
     std::map<const osg::Node*, osg::ref_ptr<BoxTile>> _members;  // of groups
     std::size_t _installed = 0;
@@ -73,5 +75,8 @@ std::size_t installBoxes(osg::Group& set, const CullOptions& options);
 
 /// Takes them off again.
 void removeBoxes(osg::Group& set);
+
+/// Returns: nullptr where a node is no set with boxes.
+[[nodiscard]] BoxSet* boxSetOf(osg::Node& node);
 
 }  // namespace osgAnalyticBin

@@ -13,6 +13,7 @@ osgDB::ReaderWriter::ReadResult BoxReadFileCallback::readNode(const std::string&
     using ReadResult = osgDB::ReaderWriter::ReadResult;
     // No node and no error: the pager says nothing, and asks again in the next frame.
     if (!_failures.mayRead(fileName, FailedReads::Clock::now())) return ReadResult::FILE_LOADED;
+    const BusyPager busy(_set->making());
     ReadResult result = readCarefully(fileName, [&] {
         ReadResult read = readUntreated(fileName, options, _previous.get());
         const auto found = _expected.find(fileName);

@@ -71,10 +71,61 @@ bool BoxSet::isLikeParent(const BoxTile& tile) {
     return tile.isLikeParent();
 }
 
-void BoxSet::update() {
+void BoxSet::awaitIndex(osg::Node& root, const std::string& file, BoxTile* parent,
+                        const std::vector<osg::ref_ptr<BoxTile>>& tiles) {
+    // where no update traversal ever comes
+    constexpr std::size_t kMostContents = 65536;
     const std::lock_guard<std::mutex> lock(_mutex);
+    if (!making() || _awaiting.size() > kMostContents) return;
+    _awaiting.push_back({&root, file, parent, tiles});
+    _hasNewAwaiting = true;
+}
+
+// Returns: whether nothing more is to come.
+bool BoxSet::adopt(const Awaiting& content) {
+    osg::ref_ptr<osg::Node> root;
+    if (!content.root.lock(root)) return true;
+    // asked first: what is not found in a whole index is not in it
+    const bool isWhole = making()->isWhole();
+    const std::optional<BoxIndex::Boxes> boxes = making()->find(content.file);
+    if (!boxes && !isWhole) return false;
+    const bool isKnown = boxes && boxes->size() == content.tiles.size();
+    if (!isKnown) {
+        noteMisfit(content.file);
+        if (content.parent) _growths.push_back({content.parent, {}, true});
+        for (const osg::ref_ptr<BoxTile>& tile : content.tiles) tile->setMisfit();
+    }
+    for (std::size_t i = 0; isKnown && i < boxes->size(); ++i) {
+        BoxTile& tile = *content.tiles[i];
+        const osg::BoundingBoxf& known = (*boxes)[i];
+        const MeshBox whole = known.valid() ? MeshBox(known) : MeshBox::boundless();
+        if (!tile.isMisfit() && whole.contains(tile.box())) {
+            tile.set(whole, true);
+        } else {
+            noteMisfit(content.file);
+            _growths.push_back({&tile, {}, true});
+        }
+    }
+    return true;
+}
+
+void BoxSet::adoptIndex() {
+    if (!making()) return;
+    const unsigned int generation = making()->generation();
+    if (generation == _adoptedGeneration && !_hasNewAwaiting) return;
+    const auto isDone = [this](const Awaiting& content) { return adopt(content); };
+    _awaiting.erase(std::remove_if(_awaiting.begin(), _awaiting.end(), isDone), _awaiting.end());
+    _adoptedGeneration = generation;
+    _hasNewAwaiting = false;
+}
+
+void BoxSet::update() {
+    if (making()) making()->showNotes();
+    const std::lock_guard<std::mutex> lock(_mutex);
+    adoptIndex();
     for (const Growth& growth : _growths) {
         for (BoxTile* tile = growth.tile.get(); tile; tile = tile->parent()) {
+            if (growth.isMisfit) tile->setMisfit();
             const bool isComplete = tile->isComplete() && !growth.isMisfit;
             if (isComplete == tile->isComplete() && tile->box().contains(growth.box)) continue;
             MeshBox box = tile->box();

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "AutoBoxIndex.h"
 #include "MeshBox.h"
 
 #include <osgAnalyticBin/BoxIndex.h>
@@ -11,12 +12,14 @@
 #include <osg/CullingSet>
 #include <osg/Node>
 #include <osg/Referenced>
+#include <osg/observer_ptr>
 #include <osg/ref_ptr>
 
 #include <atomic>
 #include <cstddef>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -76,6 +79,10 @@ public:
     /// would say no more.
     [[nodiscard]] bool isLikeParent() const;
 
+    /// Says that something below is not as the index says: the box is never complete.
+    void setMisfit() { _isMisfit = true; }
+    [[nodiscard]] bool isMisfit() const { return _isMisfit; }
+
     [[nodiscard]] BoxTile* parent() { return _parent.get(); }
     [[nodiscard]] const MeshBox& box() const { return _box; }
     [[nodiscard]] bool isComplete() const { return _test.isComplete; }
@@ -93,6 +100,7 @@ private:
     MeshBox _box;
     BoxTest _test;
     bool _followsParent = false;
+    bool _isMisfit = false;
     osg::ref_ptr<BoxSlots> _slots;
     std::size_t _slot = 0;
 };
@@ -100,11 +108,20 @@ private:
 /// A photogrammetry set that is culled by boxes. Threads: all but update().
 class BoxSet final : public osg::Referenced {
 public:
-    /// `index` may be null.
-    BoxSet(const CullOptions& options, BoxIndex* index) : _options(options), _index(index) {}
+    BoxSet(const CullOptions& options, ChosenBoxIndex index) : _options(options), _index(std::move(index)) {}
 
     [[nodiscard]] const CullOptions& options() const { return _options; }
-    [[nodiscard]] const BoxIndex* index() const { return _index.get(); }
+    /// Returns: null where there is none, or it is not whole yet.
+    [[nodiscard]] osg::ref_ptr<const BoxIndex> index() const {
+        return _index.making ? _index.making->whole() : _index.index;
+    }
+    /// Returns: null where none is made.
+    [[nodiscard]] const osg::ref_ptr<AutoBoxIndex>& making() const { return _index.making; }
+
+    /// Says that the tiles of a file got boxes without an index; they get those of the index that is made, if any, in
+    /// an update. `parent`: the LOD that pages the file; null: none.
+    void awaitIndex(osg::Node& root, const std::string& file, BoxTile* parent,
+                    const std::vector<osg::ref_ptr<BoxTile>>& tiles);
 
     /// Says that boxes are taken off: what has them still is not culled by them.
     void setRemoved() { _isRemoved.store(true, std::memory_order_relaxed); }
@@ -133,11 +150,25 @@ private:
         bool isMisfit;
     };
 
+    // The content of a file.
+    struct Awaiting {
+        osg::observer_ptr<osg::Node> root;
+        std::string file;
+        osg::ref_ptr<BoxTile> parent;
+        std::vector<osg::ref_ptr<BoxTile>> tiles;
+    };
+
+    [[nodiscard]] bool adopt(const Awaiting& content);
+    void adoptIndex();
+
     const CullOptions _options;
-    const osg::ref_ptr<const BoxIndex> _index;
+    const ChosenBoxIndex _index;
     std::atomic<bool> _isRemoved{false}, _hasWarned{false};
     std::mutex _mutex;  // guards what follows, and changes of tiles in the scene
     std::vector<Growth> _growths;
+    std::vector<Awaiting> _awaiting;
+    bool _hasNewAwaiting = false;
+    unsigned int _adoptedGeneration = 0;
 };
 
 }  // namespace osgAnalyticBin

@@ -3,14 +3,16 @@
 //
 // makeBoxIndex(): reads all files of a set, each once, and adds up their boxes from the leaves.
 
+#include "BoxSurvey.h"
+
 #include "../WorkQueue.h"
-#include "../page/CarefulRead.h"
 #include "LodContent.h"
 
 #include <osgAnalyticBin/BoxIndex.h>
 #include <osgAnalyticBin/PhotogrammetrySet.h>
 #include <osgAnalyticBin/TileFile.h>
 #include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/index/DatabaseFiles.h>
 
 #include <osg/PagedLOD>
 #include <osgDB/FileNameUtils>
@@ -65,13 +67,16 @@ public:
     /// Requires: run().
     [[nodiscard]] osg::ref_ptr<BoxIndex> result() {
         const osg::ref_ptr<BoxIndex> index = new BoxIndex;
-        for (const auto& [file, content] : _files) {
-            if (!content) continue;
-            const std::vector<MeshBox> boxes = boxesOf(*content);
+        BinIndex::Stamps stamps;
+        for (const auto& [file, read] : _read) {
+            stamps[file] = read.stamp;
+            if (!read.content) continue;
+            const std::vector<MeshBox> boxes = boxesOf(*read.content);
             BoxIndex::Boxes known;
             for (const MeshBox& box : boxes) known.push_back(box.toFloat());
             index->add(file, std::move(known));
         }
+        index->setStamps(std::move(stamps));
         return index;
     }
 
@@ -82,40 +87,42 @@ private:
     };
 
     struct Read {
+        BinIndex::Stamp stamp;  // from before it was read
         std::optional<Surveyed> content;
         std::string complaint;  // empty where there is none
     };
 
     void enter(const std::string& file, double share) {
-        if (_files.emplace(file, std::nullopt).second) _queue.push({file, share});
+        if (_read.emplace(file, Read()).second) _queue.push({file, share});
     }
 
     [[nodiscard]] Read read(const std::string& file) const {
         const std::string path = osgDB::concatPaths(_folder, file);
+        const BinIndex::Stamp stamp = indexing::stampOfPath(path);
         // missing children are not drawn either
-        if (!osgDB::fileExists(path)) return {};
+        if (!osgDB::fileExists(path)) return {stamp, std::nullopt, {}};
         std::string why = "cannot be read";
         try {
             const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
             options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
             osgDB::ReaderWriter::ReadResult result = readTileFile(path, options.get());
-            if (result.validNode()) return {surveyed(*result.getNode(), file), {}};
+            if (result.validNode()) return {stamp, surveyed(*result.getNode(), file), {}};
         } catch (const std::exception& error) {
             why += std::string(": ") + error.what();
         }
-        return {std::nullopt, "\"" + path + "\" " + why + "; it counts as empty"};
+        return {stamp, std::nullopt, "\"" + path + "\" " + why + "; it counts as empty"};
     }
 
     void finish(const Job& job, Read read) {
         if (!read.complaint.empty() && _progress.unreadable) _progress.unreadable(read.complaint);
-        std::optional<Surveyed>& content = read.content;
+        const std::optional<Surveyed>& content = read.content;
         const std::size_t lods = content ? content->lods.size() : 0;
         std::size_t files = 0;
         for (std::size_t i = 0; i < lods; ++i) files += content->lods[i].files.size();
         for (std::size_t i = 0; i < lods; ++i) {
             for (const std::string& file : content->lods[i].files) enter(file, job.share / static_cast<double>(files));
         }
-        _files[job.file] = std::move(content);
+        _read[job.file] = std::move(read);
         if (_progress.fileDone) _progress.fileDone(lods, files == 0 ? job.share : 0.0);
         if (!_progress.goesOn || _progress.goesOn()) return;
         _isStopped = true;
@@ -128,11 +135,11 @@ private:
         if (known != _wholes.end()) return known->second;
         // what is paged below itself has no end
         _wholes[file] = MeshBox::boundless();
-        const auto found = _files.find(file);
+        const auto found = _read.find(file);
         MeshBox whole;
-        if (found != _files.end() && found->second) {
-            const std::vector<MeshBox> boxes = boxesOf(*found->second);
-            whole.expandBy(found->second->beside);
+        if (found != _read.end() && found->second.content) {
+            const std::vector<MeshBox> boxes = boxesOf(*found->second.content);
+            whole.expandBy(found->second.content->beside);
             for (const MeshBox& box : boxes) whole.expandBy(box);
         }
         return _wholes[file] = whole;
@@ -153,23 +160,30 @@ private:
     const BoxIndexProgress& _progress;
     WorkQueue<Job> _queue;
     bool _isStopped = false;
-    std::map<std::string, std::optional<Surveyed>> _files;
+    std::map<std::string, Read> _read;
     std::map<std::string, MeshBox> _wholes;
 };
 
 }  // namespace
 
+osg::ref_ptr<BoxIndex> surveyBoxes(const std::string& metadataFile, const std::vector<std::string>& roots, int threads,
+                                   const BoxIndexProgress& progress) {
+    Survey survey(osgDB::getFilePath(metadataFile), progress);
+    survey.run(roots, threads);
+    return survey.isStopped() ? nullptr : survey.result();
+}
+
 osg::ref_ptr<BoxIndex> makeBoxIndex(const std::string& metadataFile, int threads, const BoxIndexProgress& progress,
                                     std::string& error) {
     const PhotogrammetryFiles files = findPhotogrammetryFiles(metadataFile, error);
     if (files.roots.empty()) return nullptr;
-    Survey survey(osgDB::getFilePath(metadataFile), progress);
-    survey.run(files.roots, threads);
-    if (survey.isStopped()) {
+    osg::ref_ptr<BoxIndex> index = surveyBoxes(metadataFile, files.roots, threads, progress);
+    if (!index) {
         error = "was stopped";
         return nullptr;
     }
-    osg::ref_ptr<BoxIndex> index = survey.result();
+    // it may be copied together with the set
+    index->setStamps({});
     if (index->numFiles() == 0) {
         error = "no tile of \"" + metadataFile + "\" can be read";
         return nullptr;

@@ -44,9 +44,9 @@ std::string DatabaseFiles::pathOf(const std::string& file) const {
     return file.empty() ? _rootFile : _folder + "/" + file;
 }
 
-FileStamp DatabaseFiles::stampOf(const std::string& file) const {
+FileStamp stampOfPath(const std::string& path) {
     struct stat status {};
-    if (::stat(pathOf(file).c_str(), &status) != 0) return {};
+    if (::stat(path.c_str(), &status) != 0) return {};
     return {static_cast<std::uint64_t>(status.st_size), static_cast<std::int64_t>(status.st_mtim.tv_sec),
             static_cast<std::int64_t>(status.st_mtim.tv_nsec)};
 }

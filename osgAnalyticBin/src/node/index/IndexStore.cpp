@@ -49,7 +49,7 @@ public:
     LockedFile(const LockedFile&) = delete;
     LockedFile& operator=(const LockedFile&) = delete;
 
-    [[nodiscard]] bool become(const BinIndex& index, const std::string& path) {
+    [[nodiscard]] bool become(const IndexFile& index, const std::string& path) {
         std::ofstream out(_path, std::ios::binary | std::ios::trunc);
         errno = 0;
         const bool isWritten = out && index.write(out) && out.flush();
@@ -69,20 +69,20 @@ private:
     bool _isRenamed = false;
 };
 
-// Whether a file may be replaced: there is none, or it is an index, whole or broken at its end.
-bool isOurs(const std::string& path) {
+// Whether a file may be replaced: there is none, or it is such an index, whole or broken at its end.
+bool isOurs(const std::string& path, std::string_view kind) {
     std::ifstream in(path, std::ios::binary);
     if (!in) {
         std::error_code ignored;
         return !fs::exists(path, ignored);
     }
-    std::string magic(BinIndex::kMagic.size(), '\0');
+    std::string magic(kind.size(), '\0');
     in.read(magic.data(), static_cast<std::streamsize>(magic.size()));
-    return in.gcount() == 0 || magic == BinIndex::kMagic;
+    return in.gcount() == 0 || magic == kind;
 }
 
-bool keepAt(const BinIndex& index, const std::string& path, std::string& error) {
-    if (!isOurs(path)) {
+bool keepAt(const IndexFile& index, const std::string& path, std::string& error) {
+    if (!isOurs(path, index.magic)) {
         error = "\"" + path + "\" is no index";
         return false;
     }
@@ -103,15 +103,15 @@ std::string cacheFolder() {
 
 }  // namespace
 
-bool isCurrent(const BinIndex& index, const DatabaseFiles& files, const std::function<void()>& checkpoint) {
-    for (const auto& [file, stamp] : index.stamps()) {
+bool areCurrent(const BinIndex::Stamps& stamps, const DatabaseFiles& files, const std::function<void()>& checkpoint) {
+    for (const auto& [file, stamp] : stamps) {
         checkpoint();
         if (!(files.stampOf(file) == stamp)) return false;
     }
     return true;
 }
 
-std::string cachedIndexName(const std::string& rootFile) {
+std::string cachedIndexName(const std::string& rootFile, const std::string& extension) {
     const std::string folder = cacheFolder();
     std::error_code failure;
     const std::string path = fs::canonical(rootFile, failure).string();
@@ -119,14 +119,13 @@ std::string cachedIndexName(const std::string& rootFile) {
     boost::crc_optimal<64, 0x42F0E1EBA9EA3693u, 0xFFFFFFFFFFFFFFFFu, 0xFFFFFFFFFFFFFFFFu, true, true> crc;
     crc.process_bytes(path.data(), path.size());
     char name[32];
-    std::snprintf(name, sizeof name, "/%016llx.bins", static_cast<unsigned long long>(crc.checksum()));
-    return folder + name;
+    std::snprintf(name, sizeof name, "/%016llx.", static_cast<unsigned long long>(crc.checksum()));
+    return folder + name + extension;
 }
 
-std::string keepIndex(const BinIndex& index, const std::string& rootFile, std::string& error) {
-    const std::string beside = binIndexName(rootFile);
-    if (keepAt(index, beside, error)) return beside;
-    const std::string cached = cachedIndexName(rootFile);
+std::string keepIndex(const IndexFile& index, const std::string& rootFile, std::string& error) {
+    if (keepAt(index, index.beside, error)) return index.beside;
+    const std::string cached = cachedIndexName(rootFile, fs::path(index.beside).extension().string().substr(1));
     if (cached.empty()) return {};
     std::error_code failure;
     fs::create_directories(fs::path(cached).parent_path(), failure);

@@ -6,26 +6,33 @@
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/index/DatabaseFiles.h>
 
-#include <osg/ref_ptr>
-
 #include <functional>
+#include <iosfwd>
 #include <string>
+#include <string_view>
 
 namespace osgAnalyticBin::indexing {
 
 /// Whether all files of a database are those that an index with stamps was made from. `checkpoint`: called for each
 /// file; what it throws ends the comparison. Cost: one call of the file system a file.
-[[nodiscard]] bool isCurrent(const BinIndex& index, const DatabaseFiles& files,
-                             const std::function<void()>& checkpoint);
+[[nodiscard]] bool areCurrent(const BinIndex::Stamps& stamps, const DatabaseFiles& files,
+                              const std::function<void()>& checkpoint);
 
 /// The file in the user's cache folder that keeps the index of a database:
-/// "$XDG_CACHE_HOME/osgAnalyticBin/CHECKSUM.bins", or below "$HOME/.cache", by a checksum of the absolute path of the
-/// root file. Returns: empty where there is no such folder.
-[[nodiscard]] std::string cachedIndexName(const std::string& rootFile);
+/// "$XDG_CACHE_HOME/osgAnalyticBin/CHECKSUM.EXTENSION", or below "$HOME/.cache", by a checksum of the absolute path of
+/// the root file. Returns: empty where there is no such folder.
+[[nodiscard]] std::string cachedIndexName(const std::string& rootFile, const std::string& extension);
+
+/// An index of any kind, as a file.
+struct IndexFile {
+    std::string beside;      ///< its path beside the database
+    std::string_view magic;  ///< what such files begin with
+    std::function<bool(std::ostream&)> write;
+};
 
 /// Keeps an index: beside the database, or, where that cannot be written or another file has its name, in the cache
 /// folder. A file is replaced when the new one is complete. Where another process is writing the same file, that one
 /// keeps it. Returns: the path; empty, with the reason in `error`, when the index could not be kept.
-[[nodiscard]] std::string keepIndex(const BinIndex& index, const std::string& rootFile, std::string& error);
+[[nodiscard]] std::string keepIndex(const IndexFile& index, const std::string& rootFile, std::string& error);
 
 }  // namespace osgAnalyticBin::indexing

@@ -54,6 +54,13 @@ void forEachDatabase(osg::Node& node, const std::function<void(Database&)>& visi
     });
 }
 
+// Visits the photogrammetry sets with boxes.
+void forEachSet(osg::Node& node, const std::function<void(BoxSet&)>& visit) {
+    forEachNode(node, [&visit](osg::Node& at) {
+        if (const osg::ref_ptr<BoxSet> set = boxSetOf(at)) visit(*set);
+    });
+}
+
 // Starts to make an index, if tiles wait for one.
 void makeIndex(osg::Node& node, AutoIndex* index) {
     bool isAwaited = false;
@@ -100,6 +107,8 @@ std::size_t installBins(osg::Node& node, const CullOptions& options, const std::
 
 bool isIndexAwaited(osg::Node& node) {
     bool isAwaited = false;
+    forEachSet(node,
+               [&isAwaited](BoxSet& set) { isAwaited = isAwaited || (set.making() && !set.making()->isWhole()); });
     forEachDatabase(node, [&isAwaited](Database& database) {
         const osg::ref_ptr<AutoIndex> index = database.adoption().index();
         isAwaited = isAwaited || (index && !index->isWhole());
@@ -109,6 +118,11 @@ bool isIndexAwaited(osg::Node& node) {
 
 bool waitForIndex(osg::Node& node, double seconds) {
     bool isWhole = true;
+    forEachSet(node, [&](BoxSet& set) {
+        if (!set.making()) return;
+        isWhole = set.making()->waitUntilWhole(std::chrono::duration<double>(seconds)) && isWhole;
+        set.update();
+    });
     forEachDatabase(node, [&](Database& database) {
         const osg::ref_ptr<AutoIndex> index = database.adoption().index();
         if (!index) return;

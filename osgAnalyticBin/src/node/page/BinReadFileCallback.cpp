@@ -29,22 +29,6 @@ std::string placeText(const Database& database, const TileFrame& frame) {
     return std::to_string(database.number()) + ' ' + numbersToText(numbers);
 }
 
-// Has the thread that makes the index give way.
-class BusyPager {
-public:
-    explicit BusyPager(osg::ref_ptr<AutoIndex> index) : _index(std::move(index)) {
-        if (_index) _index->noteRead(1);
-    }
-    ~BusyPager() {
-        if (_index) _index->noteRead(-1);
-    }
-    BusyPager(const BusyPager&) = delete;
-    BusyPager& operator=(const BusyPager&) = delete;
-
-private:
-    const osg::ref_ptr<AutoIndex> _index;
-};
-
 }  // namespace
 
 BinReadFileCallback::BinReadFileCallback(const CullOptions& options, Database* database, const TileFrame& frame,

@@ -356,9 +356,7 @@ void Database::update() {
     renewFamilies();
     makePlates();
     constexpr std::size_t kMostTiles = 32;
-    if (const osg::ref_ptr<AutoIndex> made = _adoption.index()) {
-        for (const std::string& line : made->takeNotes()) OSG_NOTICE << "osgAnalyticBin: " << line << std::endl;
-    }
+    if (const osg::ref_ptr<AutoIndex> made = _adoption.index()) made->showNotes();
     _adoption.adopt(*this, kMostTiles);
     widenLoaded();
 }

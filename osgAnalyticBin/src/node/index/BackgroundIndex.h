@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "IndexStore.h"
+
+#include <osgAnalyticBin/index/DatabaseFiles.h>
+
+#include <osg/Referenced>
+#include <osg/ref_ptr>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+/// Makes an index in a thread of low priority, which waits while the DatabasePager reads.
+/// Threads: everything may be called at any time, start() once. The destructors of derived classes, and stop(), wait
+/// for the thread, which ends after the file that it reads.
+class BackgroundIndex : public osg::Referenced {
+public:
+    void start();
+    void stop();
+
+    /// Whether all is known that there is to know.
+    [[nodiscard]] bool isWhole() const { return _isWhole.load(std::memory_order_acquire); }
+    /// Grows whenever more is known.
+    [[nodiscard]] unsigned int generation() const { return _generation.load(std::memory_order_acquire); }
+
+    /// Waits until it is whole, or never will be. Returns: whether it is whole.
+    bool waitUntilWhole(std::chrono::duration<double> most) const;
+
+    /// The DatabasePager begins and ends to read a file.
+    void noteRead(int change) { _reads.fetch_add(change, std::memory_order_relaxed); }
+
+    /// Says what the thread has to tell the user, each line once.
+    void showNotes();
+
+protected:
+    explicit BackgroundIndex(const std::string& rootFile) : _rootFile(rootFile) {}
+    /// Requires: stop() was called.
+    ~BackgroundIndex() override;
+
+    /// Does the work, in the thread. What it throws is shown as the reason why there is no index.
+    virtual void make() = 0;
+
+    [[nodiscard]] const std::string& rootFile() const { return _rootFile; }
+    /// Guards what find() reads.
+    [[nodiscard]] std::unique_lock<std::mutex> lock() const { return std::unique_lock<std::mutex>(_mutex); }
+    /// Has others see what `change` does, under the lock.
+    void publish(bool isWhole, const std::function<void()>& change);
+    /// Keeps the whole index for the next time, and says so. `content`: what it holds, for the user.
+    void keep(const indexing::IndexFile& file, const std::string& content);
+
+    /// Ends the thread when nobody waits for it any more.
+    void throwIfStopped() const;
+    /// The pager goes first, but does not stop the thread for ever. Throws as throwIfStopped().
+    void giveWay();
+
+private:
+    void run();
+    void note(const std::string& line);
+
+    const std::string _rootFile;
+    std::thread _thread;
+    std::mutex _threadMutex;  // of _thread
+    std::atomic<bool> _isStopped{false};
+    std::atomic<bool> _isWhole{false};
+    std::atomic<unsigned int> _generation{0};
+    std::atomic<int> _reads{0};
+    mutable std::mutex _mutex;  // guards what follows, and what publish() changes
+    mutable std::condition_variable _changed;
+    bool _hasEnded = false;
+    std::vector<std::string> _notes;
+};
+
+/// Has the thread that makes an index give way while a file is read. `index` may be null.
+class BusyPager final {
+public:
+    explicit BusyPager(osg::ref_ptr<BackgroundIndex> index) : _index(std::move(index)) {
+        if (_index) _index->noteRead(1);
+    }
+    ~BusyPager() {
+        if (_index) _index->noteRead(-1);
+    }
+    BusyPager(const BusyPager&) = delete;
+    BusyPager& operator=(const BusyPager&) = delete;
+
+private:
+    const osg::ref_ptr<BackgroundIndex> _index;
+};
+
+/// The index that a database is opened with.
+template <class Index, class Making>
+struct ChosenOf {
+    osg::ref_ptr<const Index> index;  ///< null: none that can be used at once
+    osg::ref_ptr<Making> making;      ///< not started; null: none is made
+};
+
+/// What is done with an index that was found. `index`: null: there is none. `root`: the local file of the database;
+/// empty: it has none. `isMade`: whether one is made where this one cannot be used.
+template <class Making, class Index>
+[[nodiscard]] ChosenOf<Index, Making> chosenFrom(osg::ref_ptr<Index> index, const std::string& root, bool isMade) {
+    // stamps of so many files are compared before the first frame
+    constexpr std::size_t kFewFiles = 4096;
+    if (index && index->stamps().empty()) return {index, nullptr};
+    // times of files in archives and on servers are not known
+    if (index && root.empty()) return {};
+    const bool isSoonCompared = index && (!isMade || index->stamps().size() <= kFewFiles);
+    if (isSoonCompared && Making::isCurrent(*index, indexing::DatabaseFiles(root), [] {})) return {index, nullptr};
+    if (isSoonCompared) index = nullptr;
+    return {nullptr, isMade ? osg::ref_ptr<Making>(new Making(root, index)) : nullptr};
+}
+
+}  // namespace osgAnalyticBin
