@@ -167,7 +167,7 @@ void BinInstaller::apply(osg::PagedLOD& node) {
 void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const Scoped options(_options, settled(node, _options));
     const bool isForeign = _parent && !isSameGlobe(frame(), frameInside(node));
-    if (isForeign && installsBins()) Database::reportUntold(*linkBetween());
+    if (isForeign && installsBins()) Database::reportUnverifiable(*linkBetween());
     if (installsBins() && isGlobeBroken(node)) {
         OSG_WARN << "osgAnalyticBin: the radii of the globe \"" << node.getName() << "\" in \"" << frame().file
                  << "\" are not two positive numbers; nodes below it get no bins." << std::endl;
@@ -218,7 +218,7 @@ void BinInstaller::visitTile(FoundTile& tile) {
     }
     if (installsBins() && !hasStoredBin(*tile.node)) {
         const bool isOnGlobe = tile.frame.ellipsoid && !isMapPlane(*tile.frame.ellipsoid);
-        if (!isOnGlobe && isBelowStored()) Database::reportUntold(*linkBetween());
+        if (!isOnGlobe && isBelowStored()) Database::reportUnverifiable(*linkBetween());
         if (!tile.frame.ellipsoid) return passBy(*tile.node, true);
     }
     const bool hasGround = !tile.frame.ellipsoid || !installsBins() || database().takes(*tile.frame.ellipsoid);

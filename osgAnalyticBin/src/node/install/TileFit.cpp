@@ -96,7 +96,7 @@ AnalyticBin rangedBin(const TileSurface& surface, bool hasDescendants, const Dat
 void fitSurface(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link, TileFit& fit) {
     const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape);
     fit.isTerrain = surface.bin.valid();
-    if (!fit.isTerrain && !surface.isEmpty && link.stored.valid()) Database::reportUntold(link);
+    if (!fit.isTerrain && !surface.isEmpty && link.stored.valid()) Database::reportUnverifiable(link);
     if (!fit.isTerrain) return;
     linkTo(surface.bin.bin(), link);
     fit.surface = surface.bin;
@@ -220,7 +220,7 @@ AnalyticBin checkStored(const FoundTile& tile, Database& database, const Terrain
     const TileSurface own = surfaceOf(tile, model, shape);
     if (!own.bin.valid() && !own.isEmpty) {
         fit.bin.init();
-        Database::reportUntold(link);
+        Database::reportUnverifiable(link);
         return {};
     }
     if (database.options().skirts == SkirtUse::All) fit.skirt = own.skirt;
@@ -253,7 +253,7 @@ void checkUnstored(const AnalyticBin& shown, double sag, Database& database, con
 // By what was found of the tile before. That may have been in another place, below other tiles.
 void correct(const FoundTile& tile, Database& database, const ParentTile& link, TileFit& fit) {
     const Widening correction = database.correction(tile.frame.file, tile.ordinal);
-    if (correction.isBoundless && link.stored.valid()) Database::reportUntold(link);
+    if (correction.isBoundless && link.stored.valid()) Database::reportUnverifiable(link);
     checkUnstored(correction.bin, 0.0, database, link);
     if (correction.any()) fit.bin = correction.widened(fit.bin);
 }

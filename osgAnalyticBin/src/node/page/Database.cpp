@@ -276,8 +276,8 @@ void Database::reportFalseBin(const ParentTile& tile, const AnalyticBin& bin) {
     widenFrom(tile, {bin});
 }
 
-void Database::reportUntold(const ParentTile& tile) {
-    warn(tile, &Database::_hasWarnedOfUntold,
+void Database::reportUnverifiable(const ParentTile& tile) {
+    warn(tile, &Database::_hasWarnedOfUnverifiable,
          " holds content that cannot be compared with the bin stored with it or above it: it stands on another globe, "
          "or its mesh has no known bounds. Tiles are kept visible there.");
     widenFrom(tile, {{}, true});

@@ -32,20 +32,20 @@ namespace osgAnalyticBin {
 class Coverage;
 struct ParentTile;
 
-/// What a tile's bin has to be widened by.
+/// What a tile's bin has to be expanded by.
 struct Widening {
     AnalyticBin bin;
-    bool isBoundless = false;  ///< what was found cannot be told
+    bool isBoundless = false;  ///< the extents of what was found are unknown
 
     [[nodiscard]] bool any() const { return isBoundless || bin.valid(); }
     [[nodiscard]] bool contains(const Widening& other) const;
     void expandBy(const Widening& other);
-    /// The wider bin; one that is not known stays so.
+    /// The expanded bin. An unknown (invalid) bin stays unknown.
     [[nodiscard]] AnalyticBin widened(const AnalyticBin& bin) const;
 };
 
-/// What the tiles of one installed database share: those that are loaded, and those that the DatabasePager will load.
-/// Threads: everything may be called from the pager's threads and from cull threads but update() and setOptions().
+/// State shared by all tiles of one installed database, loaded already or paged in later.
+/// Threads: pager and cull threads may call everything except update() and setOptions().
 class Database : public osg::Referenced {
 public:
     /// `terrain` and `index` may be null.
@@ -60,34 +60,35 @@ public:
 
     /// The node that the database is attached to: the CoordinateSystemNode, or, without one, the root of the scene.
     void setRoot(const osg::Node& node) { _root = &node; }
-    /// Whether it is attached to this node, and follows its Terrain. Clones of a scene share what names databases.
+    /// Whether the database is attached to this node and follows its Terrain. A cloned scene may refer to the database
+    /// of the original.
     [[nodiscard]] bool isAttachedTo(const osg::Node& node) const;
 
-    /// A number that no other database of this process has or had.
+    /// Unique within the process, also over databases that are deleted.
     [[nodiscard]] unsigned long number() const { return _number; }
 
     [[nodiscard]] CullOptions options() const;
 
-    /// Culls by other options from now on. Tiles that were treated by the old ones and are still on their way, read or
-    /// not, are fitted anew in the update traversal that finds them in the scene. Not while a cull traversal runs.
+    /// Replaces the options. Tiles that were installed with the old ones but are not merged into the scene yet are
+    /// fitted again in the first update traversal that finds them there. Requires: no cull traversal runs.
     void setOptions(const CullOptions& options);
 
     /// How often setOptions() was called.
     [[nodiscard]] unsigned int generation() const;
 
-    /// Says that bins are taken off: what is read from now on gets none.
+    /// Call when bins are removed: files that are read from now on get none.
     void setRemoved();
     [[nodiscard]] bool isRemoved() const { return _isRemoved.load(std::memory_order_relaxed); }
 
-    /// Says that a file's content is on its way into the scene, treated by the options of that generation.
+    /// Records that a file was read and its bins were installed with the options of `generation`.
     void noteRead(osg::Node& content, unsigned int generation);
 
-    /// mapPlane() once a tile of a map has got a bin.
+    /// The database's ellipsoid, or mapPlane() once a tile of a map has a bin.
     [[nodiscard]] const osg::EllipsoidModel* ellipsoid() const {
         return _ground.load(std::memory_order_relaxed) == Ground::Map ? mapPlane() : _ellipsoid.get();
     }
-    /// Whether a tile on this ellipsoid, or in the plane of a map, may have a bin: all tiles with bins are on a globe,
-    /// or all are in a map. The first one that is asked for tells which.
+    /// Whether a tile on this ellipsoid (for maps: mapPlane()) may have a bin. A database is either a globe or a map;
+    /// the first call decides which.
     [[nodiscard]] bool takes(const osg::EllipsoidModel& ellipsoid);
     [[nodiscard]] const BinIndex* index() const { return _index.get(); }
     /// The entry of a tile in the index that is in use or being made. Returns: nullopt where there is no index, or no
@@ -97,90 +98,92 @@ public:
     /// The index that is being made, and the tiles that wait for it.
     [[nodiscard]] IndexAdoption& adoption() { return _adoption; }
 
-    /// The shape that the Terrain, if any, gives its tiles at present, as far as these options tell. Not in the pager's
-    /// threads: the application may change it meanwhile.
+    /// The present shape (vertical scale, skirts) from the Terrain, if any, and these options. Not for pager threads,
+    /// because the application may change the Terrain at the same time.
     [[nodiscard]] TerrainShape shape(const CullOptions& options) const;
 
-    /// The shape that tiles are fitted to: that of the last update traversal. In any thread.
+    /// The shape at the last update traversal, which tiles are fitted to. For any thread.
     [[nodiscard]] TerrainShape fittedShape() const;
 
-    /// Says that tiles were met that are not fitted to the present shape.
+    /// Call when a tile was found that is not fitted to the present shape.
     void requestRefit() const { _isRefitWanted.store(true, std::memory_order_relaxed); }
 
-    /// Says that the children of a group with a family have changed. The next update makes the family anew.
+    /// Call when the children of a group with a family have changed. The next update rebuilds the family.
     void noteChanged(osg::Group& group) const;
 
-    /// In the update traversal: whether the loaded tiles have to be fitted anew, told once.
+    /// In the update traversal: whether all loaded tiles have to be fitted again. Resets the answer.
     [[nodiscard]] bool takeShapeChange();
 
-    /// Says that something of the globe may not be covered by tiles of known depth: no horizon then, unless given.
+    /// Records that part of the globe may not be covered by tiles of known depth. The horizon is off then, unless the
+    /// options give its altitude.
     void noteGap(const std::string& where);
     [[nodiscard]] bool hasGap() const { return _hasGap.load(std::memory_order_relaxed); }
 
-    /// Says that the database has a tile that is drawn in several places, or that moves. It has no bin, and whether it
-    /// hides what is behind it is not looked at: with a gap no horizon then, given or not.
+    /// Records a tile that is drawn in several places or that moves. Such a tile has no bin, and does not count as an
+    /// occluder: if there is a gap as well, the horizon is off, even if its altitude was given.
     void noteStrayTile(const std::string& where);
     [[nodiscard]] bool hasStrayTile() const { return _hasStrayTile.load(std::memory_order_relaxed); }
 
-    /// Says what the tiles of a file cover: noteGap(), but for root files that cover a region.
+    /// Records what the tiles of a file cover. A file with gaps counts as noteGap(), except for a root file that covers
+    /// a region.
     void noteCoverage(const std::string& file, const Coverage& coverage);
 
-    /// The region that a regional database covers; none: the database covers the globe, or has a gap.
+    /// The region that a regional database covers. Returns: nullopt if it covers the globe or has a gap.
     [[nodiscard]] std::optional<core::CoveredRegion> region() const;
 
-    /// Says that an eye is not over the region, where the horizon hides nothing. Says so to the user once.
+    /// Call when the eye is not over the region, so that the horizon hides nothing. Tells the user once.
     void noteEyeBesideRegion();
 
-    /// Says that a tile does not stand where its bin was stored or installed. Its place is a gap, and no horizon is
-    /// used, not even a given one.
+    /// Records that a tile is not where its bin was stored or installed. The horizon is off then, even if its altitude
+    /// was given.
     void noteMovedTile(const std::string& where);
     [[nodiscard]] bool hasMovedTile() const { return _hasMovedTile.load(std::memory_order_relaxed); }
 
-    /// Says that occlusion was asked for by a camera whose near plane OSG computes after the cull traversal. Warns
+    /// Call when occlusion is wanted for a camera whose near plane OSG computes only after the cull traversal. Warns
     /// once.
     void noteUnknownNearPlane();
 
-    /// Says that a camera looks for tiles behind terrain. Tiles that are read from now on get their plates at once,
-    /// this one in one of the next updates. `mesh`: what it draws by itself.
+    /// Call when a camera uses occlusion. Tiles that are read from now on get their plates while they are read, this
+    /// tile gets them in one of the next updates. `mesh`: the tile's own mesh.
     void askForPlates(const AnalyticBinCullCallback& tile, osg::Node& mesh);
     [[nodiscard]] bool wantsPlates() const { return _wantsPlates.load(std::memory_order_relaxed); }
 
-    /// Says that osgTerrain tiles are drawn in a way that is not known.
+    /// Call when osgTerrain tiles have a technique that the kit does not know.
     void noteUnknownTechnique();
 
-    /// Says that a tile does not fit the index: warns once, and widens the tile's ancestors at the next update.
+    /// Call when a tile does not fit the index: warns once, and expands the tile's ancestors at the next update.
     static void reportMisfit(const ParentTile& tile, const AnalyticBin& bin);
 
-    /// Says that a tile is larger than the bin that is stored with it or with its parent: likewise.
+    /// Call when a tile is larger than the bin stored with it or with its parent. Does the same as reportMisfit().
     static void reportFalseBin(const ParentTile& tile, const AnalyticBin& bin);
 
-    /// Says that what a tile draws may leave the bins of the tiles above it, for good reasons: these are widened.
+    /// Call when a tile may legitimately draw outside of its ancestors' bins. Expands them without a warning.
     static void noteLarger(const ParentTile& tile, const AnalyticBin& bin) { widenFrom(tile, {bin}); }
 
-    /// Says that nobody can tell whether a tile fits into the bins that are stored with it and above it: warns once,
-    /// and has the tile's ancestors kept visible from the next update on.
-    static void reportUntold(const ParentTile& tile);
+    /// Call when it cannot be checked whether a tile fits into the bins stored with it and its ancestors: warns once,
+    /// and keeps the ancestors visible from the next update on.
+    static void reportUnverifiable(const ParentTile& tile);
 
-    /// Says that something stands below a tile, now or from now on, that its bin does not hold. The tile is kept
-    /// visible until the next update widens the bin.
+    /// Records content below a tile that its bin does not contain. The tile stays visible until the next update expands
+    /// the bin.
     void noteContent(const AnalyticBinCullCallback& tile, const Widening& by);
 
-    /// Says what a tile and its loaded descendants are culled by. The loaded bins of the tiles above it grow to hold
-    /// that in the next update. Not valid: it is not known, and these tiles are culled by their declared bins.
+    /// Records the bin of a tile and its loaded descendants. In the next update, ancestors that are culled by what is
+    /// loaded expand to contain it. Invalid `shown`: unknown; the ancestors are culled by their declared bins.
     static void noteLoaded(const ParentTile& tile, const AnalyticBin& shown);
 
-    /// Says that a tile which is loaded, or on its way, is not held by the bin of a tile above it: likewise. The tile
-    /// above is kept visible meanwhile.
+    /// The same for a tile, merged or not, that the bin of the ancestor `above` does not contain. The ancestor stays
+    /// visible until then.
     void noteLoaded(const AnalyticBinCullCallback& above, const AnalyticBin& shown);
 
-    /// What the reports said of a tile or its descendants.
+    /// What was reported for a tile or its descendants.
     [[nodiscard]] Widening correction(const std::string& file, std::size_t ordinal) const;
 
-    /// In the update traversal, before takeShapeChange(): widens the loaded tiles that were reported.
+    /// In the update traversal, before takeShapeChange(): expands the bins of loaded tiles that were reported.
     void update();
 
-    /// Where no cull traversal runs, after bins were installed on what is in the scene: widens tiles by what was found
-    /// below them.
+    /// Expands the bins of tiles by what was found below them. Call it after bins were installed on nodes of the scene.
+    /// Requires: no cull traversal runs.
     void widenLoaded();
 
 protected:
@@ -217,19 +220,19 @@ private:
     std::atomic<bool> _hasUnknownNearPlane{false};
     std::atomic<bool> _hasEyeBesideRegion{false};
     std::atomic<bool> _wantsPlates{false};
-    mutable std::mutex _mutex;  // guards what follows
+    mutable std::mutex _mutex;  // guards the members below
     CullOptions _options;
     std::optional<core::CoveredRegion> _region;
     TerrainShape _fittedShape;
     unsigned int _generation = 0;
-    std::vector<osg::observer_ptr<osg::Node>> _onTheirWay;  // treated by the present options
-    std::vector<osg::observer_ptr<osg::Node>> _lateComers;  // treated by earlier ones
-    bool _hasWarnedOfIndex = false, _hasWarnedOfStored = false, _hasWarnedOfUntold = false;
+    std::vector<osg::observer_ptr<osg::Node>> _onTheirWay;  // not merged yet, with the present options
+    std::vector<osg::observer_ptr<osg::Node>> _lateComers;  // the same, with earlier ones
+    bool _hasWarnedOfIndex = false, _hasWarnedOfStored = false, _hasWarnedOfUnverifiable = false;
     std::map<TileKey, Widening> _corrections;
     struct Widened {
         osg::observer_ptr<AnalyticBinCullCallback> callback;
         Widening by;
-        bool isLoaded = false;  // it is there already
+        bool isLoaded = false;  // merged already
     };
     struct Grown {
         osg::observer_ptr<AnalyticBinCullCallback> callback;
@@ -242,7 +245,7 @@ private:
     std::vector<std::pair<osg::observer_ptr<const AnalyticBinCullCallback>, osg::observer_ptr<osg::Node>>> _awaitPlates;
 };
 
-/// A tile as those that are paged below it see it.
+/// A tile, as its paged descendants refer to it.
 struct ParentTile : public osg::Referenced {
     osg::ref_ptr<const ParentTile> parent;  // null: a tile of the root file
     osg::observer_ptr<AnalyticBinCullCallback> callback;
@@ -252,18 +255,17 @@ struct ParentTile : public osg::Referenced {
     bool hasNewContent = false;  // since bins were last installed on it
     core::GeodeticBin extents;
     core::TileEdges edges;
-    // What the tile is culled by, where a stored bin says so; else that of the nearest tile above that has one.
-    // Invalid: there is none.
+    // The tile's stored bin, or that of the nearest ancestor with one. Invalid: there is none.
     AnalyticBin stored;
-    // Of the tile: a globe inside another has its own.
+    // The database of the tile: a globe inside another globe has its own.
     osg::ref_ptr<Database> database;
-    // By how much its callback has to be widened; null: not at all. Guarded by the database.
+    // What the callback's bin has to be expanded by; null: nothing. Guarded by the database.
     mutable std::unique_ptr<Widening> widening;
-    // Whether its bin holds no more than what is loaded.
+    // Whether its bin contains only what is loaded.
     bool isLoadedOnly = false;
-    // Whether no other thread than the one that installs bins can have it yet.
+    // Whether only the thread that installs bins can refer to it yet.
     mutable bool isBeingInstalled = false;
-    // All that was noted as loaded. Guarded by the database.
+    // Union of everything passed to noteLoaded(). Guarded by the database.
     mutable AnalyticBin loaded;
 
 protected:
