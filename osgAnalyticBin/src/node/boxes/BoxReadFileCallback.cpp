@@ -15,16 +15,16 @@ osgDB::ReaderWriter::ReadResult BoxReadFileCallback::readNode(const std::string&
     if (!_failures.mayRead(fileName, FailedReads::Clock::now())) return ReadResult::FILE_LOADED;
     const BusyPager busy(_set->making());
     ReadResult result = readCarefully(fileName, [&] {
-        ReadResult read = readUntreated(fileName, options, _previous.get());
+        ReadResult read = readPlain(fileName, options, _previous.get());
         const auto found = _expected.find(fileName);
-        if (read.validNode() && found != _expected.end()) treat(*read.getNode(), found->second);
+        if (read.validNode() && found != _expected.end()) install(*read.getNode(), found->second);
         return read;
     });
     _failures.note(fileName, result.validNode(), FailedReads::Clock::now());
     return result;
 }
 
-void BoxReadFileCallback::treat(osg::Node& node, const Expected& expected) const {
+void BoxReadFileCallback::install(osg::Node& node, const Expected& expected) const {
     if (_set->isRemoved()) return;
     BoxInstaller installer(*_set);
     // what others hold, too, keeps OSG's spheres

@@ -44,7 +44,7 @@ private:
         osg::ref_ptr<BoxTile> parent;
     };
 
-    void treat(osg::Node& node, const Expected& expected) const;
+    void install(osg::Node& node, const Expected& expected) const;
 
     const osg::ref_ptr<BoxSet> _set;
     const osg::ref_ptr<osgDB::Options> _replaced;

@@ -42,7 +42,7 @@ class Database;
 class TilePlan;
 struct FoundOcclusion;
 
-/// What a database says to its tiles for the length of its traversal.
+/// What a database provides to its tiles during its traversal.
 struct DatabaseView {
     const Database* database;
     core::Ellipsoid ellipsoid;
@@ -56,16 +56,16 @@ struct DatabaseView {
     const core::RegionalSight* sight = nullptr;  // nullptr: the eye sees past no border of a region
 };
 
-/// What one cull visitor knows of the frustum that it is in: prepared once per frustum, read by every tile. Lives in
-/// the visitor's user data container with the counters, so that cull threads share nothing.
+/// The state of one cull visitor: its frustum, prepared once for all tiles, and the database that is traversed. Stored
+/// in the visitor's user data container with the counters, so that cull threads share nothing.
 class CullTraversal final : public BinStatistics {
 public:
     CullTraversal();
 
-    /// That of the visitor, made at the first call.
+    /// The visitor's state, created at the first call.
     [[nodiscard]] static CullTraversal& of(osg::NodeVisitor& visitor);
 
-    /// For the length of a traversal: what a database says to its tiles.
+    /// Sets, while it exists, what a database provides to its tiles.
     class DatabaseScope {
     public:
         DatabaseScope(osg::NodeVisitor& visitor, CullTraversal& traversal, const DatabaseView& view);
@@ -80,20 +80,20 @@ public:
         CullTraversal* const _outerTraversal;
     };
 
-    /// The planes of the frustum that the cull stack is in, all of them: OSG's masks may name any.
+    /// All planes of the cull stack's current frustum, because OSG's masks may refer to any of them.
     [[nodiscard]] const core::PlaneSet& planes(osg::CullStack& cullStack);
 
-    /// The corners of the frustum inside the planes; made again where these are others than last time.
+    /// The corners of the frustum inside the planes; recomputed when the planes have changed.
     [[nodiscard]] const core::FrustumHull& hull(const core::PlaneSet& planes);
 
     /// The eye in the frame of the planes last asked for. Returns: nullptr when nothing can be hidden from it.
     [[nodiscard]] const core::HorizonEye* horizonEye(osg::CullStack& cullStack, osg::NodeVisitor& visitor,
                                                      const Occluder& occluder);
 
-    /// The database that is being traversed; nullptr: none that says so.
+    /// What the traversed database provides; nullptr: there is none.
     [[nodiscard]] const DatabaseView* databaseView() const { return _databaseView; }
 
-    /// What this visitor last found out about a database.
+    /// Results about a database that this visitor keeps from frame to frame.
     struct LastView {
         double depth = 0.0;        ///< metres, of the lowest surface shown; the next search starts there
         unsigned int rest = 0;     ///< views without occlusion that follow a view in which it hid too little
@@ -107,13 +107,13 @@ public:
     /// The plan for the database that is traversed next. Each of several nested databases has its own.
     [[nodiscard]] TilePlan& plan();
 
-    /// Says that a family keeps this node and is about to enter it; null: none.
+    /// Records the node that a family keeps and is about to enter; null: none.
     void setKept(const osg::Node* node) { _kept = node; }
     [[nodiscard]] bool isKept(const osg::Node& node) const { return _kept == &node; }
 
-    /// What this visitor last found below its eye.
+    /// The ground that this visitor last found below its eye.
     [[nodiscard]] GroundBelow& ground() { return _ground; }
-    /// What it last found around its eye.
+    /// The meshes that it last read around its eye.
     [[nodiscard]] NearMeshes& nearMeshes() { return _nearMeshes; }
 
 protected:

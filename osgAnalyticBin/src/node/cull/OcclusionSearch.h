@@ -21,55 +21,55 @@
 
 namespace osgAnalyticBin {
 
-/// What terrain hides from every eye near a place. It is kept from view to view, because finding it
-/// out takes longer than all other culling.
+/// The tiles that terrain hides from all eyes near a place. Kept from view to view, because the search takes longer
+/// than all other culling.
 struct FoundOcclusion {
-    /// A tile, as it was then.
+    /// A tile at the time of the search.
     struct Tile {
         const AnalyticBinCullCallback* tile;
         const osg::Node* mesh;
         bool isSure;           ///< see TilePlan::ShownTile
-        std::uint64_t plates;  ///< their number
+        std::uint64_t plates;  ///< see InstalledTile::numberOfPlates()
         core::GeodeticBin bin;
         double margin, low, high;
         [[nodiscard]] OSGANALYTICBIN_EXPORT bool operator==(const Tile& other) const;
     };
     enum class Finding : std::uint8_t { Beside, Seen, Hidden };
 
-    std::vector<Tile> tiles;        ///< all that were shown
-    std::vector<Tile> shown;        ///< all that this view shows; kept, because allocating takes long
-    std::vector<Finding> findings;  ///< of the tiles
-    core::Frame eye{};              ///< the place, and the axes of the picture
-    glm::dvec3 eyes{0.0};           ///< metres that eyes may be away from the place, along each axis of the picture
+    std::vector<Tile> tiles;        ///< all tiles shown at the time of the search
+    std::vector<Tile> shown;        ///< all tiles shown in the present view; a member to avoid allocations
+    std::vector<Finding> findings;  ///< one for each of `tiles`
+    core::Frame eye{};              ///< origin: the place; axes: those of the picture
+    glm::dvec3 eyes{0.0};           ///< metres from the place to the farthest eyes, along each axis of the picture
     PictureSpan span{};             ///< of the picture
-    double nearReach = 0.0;         ///< metres that near planes reach at most; 0: they do not count
+    double nearReach = 0.0;         ///< metres from the eye to the farthest point of the near plane; 0: not considered
     std::optional<core::GeodeticBin> region;
     std::shared_ptr<const CoveredPicture> covered;
-    int uses = 0;  ///< views since then
+    int uses = 0;  ///< views since the search
 
     /// @{
-    /// Of the last view, used or not.
+    /// Of the last view, whether it used the result or not.
     glm::dvec3 lastEye{0.0};
-    core::Interval lastAcross{};  ///< along the axes of the picture; empty where the view was another
+    core::Interval lastAcross{};  ///< along the axes of the picture; empty after a change of view
     double lastClearance = 0.0;   ///< metres from the eye to terrain in the picture, roughly
     /// @}
 
-    /// Aims at the views of an eye that goes on with this step from view to view, from `from` on.
+    /// Sets the place and the box of eyes for an eye that moves on from `from` by `step` in each view.
     void aimAlong(const core::Frame& from, const glm::dvec3& step);
 
-    /// Leaves tiles out that are shown no more, where what was found holds without them: such as hid nothing, and such
-    /// as are out of view. Source: doc/theory/occlusion.md, section 5.
+    /// Removes tiles that are no longer shown, if the result holds without them: those that hid nothing, and those that
+    /// are out of view. Source: doc/theory/occlusion.md, section 5.
     OSGANALYTICBIN_EXPORT void leaveOut(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid);
 
-    /// Whether this is one of the eyes.
+    /// Whether the box of eyes contains this one.
     [[nodiscard]] bool holds(const glm::dvec3& place) const;
 
-    /// Whether the eye has moved too far since the last view for a motion that goes on.
+    /// Whether the eye has moved too far since the last view for a continuous motion.
     [[nodiscard]] bool isJump(const glm::dvec3& step) const;
 };
 
-/// Looks for shown tiles behind the terrain of others.
-/// Requires: a plan that has what is shown; of `found`: everything but findings, and the tiles.
+/// Finds shown tiles that are hidden behind the terrain of others.
+/// Requires: a plan with the shown tiles; in `found` everything is set except the findings.
 /// Guarantee: every line of sight to a tile that is found hidden meets the mesh of another shown tile before, for all
 /// of the eyes; source: doc/theory/occlusion.md, sections 4 and 5. Returns: false where the near plane may cut into
 /// terrain, or where the place of a tile is not known. Cost: a sort of the shown tiles, and a few microseconds for each

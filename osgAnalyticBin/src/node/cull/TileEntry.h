@@ -18,30 +18,30 @@ namespace osgAnalyticBin {
 
 class CullTraversal;
 
-/// Enters a kept tile as osgUtil::CullVisitor does, in less time: the drawables of the tile's own mesh are delivered
-/// without a culling set for the mesh's transform, and the root group of a file goes to its family at once. What the
-/// mesh is made of is known from when the family was made; where something else stands there now, or has a cull
-/// callback or a sphere test of its own, OSG enters it.
-/// Guarantee: it delivers what OSG delivers, in the same order, with the same matrices, states, depths and near and far
-/// planes; tests: TileEntry.*.
-/// Threads: everything at any time.
+/// Enters a kept tile like osgUtil::CullVisitor, in less time: it adds the drawables of the tile's own mesh without
+/// creating a culling set for the mesh's transform, and passes the root group of a file to its family directly. The
+/// nodes of the mesh are those at the time when the family was made. If they have changed, or one of them has a cull
+/// callback or a sphere test, OSG enters the tile.
+/// Guarantee: the render graph is that of OSG: the same drawables in the same order, with the same matrices, states,
+/// depths, and near and far planes; tests: TileEntry.*.
+/// Threads: all functions at any time.
 class TileEntry {
 public:
     static constexpr std::size_t kMostParts = 4;
-    /// The nodes of a tile's own mesh, each behind the one that it hangs below, all of which have to be entered for all
-    /// of it to be drawn. None: not known, or more than these.
+    /// All nodes that have to be entered to draw a tile's own mesh, parents before children. None: unknown, or more
+    /// than fit.
     using MeshParts = std::array<osg::ref_ptr<osg::Node>, kMostParts>;
 
     TileEntry() = default;
-    /// Of a tile, whose own mesh is `parts`. Whoever keeps this keeps the nodes.
+    /// `parts`: the tile's own mesh. The owner holds references to the nodes.
     TileEntry(osg::Node& tile, const MeshParts& parts);
 
-    /// Whether it can enter the tile. Requires, when it does: a visitor of the very type osgUtil::CullVisitor, and a
-    /// tile that has no sphere test and no cull callback but that of its bin.
+    /// Whether enter() may be called. It requires, besides: a visitor of exactly the class osgUtil::CullVisitor, and a
+    /// tile without a sphere test and without cull callbacks other than that of its bin.
     [[nodiscard]] bool isPossible() const { return _isPossible; }
     void enter(osg::Node& tile, osgUtil::CullVisitor& visitor, CullTraversal& traversal) const;
 
-    /// Has the memory fetched that entering the tile read last time.
+    /// Prefetches the memory that the last enter() read.
     void fetch() const { _footprint.fetch(); }
 
 private:
@@ -49,9 +49,9 @@ private:
     struct Part {
         osg::Node* node = nullptr;
         Kind kind = Kind::Unknown;
-        unsigned char above = 0;     // number of the part that it hangs below, if it is not the first
-        unsigned char place = 0;     // among that one's children
-        unsigned char children = 0;  // of a group or transform
+        unsigned char above = 0;     // number of its parent among the parts; the first has none
+        unsigned char place = 0;     // index among the parent's children
+        unsigned char children = 0;  // number of children of a group or transform
     };
     /// The mesh whose bound is known to be computed. osgTerrain makes meshes in the update traversal, and OSG computes
     /// their bounds in all cull threads at once: one may read what another is writing.

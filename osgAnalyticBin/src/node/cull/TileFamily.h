@@ -27,10 +27,10 @@ class Database;
 struct DatabaseView;
 struct Verdict;
 
-/// The cull callback of a group that has tiles among its children. It tests all tiles together, enters those that are
-/// kept, and reads nothing of the others. The tiles' own callbacks decide where the family cannot: for children that it
-/// does not know, in another frame than that of the database, with occluders, and with callbacks behind it.
-/// It reports the class name of a plain osg::NodeCallback, so a saved scene holds nothing of it.
+/// The cull callback of a group with tiles among its children. It tests all tiles together, enters those that it keeps,
+/// and does not access the others. The tiles' own callbacks are used for children that it does not know, in another
+/// frame than that of the database, with occluders, and with callbacks behind it.
+/// It reports the class name of a plain osg::NodeCallback, so that saved scenes do not contain it.
 /// Guarantee: it culls the tiles that their own callbacks would cull; tests: TileFamily.*.
 /// Threads: run() changes nothing in the callback.
 class TileFamily final : public osg::NodeCallback {
@@ -39,17 +39,17 @@ public:
     TileFamily(const TileFamily& other, const osg::CopyOp& copyop);
     osg::Object* clone(const osg::CopyOp& copyop) const override { return new TileFamily(*this, copyop); }
 
-    /// Whether the node is a group that enters all its children, and does nothing else.
+    /// Whether the node is a plain group, which enters all of its children and does nothing else.
     [[nodiscard]] static bool isPossibleOn(const osg::Node& node);
 
-    /// Replaces the node's family, if it has one, by a new one behind its other callbacks. Does nothing more where a
-    /// family is not possible, or where no child is a tile with a bin in the group's own frame, ECEF.
+    /// Replaces the node's family, if any, by a new one behind the node's other callbacks. Only removes it if a family
+    /// is not possible or no child is a tile with a bin in the group's own frame, ECEF.
     static void place(osg::Node& node);
 
-    /// Takes it off again.
+    /// Removes the family.
     static void remove(osg::Node& node);
 
-    /// Makes the family of a group anew after the application has added, removed or replaced children. Not while a cull
+    /// Rebuilds the family of a group after the application has added, removed or replaced children. Requires: no cull
     /// traversal runs.
     static void renew(osg::Node& node);
 
@@ -57,7 +57,7 @@ public:
 
     using MeshParts = TileEntry::MeshParts;
 
-    /// A tile as it was when the family was made.
+    /// A tile at the time when the family was made.
     struct Member {
         osg::ref_ptr<const AnalyticBinCullCallback> tile;
         osg::PagedLOD* paged = nullptr;  ///< the node, if it is one
@@ -68,16 +68,16 @@ public:
 
     /// The results for up to TileBlock::Part::kMost children, one bit each.
     struct Verdicts {
-        Verdicts() { planes.outside = planes.insideAll = 0; }  // masks of slots that are not there are not read
+        Verdicts() { planes.outside = planes.insideAll = 0; }  // masks of slots without a tile are not read
 
         core::FamilyVerdict planes;
-        std::uint64_t members = 0;    ///< the family's own tiles; callbacks of other children have to be asked
-        std::uint64_t tested = 0;     ///< slots with a bin that is tested so
+        std::uint64_t members = 0;    ///< the family's tiles; other children are left to their callbacks
+        std::uint64_t tested = 0;     ///< slots with a bin
         std::uint64_t hidden = 0;     ///< behind the horizon
         std::uint64_t separated = 0;  ///< proven outside by an edge of the frustum
         std::uint64_t occluded = 0;   ///< behind terrain
         std::uint64_t emerging = 0;   ///< of these, those that come into view soon
-        bool lacksTiles = false;      ///< a tile is not where it was: the terrain may have a hole
+        bool lacksTiles = false;      ///< a tile was removed: the terrain may have a hole
 
         /// Slots whose bin is out of view.
         [[nodiscard]] std::uint64_t outOfView() const {
@@ -85,14 +85,14 @@ public:
         }
     };
 
-    /// Whether it culls the children of the group in this traversal.
+    /// Whether the family may cull the children of the group in this traversal.
     [[nodiscard]] bool culls(const osg::Node& group, osg::CullStack& cullStack, const DatabaseView& view) const;
 
     /// Tests the children from `first` on, a multiple of kMost. `eye`: null where nothing is hidden.
     void test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes, core::PlaneMask undecided,
               const core::HorizonEye* eye, CullTraversal& traversal, Verdicts& verdicts) const;
 
-    /// Has the memory fetched that entering the tiles in view reads.
+    /// Prefetches the memory that entering the tiles in view reads.
     void fetchKept(unsigned int first, const Verdicts& verdicts) const;
 
     [[nodiscard]] const Member& member(unsigned int i) const { return _members[i]; }
@@ -104,9 +104,9 @@ public:
     /// The number of children when the family was made.
     [[nodiscard]] std::size_t size() const { return _nodes.size(); }
 
-    /// Enters a plain group whose only cull callback is a family that culls in this traversal, as OSG does, but for the
-    /// test of the group's sphere: the family's tiles have tests of their own. `notes`: takes what is read for it.
-    /// Returns: false for any other node; nothing was done then.
+    /// Enters a plain group whose only cull callback is a family that may cull in this traversal. As OSG, but without
+    /// the test of the group's sphere, because the tiles are tested. `notes`: records the memory that is read. Returns:
+    /// false for any other node, without doing anything.
     [[nodiscard]] static bool enterFamilyOf(osg::Node& node, osgUtil::CullVisitor& visitor, CullTraversal& traversal,
                                             Footprint::Notes& notes);
 
@@ -132,9 +132,9 @@ private:
     bool _hasLostTiles = false;
     osg::ref_ptr<TileBlock> _block;
     // one for each child
-    std::vector<osg::ref_ptr<osg::Node>> _nodes;  // held, so that no others are taken for them; null: no tile
+    std::vector<osg::ref_ptr<osg::Node>> _nodes;  // references, so that no address is used again; null: no tile
     std::vector<Member> _members;
-    // what all its tiles have in common
+    // the same for all tiles
     std::optional<core::Ellipsoid> _ellipsoid;
     std::optional<TerrainShape> _shape;
     bool _testsEdges = false;

@@ -214,12 +214,12 @@ void BinInstaller::visitTile(FoundTile& tile) {
     uninstall(tile);
     if (isInstanced(*tile.node, tile.frame)) {
         if (installsBins()) database().noteStrayTile(tile.frame.file);
-        return passBy(*tile.node, true);
+        return visitWithoutBin(*tile.node, true);
     }
     if (installsBins() && !hasStoredBin(*tile.node)) {
         const bool isOnGlobe = tile.frame.ellipsoid && !isMapPlane(*tile.frame.ellipsoid);
         if (!isOnGlobe && isBelowStored()) Database::reportUnverifiable(*linkBetween());
-        if (!tile.frame.ellipsoid) return passBy(*tile.node, true);
+        if (!tile.frame.ellipsoid) return visitWithoutBin(*tile.node, true);
     }
     const bool hasGround = !tile.frame.ellipsoid || !installsBins() || database().takes(*tile.frame.ellipsoid);
     if (installsBins() && hasGround) return install(tile, hasNewContent);
@@ -229,7 +229,7 @@ void BinInstaller::visitTile(FoundTile& tile) {
             suspendClusterCulling(*mesh);
         }
     }
-    passBy(*tile.node, true);
+    visitWithoutBin(*tile.node, true);
 }
 
 void BinInstaller::visitOther(osg::Node& node) {
@@ -246,10 +246,10 @@ void BinInstaller::visitOther(osg::Node& node) {
     }
     TileFamily::remove(node);
     if (installsBins() && TileFamily::isPossibleOn(node)) _groups.emplace_back(&node);
-    passBy(node, false);
+    visitWithoutBin(node, false);
 }
 
-void BinInstaller::passBy(osg::Node& node, bool isTile) {
+void BinInstaller::visitWithoutBin(osg::Node& node, bool isTile) {
     if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node))
         followPaging(*paged, isBelowStored() ? linkBetween().get() : nullptr, isTile);
     if (_options.method == Method::None) {
@@ -279,7 +279,7 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     link->hasNewContent = hasNewContent;
     const TerrainShape shape = database().fittedShape();
     const TileFit fit = fitTile(tile, database(), shape, *link);
-    if (!fit.isTerrain || isSmallPart(tile)) return passBy(*tile.node, true);
+    if (!fit.isTerrain || isSmallPart(tile)) return visitWithoutBin(*tile.node, true);
 
     const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database().ellipsoid();
     const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);
@@ -308,7 +308,7 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
         _awaiting.push_back({link.get(), tileFingerprint(tile), fit.ownSkirt, !tile.pagedFiles.empty()});
     }
     noteCovered(tile, fit, *link);
-    goOnBelow(tile, *link);
+    visitChildren(tile, *link);
 }
 
 osg::ref_ptr<ParentTile> BinInstaller::linkTo(const FoundTile& tile) {
@@ -345,7 +345,7 @@ void BinInstaller::noteCovered(const FoundTile& tile, const TileFit& fit, const 
     for (const std::string& file : tile.pagedFiles) (*_coverage)[file].expect(Coverage::areaOf(link.extents));
 }
 
-void BinInstaller::goOnBelow(const FoundTile& tile, const ParentTile& link) {
+void BinInstaller::visitChildren(const FoundTile& tile, const ParentTile& link) {
     if (auto* paged = dynamic_cast<osg::PagedLOD*>(tile.node.get())) {
         raiseExpiry(*paged, _options.expiry);
         followPaging(*paged, &link, true);

@@ -25,10 +25,10 @@ struct TileFit;
 class Database;
 struct ParentTile;
 
-/// Visits the loaded part of a database and installs bins on it, as installBins() promises.
+/// Installs bins on the loaded part of a database; see installBins().
 class BinInstaller : public TileFinder {
 public:
-    /// Installs by these options.
+    /// `options`: what to install.
     explicit BinInstaller(const CullOptions& options = {});
     ~BinInstaller() override;
 
@@ -47,11 +47,11 @@ public:
 
     /// Visits a node of the database; called by OSG's traversal.
     void apply(osg::Node& node) override;
-    /// Enters a globe or a map.
+    /// Begins a globe or a map.
     void apply(osg::CoordinateSystemNode& node) override;
-    /// Enters another frame.
+    /// Applies the transform to the frame of the tiles below.
     void apply(osg::Transform& node) override;
-    /// Arranges, besides, that what is paged in later is treated.
+    /// Also sets a read callback, which installs bins on the tiles that are paged in later.
     void apply(osg::PagedLOD& node) override;
 
 protected:
@@ -65,53 +65,54 @@ private:
     friend class DatabaseUpdateCallback;
     friend OSGANALYTICBIN_EXPORT std::size_t setCullOptions(osg::Node& node, const CullOptions& options);
 
-    // What PagedLODs get for the options that they came with (null: none).
+    // The database options that replace those which PagedLODs came with (null: none).
     struct Paging {
         osg::ref_ptr<osgDB::Options> options;
-        BinReadFileCallback* callback = nullptr;  // the options keep it
+        BinReadFileCallback* callback = nullptr;  // owned by the options
     };
     using PagingByOptions = std::map<osg::ref_ptr<osgDB::Options>, Paging>;
 
-    // Goes on in a file that is paged below a tile of the database (null: below none).
+    // Prepares for a file that is paged below a tile of the database (`parent` null: below no tile).
     void continueBelow(Database* database, const TileFrame& frame, const ParentTile* parent);
-    // Fits the loaded tiles of an installed database anew.
+    // Fits the loaded tiles of an installed database again.
     void refit(osg::Node& node, Database& database);
-    // Looks whether the tiles of each file cover what they are paged below. `content`: what was read; null: a scene.
+    // Checks whether the tiles of each file cover their parent. `content`: the file's nodes; null: a scene.
     void finish(osg::Node* content = nullptr);
-    // Has others see the tiles.
+    // Makes the tiles known to other threads.
     void publishTiles(osg::Node* content);
     void placeFamilies();
 
     [[nodiscard]] bool installsBins() const;
     [[nodiscard]] Database& database();
-    void passBy(osg::Node& node, bool isTile);
+    void visitWithoutBin(osg::Node& node, bool isTile);
     void visitSet(osg::Group& set);
     void install(FoundTile& tile, bool hasNewContent);
     [[nodiscard]] osg::ref_ptr<ParentTile> linkTo(const FoundTile& tile);
     void noteCovered(const FoundTile& tile, const TileFit& fit, const ParentTile& link);
-    void goOnBelow(const FoundTile& tile, const ParentTile& link);
+    void visitChildren(const FoundTile& tile, const ParentTile& link);
     void uninstall(FoundTile& tile);
-    // Whether what is visited has to fit into a bin that is stored above.
+    // Whether an ancestor of the visited node has a stored bin, which must contain it.
     [[nodiscard]] bool isBelowStored() const;
-    // For what is below a node without a bin, which still has to fit into what is stored above. Requires: _parent.
+    // A link for nodes below one without a bin: the stored bin of an ancestor must contain them as well. Requires:
+    // _parent.
     [[nodiscard]] osg::ref_ptr<const ParentTile> linkBetween() const;
     void followPaging(osg::PagedLOD& node, const ParentTile* parent, bool isTile);
 
     CullOptions _options;
     bool _keepsDatabases = false;
-    bool _isReading = false;         // what the pager reads, before it is in the scene
+    bool _isReading = false;         // the content of a file, not merged into the scene yet
     bool _isInMesh = false;          // within a tile's own mesh
-    bool _isBelowSelection = false;  // below a node that may leave out some of its children
+    bool _isBelowSelection = false;  // below a node that may not draw all of its children
     osg::ref_ptr<const BinIndex> _index;
-    osg::ref_ptr<Database> _database;        // that is visited
-    osg::ref_ptr<Database> _refitted;        // that is about to be visited again
-    osg::ref_ptr<const ParentTile> _parent;  // below which the visited node is
+    osg::ref_ptr<Database> _database;        // the visited one
+    osg::ref_ptr<Database> _refitted;        // about to be fitted again
+    osg::ref_ptr<const ParentTile> _parent;  // the parent tile of the visited node
     PagingByOptions _paging;
     std::shared_ptr<std::map<std::string, Coverage>> _coverage;  // by file
     std::size_t _installed = 0;
     std::size_t _boxes = 0;                        // of photogrammetry sets
-    std::vector<osg::Node*> _groups;               // that may get families
-    std::vector<osg::ref_ptr<ParentTile>> _links;  // of tiles that it has installed bins on
+    std::vector<osg::Node*> _groups;               // candidates for families
+    std::vector<osg::ref_ptr<ParentTile>> _links;  // of tiles with installed bins
     std::vector<AwaitingTile> _awaiting;
 };
 

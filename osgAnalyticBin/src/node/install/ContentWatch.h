@@ -12,31 +12,31 @@
 
 namespace osgAnalyticBin {
 
-/// Notices what is added below a tile, or changes there, after its bin was made. OSG computes the bound of a node anew
-/// when something below it was added, removed or moved, and asks this on the way: it compares the content with the
-/// content that the bins above were fitted to. What is new has to lie in the bins of all tiles above; else these are
-/// kept visible at once, and their databases widen them in the next update traversal.
-/// It stands on every tile, and on groups between tiles; each looks after its own children, up to the next that is
-/// watched. The meshes that a tile was fitted to are known.
+/// Detects content that is added below a tile, or changed there, after the tile's bin was made. When something below a
+/// node is added, removed or moved, OSG recomputes the node's bound and calls this callback, which compares the content
+/// with what the bins of the ancestors were fitted to. If one of these bins does not contain new content, its tile is
+/// kept visible at once, and the database expands the bin in the next update traversal.
+/// Every tile and every group between tiles has a watch, which checks the node's own children, down to the next node
+/// with a watch. It knows the meshes that the tile's bin was fitted to.
 /// Bounds are computed before tiles are culled: by osgViewer in every frame, and by DatabaseCullCallback.
 class OSGANALYTICBIN_EXPORT ContentWatch final : public osg::Node::ComputeBoundingSphereCallback {
 public:
     ContentWatch() = default;
-    /// A copy knows nothing, and so finds nothing new.
+    /// A copy watches nothing.
     ContentWatch(const ContentWatch& other, const osg::CopyOp& copyop);
     META_Object(osgAnalyticBin, ContentWatch)
 
-        /// Puts a watch on the node, in front of a callback that is there. `fitted`: the children, or the node itself,
+        /// Adds a watch to the node, in front of an existing callback. `fitted`: the children, or the node itself,
         /// that the node's bin was fitted to.
         static void place(osg::Node& node, const std::vector<osg::ref_ptr<osg::Node>>& fitted);
 
-    /// Takes it off again.
+    /// Removes the watch.
     static void remove(osg::Node& node);
 
-    /// Whether a watch stands on the node, and has found content among its children that the bin was not fitted to.
+    /// Whether the node has a watch that found content among its children which the bin was not fitted to.
     [[nodiscard]] static bool hasNewContent(const osg::Node& node);
 
-    /// Looks for new content now. Requires: the node that it was placed on is alive.
+    /// Checks for new content now. Requires: the watched node exists.
     void look() const;
 
     osg::BoundingSphere computeBound(const osg::Node& node) const override;
@@ -61,21 +61,21 @@ private:
 
     [[nodiscard]] static Structure structureOf(const osg::Node& mesh);
 
-    // That of a node in one place.
+    // The watch of a node that has one parent.
     [[nodiscard]] static const ContentWatch* ownWatchOf(const osg::Node& node);
     [[nodiscard]] bool isFitted(const osg::Node& child, bool withBounds) const;
     void check(const osg::Node& node) const;
-    // As it is without the watch.
+    // The bound as it is without the watch.
     [[nodiscard]] osg::BoundingSphere boundOf(const osg::Node& node) const;
 
     // Whether a transform in a fitted mesh has another matrix now, while the mesh still has the same parts.
     [[nodiscard]] bool isPartMoved(const osg::Group& group) const;
 
-    const osg::Node* _node = nullptr;  // that it was placed on
-    std::uint64_t _frame = 0;          // a hash of that node's matrix; 0: it is no transform
+    const osg::Node* _node = nullptr;  // the watched one
+    std::uint64_t _frame = 0;          // hash of the node's matrix; 0: it is no transform
     std::vector<Fitted> _fitted;
-    mutable bool _isPending = false;  // whether content has not been looked at from all tiles above: the file is not
-                                      // merged yet
+    mutable bool _isPending = false;  // not all ancestors' bins have been checked: the file is not merged
+                                      // yet
     osg::ref_ptr<osg::Node::ComputeBoundingSphereCallback> _previous;
 };
 

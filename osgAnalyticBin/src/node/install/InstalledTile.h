@@ -22,15 +22,15 @@ namespace osgAnalyticBin {
 
 class Database;
 
-/// What the installer keeps beside a tile's cull callback: the node that the bin was made for, whether the bin holds
-/// everything below the node at present, and the nodes whose sphere test was switched off.
-/// Threads: mayCull() and keepVisible() at any time; the rest where no cull traversal runs.
+/// The installer's record of a tile, owned by the tile's cull callback: the node that the bin was made for, whether the
+/// bin contains everything below that node, and the nodes whose sphere test was switched off.
+/// Threads: mayCull() and keepVisible() at any time; the rest only while no cull traversal runs.
 class InstalledTile final : public osg::Referenced {
 public:
     /// `culled`: the node that carries the callback.
     InstalledTile(const osg::Node& culled, Database& database);
 
-    /// That of a copied callback: for no node.
+    /// For a copied callback: it belongs to no node.
     InstalledTile(const InstalledTile& other);
 
     [[nodiscard]] Database& database() const { return *_database; }
@@ -38,53 +38,52 @@ public:
     /// Whether `node` is the one that the bin was made for. A clone of a scene may share the callback.
     [[nodiscard]] bool isFor(const osg::Node* node) const { return node == _culled; }
 
-    /// Whether the callback may cull this node: it is the bin's own, and nothing stands below it that the bin does not
-    /// hold.
+    /// Whether the callback may cull this node: the bin was made for it and contains everything below it.
     [[nodiscard]] bool mayCull(const osg::Node* node) const {
         return isFor(node) && !_isKeptVisible.load(std::memory_order_relaxed);
     }
 
-    /// Keeps the tile visible until this is called with false.
+    /// While true, the tile is not culled.
     void keepVisible(bool kept);
 
     [[nodiscard]] bool isKeptVisible() const { return _isKeptVisible.load(std::memory_order_relaxed); }
 
-    /// Gives the tile a slot in a family. The tile's callback fills it.
+    /// Assigns the tile a slot in a family. The tile's callback calls fillSlot().
     void joinFamily(TileBlock& block, std::size_t slot);
     [[nodiscard]] bool hasFamily() const { return _block.valid(); }
-    /// From now on only the tile's own callback culls it.
+    /// The tile is culled by its own callback alone from now on.
     void leaveFamily();
-    /// Says that the mesh has changed since the bin was fitted. The family leaves the tile to its callback until
-    /// trustMesh() is called. `isMoved`: it has left its place, which may be empty now.
+    /// Call when the mesh has changed since the bin was fitted. Until trustMesh() the tile is tested by its own callback,
+    /// not by the family. `isMoved`: the mesh has moved, and its former place may be empty.
     void doubtMesh(bool isMoved);
     void trustMesh();
     [[nodiscard]] bool isMeshDoubted() const { return _isMeshDoubted.load(std::memory_order_relaxed); }
-    /// Copies the numbers that the family, if there is one, tests the tile by.
+    /// Copies the tile's bin and bounds into its family's slot, if it has a family.
     void fillSlot(const TileBlock::Slot& tile, const TileBlock::Bins& bins);
-    /// Has the family leave the tile to its callback until the slot is filled again.
+    /// Until the slot is filled again, the tile is tested by its own callback.
     void emptySlot();
 
-    /// Says that what the tile draws can be seen through. At any time.
+    /// Call when the tile draws something see-through. At any time.
     void setSeeThrough() { _isSeeThrough.store(true, std::memory_order_relaxed); }
     /// Whether the horizon must not rely on the tile: it can be seen through, or its place may be empty.
     [[nodiscard]] bool isSeeThrough() const { return _isSeeThrough.load(std::memory_order_relaxed) || isMoved(); }
-    /// Whether the mesh has left its place since bins were installed.
+    /// Whether the mesh has moved since bins were installed.
     [[nodiscard]] bool isMoved() const { return _isMoved.load(std::memory_order_relaxed); }
 
-    /// What is known of the altitudes of the tile's own mesh, cell by cell; null: nothing can be known.
+    /// Sets the lowest altitudes of the tile's own mesh, by cells; null: they cannot be found.
     void setPlates(std::unique_ptr<const core::GroundPlates> plates);
-    /// Returns: nullptr where nothing is known, and once the mesh has changed.
+    /// Returns: nullptr when they are unknown or the mesh has changed since.
     [[nodiscard]] const core::GroundPlates* plates() const { return isMeshChanged() ? nullptr : _plates.get(); }
     /// Returns: true the first time, unless setPlates() was called before.
     [[nodiscard]] bool askForPlates() {
         return _numberOfPlates == 0 && !_isAskedForPlates.exchange(true, std::memory_order_relaxed);
     }
-    /// Tells plates apart: no two that were ever set have the same number. 0: none were set.
+    /// An identifier of the plates, never used twice. 0: none were set.
     [[nodiscard]] std::uint64_t numberOfPlates() const { return _numberOfPlates; }
     /// Whether a change of the mesh was noticed since bins were installed.
     [[nodiscard]] bool isMeshChanged() const { return _isMeshChanged.load(std::memory_order_relaxed); }
 
-    /// Keeps what others observe as long as the tile is there.
+    /// Holds a reference to `observed` as long as the tile exists.
     void keep(const osg::Referenced& observed) { _kept = &observed; }
 
     /// Switches OSG's sphere test off on a node where it is on.
@@ -93,8 +92,8 @@ public:
     /// Switches the sphere test on again on the nodes where it was on. Requires: isFor(&culled).
     void resumeSpheres(osg::Node& culled);
 
-    /// Whether the test was on at the i-th call of suspendSphere(): what a clone of the nodes has to go back to. Nodes
-    /// that came later count as such where it was on.
+    /// Whether the test was on at the i-th call of suspendSphere(), to restore clones of the nodes. True for nodes that
+    /// were added later.
     [[nodiscard]] bool wasActive(std::size_t i) const;
 
 protected:
@@ -117,10 +116,10 @@ private:
     std::atomic<bool> _isSeeThrough{false};
     std::atomic<bool> _isMoved{false};
     osg::ref_ptr<const osg::Referenced> _kept;
-    bool _wasCulledActive = false;                    // of the culled node, which owns this and must not be owned by it
+    bool _wasCulledActive = false;                    // of the culled node: no reference to it, because it owns this
     std::vector<osg::ref_ptr<osg::Node>> _suspended;  // other nodes
     std::size_t _suspensions = 0;                     // calls of suspendSphere()
-    std::vector<std::size_t> _wasInactive;            // those that met a node without the test
+    std::vector<std::size_t> _wasInactive;            // those of nodes without the test
 };
 
 }  // namespace osgAnalyticBin

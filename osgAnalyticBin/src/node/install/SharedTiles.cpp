@@ -12,28 +12,28 @@ SharedTiles& SharedTiles::instance() {
     return tiles;
 }
 
-SharedTiles::Outcome SharedTiles::treatOnce(osg::Node& node, const std::string& place, unsigned int generation,
-                                            const std::function<void()>& treat) {
+SharedTiles::Outcome SharedTiles::installOnce(osg::Node& node, const std::string& place, unsigned int generation,
+                                              const std::function<void()>& install) {
     const std::lock_guard<std::mutex> lock(_mutex);
-    const auto known = _treated.find(&node);
-    if (known != _treated.end() && known->second.node.valid()) {
+    const auto known = _installed.find(&node);
+    if (known != _installed.end() && known->second.node.valid()) {
         if (known->second.place != place) return Outcome::Elsewhere;
         if (known->second.generation == generation || node.getNumParents() > 0) return Outcome::Usable;
     }
     // In a scene already, without bins: a cull traversal may be in it just now. OSG's spheres stay in charge there.
     if (node.getNumParents() > 0) return Outcome::Usable;
-    treat();
+    install();
     forgetDeleted();
-    _treated[&node] = {osg::observer_ptr<osg::Node>(&node), place, generation};
+    _installed[&node] = {osg::observer_ptr<osg::Node>(&node), place, generation};
     return Outcome::Usable;
 }
 
 void SharedTiles::forgetDeleted() {
-    if (_treated.size() < _enough) return;
-    for (auto entry = _treated.begin(); entry != _treated.end();) {
-        entry = entry->second.node.valid() ? std::next(entry) : _treated.erase(entry);
+    if (_installed.size() < _enough) return;
+    for (auto entry = _installed.begin(); entry != _installed.end();) {
+        entry = entry->second.node.valid() ? std::next(entry) : _installed.erase(entry);
     }
-    _enough = std::max<std::size_t>(64, 2 * _treated.size());
+    _enough = std::max<std::size_t>(64, 2 * _installed.size());
 }
 
 }  // namespace osgAnalyticBin

@@ -16,24 +16,24 @@ namespace osgAnalyticBin {
 
 /// Nodes that a user's read callback keeps, and so may hand out more than once, to several threads, or while they are
 /// being drawn: bins are installed on each only once.
-/// Threads: any number at once; one treats while the others wait.
+/// Threads: any number at once; one installs while the others wait.
 class SharedTiles {
 public:
     enum class Outcome {
-        Usable,    ///< treated now or before, for the same place; or drawn already by a scene without bins
-        Elsewhere  ///< treated before for another place: its bins would be wrong here
+        Usable,    ///< installed now or before, for the same place; or drawn already by a scene without bins
+        Elsewhere  ///< installed before for another place: its bins would be wrong here
     };
 
     [[nodiscard]] static SharedTiles& instance();
 
-    /// Runs `treat` unless the node was treated before. `place`: where on which globe the node stands. A later
-    /// `generation` of the globe's options treats anew what is not in its scene just now; what is there follows with
-    /// it.
-    [[nodiscard]] Outcome treatOnce(osg::Node& node, const std::string& place, unsigned int generation,
-                                    const std::function<void()>& treat);
+    /// Runs `install` unless bins are installed on the node already. `place`: the node's globe and frame. With a later
+    /// `generation` of the globe's options it runs again for nodes that are not in the scene; the scene's are updated
+    /// with it.
+    [[nodiscard]] Outcome installOnce(osg::Node& node, const std::string& place, unsigned int generation,
+                                      const std::function<void()>& install);
 
 private:
-    struct Treated {
+    struct Installed {
         osg::observer_ptr<osg::Node> node;
         std::string place;
         unsigned int generation = 0;
@@ -42,7 +42,7 @@ private:
     void forgetDeleted();
 
     std::mutex _mutex;
-    std::map<const osg::Node*, Treated> _treated;
+    std::map<const osg::Node*, Installed> _installed;
     std::size_t _enough = 64;  // entries at which those of deleted nodes are looked for
 };
 

@@ -73,14 +73,14 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readNode(const std::string&
     const BusyPager busy(_database->adoption().index());
     ReadResult result = readCarefully(fileName, [&] {
         const bool cached = options && (options->getObjectCacheHint() & osgDB::Options::CACHE_NODES);
-        return cached ? readThroughCache(fileName, *options) : readTreated(fileName, options);
+        return cached ? readThroughCache(fileName, *options) : readAndInstall(fileName, options);
     });
     _failures.note(fileName, result.validNode(), FailedReads::Clock::now());
     if (result.validNode()) _database->noteRead(*result.getNode(), _generation);
     return result;
 }
 
-// A tile gets into the cache only when its bins are installed, so that nobody ever finds it half treated.
+// A tile is added to the cache only when its bins are complete.
 osgDB::ReaderWriter::ReadResult BinReadFileCallback::readThroughCache(const std::string& fileName,
                                                                       const osgDB::Options& options) {
     // The pager's own cache is merged into the Registry's when the tile is merged into the scene.
@@ -98,14 +98,14 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readThroughCache(const std:
     const osg::ref_ptr<osgDB::Options> uncached = options.cloneOptions();
     uncached->setObjectCacheHint(
         static_cast<osgDB::Options::CacheHintOptions>(options.getObjectCacheHint() & ~osgDB::Options::CACHE_NODES));
-    ReadResult result = readTreated(fileName, uncached.get());
+    ReadResult result = readAndInstall(fileName, uncached.get());
     if (own && result.validNode()) own->addEntryToObjectCache(fileName, result.getNode(), 0.0, key.get());
     return result;
 }
 
-osgDB::ReaderWriter::ReadResult BinReadFileCallback::readTreated(const std::string& fileName,
-                                                                 const osgDB::Options* options) {
-    ReadResult result = readUntreated(fileName, options, _previous.get());
+osgDB::ReaderWriter::ReadResult BinReadFileCallback::readAndInstall(const std::string& fileName,
+                                                                    const osgDB::Options* options) {
+    ReadResult result = readPlain(fileName, options, _previous.get());
     osg::Node* const node = result.getNode();
     if (!node) return result;
     const Expected& known = expected(fileName, options);
@@ -116,16 +116,16 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readTreated(const std::stri
             root = new Carrier;
             root->asGroup()->addChild(node);
         }
-        treat(*root, known);
+        install(*root, known);
         return ReadResult(root.get(), result.status());
     }
-    const auto outcome = SharedTiles::instance().treatOnce(*node, placeText(*_database, known.frame), _generation,
-                                                           [&] { treat(*node, known); });
+    const auto outcome = SharedTiles::instance().installOnce(*node, placeText(*_database, known.frame), _generation,
+                                                             [&] { install(*node, known); });
     if (outcome == SharedTiles::Outcome::Usable) return result;
     return unreadable(fileName, "a read callback shares one copy between two places or installations");
 }
 
-void BinReadFileCallback::treat(osg::Node& node, const Expected& expected) const {
+void BinReadFileCallback::install(osg::Node& node, const Expected& expected) const {
     if (_database->isRemoved()) return;
     BinInstaller installer(_options);
     installer.continueBelow(_database.get(), expected.frame, expected.parent.get());

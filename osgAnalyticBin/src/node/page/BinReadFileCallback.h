@@ -51,14 +51,14 @@ private:
     using ReadResult = osgDB::ReaderWriter::ReadResult;
 
     [[nodiscard]] ReadResult readThroughCache(const std::string& fileName, const osgDB::Options& options);
-    [[nodiscard]] ReadResult readTreated(const std::string& fileName, const osgDB::Options* options);
+    [[nodiscard]] ReadResult readAndInstall(const std::string& fileName, const osgDB::Options* options);
     struct Expected {
         TileFrame frame;
         osg::ref_ptr<const ParentTile> parent;
     };
 
     [[nodiscard]] const Expected& expected(const std::string& fileName, const osgDB::Options* options) const;
-    void treat(osg::Node& node, const Expected& expected) const;
+    void install(osg::Node& node, const Expected& expected) const;
 
     const CullOptions _options;
     const osg::ref_ptr<Database> _database;

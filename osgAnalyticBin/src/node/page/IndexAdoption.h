@@ -21,35 +21,36 @@ namespace osgAnalyticBin {
 class Database;
 struct ParentTile;
 
-/// A tile whose bin is to become that of the index when the index knows it.
+/// A tile that takes its bin from the index as soon as the index has it.
 struct AwaitingTile {
-    osg::observer_ptr<const ParentTile> tile;  // which has a reference to the database
+    osg::observer_ptr<const ParentTile> tile;  // keeps the database alive
     std::uint64_t fingerprint = 0;
     double skirt = 0.0;    ///< metres, of its own mesh
-    bool isPaged = false;  ///< whether files are below it
+    bool isPaged = false;  ///< whether it pages finer tiles
 };
 
-/// The index of a database that is being made, and the tiles that wait for it. Threads: adopt() and setIndex() where no
-/// cull traversal runs, the rest at any time.
+/// The index of a database while it is being made, and the tiles that wait for it. Threads: adopt() and setIndex() only
+/// while no cull traversal runs, the rest at any time.
 class IndexAdoption {
 public:
-    /// `isExpected`: an index may be set.
+    /// `isExpected`: whether setIndex() will be called.
     explicit IndexAdoption(bool isExpected) : _isExpected(isExpected) {}
 
-    /// Null: there will be none.
+    /// `index`: null if there will be none.
     void setIndex(AutoIndex* index);
     [[nodiscard]] osg::ref_ptr<AutoIndex> index() const;
 
-    /// Whether tiles have to be told to await().
+    /// Whether tiles have to be passed to await().
     [[nodiscard]] bool isAwaited() const;
 
-    /// Whether tiles with files below them wait.
+    /// Whether tiles that page finer ones wait.
     [[nodiscard]] bool hasWaiting() const;
 
-    /// `content`: holds the tiles, and stands below another node when it is in the scene; null: they are in the scene.
+    /// Adds tiles that wait. `content`: the root node of their file, not merged into the scene yet; null: they are in
+    /// the scene.
     void await(osg::Node* content, std::vector<AwaitingTile> tiles);
 
-    /// Gives some tiles the bins that are known by now. `mostTiles`: how many are looked at.
+    /// Gives waiting tiles the bins that the index has by now. Looks at `mostTiles` tiles at most.
     void adopt(Database& database, std::size_t mostTiles);
 
 private:
@@ -63,10 +64,10 @@ private:
     bool _isExpected;
     osg::ref_ptr<AutoIndex> _index;
     std::vector<Content> _contents;
-    std::size_t _next = 0;                // of the contents, to be looked at
-    unsigned int _adoptedGeneration = 0;  // that all tiles have been compared with
+    std::size_t _next = 0;                // of _contents, to be looked at next
+    unsigned int _adoptedGeneration = 0;  // of the index, that all tiles were compared with
     unsigned int _roundGeneration = 0;    // at the beginning of this round
-    bool _hasUnseen = false;              // contents that this round did not look at
+    bool _hasUnseen = false;              // contents were added that this round does not look at
 };
 
 }  // namespace osgAnalyticBin
