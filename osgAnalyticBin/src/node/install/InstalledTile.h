@@ -53,8 +53,8 @@ public:
     [[nodiscard]] bool hasFamily() const { return _block.valid(); }
     /// The tile is culled by its own callback alone from now on.
     void leaveFamily();
-    /// Call when the mesh has changed since the bin was fitted. Until trustMesh() the tile is tested by its own callback,
-    /// not by the family. `isMoved`: the mesh has moved, and its former place may be empty.
+    /// Call when the mesh has changed since the bin was fitted. Until trustMesh() the tile is tested by its own
+    /// callback, not by the family. `isMoved`: the mesh has moved, and its former place may be empty.
     void doubtMesh(bool isMoved);
     void trustMesh();
     [[nodiscard]] bool isMeshDoubted() const { return _isMeshDoubted.load(std::memory_order_relaxed); }

@@ -21,8 +21,7 @@ ReadResult unreadable(const std::string& fileName, const char* why) {
     return ReadResult(ReadResult::ERROR_IN_READING_FILE);
 }
 
-ReadResult readPlain(const std::string& fileName, const osgDB::Options* options,
-                         osgDB::ReadFileCallback* previous) {
+ReadResult readPlain(const std::string& fileName, const osgDB::Options* options, osgDB::ReadFileCallback* previous) {
     if (previous) return previous->readNode(fileName, options);
     osgDB::ReadFileCallback* const global = osgDB::Registry::instance()->getReadFileCallback();
     return global ? global->readNode(fileName, options) : readTileFile(fileName, options);

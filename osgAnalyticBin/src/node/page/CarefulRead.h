@@ -17,7 +17,7 @@ namespace osgAnalyticBin {
 
 /// Reads as whoever read before would do it: the callback that was there, if any, else the Registry's, else OSG.
 [[nodiscard]] osgDB::ReaderWriter::ReadResult readPlain(const std::string& fileName, const osgDB::Options* options,
-                                                            osgDB::ReadFileCallback* previous);
+                                                        osgDB::ReadFileCallback* previous);
 
 /// Runs `read`; what it throws becomes unreadable(): a corrupt file may ask for absurd amounts of memory, and the
 /// pager's thread must outlive that.
