@@ -261,6 +261,39 @@ TEST(HorizonBuffer, LowersSteepLinesByTheErrorsOfTheirCorners) {
     EXPECT_TRUE(hidesBelowTheLine(1.05 * error));
 }
 
+// Random terrain has few ends as steep as a wall's, and eyes aside look past those first.
+TEST(HorizonBuffer, HidesNothingThatEyesSeePastTheEndOfAWall) {
+    constexpr double kForward = 1000.0, kEnd = 0.3, kTop = 0.1;
+    EarthColumn wall;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double x = i % 2 == 0 ? -kEnd : kEnd;
+        wall.top[i] = pointAt(x, kTop, kForward);
+        wall.bottom[i] = pointAt(x, -1.0, kForward);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 eyes(0.0);
+        eyes[axis] = 20.0;
+        HorizonBuffer buffer(0.0, kAcross, 0.0, 0.0, eyes);
+        add(buffer, wall);
+        for (const bool isAbove : {false, true}) {
+            bool isHidden = false;
+            for (double inside = 0.0; inside < 0.1; inside += 1e-4) {
+                const glm::dvec3 point =
+                    isAbove ? pointAt(0.0, kTop - inside, 5.0 * kForward) : pointAt(kEnd - inside, 0.0, 5.0 * kForward);
+                isHidden = buffer.hides(buffer.outlineOf(ball(point, 1e-6)));
+                for (const double side : {-0.999, 0.999}) {
+                    EarthColumn seen = wall;
+                    for (auto* corners : {&seen.top, &seen.bottom})
+                        for (glm::dvec3& corner : *corners) corner -= side * eyes;
+                    ASSERT_TRUE(!isHidden || isBehind(seen, real(point - side * eyes)))
+                        << "axis " << axis << ", " << inside << " inside";
+                }
+            }
+            EXPECT_TRUE(isHidden) << "axis " << axis;
+        }
+    }
+}
+
 TEST(HorizonBuffer, FindsBallsBesideThePicture) {
     Random random(1719);
     int beside = 0;
