@@ -3,7 +3,7 @@
 
 #include "CameraFlight.h"
 
-#include "TileCounter.h"
+#include "TileCensus.h"
 
 #include <osgAnalyticBin/viewer/CsvTable.h>
 
@@ -151,7 +151,7 @@ void CameraFlight::load(osgViewer::Viewer& viewer) {
     _idleFrames = isPagerIdle(viewer) ? _idleFrames + 1 : 0;
     if (_idleFrames < kIdleFrames) return;
     _idleFrames = 0;
-    _record.tiles = TileCounter::count(*viewer.getCamera(), *viewer.getFrameStamp());
+    _record.tiles = TileCensus::take(*viewer.getCamera(), *viewer.getFrameStamp());
     if (_record.tiles.wanted == 0) _phase = Phase::Time;
 }
 
@@ -185,7 +185,7 @@ void CameraFlight::picture(osgViewer::Viewer& viewer) {
     _record.cullMs = median(_cullMs);
     _record.frameMs = _frameMs.empty() ? 0.0 : median(_frameMs);
     _record.files = _reads->nodeFiles() - _filesAtArrival;
-    _record.tiles = TileCounter::count(*viewer.getCamera(), *viewer.getFrameStamp());
+    _record.tiles = TileCensus::take(*viewer.getCamera(), *viewer.getFrameStamp());
     if (_record.tiles.wanted > 0) return fail(viewer, pose().name + ": the database changed before the picture");
     if (!savePicture(*picture)) return fail(viewer, pose().name + ": the picture cannot be saved");
     OSG_NOTICE << "binflight: " << _record.name << ": " << _record.tiles.drawn << " tiles drawn, " << _record.files
