@@ -45,7 +45,7 @@ public:
         const support::Quantiles times(_times);
         _figures.cullMedianMs = times.at(50, 100);
         _figures.cull99thMs = times.at(99, 100);
-        _figures.residentTiles = residentTiles(_scene.root());
+        _figures.residentTiles = flight::residentTiles(_scene.root());
         return _figures;
     }
 

@@ -66,7 +66,7 @@ public:
     [[nodiscard]] support::Failure lateAt(const flight::CameraPose& pose) const;
 
     /// What a cull traversal at the pose last set does.
-    [[nodiscard]] Census census() { return TileCensus::take(*_camera, _paged->frameStamp()); }
+    [[nodiscard]] flight::Census census() { return flight::TileCensus::take(*_camera, _paged->frameStamp()); }
 
     [[nodiscard]] const CullMethod& method() const { return _method; }
     [[nodiscard]] osg::Node& root() { return *_camera->getChild(0); }

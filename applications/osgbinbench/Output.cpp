@@ -7,6 +7,7 @@
 #include "PathGroups.h"
 #include "RowTable.h"
 #include "TextTable.h"
+#include "ThreadingName.h"
 
 #include <osg/Version>
 
@@ -33,7 +34,7 @@ Json headOf(const Settings& settings, const char* mode) {
     json["vertical_scale"] = settings.verticalScale;
     json["width"] = settings.width;
     json["height"] = settings.height;
-    json["threading"] = threadingName(settings.threading);
+    json["threading"] = flight::threadingName(settings.threading);
     json["flush_mib"] = settings.flush;
     json["expiry"] = settings.expiry;
     json["osg"] = osgGetVersion();

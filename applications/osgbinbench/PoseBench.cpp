@@ -37,15 +37,16 @@ CullMethod binMethod() {
     return method;
 }
 
-std::uint64_t pagesOf(const std::vector<DrawnTile>& tiles, const std::map<std::string, std::uint64_t>& visible) {
+std::uint64_t pagesOf(const std::vector<flight::DrawnTile>& tiles,
+                      const std::map<std::string, std::uint64_t>& visible) {
     std::set<std::string> pages;
-    for (const DrawnTile& tile : tiles) {
+    for (const flight::DrawnTile& tile : tiles) {
         if (visible.count(tile.key) != 0) pages.insert(tile.pages.begin(), tile.pages.end());
     }
     return pages.size();
 }
 
-void countFalseVerdicts(Figures& figures, const Census& census, const NeededTiles& needed,
+void countFalseVerdicts(Figures& figures, const flight::Census& census, const NeededTiles& needed,
                         const std::map<std::string, std::uint64_t>& visible) {
     const std::set<std::string> drawn = census.keys();
     for (const auto& [key, pixels] : visible) {
@@ -59,7 +60,7 @@ void countFalseVerdicts(Figures& figures, const Census& census, const NeededTile
     }
 }
 
-Figures figuresOf(const Census& census) {
+Figures figuresOf(const flight::Census& census) {
     Figures figures;
     figures.nodes = census.nodes;
     figures.testedTiles = census.tested;
@@ -103,14 +104,14 @@ PoseBench::Visit PoseBench::visit(MethodScene& scene, const flight::CameraPose& 
     visit.bytes = _watch.reads->nodeBytes() - bytes;
     if (scene.method().replaysVerdicts) replayVerdicts(scene.camera(), scene.frameStamp());
     visit.census = scene.census();
-    visit.residentTiles = residentTiles(scene.root());
+    visit.residentTiles = flight::residentTiles(scene.root());
     visit.picture = pictureOf(scene);
     if (!_settings.pictures.empty()) savePicture(*visit.picture, scene.method().name, pose.name);
     return visit;
 }
 
 void PoseBench::checkReplays(const std::vector<Visit>& visits, const std::string& pose) const {
-    const Census* original = nullptr;
+    const flight::Census* original = nullptr;
     for (std::size_t i = 0; i < visits.size(); ++i) {
         const CullMethod& method = _scenes[i]->method();
         if (method.name == kReplayedMethod) original = &visits[i].census;
@@ -127,7 +128,7 @@ osg::ref_ptr<osg::Image> PoseBench::pictureOf(MethodScene& scene) {
 }
 
 void PoseBench::learnBins(const flight::CameraPose& pose) {
-    if (!_isBinSceneLoaded || residentTiles(_binScene.root()) > kMostBinTiles)
+    if (!_isBinSceneLoaded || flight::residentTiles(_binScene.root()) > kMostBinTiles)
         _binScene.load();
     else
         _binScene.resume();

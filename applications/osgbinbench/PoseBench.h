@@ -33,7 +33,7 @@ public:
 private:
     /// What one method did at the present pose.
     struct Visit {
-        Census census;
+        flight::Census census;
         osg::ref_ptr<osg::Image> picture;
         std::uint64_t residentTiles = 0;
         std::uint64_t files = 0;

@@ -10,18 +10,17 @@
 #include "NumberRange.h"
 #include "ProgramRun.h"
 #include "TextFile.h"
+#include "ThreadingName.h"
 
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Version.h>
 
 #include <CLI/CLI.hpp>
 
-#include <array>
 #include <cstdio>
 #include <iostream>
 #include <map>
 #include <optional>
-#include <utility>
 
 namespace osgAnalyticBin::bench {
 
@@ -33,15 +32,9 @@ using Model = osgViewer::ViewerBase::ThreadingModel;
 
 constexpr int kLargestPicture = 8192;
 
-constexpr std::array<std::pair<Model, const char*>, 4> kThreadingNames{
-    {{osgViewer::ViewerBase::SingleThreaded, "SingleThreaded"},
-     {osgViewer::ViewerBase::CullDrawThreadPerContext, "CullDrawThreadPerContext"},
-     {osgViewer::ViewerBase::DrawThreadPerContext, "DrawThreadPerContext"},
-     {osgViewer::ViewerBase::CullThreadPerCameraDrawThreadPerContext, "CullThreadPerCameraDrawThreadPerContext"}}};
-
 Model threadingFromName(const std::string& name) {
     std::string allowed;
-    for (const auto& [model, known] : kThreadingNames) {
+    for (const auto& [model, known] : flight::kThreadingNames) {
         if (name == known) return model;
         allowed += (allowed.empty() ? "" : ", ") + std::string(known);
     }
@@ -66,20 +59,15 @@ std::string line(const char* name, const char* meaning) {
     return text + meaning + "\n";
 }
 
-std::string flightColumns() {
+template <class Columns>
+std::string linesOf(const Columns& columns) {
     std::string text;
-    for (const FlightColumn& column : kFlightColumns) text += line(column.name, column.meaning);
-    return text;
-}
-
-std::string drawnColumns() {
-    std::string text;
-    for (const DrawnColumn& column : kDrawnColumns) text += line(column.name, column.meaning);
+    for (const auto& column : columns) text += line(column.name, column.meaning);
     return text;
 }
 
 std::string footer() {
-    std::string text =
+    const std::string text =
         "Two commands, each with a --help of its own:\n"
         "  osgbinbench report   compares flights that binflight left\n"
         "  osgbinbench scale    measures how culling scales with depth and with tiles in memory\n\n"
@@ -105,15 +93,14 @@ std::string footer() {
         "the\n"
         "view is kept in memory as long with all methods, unless --expiry says otherwise.\n\n"
         "Columns of --csv, one line for each pose and method, and keys of --json, sums over the poses:\n";
-    for (const CountColumn& column : kCountColumns) text += line(column.name, column.meaning);
-    for (const TimeColumn& column : kTimeColumns) text += line(column.name, column.meaning);
-    return text + "\nKeys of the object \"live\" of --json, and columns of --csv with --frames and --jumps:\n" +
-           flightColumns() +
+    return text + linesOf(kCountColumns) + linesOf(kTimeColumns) +
+           "\nKeys of the object \"live\" of --json, and columns of --csv with --frames and --jumps:\n" +
+           linesOf(kFlightColumns) +
            "  cull_ms              milliseconds of all cull traversals and their sorting, summed\n"
            "  cull_median_ms       of one, median\n"
            "  cull_99th_ms         of one, 99th percentile\n\n"
            "The same with --draw, over three flights of each method but none:\n" +
-           drawnColumns() +
+           linesOf(kDrawnColumns) +
            "\n"
            "\"paths\" in --json holds the sums of the poses whose names share the text before the first _, \"by_pose\" "
            "the\n"
@@ -231,12 +218,6 @@ void check(const Settings& settings) {
 }
 
 }  // namespace
-
-std::string threadingName(Model model) {
-    for (const auto& [known, name] : kThreadingNames)
-        if (known == model) return name;
-    return "another threading model";
-}
 
 bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {
     CLI::App app{"Measures the culling of a paged globe or map, method by method, along a camera path.", "osgbinbench"};

@@ -40,9 +40,6 @@ struct Settings {
     double timeout = 120.0;                        ///< seconds that one pose may take to load and draw
 };
 
-/// The name of osgViewer's enumerator. Requires: one of the four models that draw.
-[[nodiscard]] std::string threadingName(osgViewer::ViewerBase::ThreadingModel model);
-
 /// Reads the command line; --help is answered at once.
 /// Returns: whether there is something to measure, or to compare.
 /// Throws: Failure when an option is unknown, malformed or out of range.

@@ -68,7 +68,7 @@ void removeSkirt(Mesh& mesh, const osg::Geometry& geometry) {
     if (!surface.empty()) mesh.triangles = std::move(surface);
 }
 
-Mesh meshOf(const DrawnMesh& drawn, const osg::Matrixd& toEcef) {
+Mesh meshOf(const flight::DrawnMesh& drawn, const osg::Matrixd& toEcef) {
     Mesh mesh;
     const osg::Geometry* const geometry = drawn.drawable->asGeometry();
     const auto* const vertices = geometry ? dynamic_cast<const osg::Vec3Array*>(geometry->getVertexArray()) : nullptr;
@@ -89,10 +89,11 @@ Mesh meshOf(const DrawnMesh& drawn, const osg::Matrixd& toEcef) {
 
 }  // namespace
 
-core::GeodeticBin surfaceBin(const DrawnTile& tile, const core::Ellipsoid& ellipsoid, const osg::Matrixd& worldToEcef) {
+core::GeodeticBin surfaceBin(const flight::DrawnTile& tile, const core::Ellipsoid& ellipsoid,
+                             const osg::Matrixd& worldToEcef) {
     std::vector<Mesh> meshes;
     glm::dvec3 middle(0.0);
-    for (const DrawnMesh& drawn : tile.meshes) {
+    for (const flight::DrawnMesh& drawn : tile.meshes) {
         meshes.push_back(meshOf(drawn, drawn.localToWorld * worldToEcef));
         for (const auto& t : meshes.back().triangles) middle += meshes.back().vertices[t[0]];
     }

@@ -15,7 +15,7 @@ namespace osgAnalyticBin::bench {
 /// of vertices with one and the same texture coordinate the highest belongs to the surface, the others hang below.
 /// Returns: an empty bin for a tile without triangles.
 /// Cost: one walk over the triangles, some 100 ns each.
-[[nodiscard]] core::GeodeticBin surfaceBin(const DrawnTile& tile, const core::Ellipsoid& ellipsoid,
+[[nodiscard]] core::GeodeticBin surfaceBin(const flight::DrawnTile& tile, const core::Ellipsoid& ellipsoid,
                                            const osg::Matrixd& worldToEcef);
 
 /// By how much drawn vertices, floats that they are, may leave the bin, in metres.

@@ -33,7 +33,7 @@ TilePainter::TilePainter(BenchViewer& viewer) : _viewer(viewer), _flat(new osg::
     _flat->addShader(new osg::Shader(osg::Shader::FRAGMENT, kFragmentShader));
 }
 
-std::map<std::string, std::uint64_t> TilePainter::visiblePixels(const std::vector<DrawnTile>& tiles,
+std::map<std::string, std::uint64_t> TilePainter::visiblePixels(const std::vector<flight::DrawnTile>& tiles,
                                                                 const osg::Camera& view) {
     const osg::ref_ptr<osg::Group> scene = paintedScene(tiles);
     _viewer.show(*scene, osg::CullSettings::NO_CULLING);
@@ -51,16 +51,16 @@ std::map<std::string, std::uint64_t> TilePainter::visiblePixels(const std::vecto
     return pixels;
 }
 
-osg::ref_ptr<osg::Group> TilePainter::paintedScene(const std::vector<DrawnTile>& tiles) const {
+osg::ref_ptr<osg::Group> TilePainter::paintedScene(const std::vector<flight::DrawnTile>& tiles) const {
     // A node of its own, because the viewer's background is blue.
     osg::ref_ptr<osg::ClearNode> scene = new osg::ClearNode;
     scene->setClearColor(osg::Vec4(0.0F, 0.0F, 0.0F, 0.0F));
     scene->getOrCreateStateSet()->setAttributeAndModes(_flat, kOverride);
     scene->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
     std::uint32_t number = 0;
-    for (const DrawnTile& tile : tiles) {
+    for (const flight::DrawnTile& tile : tiles) {
         const osg::ref_ptr<osg::Uniform> colour = new osg::Uniform("tileColour", colourOf(++number));
-        for (const DrawnMesh& mesh : tile.meshes) {
+        for (const flight::DrawnMesh& mesh : tile.meshes) {
             const osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform(mesh.localToWorld);
             placed->addChild(mesh.drawable);
             placed->getOrCreateStateSet()->addUniform(colour, kOverride);

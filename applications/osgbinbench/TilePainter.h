@@ -23,11 +23,11 @@ public:
     explicit TilePainter(BenchViewer& viewer);
 
     /// Returns: the pixels of every tile that has one, by key. Throws: Failure when the picture does not come.
-    [[nodiscard]] std::map<std::string, std::uint64_t> visiblePixels(const std::vector<DrawnTile>& tiles,
+    [[nodiscard]] std::map<std::string, std::uint64_t> visiblePixels(const std::vector<flight::DrawnTile>& tiles,
                                                                      const osg::Camera& view);
 
 private:
-    [[nodiscard]] osg::ref_ptr<osg::Group> paintedScene(const std::vector<DrawnTile>& tiles) const;
+    [[nodiscard]] osg::ref_ptr<osg::Group> paintedScene(const std::vector<flight::DrawnTile>& tiles) const;
 
     BenchViewer& _viewer;
     osg::ref_ptr<osg::Program> _flat;

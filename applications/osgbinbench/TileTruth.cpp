@@ -132,24 +132,24 @@ double occluderDepth(const std::vector<core::GeodeticBin>& bins, const core::Ell
     return depth;
 }
 
-void TileTruth::learnBins(const std::vector<DrawnTile>& tiles) {
-    for (const DrawnTile& tile : tiles)
+void TileTruth::learnBins(const std::vector<flight::DrawnTile>& tiles) {
+    for (const flight::DrawnTile& tile : tiles)
         if (tile.bin.valid()) _bins.insert_or_assign(tile.key, tile.bin);
 }
 
-const core::GeodeticBin& TileTruth::surfaceOf(const DrawnTile& tile, const core::Ellipsoid& ellipsoid,
+const core::GeodeticBin& TileTruth::surfaceOf(const flight::DrawnTile& tile, const core::Ellipsoid& ellipsoid,
                                               const osg::Matrixd& worldToEcef) {
     const auto found = _surfaces.find(tile.key);
     if (found != _surfaces.end()) return found->second;
     return _surfaces.emplace(tile.key, surfaceBin(tile, ellipsoid, worldToEcef)).first->second;
 }
 
-NeededTiles TileTruth::neededTiles(const std::vector<DrawnTile>& tiles, const osg::Camera& view,
+NeededTiles TileTruth::neededTiles(const std::vector<flight::DrawnTile>& tiles, const osg::Camera& view,
                                    const flight::Globe& globe) {
     const core::Ellipsoid ellipsoid = toCore(*globe.ellipsoid);
     const osg::Matrixd worldToEcef = osg::Matrixd::inverse(globe.localToWorld);
     std::vector<core::GeodeticBin> surfaces;
-    for (const DrawnTile& tile : tiles) surfaces.push_back(surfaceOf(tile, ellipsoid, worldToEcef));
+    for (const flight::DrawnTile& tile : tiles) surfaces.push_back(surfaceOf(tile, ellipsoid, worldToEcef));
     View seen(view, globe, ellipsoid);
     seen.setOccluder(occluderDepth(surfaces, ellipsoid, seen.eye()));
     // A tile of which nothing is known is needed.

@@ -35,15 +35,15 @@ struct NeededTiles {
 class TileTruth {
 public:
     /// Takes note of the bins that the kit has installed on tiles.
-    void learnBins(const std::vector<DrawnTile>& tiles);
+    void learnBins(const std::vector<flight::DrawnTile>& tiles);
 
     /// `tiles`: all that are drawn without any culling.
     /// Cost: the surface bin of every tile not met before, and some microseconds a tile.
-    [[nodiscard]] NeededTiles neededTiles(const std::vector<DrawnTile>& tiles, const osg::Camera& view,
+    [[nodiscard]] NeededTiles neededTiles(const std::vector<flight::DrawnTile>& tiles, const osg::Camera& view,
                                           const flight::Globe& globe);
 
 private:
-    [[nodiscard]] const core::GeodeticBin& surfaceOf(const DrawnTile& tile, const core::Ellipsoid& ellipsoid,
+    [[nodiscard]] const core::GeodeticBin& surfaceOf(const flight::DrawnTile& tile, const core::Ellipsoid& ellipsoid,
                                                      const osg::Matrixd& worldToEcef);
 
     std::map<std::string, core::GeodeticBin> _surfaces;

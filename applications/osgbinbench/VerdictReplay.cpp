@@ -104,7 +104,7 @@ void replayVerdicts(osg::Camera& camera, osg::FrameStamp& frameStamp) {
     scene.accept(installer);
 }
 
-void requireSameTiles(const Census& replay, const Census& original, const std::string& pose) {
+void requireSameTiles(const flight::Census& replay, const flight::Census& original, const std::string& pose) {
     if (replay.keys() == original.keys() && replay.drawables == original.drawables) return;
     throw support::Failure("pose " + pose + ": " + kOracleMethod + " draws other tiles (" +
                            std::to_string(replay.tiles.size()) + ") than " + kReplayedMethod + " (" +

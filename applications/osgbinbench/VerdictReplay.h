@@ -20,6 +20,6 @@ namespace osgAnalyticBin::bench {
 void replayVerdicts(osg::Camera& camera, osg::FrameStamp& frameStamp);
 
 /// Throws: Failure when a replay draws other tiles or drawables at a pose than what it repeats.
-void requireSameTiles(const Census& replay, const Census& original, const std::string& pose);
+void requireSameTiles(const flight::Census& replay, const flight::Census& original, const std::string& pose);
 
 }  // namespace osgAnalyticBin::bench

@@ -3,7 +3,9 @@
 
 #include "CameraFlight.h"
 
-#include "TileCounter.h"
+#include "Quantiles.h"
+#include "ThreadingName.h"
+#include "TileCensus.h"
 
 #include <osgAnalyticBin/viewer/CsvTable.h>
 
@@ -34,30 +36,9 @@ bool isFrameEvent(const osgGA::EventVisitor& visitor) {
     });
 }
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-const char* nameOf(osgViewer::ViewerBase::ThreadingModel model) {
-    switch (model) {
-        case osgViewer::ViewerBase::SingleThreaded:
-            return "SingleThreaded";
-        case osgViewer::ViewerBase::CullDrawThreadPerContext:
-            return "CullDrawThreadPerContext";
-        case osgViewer::ViewerBase::DrawThreadPerContext:
-            return "DrawThreadPerContext";
-        case osgViewer::ViewerBase::CullThreadPerCameraDrawThreadPerContext:
-            return "CullThreadPerCameraDrawThreadPerContext";
-        default:
-            return "another threading model";
-    }
-}
-
 std::string remarkOn(const osgViewer::Viewer& viewer, const FlightOptions& options) {
     const osg::Viewport& viewport = *viewer.getCamera()->getViewport();
-    return std::string("OpenSceneGraph ") + osgGetVersion() + ", " + nameOf(viewer.getThreadingModel()) + ", " +
+    return std::string("OpenSceneGraph ") + osgGetVersion() + ", " + threadingName(viewer.getThreadingModel()) + ", " +
            textFrom(viewport.width()) + "x" + textFrom(viewport.height()) + " pixels, cull time: median of " +
            std::to_string(options.frames) + " frames";
 }
@@ -151,7 +132,7 @@ void CameraFlight::load(osgViewer::Viewer& viewer) {
     _idleFrames = isPagerIdle(viewer) ? _idleFrames + 1 : 0;
     if (_idleFrames < kIdleFrames) return;
     _idleFrames = 0;
-    _record.tiles = TileCounter::count(*viewer.getCamera(), *viewer.getFrameStamp());
+    _record.tiles = TileCensus::take(*viewer.getCamera(), *viewer.getFrameStamp());
     if (_record.tiles.wanted == 0) _phase = Phase::Time;
 }
 
@@ -182,10 +163,10 @@ void CameraFlight::picture(osgViewer::Viewer& viewer) {
     if (isTimeOver(viewer, "the picture")) return;
     const osg::ref_ptr<osg::Image> picture = _capture->take();
     if (!picture) return;
-    _record.cullMs = median(_cullMs);
-    _record.frameMs = _frameMs.empty() ? 0.0 : median(_frameMs);
+    _record.cullMs = support::Quantiles(_cullMs).at(1, 2);
+    _record.frameMs = support::Quantiles(_frameMs).at(1, 2);
     _record.files = _reads->nodeFiles() - _filesAtArrival;
-    _record.tiles = TileCounter::count(*viewer.getCamera(), *viewer.getFrameStamp());
+    _record.tiles = TileCensus::take(*viewer.getCamera(), *viewer.getFrameStamp());
     if (_record.tiles.wanted > 0) return fail(viewer, pose().name + ": the database changed before the picture");
     if (!savePicture(*picture)) return fail(viewer, pose().name + ": the picture cannot be saved");
     OSG_NOTICE << "binflight: " << _record.name << ": " << _record.tiles.drawn << " tiles drawn, " << _record.files

@@ -5,30 +5,14 @@
 
 #include "ParameterReader.h"
 
-#include <osgAnalyticBin/viewer/CsvTable.h>
-
-#include <cmath>
+#include <limits>
 
 namespace osgAnalyticBin::flight {
 
 namespace {
 
-constexpr double kMostFrames = 1000.0;
+constexpr double kShortestTimeout = std::numeric_limits<double>::min();
 constexpr double kLongestTimeout = 86400.0;
-
-bool setFrames(FlightOptions& options, const std::string& value) {
-    const auto frames = numberFrom(value);
-    if (!frames || *frames < 1.0 || *frames > kMostFrames || *frames != std::floor(*frames)) return false;
-    options.frames = static_cast<int>(*frames);
-    return true;
-}
-
-bool setTimeout(FlightOptions& options, const std::string& value) {
-    const auto timeout = numberFrom(value);
-    if (!timeout || *timeout <= 0.0 || *timeout > kLongestTimeout) return false;
-    options.timeout = *timeout;
-    return true;
-}
 
 bool setOut(FlightOptions& options, const std::string& value) {
     options.out = value;
@@ -37,10 +21,9 @@ bool setOut(FlightOptions& options, const std::string& value) {
 
 ParameterReader readerInto(FlightOptions& options) {
     const auto apply = [&options](const std::string& key, const std::string& value) {
-        const auto applied = [](bool success) { return success ? Applied::Yes : Applied::Malformed; };
         if (key == "out") return applied(setOut(options, value));
-        if (key == "frames") return applied(setFrames(options, value));
-        if (key == "timeout") return applied(setTimeout(options, value));
+        if (key == "frames") return applied(setWhole(options.frames, value, 1, 1000));
+        if (key == "timeout") return applied(setNumber(options.timeout, value, kShortestTimeout, kLongestTimeout));
         return Applied::Unknown;
     };
     return {apply, "out=FOLDER, frames=1..1000, timeout=SECONDS"};

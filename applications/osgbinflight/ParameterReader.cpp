@@ -6,9 +6,24 @@
 #include <osgAnalyticBin/viewer/CsvTable.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace osgAnalyticBin::flight {
+
+bool setNumber(double& target, const std::string& value, double least, double most) {
+    const auto number = numberFrom(value);
+    if (!number || !(*number >= least && *number <= most)) return false;
+    target = *number;
+    return true;
+}
+
+bool setWhole(int& target, const std::string& value, int least, int most) {
+    double number = 0.0;
+    if (!setNumber(number, value, least, most) || number != std::floor(number)) return false;
+    target = static_cast<int>(number);
+    return true;
+}
 
 Applied ParameterReader::applyItem(const std::string& item) const {
     const std::size_t equals = item.find('=');

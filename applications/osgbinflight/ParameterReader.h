@@ -11,6 +11,16 @@ namespace osgAnalyticBin::flight {
 
 enum class Applied { Yes, Unknown, Malformed };
 
+[[nodiscard]] inline Applied applied(bool success) {
+    return success ? Applied::Yes : Applied::Malformed;
+}
+
+/// Takes a number that is in the range. Returns: whether `value` is one.
+[[nodiscard]] bool setNumber(double& target, const std::string& value, double least, double most);
+
+/// As setNumber(), for a whole number.
+[[nodiscard]] bool setWhole(int& target, const std::string& value, int least, int most);
+
 /// Reads the parameters, "key=value", of a pseudo-loader: those in the brackets of a file's name, which are its own,
 /// and those in an option string, where words of other plugins may stand too.
 class ParameterReader {

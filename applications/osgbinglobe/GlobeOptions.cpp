@@ -7,7 +7,6 @@
 #include <osgAnalyticBin/viewer/CsvTable.h>
 
 #include <ParameterReader.h>
-#include <cmath>
 #include <cstdio>
 
 namespace osgAnalyticBin::globe {
@@ -15,23 +14,11 @@ namespace osgAnalyticBin::globe {
 namespace {
 
 using flight::Applied;
-using flight::numberFrom;
+using flight::applied;
+using flight::setNumber;
+using flight::setWhole;
 using flight::textFrom;
 using osgbindem::TileId;
-
-bool setWhole(int& target, const std::string& value, int least, int most) {
-    const auto number = numberFrom(value);
-    if (!number || *number < least || *number > most || *number != std::floor(*number)) return false;
-    target = static_cast<int>(*number);
-    return true;
-}
-
-bool setNumber(double& target, const std::string& value, double least, double most) {
-    const auto number = numberFrom(value);
-    if (!number || !(*number >= least && *number <= most)) return false;
-    target = *number;
-    return true;
-}
 
 bool setSwitch(bool& target, const std::string& value) {
     target = value == "on";
@@ -40,7 +27,6 @@ bool setSwitch(bool& target, const std::string& value) {
 
 flight::ParameterReader readerInto(GlobeOptions& options) {
     const auto apply = [&options](const std::string& key, const std::string& value) {
-        const auto applied = [](bool success) { return success ? Applied::Yes : Applied::Malformed; };
         if (key == "levels") return applied(setWhole(options.levels, value, 0, GlobeOptions::kMostLevels));
         if (key == "cells")
             return applied(setWhole(options.cells, value, 2, GlobeOptions::kMostCells) && options.cells % 2 == 0);

@@ -12,6 +12,7 @@
 #include <osgDB/WriteFile>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <ostream>
 
@@ -24,61 +25,50 @@ using support::withDecimals;
 
 constexpr const char* kRatioBase = "sphere";
 
-/// What one line of the table shows.
-struct Figures {
-    double tested = 0.0;
-    double kept = 0.0;
-    double drawn = 0.0;
-    double triangles = 0.0;
-    double files = 0.0;
-    double cullMs = 0.0;
-    double frameMs = 0.0;
-    double pixels = 0.0;
+/// A figure of a flight at one pose, or its sum.
+struct Column {
+    const char* title;
+    int decimals;
+    double (*value)(const Flight& run, std::size_t pose);
 };
 
-// Every figure but the pixels: a ratio of differing pixels says nothing.
-constexpr double Figures::*kRatioFigures[] = {&Figures::tested, &Figures::kept,   &Figures::drawn,  &Figures::triangles,
-                                              &Figures::files,  &Figures::cullMs, &Figures::frameMs};
-
-Figures figuresOf(const Flight& run, std::size_t pose) {
-    const PoseRecord& record = run.poses[pose];
-    return {static_cast<double>(record.tiles.tested),
-            static_cast<double>(record.tiles.kept),
-            static_cast<double>(record.tiles.drawn),
-            static_cast<double>(record.tiles.triangles),
-            static_cast<double>(record.files),
-            record.cullMs,
-            record.frameMs,
-            static_cast<double>(run.differingPixels[pose])};
+template <auto Count>
+double tiles(const Flight& run, std::size_t pose) {
+    return static_cast<double>(run.poses[pose].tiles.*Count);
 }
 
+using flight::TileCounts;
+
+constexpr std::array<Column, 8> kColumns{
+    {{"tested", 0, tiles<&TileCounts::tested>},
+     {"kept", 0, tiles<&TileCounts::kept>},
+     {"drawn", 0, tiles<&TileCounts::drawn>},
+     {"triangles", 0, tiles<&TileCounts::triangles>},
+     {"files", 0, [](const Flight& run, std::size_t pose) { return static_cast<double>(run.poses[pose].files); }},
+     {"cull ms", 3, [](const Flight& run, std::size_t pose) { return run.poses[pose].cullMs; }},
+     {"frame ms", 2, [](const Flight& run, std::size_t pose) { return run.poses[pose].frameMs; }},
+     {"diff. pixels", 0,
+      [](const Flight& run, std::size_t pose) { return static_cast<double>(run.differingPixels[pose]); }}}};
+
+using Figures = std::array<double, kColumns.size()>;
+
 Figures sumOf(const Flight& run, const std::vector<std::size_t>& poses) {
-    Figures sum;
-    for (const std::size_t pose : poses) {
-        const Figures figures = figuresOf(run, pose);
-        for (const auto figure : kRatioFigures) sum.*figure += figures.*figure;
-        sum.pixels += figures.pixels;
-    }
+    Figures sum{};
+    for (const std::size_t pose : poses)
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += kColumns[i].value(run, pose);
     return sum;
 }
 
-std::vector<std::string> lineOf(const std::string& title, const std::string& label, const Figures& f) {
-    return {title,
-            label,
-            withDecimals(f.tested, 0),
-            withDecimals(f.kept, 0),
-            withDecimals(f.drawn, 0),
-            withDecimals(f.triangles, 0),
-            withDecimals(f.files, 0),
-            withDecimals(f.cullMs, 3),
-            withDecimals(f.frameMs, 2),
-            withDecimals(f.pixels, 0)};
+std::vector<std::string> lineOf(const std::string& title, const std::string& label, const Figures& figures) {
+    std::vector<std::string> cells{title, label};
+    for (std::size_t i = 0; i < figures.size(); ++i) cells.push_back(withDecimals(figures[i], kColumns[i].decimals));
+    return cells;
 }
 
-std::vector<std::string> ratioLineOf(const std::string& title, const std::string& label, const Figures& f,
-                                     const Figures& base) {
-    std::vector<std::string> cells{title, label};
-    for (const auto figure : kRatioFigures) cells.push_back(ratioText(f.*figure, base.*figure));
+// Of all but the pixels: a ratio of differing pixels says nothing.
+std::vector<std::string> ratioLineOf(const std::string& label, const Figures& figures, const Figures& base) {
+    std::vector<std::string> cells{"", label};
+    for (std::size_t i = 0; i + 1 < figures.size(); ++i) cells.push_back(ratioText(figures[i], base[i]));
     return cells;
 }
 
@@ -107,8 +97,7 @@ void addSums(TextTable& table, const std::vector<Flight>& runs, const PathGroup&
     if (base == runs.end()) return;
     const Figures baseSum = sumOf(*base, group.poses);
     for (const Flight& run : runs)
-        if (&run != &*base)
-            table.add(ratioLineOf("", run.label + " / " + kRatioBase, sumOf(run, group.poses), baseSum));
+        if (&run != &*base) table.add(ratioLineOf(run.label + " / " + kRatioBase, sumOf(run, group.poses), baseSum));
 }
 
 bool isSound(const std::string& label) {
@@ -174,11 +163,12 @@ void Report::print(std::ostream& output) const {
     if (_runs.empty()) return;
     const std::vector<PoseRecord>& poses = _runs.front().poses;
     TextTable table(2);
-    table.add(
-        {"pose", "method", "tested", "kept", "drawn", "triangles", "files", "cull ms", "frame ms", "diff. pixels"});
+    std::vector<std::string> titles{"pose", "method"};
+    for (const Column& column : kColumns) titles.emplace_back(column.title);
+    table.add(std::move(titles));
     for (std::size_t i = 0; i < poses.size(); ++i)
         for (const Flight& run : _runs)
-            table.add(lineOf(&run == &_runs.front() ? poses[i].name : "", run.label, figuresOf(run, i)));
+            table.add(lineOf(&run == &_runs.front() ? poses[i].name : "", run.label, sumOf(run, {i})));
     for (const PathGroup& group : groupsOf(poses)) addSums(table, _runs, group);
     addSums(table, _runs, allOf(poses));
     table.print(output);

@@ -15,7 +15,7 @@
 #include <osgUtil/UpdateVisitor>
 
 #include <CullWatcher.h>
-#include <TileCounter.h>
+#include <TileCensus.h>
 #include <algorithm>
 #include <typeinfo>
 
@@ -175,7 +175,7 @@ void ScaleScene::fill(std::size_t pagedLods) {
 }
 
 TileTally ScaleScene::tally() {
-    const flight::TileCounts counts = flight::TileCounter::count(*_camera, *_frameStamp);
+    const flight::Census counts = flight::TileCensus::take(*_camera, *_frameStamp);
     const osg::ref_ptr<LeafCounter> leaves = new LeafCounter;
     leaves->watch(*_camera, *_frameStamp);
     return {counts.tested, counts.kept, counts.drawn, leaves->count};

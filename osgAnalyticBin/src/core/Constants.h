@@ -14,7 +14,8 @@ inline constexpr double kHalfPi = 0.5 * kPi;
 /// Twice the largest relative error of one rounding.
 inline constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-/// Normals of planes are of unit length to 1e-9 only: what is added to a bin for exact ones is multiplied by this.
+/// Plane normals have unit length to within 1e-9 only. Margins that are derived for exact normals are multiplied by
+/// this.
 inline constexpr double kNormalTolerance = 1.0 + 1e-9;
 
 }  // namespace osgAnalyticBin::core

@@ -9,8 +9,8 @@
 
 namespace osgAnalyticBin::core {
 
-/// What lengths that were found for the earth in metres are to be multiplied by on another globe, or in another unit.
-/// Exactly 1 for WGS 84. The unit of a map is not known: what holds in feet holds in metres, too.
+/// Factor that converts lengths chosen for the earth, in metres, to another globe or another unit. Exactly 1 for WGS
+/// 84. The unit of a map is not known; lengths in feet are large enough for metres, too.
 [[nodiscard]] inline double earthScale(const Ellipsoid& ellipsoid) noexcept {
     constexpr double kEarth = 6378137.0, kFeetInMetre = 1.0 / 0.3048;
     if (ellipsoid.isPlane()) return kFeetInMetre;
@@ -35,10 +35,10 @@ namespace osgAnalyticBin::core {
 /// The largest |e²| of an ellipsoid for which the bounds of doc/theory/occlusion.md hold.
 inline constexpr double kRoundest = 0.01;
 
-/// Terrain is nowhere deeper than this part of the smallest radius of curvature.
+/// Terrain is nowhere deeper than this fraction of the smallest radius of curvature.
 inline constexpr double kDeepestPost = 0.5;
 
-/// As a depth below the ellipsoid.
+/// The same as a depth below the ellipsoid.
 [[nodiscard]] inline double deepestPost(const Ellipsoid& ellipsoid) noexcept {
     return kDeepestPost * smallestCurvatureRadius(ellipsoid);
 }

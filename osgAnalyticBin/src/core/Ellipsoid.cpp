@@ -16,10 +16,11 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-// Near the surface of the earth three or four steps suffice. Beside the centres of curvature each step multiplies u by
-// up to 1.5; after a hundred of them the rest does not change the latitude: doc/theory/derivation.md, section 1.
+// Near the surface of the earth three or four steps are enough. Near the centres of curvature each step multiplies u by
+// up to 1.5; after a hundred steps the remaining error does not change the latitude: doc/theory/derivation.md, section
+// 1.
 constexpr int kMostSteps = 100;
-// In smaller radii: distances below this count as zero.
+// Distances below this, in units of the smaller radius, count as zero.
 constexpr double kNothing = 1e-100;
 
 // A point of a meridian plane; lengths along the smaller and the larger semi-axis, neither negative.
@@ -60,7 +61,7 @@ Direction normalAtFoot(const MeridianAxes& p) noexcept {
         const double share = k > 0.0 ? r / k : 1.0;
         return {ratio * std::sqrt((1.0 - share) * (1.0 + share)), share};
     }
-    // The guess is exact on the surface and has an error of second order beside it.
+    // The guess is exact on the surface and has an error of second order near it.
     const double x = p.alongLarger / p.larger;
     const double scaled2 = x * x + z * z;
     const double inverse = scaled2 / (x * x / (ratio * ratio) + z * z);

@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kTwoPi = 2.0 * kPi;
 constexpr double kRadiansPerDegree = kPi / 180.0;
-// A few units in the last place of an angle near 2 pi: what adding or taking away a turn may lose.
+// A few units in the last place of an angle near 2 pi: the rounding error of adding or subtracting a turn.
 constexpr double kAngleTolerance = 2e-15;
-// There doubles are 1e-10 radians apart, a millimetre on the earth.
+// Doubles of this size are 1e-10 radians apart, a millimetre on the earth.
 constexpr double kFarthestLongitude = 1e6;
 
 constexpr Interval kEmptyInterval{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
@@ -26,8 +26,8 @@ bool isProper(const Interval& interval) {
     return std::isfinite(interval.lower) && std::isfinite(interval.upper) && interval.lower <= interval.upper;
 }
 
-// What moving an angle by `shift`, whole turns as doubles have them, to `angle` loses at most: where they are
-// large, 1.1 epsilon of both.
+// Bound of the rounding error of moving an angle by `shift`, a rounded multiple of 2 pi, to `angle`: 1.1 epsilon of
+// both where they are large.
 double turningTolerance(double shift, double angle) {
     return kAngleTolerance * std::max(1.0, (std::abs(shift) + std::abs(angle)) / 8.0 - 1.0);
 }

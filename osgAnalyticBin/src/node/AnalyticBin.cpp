@@ -27,7 +27,7 @@ namespace {
 constexpr const char* kUserValueName = "osgAnalyticBin";
 constexpr const char* kSurfaceLowName = "osgAnalyticBin.surfaceLow";
 constexpr double kDegreesPerRadian = 57.29577951308232087680;
-// The model of the bin is split so often that it hardly leaves its corners.
+// Number of splits of the quadratic model; its parts then hardly extend beyond their corners.
 constexpr int kSphereSplits = 3;
 constexpr double kSphereLooseness = 0.01;
 
@@ -65,10 +65,10 @@ double reachOf(const core::GeodeticMapping& mapping, const core::ParameterBox& b
     return reach;
 }
 
-// Radians: wider bins fill the box about them badly.
+// Radians: wider bins fill only a small part of the box about them.
 constexpr double kWidestBox = 1.0;
 
-// The box about a bin along the east, north and up of its middle hardly leaves the bin's corners.
+// The sphere about the bin's box along east, north and up of its middle, which hardly extends beyond the bin's corners.
 osg::BoundingSphere sphereOfBox(const core::ExactGeodeticBin& bin, const core::Geodetic& middle) {
     const core::LocalFrame frame(middle.latitude, middle.longitude);
     glm::dvec3 center(0.0);

@@ -35,7 +35,7 @@ constexpr double kMaxGrowth = 10.0;
 // Deeper than any sea, shallower than half of the smallest radius of a planet that is flown over.
 constexpr double kDeepestHorizon = -1e6;
 
-// A day: longer means that nothing expires, and memory fills up.
+// A day. With longer times nothing expires, and memory fills up.
 constexpr double kLongestExpiry = 86400.0;
 
 // Metres: as much as a mountain.

@@ -23,8 +23,8 @@ namespace osgAnalyticBin {
     return {v.x, v.y, v.z};
 }
 
-/// A plane that OSG could not bring to unit length, or that is not finite, becomes one of NaN, which decides nothing:
-/// matrices without an inverse make such.
+/// A plane that OSG could not normalise, or that is not finite, becomes a plane of NaN, which decides nothing. Singular
+/// matrices produce such planes.
 [[nodiscard]] inline core::Plane toCore(const osg::Plane& plane) {
     const double length2 = plane[0] * plane[0] + plane[1] * plane[1] + plane[2] * plane[2];
     const bool isRight = std::abs(length2 - 1.0) <= 1e-9 && std::isfinite(plane[3]);

@@ -10,7 +10,8 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// Products of a matrix and its inverse are so close to one unless rounding has been blown up a hundred thousand times.
+// Tolerance for the product of a matrix and its inverse. It is exceeded only if rounding errors grow a hundred thousand
+// times.
 constexpr double kInverseTolerance = 1e-10;
 
 // Without the translations, which are as large as the earth. Written so that NaN is no inverse.

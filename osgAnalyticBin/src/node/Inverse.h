@@ -9,7 +9,7 @@
 
 namespace osgAnalyticBin {
 
-/// Whether the matrix moves points without dividing by anything.
+/// Whether the matrix is affine: it has no perspective division.
 [[nodiscard]] bool isAffine(const osg::Matrixd& matrix);
 
 /// Whether no number of the matrix is infinite or NaN.
@@ -17,7 +17,7 @@ namespace osgAnalyticBin {
 
 /// The inverse of an affine matrix.
 /// Returns: nullopt for any other matrix, for one with numbers that are not finite, and for one that is singular or so
-/// close to it that rounding has a say in the inverse: osg::Matrixd::invert() gives some numbers for these.
+/// close to singular that rounding affects the inverse: osg::Matrixd::invert() returns arbitrary numbers for these.
 [[nodiscard]] std::optional<osg::Matrixd> affineInverse(const osg::Matrixd& matrix);
 
 /// Whether two affine matrices are the same but for the rounding of products of matrices whose translations are up to

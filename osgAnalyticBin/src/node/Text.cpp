@@ -16,7 +16,7 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// All of a text without blanks.
+// Reads the whole of a text without blanks.
 std::optional<double> numberFromText(const char* begin, const char* end) {
     double value = 0.0;
 #if defined(__cpp_lib_to_chars)

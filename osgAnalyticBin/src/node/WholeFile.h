@@ -11,7 +11,8 @@
 
 namespace osgAnalyticBin {
 
-/// Writes a file whole: a file of that name is replaced when the new one is complete; otherwise nothing is left behind.
+/// Writes a file atomically: a file of that name is replaced when the new one is complete; on failure nothing is left
+/// behind.
 /// `write`: whether the stream took everything. Returns: whether the file was written; otherwise `error` says why not.
 [[nodiscard]] OSGANALYTICBIN_EXPORT bool writeWholeFile(const std::string& path,
                                                         const std::function<bool(std::ostream&)>& write,

@@ -13,14 +13,14 @@
 
 namespace osgAnalyticBin {
 
-/// Jobs for several threads, where a job that is done may bring new ones. The newest job is taken first.
+/// Jobs for several threads; a finished job may add new ones. The newest job is taken first.
 template <class Job>
 class WorkQueue final {
 public:
-    /// Before run(), and in `finish`.
+    /// Call before run(), or in `finish`.
     void push(Job job) { _waiting.push_back(std::move(job)); }
 
-    /// In `finish`: no more jobs are begun.
+    /// Call in `finish`: no more jobs are started.
     void stop() { _isStopped = true; }
 
     /// Does all jobs in that many threads, one of which is the caller's: `work(job)` in parallel, then

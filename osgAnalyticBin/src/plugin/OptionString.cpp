@@ -27,8 +27,7 @@ std::vector<std::string> itemsOf(const std::string& text) {
     return items;
 }
 
-// Letters that have to be typed, left out or changed to come from one word to the other; two that are swapped count as
-// one.
+// Edit distance of two words: letters inserted, left out or changed; two swapped letters count as one.
 std::size_t typingErrors(const std::string& a, const std::string& b) {
     std::vector<std::size_t> beforeLast(b.size() + 1);
     std::vector<std::size_t> last(b.size() + 1);

@@ -13,14 +13,14 @@ namespace osgAnalyticBin::plugin {
 struct OptionString {
     /// The items that are ours, as cullOptionsFromText() takes them.
     std::string items;
-    /// Words that are nobody's but look like one of ours, as they were typed: "metod=exact", or "method" alone; and
-    /// beside each the key that was meant.
+    /// Words that no plugin knows but that resemble one of our keys, as they were typed: "metod=exact", or "method"
+    /// alone; each with the key that was probably meant.
     std::vector<std::pair<std::string, std::string>> nearMisses;
     /// Items KEY=VALUE with a key that is neither ours nor any loaded plugin's, in a string that has items of ours.
     std::vector<std::string> unknown;
 };
 
-/// Parts the string into items at blanks, commas and semicolons.
+/// Splits the string into items at blanks, commas and semicolons.
 [[nodiscard]] OptionString parsedOptionString(const std::string& text);
 
 }  // namespace osgAnalyticBin::plugin

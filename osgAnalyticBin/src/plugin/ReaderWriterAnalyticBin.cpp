@@ -133,7 +133,7 @@ public:
         if (!node) return result;
         const std::size_t installed = osgAnalyticBin::installBins(*node, *cullOptions, request.name, options);
         report(installed, *cullOptions, request.name, osgAnalyticBin::isIndexAwaited(*node));
-        // the plugins that the database needs are loaded now, and have said what they know
+        // the plugins that the database needs are loaded by now, and their options are known
         if (options) reportUnknown(osgAnalyticBin::plugin::parsedOptionString(options->getOptionString()));
         return node.get();
     }

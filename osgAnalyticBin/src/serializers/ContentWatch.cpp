@@ -12,7 +12,7 @@
 
 using osgAnalyticBin::ContentWatch;
 
-// Nothing is stored: OSG asks before it writes the node's cull callback, which is to know what was added meanwhile.
+// Stores nothing. OSG calls it before it writes the node's cull callback, which has to know what was added meanwhile.
 static bool checkContent(const ContentWatch& watch) {
     watch.look();
     return false;
@@ -26,7 +26,7 @@ static bool writeContent(osgDB::OutputStream&, const ContentWatch&) {
     return true;
 }
 
-// A scene that is saved with bins keeps the object, without what it knew.
+// A scene that is saved with bins keeps the object without its data.
 REGISTER_OBJECT_WRAPPER(osgAnalyticBin_ContentWatch, new osgAnalyticBin::ContentWatch, osgAnalyticBin::ContentWatch,
                         "osg::Object osg::ComputeBoundingSphereCallback osgAnalyticBin::ContentWatch") {
     ADD_USER_SERIALIZER(Content);

@@ -73,7 +73,7 @@ void CameraCulling::resizeGLObjectBuffers(unsigned int size) {
     _overlay->resizeGLObjectBuffers(size);
 }
 
-// A window that closes gives its number to the next one: nothing of it may be left.
+// The next window gets the number of a closed one: nothing may be left of that.
 void CameraCulling::releaseGLObjects(osg::State* state) const {
     _overlay->releaseGLObjects(state);
     osg::ref_ptr<osg::Camera> followed;

@@ -114,7 +114,7 @@ core::Geodetic positionOf(double latitude, double longitude, double altitude, bo
     return {latitude * radians, longitude * radians, altitude};
 }
 
-// What is wrong with the numbers together; empty when nothing is.
+// Why the numbers contradict each other; empty when they do not.
 std::string contradiction(const std::array<double, NumberCount>& n) {
     if (!(n[Near] < n[Far])) return "near has to be smaller than far";
     if (n[EyeLat] == n[LookLat] && n[EyeLon] == n[LookLon] && n[EyeAlt] == n[LookAlt])

@@ -25,7 +25,7 @@ std::vector<std::string> cellsOf(const std::string& line) {
     }
 }
 
-// The next line that says something; false at the end of the file.
+// Reads the next line that is neither empty nor a comment. Returns: false at the end of the file.
 bool nextLine(std::istream& input, std::string& line, std::size_t& number) {
     while (std::getline(input, line)) {
         ++number;

@@ -16,7 +16,7 @@ namespace {
 
 using AttributeList = osgUtil::PositionalStateContainer::AttrMatrixList;
 
-// Takes what the other view left to draw over to the visitor's own.
+// Moves the drawables that the other view collected to the visitor's own view.
 class Mover {
 public:
     Mover(osgUtil::CullVisitor& visitor, const CullingView& other, const osg::RefMatrix* otherProjection)

@@ -11,8 +11,8 @@
 
 namespace osgAnalyticBin {
 
-/// Runs a part of a cull traversal by another view, and places what it leaves to draw as the visitor's own view sees
-/// it.
+/// Runs a part of a cull traversal with another view, and moves the drawables that it collects into the visitor's own
+/// view.
 void traverseBy(const CullingView& view, osgUtil::CullVisitor& visitor, const std::function<void()>& traverse);
 
 }  // namespace osgAnalyticBin

@@ -43,7 +43,7 @@ std::vector<osg::Vec3d> borderOf(const CullingView& view, const std::optional<Sc
     return border;
 }
 
-// As far as the tangent to the globe, and a little more.
+// The distance to the tangent point on the globe, and a little more.
 double reachOver(const SceneGlobe& globe, const osg::Vec3d& eye) {
     const double radius = globe.ellipsoid->getRadiusEquator();
     const double height = std::max(globe.altitude(eye), 0.0);

@@ -40,16 +40,16 @@ private:
     const bool _wasRunning;
 };
 
-// Textures and meshes hold an array with a place for each window, which is as large as OSG's settings say when they are
-// made. Draw threads enlarge it at need, but two of them at once would spoil it: what is read from now on has one place
-// more than there are windows.
+// Textures and meshes hold an array with one element per window, whose size follows OSG's settings when they are made.
+// Draw threads enlarge it when needed, but two at once would corrupt it. So all that is read from now on gets one
+// element more than there are windows.
 void leaveRoomForAWindow() {
     osg::DisplaySettings& settings = *osg::DisplaySettings::instance();
     const unsigned int wanted = osg::GraphicsContext::getMaxContextID() + 2;
     if (settings.getMaxNumberOfGraphicsContexts() < wanted) settings.setMaxNumberOfGraphicsContexts(wanted);
 }
 
-// Gives a place for each window to all that a view draws, its cameras' overlays and their fonts included.
+// Gives an element per window to all that a view draws, its cameras' overlays and their fonts included.
 void makeRoomForWindows(osgViewer::View& view) {
     const unsigned int windows = osg::GraphicsContext::getMaxContextID() + 1;
     view.getCamera()->resizeGLObjectBuffers(windows);

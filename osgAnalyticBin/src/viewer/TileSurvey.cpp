@@ -111,7 +111,7 @@ private:
         _open.pop_back();
     }
 
-    // Something below the innermost tile: its own verdict is in the counters, and nothing else yet.
+    // A node below the innermost tile: the counters hold that tile's verdict and nothing else yet.
     void reach(const osg::Node& node) {
         if (_open.empty() || _open.back().tile == &node) return;
         decide();
@@ -167,7 +167,7 @@ TileSurvey::TileSurvey(osg::Camera& camera, osg::FrameStamp& frameStamp) {
     surveyor->inheritCullSettings(camera);
     surveyor->setTraversalMask(camera.getCullMask());
     BinStatistics::of(*surveyor).setTileByTile(true);
-    // counters start anew with a frame: not between this tile and that
+    // counters are reset with each frame: not between this tile and that
     BinStatistics::of(*surveyor).count(core::Side::Outside, frameStamp.getFrameNumber());
     surveyor->pushViewport(view.viewport);
     surveyor->pushProjectionMatrix(new osg::RefMatrix(view.projection));

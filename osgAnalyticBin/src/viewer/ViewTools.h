@@ -27,7 +27,7 @@ namespace osgAnalyticBin {
 /// The osgViewer view that an event handler was called for. Returns: nullptr for other viewers.
 [[nodiscard]] osgViewer::View* viewOf(osgGA::GUIActionAdapter& action);
 
-/// Whether another handler has taken an event; frames are everybody's.
+/// Whether another handler has handled an event; FRAME events are for all handlers.
 [[nodiscard]] bool isTaken(const osgGA::GUIEventAdapter& event);
 
 /// The cameras that draw a view's scene: the master or its slaves, those left out that look at another camera.
@@ -51,8 +51,8 @@ struct SceneGlobe {
 /// That of the first CoordinateSystemNode with an ellipsoid below a node. Returns: nullopt for scenes without.
 [[nodiscard]] std::optional<SceneGlobe> globeOf(osg::Node& scene);
 
-/// Computes the bounds of all that is below a node, hidden or not. OSG does so at the first need, which for an overlay
-/// that two cameras draw comes in two cull threads at once. Between frames.
+/// Computes the bounds of everything below a node, hidden or not. OSG does so on first use, which for an overlay that
+/// two cameras draw happens in two cull threads at once. Call between frames.
 void computeBounds(osg::Node& node);
 
 /// A view's frustum: edges and translucent sides from the eye to the globe, or as far as the eye sees past it.

@@ -28,7 +28,7 @@ void add(const BinCounts& some, BinCounts& sum) {
 BinCounts binCounts(osg::Camera& camera, unsigned int frame) {
     BinCounts sum;
     sum.frame = frame;
-    // threading models that cull a frame while the last one is drawn take turns with two
+    // threading models that cull a frame while the last one is drawn use two in turn
     constexpr unsigned int kSceneViews = 2;
     auto* const renderer = dynamic_cast<osgViewer::Renderer*>(camera.getRenderer());
     for (unsigned int i = 0; renderer && i < kSceneViews; ++i) {

@@ -20,14 +20,14 @@ constexpr std::size_t kRows = row::kBinRows + row::kHorizonRows;
 constexpr std::size_t kLanes = 4;
 constexpr std::uint64_t kFirst = 1;
 
-// A slot without a bin: outside of every plane at the first look, so that it makes no work; what is said of it is
+// A slot without a bin. The first stage finds it outside every plane, so that it costs no further work; its verdict is
 // replaced afterwards.
 void makeEmpty(double* slot, std::size_t stride) {
     for (std::size_t i = 0; i < row::kBinRows; ++i) slot[i * stride] = 0.0;
     slot[row::Reach * stride] = -std::numeric_limits<double>::infinity();
 }
 
-// An exact bin that is read from its slot only where its middle does not answer.
+// An exact bin that is read from its slot only if the test of its middle is undecided.
 class SlotBin {
 public:
     SlotBin(const double* slot, std::size_t stride) : _slot(slot), _stride(stride) {}

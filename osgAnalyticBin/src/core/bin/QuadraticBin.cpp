@@ -123,7 +123,7 @@ glm::dvec3 QuadraticBin::modelPoint(const glm::dvec3& unit) const noexcept {
            second(4) * (u * w) + second(5) * (v * w);
 }
 
-// Kept out of line: one plane in a thousand comes here.
+// Not inlined: one plane in a thousand needs it.
 kernels::PlaneSides kernels::sidesByExactRange(const double* numbers, std::size_t stride, const PlaneBlock* blocks,
                                                PlaneMask planes) {
     const QuadraticBin bin(numbers, stride);

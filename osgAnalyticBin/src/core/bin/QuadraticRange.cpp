@@ -12,7 +12,7 @@ namespace {
 
 enum : std::size_t { kUU, kVV, kWW, kUV, kUW, kVW };
 
-// A stationary point this far outside the box is moved onto it: rounding may have put it there.
+// A stationary point up to this far outside the box is moved onto it: rounding may have moved it out.
 constexpr double kAcceptance = 1e-6;
 
 // a + b x + 1/2 c x2 over [-1, 1]

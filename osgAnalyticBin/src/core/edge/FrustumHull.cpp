@@ -18,7 +18,7 @@ namespace {
 constexpr double kRounding = 16.0 * kEpsilon;
 // Three planes closer to sharing a line than this have no corner.
 constexpr double kSmallestDeterminant = 1e-12;
-// Corners are looked for roughly: what is proved does not depend on them.
+// Corners are computed without error bounds: the proofs do not depend on them.
 constexpr double kCornerTolerance = 1e-9;
 
 }  // namespace

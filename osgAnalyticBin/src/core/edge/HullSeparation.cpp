@@ -17,7 +17,7 @@ namespace {
 // Rounding of a mixture of two planes, in units of epsilon times its terms; doc/theory/horizon.md, section 7.
 constexpr double kRounding = 16.0 * kEpsilon;
 
-// Mixtures of unit normals that are shorter than this are nothing but rounding.
+// Mixtures of unit normals that are shorter than this consist of rounding errors.
 constexpr double kShortest = 1e-100;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -49,7 +49,7 @@ bool WedgeSearch::learn(const glm::dvec3& point) noexcept {
         _weights = _known[0] ? glm::dvec2(0.0, 1.0) : glm::dvec2(1.0, 0.0);
         return true;
     }
-    // The mixture that both points are equally far outside of.
+    // The mixture for which both points are equally far outside.
     _weights = {_points[1][1] - _points[0][1], _points[0][0] - _points[1][0]};
     return glm::dot(_weights, _points[0]) < 0.0;  // else the chord between them passes inside both planes
 }

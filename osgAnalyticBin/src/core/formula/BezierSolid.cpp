@@ -18,7 +18,8 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-// Boxes computed as parts of the unit interval may leave it by rounding; the bound's own rounding covers as much.
+// Rounding may put parts of the unit interval slightly outside of it; the margin for the bound's own rounding covers
+// this.
 constexpr double kBeyond = 1e-15;
 
 bool isWithinUnitCube(const ParameterBox& box) {

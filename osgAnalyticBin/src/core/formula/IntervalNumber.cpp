@@ -14,17 +14,17 @@ namespace osgAnalyticBin::core {
 namespace {
 
 constexpr double kTiny = std::numeric_limits<double>::denorm_min();
-// Results of +, -, *, / and sqrt are rounded once; the library's functions are right to 4 ulps.
+// Results of +, -, *, / and sqrt are rounded once; the library's functions are accurate to 4 ulps.
 constexpr double kOneRounding = kEpsilon;
 constexpr double kLibraryRounding = 5.0 * kEpsilon;
-// Beyond, a sine is not worth reducing the argument for.
+// Larger arguments are not reduced: sines are then in [-1, 1], tangents undefined.
 constexpr double kLargestAngle = 1e6;
-// Far more than the rounding of a number of turns below kLargestAngle.
+// Far above the rounding error of a number of turns below kLargestAngle.
 constexpr double kTurnSlack = 1e-9;
-// Powers are products; more factors are not meant.
+// Powers are computed as products of at most this many factors.
 constexpr int kLargestExponent = 64;
 
-// An infinite bound becomes NaN here, and the constructor makes of that an undefined number.
+// An infinite bound becomes NaN here, which the constructor turns into an undefined number.
 IntervalNumber widened(double lower, double upper, double relative) noexcept {
     return {lower - (std::abs(lower) * relative + kTiny), upper + (std::abs(upper) * relative + kTiny)};
 }

@@ -26,7 +26,7 @@ constexpr std::array<Monomial, kSize> kMonomials{
 
 using ProductTable = std::array<std::array<std::size_t, kSize>, kSize>;
 
-// The place of the product of two monomials; kSize beyond the third degree.
+// Index of the product of two monomials; kSize beyond the third degree.
 constexpr ProductTable makeProductTable() {
     ProductTable table{};
     for (std::size_t i = 0; i < kSize; ++i) {

@@ -15,7 +15,7 @@ namespace osgAnalyticBin::core {
 
 namespace {
 
-// Radians by which angles may be wrong.
+// Error bound of angles, radians.
 constexpr double kRounding = 1e-12;
 
 // Eastward of the middle of an interval, in radians.

@@ -21,7 +21,7 @@ namespace {
 // Outward rounding of products and quotients of a few factors; doc/theory/horizon.md, section 5.
 constexpr double kUp = 1.0 + 16.0 * kEpsilon;
 constexpr double kDown = 1.0 - 16.0 * kEpsilon;
-// Of the cosine that a point's spread is made from; doc/theory/horizon.md, section 9.
+// Error bound of the cosine that a point's spread is computed from; doc/theory/horizon.md, section 9.
 constexpr double kSpreadSlack = 16.0 * kEpsilon;
 
 glm::dvec3 toUnitSpace(const Ellipsoid& ellipsoid, const glm::dvec3& v) {

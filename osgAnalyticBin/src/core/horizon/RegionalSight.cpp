@@ -19,9 +19,9 @@ namespace {
 
 using PastBorder = RegionalSight::PastBorder;
 
-// Radians by which angles may be wrong.
+// Error bound of angles, radians.
 constexpr double kRounding = 1e-12;
-// Of sums of a few products of sines and cosines.
+// Error bound of sums of a few products of sines and cosines.
 constexpr double kSlack = 8.0 * kEpsilon;
 
 // The latitude in unit space of the direction of a position (doc/theory/horizon.md, section 2).

@@ -28,8 +28,8 @@ namespace osgAnalyticBin::core::kernels {
 #endif
 }
 
-/// What planes are to a bin, one bit each; the masks do not overlap. One register: masks of 32 bits that are stored one
-/// by one and read together cost more than the whole first test.
+/// The verdicts of the planes on a bin, one bit each; the masks do not overlap. They share one register: storing masks
+/// of 32 bits separately and reading them together costs more than the whole first test.
 struct PlaneSides {
     std::uint64_t both;  // outside in the lower half, inside in the upper
 

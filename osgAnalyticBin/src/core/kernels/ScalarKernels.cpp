@@ -43,8 +43,8 @@ constexpr OcclusionKernels kScalarOcclusion{scalar::columnsOf<double>,   scalar:
                                             scalar::outlineOf<double>,   scalar::isAboveOneOf<double>,
                                             scalar::raiseStrips<double>, scalar::coversHeights<double>};
 
-// Constant initialisation, which needs the numbers in the same file: whoever classifies before this file's turn gets
-// the scalar form.
+// Constant initialisation, which needs the numbers in the same file: code that classifies before this file is
+// initialised gets the scalar form.
 PlaneKernels activeKernels = kScalarKernels;
 OcclusionKernels activeOcclusion = kScalarOcclusion;
 

@@ -22,7 +22,7 @@ constexpr double kSameLine = 0.1;
 // Between the square tiles of a quadtree and the whole globe, which VirtualPlanetBuilder parts into two.
 constexpr double kWide = 1.5;
 
-// Radians: rounding of extents that were read off meshes.
+// Radians: rounding error of extents that were computed from meshes.
 constexpr double kSameAngle = 1e-5;
 
 struct Edge {
@@ -51,7 +51,7 @@ double largestRadius(const Ellipsoid& ellipsoid, double altitude) noexcept {
     return std::max(kRoomForAltitude * largest, largest + altitude);
 }
 
-// What a run towards the axis is in latitude, at most, where posts may be as low as `altitude`.
+// Largest change of latitude for a run towards the axis, where posts may be as low as `altitude`.
 double mostTurn(const Ellipsoid& ellipsoid, double altitude) noexcept {
     const double a = ellipsoid.equatorialRadius();
     const double flattening = std::max(1.0, a / ellipsoid.polarRadius());

@@ -42,7 +42,7 @@ double haversine(double angle) {
     return squared(std::sin(0.5 * angle));
 }
 
-// Where the closed forms are tight; elsewhere others are taken, which hold for all ellipsoids.
+// Where the closed forms are tight; elsewhere forms are used that hold for all ellipsoids.
 bool isEarthLike(const Ellipsoid& ellipsoid, double reach) {
     const double smaller = std::min(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
     return reach < 0.1 * smaller && std::abs(ellipsoid.eccentricitySquared()) < 0.1;
@@ -74,7 +74,7 @@ double polewardLimit(const Ellipsoid& ellipsoid, double latitude, double cosHalf
     return std::min(kHalfPi, latitude + run + kAngleRounding);
 }
 
-// What sags are measured by.
+// The terms of the bounds of sags.
 struct SagTerms {
     double radius;
     double stretch;            // of half a row, its root

@@ -31,7 +31,7 @@ constexpr double kAngleRounding = 1e-14;
 constexpr double kMeshRounding = 1.6e-14;
 constexpr std::size_t kLanes = 16;
 
-// Lengths in the unit of the ellipsoid; the numbers are those of the earth in metres.
+// Lengths in the unit of the ellipsoid, given here for the earth in metres.
 struct Lengths {
     explicit Lengths(double scale)
         : farthest(1.0e5 * scale),
@@ -51,7 +51,7 @@ struct Lengths {
     double rounding;
 };
 
-// Largest and smallest of several numbers, in lanes for the compiler to make vectors of. NaN is passed over.
+// Maximum and minimum of several numbers, in lanes that the compiler vectorises. NaN is ignored.
 struct Extremes {
     double low[kLanes];
     double high[kLanes];
@@ -198,7 +198,7 @@ struct PolewardEnd {
     bool atPole = false;
 };
 
-// Of every vertex, and the largest.
+// The excess of each vertex. Returns: the largest.
 double excesses(const Cone& cone, const EcefMesh& mesh, const std::vector<double>& axisDistances,
                 std::vector<double>& excess) {
     const std::size_t count = mesh.size();

@@ -20,7 +20,7 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// More take more memory in a viewer than tiles that are shown.
+// An index of more files takes more memory in a viewer than the tiles that are shown.
 constexpr std::size_t kMostFiles = 1000000;
 
 std::vector<std::string> rootsOf(const std::string& metadataFile) {

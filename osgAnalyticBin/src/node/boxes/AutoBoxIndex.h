@@ -26,7 +26,7 @@ public:
     /// What is known of a file, so far. Returns: nullopt, too, for a file that is not in the set.
     [[nodiscard]] std::optional<BoxIndex::Boxes> find(const std::string& file) const;
 
-    /// Returns: null before it is whole.
+    /// Returns: null until it is complete.
     [[nodiscard]] osg::ref_ptr<const BoxIndex> whole() const;
 
     /// Whether all files of the set are those that an index with stamps was made from, and the set has no other tiles.

@@ -13,7 +13,7 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// The visitor that traverses a set in this thread, which a look into its user data would tell more slowly.
+// The visitor that traverses a set in this thread. Looking it up in the user data of visitors is slower.
 struct TraversalOfThread {
     const osg::NodeVisitor* visitor = nullptr;
     CullTraversal* traversal = nullptr;

@@ -13,27 +13,27 @@ namespace osgAnalyticBin {
 struct BinCounts;
 class CullTraversal;
 
-/// What a cull visitor knows; quick within a set.
+/// The state of a cull visitor; found quickly within a set.
 [[nodiscard]] CullTraversal& boxTraversalOf(osg::NodeVisitor& visitor);
 
 /// Counts tested boxes; within a set all at once at its end.
 void countBoxes(osg::NodeVisitor& visitor, const BinCounts& counts);
 
-/// The cull callback of a LOD of a photogrammetry set, whose own sphere is not tested any more. It says of itself that
-/// it is a plain osg::NodeCallback: a scene that is saved holds nothing of it.
+/// The cull callback of a LOD of a photogrammetry set, whose own sphere is not tested any more. Its class name is that
+/// of a plain osg::NodeCallback, so that nothing of it is saved with a scene.
 /// Guarantee: a LOD is never culled if a vertex of it, or of what is loaded below, is inside all planes; nor, where its
 /// box is complete, if one of what is not loaded is. Tests: BoxSets.*.
 /// Threads: run() changes nothing in the callback.
 class BoxCullCallback final : public osg::NodeCallback {
 public:
     BoxCullCallback(BoxSet* set, BoxTile* tile) : _set(set), _tile(tile) {}
-    /// A copy knows the same tile.
+    /// A copy refers to the same tile.
     BoxCullCallback(const BoxCullCallback& other, const osg::CopyOp& copyop);
     osg::Object* clone(const osg::CopyOp& copyop) const override { return new BoxCullCallback(*this, copyop); }
 
     /// Puts a callback on the LOD, in front of its own ones, and switches off the test of its sphere.
     static void place(osg::LOD& node, BoxSet& set, BoxTile& tile);
-    /// Takes it off again.
+    /// Removes it.
     static void remove(osg::LOD& node);
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
@@ -49,7 +49,7 @@ private:
     bool _wasCullingActive = true;
 };
 
-/// Stands on the root of a set: lets OSG begin with all planes there.
+/// On the root of a set: makes OSG test all planes from there on.
 class BoxSetCullCallback final : public osg::NodeCallback {
 public:
     BoxSetCullCallback() = default;
@@ -62,7 +62,7 @@ protected:
     ~BoxSetCullCallback() override = default;
 };
 
-/// Stands on the root of a set: has the boxes of its tiles grow by what was read.
+/// On the root of a set: expands the boxes of its tiles by what was read.
 class BoxSetUpdateCallback final : public osg::NodeCallback {
 public:
     explicit BoxSetUpdateCallback(BoxSet* set) : _set(set) {}

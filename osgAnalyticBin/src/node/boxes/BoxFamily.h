@@ -16,7 +16,7 @@ namespace osgAnalyticBin {
 /// The cull callback of a group that has LODs of a photogrammetry set among its children. It tests their boxes, which
 /// lie side by side in memory, enters those that are kept, and reads nothing of the others. Children that it does not
 /// know, because they were added later, are entered. LODs need no callback of their own then.
-/// It says of itself that it is a plain osg::NodeCallback: a scene that is saved holds nothing of it.
+/// Its class name is that of a plain osg::NodeCallback, so that nothing of it is saved with a scene.
 /// Guarantee: that of BoxCullCallback. Tests: BoxSets.*.
 /// Threads: run() changes nothing in the callback.
 class BoxFamily final : public osg::NodeCallback {
@@ -26,9 +26,9 @@ public:
     osg::Object* clone(const osg::CopyOp& copyop) const override { return new BoxFamily(*this, copyop); }
 
     /// Puts a family on the group, behind its other callbacks, and switches off the tests of the spheres of its LODs.
-    /// `tileOf`: what is known of a child; null: it is no LOD of the set.
+    /// `tileOf`: what is known of a child; null: the child is no LOD of the set.
     static void place(osg::Group& group, BoxSet& set, const std::function<BoxTile*(const osg::Node&)>& tileOf);
-    /// Takes it off again.
+    /// Removes it.
     static void remove(osg::Group& group);
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;

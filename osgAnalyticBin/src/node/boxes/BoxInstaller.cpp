@@ -27,7 +27,7 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// Takes boxes off all LODs.
+// Removes the boxes of all LODs.
 class BoxRemover : public osg::NodeVisitor {
 public:
     BoxRemover() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }

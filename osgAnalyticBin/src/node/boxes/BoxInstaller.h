@@ -35,10 +35,10 @@ public:
     /// Installs boxes on a file's content, and on what is loaded below. `parent`: the LOD that pages it; null: none.
     Content install(osg::Node& node, const std::string& file, BoxTile* parent);
 
-    /// Says what is there without changing it; the index is taken not to know it.
+    /// Reports the content without changing it, as content that the index does not know.
     [[nodiscard]] Content survey(osg::Node& node) const;
 
-    /// Has a group cull those of its children on which boxes were installed.
+    /// Makes a group cull those of its children that have boxes.
     void placeFamily(osg::Group& group) const;
 
     /// Number of LODs that got boxes.
@@ -69,11 +69,11 @@ private:
     std::size_t _installed = 0;
 };
 
-/// Installs boxes on all tiles of a set, in place of earlier ones, and has those that are loaded later get them.
+/// Installs boxes on all tiles of a set, in place of earlier ones, and on those that are loaded later.
 /// Returns: the number of LODs that have boxes now.
 std::size_t installBoxes(osg::Group& set, const CullOptions& options);
 
-/// Takes them off again.
+/// Removes them.
 void removeBoxes(osg::Group& set);
 
 /// Returns: nullptr where a node is no set with boxes.

@@ -11,7 +11,7 @@ namespace osgAnalyticBin {
 osgDB::ReaderWriter::ReadResult BoxReadFileCallback::readNode(const std::string& fileName,
                                                               const osgDB::Options* options) {
     using ReadResult = osgDB::ReaderWriter::ReadResult;
-    // No node and no error: the pager says nothing, and asks again in the next frame.
+    // No node and no error: the pager prints nothing, and requests the file again in the next frame.
     if (!_failures.mayRead(fileName, FailedReads::Clock::now())) return ReadResult::FILE_LOADED;
     const BusyPager busy(_set->making());
     ReadResult result = readCarefully(fileName, [&] {
@@ -27,7 +27,7 @@ osgDB::ReaderWriter::ReadResult BoxReadFileCallback::readNode(const std::string&
 void BoxReadFileCallback::install(osg::Node& node, const Expected& expected) const {
     if (_set->isRemoved()) return;
     BoxInstaller installer(*_set);
-    // what others hold, too, keeps OSG's spheres
+    // nodes that others refer to as well keep OSG's spheres
     const bool isOwn = node.referenceCount() == 1;
     const auto content = isOwn ? installer.install(node, expected.file, expected.parent.get()) : installer.survey(node);
     _set->grow(*expected.parent, content.box, content.isMisfit);

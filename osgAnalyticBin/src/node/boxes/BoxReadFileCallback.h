@@ -15,15 +15,15 @@
 namespace osgAnalyticBin {
 
 /// Installs boxes on what the DatabasePager reads below a photogrammetry set, in the thread that reads it. A file that
-/// could not be read is left alone for a while (FailedReads).
+/// could not be read is not tried again for a while (FailedReads).
 class BoxReadFileCallback final : public osgDB::ReadFileCallback {
 public:
     /// `replaced`: the options that the PagedLODs came with; null: none.
     BoxReadFileCallback(BoxSet* set, osgDB::Options* replaced, osgDB::ReadFileCallback* previous)
         : _set(set), _replaced(replaced), _previous(previous) {}
 
-    /// Says what a file will be asked for as, its name in the index, and which tile it is paged below. Not to be called
-    /// once the pager may read.
+    /// Announces a file: the name by which it will be requested, its name in the index, and the tile that pages it. Do
+    /// not call once the pager may read.
     void expect(const std::string& fileName, const std::string& file, BoxTile* parent) {
         _expected[fileName] = {file, parent};
     }

@@ -26,7 +26,7 @@ void BoxTile::set(const MeshBox& box, bool isComplete) {
     _box = box;
     _test.isComplete = isComplete;
     _test.isTested = box.box().valid();
-    // what is not loaded is where OSG's own sphere says, as far as anybody knows
+    // of what is not loaded, only OSG's own sphere is known
     const bool isBySphere = _test.isTested && !isComplete && holds(_sphere, box.box());
     _test.asksNode = !isComplete && !isBySphere;
     if (_test.isTested) _test.box = isBySphere ? TestedBox(_sphere) : TestedBox(box.box());

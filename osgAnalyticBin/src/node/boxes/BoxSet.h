@@ -70,16 +70,16 @@ public:
     /// `isComplete`: the box holds all that is paged below, loaded or not.
     void set(const MeshBox& box, bool isComplete);
 
-    /// Has a slot follow the tile.
+    /// Keeps a slot up to date with the tile.
     void join(BoxSlots& slots, std::size_t number);
 
-    /// Says that the tile is not tested by itself: who keeps its parent keeps it.
+    /// Marks the tile as not tested by itself: it is kept whenever its parent is.
     void setFollowsParent() { _followsParent = true; }
-    /// Whether what is tested of it differs so little from that of the next tile above that is tested, that a test
-    /// would say no more.
+    /// Whether its box or sphere differs so little from that of the next tested tile above that a test of its own is of
+    /// no use.
     [[nodiscard]] bool isLikeParent() const;
 
-    /// Says that something below is not as the index says: the box is never complete.
+    /// Records that something below differs from the index: the box never becomes complete.
     void setMisfit() { _isMisfit = true; }
     [[nodiscard]] bool isMisfit() const { return _isMisfit; }
 
@@ -118,19 +118,20 @@ public:
     /// Returns: null where none is made.
     [[nodiscard]] const osg::ref_ptr<AutoBoxIndex>& making() const { return _index.making; }
 
-    /// Says that the tiles of a file got boxes without an index; they get those of the index that is made, if any, in
-    /// an update. `parent`: the LOD that pages the file; null: none.
+    /// Records that the tiles of a file got boxes without an index; an update gives them those of the index that is
+    /// being made, if any. `parent`: the LOD that pages the file; null: none.
     void awaitIndex(osg::Node& root, const std::string& file, BoxTile* parent,
                     const std::vector<osg::ref_ptr<BoxTile>>& tiles);
 
-    /// Says that boxes are taken off: what has them still is not culled by them.
+    /// Records that boxes are removed: tiles that still have them are not culled by them.
     void setRemoved() { _isRemoved.store(true, std::memory_order_relaxed); }
     [[nodiscard]] bool isRemoved() const { return _isRemoved.load(std::memory_order_relaxed); }
 
-    /// Says that the content of a file, or a LOD, does not fit the index. Warns once.
+    /// Reports that the content of a file, or a LOD, does not fit the index. Warns once.
     void noteMisfit(const std::string& file);
 
-    /// Says what was read below a tile. It and the tiles above it grow in the next update. `isMisfit`: the index does
+    /// Reports what was read below a tile. The tile and those above it are expanded in the next update. `isMisfit`: the
+    /// index does
     /// not know the content, and no tile above it is complete.
     void grow(BoxTile& tile, const MeshBox& box, bool isMisfit);
 

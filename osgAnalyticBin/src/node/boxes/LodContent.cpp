@@ -28,7 +28,7 @@ bool staysInPlace(osg::Node& node) {
     return !node.getUpdateCallback() && !node.getComputeBoundingSphereCallback();
 }
 
-// Deeper files are nobody's; the recursion has to end before the stack does.
+// No real file is deeper; the recursion must end before the stack overflows.
 constexpr int kDeepest = 1000;
 
 class LodFinder {

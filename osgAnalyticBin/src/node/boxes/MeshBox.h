@@ -18,7 +18,7 @@ public:
     MeshBox() = default;
     explicit MeshBox(const osg::BoundingBoxf& box) : _box(box._min, box._max) {}
 
-    /// Where nobody can say how far a mesh reaches.
+    /// The box of a mesh of unknown extent.
     [[nodiscard]] static MeshBox boundless();
 
     [[nodiscard]] bool isBoundless() const { return _isBoundless; }

@@ -9,10 +9,10 @@
 
 namespace osgAnalyticBin {
 
-/// What markPhotogrammetrySet() was told.
+/// The file that markPhotogrammetrySet() recorded.
 [[nodiscard]] std::string metadataFileOf(const osg::Node& set);
 
-/// What setPhotogrammetryFile() was told.
+/// The file that setPhotogrammetryFile() recorded.
 [[nodiscard]] std::string photogrammetryFileOf(const osg::Node& tile);
 
 }  // namespace osgAnalyticBin

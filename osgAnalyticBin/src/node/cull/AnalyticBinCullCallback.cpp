@@ -133,7 +133,7 @@ AnalyticBinCullCallback::PreparedBin AnalyticBinCullCallback::preparedBin(const 
                       core::quadraticOrExact(ellipsoid, shown.bin(), shown.margin()));
 }
 
-// Where the bin that is shown, the globe, the frame or the options have changed.
+// Called when the shown bin, the globe, the frame or the options have changed.
 void AnalyticBinCullCallback::changeBin() {
     const AnalyticBin shown = shownBin();
     _binLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
@@ -315,7 +315,7 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
         cullStack.getCurrentCullingSet().getFrustum().getCurrentMask() = 0;
         return false;
     }
-    // without its database nobody notices what is added below the tile, or how the terrain is shown
+    // without its database, content added below the tile and changes of the terrain's shape go unnoticed
     const bool isAbandoned = _installed ? !_installed->mayCull(&node) : _wasInstalled;
     if (!_isTested || isAbandoned) return false;
     CullTraversal& traversal = CullTraversal::of(nv);
@@ -345,10 +345,10 @@ bool AnalyticBinCullCallback::standsAsInstalled(osg::CullStack& cullStack, const
     return areNearlyEqual(*modelView, getLocalToEcef() * *database.modelView, reach);
 }
 
-// What the database says, where it was said of this camera and of the place where the tile stands.
+// What the database provides, if it provides it for this camera and for the place of the tile.
 const DatabaseView* AnalyticBinCullCallback::viewOn(osg::CullStack& cullStack, CullTraversal& traversal) const {
     const DatabaseView* const database = traversal.databaseView();
-    // a camera between the database's root and the tile sees with other eyes
+    // a camera between the database's root and the tile has another eye
     const bool isSame = database && database->ellipsoid == ellipsoid() &&
                         database->projection == cullStack.getProjectionMatrix() &&
                         standsAsInstalled(cullStack, *database);

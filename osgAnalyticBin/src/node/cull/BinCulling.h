@@ -40,7 +40,7 @@ inline void setUndecided(osg::Polytope& frustum, core::PlaneMask planes) {
     frustum.setResultMask(planes);
 }
 
-/// Has OSG test only the undecided planes below transforms, too, as long as it exists. By itself OSG begins with all
+/// While it exists, OSG tests only the undecided planes below transforms, too. By itself OSG begins with all
 /// planes below each transform and moves them to its frame. `undecided` numbers the planes of the current culling set.
 /// Where these are not all planes of the camera, because a transform above has left some out, it does nothing.
 class PlanesBelow {
@@ -65,8 +65,8 @@ private:
 /// enters by apply(osg::LOD&) or apply(osg::Group&).
 void enterWithoutTest(osg::Node& node, osgUtil::CullVisitor& visitor);
 
-/// Whether the database that is traversed is shown in the shape that a bin was fitted to. Another shape is asked to be
-/// fitted to; without a database the answer is no.
+/// Whether the database that is traversed is shown in the shape that a bin was fitted to. If it is not, requests a fit
+/// to the present shape. Returns: false without a database.
 [[nodiscard]] bool isShownIn(const TerrainShape& fitted, const CullTraversal& traversal);
 
 /// Counts a tile that was tested, in cull traversals. `culled`: by its bin or otherwise.

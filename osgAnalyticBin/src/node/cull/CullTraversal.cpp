@@ -26,7 +26,7 @@ bool areSame(const core::PlaneSet& some, const core::PlaneSet& others) {
     return true;
 }
 
-// The visitor that traverses a database in this thread, which a look into its user data would tell more slowly.
+// The visitor that traverses a database in this thread. Looking it up in the user data of visitors is slower.
 struct ScopeOfThread {
     const osg::NodeVisitor* visitor = nullptr;
     CullTraversal* traversal = nullptr;
@@ -63,7 +63,7 @@ TilePlan& CullTraversal::plan() {
 
 CullTraversal& CullTraversal::of(osg::NodeVisitor& visitor) {
     if (scopeOfThread.visitor == &visitor) return *scopeOfThread.traversal;
-    // Statistics of a visitor are never anything else.
+    // the statistics of a visitor always are of this class
     return static_cast<CullTraversal&>(BinStatistics::of(visitor));
 }
 
@@ -106,8 +106,8 @@ const core::HorizonEye* CullTraversal::horizonEye(osg::CullStack& cullStack, osg
                                                   const Occluder& occluder) {
     const osg::RefMatrix* modelView = cullStack.getModelViewMatrix();
     const osg::RefMatrix* projection = cullStack.getProjectionMatrix();
-    // The planes are the same as before; sides alone do not tell near planes apart, nor eyes along an orthographic
-    // view.
+    // The planes are the same as before; side planes alone do not distinguish near planes, nor eyes along an
+    // orthographic view.
     const bool same = _eyeEllipsoid == occluder.ellipsoid && modelView == _modelView && projection == _projection &&
                       visitor.getTraversalNumber() == _eyeFrame && occluder.depth == _eyeDepth &&
                       depthOf(*modelView, *projection) == _eyeSpaceDepth;

@@ -18,8 +18,8 @@ class EmergingTiles {
 public:
     /// Looks ahead four times a second, from where the eye will be in half a second and in one second in turn. Times
     /// are those of the visitor's frame stamp. An eye that stands still or jumps has nothing ahead. `now`: what terrain
-    /// hides in this view. `isBusy`: it was looked for in this view, so that looking ahead had better wait for another
-    /// one. Cost: that of findOccluded() at each of these times.
+    /// hides in this view. `isBusy`: hidden tiles were searched for in this view, so looking ahead is put off. Cost:
+    /// that of findOccluded() at each of these times.
     void look(const ShownDatabase& database, const LevelView& view, const glm::dvec3& eye, const FoundOcclusion& now,
               bool isBusy);
 

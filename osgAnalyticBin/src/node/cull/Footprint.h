@@ -20,7 +20,7 @@ class Footprint {
 
 public:
     Footprint() = default;
-    /// A copy has noted nothing.
+    /// A copy is empty.
     Footprint(const Footprint&) {}
     Footprint& operator=(const Footprint&) { return *this; }
 

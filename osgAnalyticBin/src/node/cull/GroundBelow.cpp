@@ -93,7 +93,7 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, osg::Node& mesh, const Anal
     if (overhang(tile) > 0.0) return false;
     const glm::dvec3 point = ellipsoid.toEcef(eye);
     const glm::dvec3 up = ellipsoid.up(eye.latitude, eye.longitude);
-    // meshes may change: what was found is not believed for long
+    // meshes may change: a result is used for a few frames only
     constexpr int kMostUses = 16;
     const bool isSame = _mesh.get() == &mesh && _tile.get() == &tile && ++_uses < kMostUses;
     if (isSame && isTriangleBelow(point, up)) return true;

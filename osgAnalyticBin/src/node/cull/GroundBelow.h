@@ -20,7 +20,7 @@ namespace osgAnalyticBin {
 [[nodiscard]] bool isInColumn(const core::Geodetic& place, const AnalyticBinCullCallback& tile,
                               const core::Ellipsoid& ellipsoid);
 
-/// The triangle of the shown terrain that an eye was last above: in the next frames it mostly still is.
+/// The triangle of the shown terrain that an eye was last above: it usually stays above it for some frames.
 class GroundBelow {
 public:
     /// Whether the mesh, a tile's own, is below the eye along the ellipsoid's normal. False in doubt: where the normal

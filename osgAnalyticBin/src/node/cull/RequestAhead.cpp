@@ -106,7 +106,7 @@ public:
         traverse(transform);
         stack.popModelViewMatrix();
     }
-    // it sees with other eyes
+    // it has another eye
     void apply(osg::Camera&) override {}
 
 private:

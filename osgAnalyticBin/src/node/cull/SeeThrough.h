@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// What is drawn without hiding what is behind it: the horizon must not rely on such terrain.
+// Finds terrain that does not hide what is behind it. The horizon must not rely on such terrain.
 
 #pragma once
 

@@ -103,7 +103,7 @@ std::optional<Viewpoint> Viewpoint::of(osg::CullStack& cullStack, osg::NodeVisit
     if (!isOrthographic(projection) || !unproject.invert(projection)) return std::nullopt;
     osg::Vec3d start = osg::Vec3d(0.0, 0.0, -1.0) * unproject;
     const osg::Vec3d direction = osg::Vec3d(0.0, 0.0, 1.0) * unproject - start;
-    // Reversed depth, or reversed sight? The projection does not say.
+    // the projection does not tell reversed depth from a reversed viewing direction
     if (!(direction.z() < 0.0)) return std::nullopt;
     // With near and far computed, what is wholly behind the eye is not drawn and hides nothing.
     if (!isFinalProjection(cullStack) && start.z() > 0.0) start += direction * (start.z() / -direction.z());

@@ -24,7 +24,7 @@ namespace {
 
 using indexing::DatabaseFiles;
 
-// More take more memory in a viewer than tiles that are shown.
+// An index of more files takes more memory in a viewer than the tiles that are shown.
 constexpr std::size_t kMostTiles = 2000000;
 
 // Returns: the path of a database in a local file, outside of archives; else empty.

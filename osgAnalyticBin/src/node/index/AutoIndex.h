@@ -31,7 +31,7 @@ public:
     /// What is known of a tile, so far. Returns: nullopt, too, for a tile that is not in the database.
     [[nodiscard]] std::optional<BinIndex::Entry> find(const std::string& file, std::size_t ordinal) const;
 
-    /// indexing::areCurrent().
+    /// As indexing::areCurrent().
     [[nodiscard]] static bool isCurrent(const BinIndex& index, const indexing::DatabaseFiles& files,
                                         const std::function<void()>& checkpoint) {
         return indexing::areCurrent(index.stamps(), files, checkpoint);

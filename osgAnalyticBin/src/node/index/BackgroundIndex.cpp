@@ -87,7 +87,7 @@ void BackgroundIndex::run() {
     try {
         make();
     } catch (const Stopped&) {
-        // nobody waits for it any more
+        // stop() was called
     } catch (const std::exception& failure) {
         note("no index of \"" + _rootFile + "\" can be made: " + failure.what());
     }

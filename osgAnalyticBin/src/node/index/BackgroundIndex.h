@@ -30,18 +30,18 @@ public:
     void start();
     void stop();
 
-    /// Whether all is known that there is to know.
+    /// Whether the index is complete.
     [[nodiscard]] bool isWhole() const { return _isWhole.load(std::memory_order_acquire); }
-    /// Grows whenever more is known.
+    /// Increases whenever more is known.
     [[nodiscard]] unsigned int generation() const { return _generation.load(std::memory_order_acquire); }
 
-    /// Waits until it is whole, or never will be. Returns: whether it is whole.
+    /// Waits until the index is complete or has failed. Returns: whether it is complete.
     bool waitUntilWhole(std::chrono::duration<double> most) const;
 
-    /// The DatabasePager begins and ends to read a file.
+    /// Call when the DatabasePager begins (1) and ends (-1) to read a file.
     void noteRead(int change) { _reads.fetch_add(change, std::memory_order_relaxed); }
 
-    /// Says what the thread has to tell the user, each line once.
+    /// Prints the thread's messages to the user, each once.
     void showNotes();
 
 protected:
@@ -55,14 +55,14 @@ protected:
     [[nodiscard]] const std::string& rootFile() const { return _rootFile; }
     /// Guards what find() reads.
     [[nodiscard]] std::unique_lock<std::mutex> lock() const { return std::unique_lock<std::mutex>(_mutex); }
-    /// Has others see what `change` does, under the lock.
+    /// Runs `change` under the lock and increases the generation.
     void publish(bool isWhole, const std::function<void()>& change);
-    /// Keeps the whole index for the next time, and says so. `content`: what it holds, for the user.
+    /// Stores the complete index for the next time, and reports that. `content`: what it holds, for the user.
     void keep(const indexing::IndexFile& file, const std::string& content);
 
-    /// Ends the thread when nobody waits for it any more.
+    /// Ends the thread, by an exception, once stop() was called.
     void throwIfStopped() const;
-    /// The pager goes first, but does not stop the thread for ever. Throws as throwIfStopped().
+    /// Waits while the pager reads, but not without limit. Throws as throwIfStopped().
     void giveWay();
 
 private:
@@ -82,7 +82,7 @@ private:
     std::vector<std::string> _notes;
 };
 
-/// Has the thread that makes an index give way while a file is read. `index` may be null.
+/// Makes the thread that makes an index wait while a file is read. `index` may be null.
 class BusyPager final {
 public:
     explicit BusyPager(osg::ref_ptr<BackgroundIndex> index) : _index(std::move(index)) {

@@ -34,7 +34,7 @@ namespace {
 constexpr std::uint32_t kVersion = 1;
 constexpr std::uint32_t kValid = 1;
 constexpr std::uint32_t kLongestName = 4096;
-// Nothing larger is asked for at once, so that a wrong size fails at the end of the stream and not for want of memory.
+// Largest allocation at once, so that a wrong size fails at the end of the stream and not by lack of memory.
 constexpr std::size_t kChunk = std::size_t{1} << 16;
 constexpr double kMostLongitude = 12.6;  // two turns
 

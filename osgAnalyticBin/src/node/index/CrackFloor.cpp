@@ -20,7 +20,7 @@ using osgAnalyticBin::core::Interval;
 namespace {
 
 constexpr double kHalfPi = 1.57079632679489661923;
-// Chords and simplified meshes end where they end: what is missing of a neighbour at the end of an edge.
+// Part of an edge that may be without a neighbour at its ends: chords and simplified meshes end short of it.
 constexpr double kEdgeSlack = 1e-3;
 // Meshes of coarse tiles bulge over an edge that they share by a few percent.
 constexpr double kBesideOverlap = 0.25;
@@ -36,7 +36,7 @@ double shareOf(const Interval& a, const Interval& b) {
     return width > 0.0 ? overlap(a, b) / width : 1.0;
 }
 
-/// The lowest altitude of two tiles along the edge that parts them, of all their edges where that is not plain.
+/// The lowest altitude of two tiles along the edge between them, or of all their edges where that edge is not clear.
 double facingLow(const TileSurface& a, const TileRect& aRect, const TileSurface& b, const TileRect& bRect) {
     const bool isBesideInLongitude = shareOf(aRect.longitude, bRect.longitude) < kBesideOverlap;
     const bool isBesideInLatitude = shareOf(aRect.latitude, bRect.latitude) < kBesideOverlap;
@@ -108,12 +108,12 @@ public:
         return bin;
     }
 
-    /// Pairs of tiles that were looked at.
+    /// Number of pairs of tiles that were compared.
     [[nodiscard]] std::size_t comparisons() const { return _beside.comparisons + _steps; }
 
 private:
     static constexpr std::uint32_t kNone = 0xffffffffu;
-    // What is looked at for one tile; quadtrees have some hundreds. Beyond, the whole skirt counts.
+    // Most steps for one tile; quadtrees need some hundreds. With more, the whole skirt counts.
     static constexpr std::size_t kMostSteps = 4096;
 
     struct Floor {

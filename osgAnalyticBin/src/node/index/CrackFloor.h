@@ -23,7 +23,7 @@ namespace osgAnalyticBin::indexing {
 /// but nowhere lower than the skirts of A and its descendants reach, which needs no neighbours. No skirt grows with the
 /// vertical scale: where its end is the floor, its length counts as sag. At last each bin is made to hold those of its
 /// descendants.
-/// Where more tiles lie beside or above one than any terrain has, (4) holds: the effort is bounded for each tile.
+/// For a tile with more tiles beside or above it than any real terrain has, (4) is used, which bounds the effort.
 /// Returns: by tile; not valid where something is not known. `comparisons`: if not null, of pairs of tiles.
 [[nodiscard]] std::vector<osgAnalyticBin::AnalyticBin> binsWithCracks(const std::vector<TreeTile>& tiles,
                                                                       std::size_t* comparisons = nullptr);

@@ -83,7 +83,7 @@ std::string DatabaseFiles::checked(const std::string& file, const std::string& n
     return file == _rootName ? std::string() : file;
 }
 
-// By a class of each: OSG locks its tables first and loads a library then, and the other way round may block for ever.
+// By a class of each: OSG locks its tables first and loads a library then, and the other order may deadlock.
 void loadSerializers() {
     osgDB::ObjectWrapperManager& tables = *osgDB::Registry::instance()->getObjectWrapperManager();
     for (const char* const name : {"osg::Node", "osgTerrain::TerrainTile", "osgSim::LightPointNode",

@@ -18,8 +18,8 @@ namespace {
 struct Job {
     std::string file;
     FilePlace place;
-    /// Of the whole walk, this file with all below it: the number of files is not known before the end, so those that
-    /// a file names have equal parts of its share.
+    /// Share of the whole walk, for progress, of this file with all below it. The number of files is not known before
+    /// the end, so the files that a file names have equal parts of its share.
     double share = 1.0;
 };
 
@@ -30,7 +30,7 @@ struct Done {
     bool isKnown = false;
 };
 
-/// The files that are done, and what the threads share besides.
+/// The files that are done, and the other data that the threads share.
 class Walk {
 public:
     Walk(const DatabaseFiles& files, std::vector<FileRecord> known, WalkObserver& observer, Images images)

@@ -12,7 +12,7 @@
 
 namespace osgAnalyticBin::indexing {
 
-/// The latitudes and longitudes of a tile's own surface, in radians, and by how much they may be wrong.
+/// The latitudes and longitudes of a tile's own surface, in radians, and their error bounds.
 struct TileRect {
     osgAnalyticBin::core::Interval latitude;
     osgAnalyticBin::core::Interval longitude;

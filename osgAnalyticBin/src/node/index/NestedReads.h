@@ -15,17 +15,17 @@
 
 namespace osgAnalyticBin::indexing {
 
-/// Whether a name, made relative to the root file's folder already, leads elsewhere.
+/// Whether a name that is relative to the root file's folder leads out of it.
 [[nodiscard]] bool leavesFolder(const std::string& file);
 
-/// What is said of such a file, and what to do.
+/// The message about such a file, and what to do.
 constexpr const char* kIsOutside =
     "which is outside of the database's folder; name its files by paths below that folder";
 
-/// While it lives, what OSG reads in this thread because a file of a database names it (the content of proxies, height
-/// fields, images, shaders, fonts) is looked for below the database's folder and on OSG's data path alone, and servers
-/// are not asked. Names that pseudo-loaders end are no files, but for .gdal. What plugins of other formats than OSG's
-/// open by themselves is not seen.
+/// While it exists, files that OSG reads in this thread because a file of a database names them (the content of
+/// proxies, height fields, images, shaders, fonts) are searched for only below the database's folder and on OSG's data
+/// path, and no server is contacted. Names that end in a pseudo-loader's extension, except .gdal, do not count as
+/// files. Files that plugins of other formats than OSG's open by themselves are not noticed.
 class NestedReads final {
 public:
     /// `file`: the one that is read, as DatabaseFiles names it. Requires: no other in this thread.
@@ -37,7 +37,7 @@ public:
     /// Why the file must not be used, in one line: the first name that leads elsewhere; empty: nothing is wrong.
     [[nodiscard]] const std::string& refusal() const { return _refusal; }
 
-    /// What has to stand in the options of a read, or in the registry, for this to be.
+    /// The read callback that has to be set in the options of a read, or in the registry, for this to work.
     [[nodiscard]] static osg::ref_ptr<osgDB::ReadFileCallback> callback();
 
     using Result = osgDB::ReaderWriter::ReadResult;

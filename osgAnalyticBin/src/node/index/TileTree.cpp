@@ -22,7 +22,7 @@ constexpr Interval kTerrainAltitudes = osgAnalyticBin::CullOptions::kTerrainOnEa
 constexpr double kFeetInMetre = 1.0 / 0.3048;
 constexpr Interval kTerrainInMap{kTerrainAltitudes.lower * kFeetInMetre, kTerrainAltitudes.upper* kFeetInMetre};
 
-/// A file that stands on a way back to itself, among those that no order could be found for.
+/// A file that is part of a cycle, among those that could not be sorted.
 std::string fileInACycle(const FileRecords& records, const std::map<std::string, std::size_t>& waiting) {
     std::map<std::string, std::string> namedBy;
     for (const auto& [file, count] : waiting) {
@@ -60,7 +60,7 @@ std::vector<const FileRecord*> sorted(const FileRecords& records) {
                   "\" is paged below itself; such a database has no end");
 }
 
-// Files that are paged below many tiles, and have many, multiply; no terrain does so.
+// Files with many tiles that are paged below many tiles multiply their number; real terrain does not do so.
 constexpr std::size_t kMostParents = 20000000;
 
 void requireFew(std::size_t parents, const std::string& file) {

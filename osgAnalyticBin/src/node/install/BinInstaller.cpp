@@ -40,8 +40,8 @@ namespace {
 
 using CoverageByFile = std::map<std::string, Coverage>;
 
-// A database's own request to install bins is settled by the installer; what it declares counts where the installer was
-// told nothing else. Returns: the options for the node and what is below it.
+// Marks a database's own request to install bins as done; the horizon that it declares is used where the installer's
+// options give none. Returns: the options for the node and what is below it.
 CullOptions settled(osg::Node& node, const CullOptions& options) {
     CullOptions effective = options;
     for (osg::Callback* callback = node.getUpdateCallback(); callback; callback = callback->getNestedCallback()) {
@@ -57,7 +57,7 @@ CullOptions settled(osg::Node& node, const CullOptions& options) {
     return effective;
 }
 
-// OSG draws a drawable whatever its callbacks say.
+// OSG draws a drawable regardless of what its callbacks decide.
 void warnOfDrawable(const osg::Node& node) {
     OSG_WARN << "osgAnalyticBin: the drawable \"" << node.getName()
              << "\" has a stored bin; drawables are not culled by bins. Store it with the group above." << std::endl;
@@ -67,7 +67,7 @@ bool isGlobeBroken(const osg::CoordinateSystemNode& node) {
     return node.getEllipsoidModel() && !hasValidRadii(*node.getEllipsoidModel());
 }
 
-// Whether a globe is the one that what is above it stands on.
+// Whether a globe is the same as that of the nodes above it.
 bool isSameGlobe(const TileFrame& above, const TileFrame& inside) {
     if (!above.ellipsoid || !inside.ellipsoid || above.isProjected || inside.isProjected) return false;
     return above.localToEcef.isIdentity() &&
@@ -237,7 +237,7 @@ void BinInstaller::visitOther(osg::Node& node) {
     if (node.asDrawable() && hasStoredBin(node)) warnOfDrawable(node);
     // it may have been a tile when bins were last installed
     if (installedTileOf(node) && !dynamic_cast<Carrier*>(&node)) removeCallbacks({&node, {}, frame(), 0, {}});
-    // some groups tell their bounds without asking their children
+    // some groups compute their bounds without their children
     const bool mayKeepSilent = !drawsAllChildren(node) || node.getComputeBoundingSphereCallback();
     if (installsBins() && node.asGroup() && !_isInMesh && (_parent || mayKeepSilent)) {
         ContentWatch::place(node, {});

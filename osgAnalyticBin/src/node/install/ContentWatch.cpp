@@ -137,7 +137,7 @@ bool isBelowDatabase(const osg::Node& node) {
                                  [](const osg::Group* parent) { return isBelowDatabase(*parent); });
 }
 
-// Something that stands below tiles, on its way up from one to the next.
+// Content below tiles, as it is passed up from one tile to the next.
 class Content {
 public:
     // `isMerged`: it is in the scene, and what it does not fit into may be widened.
@@ -177,7 +177,7 @@ private:
         return *shape == whole;
     }
 
-    // A mesh that was fitted may stand there in another form, as osgUtil::Optimizer leaves it: its posts tell.
+    // A fitted mesh may have another form by now, as after osgUtil::Optimizer: it is recognised by its posts.
     static bool isHeld(const AnalyticBin& content, const AnalyticBin& bin) {
         if (!content.valid()) return false;
         const core::Interval& altitude = content.bin().altitude();
@@ -321,7 +321,7 @@ const ContentWatch* ContentWatch::ownWatchOf(const osg::Node& node) {
     return watch && watch->_node == &node ? watch : nullptr;
 }
 
-// Bounds are left to the time when OSG computes them: it may not survive those of broken meshes.
+// bounds are not computed before OSG does so: it may crash on those of broken meshes
 bool ContentWatch::isFitted(const osg::Node& child, bool withBounds) const {
     const auto known =
         std::find_if(_fitted.begin(), _fitted.end(), [&](const Fitted& fitted) { return fitted.node == &child; });

@@ -20,11 +20,11 @@ public:
 
     /// What the tiles have to cover; 0: not known.
     void expect(double area) { _expected = area; }
-    /// Says that the file is the root file, which is loaded.
+    /// Marks the file as the root file, which is loaded.
     void expectGlobe();
     [[nodiscard]] bool isOfGlobe() const { return _isOfGlobe; }
     [[nodiscard]] bool hasTiles() const { return !_tiles.empty(); }
-    /// Says that the file is loaded.
+    /// Marks the file as loaded.
     void setVisited() { _isVisited = true; }
     void add(const core::GeodeticBin& tile);
 

@@ -37,7 +37,7 @@ std::size_t install(osg::Node& node, const CullOptions& options, const BinIndex*
     return installer.installed();
 }
 
-// What looks like a tile, where nobody looks for tiles.
+// Whether a subgraph that the installer does not search has nodes that look like tiles.
 bool hasTileBelow(osg::Node& subgraph) {
     bool has = false;
     forEachNode(subgraph, [&has](osg::Node& node) {

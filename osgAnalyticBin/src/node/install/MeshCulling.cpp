@@ -37,8 +37,7 @@ private:
     const std::function<bool(osg::Node&)> _entersBelow;
 };
 
-// Says of itself that it is an osg::ClusterCullingCallback, and holds what the original held: it is saved and cloned as
-// that.
+// Has the class name of an osg::ClusterCullingCallback and the values of the original: it is saved and cloned as one.
 class SuspendedCluster final : public osg::ClusterCullingCallback {
 public:
     explicit SuspendedCluster(osg::ClusterCullingCallback& original)
@@ -58,8 +57,7 @@ private:
     const osg::ref_ptr<osg::ClusterCullingCallback> _original;
 };
 
-// Puts one callback of a node in the place of another. The other keeps what is nested in it: it may stand on several
-// nodes.
+// Replaces a callback of a node. The old one keeps its nested callbacks, because several nodes may share it.
 void exchange(osg::Node& node, osg::Callback* old, osg::Callback* fresh) {
     fresh->setNestedCallback(old->getNestedCallback());
     if (node.getCullCallback() == old) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// What the installer switches on a tile's own mesh. osgTerrain tiles are treated, never traversed.
+// Switches culling off and on for a tile's own mesh. osgTerrain tiles are included, but not traversed.
 
 #pragma once
 
@@ -23,10 +23,10 @@ void forEachNodeWhere(osg::Node& root, std::function<bool(osg::Node&)> entersBel
 /// Gives a node that shares its user data a copy of its own.
 void ownValues(osg::Node& node);
 
-/// Takes the user data off a node when the last value of ours was all that they held.
+/// Removes a node's user data if they are empty without our last value.
 void forgetEmptyValues(osg::Node& node);
 
-/// Switches culling off for one node, and remembers with the node that it was on; or gives it back.
+/// Switches culling off for one node, and records in the node that it was on; or restores it.
 void suspendCullingOf(osg::Node& node);
 void resumeCullingOf(osg::Node& node);
 
@@ -34,8 +34,8 @@ void resumeCullingOf(osg::Node& node);
 void suspendCulling(osg::Node& mesh);
 void resumeCulling(osg::Node& mesh);
 
-/// Makes osg::ClusterCullingCallbacks of the mesh cull nothing, or gives back what was taken. What is saved to a file
-/// in between is what was there before.
+/// Makes osg::ClusterCullingCallbacks of the mesh cull nothing, or restores them. A scene that is saved meanwhile has
+/// the original callbacks.
 void suspendClusterCulling(osg::Node& mesh);
 void resumeClusterCulling(osg::Node& mesh);
 

@@ -20,8 +20,8 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// Takes off what an installer that installs no bins leaves on a scene, to be asked for bins again: callbacks of the
-// database, watches of content, the pager's options, and groups above tiles.
+// Removes what an installer leaves on a scene even with Method::None, so that bins can be installed later: callbacks of
+// the database, watches of content, the pager's options, and groups above tiles.
 class BinRemover : public osg::NodeVisitor {
 public:
     BinRemover() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// A bin's cull callback on a tile of a scene: where it goes, and how it comes off again.
+// How a bin's cull callback is put on a tile of a scene, and removed again.
 
 #pragma once
 
@@ -17,8 +17,8 @@ class AnalyticBinCullCallback;
 class Database;
 class InstalledTile;
 
-/// A group that the kit puts above a tile, and that the tile's callback stands on. It says of itself that it is a plain
-/// osg::Group: it is saved as that.
+/// A group that the kit puts above a tile to hold the tile's callback. Its class name is that of a plain osg::Group: it
+/// is saved as one.
 class Carrier final : public osg::Group {
 public:
     Carrier() = default;
@@ -55,14 +55,14 @@ protected:
 /// there and on the tile. From then on the tile notices what is added below it.
 void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& callback, Database& database);
 
-/// Takes a cull callback off a node. What is nested in it stays there while it stands on other nodes, too: clones of a
-/// scene may share callbacks.
+/// Removes a cull callback from a node. It keeps its nested callbacks while other nodes have it, too: clones of a scene
+/// may share callbacks.
 void takeOff(osg::Node& node, osg::Callback& callback);
 
-/// Takes everything of tiles off a subgraph, whatever is a tile there now: callbacks, watches, and what came with them.
+/// Removes callbacks, watches and what came with them from a subgraph, whether or not their nodes are tiles now.
 void removeCallbacksBelow(osg::Node& subgraph);
 
-/// Takes off all callbacks of bins, and what came with them: the sphere test is on again, and expiry times are as they
+/// Removes all callbacks of bins, and what came with them: the sphere test is on again, and expiry times are as they
 /// were. A tile without such a callback stays as it is.
 void removeCallbacks(const FoundTile& tile);
 

@@ -92,7 +92,7 @@ bool startsWith(const std::string& text, const char* start) {
     return text.rfind(start, 0) == 0;
 }
 
-// Whether a coordinate system says of itself that its coordinates are those of a map: in well-known text, alone or
+// Whether a coordinate system declares its coordinates as those of a map: in well-known text, alone or
 // with a vertical one, or in the parameters of PROJ.
 bool isProjected(const osg::CoordinateSystemNode& node) {
     const std::string& text = node.getCoordinateSystem();
@@ -207,7 +207,7 @@ bool TileFinder::isTile(osg::Node& node) const {
     return _frame.isBelowTile && !isPlainGroup && !node.asDrawable() && isFixedMesh(node);
 }
 
-// Scenes may have far more groups than tiles above each other: for these it takes little stack.
+// Scenes may nest groups far deeper than tiles; groups therefore use little stack.
 void TileFinder::visit(osg::Node& node, bool isTile) {
     if (!isTile) return visitOther(node);
     if (_depth >= kDeepest) return visitTooDeep(node);

@@ -69,7 +69,7 @@ AnalyticBin surfaceAbove(double low, const AnalyticBin& bin) {
     return withAltitude(bin, {low, std::max(low, bin.bin().altitude().upper)}, 0.0);
 }
 
-// On a globe that is larger than the earth, or in smaller units, undeclared heights hold as much.
+// On a globe that is larger than the earth, or in smaller units, the default heights are scaled accordingly.
 core::Interval heightsIn(const Database& database) {
     const core::Interval heights = database.options().heights;
     if (!(heights == CullOptions::kTerrainOnEarth)) return heights;
@@ -158,7 +158,7 @@ AnalyticBin withHeights(const AnalyticBin& bin, const core::Interval& heights) {
     return withAltitude(bin, all, 0.0);
 }
 
-// A terrain tile that another technique than OSG's own draws as it likes.
+// A terrain tile whose technique is not OSG's own and may draw anything.
 TileFit unknownFit(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
     database.noteUnknownTechnique();
     const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape);
@@ -169,7 +169,7 @@ TileFit unknownFit(const FoundTile& tile, Database& database, const TerrainShape
     return fit;
 }
 
-// How far a tile may seem to leave a stored bin that is right: bounds of surfaces are rough where meshes are coarse.
+// Tolerance when comparing a tile's mesh with its stored bin: bounds of surfaces are rough where meshes are coarse.
 struct Tolerance {
     double below, above, aside;
 };
@@ -212,8 +212,8 @@ bool nearlyHolds(const AnalyticBin& outer, const AnalyticBin& inner, double sag,
         .contains(inner.bin());
 }
 
-// A bin that is stored with a tile speaks of all that is paged below it, before that is there: what turns out to be
-// larger widens it and its ancestors. Returns: the tile's own surface, where it is known.
+// A bin that is stored with a tile also stands for what is paged below it and not loaded yet. Content that turns out to
+// be larger expands it and its ancestors. Returns: the tile's own surface, where it is known.
 AnalyticBin checkStored(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link,
                         TileFit& fit) {
     const osg::EllipsoidModel& model = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database.ellipsoid();
@@ -258,7 +258,7 @@ void correct(const FoundTile& tile, Database& database, const ParentTile& link, 
     if (correction.any()) fit.bin = correction.widened(fit.bin);
 }
 
-// What is stored is closer than the bound of a mesh's sag, and believed where the mesh's vertices allow it.
+// A stored lowest altitude is closer than the bound of a mesh's sag; it is used where the mesh's vertices allow it.
 AnalyticBin shownSurface(const FoundTile& tile, const AnalyticBin& surface, const AnalyticBin& bin,
                          const core::Ellipsoid& ellipsoid) {
     const double rounding = core::earthScale(ellipsoid);

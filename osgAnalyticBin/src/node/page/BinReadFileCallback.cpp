@@ -68,7 +68,7 @@ const BinReadFileCallback::Expected& BinReadFileCallback::expected(const std::st
 
 osgDB::ReaderWriter::ReadResult BinReadFileCallback::readNode(const std::string& fileName,
                                                               const osgDB::Options* options) {
-    // No node and no error: the pager says nothing, and asks again in the next frame.
+    // No node and no error: the pager prints nothing, and requests the file again in the next frame.
     if (!_failures.mayRead(fileName, FailedReads::Clock::now())) return ReadResult::FILE_LOADED;
     const BusyPager busy(_database->adoption().index());
     ReadResult result = readCarefully(fileName, [&] {

@@ -17,8 +17,8 @@
 namespace osgAnalyticBin {
 
 /// Installs bins on what the DatabasePager reads, in the thread that reads it. Reading itself is left to the callback
-/// that was there before, if any, else to the Registry's, else to OSG. A file that could not be read is left alone for
-/// a while (FailedReads); the pager then gets nothing at once, and asks again.
+/// that was there before, if any, else to the Registry's, else to OSG. A file that could not be read is not tried again
+/// for a while (FailedReads); the pager then gets nothing at once, and asks again.
 /// With osgDB::Options::CACHE_NODES the object cache keeps tiles with bins under options of their own: those who read
 /// without bins, or for another installation or place, never share them.
 class BinReadFileCallback : public osgDB::ReadFileCallback {
@@ -27,8 +27,8 @@ public:
     BinReadFileCallback(const CullOptions& options, Database* database, const TileFrame& frame,
                         osgDB::ReadFileCallback* previous);
 
-    /// Says what a file will be asked for as, in which frame its content stands, and which tile it is paged below
-    /// (null: none). Not to be called once the pager may read.
+    /// Announces a file: the name by which it will be requested, the frame of its content, and the tile that pages it
+    /// (null: none). Do not call once the pager may read.
     void expect(const std::string& fileName, const TileFrame& frame, const ParentTile* parent);
 
     /// Whether the file is expected in another frame or below another tile: it then needs another callback.

@@ -15,7 +15,7 @@ namespace osgAnalyticBin {
 /// A read that failed, with a line that says why.
 [[nodiscard]] osgDB::ReaderWriter::ReadResult unreadable(const std::string& fileName, const char* why);
 
-/// Reads as whoever read before would do it: the callback that was there, if any, else the Registry's, else OSG.
+/// Reads by the callback that was there before, if any, else by the Registry's, else by OSG.
 [[nodiscard]] osgDB::ReaderWriter::ReadResult readPlain(const std::string& fileName, const osgDB::Options* options,
                                                         osgDB::ReadFileCallback* previous);
 

@@ -124,7 +124,7 @@ void Database::noteRead(osg::Node& content, unsigned int generation) {
     const std::lock_guard<std::mutex> lock(_mutex);
     Contents& contents = generation == _generation ? _onTheirWay : _lateComers;
     contents.emplace_back(&content);
-    // a database without an update callback of ours never looks what has arrived
+    // a database without our update callback never processes this list
     constexpr std::size_t kMostOnTheirWay = 4096;
     if (contents.size() > kMostOnTheirWay) contents.erase(contents.begin(), contents.begin() + kMostOnTheirWay / 2);
 }

@@ -140,7 +140,7 @@ void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         traverse(node, nv);
         return;
     }
-    // has tiles notice what was added below them
+    // makes tiles notice what was added below them
     (void)node->getBound();
     beginWithAllPlanes(*cullStack);
     CullTraversal& traversal = CullTraversal::of(*nv);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// What stands on the CoordinateSystemNode of an installed database. Both say of themselves that they are plain
-// osg::NodeCallbacks: a scene that is saved holds nothing of them. On a clone of the node the update callback installs
+// The callbacks on the CoordinateSystemNode of an installed database. Their class name is that of a plain
+// osg::NodeCallback, so that nothing of them is saved with a scene. On a clone of the node the update callback installs
 // bins anew; until then all tiles there are visible.
 
 #pragma once
@@ -52,7 +52,7 @@ private:
     const osg::Node* const _node;  // that it was attached to
 };
 
-/// Puts both on the node, in place of those that are there.
+/// Sets both on the node, in place of those that are there.
 void attachDatabase(osg::Node& node, Database& database);
 
 /// Puts the update callback alone on the node, for a database that bins do not cull at present.
@@ -61,7 +61,7 @@ void attachUpdate(osg::Node& node, Database& database);
 /// Returns: nullptr when neither is on the node.
 [[nodiscard]] Database* attachedDatabase(osg::Node& node);
 
-/// Takes both off the node.
+/// Removes both from the node.
 void detachDatabase(osg::Node& node);
 
 }  // namespace osgAnalyticBin

@@ -22,7 +22,7 @@ public:
 
     [[nodiscard]] bool mayRead(const std::string& fileName, Clock::time_point now) const;
 
-    /// Says how reading the file went; success forgets earlier failures.
+    /// Records whether reading the file succeeded; success clears earlier failures.
     void note(const std::string& fileName, bool success, Clock::time_point now);
 
 private:

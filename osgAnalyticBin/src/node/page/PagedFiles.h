@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// What PagedLODs have the DatabasePager read, and the read callbacks that are told of it.
+// The files that PagedLODs request from the DatabasePager, and the read callbacks that handle them.
 
 #pragma once
 
@@ -38,8 +38,7 @@ struct PagedFile {
 /// Options as they were before an installer replaced them. Both may be null.
 [[nodiscard]] osgDB::Options* optionsWithoutBins(osgDB::Options* options);
 
-/// The database that the node carries, or that the files paged below it belong to. Null when no installer has been
-/// here.
+/// The database that the node carries, or that the files paged below it belong to. Null where no installer ran.
 [[nodiscard]] osg::ref_ptr<Database> databaseOf(osg::Node& node);
 
 }  // namespace osgAnalyticBin

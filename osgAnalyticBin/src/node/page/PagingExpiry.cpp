@@ -15,7 +15,7 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// Nearly every child's time is 0 to begin with, and 0 is what it goes back to: only others are written down.
+// Nearly every child's time is 0 at first and is restored to 0: only other times are recorded.
 std::string keyOf(unsigned int child) {
     return "osgAnalyticBin expiry " + std::to_string(child);
 }

@@ -13,7 +13,7 @@ namespace osgAnalyticBin {
 /// remembered with the node.
 void raiseExpiry(osg::PagedLOD& node, double seconds);
 
-/// Takes back what raiseExpiry() did with the same number; times that were changed since then stay.
+/// Undoes raiseExpiry() with the same number; times that were changed since then stay.
 void restoreExpiry(osg::PagedLOD& node, double seconds);
 
 }  // namespace osgAnalyticBin

@@ -7,7 +7,7 @@
 
 namespace osgAnalyticBin {
 
-/// What a tile stands on, where it has no stored bin: the ellipsoid of its frame, or the plane of a map. An osgTerrain
+/// The ground of a tile without a stored bin: the ellipsoid of its frame, or the plane of a map. An osgTerrain
 /// tile stands in a map by its locator, whatever is above it; any other mesh by the text of its coordinate system, when
 /// it lies flat: a height field over x and y, with heights that terrain has.
 /// Returns: nullptr where that cannot be told: above it a map is named and no ellipsoid, but it does not lie flat, or

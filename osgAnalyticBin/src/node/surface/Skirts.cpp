@@ -118,7 +118,7 @@ HangingTriangles hangingTriangles(const SurfaceMesh& mesh, const std::vector<std
     hanging.first.resize(mesh.triangles.size() / 3 + 1);
     std::size_t count = 0;
     unsigned int bad = 0;
-    // without branches, which would be foretold wrongly
+    // without branches, which would be mispredicted
     for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
         const unsigned int a = marks[mesh.triangles[i]];
         const unsigned int b = marks[mesh.triangles[i + 1]];

@@ -28,8 +28,8 @@ struct MeshSkirts {
 /// Finds skirts as VirtualPlanetBuilder makes them: texture coordinates that run from 0 to 1 over the tile, and at
 /// every vertex on its border a second one straight below, all equally deep, which only border vertices are joined to.
 /// Folds them up: the lower vertices go to the upper ones, and with them all of the skirts to the border.
-/// Returns: no marks, the mesh as it was, when it differs from that in anything: its skirts, if it has any, are then
-/// not told from its surface.
+/// Returns: no marks, and the mesh unchanged, when it differs from that in any way: skirts, if any, then count as
+/// surface.
 [[nodiscard]] MeshSkirts foldSkirts(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid);
 
 }  // namespace osgAnalyticBin

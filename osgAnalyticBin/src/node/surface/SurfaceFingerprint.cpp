@@ -168,7 +168,7 @@ private:
             return _mixer.addArray<std::uint16_t>(shorts->getDataPointer(), shorts->size());
         if (const auto* ints = dynamic_cast<const osg::DrawElementsUInt*>(&primitives))
             return _mixer.addArray<std::uint32_t>(ints->getDataPointer(), ints->size());
-        // nothing is read of ranges that go beyond the vertices, be they billions long
+        // ranges that go beyond the vertices, which may claim billions, are not read
         const bool isRange = primitives.getDrawElements() == nullptr;
         const unsigned int count = primitives.getNumIndices();
         if (isRange && count > vertices) return;

@@ -36,7 +36,7 @@ bool isOfTriangles(const osg::Drawable& drawable) {
     });
 }
 
-// Whether a triangle that was folded up with a skirt still has an area: then it is none of a skirt.
+// Whether a triangle still has an area after skirts were folded up: then it does not belong to a skirt.
 bool hasFoldedSurface(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& marks) {
     for (std::size_t i = 0; i + 2 < mesh.triangles.size() && !marks.empty(); i += 3) {
         const auto [a, b, c] =

@@ -16,7 +16,7 @@
 
 namespace osgAnalyticBin {
 
-/// A tile's own meshes, and what has to be known to tell where they are drawn.
+/// A tile's own meshes, and what determines where they are drawn.
 struct TileMeshes {
     std::vector<osg::ref_ptr<osg::Node>> nodes;
     const osg::EllipsoidModel& ellipsoid;

@@ -34,7 +34,7 @@ osg::Vec3 at(double latDeg, double lonDeg, double altitude) {
 }
 
 // One degree wide, from the south-west corner on, with a skirt to the south that hangs 20 km down.
-DrawnTile tileAt(const std::string& key, double southDeg, double westDeg, bool texCoords = true) {
+flight::DrawnTile tileAt(const std::string& key, double southDeg, double westDeg, bool texCoords = true) {
     const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     const osg::Vec3 corners[] = {at(southDeg, westDeg, 0),         at(southDeg, westDeg + 1, 0),
                                  at(southDeg + 1, westDeg + 1, 0), at(southDeg + 1, westDeg, 0),
@@ -74,8 +74,8 @@ TEST(OccluderDepth, GrowsOnlyByWhatIsBeforeItsOwnHorizon) {
 }
 
 TEST(TileTruth, NeedsWhatIsInViewAndNotBehindTheGlobe) {
-    const std::vector<DrawnTile> tiles{tileAt("ahead", -0.5, 2), tileAt("beside", 20, 2), tileAt("behind", -0.5, -4),
-                                       tileAt("antipode", -0.5, 40)};
+    const std::vector<flight::DrawnTile> tiles{tileAt("ahead", -0.5, 2), tileAt("beside", 20, 2),
+                                               tileAt("behind", -0.5, -4), tileAt("antipode", -0.5, 40)};
     const osg::ref_ptr<osg::Camera> camera = new osg::Camera;
     camera->setViewMatrixAsLookAt(at(0, 0, 20000), at(0, 2.5, 0), osg::Vec3d(1, 0, 0));
     camera->setProjectionMatrixAsPerspective(30.0, 1.0, 100.0, 2e7);
@@ -84,8 +84,8 @@ TEST(TileTruth, NeedsWhatIsInViewAndNotBehindTheGlobe) {
     EXPECT_EQ(truth.neededTiles(tiles, *camera, globe).bySurface, std::set<std::string>{"ahead"});
     // A globe that is moved takes its camera along.
     const osg::Matrixd moved = osg::Matrixd::rotate(0.3, osg::Vec3d(1, 2, 3)) * osg::Matrixd::translate(1e6, 2e6, 3e6);
-    std::vector<DrawnTile> movedTiles = tiles;
-    for (DrawnTile& tile : movedTiles) tile.meshes[0].localToWorld = moved;
+    std::vector<flight::DrawnTile> movedTiles = tiles;
+    for (flight::DrawnTile& tile : movedTiles) tile.meshes[0].localToWorld = moved;
     camera->setViewMatrix(osg::Matrixd::inverse(moved) * camera->getViewMatrix());
     EXPECT_EQ(TileTruth().neededTiles(movedTiles, *camera, {kModel, moved}).bySurface, std::set<std::string>{"ahead"});
 }
@@ -95,7 +95,8 @@ AnalyticBin binAt(double southDeg, double westDeg, double low, double high) {
 }
 
 TEST(TileTruth, CountsTheBinOfTheKitAndElseTheSurface) {
-    const std::vector<DrawnTile> tiles{tileAt("ahead", -0.5, 2), tileAt("mountain", 1.5, 2), tileAt("far", -0.5, 8)};
+    const std::vector<flight::DrawnTile> tiles{tileAt("ahead", -0.5, 2), tileAt("mountain", 1.5, 2),
+                                               tileAt("far", -0.5, 8)};
     const osg::ref_ptr<osg::Camera> camera = new osg::Camera;
     camera->setViewMatrixAsLookAt(at(0, 0, 20000), at(0, 2.5, 0), osg::Vec3d(1, 0, 0));
     camera->setProjectionMatrixAsPerspective(30.0, 1.0, 100.0, 2e7);
@@ -105,7 +106,7 @@ TEST(TileTruth, CountsTheBinOfTheKitAndElseTheSurface) {
     EXPECT_EQ(bySurface.byBin, std::set<std::string>{"ahead"});
     EXPECT_EQ(bySurface.hidden, 1U);
     // What finer descendants of "far" have in store rises above the horizon; "mountain" stays beside the frustum.
-    std::vector<DrawnTile> withBins = tiles;
+    std::vector<flight::DrawnTile> withBins = tiles;
     withBins[1].bin = binAt(1.5, 2, -500, 500);
     withBins[2].bin = binAt(-0.5, 8, -500, 50000);
     truth.learnBins(withBins);

@@ -34,7 +34,7 @@ struct View {
         camera->setProjectionMatrixAsPerspective(fovDeg, 4.0 / 3.0, 1.0, 1e9);
     }
 
-    [[nodiscard]] Census census() const { return TileCensus::take(*camera, *frameStamp); }
+    [[nodiscard]] flight::Census census() const { return flight::TileCensus::take(*camera, *frameStamp); }
 
     osg::ref_ptr<osg::Camera> camera{new osg::Camera};
     osg::ref_ptr<osg::FrameStamp> frameStamp{new osg::FrameStamp};
@@ -47,16 +47,16 @@ TEST(VerdictReplay, DrawsWhatBinsKeepAndReachesNothingElse) {
     ASSERT_EQ(installBins(*globe), 32U);
     const View view(*globe);
     view.look({5e7, 1e7, 1e7}, 5.0);
-    const Census bins = view.census();
+    const flight::Census bins = view.census();
     ASSERT_GT(bins.kept, 0U);
     ASSERT_LT(bins.kept, 32U);
     replayVerdicts(*view.camera, *view.frameStamp);
-    const Census replay = view.census();
+    const flight::Census replay = view.census();
     EXPECT_NO_THROW(requireSameTiles(replay, bins, "pose"));
     EXPECT_EQ(replay.kept, bins.kept);
     EXPECT_EQ(replay.tested, replay.kept);
     EXPECT_LE(replay.nodes, bins.nodes);
-    for (const DrawnTile& tile : replay.tiles) EXPECT_FALSE(tile.bin.valid()) << "a callback on " << tile.key;
+    for (const flight::DrawnTile& tile : replay.tiles) EXPECT_FALSE(tile.bin.valid()) << "a callback on " << tile.key;
     // their group does not even look at the others
     for (unsigned int i = 0; i < globe->asGroup()->getNumChildren(); ++i)
         globe->asGroup()->getChild(i)->setNodeMask(~0U);
@@ -92,18 +92,18 @@ TEST(VerdictReplay, RejectsDrawablesThatAreCulledByThemselves) {
     ASSERT_EQ(view.census().drawables, 1U);
     replayVerdicts(*view.camera, *view.frameStamp);
     view.look({100, 0, 0}, 120.0);
-    const Census replay = view.census();
+    const flight::Census replay = view.census();
     EXPECT_EQ(replay.drawables, 1U);
     EXPECT_EQ(replay.nodes, 2U) << "the geode and one drawable";
 }
 
 TEST(VerdictReplay, IsComparedWithWhatItRepeats) {
-    Census original;
+    flight::Census original;
     original.drawables = 2;
     original.tiles.resize(1);
     original.tiles[0].key = "0/1";
     EXPECT_NO_THROW(requireSameTiles(original, original, "pose"));
-    Census replay = original;
+    flight::Census replay = original;
     replay.tiles[0].key = "0/2";
     EXPECT_THROW(requireSameTiles(replay, original, "pose"), support::Failure);
     replay = original;

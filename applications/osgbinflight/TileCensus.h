@@ -4,6 +4,7 @@
 #pragma once
 
 #include "CullWatcher.h"
+#include "PoseTable.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
@@ -15,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace osgAnalyticBin::bench {
+namespace osgAnalyticBin::flight {
 
 /// A drawable in the render bins, and where it stands in the world.
 struct DrawnMesh {
@@ -36,14 +37,9 @@ struct DrawnTile {
 };
 
 /// What one cull traversal of a scene does.
-struct Census {
+struct Census : TileCounts {
     std::uint64_t nodes = 0;      ///< nodes and drawables that the traversal reached
-    std::uint64_t tested = 0;     ///< tiles that it reached
-    std::uint64_t kept = 0;       ///< tiles whose children it reached
-    std::uint64_t pagedLods = 0;  ///< of these, PagedLODs
-    std::uint64_t drawables = 0;
-    std::uint64_t triangles = 0;
-    std::uint64_t wanted = 0;  ///< files asked for: not loaded yet
+    std::uint64_t pagedLods = 0;  ///< PagedLODs among the tiles kept
     std::vector<DrawnTile> tiles;
 
     [[nodiscard]] std::set<std::string> keys() const;
@@ -58,7 +54,7 @@ struct Census {
 
 /// Takes the census of a camera's scene. The mesh of a PagedLOD is the child that needs no file.
 /// Requires: a camera with a viewport, and no update traversal meanwhile.
-class TileCensus final : public flight::CullWatcher {
+class TileCensus final : public CullWatcher {
 public:
     [[nodiscard]] static Census take(osg::Camera& camera, osg::FrameStamp& frameStamp);
 
@@ -79,4 +75,4 @@ private:
     Census _census;
 };
 
-}  // namespace osgAnalyticBin::bench
+}  // namespace osgAnalyticBin::flight

@@ -4,6 +4,7 @@
 #include "TileCensus.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/BinStatistics.h>
 
 #include <osg/PagedLOD>
 #include <osg/Transform>
@@ -11,7 +12,7 @@
 
 #include <typeinfo>
 
-namespace osgAnalyticBin::bench {
+namespace osgAnalyticBin::flight {
 
 namespace {
 
@@ -89,8 +90,17 @@ std::set<std::string> Census::keys() const {
 Census TileCensus::take(osg::Camera& camera, osg::FrameStamp& frameStamp) {
     const osg::ref_ptr<TileCensus> census = new TileCensus;
     census->watch(camera, frameStamp);
-    census->_census.wanted = census->wanted();
-    return std::move(census->_census);
+    Census& found = census->_census;
+    found.wanted = census->wanted();
+    found.drawn = found.tiles.size();
+    if (const BinStatistics* const statistics = BinStatistics::find(*census)) {
+        const BinCounts bins = statistics->getCounts();
+        found.binsTested = bins.tested;
+        found.binsOutside = bins.outside;
+        found.binsInside = bins.inside;
+        found.binsStraddling = bins.straddling;
+    }
+    return std::move(found);
 }
 
 void TileCensus::enter(osg::Node& node) {
@@ -115,7 +125,7 @@ void TileCensus::leave(osg::Node& node) {
 
 void TileCensus::draw(osg::Drawable& drawable) {
     ++_census.drawables;
-    _census.triangles += flight::trianglesOf(drawable);
+    _census.triangles += trianglesOf(drawable);
     if (_openTiles.empty()) return;
     const osg::Matrixd localToWorld =
         *getModelViewMatrix() * osg::Matrixd::inverse(getRenderStage()->getCamera()->getViewMatrix());
@@ -135,4 +145,4 @@ void TileCensus::describePath(DrawnTile& tile) const {
     }
 }
 
-}  // namespace osgAnalyticBin::bench
+}  // namespace osgAnalyticBin::flight

@@ -19,7 +19,7 @@
 #include <support/SyntheticDatabase.h>
 #include <support/TemporaryFolder.h>
 
-namespace osgAnalyticBin::bench {
+namespace osgAnalyticBin::flight {
 namespace {
 
 osg::ref_ptr<osg::Camera> cameraOver(osg::Node& scene) {
@@ -41,6 +41,8 @@ TEST(TileCensus, CountsTheTilesOfTheGlobe) {
     const Census census = TileCensus::take(*cameraOver(*globe), *frameStamp);
     EXPECT_EQ(census.tested, 32U);
     EXPECT_EQ(census.kept, 32U);
+    EXPECT_EQ(census.drawn, 32U);
+    EXPECT_EQ(census.binsTested, 0U);
     EXPECT_EQ(census.pagedLods, 32U);
     EXPECT_EQ(census.tiles.size(), 32U);
     EXPECT_EQ(census.keys().size(), 32U);
@@ -61,6 +63,8 @@ TEST(TileCensus, KnowsTheBinsThatTheKitInstalled) {
     const osg::ref_ptr<osg::FrameStamp> frameStamp = new osg::FrameStamp;
     const Census census = TileCensus::take(*cameraOver(*globe), *frameStamp);
     ASSERT_EQ(census.tiles.size(), 32U);
+    EXPECT_EQ(census.binsTested, 32U);
+    EXPECT_EQ(census.binsOutside + census.binsInside + census.binsStraddling, 32U);
     double area = 0.0;
     for (const DrawnTile& tile : census.tiles) {
         ASSERT_TRUE(tile.bin.valid()) << tile.key;
@@ -125,4 +129,4 @@ TEST(TileCensus, TakesALeafOnAPageForATile) {
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin::bench
+}  // namespace osgAnalyticBin::flight
