@@ -390,6 +390,9 @@ FAULTS = [
     Fault("clusters in the mesh of a leaf cull", "src/node/install/BinInstaller.cpp", "} else if (!_isInMesh) {", "} else {", NODE,
           "ClusterCulling.*"),
 
+    Fault("clones that share a callback are restored one at a time", "src/node/install/TileCallback.cpp",
+          "if (!isNested) takeOff(culled, ours);", "takeOff(culled, ours);", NODE, "Clones.*"),
+
     # colours of heights
     Fault("relief: light from the south-east", "src/node/packed/Relief.cpp", "kLight * (north - east) + up", "kLight * (east - north) + up",
           NODE, "TerrainGrid.*"),

@@ -418,5 +418,28 @@ TEST(Clones, ThatShareCallbacksStayVisible) {
     EXPECT_LT(tilesDrawn(*clone, downTo(22.5, -22.5)), 8u);
 }
 
+// An application's callback in front of the bin's: the clones of its node share both.
+TEST(Clones, ThatShareAnApplicationsCallbackAreRestoredTogether) {
+    MeshGlobe globe;
+    installBins(*globe.root);
+    osg::Node& tile = *globe.tiles[19];
+    std::set<std::string> visited;
+    const osg::ref_ptr<osg::Callback> application = new VisitRecorder("tile", visited);
+    application->setNestedCallback(tile.getCullCallback());
+    tile.setCullCallback(application);
+    const unsigned int slot = tile.getParent(0)->getChildIndex(&tile);
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    for (int i = 0; i < 2; ++i) scene->addChild(osg::clone(globe.root.get(), osg::CopyOp::DEEP_COPY_NODES));
+    const auto cloneOfTile = [&](unsigned int i) { return scene->getChild(i)->asGroup()->getChild(slot); };
+    ASSERT_FALSE(cloneOfTile(0)->getCullingActive());
+    ASSERT_EQ(cloneOfTile(1)->getCullCallback(), application.get());
+    removeBins(*scene);
+    for (unsigned int i = 0; i < 2; ++i) {
+        EXPECT_TRUE(cloneOfTile(i)->getCullingActive()) << i;
+        EXPECT_EQ(cloneOfTile(i)->getCullCallback(), application.get()) << i;
+    }
+    EXPECT_EQ(application->getNestedCallback(), nullptr);
+}
+
 }  // namespace
 }  // namespace osgAnalyticBin::test

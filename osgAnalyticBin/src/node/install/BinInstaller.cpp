@@ -80,7 +80,9 @@ bool isSameGlobe(const TileFrame& above, const TileFrame& inside) {
 BinInstaller::BinInstaller(const CullOptions& options)
     : _options(options), _coverage(std::make_shared<CoverageByFile>()) {}
 
-BinInstaller::~BinInstaller() = default;
+BinInstaller::~BinInstaller() {
+    takeOff(_nested);
+}
 
 void BinInstaller::continueBelow(Database* database, const TileFrame& frame, const ParentTile* parent) {
     setFrame(frame);
@@ -236,7 +238,7 @@ void BinInstaller::visitOther(osg::Node& node) {
     if (isPhotogrammetrySet(node)) return visitSet(*node.asGroup());
     if (node.asDrawable() && hasStoredBin(node)) warnOfDrawable(node);
     // it may have been a tile when bins were last installed
-    if (installedTileOf(node) && !dynamic_cast<Carrier*>(&node)) removeCallbacks({&node, {}, frame(), 0, {}});
+    if (installedTileOf(node) && !dynamic_cast<Carrier*>(&node)) removeCallbacks({&node, {}, frame(), 0, {}}, _nested);
     // some groups compute their bounds without their children
     const bool mayKeepSilent = !drawsAllChildren(node) || node.getComputeBoundingSphereCallback();
     if (installsBins() && node.asGroup() && !_isInMesh && (_parent || mayKeepSilent)) {
@@ -356,7 +358,7 @@ void BinInstaller::visitChildren(const FoundTile& tile, const ParentTile& link) 
 }
 
 void BinInstaller::uninstall(FoundTile& tile) {
-    removeCallbacks(tile);
+    removeCallbacks(tile, _nested);
     // Method::None suspends without a callback of ours
     resumeCullingOf(*tile.node);
     resumeClusterCullingOf(*tile.node);

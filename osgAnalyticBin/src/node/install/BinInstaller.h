@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "TileCallback.h"
+
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/InstallBins.h>
@@ -112,6 +114,7 @@ private:
     std::size_t _installed = 0;
     std::size_t _boxes = 0;                        // of photogrammetry sets
     std::vector<osg::Node*> _groups;               // candidates for families
+    NestedCallbacks _nested;                       // taken off when the installer is done
     std::vector<osg::ref_ptr<ParentTile>> _links;  // of tiles with installed bins
     std::vector<AwaitingTile> _awaiting;
 };

@@ -82,7 +82,7 @@ void BinInstaller::visitSet(osg::Group& set) {
 
 void BinInstaller::visitMoving(osg::Transform& node) {
     if (isPhotogrammetrySet(node)) return visitSet(node);
-    removeCallbacksBelow(node);
+    removeCallbacksBelow(node, _nested);
     if (installsBins() && hasTileBelow(node)) database().noteStrayTile(frame().file);
 }
 

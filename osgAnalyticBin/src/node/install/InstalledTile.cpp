@@ -86,6 +86,7 @@ void InstalledTile::resumeSpheres(osg::Node& culled) {
     for (const auto& node : _suspended) node->setCullingActive(true);
     _wasCulledActive = false;
     _suspended.clear();
+    _culled = nullptr;
 }
 
 }  // namespace osgAnalyticBin

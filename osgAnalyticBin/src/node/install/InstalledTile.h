@@ -89,7 +89,8 @@ public:
     /// Switches OSG's sphere test off on a node where it is on.
     void suspendSphere(osg::Node& node);
 
-    /// Switches the sphere test on again on the nodes where it was on. Requires: isFor(&culled).
+    /// Switches the sphere test on again on the nodes where it was on. From then on the record is for no node. Requires:
+    /// isFor(&culled).
     void resumeSpheres(osg::Node& culled);
 
     /// Whether the test was on at the i-th call of suspendSphere(), to restore clones of the nodes. True for nodes that
@@ -102,7 +103,7 @@ protected:
 private:
     void tellFamily();
 
-    const osg::Node* const _culled;
+    const osg::Node* _culled;
     const osg::ref_ptr<Database> _database;
     std::atomic<bool> _isKeptVisible{false};
     std::atomic<bool> _isMeshDoubted{false};

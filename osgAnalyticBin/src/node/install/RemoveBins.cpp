@@ -27,7 +27,7 @@ public:
     BinRemover() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
 
     void apply(osg::Node& node) override {
-        if (installedTileOf(node)) removeCallbacks({&node, {}, {}, 0, {}});
+        if (installedTileOf(node)) removeCallbacks({&node, {}, {}, 0, {}}, _nested);
         TileFamily::remove(node);
         ContentWatch::remove(node);
         if (Database* const database = attachedDatabase(node)) database->setRemoved();
@@ -44,6 +44,12 @@ public:
         apply(static_cast<osg::Node&>(node));
     }
 
+    void finish() {
+        takeOff(_nested);
+        removeCarriers();
+    }
+
+private:
     void removeCarriers() {
         for (const auto& carrier : _carriers) {
             const osg::Node::ParentList parents = carrier->getParents();
@@ -56,8 +62,8 @@ public:
         }
     }
 
-private:
     std::vector<osg::ref_ptr<Carrier>> _carriers;
+    NestedCallbacks _nested;
 };
 
 }  // namespace
@@ -68,7 +74,7 @@ void removeBins(osg::Node& node) {
     (void)installBins(node, options);
     BinRemover remover;
     node.accept(remover);
-    remover.removeCarriers();
+    remover.finish();
 }
 
 }  // namespace osgAnalyticBin

@@ -28,23 +28,12 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// The options that a callback of ours was made with. Returns: nullptr for any other callback.
-const CullOptions* optionsOf(const osg::Callback& callback) {
-    const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(&callback);
-    return bin ? &bin->getCullOptions() : nullptr;
-}
-
-osg::Callback* installedCallback(osg::Node& node) {
-    osg::Callback* callback = node.getCullCallback();
-    while (callback && !optionsOf(*callback)) callback = callback->getNestedCallback();
-    return callback;
-}
-
-// The node that carries a tile's callback: it, or the group that was put above it.
-osg::Node* installedNode(osg::Node& node) {
-    if (installedCallback(node)) return &node;
-    Carrier* const carrier = carrierOf(node);
-    return carrier && installedCallback(*carrier) ? carrier : nullptr;
+std::vector<osg::ref_ptr<AnalyticBinCullCallback>> installedCallbacks(const osg::Node& node) {
+    std::vector<osg::ref_ptr<AnalyticBinCullCallback>> callbacks;
+    for (osg::Callback* at = const_cast<osg::Node&>(node).getCullCallback(); at; at = at->getNestedCallback()) {
+        if (auto* const bin = dynamic_cast<AnalyticBinCullCallback*>(at)) callbacks.emplace_back(bin);
+    }
+    return callbacks;
 }
 
 // Finds the nodes above the large parts of a mesh, which are its surface. What else it holds are trees and houses on
@@ -114,6 +103,23 @@ void resumeSpheres(const FoundTile& tile, osg::Node& culled, const InstalledTile
     });
 }
 
+void removeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& ours, NestedCallbacks& nested) {
+    const bool isNested = culled.getCullCallback() != &ours;
+    if (isNested && !nested.emplace(&culled, &ours).second) return;
+    if (auto* paged = dynamic_cast<osg::PagedLOD*>(tile.node.get()))
+        restoreExpiry(*paged, ours.getCullOptions().expiry);
+    if (!isNested) takeOff(culled, ours);
+    InstalledTile* const installed = ours.getInstalledTile();
+    if (installed) installed->leaveFamily();
+    ContentWatch::remove(culled);
+    ContentWatch::remove(*tile.node);
+    if (installed && installed->isFor(&culled)) {
+        installed->resumeSpheres(culled);
+    } else {
+        resumeSpheres(tile, culled, installed);
+    }
+}
+
 }  // namespace
 
 InstalledTile* installedTileOf(const osg::Node& node) {
@@ -124,8 +130,9 @@ InstalledTile* installedTileOf(const osg::Node& node) {
 }
 
 bool hasMoved(osg::Node& tile) {
-    const osg::Node* const culled = installedNode(tile);
-    const InstalledTile* const installed = culled ? installedTileOf(*culled) : nullptr;
+    const Carrier* const carrier = carrierOf(tile);
+    const InstalledTile* const own = installedTileOf(tile);
+    const InstalledTile* const installed = own || !carrier ? own : installedTileOf(*carrier);
     return installed && installed->isMoved();
 }
 
@@ -181,30 +188,24 @@ void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCall
     ContentWatch::place(*tile.node, tile.meshes);
 }
 
-void removeCallbacksBelow(osg::Node& subgraph) {
-    forEachNode(subgraph, [](osg::Node& node) {
-        if (installedTileOf(node)) removeCallbacks({&node, {}, {}, 0, {}});
+void removeCallbacksBelow(osg::Node& subgraph, NestedCallbacks& nested) {
+    forEachNode(subgraph, [&nested](osg::Node& node) {
+        if (installedTileOf(node)) removeCallbacks({&node, {}, {}, 0, {}}, nested);
         TileFamily::remove(node);
         ContentWatch::remove(node);
     });
 }
 
-void removeCallbacks(const FoundTile& tile) {
-    while (osg::Node* culled = installedNode(*tile.node)) {
-        const osg::ref_ptr<osg::Callback> ours = installedCallback(*culled);
-        const osg::ref_ptr<InstalledTile> installed = installedTileOf(*culled);
-        if (auto* paged = dynamic_cast<osg::PagedLOD*>(tile.node.get()))
-            restoreExpiry(*paged, optionsOf(*ours)->expiry);
-        takeOff(*culled, *ours);
-        if (installed) installed->leaveFamily();
-        ContentWatch::remove(*culled);
-        ContentWatch::remove(*tile.node);
-        if (installed && installed->isFor(culled)) {
-            installed->resumeSpheres(*culled);
-        } else {
-            resumeSpheres(tile, *culled, installed);
-        }
+void removeCallbacks(const FoundTile& tile, NestedCallbacks& nested) {
+    for (osg::Node* const culled : {tile.node.get(), static_cast<osg::Node*>(carrierOf(*tile.node))}) {
+        if (!culled) continue;
+        for (const auto& ours : installedCallbacks(*culled)) removeCallback(tile, *culled, *ours, nested);
     }
+}
+
+void takeOff(NestedCallbacks& nested) {
+    for (const auto& [node, callback] : nested) takeOff(*node, *callback);
+    nested.clear();
 }
 
 }  // namespace osgAnalyticBin

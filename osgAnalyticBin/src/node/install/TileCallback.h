@@ -10,6 +10,10 @@
 #include <osg/Group>
 #include <osg/Matrixd>
 #include <osg/Node>
+#include <osg/ref_ptr>
+
+#include <set>
+#include <utility>
 
 namespace osgAnalyticBin {
 
@@ -59,11 +63,19 @@ void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCall
 /// may share callbacks.
 void takeOff(osg::Node& node, osg::Callback& callback);
 
+/// Nodes whose callback of a bin is nested in an application's. Clones of the node may share the application's
+/// callback, and are known as tiles with bins by what is nested in it: it is taken off when all nodes have been
+/// visited.
+using NestedCallbacks = std::set<std::pair<osg::ref_ptr<osg::Node>, osg::ref_ptr<osg::Callback>>>;
+
+/// Takes all of them off.
+void takeOff(NestedCallbacks& nested);
+
 /// Removes callbacks, watches and what came with them from a subgraph, whether or not their nodes are tiles now.
-void removeCallbacksBelow(osg::Node& subgraph);
+void removeCallbacksBelow(osg::Node& subgraph, NestedCallbacks& nested);
 
 /// Removes all callbacks of bins, and what came with them: the sphere test is on again, and expiry times are as they
-/// were. A tile without such a callback stays as it is.
-void removeCallbacks(const FoundTile& tile);
+/// were. A tile without such a callback stays as it is. Callbacks that are nested in others are left to `nested`.
+void removeCallbacks(const FoundTile& tile, NestedCallbacks& nested);
 
 }  // namespace osgAnalyticBin
