@@ -7,11 +7,16 @@
 #include "IndexBuilder.h"
 
 #include <osgAnalyticBin/BinIndex.h>
+#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/core/Ellipsoid.h>
+
+#include <osgDB/ReadFile>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 namespace osgbinconv {
 
@@ -28,11 +33,10 @@ struct Statistics {
     std::size_t unknown = 0;
     double low = HUGE_VAL;
     double high = -HUGE_VAL;
-    double narrowestDeg = HUGE_VAL;
-    double widestDeg = 0.0;
+    double narrowest = HUGE_VAL;  // radians of longitude, or of a map's x
+    double widest = 0.0;
 
     void add(const Entry& entry) {
-        constexpr double kDegreesPerRadian = 57.29577951308232087680;
         ++tiles;
         if (!entry.bin.valid()) {
             ++unknown;
@@ -41,8 +45,8 @@ struct Statistics {
         const osgAnalyticBin::core::GeodeticBin& bin = entry.bin.bin();
         low = std::min(low, bin.altitude().lower);
         high = std::max(high, bin.altitude().upper);
-        narrowestDeg = std::min(narrowestDeg, bin.longitude().width() * kDegreesPerRadian);
-        widestDeg = std::max(widestDeg, bin.longitude().width() * kDegreesPerRadian);
+        narrowest = std::min(narrowest, bin.longitude().width());
+        widest = std::max(widest, bin.longitude().width());
     }
 };
 
@@ -69,6 +73,27 @@ struct Differences {
     }
 };
 
+// Whether the database beside an index is a map, which the index does not tell. Returns: nullopt where its root file
+// has no tiles, or cannot be read.
+std::optional<bool> isOfMap(const std::string& indexFile, const BinIndex& index) {
+    const auto root = std::filesystem::path(indexFile).parent_path() / index.source().name;
+    if (!std::filesystem::is_regular_file(root)) return std::nullopt;
+    const osg::ref_ptr<osg::Node> database = osgDB::readRefNodeFile(root.string());
+    if (!database) return std::nullopt;
+    const auto tiles = osgAnalyticBin::findTiles(*database);
+    if (tiles.empty() || !tiles.front().frame.ellipsoid) return std::nullopt;
+    return osgAnalyticBin::isMapPlane(*tiles.front().frame.ellipsoid);
+}
+
+void printWidths(const Statistics& all, bool isMap) {
+    constexpr double kDegreesPerRadian = 57.29577951308232087680;
+    const double unit = isMap ? osgAnalyticBin::core::Ellipsoid::kMapUnitsInRadian : kDegreesPerRadian;
+    // of a quadtree, whose tiles halve from level to level
+    const double levels = std::round(std::log2(all.widest / all.narrowest)) + 1.0;
+    std::printf("widths       %.6g .. %.6g %s, some %.0f levels\n", all.narrowest * unit, all.widest * unit,
+                isMap ? "m in a map" : "degrees of longitude", levels);
+}
+
 }  // namespace
 
 void printIndex(const std::string& path) {
@@ -86,10 +111,11 @@ void printIndex(const std::string& path) {
     std::printf("never culled %zu\n", all.unknown);
     if (all.unknown < all.tiles) {
         std::printf("altitudes    %.0f .. %.0f m\n", all.low, all.high);
-        // of a quadtree, whose tiles halve from level to level
-        const double levels = std::round(std::log2(all.widestDeg / all.narrowestDeg)) + 1.0;
-        std::printf("widths       %.6g .. %.6g degrees of longitude, some %.0f levels\n", all.narrowestDeg,
-                    all.widestDeg, levels);
+        if (const std::optional<bool> isMap = isOfMap(path, *index)) {
+            printWidths(all, *isMap);
+        } else {
+            std::printf("widths       unknown without \"%s\" beside the index\n", index->source().name.c_str());
+        }
     }
     std::printf("size         %llu bytes, %.1f per tile\n", static_cast<unsigned long long>(bytes),
                 static_cast<double>(bytes) / static_cast<double>(std::max<std::size_t>(all.tiles, 1)));

@@ -16,6 +16,7 @@
 #include <PagedFlight.h>
 #include <PlanarMap.h>
 #include <cmath>
+#include <filesystem>
 #include <support/Random.h>
 #include <support/TemporaryFolder.h>
 #include <vector>
@@ -83,6 +84,17 @@ TEST_P(MapIndex, AgreesWithItsMapAndIsNotTakenForAGlobe) {
     EXPECT_EQ(_index->find("", 0)->fingerprint, inMap);
     tile.frame.ellipsoid = new osg::EllipsoidModel;
     EXPECT_NE(tileFingerprint(tile), inMap);
+}
+
+TEST_P(MapIndex, IsPrintedInMetres) {
+    const std::string command = "--print " + test::quoted(_file + ".bins");
+    const Outcome printed = runBinconv(command);
+    EXPECT_EQ(printed.code, 0) << printed.text;
+    EXPECT_NE(printed.text.find("8000 .. 64000 m in a map, some 4 levels"), std::string::npos) << printed.text;
+    std::filesystem::remove(_file);
+    const Outcome alone = runBinconv(command);
+    EXPECT_EQ(alone.code, 0) << alone.text;
+    EXPECT_NE(alone.text.find("unknown without \"map.osgb\""), std::string::npos) << alone.text;
 }
 
 // Without the index, tiles are as high as all terrain on earth.
