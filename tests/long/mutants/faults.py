@@ -393,6 +393,13 @@ FAULTS = [
     Fault("clones that share a callback are restored one at a time", "src/node/install/TileCallback.cpp",
           "if (!isNested) takeOff(culled, ours);", "takeOff(culled, ours);", NODE, "Clones.*"),
 
+    Fault("state: shaders do not matter", "src/node/cull/SeeThrough.cpp", "return program && mayAlterSurface(*program);",
+          "return program && false;", NODE, "TerrainOcclusion.*"),
+    Fault("state: masks of colours do not matter", "src/node/cull/SeeThrough.cpp", "leavesOutColours(state) ||",
+          "(leavesOutColours(state) && false) ||", NODE, "TerrainOcclusion.*"),
+    Fault("callbacks of drawables do not matter", "src/node/install/MeshCulling.cpp", "hasDoubtfulCallback(node) ||",
+          "(hasDoubtfulCallback(node) && false) ||", NODE, "TerrainOcclusion.*"),
+
     # colours of heights
     Fault("relief: light from the south-east", "src/node/packed/Relief.cpp", "kLight * (north - east) + up", "kLight * (east - north) + up",
           NODE, "TerrainGrid.*"),

@@ -4,8 +4,10 @@
 #include "SeeThrough.h"
 
 #include "../install/TileCallback.h"
+#include "ShaderText.h"
 
 #include <osg/ClipPlane>
+#include <osg/ColorMask>
 #include <osg/CoordinateSystemNode>
 #include <osg/CullFace>
 #include <osg/Depth>
@@ -40,6 +42,16 @@ bool drawsNoFaces(const osg::StateSet& state) {
     const auto* mode = attribute<osg::PolygonMode>(state, Attribute::POLYGONMODE);
     return mode && (mode->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL ||
                     mode->getMode(osg::PolygonMode::BACK) != osg::PolygonMode::FILL);
+}
+
+bool leavesOutColours(const osg::StateSet& state) {
+    const auto* mask = attribute<osg::ColorMask>(state, Attribute::COLORMASK);
+    return mask && !(mask->getRedMask() && mask->getGreenMask() && mask->getBlueMask());
+}
+
+bool hasDoubtfulShaders(const osg::StateSet& state) {
+    const auto* program = attribute<osg::Program>(state, Attribute::PROGRAM);
+    return program && mayAlterSurface(*program);
 }
 
 bool leavesOutFrontFaces(const osg::StateSet& state) {
@@ -125,7 +137,7 @@ bool isSeeThrough(const osg::StateSet& state) {
     if (state.getRenderingHint() == osg::StateSet::TRANSPARENT_BIN) return true;
     const osg::StateSet::ModeList& modes = state.getModeList();
     return std::any_of(modes.begin(), modes.end(), isSeeThroughMode) || drawsNoFaces(state) ||
-           leavesOutFrontFaces(state) || ignoresDepth(state);
+           leavesOutFrontFaces(state) || ignoresDepth(state) || leavesOutColours(state) || hasDoubtfulShaders(state);
 }
 
 bool isPartSeeThrough(const osg::StateSet& state) {

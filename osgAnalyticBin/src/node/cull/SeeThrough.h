@@ -13,8 +13,8 @@
 namespace osgAnalyticBin {
 
 /// Whether what is drawn in this state may show what is behind it: lines or points in place of faces, blending,
-/// alpha and stencil tests, stipples, clip planes, front faces left out, no depth test or no depth written. State that
-/// replaces it farther down does not count. Shaders that discard fragments are not known.
+/// alpha and stencil tests, stipples, clip planes, front faces left out, no depth test, no depth or not all colours
+/// written, and shaders that may do such things: mayAlterSurface(). State that replaces it farther down does not count.
 [[nodiscard]] bool isSeeThrough(const osg::StateSet& state);
 
 /// The same for a state on a part of the terrain. Clockwise front faces and a depth range also count here, because the

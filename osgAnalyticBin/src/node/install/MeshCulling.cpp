@@ -75,6 +75,12 @@ std::vector<osg::ref_ptr<osg::Callback>> cullCallbacks(osg::Node& node) {
     return callbacks;
 }
 
+// Whether what the drawable draws, if anything, may not be its vertices.
+bool hasDoubtfulCallback(osg::Node& node) {
+    osg::Drawable* const drawable = node.asDrawable();
+    return drawable && (drawable->getDrawCallback() || drawable->getUpdateCallback() || drawable->getEventCallback());
+}
+
 }  // namespace
 
 void forEachNodeWhere(osg::Node& root, std::function<bool(osg::Node&)> entersBelow) {
@@ -94,7 +100,8 @@ bool isSeeThroughMesh(osg::Node& mesh) {
     forEachNode(mesh, [&isFound](osg::Node& node) {
         const osg::StateSet* const state = node.getStateSet();
         const auto* const terrain = dynamic_cast<osgTerrain::TerrainTile*>(&node);
-        isFound = isFound || (state && isPartSeeThrough(*state)) || (terrain && isSeeThrough(*terrain));
+        isFound = isFound || hasDoubtfulCallback(node) || (state && isPartSeeThrough(*state)) ||
+                  (terrain && isSeeThrough(*terrain));
     });
     return isFound;
 }

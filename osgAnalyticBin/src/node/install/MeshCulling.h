@@ -17,7 +17,8 @@ void forEachNode(osg::Node& root, std::function<void(osg::Node&)> action);
 /// Likewise, but nothing below nodes for which `entersBelow` returns false.
 void forEachNodeWhere(osg::Node& root, std::function<bool(osg::Node&)> entersBelow);
 
-/// Whether a state in the mesh makes the terrain see-through: isPartSeeThrough().
+/// Whether a state in the mesh makes the terrain see-through: isPartSeeThrough(). Callbacks of drawables that draw, or
+/// that may change what is drawn, count as well.
 [[nodiscard]] bool isSeeThroughMesh(osg::Node& mesh);
 
 /// Gives a node that shares its user data a copy of its own.

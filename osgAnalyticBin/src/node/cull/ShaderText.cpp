@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "ShaderText.h"
+
+#include <osg/Shader>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <initializer_list>
+#include <string>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// Without comments and white space.
+std::string compact(const std::string& source) {
+    std::string text;
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        if (source.compare(i, 2, "//") == 0) {
+            i = std::min(source.find('\n', i), source.size());
+        } else if (source.compare(i, 2, "/*") == 0) {
+            i = std::min(source.find("*/", i + 2), source.size() - 1) + 1;
+        } else if (!std::isspace(static_cast<unsigned char>(source[i]))) {
+            text += source[i];
+        }
+    }
+    return text;
+}
+
+bool hasAny(const std::string& text, std::initializer_list<const char*> words) {
+    return std::any_of(words.begin(), words.end(),
+                       [&](const char* word) { return text.find(word) != std::string::npos; });
+}
+
+bool transformsPlainly(const std::string& vertexShaders) {
+    const std::string output = "gl_Position";
+    const std::size_t at = vertexShaders.find(output);
+    if (at == std::string::npos || vertexShaders.rfind(output) != at) return false;
+    const std::array<const char*, 3> plain{"=ftransform();", "=gl_ModelViewProjectionMatrix*gl_Vertex;",
+                                           "=osg_ModelViewProjectionMatrix*osg_Vertex;"};
+    const std::size_t after = at + output.size();
+    return std::any_of(plain.begin(), plain.end(), [&](const char* expression) {
+        return vertexShaders.compare(after, std::string(expression).size(), expression) == 0;
+    });
+}
+
+}  // namespace
+
+bool mayAlterSurface(const osg::Program& program) {
+    std::string vertexShaders;
+    for (unsigned int i = 0; i < program.getNumShaders(); ++i) {
+        const osg::Shader& shader = *program.getShader(i);
+        const std::string text = compact(shader.getShaderSource());
+        if (text.empty() || hasAny(text, {"#pragma", "#include"})) return true;
+        switch (shader.getType()) {
+            case osg::Shader::FRAGMENT:
+                if (hasAny(text, {"discard", "demote", "gl_FragDepth", "gl_SampleMask"})) return true;
+                break;
+            case osg::Shader::VERTEX:
+                if (hasAny(text, {"#define", "gl_ClipDistance", "gl_ClipVertex"})) return true;
+                vertexShaders += text;
+                break;
+            default:
+                return true;
+        }
+    }
+    return program.getProgramBinary() || (!vertexShaders.empty() && !transformsPlainly(vertexShaders));
+}
+
+}  // namespace osgAnalyticBin
