@@ -89,8 +89,8 @@ public:
     /// Switches OSG's sphere test off on a node where it is on.
     void suspendSphere(osg::Node& node);
 
-    /// Switches the sphere test on again on the nodes where it was on. From then on the record is for no node. Requires:
-    /// isFor(&culled).
+    /// Switches the sphere test on again on the nodes where it was on. From then on the record is for no node.
+    /// Requires: isFor(&culled).
     void resumeSpheres(osg::Node& culled);
 
     /// Whether the test was on at the i-th call of suspendSphere(), to restore clones of the nodes. True for nodes that
