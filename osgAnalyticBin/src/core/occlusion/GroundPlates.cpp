@@ -373,9 +373,9 @@ double GroundPlates::least(std::size_t cells, std::size_t row, std::size_t colum
 // Whether skirts stay in the quarters that their upper edges count for. Source: doc/theory/occlusion.md, section 3,
 // "Tops".
 bool GroundPlates::mayHang(double skirt) const noexcept {
-    const double poleward = std::max(std::abs(_latitude.lower), std::abs(_latitude.upper));
-    const double axisDistance = 0.9 * smallestCurvatureRadius(_ellipsoid) * std::cos(poleward);
-    return skirt >= 0.0 && skirt <= std::min(0.5 * narrowest(), kRoomOfQuarter * axisDistance);
+    const double slender = _latitude.width() / std::max(_latitude.width(), _longitude.width());
+    const double deepest = std::min(0.5 * narrowest(), 0.06 * smallestCurvatureRadius(_ellipsoid) * slender);
+    return skirt >= 0.0 && skirt <= deepest;
 }
 
 bool GroundPlates::hasQuartersOf(const GeodeticBin& bin) const noexcept {
