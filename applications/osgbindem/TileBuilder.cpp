@@ -7,7 +7,6 @@
 #include "NodeFile.h"
 #include "TileGeometry.h"
 #include "TileMesh.h"
-#include "TileTopology.h"
 
 namespace osgbindem {
 
@@ -24,7 +23,7 @@ TileBuilder::TileBuilder(const Settings& settings, const TileLayout& layout, con
       _depths(_mosaic, layout),
       _skirts(_mosaic, layout, _depths),
       _images(settings),
-      _triangles(tileTriangles(layout.cells())) {}
+      _triangles(osgAnalyticBin::trianglesOf(layout.cells())) {}
 
 SurveyedTile TileBuilder::survey(const TileId& tile) {
     if (_finished) {
