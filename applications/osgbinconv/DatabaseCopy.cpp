@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "DatabaseCopy.h"
-
+#include "Commands.h"
 #include "CopyTarget.h"
 #include "Failure.h"
-#include "IndexBuilder.h"
 #include "Interruption.h"
 #include "Progress.h"
 

@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "BoxIndexBuilder.h"
-#include "DatabaseCopy.h"
+#include "Commands.h"
 #include "Failure.h"
-#include "IndexBuilder.h"
-#include "IndexReport.h"
 #include "Interruption.h"
 #include "ModuleFolder.h"
 #include "ProgramRun.h"

@@ -5,7 +5,7 @@
 
 #include "BlendBand.h"
 #include "GdalRaster.h"
-#include "ImageSource.h"
+#include "ImageMosaic.h"
 #include "VoidFill.h"
 
 #include <osgAnalyticBin/Version.h>

@@ -5,8 +5,8 @@
 
 #include "Checksum.h"
 #include "Failure.h"
-#include "NodeFile.h"
 #include "RecordStream.h"
+#include "TextFile.h"
 #include "TileFiles.h"
 
 #include <cerrno>
@@ -106,7 +106,7 @@ bool BuildState::isOf(const std::string& sources) const {
 
 void BuildState::begin(const std::string& sources) const {
     createFolder(_folder);
-    writeFile(sourcesFile(), sources);
+    support::writeFile(sourcesFile(), sources);
 }
 
 std::size_t BuildState::count() const {
@@ -121,7 +121,7 @@ std::size_t BuildState::count() const {
 void BuildState::keep(const TaskRecord& record) const {
     const std::string file = fileOf(record.tile.heights.tile());
     createFolder(fs::path(file).parent_path().string());
-    writeFile(file, support::withChecksum(bytesOf(record)));
+    support::writeFile(file, support::withChecksum(bytesOf(record)));
 }
 
 std::optional<TaskRecord> BuildState::find(const TileId& tile, const TileLayout& layout) const {

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "FileSum.h"
-#include "SurveyedTile.h"
+#include "SkirtMeasure.h"
+#include "TileFiles.h"
 #include "TileLayout.h"
 
 #include <cstddef>

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "DatabaseBuilder.h"
-
 #include "BuildSources.h"
 #include "BuildState.h"
+#include "Database.h"
 #include "DatabaseFolder.h"
 #include "Failure.h"
 #include "Interruption.h"

@@ -5,7 +5,7 @@
 
 #include "BuildState.h"
 #include "Failure.h"
-#include "NodeFile.h"
+#include "TextFile.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -16,6 +16,7 @@
 namespace osgbindem {
 
 using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::writeFile;
 
 namespace fs = std::filesystem;
 

@@ -1,32 +1,121 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "DatabaseUpdate.h"
-
 #include "BuildSources.h"
 #include "ChangedArea.h"
+#include "Database.h"
 #include "DatabaseFolder.h"
 #include "Failure.h"
 #include "NodeFile.h"
 #include "Progress.h"
-#include "StandingDatabase.h"
 #include "StartTiles.h"
-#include "TaskBoard.h"
 #include "TaskWork.h"
 #include "TileBuilder.h"
+#include "TileFiles.h"
+#include "TileLayout.h"
 #include "WorkPlan.h"
+
+#include <osgAnalyticBin/AnalyticBin.h>
+
+#include <osg/Group>
+#include <osgDB/ReadFile>
 
 #include <algorithm>
 #include <iostream>
 #include <map>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace osgbindem {
 
+using osgAnalyticBin::AnalyticBin;
 using osgAnalyticBin::support::Failure;
 
 namespace {
+
+std::vector<AnalyticBin> binsFrom(const std::string& file, std::size_t tiles) {
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
+    const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file, options);
+    const osg::Group* group = node ? node->asGroup() : nullptr;
+    if (group == nullptr || group->getNumChildren() != tiles) {
+        throw Failure("\"" + file + "\" is not as osgbindem wrote it; build the database anew, without --update");
+    }
+    std::vector<AnalyticBin> bins;
+    for (unsigned int i = 0; i < tiles; ++i) bins.push_back(osgAnalyticBin::storedBin(*group->getChild(i)));
+    return bins;
+}
+
+/// A finished database that is to be updated. Not for use by several threads: each has its own copy. The root file is
+/// large: the copies read it once together, when one of them needs it.
+class StandingDatabase final {
+public:
+    StandingDatabase(std::string rootFile, TileFiles files, const TileLayout& layout)
+        : _layout(layout), _start(std::make_shared<Start>(std::move(rootFile), layout)), _files(std::move(files)) {}
+
+    [[nodiscard]] bool hasChildren(const TileId& tile) const { return _files.hasChildren(tile); }
+
+    /// The bin that is stored with a tile. Throws Failure when the tile is not there.
+    [[nodiscard]] osgAnalyticBin::AnalyticBin bin(const TileId& tile);
+
+private:
+    using Bins = std::vector<osgAnalyticBin::AnalyticBin>;
+
+    /// The start tiles; may be used by several threads.
+    class Start {
+    public:
+        Start(std::string file, const TileLayout& layout) : _file(std::move(file)), _layout(layout) {}
+
+        /// Reads them when asked first. Throws Failure.
+        [[nodiscard]] const Bins& bins();
+
+    private:
+        std::string _file;
+        const TileLayout& _layout;
+        std::mutex _mutex;
+        Bins _bins;
+    };
+
+    /// Of the tiles in the file with the tile.
+    [[nodiscard]] const Bins& binsBeside(const TileId& tile);
+
+    const TileLayout& _layout;
+    std::shared_ptr<Start> _start;
+    TileFiles _files;
+    std::optional<TileId> _parent;
+    Bins _siblings;
+};
+
+const StandingDatabase::Bins& StandingDatabase::Start::bins() {
+    const std::lock_guard<std::mutex> guard(_mutex);
+    if (_bins.empty()) _bins = binsFrom(_file, _layout.startTiles().size());
+    return _bins;
+}
+
+const StandingDatabase::Bins& StandingDatabase::binsBeside(const TileId& tile) {
+    if (tile.level == _layout.startLevel()) return _start->bins();
+    const TileId parent = tile.ancestor(tile.level - 1);
+    if (!(_parent == parent)) {
+        _siblings = binsFrom(_files.pathOfChildren(parent), 4);
+        _parent = parent;
+    }
+    return _siblings;
+}
+
+AnalyticBin StandingDatabase::bin(const TileId& tile) {
+    const Bins& bins = binsBeside(tile);
+    const auto placeIn = [&tile](const auto& tiles) {
+        return static_cast<std::size_t>(std::find(tiles.begin(), tiles.end(), tile) - tiles.begin());
+    };
+    const std::size_t place = tile.level == _layout.startLevel() ? placeIn(_layout.startTiles())
+                                                                 : placeIn(tile.ancestor(tile.level - 1).children());
+    if (!bins[place].valid()) throw Failure("tile " + tileName(tile) + " has no bin; build the database anew");
+    return bins[place];
+}
 
 /// What the threads have found out.
 class Findings {

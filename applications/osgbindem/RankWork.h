@@ -5,7 +5,7 @@
 
 #include "Ranks.h"
 #include "Settings.h"
-#include "TaskBoard.h"
+#include "TaskWork.h"
 
 #include <functional>
 

@@ -4,7 +4,9 @@
 #include "TaskWork.h"
 
 #include "Failure.h"
+#include "Interruption.h"
 
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <set>
@@ -12,6 +14,8 @@
 namespace osgbindem {
 
 using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::stopRequested;
+using osgAnalyticBin::support::throwIfStopRequested;
 
 namespace {
 
@@ -30,6 +34,56 @@ void doTask(const Task& task, const Site& site, TileBuilder& builder) {
 }
 
 }  // namespace
+
+std::optional<Task> TaskBoard::next() {
+    constexpr std::chrono::milliseconds kGlance{50};  // at whether the user wants to stop
+    std::unique_lock<std::mutex> guard(_mutex);
+    while (!_error && (_isHeld || !isDone())) {
+        throwIfStopRequested();
+        while (_next < _tasks.size()) {
+            const Task& task = _tasks[_next++];
+            if (_claim && !_claim(task)) continue;
+            ++_busy;
+            return task;
+        }
+        _changed.wait_for(guard, kGlance);
+    }
+    return std::nullopt;
+}
+
+void TaskBoard::finish() {
+    const std::lock_guard<std::mutex> guard(_mutex);
+    --_busy;
+    _changed.notify_all();
+}
+
+void TaskBoard::release() {
+    const std::lock_guard<std::mutex> guard(_mutex);
+    _isHeld = false;
+    _changed.notify_all();
+}
+
+void TaskBoard::fail(std::exception_ptr error) {
+    const std::lock_guard<std::mutex> guard(_mutex);
+    if (!_error) _error = std::move(error);
+    stopRequested.store(true);  // the other threads need not go on
+    _changed.notify_all();
+}
+
+bool TaskBoard::isFinished() const {
+    const std::lock_guard<std::mutex> guard(_mutex);
+    return isDone();
+}
+
+bool TaskBoard::hasFailed() const {
+    const std::lock_guard<std::mutex> guard(_mutex);
+    return _error != nullptr;
+}
+
+void TaskBoard::rethrow() const {
+    const std::lock_guard<std::mutex> guard(_mutex);
+    if (_error) std::rethrow_exception(_error);
+}
 
 void doTasks(const Site& site, TaskBoard& tasks, TileBuilder& builder) {
     while (const auto task = tasks.next()) {

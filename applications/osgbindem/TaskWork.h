@@ -6,16 +6,60 @@
 #include "BuildState.h"
 #include "Progress.h"
 #include "Settings.h"
-#include "TaskBoard.h"
 #include "TileBuilder.h"
 #include "TileFiles.h"
+#include "WorkPlan.h"
 
 #include <atomic>
+#include <condition_variable>
+#include <exception>
 #include <functional>
+#include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
 namespace osgbindem {
+
+/// The tasks of the plan, for the threads of a program, and what has become of them.
+class TaskBoard final {
+public:
+    /// Whether a task is this program's to do; the others leave it alone then.
+    using Claim = std::function<bool(const Task&)>;
+
+    /// With a `claim` other programs may do tasks too.
+    explicit TaskBoard(std::vector<Task> tasks, Claim claim = {})
+        : _tasks(std::move(tasks)), _claim(std::move(claim)) {}
+
+    /// Waits for a task. Returns: nullopt when all are finished, or one has failed. Throws Interrupted.
+    [[nodiscard]] std::optional<Task> next();
+    /// The record of a task is there.
+    void finish();
+    /// Stops all threads. Only the first error counts.
+    void fail(std::exception_ptr error);
+
+    /// Threads that find no task left wait until release(): other programs are not done yet.
+    void hold() { _isHeld = true; }
+    void release();
+
+    /// Whether nothing is left for this program to do.
+    [[nodiscard]] bool isFinished() const;
+    [[nodiscard]] bool hasFailed() const;
+    /// Throws what made the threads stop.
+    void rethrow() const;
+
+private:
+    [[nodiscard]] bool isDone() const { return _next == _tasks.size() && _busy == 0; }
+
+    mutable std::mutex _mutex;
+    std::condition_variable _changed;
+    const std::vector<Task> _tasks;
+    const Claim _claim;
+    std::size_t _next = 0;
+    int _busy = 0;
+    bool _isHeld = false;
+    std::exception_ptr _error;
+};
 
 /// What the threads share that build one database.
 struct Site {

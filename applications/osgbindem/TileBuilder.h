@@ -5,12 +5,10 @@
 
 #include "DemMosaic.h"
 #include "EdgeDepths.h"
-#include "FileSum.h"
 #include "HeightGrid.h"
 #include "ImageMosaic.h"
 #include "Settings.h"
 #include "SkirtMeasure.h"
-#include "SurveyedTile.h"
 #include "TileFiles.h"
 #include "TileNode.h"
 

@@ -3,9 +3,10 @@
 
 #include "TileFiles.h"
 
+#include "Checksum.h"
 #include "Failure.h"
 #include "Interruption.h"
-#include "NodeFile.h"
+#include "TextFile.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -15,6 +16,7 @@
 
 namespace osgbindem {
 
+using osgAnalyticBin::support::checksumOf;
 using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::throwIfStopRequested;
 
@@ -46,6 +48,13 @@ std::string fileOf(const TileId& tile) {
 }
 
 }  // namespace
+
+void FileSum::add(const TileId& tile, std::string_view content) noexcept {
+    ++files;
+    bytes += content.size();
+    const int place[] = {tile.level, tile.x, tile.y};
+    checksum += checksumOf(content, checksumOf({reinterpret_cast<const char*>(place), sizeof place}));
+}
 
 std::string startName(const TileId& tile) {
     const TileId start = tile.ancestor(0);
@@ -85,7 +94,7 @@ void TileFiles::writeChildren(const TileId& tile, const std::string& bytes) cons
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw Failure("cannot create \"" + folder + "\": " + error.message() + "; make room");
-    writeFile(folder + "/" + fileOf(tile), bytes);
+    osgAnalyticBin::support::writeFile(folder + "/" + fileOf(tile), bytes);
 }
 
 FileSum TileFiles::sumBelow(const TileId& tile) const {

@@ -4,28 +4,24 @@
 #include "TextFile.h"
 
 #include "Failure.h"
+#include "WholeFile.h"
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
+#include <ostream>
 
 namespace osgAnalyticBin::support {
 
-bool replaceFile(const std::string& file, const std::string& text) {
-    const std::string unfinished = file + ".tmp";
-    std::ofstream output(unfinished, std::ios::binary);
-    output << text;
-    output.close();
-    std::error_code problem;
-    if (output) std::filesystem::rename(unfinished, file, problem);
-    if (output && !problem) return true;
-    std::filesystem::remove(unfinished, problem);
-    return false;
+bool replaceFile(const std::string& file, const std::string& text, std::string& error) {
+    const auto write = [&text](std::ostream& out) {
+        return out.write(text.data(), static_cast<std::streamsize>(text.size())).good();
+    };
+    return writeWholeFile(file, write, error);
 }
 
 void writeFile(const std::string& file, const std::string& text) {
-    if (!replaceFile(file, text))
-        throw Failure(file + ": cannot be written; check that its folder is there and not full");
+    std::string error;
+    if (!replaceFile(file, text, error)) throw Failure(error);
 }
 
 void requireFolderOf(const char* option, const std::string& file) {

@@ -7,11 +7,11 @@
 
 namespace osgAnalyticBin::support {
 
-/// Writes a file under another name and renames it. Returns: false when that failed; what is there under its name stays
-/// as it was then.
-[[nodiscard]] bool replaceFile(const std::string& file, const std::string& text);
+/// Writes a file under another name and renames it, so that it is either complete or as it was before, and notices a
+/// full disk. Returns: whether that was done; else `error` says why not.
+[[nodiscard]] bool replaceFile(const std::string& file, const std::string& text, std::string& error);
 
-/// As replaceFile. Throws: Failure.
+/// The same. Throws: Failure.
 void writeFile(const std::string& file, const std::string& text);
 
 /// For what would only be found out at the end of a long run. Throws: Failure when the folder of a file, which an

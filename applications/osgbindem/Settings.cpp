@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "CommandLine.h"
+#include "Settings.h"
 
 #include "Failure.h"
 #include "GdalRaster.h"
