@@ -9,16 +9,12 @@
 #include "TextFile.h"
 #include "TileFiles.h"
 
-#include <cerrno>
-#include <cstring>
-#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
-#include <unistd.h>
 #include <vector>
 
 namespace osgbindem {
@@ -128,21 +124,6 @@ std::optional<TaskRecord> BuildState::find(const TileId& tile, const TileLayout&
     const std::string bytes = content(fileOf(tile));
     const auto whole = support::wholeBytes(bytes);
     return whole ? recordFrom(*whole, tile, layout) : std::nullopt;
-}
-
-bool BuildState::claim(const TileId& tile) const {
-    const std::string file = claimFolder() + "/" + tileName(tile);
-    const int handle = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (handle < 0 && errno != EEXIST)
-        throw Failure("cannot write \"" + file + "\": " + std::strerror(errno) + "; make room");
-    if (handle >= 0) ::close(handle);
-    return handle >= 0;
-}
-
-void BuildState::forgetClaims() const {
-    std::error_code ignored;
-    fs::remove_all(claimFolder(), ignored);
-    createFolder(claimFolder());
 }
 
 }  // namespace osgbindem

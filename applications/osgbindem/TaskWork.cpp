@@ -40,11 +40,9 @@ std::optional<Task> TaskBoard::next() {
     std::unique_lock<std::mutex> guard(_mutex);
     while (!_error && (_isHeld || !isDone())) {
         throwIfStopRequested();
-        while (_next < _tasks.size()) {
-            const Task& task = _tasks[_next++];
-            if (_claim && !_claim(task)) continue;
+        if (_next < _tasks.size()) {
             ++_busy;
-            return task;
+            return _tasks[_next++];
         }
         _changed.wait_for(guard, kGlance);
     }

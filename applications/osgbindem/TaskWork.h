@@ -24,12 +24,7 @@ namespace osgbindem {
 /// The tasks of the plan, for the threads of a program, and what has become of them.
 class TaskBoard final {
 public:
-    /// Whether a task is this program's to do; the others leave it alone then.
-    using Claim = std::function<bool(const Task&)>;
-
-    /// With a `claim` other programs may do tasks too.
-    explicit TaskBoard(std::vector<Task> tasks, Claim claim = {})
-        : _tasks(std::move(tasks)), _claim(std::move(claim)) {}
+    explicit TaskBoard(std::vector<Task> tasks) : _tasks(std::move(tasks)) {}
 
     /// Waits for a task. Returns: nullopt when all are finished, or one has failed. Throws Interrupted.
     [[nodiscard]] std::optional<Task> next();
@@ -54,7 +49,6 @@ private:
     mutable std::mutex _mutex;
     std::condition_variable _changed;
     const std::vector<Task> _tasks;
-    const Claim _claim;
     std::size_t _next = 0;
     int _busy = 0;
     bool _isHeld = false;
