@@ -4,6 +4,7 @@
 #include "CopyTarget.h"
 
 #include "Failure.h"
+#include "TextFile.h"
 #include "WholeFile.h"
 
 #include <osgDB/FileNameUtils>
@@ -14,8 +15,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <ostream>
 #include <set>
 #include <unistd.h>
 
@@ -91,8 +91,7 @@ CopyTarget::CopyTarget(const std::string& rootFile, const DatabaseFiles& source,
       _marker(markerOf(rootFile)),
       _lock(_marker, "osgbinconv", rootFile) {
     if (_folder.empty()) _folder = ".";
-    std::ifstream in(_marker, std::ios::binary);
-    const std::string left{std::istreambuf_iterator<char>(in), {}};
+    const std::string left = osgAnalyticBin::support::contentOf(_marker);
     _goesOn = left == markOf(source.rootFile());
     _keepsMarker = !left.empty();
     try {

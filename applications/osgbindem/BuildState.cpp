@@ -10,8 +10,6 @@
 #include "TileFiles.h"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -79,17 +77,6 @@ std::optional<TaskRecord> recordFrom(std::string_view bytes, const TileId& tile,
     return record;
 }
 
-std::string content(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void createFolder(const std::string& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw Failure("cannot create \"" + folder + "\": " + error.message() + "; choose another folder");
-}
-
 }  // namespace
 
 std::string BuildState::fileOf(const TileId& tile) const {
@@ -97,11 +84,11 @@ std::string BuildState::fileOf(const TileId& tile) const {
 }
 
 bool BuildState::isOf(const std::string& sources) const {
-    return content(sourcesFile()) == sources;
+    return support::contentOf(sourcesFile()) == sources;
 }
 
 void BuildState::begin(const std::string& sources) const {
-    createFolder(_folder);
+    support::makeFolder(_folder);
     support::writeFile(sourcesFile(), sources);
 }
 
@@ -116,12 +103,12 @@ std::size_t BuildState::count() const {
 
 void BuildState::keep(const TaskRecord& record) const {
     const std::string file = fileOf(record.tile.heights.tile());
-    createFolder(fs::path(file).parent_path().string());
+    support::makeFolder(fs::path(file).parent_path().string());
     support::writeFile(file, support::withChecksum(bytesOf(record)));
 }
 
 std::optional<TaskRecord> BuildState::find(const TileId& tile, const TileLayout& layout) const {
-    const std::string bytes = content(fileOf(tile));
+    const std::string bytes = support::contentOf(fileOf(tile));
     const auto whole = support::wholeBytes(bytes);
     return whole ? recordFrom(*whole, tile, layout) : std::nullopt;
 }

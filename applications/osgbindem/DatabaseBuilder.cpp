@@ -9,9 +9,8 @@
 #include "Failure.h"
 #include "Interruption.h"
 #include "NodeFile.h"
-#include "StartTiles.h"
 #include "TaskWork.h"
-#include "WorkPlan.h"
+#include "TileBuilder.h"
 
 #include <exception>
 #include <functional>

@@ -2,18 +2,15 @@
 // SPDX-License-Identifier: MIT
 
 #include "BuildSources.h"
-#include "ChangedArea.h"
 #include "Database.h"
 #include "DatabaseFolder.h"
+#include "EdgeDepths.h"
 #include "Failure.h"
 #include "NodeFile.h"
-#include "Progress.h"
-#include "StartTiles.h"
 #include "TaskWork.h"
 #include "TileBuilder.h"
 #include "TileFiles.h"
 #include "TileLayout.h"
-#include "WorkPlan.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
@@ -21,6 +18,7 @@
 #include <osgDB/ReadFile>
 
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -28,6 +26,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace osgbindem {
@@ -115,6 +114,72 @@ AnalyticBin StandingDatabase::bin(const TileId& tile) {
                                                                  : placeIn(tile.ancestor(tile.level - 1).children());
     if (!bins[place].valid()) throw Failure("tile " + tileName(tile) + " has no bin; build the database anew");
     return bins[place];
+}
+
+/// Tells which tiles of a database come out as they are when it is built again.
+///
+/// A tile's mesh depends on heights within one spacing of posts around it, or on those between the posts of a coarser
+/// neighbour along the edge; its skirts depend besides on which of its neighbours, of those above them, and of those
+/// below them along the edge have children. Its bin depends on the tiles below. What changes for a tile changes for all
+/// above it, so a tile that stays has no changes below.
+class ChangedTiles final {
+public:
+    using HadChildren = std::function<bool(const TileId&)>;
+
+    /// `depths` of the rasters as they are now; `hadChildren` of the database as it is.
+    ChangedTiles(const ChangedArea& area, EdgeDepths& depths, const TileLayout& layout, HadChildren hadChildren)
+        : _area(area), _depths(depths), _layout(layout), _hadChildren(std::move(hadChildren)) {}
+
+    /// Whether the tile, or one below it, may come out otherwise.
+    [[nodiscard]] bool has(const TileId& tile) const;
+
+private:
+    [[nodiscard]] bool hasChangedHeights(const TileId& tile) const;
+    [[nodiscard]] bool isRefinedOtherwise(const TileId& tile) const;
+    [[nodiscard]] bool isRefinedOtherwiseAbove(const TileId& neighbour) const;
+    [[nodiscard]] bool isRefinedOtherwiseAlong(const TileId& neighbour, Edge edge) const;
+
+    const ChangedArea& _area;
+    EdgeDepths& _depths;
+    const TileLayout& _layout;
+    HadChildren _hadChildren;
+};
+
+bool ChangedTiles::has(const TileId& tile) const {
+    if (hasChangedHeights(tile)) return true;
+    return std::any_of(kEdges.begin(), kEdges.end(), [&](Edge edge) {
+        const auto neighbour = tile.neighbour(edge);
+        if (!neighbour) return false;
+        return isRefinedOtherwiseAbove(*neighbour) || isRefinedOtherwiseAlong(*neighbour, oppositeOf(edge));
+    });
+}
+
+bool ChangedTiles::hasChangedHeights(const TileId& tile) const {
+    int coarsest =
+        std::max(tile.level - 1, _layout.startLevel());  // skirts reach down to the parent's level in any case
+    for (const Edge edge : kEdges) coarsest = std::min(coarsest, _depths.coarsestAcross(tile, edge));
+    return _area.touches(tile.rect().grownBy(_layout.spacingDeg(coarsest)));
+}
+
+bool ChangedTiles::isRefinedOtherwise(const TileId& tile) const {
+    return _area.touches(tile.rect()) && _depths.hasChildren(tile) != _hadChildren(tile);
+}
+
+bool ChangedTiles::isRefinedOtherwiseAbove(const TileId& neighbour) const {
+    for (int level = _layout.startLevel(); level <= neighbour.level; ++level) {
+        const TileId above = neighbour.ancestor(level);
+        if (isRefinedOtherwise(above)) return true;
+        if (!_depths.hasChildren(above)) return false;
+    }
+    return false;
+}
+
+bool ChangedTiles::isRefinedOtherwiseAlong(const TileId& neighbour, Edge edge) const {
+    if (!_area.touches(neighbour.rect())) return false;
+    if (isRefinedOtherwise(neighbour)) return true;
+    if (!_depths.hasChildren(neighbour)) return false;
+    const std::array<TileId, 2> children = childrenAlong(neighbour, edge);
+    return isRefinedOtherwiseAlong(children[0], edge) || isRefinedOtherwiseAlong(children[1], edge);
 }
 
 /// What the threads have found out.

@@ -4,7 +4,7 @@
 #include "ImageMosaic.h"
 
 #include "Failure.h"
-#include "TileGeometry.h"
+#include "TileMesh.h"
 
 #include <algorithm>
 #include <cmath>

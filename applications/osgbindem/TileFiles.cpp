@@ -4,20 +4,16 @@
 #include "TileFiles.h"
 
 #include "Checksum.h"
-#include "Failure.h"
 #include "Interruption.h"
 #include "TextFile.h"
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 namespace osgbindem {
 
 using osgAnalyticBin::support::checksumOf;
-using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::throwIfStopRequested;
 
 namespace fs = std::filesystem;
@@ -91,9 +87,7 @@ bool TileFiles::hasChildren(const TileId& tile) const {
 
 void TileFiles::writeChildren(const TileId& tile, const std::string& bytes) const {
     const std::string folder = _folder + "/" + folderOf(tile);
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw Failure("cannot create \"" + folder + "\": " + error.message() + "; make room");
+    osgAnalyticBin::support::makeFolder(folder);
     osgAnalyticBin::support::writeFile(folder + "/" + fileOf(tile), bytes);
 }
 
@@ -105,10 +99,8 @@ FileSum TileFiles::sumBelow(const TileId& tile) const {
 
 void TileFiles::addBelow(const TileId& tile, FileSum& sum) const {
     throwIfStopRequested();
-    std::ifstream in(pathOfChildren(tile), std::ios::binary);
-    if (!in) return;
-    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-    sum.add(tile, bytes);
+    if (!hasChildren(tile)) return;
+    sum.add(tile, osgAnalyticBin::support::contentOf(pathOfChildren(tile)));
     if (tile.level + 1 >= TileLayout::kDeepest) return;
     for (const TileId& child : tile.children()) addBelow(child, sum);
 }

@@ -8,7 +8,8 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <ostream>
+#include <fstream>
+#include <iterator>
 
 namespace osgAnalyticBin::support {
 
@@ -24,11 +25,22 @@ void writeFile(const std::string& file, const std::string& text) {
     if (!replaceFile(file, text, error)) throw Failure(error);
 }
 
+std::string contentOf(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
 void requireFolderOf(const char* option, const std::string& file) {
     if (file.empty()) return;
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
     if (!std::filesystem::is_directory(folder))
         throw Failure(std::string(option) + ": there is no folder " + folder.string() + "; make it first");
+}
+
+void makeFolder(const std::string& folder) {
+    std::error_code problem;
+    std::filesystem::create_directories(folder, problem);
+    if (problem) throw Failure("cannot create \"" + folder + "\": " + problem.message() + "; choose another folder");
 }
 
 void makeFolder(const char* option, const std::string& folder) {

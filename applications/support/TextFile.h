@@ -14,11 +14,17 @@ namespace osgAnalyticBin::support {
 /// The same. Throws: Failure.
 void writeFile(const std::string& file, const std::string& text);
 
+/// The bytes of a file; empty where it cannot be read.
+[[nodiscard]] std::string contentOf(const std::string& file);
+
 /// For what would only be found out at the end of a long run. Throws: Failure when the folder of a file, which an
 /// option names, is not there; an empty name is none.
 void requireFolderOf(const char* option, const std::string& file);
 
-/// Makes a folder that an option names, unless it is there. Throws: Failure.
+/// Makes a folder, and those above it, unless it is there. Throws: Failure.
+void makeFolder(const std::string& folder);
+
+/// The same of one that an option names, unless it is there. Throws: Failure.
 void makeFolder(const char* option, const std::string& folder);
 
 /// The value with so many decimals.
