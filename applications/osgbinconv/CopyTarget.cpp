@@ -5,7 +5,6 @@
 
 #include "Failure.h"
 #include "TextFile.h"
-#include "WholeFile.h"
 
 #include <osgDB/FileNameUtils>
 #include <osgDB/Options>
@@ -42,9 +41,8 @@ void writeScene(const std::string& path, const std::string& extension, const osg
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("precision 17");
     options->setPluginStringData("fileType", fileTypeOf(extension));
     options->setPluginStringData("WriteImageHint", "IncludeData");
-    const auto write = [&](std::ostream& out) { return writer->writeNode(scene, out, options).success(); };
-    std::string error;
-    if (!osgAnalyticBin::writeWholeFile(path, write, error)) throw Failure(error);
+    osgAnalyticBin::support::writeFile(
+        path, [&](std::ostream& out) { return writer->writeNode(scene, out, options).success(); });
 }
 
 std::string markerOf(const std::string& rootFile) {

@@ -95,7 +95,7 @@ public:
     /// Waits while `isBusy`; stops the threads when another rank has failed.
     void watch(TaskBoard& board, const std::function<bool()>& isBusy) const {
         for (; isBusy(); waitABit()) {
-            if (!board.hasFailed()) glance();
+            if (stopRequested && !board.hasFailed()) _interrupted();  // in this order: a failure sets it too
             if (const auto text = _ranks.failureElsewhere()) board.fail(failureOf(*text));
         }
     }

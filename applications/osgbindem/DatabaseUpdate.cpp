@@ -19,9 +19,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <future>
 #include <iostream>
 #include <map>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -53,68 +53,42 @@ std::vector<AnalyticBin> binsFrom(const std::string& file, std::size_t tiles) {
 /// large: the copies read it once together, when one of them needs it.
 class StandingDatabase final {
 public:
-    StandingDatabase(std::string rootFile, TileFiles files, const TileLayout& layout)
-        : _layout(layout), _start(std::make_shared<Start>(std::move(rootFile), layout)), _files(std::move(files)) {}
+    StandingDatabase(const std::string& rootFile, TileFiles files, const TileLayout& layout)
+        : _layout(layout),
+          _files(std::move(files)),
+          _starts(std::async(std::launch::deferred, binsFrom, rootFile, layout.startTiles().size()).share()) {}
 
     [[nodiscard]] bool hasChildren(const TileId& tile) const { return _files.hasChildren(tile); }
 
     /// The bin that is stored with a tile. Throws Failure when the tile is not there.
-    [[nodiscard]] osgAnalyticBin::AnalyticBin bin(const TileId& tile);
+    [[nodiscard]] AnalyticBin bin(const TileId& tile) {
+        const AnalyticBin& bin = tile.level == _layout.startLevel() ? startBin(tile) : binBesideSiblings(tile);
+        if (!bin.valid()) throw Failure("tile " + tileName(tile) + " has no bin; build the database anew");
+        return bin;
+    }
 
 private:
-    using Bins = std::vector<osgAnalyticBin::AnalyticBin>;
+    using Bins = std::vector<AnalyticBin>;
 
-    /// The start tiles; may be used by several threads.
-    class Start {
-    public:
-        Start(std::string file, const TileLayout& layout) : _file(std::move(file)), _layout(layout) {}
-
-        /// Reads them when asked first. Throws Failure.
-        [[nodiscard]] const Bins& bins();
-
-    private:
-        std::string _file;
-        const TileLayout& _layout;
-        std::mutex _mutex;
-        Bins _bins;
-    };
-
-    /// Of the tiles in the file with the tile.
-    [[nodiscard]] const Bins& binsBeside(const TileId& tile);
+    [[nodiscard]] const AnalyticBin& startBin(const TileId& tile) const {
+        const std::vector<TileId>& tiles = _layout.startTiles();
+        return _starts.get()[static_cast<std::size_t>(std::find(tiles.begin(), tiles.end(), tile) - tiles.begin())];
+    }
+    [[nodiscard]] const AnalyticBin& binBesideSiblings(const TileId& tile) {
+        const TileId parent = tile.ancestor(tile.level - 1);
+        if (!(_parent == parent)) {
+            _siblings = binsFrom(_files.pathOfChildren(parent), 4);
+            _parent = parent;
+        }
+        return _siblings[static_cast<std::size_t>(tile.x % 2 + 2 * (tile.y % 2))];
+    }
 
     const TileLayout& _layout;
-    std::shared_ptr<Start> _start;
     TileFiles _files;
+    std::shared_future<Bins> _starts;
     std::optional<TileId> _parent;
     Bins _siblings;
 };
-
-const StandingDatabase::Bins& StandingDatabase::Start::bins() {
-    const std::lock_guard<std::mutex> guard(_mutex);
-    if (_bins.empty()) _bins = binsFrom(_file, _layout.startTiles().size());
-    return _bins;
-}
-
-const StandingDatabase::Bins& StandingDatabase::binsBeside(const TileId& tile) {
-    if (tile.level == _layout.startLevel()) return _start->bins();
-    const TileId parent = tile.ancestor(tile.level - 1);
-    if (!(_parent == parent)) {
-        _siblings = binsFrom(_files.pathOfChildren(parent), 4);
-        _parent = parent;
-    }
-    return _siblings;
-}
-
-AnalyticBin StandingDatabase::bin(const TileId& tile) {
-    const Bins& bins = binsBeside(tile);
-    const auto placeIn = [&tile](const auto& tiles) {
-        return static_cast<std::size_t>(std::find(tiles.begin(), tiles.end(), tile) - tiles.begin());
-    };
-    const std::size_t place = tile.level == _layout.startLevel() ? placeIn(_layout.startTiles())
-                                                                 : placeIn(tile.ancestor(tile.level - 1).children());
-    if (!bins[place].valid()) throw Failure("tile " + tileName(tile) + " has no bin; build the database anew");
-    return bins[place];
-}
 
 /// Tells which tiles of a database come out as they are when it is built again.
 ///
@@ -131,56 +105,46 @@ public:
         : _area(area), _depths(depths), _layout(layout), _hadChildren(std::move(hadChildren)) {}
 
     /// Whether the tile, or one below it, may come out otherwise.
-    [[nodiscard]] bool has(const TileId& tile) const;
+    [[nodiscard]] bool has(const TileId& tile) const {
+        if (hasChangedHeights(tile)) return true;
+        return std::any_of(kEdges.begin(), kEdges.end(), [&](Edge edge) {
+            const auto neighbour = tile.neighbour(edge);
+            if (!neighbour) return false;
+            return isRefinedOtherwiseAbove(*neighbour) || isRefinedOtherwiseAlong(*neighbour, oppositeOf(edge));
+        });
+    }
 
 private:
-    [[nodiscard]] bool hasChangedHeights(const TileId& tile) const;
-    [[nodiscard]] bool isRefinedOtherwise(const TileId& tile) const;
-    [[nodiscard]] bool isRefinedOtherwiseAbove(const TileId& neighbour) const;
-    [[nodiscard]] bool isRefinedOtherwiseAlong(const TileId& neighbour, Edge edge) const;
+    [[nodiscard]] bool hasChangedHeights(const TileId& tile) const {
+        int coarsest =
+            std::max(tile.level - 1, _layout.startLevel());  // skirts reach down to the parent's level in any case
+        for (const Edge edge : kEdges) coarsest = std::min(coarsest, _depths.coarsestAcross(tile, edge));
+        return _area.touches(tile.rect().grownBy(_layout.spacingDeg(coarsest)));
+    }
+    [[nodiscard]] bool isRefinedOtherwise(const TileId& tile) const {
+        return _area.touches(tile.rect()) && _depths.hasChildren(tile) != _hadChildren(tile);
+    }
+    [[nodiscard]] bool isRefinedOtherwiseAbove(const TileId& neighbour) const {
+        for (int level = _layout.startLevel(); level <= neighbour.level; ++level) {
+            const TileId above = neighbour.ancestor(level);
+            if (isRefinedOtherwise(above)) return true;
+            if (!_depths.hasChildren(above)) return false;
+        }
+        return false;
+    }
+    [[nodiscard]] bool isRefinedOtherwiseAlong(const TileId& neighbour, Edge edge) const {
+        if (!_area.touches(neighbour.rect())) return false;
+        if (isRefinedOtherwise(neighbour)) return true;
+        if (!_depths.hasChildren(neighbour)) return false;
+        const std::array<TileId, 2> children = childrenAlong(neighbour, edge);
+        return isRefinedOtherwiseAlong(children[0], edge) || isRefinedOtherwiseAlong(children[1], edge);
+    }
 
     const ChangedArea& _area;
     EdgeDepths& _depths;
     const TileLayout& _layout;
     HadChildren _hadChildren;
 };
-
-bool ChangedTiles::has(const TileId& tile) const {
-    if (hasChangedHeights(tile)) return true;
-    return std::any_of(kEdges.begin(), kEdges.end(), [&](Edge edge) {
-        const auto neighbour = tile.neighbour(edge);
-        if (!neighbour) return false;
-        return isRefinedOtherwiseAbove(*neighbour) || isRefinedOtherwiseAlong(*neighbour, oppositeOf(edge));
-    });
-}
-
-bool ChangedTiles::hasChangedHeights(const TileId& tile) const {
-    int coarsest =
-        std::max(tile.level - 1, _layout.startLevel());  // skirts reach down to the parent's level in any case
-    for (const Edge edge : kEdges) coarsest = std::min(coarsest, _depths.coarsestAcross(tile, edge));
-    return _area.touches(tile.rect().grownBy(_layout.spacingDeg(coarsest)));
-}
-
-bool ChangedTiles::isRefinedOtherwise(const TileId& tile) const {
-    return _area.touches(tile.rect()) && _depths.hasChildren(tile) != _hadChildren(tile);
-}
-
-bool ChangedTiles::isRefinedOtherwiseAbove(const TileId& neighbour) const {
-    for (int level = _layout.startLevel(); level <= neighbour.level; ++level) {
-        const TileId above = neighbour.ancestor(level);
-        if (isRefinedOtherwise(above)) return true;
-        if (!_depths.hasChildren(above)) return false;
-    }
-    return false;
-}
-
-bool ChangedTiles::isRefinedOtherwiseAlong(const TileId& neighbour, Edge edge) const {
-    if (!_area.touches(neighbour.rect())) return false;
-    if (isRefinedOtherwise(neighbour)) return true;
-    if (!_depths.hasChildren(neighbour)) return false;
-    const std::array<TileId, 2> children = childrenAlong(neighbour, edge);
-    return isRefinedOtherwiseAlong(children[0], edge) || isRefinedOtherwiseAlong(children[1], edge);
-}
 
 /// What the threads have found out.
 class Findings {

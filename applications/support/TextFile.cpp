@@ -14,15 +14,17 @@
 namespace osgAnalyticBin::support {
 
 bool replaceFile(const std::string& file, const std::string& text, std::string& error) {
-    const auto write = [&text](std::ostream& out) {
-        return out.write(text.data(), static_cast<std::streamsize>(text.size())).good();
-    };
-    return writeWholeFile(file, write, error);
+    return writeWholeFile(
+        file, [&text](std::ostream& out) { return (out << text).good(); }, error);
 }
 
 void writeFile(const std::string& file, const std::string& text) {
+    writeFile(file, [&text](std::ostream& out) { return (out << text).good(); });
+}
+
+void writeFile(const std::string& file, const std::function<bool(std::ostream&)>& write) {
     std::string error;
-    if (!replaceFile(file, text, error)) throw Failure(error);
+    if (!writeWholeFile(file, write, error)) throw Failure(error);
 }
 
 std::string contentOf(const std::string& file) {

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <functional>
+#include <iosfwd>
 #include <string>
 
 namespace osgAnalyticBin::support {
@@ -11,8 +13,9 @@ namespace osgAnalyticBin::support {
 /// full disk. Returns: whether that was done; else `error` says why not.
 [[nodiscard]] bool replaceFile(const std::string& file, const std::string& text, std::string& error);
 
-/// The same. Throws: Failure.
+/// The same. `write`: whether the stream took everything. Throws: Failure.
 void writeFile(const std::string& file, const std::string& text);
+void writeFile(const std::string& file, const std::function<bool(std::ostream&)>& write);
 
 /// The bytes of a file; empty where it cannot be read.
 [[nodiscard]] std::string contentOf(const std::string& file);
