@@ -4,6 +4,7 @@
 #include "CopyTarget.h"
 
 #include "Failure.h"
+#include "TextFile.h"
 
 #include <osgDB/FileNameUtils>
 #include <osgDB/Options>
@@ -13,8 +14,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <ostream>
 #include <set>
 #include <unistd.h>
 
@@ -35,16 +35,14 @@ const char* fileTypeOf(const std::string& extension) {
     return nullptr;
 }
 
-void writeFile(const std::string& path, const std::string& extension, const osg::Node& scene) {
+void writeScene(const std::string& path, const std::string& extension, const osg::Node& scene) {
     osgDB::ReaderWriter* writer = osgDB::Registry::instance()->getReaderWriterForExtension(extension);
     if (!writer) throw Failure("OpenSceneGraph's plugin for ." + extension + " is missing; install it");
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("precision 17");
     options->setPluginStringData("fileType", fileTypeOf(extension));
     options->setPluginStringData("WriteImageHint", "IncludeData");
-    std::ofstream out(path, std::ios::binary | std::ios::trunc);
-    const bool isWritten = out && writer->writeNode(scene, out, options).success() && out.flush();
-    out.close();
-    if (!isWritten || !out) throw Failure("cannot write \"" + path + "\"; make room or choose another folder");
+    osgAnalyticBin::support::writeFile(
+        path, [&](std::ostream& out) { return writer->writeNode(scene, out, options).success(); });
 }
 
 std::string markerOf(const std::string& rootFile) {
@@ -91,8 +89,7 @@ CopyTarget::CopyTarget(const std::string& rootFile, const DatabaseFiles& source,
       _marker(markerOf(rootFile)),
       _lock(_marker, "osgbinconv", rootFile) {
     if (_folder.empty()) _folder = ".";
-    std::ifstream in(_marker, std::ios::binary);
-    const std::string left{std::istreambuf_iterator<char>(in), {}};
+    const std::string left = osgAnalyticBin::support::contentOf(_marker);
     _goesOn = left == markOf(source.rootFile());
     _keepsMarker = !left.empty();
     try {
@@ -147,18 +144,13 @@ std::string CopyTarget::pathOf(const std::string& file) const {
 
 void CopyTarget::write(const std::string& file, const osg::Node& scene) {
     const std::string path = pathOf(file);
-    const std::string temporary = path + ".tmp";
     std::error_code error;
     fs::create_directories(fs::path(path).parent_path(), error);
     {
         const std::lock_guard<std::mutex> guard(_mutex);
-        _written.push_back(temporary);
         _written.push_back(path);
     }
-    writeFile(temporary, _extension, scene);
-    if (std::rename(temporary.c_str(), path.c_str()) != 0) {
-        throw Failure("cannot write \"" + path + "\": " + std::strerror(errno) + "; choose another folder");
-    }
+    writeScene(path, _extension, scene);
 }
 
 void CopyTarget::complete(const osg::Node& root) {

@@ -3,8 +3,8 @@
 
 #pragma once
 
+#include "Commands.h"
 #include "DiskFile.h"
-#include "IndexBuilder.h"
 
 #include <osg/Node>
 

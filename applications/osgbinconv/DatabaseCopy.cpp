@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "DatabaseCopy.h"
-
+#include "Commands.h"
 #include "CopyTarget.h"
 #include "Failure.h"
-#include "IndexBuilder.h"
 #include "Interruption.h"
 #include "Progress.h"
 
@@ -20,10 +18,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <exception>
+#include <future>
 #include <map>
 #include <mutex>
-#include <thread>
+#include <vector>
 
 namespace osgbinconv {
 
@@ -128,15 +126,13 @@ public:
                 write(*_waiting[i]);
             }
         } catch (...) {
-            const std::lock_guard<std::mutex> guard(_mutex);
-            if (!_error) _error = std::current_exception();
             _isFailed = true;
+            throw;
         }
     }
 
-    /// Requires: the threads have ended. Throws what they threw.
+    /// Requires: the threads have ended.
     void finish() {
-        if (_error) std::rethrow_exception(_error);
         const FileRecord& root = _built.records.at("");
         _target.complete(*readyScene(root));
         _progress.add(root.tiles.size(), 0.0);
@@ -181,12 +177,7 @@ private:
     std::atomic<bool> _isFailed{false};
     std::mutex _mutex;
     Progress _progress;
-    std::exception_ptr _error;
 };
-
-}  // namespace
-
-namespace {
 
 /// What is stored with a tile is read as latitudes and longitudes.
 void requireGlobe(const FileRecords& records, const DatabaseFiles& files) {
@@ -211,9 +202,9 @@ void copyDatabase(const DatabaseFiles& files, const std::string& output, const C
     requireGlobe(built.records, files);
     CopyTarget target(output, files, built.records, options.overwrite);
     Copy copy(files, built, target, options, walk.isQuiet);
-    std::vector<std::thread> threads;
-    for (int i = 0; i < walk.threads; ++i) threads.emplace_back([&copy] { copy.work(); });
-    for (std::thread& thread : threads) thread.join();
+    std::vector<std::future<void>> threads;
+    for (int i = 0; i < walk.threads; ++i) threads.push_back(std::async(std::launch::async, [&copy] { copy.work(); }));
+    for (std::future<void>& thread : threads) thread.get();
     copy.finish();
 }
 

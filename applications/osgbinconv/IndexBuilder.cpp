@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "IndexBuilder.h"
-
+#include "Commands.h"
 #include "Failure.h"
 #include "Interruption.h"
 #include "PartFile.h"

@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "IndexReport.h"
-
+#include "Commands.h"
 #include "Failure.h"
-#include "IndexBuilder.h"
 
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/TileFinder.h>

@@ -6,6 +6,7 @@
 #include "ProgressLine.h"
 
 #include <cstddef>
+#include <cstdio>
 #include <string>
 
 namespace osgbinconv {
@@ -14,16 +15,35 @@ namespace osgbinconv {
 class Progress final {
 public:
     /// `verb`: what is done with the files.
-    Progress(const char* verb, bool isQuiet);
+    Progress(const char* verb, bool isQuiet) : _verb(verb), _isQuiet(isQuiet) {}
 
     /// A file is done, and with it this share of the pass.
-    void add(std::size_t tiles, double share);
+    void add(std::size_t tiles, double share) {
+        ++_files;
+        _tiles += tiles;
+        _share += share;
+        if (!_isQuiet && _line.isDue()) _line.show(_share, text());
+    }
     /// The same of a file that an earlier run had done.
-    void addKnown(std::size_t tiles, double share);
-    void finish();
+    void addKnown(std::size_t tiles, double share) {
+        ++_known;
+        _line.skip(share);
+        add(tiles, share);
+    }
+    void finish() {
+        if (!_isQuiet) _line.finish(_share, text());
+    }
 
 private:
-    [[nodiscard]] std::string text() const;
+    [[nodiscard]] std::string text() const {
+        const double seconds = _line.seconds();
+        const double rate = seconds > 0.0 ? static_cast<double>(_tiles) / seconds : 0.0;
+        char text[160];
+        std::snprintf(text, sizeof text, "osgbinconv: %s %zu files, %zu tiles, %.0f tiles/s", _verb, _files, _tiles,
+                      rate);
+        const std::string known = _known > 0 ? " (" + std::to_string(_known) + " files from an earlier run)" : "";
+        return text + known + ", ";
+    }
 
     const char* const _verb;
     const bool _isQuiet;

@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "BoxIndexBuilder.h"
-#include "DatabaseCopy.h"
+#include "Commands.h"
 #include "Failure.h"
-#include "IndexBuilder.h"
-#include "IndexReport.h"
 #include "Interruption.h"
 #include "ModuleFolder.h"
 #include "ProgramRun.h"
@@ -80,18 +77,14 @@ void declare(CLI::App& app, Arguments& arguments) {
     app.add_flag("--overwrite", arguments.copy.overwrite, "replace the files of an older copy");
     app.add_option("--cluster", arguments.cluster,
                    "remove or keep the cluster culling callbacks of a copy, which\ncull visible tiles of an ellipsoid "
-                   "(default remove)");
-    app.add_option("--threads", arguments.walk.threads, "number of threads (default: one per core)");
+                   "(default remove)")
+        ->check(CLI::IsMember({"remove", "keep"}));
+    app.add_option("--threads", arguments.walk.threads, "number of threads (default: one per core)")
+        ->check(CLI::Range(1, 256));
     app.add_flag("--quiet", arguments.walk.isQuiet, "show no progress");
 }
 
 void requireSense(const Arguments& arguments) {
-    if (arguments.walk.threads < 1 || arguments.walk.threads > 256) {
-        throw UsageError("--threads " + std::to_string(arguments.walk.threads) + "; give a number from 1 to 256");
-    }
-    if (arguments.cluster != "remove" && arguments.cluster != "keep") {
-        throw UsageError("--cluster " + arguments.cluster + "; give remove or keep");
-    }
     const bool isCopy = !arguments.isIndex && !arguments.isPrint && !arguments.isCheck;
     if (isCopy && arguments.files.size() == 1) {
         throw UsageError("nothing to do with \"" + arguments.files.front() +

@@ -5,7 +5,7 @@
 
 #include "BlendBand.h"
 #include "GdalRaster.h"
-#include "ImageSource.h"
+#include "ImageMosaic.h"
 #include "VoidFill.h"
 
 #include <osgAnalyticBin/Version.h>
@@ -15,6 +15,7 @@
 #include <osg/Version>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iomanip>
 #include <iterator>
@@ -139,6 +140,27 @@ std::string describeSources(const Settings& settings, const TileLayout& layout) 
     describeElevations(settings, layout, out);
     describeImages(settings, out);
     return out.str();
+}
+
+namespace {
+
+bool haveCommonLongitude(const RectDeg& a, const RectDeg& b) noexcept {
+    const double turns = std::floor((a.west - b.west) / 360.0);
+    for (const double turn : {turns, turns + 1.0}) {
+        if (b.west + 360.0 * turn <= a.east && b.east + 360.0 * turn >= a.west) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+bool ChangedArea::touches(const RectDeg& rect) const noexcept {
+    return std::any_of(_rects.begin(), _rects.end(), [&](const RectDeg& changed) {
+        if (changed.south > rect.north || changed.north < rect.south) return false;
+        const bool isAtPole =
+            (changed.north >= 90.0 && rect.north >= 90.0) || (changed.south <= -90.0 && rect.south <= -90.0);
+        return isAtPole || haveCommonLongitude(changed, rect);
+    });
 }
 
 namespace {

@@ -5,20 +5,14 @@
 
 #include "Checksum.h"
 #include "Failure.h"
-#include "NodeFile.h"
 #include "RecordStream.h"
+#include "TextFile.h"
 #include "TileFiles.h"
 
-#include <cerrno>
-#include <cstring>
-#include <fcntl.h>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
-#include <unistd.h>
 #include <vector>
 
 namespace osgbindem {
@@ -83,17 +77,6 @@ std::optional<TaskRecord> recordFrom(std::string_view bytes, const TileId& tile,
     return record;
 }
 
-std::string content(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void createFolder(const std::string& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw Failure("cannot create \"" + folder + "\": " + error.message() + "; choose another folder");
-}
-
 }  // namespace
 
 std::string BuildState::fileOf(const TileId& tile) const {
@@ -101,12 +84,12 @@ std::string BuildState::fileOf(const TileId& tile) const {
 }
 
 bool BuildState::isOf(const std::string& sources) const {
-    return content(sourcesFile()) == sources;
+    return support::contentOf(sourcesFile()) == sources;
 }
 
 void BuildState::begin(const std::string& sources) const {
-    createFolder(_folder);
-    writeFile(sourcesFile(), sources);
+    support::makeFolder(_folder);
+    support::writeFile(sourcesFile(), sources);
 }
 
 std::size_t BuildState::count() const {
@@ -120,29 +103,14 @@ std::size_t BuildState::count() const {
 
 void BuildState::keep(const TaskRecord& record) const {
     const std::string file = fileOf(record.tile.heights.tile());
-    createFolder(fs::path(file).parent_path().string());
-    writeFile(file, support::withChecksum(bytesOf(record)));
+    support::makeFolder(fs::path(file).parent_path().string());
+    support::writeFile(file, support::withChecksum(bytesOf(record)));
 }
 
 std::optional<TaskRecord> BuildState::find(const TileId& tile, const TileLayout& layout) const {
-    const std::string bytes = content(fileOf(tile));
+    const std::string bytes = support::contentOf(fileOf(tile));
     const auto whole = support::wholeBytes(bytes);
     return whole ? recordFrom(*whole, tile, layout) : std::nullopt;
-}
-
-bool BuildState::claim(const TileId& tile) const {
-    const std::string file = claimFolder() + "/" + tileName(tile);
-    const int handle = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (handle < 0 && errno != EEXIST)
-        throw Failure("cannot write \"" + file + "\": " + std::strerror(errno) + "; make room");
-    if (handle >= 0) ::close(handle);
-    return handle >= 0;
-}
-
-void BuildState::forgetClaims() const {
-    std::error_code ignored;
-    fs::remove_all(claimFolder(), ignored);
-    createFolder(claimFolder());
 }
 
 }  // namespace osgbindem

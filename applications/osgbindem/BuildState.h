@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "FileSum.h"
-#include "SurveyedTile.h"
+#include "SkirtMeasure.h"
+#include "TileFiles.h"
 #include "TileLayout.h"
 
 #include <cstddef>
@@ -38,18 +38,11 @@ public:
     /// Throws Failure.
     void keep(const TaskRecord& record) const;
 
-    /// Takes a task for this program. Returns: false when another one that builds the same database has it, or had it.
-    /// May be called by several threads and programs.
-    [[nodiscard]] bool claim(const TileId& tile) const;
-    /// Tasks that an earlier run had taken are free again. Throws Failure.
-    void forgetClaims() const;
-
     /// Returns: nullopt when there is none that is whole. May be called by several threads, as keep() may.
     [[nodiscard]] std::optional<TaskRecord> find(const TileId& tile, const TileLayout& layout) const;
 
 private:
     [[nodiscard]] std::string sourcesFile() const { return _folder + "/sources.txt"; }
-    [[nodiscard]] std::string claimFolder() const { return _folder + "/claims"; }
     [[nodiscard]] std::string fileOf(const TileId& tile) const;
 
     std::string _folder;

@@ -1,20 +1,23 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "DatabaseBuilder.h"
-
 #include "BuildSources.h"
 #include "BuildState.h"
+#include "Database.h"
 #include "DatabaseFolder.h"
+#include "DiskFile.h"
 #include "Failure.h"
 #include "Interruption.h"
 #include "NodeFile.h"
-#include "RankWork.h"
-#include "StartTiles.h"
 #include "TaskWork.h"
-#include "WorkPlan.h"
+#include "TileBuilder.h"
 
+#include <exception>
+#include <functional>
 #include <iostream>
+#include <new>
+#include <optional>
+#include <utility>
 
 namespace osgbindem {
 
@@ -57,53 +60,105 @@ std::string interruption(const DatabaseFolder& folder, const BuildState& state, 
     return "interrupted; " + (kept.empty() ? "nothing was left behind" : kept);
 }
 
-void buildParts(const Site& site, const std::vector<Task>& plan, const std::string& sources, DatabaseFolder& folder,
-                const Ranks& ranks, Meetings& meetings) {
-    // What another rank has begun counts as done: nobody else says how far it is.
-    const auto claim = [&site](const Task& task) {
-        if (site.state.claim(task.tile)) return true;
-        site.progress.add(task.weight);
-        return false;
-    };
-    TaskBoard board(plan, ranks.count() > 1 ? TaskBoard::Claim(claim) : TaskBoard::Claim());
-    if (ranks.count() > 1) board.hold();
-    StartTiles starts(site.settings, site.layout);
+/// The three times at which all ranks wait for each other: when the first one has prepared the folder, when all parts
+/// are done, and when the first one has completed the database. Those that are left are held when the object goes.
+class Meetings final {
+public:
+    /// `interrupted`: called when a signal comes while this rank waits, and does not return.
+    Meetings(const Ranks& ranks, std::function<void()> interrupted)
+        : _ranks(ranks), _interrupted(std::move(interrupted)) {}
+    Meetings(const Meetings&) = delete;
+    Meetings& operator=(const Meetings&) = delete;
+    ~Meetings() {
+        giveUp();
+        (void)_ranks.meet(false, {});
+    }
+
+    /// What to do with a signal from now on.
+    void setInterrupted(std::function<void()> interrupted) { _interrupted = std::move(interrupted); }
+
+    /// The next one.
+    /// Throws: when a rank has failed, what it says in the first rank (Failure), Interrupted in the others.
+    void hold() {
+        ++_held;
+        if (!_ranks.meet(false, [this] { glance(); })) return;
+        // It was sent before that rank came.
+        std::optional<std::string> text;
+        while (_ranks.isFirst() && !(text = _ranks.failureElsewhere())) waitABit();
+        std::rethrow_exception(failureOf(text.value_or("")));
+    }
+    /// This rank has failed: returns when no other one writes any more.
+    void giveUp() {
+        constexpr int kUntilPartsAreDone = 2;
+        for (; _held < kUntilPartsAreDone; ++_held) (void)_ranks.meet(true, {});
+    }
+    /// Waits while `isBusy`; stops the threads when another rank has failed.
+    void watch(TaskBoard& board, const std::function<bool()>& isBusy) const {
+        for (; isBusy(); waitABit()) {
+            if (stopRequested && !board.hasFailed()) _interrupted();  // in this order: a failure sets it too
+            if (const auto text = _ranks.failureElsewhere()) board.fail(failureOf(*text));
+        }
+    }
+
+private:
+    void glance() const {
+        if (stopRequested) _interrupted();
+    }
+    [[nodiscard]] std::exception_ptr failureOf(const std::string& text) const {
+        return _ranks.isFirst() ? std::make_exception_ptr(Failure(text)) : std::make_exception_ptr(Interrupted());
+    }
+
+    const Ranks& _ranks;
+    std::function<void()> _interrupted;
+    int _held = 0;
+};
+
+/// Ranks take turns, so that each has as much to do as the others.
+std::vector<Task> partsOf(const Ranks& ranks, const std::vector<Task>& plan) {
+    std::vector<Task> parts;
+    for (std::size_t i = static_cast<std::size_t>(ranks.rank()); i < plan.size();
+         i += static_cast<std::size_t>(ranks.count()))
+        parts.push_back(plan[i]);
+    return parts;
+}
+
+/// Does this rank's parts. `starts`: in the first rank, built when all ranks are done.
+void buildParts(const Site& site, const std::vector<Task>& plan, const DatabaseFolder& folder, const Ranks& ranks,
+                Meetings& meetings, StartTiles* starts) {
+    TaskBoard board(partsOf(ranks, plan));
+    if (ranks.count() > 1 && starts) board.hold();
     const FinishedTasks finished = finishedTasks(site, plan);
     Threads threads(site.settings.threads, board, [&] {
         TileBuilder builder(site.settings, site.layout, site.files);
         doTasks(site, board, builder);
-        if (board.hasFailed()) return;
+        if (!starts || board.hasFailed()) return;
         builder.setFinishedTasks(finished);
-        starts.build(builder);
+        starts->build(builder);
     });
     if (ranks.count() > 1) {
-        const auto interrupted = [&] {
-            // Others may be writing still, and mpirun has no patience: all is left as it is, as after a kill.
-            std::cerr << "osgbindem: " + interruption(folder, site.state, plan.size()) + "\n" << std::flush;
-            Ranks::leaveAfterSignal();
-        };
-        watchOthers(
-            ranks, board, [&] { return threads.areRunning() && !board.isFinished(); }, interrupted);
+        meetings.watch(board, [&] { return threads.areRunning() && !board.isFinished(); });
         try {
-            if (!board.hasFailed())
-                meetings.hold([&] {
-                    if (stopRequested) interrupted();
-                });
+            if (!starts) {
+                threads.join();
+                board.rethrow();
+                osgAnalyticBin::support::flushToDisk(folder.partial());  // what this machine holds back of it
+            }
+            if (!board.hasFailed()) meetings.hold();
             board.release();
         } catch (...) {
             board.fail(std::current_exception());
         }
     }
     threads.join();
-    if (board.hasFailed()) {
+    if (starts && board.hasFailed()) {
         ranks.sendFailure({});
         meetings.giveUp();
     }
     board.rethrow();
-    folder.complete(starts.rootBytes(), sources);
 }
 
-void buildWith(const Settings& settings, const Ranks& ranks, Meetings& meetings) {
+void buildWith(const Settings& settings, const Ranks& ranks) {
+    Meetings meetings(ranks, throwIfStopRequested);
     prepareNodeFiles();
     const TileLayout layout = checkedLayoutFor(settings);
     DatabaseFolder folder(settings.output);
@@ -113,12 +168,18 @@ void buildWith(const Settings& settings, const Ranks& ranks, Meetings& meetings)
     const std::vector<Task> plan = planTasks(settings, layout);
     const std::string sources = describeSources(settings, layout);
     beginOrGoOn(settings, sources, plan.size(), folder, state);
-    if (ranks.count() > 1) state.forgetClaims();
-    meetings.hold([] { throwIfStopRequested(); });
+    meetings.hold();
+    // Others may be writing still, and mpirun has no patience: all is left as it is, as after a kill.
+    meetings.setInterrupted([&] {
+        std::cerr << "osgbindem: " + interruption(folder, state, plan.size()) + "\n" << std::flush;
+        Ranks::leaveAfterSignal();
+    });
     try {
         const TileFiles files = folder.files(layout);
-        Progress progress(!settings.quiet, weightOf(plan));
-        buildParts({settings, layout, files, state, progress}, plan, sources, folder, ranks, meetings);
+        Progress progress(!settings.quiet, weightOf(partsOf(ranks, plan)));
+        StartTiles starts(settings, layout);
+        buildParts({settings, layout, files, state, progress}, plan, folder, ranks, meetings, &starts);
+        folder.complete(starts.rootBytes(), sources);
         progress.finish();
     } catch (const Interrupted&) {
         throw Interrupted(interruption(folder, state, plan.size()));
@@ -128,12 +189,32 @@ void buildWith(const Settings& settings, const Ranks& ranks, Meetings& meetings)
     }
 }
 
+/// Every rank but the first.
+void helpFirstRank(const Settings& settings, const Ranks& ranks) {
+    Meetings meetings(ranks, Ranks::leaveAfterSignal);
+    try {
+        prepareNodeFiles();
+        const TileLayout layout = layoutFor(settings, DemMosaic(settings));
+        const std::vector<Task> plan = planTasks(settings, layout);
+        meetings.hold();
+        const DatabaseFolder folder(settings.output);
+        const TileFiles files = folder.files(layout);
+        const BuildState state(folder.stateFolder());
+        Progress progress(false, 1.0);
+        buildParts({settings, layout, files, state, progress}, plan, folder, ranks, meetings, nullptr);
+    } catch (const Interrupted&) {
+        // the first rank knows why
+    } catch (const std::bad_alloc&) {
+        ranks.sendFailure("out of memory; use fewer ranks or --threads on a machine");
+    } catch (const std::exception& error) {
+        ranks.sendFailure(error.what());
+    }
+}
+
 }  // namespace
 
 void buildDatabase(const Settings& settings, const Ranks& ranks) {
-    if (!ranks.isFirst()) return helpFirstRank(settings, ranks);
-    Meetings meetings(ranks);
-    buildWith(settings, ranks, meetings);
+    ranks.isFirst() ? buildWith(settings, ranks) : helpFirstRank(settings, ranks);
 }
 
 }  // namespace osgbindem

@@ -5,17 +5,17 @@
 
 #include "BuildState.h"
 #include "Failure.h"
-#include "NodeFile.h"
+#include "TextFile.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 
 namespace osgbindem {
 
 using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::writeFile;
 
 namespace fs = std::filesystem;
 
@@ -113,8 +113,7 @@ void DatabaseFolder::clear() {
 }
 
 std::string DatabaseFolder::standingSources() const {
-    std::ifstream in(_sources, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
+    return osgAnalyticBin::support::contentOf(_sources);
 }
 
 void DatabaseFolder::complete(const std::string& rootBytes, const std::string& sources) {
@@ -152,9 +151,7 @@ void DatabaseFolder::merge(const std::string& rootBytes, const std::string& sour
 void DatabaseFolder::carryMergeThrough() {
     for (const fs::path& file : finestFirst(_partial, stateFolder())) {
         const fs::path target = _tiles / fs::relative(file, _partial);
-        std::error_code error;
-        fs::create_directories(target.parent_path(), error);
-        if (error) throw Failure("cannot create \"" + target.parent_path().string() + "\": " + error.message());
+        osgAnalyticBin::support::makeFolder(target.parent_path().string());
         moveTo(file.string(), target.string());
     }
     for (const std::string& file : {_rootFile, _sources}) {

@@ -1,32 +1,150 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "DatabaseUpdate.h"
-
 #include "BuildSources.h"
-#include "ChangedArea.h"
+#include "Database.h"
 #include "DatabaseFolder.h"
+#include "EdgeDepths.h"
 #include "Failure.h"
 #include "NodeFile.h"
-#include "Progress.h"
-#include "StandingDatabase.h"
-#include "StartTiles.h"
-#include "TaskBoard.h"
 #include "TaskWork.h"
 #include "TileBuilder.h"
-#include "WorkPlan.h"
+#include "TileFiles.h"
+#include "TileLayout.h"
+
+#include <osgAnalyticBin/AnalyticBin.h>
+
+#include <osg/Group>
+#include <osgDB/ReadFile>
 
 #include <algorithm>
+#include <functional>
+#include <future>
 #include <iostream>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace osgbindem {
 
+using osgAnalyticBin::AnalyticBin;
 using osgAnalyticBin::support::Failure;
 
 namespace {
+
+std::vector<AnalyticBin> binsFrom(const std::string& file, std::size_t tiles) {
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
+    const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file, options);
+    const osg::Group* group = node ? node->asGroup() : nullptr;
+    if (group == nullptr || group->getNumChildren() != tiles) {
+        throw Failure("\"" + file + "\" is not as osgbindem wrote it; build the database anew, without --update");
+    }
+    std::vector<AnalyticBin> bins;
+    for (unsigned int i = 0; i < tiles; ++i) bins.push_back(osgAnalyticBin::storedBin(*group->getChild(i)));
+    return bins;
+}
+
+/// A finished database that is to be updated. Not for use by several threads: each has its own copy. The root file is
+/// large: the copies read it once together, when one of them needs it.
+class StandingDatabase final {
+public:
+    StandingDatabase(const std::string& rootFile, TileFiles files, const TileLayout& layout)
+        : _layout(layout),
+          _files(std::move(files)),
+          _starts(std::async(std::launch::deferred, binsFrom, rootFile, layout.startTiles().size()).share()) {}
+
+    [[nodiscard]] bool hasChildren(const TileId& tile) const { return _files.hasChildren(tile); }
+
+    /// The bin that is stored with a tile. Throws Failure when the tile is not there.
+    [[nodiscard]] AnalyticBin bin(const TileId& tile) {
+        const AnalyticBin& bin = tile.level == _layout.startLevel() ? startBin(tile) : binBesideSiblings(tile);
+        if (!bin.valid()) throw Failure("tile " + tileName(tile) + " has no bin; build the database anew");
+        return bin;
+    }
+
+private:
+    using Bins = std::vector<AnalyticBin>;
+
+    [[nodiscard]] const AnalyticBin& startBin(const TileId& tile) const {
+        const std::vector<TileId>& tiles = _layout.startTiles();
+        return _starts.get()[static_cast<std::size_t>(std::find(tiles.begin(), tiles.end(), tile) - tiles.begin())];
+    }
+    [[nodiscard]] const AnalyticBin& binBesideSiblings(const TileId& tile) {
+        const TileId parent = tile.ancestor(tile.level - 1);
+        if (!(_parent == parent)) {
+            _siblings = binsFrom(_files.pathOfChildren(parent), 4);
+            _parent = parent;
+        }
+        return _siblings[static_cast<std::size_t>(tile.x % 2 + 2 * (tile.y % 2))];
+    }
+
+    const TileLayout& _layout;
+    TileFiles _files;
+    std::shared_future<Bins> _starts;
+    std::optional<TileId> _parent;
+    Bins _siblings;
+};
+
+/// Tells which tiles of a database come out as they are when it is built again.
+///
+/// A tile's mesh depends on heights within one spacing of posts around it, or on those between the posts of a coarser
+/// neighbour along the edge; its skirts depend besides on which of its neighbours, of those above them, and of those
+/// below them along the edge have children. Its bin depends on the tiles below. What changes for a tile changes for all
+/// above it, so a tile that stays has no changes below.
+class ChangedTiles final {
+public:
+    using HadChildren = std::function<bool(const TileId&)>;
+
+    /// `depths` of the rasters as they are now; `hadChildren` of the database as it is.
+    ChangedTiles(const ChangedArea& area, EdgeDepths& depths, const TileLayout& layout, HadChildren hadChildren)
+        : _area(area), _depths(depths), _layout(layout), _hadChildren(std::move(hadChildren)) {}
+
+    /// Whether the tile, or one below it, may come out otherwise.
+    [[nodiscard]] bool has(const TileId& tile) const {
+        if (hasChangedHeights(tile)) return true;
+        return std::any_of(kEdges.begin(), kEdges.end(), [&](Edge edge) {
+            const auto neighbour = tile.neighbour(edge);
+            if (!neighbour) return false;
+            return isRefinedOtherwiseAbove(*neighbour) || isRefinedOtherwiseAlong(*neighbour, oppositeOf(edge));
+        });
+    }
+
+private:
+    [[nodiscard]] bool hasChangedHeights(const TileId& tile) const {
+        int coarsest =
+            std::max(tile.level - 1, _layout.startLevel());  // skirts reach down to the parent's level in any case
+        for (const Edge edge : kEdges) coarsest = std::min(coarsest, _depths.coarsestAcross(tile, edge));
+        return _area.touches(tile.rect().grownBy(_layout.spacingDeg(coarsest)));
+    }
+    [[nodiscard]] bool isRefinedOtherwise(const TileId& tile) const {
+        return _area.touches(tile.rect()) && _depths.hasChildren(tile) != _hadChildren(tile);
+    }
+    [[nodiscard]] bool isRefinedOtherwiseAbove(const TileId& neighbour) const {
+        for (int level = _layout.startLevel(); level <= neighbour.level; ++level) {
+            const TileId above = neighbour.ancestor(level);
+            if (isRefinedOtherwise(above)) return true;
+            if (!_depths.hasChildren(above)) return false;
+        }
+        return false;
+    }
+    [[nodiscard]] bool isRefinedOtherwiseAlong(const TileId& neighbour, Edge edge) const {
+        if (!_area.touches(neighbour.rect())) return false;
+        if (isRefinedOtherwise(neighbour)) return true;
+        if (!_depths.hasChildren(neighbour)) return false;
+        const std::array<TileId, 2> children = childrenAlong(neighbour, edge);
+        return isRefinedOtherwiseAlong(children[0], edge) || isRefinedOtherwiseAlong(children[1], edge);
+    }
+
+    const ChangedArea& _area;
+    EdgeDepths& _depths;
+    const TileLayout& _layout;
+    HadChildren _hadChildren;
+};
 
 /// What the threads have found out.
 class Findings {

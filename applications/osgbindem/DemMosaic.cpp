@@ -23,8 +23,6 @@ double postsPerThread(const Settings& settings) {
 
 }  // namespace
 
-DemMosaic::DemMosaic(const Settings& settings) : DemMosaic(settings, 0.0) {}
-
 DemMosaic::DemMosaic(const Settings& settings, double spacingDeg) : _mostPosts(postsPerThread(settings)) {
     for (const DemInput& dem : settings.dems) {
         DemOptions options;

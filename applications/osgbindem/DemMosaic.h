@@ -20,11 +20,8 @@ namespace osgbindem {
 /// Of equally fine rasters the one named first counts. Not for use by several threads: each has its own.
 class DemMosaic final {
 public:
-    /// Throws Failure.
-    explicit DemMosaic(const Settings& settings);
-
-    /// The same of the overviews that are as fine as the spacing of posts, where settings allow them. Throws Failure.
-    DemMosaic(const Settings& settings, double spacingDeg);
+    /// With a spacing of posts, of the overviews that are as fine, where settings allow them. Throws Failure.
+    explicit DemMosaic(const Settings& settings, double spacingDeg = 0.0);
     DemMosaic(const DemMosaic&) = delete;
     DemMosaic& operator=(const DemMosaic&) = delete;
 

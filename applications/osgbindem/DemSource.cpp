@@ -28,16 +28,6 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-void HeightRange::include(double height) noexcept {
-    lower = std::min(lower, height);
-    upper = std::max(upper, height);
-}
-
-void HeightRange::include(const HeightRange& other) noexcept {
-    lower = std::min(lower, other.lower);
-    upper = std::max(upper, other.upper);
-}
-
 void DemSource::Decoder::apply(std::vector<double>& values) const noexcept {
     for (double& value : values) {
         const bool missing =

@@ -6,6 +6,7 @@
 #include "GdalRaster.h"
 #include "VoidFill.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -21,8 +22,11 @@ struct HeightRange {
     double upper = -std::numeric_limits<double>::infinity();
 
     [[nodiscard]] bool empty() const noexcept { return lower > upper; }
-    void include(double height) noexcept;
-    void include(const HeightRange& other) noexcept;
+    void include(double height) noexcept { include({height, height}); }
+    void include(const HeightRange& other) noexcept {
+        lower = std::min(lower, other.lower);
+        upper = std::max(upper, other.upper);
+    }
 };
 
 struct DemOptions {

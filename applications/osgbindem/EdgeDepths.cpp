@@ -15,32 +15,14 @@ constexpr std::size_t kMostKnown = 100000;
 }  // namespace
 
 Edge oppositeOf(Edge edge) {
-    switch (edge) {
-        case Edge::South:
-            return Edge::North;
-        case Edge::North:
-            return Edge::South;
-        case Edge::West:
-            return Edge::East;
-        case Edge::East:
-            break;
-    }
-    return Edge::West;
+    return static_cast<Edge>(static_cast<std::size_t>(edge) ^ 1U);  // they stand in pairs
 }
 
 std::array<TileId, 2> childrenAlong(const TileId& tile, Edge edge) {
     const std::array<TileId, 4> all = tile.children();
-    switch (edge) {
-        case Edge::South:
-            return {all[0], all[1]};
-        case Edge::North:
-            return {all[2], all[3]};
-        case Edge::West:
-            return {all[0], all[2]};
-        case Edge::East:
-            break;
-    }
-    return {all[1], all[3]};
+    const bool isParallel = edge == Edge::South || edge == Edge::North;
+    const std::size_t first = edge == Edge::North ? 2 : edge == Edge::East ? 1 : 0;
+    return {all[first], all[first + (isParallel ? 1 : 2)]};
 }
 
 bool EdgeDepths::hasChildren(const TileId& tile) {

@@ -6,6 +6,7 @@
 #include "Failure.h"
 #include "Interruption.h"
 
+#include <cpl_string.h>
 #include <gdal_alg.h>
 #include <gdal_utils.h>
 #include <ogr_spatialref.h>
@@ -49,10 +50,10 @@ void requireAllRows(GDALDataset& dataset, const std::string& path) {
 
 /// `overview`: its number, or -1 for the raster itself.
 GdalDataset open(const std::string& path, int overview = -1) {
-    const std::string level = "OVERVIEW_LEVEL=" + std::to_string(overview);
-    const std::array<const char*, 2> words{overview < 0 ? nullptr : level.c_str(), nullptr};
+    CPLStringList words;
+    if (overview >= 0) words.SetNameValue("OVERVIEW_LEVEL", std::to_string(overview).c_str());
     GdalDataset dataset(
-        GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, nullptr, words.data(), nullptr));
+        GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, nullptr, words.List(), nullptr));
     if (!dataset) {
         // GDAL has names that are no files, so the file system is asked only afterwards.
         const std::string reason =
@@ -121,19 +122,7 @@ std::string targetReference(GDALDataset& source, bool isWgs84) {
     const OGRSpatialReference* reference = source.GetSpatialRef();
     if (reference == nullptr) reference = source.GetGCPSpatialRef();
     const std::unique_ptr<OGRSpatialReference> geographic(reference->CloneGeogCS());
-    char* text = nullptr;
-    geographic->exportToWkt(&text);
-    std::string result(text);
-    CPLFree(text);
-    return result;
-}
-
-/// The words as GDAL's utilities take them. Requires: the words outlive the result.
-std::vector<char*> argumentsOf(std::vector<std::string>& words) {
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    return arguments;
+    return wktOf(*geographic);
 }
 
 RasterGrid gridOf(GDALDataset& dataset, const std::string& path) {
@@ -158,6 +147,14 @@ std::string gdalMessage() {
     if (text.empty()) text = "not a raster that GDAL reads";
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
+}
+
+std::string wktOf(const OGRSpatialReference& reference) {
+    char* text = nullptr;
+    reference.exportToWkt(&text);
+    std::string result(text);
+    CPLFree(text);
+    return result;
 }
 
 bool mayExist(const std::string& path) {
@@ -204,9 +201,8 @@ void GdalRaster::takeOverview(const RasterOptions& options) {
 
 void GdalRaster::expandPalette() {
     if (_source->GetRasterBand(1)->GetColorTable() == nullptr) return;
-    std::vector<std::string> words{"-of", "VRT", "-expand", "rgba"};
-    std::vector<char*> arguments = argumentsOf(words);
-    GDALTranslateOptions* options = GDALTranslateOptionsNew(arguments.data(), nullptr);
+    CPLStringList words(CSLTokenizeString("-of VRT -expand rgba"));
+    GDALTranslateOptions* options = GDALTranslateOptionsNew(words.List(), nullptr);
     int usageError = 0;
     GDALDatasetH expanded = GDALTranslate("", GDALDataset::ToHandle(_source.get()), options, &usageError);
     GDALTranslateOptionsFree(options);
@@ -217,14 +213,17 @@ void GdalRaster::expandPalette() {
 
 void GdalRaster::warp(const RasterOptions& options) {
     const std::string target = targetReference(*_source, options.isWgs84);
-    std::vector<std::string> words{"-of", "VRT", "-t_srs", target, "-r", "bilinear"};
-    if (options.isElevation) words.insert(words.end(), {"-ot", "Float64", "-dstnodata", "nan"});
-    if (options.isElevation && options.nodata)
-        words.insert(words.end(), {"-srcnodata", CPLSPrintf("%.17g", *options.nodata)});
-    if (!options.isElevation) words.push_back("-dstalpha");
-    std::vector<char*> arguments = argumentsOf(words);
-
-    GDALWarpAppOptions* warpOptions = GDALWarpAppOptionsNew(arguments.data(), nullptr);
+    CPLStringList words(CSLTokenizeString("-of VRT -r bilinear -t_srs"));
+    words.AddString(target.c_str());
+    for (const char* word : {"-ot", "Float64", "-dstnodata", "nan"}) {
+        if (options.isElevation) words.AddString(word);
+    }
+    if (options.isElevation && options.nodata) {
+        words.AddString("-srcnodata");
+        words.AddString(CPLSPrintf("%.17g", *options.nodata));
+    }
+    if (!options.isElevation) words.AddString("-dstalpha");
+    GDALWarpAppOptions* warpOptions = GDALWarpAppOptionsNew(words.List(), nullptr);
     GDALDatasetH source = GDALDataset::ToHandle(_source.get());
     int usageError = 0;
     GDALDatasetH warped = GDALWarp("", nullptr, 1, &source, warpOptions, &usageError);

@@ -17,6 +17,9 @@ namespace osgbindem {
 /// The last message of GDAL on one line.
 [[nodiscard]] std::string gdalMessage();
 
+/// A reference system as text.
+[[nodiscard]] std::string wktOf(const OGRSpatialReference& reference);
+
 /// Whether there is a file of this name; of names that begin with /vsi only GDAL knows, so there may be one.
 /// No name that the file system refuses is a file's.
 [[nodiscard]] bool mayExist(const std::string& path);

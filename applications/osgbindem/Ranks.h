@@ -27,6 +27,7 @@ public:
     [[nodiscard]] static bool isSpeaker();
 
     [[nodiscard]] int count() const { return _count; }
+    [[nodiscard]] int rank() const { return _rank; }
     [[nodiscard]] bool isFirst() const { return _rank == 0; }
     /// Of those on this machine.
     [[nodiscard]] int countHere() const { return _countHere; }

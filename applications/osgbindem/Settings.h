@@ -60,4 +60,8 @@ struct Settings {
     bool restart = false;
 };
 
+/// Reads the command line, the program's name first. No raster is opened.
+/// Returns: nullopt after help or version was printed. Throws Failure.
+[[nodiscard]] std::optional<Settings> settingsFrom(int argc, const char* const* argv);
+
 }  // namespace osgbindem

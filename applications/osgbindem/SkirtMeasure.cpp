@@ -3,8 +3,6 @@
 
 #include "SkirtMeasure.h"
 
-#include "TileFrame.h"
-
 #include <osgAnalyticBin/TerrainGrid.h>
 
 #include <glm/geometric.hpp>
@@ -38,6 +36,21 @@ namespace {
 // finer edges instead of hanging down by the drop from both posts, which would be far below the ground at the lower
 // one.
 constexpr double kCliff = 0.25;
+
+/// Unit vectors in ECEF at a position.
+struct TileFrame {
+    explicit TileFrame(const osgAnalyticBin::core::Geodetic& position) noexcept {
+        const double sp = std::sin(position.latitude);
+        const double cp = std::cos(position.latitude);
+        const double sl = std::sin(position.longitude);
+        const double cl = std::cos(position.longitude);
+        up = {cp * cl, cp * sl, sp};
+        north = {-sp * cl, -sp * sl, cp};
+    }
+
+    glm::dvec3 up;
+    glm::dvec3 north;
+};
 
 void raise(double& value, double candidate) {
     value = std::max(value, candidate);

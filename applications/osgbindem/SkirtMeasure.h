@@ -6,6 +6,8 @@
 #include "EdgeDepths.h"
 #include "HeightGrid.h"
 
+#include <osgAnalyticBin/AnalyticBin.h>
+
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -54,6 +56,16 @@ private:
     DemMosaic& _mosaic;
     const TileLayout& _layout;
     EdgeDepths& _depths;
+};
+
+/// A tile with everything below it in files: what its mesh and the tiles above need of it.
+struct SurveyedTile {
+    HeightGrid heights;
+    Skirt skirt;
+    /// The full-resolution heights under the tile.
+    HeightRange range;
+    /// Holds the bins of all tiles below; not valid for a tile without children.
+    osgAnalyticBin::AnalyticBin below;
 };
 
 }  // namespace osgbindem

@@ -4,7 +4,10 @@
 #include "TaskWork.h"
 
 #include "Failure.h"
+#include "Interruption.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <set>
@@ -12,8 +15,30 @@
 namespace osgbindem {
 
 using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::stopRequested;
+using osgAnalyticBin::support::throwIfStopRequested;
 
 namespace {
+
+// A whole globe without insets is just below: 128 tasks, one for each start tile.
+constexpr double kFewestTasks = 100.0;
+// Half a minute's work: as much is lost in each thread when a run is ended, and waited for at its end.
+constexpr double kMostWeight = 4096.0;
+
+Task taskFor(const TileId& tile, DemMosaic& mosaic, const TileLayout& layout) {
+    return {tile, 1.0 + mosaic.posts(tile.rect()) / (static_cast<double>(layout.cells()) * layout.cells())};
+}
+
+void split(const Task& task, double most, DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout,
+           std::vector<Task>& tasks) {
+    if (task.weight <= most || !depths.hasChildren(task.tile)) {
+        tasks.push_back(task);
+        return;
+    }
+    for (const TileId& child : task.tile.children()) {
+        split(taskFor(child, mosaic, layout), most, mosaic, depths, layout, tasks);
+    }
+}
 
 /// Does a task, unless an earlier run has done it and its files are whole.
 void doTask(const Task& task, const Site& site, TileBuilder& builder) {
@@ -30,6 +55,94 @@ void doTask(const Task& task, const Site& site, TileBuilder& builder) {
 }
 
 }  // namespace
+
+TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic) {
+    const int cells = settings.cells.value_or(TileLayout::cellsFor(mosaic.finestGlobalDeg()));
+    const int levels = settings.levels.value_or(TileLayout::levelFor(mosaic.finestDeg(), cells));
+    return TileLayout(cells, levels, settings.ellipsoid, settings.region);
+}
+
+TileLayout checkedLayoutFor(const Settings& settings) {
+    DemMosaic mosaic(settings);
+    mosaic.requireData();
+    if (settings.region && !(mosaic.posts(*settings.region) > 0.0)) {
+        throw Failure("no raster has a part within -te; give degrees as WEST SOUTH EAST NORTH");
+    }
+    return layoutFor(settings, mosaic);
+}
+
+double weightOf(const std::vector<Task>& tasks) {
+    double sum = 0.0;
+    for (const Task& task : tasks) sum += task.weight;
+    return sum;
+}
+
+std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout) {
+    std::vector<Task> starts;
+    double sum = 0.0;
+    for (const TileId& tile : layout.startTiles()) {
+        starts.push_back(taskFor(tile, mosaic, layout));
+        sum += starts.back().weight;
+    }
+    std::vector<Task> tasks;
+    const double most = std::min(sum / kFewestTasks, kMostWeight);
+    for (const Task& start : starts) split(start, most, mosaic, depths, layout, tasks);
+    return tasks;
+}
+
+std::vector<Task> planTasks(const Settings& settings, const TileLayout& layout) {
+    DemMosaic mosaic(settings, layout.spacingDeg(layout.deepestLevel()));
+    EdgeDepths depths(mosaic, layout);
+    return planTasks(mosaic, depths, layout);
+}
+
+std::optional<Task> TaskBoard::next() {
+    constexpr std::chrono::milliseconds kGlance{50};  // at whether the user wants to stop
+    std::unique_lock<std::mutex> guard(_mutex);
+    while (!_error && (_isHeld || !isDone())) {
+        throwIfStopRequested();
+        if (_next < _tasks.size()) {
+            ++_busy;
+            return _tasks[_next++];
+        }
+        _changed.wait_for(guard, kGlance);
+    }
+    return std::nullopt;
+}
+
+void TaskBoard::finish() {
+    const std::lock_guard<std::mutex> guard(_mutex);
+    --_busy;
+    _changed.notify_all();
+}
+
+void TaskBoard::release() {
+    const std::lock_guard<std::mutex> guard(_mutex);
+    _isHeld = false;
+    _changed.notify_all();
+}
+
+void TaskBoard::fail(std::exception_ptr error) {
+    const std::lock_guard<std::mutex> guard(_mutex);
+    if (!_error) _error = std::move(error);
+    stopRequested.store(true);  // the other threads need not go on
+    _changed.notify_all();
+}
+
+bool TaskBoard::isFinished() const {
+    const std::lock_guard<std::mutex> guard(_mutex);
+    return isDone();
+}
+
+bool TaskBoard::hasFailed() const {
+    const std::lock_guard<std::mutex> guard(_mutex);
+    return _error != nullptr;
+}
+
+void TaskBoard::rethrow() const {
+    const std::lock_guard<std::mutex> guard(_mutex);
+    if (_error) std::rethrow_exception(_error);
+}
 
 void doTasks(const Site& site, TaskBoard& tasks, TileBuilder& builder) {
     while (const auto task = tasks.next()) {

@@ -4,18 +4,131 @@
 #pragma once
 
 #include "BuildState.h"
-#include "Progress.h"
+#include "DemMosaic.h"
+#include "EdgeDepths.h"
+#include "ProgressLine.h"
+#include "Ranks.h"
 #include "Settings.h"
-#include "TaskBoard.h"
 #include "TileBuilder.h"
 #include "TileFiles.h"
 
+#include <cpl_progress.h>
+
+#include <algorithm>
 #include <atomic>
+#include <condition_variable>
+#include <cstdio>
+#include <exception>
 #include <functional>
+#include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
 namespace osgbindem {
+
+/// Shows how much is done; may be used by several threads. On a terminal it is a line that is written over, with the
+/// time that is left; elsewhere it is GDAL's row of numbers.
+class Progress final {
+public:
+    Progress(bool isShown, double total)
+        : _isShown(isShown), _isRow(!_line.isTerminal() || Ranks::isStartedByMpi()), _total(total) {
+        show();
+    }
+
+    void add(double amount) {
+        const std::lock_guard<std::mutex> guard(_mutex);
+        _done += amount;
+        show();
+    }
+    /// What an earlier run has done.
+    void addKnown(double amount) {
+        const std::lock_guard<std::mutex> guard(_mutex);
+        _done += amount;
+        _line.skip(amount / _total);
+        show();
+    }
+    void finish() {
+        const std::lock_guard<std::mutex> guard(_mutex);
+        if (!_isShown) return;
+        if (_isRow) {
+            GDALTermProgress(1.0, nullptr, nullptr);
+        } else {
+            _line.finish(1.0, "");
+        }
+    }
+
+private:
+    void show() {
+        if (!_isShown) return;
+        if (_isRow) {
+            GDALTermProgress(std::min(_done / _total, 0.99), nullptr, nullptr);
+        } else if (_line.isDue()) {
+            _line.show(_done / _total, "");
+        }
+    }
+
+    std::mutex _mutex;
+    osgAnalyticBin::support::ProgressLine _line{stdout};
+    const bool _isShown;
+    const bool _isRow;
+    const double _total;
+    double _done = 0.0;
+};
+
+/// The layout that the settings ask for, or else the rasters.
+[[nodiscard]] TileLayout layoutFor(const Settings& settings, const DemMosaic& mosaic);
+
+/// The same once every raster is known to have heights; the rasters are closed again. Throws Failure.
+[[nodiscard]] TileLayout checkedLayoutFor(const Settings& settings);
+
+/// A subtree that one thread builds by itself.
+struct Task {
+    TileId tile;
+    /// About the number of tiles without children in it.
+    double weight = 0.0;
+};
+
+/// Divides the tree into subtrees of similar weight; neighbours follow each other. What lies above the subtrees is left
+/// for afterwards. The plan is the same however many threads and programs share the work, so that others can go on.
+[[nodiscard]] std::vector<Task> planTasks(DemMosaic& mosaic, EdgeDepths& depths, const TileLayout& layout);
+[[nodiscard]] std::vector<Task> planTasks(const Settings& settings, const TileLayout& layout);
+
+[[nodiscard]] double weightOf(const std::vector<Task>& tasks);
+
+/// The tasks of the plan, for the threads of a program, and what has become of them.
+class TaskBoard final {
+public:
+    explicit TaskBoard(std::vector<Task> tasks) : _tasks(std::move(tasks)) {}
+
+    /// Waits for a task. Returns: nullopt when all are finished, or one has failed. Throws Interrupted.
+    [[nodiscard]] std::optional<Task> next();
+    /// The record of a task is there.
+    void finish();
+    /// Stops all threads. Only the first error counts.
+    void fail(std::exception_ptr error);
+
+    /// Threads that find no task left wait until release(): other programs are not done yet.
+    void hold() { _isHeld = true; }
+    void release();
+
+    /// Whether nothing is left for this program to do.
+    [[nodiscard]] bool isFinished() const;
+    [[nodiscard]] bool hasFailed() const;
+    /// Throws what made the threads stop.
+    void rethrow() const;
+
+private:
+    [[nodiscard]] bool isDone() const { return _next == _tasks.size() && _busy == 0; }
+
+    mutable std::mutex _mutex;
+    std::condition_variable _changed;
+    const std::vector<Task> _tasks;
+    std::size_t _next = 0;
+    int _busy = 0;
+    bool _isHeld = false;
+    std::exception_ptr _error;
+};
 
 /// What the threads share that build one database.
 struct Site {

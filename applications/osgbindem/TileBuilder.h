@@ -5,12 +5,10 @@
 
 #include "DemMosaic.h"
 #include "EdgeDepths.h"
-#include "FileSum.h"
 #include "HeightGrid.h"
 #include "ImageMosaic.h"
 #include "Settings.h"
 #include "SkirtMeasure.h"
-#include "SurveyedTile.h"
 #include "TileFiles.h"
 #include "TileNode.h"
 
@@ -19,9 +17,11 @@
 #include <osg/Geometry>
 #include <osg/Node>
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -81,7 +81,6 @@ private:
     void prefetch(const TileId& tile);
     void finishSurvey(SurveyedTile& tile);
     void buildChildren(SurveyedTile& tile);
-    [[nodiscard]] osgAnalyticBin::AnalyticBin sourceBin(const TileId& tile, const HeightRange& range) const;
     [[nodiscard]] std::unique_ptr<BuiltTile> meshed(SurveyedTile tile);
 
     const Settings& _settings;
@@ -95,6 +94,27 @@ private:
     std::function<void(const TileId&)> _leafDone;
     FinishedTasks _finished;
     FileSum _written;
+};
+
+/// The start tiles, made of what the tasks have left of the tiles below them.
+class StartTiles final {
+public:
+    StartTiles(const Settings& settings, const TileLayout& layout)
+        : _settings(settings), _layout(layout), _tiles(layout.startTiles().size()) {}
+
+    /// Requires: all tasks are finished, and the builder finds what they have left. May be called by several threads;
+    /// they share the tiles.
+    void build(TileBuilder& builder);
+
+    /// Requires: all are built. The bytes of the root file.
+    [[nodiscard]] std::string rootBytes() const;
+
+private:
+    const Settings& _settings;
+    const TileLayout& _layout;
+    std::vector<std::unique_ptr<BuiltTile>> _tiles;
+    std::optional<SharedParts> _shared;
+    std::atomic<std::size_t> _next{0};
 };
 
 }  // namespace osgbindem

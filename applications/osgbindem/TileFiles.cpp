@@ -3,19 +3,17 @@
 
 #include "TileFiles.h"
 
-#include "Failure.h"
+#include "Checksum.h"
 #include "Interruption.h"
-#include "NodeFile.h"
+#include "TextFile.h"
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 namespace osgbindem {
 
-using osgAnalyticBin::support::Failure;
+using osgAnalyticBin::support::checksumOf;
 using osgAnalyticBin::support::throwIfStopRequested;
 
 namespace fs = std::filesystem;
@@ -46,6 +44,13 @@ std::string fileOf(const TileId& tile) {
 }
 
 }  // namespace
+
+void FileSum::add(const TileId& tile, std::string_view content) noexcept {
+    ++files;
+    bytes += content.size();
+    const int place[] = {tile.level, tile.x, tile.y};
+    checksum += checksumOf(content, checksumOf({reinterpret_cast<const char*>(place), sizeof place}));
+}
 
 std::string startName(const TileId& tile) {
     const TileId start = tile.ancestor(0);
@@ -82,10 +87,8 @@ bool TileFiles::hasChildren(const TileId& tile) const {
 
 void TileFiles::writeChildren(const TileId& tile, const std::string& bytes) const {
     const std::string folder = _folder + "/" + folderOf(tile);
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw Failure("cannot create \"" + folder + "\": " + error.message() + "; make room");
-    writeFile(folder + "/" + fileOf(tile), bytes);
+    osgAnalyticBin::support::makeFolder(folder);
+    osgAnalyticBin::support::writeFile(folder + "/" + fileOf(tile), bytes);
 }
 
 FileSum TileFiles::sumBelow(const TileId& tile) const {
@@ -96,10 +99,8 @@ FileSum TileFiles::sumBelow(const TileId& tile) const {
 
 void TileFiles::addBelow(const TileId& tile, FileSum& sum) const {
     throwIfStopRequested();
-    std::ifstream in(pathOfChildren(tile), std::ios::binary);
-    if (!in) return;
-    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-    sum.add(tile, bytes);
+    if (!hasChildren(tile)) return;
+    sum.add(tile, osgAnalyticBin::support::contentOf(pathOfChildren(tile)));
     if (tile.level + 1 >= TileLayout::kDeepest) return;
     for (const TileId& child : tile.children()) addBelow(child, sum);
 }

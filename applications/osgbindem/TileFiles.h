@@ -3,12 +3,27 @@
 
 #pragma once
 
-#include "FileSum.h"
 #include "TileLayout.h"
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace osgbindem {
+
+/// What the files below a tile add up to, in whatever order they were written or read back.
+struct FileSum {
+    std::uint64_t files = 0;
+    std::uint64_t bytes = 0;
+    std::uint64_t checksum = 0;
+
+    /// The file with the children of a tile.
+    void add(const TileId& tile, std::string_view content) noexcept;
+
+    [[nodiscard]] bool operator==(const FileSum& other) const noexcept {
+        return files == other.files && bytes == other.bytes && checksum == other.checksum;
+    }
+};
 
 /// Name of a start tile, for what is kept apart for each of them: "X03_Y7".
 [[nodiscard]] std::string startName(const TileId& tile);

@@ -31,6 +31,17 @@ double halfDiagonal(const TileId& tile, const TileLayout& layout) {
 
 }  // namespace
 
+std::size_t tileVertexCount(int cells) noexcept {
+    return static_cast<std::size_t>((cells + 1) * (cells + 5));
+}
+
+std::size_t edgeVertex(int cells, Edge edge, int along) noexcept {
+    const bool isParallel = edge == Edge::South || edge == Edge::North;
+    const int column = isParallel ? along : edge == Edge::East ? cells : 0;
+    const int row = !isParallel ? along : edge == Edge::North ? cells : 0;
+    return static_cast<std::size_t>(row * (cells + 1) + column);
+}
+
 osg::ref_ptr<osg::Node> makePlaced(osg::Geometry& geometry, const glm::dvec3& originEcef) {
     const osg::ref_ptr<osg::MatrixTransform> transform =
         new osg::MatrixTransform(osg::Matrixd::translate(originEcef.x, originEcef.y, originEcef.z));

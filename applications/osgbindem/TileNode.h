@@ -18,6 +18,13 @@
 
 namespace osgbindem {
 
+/// Number of vertices of a tile: (cells + 1)^2 of the surface, row by row from the south-west, then cells + 1 for the
+/// lower end of each skirt.
+[[nodiscard]] std::size_t tileVertexCount(int cells) noexcept;
+
+/// The surface vertex at a place along an edge, counted eastward or northward.
+[[nodiscard]] std::size_t edgeVertex(int cells, Edge edge, int along) noexcept;
+
 /// Puts the geometry at its place on the globe.
 [[nodiscard]] osg::ref_ptr<osg::Node> makePlaced(osg::Geometry& geometry, const glm::dvec3& originEcef);
 

@@ -7,13 +7,12 @@
 #include "GdalRaster.h"
 #include "Interruption.h"
 
+#include <cpl_string.h>
 #include <gdal_alg.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 namespace osgbindem {
@@ -75,9 +74,8 @@ void interpolate(int width, int height, std::vector<float>& values, std::vector<
     const Plane mask(width, height, GDT_Byte);
     plane.write(values, GDT_Float32);
     mask.write(isKnown, GDT_Byte);
-    std::array<char, 32> option{"TEMP_FILE_DRIVER=MEM"};
-    std::array<char*, 2> options{option.data(), nullptr};
-    require(GDALFillNodata(plane.band(), mask.band(), reach, 0, kSmoothing, options.data(), nullptr, nullptr),
+    CPLStringList options(CSLTokenizeString("TEMP_FILE_DRIVER=MEM"));
+    require(GDALFillNodata(plane.band(), mask.band(), reach, 0, kSmoothing, options.List(), nullptr, nullptr),
             "interpolate");
     plane.read(values);
 }
@@ -88,11 +86,9 @@ std::vector<float> distancesTo(const std::vector<GByte>& isKnown, int width, int
     const Plane distance(width, height, GDT_Float32);
     std::vector<GByte> copy(isKnown);
     known.write(copy, GDT_Byte);
-    std::vector<std::string> words{"VALUES=255", "MAXDIST=" + std::to_string(VoidFill::kReach), "NODATA=100000"};
-    std::vector<char*> options;
-    for (std::string& word : words) options.push_back(word.data());
-    options.push_back(nullptr);
-    require(GDALComputeProximity(known.band(), distance.band(), options.data(), nullptr, nullptr), "measure");
+    CPLStringList options(CSLTokenizeString("VALUES=255 NODATA=100000"));
+    options.SetNameValue("MAXDIST", std::to_string(VoidFill::kReach).c_str());
+    require(GDALComputeProximity(known.band(), distance.band(), options.List(), nullptr, nullptr), "measure");
     std::vector<float> distances(isKnown.size());
     distance.read(distances);
     return distances;

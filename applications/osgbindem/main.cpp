@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "CommandLine.h"
-#include "DatabaseBuilder.h"
-#include "DatabaseUpdate.h"
+#include "Database.h"
 #include "Failure.h"
 #include "Interruption.h"
 #include "ProgramRun.h"
 #include "Ranks.h"
+#include "Settings.h"
 
 #include <cpl_conv.h>
 #include <gdal.h>

@@ -102,9 +102,7 @@ PoseRecord recordOf(RowReader row) {
 bool writePoseTable(const std::string& folder, const std::vector<PoseRecord>& records, const std::string& remark,
                     std::string& error) {
     const std::string file = (std::filesystem::path(folder) / kPoseTableName).string();
-    if (support::replaceFile(file, textOf(records, remark))) return true;
-    error = file + ": cannot be written";
-    return false;
+    return support::replaceFile(file, textOf(records, remark), error);
 }
 
 std::optional<std::vector<PoseRecord>> readPoseTable(const std::string& folder, std::string& error) {

@@ -6,6 +6,7 @@
 #include "Angles.h"
 
 #include <osgAnalyticBin/InstallBinsCallback.h>
+#include <osgAnalyticBin/TerrainGrid.h>
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 
 #include <glm/geometric.hpp>
@@ -13,9 +14,7 @@
 #include <osg/Material>
 
 #include <Hypsometry.h>
-#include <TileFrame.h>
 #include <TileNode.h>
-#include <TileTopology.h>
 #include <algorithm>
 #include <cmath>
 
@@ -119,7 +118,7 @@ ProceduralGlobe::ProceduralGlobe(const GlobeOptions& options)
     : _options(options),
       _layout(options.cells, options.levels, wgs84()),
       _terrain(options.relief),
-      _triangles(osgbindem::tileTriangles(options.cells)) {}
+      _triangles(osgAnalyticBin::trianglesOf(options.cells)) {}
 
 // How far the edge of a mesh may be above or below the terrain: heights between posts, and the sag of the chords.
 double ProceduralGlobe::edgeError(int level) const noexcept {

@@ -13,9 +13,6 @@ namespace osgAnalyticBin::support {
 /// Tells damaged bytes from whole ones; no protection against forgers. Some gigabytes a second.
 [[nodiscard]] std::uint64_t checksumOf(std::string_view bytes, std::uint64_t seed = 0) noexcept;
 
-/// Bytes that withChecksum() appends.
-inline constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
-
 /// The bytes with their checksum behind them, as memory has it.
 [[nodiscard]] std::string withChecksum(std::string bytes);
 

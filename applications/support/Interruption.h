@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <csignal>
 #include <stdexcept>
 #include <string>
 
@@ -15,11 +16,14 @@ public:
     explicit Interrupted(const std::string& message = "interrupted") : std::runtime_error(message) {}
 };
 
-/// From here on SIGINT, SIGTERM and SIGHUP set stopRequested, and a limit of file sizes is an error like a full disk.
-void stopOnSignals();
-
 /// Set by signals: stopOnSignals().
 inline std::atomic<bool> stopRequested{false};
+
+/// From here on SIGINT, SIGTERM and SIGHUP set stopRequested, and a limit of file sizes is an error like a full disk.
+inline void stopOnSignals() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) { stopRequested.store(true); });
+    std::signal(SIGXFSZ, SIG_IGN);
+}
 
 inline void throwIfStopRequested() {
     if (stopRequested.load(std::memory_order_relaxed)) throw Interrupted();

@@ -4,28 +4,32 @@
 #include "TextFile.h"
 
 #include "Failure.h"
+#include "WholeFile.h"
 
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 namespace osgAnalyticBin::support {
 
-bool replaceFile(const std::string& file, const std::string& text) {
-    const std::string unfinished = file + ".tmp";
-    std::ofstream output(unfinished, std::ios::binary);
-    output << text;
-    output.close();
-    std::error_code problem;
-    if (output) std::filesystem::rename(unfinished, file, problem);
-    if (output && !problem) return true;
-    std::filesystem::remove(unfinished, problem);
-    return false;
+bool replaceFile(const std::string& file, const std::string& text, std::string& error) {
+    return writeWholeFile(
+        file, [&text](std::ostream& out) { return (out << text).good(); }, error);
 }
 
 void writeFile(const std::string& file, const std::string& text) {
-    if (!replaceFile(file, text))
-        throw Failure(file + ": cannot be written; check that its folder is there and not full");
+    writeFile(file, [&text](std::ostream& out) { return (out << text).good(); });
+}
+
+void writeFile(const std::string& file, const std::function<bool(std::ostream&)>& write) {
+    std::string error;
+    if (!writeWholeFile(file, write, error)) throw Failure(error);
+}
+
+std::string contentOf(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 void requireFolderOf(const char* option, const std::string& file) {
@@ -33,6 +37,12 @@ void requireFolderOf(const char* option, const std::string& file) {
     const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
     if (!std::filesystem::is_directory(folder))
         throw Failure(std::string(option) + ": there is no folder " + folder.string() + "; make it first");
+}
+
+void makeFolder(const std::string& folder) {
+    std::error_code problem;
+    std::filesystem::create_directories(folder, problem);
+    if (problem) throw Failure("cannot create \"" + folder + "\": " + problem.message() + "; choose another folder");
 }
 
 void makeFolder(const char* option, const std::string& folder) {

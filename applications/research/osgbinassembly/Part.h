@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include "PartMesh.h"
-
 #include <osgAnalyticBin/core/Frame.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
 #include <osgAnalyticBin/core/formula/BezierSolid.h>

@@ -44,7 +44,9 @@ public:
             const core::BinBody body(_scene.ellipsoid, bin, 0.0, _frame);
             if (buffer.isBeside(body.ball())) continue;
             std::size_t quarter = 4 * tile;
-            for (const auto& hull : body.quarters()) {
+            auto hulls = body.quarters();
+            _plates[tile].lowerTops(bin, hulls);
+            for (const auto& hull : hulls) {
                 const HorizonBuffer::Outline outline = buffer.outlineOf(hull);
                 if (!outline.isBeside) {
                     order.emplace_back(outline.nearest, outlines.size());
@@ -71,7 +73,10 @@ public:
 
     [[nodiscard]] bool isRight(Random& random) const {
         for (const std::size_t quarter : hidden()) {
-            const GroundTile part{{}, _scene.tiles[quarter / 4].bin.quarters()[quarter % 4]};
+            const core::GeodeticBin& bin = _scene.tiles[quarter / 4].bin;
+            const auto [low, high] = bin.altitude();
+            const double top = std::clamp(_plates[quarter / 4].most(quarter % 4, bin), low, high);
+            const GroundTile part{{}, bin.quarters()[quarter % 4].withAltitude({low, top})};
             for (int ray = 0; ray < kRays; ++ray) {
                 const RealVector point = _scene.pointIn(random, part);
                 if (isBeforeTheCamera(_scene, point) && !_scene.isBlocked(point)) return false;

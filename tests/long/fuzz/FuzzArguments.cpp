@@ -14,9 +14,9 @@
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
 
-#include <CommandLine.h>
 #include <DemMosaic.h>
 #include <Failure.h>
+#include <Settings.h>
 #include <array>
 #include <cmath>
 #include <cstdint>

@@ -35,13 +35,15 @@ TEST(BinBody, IsInTheHullsOfItsQuarters) {
         frame.y = glm::normalize(glm::cross(frame.x, random.direction()));
         frame.z = glm::cross(frame.x, frame.y);
         const int quarter = random.integer(0, 3);
-        const BinHull hull = core::BinBody(ellipsoid, bin, 0.0, frame).quarters()[static_cast<std::size_t>(quarter)];
+        BinHull hull = core::BinBody(ellipsoid, bin, 0.0, frame).quarters()[static_cast<std::size_t>(quarter)];
+        const double top = random.chance(0.5) ? 1.0 : random.uniform();
+        hull.lowerTop(top);
         // at the middle the interpolation is worst
         const auto share = [&] { return random.chance(0.5) ? 0.5 : random.uniform(); };
         const double p = share(), l = share(), h = random.uniform();
         const glm::dvec3 point =
             ellipsoid.toEcef({south + 0.5 * (quarter / 2 + p) * size, west + 0.5 * (quarter % 2 + l) * wider,
-                              low + h * bin.altitude().width()});
+                              low + h * top * bin.altitude().width()});
         glm::dvec3 inHull(0.0);
         for (std::size_t i = 0; i < 8; ++i) {
             inHull += (i % 2 != 0 ? l : 1.0 - l) * (i / 2 % 2 != 0 ? p : 1.0 - p) * (i / 4 != 0 ? h : 1.0 - h) *

@@ -46,6 +46,10 @@ struct GridCell {
     std::array<glm::dvec3, 4> corners;
 };
 
+/// The mesh of a grid with skirts of `depth` metres along its border, each post of which has another vertex below.
+[[nodiscard]] core::EcefMesh withSkirts(const core::Ellipsoid& ellipsoid, const core::EcefMesh& grid,
+                                        std::uint32_t cells, double depth);
+
 /// As many meshes have it: each triangle has vertices of its own.
 [[nodiscard]] core::EcefMesh unmerged(const core::EcefMesh& mesh);
 

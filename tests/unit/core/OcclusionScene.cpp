@@ -241,13 +241,16 @@ void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTil
 std::vector<Quarter> frontToBack(const OcclusionScene& scene, const HorizonBuffer& buffer, double reach) {
     std::vector<Quarter> sorted;
     for (const GroundTile& tile : scene.tiles) {
-        const auto hulls = core::BinBody(scene.ellipsoid, tile.bin, reach, frameOf(scene)).quarters();
+        const core::GroundPlates plates(scene.ellipsoid, tile.mesh, tile.bin);
+        auto hulls = core::BinBody(scene.ellipsoid, tile.bin, reach, frameOf(scene)).quarters();
+        plates.lowerTops(tile.bin, hulls);
         for (std::size_t i = 0; i < 4; ++i) {
             const auto half = [](const Interval& whole, bool isUpper) -> Interval {
                 return {isUpper ? whole.middle() : whole.lower, isUpper ? whole.upper : whole.middle()};
             };
+            const auto [low, high] = tile.bin.altitude();
             const GeodeticBin bin(half(tile.bin.latitude(), i / 2 == 1), half(tile.bin.longitude(), i % 2 == 1),
-                                  tile.bin.altitude());
+                                  {low, std::clamp(plates.most(i, tile.bin), low, high)});
             sorted.push_back({{{}, bin}, buffer.outlineOf(hulls[i])});
         }
     }

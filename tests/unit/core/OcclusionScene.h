@@ -68,7 +68,8 @@ struct Quarter {
     core::HorizonBuffer::Outline outline;
 };
 
-/// The quarters of all tiles, the nearest first: so the buffer has to be asked. `reach` as above.
+/// The quarters of all tiles, up to the tops of their meshes, the nearest first: so the buffer has to be asked. `reach`
+/// as above.
 [[nodiscard]] std::vector<Quarter> frontToBack(const OcclusionScene& scene, const core::HorizonBuffer& buffer,
                                                double reach = 0.0);
 

@@ -25,29 +25,6 @@ using core::GroundPlates;
 
 constexpr std::array<std::size_t, 4> kGrids{1, 2, 4, 8};
 
-// Walls that hang from the border of a grid of posts.
-EcefMesh withSkirts(const Ellipsoid& ellipsoid, const EcefMesh& grid, std::uint32_t cells, double depth) {
-    EcefMesh mesh = grid;
-    const std::uint32_t posts = cells + 1;
-    const auto addWall = [&](std::uint32_t from, std::uint32_t step) {
-        for (std::uint32_t i = 0; i < posts; ++i) {
-            const std::uint32_t top = from + i * step, bottom = static_cast<std::uint32_t>(mesh.size());
-            Geodetic place = ellipsoid.toGeodetic(grid.vertex(top));
-            place.altitude -= depth;
-            addVertex(mesh, ellipsoid.toEcef(place));
-            if (i > 0) {
-                for (const std::uint32_t corner : {top - step, bottom - 1, bottom, top - step, bottom, top})
-                    mesh.triangles.push_back(corner);
-            }
-        }
-    };
-    addWall(0, 1);
-    addWall(cells * posts, 1);
-    addWall(0, posts);
-    addWall(cells, posts);
-    return mesh;
-}
-
 std::vector<double> boundsIn(const GroundPlates& plates) {
     std::vector<double> bounds;
     for (const std::size_t cells : kGrids) {

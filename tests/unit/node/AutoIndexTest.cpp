@@ -12,7 +12,10 @@
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
+#include <osg/Billboard>
+#include <osg/Geometry>
 #include <osgDB/ReadFile>
+#include <osgDB/WriteFile>
 
 #include <chrono>
 #include <cmath>
@@ -93,6 +96,23 @@ TEST_F(AutoIndex, LoadedTilesGetItsBinsInUpdateTraversals) {
     EXPECT_TRUE(isRootWhole());
     EXPECT_FALSE(installedOn(north)->getDeclaredBin().valid());
     EXPECT_NEAR(installedOn(north)->getBin().bin().altitude().upper, 900.0, 1.0);
+}
+
+// Billboards turn to the eye: their tile has no bounds in the index, and those above it have none either.
+TEST_F(AutoIndex, TilesAboveOneWithoutBoundsAreCulledByWhatIsLoaded) {
+    const std::string file = _folder.path() + "/children.osgb";
+    const osg::ref_ptr<osg::Group> children = osgDB::readRefFile<osg::Group>(file);
+    const osg::ref_ptr<osg::Billboard> tree = new osg::Billboard;
+    tree->addDrawable(new osg::Geometry);
+    children->getChild(0)->asGroup()->addChild(tree);
+    ASSERT_TRUE(osgDB::writeNodeFile(*children, file));
+    for (int i = 0; i < 2; ++i) {
+        open();
+        ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
+        EXPECT_TRUE(installedOn(*_root)->getBin().valid()) << i;
+        EXPECT_FALSE(isRootWhole()) << i;
+        EXPECT_FALSE(isIndexAwaited(*_scene));
+    }
 }
 
 TEST_F(AutoIndex, IsMadeAnewWhenAFileHasChanged) {

@@ -87,6 +87,33 @@ TEST(TerrainOcclusion, HidesWhatIsBehindARidge) {
     EXPECT_TRUE(low.drawsFarTile());
 }
 
+// Bins of the row reach up to 9000 m, for finer tiles; the mesh behind the ridge is at 0 m.
+TEST(TerrainOcclusion, HidesAMeshByItsOwnHeightWhereNoFinerTileIsDue) {
+    RidgeGlobe globe(3500.0);
+    installBins(*globe.root, withOcclusion());
+    osg::PagedLOD& far = *globe.row[4];
+    const float never = 0.0f, always = 1e9f;
+    const auto setFinerWithin = [&far](float distance) {
+        far.setRange(0, distance, 1e10f);
+        far.setRange(1, 0.0f, distance);
+    };
+    for (int i = 0; i < 3; ++i) {
+        setFinerWithin(never);
+        EXPECT_FALSE(globe.drawsFarTile()) << i;
+        setFinerWithin(always);
+        EXPECT_TRUE(globe.drawsFarTile()) << i;
+    }
+    // both may be drawn
+    setFinerWithin(never);
+    far.setRange(1, 0.0f, 1e10f);
+    EXPECT_TRUE(globe.drawsFarTile());
+    far.setRange(1, 0.0f, never);
+    EXPECT_FALSE(globe.drawsFarTile());
+    // where OSG chooses by pixels the kit does not know what it will choose
+    far.setRangeMode(osg::LOD::PIXEL_SIZE_ON_SCREEN);
+    EXPECT_TRUE(globe.drawsFarTile());
+}
+
 TEST(TerrainOcclusion, IsTheSameWhenTilesAreTestedOneByOne) {
     RidgeGlobe globe;
     installBins(*globe.root, withOcclusion());

@@ -15,6 +15,14 @@
 
 namespace osgAnalyticBin::core {
 
+// Positions are linear in altitude.
+void BinHull::lowerTop(double share) noexcept {
+    for (std::size_t i = 0; i < 4; ++i) {
+        const glm::dvec3 bottom = corner(i);
+        setCorner(i + 4, bottom + share * (corner(i + 4) - bottom));
+    }
+}
+
 BinBody::Angle::Angle(double radians) noexcept : sine(std::sin(radians)), cosine(std::cos(radians)) {}
 
 BinBody::Angle BinBody::Angle::plus(const Angle& other) const noexcept {

@@ -70,7 +70,7 @@ std::vector<CellRange> rangesOf(const Interval& extents, std::size_t cells, std:
 
 // Source: doc/theory/occlusion.md, section 3, "Grids".
 GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const GeodeticGrid& grid, const std::vector<double>& altitudes,
-                           double margin)
+                           double margin, double skirt)
     : GroundPlates(ellipsoid, grid.latitude, grid.longitude) {
     const bool isFinite = std::all_of(altitudes.begin(), altitudes.end(), [](double h) { return std::isfinite(h); });
     if (!isFinite || grid.columns < 3 || grid.rows < 3 || !mayStandBeside(margin)) return;
@@ -117,7 +117,19 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const GeodeticGrid& grid,
             }
         });
     }
-    encode(low, margin);
+    std::array<double, 4> high;
+    high.fill(-std::numeric_limits<double>::infinity());
+    cells.forEach([&](std::size_t row, std::size_t column, const Interval& between) {
+        const auto met = [](const Interval& extents, double width, std::size_t i, double beyond) -> Interval {
+            const double from = extents.lower + width * static_cast<double>(i);
+            return {from - beyond, from + width + beyond};
+        };
+        forEachQuarter(grid.latitude, grid.longitude, met(grid.latitude, along, row, reach.aside),
+                       met(grid.longitude, across, column, reach.around),
+                       [&](std::size_t quarter) { high[quarter] = std::max(high[quarter], between.upper); });
+    });
+    encode(low, high, margin);
+    if (!mayHang(skirt)) _most.fill(0);
 }
 
 }  // namespace osgAnalyticBin::core

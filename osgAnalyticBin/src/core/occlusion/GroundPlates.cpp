@@ -45,6 +45,7 @@ public:
         _isCovered.fill(false);
         _isDoubted.fill(false);
         _low.fill(kInfinity);
+        _high.fill(-kInfinity);
         findMiddles();
         findVertices();
         for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) addTriangle(&mesh.triangles[i]);
@@ -52,7 +53,7 @@ public:
         for (std::size_t i = 0; i < kNumbers; ++i) {
             if (!_isCovered[i] || _isDoubted[i]) _low[i] = -kInfinity;
         }
-        plates.encode(_low, margin);
+        plates.encode(_low, _high, margin);
     }
 
 private:
@@ -177,12 +178,30 @@ private:
         }
     }
 
+    // For the quarters that the bounds reach into.
+    void raise(const GeodeticBin& met) {
+        const bool isAround = met.empty() || met.isFullCircle();
+        const double top = met.empty() ? kInfinity : met.altitude().upper;
+        const Interval &latitude = _plates._latitude, &longitude = _plates._longitude;
+        forEachQuarter(latitude, longitude, met.empty() ? latitude : met.latitude(),
+                       isAround ? longitude : met.longitude(),
+                       [&](std::size_t quarter) { _high[quarter] = std::max(_high[quarter], top); });
+    }
+
     void addTriangle(const std::uint32_t* triangle) {
         const Corners corners = cornersOf(triangle);
         const auto [a, b, c] = corners;
-        if (a == b || b == c || c == a) return;
+        // an end of a line, which may run through all quarters
+        const bool isPoint = triangle[0] == triangle[1] && triangle[1] == triangle[2];
+        if (isPoint) {
+            for (double& high : _high) high = std::max(high, _vertices[a].altitude);
+            return;
+        }
         const TriangleSides sides = sidesOf(corners);
         const GeodeticBin bounds = boundsOf(corners, sides);
+        raise(bounds);
+        // skirts that are folded up
+        if (a == b || b == c || c == a) return;
         if (bounds.empty() || !isUpward(corners, sides)) {
             forEachCell(bounds, [&](std::size_t cell) { _isDoubted[cell] = true; });
             return;
@@ -239,6 +258,7 @@ private:
     std::array<Middle, kNumbers> _middles;
     std::array<bool, kNumbers> _isCovered, _isDoubted;
     std::array<double, kNumbers> _low;
+    std::array<double, 4> _high;  // of the quarters
 };
 
 GroundPlates::GroundPlates() noexcept : _ellipsoid(1.0, 1.0) {
@@ -259,7 +279,8 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const Interval& latitude,
     }
 }
 
-GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin)
+GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin,
+                           double skirt)
     : GroundPlates(ellipsoid, extents.latitude(), extents.longitude()) {
     if (extents.empty() || !mayStandBeside(margin)) return;
     const auto isFinite = [](const std::vector<double>& numbers) {
@@ -268,9 +289,14 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, con
     if (!isFinite(mesh.x) || !isFinite(mesh.y) || !isFinite(mesh.z)) return;
     // those of a grid take less time
     const auto posts = postGridOf(ellipsoid, mesh, extents);
-    if (posts && fills(posts->grid))
-        *this = GroundPlates(ellipsoid, posts->grid, posts->altitudes, margin + posts->error);
-    if (!isKnown()) Builder(*this, mesh, margin);
+    if (posts && fills(posts->grid)) {
+        *this = GroundPlates(ellipsoid, posts->grid, posts->altitudes, margin + posts->error, skirt);
+        for (std::size_t quarter = 0; quarter < 4; ++quarter)
+            raise(quarter, posts->skirtTops[quarter] + margin + posts->error);
+    }
+    if (isKnown()) return;
+    Builder(*this, mesh, margin);
+    if (!mayHang(skirt)) _most.fill(kUnknown);
 }
 
 // Whether a grid reaches into all cells as far as triangles have to.
@@ -285,20 +311,28 @@ bool GroundPlates::fills(const GeodeticGrid& grid) const noexcept {
 bool GroundPlates::mayStandBeside(double margin) const noexcept {
     const bool isRound = std::abs(_ellipsoid.eccentricitySquared()) <= kRoundest;
     if (!isRound || !(_latitude.width() > 0.0) || !(_longitude.width() > 0.0)) return false;
-    // the narrowest rim, along a parallel that may end a little nearer to the pole
-    const double poleward = std::max(std::abs(_latitude.lower), std::abs(_latitude.upper));
-    const double narrowest = std::min(_latitude.width(), 0.9 * std::cos(poleward) * _longitude.width());
-    const double rim = kRim / 8.0 * 0.9 * smallestCurvatureRadius(_ellipsoid) * narrowest;
+    const double rim = kRim / 8.0 * narrowest();
     return _longitude.width() < kPi && margin >= 0.0 && (margin == 0.0 || margin < kMarginOfRim * rim);
 }
 
-// Rounds each bound down to 16 bits. Minus infinity: not known.
-void GroundPlates::encode(const std::array<double, kNumbers>& low, double margin) noexcept {
+// Metres of the extents, less than across any part of them; a parallel may end a little nearer to the pole.
+double GroundPlates::narrowest() const noexcept {
+    const double poleward = std::max(std::abs(_latitude.lower), std::abs(_latitude.upper));
+    return 0.9 * smallestCurvatureRadius(_ellipsoid) *
+           std::min(_latitude.width(), 0.9 * std::cos(poleward) * _longitude.width());
+}
+
+// Rounds lower bounds down to 16 bits, and upper bounds up. Minus infinity: not known.
+void GroundPlates::encode(const std::array<double, kNumbers>& low, const std::array<double, 4>& high,
+                          double margin) noexcept {
     // more than the error of altitudes
     const double room = margin + 2e-14 * std::max(_ellipsoid.equatorialRadius(), _ellipsoid.polarRadius());
     Interval known{kInfinity, -kInfinity};
     for (const double bound : low) {
         if (std::isfinite(bound)) known = {std::min(known.lower, bound - room), std::max(known.upper, bound)};
+    }
+    for (const double bound : high) {
+        if (std::isfinite(bound)) known.upper = std::max(known.upper, bound + room);
     }
     if (!(known.lower <= known.upper)) return;
     _step = known.width() / static_cast<double>(kLastCode - 4);
@@ -309,6 +343,22 @@ void GroundPlates::encode(const std::array<double, kNumbers>& low, double margin
         _least[i] = static_cast<std::uint16_t>(std::clamp<double>(code, kFirstCode, kLastCode));
         while (_least[i] > kUnknown && decoded(_least[i]) > low[i] - room) --_least[i];
     }
+    _most.fill(kFirstCode);
+    for (std::size_t i = 0; i < high.size(); ++i) raise(i, high[i] + room);
+}
+
+// Raises the upper bound of a quarter to an altitude at least.
+void GroundPlates::raise(std::size_t quarter, double altitude) noexcept {
+    std::uint16_t& code = _most[quarter];
+    if (code == kUnknown || altitude <= decoded(code)) return;
+    const double next = std::ceil((altitude - _base) / _step);
+    if (!(next < kLastCode)) {
+        code = kUnknown;
+        return;
+    }
+    code = static_cast<std::uint16_t>(std::max<double>(next, code));
+    // rounding
+    if (decoded(code) < altitude) ++code;
 }
 
 bool GroundPlates::isKnown() const noexcept {
@@ -318,6 +368,38 @@ bool GroundPlates::isKnown() const noexcept {
 double GroundPlates::least(std::size_t cells, std::size_t row, std::size_t column) const noexcept {
     const std::uint16_t code = _least[numberOf(cells, row, column)];
     return code == kUnknown ? -kInfinity : decoded(code);
+}
+
+// Whether skirts stay in the quarters that their upper edges count for. Source: doc/theory/occlusion.md, section 3,
+// "Tops".
+bool GroundPlates::mayHang(double skirt) const noexcept {
+    const double slender = _latitude.width() / std::max(_latitude.width(), _longitude.width());
+    const double deepest = std::min(0.5 * narrowest(), 0.06 * smallestCurvatureRadius(_ellipsoid) * slender);
+    return skirt >= 0.0 && skirt <= deepest;
+}
+
+bool GroundPlates::hasQuartersOf(const GeodeticBin& bin) const noexcept {
+    const auto isMiddle = [](const Interval& extents, const Interval& ofBin) {
+        return std::abs(ofBin.middle() - extents.middle()) <= 0.25 * kRoomOfQuarter * extents.width();
+    };
+    return isMiddle(_latitude, bin.latitude()) && isMiddle(_longitude, bin.longitude());
+}
+
+double GroundPlates::most(std::size_t quarter, const GeodeticBin& bin) const noexcept {
+    return _most[quarter] != kUnknown && hasQuartersOf(bin) ? decoded(_most[quarter]) : kInfinity;
+}
+
+bool GroundPlates::lowerTops(const GeodeticBin& bin, std::array<BinHull, 4>& quarters) const noexcept {
+    if (!hasQuartersOf(bin)) return false;
+    const auto [low, high] = bin.altitude();
+    bool isLowered = false;
+    for (std::size_t quarter = 0; quarter < quarters.size(); ++quarter) {
+        const double top = decoded(_most[quarter]);
+        if (_most[quarter] == kUnknown || top >= high) continue;
+        quarters[quarter].lowerTop(std::max(top - low, 0.0) / (high - low));
+        isLowered = true;
+    }
+    return isLowered;
 }
 
 // Whether columns keep within the rims of a grid's cells.

@@ -58,6 +58,24 @@ struct CellRange {
             static_cast<std::ptrdiff_t>(std::clamp(end, 0.0, most)) - 1};
 }
 
+/// What comes nearer to a quarter of the extents than this share of their width counts for it.
+inline constexpr double kRoomOfQuarter = 0.06;
+
+/// Calls visit(quarter) for each quarter of the extents that what lies between these latitudes and longitudes counts
+/// for. Quarters are numbered as BinBody::quarters() does; they have no outer ends.
+template <class Visit>
+void forEachQuarter(const Interval& latitude, const Interval& longitude, const Interval& metLatitude,
+                    const Interval& metLongitude, Visit&& visit) {
+    const auto halves = [](const Interval& extents, const Interval& met) {
+        const double room = kRoomOfQuarter * extents.width();
+        return std::array<bool, 2>{met.lower <= extents.middle() + room, met.upper >= extents.middle() - room};
+    };
+    const std::array<bool, 2> rows = halves(latitude, metLatitude), columns = halves(longitude, metLongitude);
+    for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+        if (rows[quarter / 2] && columns[quarter % 2]) visit(quarter);
+    }
+}
+
 /// Metres of a point from the axis. A plane has none: as far away as it is on large ellipsoids.
 [[nodiscard]] inline double axisDistanceOf(const Ellipsoid& ellipsoid, const glm::dvec3& point) {
     return ellipsoid.isPlane() ? ellipsoid.equatorialRadius() : std::sqrt(point.x * point.x + point.y * point.y);

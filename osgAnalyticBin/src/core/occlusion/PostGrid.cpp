@@ -116,8 +116,12 @@ private:
         std::vector<std::uint8_t> leftOut((_rows - 1) * (_columns - 1), 0);
         for (std::size_t i = 0; i + 2 < _mesh.triangles.size(); i += 3) {
             const Corners corners = triangle(i);
-            if (!hasArea(corners)) continue;
-            if (*std::max_element(corners.begin(), corners.end()) >= _rows * _columns) {
+            // the ends of lines
+            if (corners[0] == corners[1] && corners[1] == corners[2]) return false;
+            const bool hasOthers = *std::max_element(corners.begin(), corners.end()) >= _rows * _columns;
+            // skirts may be folded up
+            if (!hasOthers && !hasArea(corners)) continue;
+            if (hasOthers) {
                 if (!isSkirt(corners)) return false;
                 continue;
             }
@@ -168,6 +172,12 @@ private:
         const TriangleReach reach(sides, _ellipsoid, radius, axisDistance);
         const Interval lowered{altitude.lower - reach.sag, altitude.upper};
         if (!TriangleReach::holdsFor(sides, radius, axisDistance, longitude.width(), lowered)) return false;
+        forEachQuarter(_extents.latitude(), _extents.longitude(),
+                       {latitude.lower - reach.aside, latitude.upper + reach.aside},
+                       {_middle + longitude.lower - reach.around, _middle + longitude.upper + reach.around},
+                       [&](std::size_t quarter) {
+                           _found.skirtTops[quarter] = std::max(_found.skirtTops[quarter], altitude.upper);
+                       });
         const auto isAtBorder = [](const Interval& met, double around, const Interval& of, double middle) {
             const double room = kBorder * of.width() - around;
             return middle + met.upper <= of.lower + room || middle + met.lower >= of.upper - room;

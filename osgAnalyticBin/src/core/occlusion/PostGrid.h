@@ -8,6 +8,8 @@
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 #include <osgAnalyticBin/core/mesh/MeshBounds.h>
 
+#include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -18,6 +20,8 @@ struct PostGrid {
     GeodeticGrid grid;
     std::vector<double> altitudes;  ///< metres, row by row from the south-west
     double error = 0.0;             ///< metres by which posts may stand beside their places
+    /// Metres, the highest that a skirt reaches for each quarter of the extents; minus infinity where it has none.
+    std::array<double, 4> skirtTops{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 };
 
 /// The grid whose posts are the first vertices of a mesh, row by row from the south-west. The mesh lies within the

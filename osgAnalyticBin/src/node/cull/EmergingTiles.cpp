@@ -43,9 +43,9 @@ void EmergingTiles::look(const ShownDatabase& database, const LevelView& view, c
     then.span = *span;
     if (!findOccluded(database, then)) return;
     for (std::size_t i = 0; i < now.findings.size(); ++i) {
-        const bool isEmerging =
-            now.findings[i] == FoundOcclusion::Finding::Hidden && then.findings[i] == FoundOcclusion::Finding::Seen;
-        if (isEmerging) _tiles[database.view.plan->shown()[i].tile] = time;
+        const TilePlan::ShownTile& tile = database.view.plan->shown()[i];
+        const bool isEmerging = now.hides(i, tile) && then.findings[i] == FoundOcclusion::Finding::Seen;
+        if (isEmerging) _tiles[tile.tile] = time;
     }
 }
 

@@ -35,6 +35,7 @@ struct Candidate {
     double distance;   // metres from the eye to a corner of the bin, the nearest one
     double size;       // metres from corner to corner
     bool isHidden;     // as far as is known
+    bool isMeshAlone;  // finer levels may reach higher
     bool isInPicture;  // at least one quarter is
 };
 
@@ -83,9 +84,10 @@ public:
         _found.covered = covered();
         _found.findings.clear();
         for (const Candidate& candidate : _candidates) {
-            const FoundOcclusion::Finding inPicture =
-                candidate.isHidden ? FoundOcclusion::Finding::Hidden : FoundOcclusion::Finding::Seen;
-            _found.findings.push_back(candidate.isInPicture ? inPicture : FoundOcclusion::Finding::Beside);
+            using Finding = FoundOcclusion::Finding;
+            const Finding hidden = candidate.isMeshAlone ? Finding::MeshHidden : Finding::Hidden;
+            const Finding inPicture = candidate.isHidden ? hidden : Finding::Seen;
+            _found.findings.push_back(candidate.isInPicture ? inPicture : Finding::Beside);
         }
         return true;
     }
@@ -97,14 +99,17 @@ private:
         const GeodeticBin& bin = tile.getBin().bin();
         const core::Interval altitude{tile.getBinLow(), tile.getBinHigh()};
         if (bin.empty() || !std::isfinite(altitude.lower) || !std::isfinite(altitude.upper)) return false;
-        Candidate candidate{&shown, HUGE_VAL, 0.0, true, false};
+        Candidate candidate{&shown, HUGE_VAL, 0.0, true, false, false};
         const GeodeticBin drawn = bin.withAltitude(altitude);
         const core::BinBody body(_ellipsoid, drawn, tile.getBin().margin(), _frame);
         if (_buffer.isBeside(body.ball())) {
             _candidates.push_back(candidate);
             return true;
         }
-        const auto hulls = body.quarters();
+        auto hulls = body.quarters();
+        const InstalledTile* const installed = tile.getInstalledTile();
+        const core::GroundPlates* const plates = installed && shown.isOnlyLevel ? installed->plates() : nullptr;
+        candidate.isMeshAlone = plates && plates->lowerTops(drawn, hulls);
         candidate.size = 2.0 * glm::distance(hulls.back().corner(0), hulls.back().corner(7));
         std::size_t number = 0;
         for (const BinHull& hull : hulls) {

@@ -5,6 +5,7 @@
 
 #include "LevelPicture.h"
 #include "ShownDepth.h"
+#include "TilePlan.h"
 
 #include <osgAnalyticBin/CoveredPicture.h>
 #include <osgAnalyticBin/Export.h>
@@ -34,7 +35,12 @@ struct FoundOcclusion {
         double margin, low, high;
         [[nodiscard]] OSGANALYTICBIN_EXPORT bool operator==(const Tile& other) const;
     };
-    enum class Finding : std::uint8_t { Beside, Seen, Hidden };
+    enum class Finding : std::uint8_t {
+        Beside,
+        Seen,
+        Hidden,
+        MeshHidden  ///< finer levels of the tile may be seen
+    };
 
     std::vector<Tile> tiles;        ///< all tiles shown at the time of the search
     std::vector<Tile> shown;        ///< all tiles shown in the present view; a member to avoid allocations
@@ -63,6 +69,11 @@ struct FoundOcclusion {
 
     /// Whether the box of eyes contains this one.
     [[nodiscard]] bool holds(const glm::dvec3& place) const;
+
+    /// Whether a tile is hidden. `tile`: as it is shown in the present view. Requires: i < findings.size().
+    [[nodiscard]] bool hides(std::size_t i, const TilePlan::ShownTile& tile) const {
+        return findings[i] == Finding::Hidden || (findings[i] == Finding::MeshHidden && tile.isOnlyLevel);
+    }
 
     /// Whether the eye has moved too far since the last view for a continuous motion.
     [[nodiscard]] bool isJump(const glm::dvec3& step) const;

@@ -23,7 +23,7 @@ namespace {
 
 class LaterRequests : public osg::NodeVisitor::DatabaseRequestHandler {
 public:
-    explicit LaterRequests(DatabaseRequestHandler& pager) : _pager(&pager) {}
+    void setPager(DatabaseRequestHandler* pager) { _pager = pager; }
 
     // priorities are from 0 to 1 unless a database changes them
     void requestNodeFile(const std::string& file, osg::NodePath& path, float priority, const osg::FrameStamp* stamp,
@@ -32,40 +32,58 @@ public:
     }
 
 private:
-    const osg::ref_ptr<DatabaseRequestHandler> _pager;
+    osg::ref_ptr<DatabaseRequestHandler> _pager;
 };
 
-// What is common to visitors that request files in the place of a cull visitor.
+// What is common to visitors that request files in the place of a cull visitor. Each thread has one of each kind: a
+// visitor takes longer to make than to ask most tiles.
 class Requests : public osg::NodeVisitor {
 public:
-    explicit Requests(osg::NodeVisitor& cullVisitor)
-        : osg::NodeVisitor(CULL_VISITOR, TRAVERSE_ACTIVE_CHILDREN), _cullVisitor(cullVisitor) {
-        setFrameStamp(const_cast<osg::FrameStamp*>(cullVisitor.getFrameStamp()));  // it is read alone
-        setTraversalNumber(cullVisitor.getTraversalNumber());
-        setTraversalMask(cullVisitor.getTraversalMask());
-        setNodeMaskOverride(cullVisitor.getNodeMaskOverride());
-        setDatabaseRequestHandler(new LaterRequests(*cullVisitor.getDatabaseRequestHandler()));
-        getNodePath() = cullVisitor.getNodePath();
+    Requests() : osg::NodeVisitor(CULL_VISITOR, TRAVERSE_ACTIVE_CHILDREN), _later(new LaterRequests) {
+        setDatabaseRequestHandler(_later);
     }
 
     using osg::NodeVisitor::apply;
     void apply(osg::Node&) override {}
 
     float getDistanceToEyePoint(const osg::Vec3& point, bool isScaled) const override {
-        return _cullVisitor.getDistanceToEyePoint(point, isScaled);
+        return _cullVisitor->getDistanceToEyePoint(point, isScaled);
     }
     float getDistanceToViewPoint(const osg::Vec3& point, bool isScaled) const override {
-        return _cullVisitor.getDistanceToViewPoint(point, isScaled);
+        return _cullVisitor->getDistanceToViewPoint(point, isScaled);
+    }
+
+    // `cullVisitor`: at the node, or at its parent.
+    void request(osg::Node& node, osg::NodeVisitor& cullVisitor) {
+        _cullVisitor = &cullVisitor;
+        _later->setPager(cullVisitor.getDatabaseRequestHandler());
+        setFrameStamp(const_cast<osg::FrameStamp*>(cullVisitor.getFrameStamp()));  // it is read alone
+        setTraversalNumber(cullVisitor.getTraversalNumber());
+        setTraversalMask(cullVisitor.getTraversalMask());
+        setNodeMaskOverride(cullVisitor.getNodeMaskOverride());
+        getNodePath() = cullVisitor.getNodePath();
+        if (isAt(node, *this)) getNodePath().pop_back();
+        node.accept(*this);
+        getNodePath().clear();
+        setFrameStamp(nullptr);
+        _later->setPager(nullptr);
+    }
+
+    [[nodiscard]] static bool isAt(const osg::Node& node, const osg::NodeVisitor& visitor) {
+        const osg::NodePath& path = visitor.getNodePath();
+        return !path.empty() && path.back() == &node;
     }
 
 protected:
-    osg::NodeVisitor& _cullVisitor;
+    osg::NodeVisitor* _cullVisitor = nullptr;
+
+private:
+    const osg::ref_ptr<LaterRequests> _later;
 };
 
 class RequestsAhead final : public Requests {
 public:
     using Requests::apply;
-    using Requests::Requests;
     void apply(osg::Group& group) override {
         if (typeid(group) == typeid(osg::Group)) traverse(group);
     }
@@ -86,15 +104,17 @@ bool isSphereCulled(osg::CullStack& cullStack, const osg::Node& node) {
 class RequestsOutOfView final : public Requests {
 public:
     // `entered`: the node whose frame the cull visitor is in already; null: it is at the parent.
-    RequestsOutOfView(osg::NodeVisitor& cullVisitor, const core::HorizonEye* eye, const osg::Node* entered)
-        : Requests(cullVisitor), _eye(eye), _entered(entered) {}
+    void setView(const core::HorizonEye* eye, const osg::Node* entered) {
+        _eye = eye;
+        _entered = entered;
+    }
 
     // PagedLODs that choose by pixels ask it
-    osg::CullStack* asCullStack() override { return _cullVisitor.asCullStack(); }
+    osg::CullStack* asCullStack() override { return _cullVisitor->asCullStack(); }
 
     using Requests::apply;
     void apply(osg::Group& group) override {
-        if (!dynamic_cast<osgTerrain::TerrainTile*>(&group) && isAsking(group)) traverse(group);
+        if (isAsking(group) && !dynamic_cast<osgTerrain::TerrainTile*>(&group)) traverse(group);
     }
     void apply(osg::Transform& transform) override {
         if (&transform == _entered) return traverse(transform);
@@ -117,35 +137,25 @@ private:
         return !isSphereCulled(*asCullStack(), node);
     }
 
-    const core::HorizonEye* const _eye;
-    const osg::Node* const _entered;
+    const core::HorizonEye* _eye = nullptr;
+    const osg::Node* _entered = nullptr;
 };
-
-bool isAt(const osg::Node& node, const osg::NodeVisitor& visitor) {
-    const osg::NodePath& path = visitor.getNodePath();
-    return !path.empty() && path.back() == &node;
-}
-
-void request(osg::Node& node, Requests& requests) {
-    if (isAt(node, requests)) requests.getNodePath().pop_back();
-    node.accept(requests);
-}
 
 }  // namespace
 
 void requestAhead(osg::Node& node, osg::NodeVisitor& cullVisitor) {
     if (!cullVisitor.getDatabaseRequestHandler()) return;
-    RequestsAhead requests(cullVisitor);
-    request(node, requests);
+    thread_local RequestsAhead requests;
+    requests.request(node, cullVisitor);
 }
 
 void requestOutOfView(osg::Node& node, osg::NodeVisitor& cullVisitor, const core::HorizonEye* eye) {
     if (!cullVisitor.getDatabaseRequestHandler() || !cullVisitor.asCullStack()) return;
-    const bool isEntered = isAt(node, cullVisitor);
-    // a visitor takes longer to make than a sphere to test
+    const bool isEntered = Requests::isAt(node, cullVisitor);
     if (!isEntered && isSphereCulled(*cullVisitor.asCullStack(), node)) return;
-    RequestsOutOfView requests(cullVisitor, eye, isEntered ? &node : nullptr);
-    request(node, requests);
+    thread_local RequestsOutOfView requests;
+    requests.setView(eye, isEntered ? &node : nullptr);
+    requests.request(node, cullVisitor);
 }
 
 }  // namespace osgAnalyticBin

@@ -210,7 +210,7 @@ private:
         } else if (paged) {
             searchPaged(*paged, tile);
         } else {
-            show(tile, node);
+            show(tile, node, true);
         }
     }
 
@@ -267,7 +267,7 @@ private:
         });
     }
 
-    void show(const SearchedTile& tile, osg::Node& mesh) {
+    void show(const SearchedTile& tile, osg::Node& mesh, bool isOnlyLevel) {
         if (tile.isAboutEye && _place->altitude <= surfaceOf(tile).upper)
             _nearGround.push_back({&tile.callback, &mesh});
         // tiles about the eye are searched even beside the frustum, for the ground alone
@@ -275,7 +275,7 @@ private:
         if (!isDrawnWhole(mesh, tile)) _hasHole = true;
         if (_database.findsOccluded && _database.view.plan) {
             const bool isSure = !_isChoiceUnknown && tile.isFitted;
-            _database.view.plan->addShown({&tile.callback, &mesh, isSure, tile.result, tile.slot});
+            _database.view.plan->addShown({&tile.callback, &mesh, isSure, isOnlyLevel, tile.result, tile.slot});
         }
         // what a tile draws by itself is in its bin
         if (tile.isFitted && tile.numbers.binLow >= -_depth) return;
@@ -296,22 +296,25 @@ private:
         const Scoped unknown(_isChoiceUnknown, _isChoiceUnknown || !byDistance);
         const float range = byDistance ? _visitor.getDistanceToViewPoint(node.getCenter(), true) : 0.0f;
         const unsigned int children = node.getNumChildren();
+        const auto isDue = [&](unsigned int i) {
+            return !byDistance || (range >= node.getMinRange(i) && range < node.getMaxRange(i));
+        };
+        unsigned int due = 0;
+        for (unsigned int i = 0; i < node.getNumRanges(); ++i) due += isDue(i) ? 1U : 0U;
         bool isOneAwaited = !byDistance;
-        bool isShown = isOneAwaited;
         for (unsigned int i = 0; i < node.getNumRanges(); ++i) {
-            if (byDistance && (range < node.getMinRange(i) || range >= node.getMaxRange(i))) continue;
-            isShown = true;
-            if (i < children) searchChild(node, i, tile);
+            if (!isDue(i)) continue;
+            if (i < children) searchChild(node, i, tile, byDistance && due == 1);
             isOneAwaited = isOneAwaited || i >= children;
         }
         // the last child stands in for one that is awaited
-        if (isOneAwaited && children > 0) searchChild(node, children - 1, tile);
-        if ((!isShown || children == 0) && !isBeside(tile)) _hasHole = true;
+        if (isOneAwaited && children > 0) searchChild(node, children - 1, tile, false);
+        if (((byDistance && due == 0) || children == 0) && !isBeside(tile)) _hasHole = true;
     }
 
-    void searchChild(osg::PagedLOD& node, unsigned int i, const SearchedTile& tile) {
+    void searchChild(osg::PagedLOD& node, unsigned int i, const SearchedTile& tile, bool isOnlyLevel) {
         const bool isPaged = i < node.getNumFileNames() && !node.getFileName(i).empty();
-        if (!isPaged) return show(tile, *node.getChild(i));
+        if (!isPaged) return show(tile, *node.getChild(i), isOnlyLevel);
         searchNode(*node.getChild(i));
     }
 

@@ -110,7 +110,7 @@ OccludedTiles noteIn(TilePlan& plan, const FoundOcclusion& found, const Emerging
         const TilePlan::ShownTile& tile = plan.shown()[i];
         if (found.findings[i] == FoundOcclusion::Finding::Beside || plan.isOutOfView(tile)) continue;
         ++tiles.inView;
-        if (found.findings[i] != FoundOcclusion::Finding::Hidden) continue;
+        if (!found.hides(i, tile)) continue;
         ++tiles.hidden;
         plan.addOccluded(tile, emerging.contains(*tile.tile));
     }

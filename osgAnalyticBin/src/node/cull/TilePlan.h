@@ -26,6 +26,7 @@ public:
         const AnalyticBinCullCallback* tile;
         osg::Node* mesh;
         bool isSure;         ///< false: it may be shown, or another level in its place
+        bool isOnlyLevel;    ///< of the tile, that is shown or waited for
         std::size_t result;  ///< of its family; kAlone: it is tested alone
         unsigned int slot;   ///< among the result's bits
     };

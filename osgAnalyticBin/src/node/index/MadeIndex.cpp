@@ -67,7 +67,7 @@ MadeIndex indexFrom(const DatabaseFiles& files, FileRecords records) {
     warn(tree.unreadFiles(), files, "files are missing or broken",
          "the tiles above are taken to reach from -11500 m to 9000 m", made);
     warn(tree.unknownTiles(), files, "tiles have surfaces whose bounds are not known",
-         "they and the tiles above them are never culled", made);
+         "they and the tiles above them are culled by what is loaded of them, as without an index", made);
     return made;
 }
 

@@ -126,19 +126,18 @@ AnalyticBin dippedBin(const AnalyticBin& bin, const Database& database, const Pa
     return withAltitude(bin, {altitude.lower - dip, altitude.upper}, bin.sag() + dip);
 }
 
-// Returns: whether the index knows the tile as it is. `isContradicted`: it knows another tile in its place.
+// Returns: whether the index knows the tile as it is, and its bin. `isContradicted`: it knows another tile in its place.
 bool fitIndexed(const FoundTile& tile, const Database& database, const TerrainShape& shape, ParentTile& link,
                 TileFit& fit, bool& isContradicted) {
     bool isWhole = false;
     const auto entry = database.indexEntry(tile.frame.file, tile.ordinal, isWhole);
     const bool isAsKnown = entry && entry->fingerprint == tileFingerprint(tile);
     isContradicted = !isAsKnown && (entry || isWhole);
-    if (!isAsKnown) return false;
+    if (!isAsKnown || !entry->bin.valid()) return false;
     fit.isTerrain = true;
     fit.bin = entry->bin;
     fit.isScalable = hasTerrainTile(tile);
     fit.awaitsIndex = !isWhole;
-    if (!fit.bin.valid()) return true;
     linkTo(fit.bin.bin(), link);
     fit.surface = surfaceAbove(entry->ownLow, fit.bin);
     if (!isWhole) {

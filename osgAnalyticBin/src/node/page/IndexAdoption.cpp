@@ -30,6 +30,8 @@ bool adoptTile(const AwaitingTile& waiting, const AutoIndex& index, Database& da
         if (isWhole) Database::reportMisfit(tile, declared.valid() ? declared : callback->getBin());
         return !isWhole;
     }
+    // the tile is culled by what is loaded of it
+    if (!entry->bin.valid()) return false;
     const TerrainShape shape = callback->getTerrainShape().value_or(TerrainShape());
     const IndexedFit fit = fitByEntry(*entry, isWhole, waiting.skirt, database, shape, tile);
     if (fit.bin.valid()) {

@@ -199,7 +199,8 @@ std::optional<TerrainPosts> terrainPosts(osgTerrain::TerrainTile& tile, const os
     // a skirt of negative height stands up
     if (isBroken || (field && !(field->getSkirtHeight() >= 0.0f))) return std::nullopt;
     const core::Ellipsoid model = toCore(ellipsoid);
-    TerrainPosts posts{*grid, {}, model.isPlane() ? 0.0 : marginOf(*grid, model)};
+    TerrainPosts posts{*grid, {}, model.isPlane() ? 0.0 : marginOf(*grid, model), 0.0};
+    if (field) posts.skirt = static_cast<double>(field->getSkirtHeight());
     posts.altitudes.reserve(grid->rows * grid->columns);
     for (unsigned int row = 0; row < grid->rows; ++row) {
         for (unsigned int column = 0; column < grid->columns; ++column) {

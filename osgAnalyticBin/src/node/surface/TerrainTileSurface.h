@@ -26,6 +26,7 @@ struct TerrainPosts {
     core::GeodeticGrid grid;
     std::vector<double> altitudes;  ///< metres, row by row from the south-west
     double margin = 0.0;            ///< metres by which vertices may be rounded
+    double skirt = 0.0;             ///< metres that skirts hang down
 };
 
 /// The posts of a tile whose frame is ECEF. Returns: nullopt where its mesh is not a whole grid of such posts: with

@@ -62,6 +62,8 @@ public:
     [[nodiscard]] double drawingError(const core::Ellipsoid& globe) const {
         return globe.isPlane() ? drawingErrorInMap(_farthest) : osgAnalyticBin::drawingError(globe);
     }
+    // Metres that skirts hang down, which are not in the mesh.
+    [[nodiscard]] double skirt() const { return _skirt; }
     [[nodiscard]] const TerrainPosts* posts() const { return isKnown() && _posts ? &*_posts : nullptr; }
 
 private:
@@ -76,7 +78,11 @@ private:
         thread_local SurfaceMesh part;  // keeps its memory from tile to tile
         if (!isOfTriangles(drawable) || !readMesh(drawable, localToEcef(), part)) return giveUp();
         if (part.triangles.empty()) return;
-        if (_withoutSkirts && hasFoldedSurface(part, foldSkirts(part, *_withoutSkirts).marks)) return giveUp();
+        if (_withoutSkirts) {
+            const MeshSkirts skirts = foldSkirts(part, *_withoutSkirts);
+            if (hasFoldedSurface(part, skirts.marks)) return giveUp();
+            _skirt = std::max(_skirt, skirts.depth);
+        }
         dropUnusedVertices(part);
         const glm::dvec3 origin = toGlm(localToEcef().getTrans());
         for (std::size_t i = 0; i < part.size(); ++i)
@@ -93,6 +99,7 @@ private:
     core::EcefMesh& _mesh;
     std::optional<TerrainPosts> _posts;
     double _farthest = 0.0;  // of a vertex from the origin of its frame
+    double _skirt = 0.0;
 };
 
 double along(const core::Interval& interval, std::size_t i, std::size_t posts) {
@@ -132,13 +139,14 @@ PlatesAndExtents platesAndExtents(const TileMeshes& meshes) {
     const MeshUnion parts(meshes, &globe, mesh);
     const double error = parts.drawingError(globe);
     if (const TerrainPosts* const posts = parts.posts()) {
-        return {std::make_unique<const core::GroundPlates>(globe, posts->grid, posts->altitudes, posts->margin + error),
+        return {std::make_unique<const core::GroundPlates>(globe, posts->grid, posts->altitudes, posts->margin + error,
+                                                           posts->skirt),
                 {posts->grid.latitude, posts->grid.longitude, {0.0, 0.0}}};
     }
     if (!parts.isMesh()) return {};
     const core::MeshBounds bounds(globe, mesh);
     if (bounds.bin().empty() || bounds.touchesAxis()) return {};
-    return {std::make_unique<const core::GroundPlates>(globe, mesh, bounds.bin(), error), bounds.bin()};
+    return {std::make_unique<const core::GroundPlates>(globe, mesh, bounds.bin(), error, parts.skirt()), bounds.bin()};
 }
 
 }  // namespace

@@ -173,7 +173,7 @@ TEST(SmallCopy, BadOutputsAreRefusedAndLeaveNothing) {
     const std::string from = test::quoted(folder / "earth.osgb");
     expectError(binconv(from + ' ' + test::quoted(folder / "new.ive")), ".osgb, .osgt or .osgx", 2);
     expectError(binconv(from + ' ' + test::quoted(folder / "absent/new.osgb")), "absent");
-    expectError(binconv("--cluster maybe " + from + " x.osgb"), "--cluster maybe", 2);
+    expectError(binconv("--cluster maybe " + from + " x.osgb"), "--cluster: maybe", 2);
     expectError(binconv(from), "nothing to do", 2);
     // a folder in the way of the last file
     ASSERT_FALSE(folder.makeFolder("copy/a.osgb.tmp").empty());

@@ -218,7 +218,7 @@ TEST(SmallRun, BadCommandLinesAreOneLine) {
     expectFailure(runBinconv("--index " + test::quoted(folder.path())), "is no file");
     expectFailure(runBinconv("--index http://host/earth.osgb"), "on a server");
     expectUsageError(runBinconv("--index --print x"), "--");
-    expectUsageError(runBinconv("--index --threads 0 x"), "--threads 0");
+    expectUsageError(runBinconv("--index --threads 0 x"), "--threads: Value 0");
     expectUsageError(runBinconv("--index a b"), "\"b\"");
     expectUsageError(runBinconv("a b c"), "\"c\"");
     expectUsageError(runBinconv("--frobnicate x"), "--frobnicate");

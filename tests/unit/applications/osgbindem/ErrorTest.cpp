@@ -105,17 +105,17 @@ TEST_F(Error, MissingImage) {
 }
 
 TEST_F(Error, Levels) {
-    expectUsageError({good(), "--levels", "40", "-o", output()}, "--levels 40");
-    expectUsageError({good(), "--levels", "-1", "-o", output()}, "--levels -1");
+    expectUsageError({good(), "--levels", "40", "-o", output()}, "--levels: Value 40");
+    expectUsageError({good(), "--levels", "-1", "-o", output()}, "--levels: Value -1");
     expectUsageError({good(), "--levels", "two", "-o", output()}, "two");
 }
 
 TEST_F(Error, OtherNumbers) {
-    expectUsageError({good(), "--cells", "7", "-o", output()}, "--cells 7");
-    expectUsageError({good(), "--cells", "900", "-o", output()}, "--cells 900");
+    expectUsageError({good(), "--cells", "7", "-o", output()}, "--cells: 7 is not even");
+    expectUsageError({good(), "--cells", "900", "-o", output()}, "--cells: Value 900");
     expectError({good(), "--geoid", "absent.gtx", "-o", output()}, "absent.gtx");
     expectUsageError({good(), "--blend", "-1", "-o", output()}, "--blend");
-    expectUsageError({good(), "--threads", "0", "-o", output()}, "--threads 0");
+    expectUsageError({good(), "--threads", "0", "-o", output()}, "--threads: Value 0");
     expectUsageError({good(), "--lod-factor", "-2", "-o", output()}, "--lod-factor");
     expectUsageError({good(), "--radii", "0", "1", "-o", output()}, "--radii");
     expectUsageError({good(), "--radii", "1", "-o", output()}, "--radii");

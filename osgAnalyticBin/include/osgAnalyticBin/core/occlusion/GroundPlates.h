@@ -8,6 +8,7 @@
 #include <osgAnalyticBin/core/GeodeticBin.h>
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 #include <osgAnalyticBin/core/mesh/MeshBounds.h>
+#include <osgAnalyticBin/core/occlusion/BinBody.h>
 
 #include <glm/vec3.hpp>
 
@@ -61,7 +62,8 @@ private:
 /// Lower bounds of the altitude of a tile's surface, cell by cell, in grids of 1, 2, 4 and 8 cells a side over the
 /// tile's latitudes and longitudes. Each cell has a rim that its column of earth keeps out of: room for the chords of
 /// parallels, and for triangles of the next cell whose chords cross the common edge.
-/// Memory: 290 bytes, 16 bits for each bound.
+/// An upper bound for each quarter of the tile tells how far up its mesh reaches there.
+/// Memory: 298 bytes, 16 bits for each bound.
 /// Source: doc/theory/occlusion.md, sections 2 and 3.
 class GroundPlates final {
 public:
@@ -71,17 +73,20 @@ public:
     /// Of a mesh that lies within the extents; their altitudes are ignored. A cell is known where the mesh covers all
     /// of it, and where all triangles face the same way, up or down. `margin`: how many metres away from its place the
     /// mesh may be drawn. Bounds are lowered by the margin. Nothing is known if it is wider than a tenth of a rim.
+    /// `skirt`: how many metres skirts that the mesh does not have hang from its border, within 3 degrees of straight
+    /// down. No tops are known if these are deeper than half of the mesh's width.
     /// Cost: some 0.2 microseconds for each triangle, a quarter of that where the mesh is a grid. Requires: indices
     /// within the vertices.
-    GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin = 0.0);
+    GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin = 0.0,
+                 double skirt = 0.0);
 
     /// Of a grid with triangles between its posts, the diagonal of each of its cells either way, front faces up.
-    /// `altitudes`: metres, of the posts, row by row from the south-west; `margin` as above. All cells are known or
-    /// none: where posts are too far apart, too steep, fewer than three a side, or at a pole.
-    /// Guarantee: that of a mesh with any choice of diagonals; tests: GroundPlates.*OfAGrid*.
-    /// Cost: some 10 nanoseconds for each post. Requires: an altitude for each post.
+    /// `altitudes`: metres, of the posts, row by row from the south-west; `margin` and `skirt` as above. All cells are
+    /// known or none: where posts are too far apart, too steep, fewer than three a side, or at a pole. Guarantee: that
+    /// of a mesh with any choice of diagonals; tests: GroundPlates.*OfAGrid*. Cost: some 10 nanoseconds for each post.
+    /// Requires: an altitude for each post.
     GroundPlates(const Ellipsoid& ellipsoid, const GeodeticGrid& grid, const std::vector<double>& altitudes,
-                 double margin = 0.0);
+                 double margin = 0.0, double skirt = 0.0);
 
     /// Whether a column can be made of any cell.
     [[nodiscard]] bool isKnown() const noexcept;
@@ -89,6 +94,15 @@ public:
     /// Metres, of a cell in the grid of `cells` cells a side, 1, 2, 4 or 8; rows run north, columns east. Minus
     /// infinity: not known. Requires: such a grid and cell.
     [[nodiscard]] double least(std::size_t cells, std::size_t row, std::size_t column) const noexcept;
+
+    /// Metres: the mesh and its skirts are nowhere higher in a quarter of `bin`, which holds them. Quarters are
+    /// numbered as BinBody::quarters() does. Infinity: not known, or the middle of the bin is not that of the mesh.
+    /// Guarantee: tests: GroundPlates.TopsAreAbove*. Requires: quarter < 4. Source: doc/theory/occlusion.md, section 3.
+    [[nodiscard]] double most(std::size_t quarter, const GeodeticBin& bin) const noexcept;
+
+    /// Leaves out of the bodies of the bin's quarters what is higher than most(). Requires: a bin as there.
+    /// Returns: whether one was lowered.
+    bool lowerTops(const GeodeticBin& bin, std::array<BinHull, 4>& quarters) const noexcept;
 
     /// Makes a column of earth, `depth` metres deep, for each cell in one quarter of the tile, of the grids of `finest`
     /// cells a side to `coarsest`, row by row, in the coordinates of `frame`. Quarters are numbered as
@@ -114,7 +128,12 @@ private:
     GroundPlates(const Ellipsoid& ellipsoid, const Interval& latitude, const Interval& longitude) noexcept;
     [[nodiscard]] bool mayStandBeside(double margin) const noexcept;
     [[nodiscard]] bool fills(const GeodeticGrid& grid) const noexcept;
-    void encode(const std::array<double, kNumbers>& low, double margin) noexcept;
+    [[nodiscard]] double narrowest() const noexcept;
+    [[nodiscard]] bool mayHang(double skirt) const noexcept;
+    [[nodiscard]] bool hasQuartersOf(const GeodeticBin& bin) const noexcept;
+    // `high`: of the quarters, infinity where not known.
+    void encode(const std::array<double, kNumbers>& low, const std::array<double, 4>& high, double margin) noexcept;
+    void raise(std::size_t quarter, double altitude) noexcept;
 
     [[nodiscard]] double decoded(std::uint16_t code) const noexcept {
         return _base + _step * static_cast<double>(code);
@@ -126,6 +145,7 @@ private:
     double _base = 0.0, _step = 0.0;             // of the codes
     std::uint8_t _fitting = 0;                   // the grids, by their cells a side, whose cells have columns
     std::array<std::uint16_t, kNumbers> _least;  // 0: not known
+    std::array<std::uint16_t, 4> _most{};        // of the quarters; 0: not known
 };
 
 }  // namespace osgAnalyticBin::core

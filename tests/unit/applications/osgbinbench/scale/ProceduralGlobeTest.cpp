@@ -13,7 +13,7 @@
 #include <osgDB/ReadFile>
 
 #include <TileFixture.h>
-#include <TileTopology.h>
+#include <TileNode.h>
 #include <algorithm>
 #include <support/CapturedNotes.h>
 #include <support/Random.h>

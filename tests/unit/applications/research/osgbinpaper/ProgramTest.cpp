@@ -109,7 +109,7 @@ TEST_F(ProgramTest, SaysWhatItCannotWrite) {
     for (const char* const option : {"--csv ", "--json "}) {
         const Outcome outcome = run(quick() + option + quoted(absent));
         EXPECT_GT(outcome.code, 0);
-        EXPECT_NE(outcome.text.find("cannot be written"), std::string::npos) << outcome.text;
+        EXPECT_NE(outcome.text.find("cannot write"), std::string::npos) << outcome.text;
     }
     expectError(quick() + "--plot " + quoted(_globe.file()), "cannot be made");
     const Outcome full =

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "CommandLine.h"
+#include "Settings.h"
 
 #include "Failure.h"
 #include "GdalRaster.h"
+#include "NumberRange.h"
 #include "ProgramRun.h"
 #include "TileLayout.h"
 
@@ -26,6 +27,7 @@ namespace osgbindem {
 
 using osgAnalyticBin::support::Failure;
 using osgAnalyticBin::support::UsageError;
+using osgAnalyticBin::support::within;
 
 namespace {
 
@@ -126,35 +128,17 @@ void takeRegion(Arguments& arguments) {
     arguments.settings.region = region;
 }
 
-void requireRanges(const Settings& settings) {
-    constexpr int kFewestCells = 4;
-    constexpr int kMostCells = 240;
-    const auto refuse = [](const std::string& what, const std::string& todo) { throw UsageError(what + "; " + todo); };
-    if (settings.levels && (*settings.levels < 0 || *settings.levels > TileLayout::kDeepest)) {
-        refuse("--levels " + std::to_string(*settings.levels), "give a number from 0 to 20");
-    }
-    if (settings.cells &&
-        (*settings.cells < kFewestCells || *settings.cells > kMostCells || *settings.cells % 2 != 0)) {
-        refuse("--cells " + std::to_string(*settings.cells), "give an even number from 4 to 240");
-    }
-    if (!(settings.lodFactor >= 3.0 && settings.lodFactor <= 100.0)) {
-        refuse("--lod-factor " + std::to_string(settings.lodFactor), "give a number from 3 to 100");
-    }
+void requireFiles(const Settings& settings) {
     if (!settings.geoid.empty() && settings.geoid != "none" && settings.geoid != "egm96" && !mayExist(settings.geoid)) {
         throw Failure("no file \"" + settings.geoid + "\" for --geoid; give none, egm96 or a grid");
     }
-    if (settings.blend && !(*settings.blend >= 0.0 && *settings.blend <= 1e6)) {
-        refuse("--blend " + std::to_string(*settings.blend), "give metres from 0 to 1000000");
-    }
-    if (settings.threads < 1 || settings.threads > 256) {
-        refuse("--threads " + std::to_string(settings.threads), "give a number from 1 to 256");
-    }
-    if (settings.memoryMib < 16 || settings.memoryMib > 65536) {
-        refuse("--memory " + std::to_string(settings.memoryMib), "give MiB from 16 to 65536");
-    }
     if (std::filesystem::path(settings.output).extension() != ".osgb") {
-        refuse("output \"" + settings.output + "\"", "give a file name that ends in .osgb");
+        throw UsageError("output \"" + settings.output + "\"; give a file name that ends in .osgb");
     }
+}
+
+std::string evenness(const std::string& word) {
+    return std::atoi(word.c_str()) % 2 == 0 ? std::string() : word + " is not even";
 }
 
 void declare(CLI::App& app, Arguments& arguments) {
@@ -180,27 +164,32 @@ void declare(CLI::App& app, Arguments& arguments) {
         "vertical reference of all rasters: none (heights are used unchanged), egm96, or FILE,\na geoid grid "
         "that PROJ reads (default: the vertical reference in the raster, else none)");
     app.add_option(
-        "--blend", settings.blend,
-        "width in metres of the band inside the border of a raster or an image where it blends into\ncoarser "
-        "ones, 0 for none (default: a post of the coarser one, at most an eighth of the finer one)");
+           "--blend", settings.blend,
+           "width in metres of the band inside the border of a raster or an image where it blends into\ncoarser "
+           "ones, 0 for none (default: a post of the coarser one, at most an eighth of the finer one)")
+        ->check(within(0.0, 1e6));
     app.add_option("--levels", settings.levels,
-                   "levels of tiles below the 16 x 8 start tiles, 0 to 20\n(default: as fine as the finest raster)");
+                   "levels of tiles below the 16 x 8 start tiles\n(default: as fine as the finest raster)")
+        ->check(CLI::Range(0, TileLayout::kDeepest));
     app.add_option("--image", settings.images,
                    "image that GDAL reads, draped over the terrain; may be given several times: the finest\nthat has a "
                    "pixel counts, and the colours of the relief where none has")
         ->allow_extra_args(false);
     app.add_option("--radii", arguments.radii, "equatorial and polar radius in metres (default: WGS 84)")->expected(2);
-    app.add_option("--cells", settings.cells,
-                   "cells along the edge of a tile, even, 4 to 240\n(default: from the rasters)");
+    app.add_option("--cells", settings.cells, "cells along the edge of a tile, even\n(default: from the rasters)")
+        ->check(CLI::Range(4, 240))
+        ->check(evenness);
     app.add_option(
-        "--lod-factor", settings.lodFactor,
-        "distance at which a tile is replaced by finer ones,\nin half diagonals of the tile, 3 to 100 (default 4)");
+           "--lod-factor", settings.lodFactor,
+           "distance at which a tile is replaced by finer ones,\nin half diagonals of the tile, 3 to 100 (default 4)")
+        ->check(within(3.0, 100.0));
     app.add_option(
-        "--threads", settings.threads,
-        "number of threads (default: one per core);\nunder mpirun, of each rank (default: its share of cores)");
-    app.add_option(
-        "--memory", settings.memoryMib,
-        "MiB for data read from the rasters, 16 to 65536 (default 256);\ntiles that are being built need more");
+           "--threads", settings.threads,
+           "number of threads (default: one per core);\nunder mpirun, of each rank (default: its share of cores)")
+        ->check(CLI::Range(1, 256));
+    app.add_option("--memory", settings.memoryMib,
+                   "MiB for data read from the rasters (default 256);\ntiles that are being built need more")
+        ->check(CLI::Range(16, 65536));
     app.add_flag("!--full-resolution", settings.useOverviews,
                  "do not read a raster's overviews where --levels needs nothing finer");
     app.add_flag("--compress", settings.compress, "compress the files with zlib");
@@ -235,7 +224,7 @@ std::optional<Settings> settingsFrom(int argc, const char* const* argv) {
     takeDems(arguments);
     takeRadii(arguments);
     takeRegion(arguments);
-    requireRanges(arguments.settings);
+    requireFiles(arguments.settings);
     return arguments.settings;
 }
 

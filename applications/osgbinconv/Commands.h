@@ -8,6 +8,7 @@
 #include <osgAnalyticBin/index/MadeIndex.h>
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace osgbinconv {
@@ -38,5 +39,32 @@ struct WalkOptions {
 /// goes on; the result does not depend on it. `keepsRecords`: it stays, so that the next run reads only the files that
 /// have changed. Throws Failure or Interrupted.
 void writeIndex(const DatabaseFiles& files, const WalkOptions& options, bool keepsRecords);
+
+/// Prints what is in an index, in a few lines. Throws Failure when it cannot be read.
+void printIndex(const std::string& path);
+
+/// Makes the index of a database anew, in memory, and compares the one beside it. Says in a line that they agree.
+/// Throws Failure where they do not.
+void checkIndex(const DatabaseFiles& files, const WalkOptions& options);
+
+/// Whether a root file is the metadata of a photogrammetry set, "metadata.xml".
+[[nodiscard]] bool isPhotogrammetry(const std::string& file);
+
+/// Writes "metadata.xml.boxes" beside the metadata of a photogrammetry set. Throws Failure or Interrupted.
+void writeBoxIndex(const std::string& metadataFile, const WalkOptions& options);
+
+/// Compares "metadata.xml.boxes" with the set. Throws Failure when it does not fit, or Interrupted.
+void checkBoxIndex(const std::string& metadataFile, const WalkOptions& options);
+
+struct CopyOptions {
+    bool overwrite = false;
+    /// Whether osg::ClusterCullingCallbacks stay in the copy.
+    bool keepClusters = false;
+};
+
+/// Writes a copy of a database with the bins in its files, in the format of the output's extension. The original is
+/// not touched. Throws Failure or Interrupted; then nothing of the copy is left.
+void copyDatabase(const DatabaseFiles& files, const std::string& output, const CopyOptions& copy,
+                  const WalkOptions& walk);
 
 }  // namespace osgbinconv

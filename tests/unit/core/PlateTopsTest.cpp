@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Oracle: positions in long double of random points of all triangles, skirts included.
+
+#include "MeshSamples.h"
+#include "TriangleSamples.h"
+
+#include <osgAnalyticBin/core/occlusion/GroundPlates.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+using core::EcefMesh;
+using core::Ellipsoid;
+using core::GeodeticBin;
+using core::GroundPlates;
+using core::Interval;
+
+constexpr double kPi = 3.14159265358979323846;
+
+// A tile of the globe, of some hundred metres to some hundred kilometres, with its posts at random altitudes.
+struct Tile {
+    explicit Tile(Random& random) : ellipsoid(random.chance(0.5) ? wgs84() : Ellipsoid(1e5, 1e5 * 1.004)) {
+        const double size = random.logUniform(1e-5, 0.1), south = random.uniform(-1.4, 1.3);
+        const double west = random.chance(0.2) ? kPi - 0.5 * size : random.uniform(-3.1, 3.0);
+        relief = size * ellipsoid.equatorialRadius() * random.logUniform(1e-4, 0.1);
+        extents = GeodeticBin({south, south + size}, {west, west + size}, {-relief, relief});
+        cells = static_cast<std::uint32_t>(random.integer(2, 16));
+        mesh = gridMesh(random, ellipsoid, extents, cells);
+    }
+
+    // A bin of all that is drawn, whose middle is as far beside as it may be.
+    [[nodiscard]] GeodeticBin bin(Random& random, double depth) const {
+        const auto wider = [&](const Interval& of) -> Interval {
+            const double more = 0.0299 * of.width();
+            return random.chance(0.5) ? Interval{of.lower - more, of.upper} : Interval{of.lower, of.upper + more};
+        };
+        return GeodeticBin(wider(extents.latitude()), wider(extents.longitude()), {-relief - depth, 2.0 * relief});
+    }
+
+    Ellipsoid ellipsoid;
+    GeodeticBin extents{};
+    double relief;
+    std::uint32_t cells;
+    EcefMesh mesh;
+};
+
+// Returns: how many tops are known.
+int expectBelowTops(Random& random, const Tile& tile, const EcefMesh& drawn, const GroundPlates& plates, double depth) {
+    const GeodeticBin bin = tile.bin(random, depth);
+    for (std::size_t i = 0; i < drawn.triangles.size(); i += 3) {
+        for (int trial = 0; trial < 4; ++trial) {
+            const RealGeodetic at = ecefToGeodetic(tile.ellipsoid, randomPointOf(random, triangleAt(drawn, i)));
+            const Real turns = std::round((at.longitude - bin.longitude().middle()) / (2 * kPi));
+            const bool isNorth = at.latitude > bin.latitude().middle();
+            const bool isEast = at.longitude - turns * 2 * kPi > bin.longitude().middle();
+            const double top = plates.most((isNorth ? 2U : 0U) + (isEast ? 1U : 0U), bin);
+            EXPECT_LE(at.altitude, top) << "cells " << tile.cells << ", triangle " << i / 3;
+            if (!(at.altitude <= top)) return 0;
+        }
+    }
+    int known = 0;
+    for (std::size_t quarter = 0; quarter < 4; ++quarter) known += std::isfinite(plates.most(quarter, bin));
+    return known;
+}
+
+TEST(GroundPlates, TopsAreAboveTheMesh) {
+    Random random(1730);
+    int known = 0;
+    for (int trial = 0; trial < 500; ++trial) {
+        const Tile tile(random);
+        EcefMesh mesh = tile.mesh;
+        const double most = tile.extents.latitude().width() / tile.cells * 1e5 * random.logUniform(1e-7, 0.1);
+        for (std::size_t i = random.chance(0.5) ? 0 : mesh.size(); i < mesh.size(); ++i) {
+            const glm::dvec3 aside = random.uniform(0.0, most) * random.direction();
+            mesh.x[i] += aside.x;
+            mesh.y[i] += aside.y;
+            mesh.z[i] += aside.z;
+        }
+        if (random.chance(0.3)) mesh = unmerged(mesh);
+        if (random.chance(0.3)) std::swap(mesh.triangles[0], mesh.triangles[1]);
+        known += expectBelowTops(random, tile, mesh, GroundPlates(tile.ellipsoid, mesh, tile.extents), 0.0);
+    }
+    EXPECT_GT(known, 500 * 3);
+}
+
+TEST(GroundPlates, TopsAreAboveTheMeshOfAGrid) {
+    Random random(1731);
+    int known = 0;
+    for (int trial = 0; trial < 500; ++trial) {
+        const Tile tile(random);
+        const core::GeodeticGrid grid{tile.extents.latitude(), tile.extents.longitude(), tile.cells + 1,
+                                      tile.cells + 1};
+        std::vector<double> altitudes;
+        for (std::size_t i = 0; i < tile.mesh.size(); ++i)
+            altitudes.push_back(tile.ellipsoid.toGeodetic(tile.mesh.vertex(i)).altitude);
+        known += expectBelowTops(random, tile, tile.mesh, GroundPlates(tile.ellipsoid, grid, altitudes), 0.0);
+    }
+    EXPECT_GT(known, 500 * 3);
+}
+
+// Skirts that hang or stand, as they are in the mesh.
+TEST(GroundPlates, TopsAreAboveSkirts) {
+    Random random(1732);
+    int known = 0;
+    for (int trial = 0; trial < 500; ++trial) {
+        const Tile tile(random);
+        const double depth = random.sign() * tile.relief * random.logUniform(0.01, 0.9);
+        const EcefMesh mesh = withSkirts(tile.ellipsoid, tile.mesh, tile.cells, depth);
+        const GroundPlates plates(tile.ellipsoid, mesh, tile.extents);
+        known += expectBelowTops(random, tile, mesh, plates, std::abs(depth));
+    }
+    EXPECT_GT(known, 500);
+}
+
+// Skirts whose lower vertices were moved to the upper ones in the mesh hang down where they are drawn, some 2.5 degrees
+// off the vertical. They are as deep as the tile is wide at most; tops are known for half of that.
+TEST(GroundPlates, TopsAreAboveSkirtsThatAreFoldedUp) {
+    Random random(1733);
+    int known = 0;
+    for (int trial = 0; trial < 500; ++trial) {
+        const Tile tile(random);
+        const double depth = tile.extents.latitude().width() * tile.ellipsoid.polarRadius() *
+                             (random.chance(0.5) ? random.uniform(0.0, 1.0) : random.logUniform(0.001, 0.1));
+        EcefMesh drawn = withSkirts(tile.ellipsoid, tile.mesh, tile.cells, depth);
+        EcefMesh folded = withSkirts(tile.ellipsoid, tile.mesh, tile.cells, 0.0);
+        // a wall from corner to corner
+        if (random.chance(0.5)) {
+            const auto bottom = static_cast<std::uint32_t>(tile.mesh.size());
+            for (EcefMesh* const mesh : {&drawn, &folded})
+                mesh->triangles.insert(mesh->triangles.end(), {0, tile.cells, bottom});
+        }
+        const glm::dvec3 aside = 0.044 * depth * random.direction();
+        for (std::size_t i = tile.mesh.size(); i < drawn.size(); ++i)
+            drawn.x[i] += aside.x, drawn.y[i] += aside.y, drawn.z[i] += aside.z;
+        // exactly at the upper vertices
+        for (std::size_t i = tile.mesh.size(); i < folded.size(); ++i) {
+            std::size_t nearest = 0;
+            for (std::size_t k = 0; k < tile.mesh.size(); ++k) {
+                if (glm::distance(folded.vertex(i), folded.vertex(k)) <
+                    glm::distance(folded.vertex(i), folded.vertex(nearest)))
+                    nearest = k;
+            }
+            folded.x[i] = folded.x[nearest], folded.y[i] = folded.y[nearest], folded.z[i] = folded.z[nearest];
+        }
+        const GroundPlates plates(tile.ellipsoid, folded, tile.extents, 0.0, depth);
+        known += expectBelowTops(random, tile, drawn, plates, depth);
+    }
+    EXPECT_GT(known, 500);
+}
+
+// A line counts by its ends, and may run through all quarters.
+TEST(GroundPlates, TopsAreAboveLines) {
+    Random random(1734);
+    int known = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+        const Tile tile(random);
+        EcefMesh mesh = tile.mesh;
+        for (int end = 0; end < 2; ++end) {
+            addVertex(mesh, tile.ellipsoid.toEcef(
+                                {random.uniform(tile.extents.latitude().lower, tile.extents.latitude().upper),
+                                 random.uniform(tile.extents.longitude().lower, tile.extents.longitude().upper),
+                                 random.uniform(0.0, 2.0) * tile.relief}));
+            const auto last = static_cast<std::uint32_t>(mesh.size() - 1);
+            mesh.triangles.insert(mesh.triangles.end(), {last, last, last});
+        }
+        EcefMesh drawn = mesh;
+        const auto last = static_cast<std::uint32_t>(mesh.size() - 1);
+        drawn.triangles.insert(drawn.triangles.end(), {last - 1, last, last});
+        known += expectBelowTops(random, tile, drawn, GroundPlates(tile.ellipsoid, mesh, tile.extents), 0.0);
+    }
+    EXPECT_GT(known, 300);
+}
+
+TEST(GroundPlates, TopsAreThoseOfTheHighestPostsNearTheQuarter) {
+    Random random(1735);
+    const Ellipsoid earth = wgs84();
+    const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
+    for (int trial = 0; trial < 20; ++trial) {
+        constexpr std::uint32_t kCells = 16;
+        const EcefMesh mesh = gridMesh(random, earth, extents, kCells);
+        const GroundPlates plates(earth, mesh, extents);
+        for (std::uint32_t quarter = 0; quarter < 4; ++quarter) {
+            double highest = -HUGE_VAL;
+            const std::uint32_t south = quarter / 2 * 7, west = quarter % 2 * 7;
+            for (std::uint32_t row = south; row <= south + 9; ++row) {
+                for (std::uint32_t column = west; column <= west + 9; ++column)
+                    highest = std::max(highest, earth.toGeodetic(mesh.vertex(row * (kCells + 1) + column)).altitude);
+            }
+            EXPECT_NEAR(plates.most(quarter, extents), highest, 1e-3 + 2.0 * 2300.0 / 65533.0);
+        }
+    }
+}
+
+TEST(GroundPlates, TopsAreNotKnownForBinsWithOtherQuarters) {
+    Random random(1736);
+    const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
+    const GroundPlates plates(wgs84(), gridMesh(random, wgs84(), extents, 16), extents);
+    const auto isKnown = [&](const Interval& latitude, const Interval& longitude, const Interval& altitude) {
+        return std::isfinite(plates.most(3, GeodeticBin(latitude, longitude, altitude)));
+    };
+    EXPECT_TRUE(isKnown({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0}));
+    EXPECT_TRUE(isKnown({0.49, 0.5202}, {0.9898, 1.02}, {-300.0, 2000.0}));
+    EXPECT_FALSE(isKnown({0.49, 0.5204}, {1.0, 1.01}, {-300.0, 2000.0}));
+    EXPECT_FALSE(isKnown({0.5, 0.51}, {0.9896, 1.02}, {-300.0, 2000.0}));
+    EXPECT_FALSE(std::isfinite(GroundPlates().most(0, extents)));
+}
+
+// The tile is some 56 km wide, measured along a sphere that lies within the ellipsoid a little less.
+TEST(GroundPlates, TopsAreNotKnownWhereSkirtsAreTooDeep) {
+    Random random(1737);
+    const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
+    const EcefMesh mesh = gridMesh(random, wgs84(), extents, 16);
+    const core::GeodeticGrid grid{extents.latitude(), extents.longitude(), 17, 17};
+    const std::vector<double> altitudes(17 * 17, 100.0);
+    for (const auto& [depth, isKnown] : {std::pair{22e3, true}, std::pair{29e3, false}, std::pair{-1.0, false}}) {
+        for (const EcefMesh& some : {mesh, unmerged(mesh)})
+            EXPECT_EQ(std::isfinite(GroundPlates(wgs84(), some, extents, 0.0, depth).most(0, extents)), isKnown);
+        EXPECT_EQ(std::isfinite(GroundPlates(wgs84(), grid, altitudes, 0.0, depth).most(0, extents)), isKnown);
+    }
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
