@@ -106,7 +106,7 @@ void printIndex(const std::string& path) {
     std::printf("database     %s, %llu bytes\n", index->source().name.c_str(),
                 static_cast<unsigned long long>(index->source().size));
     std::printf("tiles        %zu in %zu files\n", all.tiles, index->fileCount());
-    std::printf("never culled %zu\n", all.unknown);
+    std::printf("without bounds %zu\n", all.unknown);
     if (all.unknown < all.tiles) {
         std::printf("altitudes    %.0f .. %.0f m\n", all.low, all.high);
         if (const std::optional<bool> isMap = isOfMap(path, *index)) {

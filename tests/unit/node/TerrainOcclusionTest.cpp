@@ -242,6 +242,14 @@ TEST(TerrainOcclusion, TrustsShadersThatPaintTriangles) {
         globe.root->getOrCreateStateSet()->setAttributeAndModes(plain);
         EXPECT_FALSE(globe.drawsFarTile()) << vertices;
     }
+    // the text may change, and another program may come to stand in the same place
+    const osg::ref_ptr<osg::Program> changed = program(osg::Shader::FRAGMENT, fragments);
+    globe.root->getStateSet()->setAttributeAndModes(changed);
+    EXPECT_FALSE(globe.drawsFarTile());
+    changed->getShader(0)->setShaderSource("void main() { discard; }");
+    EXPECT_TRUE(globe.drawsFarTile());
+    setDrawsTriangles(*changed);
+    EXPECT_FALSE(globe.drawsFarTile());
 }
 
 // Draws nothing.

@@ -3,17 +3,25 @@
 
 #include "ShaderText.h"
 
+#include <osgAnalyticBin/InstallBins.h>
+
 #include <osg/Shader>
+#include <osg/UserDataContainer>
+#include <osg/ValueObject>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <initializer_list>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace osgAnalyticBin {
 
 namespace {
+
+constexpr const char* kDrawsTriangles = "osgAnalyticBin.drawsTriangles";
 
 // Without comments and white space.
 std::string compact(const std::string& source) {
@@ -47,9 +55,13 @@ bool transformsPlainly(const std::string& vertexShaders) {
     });
 }
 
-}  // namespace
+bool isDeclared(const osg::Program& program) {
+    bool draws = false;
+    if (program.getUserDataContainer()) (void)program.getUserValue(kDrawsTriangles, draws);
+    return draws;
+}
 
-bool mayAlterSurface(const osg::Program& program) {
+bool mayAlterByText(const osg::Program& program) {
     std::string vertexShaders;
     for (unsigned int i = 0; i < program.getNumShaders(); ++i) {
         const osg::Shader& shader = *program.getShader(i);
@@ -67,7 +79,45 @@ bool mayAlterSurface(const osg::Program& program) {
                 return true;
         }
     }
-    return program.getProgramBinary() || (!vertexShaders.empty() && !transformsPlainly(vertexShaders));
+    return !vertexShaders.empty() && !transformsPlainly(vertexShaders);
+}
+
+// What was found for the shaders of one program.
+struct ReadText {
+    std::vector<std::pair<osg::Shader::Type, std::string>> shaders;
+    bool mayAlter = false;
+
+    [[nodiscard]] bool isOf(const osg::Program& program) const {
+        if (program.getNumShaders() != shaders.size()) return false;
+        for (unsigned int i = 0; i < program.getNumShaders(); ++i) {
+            const osg::Shader& shader = *program.getShader(i);
+            if (shader.getType() != shaders[i].first || shader.getShaderSource() != shaders[i].second) return false;
+        }
+        return true;
+    }
+};
+
+}  // namespace
+
+bool mayAlterSurface(const osg::Program& program) {
+    if (isDeclared(program)) return false;
+    if (program.getProgramBinary()) return true;
+    // states are asked in every cull traversal
+    constexpr std::size_t kMostPrograms = 8;
+    thread_local std::array<ReadText, kMostPrograms> known;
+    thread_local std::size_t next = 0;
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](const ReadText& text) { return text.isOf(program); });
+    if (found != known.end()) return found->mayAlter;
+    ReadText& text = known[next++ % kMostPrograms];
+    text = {{}, mayAlterByText(program)};
+    for (unsigned int i = 0; i < program.getNumShaders(); ++i)
+        text.shaders.emplace_back(program.getShader(i)->getType(), program.getShader(i)->getShaderSource());
+    return text.mayAlter;
+}
+
+void setDrawsTriangles(osg::Program& program) {
+    program.setUserValue(kDrawsTriangles, true);
 }
 
 }  // namespace osgAnalyticBin

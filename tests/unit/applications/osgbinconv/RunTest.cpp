@@ -188,7 +188,7 @@ TEST_F(Run, PrintTellsWhatIsInAnIndex) {
     const Outcome printed = runBinconv("--print " + test::quoted(indexFile()));
     EXPECT_EQ(printed.code, 0);
     for (const char* part :
-         {"globe.osgb", "672 in 161 files", "never culled 0", "degrees", "some 3 levels", "per tile"}) {
+         {"globe.osgb", "672 in 161 files", "without bounds 0", "degrees", "some 3 levels", "per tile"}) {
         EXPECT_NE(printed.text.find(part), std::string::npos) << printed.text;
     }
     expectFailure(runBinconv("--print " + test::quoted(_database)), "no such thing");
