@@ -80,8 +80,8 @@ OSGANALYTICBIN_EXPORT void setTraversesAlways(osg::Callback& callback);
 /// Returns: whether setTraversesAlways() was called for the callback, or it is a plain osg::NodeCallback.
 [[nodiscard]] OSGANALYTICBIN_EXPORT bool traversesAlways(const osg::Callback& callback);
 
-/// Declares that shaders draw every triangle of the terrain, all of it, where its vertices are, and nearer or farther as
-/// these are; by the user value "osgAnalyticBin.drawsTriangles" of the program. Otherwise the text of the shaders
+/// Declares that shaders draw every triangle of the terrain, all of it, where its vertices are, and nearer or farther
+/// as these are; by the user value "osgAnalyticBin.drawsTriangles" of the program. Otherwise the text of the shaders
 /// decides, and the horizon and terrain hide nothing where it leaves a doubt (doc/limits.md).
 OSGANALYTICBIN_EXPORT void setDrawsTriangles(osg::Program& program);
 
