@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 
 # Bars for each path, one a method. NAME.csv has a column for each method, followed by half its spread where there is one.
-# Ratios stand on 1, and equal ratios are equally far apart.
+# Ratios stand on 1, and equal ratios are equally far apart. Times that differ much have a logarithmic axis, too.
 # The colours of Okabe and Ito, which the colour-blind can tell apart; those of OSG's own methods come first.
 colours = "#D55E00 #E69F00 #0072B2 #009E73 #CC79A7 #56B4E9 #555555"
 set datafile separator ","
@@ -18,7 +18,9 @@ stats data skip 1 using (paths = paths + 1, sum [m=1:methods] (v = figure(m), \
     lowest = v < lowest ? v : lowest, highest = v > highest ? v : highest, 0)) nooutput
 
 set title heading
-set ylabel label
+isWide = !isRatio && hasSpread && lowest > 0 && highest > 30*lowest
+base = isRatio ? 1 : isWide ? 0.7*lowest : 0
+set ylabel isWide ? label." (logarithmic)" : label
 set border 3 lc rgb "#444444"
 set tics nomirror out
 set grid ytics lt 1 lw 0.6 lc rgb "#cccccc"
@@ -33,8 +35,9 @@ if (isRatio) {
     set yrange [least < 0.1 ? 0.1 : least > 0.95 ? 0.95 : least : most > 2 ? most : 2]
     set arrow from graph 0, first 1 to graph 1, first 1 nohead lw 1.2 lc rgb "#222222" front
 } else {
-    set yrange [0:highest > 0 ? 1.25*highest : 1]
+    set yrange [base:highest > 0 ? 1.25*highest : 1]
 }
+if (isWide) { set logscale y }
 
 width = 0.84/methods
 left(m) = width*(m - 1) - 0.42
@@ -42,7 +45,7 @@ middle(m) = left(m) + width/2
 # numbers where bars are wide enough for them
 numbered = !hasSpread && paths*methods <= 64 ? methods : 0
 draw = 'plot for [m=1:methods] data skip 1 \
-        using ($0 + middle(m)):(figure(m)):($0 + left(m)):($0 + left(m) + 0.92*width):(isRatio ? 1 : 0):(figure(m)) \
+        using ($0 + middle(m)):(figure(m)):($0 + left(m)):($0 + left(m) + 0.92*width):(base):(figure(m)) \
         with boxxyerror fs solid 0.9 noborder lc rgb word(colours, (m - 1)%7 + 1) title word(names, m), \
     for [m=1:hasSpread ? methods : 0] data skip 1 \
         using ($0 + middle(m)):(figure(m) - half(m)):(0):(2*half(m)) \
