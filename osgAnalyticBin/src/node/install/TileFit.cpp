@@ -126,7 +126,8 @@ AnalyticBin dippedBin(const AnalyticBin& bin, const Database& database, const Pa
     return withAltitude(bin, {altitude.lower - dip, altitude.upper}, bin.sag() + dip);
 }
 
-// Returns: whether the index knows the tile as it is, and its bin. `isContradicted`: it knows another tile in its place.
+// Returns: whether the index knows the tile as it is, and its bin. `isContradicted`: it knows another tile in its
+// place.
 bool fitIndexed(const FoundTile& tile, const Database& database, const TerrainShape& shape, ParentTile& link,
                 TileFit& fit, bool& isContradicted) {
     bool isWhole = false;
