@@ -14,7 +14,7 @@ demo | libopenscenegraph-dev openscenegraph libgl1-mesa-dri | OpenSceneGraph and
 demo | libglm-dev libboost-dev libhwy-dev | headers of mathematics
 demo | libgdal-dev proj-data | osgbindem reads elevation rasters
 demo | libcli11-dev nlohmann-json3-dev | headers for command lines and JSON
-demo | ferret-datasets libncarg-data | elevation data: the earth, Trinidad
+demo | ferret-datasets libncarg-data | elevation data: the earth, Trinidad in Colorado
 demo | xvfb xauth | a virtual display
 all | ccache | keeps what was compiled for the next build
 all | libopenmpi-dev openmpi-bin | osgbindem on several machines

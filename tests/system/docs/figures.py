@@ -30,20 +30,24 @@ def number(cell):
 def differences(readme, results, guide):
     # README's words for the rows of results, in any order
     names = {"tiles drawn": "tiles drawn", "files": "files read", "tiles in memory": "tiles in memory",
-             "cull time, warm caches": "cull time, data in the processor's caches",
-             "cull time, cold caches": "cull time, caches cold"}
+             "cull time, warm caches": "cull time, warm caches", "cull time, cold caches": "cull time, cold caches"}
     shown = table(readme, "| | spheres |")
     for row in table(results, "| sums of the"):
         own = [cells for cells in shown if cells[0].startswith(names[row[0]])]
         if [[number(cell) for cell in cells[1:]] for cells in own] != [row[1:]]:
             yield f"\"{names[row[0]]}\": README has {own}, results.md has {row[1:]}"
     total = [row for row in table(results, "| path | poses | needed |") if "all" in row[0]][-1]
-    for words, figure in ((f"over {total[1]} views", "poses"), (f"at most {total[2]} are", "tiles needed")):
+    for words, figure in ((f"over {total[1]} views", "poses"), (f"({total[2]} are in view", "tiles needed")):
         if words not in readme:
             yield f"{figure}: README does not say \"{words}\", as results.md does"
-    for tiles in re.findall(r"\((\d+) tiles in place of (\d+) in", " ".join(readme.split())):
-        if not all(re.search(rf"\b{count}\b", guide) for count in tiles):
-            yield f"README has {tiles} tiles in a valley, guide.md has others"
+    culled, of = (int(count) for count in re.search(r"\((\d+) of (\d+) in \[one valley", readme).groups())
+    if not all(f"{count} tiles drawn" in guide for count in (of, of - culled)):
+        yield f"README culls {culled} tiles of {of} in a valley, guide.md others"
+    frames = [row for row in table(results, "| figure | value |") if row[0].startswith("`frame_")]
+    for row in frames:
+        for figure in re.findall(r"[0-9]\.[0-9]+", row[1] + row[3]):
+            if figure not in readme:
+                yield f"{row[0]}: README does not say {figure}, as results.md does"
 
 
 def main():
