@@ -12,7 +12,7 @@
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
-#include <osg/Billboard>
+#include <osg/AutoTransform>
 #include <osg/Geometry>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
@@ -98,13 +98,13 @@ TEST_F(AutoIndex, LoadedTilesGetItsBinsInUpdateTraversals) {
     EXPECT_NEAR(installedOn(north)->getBin().bin().altitude().upper, 900.0, 1.0);
 }
 
-// Billboards turn to the eye: their tile has no bounds in the index, and those above it have none either.
+// A tile that nobody knows the extent of has no bounds in the index, and those above it have none either.
 TEST_F(AutoIndex, TilesAboveOneWithoutBoundsAreCulledByWhatIsLoaded) {
     const std::string file = _folder.path() + "/children.osgb";
     const osg::ref_ptr<osg::Group> children = osgDB::readRefFile<osg::Group>(file);
-    const osg::ref_ptr<osg::Billboard> tree = new osg::Billboard;
-    tree->addDrawable(new osg::Geometry);
-    children->getChild(0)->asGroup()->addChild(tree);
+    const osg::ref_ptr<osg::AutoTransform> sign = new osg::AutoTransform;
+    sign->addChild(new osg::Geometry);
+    children->getChild(0)->asGroup()->addChild(sign);
     ASSERT_TRUE(osgDB::writeNodeFile(*children, file));
     for (int i = 0; i < 2; ++i) {
         open();

@@ -8,6 +8,7 @@
 #include "TileSurfaceCases.h"
 
 #include <gtest/gtest.h>
+#include <osg/Billboard>
 #include <osg/Geode>
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
@@ -230,6 +231,67 @@ TEST(TileSurface, HoldsLinesPointsAndShapes) {
 
     road->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 1, 3));
     EXPECT_FALSE(surfaceOf(*geode).bin.valid()) << "an index beyond the vertices";
+}
+
+osg::ref_ptr<osg::Billboard> randomBillboard(osg::Billboard::Mode mode, bool isPlain, Random& random) {
+    const auto any = [&random](double size) {
+        return osg::Vec3(
+            osg::Vec3d(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)));
+    };
+    const osg::ref_ptr<osg::Billboard> billboard = new osg::Billboard;
+    billboard->setMode(mode);
+    if (!isPlain) {
+        billboard->setAxis(any(1.0));
+        billboard->setNormal(any(1.0));
+    }
+    for (int i = 0; i < 4; ++i) {
+        const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+        for (int corner = 0; corner < 4; ++corner) vertices->push_back(any(50.0));
+        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+        geometry->setVertexArray(vertices);
+        geometry->addPrimitiveSet(new osg::DrawArrays(GL_QUADS, 0, 4));
+        billboard->addDrawable(geometry, any(2000.0));
+    }
+    return billboard;
+}
+
+// Oracle: OSG's own matrices for random eyes.
+TEST(TileSurface, HoldsABillboardHoweverItTurns) {
+    Random random(9);
+    const osg::Matrixd frame =
+        osg::Matrixd::rotate(0.3, 0.1, 0.7, 0.2) * osg::Matrixd::translate(ecefDeg(47, 11, 1000.0));
+    for (int trial = 0; trial < 60; ++trial) {
+        const auto mode = static_cast<osg::Billboard::Mode>(trial % 3);
+        const auto billboard = randomBillboard(mode, trial % 2 == 0, random);
+        const TileSurface surface = tileSurface(*billboard, *kModel, frame, 1.0);
+        ASSERT_TRUE(surface.bin.valid());
+        core::Interval seen{1e9, -1e9};
+        for (int i = 0; i < 200; ++i) {
+            const osg::Vec3d eye(random.uniform(-3e3, 3e3), random.uniform(-3e3, 3e3), random.uniform(-3e3, 3e3));
+            const auto look = osg::Matrixd::lookAt(eye, {0, 0, 0}, {0, random.uniform(-1.0, 1.0), 1});
+            for (unsigned int k = 0; k < billboard->getNumDrawables(); ++k) {
+                osg::Matrix turned = look;
+                billboard->computeMatrix(turned, osg::Vec3(eye), billboard->getPosition(k));
+                const osg::Matrixd toEcef = turned * osg::Matrixd::inverse(look) * frame;
+                const auto points = samplesOf(drawnTriangles(*billboard->getDrawable(k), toEcef).surface);
+                EXPECT_LE(metresOutside(surface.bin, points, kEllipsoid), surface.bin.margin()) << trial;
+                const core::Interval own = altitudesOf(points);
+                seen = {std::min(seen.lower, own.lower), std::max(seen.upper, own.upper)};
+            }
+        }
+        // the corner of a cube about 50 m in each direction is 150 m away
+        EXPECT_LE(surface.bin.bin().altitude().upper - seen.upper, 150.0) << trial;
+        EXPECT_LE(seen.lower - surface.bin.bin().altitude().lower, 150.0) << trial;
+    }
+}
+
+TEST(TileSurface, IsUnknownOfABillboardWithoutAPositionForEachDrawable) {
+    Random random(10);
+    const auto billboard = randomBillboard(osg::Billboard::POINT_ROT_EYE, true, random);
+    const osg::Matrixd frame = osg::Matrixd::translate(ecefDeg(47, 11, 1000.0));
+    ASSERT_TRUE(tileSurface(*billboard, *kModel, frame, 1.0).bin.valid());
+    billboard->getPositionList().pop_back();
+    EXPECT_FALSE(tileSurface(*billboard, *kModel, frame, 1.0).bin.valid());
 }
 
 TEST(TileSurface, IsUnknownWhereThereIsNoTerrain) {

@@ -6,6 +6,7 @@
 #include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>
+#include <osg/Billboard>
 #include <osg/Geode>
 #include <osg/Geometry>
 #include <osgTerrain/Layer>
@@ -95,6 +96,20 @@ TEST(SurfaceFingerprint, TellsEveryVertexAndIndexOfAMesh) {
         static_cast<osg::DrawElementsUShort&>(*mesh->getPrimitiveSet(0))[3 * i] = 49;
         EXPECT_EQ(seen.insert(fingerprintOf(*mesh)).second, i != 49);
     }
+}
+
+TEST(SurfaceFingerprint, TellsWhereABillboardsDrawablesStand) {
+    const osg::ref_ptr<osg::Billboard> billboard = new osg::Billboard;
+    for (int i = 0; i < 3; ++i) billboard->addDrawable(makeMesh(), osg::Vec3(1.0f, 2.0f, 3.0f));
+    std::set<std::uint64_t> seen{fingerprintOf(*billboard)};
+    for (unsigned int i = 0; i < 3; ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            billboard->getPositionList()[i][axis] += 1.0f;
+            EXPECT_TRUE(seen.insert(fingerprintOf(*billboard)).second);
+        }
+    }
+    static_cast<osg::Vec3Array&>(*billboard->getDrawable(2)->asGeometry()->getVertexArray())[0].x() += 1.0f;
+    EXPECT_TRUE(seen.insert(fingerprintOf(*billboard)).second);
 }
 
 TEST(SurfaceFingerprint, TellsSignsThatChangeTogether) {

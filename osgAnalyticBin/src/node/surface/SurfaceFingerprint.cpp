@@ -6,6 +6,7 @@
 
 #include <osgAnalyticBin/TileSurface.h>
 
+#include <osg/Billboard>
 #include <osg/Geometry>
 
 #include <cstring>
@@ -129,6 +130,12 @@ private:
         const osg::Array* const vertices = geometry->getVertexArray();
         for (const auto& primitives : geometry->getPrimitiveSetList())
             if (primitives) addPrimitives(*primitives, vertices ? vertices->getNumElements() : 0);
+    }
+
+    void visitBillboard(osg::Billboard& node) override {
+        for (const osg::Vec3& position : node.getPositionList())
+            for (int axis = 0; axis < 3; ++axis) _mixer.add(static_cast<double>(position[axis]));
+        traverse(node);
     }
 
     void addHeights(const osg::HeightField& field) {

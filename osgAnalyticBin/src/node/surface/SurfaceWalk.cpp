@@ -36,7 +36,11 @@ void SurfaceWalk::apply(osg::Node& node) {
     traverse(node);
 }
 
-void SurfaceWalk::apply(osg::Billboard&) {
+void SurfaceWalk::apply(osg::Billboard& node) {
+    if (_isKnown) visitBillboard(node);
+}
+
+void SurfaceWalk::visitBillboard(osg::Billboard&) {
     giveUp();
 }
 

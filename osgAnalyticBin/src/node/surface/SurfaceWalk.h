@@ -25,6 +25,8 @@ public:
 protected:
     virtual void visit(osgTerrain::TerrainTile& tile) = 0;
     virtual void visit(osg::Drawable& drawable) = 0;
+    /// Drawables that turn to the eye, each about its own position. By default what they draw cannot be told.
+    virtual void visitBillboard(osg::Billboard& node);
 
     [[nodiscard]] const osg::Matrixd& localToEcef() const { return _localToEcef; }
 

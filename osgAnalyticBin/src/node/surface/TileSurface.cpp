@@ -8,11 +8,44 @@
 
 #include <osgAnalyticBin/TileFinder.h>
 
+#include <osg/Billboard>
+
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 namespace osgAnalyticBin {
 
 namespace {
+
+// In whatever way a billboard turns a drawable, that stays in a ball about its position. The share is room for
+// matrices in single precision.
+constexpr double kRoomOfTurning = 1e-5;
+
+// The radius of the ball about the origin that holds a drawable; none if what it draws cannot be told.
+std::optional<double> reachOf(const osg::Node* node, SurfaceMesh& mesh) {
+    const osg::Drawable* const drawable = node ? node->asDrawable() : nullptr;
+    if (!drawable || !readMesh(*drawable, osg::Matrixd(), mesh)) return std::nullopt;
+    double reach = 0.0;
+    for (const std::uint32_t i : mesh.triangles) reach = std::max(reach, glm::length(mesh.vertex(i)));
+    return std::isfinite(reach) ? std::optional(reach * (1.0 + kRoomOfTurning)) : std::nullopt;
+}
+
+// Adds the cube about a ball.
+void addCube(const osg::Vec3d& middle, double radius, const osg::Matrixd& localToEcef, SurfaceMesh& mesh) {
+    const auto first = static_cast<std::uint32_t>(mesh.size());
+    for (unsigned int corner = 0; corner < 8; ++corner) {
+        const auto side = [&](unsigned int axis) { return ((corner >> axis) & 1u) == 0 ? -radius : radius; };
+        const osg::Vec3d v = (middle + osg::Vec3d(side(0), side(1), side(2))) * localToEcef;
+        mesh.x.push_back(v.x());
+        mesh.y.push_back(v.y());
+        mesh.z.push_back(v.z());
+    }
+    // two triangles a face
+    constexpr unsigned int kFaces[] = {0, 2, 3, 0, 3, 1, 4, 6, 7, 4, 7, 5, 0, 1, 5, 0, 5, 4,
+                                       2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 3, 7, 1, 7, 5};
+    for (const unsigned int corner : kFaces) mesh.triangles.push_back(first + corner);
+}
 
 // Unites the surfaces of the parts of a tile. A part that cannot be told makes the whole so.
 class SurfaceUnion final : public SurfaceWalk {
@@ -44,6 +77,18 @@ private:
         thread_local SurfaceMesh mesh;  // keeps its memory from tile to tile
         if (!readMesh(drawable, localToEcef(), mesh)) return giveUp();
         if (!mesh.triangles.empty()) unite(meshSurface(mesh, _ellipsoid));
+    }
+
+    void visitBillboard(osg::Billboard& node) override {
+        SurfaceMesh cubes, turned;
+        const osg::Billboard::PositionList& positions = node.getPositionList();
+        if (positions.size() != node.getNumChildren()) return giveUp();
+        for (unsigned int i = 0; i < node.getNumChildren(); ++i) {
+            const std::optional<double> reach = reachOf(node.getChild(i), turned);
+            if (!reach) return giveUp();
+            addCube(positions[i], *reach, localToEcef(), cubes);
+        }
+        if (!cubes.triangles.empty()) unite(meshSurface(cubes, _ellipsoid));
     }
 
     void unite(const TileSurface& part) {
