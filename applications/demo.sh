@@ -49,6 +49,18 @@ fly() {
     [ -f "$demo/$1/poses.csv" ] || give_up "the flight with method $1 did not reach its end"
 }
 
+case ${1:-} in
+    "") ;;
+    -h | --help)
+        sed -n '5,10s/^# //p' "$0"
+        exit 0
+        ;;
+    *)
+        echo "demo.sh: it takes no arguments, see sh applications/demo.sh --help" >&2
+        exit 2
+        ;;
+esac
+
 step "Installing the Debian packages that are missing: what compiles, OpenSceneGraph, GDAL, and elevation data"
 sh applications/packages.sh demo
 

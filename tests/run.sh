@@ -8,6 +8,18 @@
 # Tests are skipped, and listed, when something that they need is missing. With OSGANALYTICBIN_REQUIRE_ALL=ON they fail.
 set -eu
 
+case ${1:-} in
+    "" | quick) ;;
+    -h | --help)
+        sed -n '5,8s/^# //p' "$0"
+        exit 0
+        ;;
+    *)
+        echo "run.sh: \"$1\" is no argument, see sh tests/run.sh --help" >&2
+        exit 2
+        ;;
+esac
+
 cd "$(dirname "$0")/.."
 jobs=$(nproc 2>/dev/null || echo 2)
 
