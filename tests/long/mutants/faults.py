@@ -40,6 +40,11 @@ FAULTS = [
     Fault("tiles out of view ask for no files", "src/node/cull/TileFamily.cpp",
           "requestOutOfView(*group.getChild(first + number), nv, view.eye);", ";", NODE, "LoadedBins.*"),
 
+    Fault("billboards do not turn", "src/node/surface/TileSurface.cpp",
+          "std::optional(reach * (1.0 + kRoomOfTurning))", "std::optional(0.5 * reach)", NODE, "TileSurface.HoldsABillboard*"),
+    Fault("an index does not know where billboards stand", "src/node/surface/SurfaceFingerprint.cpp",
+          "node.getPositionList())", "osg::Billboard::PositionList())", NODE, "SurfaceFingerprint.TellsWhere*"),
+
     # the polynomial and its proof
     Fault("no remainder", "src/core/bin/QuadraticBin.cpp", "(mapping.remainder(box) + margin)", "(margin)",
           CORE, "*QuadraticBin*"),

@@ -137,6 +137,9 @@ private:
         // a vehicle crosses a small part of its tile in the frames of a scene
         const double across = (e.north - e.south) * (database().isMap ? 1.0 : database().polar);
         if (isVehicle) part.amount = 0.01 * across * _random.uniform(0.0, 1.0);
+        // a billboard that turns stays within its tile
+        const bool isNarrow = part.high - part.low < 0.04 * across;
+        if (isNarrow && !isBuiltIn && _random.chance(0.3)) part.variant = _random.integer(1, 3);
         // the heights of bins are scaled
         const bool isFlattened = database().mesh == MeshKind::Terrain;
         if (isBelowTile && isFlattened && part.hook != Hook::Globe && part.hook != Hook::Root)

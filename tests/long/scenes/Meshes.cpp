@@ -5,6 +5,7 @@
 
 #include "Callbacks.h"
 
+#include <osg/Billboard>
 #include <osg/CoordinateSystemNode>
 #include <osg/Geode>
 #include <osg/Geometry>
@@ -146,6 +147,16 @@ osg::ref_ptr<osg::Geometry> makeTower(double height, double width) {
     return geometry;
 }
 
+// Stands about the middle of a tower and turns it to the eye.
+osg::ref_ptr<osg::Geode> makeBillboard(osg::Geometry& tower, double height, const Part& part) {
+    const osg::Vec3 middle(0.0f, 0.0f, static_cast<float>(0.5 * height));
+    for (osg::Vec3& vertex : static_cast<osg::Vec3Array&>(*tower.getVertexArray())) vertex -= middle;
+    const osg::ref_ptr<osg::Billboard> billboard = new osg::Billboard;
+    billboard->setMode(static_cast<osg::Billboard::Mode>(part.variant % 3));
+    billboard->addDrawable(&tower, middle);
+    return billboard;
+}
+
 }  // namespace
 
 Extents extentsOf(const DatabaseSpec& database, const TileKey& tile) {
@@ -217,8 +228,12 @@ osg::ref_ptr<osg::Node> makeMesh(const DatabaseSpec& database, const TileKey& ti
 
 osg::ref_ptr<osg::Node> makeModel(const DatabaseSpec& database, const Part& part, const osg::Matrixd& toDatabase) {
     const double height = part.high - part.low;
-    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    geode->addDrawable(makeTower(height, std::max(0.05 * height, 300.0 * database.scale())));
+    const osg::ref_ptr<osg::Geometry> tower = makeTower(height, std::max(0.05 * height, 300.0 * database.scale()));
+    osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    if (part.variant != 0)
+        geode = makeBillboard(*tower, height, part);
+    else
+        geode->addDrawable(tower);
     const osg::Matrixd here =
         localFrame(database, part.latitude, part.longitude, part.low) * osg::Matrixd::inverse(toDatabase);
     const osg::ref_ptr<osg::MatrixTransform> model = new osg::MatrixTransform(here);

@@ -5,6 +5,7 @@
 
 #include <osgAnalyticBin/BinStatistics.h>
 
+#include <osg/Billboard>
 #include <osg/Camera>
 #include <osg/CoordinateSystemNode>
 #include <osg/PolygonMode>
@@ -69,9 +70,7 @@ void Recorder::apply(osg::Drawable& drawable) {
     const bool hasCallback = drawable.getCullCallback() != nullptr;
     const std::uint32_t culledBefore = hasCallback ? culledBins(*this) : 0;
     const osg::NodePath& path = getNodePath();
-    std::string key = pathText(path);
-    // several drawables of one node
-    while (_delivery.drawables.count(key) > 0) key += '+';
+    std::string key = newKey();
     if (_painter) pushStateSet(_painter->paintFor(key));
     osgUtil::CullVisitor::apply(drawable);
     if (_painter) popStateSet();
@@ -80,6 +79,35 @@ void Recorder::apply(osg::Drawable& drawable) {
     Delivered delivered{cameraText(path),       &drawable,      *getModelViewMatrix(), getProjectionMatrix(),
                         *getProjectionMatrix(), isFilled(path), isCountedCulled};
     _delivery.drawables.emplace(std::move(key), std::move(delivered));
+}
+
+// Drawables of a billboard are not visited. Each has a matrix of its own.
+void Recorder::apply(osg::Billboard& node) {
+    const unsigned int before = _traversalOrderNumber;
+    const osg::NodePath& path = getNodePath();
+    if (_painter) pushStateSet(_painter->paintFor(newKey()));
+    osgUtil::CullVisitor::apply(node);
+    if (_painter) popStateSet();
+    for (const osg::ref_ptr<osgUtil::RenderLeaf>& leaf : _reuseRenderLeafList) {
+        // others are of another node or another frame
+        if (!leaf->getDrawable() || leaf->_traversalOrderNumber < before || !node.containsNode(leaf->getDrawable()))
+            continue;
+        Delivered delivered{cameraText(path),
+                            leaf->getDrawable(),
+                            *leaf->_modelview,
+                            getProjectionMatrix(),
+                            *getProjectionMatrix(),
+                            isFilled(path),
+                            false};
+        _delivery.drawables.emplace(newKey(), std::move(delivered));
+    }
+}
+
+std::string Recorder::newKey() const {
+    std::string key = pathText(getNodePath());
+    // several drawables of one node
+    while (_delivery.drawables.count(key) > 0) key += '+';
+    return key;
 }
 
 void Recorder::apply(osg::CoordinateSystemNode& node) {

@@ -62,6 +62,7 @@ public:
 
     using osgUtil::CullVisitor::apply;
     void apply(osg::Drawable& drawable) override;
+    void apply(osg::Billboard& node) override;
     void apply(osg::CoordinateSystemNode& node) override;
 
     /// Has drawables drawn in the painter's colours, by their keys in the delivery. nullptr: as they are.
@@ -71,6 +72,9 @@ public:
     [[nodiscard]] std::set<std::string> takeRequests() { return std::exchange(_requests->names, {}); }
 
 private:
+    // What is at the end of the path has no other key.
+    [[nodiscard]] std::string newKey() const;
+
     const osg::ref_ptr<Requests> _requests = new Requests;
     Delivery _delivery;
     Painter* _painter = nullptr;
