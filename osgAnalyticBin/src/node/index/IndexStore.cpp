@@ -4,7 +4,7 @@
 #include "IndexStore.h"
 
 #if defined(_WIN32)
-#include "WholeFile.h"
+#include "../WholeFile.h"
 #endif
 
 #include <boost/crc.hpp>
