@@ -7,10 +7,20 @@
 
 #include <osgDB/Registry>
 
-#include <dlfcn.h>
 #include <string>
+#if !defined(_WIN32)
+#include <dlfcn.h>
+#endif
 
 namespace osgAnalyticBin {
+
+#if defined(_WIN32)
+
+void addModuleFolder() {
+    // the kit stands beside the program, where OSG looks
+}
+
+#else
 
 void addModuleFolder() {
     Dl_info info{};
@@ -20,5 +30,7 @@ void addModuleFolder() {
     if (slash == std::string::npos) return;
     osgDB::Registry::instance()->getLibraryFilePathList().push_back(library.substr(0, slash));
 }
+
+#endif
 
 }  // namespace osgAnalyticBin

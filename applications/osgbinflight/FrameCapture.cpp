@@ -4,6 +4,7 @@
 #include "FrameCapture.h"
 
 #include <osg/GraphicsContext>
+#include <osg/Multisample>
 #include <osg/RenderInfo>
 
 namespace osgAnalyticBin::flight {

@@ -21,8 +21,11 @@ inline std::atomic<bool> stopRequested{false};
 
 /// From here on SIGINT, SIGTERM and SIGHUP set stopRequested, and a limit of file sizes is an error like a full disk.
 inline void stopOnSignals() {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, [](int) { stopRequested.store(true); });
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { stopRequested.store(true); });
+#if !defined(_WIN32)
+    std::signal(SIGHUP, [](int) { stopRequested.store(true); });
     std::signal(SIGXFSZ, SIG_IGN);
+#endif
 }
 
 inline void throwIfStopRequested() {

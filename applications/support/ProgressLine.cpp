@@ -5,11 +5,23 @@
 
 #include <algorithm>
 #include <cmath>
+#if defined(_WIN32)
+#include <io.h>
+#else
 #include <unistd.h>
+#endif
 
 namespace osgAnalyticBin::support {
 
 namespace {
+
+bool leadsToTerminal(std::FILE* stream) {
+#if defined(_WIN32)
+    return ::_isatty(::_fileno(stream)) != 0;
+#else
+    return ::isatty(::fileno(stream)) == 1;
+#endif
+}
 
 /// Seconds as people say them: "40 s", "12 min", "3 h 05 min".
 std::string durationText(double seconds) {
@@ -41,7 +53,7 @@ std::string timeLeft(double share, double seconds, double skipped) {
 }
 
 ProgressLine::ProgressLine(std::FILE* stream)
-    : _stream(stream), _isTerminal(::isatty(::fileno(stream)) == 1), _pause(_isTerminal ? 200 : 10000) {}
+    : _stream(stream), _isTerminal(leadsToTerminal(stream)), _pause(_isTerminal ? 200 : 10000) {}
 
 ProgressLine::~ProgressLine() {
     if (_width > 0) write("", "\r");

@@ -11,7 +11,7 @@ find_program(OSGANALYTICBIN_GZIP gzip DOC "Compresses man pages")
 # summary: what the program does, for whatis; a verb, no full stop.
 function(osganalyticbin_program target summary)
   install(TARGETS ${target} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tools)
-  if(NOT OSGANALYTICBIN_HELP2MAN OR NOT OSGANALYTICBIN_GZIP OR OSGANALYTICBIN_SANITIZE)
+  if(NOT OSGANALYTICBIN_HELP2MAN OR NOT OSGANALYTICBIN_GZIP OR OSGANALYTICBIN_SANITIZE OR CMAKE_CROSSCOMPILING)
     return()
   endif()
   set(_page "${PROJECT_BINARY_DIR}/man/${target}.1")

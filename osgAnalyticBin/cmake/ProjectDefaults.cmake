@@ -62,13 +62,22 @@ function(osganalyticbin_defaults target)
   endif()
 endfunction()
 
-# A module that OpenSceneGraph loads by name: no "lib" prefix, in the plugin folder.
+# A module that OpenSceneGraph loads by name: no "lib" prefix, in the plugin folder. OSG puts "mingw_" before the names of
+# those that MinGW compiles.
 function(osganalyticbin_osg_module target)
   osganalyticbin_defaults(${target})
+  set(_prefix "")
+  if(MINGW)
+    set(_prefix "mingw_")
+  endif()
+  set(_install_dir "${CMAKE_INSTALL_LIBDIR}")
+  if(WIN32)  # beside the programs, as OSG's own
+    set(_install_dir "${CMAKE_INSTALL_BINDIR}")
+  endif()
   set_target_properties(
-    ${target} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY
-                                   "${PROJECT_BINARY_DIR}/lib/${OSGANALYTICBIN_OSG_PLUGIN_DIR}"
+    ${target} PROPERTIES PREFIX "${_prefix}"
+                         LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib/${OSGANALYTICBIN_OSG_PLUGIN_DIR}"
                          INSTALL_RPATH "${OSGANALYTICBIN_ORIGIN}/..")
-  install(TARGETS ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/${OSGANALYTICBIN_OSG_PLUGIN_DIR}"
+  install(TARGETS ${target} LIBRARY DESTINATION "${_install_dir}/${OSGANALYTICBIN_OSG_PLUGIN_DIR}"
                                     COMPONENT runtime)
 endfunction()

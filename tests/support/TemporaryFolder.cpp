@@ -8,11 +8,29 @@
 #include <stdexcept>
 #include <support/TemporaryFolder.h>
 
+#if defined(_WIN32)
+#include <io.h>
+#endif
+
 namespace osgAnalyticBin::test {
+
+namespace {
+
+// Makes a folder of a name that is new. `name`: ends in XXXXXX, which is replaced.
+bool makeNewFolder(std::string& name) {
+#if defined(_WIN32)
+    std::error_code ignored;
+    return ::_mktemp_s(name.data(), name.size() + 1) == 0 && std::filesystem::create_directory(name, ignored);
+#else
+    return ::mkdtemp(name.data()) != nullptr;
+#endif
+}
+
+}  // namespace
 
 TemporaryFolder::TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "osganalyticbin-test-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("cannot make " + name);
+    if (!makeNewFolder(name)) throw std::runtime_error("cannot make " + name);
     _path = name;
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 #include <support/Random.h>
 #include <support/TemporaryFolder.h>
 
@@ -24,13 +25,21 @@ class Listener final : public ::testing::EmptyTestEventListener {
     }
 };
 
+// Where indexes are kept that programs and the kit make by themselves.
+void setCacheFolder(const std::string& folder) {
+#if defined(_WIN32)
+    ::_putenv_s("LOCALAPPDATA", folder.c_str());
+#else
+    ::setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     ::testing::InitGoogleTest(&argc, argv);
-    // where indexes are kept that programs and the kit make by themselves
     const osgAnalyticBin::test::TemporaryFolder cache;
-    ::setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
+    setCacheFolder(cache.path());
     ::testing::UnitTest::GetInstance()->listeners().Append(new Listener);  // which takes ownership
     return RUN_ALL_TESTS();
 }

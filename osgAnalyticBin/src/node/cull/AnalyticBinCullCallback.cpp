@@ -3,6 +3,7 @@
 
 #include "../GlmBridge.h"
 #include "../Inverse.h"
+#include "../PerThread.h"
 #include "../Spheres.h"
 #include "../install/InstalledTile.h"
 #include "BinCulling.h"
@@ -93,8 +94,9 @@ bool AnalyticBinCullCallback::Setup::operator==(const Setup& other) const {
 
 std::shared_ptr<const AnalyticBinCullCallback::Setup> AnalyticBinCullCallback::shared(const Setup& setup) {
     // the pager's threads install bins too
-    static thread_local std::array<std::weak_ptr<const Setup>, 4> lately;
+    static thread_local PerThread<std::array<std::weak_ptr<const Setup>, 4>> kept;
     static thread_local std::size_t next = 0;
+    auto& lately = *kept;
     for (const auto& one : lately) {
         if (auto known = one.lock(); known && *known == setup) return known;
     }

@@ -18,7 +18,7 @@ namespace osgAnalyticBin {
 namespace {
 
 // Appends the triangles whose horizontal boxes come within `radius` metres of the eye.
-void appendNear(const core::EcefMesh& mesh, const core::Frame& eye, double radius, core::EcefMesh& near) {
+void appendNear(const core::EcefMesh& mesh, const core::Frame& eye, double radius, core::EcefMesh& close) {
     std::vector<std::array<double, 2>> places;
     places.reserve(mesh.size());
     for (std::size_t i = 0; i < mesh.size(); ++i) {
@@ -35,10 +35,10 @@ void appendNear(const core::EcefMesh& mesh, const core::Frame& eye, double radiu
         if (!isNear(0) || !isNear(1)) continue;
         for (const std::uint32_t corner : corners) {
             const glm::dvec3 vertex = mesh.vertex(corner);
-            near.triangles.push_back(static_cast<std::uint32_t>(near.size()));
-            near.x.push_back(vertex.x);
-            near.y.push_back(vertex.y);
-            near.z.push_back(vertex.z);
+            close.triangles.push_back(static_cast<std::uint32_t>(close.size()));
+            close.x.push_back(vertex.x);
+            close.y.push_back(vertex.y);
+            close.z.push_back(vertex.z);
         }
     }
 }
@@ -51,13 +51,13 @@ const core::EcefMesh* NearMeshes::trianglesNear(const AnalyticBinCullCallback& t
     if (!known) return nullptr;
     // half of the room is for the eye's motion, the other half for its vertical, which turns as it moves
     const double room = 0.5 * (known->radius - radius);
-    if (glm::distance(eye.origin, known->eye) <= room) return &known->near;
+    if (glm::distance(eye.origin, known->eye) <= room) return &known->close;
     constexpr double kWider = 4.0;
     known->eye = eye.origin;
     known->radius = kWider * radius;
-    known->near = {};
-    appendNear(known->mesh, eye, known->radius, known->near);
-    return &known->near;
+    known->close = {};
+    appendNear(known->mesh, eye, known->radius, known->close);
+    return &known->close;
 }
 
 NearMeshes::Known* NearMeshes::meshOf(const AnalyticBinCullCallback& tile, osg::Node& mesh) {

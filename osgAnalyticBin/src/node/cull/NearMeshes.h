@@ -37,7 +37,7 @@ private:
         core::EcefMesh mesh;
         glm::dvec3 eye;  // where it was when the near triangles were selected
         double radius;   // of these; negative: none were looked for
-        core::EcefMesh near;
+        core::EcefMesh close;
     };
 
     [[nodiscard]] Known* meshOf(const AnalyticBinCullCallback& tile, osg::Node& mesh);

@@ -3,6 +3,7 @@
 
 #include "RequestAhead.h"
 
+#include "../PerThread.h"
 #include "../install/TileCallback.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -145,15 +146,16 @@ private:
 
 void requestAhead(osg::Node& node, osg::NodeVisitor& cullVisitor) {
     if (!cullVisitor.getDatabaseRequestHandler()) return;
-    thread_local RequestsAhead requests;
-    requests.request(node, cullVisitor);
+    thread_local PerThread<RequestsAhead> requests;
+    (*requests).request(node, cullVisitor);
 }
 
 void requestOutOfView(osg::Node& node, osg::NodeVisitor& cullVisitor, const core::HorizonEye* eye) {
     if (!cullVisitor.getDatabaseRequestHandler() || !cullVisitor.asCullStack()) return;
     const bool isEntered = Requests::isAt(node, cullVisitor);
     if (!isEntered && isSphereCulled(*cullVisitor.asCullStack(), node)) return;
-    thread_local RequestsOutOfView requests;
+    thread_local PerThread<RequestsOutOfView> kept;
+    RequestsOutOfView& requests = *kept;
     requests.setView(eye, isEntered ? &node : nullptr);
     requests.request(node, cullVisitor);
 }

@@ -3,6 +3,8 @@
 
 #include "ShaderText.h"
 
+#include "../PerThread.h"
+
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <osg/Shader>
@@ -104,8 +106,9 @@ bool mayAlterSurface(const osg::Program& program) {
     if (program.getProgramBinary()) return true;
     // states are asked in every cull traversal
     constexpr std::size_t kMostPrograms = 8;
-    thread_local std::array<ReadText, kMostPrograms> known;
+    thread_local PerThread<std::array<ReadText, kMostPrograms>> kept;
     thread_local std::size_t next = 0;
+    auto& known = *kept;
     const auto found =
         std::find_if(known.begin(), known.end(), [&](const ReadText& text) { return text.isOf(program); });
     if (found != known.end()) return found->mayAlter;

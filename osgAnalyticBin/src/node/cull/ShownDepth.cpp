@@ -342,10 +342,10 @@ std::optional<core::Geodetic> placeOf(const Viewpoint& viewpoint, const core::El
 // Whether all that hides is drawn, and the eye is above it.
 bool isTrusted(const ShownDatabase& database, const LowestShown& lowest, const std::optional<core::Geodetic>& place) {
     const std::vector<NearGround>& ground = lowest.nearGround();
-    return !lowest.hasHole() && std::all_of(ground.begin(), ground.end(), [&](const NearGround& near) {
+    return !lowest.hasHole() && std::all_of(ground.begin(), ground.end(), [&](const NearGround& close) {
         return CullTraversal::of(database.visitor)
             .ground()
-            .isBelow(*place, *near.mesh, *near.tile, database.view.ellipsoid);
+            .isBelow(*place, *close.mesh, *close.tile, database.view.ellipsoid);
     });
 }
 

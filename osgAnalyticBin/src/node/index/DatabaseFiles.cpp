@@ -15,7 +15,6 @@
 #include <exception>
 #include <filesystem>
 #include <ios>
-#include <sys/stat.h>
 
 namespace osgAnalyticBin::indexing {
 
@@ -42,13 +41,6 @@ DatabaseFiles::DatabaseFiles(const std::string& rootFile)
 
 std::string DatabaseFiles::pathOf(const std::string& file) const {
     return file.empty() ? _rootFile : _folder + "/" + file;
-}
-
-FileStamp stampOfPath(const std::string& path) {
-    struct stat status {};
-    if (::stat(path.c_str(), &status) != 0) return {};
-    return {static_cast<std::uint64_t>(status.st_size), static_cast<std::int64_t>(status.st_mtim.tv_sec),
-            static_cast<std::int64_t>(status.st_mtim.tv_nsec)};
 }
 
 osg::ref_ptr<osg::Node> DatabaseFiles::read(const std::string& file, Images images, std::string& error) const {

@@ -3,6 +3,10 @@
 
 #include "IndexStore.h"
 
+#if defined(_WIN32)
+#include "../WholeFile.h"
+#endif
+
 #include <boost/crc.hpp>
 #include <cerrno>
 #include <cstdio>
@@ -11,15 +15,55 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
-#include <sys/file.h>
 #include <sys/stat.h>
+#if defined(_WIN32)
+#include <io.h>
+#include <share.h>
+#else
+#include <sys/file.h>
 #include <unistd.h>
+#endif
 
 namespace osgAnalyticBin::indexing {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+#if defined(_WIN32)
+
+// A file that one process at a time can open. Windows deletes it when it is closed, also where the process ends.
+class LockFile {
+public:
+    explicit LockFile(const std::string& path)
+        : _handle(::_sopen(path.c_str(), _O_RDWR | _O_CREAT | _O_TEMPORARY, _SH_DENYRW, _S_IREAD | _S_IWRITE)) {
+        if (_handle >= 0) return;
+        error = std::strerror(errno);
+        std::error_code ignored;
+        isBusy = fs::exists(path, ignored);
+    }
+    ~LockFile() {
+        if (_handle >= 0) ::_close(_handle);
+    }
+    LockFile(const LockFile&) = delete;
+    LockFile& operator=(const LockFile&) = delete;
+
+    bool isBusy = false;
+    std::string error;
+
+private:
+    const int _handle;
+};
+
+bool keepAlone(const IndexFile& index, const std::string& path, std::string& error) {
+    const LockFile lock(path + ".making");
+    if (lock.isBusy) return true;
+    if (lock.error.empty()) return writeWholeFile(path, index.write, error);
+    error = "cannot write \"" + path + "\": " + lock.error;
+    return false;
+}
+
+#else
 
 // A temporary file that one process at a time may write. It is removed unless it becomes the file.
 class LockedFile {
@@ -69,6 +113,16 @@ private:
     bool _isRenamed = false;
 };
 
+bool keepAlone(const IndexFile& index, const std::string& path, std::string& error) {
+    LockedFile file(path);
+    if (file.isBusy) return true;
+    if (file.isOpen() && file.become(index, path)) return true;
+    error = "cannot write \"" + path + "\": " + file.error;
+    return false;
+}
+
+#endif
+
 // Whether a file may be replaced: there is none, or it is such an index, whole or broken at its end.
 bool isOurs(const std::string& path, std::string_view kind) {
     std::ifstream in(path, std::ios::binary);
@@ -86,19 +140,20 @@ bool keepAt(const IndexFile& index, const std::string& path, std::string& error)
         error = "\"" + path + "\" is no index";
         return false;
     }
-    LockedFile file(path);
-    if (file.isBusy) return true;
-    if (file.isOpen() && file.become(index, path)) return true;
-    error = "cannot write \"" + path + "\": " + file.error;
-    return false;
+    return keepAlone(index, path, error);
 }
 
 std::string cacheFolder() {
+#if defined(_WIN32)
+    const char* const local = std::getenv("LOCALAPPDATA");
+    return local && *local ? std::string(local) + "/osgAnalyticBin" : std::string();
+#else
     const char* const xdg = std::getenv("XDG_CACHE_HOME");
     if (xdg && *xdg == '/') return std::string(xdg) + "/osgAnalyticBin";
     const char* const home = std::getenv("HOME");
     if (home && *home == '/') return std::string(home) + "/.cache/osgAnalyticBin";
     return {};
+#endif
 }
 
 }  // namespace

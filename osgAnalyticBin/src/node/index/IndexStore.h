@@ -19,8 +19,8 @@ namespace osgAnalyticBin::indexing {
                               const std::function<void()>& checkpoint);
 
 /// The file in the user's cache folder that keeps the index of a database:
-/// "$XDG_CACHE_HOME/osgAnalyticBin/CHECKSUM.EXTENSION", or below "$HOME/.cache", by a checksum of the absolute path of
-/// the root file. Returns: empty where there is no such folder.
+/// "$XDG_CACHE_HOME/osgAnalyticBin/CHECKSUM.EXTENSION", or below "$HOME/.cache", on Windows below "%LOCALAPPDATA%", by
+/// a checksum of the absolute path of the root file. Returns: empty where there is no such folder.
 [[nodiscard]] std::string cachedIndexName(const std::string& rootFile, const std::string& extension);
 
 /// An index of any kind, as a file.

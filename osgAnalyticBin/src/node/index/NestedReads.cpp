@@ -111,7 +111,7 @@ osg::ref_ptr<osgDB::ReadFileCallback> NestedReads::callback() {
 std::string NestedReads::fileFrom(const std::string& referring, const std::string& name) const {
     if (!osgDB::isAbsolutePath(name)) return pagedFilePath(referring, name);
     const fs::path folder = fs::absolute(_files.rootFile()).lexically_normal().parent_path();
-    return fs::path(name).lexically_normal().lexically_relative(folder).string();
+    return fs::path(name).lexically_normal().lexically_relative(folder).generic_string();
 }
 
 bool NestedReads::leaves(const std::string& name) const {

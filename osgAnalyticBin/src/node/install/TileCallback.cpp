@@ -3,6 +3,7 @@
 
 #include "TileCallback.h"
 
+#include "../PerThread.h"
 #include "../cull/TileFamily.h"
 #include "../page/PagingExpiry.h"
 #include "../surface/SurfaceMesh.h"
@@ -70,9 +71,9 @@ public:
 private:
     // OSG's bounds need vertices for all indices.
     [[nodiscard]] bool areSound() const {
-        thread_local SurfaceMesh read;
+        thread_local PerThread<SurfaceMesh> read;
         return std::all_of(_parts.begin(), _parts.end(),
-                           [](const auto& part) { return readMesh(*part.first, osg::Matrixd(), read); });
+                           [](const auto& part) { return readMesh(*part.first, osg::Matrixd(), *read); });
     }
 
     std::vector<std::pair<const osg::Drawable*, osg::NodePath>> _parts;

@@ -3,6 +3,7 @@
 
 #include "MapGround.h"
 
+#include "../PerThread.h"
 #include "SurfaceMesh.h"
 #include "SurfaceWalk.h"
 #include "TerrainLimits.h"
@@ -39,7 +40,8 @@ private:
     void visit(osgTerrain::TerrainTile&) override { giveUp(); }
 
     void visit(osg::Drawable& drawable) override {
-        thread_local SurfaceMesh mesh;  // keeps its memory from tile to tile
+        thread_local PerThread<SurfaceMesh> kept;  // keeps its memory from tile to tile
+        SurfaceMesh& mesh = *kept;
         if (!readMesh(drawable, localToEcef(), mesh)) return giveUp();
         for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
             add(mesh.vertex(mesh.triangles[i]), mesh.vertex(mesh.triangles[i + 1]), mesh.vertex(mesh.triangles[i + 2]));

@@ -3,6 +3,7 @@
 
 #include "MeshSurface.h"
 
+#include "../PerThread.h"
 #include "Skirts.h"
 #include "TerrainLimits.h"
 
@@ -49,7 +50,8 @@ TileSurface meshSurface(SurfaceMesh& mesh, const core::Ellipsoid& ellipsoid) {
     const MeshSkirts skirts = foldSkirts(mesh, ellipsoid);
     dropUnusedVertices(mesh);
     // keeps its memory: fresh pages from the system for every tile cost a third of the work
-    thread_local core::MeshBounds bounds;
+    thread_local PerThread<core::MeshBounds> kept;
+    core::MeshBounds& bounds = *kept;
     bounds.find(ellipsoid, mesh);
     const core::Interval& altitude = bounds.bin().altitude();
     const bool isTerrain = altitude.lower > lowestMesh(ellipsoid) && altitude.upper < highestTerrain(ellipsoid);

@@ -5,6 +5,7 @@
 
 #include "../../core/EarthScale.h"
 #include "../GlmBridge.h"
+#include "../PerThread.h"
 #include "Skirts.h"
 #include "SurfaceMesh.h"
 #include "SurfaceWalk.h"
@@ -75,7 +76,8 @@ private:
     }
 
     void visit(osg::Drawable& drawable) override {
-        thread_local SurfaceMesh part;  // keeps its memory from tile to tile
+        thread_local PerThread<SurfaceMesh> kept;  // keeps its memory from tile to tile
+        SurfaceMesh& part = *kept;
         if (!isOfTriangles(drawable) || !readMesh(drawable, localToEcef(), part)) return giveUp();
         if (part.triangles.empty()) return;
         if (_withoutSkirts) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "../GlmBridge.h"
+#include "../PerThread.h"
 #include "MeshSurface.h"
 #include "SurfaceWalk.h"
 #include "TerrainTileSurface.h"
@@ -74,7 +75,8 @@ private:
     }
 
     void visit(osg::Drawable& drawable) override {
-        thread_local SurfaceMesh mesh;  // keeps its memory from tile to tile
+        thread_local PerThread<SurfaceMesh> kept;  // keeps its memory from tile to tile
+        SurfaceMesh& mesh = *kept;
         if (!readMesh(drawable, localToEcef(), mesh)) return giveUp();
         if (!mesh.triangles.empty()) unite(meshSurface(mesh, _ellipsoid));
     }
