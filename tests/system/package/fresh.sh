@@ -17,7 +17,9 @@ fail() {
 }
 
 ls "$source"/build/package/*.deb >/dev/null 2>&1 || fail "no packages; run sh applications/package.sh first"
-[ -d "$root/etc" ] || debootstrap --variant=minbase bookworm "$root" http://deb.debian.org/debian
+# the archive that this machine installs from
+archive=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Origin: Debian' 'Release: bookworm' | head -n 1)
+[ -d "$root/etc" ] || debootstrap --variant=minbase bookworm "$root" "$archive"
 cp /etc/resolv.conf "$root/etc/resolv.conf"
 mount -t proc proc "$root/proc"
 trap 'umount "$root/proc"' EXIT
