@@ -108,12 +108,8 @@ void expectBelow(Random& random, bool isMap, int& known) {
         EcefMesh mesh = gridMesh(random, ellipsoid, extents, cells);
         // nearly a grid
         const double most = extents.latitude().width() / cells * ellipsoid.polarRadius() * random.logUniform(1e-7, 0.1);
-        for (std::size_t i = random.chance(0.5) ? 0 : mesh.size(); i < mesh.size(); ++i) {
-            const glm::dvec3 aside = random.uniform(0.0, most) * random.direction();
-            mesh.x[i] += aside.x;
-            mesh.y[i] += aside.y;
-            mesh.z[i] += aside.z;
-        }
+        for (std::size_t i = random.chance(0.5) ? 0 : mesh.size(); i < mesh.size(); ++i)
+            moveVertex(mesh, i, random.uniform(0.0, most) * random.direction());
         if (random.chance(0.3)) mesh = unmerged(mesh);
         if (random.chance(0.3)) {
             for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
@@ -254,11 +250,7 @@ TEST(GroundPlates, ColumnsOfAGridLieBelowTheMeshWithEitherDiagonal) {
         const double room = random.uniform(0.0, 1e-4) * extents.latitude().width() * ellipsoid.polarRadius();
         const double margin = random.chance(0.5) ? room : 0.0;
         const glm::dvec3 aside = margin * random.direction();
-        for (std::size_t i = 0; i < mesh.size(); ++i) {
-            mesh.x[i] += aside.x;
-            mesh.y[i] += aside.y;
-            mesh.z[i] += aside.z;
-        }
+        for (std::size_t i = 0; i < mesh.size(); ++i) moveVertex(mesh, i, aside);
         expectBelow(random, ellipsoid, mesh, GroundPlates(ellipsoid, posts.grid, posts.altitudes, margin), known);
     }
     EXPECT_GT(known, 750 * 30);

@@ -21,6 +21,12 @@ void addVertex(EcefMesh& mesh, const glm::dvec3& v) {
     mesh.z.push_back(v.z);
 }
 
+void moveVertex(core::EcefMesh& mesh, std::size_t i, const glm::dvec3& by) {
+    mesh.x[i] += by.x;
+    mesh.y[i] += by.y;
+    mesh.z[i] += by.z;
+}
+
 EcefMesh gridMesh(Random& random, const Ellipsoid& ellipsoid, const GeodeticBin& extents, std::uint32_t cells) {
     EcefMesh mesh;
     for (std::uint32_t row = 0; row <= cells; ++row) {

@@ -16,6 +16,9 @@ namespace osgAnalyticBin::test {
 
 void addVertex(core::EcefMesh& mesh, const glm::dvec3& v);
 
+/// Moves vertex number `i`.
+void moveVertex(core::EcefMesh& mesh, std::size_t i, const glm::dvec3& by);
+
 /// Posts on a grid over the extents, each with its own altitude; diagonals by chance.
 [[nodiscard]] core::EcefMesh gridMesh(Random& random, const core::Ellipsoid& ellipsoid,
                                       const core::GeodeticBin& extents, std::uint32_t cells);

@@ -78,12 +78,8 @@ TEST(GroundPlates, TopsAreAboveTheMesh) {
         const Tile tile(random);
         EcefMesh mesh = tile.mesh;
         const double most = tile.extents.latitude().width() / tile.cells * 1e5 * random.logUniform(1e-7, 0.1);
-        for (std::size_t i = random.chance(0.5) ? 0 : mesh.size(); i < mesh.size(); ++i) {
-            const glm::dvec3 aside = random.uniform(0.0, most) * random.direction();
-            mesh.x[i] += aside.x;
-            mesh.y[i] += aside.y;
-            mesh.z[i] += aside.z;
-        }
+        for (std::size_t i = random.chance(0.5) ? 0 : mesh.size(); i < mesh.size(); ++i)
+            moveVertex(mesh, i, random.uniform(0.0, most) * random.direction());
         if (random.chance(0.3)) mesh = unmerged(mesh);
         if (random.chance(0.3)) std::swap(mesh.triangles[0], mesh.triangles[1]);
         known += expectBelowTops(random, tile, mesh, GroundPlates(tile.ellipsoid, mesh, tile.extents), 0.0);
@@ -138,8 +134,7 @@ TEST(GroundPlates, TopsAreAboveSkirtsThatAreFoldedUp) {
                 mesh->triangles.insert(mesh->triangles.end(), {0, tile.cells, bottom});
         }
         const glm::dvec3 aside = 0.044 * depth * random.direction();
-        for (std::size_t i = tile.mesh.size(); i < drawn.size(); ++i)
-            drawn.x[i] += aside.x, drawn.y[i] += aside.y, drawn.z[i] += aside.z;
+        for (std::size_t i = tile.mesh.size(); i < drawn.size(); ++i) moveVertex(drawn, i, aside);
         // exactly at the upper vertices
         for (std::size_t i = tile.mesh.size(); i < folded.size(); ++i) {
             std::size_t nearest = 0;
