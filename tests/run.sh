@@ -50,15 +50,19 @@ git ls-files '*.cpp' '*.h' 2>/dev/null | xargs -r clang-format --dry-run --Werro
 build release
 step "each public header by itself"
 build release --target all_verify_interface_header_sets
-test_preset release
-[ "${1:-}" != quick ] || exit 0
+# Tests of threads follow with the thread sanitizer.
+if [ "${1:-}" = quick ]; then
+    test_preset release
+    exit 0
+fi
+test_preset release -LE threads
 
 build dev
 test_preset dev -LE 'soundness|pictures|threads'
 build tsan --target osganalyticbin_threads_tests osgdb_serializers_osganalyticbin
 test_preset tsan -L threads
 build scalar --target osganalyticbin_core_tests
-test_preset scalar -L core
+test_preset scalar -L core-quick
 build static --target osgAnalyticBinViewer
 step "a static kit and viewer library, as others use them"
 sh tests/system/package/buildtree.sh "$PWD" "$PWD/build/static" "$PWD/build/static/buildtree"
