@@ -72,7 +72,7 @@ public:
     [[nodiscard]] std::set<std::string> takeRequests() { return std::exchange(_requests->names, {}); }
 
 private:
-    // What is at the end of the path has no other key.
+    // For what is at the end of the path: a key that no drawable has yet.
     [[nodiscard]] std::string newKey() const;
 
     const osg::ref_ptr<Requests> _requests = new Requests;

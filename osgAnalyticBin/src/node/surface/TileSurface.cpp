@@ -19,7 +19,7 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// In whatever way a billboard turns a drawable, that stays in a ball about its position. The share is room for
+// However a billboard turns a drawable, it stays in a ball about its position. This share of the radius is room for
 // matrices in single precision.
 constexpr double kRoomOfTurning = 1e-5;
 
@@ -32,7 +32,7 @@ std::optional<double> reachOf(const osg::Node* node, SurfaceMesh& mesh) {
     return std::isfinite(reach) ? std::optional(reach * (1.0 + kRoomOfTurning)) : std::nullopt;
 }
 
-// Adds the cube about a ball.
+// Adds the cube that holds a ball.
 void addCube(const osg::Vec3d& middle, double radius, const osg::Matrixd& localToEcef, SurfaceMesh& mesh) {
     const auto first = static_cast<std::uint32_t>(mesh.size());
     for (unsigned int corner = 0; corner < 8; ++corner) {
