@@ -257,13 +257,13 @@ private:
         return delivery;
     }
 
-    // doc/limits.md: pixels through a slit between tiles. Terrain without overhangs is the farther the higher it is in
-    // the picture; what is nearer above a pixel stands over a slit. `up`: the eye's vertical in the picture.
-    [[nodiscard]] static bool isThroughSlit(const Painting& painting, std::uint32_t number, const osg::Vec3d& up) {
+    // doc/limits.md: pixels through a slit between tiles. Higher in the picture, terrain without overhangs is farther
+    // away: where the pixel above is nearer, there is a slit. `up`: the eye's vertical in the picture.
+    [[nodiscard]] static bool isThroughSlit(const Painting& painting, std::size_t first, const osg::Vec3d& up) {
         const double longest = std::max(std::abs(up.x()), std::abs(up.y()));
         const long right = std::lround(up.x() / longest), above = std::lround(up.y() / longest);
-        for (std::size_t pixel = 0; pixel < painting.numbers.size(); ++pixel) {
-            if (painting.numbers[pixel] != number) continue;
+        for (std::size_t pixel = first; pixel < painting.numbers.size(); ++pixel) {
+            if (painting.numbers[pixel] != painting.numbers[first]) continue;
             const long column = static_cast<long>(pixel % Painting::kWidth) + right;
             const long row = static_cast<long>(pixel / Painting::kWidth) + above;
             if (std::min(column, row) < 0 || std::max(column, row) >= kPictureSize) return false;
@@ -303,13 +303,12 @@ private:
         if (occluded > 0) ++totals.withHidden;
         struct Seen {
             std::size_t first = 0, count = 0;
-            std::uint32_t number = 0;
         };
         std::map<std::uint32_t, Seen> pixels;
         const std::vector<std::uint32_t>& numbers = without.painting.numbers;
         for (std::size_t i = 0; i < numbers.size(); ++i) {
             Seen& seen = pixels[numbers[i]];
-            if (seen.count++ == 0) seen = {i, 1, numbers[i]};
+            if (seen.count++ == 0) seen.first = i;
         }
         std::vector<std::pair<std::string, Seen>> lost;
         for (const auto& [number, seen] : pixels) {
@@ -321,7 +320,7 @@ private:
         if (lost.empty()) return true;
         const osg::Vec3d up = osg::Matrixd::transform3x3(eye.up, eye.view());
         const auto slits = std::partition(lost.begin(), lost.end(), [&](const auto& drawable) {
-            return !isThroughSlit(without.painting, drawable.second.number, up);
+            return !isThroughSlit(without.painting, drawable.second.first, up);
         });
         for (auto it = slits; it != lost.end(); ++it) totals.slits += it->second.count;
         const auto slivers = std::remove_if(lost.begin(), slits, [&](const auto& drawable) {
