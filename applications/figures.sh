@@ -4,8 +4,8 @@
 #
 # Remakes the tables and figures of osgAnalyticBin/doc/results.md but those of other programs (sections 5 and 7): builds
 # the project, the demo's database and a regional one, flies all camera paths over them, draws flights, jumps from pose
-# to pose from disk and over a slow line, repeats the published experiment, and measures how culling scales. 13 minutes
-# on two cores; run it on a quiet machine, for it measures times. Everything goes to the folder figures/.
+# to pose from disk and over a slow line, repeats the published experiment, and measures how culling scales. 13 to
+# 18 minutes on two cores; run it on a quiet machine, for it measures times. Everything goes to the folder figures/.
 # Arguments: none, or "commit" to put the pictures that results.md shows into osgAnalyticBin/doc/results/.
 # GTOPO30=FILE in the environment: a raster of 30 arc seconds, for the published experiment with terrain behind terrain.
 

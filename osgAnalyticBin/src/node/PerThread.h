@@ -5,8 +5,8 @@
 
 namespace osgAnalyticBin {
 
-/// An object of each thread: `thread_local PerThread<T> name`. With MinGW it outlives its thread, because GCC frees the
-/// memory of thread_local objects there before it calls their destructors (GCC's bug 80816).
+/// Holds one object for each thread: `thread_local PerThread<T> name`. With MinGW the object is never destroyed,
+/// because GCC frees the memory of thread_local objects there before it calls their destructors (GCC's bug 80816).
 #if defined(__MINGW32__)
 template <class T>
 class PerThread final {

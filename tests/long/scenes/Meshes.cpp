@@ -147,7 +147,7 @@ osg::ref_ptr<osg::Geometry> makeTower(double height, double width) {
     return geometry;
 }
 
-// Stands about the middle of a tower and turns it to the eye.
+// Turns a tower about its middle to the eye.
 osg::ref_ptr<osg::Geode> makeBillboard(osg::Geometry& tower, double height, const Part& part) {
     const osg::Vec3 middle(0.0f, 0.0f, static_cast<float>(0.5 * height));
     for (osg::Vec3& vertex : static_cast<osg::Vec3Array&>(*tower.getVertexArray())) vertex -= middle;

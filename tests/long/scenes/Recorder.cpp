@@ -81,7 +81,7 @@ void Recorder::apply(osg::Drawable& drawable) {
     _delivery.drawables.emplace(std::move(key), std::move(delivered));
 }
 
-// Drawables of a billboard are not visited. Each has a matrix of its own.
+// The cull visitor does not visit the drawables of a billboard. Each has its own matrix.
 void Recorder::apply(osg::Billboard& node) {
     const unsigned int before = _traversalOrderNumber;
     const osg::NodePath& path = getNodePath();
@@ -89,7 +89,7 @@ void Recorder::apply(osg::Billboard& node) {
     osgUtil::CullVisitor::apply(node);
     if (_painter) popStateSet();
     for (const osg::ref_ptr<osgUtil::RenderLeaf>& leaf : _reuseRenderLeafList) {
-        // others are of another node or another frame
+        // the others belong to another node or to an earlier frame
         if (!leaf->getDrawable() || leaf->_traversalOrderNumber < before || !node.containsNode(leaf->getDrawable()))
             continue;
         Delivered delivered{cameraText(path),

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// What the zip for Windows is tried with: writes a small database, opens it through the plugin and culls it, lets the
-// kit make an index, and writes a node with a bin to files and reads it back.
+// Tries the zip for Windows: writes a small database, opens it through the plugin, culls it, waits until the kit has
+// made an index, writes a node with a bin to files, and reads it back.
 //     osganalyticbin_windows_trial FOLDER
 // Exit code: 0 if all this worked.
 
@@ -74,7 +74,7 @@ void openDatabase(const std::string& folder) {
     if (result.drawn.empty() || counts.outside == 0) throw std::runtime_error("nothing is drawn, or nothing culled");
 }
 
-// Of a database without stored bins; a thread of the kit makes it.
+// A thread of the kit makes the index of a database without stored bins.
 void makeIndex(const std::string& folder) {
     const std::string file = test::writeMeshDatabase(folder, 700.0, 900.0);
     const osg::ref_ptr<osg::Node> scene = read(file + ".analyticbin");

@@ -279,7 +279,7 @@ TEST(TileSurface, HoldsABillboardHoweverItTurns) {
                 seen = {std::min(seen.lower, own.lower), std::max(seen.upper, own.upper)};
             }
         }
-        // the corner of a cube about 50 m in each direction is 150 m away
+        // vertices are up to 87 m from the position, corners of the cube 150 m
         EXPECT_LE(surface.bin.bin().altitude().upper - seen.upper, 150.0) << trial;
         EXPECT_LE(seen.lower - surface.bin.bin().altitude().lower, 150.0) << trial;
     }

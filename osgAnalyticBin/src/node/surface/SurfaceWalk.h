@@ -25,7 +25,7 @@ public:
 protected:
     virtual void visit(osgTerrain::TerrainTile& tile) = 0;
     virtual void visit(osg::Drawable& drawable) = 0;
-    /// Drawables that turn to the eye, each about its own position. By default what they draw cannot be told.
+    /// Its drawables turn to the eye, each about its own position. By default: giveUp().
     virtual void visitBillboard(osg::Billboard& node);
 
     [[nodiscard]] const osg::Matrixd& localToEcef() const { return _localToEcef; }

@@ -19,11 +19,11 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// However a billboard turns a drawable, it stays in a ball about its position. This share of the radius is room for
-// matrices in single precision.
+// A billboard rotates each drawable about its position, so the drawable stays in a ball. This share of the radius is
+// added for the rounding of rotations in single precision.
 constexpr double kRoomOfTurning = 1e-5;
 
-// The radius of the ball about the origin that holds a drawable; none if what it draws cannot be told.
+// The radius of the ball about the origin that holds a drawable; nullopt if its vertices cannot be read.
 std::optional<double> reachOf(const osg::Node* node, SurfaceMesh& mesh) {
     const osg::Drawable* const drawable = node ? node->asDrawable() : nullptr;
     if (!drawable || !readMesh(*drawable, osg::Matrixd(), mesh)) return std::nullopt;
