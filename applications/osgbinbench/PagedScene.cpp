@@ -40,7 +40,7 @@ public:
 
     void requestNodeFile(const std::string& file, osg::NodePath& path, float priority, const osg::FrameStamp* stamp,
                          osg::ref_ptr<osg::Referenced>& request, const osg::Referenced* options) override {
-        // what terrain still hides is requested ahead with priorities below zero
+        // below tiles that draw nothing, bins request with priorities below zero
         if (priority >= 0.0F) ++wanted;
         const auto [asked, isNew] = _frameOf.try_emplace(file, _frame);
         if (!isNew && std::exchange(asked->second, _frame) + 1 < _frame) ++askedAgain;

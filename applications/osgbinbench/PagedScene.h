@@ -22,7 +22,7 @@ public:
     struct Frame {
         double cullMs = 0.0;
         std::uint64_t wanted = 0;      ///< files asked for: not loaded yet
-        std::uint64_t askedAgain = 0;  ///< files asked for, ahead too, that earlier frames had ceased to ask for
+        std::uint64_t askedAgain = 0;  ///< files asked for that earlier frames had ceased to ask for
     };
 
     /// `camera` has `root` for its only child, a viewport, and the view of every frame.

@@ -337,8 +337,6 @@ FAULTS = [
     Fault("occlusion: a mesh stands for finer levels", "src/node/cull/OcclusionSearch.h",
           "findings[i] == Finding::MeshHidden && tile.isOnlyLevel", "findings[i] == Finding::MeshHidden && (tile.isOnlyLevel || true)", NODE,
           "TerrainOcclusion.*"),
-    Fault("occlusion: nothing is requested ahead", "src/node/cull/EmergingTiles.cpp", "eye + ahead / seconds * step", "eye + 0.0 * ahead / seconds * step", NODE,
-          "TerrainOcclusion.*"),
     Fault("occlusion: the near plane cuts nothing away", "src/node/cull/OcclusionSearch.cpp",
           "_buffer.setLowest(*highest / nearReach);", "", NODE, "TerrainOcclusion.*"),
     Fault("occlusion: what was found serves eyes anywhere", "src/node/cull/TerrainOcclusion.cpp",
@@ -395,12 +393,6 @@ FAULTS = [
           "if (isBeyond) verdicts.separated |=", "if (false) verdicts.separated |=", NODE, "TileFamily.*"),
     Fault("family: an edge is no edge in the slots", "src/core/bin/BinFamily.cpp",
           "return core::isSeparated(SlotBin(", "return true || core::isSeparated(SlotBin(", CORE, "BinFamily.*"),
-
-    # the order of requests
-    Fault("requests: all are passed on", "src/node/cull/RequestOrder.cpp", "request.lag() > kBand * _least;",
-          "request.lag() > 1e9;", NODE, "RequestOrder.*"),
-    Fault("requests: files that do not come hold others back", "src/node/cull/RequestOrder.cpp",
-          "if (time - sinceOf(request) <= kPatience) _least", "_least", NODE, "RequestOrder.*"),
 
     # found by the generator of scenes, and in databases of others
     Fault("stored bins are believed by a quarter of the sag", "src/node/install/TileFit.cpp", "{least + sag, least, least",

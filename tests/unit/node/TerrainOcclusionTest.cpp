@@ -510,56 +510,6 @@ TEST(TerrainOcclusion, OutlastsOnlyTilesThatHidNothingOrAreOutOfView) {
     }
 }
 
-// Notes with which priority the files of a tile are requested.
-struct TileRequests : osg::NodeVisitor::DatabaseRequestHandler {
-    explicit TileRequests(const osg::Node& watched) : tile(watched) {}
-    void requestNodeFile(const std::string&, osg::NodePath& path, float priority, const osg::FrameStamp*,
-                         osg::ref_ptr<osg::Referenced>&, const osg::Referenced*) override {
-        if (path.back() == &tile && path.size() > 1 && path.front()->asGroup()) priorities.push_back(priority);
-    }
-    const osg::Node& tile;
-    std::vector<float> priorities;
-};
-
-TEST(TerrainOcclusion, RequestsWhatComesIntoViewSoon) {
-    constexpr double kFrame = 1.0 / 60.0;
-    for (const bool isTileByTile : {false, true}) {
-        RidgeGlobe globe;
-        installBins(*globe.root, withOcclusion());
-        BinStatistics::of(*globe.visitor).setTileByTile(isTileByTile);
-        const osg::ref_ptr<TileRequests> requests = new TileRequests(*globe.row[4]);
-        globe.visitor->setDatabaseRequestHandler(requests);
-        // where the eye comes out from behind the ridge
-        constexpr double kSpeed = 200.0;
-        double altitude = 6000.0, time = 0.0;
-        const auto fly = [&](double speed) {
-            altitude += kFrame * speed;
-            time += kFrame;
-            requests->priorities.clear();
-            return cull(*globe.scene, RidgeGlobe::alongRow(altitude), *globe.visitor, ++globe.frame, time)
-                       .drawn.count(drawableOf(*globe.row[4])) > 0;
-        };
-        EXPECT_FALSE(fly(0.0));
-        EXPECT_TRUE(requests->priorities.empty());
-        double firstRequest = 0.0, firstView = 0.0;
-        while (firstView == 0.0 && time < 60.0) {
-            const bool isDrawn = fly(kSpeed);
-            if (isDrawn) firstView = time;
-            if (firstRequest == 0.0 && !requests->priorities.empty()) firstRequest = time;
-            for (const float priority : requests->priorities) EXPECT_EQ(priority < 0.0F, !isDrawn);
-        }
-        ASSERT_GT(firstView, 2.0);
-        EXPECT_GT(firstRequest, firstView - 1.3);
-        EXPECT_LT(firstRequest, firstView - 0.4);
-        // back behind the ridge, where nothing is asked for once the eye stands still
-        altitude -= 5.0 * kSpeed;
-        for (int i = 0; i < 90; ++i) EXPECT_FALSE(fly(0.0));
-        EXPECT_TRUE(requests->priorities.empty());
-        for (int i = 0; i < 90; ++i) EXPECT_FALSE(fly(-kSpeed));
-        EXPECT_TRUE(requests->priorities.empty());
-    }
-}
-
 TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
     RidgeGlobe globe;
     installBins(*globe.root, withOcclusion());

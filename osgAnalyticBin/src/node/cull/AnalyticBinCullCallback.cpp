@@ -292,12 +292,9 @@ void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) 
     const auto isCulledHere = [&](osg::CullStack& cullStack) {
         const core::PlaneMask before = cullStack.getCurrentCullingSet().getFrustum().getCurrentMask();
         const bool culled = isCulled(*node, cullStack, *nv);
-        const DatabaseView* const database = culled ? CullTraversal::of(*nv).databaseView() : nullptr;
         if (culled && _declared.valid()) {
             setUndecided(cullStack.getCurrentCullingSet().getFrustum(), before);
             requestFilesOutOfView(*node, cullStack, *nv);
-        } else if (database && database->plan && database->plan->isEmerging(*this)) {
-            requestAhead(*node, *nv);
         }
         return culled;
     };

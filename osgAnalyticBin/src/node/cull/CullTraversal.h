@@ -3,10 +3,8 @@
 
 #pragma once
 
-#include "EmergingTiles.h"
 #include "GroundBelow.h"
 #include "NearMeshes.h"
-#include "RequestOrder.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinStatistics.h>
@@ -99,8 +97,6 @@ public:
         unsigned int rest = 0;     ///< views without occlusion that follow a view in which it hid too little
         unsigned int resting = 0;  ///< how many of them are left
         std::shared_ptr<FoundOcclusion> occlusion;
-        EmergingTiles emerging;
-        osg::ref_ptr<RequestOrder> requests = new RequestOrder;
     };
     [[nodiscard]] LastView& lastView(const Database& database);
 

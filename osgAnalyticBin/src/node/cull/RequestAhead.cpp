@@ -82,17 +82,6 @@ private:
     const osg::ref_ptr<LaterRequests> _later;
 };
 
-class RequestsAhead final : public Requests {
-public:
-    using Requests::apply;
-    void apply(osg::Group& group) override {
-        if (typeid(group) == typeid(osg::Group)) traverse(group);
-    }
-    void apply(osg::PagedLOD& paged) override {
-        if (paged.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT) traverse(paged);
-    }
-};
-
 // Whether OSG would cull a node by its sphere.
 bool isSphereCulled(osg::CullStack& cullStack, const osg::Node& node) {
     osg::CullingSet& cullingSet = cullStack.getCurrentCullingSet();
@@ -143,12 +132,6 @@ private:
 };
 
 }  // namespace
-
-void requestAhead(osg::Node& node, osg::NodeVisitor& cullVisitor) {
-    if (!cullVisitor.getDatabaseRequestHandler()) return;
-    thread_local PerThread<RequestsAhead> requests;
-    (*requests).request(node, cullVisitor);
-}
 
 void requestOutOfView(osg::Node& node, osg::NodeVisitor& cullVisitor, const core::HorizonEye* eye) {
     if (!cullVisitor.getDatabaseRequestHandler() || !cullVisitor.asCullStack()) return;

@@ -104,7 +104,7 @@ void aim(FoundOcclusion& found, const LevelView& view, const glm::dvec3& eye, co
     found.span.across.upper += room(spanThen->across.upper - found.lastAcross.upper);
 }
 
-OccludedTiles noteIn(TilePlan& plan, const FoundOcclusion& found, const EmergingTiles& emerging) {
+OccludedTiles noteIn(TilePlan& plan, const FoundOcclusion& found) {
     OccludedTiles tiles;
     for (std::size_t i = 0; i < found.findings.size(); ++i) {
         const TilePlan::ShownTile& tile = plan.shown()[i];
@@ -112,7 +112,7 @@ OccludedTiles noteIn(TilePlan& plan, const FoundOcclusion& found, const Emerging
         ++tiles.inView;
         if (!found.hides(i, tile)) continue;
         ++tiles.hidden;
-        plan.addOccluded(tile, emerging.contains(*tile.tile));
+        plan.addOccluded(tile);
     }
     return tiles;
 }
@@ -120,7 +120,7 @@ OccludedTiles noteIn(TilePlan& plan, const FoundOcclusion& found, const Emerging
 }  // namespace
 
 OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& viewpoint,
-                                std::shared_ptr<FoundOcclusion>& kept, EmergingTiles& emerging) {
+                                std::shared_ptr<FoundOcclusion>& kept) {
     if (!viewpoint.eye() || !database.view.plan || !std::isfinite(viewpoint.nearReach())) return {};
     // tiles in front of the near plane are not looked for then
     constexpr osg::CullingSet::Mask kNear = osg::CullingSet::NEAR_PLANE_CULLING;
@@ -136,8 +136,7 @@ OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& 
     if (ground != Ground::Known) return {0, 0, ground == Ground::Awaited};
     const auto spanThen = PictureSpan::of(*view, found.eye);
     found.leaveOut(database.view.planes, database.view.ellipsoid);
-    const bool isServed = serves(found, database, eye, spanThen, viewpoint.nearReach());
-    if (!isServed) {
+    if (!serves(found, database, eye, spanThen, viewpoint.nearReach())) {
         const auto span = PictureSpan::of(*view, view->frameAt(eye));
         if (!span) return {};
         aim(found, *view, eye, *span, spanThen);
@@ -155,8 +154,7 @@ OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& 
         .setCovered(found.covered, static_cast<unsigned int>(database.visitor.getTraversalNumber()));
     found.lastEye = eye;
     found.lastAcross = PictureSpan::of(*view, found.eye).value_or(found.span).across;
-    emerging.look(database, *view, eye, found, !isServed);
-    return noteIn(*database.view.plan, found, emerging);
+    return noteIn(*database.view.plan, found);
 }
 
 }  // namespace osgAnalyticBin

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include "EmergingTiles.h"
 #include "OcclusionSearch.h"
 #include "ShownDepth.h"
 
@@ -23,13 +22,12 @@ struct OccludedTiles {
 /// terrain. It does nothing for orthographic cameras, for views that look so steeply that there is no horizon in front
 /// of them, if OSG computes the near plane or it may cut into terrain, and if a tile may have a hole. `kept`: the
 /// result of this visitor's last search, which is used again if the same tiles are shown and the eye has moved little.
-/// `emerging`: of the same visitor.
 /// Requires: a plan with the shown tiles, without holes, and an eye above the ground (eyeAboveWhatIsShown()).
 /// Guarantee: every line of sight to a tile that is culled meets the mesh of another shown tile before; tests:
 /// TerrainOcclusion.*. Source: doc/theory/occlusion.md, section 5.
 /// Cost: a few ten nanoseconds for each shown tile; if `kept` cannot be used, a sort of the shown tiles and a few
 /// microseconds for each that is not hidden.
 OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& viewpoint,
-                                std::shared_ptr<FoundOcclusion>& kept, EmergingTiles& emerging);
+                                std::shared_ptr<FoundOcclusion>& kept);
 
 }  // namespace osgAnalyticBin

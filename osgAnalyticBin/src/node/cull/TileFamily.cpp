@@ -176,8 +176,7 @@ bool TileFamily::enterFamilyOf(osg::Node& node, osgUtil::CullVisitor& visitor, C
 void TileFamily::test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes,
                       core::PlaneMask undecided, const core::HorizonEye* eye, CullTraversal& traversal,
                       Verdicts& verdicts) const {
-    verdicts.members = verdicts.tested = verdicts.hidden = verdicts.separated = verdicts.occluded = verdicts.emerging =
-        0;
+    verdicts.members = verdicts.tested = verdicts.hidden = verdicts.separated = verdicts.occluded = 0;
     verdicts.lacksTiles = false;
     if (first >= _block->size()) return;
     const TileBlock::Part& part = _block->partFrom(first);
@@ -301,8 +300,6 @@ void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::Cull
             if (!view.eye || !_block->isDeclaredHidden(first + number, *view.eye))
                 requestOutOfView(*group.getChild(first + number), nv, view.eye);
         });
-        forEachBit(verdicts.members & culled & verdicts.emerging & ~loadedOnly,
-                   [&](unsigned int number) { requestAhead(*group.getChild(first + number), nv); });
         forEachBit(lowestBits(here) & ~culled, [&](unsigned int number) {
             if (first + number >= group.getNumChildren()) return;
             osg::Node& child = *group.getChild(first + number);

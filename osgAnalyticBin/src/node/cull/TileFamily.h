@@ -76,7 +76,6 @@ public:
         std::uint64_t hidden = 0;     ///< behind the horizon
         std::uint64_t separated = 0;  ///< proven outside by an edge of the frustum
         std::uint64_t occluded = 0;   ///< behind terrain
-        std::uint64_t emerging = 0;   ///< of these, those that come into view soon
         bool lacksTiles = false;      ///< a tile was removed: the terrain may have a hole
 
         /// Slots whose bin is out of view.

@@ -15,7 +15,6 @@ void TilePlan::clear() {
     _masks.clear();
     _shown.clear();
     _occluded.clear();
-    _emerging.clear();
     _next = 0;
 }
 
@@ -25,7 +24,7 @@ std::size_t TilePlan::add(const TileFamily& family, unsigned int first, core::Pl
     const std::size_t begin = _masks.size();
     _masks.insert(_masks.end(), masks, masks + std::min<std::size_t>(children, TileBlock::Part::kMost));
     _entries.push_back({&family, first, undecided, verdicts.planes.outside, verdicts.planes.insideAll, verdicts.members,
-                        verdicts.tested, verdicts.hidden, verdicts.separated, 0, 0, verdicts.lacksTiles, begin,
+                        verdicts.tested, verdicts.hidden, verdicts.separated, 0, verdicts.lacksTiles, begin,
                         _masks.size()});
     return _entries.size() - 1;
 }
@@ -36,29 +35,16 @@ bool TilePlan::isOutOfView(const ShownTile& tile) const {
     return hasBit(entry.tested & (entry.outside | entry.hidden | entry.separated), tile.slot);
 }
 
-void TilePlan::addOccluded(const ShownTile& tile, bool isEmerging) {
-    if (tile.result != kAlone) {
-        _entries[tile.result].occluded |= std::uint64_t{1} << tile.slot;
-        _entries[tile.result].emerging |= std::uint64_t{isEmerging} << tile.slot;
-    }
-    _occluded.add(tile.tile);
-    if (isEmerging) _emerging.add(tile.tile);
-}
-
-void TilePlan::Tiles::clear() {
-    _tiles.clear();
-    _isSorted = true;
-}
-
-void TilePlan::Tiles::add(const AnalyticBinCullCallback* tile) {
-    _tiles.push_back(tile);
+void TilePlan::addOccluded(const ShownTile& tile) {
+    if (tile.result != kAlone) _entries[tile.result].occluded |= std::uint64_t{1} << tile.slot;
+    _occluded.push_back(tile.tile);
     _isSorted = false;
 }
 
-bool TilePlan::Tiles::contains(const AnalyticBinCullCallback& tile) {
-    if (!_isSorted) std::sort(_tiles.begin(), _tiles.end(), std::less<>());
+bool TilePlan::isOccluded(const AnalyticBinCullCallback& tile) {
+    if (!_isSorted) std::sort(_occluded.begin(), _occluded.end(), std::less<>());
     _isSorted = true;
-    return std::binary_search(_tiles.begin(), _tiles.end(), &tile, std::less<>());
+    return std::binary_search(_occluded.begin(), _occluded.end(), &tile, std::less<>());
 }
 
 bool TilePlan::find(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
@@ -78,7 +64,6 @@ bool TilePlan::find(const TileFamily& family, unsigned int first, core::PlaneMas
         verdicts.hidden = entry.hidden;
         verdicts.separated = entry.separated;
         verdicts.occluded = entry.occluded;
-        verdicts.emerging = entry.emerging;
         verdicts.lacksTiles = entry.lacksTiles;
         std::copy(_masks.data() + entry.masks, _masks.data() + entry.end, verdicts.planes.undecided);
         return true;

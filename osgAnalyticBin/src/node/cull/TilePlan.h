@@ -38,10 +38,9 @@ public:
     /// Whether the tile of a family is known to be out of view.
     [[nodiscard]] bool isOutOfView(const ShownTile& tile) const;
 
-    /// Says that terrain hides one of the shown tiles. `isEmerging`: it comes into view soon.
-    void addOccluded(const ShownTile& tile, bool isEmerging);
-    [[nodiscard]] bool isOccluded(const AnalyticBinCullCallback& tile) { return _occluded.contains(tile); }
-    [[nodiscard]] bool isEmerging(const AnalyticBinCullCallback& tile) { return _emerging.contains(tile); }
+    /// Says that terrain hides one of the shown tiles.
+    void addOccluded(const ShownTile& tile);
+    [[nodiscard]] bool isOccluded(const AnalyticBinCullCallback& tile);
 
     /// Searches behind the family that was found last. `undecided`: a result for other planes is not used.
     /// Returns: false where the plan has no such result; `verdicts` stays as it is then.
@@ -53,27 +52,17 @@ private:
         const TileFamily* family;
         unsigned int first;
         core::PlaneMask undecided;
-        std::uint64_t outside, insideAll, members, tested, hidden, separated, occluded, emerging;
+        std::uint64_t outside, insideAll, members, tested, hidden, separated, occluded;
         bool lacksTiles;
         std::size_t masks, end;  // in _masks
-    };
-
-    // Sorted when the first tile is asked for: families have what they ask for in their bits.
-    class Tiles {
-    public:
-        void clear();
-        void add(const AnalyticBinCullCallback* tile);
-        [[nodiscard]] bool contains(const AnalyticBinCullCallback& tile);
-
-    private:
-        std::vector<const AnalyticBinCullCallback*> _tiles;
-        bool _isSorted = true;
     };
 
     std::vector<Entry> _entries;
     std::vector<core::PlaneMask> _masks;
     std::vector<ShownTile> _shown;
-    Tiles _occluded, _emerging;
+    // Sorted when the first tile is asked for: families have what they ask for in their bits.
+    std::vector<const AnalyticBinCullCallback*> _occluded;
+    bool _isSorted = true;
     std::size_t _next = 0;
 };
 

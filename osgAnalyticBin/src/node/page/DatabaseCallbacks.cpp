@@ -29,10 +29,8 @@ namespace {
 
 constexpr unsigned int kShortestRest = 8;
 
-// Whether to look for tiles behind terrain in this view. While tiles are a level behind, as after a jump, what earlier
-// views found says little.
+// Whether to look for tiles behind terrain in this view.
 bool isOcclusionDue(OcclusionUse use, CullTraversal::LastView& last) {
-    if (last.requests->isBehind()) last.rest = last.resting = std::min(last.resting, kShortestRest);
     if (use != OcclusionUse::Auto || last.resting == 0) return use != OcclusionUse::Off;
     --last.resting;
     return false;
@@ -100,8 +98,7 @@ Horizon horizonOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cull
         mayFindOccluded && isFinalProjection(cullStack) && isOcclusionDue(options.occlusion, last);
     const ShownDatabase shown{node, nv, cullStack, view, findsOccluded, region ? &*region : nullptr};
     const auto find = [&](bool isPlanned) {
-        const OccludedTiles tiles =
-            isPlanned ? cullBehindTerrain(shown, *viewpoint, last.occlusion, last.emerging) : OccludedTiles();
+        const OccludedTiles tiles = isPlanned ? cullBehindTerrain(shown, *viewpoint, last.occlusion) : OccludedTiles();
         noteOccluded(tiles, last);
     };
     if (isMap) {
@@ -157,7 +154,6 @@ void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     const Horizon horizon = horizonOver(*group, *nv, *cullStack, *_database, options, view);
     if (horizon.eye) view.eye = &*horizon.eye;
     if (horizon.sight && !horizon.sight->holdsAll()) view.sight = &*horizon.sight;
-    const RequestOrder::Scope requests(*traversal.lastView(*_database).requests, *nv);
     const CullTraversal::DatabaseScope scope(*nv, traversal, view);
     traverse(node, nv);
 }
