@@ -91,17 +91,6 @@ public:
     /// The bin that the tile is culled by, before any terrain shape.
     [[nodiscard]] const AnalyticBin& getBin() const { return _bin; }
 
-    /// For installers, where what may be paged in below the tile is known by declared heights alone. `bin`: holds what
-    /// the tile and those of its descendants draw that are loaded, whole skirts included. `declared`: the larger bin
-    /// that holds what is not loaded yet, too. The tile is culled by `bin`. While `declared` may be in view, files
-    /// below the tile are requested where OSG's spheres would request them.
-    void setLoadedBin(const AnalyticBin& bin, const AnalyticBin& declared);
-    /// See setLoadedBin(). Not valid: getBin() holds all descendants.
-    [[nodiscard]] const AnalyticBin& getDeclaredBin() const { return _declared; }
-    /// Whether files below the tile may hold what neither getBin() holds nor the horizon hides. `eye`: on the bin's
-    /// ellipsoid; null: there is no horizon.
-    [[nodiscard]] bool mayRequestBelow(const core::HorizonEye* eye) const;
-
     /// The bin that the tile is culled by, in its present shape and with the skirts that count.
     [[nodiscard]] AnalyticBin shownBin() const;
 
@@ -210,7 +199,6 @@ private:
         osg::BoundingSphere columnSphere;
         std::optional<core::HorizonBin> columnHorizon;   // where it is not that of the bin
         std::optional<core::HorizonPoint> horizonPoint;  // in place of the bin's horizon, for boxes
-        std::optional<core::HorizonBin> declaredHorizon;
     };
     // What most tiles of a database have in common. A setter replaces the whole object; nothing changes it.
     struct Setup {
@@ -240,7 +228,6 @@ private:
     void fillSlot() const;
     void refuse(const char* why);
     [[nodiscard]] bool readItem(const std::string& item);
-    void requestFilesOutOfView(osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
     [[nodiscard]] PreparedBin preparedBin(const AnalyticBin& shown, const core::Ellipsoid& ellipsoid) const;
     [[nodiscard]] const DatabaseView* viewOn(osg::CullStack& cullStack, CullTraversal& traversal) const;
     [[nodiscard]] const core::HorizonEye* eyeWithoutDatabase(osg::CullStack& cullStack, osg::NodeVisitor& nv,
@@ -264,7 +251,6 @@ private:
     std::shared_ptr<const Setup> _setup;
     std::unique_ptr<const LocalFrame> _frame;  // null: ECEF
     AnalyticBin _bin;
-    AnalyticBin _declared;
     AnalyticBin _surface;
     double _surfaceLow;
     double _surfaceHigh;

@@ -33,12 +33,8 @@ FAULTS = [
     Fault("an option is not listed", "src/plugin/ReaderWriterAnalyticBin.cpp",
           'supportsOption("skirts=cracks|all",', 'supportsOption("index=auto|on|off",', PLUGIN, "OptionString.*"),
 
-    Fault("loaded bins do not grow", "src/node/page/Database.cpp",
-          "    tile.setLoadedBin(grown, declared);", "", NODE, "AutoIndex.WhereItIsOff*"),
-    Fault("a tile from elsewhere is not looked at", "src/node/install/ContentWatch.cpp",
-          "fitLoadedInto(node, isKnown ? united : AnalyticBin());", ";", NODE, "LoadedBins.*"),
-    Fault("tiles out of view ask for no files", "src/node/cull/TileFamily.cpp",
-          "requestOutOfView(*group.getChild(first + number), nv, view.eye);", ";", NODE, "LoadedBins.*"),
+    Fault("without an index spheres do not count", "src/node/cull/TileFamily.cpp",
+          "verdicts.members & ~culled & _block->partFrom(first).withSpheres", "verdicts.members & ~verdicts.members", NODE, "DeclaredBins.*"),
 
     Fault("billboards do not turn", "src/node/surface/TileSurface.cpp",
           "std::optional(reach * (1.0 + kRoomOfTurning))", "std::optional(0.5 * reach)", NODE, "TileSurface.HoldsABillboard*"),

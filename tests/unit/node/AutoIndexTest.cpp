@@ -50,7 +50,7 @@ protected:
         ASSERT_TRUE(_root);
         EXPECT_EQ(installBins(*_scene, {}, _file), 1u);
     }
-    [[nodiscard]] bool isRootWhole() const { return !installedOn(*_root)->getDeclaredBin().valid(); }
+    [[nodiscard]] bool isRootWhole() const { return highOfRoot() < CullOptions::kTerrainOnEarth.upper; }
     [[nodiscard]] double highOfRoot() const { return installedOn(*_root)->getBin().bin().altitude().upper; }
     [[nodiscard]] std::size_t cachedFiles() const {
         std::size_t count = 0;
@@ -94,12 +94,11 @@ TEST_F(AutoIndex, LoadedTilesGetItsBinsInUpdateTraversals) {
     while (isIndexAwaited(*_scene) && std::chrono::steady_clock::now() < end) update(*_scene);
     for (int i = 0; i < 4; ++i) update(*_scene);
     EXPECT_TRUE(isRootWhole());
-    EXPECT_FALSE(installedOn(north)->getDeclaredBin().valid());
     EXPECT_NEAR(installedOn(north)->getBin().bin().altitude().upper, 900.0, 1.0);
 }
 
 // A tile that nobody knows the extent of has no bounds in the index, and those above it have none either.
-TEST_F(AutoIndex, TilesAboveOneWithoutBoundsAreCulledByWhatIsLoaded) {
+TEST_F(AutoIndex, TilesAboveOneWithoutBoundsKeepTheDeclaredHeights) {
     const std::string file = _folder.path() + "/children.osgb";
     const osg::ref_ptr<osg::Group> children = osgDB::readRefFile<osg::Group>(file);
     const osg::ref_ptr<osg::AutoTransform> sign = new osg::AutoTransform;
@@ -202,23 +201,6 @@ TEST_F(AutoIndex, IsNotMadeWhereItIsOffOrTilesHaveStoredBins) {
     EXPECT_FALSE(isIndexAwaited(*_scene));
 }
 
-TEST_F(AutoIndex, WhereItIsOffBinsGrowWithWhatIsMergedBeforeThatIsCulled) {
-    CullOptions options;
-    options.index = IndexUse::Off;
-    _scene = osgDB::readRefNodeFile(_file);
-    _root = dynamic_cast<osg::PagedLOD*>(_scene->asGroup()->getChild(0));
-    (void)installBins(*_scene, options, _file);
-    EXPECT_NEAR(highOfRoot(), 200.0, 1.0);
-    const osg::ref_ptr<osg::Node> children = readBelow(*_root);
-    putBelow(*_root, children);
-    update(*_scene);
-    EXPECT_NEAR(highOfRoot(), 700.0, 1.0);
-    EXPECT_FALSE(isRootWhole());
-    // and hold it when bins are fitted anew
-    (void)setCullOptions(*_scene, options);
-    EXPECT_NEAR(highOfRoot(), 700.0, 1.0);
-}
-
 // Says that the files of a tile are requested.
 struct Requests : osg::NodeVisitor::DatabaseRequestHandler {
     void requestNodeFile(const std::string& file, osg::NodePath&, float, const osg::FrameStamp*,
@@ -247,24 +229,23 @@ struct PlainGlobe : MeshGlobe {
     osg::ref_ptr<Requests> requests = new Requests;
 };
 
-TEST(LoadedBins, ATileIsCulledByWhatIsLoadedAndAsksForFilesWhereSpheresWould) {
+// So no more tiles are drawn and no more files are read than without bins.
+TEST(DeclaredBins, TilesAreCulledByOsgsSphereToo) {
     for (const bool isTileByTile : {false, true}) {
-        PlainGlobe globe;
+        PlainGlobe globe, stock;
         installBins(*globe.root);
         BinStatistics::of(*globe.visitor).setTileByTile(isTileByTile);
-        EXPECT_TRUE(globe.drawsPlain(3000.0, -3.0));
-        EXPECT_EQ(globe.requests->files.count("no.osgb"), 1u);
-        // above the mesh, within the sphere of some 15 km
-        EXPECT_FALSE(globe.drawsPlain(3000.0, 2.0));
-        EXPECT_EQ(globe.requests->files.count("no.osgb"), 1u);
-        // above the sphere
-        EXPECT_FALSE(globe.drawsPlain(3000.0, 9.0));
-        EXPECT_EQ(globe.requests->files.count("no.osgb"), 0u);
+        for (const double above : {-3.0, 0.0, 2.0, 5.0, 9.0, 12.0}) {
+            const bool isDrawn = globe.drawsPlain(3000.0, above);
+            EXPECT_LE(isDrawn, stock.drawsPlain(3000.0, above)) << above;
+            EXPECT_EQ(globe.requests->files.count("no.osgb"), stock.requests->files.count("no.osgb")) << above;
+            EXPECT_EQ(globe.requests->files.count("no.osgb"), above < 4.0 ? 1u : 0u) << above;
+        }
     }
 }
 
 // As an application does that hands a treated tile to another place, or a cache that keeps it.
-TEST(LoadedBins, ATileThatComesFromElsewhereKeepsTheTileAboveVisibleUntilItIsHeld) {
+TEST(DeclaredBins, ATileThatComesFromElsewhereIsDrawn) {
     PlainGlobe globe, other;
     const osg::ref_ptr<osg::Group> content = new osg::Group;
     const osg::ref_ptr<osg::PagedLOD> hill =
@@ -274,7 +255,6 @@ TEST(LoadedBins, ATileThatComesFromElsewhereKeepsTheTileAboveVisibleUntilItIsHel
     installBins(*other.root);
     installBins(*globe.root);
     other.root->removeChild(content);
-    EXPECT_FALSE(globe.drawsPlain(8500.0, 1.9));
     globe.plain->addChild(content);
     const auto drawsHill = [&] {
         return globe.draws(*hill,
@@ -283,7 +263,6 @@ TEST(LoadedBins, ATileThatComesFromElsewhereKeepsTheTileAboveVisibleUntilItIsHel
     EXPECT_TRUE(drawsHill());
     update(*globe.root);
     EXPECT_TRUE(drawsHill());
-    EXPECT_GT(installedOn(*globe.plain)->getBin().bin().altitude().upper, 7000.0);
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ TEST_F(ForeignDatabase, HeightsAreThoseOfTheOptionsAndALeafsHighIsItsOwn) {
     options.heights = {-150.0, 5000.0};
     load(options);
     for (osg::Node* node : {static_cast<osg::Node*>(_root), static_cast<osg::Node*>(_north)}) {
-        const AnalyticBin& bin = installedOn(*node)->getDeclaredBin();
+        const AnalyticBin& bin = installedOn(*node)->getBin();
         EXPECT_EQ(bin.bin().altitude().upper, 5000.0);
         EXPECT_LE(bin.bin().altitude().lower, -150.0);
         EXPECT_GE(bin.bin().altitude().lower + bin.sag(), -150.001);

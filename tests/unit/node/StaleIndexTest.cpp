@@ -125,7 +125,7 @@ TEST_F(StaleIndex, IsIgnoredWhereItIsOff) {
     load(options);
     page();
     pageSingle();
-    EXPECT_EQ(installedOn(*_root)->getDeclaredBin().bin().altitude().upper, CullOptions::kTerrainOnEarth.upper);
+    EXPECT_EQ(installedOn(*_root)->getBin().bin().altitude().upper, CullOptions::kTerrainOnEarth.upper);
     EXPECT_NEAR(highOf(*_single), 6000.0, 1.0);
     EXPECT_EQ(notes.count(""), 0u);
 }

@@ -8,7 +8,6 @@
 #include "../install/InstalledTile.h"
 #include "BinCulling.h"
 #include "Occluders.h"
-#include "RequestAhead.h"
 #include "TilePlan.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -79,7 +78,6 @@ AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& 
       _setup(other._setup),
       _frame(other._frame ? std::make_unique<const LocalFrame>(*other._frame) : nullptr),
       _bin(other._bin),
-      _declared(other._declared),
       _surface(other._surface),
       _surfaceLow(other._surfaceLow),
       _surfaceHigh(other._surfaceHigh),
@@ -168,7 +166,7 @@ AnalyticBinCullCallback::Prepared AnalyticBinCullCallback::makePrepared() const 
         new osg::EllipsoidModel(_setup->equatorialRadius, _setup->polarRadius);
     osg::BoundingSphere sphere = shown.boundingSphere(*model);
     if (_frame) sphere = movedSphere(sphere, _frame->fromEcef);
-    Prepared prepared{preparedBin(shown, ellipsoid), {}, {}, sphere, sphere, {}, {}, {}};
+    Prepared prepared{preparedBin(shown, ellipsoid), {}, {}, sphere, sphere, {}, {}};
     const bool isOwnEdge =
         isBox(_setup->options.method) || std::holds_alternative<core::ExactGeodeticBin>(prepared.bin);
     if (_testsEdges && !isOwnEdge && core::ExactGeodeticBin::holds(ellipsoid, shown.bin())) {
@@ -176,7 +174,6 @@ AnalyticBinCullCallback::Prepared AnalyticBinCullCallback::makePrepared() const 
     }
     if (_setup->options.effectiveHorizonUse() == HorizonUse::Off || isInMap()) return prepared;
     prepared.horizon.emplace(ellipsoid, shown.bin(), shown.margin());
-    if (_declared.valid()) prepared.declaredHorizon.emplace(ellipsoid, _declared.bin(), _declared.margin());
     if (_hidesByPoint) prepared.horizonPoint.emplace(*prepared.horizon);
     if (shown.bin().altitude().upper >= 0.0) return prepared;
     AnalyticBin column = shown;
@@ -209,15 +206,22 @@ void AnalyticBinCullCallback::fillSlot() const {
     const bool isForComparison = !bins.quadratic && !bins.exact;
     if (prepared.horizon) bins.column = prepared.columnHorizon ? &*prepared.columnHorizon : &*prepared.horizon;
     if (prepared.horizon && !isForComparison) bins.horizon = &*prepared.horizon;
-    if (prepared.declaredHorizon) bins.declared = &*prepared.declaredHorizon;
     const bool hasOwnColumn = isForComparison || prepared.columnHorizon.has_value();
     _installed->fillSlot({prepared.sphere, prepared.columnSphere, _binHigh, _binLow, _surfaceHigh, _surfaceLow,
-                          hasOwnColumn, _declared.valid()},
+                          hasOwnColumn, _installed->testsSphere()},
                          bins);
 }
 
 void AnalyticBinCullCallback::setBin(const AnalyticBin& bin) {
-    setLoadedBin(bin, {});
+    _bin = bin;
+    changeBin();
+}
+
+AnalyticBin AnalyticBinCullCallback::shownBin() const {
+    AnalyticBin bin = _setup->shape ? _bin.exaggerated(_setup->shape->verticalScale) : _bin;
+    const core::Interval& altitude = bin.bin().altitude();
+    if (bin.valid()) bin.setBin(bin.bin().withAltitude({altitude.lower - _skirt, altitude.upper}));
+    return bin;
 }
 
 void AnalyticBinCullCallback::setTerrainShape(const std::optional<TerrainShape>& shape) {
@@ -290,13 +294,10 @@ void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) 
         return;
     }
     const auto isCulledHere = [&](osg::CullStack& cullStack) {
-        const core::PlaneMask before = cullStack.getCurrentCullingSet().getFrustum().getCurrentMask();
-        const bool culled = isCulled(*node, cullStack, *nv);
-        if (culled && _declared.valid()) {
-            setUndecided(cullStack.getCurrentCullingSet().getFrustum(), before);
-            requestFilesOutOfView(*node, cullStack, *nv);
-        }
-        return culled;
+        osg::CullingSet& cullingSet = cullStack.getCurrentCullingSet();
+        return isCulled(*node, cullStack, *nv) ||
+               (_installed && _installed->testsSphere() && _installed->isFor(node) &&
+                isSphereCulled(cullingSet, cullingSet.getFrustum().getCurrentMask(), node->getBound()));
     };
     cullOrTraverse(*nv, isCulledHere, [&] { traverse(node, nv); });
 }

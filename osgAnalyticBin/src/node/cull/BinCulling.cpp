@@ -18,6 +18,15 @@ bool isSmall(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere) {
     return culled;
 }
 
+bool isSphereCulled(osg::CullingSet& cullingSet, core::PlaneMask undecided, const osg::BoundingSphere& sphere) {
+    osg::Polytope& frustum = cullingSet.getFrustum();
+    const core::PlaneMask before = frustum.getCurrentMask();
+    setUndecided(frustum, undecided);
+    const bool isCulled = cullingSet.isCulled(sphere);
+    setUndecided(frustum, before);
+    return isCulled;
+}
+
 void enterWithoutTest(osg::Node& node, osgUtil::CullVisitor& visitor) {
     if (!visitor.validNodeMask(node)) return;
     osg::StateSet* const state = node.getStateSet();

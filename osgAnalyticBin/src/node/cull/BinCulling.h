@@ -33,6 +33,10 @@ struct Verdict {
 /// OSG's own small-feature test, and nothing else of CullingSet::isCulled(BoundingSphere).
 [[nodiscard]] bool isSmall(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere);
 
+/// OSG's whole test of a sphere against these planes of the current culling set.
+[[nodiscard]] bool isSphereCulled(osg::CullingSet& cullingSet, core::PlaneMask undecided,
+                                  const osg::BoundingSphere& sphere);
+
 /// Sets the planes that are tested from here on. The result mask is what a child with a sphere test begins with when no
 /// plane is left.
 inline void setUndecided(osg::Polytope& frustum, core::PlaneMask planes) {

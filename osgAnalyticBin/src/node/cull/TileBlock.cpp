@@ -30,7 +30,7 @@ void TileBlock::set(std::size_t slot, const Slot& tile, const Bins& bins) {
     const std::size_t i = slot % Part::kMost;
     const std::uint64_t bit = std::uint64_t{1} << i;
     part.withOwnColumns = tile.hasOwnColumn ? part.withOwnColumns | bit : part.withOwnColumns & ~bit;
-    part.loadedOnly = tile.isLoadedOnly ? part.loadedOnly | bit : part.loadedOnly & ~bit;
+    part.withSpheres = tile.testsSphere ? part.withSpheres | bit : part.withSpheres & ~bit;
     part.highest = std::max(part.highest, tile.binHigh);
     part.bins.clear(i);
     if (bins.quadratic) part.bins.set(i, *bins.quadratic);
@@ -38,8 +38,6 @@ void TileBlock::set(std::size_t slot, const Slot& tile, const Bins& bins) {
     if (bins.horizon) part.bins.setHorizon(i, *bins.horizon);
     if (tile.hasOwnColumn && _columns.empty()) _columns.assign(size(), neverHidden());
     if (!_columns.empty()) _columns[slot] = bins.column ? *bins.column : neverHidden();
-    if (bins.declared && _declared.empty()) _declared.assign(size(), neverHidden());
-    if (!_declared.empty()) _declared[slot] = bins.declared ? *bins.declared : neverHidden();
 }
 
 void TileBlock::believe(std::size_t slot, bool is) {

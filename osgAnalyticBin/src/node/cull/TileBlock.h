@@ -31,7 +31,7 @@ public:
         double surfaceHigh = 0.0;    ///< likewise
         double surfaceLow = 0.0;     ///< likewise
         bool hasOwnColumn = true;    ///< the column is more than the bin, or the bin is one for comparison
-        bool isLoadedOnly = false;   ///< see AnalyticBinCullCallback::setLoadedBin()
+        bool testsSphere = false;    ///< see InstalledTile
     };
 
     /// What a tile is tested by; null: that test is left out.
@@ -40,7 +40,6 @@ public:
         const core::ExactGeodeticBin* exact = nullptr;
         const core::HorizonBin* horizon = nullptr;
         const core::HorizonBin* column = nullptr;
-        const core::HorizonBin* declared = nullptr;
     };
 
     /// Up to kMost slots, one bit each.
@@ -53,7 +52,7 @@ public:
         std::uint64_t members = 0;               ///< slots of tiles
         std::atomic<std::uint64_t> believed{0};  ///< tiles that may be culled without their own callbacks being asked
         std::uint64_t withOwnColumns = 0;        ///< see Slot::hasOwnColumn
-        std::uint64_t loadedOnly = 0;            ///< see Slot::isLoadedOnly
+        std::uint64_t withSpheres = 0;           ///< see Slot::testsSphere
         double highest = -std::numeric_limits<double>::infinity();  ///< no binHigh is above
     };
 
@@ -79,11 +78,6 @@ public:
         return slot < _columns.size() && eye.hides(_columns[slot]);
     }
 
-    /// Whether the horizon hides what may be paged in below a tile whose bin holds no more than what is loaded.
-    [[nodiscard]] bool isDeclaredHidden(std::size_t slot, const core::HorizonEye& eye) const {
-        return slot < _declared.size() && eye.hides(_declared[slot]);
-    }
-
 protected:
     ~TileBlock() override;
 
@@ -91,7 +85,6 @@ private:
     std::vector<std::unique_ptr<Part>> _parts;
     std::vector<Slot> _slots;
     std::vector<core::HorizonBin> _columns;
-    std::vector<core::HorizonBin> _declared;
 };
 
 }  // namespace osgAnalyticBin

@@ -10,7 +10,6 @@
 #include "BinCulling.h"
 #include "Bits.h"
 #include "CullCallbacks.h"
-#include "RequestAhead.h"
 #include "SeeThrough.h"
 #include "TilePlan.h"
 
@@ -263,6 +262,13 @@ std::uint64_t TileFamily::culled(unsigned int first, const Verdicts& verdicts, c
         counts.frame = nv.getTraversalNumber();
         traversal.add(counts);
     }
+    if (first < _block->size()) {
+        forEachBit(verdicts.members & ~culled & _block->partFrom(first).withSpheres, [&](unsigned int number) {
+            const core::PlaneMask undecided = verdicts.planes.undecided[number];
+            if (isSphereCulled(cullingSet, undecided, _nodes[first + number]->getBound()))
+                culled |= std::uint64_t{1} << number;
+        });
+    }
     return culled;
 }
 
@@ -295,11 +301,6 @@ void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::Cull
         isChanged = isChanged || verdicts.lacksTiles;
         const std::uint64_t culled = this->culled(first, verdicts, nv, cullStack, view, traversal);
         const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
-        const std::uint64_t loadedOnly = first < _block->size() ? _block->partFrom(first).loadedOnly : 0;
-        forEachBit(verdicts.members & culled & loadedOnly, [&](unsigned int number) {
-            if (!view.eye || !_block->isDeclaredHidden(first + number, *view.eye))
-                requestOutOfView(*group.getChild(first + number), nv, view.eye);
-        });
         forEachBit(lowestBits(here) & ~culled, [&](unsigned int number) {
             if (first + number >= group.getNumChildren()) return;
             osg::Node& child = *group.getChild(first + number);

@@ -287,12 +287,11 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);
     osg::Node& culled = culledNode(tile, _isReading);
     if (const osg::Matrixd frame = culledFrame(tile, culled); !frame.isIdentity()) callback->setLocalToEcef(frame);
-    if (fit.loaded.valid()) callback->setLoadedBin(fit.loaded, fit.bin);
-    link->isLoadedOnly = fit.loaded.valid();
     if (fit.isScalable) callback->setTerrainShape(shape);
     if (fit.skirt > 0.0) callback->setSkirt(fit.skirt);
     callback->setSurface(fit.surface);
     placeCallback(tile, culled, *callback, database());
+    callback->getInstalledTile()->setTestsSphere(fit.isDeclared);
     const bool canWait = tile.meshes.size() == 1 && !culled.asTransform();
     if (!canWait || _options.occlusion == OcclusionUse::On || database().wantsPlates())
         callback->getInstalledTile()->setPlates(tilePlates({tile.meshes, ellipsoid, tile.frame.localToEcef, shape}));
@@ -303,8 +302,6 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
         for (const auto& mesh : tile.meshes) suspendClusterCulling(*mesh);
     }
     link->callback = callback.get();
-    link->isBeingInstalled = true;
-    _links.push_back(link);
     if (fit.awaitsIndex && database().adoption().isAwaited()) {
         callback->getInstalledTile()->keep(*link);
         _awaiting.push_back({link.get(), tileFingerprint(tile), fit.ownSkirt, !tile.pagedFiles.empty()});

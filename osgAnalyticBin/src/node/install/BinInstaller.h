@@ -80,7 +80,7 @@ private:
     void refit(osg::Node& node, Database& database);
     // Checks whether the tiles of each file cover their parent. `content`: the file's nodes; null: a scene.
     void finish(osg::Node* content = nullptr);
-    // Makes the tiles known to other threads.
+    // Has tiles wait for the index that is being made.
     void publishTiles(osg::Node* content);
     void placeFamilies();
 
@@ -112,10 +112,9 @@ private:
     PagingByOptions _paging;
     std::shared_ptr<std::map<std::string, Coverage>> _coverage;  // by file
     std::size_t _installed = 0;
-    std::size_t _boxes = 0;                        // of photogrammetry sets
-    std::vector<osg::Node*> _groups;               // candidates for families
-    NestedCallbacks _nested;                       // taken off when the installer is done
-    std::vector<osg::ref_ptr<ParentTile>> _links;  // of tiles with installed bins
+    std::size_t _boxes = 0;           // of photogrammetry sets
+    std::vector<osg::Node*> _groups;  // candidates for families
+    NestedCallbacks _nested;          // taken off when the installer is done
     std::vector<AwaitingTile> _awaiting;
 };
 

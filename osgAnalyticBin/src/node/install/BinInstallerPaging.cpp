@@ -18,8 +18,6 @@
 namespace osgAnalyticBin {
 
 void BinInstaller::publishTiles(osg::Node* content) {
-    for (const auto& link : _links) link->isBeingInstalled = false;
-    _links.clear();
     if (_database) _database->adoption().await(content, std::move(_awaiting));
     _awaiting.clear();
 }

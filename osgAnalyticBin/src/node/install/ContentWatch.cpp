@@ -209,32 +209,6 @@ void fitIntoTilesFrom(const osg::Node& node, Content content) {
     for (const osg::Group* const parent : node.getParents()) fitIntoTilesFrom(*parent, content);
 }
 
-// What the tiles next below a node are culled by, together. Returns: false when one of them has no known bin.
-bool uniteTiles(const osg::Node& node, AnalyticBin& united) {
-    if (installedTileOf(node)) {
-        const AnalyticBinCullCallback* const tile = installedBinOf(node);
-        const AnalyticBin shown = tile ? tile->shownBin() : AnalyticBin();
-        united.expandBy(shown);
-        return shown.valid();
-    }
-    const osg::Group* const group = asTerrain(node) ? nullptr : node.asGroup();
-    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
-        if (!uniteTiles(*group->getChild(i), united)) return false;
-    }
-    return true;
-}
-
-// Looks whether the tiles from the node upwards that are culled by what is loaded hold what others below are culled by.
-// Those that do were held by the ones above when they were looked at themselves.
-void fitLoadedInto(const osg::Node& node, const AnalyticBin& shown) {
-    if (const AnalyticBinCullCallback* const tile = installedBinOf(node)) {
-        if (!tile->getDeclaredBin().valid() || (shown.valid() && tile->getBin().contains(shown))) return;
-        tile->getInstalledTile()->keepVisible(true);
-        tile->getInstalledTile()->database().noteLoaded(*tile, shown);
-    }
-    for (const osg::Group* const parent : node.getParents()) fitLoadedInto(*parent, shown);
-}
-
 // Says that the mesh of the tile that a watched node belongs to has changed. The next update makes the tile's family
 // anew. `isMoved`: the mesh has left its place, which may be empty now.
 void doubtMeshOf(const osg::Node& node, bool isMoved) {
@@ -351,9 +325,6 @@ void ContentWatch::check(const osg::Node& node) const {
         const osg::BoundingSphere& sphere = child.getBound();  // has others look at what is below it, too
         if (const ContentWatch* const watch = ownWatchOf(child)) {
             if (watch->_isPending) watch->check(child);
-            AnalyticBin united;
-            const bool isKnown = uniteTiles(child, united);
-            if (!isKnown || united.valid()) fitLoadedInto(node, isKnown ? united : AnalyticBin());
             _isPending = _isPending || watch->_isPending;
         } else if (isOwnFrame && isFitted(child, true)) {
             ++fitted;

@@ -48,6 +48,11 @@ public:
 
     [[nodiscard]] bool isKeptVisible() const { return _isKeptVisible.load(std::memory_order_relaxed); }
 
+    /// Whether the bin holds heights that were declared alone. OSG's sphere bounds what is loaded below the tile then,
+    /// and the tile is culled by both. The tile's callback has to be given a bin after a change.
+    [[nodiscard]] bool testsSphere() const { return _testsSphere; }
+    void setTestsSphere(bool does) { _testsSphere = does; }
+
     /// Assigns the tile a slot in a family. The tile's callback calls fillSlot().
     void joinFamily(TileBlock& block, std::size_t slot);
     [[nodiscard]] bool hasFamily() const { return _block.valid(); }
@@ -114,6 +119,7 @@ private:
     osg::ref_ptr<TileBlock> _block;
     std::size_t _slot = 0;
     bool _isSlotFilled = false;
+    bool _testsSphere = false;
     std::atomic<bool> _isSeeThrough{false};
     std::atomic<bool> _isMoved{false};
     osg::ref_ptr<const osg::Referenced> _kept;

@@ -100,15 +100,18 @@ void fitSurface(const FoundTile& tile, Database& database, const TerrainShape& s
     if (!fit.isTerrain) return;
     linkTo(surface.bin.bin(), link);
     fit.surface = surface.bin;
-    fit.bin = rangedBin(surface, !tile.pagedFiles.empty(), database, link);
     fit.isScalable = surface.isScalable;
     fit.ownSkirt = surface.skirt;
     // what is drawn, and nothing else; exaggeration would not treat skirts as heights
     const core::Interval& altitude = surface.bin.bin().altitude();
     const bool isScaled = surface.isScalable && shape.verticalScale != 1.0;
-    if (!isScaled && !shape.areBoundariesEqual)
-        fit.loaded = withAltitude(surface.bin, {altitude.lower - surface.skirt, altitude.upper}, 0.0);
+    const bool isDrawnAsRead = !isScaled && !shape.areBoundariesEqual;
+    const bool isLeaf = tile.pagedFiles.empty();
+    fit.isDeclared = isDrawnAsRead && !isLeaf;
     if (database.options().skirts == SkirtUse::All || link.edges.areOnBorder()) fit.skirt = surface.skirt;
+    fit.bin = isLeaf && isDrawnAsRead
+                  ? withAltitude(surface.bin, {altitude.lower - surface.skirt + fit.skirt, altitude.upper}, 0.0)
+                  : rangedBin(surface, !isLeaf, database, link);
 }
 
 // For a tile whose bin says nothing of skirts.
@@ -303,15 +306,6 @@ TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& 
     return fit;
 }
 
-// What a tile and its loaded descendants are culled by, whole: not valid where that is not known.
-AnalyticBin shownBy(const TileFit& fit, const TerrainShape& shape) {
-    if (fit.loaded.valid()) return fit.loaded;
-    const AnalyticBin shown = fit.isScalable ? fit.bin.exaggerated(shape.verticalScale) : fit.bin;
-    if (!shown.valid()) return shown;
-    const core::Interval& altitude = shown.bin().altitude();
-    return withAltitude(shown, {altitude.lower - fit.skirt, altitude.upper}, 0.0);
-}
-
 // Whether tiles above it whose bins hold the declared heights may be too low for a surface, or not deep enough.
 bool leavesHeights(const AnalyticBin& surface, const Database& database) {
     const core::Interval heights = heightsIn(database);
@@ -323,7 +317,6 @@ bool leavesHeights(const AnalyticBin& surface, const Database& database) {
 
 TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
     if (!shape.isKnown() && hasTerrainTile(tile)) {
-        Database::noteLoaded(link, {});
         return unknownFit(tile, database, shape, link);
     }
     TileFit fit = fitKnown(tile, database, shape, link);
@@ -336,12 +329,9 @@ TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& s
     }
     if (fit.isScalable && shape.techniqueMargin > 0.0) {
         fit.isInPlace = false;
-        for (AnalyticBin* const bin : {&fit.bin, &fit.loaded, &fit.surface})
-            bin->setMargin(bin->margin() + shape.techniqueMargin);
+        for (AnalyticBin* const bin : {&fit.bin, &fit.surface}) bin->setMargin(bin->margin() + shape.techniqueMargin);
     }
-    if (!fit.bin.valid()) fit.loaded.init();
     fit.awaitsIndex = fit.awaitsIndex && fit.isTerrain && !shape.areBoundariesEqual;
-    if (fit.isTerrain) Database::noteLoaded(link, shownBy(fit, shape));
     return fit;
 }
 

@@ -15,13 +15,14 @@ namespace osgAnalyticBin {
 /// What a tile is culled by, at vertical scale 1.
 struct TileFit {
     AnalyticBin bin;      ///< with all descendants; not valid: see isTerrain
-    AnalyticBin loaded;   ///< without those that are not loaded, with whole skirts; not valid: `bin` is right without
     AnalyticBin surface;  ///< what it draws by itself; not valid: not known
     /// Metres that skirts hang below the bin, where they are to count: with SkirtUse::All, and on the outer border of a
     /// database, where no neighbour stands before them. Assumes: descendants' skirts hang no longer than the tile's
     /// own.
     double skirt = 0.0;
     bool isScalable = false;
+    /// Whether the bin holds heights that were declared alone, while OSG's sphere bounds what is loaded.
+    bool isDeclared = false;
     /// Metres that skirts of its own mesh hang, where that was asked for.
     double ownSkirt = 0.0;
     /// Whether an index that is being made will say more.

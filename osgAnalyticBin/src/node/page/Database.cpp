@@ -44,17 +44,6 @@ bool takeMerged(Contents& contents) {
     return found;
 }
 
-// `shown`: see Database::noteLoaded().
-void growLoadedBin(AnalyticBinCullCallback& tile, const AnalyticBin& shown) {
-    const AnalyticBin declared = tile.getDeclaredBin();
-    if (!declared.valid()) return;
-    if (!shown.valid()) return tile.setBin(declared);
-    if (tile.getBin().contains(shown)) return;
-    AnalyticBin grown = tile.getBin();
-    grown.expandBy(shown);
-    tile.setLoadedBin(grown, declared);
-}
-
 }  // namespace
 
 bool Widening::contains(const Widening& other) const {
@@ -297,34 +286,13 @@ void Database::widen(const ParentTile& tile, const Widening& by, bool isFitted) 
     if (isFitted || (tile.widening ? tile.widening->contains(by) : !by.any())) return;
     if (!tile.widening) tile.widening = std::make_unique<Widening>();
     tile.widening->expandBy(by);
-    _toWiden.push_back({tile.callback, by});
-}
-
-void Database::noteLoaded(const ParentTile& tile, const AnalyticBin& shown) {
-    for (const ParentTile* at = tile.parent.get(); at; at = at->parent.get()) {
-        if (!at->isTile || !at->isLoadedOnly) continue;
-        if (at->isBeingInstalled) {
-            osg::ref_ptr<AnalyticBinCullCallback> callback;
-            if (at->callback.lock(callback)) growLoadedBin(*callback, shown);
-            continue;
-        }
-        const std::lock_guard<std::mutex> lock(at->database->_mutex);
-        if (shown.valid() && at->loaded.valid() && at->loaded.contains(shown)) continue;
-        at->loaded.expandBy(shown);
-        at->database->_toGrow.push_back({at->callback, shown});
-    }
-}
-
-void Database::noteLoaded(const AnalyticBinCullCallback& above, const AnalyticBin& shown) {
-    const std::lock_guard<std::mutex> lock(_mutex);
-    // where no update traversal ever comes, tiles stay visible
-    if (_toGrow.size() < kMostToWiden) _toGrow.push_back({const_cast<AnalyticBinCullCallback*>(&above), shown, true});
+    _toWiden.emplace_back(tile.callback, by);
 }
 
 void Database::noteContent(const AnalyticBinCullCallback& tile, const Widening& by) {
     const std::lock_guard<std::mutex> lock(_mutex);
     // where no update traversal ever comes, tiles stay visible
-    if (_toWiden.size() < kMostToWiden) _toWiden.push_back({const_cast<AnalyticBinCullCallback*>(&tile), by, true});
+    if (_toWiden.size() < kMostToWiden) _toWiden.emplace_back(const_cast<AnalyticBinCullCallback*>(&tile), by);
 }
 
 Widening Database::correction(const std::string& file, std::size_t ordinal) const {
@@ -362,46 +330,20 @@ void Database::update() {
 }
 
 void Database::widenLoaded() {
-    applyWidenings();
-    growLoadedBins();
-}
-
-void Database::applyWidenings() {
-    std::vector<Widened> toWiden;
+    decltype(_toWiden) toWiden;
     {
         const std::lock_guard<std::mutex> lock(_mutex);
         toWiden.swap(_toWiden);
     }
-    for (const auto& [observed, widening, isLoaded] : toWiden) {
+    for (const auto& [observed, widening] : toWiden) {
         osg::ref_ptr<AnalyticBinCullCallback> callback;
         if (!observed.lock(callback)) {
             // paged out, or fitted anew while the tile was on its way
             requestRefit();
             continue;
         }
-        const AnalyticBin& declared = callback->getDeclaredBin();
-        if (widening.isBoundless || !declared.valid()) {
-            callback->setBin(widening.widened(callback->getBin()));
-        } else {
-            callback->setLoadedBin(isLoaded ? widening.widened(callback->getBin()) : callback->getBin(),
-                                   widening.widened(declared));
-        }
+        callback->setBin(widening.widened(callback->getBin()));
         if (callback->getInstalledTile()) callback->getInstalledTile()->keepVisible(false);
-    }
-}
-
-// A tile that was paged out meanwhile has nothing below it.
-void Database::growLoadedBins() {
-    std::vector<Grown> toGrow;
-    {
-        const std::lock_guard<std::mutex> lock(_mutex);
-        toGrow.swap(_toGrow);
-    }
-    for (const auto& [observed, shown, wasKeptVisible] : toGrow) {
-        osg::ref_ptr<AnalyticBinCullCallback> callback;
-        if (!observed.lock(callback)) continue;
-        growLoadedBin(*callback, shown);
-        if (wasKeptVisible && callback->getInstalledTile()) callback->getInstalledTile()->keepVisible(false);
     }
 }
 

@@ -168,14 +168,6 @@ public:
     /// the bin.
     void noteContent(const AnalyticBinCullCallback& tile, const Widening& by);
 
-    /// Records the bin of a tile and its loaded descendants. In the next update, ancestors that are culled by what is
-    /// loaded expand to contain it. Invalid `shown`: unknown; the ancestors are culled by their declared bins.
-    static void noteLoaded(const ParentTile& tile, const AnalyticBin& shown);
-
-    /// The same for a tile, merged or not, that the bin of the ancestor `above` does not contain. The ancestor stays
-    /// visible until then.
-    void noteLoaded(const AnalyticBinCullCallback& above, const AnalyticBin& shown);
-
     /// What was reported for a tile or its descendants.
     [[nodiscard]] Widening correction(const std::string& file, std::size_t ordinal) const;
 
@@ -194,8 +186,6 @@ private:
     using TileKey = std::pair<std::string, std::size_t>;
 
     void widen(const ParentTile& tile, const Widening& by, bool isFitted);
-    void applyWidenings();
-    void growLoadedBins();
     static void widenFrom(const ParentTile& tile, const Widening& by);
     static void warn(const ParentTile& tile, bool Database::*hasWarned, const char* what);
     void refitLateComers();
@@ -229,18 +219,7 @@ private:
     std::vector<osg::observer_ptr<osg::Node>> _lateComers;  // the same, with earlier ones
     bool _hasWarnedOfIndex = false, _hasWarnedOfStored = false, _hasWarnedOfUnverifiable = false;
     std::map<TileKey, Widening> _corrections;
-    struct Widened {
-        osg::observer_ptr<AnalyticBinCullCallback> callback;
-        Widening by;
-        bool isLoaded = false;  // merged already
-    };
-    struct Grown {
-        osg::observer_ptr<AnalyticBinCullCallback> callback;
-        AnalyticBin shown;
-        bool wasKeptVisible = false;
-    };
-    std::vector<Widened> _toWiden;
-    std::vector<Grown> _toGrow;
+    std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, Widening>> _toWiden;
     mutable std::vector<osg::observer_ptr<osg::Group>> _changedGroups;
     std::vector<std::pair<osg::observer_ptr<const AnalyticBinCullCallback>, osg::observer_ptr<osg::Node>>> _awaitPlates;
 };
@@ -261,12 +240,6 @@ struct ParentTile : public osg::Referenced {
     osg::ref_ptr<Database> database;
     // What the callback's bin has to be expanded by; null: nothing. Guarded by the database.
     mutable std::unique_ptr<Widening> widening;
-    // Whether its bin contains only what is loaded.
-    bool isLoadedOnly = false;
-    // Whether only the thread that installs bins can refer to it yet.
-    mutable bool isBeingInstalled = false;
-    // Union of everything passed to noteLoaded(). Guarded by the database.
-    mutable AnalyticBin loaded;
 
 protected:
     ~ParentTile() override = default;

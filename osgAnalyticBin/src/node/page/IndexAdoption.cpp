@@ -26,21 +26,20 @@ bool adoptTile(const AwaitingTile& waiting, const AutoIndex& index, Database& da
     const bool isWhole = index.isWhole();
     const auto entry = index.find(tile.file, tile.ordinal);
     if (!entry || entry->fingerprint != waiting.fingerprint) {
-        const AnalyticBin& declared = callback->getDeclaredBin();
-        if (isWhole) Database::reportMisfit(tile, declared.valid() ? declared : callback->getBin());
+        if (isWhole) Database::reportMisfit(tile, callback->getBin());
         return !isWhole;
     }
-    // the tile is culled by what is loaded of it
+    // the tile keeps the bin of the declared heights
     if (!entry->bin.valid()) return false;
     const TerrainShape shape = callback->getTerrainShape().value_or(TerrainShape());
     const IndexedFit fit = fitByEntry(*entry, isWhole, waiting.skirt, database, shape, tile);
+    if (callback->getInstalledTile()) callback->getInstalledTile()->setTestsSphere(false);
     if (fit.bin.valid()) {
         callback->setSkirt(fit.skirt);
         callback->setBin(fit.bin);
     } else {
         callback->setBin({});
     }
-    Database::noteLoaded(tile, callback->shownBin());
     return !isWhole;
 }
 
