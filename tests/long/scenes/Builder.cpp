@@ -12,6 +12,7 @@
 
 #include <osg/Camera>
 #include <osg/CoordinateSystemNode>
+#include <osg/Geode>
 #include <osg/LOD>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
@@ -19,20 +20,50 @@
 #include <osg/ProxyNode>
 #include <osg/Sequence>
 #include <osg/Switch>
+#include <osgDB/Options>
 #include <osgTerrain/Terrain>
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 
 namespace osgAnalyticBin::test {
 
 namespace {
 
 constexpr float kFar = 1e10f;
+constexpr int kEmptyFile = 2;
 constexpr const char* kMapProjection = "PROJCS[\"WGS 84 / UTM zone 33N\",GEOGCS[\"WGS 84\"]]";
 
 std::string fileName(const TileKey& parent) {
     return "scene_" + parent.text() + ".osgb";
+}
+
+bool hasEqualNames(const Description& description, int database) {
+    return std::any_of(description.parts.begin(), description.parts.end(), [&](const Part& part) {
+        return part.kind == PartKind::EqualNames && part.tile.database == database;
+    });
+}
+
+/// The content of a file whose name does not tell what it is.
+class ContentOfTile : public osgDB::ReadFileCallback {
+public:
+    ContentOfTile(const Builder& builder, const TileKey& tile) : _builder(builder), _tile(tile) {}
+    osgDB::ReaderWriter::ReadResult readNode(const std::string& /*name*/, const osgDB::Options* /*options*/) override {
+        return osgDB::ReaderWriter::ReadResult(_builder.file(_tile).get());
+    }
+
+private:
+    const Builder& _builder;
+    const TileKey _tile;
+};
+
+void giveEqualName(osg::PagedLOD& paged, const Builder& builder, const TileKey& tile) {
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    options->setObjectCacheHint(osgDB::Options::CACHE_ALL);
+    options->setReadFileCallback(new ContentOfTile(builder, tile));
+    paged.setDatabaseOptions(options);
+    paged.setFileName(1, "equal.osgb");
 }
 
 template <class NodeType>
@@ -120,6 +151,20 @@ osg::ref_ptr<osg::Group> makeCamera(const Part& part) {
     return camera;
 }
 
+// Each group is above four of the next level. Returns: the lowest above a tile.
+osg::Group& groupAbove(const TileKey& tile, int depth, osg::Group& globe,
+                       std::map<std::string, osg::ref_ptr<osg::Group>>& groups) {
+    if (depth == 0) return globe;
+    const TileKey above = tile.parent();
+    const std::string name = nodeName(Hook::Above, above);
+    osg::ref_ptr<osg::Group>& group = groups[name];
+    if (!group) {
+        group = named<osg::Group>(name);
+        groupAbove(above, depth - 1, globe, groups).addChild(group);
+    }
+    return *group;
+}
+
 }  // namespace
 
 osg::ref_ptr<osg::Group> Builder::scene() const {
@@ -144,6 +189,18 @@ osg::ref_ptr<osg::Group> Builder::scene() const {
 osg::ref_ptr<osg::Node> Builder::database(int number) const {
     const DatabaseSpec& database = _description.databases[static_cast<std::size_t>(number)];
     const osg::ref_ptr<osg::CoordinateSystemNode> globe = makeGlobe(database, number);
+    addTiles(number, *globe);
+    return placed(database, number, *globe);
+}
+
+void Builder::addTiles(int number, osg::Group& globe) const {
+    const DatabaseSpec& database = _description.databases[static_cast<std::size_t>(number)];
+    const auto isTree = [&](const Part& part) {
+        return part.kind == PartKind::GroupTree && part.tile.database == number;
+    };
+    const auto tree = std::find_if(_description.parts.begin(), _description.parts.end(), isTree);
+    const int depth = tree == _description.parts.end() ? 0 : tree->variant;
+    std::map<std::string, osg::ref_ptr<osg::Group>> groups;
     for (int row = 0; row < database.rows; ++row) {
         std::vector<osg::ref_ptr<osg::Node>> own;
         std::vector<osg::Node*> tiles;
@@ -151,10 +208,11 @@ osg::ref_ptr<osg::Node> Builder::database(int number) const {
             own.push_back(wrappedTile({number, 0, column, row}));
             tiles.push_back(own.back());
         }
-        for (int column = 0; column < database.shownColumns; ++column)
-            globe->addChild(rootTile({number, 0, column, row}, tiles));
+        for (int column = 0; column < database.shownColumns; ++column) {
+            const TileKey tile{number, 0, column, row};
+            groupAbove(tile, depth, globe, groups).addChild(rootTile(tile, tiles));
+        }
     }
-    return placed(database, number, *globe);
 }
 
 // What stands in the place of a tile of level 0.
@@ -181,7 +239,7 @@ osg::ref_ptr<osg::Node> Builder::wrappedTile(const TileKey& key) const {
 osg::ref_ptr<osg::Node> Builder::tile(const TileKey& key) const {
     const DatabaseSpec& database = spec(key);
     const double turn = _description.turnOf(key);
-    osg::ref_ptr<osg::Node> own = makeMesh(database, key, turn, database.posts);
+    osg::ref_ptr<osg::Node> own = mesh(key, database.posts);
     const bool hasFile = key.level < database.levels;
     const bool isTerrain = database.mesh == MeshKind::Terrain;
     const bool isPaged = hasFile || database.leavesArePaged || (key.level == 0 && !database.storesBins && !isTerrain);
@@ -203,9 +261,10 @@ osg::ref_ptr<osg::Node> Builder::tile(const TileKey& key) const {
     const Extents e = extentsOf(database, key);
     paged->setCenter(place(database, 0.5 * (e.south + e.north), 0.5 * (e.west + e.east) - turn, 0.0));
     const auto cut = static_cast<float>(hasFile ? database.range * radiusOf(database, key.level) : 0.0);
-    paged->addChild(own, cut, kFar);
+    paged->addChild(own, find(PartKind::Adding, key) ? 0.0f : cut, kFar);
     if (!hasFile) return node;
     paged->setFileName(1, fileName(key));
+    if (hasEqualNames(_description, key.database)) giveEqualName(*paged, *this, key);
     paged->setRange(1, 0.0f, cut);
     if (database.isLoaded) paged->addChild(content(key));
     return node;
@@ -214,8 +273,10 @@ osg::ref_ptr<osg::Node> Builder::tile(const TileKey& key) const {
 osg::ref_ptr<osg::Node> Builder::content(const TileKey& parent) const {
     const DatabaseSpec& database = spec(parent);
     osg::ref_ptr<osg::Node> root;
+    const Part* const adding = find(PartKind::Adding, parent);
+    if (adding && adding->variant > 0) return houses(*adding);
     if (database.fileShape == FileShape::Whole) {
-        root = makeMesh(database, parent, _description.turnOf(parent), 2 * database.posts - 1, "#fine ");
+        root = mesh(parent, 2 * database.posts - 1, "#fine ");
     } else {
         const osg::ref_ptr<osg::Group> group = named<osg::Group>(nodeName(Hook::File, parent));
         for (int i = 0; i < 4; ++i) {
@@ -235,17 +296,75 @@ osg::ref_ptr<osg::Node> Builder::content(const TileKey& parent) const {
 }
 
 osg::ref_ptr<osg::Node> Builder::file(const std::string& name) const {
+    int number = 0;
+    if (std::sscanf(name.c_str(), "houses_%d.osgb", &number) == 1) {
+        for (const Part& part : _description.parts) {
+            if (part.id == number) return houses(part);
+        }
+        return nullptr;
+    }
     TileKey key;
     if (std::sscanf(name.c_str(), "scene_%d.%d.%d.%d.osgb", &key.database, &key.level, &key.column, &key.row) != 4)
         return nullptr;
-    const osg::ref_ptr<osg::Node> root = content(key);
+    return file(key);
+}
+
+osg::ref_ptr<osg::Node> Builder::file(const TileKey& parent) const {
+    const osg::ref_ptr<osg::Node> root = content(parent);
     decorate(*root);
     return root;
 }
 
 /// Another mesh of the same extents.
 osg::ref_ptr<osg::Node> Builder::other(const TileKey& tile) const {
-    return makeMesh(spec(tile), tile, _description.turnOf(tile), spec(tile).posts, "#other ");
+    return mesh(tile, spec(tile).posts, "#other ");
+}
+
+const Part* Builder::find(PartKind kind, const TileKey& tile) const {
+    const auto isIt = [&](const Part& part) { return part.kind == kind && part.frame == 0 && part.tile == tile; };
+    const auto found = std::find_if(_description.parts.begin(), _description.parts.end(), isIt);
+    return found == _description.parts.end() ? nullptr : &*found;
+}
+
+// Parts change the tile's own mesh, or those that may stand in its place.
+osg::ref_ptr<osg::Node> Builder::mesh(const TileKey& tile, int posts, const std::string& name) const {
+    const bool isOwn = name == "#";
+    MeshShape shape{posts, name};
+    const auto isMeant = [&](const Part* part) { return part && (part->hook != Hook::File) == isOwn; };
+    const Part* const narrow = find(PartKind::NarrowTile, tile);
+    if (isMeant(narrow)) shape.narrower = narrow->amount;
+    shape.drawsNothing = isMeant(find(PartKind::DrawsNothing, tile));
+    const osg::ref_ptr<osg::Node> made = makeMesh(spec(tile), tile, _description.turnOf(tile), shape);
+    osg::Node* const geode = findNode(*made, name + "geode " + tile.text());
+    for (const PartKind kind : {PartKind::MeshHole, PartKind::ReversedFaces}) {
+        const Part* const part = find(kind, tile);
+        if (isMeant(part) && geode)
+            alterMesh(*part, spec(tile), _description.turnOf(tile), *geode->asGeode()->getDrawable(0));
+    }
+    const Part* const caster = find(PartKind::Caster, tile);
+    if (!isOwn || !caster || caster->hook != Hook::Mesh) return made;
+    const osg::ref_ptr<osg::Group> above = new CastingGroup;
+    above->setName("#caster " + std::to_string(caster->id));
+    above->addChild(made);
+    return above;
+}
+
+// Small towers in a row.
+osg::ref_ptr<osg::Node> Builder::houses(const Part& part) const {
+    const osg::ref_ptr<osg::Group> group = named<osg::Group>("#houses " + std::to_string(part.id));
+    constexpr int kCount = 4;
+    if (part.variant == kEmptyFile) return group;
+    const Extents e = extentsOf(spec(part.tile), part.tile);
+    const osg::Matrixd toDatabase = frameOfHouses(part, _description);
+    for (int i = 0; i < kCount; ++i) {
+        Part house = part;
+        house.kind = PartKind::Tower;
+        house.variant = 0;
+        house.id = 1000 * (part.id + 1) + i;
+        house.latitude += 0.1 * (i - 1.5) * (e.north - e.south);
+        group->addChild(makeModel(spec(part.tile), house, toDatabase));
+    }
+    return group;
 }
 
 osg::ref_ptr<osg::Node> Builder::wrap(const Part& part, osg::Node& node) const {
@@ -292,6 +411,13 @@ osg::ref_ptr<osg::Node> Builder::wrap(const Part& part, osg::Node& node) const {
         case PartKind::Turned: {
             const osg::ref_ptr<osg::Group> above =
                 transformed("#turned" + name, turned(database, part.amount), part.variant);
+            above->addChild(&node);
+            return above;
+        }
+        case PartKind::Caster: {
+            if (part.hook != Hook::Tile) return &node;
+            const osg::ref_ptr<osg::Group> above = new CastingGroup;
+            above->setName("#caster" + name);
             above->addChild(&node);
             return above;
         }

@@ -20,7 +20,8 @@ public:
     /// The scene in its first frame. Bins are not installed.
     [[nodiscard]] osg::ref_ptr<osg::Group> scene() const;
 
-    /// The content of a file. Returns: nullptr when no database has it.
+    /// The content of a file of a tile, or of a name. Returns: nullptr when no database has it.
+    [[nodiscard]] osg::ref_ptr<osg::Node> file(const TileKey& parent) const;
     [[nodiscard]] osg::ref_ptr<osg::Node> file(const std::string& name) const;
 
 private:
@@ -28,6 +29,10 @@ private:
         return _description.databases[static_cast<std::size_t>(tile.database)];
     }
     [[nodiscard]] osg::ref_ptr<osg::Node> database(int number) const;
+    void addTiles(int number, osg::Group& globe) const;
+    [[nodiscard]] const Part* find(PartKind kind, const TileKey& tile) const;
+    [[nodiscard]] osg::ref_ptr<osg::Node> mesh(const TileKey& tile, int posts, const std::string& name = "#") const;
+    [[nodiscard]] osg::ref_ptr<osg::Node> houses(const Part& part) const;
     [[nodiscard]] osg::ref_ptr<osg::Node> rootTile(const TileKey& tile, const std::vector<osg::Node*>& row) const;
     [[nodiscard]] osg::ref_ptr<osg::Node> wrappedTile(const TileKey& tile) const;
     [[nodiscard]] osg::ref_ptr<osg::Node> tile(const TileKey& tile) const;

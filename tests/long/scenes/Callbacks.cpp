@@ -4,9 +4,29 @@
 #include "Callbacks.h"
 
 #include <osg/FrameStamp>
+#include <osg/LOD>
 #include <osg/MatrixTransform>
+#include <osg/Sequence>
+#include <osg/Switch>
+#include <osgDB/DatabasePager>
+#include <osgTerrain/TerrainTile>
+#include <osgUtil/CullVisitor>
+
+#include <utility>
 
 namespace osgAnalyticBin::test {
+
+namespace {
+
+std::string complaint;
+
+// Whether all children are traversed.
+bool isPlainGroup(const osg::Node& node) {
+    return node.asGroup() && !node.asSwitch() && !dynamic_cast<const osg::LOD*>(&node) &&
+           !dynamic_cast<const osg::Sequence*>(&node) && !dynamic_cast<const osgTerrain::TerrainTile*>(&node);
+}
+
+}  // namespace
 
 Mover::Mover(const Mover& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop),
@@ -35,6 +55,95 @@ void Passer::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     const bool isCull = nv->getVisitorType() == osg::NodeVisitor::CULL_VISITOR;
     if (isCull && _skipsOddFrames && nv->getTraversalNumber() % 2 == 1) return;
     traverse(node, nv);
+}
+
+LeaverOut::LeaverOut(const LeaverOut& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop),
+      osg::Callback(other, copyop),
+      osg::NodeCallback(other, copyop),
+      _number(other._number) {}
+
+void LeaverOut::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    if (nv->getVisitorType() != osg::NodeVisitor::CULL_VISITOR) {
+        traverse(node, nv);
+        return;
+    }
+    osg::Group* const group = isPlainGroup(*node) ? node->asGroup() : nullptr;
+    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
+        if (i != _number % group->getNumChildren()) group->getChild(i)->accept(*nv);
+    }
+}
+
+StatePusher::StatePusher(const StatePusher& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop),
+      osg::Callback(other, copyop),
+      osg::NodeCallback(other, copyop),
+      _states(other._states) {}
+
+void StatePusher::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    osgUtil::CullVisitor* const visitor = _states ? nv->asCullVisitor() : nullptr;
+    if (visitor) visitor->pushStateSet(_states);
+    traverse(node, nv);
+    if (visitor) visitor->popStateSet();
+}
+
+Masker::Masker(const Masker& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop), _mask(other._mask) {}
+
+void Masker::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    const osg::Node::NodeMask before = nv->getTraversalMask();
+    if (nv->getVisitorType() == osg::NodeVisitor::CULL_VISITOR) nv->setTraversalMask(before & _mask);
+    traverse(node, nv);
+    nv->setTraversalMask(before);
+}
+
+OneShotCallback::OneShotCallback(const OneShotCallback& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop) {}
+
+void OneShotCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    const osg::ref_ptr<OneShotCallback> keep(this);
+    traverse(node, nv);
+    node->removeUpdateCallback(this);
+}
+
+OwnBound::OwnBound(const OwnBound& other, const osg::CopyOp& copyop)
+    : osg::Node::ComputeBoundingSphereCallback(other, copyop) {}
+
+OwnBox::OwnBox(const OwnBox& other, const osg::CopyOp& copyop)
+    : osg::Drawable::ComputeBoundingBoxCallback(other, copyop) {}
+
+DrawableLeaverOut::DrawableLeaverOut(const DrawableLeaverOut& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop),
+      osg::Callback(other, copyop),
+      osg::DrawableCullCallback(other, copyop),
+      _leavesOut(other._leavesOut) {}
+
+bool DrawableLeaverOut::cull(osg::NodeVisitor* /*nv*/, osg::Drawable* /*drawable*/, osg::RenderInfo* /*info*/) const {
+    return _leavesOut;
+}
+
+OwnDrawing::OwnDrawing(const OwnDrawing& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), osg::Drawable::DrawCallback(other, copyop), _draws(other._draws) {}
+
+void OwnDrawing::drawImplementation(osg::RenderInfo& info, const osg::Drawable* drawable) const {
+    if (_draws) drawable->drawImplementation(info);
+}
+
+CastingGroup::CastingGroup(const CastingGroup& other, const osg::CopyOp& copyop) : osg::Group(other, copyop) {}
+
+void CastingGroup::traverse(osg::NodeVisitor& nv) {
+    if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR) {
+        osg::NodeVisitor::DatabaseRequestHandler* const handler = nv.getDatabaseRequestHandler();
+        if (!dynamic_cast<osgUtil::CullVisitor*>(&nv))
+            complaint = "a visitor of type CULL_VISITOR is no CullVisitor";
+        else if (handler && !dynamic_cast<osgDB::DatabasePager*>(handler))
+            complaint = "the handler of requests is no DatabasePager";
+    }
+    osg::Group::traverse(nv);
+}
+
+std::string takeComplaint() {
+    return std::exchange(complaint, {});
 }
 
 }  // namespace osgAnalyticBin::test

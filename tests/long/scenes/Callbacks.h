@@ -1,15 +1,20 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// What an application hangs on its nodes. What they do depends on the frame number alone. They survive osg::clone(),
-// and are saved as plain callbacks that do nothing.
+// What an application hangs on its nodes, and nodes of its own. What they do depends on the frame number alone. They
+// survive osg::clone(), and are saved as plain callbacks that do nothing, and plain groups.
 
 #pragma once
 
+#include <osg/Drawable>
+#include <osg/Group>
 #include <osg/Matrixd>
 #include <osg/NodeCallback>
 #include <osg/NodeVisitor>
+#include <osg/StateSet>
 #include <osg/Vec3d>
+
+#include <string>
 
 namespace osgAnalyticBin::test {
 
@@ -43,5 +48,133 @@ public:
 private:
     bool _skipsOddFrames;
 };
+
+/// Leaves a child of its group out of the cull traversal, or all of a node that is no plain group.
+class LeaverOut : public osg::NodeCallback {
+public:
+    explicit LeaverOut(unsigned int number = 0) : _number(number) {}
+    LeaverOut(const LeaverOut& other, const osg::CopyOp& copyop);
+    [[nodiscard]] osg::Object* cloneType() const override { return new LeaverOut; }
+    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override { return new LeaverOut(*this, copyop); }
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
+
+private:
+    unsigned int _number;  // of the children, counted around
+};
+
+/// Pushes a state in the cull traversal.
+class StatePusher : public osg::NodeCallback {
+public:
+    explicit StatePusher(osg::StateSet* states = nullptr) : _states(states) {}
+    StatePusher(const StatePusher& other, const osg::CopyOp& copyop);
+    [[nodiscard]] osg::Object* cloneType() const override { return new StatePusher; }
+    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override {
+        return new StatePusher(*this, copyop);
+    }
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
+
+private:
+    osg::ref_ptr<osg::StateSet> _states;
+};
+
+/// Sets the traversal mask for what is below.
+class Masker : public osg::NodeCallback {
+public:
+    explicit Masker(osg::Node::NodeMask mask = ~0u) : _mask(mask) {}
+    Masker(const Masker& other, const osg::CopyOp& copyop);
+    [[nodiscard]] osg::Object* cloneType() const override { return new Masker; }
+    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override { return new Masker(*this, copyop); }
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
+
+private:
+    osg::Node::NodeMask _mask;
+};
+
+/// Takes itself off when it has run.
+class OneShotCallback : public osg::NodeCallback {
+public:
+    OneShotCallback() = default;
+    OneShotCallback(const OneShotCallback& other, const osg::CopyOp& copyop);
+    [[nodiscard]] osg::Object* cloneType() const override { return new OneShotCallback; }
+    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override {
+        return new OneShotCallback(*this, copyop);
+    }
+
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
+};
+
+/// Says what OSG says without it.
+class OwnBound : public osg::Node::ComputeBoundingSphereCallback {
+public:
+    OwnBound() = default;
+    OwnBound(const OwnBound& other, const osg::CopyOp& copyop);
+    [[nodiscard]] osg::Object* cloneType() const override { return new OwnBound; }
+    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override { return new OwnBound(*this, copyop); }
+
+    [[nodiscard]] osg::BoundingSphere computeBound(const osg::Node& node) const override { return node.computeBound(); }
+};
+
+/// Says what OSG says without it.
+class OwnBox : public osg::Drawable::ComputeBoundingBoxCallback {
+public:
+    OwnBox() = default;
+    OwnBox(const OwnBox& other, const osg::CopyOp& copyop);
+    [[nodiscard]] osg::Object* cloneType() const override { return new OwnBox; }
+    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override { return new OwnBox(*this, copyop); }
+
+    [[nodiscard]] osg::BoundingBox computeBound(const osg::Drawable& drawable) const override {
+        return drawable.computeBoundingBox();
+    }
+};
+
+/// Leaves a drawable out, or keeps it.
+class DrawableLeaverOut : public osg::DrawableCullCallback {
+public:
+    explicit DrawableLeaverOut(bool leavesOut = false) : _leavesOut(leavesOut) {}
+    DrawableLeaverOut(const DrawableLeaverOut& other, const osg::CopyOp& copyop);
+    [[nodiscard]] osg::Object* cloneType() const override { return new DrawableLeaverOut; }
+    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override {
+        return new DrawableLeaverOut(*this, copyop);
+    }
+
+    bool cull(osg::NodeVisitor* nv, osg::Drawable* drawable, osg::RenderInfo* info) const override;
+
+private:
+    bool _leavesOut;
+};
+
+/// Draws a drawable, or nothing in its place.
+class OwnDrawing : public osg::Drawable::DrawCallback {
+public:
+    explicit OwnDrawing(bool draws = true) : _draws(draws) {}
+    OwnDrawing(const OwnDrawing& other, const osg::CopyOp& copyop);
+    [[nodiscard]] osg::Object* cloneType() const override { return new OwnDrawing; }
+    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override { return new OwnDrawing(*this, copyop); }
+
+    void drawImplementation(osg::RenderInfo& info, const osg::Drawable* drawable) const override;
+
+private:
+    bool _draws;
+};
+
+/// Looks at every visitor that it meets as applications do: one of the cull traversal is a CullVisitor, and the handler
+/// of its requests is a DatabasePager. What is otherwise is told by takeComplaint().
+class CastingGroup : public osg::Group {
+public:
+    CastingGroup() = default;
+    CastingGroup(const CastingGroup& other, const osg::CopyOp& copyop);
+    [[nodiscard]] osg::Object* cloneType() const override { return new CastingGroup; }
+    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override {
+        return new CastingGroup(*this, copyop);
+    }
+
+    void traverse(osg::NodeVisitor& nv) override;
+};
+
+/// Returns: what a CastingGroup has seen since the last call, else nothing.
+[[nodiscard]] std::string takeComplaint();
 
 }  // namespace osgAnalyticBin::test

@@ -3,7 +3,10 @@
 
 #include "Description.h"
 
+#include "States.h"
+
 #include <osg/Math>
+#include <osg/StateAttribute>
 
 #include <cmath>
 #include <sstream>
@@ -34,6 +37,24 @@ const char* kindName(PartKind kind) {
             return "the database a second time";
         case PartKind::MovingTiles:
             return "a moving transform above";
+        case PartKind::Caster:
+            return "a group that casts visitors above";
+        case PartKind::GroupTree:
+            return "plain groups above all tiles";
+        case PartKind::MeshHole:
+            return "a hole in";
+        case PartKind::ReversedFaces:
+            return "reversed faces in";
+        case PartKind::NarrowTile:
+            return "too narrow a mesh in";
+        case PartKind::DrawsNothing:
+            return "a Geometry that draws nothing in";
+        case PartKind::Adding:
+            return "a file that adds to";
+        case PartKind::Objects:
+            return "houses in a file of their own in";
+        case PartKind::EqualNames:
+            return "files of equal names";
         case PartKind::CullingOff:
             return "setCullingActive(false) on";
         case PartKind::UserCull:
@@ -46,12 +67,42 @@ const char* kindName(PartKind kind) {
             return "polygon mode LINE or POINT on";
         case PartKind::Fill:
             return "polygon mode FILL on";
+        case PartKind::State:
+            return "a state on";
+        case PartKind::LeavesOut:
+            return "a cull callback that leaves out a child of";
+        case PartKind::PushesState:
+            return "a cull callback that pushes state on";
+        case PartKind::Masks:
+            return "a cull callback that sets the traversal mask on";
+        case PartKind::OneShot:
+            return "an update callback that takes itself off on";
+        case PartKind::BoundCallback:
+            return "the application's bounding sphere callback on";
+        case PartKind::NoBoundCallback:
+            return "setComputeBoundingSphereCallback(nullptr) on";
+        case PartKind::DrawableCull:
+            return "a drawable's cull callback on";
+        case PartKind::DrawableDraw:
+            return "a drawable's draw callback on";
+        case PartKind::DrawableUpdate:
+            return "a drawable's update callback on";
+        case PartKind::DrawableBound:
+            return "a drawable's bounding box callback on";
+        case PartKind::Raise:
+            return "vertices are raised in";
         case PartKind::Tower:
             return "a static tower in";
         case PartKind::Vehicle:
             return "a moving vehicle in";
+        case PartKind::Sign:
+            return "a sign that ignores depth in";
         case PartKind::Camera:
             return "a camera in the scene";
+        case PartKind::VisitorLeavesOut:
+            return "a subclass of CullVisitor that leaves out";
+        case PartKind::Pick:
+            return "a pick";
         case PartKind::Toggle:
             return "the Switch is toggled above";
         case PartKind::SetOptions:
@@ -76,8 +127,18 @@ const char* kindName(PartKind kind) {
     return "";
 }
 
+std::string inWordsOfValue(unsigned int value) {
+    std::string text = value & osg::StateAttribute::ON ? "ON" : "OFF";
+    if (value & osg::StateAttribute::OVERRIDE) text += " OVERRIDE";
+    if (value & osg::StateAttribute::PROTECTED) text += " PROTECTED";
+    return text;
+}
+
 bool isSomewhere(PartKind kind) {
     switch (kind) {
+        case PartKind::GroupTree:
+        case PartKind::EqualNames:
+        case PartKind::Pick:
         case PartKind::Again:
         case PartKind::Camera:
         case PartKind::SetOptions:
@@ -179,21 +240,42 @@ std::string nodeName(Hook hook, const TileKey& tile) {
             return "#file " + tile.text();
         case Hook::Slot:
             return "#slot " + tile.text();
+        case Hook::Drawable:
+            return "#drawable " + tile.text();
+        case Hook::Above:
+            return "#above " + tile.text();
+        case Hook::Place:
+            return "#place " + std::to_string(tile.database);
+        case Hook::View:
+            return "#view";
     }
     return {};
+}
+
+bool isStateWithinMesh(const Part& part) {
+    const bool isWithin = part.hook == Hook::Mesh || part.hook == Hook::Geode || part.hook == Hook::Drawable;
+    return part.kind == PartKind::State && isWithin;
+}
+
+bool isModel(PartKind kind) {
+    return kind == PartKind::Tower || kind == PartKind::Vehicle || kind == PartKind::Sign;
 }
 
 std::string inWords(const Part& part) {
     std::ostringstream out;
     out.precision(9);
-    out << "#" << part.id << ": " << kindName(part.kind);
+    out << "#" << part.id << ": ";
+    out << (isStateWithinMesh(part) && part.frame > 0 ? "a state, set late within a mesh, on" : kindName(part.kind));
     if (isSomewhere(part.kind)) out << " " << nodeName(part.hook, part.tile);
-    if (part.kind == PartKind::Tower || part.kind == PartKind::Vehicle)
+    if (isModel(part.kind))
         out << " at " << osg::RadiansToDegrees(part.latitude) << " " << osg::RadiansToDegrees(part.longitude) << ", "
             << part.low << " to " << part.high << " m";
     if (part.kind == PartKind::SetOptions || part.kind == PartKind::Install)
         out << " \"" << toText(part.options) << "\"";
-    if (part.variant != 0) out << ", variant " << part.variant;
+    if (part.kind == PartKind::State || part.kind == PartKind::PushesState)
+        out << ": " << stateName(part.variant) << " " << inWordsOfValue(part.value);
+    else if (part.variant != 0)
+        out << ", variant " << part.variant;
     if (part.amount != 0.0) out << ", amount " << part.amount;
     if (part.frame > 0) out << ", in frame " << part.frame;
     if (part.until > 0) out << ", until frame " << part.until;

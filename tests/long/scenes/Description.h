@@ -101,6 +101,17 @@ enum class PartKind {
     Instance,  // a tile is the one of another column under a transform
     Again,     // the whole database a second time, elsewhere
     MovingTiles,
+    Caster,     // a group that casts the visitors that it meets
+    GroupTree,  // plain groups above the tiles of a database
+    // what tiles draw
+    MeshHole,
+    ReversedFaces,
+    NarrowTile,
+    DrawsNothing,  // a class of the application's
+    // what files hold
+    Adding,      // a file adds to its tile, and replaces nothing
+    Objects,     // a paged file of houses
+    EqualNames,  // of all files of a database
     // on nodes
     CullingOff,
     UserCull,
@@ -108,11 +119,26 @@ enum class PartKind {
     DrawableBin,
     Outline,  // polygon modes
     Fill,
+    State,      // see States.h
+    LeavesOut,  // cull callbacks
+    PushesState,
+    Masks,
+    OneShot,  // an update callback that takes itself off
+    BoundCallback,
+    NoBoundCallback,
+    DrawableCull,  // callbacks of drawables
+    DrawableDraw,
+    DrawableUpdate,
+    DrawableBound,
+    Raise,  // the vertices of a mesh
     // models
     Tower,
     Vehicle,
-    // cameras in the scene
+    Sign,  // is drawn in front of all
+    // cameras, visitors
     Camera,
+    VisitorLeavesOut,
+    Pick,
     // events
     Toggle,
     SetOptions,
@@ -127,7 +153,20 @@ enum class PartKind {
 };
 
 /// Where in the scene a part is.
-enum class Hook { Root, Globe, Tile, Own, Mesh, Geode, File, Slot };
+enum class Hook {
+    Root,
+    Globe,
+    Tile,
+    Own,
+    Mesh,
+    Geode,
+    File,
+    Slot,
+    Drawable,  ///< the first one of the geode
+    Above,     ///< a group of GroupTree
+    Place,     ///< the transform above a database
+    View       ///< the camera's own state
+};
 
 /// One ingredient or event.
 struct Part {
@@ -138,6 +177,7 @@ struct Part {
     Hook hook = Hook::Globe;
     TileKey tile;
     int variant = 0;
+    unsigned int value = 1;                  ///< of a state: osg::StateAttribute::GLModeValue
     double latitude = 0.0, longitude = 0.0;  ///< radians; in a map, metres
     double low = 0.0, high = 0.0;            ///< metres
     double amount = 0.0;
@@ -160,6 +200,7 @@ enum class Theme { Anything, Models, ScaledTerrain, Hills };
 struct Description {
     std::uint64_t seed = 0;
     Theme theme = Theme::Anything;
+    bool hasBins = true;  ///< else both scenes have none: what fails then is the oracle's fault
     std::vector<DatabaseSpec> databases;
     std::vector<Part> parts;
     std::vector<ViewSpec> views;  ///< one a frame; the first frame is 1
@@ -170,6 +211,11 @@ struct Description {
 
 /// The name of the node that a hook is.
 [[nodiscard]] std::string nodeName(Hook hook, const TileKey& tile);
+
+/// Whether parts of a kind are built by makeModel().
+[[nodiscard]] bool isModel(PartKind kind);
+
+[[nodiscard]] bool isStateWithinMesh(const Part& part);
 
 /// "a tower of 12 km on the globe, from frame 2".
 [[nodiscard]] std::string inWords(const Part& part);

@@ -24,6 +24,11 @@ std::string namesOf(const osg::Callback* callback) {
     return names;
 }
 
+std::string boundCallbackOf(const osg::Node& node) {
+    const osg::Object* const callback = node.getComputeBoundingSphereCallback();
+    return callback ? std::string(callback->libraryName()) + "::" + callback->className() : std::string();
+}
+
 std::string userValuesOf(const osg::Node& node) {
     std::string names;
     const osg::UserDataContainer* values = node.getUserDataContainer();
@@ -43,10 +48,20 @@ std::string expiryOf(const osg::Node& node) {
 }
 
 /// In the order in which they are told.
-enum Kind { Culling, CullCallbacks, UpdateCallbacks, EventCallbacks, UserValues, Expiry, Structure, Kinds };
-constexpr std::array<const char*, Kinds> kKindNames{"culling active",  "cull callbacks", "update callbacks",
-                                                    "event callbacks", "user values",    "expiry times",
-                                                    "structure"};
+enum Kind {
+    Culling,
+    CullCallbacks,
+    UpdateCallbacks,
+    EventCallbacks,
+    BoundCallbacks,
+    UserValues,
+    Expiry,
+    Structure,
+    Kinds
+};
+constexpr std::array<const char*, Kinds> kKindNames{"culling active",  "cull callbacks",  "update callbacks",
+                                                    "event callbacks", "bound callbacks", "user values",
+                                                    "expiry times",    "structure"};
 
 class Comparison {
 public:
@@ -86,6 +101,7 @@ private:
         note(CullCallbacks, a, namesOf(a.getCullCallback()), namesOf(b.getCullCallback()));
         note(UpdateCallbacks, a, namesOf(a.getUpdateCallback()), namesOf(b.getUpdateCallback()));
         note(EventCallbacks, a, namesOf(a.getEventCallback()), namesOf(b.getEventCallback()));
+        note(BoundCallbacks, a, boundCallbackOf(a), boundCallbackOf(b));
         note(UserValues, a, userValuesOf(a), userValuesOf(b));
         note(Expiry, a, expiryOf(a), expiryOf(b));
         note(Structure, a, a.className() + (' ' + a.getName()), b.className() + (' ' + b.getName()));

@@ -4,6 +4,7 @@
 #include "Generator.h"
 
 #include "Meshes.h"
+#include "RandomApplication.h"
 #include "RandomDatabases.h"
 #include "SceneViews.h"
 
@@ -15,6 +16,7 @@ namespace osgAnalyticBin::test {
 namespace {
 
 constexpr std::uint64_t kStream = 15;
+constexpr std::uint64_t kApplicationStream = 16;
 constexpr double kTwoPi = 6.28318530717958647692;
 
 /// Adds random parts to a description that has databases.
@@ -312,6 +314,9 @@ Description randomDescription(std::uint64_t seed) {
     const int frames = random.integer(3, 6);
     // terrain with gaps hides nothing
     if (description.theme != Theme::Hills || random.chance(0.4)) PartMaker(random, description, frames).addAll();
+    Random ofApplication(kApplicationStream, seed);
+    if (ofApplication.chance(0.5)) addApplication(ofApplication, description, frames);
+    addPick(ofApplication, description, frames);
     for (int frame = 1; frame <= frames; ++frame) {
         // what terrain hides is kept from view to view
         const bool isFlight = frame > 1 && description.theme == Theme::Hills && random.chance(0.6);

@@ -4,6 +4,7 @@
 #include "Meshes.h"
 
 #include "Callbacks.h"
+#include "States.h"
 
 #include <osg/Billboard>
 #include <osg/CoordinateSystemNode>
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace osgAnalyticBin::test {
 
@@ -53,27 +55,40 @@ std::vector<unsigned int> borderOf(unsigned int posts) {
     return border;
 }
 
+/// A class of the application's that draws nothing, whatever its arrays say.
+class EmptyGeometry : public osg::Geometry {
+public:
+    EmptyGeometry() = default;
+    EmptyGeometry(const EmptyGeometry& other, const osg::CopyOp& copyop) : osg::Geometry(other, copyop) {}
+    [[nodiscard]] osg::Object* cloneType() const override { return new EmptyGeometry; }
+    [[nodiscard]] osg::Object* clone(const osg::CopyOp& copyop) const override {
+        return new EmptyGeometry(*this, copyop);
+    }
+    void drawImplementation(osg::RenderInfo& /*info*/) const override {}
+};
+
 /// Fills a geometry with a grid of posts, and skirts below its border.
 struct MeshMaker {
     const DatabaseSpec& database;
     const TileKey& tile;
     double turn;
-    int posts;
+    const MeshShape& shape;
     osg::Vec3d origin;
+    const int posts = shape.posts;
     osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
     osg::ref_ptr<osg::Vec2Array> texCoords = new osg::Vec2Array;
 
     void add(double v, double u, double lower) {
         const Extents e = extentsOf(database, tile);
         const double latitude = e.south + v * (e.north - e.south);
-        const double longitude = e.west + u * (e.east - e.west);
+        const double longitude = e.west + u * (1.0 - shape.narrower) * (e.east - e.west);
         const double height = surfaceHeight(database, latitude, longitude);
         vertices->push_back(osg::Vec3(place(database, latitude, longitude - turn, height - lower) - origin));
         texCoords->push_back(osg::Vec2(static_cast<float>(u), static_cast<float>(v)));
     }
 
     osg::ref_ptr<osg::Geometry> make() {
-        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+        const osg::ref_ptr<osg::Geometry> geometry = shape.drawsNothing ? new EmptyGeometry : new osg::Geometry;
         for (int j = 0; j < posts; ++j)
             for (int i = 0; i < posts; ++i) add(j / (posts - 1.0), i / (posts - 1.0), 0.0);
         geometry->setVertexArray(vertices);
@@ -100,14 +115,16 @@ struct MeshMaker {
     }
 };
 
-osg::ref_ptr<osg::Node> makeTerrain(const DatabaseSpec& database, const TileKey& tile, double turn, int posts) {
-    const Extents e = extentsOf(database, tile);
+osg::ref_ptr<osg::Node> makeTerrain(const DatabaseSpec& database, const TileKey& tile, double turn,
+                                    const MeshShape& shape) {
+    Extents e = extentsOf(database, tile);
+    e.east -= shape.narrower * (e.east - e.west);
     const osg::ref_ptr<osgTerrain::Locator> locator = new osgTerrain::Locator;
     locator->setEllipsoidModel(new osg::EllipsoidModel(database.equatorial, database.polar));
     locator->setCoordinateSystemType(database.isMap ? osgTerrain::Locator::PROJECTED : osgTerrain::Locator::GEOCENTRIC);
     locator->setTransformAsExtents(e.west - turn, e.south, e.east - turn, e.north);
     const osg::ref_ptr<osg::HeightField> field = new osg::HeightField;
-    const auto count = static_cast<unsigned int>(posts);
+    const auto count = static_cast<unsigned int>(shape.posts);
     field->allocate(count, count);
     for (unsigned int j = 0; j < count; ++j) {
         for (unsigned int i = 0; i < count; ++i) {
@@ -147,6 +164,17 @@ osg::ref_ptr<osg::Geometry> makeTower(double height, double width) {
     return geometry;
 }
 
+// Drawn after all others, or in front of them.
+void ignoreDepth(int variant, osg::StateSet& states) {
+    static constexpr std::array<const char*, 4> kNames{"depth test", "depth ALWAYS", "depth range in front",
+                                                       "program that draws in front"};
+    const bool isTest = variant % 4 == 0;
+    setState(stateOf(kNames[static_cast<std::size_t>(variant % 4)]),
+             isTest ? osg::StateAttribute::OFF : osg::StateAttribute::ON, states);
+    constexpr int kLate = 20;
+    states.setRenderBinDetails(kLate, "RenderBin");
+}
+
 // Turns a tower about its middle to the eye.
 osg::ref_ptr<osg::Geode> makeBillboard(osg::Geometry& tower, double height, const Part& part) {
     const osg::Vec3 middle(0.0f, 0.0f, static_cast<float>(0.5 * height));
@@ -155,6 +183,62 @@ osg::ref_ptr<osg::Geode> makeBillboard(osg::Geometry& tower, double height, cons
     billboard->setMode(static_cast<osg::Billboard::Mode>(part.variant % 3));
     billboard->addDrawable(&tower, middle);
     return billboard;
+}
+
+/// The square that a triangle of a grid is in.
+struct Cell {
+    unsigned int column = 0, row = 0;
+    bool isUpper = false;  // of its two triangles
+};
+
+bool isInHole(const Cell& cell, unsigned int cells, int variant) {
+    const unsigned int middle = cells / 2;
+    const auto isInner = [&](unsigned int i) { return i > 0 && i + 1 < cells; };
+    switch (variant) {
+        case 0:  // one triangle
+            return cell.column == middle && cell.row == middle && cell.isUpper;
+        case 1:  // a block
+            return cell.column >= middle && cell.row >= middle && cell.column < middle + 2 && cell.row < middle + 2;
+        case 2:  // half of the mesh
+            return cell.column < (cells + 1) / 2;
+        case 3:  // all but what is along the border
+            return isInner(cell.column) && isInner(cell.row);
+        default:  // a triangle at the border
+            return cell.column == middle && cell.row == 0 && !cell.isUpper;
+    }
+}
+
+// The grid's triangles are in the first primitive set; see surfaceOf().
+void cutHole(osg::Geometry& geometry, int variant) {
+    auto* const triangles = dynamic_cast<osg::DrawElementsUInt*>(geometry.getPrimitiveSet(0));
+    if (!triangles || triangles->size() % 6 != 0) return;
+    const auto cells = static_cast<unsigned int>(std::lround(std::sqrt(static_cast<double>(triangles->size() / 6))));
+    osg::ref_ptr<osg::DrawElementsUInt> kept = new osg::DrawElementsUInt(GL_TRIANGLES);
+    for (unsigned int i = 0; i + 2 < triangles->size(); i += 3) {
+        const Cell cell{i / 6 % cells, i / 6 / cells, i % 6 != 0};
+        if (!isInHole(cell, cells, variant))
+            kept->insert(kept->end(), triangles->begin() + i, triangles->begin() + i + 3);
+    }
+    geometry.setPrimitiveSet(0, kept);
+}
+
+void reverseFaces(osg::Geometry& geometry) {
+    auto* const triangles = dynamic_cast<osg::DrawElementsUInt*>(geometry.getPrimitiveSet(0));
+    if (!triangles) return;
+    for (std::size_t i = 0; i + 2 < triangles->size(); i += 3) std::swap((*triangles)[i + 1], (*triangles)[i + 2]);
+    triangles->dirty();
+}
+
+// All in one direction, that of the tile's middle.
+void raiseVertices(const Part& part, const DatabaseSpec& database, double turn, osg::Geometry& geometry) {
+    auto* const vertices = dynamic_cast<osg::Vec3Array*>(geometry.getVertexArray());
+    if (!vertices) return;
+    const Extents e = extentsOf(database, part.tile);
+    const double latitude = 0.5 * (e.south + e.north), longitude = 0.5 * (e.west + e.east) - turn;
+    const osg::Vec3d up =
+        osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, part.amount), localFrame(database, latitude, longitude, 0.0));
+    for (osg::Vec3& vertex : *vertices) vertex += up;
+    vertices->dirty();
 }
 
 }  // namespace
@@ -205,10 +289,11 @@ double sagOf(const DatabaseSpec& database, int level) {
     return 1.1 * radius * (1.0 - std::cos(std::min(0.5 * angle, 1.5)));
 }
 
-osg::ref_ptr<osg::Node> makeMesh(const DatabaseSpec& database, const TileKey& tile, double turn, int posts,
-                                 const std::string& name) {
+osg::ref_ptr<osg::Node> makeMesh(const DatabaseSpec& database, const TileKey& tile, double turn,
+                                 const MeshShape& shape) {
+    const std::string& name = shape.name;
     if (database.mesh == MeshKind::Terrain) {
-        const osg::ref_ptr<osg::Node> terrain = makeTerrain(database, tile, turn, posts);
+        const osg::ref_ptr<osg::Node> terrain = makeTerrain(database, tile, turn, shape);
         terrain->setName(name + "mesh " + tile.text());
         return terrain;
     }
@@ -217,7 +302,10 @@ osg::ref_ptr<osg::Node> makeMesh(const DatabaseSpec& database, const TileKey& ti
     const osg::Vec3d middle = place(database, 0.5 * (e.south + e.north), 0.5 * (e.west + e.east) - turn, 0.0);
     const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
     geode->setName(name + "geode " + tile.text());
-    geode->addDrawable(MeshMaker{database, tile, turn, posts, isLocal ? middle : osg::Vec3d()}.make());
+    const osg::ref_ptr<osg::Geometry> geometry =
+        MeshMaker{database, tile, turn, shape, isLocal ? middle : osg::Vec3d()}.make();
+    geometry->setName(name + "drawable " + tile.text());
+    geode->addDrawable(geometry);
     if (!isLocal) return geode;
     const osg::ref_ptr<osg::MatrixTransform> mesh = new osg::MatrixTransform(osg::Matrixd::translate(middle));
     mesh->setDataVariance(osg::Object::STATIC);
@@ -226,11 +314,33 @@ osg::ref_ptr<osg::Node> makeMesh(const DatabaseSpec& database, const TileKey& ti
     return mesh;
 }
 
+void alterMesh(const Part& part, const DatabaseSpec& database, double turn, osg::Drawable& drawable) {
+    osg::Geometry* const geometry = drawable.asGeometry();
+    if (!geometry || geometry->getNumPrimitiveSets() == 0) return;
+    switch (part.kind) {
+        case PartKind::MeshHole:
+            cutHole(*geometry, part.variant);
+            break;
+        case PartKind::ReversedFaces:
+            reverseFaces(*geometry);
+            break;
+        case PartKind::Raise:
+            raiseVertices(part, database, turn, *geometry);
+            break;
+        default:
+            return;
+    }
+    geometry->dirtyGLObjects();
+    geometry->dirtyBound();
+}
+
 osg::ref_ptr<osg::Node> makeModel(const DatabaseSpec& database, const Part& part, const osg::Matrixd& toDatabase) {
     const double height = part.high - part.low;
-    const osg::ref_ptr<osg::Geometry> tower = makeTower(height, std::max(0.05 * height, 300.0 * database.scale()));
+    const bool isSign = part.kind == PartKind::Sign;
+    const osg::ref_ptr<osg::Geometry> tower =
+        makeTower(height, isSign ? part.amount : std::max(0.05 * height, 300.0 * database.scale()));
     osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    if (part.variant != 0)
+    if (part.variant != 0 && !isSign)
         geode = makeBillboard(*tower, height, part);
     else
         geode->addDrawable(tower);
@@ -239,6 +349,7 @@ osg::ref_ptr<osg::Node> makeModel(const DatabaseSpec& database, const Part& part
     const osg::ref_ptr<osg::MatrixTransform> model = new osg::MatrixTransform(here);
     model->setName("#model " + std::to_string(part.id));
     model->addChild(geode);
+    if (isSign) ignoreDepth(part.variant, *model->getOrCreateStateSet());
     const bool isMoving = part.kind == PartKind::Vehicle;
     model->setDataVariance(isMoving ? osg::Object::DYNAMIC : osg::Object::STATIC);
     if (isMoving) model->setUpdateCallback(new Mover(here, osg::Vec3d(part.amount, 0.0, 0.0), part.frame));

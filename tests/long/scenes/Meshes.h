@@ -7,7 +7,10 @@
 
 #include "Description.h"
 
+#include <osg/Drawable>
 #include <osg/Group>
+
+#include <string>
 
 namespace osgAnalyticBin::test {
 
@@ -33,9 +36,23 @@ struct Extents {
 /// The depth of chords between the posts of a tile below the surface at most, metres.
 [[nodiscard]] double sagOf(const DatabaseSpec& database, int level);
 
-/// The mesh of a tile whose frame is turned by an angle. `name` comes before the tile's key in the names of its nodes.
+/// What meshes of one tile differ in.
+struct MeshShape {
+    int posts = 5;
+    std::string name = "#";     ///< comes before the tile's key in the names of nodes
+    double narrower = 0.0;      ///< this part of the tile is left free, in the east
+    bool drawsNothing = false;  ///< not for osgTerrain
+};
+
+/// The mesh of a tile whose frame is turned by an angle.
 [[nodiscard]] osg::ref_ptr<osg::Node> makeMesh(const DatabaseSpec& database, const TileKey& tile, double turn,
-                                               int posts, const std::string& name = "#");
+                                               const MeshShape& shape);
+
+/// How many variants of MeshHole there are.
+constexpr int kHoles = 5;
+
+/// Does to a mesh what a part of the kinds MeshHole, ReversedFaces and Raise says.
+void alterMesh(const Part& part, const DatabaseSpec& database, double turn, osg::Drawable& drawable);
 
 /// A tower or a vehicle; `toDatabase`: from the frame that it is put in to the database's own.
 [[nodiscard]] osg::ref_ptr<osg::Node> makeModel(const DatabaseSpec& database, const Part& part,

@@ -17,24 +17,31 @@ USE_GRAPHICSWINDOW()
 
 namespace osgAnalyticBin::test {
 
+// As OpenGL's own functions do, clip planes take part.
+const char* const kVertexShader =
+    "void main() {\n"
+    "  gl_Position = ftransform();\n"
+    "  gl_ClipVertex = gl_ModelViewMatrix * gl_Vertex;\n"
+    "}\n";
+// gl_FragCoord.w is 1 / w.
+const char* const kPaintFunction =
+    "uniform vec4 paint;\n"
+    "void paintFragment() {\n"
+    "  gl_FragColor = paint;\n"
+    "  bool isPerspective = gl_ProjectionMatrix[3][3] == 0.0;\n"
+    "  float depth = isPerspective ? (-log2(gl_FragCoord.w) + 9.965784284662087) / 45.0 : gl_FragCoord.z;\n"
+    "  gl_FragDepth = isPerspective ? mix(gl_DepthRange.near, gl_DepthRange.far, depth) : depth;\n"
+    "}\n";
+
 namespace {
 
 // Distances from kNearest up to kNearest times two to the power of kOctaves have depths from 0 to 1.
 constexpr double kNearest = 1e-3;
 constexpr double kOctaves = 45.0;
 
-constexpr const char* kVertexShader = "void main() { gl_Position = ftransform(); }\n";
 constexpr const char* kPaintShader =
     "uniform vec4 paint;\n"
     "void main() { gl_FragColor = paint; }\n";
-// gl_FragCoord.w is 1 / w.
-constexpr const char* kPaintAndDepthShader =
-    "uniform vec4 paint;\n"
-    "void main() {\n"
-    "  gl_FragColor = paint;\n"
-    "  bool isPerspective = gl_ProjectionMatrix[3][3] == 0.0;\n"
-    "  gl_FragDepth = isPerspective ? (-log2(gl_FragCoord.w) + 9.965784284662087) / 45.0 : gl_FragCoord.z;\n"
-    "}\n";
 
 osg::Vec4 colourOf(std::uint32_t number) {
     const auto channel = [number](unsigned int shift) {
@@ -51,6 +58,7 @@ osg::ref_ptr<osg::GraphicsContext> makeContext() {
     traits->height = Painting::kHeight;
     traits->red = traits->green = traits->blue = 8;
     traits->depth = 24;
+    traits->stencil = 8;
     traits->samples = 0;
     traits->pbuffer = true;
     traits->doubleBuffer = false;
@@ -66,8 +74,8 @@ Painter::Painter(Depths depths) : _context(makeContext()) {
     _states->setMode(GL_DEPTH_TEST, osg::StateAttribute::ON);
     _states->setMode(GL_DITHER, osg::StateAttribute::OFF);
     _flat->addShader(new osg::Shader(osg::Shader::VERTEX, kVertexShader));
-    _flat->addShader(
-        new osg::Shader(osg::Shader::FRAGMENT, depths == Depths::Logarithms ? kPaintAndDepthShader : kPaintShader));
+    const std::string withDepth = std::string(kPaintFunction) + "void main() { paintFragment(); }\n";
+    _flat->addShader(new osg::Shader(osg::Shader::FRAGMENT, depths == Depths::Logarithms ? withDepth : kPaintShader));
 }
 
 Painter::~Painter() {
@@ -75,16 +83,20 @@ Painter::~Painter() {
     _context->close();
 }
 
-const osg::StateSet* Painter::paintFor(const std::string& key) {
+const osg::StateSet* Painter::paintFor(const std::string& key, bool hasProgram) {
     const auto [known, isNew] = _numbers.emplace(key, static_cast<std::uint32_t>(_numbers.size() + 1));
     if (isNew) _keys.push_back(key);
     while (_paints.size() < known->second) {
-        const osg::ref_ptr<osg::StateSet> paint = new osg::StateSet;
-        paint->setAttributeAndModes(_flat);
-        paint->addUniform(new osg::Uniform("paint", colourOf(static_cast<std::uint32_t>(_paints.size() + 1))));
-        _paints.push_back(paint);
+        const osg::ref_ptr<osg::Uniform> paint =
+            new osg::Uniform("paint", colourOf(static_cast<std::uint32_t>(_paints.size() + 1)));
+        Paint made{new osg::StateSet, new osg::StateSet};
+        made.flat->setAttributeAndModes(_flat);
+        made.flat->addUniform(paint);
+        made.colour->addUniform(paint);
+        _paints.push_back(made);
     }
-    return _paints[known->second - 1];
+    const Paint& paint = _paints[known->second - 1];
+    return hasProgram ? paint.colour : paint.flat;
 }
 
 const std::string* Painter::keyOf(std::uint32_t number) const {
@@ -95,6 +107,8 @@ Painting Painter::paint(osgUtil::RenderStage& stage, osg::FrameStamp& stamp) {
     osg::State& state = *_context->getState();
     // OSG tells attributes, arrays and buffers apart by their addresses, which those of scenes that are gone had, too
     state.reset();
+    // what is not the default would be taken for applied
+    state.apply();
     state.lazyDisablingOfVertexAttributes();
     state.applyDisablingOfVertexAttributes();
     state.unbindVertexBufferObject();
@@ -103,7 +117,7 @@ Painting Painter::paint(osgUtil::RenderStage& stage, osg::FrameStamp& stamp) {
     osg::get<osg::ContextData>(state.getContextID())->newFrame(&stamp);
     state.applyMode(GL_SCISSOR_TEST, false);
     glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
-    glClear(GL_COLOR_BUFFER_BIT);
+    glClear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     stage.setClearColor(osg::Vec4());
     stage.sort();
     osg::RenderInfo info(&state, nullptr);

@@ -32,6 +32,10 @@ struct Painting {
     std::vector<float> depths;           ///< see Painter::distance()
 };
 
+/// For programs that paint as the painter does: a vertex shader, and a function of GLSL, paintFragment().
+extern const char* const kVertexShader;
+extern const char* const kPaintFunction;
+
 /// Has a graphics context, and colours for drawables that are known by a key. Both scenes use the same colours.
 class Painter {
 public:
@@ -50,8 +54,9 @@ public:
     /// For CullView::states.
     [[nodiscard]] osg::StateSet* states() { return _states; }
 
-    /// What a cull visitor pushes around a drawable.
-    [[nodiscard]] const osg::StateSet* paintFor(const std::string& key);
+    /// What a cull visitor pushes around a drawable. `hasProgram`: the scene has a program there, which paints as
+    /// kPaintFunction does, or as it likes.
+    [[nodiscard]] const osg::StateSet* paintFor(const std::string& key, bool hasProgram = false);
 
     /// Returns: nullptr for the background.
     [[nodiscard]] const std::string* keyOf(std::uint32_t number) const;
@@ -69,7 +74,10 @@ private:
     osg::ref_ptr<osg::GraphicsContext> _context;
     const osg::ref_ptr<osg::StateSet> _states = new osg::StateSet;
     const osg::ref_ptr<osg::Program> _flat = new osg::Program;
-    std::vector<osg::ref_ptr<osg::StateSet>> _paints;  // from number 1 on; 0 is the background
+    struct Paint {
+        osg::ref_ptr<osg::StateSet> flat, colour;  // with a program, and without
+    };
+    std::vector<Paint> _paints;  // from number 1 on; 0 is the background
     std::map<std::string, std::uint32_t> _numbers;
     std::vector<std::string> _keys;
 };

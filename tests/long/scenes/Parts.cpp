@@ -5,6 +5,7 @@
 
 #include "Callbacks.h"
 #include "Meshes.h"
+#include "States.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
@@ -16,6 +17,7 @@
 #include <osgTerrain/Terrain>
 #include <osgTerrain/TerrainTile>
 
+#include <algorithm>
 #include <string>
 
 namespace osgAnalyticBin::test {
@@ -74,14 +76,82 @@ void addModel(const Part& part, const Description& description, osg::Node& node)
     group->addChild(makeModel(database, part, frameOf(part, description, node)));
 }
 
+// In front of what is there, or behind it.
+void hang(const osg::ref_ptr<osg::NodeCallback>& callback, bool isNested, osg::Node& node) {
+    if (isNested) return node.addCullCallback(callback);
+    callback->setNestedCallback(node.getCullCallback());
+    node.setCullCallback(callback);
+}
+
 void addCullCallback(const Part& part, osg::Node& node) {
-    const osg::ref_ptr<Passer> passer = new Passer(part.variant >= 2);
-    if (part.variant % 2 == 0) {
-        node.addCullCallback(passer);
-        return;
+    hang(new Passer(part.variant >= 2), part.variant % 2 == 0, node);
+}
+
+void addUserCallback(const Part& part, osg::Node& node) {
+    const bool isNested = part.id % 2 == 0;
+    if (part.kind == PartKind::LeavesOut)
+        return hang(new LeaverOut(static_cast<unsigned int>(part.variant)), isNested, node);
+    if (part.kind == PartKind::OneShot) return node.addUpdateCallback(new OneShotCallback);
+    if (part.kind == PartKind::PushesState) {
+        const osg::ref_ptr<osg::StateSet> states = new osg::StateSet;
+        setState(part.variant, part.value, *states);
+        return hang(new StatePusher(states), isNested, node);
     }
-    passer->setNestedCallback(node.getCullCallback());
-    node.setCullCallback(passer);
+    // what is masked is one child
+    constexpr osg::Node::NodeMask kMasked = 2;
+    osg::Group* const group = node.asGroup();
+    if (!group || group->getNumChildren() == 0) return;
+    group->getChild(static_cast<unsigned int>(part.variant) % group->getNumChildren())->setNodeMask(kMasked);
+    hang(new Masker(~kMasked), isNested, node);
+}
+
+void setBoundCallback(const Part& part, osg::Node& node) {
+    if (part.kind == PartKind::NoBoundCallback)
+        node.setComputeBoundingSphereCallback(nullptr);
+    else
+        node.setComputeBoundingSphereCallback(new OwnBound);
+    node.dirtyBound();
+}
+
+// Variants: whether it leaves out, or draws nothing.
+void setDrawableCallback(const Part& part, osg::Node& node) {
+    osg::Drawable* const drawable = node.asDrawable();
+    if (!drawable) return;
+    const bool isOdd = part.variant % 2 == 1;
+    switch (part.kind) {
+        case PartKind::DrawableCull:
+            return drawable->setCullCallback(new DrawableLeaverOut(isOdd));
+        case PartKind::DrawableDraw:
+            return drawable->setDrawCallback(new OwnDrawing(!isOdd));
+        case PartKind::DrawableUpdate:
+            return drawable->setUpdateCallback(new osg::DrawableUpdateCallback);
+        default:
+            drawable->setComputeBoundingBoxCallback(new OwnBox);
+            drawable->dirtyBound();
+    }
+}
+
+void alterDrawable(const Part& part, const Description& description, osg::Node& node) {
+    osg::Drawable* const drawable = node.asDrawable();
+    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
+    if (drawable) alterMesh(part, database, description.turnOf(part.tile), *drawable);
+}
+
+// Shown from near.
+void addHouses(const Part& part, const Description& description, osg::Node& node) {
+    osg::Group* const group = node.asGroup();
+    if (!group) return;
+    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
+    const Extents e = extentsOf(database, part.tile);
+    const double unit = database.isMap ? 1.0 : std::max(database.equatorial, database.polar);
+    const osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
+    paged->setName("#objects " + std::to_string(part.id));
+    paged->setCenter(place(database, part.latitude, part.longitude, part.high) *
+                     osg::Matrixd::inverse(frameOfHouses(part, description)));
+    paged->setRadius(static_cast<float>(2.0 * part.high + 0.5 * (e.north - e.south) * unit));
+    paged->setFileName(0, "houses_" + std::to_string(part.id) + ".osgb");
+    paged->setRange(0, 0.0f, static_cast<float>(part.amount));
+    group->addChild(paged);
 }
 
 void storeBinOnDrawable(const Part& part, const Description& description, osg::Node& node) {
@@ -140,6 +210,12 @@ std::string targetOf(const Part& part) {
 
 }  // namespace
 
+osg::Matrixd frameOfHouses(const Part& part, const Description& description) {
+    if (part.hook == Hook::Globe) return {};
+    const TileKey tile = part.hook == Hook::Slot ? part.tile.parent() : part.tile;
+    return turned(description.databases[static_cast<std::size_t>(part.tile.database)], description.turnOf(tile));
+}
+
 osg::Node* findNode(osg::Node& subgraph, const std::string& name) {
     NameFinder finder(name);
     subgraph.accept(finder);
@@ -161,8 +237,31 @@ void applyPart(const Part& part, const Description& description, osg::Node& subg
         case PartKind::Outline:
         case PartKind::Fill:
             return setPolygonMode(part, *node);
+        case PartKind::State:
+            return setState(part.variant, part.value, *node->getOrCreateStateSet());
+        case PartKind::LeavesOut:
+        case PartKind::PushesState:
+        case PartKind::Masks:
+        case PartKind::OneShot:
+            return addUserCallback(part, *node);
+        case PartKind::BoundCallback:
+        case PartKind::NoBoundCallback:
+            return setBoundCallback(part, *node);
+        case PartKind::DrawableCull:
+        case PartKind::DrawableDraw:
+        case PartKind::DrawableUpdate:
+        case PartKind::DrawableBound:
+            return setDrawableCallback(part, *node);
+        case PartKind::MeshHole:
+        case PartKind::ReversedFaces:
+        case PartKind::Raise:
+            if (part.frame > 0) alterDrawable(part, description, *node);
+            return;
+        case PartKind::Objects:
+            return addHouses(part, description, *node);
         case PartKind::Tower:
         case PartKind::Vehicle:
+        case PartKind::Sign:
             return addModel(part, description, *node);
         case PartKind::Toggle:
             return toggle(*node);

@@ -7,12 +7,16 @@
 
 #include "Description.h"
 
+#include <osg/Matrixd>
 #include <osg/Node>
 
 namespace osgAnalyticBin::test {
 
 /// The first node of this name, whatever is switched off. Returns: nullptr when there is none.
 [[nodiscard]] osg::Node* findNode(osg::Node& subgraph, const std::string& name);
+
+/// From the frame of houses in a file of their own to that of their database.
+[[nodiscard]] osg::Matrixd frameOfHouses(const Part& part, const Description& description);
 
 /// Does to a subgraph what a part says, if the node that it is for is in there. Parts that are for the whole scene, or
 /// built in, are left alone.

@@ -43,7 +43,26 @@ bool hasScaledTerrain(const Description& description) {
 // Whether the application takes terrain away, or draws it as lines.
 bool hasHoles(const Description& description) {
     return std::any_of(description.parts.begin(), description.parts.end(), [](const Part& part) {
-        return part.kind == PartKind::Switch || part.kind == PartKind::UserCull || part.kind == PartKind::Outline;
+        switch (part.kind) {
+            case PartKind::Switch:
+            case PartKind::UserCull:
+            case PartKind::Outline:
+            case PartKind::MeshHole:
+            case PartKind::ReversedFaces:
+            case PartKind::NarrowTile:
+            case PartKind::DrawsNothing:
+            case PartKind::State:
+            case PartKind::LeavesOut:
+            case PartKind::PushesState:
+            case PartKind::Masks:
+            case PartKind::DrawableCull:
+            case PartKind::DrawableDraw:
+            case PartKind::Raise:
+            case PartKind::VisitorLeavesOut:
+                return true;
+            default:
+                return false;
+        }
     });
 }
 
@@ -66,22 +85,31 @@ public:
 
     /// Whether the documentation, or OSG, explains the difference.
     [[nodiscard]] bool isAllowed(std::size_t pixel) const {
-        if (isTie(pixel, 0)) return true;
+        if (areBothPlain(pixel) && isTie(pixel, 0)) return true;
         const std::string now = keyAt(_with.painting, pixel);
         if (!now.empty() && _without.drawables.count(now) == 0) return hasScaledTerrain(_description);
         const std::string key = keyAt(_without.painting, pixel);
         const auto found = _without.drawables.find(key);
         if (found == _without.drawables.end() || _with.drawables.count(key) > 0) return false;
         const Delivered& lost = found->second;
-        if (!lost.isFilled && isTie(pixel, 1)) return true;
+        if (lost.isPlain && !lost.isFilled && isTie(pixel, 1)) return true;
         // lines and points beside the picture are wide enough to be seen in it
         if (!lost.isFilled && Place(pixel).isAtBorder()) return true;
         const auto sight = sightTo(pixel, lost, _without.painting);
-        if (isInCrack(pixel) || isSkirtInHole(pixel, lost)) return true;
+        if (lost.isPlain && (isInCrack(pixel) || isSkirtInHole(pixel, lost))) return true;
         return sight && (mayHide(_without, lost.camera, *sight) || mayHide(_with, lost.camera, *sight));
     }
 
 private:
+    // Whether the depths of a pixel are those of the drawables in it.
+    [[nodiscard]] bool areBothPlain(std::size_t pixel) const {
+        const auto isPlain = [&](const Delivery& delivery) {
+            const auto found = delivery.drawables.find(keyAt(delivery.painting, pixel));
+            return found != delivery.drawables.end() && found->second.isPlain;
+        };
+        return isPlain(_without) && isPlain(_with);
+    }
+
     // Where surfaces coincide, such as the skirts of neighbours, one that is left shows what both did. Lines that
     // coincide may be drawn a pixel apart.
     [[nodiscard]] bool isTie(std::size_t pixel, int around) const {

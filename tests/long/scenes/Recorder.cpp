@@ -3,13 +3,17 @@
 
 #include "Recorder.h"
 
+#include "States.h"
+
 #include <osgAnalyticBin/BinStatistics.h>
 
 #include <osg/Billboard>
 #include <osg/Camera>
 #include <osg/CoordinateSystemNode>
+#include <osg/PagedLOD>
 #include <osg/PolygonMode>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace osgAnalyticBin::test {
@@ -55,10 +59,12 @@ std::uint32_t culledBins(const osg::NodeVisitor& visitor) {
 
 }  // namespace
 
-void Requests::requestNodeFile(const std::string& fileName, osg::NodePath& /*path*/, float /*priority*/,
+void Requests::requestNodeFile(const std::string& fileName, osg::NodePath& path, float /*priority*/,
                                const osg::FrameStamp* /*stamp*/, osg::ref_ptr<osg::Referenced>& /*request*/,
                                const osg::Referenced* /*options*/) {
-    names.insert(fileName);
+    const auto isPaged = [](const osg::Node* node) { return dynamic_cast<const osg::PagedLOD*>(node) != nullptr; };
+    const auto paged = std::find_if(path.rbegin(), path.rend(), isPaged);
+    if (paged != path.rend()) files.insert({(*paged)->getName(), fileName});
 }
 
 Recorder::Recorder() {
@@ -71,13 +77,14 @@ void Recorder::apply(osg::Drawable& drawable) {
     const std::uint32_t culledBefore = hasCallback ? culledBins(*this) : 0;
     const osg::NodePath& path = getNodePath();
     std::string key = newKey();
-    if (_painter) pushStateSet(_painter->paintFor(key));
+    const States found = states(drawable.getStateSet());
+    if (_painter) pushStateSet(_painter->paintFor(key, found.hasProgram));
     osgUtil::CullVisitor::apply(drawable);
     if (_painter) popStateSet();
     if (_currentReuseRenderLeafIndex == before) return;
     const bool isCountedCulled = hasCallback && culledBins(*this) != culledBefore;
     Delivered delivered{cameraText(path),       &drawable,      *getModelViewMatrix(), getProjectionMatrix(),
-                        *getProjectionMatrix(), isFilled(path), isCountedCulled};
+                        *getProjectionMatrix(), isFilled(path), found.isPlain,         isCountedCulled};
     _delivery.drawables.emplace(std::move(key), std::move(delivered));
 }
 
@@ -85,22 +92,36 @@ void Recorder::apply(osg::Drawable& drawable) {
 void Recorder::apply(osg::Billboard& node) {
     const unsigned int before = _traversalOrderNumber;
     const osg::NodePath& path = getNodePath();
-    if (_painter) pushStateSet(_painter->paintFor(newKey()));
+    const States found = states(node.getStateSet());
+    if (_painter) pushStateSet(_painter->paintFor(newKey(), found.hasProgram));
     osgUtil::CullVisitor::apply(node);
     if (_painter) popStateSet();
     for (const osg::ref_ptr<osgUtil::RenderLeaf>& leaf : _reuseRenderLeafList) {
         // the others belong to another node or to an earlier frame
         if (!leaf->getDrawable() || leaf->_traversalOrderNumber < before || !node.containsNode(leaf->getDrawable()))
             continue;
-        Delivered delivered{cameraText(path),
-                            leaf->getDrawable(),
-                            *leaf->_modelview,
-                            getProjectionMatrix(),
-                            *getProjectionMatrix(),
-                            isFilled(path),
-                            false};
+        Delivered delivered{cameraText(path),       leaf->getDrawable(), *leaf->_modelview, getProjectionMatrix(),
+                            *getProjectionMatrix(), isFilled(path),      found.isPlain,     false};
         _delivery.drawables.emplace(newKey(), std::move(delivered));
     }
+}
+
+Recorder::States Recorder::states(const osg::StateSet* own) {
+    States result;
+    if (!_painter) return result;
+    result.isPlain = isViewPlain;
+    const auto add = [&](const osg::StateSet* set) {
+        if (!set) return;
+        result.hasProgram = result.hasProgram || set->getAttribute(osg::StateAttribute::PROGRAM) != nullptr;
+        result.isPlain = result.isPlain && isHarmless(*set);
+    };
+    add(own);
+    const osgUtil::StateGraph* graph = getCurrentStateGraph();
+    // the first that is pushed is the view's
+    for (; graph && graph->_parent && graph->_parent->_parent; graph = graph->_parent) add(graph->getStateSet());
+    if (graph && graph->getStateSet())
+        result.hasProgram = result.hasProgram || graph->getStateSet()->getAttribute(osg::StateAttribute::PROGRAM);
+    return result;
 }
 
 std::string Recorder::newKey() const {
@@ -115,7 +136,7 @@ void Recorder::apply(osg::CoordinateSystemNode& node) {
     if (node.getName().rfind(start, 0) == 0)
         _delivery.databases.push_back(
             {std::atoi(node.getName().c_str() + start.size()), cameraText(getNodePath()), *getModelViewMatrix()});
-    osgUtil::CullVisitor::apply(node);
+    enter(static_cast<osg::Group&>(node));
 }
 
 }  // namespace osgAnalyticBin::test

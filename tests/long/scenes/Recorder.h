@@ -10,11 +10,13 @@
 #include <osg/Drawable>
 #include <osg/Matrixd>
 #include <osg/NodeVisitor>
+#include <osgDB/DatabasePager>
 #include <osgUtil/CullVisitor>
 
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -27,6 +29,7 @@ struct Delivered {
     osg::ref_ptr<const osg::RefMatrix> projection;  ///< after the traversal, with its near and far planes
     osg::Matrixd givenProjection;                   ///< before
     bool isFilled = true;                           ///< whether its polygons are
+    bool isPlain = true;                            ///< whether it is drawn where it is, and hides what is behind
     bool isCountedCulled = false;                   ///< whether a bin on it was counted as culled all the same
 };
 
@@ -46,13 +49,16 @@ struct Delivery {
     Painting painting;
 };
 
-/// Notes the files that a cull traversal asks for.
-class Requests : public osg::NodeVisitor::DatabaseRequestHandler {
+/// A PagedLOD by its name, and the file that it pages.
+using Request = std::pair<std::string, std::string>;
+
+/// Notes the files that a cull traversal asks for. Applications expect a DatabasePager.
+class Requests : public osgDB::DatabasePager {
 public:
     void requestNodeFile(const std::string& fileName, osg::NodePath& path, float priority, const osg::FrameStamp* stamp,
                          osg::ref_ptr<osg::Referenced>& request, const osg::Referenced* options) override;
 
-    std::set<std::string> names;
+    std::set<Request> files;
 };
 
 /// A cull visitor that notes what it delivers.
@@ -64,14 +70,34 @@ public:
     void apply(osg::Drawable& drawable) override;
     void apply(osg::Billboard& node) override;
     void apply(osg::CoordinateSystemNode& node) override;
+    void apply(osg::Group& node) override { enter(node); }
+    void apply(osg::Transform& node) override { enter(node); }
+    void apply(osg::LOD& node) override { enter(node); }
+    void apply(osg::Geode& node) override { enter(node); }
 
     /// Has drawables drawn in the painter's colours, by their keys in the delivery. nullptr: as they are.
     void setPainter(Painter* painter) { _painter = painter; }
 
     [[nodiscard]] Delivery takeDelivery() { return std::exchange(_delivery, {}); }
-    [[nodiscard]] std::set<std::string> takeRequests() { return std::exchange(_requests->names, {}); }
+    [[nodiscard]] std::set<Request> takeRequests() { return std::exchange(_requests->files, {}); }
+
+    /// Names of nodes that this visitor does not enter.
+    std::set<std::string> leftOut;
+    /// Whether states that are pushed above the scene let it be drawn where it is.
+    bool isViewPlain = true;
 
 private:
+    template <class NodeType>
+    void enter(NodeType& node) {
+        if (leftOut.empty() || leftOut.count(node.getName()) == 0) osgUtil::CullVisitor::apply(node);
+    }
+    /// What is in force at the end of the path.
+    struct States {
+        bool isPlain = true;
+        bool hasProgram = false;
+    };
+    [[nodiscard]] States states(const osg::StateSet* own);
+
     // For what is at the end of the path: a key that no drawable has yet.
     [[nodiscard]] std::string newKey() const;
 

@@ -4,12 +4,15 @@
 #include "Run.h"
 
 #include "Builder.h"
+#include "Callbacks.h"
 #include "Copies.h"
 #include "Difference.h"
 #include "Meshes.h"
 #include "Oracle.h"
 #include "Parts.h"
+#include "Picks.h"
 #include "Recorder.h"
+#include "States.h"
 
 #include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
@@ -17,6 +20,8 @@
 #include <osg/CoordinateSystemNode>
 #include <osg/FrameStamp>
 #include <osg/PagedLOD>
+#include <osg/StateSet>
+#include <osgDB/ObjectCache>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 #include <osgTerrain/TerrainTile>
@@ -55,7 +60,22 @@ FilesInMemory& filesInMemory() {
     return *files;
 }
 
-/// PagedLODs by the file that they page.
+/// OSG's cache of objects, which nothing is put into: a read callback reads all files.
+class ObjectWatch : public osgDB::ObjectCache {
+public:
+    [[nodiscard]] std::size_t size() const { return _objectCache.size(); }
+};
+
+ObjectWatch& objectWatch() {
+    static const osg::ref_ptr<ObjectWatch> watch = [] {
+        const osg::ref_ptr<ObjectWatch> made = new ObjectWatch;
+        osgDB::Registry::instance()->setObjectCache(made);
+        return made;
+    }();
+    return *watch;
+}
+
+/// PagedLODs by themselves and the file that they page.
 class PagedFinder : public osg::NodeVisitor {
 public:
     PagedFinder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
@@ -65,10 +85,10 @@ public:
     void apply(osg::PagedLOD& node) override {
         const unsigned int count = node.getNumChildren();
         const bool isAwaited = count < node.getNumFileNames() && !node.getFileName(count).empty();
-        if (isAwaited) waiting[node.getFileName(count)].insert(&node);
+        if (isAwaited) waiting[{node.getName(), node.getFileName(count)}].insert(&node);
         traverse(node);
     }
-    std::map<std::string, std::set<osg::PagedLOD*>> waiting;
+    std::map<Request, std::set<osg::PagedLOD*>> waiting;
 };
 
 /// Takes InstallBinsCallbacks off globes.
@@ -99,10 +119,11 @@ public:
 
     Delivery deliver(const ViewSpec& spec, osg::FrameStamp& stamp, Painter* painter) {
         CullView view = viewOf(spec);
+        view.states = viewStates(painter);
         _recorder->setSmallFeatureCullingPixelSize(static_cast<float>(spec.smallFeaturePixels));
         root->getBound();
-        if (painter) view.states = painter->states();
         _recorder->setPainter(painter);
+        _recorder->isViewPlain = isHarmless(*_ownStates);
         const CullResult culled = cull(*root, view, *_recorder, stamp.getFrameNumber(), stamp.getReferenceTime());
         Delivery delivery = _recorder->takeDelivery();
         if (painter) delivery.painting = painter->paint(*culled.stage, stamp);
@@ -111,17 +132,23 @@ public:
 
     /// Whether OSG's own visitor, for which the kit enters tiles by itself, delivers the same as a derived one.
     [[nodiscard]] bool deliversTheSameToAll(const ViewSpec& spec, const osg::FrameStamp& stamp) {
+        const osg::ref_ptr<osg::StateSet> states = viewStates(nullptr);
         const auto leavesFor = [&](osgUtil::CullVisitor& visitor) {
             visitor.setSmallFeatureCullingPixelSize(static_cast<float>(spec.smallFeaturePixels));
-            return leavesIn(
-                *cull(*root, viewOf(spec), visitor, stamp.getFrameNumber(), stamp.getReferenceTime()).stage);
+            CullView view = viewOf(spec);
+            view.states = states;
+            return leavesIn(*cull(*root, view, visitor, stamp.getFrameNumber(), stamp.getReferenceTime()).stage);
         };
         return leavesFor(*_plain) == leavesFor(*_derived);
     }
 
-    [[nodiscard]] std::set<std::string> takeRequests() { return _recorder->takeRequests(); }
+    [[nodiscard]] std::set<Request> takeRequests() { return _recorder->takeRequests(); }
 
-    [[nodiscard]] std::map<std::string, std::set<osg::PagedLOD*>> waiting() {
+    /// What the application sets for the view.
+    void addViewState(const Part& part) { setState(part.variant, part.value, *_ownStates); }
+    void leaveOut(const std::string& name) { _recorder->leftOut.insert(name); }
+
+    [[nodiscard]] std::map<Request, std::set<osg::PagedLOD*>> waiting() {
         PagedFinder finder;
         root->accept(finder);
         return finder.waiting;
@@ -131,6 +158,14 @@ public:
 
 private:
     struct DerivedVisitor : osgUtil::CullVisitor {};
+
+    // A view has one state.
+    [[nodiscard]] osg::ref_ptr<osg::StateSet> viewStates(Painter* painter) const {
+        const osg::ref_ptr<osg::StateSet> states =
+            painter ? new osg::StateSet(*painter->states(), osg::CopyOp::SHALLOW_COPY) : new osg::StateSet;
+        states->merge(*_ownStates);
+        return states;
+    }
 
     static CullView viewOf(const ViewSpec& spec) {
         CullView view;
@@ -142,6 +177,7 @@ private:
     }
 
     const osg::ref_ptr<Recorder> _recorder = new Recorder;
+    const osg::ref_ptr<osg::StateSet> _ownStates = new osg::StateSet;
     const osg::ref_ptr<osgUtil::CullVisitor> _plain = new osgUtil::CullVisitor, _derived = new DerivedVisitor;
     const osg::ref_ptr<osgUtil::UpdateVisitor> _update = new osgUtil::UpdateVisitor;
 };
@@ -158,11 +194,19 @@ public:
           _painter(painter) {
         filesInMemory().builder = &_builder;
     }
-    ~Runner() { filesInMemory().builder = nullptr; }
+    ~Runner() {
+        filesInMemory().builder = nullptr;
+        objectWatch().clear();
+        (void)takeComplaint();
+    }
     Runner(const Runner&) = delete;
     Runner& operator=(const Runner&) = delete;
 
     std::optional<Failure> run() {
+        objectWatch().clear();
+        for (const Part& part : _description.parts) {
+            if (part.frame == 0) beginView(part);
+        }
         installAll(nullptr);
         for (std::size_t i = 0; i < _description.views.size(); ++i) {
             if (auto failure = runFrame(static_cast<int>(i) + 1, _description.views[i])) return failure;
@@ -176,6 +220,7 @@ private:
     }
 
     void installAll(const CullOptions* options) {
+        if (!_description.hasBins) return;
         for (std::size_t i = 0; i < _description.databases.size(); ++i) {
             const DatabaseSpec& spec = _description.databases[i];
             osg::Node* const node = globe(_with, static_cast<int>(i));
@@ -208,6 +253,25 @@ private:
         if (!_painter && !_with.deliversTheSameToAll(view, *_stamp))
             return Failure{frame, "OSG's own visitor gets something else than a derived one", ""};
         page();
+        return checkApplication(frame);
+    }
+
+    // What the application meets apart from pictures.
+    std::optional<Failure> checkApplication(int frame) {
+        if (const std::string complaint = takeComplaint(); !complaint.empty())
+            return Failure{frame, "a node meets something that is not of OSG", complaint};
+        if (objectWatch().size() > 0)
+            return Failure{frame, "something is in the object cache", std::to_string(objectWatch().size())};
+        for (const Part& part : _description.parts) {
+            if (part.kind != PartKind::Pick || part.frame != frame) continue;
+            const DatabaseSpec& database = _description.databases[static_cast<std::size_t>(part.tile.database)];
+            const auto end = [&](double altitude) {
+                return place(database, part.latitude, part.longitude, altitude) * database.toWorld(frame);
+            };
+            const Picked without = pick(*_without.root, end(part.high), end(part.low));
+            const Picked with = pick(*_with.root, end(part.high), end(part.low));
+            if (const auto text = findPickDifference(without, with)) return Failure{frame, "a pick differs", *text};
+        }
         return std::nullopt;
     }
 
@@ -265,7 +329,16 @@ private:
         removePart(part, *_with.root);
     }
 
+    // What is of the view, and not in the scene.
+    void beginView(const Part& part) {
+        for (Scene* scene : {&_without, &_with}) {
+            if (part.kind == PartKind::State && part.hook == Hook::View) scene->addViewState(part);
+            if (part.kind == PartKind::VisitorLeavesOut) scene->leaveOut(nodeName(part.hook, part.tile));
+        }
+    }
+
     void applyToBoth(const Part& part) {
+        beginView(part);
         applyPart(part, _description, *_without.root);
         applyPart(part, _description, *_with.root);
     }
@@ -273,7 +346,7 @@ private:
     std::optional<Failure> happen(const Part& part) {
         switch (part.kind) {
             case PartKind::SetOptions:
-                (void)setCullOptions(*_with.root, part.options);
+                if (_description.hasBins) (void)setCullOptions(*_with.root, part.options);
                 break;
             case PartKind::Install:
                 installAll(&part.options);
@@ -287,6 +360,10 @@ private:
                 break;
             case PartKind::UserCull:
             case PartKind::UserUpdate:
+            case PartKind::LeavesOut:
+            case PartKind::PushesState:
+            case PartKind::Masks:
+            case PartKind::OneShot:
                 // Copies of a globe may share its callbacks: what is nested in one of ours then runs on all of them.
                 if (!_sharesCallbacks) applyToBoth(part);
                 break;
@@ -320,13 +397,13 @@ private:
 
     // Both scenes get what either of them has asked for.
     void page() {
-        std::set<std::string> names = _without.takeRequests();
-        for (const std::string& name : _with.takeRequests()) names.insert(name);
+        std::set<Request> requests = _without.takeRequests();
+        for (const Request& request : _with.takeRequests()) requests.insert(request);
         auto without = _without.waiting();
         auto with = _with.waiting();
-        for (const std::string& name : names) {
-            for (osg::PagedLOD* paged : without[name]) load(*paged, name);
-            for (osg::PagedLOD* paged : with[name]) load(*paged, name);
+        for (const Request& request : requests) {
+            for (osg::PagedLOD* paged : without[request]) load(*paged, request.second);
+            for (osg::PagedLOD* paged : with[request]) load(*paged, request.second);
         }
     }
 
@@ -339,6 +416,7 @@ private:
 
     [[nodiscard]] std::vector<AllowedOccluder> allowed() const;
     [[nodiscard]] double largestScale(const DatabaseSpec& database, int number) const;
+    [[nodiscard]] double mostRaised(int number) const;
     [[nodiscard]] bool holdsAllSkirts(const DatabaseSpec& database) const;
 
     const Description& _description;
@@ -358,6 +436,15 @@ double Runner::largestScale(const DatabaseSpec& database, int number) const {
             largest = std::max(largest, std::abs(part.amount));
     }
     return std::max(largest, 1.0);
+}
+
+// Metres.
+double Runner::mostRaised(int number) const {
+    double most = 0.0;
+    for (const Part& part : _description.parts) {
+        if (part.kind == PartKind::Raise && part.tile.database == number) most = std::max(most, part.amount);
+    }
+    return most;
 }
 
 // Whether the application has taken tiles away.
@@ -386,6 +473,9 @@ std::vector<AllowedOccluder> Runner::allowed() const {
         const double relief = database.relief * largestScale(database, number);
         const bool fromEverywhere = !database.hasSkirts && database.levels > 0;
         result.push_back({number, relief, !holdsAllSkirts(database), fromEverywhere});
+        // raised terrain that the near plane cuts, from eyes above it
+        if (const double raised = mostRaised(number); raised > 0.0)
+            result.push_back({number, relief + raised, false, false});
     }
     return result;
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace osgAnalyticBin::test {
 
@@ -149,7 +150,71 @@ Look lookThroughValley(Random& random, const Description& description, const Til
     return isBackward ? Look{center * world, eye * world, up, above} : Look{eye * world, center * world, up, above};
 }
 
+/// Down at a tile, and at what is behind it where it has a hole.
+Look lookThrough(Random& random, const Description& description, const TileKey& tile, int frame) {
+    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(tile.database)];
+    const Extents e = extentsOf(database, tile);
+    const double altitude = random.logUniform(0.01, 1.0) * database.size();
+    const auto somewhere = [&](double height) {
+        return place(database, e.south + random.uniform() * (e.north - e.south),
+                     e.west + random.uniform() * (e.east - e.west), height);
+    };
+    const double latitude = 0.5 * (e.south + e.north), longitude = 0.5 * (e.west + e.east);
+    const osg::Matrixd world = database.toWorld(frame);
+    return {somewhere(highestOf(database) + altitude) * world, somewhere(0.0) * world,
+            upAt(database, latitude, longitude, frame), altitude};
+}
+
+/// From beyond the horizon, or from anywhere.
+Look lookAtSign(Random& random, const Description& description, const Part& part, int frame) {
+    const DatabaseSpec& database = description.databases[static_cast<std::size_t>(part.tile.database)];
+    const double altitude = random.logUniform(1e-3, 2.0) * database.size();
+    const double unit = database.isMap ? database.size() : 1.0;
+    const double away = random.uniform(0.0, 3.1) * unit;
+    const double latitude = part.latitude + away;
+    const osg::Matrixd world = database.toWorld(frame);
+    return {place(database, latitude, part.longitude, highestOf(database) + altitude) * world,
+            place(database, part.latitude, part.longitude, part.high) * world,
+            upAt(database, latitude, part.longitude, frame), altitude};
+}
+
+bool isOfApplication(PartKind kind) {
+    switch (kind) {
+        case PartKind::MeshHole:
+        case PartKind::ReversedFaces:
+        case PartKind::NarrowTile:
+        case PartKind::DrawsNothing:
+        case PartKind::Adding:
+        case PartKind::State:
+        case PartKind::LeavesOut:
+        case PartKind::PushesState:
+        case PartKind::Masks:
+        case PartKind::DrawableCull:
+        case PartKind::DrawableDraw:
+        case PartKind::VisitorLeavesOut:
+        case PartKind::Sign:
+            return true;
+        default:
+            return false;
+    }
+}
+
+/// At what the application has done to a tile.
+std::optional<Look> lookAtApplication(Random& random, const Description& description, int frame) {
+    std::vector<const Part*> parts;
+    for (const Part& part : description.parts) {
+        if (isOfApplication(part.kind) && part.frame <= frame) parts.push_back(&part);
+    }
+    const Part* const part = pickPart(random, parts);
+    if (!part || random.chance(0.3)) return std::nullopt;
+    if (part->kind == PartKind::Sign) return lookAtSign(random, description, *part, frame);
+    TileKey tile = part->tile;
+    if (tile.level < 0) tile = {tile.database, 0, 2 * tile.column, 2 * tile.row};
+    return lookThrough(random, description, tile, frame);
+}
+
 Look anyLook(Random& random, const Description& description, int frame) {
+    if (const auto look = lookAtApplication(random, description, frame)) return *look;
     const double kind = random.uniform();
     if (kind < (description.theme == Theme::Models ? 0.8 : 0.4)) {
         if (const Part* model = pickPart(random, partsOf(description, true, frame)))
