@@ -75,5 +75,26 @@ TEST(Requests, MeetTheVisitorsOwnHandlerEverywhereInADatabase) {
     EXPECT_EQ(*query->handlers.begin(), globe.requests.get());
 }
 
+// With declared heights alone, files below tiles out of view may be due.
+TEST(Requests, AreMadeByNoVisitorThatOnlySaysItIsACullVisitor) {
+    struct Caster : osg::NodeCallback {
+        void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+            areReal = areReal && dynamic_cast<osgUtil::CullVisitor*>(nv);
+            traverse(node, nv);
+        }
+        bool areReal = true;
+    };
+    RequestingGlobe globe;
+    const osg::ref_ptr<Caster> caster = new Caster;
+    for (const auto& tile : globe.tiles) tile->getChild(0)->addCullCallback(caster);
+    installBins(*globe.root);
+    for (int i = 0; i < 40; ++i) {
+        const osg::Vec3d eye = ecefDeg(22.5, 0.0, 3000.0);
+        (void)cull(*globe.scene, CullView::lookAt(eye, eye + osg::Vec3d(200.0 * i, 1e4, 0), {1, 0, 0}, 30.0),
+                   *globe.visitor, ++globe.frame);
+    }
+    EXPECT_TRUE(caster->areReal);
+}
+
 }  // namespace
 }  // namespace osgAnalyticBin::test

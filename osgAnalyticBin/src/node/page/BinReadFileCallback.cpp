@@ -7,6 +7,7 @@
 #include "../install/BinInstaller.h"
 #include "../install/SharedTiles.h"
 #include "../install/TileCallback.h"
+#include "CachedContent.h"
 #include "CarefulRead.h"
 
 #include <osgDB/FileCache>
@@ -71,45 +72,33 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readNode(const std::string&
     // No node and no error: the pager prints nothing, and requests the file again in the next frame.
     if (!_failures.mayRead(fileName, FailedReads::Clock::now())) return ReadResult::FILE_LOADED;
     const BusyPager busy(_database->adoption().index());
-    ReadResult result = readCarefully(fileName, [&] {
-        const bool cached = options && (options->getObjectCacheHint() & osgDB::Options::CACHE_NODES);
-        return cached ? readThroughCache(fileName, *options) : readAndInstall(fileName, options);
-    });
+    ReadResult result = readCarefully(fileName, [&] { return readAndInstall(fileName, options); });
     _failures.note(fileName, result.validNode(), FailedReads::Clock::now());
     if (result.validNode()) _database->noteRead(*result.getNode(), _generation);
     return result;
 }
 
-// A tile is added to the cache only when its bins are complete.
-osgDB::ReaderWriter::ReadResult BinReadFileCallback::readThroughCache(const std::string& fileName,
-                                                                      const osgDB::Options& options) {
-    // The pager's own cache is merged into the Registry's when the tile is merged into the scene.
-    osgDB::ObjectCache* const registrys = osgDB::Registry::instance()->getObjectCache();
-    osgDB::ObjectCache* const own = options.getObjectCache() ? options.getObjectCache() : registrys;
-    // The cache tells options apart by their text alone.
-    const osg::ref_ptr<osgDB::Options> key = new osgDB::Options(
-        options.getOptionString() + " osgAnalyticBin " + toText(_options) + ' ' +
-        placeText(*_database, expected(fileName, &options).frame) + ' ' + std::to_string(_generation));
-    for (osgDB::ObjectCache* cache : {own, registrys}) {
-        if (!cache) continue;
-        const osg::ref_ptr<osg::Object> found = cache->getRefFromObjectCache(fileName, key.get());
-        if (found) return ReadResult(found.get(), ReadResult::FILE_LOADED_FROM_CACHE);
-    }
-    const osg::ref_ptr<osgDB::Options> uncached = options.cloneOptions();
-    uncached->setObjectCacheHint(
-        static_cast<osgDB::Options::CacheHintOptions>(options.getObjectCacheHint() & ~osgDB::Options::CACHE_NODES));
-    ReadResult result = readAndInstall(fileName, uncached.get());
-    if (own && result.validNode()) own->addEntryToObjectCache(fileName, result.getNode(), 0.0, key.get());
-    return result;
-}
-
 osgDB::ReaderWriter::ReadResult BinReadFileCallback::readAndInstall(const std::string& fileName,
                                                                     const osgDB::Options* options) {
-    ReadResult result = readPlain(fileName, options, _previous.get());
-    osg::Node* const node = result.getNode();
+    // OSG's object cache keeps the options that a file was read with
+    const osg::ref_ptr<osgDB::Options> plain = options ? options->cloneOptions() : nullptr;
+    if (plain) plain->setReadFileCallback(_previous.get());
+    ReadResult result = readPlain(fileName, plain.get(), _previous.get());
+    osg::ref_ptr<osg::Node> node = result.getNode();
     if (!node) return result;
+    if (const osg::ref_ptr<osg::Node> cached = plain ? cachedNode(fileName, *plain) : nullptr) {
+        const osg::ref_ptr<osg::Node> copy = copyForBins(*cached);
+        if (!copy) return result;
+        if (cached == node) {
+            result = ReadResult(copy.get(), result.status());
+            node = copy;
+        } else {
+            replaceBelow(*node, *cached, *copy);
+        }
+    }
     const Expected& known = expected(fileName, options);
-    if (node->referenceCount() == 1) {
+    // the result and this function
+    if (node->referenceCount() == 2) {
         // a tile that is a transform gets a group above it
         osg::ref_ptr<osg::Node> root = node;
         if (node->asTransform()) {

@@ -19,8 +19,8 @@ namespace osgAnalyticBin {
 /// Installs bins on what the DatabasePager reads, in the thread that reads it. Reading itself is left to the callback
 /// that was there before, if any, else to the Registry's, else to OSG. A file that could not be read is not tried again
 /// for a while (FailedReads); the pager then gets nothing at once, and asks again.
-/// With osgDB::Options::CACHE_NODES the object cache keeps tiles with bins under options of their own: those who read
-/// without bins, or for another installation or place, never share them.
+/// With osgDB::Options::CACHE_NODES OSG's object caches are filled and asked as without bins. What they keep has no
+/// bins: the scene gets a copy of its nodes, which share drawables and states with it.
 class BinReadFileCallback : public osgDB::ReadFileCallback {
 public:
     /// `frame` is that of files of which expect() says nothing.
@@ -50,7 +50,6 @@ protected:
 private:
     using ReadResult = osgDB::ReaderWriter::ReadResult;
 
-    [[nodiscard]] ReadResult readThroughCache(const std::string& fileName, const osgDB::Options& options);
     [[nodiscard]] ReadResult readAndInstall(const std::string& fileName, const osgDB::Options* options);
     struct Expected {
         TileFrame frame;

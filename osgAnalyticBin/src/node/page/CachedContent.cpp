@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "CachedContent.h"
+
+#include "../install/MeshCulling.h"
+
+#include <osg/CopyOp>
+#include <osg/Drawable>
+#include <osg/Group>
+#include <osgDB/ObjectCache>
+#include <osgDB/Registry>
+
+#include <typeinfo>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// Copies nodes, and of drawables those with callbacks, which may be exchanged.
+class CopyOfNodes : public osg::CopyOp {
+public:
+    CopyOfNodes() : osg::CopyOp(DEEP_COPY_NODES) {}
+    using osg::CopyOp::operator();
+    osg::Drawable* operator()(const osg::Drawable* drawable) const override {
+        const bool isShared = !drawable || !drawable->getCullCallback();
+        return isShared ? const_cast<osg::Drawable*>(drawable) : osg::clone(drawable, *this);
+    }
+};
+
+// A group's family of tiles is put behind its callbacks, which are shared.
+bool hasForeignCallback(const osg::Node& node) {
+    const osg::Callback* const callback = node.getCullCallback();
+    return callback && !isClusterCulling(*callback);
+}
+
+// Whether all nodes were copied as what they are.
+bool isFaithful(const osg::Node& original, const osg::Node& copy) {
+    if (&original == &copy) return original.asDrawable() != nullptr;
+    if (typeid(original) != typeid(copy) || hasForeignCallback(original)) return false;
+    const osg::Group* const group = original.asGroup();
+    if (!group) return true;
+    const osg::Group& copiedGroup = *copy.asGroup();
+    bool isSame = copiedGroup.getNumChildren() == group->getNumChildren();
+    for (unsigned int i = 0; isSame && i < group->getNumChildren(); ++i)
+        isSame = isFaithful(*group->getChild(i), *copiedGroup.getChild(i));
+    return isSame;
+}
+
+}  // namespace
+
+osg::ref_ptr<osg::Node> cachedNode(const std::string& fileName, const osgDB::Options& options) {
+    if (!(options.getObjectCacheHint() & osgDB::Options::CACHE_NODES)) return nullptr;
+    // the pager's own cache is merged into the Registry's when the tile is merged into the scene
+    osgDB::ObjectCache* const registrys = osgDB::Registry::instance()->getObjectCache();
+    for (osgDB::ObjectCache* const cache : {const_cast<osgDB::Options&>(options).getObjectCache(), registrys}) {
+        const osg::ref_ptr<osg::Object> found = cache ? cache->getRefFromObjectCache(fileName, &options) : nullptr;
+        if (found) return dynamic_cast<osg::Node*>(found.get());
+    }
+    return nullptr;
+}
+
+osg::ref_ptr<osg::Node> copyForBins(const osg::Node& content) {
+    const osg::ref_ptr<osg::Node> copy = osg::clone(&content, CopyOfNodes());
+    return copy && isFaithful(content, *copy) ? copy : nullptr;
+}
+
+void replaceBelow(osg::Node& root, osg::Node& old, osg::Node& fresh) {
+    forEachNode(root, [&](osg::Node& node) {
+        osg::Group* const group = node.asGroup();
+        for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
+            if (group->getChild(i) == &old) group->setChild(i, &fresh);
+        }
+    });
+}
+
+}  // namespace osgAnalyticBin
