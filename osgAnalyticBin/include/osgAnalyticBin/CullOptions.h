@@ -21,7 +21,7 @@ enum class Method {
     Box,          ///< the bin's box along the axes of ECEF: sound, for comparison
     OrientedBox,  ///< the bin's box along east, north and up, and a horizon point: sound, for comparison
     Sphere,       ///< OpenSceneGraph's own bounding spheres, untouched
-    None          ///< no culling at all: every tile is drawn
+    None          ///< no culling below the node that it is installed on: every tile is drawn
 };
 
 /// The name that files, options and command lines use: "quadratic", "exact", "paper", "corners", "box", "orientedbox",

@@ -18,9 +18,9 @@
 namespace osgAnalyticBin {
 
 /// Puts bins on the tiles of databases: AnalyticBinCullCallbacks on the tiles of a globe, boxes on those of a map.
-/// OSG's sphere test is switched off on the tiles and below (drawables keep their boxes). Tiles that the DatabasePager
-/// loads later get their bins in the pager's thread. A second call replaces what the first one installed. Call it
-/// between frames.
+/// OSG's culling flags stay as they are: groups above tiles are tested by their spheres, and so are nodes within tiles
+/// and nodes that intersection visitors meet. Tiles that the DatabasePager loads later get their bins in the pager's
+/// thread. A second call replaces what the first one installed. Call it between frames.
 ///
 /// TileFinder decides which nodes are tiles. Their bins come from what is stored with them, from the database's index,
 /// or from their own surface and the heights that the options declare. Nodes that are not tiles, tiles that are drawn
@@ -67,8 +67,8 @@ OSGANALYTICBIN_EXPORT std::size_t installBinsByIndex(osg::Node& node, const Cull
 /// Returns: the number of callbacks installed. Cost: as installing bins on what is loaded.
 OSGANALYTICBIN_EXPORT std::size_t setCullOptions(osg::Node& node, const CullOptions& options);
 
-/// Takes bins off a node and all below it, and restores what installers changed: callbacks, culling flags, expiry
-/// times, the pager's options, and groups that were put above tiles. Call it between frames. Tiles that the
+/// Takes bins off a node and all below it, and restores what installers changed: callbacks, expiry times,
+/// the pager's options, and groups that were put above tiles. Call it between frames. Tiles that the
 /// DatabasePager is reading at that time may still arrive with bins, which cull them correctly.
 OSGANALYTICBIN_EXPORT void removeBins(osg::Node& node);
 

@@ -107,7 +107,14 @@ private:
     }
 
     void close() {
+        SurveyedTile& tile = _tiles[_open.back().index];
+        const bool isReached = _open.back().isDecided;
         decide();
+        // OSG has culled it by its sphere
+        if (!isReached && !tile.hasBin && tile.bin.valid()) {
+            tile.hasBin = true;
+            tile.verdict = TileVerdict::Outside;
+        }
         _open.pop_back();
     }
 

@@ -145,11 +145,9 @@ TEST(AddedContent, OnTheSurfaceOfATileKeepsOsgsOwnCulling) {
         EXPECT_EQ(drawnAt(4, 4), (std::array<bool, 3>{true, false, true})) << isInstalled;
         EXPECT_EQ(drawnAt(1, 1), (std::array<bool, 3>{true, false, false})) << isInstalled;
     }
-    EXPECT_TRUE(trees->getCullingActive());
-    EXPECT_FALSE(content->getCullingActive());
 }
 
-// A group of small things is none of the surface, however far they stand apart.
+// A group of small things is culled as one, however far they stand apart.
 TEST(AddedContent, OnTheSurfaceKeepsOsgsCullingOfItsGroups) {
     MeshGlobe globe;
     const osg::ref_ptr<osg::MatrixTransform> content = makeMeshTile(extentsDeg(0, 5, 0, 5), 0.0);
@@ -163,12 +161,10 @@ TEST(AddedContent, OnTheSurfaceKeepsOsgsCullingOfItsGroups) {
     content->addChild(wood);
     globe.root->addChild(makePaged(content, "no.osgb"));
     installBins(*globe.root);
-    EXPECT_GT(wood->getBound().radius(), 0.25f * content->getBound().radius());
-    EXPECT_TRUE(wood->getCullingActive());
-    EXPECT_FALSE(content->getCullingActive());
-    EXPECT_FALSE(content->getChild(0)->getCullingActive());
-    removeBins(*globe.root);
-    EXPECT_TRUE(content->getCullingActive());
+    EXPECT_TRUE(wood->isCullingActive());
+    EXPECT_TRUE(globe.draws(*wood, downTo(1, 1, 20000.0)));
+    EXPECT_FALSE(globe.draws(*wood, downTo(4.9, 0.1, 20000.0)));
+    EXPECT_TRUE(globe.draws(*content->getChild(0), downTo(4.9, 0.1, 20000.0)));
 }
 
 // A file of one transform with ground, a house, a tower in the air, and a mill that an application moves.
@@ -431,13 +427,9 @@ TEST(Clones, ThatShareAnApplicationsCallbackAreRestoredTogether) {
     const osg::ref_ptr<osg::Group> scene = new osg::Group;
     for (int i = 0; i < 2; ++i) scene->addChild(osg::clone(globe.root.get(), osg::CopyOp::DEEP_COPY_NODES));
     const auto cloneOfTile = [&](unsigned int i) { return scene->getChild(i)->asGroup()->getChild(slot); };
-    ASSERT_FALSE(cloneOfTile(0)->getCullingActive());
     ASSERT_EQ(cloneOfTile(1)->getCullCallback(), application.get());
     removeBins(*scene);
-    for (unsigned int i = 0; i < 2; ++i) {
-        EXPECT_TRUE(cloneOfTile(i)->getCullingActive()) << i;
-        EXPECT_EQ(cloneOfTile(i)->getCullCallback(), application.get()) << i;
-    }
+    for (unsigned int i = 0; i < 2; ++i) EXPECT_EQ(cloneOfTile(i)->getCullCallback(), application.get()) << i;
     EXPECT_EQ(application->getNestedCallback(), nullptr);
 }
 

@@ -69,13 +69,12 @@ TEST(BinInstaller, TreatsTilesAndLeavesTheirSiblingsAlone) {
     EXPECT_EQ(installBins(*db.above), 1u);
     ASSERT_NE(callbackOf(*db.tile), nullptr);
     EXPECT_EQ(callbackOf(*db.tile)->getBin(), kBin);
-    EXPECT_FALSE(db.tile->getCullingActive());
-    EXPECT_FALSE(db.mesh->getCullingActive());
+    EXPECT_TRUE(db.tile->isCullingActive());
+    EXPECT_TRUE(db.mesh->isCullingActive());
     EXPECT_TRUE(db.drawable->getCullingActive());
     EXPECT_TRUE(db.sibling->getCullingActive());
     EXPECT_EQ(db.sibling->getCullCallback(), nullptr);
-    EXPECT_TRUE(db.above->getCullingActive());
-    EXPECT_FALSE(db.above->isCullingActive());  // OSG: no sphere above a node that has none
+    EXPECT_TRUE(db.above->isCullingActive());
 }
 
 TEST(BinInstaller, TakesTheRadiiOfTheCoordinateSystemNode) {
@@ -134,15 +133,30 @@ TEST(BinInstaller, RunningItAgainReplacesAndRunningItWithSpheresUndoes) {
     EXPECT_TRUE(db.mesh->getCullingActive());
 }
 
-TEST(BinInstaller, MethodNoneSwitchesAllCullingOff) {
+// In the frames of transforms, too, while OSG tests what is beside as always.
+TEST(BinInstaller, MethodNoneCullsNothingBelowItsNode) {
     Database db;
+    const auto moved = [&](osg::Group& parent) {
+        const osg::ref_ptr<osg::MatrixTransform> far = new osg::MatrixTransform(osg::Matrixd::translate(0, 3e7, 0));
+        far->addChild(makeTriangle());
+        parent.addChild(far);
+    };
+    const auto drawn = [&] {
+        const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+        const auto view = test::CullView::lookAt({1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 60.0);
+        return test::cull(*db.above, view, *visitor).drawn.size();
+    };
+    moved(*db.root);
+    moved(*db.above);
     CullOptions none;
     none.method = Method::None;
     installBins(*db.root, none);
-    EXPECT_FALSE(db.root->getCullingActive());
-    EXPECT_FALSE(db.tile->getCullingActive());
-    EXPECT_FALSE(db.drawable->getCullingActive());
-    EXPECT_FALSE(db.sibling->getCullingActive());
+    EXPECT_EQ(drawn(), 2u);
+    EXPECT_TRUE(db.above->isCullingActive());
+    installBins(*db.root, none);
+    removeBins(*db.root);
+    EXPECT_EQ(drawn(), 1u);
+    EXPECT_EQ(db.root->getCullCallback(), nullptr);
 }
 
 TEST(BinInstaller, FollowsFixedTransformsBelowTheCoordinateSystem) {
@@ -197,7 +211,7 @@ TEST(BinInstaller, WithoutACoordinateSystemATransformThatIsATileStandsInEcef) {
     EXPECT_EQ(callbackOf(*leaf)->getLocalToEcef(), osg::Matrixd::translate(origin + osg::Vec3d(0, 0, 7)));
 }
 
-TEST(BinInstaller, ABrokenStoredBinMeansVisible) {
+TEST(BinInstaller, ABrokenStoredBinLeavesTheTileToItsSphere) {
     Database db;
     db.tile->setUserValue("osgAnalyticBin", std::string("0 0 0 1 1"));
     EXPECT_EQ(installBins(*db.root), 1u);
@@ -206,6 +220,8 @@ TEST(BinInstaller, ABrokenStoredBinMeansVisible) {
     callbackOf(*db.tile)->setNestedCallback(new test::VisitRecorder("tile", visited));
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     test::cull(*db.root, test::CullView::lookAt({-1e7, 0, 0}, {-2e7, 0, 0}, {0, 0, 1}, 10.0), *visitor);
+    EXPECT_EQ(visited.size(), 0u);
+    test::cull(*db.root, test::CullView::lookAt({1e7, 0, 0}, {0, 0, 0}, {0, 0, 1}, 10.0), *visitor);
     EXPECT_EQ(visited.size(), 1u);
 }
 

@@ -67,7 +67,7 @@ TEST_F(ForeignDatabase, PagedLodsAndLeavesGetBins) {
          {static_cast<osg::Node*>(_root), _south.get(), static_cast<osg::Node*>(_north), _single.get()}) {
         ASSERT_NE(installedOn(*node), nullptr);
         EXPECT_TRUE(installedOn(*node)->getBin().valid());
-        EXPECT_FALSE(node->getCullingActive());
+        EXPECT_TRUE(node->getCullingActive());
     }
     // in the scene that is drawn next
     update(*_scene);
@@ -84,7 +84,7 @@ TEST_F(ForeignDatabase, ALeafThatIsATransformGetsAPlainGroupAboveIt) {
         osg::Node& mesh = *leaf->asGroup()->getChild(0);
         EXPECT_NE(mesh.asTransform(), nullptr);
         EXPECT_EQ(mesh.getCullCallback(), nullptr);
-        EXPECT_FALSE(mesh.getCullingActive());
+        EXPECT_TRUE(mesh.getCullingActive());
         EXPECT_TRUE(installedOn(*leaf)->getLocalToEcef().isIdentity());
     }
     // and no other above that

@@ -85,7 +85,7 @@ TEST_F(Paging, TilesReadLaterGetBinsAndPassThemOn) {
     EXPECT_EQ(callback->getBin(), kPagedBin);
     EXPECT_EQ(callback->getCullOptions().method, Method::Paper);
     EXPECT_EQ(callback->getRadiiText(), "3396190 3376200");
-    EXPECT_FALSE(tile->getCullingActive());
+    EXPECT_TRUE(tile->getCullingActive());
     ASSERT_NE(optionsOf(*tile), nullptr);
     EXPECT_NE(optionsOf(*tile)->getReadFileCallback(), nullptr);
 }

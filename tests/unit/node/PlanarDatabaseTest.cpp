@@ -90,21 +90,6 @@ CullView randomView(test::Random& random, const PlanarMap& map) {
     return view;
 }
 
-// Tiles' own meshes: leaves and those of PagedLODs.
-struct MeshCount : osg::NodeVisitor {
-    MeshCount() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-    void apply(osg::Node& node) override {
-        if (dynamic_cast<osgTerrain::TerrainTile*>(&node) || node.asTransform()) {
-            ++all;
-            if (node.getCullingActive()) ++withSpheres;
-            return;
-        }
-        traverse(node);
-    }
-    std::size_t all = 0;
-    std::size_t withSpheres = 0;
-};
-
 struct Tally {
     std::size_t seen = 0;
     std::size_t withBins = 0;
@@ -167,10 +152,6 @@ void fly(osg::Group& installed, osg::Group& plain, const PlanarMap& map, test::R
         tally.withSpheres += keptBySpheres.size();
         tally.beyondEdge += counts.beyondEdge;
     }
-    MeshCount meshes;
-    installed.accept(meshes);
-    EXPECT_GT(meshes.all, 40u);
-    EXPECT_EQ(meshes.withSpheres, 0u);
 }
 
 // With skirts=all, because eyes below the map see whole skirts.

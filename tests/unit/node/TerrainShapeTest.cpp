@@ -140,26 +140,27 @@ TEST(VerticalScale, IsFollowedAtRunTime) {
     }
 }
 
-TEST(VerticalScale, ATileOfAnotherShapeIsNeverCulledUntilItIsFitted) {
+TEST(VerticalScale, ATileOfAnotherShapeIsCulledByItsSphereAloneUntilItIsFitted) {
     Hills hills;
     hills.watch();
     installBins(*hills.terrain);
     hills.update();
-    const osg::Vec3d eye = ecefDeg(-30, -120, 1e5);
-    const osg::Vec3d away = ecefDeg(-31, -121, 0);
-    ASSERT_TRUE(hills.reached.in(*hills.terrain, eye, away, 10.0).empty());
+    // beside the tiles, over the spheres about some of them
+    const osg::Vec3d eye = ecefDeg(41.5, 9.85, 2e4), below = ecefDeg(41.5, 9.85, -1e4);
+    const auto reached = [&] { return hills.reached.in(*hills.terrain, eye, below, 10.0); };
+    ASSERT_TRUE(reached().empty());
     // changed after the update traversal: tiles are as they were, and may be drawn anew at any time
     hills.terrain->setVerticalScale(5.0f);
-    EXPECT_EQ(hills.reached.in(*hills.terrain, eye, away, 10.0).size(), hills.tiles.size());
+    EXPECT_FALSE(reached().empty());
     hills.update();
-    EXPECT_TRUE(hills.reached.in(*hills.terrain, eye, away, 10.0).empty());
+    EXPECT_TRUE(reached().empty());
 
     // a tile that the pager fitted before, and merged after that
-    hills.bin(7).setTerrainShape(TerrainShape());
-    EXPECT_EQ(hills.reached.in(*hills.terrain, eye, away, 10.0), std::set<std::string>{"7"});
+    hills.bin(18).setTerrainShape(TerrainShape());
+    EXPECT_EQ(reached(), std::set<std::string>{"18"});
     hills.update();
-    EXPECT_TRUE(hills.reached.in(*hills.terrain, eye, away, 10.0).empty());
-    EXPECT_EQ(hills.bin(7).getTerrainShape()->verticalScale, 5.0);
+    EXPECT_TRUE(reached().empty());
+    EXPECT_EQ(hills.bin(18).getTerrainShape()->verticalScale, 5.0);
 }
 
 TEST(EqualBoundaries, BinsHoldTheHeightsOfNeighbours) {
@@ -199,15 +200,21 @@ public:
     META_Object(osgAnalyticBin, OtherTechnique)
 };
 
-TEST(TerrainTechnique, TilesOfAnUnknownOneAreNeverCulled) {
+TEST(TerrainTechnique, TilesOfAnUnknownOneAreCulledByTheirSpheresAlone) {
+    Hills plain;
+    plain.watch();
+    plain.update();
     Hills hills;
     hills.watch();
     hills.terrain->setTerrainTechniquePrototype(new OtherTechnique);
     const CapturedNotes notes(osg::INFO);
     installBins(*hills.terrain);
     hills.update();
-    const osg::Vec3d eye = ecefDeg(-30, -120, 1e5);
-    EXPECT_EQ(hills.reached.in(*hills.terrain, eye, ecefDeg(-31, -121, 0), 10.0).size(), hills.tiles.size());
+    for (const double longitude : {8.0, 9.7, 9.85, 11.0}) {
+        const osg::Vec3d eye = ecefDeg(41.5, longitude, 2e4), below = ecefDeg(41.5, longitude, -1e4);
+        EXPECT_EQ(hills.reached.in(*hills.terrain, eye, below, 10.0),
+                  plain.reached.in(*plain.terrain, eye, below, 10.0));
+    }
     EXPECT_FALSE(hills.bin(0).getBin().valid());
     EXPECT_FALSE(hills.bin(0).getSurface().valid());
     EXPECT_EQ(notes.count("technique"), 1u);

@@ -288,18 +288,15 @@ const osg::Matrixd& AnalyticBinCullCallback::getLocalToEcef() const {
 }
 
 void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
-    if (nv->asCullStack() && CullTraversal::of(*nv).isKept(*node)) {
+    const CullTraversal* const traversal = nv->asCullStack() ? &CullTraversal::of(*nv) : nullptr;
+    if (traversal && traversal->isKept(*node)) {
         // its family has tested it
+        nv->asCullStack()->getCurrentCullingSet().setCullingMask(traversal->maskBelowKept());
         traverse(node, nv);
         return;
     }
-    const auto isCulledHere = [&](osg::CullStack& cullStack) {
-        osg::CullingSet& cullingSet = cullStack.getCurrentCullingSet();
-        return isCulled(*node, cullStack, *nv) ||
-               (_installed && _installed->testsSphere() && _installed->isFor(node) &&
-                isSphereCulled(cullingSet, cullingSet.getFrustum().getCurrentMask(), node->getBound()));
-    };
-    cullOrTraverse(*nv, isCulledHere, [&] { traverse(node, nv); });
+    cullOrTraverse(
+        *nv, [&](osg::CullStack& cullStack) { return isCulled(*node, cullStack, *nv); }, [&] { traverse(node, nv); });
 }
 
 InstalledTile* AnalyticBinCullCallback::getInstalledTile() const {

@@ -14,6 +14,7 @@
 #include <osgAnalyticBin/core/horizon/RegionalSight.h>
 
 #include <osg/CullStack>
+#include <osg/CullingSet>
 #include <osg/NodeVisitor>
 #include <osg/Polytope>
 #include <osg/ref_ptr>
@@ -103,9 +104,14 @@ public:
     /// The plan for the database that is traversed next. Each of several nested databases has its own.
     [[nodiscard]] TilePlan& plan();
 
-    /// Records the node that a family keeps and is about to enter; null: none.
-    void setKept(const osg::Node* node) { _kept = node; }
+    /// Records the node that a family keeps and is about to enter, and the culling mask of what is below it; null:
+    /// none.
+    void setKept(const osg::Node* node, osg::CullingSet::Mask maskBelow) {
+        _kept = node;
+        _maskBelowKept = maskBelow;
+    }
     [[nodiscard]] bool isKept(const osg::Node& node) const { return _kept == &node; }
+    [[nodiscard]] osg::CullingSet::Mask maskBelowKept() const { return _maskBelowKept; }
 
     /// The ground that this visitor last found below its eye.
     [[nodiscard]] GroundBelow& ground() { return _ground; }
@@ -124,6 +130,7 @@ private:
     const DatabaseView* _databaseView = nullptr;
     std::vector<std::pair<const Database*, LastView>> _lastViews;
     const osg::Node* _kept = nullptr;
+    osg::CullingSet::Mask _maskBelowKept = 0;
     std::deque<TilePlan> _plans;  // of databases within each other
     std::size_t _openPlans = 0;
     GroundBelow _ground;

@@ -5,7 +5,10 @@
 
 #include "../../core/EarthScale.h"
 #include "../Inverse.h"
+#include "../Spheres.h"
+#include "../install/ContentWatch.h"
 #include "../install/InstalledTile.h"
+#include "BinCulling.h"
 #include "Bits.h"
 #include "CullCallbacks.h"
 #include "CullTraversal.h"
@@ -18,6 +21,7 @@
 #include <osg/PagedLOD>
 #include <osg/Transform>
 #include <osgTerrain/TerrainTile>
+#include <osgUtil/CullVisitor>
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +46,7 @@ struct SearchedTile {
     const TileBlock::Slot& numbers;
     bool isFitted;                     // to the shape in which the terrain is shown
     const TileFamily::Member* member;  // null: of no family
+    bool isEnteredByOsg;               // which tests spheres within the tile
     bool isAboutEye;
     std::size_t result = TilePlan::kAlone;  // of the family, in the plan
     unsigned int slot = 0;                  // in that result
@@ -142,9 +147,12 @@ private:
             if (isBin || isBesideFrustum(numbers.column) || isHidden) return;
         }
         const Scoped undecided(_undecided, isOutOfView ? _undecided : verdicts.planes.undecided[number]);
-        const bool isAlone = node.getCullCallback() == member.tile && !member.tile->getNestedCallback();
+        const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || (numbers.testsSphere && isLeftOut(node)));
+        const bool isAlone = TileFamily::isAlone(node, member);
         const bool mayLeaveOut = !isAlone && CullCallbacks(node).mayLeaveOut;
-        searchTile(node, member.paged, {*member.tile, numbers, true, &member, isAboutEye, result, number}, mayLeaveOut);
+        searchTile(node, member.paged,
+                   {*member.tile, numbers, true, &member, !_isPlainVisitor || !isAlone, isAboutEye, result, number},
+                   mayLeaveOut);
     }
 
     void searchNode(osg::Node& node) {
@@ -157,13 +165,29 @@ private:
         const osg::Transform* const transform = isGroup ? nullptr : node.asTransform();
         const bool isDrawn = isSurelyDrawn(node, callbacks.mayLeaveOut) && (isGroup || drawsAllChildren(node)) &&
                              !(transform && transform->getReferenceFrame() != osg::Transform::RELATIVE_RF);
-        const Scoped doubtful(_isDoubtful, _isDoubtful || !isDrawn);
+        const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || isLeftOut(node));
+        const bool isTooSmall = !_isBelowOutOfView && isSmallFeature(node);
+        const Scoped doubtful(_isDoubtful, _isDoubtful || !isDrawn || isTooSmall);
         osg::Group* const group = node.asGroup();
         if (!group) return;
         if (!transform) return searchChildren(*group, callbacks.family);
         const osg::Matrixd toEcef = frameInside(node);
         const Scoped frame(_toEcef, &toEcef);
         searchChildren(*group, callbacks.family);
+    }
+
+    // In ECEF.
+    [[nodiscard]] osg::BoundingSphere sphereOf(const osg::Node& node) const {
+        return _toEcef ? movedSphere(node.getBound(), *_toEcef) : node.getBound();
+    }
+
+    // Whether OSG finds the sphere of a node out of view. The sphere may be an application's own.
+    [[nodiscard]] bool isLeftOut(const osg::Node& node) const {
+        return node.isCullingActive() && isBesideFrustum(sphereOf(node));
+    }
+
+    [[nodiscard]] bool isSmallFeature(const osg::Node& node) const {
+        return node.isCullingActive() && isSmall(_database.cullStack.getCurrentCullingSet(), sphereOf(node));
     }
 
     // From the frame of what a node draws.
@@ -193,11 +217,12 @@ private:
         numbers.surfaceLow = bin.getSurfaceLow();
         numbers.surfaceHigh = bin.getSurfaceHigh();
         const bool isFitted = !bin.getTerrainShape() || *bin.getTerrainShape() == _database.view.shape;
-        const SearchedTile tile{bin, numbers, isFitted, nullptr, isAbout(bin)};
+        const SearchedTile tile{bin, numbers, isFitted, nullptr, true, isAbout(bin)};
         const bool isHidden = _eye && bin.isColumnHiddenFrom(*_eye);
         if (!tile.isAboutEye && (isBeside(tile) || isHidden)) return;
         // its place may be empty
         if (!standsAsInstalled(node, bin)) _hasHole = true;
+        const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || isLeftOut(node));
         searchTile(node, pagedLod(node), tile, mayLeaveOut);
     }
 
@@ -267,12 +292,20 @@ private:
         });
     }
 
+    // Whether OSG does not draw a mesh that may be in view, because of a sphere that does not hold it.
+    [[nodiscard]] bool isLeftOutInView(const SearchedTile& tile, const osg::Node& mesh) const {
+        const bool mayBeFalse = _database.view.shape.verticalScale != 1.0 || ContentWatch::hasOwnBound(mesh);
+        if (tile.isEnteredByOsg && mayBeFalse && isLeftOut(mesh)) return true;
+        return _isBelowOutOfView && (mayBeFalse || !isBesideFrustum(sphereOf(mesh)));
+    }
+
     void show(const SearchedTile& tile, osg::Node& mesh, bool isOnlyLevel) {
         if (tile.isAboutEye && _place->altitude <= surfaceOf(tile).upper)
             _nearGround.push_back({&tile.callback, &mesh});
         // tiles about the eye are searched even beside the frustum, for the ground alone
         if (tile.isAboutEye && isBeside(tile)) return;
         if (!isDrawnWhole(mesh, tile)) _hasHole = true;
+        if (isLeftOutInView(tile, mesh)) _hasHole = true;
         if (_database.findsOccluded && _database.view.plan) {
             const bool isSure = !_isChoiceUnknown && tile.isFitted;
             _database.view.plan->addShown({&tile.callback, &mesh, isSure, isOnlyLevel, tile.result, tile.slot});
@@ -322,12 +355,14 @@ private:
     osg::NodeVisitor& _visitor;
     CullTraversal& _traversal;
     const core::HorizonEye* const _eye;
+    const bool _isPlainVisitor = typeid(_visitor) == typeid(osgUtil::CullVisitor);
     const std::optional<core::Geodetic> _place;  // of the eye
     const double _deepest;
     osg::Polytope::PlaneList _planes;
     core::PlaneMask _undecided = 0;         // of the view's planes, for families
     const osg::Matrixd* _toEcef = nullptr;  // below a transform, where OSG measures distances in another frame
     bool _isDoubtful = false;               // below something that may not be drawn
+    bool _isBelowOutOfView = false;         // below a sphere that is out of view
     bool _isChoiceUnknown = false;          // below a choice of levels that may turn out otherwise
     bool _hasHole = false;
     std::vector<NearGround> _nearGround;

@@ -3,6 +3,7 @@
 
 #include "TileEntry.h"
 
+#include "../Spheres.h"
 #include "../install/MeshCulling.h"
 #include "../install/TileCallback.h"
 #include "BinCulling.h"
@@ -115,20 +116,23 @@ class TileEntry::Delivery {
 public:
     Delivery(osgUtil::CullVisitor& visitor, const BoundedMesh& bounded) : _visitor(visitor), _bounded(bounded) {}
 
-    void draw(const std::array<Part, kMostParts>& parts, std::size_t number) {
+    // `mayBeSmall`: whether OSG's test for small features is made on the node.
+    void draw(const std::array<Part, kMostParts>& parts, std::size_t number, bool mayBeSmall) {
         osg::Node& node = *parts[number].node;
         if (parts[number].kind == Kind::Geometry) return draw(static_cast<osg::Geometry&>(node));
+        if (mayBeSmall && isDroppedAsSmall(node)) return;
         const StateScope state(_visitor, node.getStateSet());
         const bool isTransform = parts[number].kind == Kind::Transform;
         if (isTransform) enterFrame(static_cast<osg::MatrixTransform&>(node));
         for (std::size_t i = number + 1; i < parts.size() && parts[i].node; ++i) {
-            if (parts[i].above == number) draw(parts, i);
+            // an only child is as large as its parent
+            if (parts[i].above == number) draw(parts, i, parts[number].children > 1);
         }
         if (isTransform) leaveFrame();
     }
 
     // Returns: false where the tile has no mesh yet, or another than osgTerrain::GeometryTechnique makes.
-    [[nodiscard]] bool draw(osgTerrain::TerrainTile& tile, Footprint::Notes& notes) {
+    [[nodiscard]] bool draw(osgTerrain::TerrainTile& tile, Footprint::Notes& notes, bool mayBeSmall) {
         auto* const technique = tile.getTerrainTechnique();
         if (!technique || technique->getTerrainTile() != &tile || !OpenTile::wasTraversed(tile) ||
             !isExactly<osgTerrain::GeometryTechnique>(*technique))
@@ -152,7 +156,7 @@ public:
             !isPassive(geode, _visitor) || !isPassive(geometry, _visitor))
             return false;
         _bounded.computeBoundOf(transform);
-        if (transform.isCullingActive() && isSmall(_visitor.getCurrentCullingSet(), transform.getBound())) return true;
+        if ((mayBeSmall && isDroppedAsSmall(tile)) || isDroppedAsSmall(transform)) return true;
         const StateScope ofTile(_visitor, tile.getStateSet()), ofTransform(_visitor, transform.getStateSet()),
             ofGeode(_visitor, geode.getStateSet());
         enterFrame(transform);
@@ -161,6 +165,13 @@ public:
     }
 
 private:
+    [[nodiscard]] bool isDroppedAsSmall(const osg::Node& node) const {
+        osg::CullingSet& cullingSet = _visitor.getCurrentCullingSet();
+        if (!(cullingSet.getCullingMask() & osg::CullingSet::SMALL_FEATURE_CULLING) || !node.isCullingActive())
+            return false;
+        return isSmall(cullingSet, _frame ? movedSphere(node.getBound(), *_frame) : node.getBound());
+    }
+
     void enterFrame(osg::MatrixTransform& transform) {
         _frame = &transform.getMatrix();
         _matrix = OpenVisitor::matrix(_visitor, *_visitor.getModelViewMatrix());
@@ -288,8 +299,15 @@ bool TileEntry::enterShownLevel(osgUtil::CullVisitor& visitor, CullTraversal& tr
     const StateScope state(visitor, _paged->getStateSet());
     visitor.pushOntoNodePath(_paged);
     osg::Node& child = *_paged->getChild(*shown);
-    const bool isDrawn = &child == _parts.front().node && drawMesh(visitor, notes);
-    if (!isDrawn && !TileFamily::enterFamilyOf(child, visitor, traversal, notes)) child.accept(visitor);
+    const bool isMesh = &child == _parts.front().node;
+    const bool isDrawn = isMesh && drawMesh(visitor, notes);
+    const bool isScaled = isMesh && _parts.front().kind == Kind::Terrain && isPassive(child, visitor);
+    if (!isDrawn && isScaled) {
+        // OSG makes its sphere without the vertical scale
+        enterWithoutTest(child, visitor);
+    } else if (!isDrawn && !TileFamily::enterFamilyOf(child, visitor, traversal, notes)) {
+        child.accept(visitor);
+    }
     visitor.popFromNodePath();
     return true;
 }
@@ -298,8 +316,8 @@ bool TileEntry::drawMesh(osgUtil::CullVisitor& visitor, Footprint::Notes& notes)
     if (!_parts.front().node || !needsNoFrustumOfMesh(visitor) || !isMeshAsKnown(visitor, notes)) return false;
     Delivery delivery(visitor, _bounded);
     if (_parts.front().kind == Kind::Terrain)
-        return delivery.draw(static_cast<osgTerrain::TerrainTile&>(*_parts.front().node), notes);
-    delivery.draw(_parts, 0);
+        return delivery.draw(static_cast<osgTerrain::TerrainTile&>(*_parts.front().node), notes, !_isOwnMesh);
+    delivery.draw(_parts, 0, !_isOwnMesh);
     return true;
 }
 
@@ -311,7 +329,6 @@ bool TileEntry::isMeshAsKnown(const osgUtil::CullVisitor& visitor, Footprint::No
         if (!isTile) notes.add(&node, part.kind == Kind::Transform ? kLinesOfTransform : kLinesOfGeometry);
         if (!isTile && !isPassive(node, visitor)) return false;
         if (part.kind == Kind::Geometry) continue;
-        if (node.getCullingActive()) return false;
         if (part.kind == Kind::Terrain) continue;
         const osg::Group& group = static_cast<const osg::Group&>(node);
         notes.add(OpenGroup::childrenOf(group), 1);

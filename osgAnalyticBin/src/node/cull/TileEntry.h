@@ -21,7 +21,8 @@ class CullTraversal;
 /// Enters a kept tile like osgUtil::CullVisitor, in less time: it adds the drawables of the tile's own mesh without
 /// creating a culling set for the mesh's transform, and passes the root group of a file to its family directly. The
 /// nodes of the mesh are those at the time when the family was made. If they have changed, or one of them has a cull
-/// callback or a sphere test, OSG enters the tile.
+/// callback, OSG enters the tile. Frustum tests of spheres are left out: the bin stands for that of the tile, and boxes
+/// of drawables are within those of the mesh.
 /// Guarantee: the render graph is that of OSG: the same drawables in the same order, with the same matrices, states,
 /// depths, and near and far planes; tests: TileEntry.*.
 /// Threads: all functions at any time.
@@ -37,7 +38,7 @@ public:
     TileEntry(osg::Node& tile, const MeshParts& parts);
 
     /// Whether enter() may be called. It requires, besides: a visitor of exactly the class osgUtil::CullVisitor, and a
-    /// tile without a sphere test and without cull callbacks other than that of its bin.
+    /// tile without cull callbacks other than that of its bin and a suspended one for clusters.
     [[nodiscard]] bool isPossible() const { return _isPossible; }
     void enter(osg::Node& tile, osgUtil::CullVisitor& visitor, CullTraversal& traversal) const;
 

@@ -272,18 +272,25 @@ std::uint64_t TileFamily::culled(unsigned int first, const Verdicts& verdicts, c
     return culled;
 }
 
-// A plain tile without other callbacks is entered as osgUtil::CullVisitor does it, but for the calls that lead to the
-// tile's own callback, which would do nothing: its family has tested it.
-void TileFamily::enter(osg::Node& child, const Member& member, osg::NodeVisitor& nv, CullTraversal& traversal) {
-    const bool isAlone = child.getCullCallback() == member.tile && !member.tile->getNestedCallback();
-    if (!member.entry.isPossible() || !isAlone || child.getCullingActive() ||
-        typeid(nv) != typeid(osgUtil::CullVisitor)) {
-        traversal.setKept(&child);
-        child.accept(nv);
-        traversal.setKept(nullptr);
-        return;
-    }
-    member.entry.enter(child, static_cast<osgUtil::CullVisitor&>(nv), traversal);
+bool TileFamily::isAlone(const osg::Node& tile, const Member& member) {
+    const osg::Callback* const nested = member.tile->getNestedCallback();
+    return tile.getCullCallback() == member.tile &&
+           (!nested || (isSuspendedCluster(*nested) && !nested->getNestedCallback()));
+}
+
+// A plain tile without other callbacks is entered as osgUtil::CullVisitor does it, but for the test of its sphere and
+// for the calls that lead to the tile's own callback, which would do nothing: its family has tested it.
+void TileFamily::enter(osg::Node& child, const Member& member, osg::NodeVisitor& nv, osg::CullStack& cullStack,
+                       CullTraversal& traversal) {
+    if (member.entry.isPossible() && isAlone(child, member) && typeid(nv) == typeid(osgUtil::CullVisitor))
+        return member.entry.enter(child, static_cast<osgUtil::CullVisitor&>(nv), traversal);
+    // OSG does not test the sphere in this mask; the tile's callback sets the mask of what is below again
+    const osg::CullingSet::Mask mask = cullStack.getCurrentCullingSet().getCullingMask();
+    cullStack.getCurrentCullingSet().setCullingMask(osg::CullingSet::NO_CULLING);
+    traversal.setKept(&child, mask);
+    child.accept(nv);
+    traversal.setKept(nullptr, mask);
+    cullStack.getCurrentCullingSet().setCullingMask(mask);
 }
 
 void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack,
@@ -308,7 +315,7 @@ void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::Cull
             const core::PlaneMask undecided = verdicts.planes.undecided[number];
             setMask(undecided);
             const PlanesBelow planes(cullStack, undecided);
-            enter(child, _members[first + number], nv, traversal);
+            enter(child, _members[first + number], nv, cullStack, traversal);
             setMask(before);
         });
     }

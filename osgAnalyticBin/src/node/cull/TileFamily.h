@@ -97,6 +97,9 @@ public:
     [[nodiscard]] const Member& member(unsigned int i) const { return _members[i]; }
     [[nodiscard]] const TileBlock& block() const { return *_block; }
 
+    /// Whether a tile has no cull callbacks other than that of its bin, and a suspended one for clusters.
+    [[nodiscard]] static bool isAlone(const osg::Node& tile, const Member& member);
+
     /// Whether a tile was removed from the group since bins were installed: the terrain may have a hole.
     [[nodiscard]] bool hasLostTiles() const { return _hasLostTiles; }
 
@@ -124,7 +127,8 @@ private:
                                        CullTraversal& traversal) const;
     void cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack, const DatabaseView& view,
                       CullTraversal& traversal) const;
-    static void enter(osg::Node& child, const Member& member, osg::NodeVisitor& nv, CullTraversal& traversal);
+    static void enter(osg::Node& child, const Member& member, osg::NodeVisitor& nv, osg::CullStack& cullStack,
+                      CullTraversal& traversal);
 
     const osg::Node* _group = nullptr;
     bool _hasTiles = false;

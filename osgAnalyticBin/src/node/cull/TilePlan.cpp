@@ -56,7 +56,7 @@ bool TilePlan::find(const TileFamily& family, unsigned int first, core::PlaneMas
         const Entry& entry = _entries[i];
         if (entry.family != &family || entry.first != first) continue;
         _next = i + 1;
-        if (entry.undecided != undecided) return false;
+        if ((undecided & ~entry.undecided) != 0) return false;
         verdicts.planes.outside = entry.outside;
         verdicts.planes.insideAll = entry.insideAll;
         verdicts.members = entry.members;
@@ -65,7 +65,8 @@ bool TilePlan::find(const TileFamily& family, unsigned int first, core::PlaneMas
         verdicts.separated = entry.separated;
         verdicts.occluded = entry.occluded;
         verdicts.lacksTiles = entry.lacksTiles;
-        std::copy(_masks.data() + entry.masks, _masks.data() + entry.end, verdicts.planes.undecided);
+        std::transform(_masks.data() + entry.masks, _masks.data() + entry.end, verdicts.planes.undecided,
+                       [undecided](core::PlaneMask mask) { return mask & undecided; });
         return true;
     }
     return false;

@@ -42,7 +42,8 @@ public:
     void addOccluded(const ShownTile& tile);
     [[nodiscard]] bool isOccluded(const AnalyticBinCullCallback& tile);
 
-    /// Searches behind the family that was found last. `undecided`: a result for other planes is not used.
+    /// Searches behind the family that was found last. `undecided`: a result that lacks one of these planes is
+    /// not used; OSG may have found the sphere of a group inside some of the others.
     /// Returns: false where the plan has no such result; `verdicts` stays as it is then.
     [[nodiscard]] bool find(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
                             TileFamily::Verdicts& verdicts);

@@ -17,6 +17,7 @@
 #include "InstalledTile.h"
 #include "Instances.h"
 #include "MeshCulling.h"
+#include "NoCulling.h"
 #include "TileCallback.h"
 #include "TileFit.h"
 
@@ -144,6 +145,7 @@ void BinInstaller::installAt(osg::Node& root) {
     if (!isGlobe && !_keepsDatabases) detachDatabase(root);
     if (_database) _database->setOptions(_options);
     root.accept(*this);
+    if (_options.method == Method::None) NoCulling::place(root);
     placeFamilies();
     publishTiles(nullptr);
     if (_database) _database->widenLoaded();
@@ -226,10 +228,7 @@ void BinInstaller::visitTile(FoundTile& tile) {
     const bool hasGround = !tile.frame.ellipsoid || !installsBins() || database().takes(*tile.frame.ellipsoid);
     if (installsBins() && hasGround) return install(tile, hasNewContent);
     if (_options.method == Method::None) {
-        for (const auto& mesh : tile.meshes) {
-            suspendCulling(*mesh);
-            suspendClusterCulling(*mesh);
-        }
+        for (const auto& mesh : tile.meshes) suspendClusterCulling(*mesh);
     }
     visitWithoutBin(*tile.node, true);
 }
@@ -254,11 +253,10 @@ void BinInstaller::visitOther(osg::Node& node) {
 void BinInstaller::visitWithoutBin(osg::Node& node, bool isTile) {
     if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node))
         followPaging(*paged, isBelowStored() ? linkBetween().get() : nullptr, isTile);
+    NoCulling::remove(node);
     if (_options.method == Method::None) {
-        suspendCullingOf(node);
         suspendClusterCullingOf(node);
     } else if (!_isInMesh) {
-        resumeCullingOf(node);
         resumeClusterCullingOf(node);
     }
     const Scoped selective(_isBelowSelection, _isBelowSelection || (!isTile && !drawsAllChildren(node)));
@@ -356,13 +354,9 @@ void BinInstaller::visitChildren(const FoundTile& tile, const ParentTile& link) 
 
 void BinInstaller::uninstall(FoundTile& tile) {
     removeCallbacks(tile, _nested);
-    // Method::None suspends without a callback of ours
-    resumeCullingOf(*tile.node);
+    NoCulling::remove(*tile.node);
     resumeClusterCullingOf(*tile.node);
-    for (const auto& mesh : tile.meshes) {
-        resumeCulling(*mesh);
-        resumeClusterCulling(*mesh);
-    }
+    for (const auto& mesh : tile.meshes) resumeClusterCulling(*mesh);
 }
 
 }  // namespace osgAnalyticBin

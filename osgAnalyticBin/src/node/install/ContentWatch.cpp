@@ -209,6 +209,17 @@ void fitIntoTilesFrom(const osg::Node& node, Content content) {
     for (const osg::Group* const parent : node.getParents()) fitIntoTilesFrom(*parent, content);
 }
 
+// Holds what a tile of osgTerrain draws in a vertical scale, which OSG's own bound is made without. Not valid: there is
+// no such scale.
+osg::BoundingSphere scaledTerrainOf(const osg::Node& node) {
+    const AnalyticBinCullCallback* const tile = installedBinOf(node);
+    if (!tile || !tile->getTerrainShape() || tile->getTerrainShape()->verticalScale == 1.0) return {};
+    const AnalyticBin shown = tile->shownBin();
+    if (!shown.valid() || node.asTransform()) return {};
+    const osg::BoundingSphere sphere = shown.boundingSphere(*tile->getInstalledTile()->database().ellipsoid());
+    return movedSphere(sphere, osg::Matrixd::inverse(tile->getLocalToEcef()));
+}
+
 // Says that the mesh of the tile that a watched node belongs to has changed. The next update makes the tile's family
 // anew. `isMoved`: the mesh has left its place, which may be empty now.
 void doubtMeshOf(const osg::Node& node, bool isMoved) {
@@ -272,12 +283,20 @@ void ContentWatch::look() const {
 }
 
 osg::BoundingSphere ContentWatch::computeBound(const osg::Node& node) const {
-    if (&node == _node) check(node);
-    return boundOf(node);
+    if (&node != _node) return boundOf(node);
+    check(node);
+    osg::BoundingSphere bound = boundOf(node);
+    bound.expandBy(scaledTerrainOf(node));
+    return bound;
 }
 
 osg::BoundingSphere ContentWatch::boundOf(const osg::Node& node) const {
     return _previous ? _previous->computeBound(node) : node.computeBound();
+}
+
+bool ContentWatch::hasOwnBound(const osg::Node& node) {
+    const ContentWatch* const watch = watchOf(node);
+    return watch ? watch->_previous.valid() : node.getComputeBoundingSphereCallback() != nullptr;
 }
 
 bool ContentWatch::hasNewContent(const osg::Node& node) {

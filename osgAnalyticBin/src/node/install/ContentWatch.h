@@ -16,6 +16,8 @@ namespace osgAnalyticBin {
 /// node is added, removed or moved, OSG recomputes the node's bound and calls this callback, which compares the content
 /// with what the bins of the ancestors were fitted to. If one of these bins does not contain new content, its tile is
 /// kept visible at once, and the database expands the bin in the next update traversal.
+/// The bound of a tile of osgTerrain with a vertical scale, which OSG leaves out of account, is expanded by the tile's
+/// bin, so that OSG's tests of spheres hold what is drawn.
 /// Every tile and every group between tiles has a watch, which checks the node's own children, down to the next node
 /// with a watch. It knows the meshes that the tile's bin was fitted to.
 /// Bounds are computed before tiles are culled: by osgViewer in every frame, and by DatabaseCullCallback.
@@ -32,6 +34,9 @@ public:
 
     /// Removes the watch.
     static void remove(osg::Node& node);
+
+    /// Whether the application has the node's bound computed by a callback of its own.
+    [[nodiscard]] static bool hasOwnBound(const osg::Node& node);
 
     /// Whether the node has a watch that found content among its children which the bin was not fitted to.
     [[nodiscard]] static bool hasNewContent(const osg::Node& node);

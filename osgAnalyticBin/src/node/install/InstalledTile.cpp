@@ -5,14 +5,12 @@
 
 #include "../page/Database.h"
 
-#include <algorithm>
-
 namespace osgAnalyticBin {
 
 InstalledTile::InstalledTile(const osg::Node& culled, Database& database) : _culled(&culled), _database(&database) {}
 
 InstalledTile::InstalledTile(const InstalledTile& other)
-    : osg::Referenced(other), _culled(nullptr), _database(other._database), _wasInactive(other._wasInactive) {}
+    : osg::Referenced(other), _culled(nullptr), _database(other._database) {}
 
 InstalledTile::~InstalledTile() = default;
 
@@ -64,29 +62,6 @@ void InstalledTile::fillSlot(const TileBlock::Slot& tile, const TileBlock::Bins&
 void InstalledTile::emptySlot() {
     _isSlotFilled = false;
     tellFamily();
-}
-
-void InstalledTile::suspendSphere(osg::Node& node) {
-    const std::size_t number = _suspensions++;
-    if (!node.getCullingActive()) return _wasInactive.push_back(number);
-    node.setCullingActive(false);
-    if (isFor(&node)) {
-        _wasCulledActive = true;
-    } else {
-        _suspended.emplace_back(&node);
-    }
-}
-
-bool InstalledTile::wasActive(std::size_t i) const {
-    return !std::binary_search(_wasInactive.begin(), _wasInactive.end(), i);
-}
-
-void InstalledTile::resumeSpheres(osg::Node& culled) {
-    if (_wasCulledActive) culled.setCullingActive(true);
-    for (const auto& node : _suspended) node->setCullingActive(true);
-    _wasCulledActive = false;
-    _suspended.clear();
-    _culled = nullptr;
 }
 
 }  // namespace osgAnalyticBin

@@ -15,15 +15,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <utility>
-#include <vector>
 
 namespace osgAnalyticBin {
 
 class Database;
 
-/// The installer's record of a tile, owned by the tile's cull callback: the node that the bin was made for, whether the
-/// bin contains everything below that node, and the nodes whose sphere test was switched off.
+/// The installer's record of a tile, owned by the tile's cull callback: the node that the bin was made for, and
+/// whether the bin contains everything below that node.
 /// Threads: mayCull() and keepVisible() at any time; the rest only while no cull traversal runs.
 class InstalledTile final : public osg::Referenced {
 public:
@@ -91,16 +89,8 @@ public:
     /// Holds a reference to `observed` as long as the tile exists.
     void keep(const osg::Referenced& observed) { _kept = &observed; }
 
-    /// Switches OSG's sphere test off on a node where it is on.
-    void suspendSphere(osg::Node& node);
-
-    /// Switches the sphere test on again on the nodes where it was on. From then on the record is for no node.
-    /// Requires: isFor(&culled).
-    void resumeSpheres(osg::Node& culled);
-
-    /// Whether the test was on at the i-th call of suspendSphere(), to restore clones of the nodes. True for nodes that
-    /// were added later.
-    [[nodiscard]] bool wasActive(std::size_t i) const;
+    /// From now on the record is for no node.
+    void forgetNode() { _culled = nullptr; }
 
 protected:
     ~InstalledTile() override;
@@ -123,10 +113,6 @@ private:
     std::atomic<bool> _isSeeThrough{false};
     std::atomic<bool> _isMoved{false};
     osg::ref_ptr<const osg::Referenced> _kept;
-    bool _wasCulledActive = false;                    // of the culled node: no reference to it, because it owns this
-    std::vector<osg::ref_ptr<osg::Node>> _suspended;  // other nodes
-    std::size_t _suspensions = 0;                     // calls of suspendSphere()
-    std::vector<std::size_t> _wasInactive;            // those of nodes without the test
 };
 
 }  // namespace osgAnalyticBin

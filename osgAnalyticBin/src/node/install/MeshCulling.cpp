@@ -25,16 +25,17 @@ constexpr const char* kWasCulling = "osgAnalyticBin culling";
 
 class ForEachNode : public osg::NodeVisitor {
 public:
-    explicit ForEachNode(std::function<bool(osg::Node&)> entersBelow)
-        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _entersBelow(std::move(entersBelow)) {
+    explicit ForEachNode(std::function<void(osg::Node&)> action)
+        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _action(std::move(action)) {
         setNodeMaskOverride(~0u);
     }
     void apply(osg::Node& node) override {
-        if (_entersBelow(node) && !dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
+        _action(node);
+        if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
     }
 
 private:
-    const std::function<bool(osg::Node&)> _entersBelow;
+    const std::function<void(osg::Node&)> _action;
 };
 
 // Has the class name of an osg::ClusterCullingCallback and the values of the original: it is saved and cloned as one.
@@ -83,16 +84,9 @@ bool hasDoubtfulCallback(osg::Node& node) {
 
 }  // namespace
 
-void forEachNodeWhere(osg::Node& root, std::function<bool(osg::Node&)> entersBelow) {
-    ForEachNode visitor(std::move(entersBelow));
-    root.accept(visitor);
-}
-
 void forEachNode(osg::Node& root, std::function<void(osg::Node&)> action) {
-    forEachNodeWhere(root, [&action](osg::Node& node) {
-        action(node);
-        return true;
-    });
+    ForEachNode visitor(std::move(action));
+    root.accept(visitor);
 }
 
 bool isSeeThroughMesh(osg::Node& mesh) {
@@ -136,14 +130,6 @@ void resumeCullingOf(osg::Node& node) {
     node.getUserDataContainer()->removeUserObject(index);
     forgetEmptyValues(node);
     node.setCullingActive(true);
-}
-
-void suspendCulling(osg::Node& mesh) {
-    forEachNode(mesh, suspendCullingOf);
-}
-
-void resumeCulling(osg::Node& mesh) {
-    forEachNode(mesh, resumeCullingOf);
 }
 
 bool isClusterCulling(const osg::Callback& callback) {

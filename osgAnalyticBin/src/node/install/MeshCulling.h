@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Switches culling off and on for a tile's own mesh. osgTerrain tiles are included, but not traversed.
+// Visits a tile's own mesh, and suspends culling there that bins replace. osgTerrain tiles are included, but not
+// traversed.
 
 #pragma once
 
@@ -13,9 +14,6 @@ namespace osgAnalyticBin {
 
 /// Visits all nodes of a mesh, but nothing below osgTerrain tiles, the same way every time.
 void forEachNode(osg::Node& root, std::function<void(osg::Node&)> action);
-
-/// Likewise, but nothing below nodes for which `entersBelow` returns false.
-void forEachNodeWhere(osg::Node& root, std::function<bool(osg::Node&)> entersBelow);
 
 /// Whether a state in the mesh makes the terrain see-through: isPartSeeThrough(). Callbacks of drawables that draw, or
 /// that may change what is drawn, count as well.
@@ -30,10 +28,6 @@ void forgetEmptyValues(osg::Node& node);
 /// Switches culling off for one node, and records in the node that it was on; or restores it.
 void suspendCullingOf(osg::Node& node);
 void resumeCullingOf(osg::Node& node);
-
-/// The same for a mesh, boxes of drawables included.
-void suspendCulling(osg::Node& mesh);
-void resumeCulling(osg::Node& mesh);
 
 /// Makes osg::ClusterCullingCallbacks of the mesh cull nothing, or restores them. A scene that is saved meanwhile has
 /// the original callbacks.

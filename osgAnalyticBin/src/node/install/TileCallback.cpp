@@ -3,25 +3,19 @@
 
 #include "TileCallback.h"
 
-#include "../PerThread.h"
 #include "../cull/TileFamily.h"
 #include "../page/PagingExpiry.h"
-#include "../surface/SurfaceMesh.h"
 #include "ContentWatch.h"
 #include "InstalledTile.h"
 #include "MeshCulling.h"
+#include "NoCulling.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 
-#include <osg/Drawable>
 #include <osg/Group>
-#include <osg/NodeVisitor>
 #include <osg/PagedLOD>
 #include <osg/Transform>
-#include <osgTerrain/TerrainTile>
 
-#include <algorithm>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -37,73 +31,6 @@ std::vector<osg::ref_ptr<AnalyticBinCullCallback>> installedCallbacks(const osg:
     return callbacks;
 }
 
-// Finds the nodes above the large parts of a mesh, which are its surface. What else it holds are trees and houses on
-// the surface, alone or in groups of any size, of which a kept tile need not show anything.
-class SurfacePaths : public osg::NodeVisitor {
-public:
-    explicit SurfacePaths(osg::Node& mesh) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {
-        setNodeMaskOverride(~0u);
-        mesh.accept(*this);
-        if (_parts.size() < 2 || !areSound()) {
-            _nodes.clear();
-            return;
-        }
-        constexpr float kSmallest = 0.25f;
-        const float least = kSmallest * mesh.getBound().radius();
-        for (const auto& [part, path] : _parts) {
-            const osg::BoundingSphere& bound = part->getBound();
-            const bool isSmall = bound.valid() && bound.radius() < least;
-            if (!isSmall) _nodes.insert(path.begin(), path.end());
-        }
-    }
-    void apply(osg::Node& node) override {
-        if (dynamic_cast<osgTerrain::TerrainTile*>(&node)) {
-            _nodes.insert(getNodePath().begin(), getNodePath().end());
-        } else {
-            traverse(node);
-        }
-    }
-    void apply(osg::Drawable& part) override { _parts.emplace_back(&part, getNodePath()); }
-
-    // Where all parts are small, they are the surface.
-    [[nodiscard]] bool has(const osg::Node& node) const { return _nodes.empty() || _nodes.count(&node) > 0; }
-
-private:
-    // OSG's bounds need vertices for all indices.
-    [[nodiscard]] bool areSound() const {
-        thread_local PerThread<SurfaceMesh> read;
-        return std::all_of(_parts.begin(), _parts.end(),
-                           [](const auto& part) { return readMesh(*part.first, osg::Matrixd(), *read); });
-    }
-
-    std::vector<std::pair<const osg::Drawable*, osg::NodePath>> _parts;
-    std::set<const osg::Node*> _nodes;
-};
-
-// The nodes of a tile that have no sphere test while bins cull it, some of them more than once. Drawables keep their
-// boxes, and what stands on the surface keeps OSG's own tests.
-template <class Action>
-void forEachSphere(const FoundTile& tile, osg::Node& culled, const Action& action) {
-    action(culled);
-    action(*tile.node);
-    for (const auto& mesh : tile.meshes) {
-        const SurfacePaths surface(*mesh);
-        forEachNodeWhere(*mesh, [&](osg::Node& node) {
-            if (!surface.has(node)) return false;
-            if (!node.asDrawable()) action(node);
-            return true;
-        });
-    }
-}
-
-// Of a clone, as the original's were. A scene that was saved with bins does not say where they were on before.
-void resumeSpheres(const FoundTile& tile, osg::Node& culled, const InstalledTile* original) {
-    std::size_t i = 0;
-    forEachSphere(tile, culled, [&](osg::Node& node) {
-        if (!original || original->wasActive(i++)) node.setCullingActive(true);
-    });
-}
-
 void removeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& ours, NestedCallbacks& nested) {
     const bool isNested = culled.getCullCallback() != &ours;
     if (isNested && !nested.emplace(&culled, &ours).second) return;
@@ -114,11 +41,7 @@ void removeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCal
     if (installed) installed->leaveFamily();
     ContentWatch::remove(culled);
     ContentWatch::remove(*tile.node);
-    if (installed && installed->isFor(&culled)) {
-        installed->resumeSpheres(culled);
-    } else {
-        resumeSpheres(tile, culled, installed);
-    }
+    if (installed && installed->isFor(&culled)) installed->forgetNode();
 }
 
 }  // namespace
@@ -181,7 +104,6 @@ void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCall
     // In front: what is nested runs when the tile is kept.
     callback.setNestedCallback(culled.getCullCallback());
     culled.setCullCallback(&callback);
-    forEachSphere(tile, culled, [&](osg::Node& node) { installed->suspendSphere(node); });
     for (const auto& mesh : tile.meshes) {
         if (isSeeThroughMesh(*mesh)) installed->setSeeThrough();
     }
@@ -194,6 +116,7 @@ void removeCallbacksBelow(osg::Node& subgraph, NestedCallbacks& nested) {
         if (installedTileOf(node)) removeCallbacks({&node, {}, {}, 0, {}}, nested);
         TileFamily::remove(node);
         ContentWatch::remove(node);
+        NoCulling::remove(node);
     });
 }
 

@@ -55,8 +55,7 @@ protected:
 /// map.
 [[nodiscard]] osg::Matrixd culledFrame(const FoundTile& tile, osg::Node& culled);
 
-/// Puts the callback in front of those of `culled`, and switches OSG's sphere test off
-/// there and on the tile. From then on the tile notices what is added below it.
+/// Puts the callback in front of those of `culled`. From then on the tile notices what is added below it.
 void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& callback, Database& database);
 
 /// Removes a cull callback from a node. It keeps its nested callbacks while other nodes have it, too: clones of a scene
@@ -74,8 +73,8 @@ void takeOff(NestedCallbacks& nested);
 /// Removes callbacks, watches and what came with them from a subgraph, whether or not their nodes are tiles now.
 void removeCallbacksBelow(osg::Node& subgraph, NestedCallbacks& nested);
 
-/// Removes all callbacks of bins, and what came with them: the sphere test is on again, and expiry times are as they
-/// were. A tile without such a callback stays as it is. Callbacks that are nested in others are left to `nested`.
+/// Removes all callbacks of bins, and what came with them: expiry times are as they were. A tile without such a
+/// callback stays as it is. Callbacks that are nested in others are left to `nested`.
 void removeCallbacks(const FoundTile& tile, NestedCallbacks& nested);
 
 }  // namespace osgAnalyticBin

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "NoCulling.h"
+
+#include "FindCallback.h"
+#include "TileCallback.h"
+
+#include <osg/CullStack>
+#include <osg/CullingSet>
+#include <osg/NodeVisitor>
+
+namespace osgAnalyticBin {
+
+NoCulling::NoCulling(const NoCulling& other, const osg::CopyOp& copyop)
+    : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop) {}
+
+void NoCulling::place(osg::Node& node) {
+    remove(node);
+    const osg::ref_ptr<NoCulling> callback = new NoCulling;
+    callback->setNestedCallback(node.getCullCallback());
+    node.setCullCallback(callback);
+}
+
+void NoCulling::remove(osg::Node& node) {
+    if (const osg::ref_ptr<NoCulling> callback = findCallback<NoCulling>(node.getCullCallback()))
+        takeOff(node, *callback);
+}
+
+void NoCulling::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    osg::CullStack* const cullStack = nv->asCullStack();
+    if (!cullStack) {
+        traverse(node, nv);
+        return;
+    }
+    // culling sets of transforms below are made from that of the projection
+    const osg::CullingSet::Mask current = cullStack->getCurrentCullingSet().getCullingMask();
+    const osg::CullingSet::Mask projection = cullStack->getProjectionCullingStack().back().getCullingMask();
+    cullStack->getCurrentCullingSet().setCullingMask(osg::CullingSet::NO_CULLING);
+    cullStack->getProjectionCullingStack().back().setCullingMask(osg::CullingSet::NO_CULLING);
+    traverse(node, nv);
+    // the stacks may have moved meanwhile
+    cullStack->getCurrentCullingSet().setCullingMask(current);
+    cullStack->getProjectionCullingStack().back().setCullingMask(projection);
+}
+
+}  // namespace osgAnalyticBin

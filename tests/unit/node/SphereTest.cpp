@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// OSG's own spheres on tiles and on groups above them, which bins leave in use.
+
+#include "ApplicationGlobe.h"
+
+#include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/InstallBins.h>
+
+#include <gtest/gtest.h>
+#include <osg/Group>
+#include <osg/PagedLOD>
+#include <osgUtil/IntersectionVisitor>
+#include <osgUtil/LineSegmentIntersector>
+
+#include <support/Random.h>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+// Tiles within tiles, each file with four.
+osg::ref_ptr<osg::Node> makeTree(double south, double west, double width, int levels) {
+    const auto mesh = makeMeshTile(extentsDeg(south, south + width, west, west + width), 0.0);
+    if (levels == 0) return mesh;
+    const osg::ref_ptr<osg::PagedLOD> tile = makePaged(mesh, std::to_string(levels) + ".osgb", 1e9f);
+    const osg::ref_ptr<osg::Group> file = new osg::Group;
+    const double half = width / 2;
+    for (const double y : {south, south + half}) {
+        for (const double x : {west, west + half}) file->addChild(makeTree(y, x, half, levels - 1));
+    }
+    putBelow(*tile, file);
+    return tile;
+}
+
+osg::ref_ptr<osg::CoordinateSystemNode> globeWith(osg::Node* content) {
+    osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
+    globe->setEllipsoidModel(new osg::EllipsoidModel);
+    globe->addChild(content);
+    return globe;
+}
+
+struct CountingIntersector : osgUtil::LineSegmentIntersector {
+    using LineSegmentIntersector::LineSegmentIntersector;
+    bool enter(const osg::Node& node) override {
+        ++asked;
+        return LineSegmentIntersector::enter(node);
+    }
+    int asked = 0;
+};
+
+struct Pick {
+    int asked;
+    std::size_t hits;
+};
+
+Pick pickAt(osg::Node& scene, double latitude, double longitude) {
+    const osg::ref_ptr<CountingIntersector> ray =
+        new CountingIntersector(ecefDeg(latitude, longitude, 1e5), ecefDeg(latitude, longitude, -1e5));
+    osgUtil::IntersectionVisitor visitor(ray);
+    visitor.setTraversalMode(osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN);
+    scene.accept(visitor);
+    return {ray->asked, ray->getIntersections().size()};
+}
+
+TEST(Spheres, GuideIntersectionsAsWithoutBins) {
+    const auto plain = globeWith(makeTree(10.0, 10.0, 16.0, 4));
+    for (const char* const method : {"quadratic", "none"}) {
+        const auto installed = globeWith(makeTree(10.0, 10.0, 16.0, 4));
+        std::string error;
+        installBins(*installed, *cullOptionsFromText(std::string("method=") + method, error));
+        update(*installed);
+        (void)installed->getBound();
+        Random random(42);
+        for (int i = 0; i < 50; ++i) {
+            const double latitude = random.uniform(10.0, 26.0), longitude = random.uniform(10.0, 26.0);
+            const Pick with = pickAt(*installed, latitude, longitude), without = pickAt(*plain, latitude, longitude);
+            EXPECT_GT(without.hits, 0u);
+            EXPECT_LT(without.asked, 60);
+            EXPECT_EQ(with.hits, without.hits) << method;
+            EXPECT_EQ(with.asked, without.asked) << method;
+        }
+    }
+}
+
+// Tiles below a tree of plain groups.
+osg::ref_ptr<osg::Node> makeGroups(double south, double west, double height, double width, int levels) {
+    if (levels == 0)
+        return makePaged(makeMeshTile(extentsDeg(south, south + height, west, west + width), 0.0), "no.osgb");
+    const osg::ref_ptr<osg::Group> group = new osg::Group;
+    for (const double y : {south, south + height / 2}) {
+        for (const double x : {west, west + width / 2}) {
+            group->addChild(makeGroups(y, x, height / 2, width / 2, levels - 1));
+        }
+    }
+    return group;
+}
+
+TEST(Spheres, OfGroupsAreTestedBeforeTheirTiles) {
+    const auto globe = globeWith(makeGroups(-90.0, -180.0, 180.0, 360.0, 4));
+    std::string error;
+    ASSERT_EQ(installBins(*globe, *cullOptionsFromText("horizon=off", error)), 256u);
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    (void)cull(*globe, downTo(20.0, 30.0), *visitor);
+    const BinCounts counts = BinStatistics::of(*visitor).getCounts();
+    EXPECT_GT(counts.tested, 0u);
+    EXPECT_LT(counts.tested, 64u);
+}
+
+// An application's own bound of a group. What OSG leaves out by it hides nothing.
+struct OwnBound : osg::Node::ComputeBoundingSphereCallback {
+    explicit OwnBound(const osg::BoundingSphere& sphere) : bound(sphere) {}
+    osg::BoundingSphere computeBound(const osg::Node&) const override { return bound; }
+    const osg::BoundingSphere bound;
+};
+
+TEST(Spheres, OfGroupsThatLeaveOutTilesInViewEndTheHorizon) {
+    const osg::BoundingSphere around(osg::Vec3(), 7e6f), elsewhere(ecefDeg(0.0, 67.5, 1e8), 1e5f),
+        small(ecefDeg(22.5, -22.5, 0.0), 1.0f);
+    const auto drawsAntipode = [](const osg::BoundingSphere& bound) {
+        MeshGlobe globe;
+        const osg::ref_ptr<osg::Group> group = new osg::Group;
+        globe.root->replaceChild(globe.tiles[19], group);
+        group->addChild(globe.tiles[19]);
+        group->setComputeBoundingSphereCallback(new OwnBound(bound));
+        installBins(*globe.root);
+        CullView view = MeshGlobe::fromAbove();
+        view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
+        return globe.draws(*globe.tiles[15], view);
+    };
+    EXPECT_FALSE(drawsAntipode(around));
+    EXPECT_TRUE(drawsAntipode(elsewhere));
+    EXPECT_TRUE(drawsAntipode(small));
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
