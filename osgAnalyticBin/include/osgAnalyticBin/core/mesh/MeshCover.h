@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/core/GeodeticBin.h>
+#include <osgAnalyticBin/core/mesh/MeshBounds.h>
+
+namespace osgAnalyticBin::core {
+
+/// Whether a mesh covers a rectangle of latitude and longitude, seen from above.
+struct MeshCover {
+    /// The rectangle about the surface, skirts left out, without altitudes; of a mesh that is closed around the globe:
+    /// all latitudes and longitudes. Empty: the mesh has no surface that faces up.
+    GeodeticBin place;
+    /// Whether every line along the ellipsoid's normal in the rectangle meets the surface more often on a front face
+    /// than on a back face. At borders along a parallel the surface ends at the chords between its vertices.
+    bool isFilled = false;
+
+    /// The share of the rectangle's width by which vertices of its border may be beside it.
+    static constexpr double kTolerance = 1e-6;
+
+    /// Of a mesh, where triangles count with their front faces. `error`: metres by which vertices are rounded; it adds
+    /// to kTolerance. Steep triangles at the border count as skirts, and cover nothing. In doubt the rectangle is not
+    /// filled: where surfaces with a hole overlap, where the mesh holds a pole within, and where it is no terrain.
+    /// Guarantee: isFilled as above, for altitudes above minus half the smallest radius of curvature; tests:
+    /// MeshCover.*. Source: doc/theory/horizon.md, section 11.
+    /// Cost: some 100 nanoseconds for each triangle. Requires: indices within the vertices.
+    [[nodiscard]] static MeshCover of(const Ellipsoid& ellipsoid, const EcefMesh& mesh, double error = 0.0);
+};
+
+}  // namespace osgAnalyticBin::core

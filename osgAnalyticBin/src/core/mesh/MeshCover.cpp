@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "../Constants.h"
+#include "../EarthScale.h"
+#include "KeyNumbers.h"
+
+#include <osgAnalyticBin/core/mesh/MeshCover.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace osgAnalyticBin::core {
+
+namespace {
+
+// Triangles whose normal is this far from level at least are surface for sure.
+constexpr double kGentle = 0.2;
+// Skirts hang within this share of the place's width from its border.
+constexpr double kSkirtRoom = 1.0 / 256.0;
+
+class CoverSearch {
+public:
+    CoverSearch(const Ellipsoid& ellipsoid, const EcefMesh& mesh, double error)
+        : _ellipsoid(ellipsoid),
+          _mesh(mesh),
+          _metre(1.0 / (ellipsoid.isPlane() ? Ellipsoid::kMapUnitsInRadian : smallestCurvatureRadius(ellipsoid))),
+          _error(error * _metre),
+          _places(mesh.size()) {}
+
+    [[nodiscard]] MeshCover run() {
+        MeshCover cover;
+        if (!mergeVertices() || !findTriangles()) return cover;
+        findEnds();
+        if (_ends.empty() && _ellipsoid.isPlane()) return cover;
+        if (!findPlace()) return cover;
+        cover.place =
+            GeodeticBin(_latitude, {_longitude + _longitudes.lower, _longitude + _longitudes.upper}, {0.0, 0.0});
+        // what is steep within the place is surface, too
+        if (addSteep()) findEnds();
+        cover.isFilled = endsAtBorders() && facesUpInTheMiddle();
+        if (_ends.empty()) cover.place = GeodeticBin({-0.5 * kPi, 0.5 * kPi}, {-kPi, kPi}, {0.0, 0.0});
+        return cover;
+    }
+
+private:
+    using Corners = std::array<std::uint32_t, 3>;
+    using Edge = std::array<std::uint64_t, 1>;  // of two vertices, the smaller number first
+
+    // Vertices at one position count as one: triangles that share an edge may have vertices of their own. Returns:
+    // false where a coordinate is not finite.
+    [[nodiscard]] bool mergeVertices() {
+        KeyNumbers<std::array<std::uint64_t, 3>> positions(_mesh.size());
+        std::vector<std::uint32_t> firstAt;
+        _merged.reserve(_mesh.size());
+        for (std::size_t i = 0; i < _mesh.size(); ++i) {
+            const glm::dvec3 v = _mesh.vertex(i);
+            if (!std::isfinite(v.x + v.y + v.z)) return false;
+            const std::uint32_t number = positions.numberOf({bitsOf(v.x), bitsOf(v.y), bitsOf(v.z)});
+            if (number == firstAt.size()) firstAt.push_back(static_cast<std::uint32_t>(i));
+            _merged.push_back(firstAt[number]);
+        }
+        return true;
+    }
+
+    // Along the ellipsoid's normal at a vertex, or nearly so.
+    [[nodiscard]] glm::dvec3 upwards(const glm::dvec3& v) const {
+        if (_ellipsoid.isPlane()) return {0.0, 0.0, 1.0};
+        return {v.x, v.y, v.z / _ellipsoid.squaredRatio()};
+    }
+    // 1 for a triangle that is level and faces up, below 0 for one that faces down.
+    [[nodiscard]] double levelness(const Corners& c) const {
+        const glm::dvec3 a = _mesh.vertex(c[0]);
+        const glm::dvec3 normal = glm::cross(_mesh.vertex(c[1]) - a, _mesh.vertex(c[2]) - a), up = upwards(a);
+        const double lengths = std::sqrt(glm::dot(normal, normal) * glm::dot(up, up));
+        return lengths > 0.0 ? glm::dot(normal, up) / lengths : 0.0;
+    }
+    // Returns: whether there are gentle ones.
+    [[nodiscard]] bool findTriangles() {
+        std::size_t gentle = 0;
+        for (std::size_t i = 0; i + 2 < _mesh.triangles.size(); i += 3) {
+            const Corners c{_merged[_mesh.triangles[i]], _merged[_mesh.triangles[i + 1]],
+                            _merged[_mesh.triangles[i + 2]]};
+            if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
+            const bool isGentle = levelness(c) > kGentle;
+            _triangles.push_back({c, isGentle, isGentle});
+            if (!isGentle) continue;
+            ++gentle;
+            _middle += _mesh.vertex(c[0]);
+        }
+        if (gentle > 0) _middle /= static_cast<double>(gentle);
+        return gentle > 0;
+    }
+
+    // Finds the edges where the surface ends: those that do not run as often from one vertex to the other as back.
+    void findEnds() {
+        KeyNumbers<Edge> edges(3 * _triangles.size());
+        std::vector<int> balance;
+        for (const Triangle& triangle : _triangles) {
+            if (!triangle.isSurface) continue;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t a = triangle.corners[k], b = triangle.corners[(k + 1) % 3];
+                const std::uint32_t number = edges.numberOf({std::uint64_t{std::min(a, b)} << 32U | std::max(a, b)});
+                if (number == balance.size()) balance.push_back(0);
+                balance[number] += a < b ? 1 : -1;
+            }
+        }
+        _ends.clear();
+        for (std::size_t i = 0; i < balance.size(); ++i) {
+            if (balance[i] == 0) continue;
+            const std::uint64_t both = edges.keys()[i][0];
+            _ends.push_back({static_cast<std::uint32_t>(both >> 32U), static_cast<std::uint32_t>(both)});
+        }
+    }
+
+    // The longitude from the middle.
+    [[nodiscard]] const Geodetic& placeOf(std::uint32_t vertex) {
+        std::optional<Geodetic>& place = _places[vertex];
+        if (!place) {
+            place = _ellipsoid.toGeodetic(_mesh.vertex(vertex));
+            place->longitude = turned(place->longitude);
+        }
+        return *place;
+    }
+    [[nodiscard]] double turned(double longitude) const {
+        const double from = longitude - _longitude;
+        return _ellipsoid.isPlane() ? from : std::remainder(from, 2.0 * kPi);
+    }
+    // Where longitudes say nothing.
+    [[nodiscard]] bool isAtPole(const Geodetic& place, double room) const {
+        return !_ellipsoid.isPlane() && 0.5 * kPi - std::abs(place.latitude) <= room;
+    }
+
+    // Sets the rectangle about the vertices where the surface ends.
+    [[nodiscard]] bool findPlace() {
+        const glm::dvec3 first = _mesh.vertex(_triangles.front().corners[0]);
+        _longitude = _ellipsoid.isPlane() ? _ellipsoid.toGeodetic(first).longitude : std::atan2(_middle.y, _middle.x);
+        std::vector<std::uint32_t> vertices;
+        for (const auto& [a, b] : _ends) vertices.insert(vertices.end(), {a, b});
+        constexpr double kWide = 3.0, kFar = 0.85;
+        const bool isFar = !_ellipsoid.isPlane() && glm::length(_middle) < kFar * _ellipsoid.polarRadius();
+        expandBy(vertices);
+        if (!_ellipsoid.isPlane() && (isFar || _longitudes.width() > kWide)) {
+            for (const Triangle& triangle : _triangles) {
+                if (triangle.isSurface)
+                    vertices.insert(vertices.end(), triangle.corners.begin(), triangle.corners.end());
+            }
+            findWidePlace(vertices);
+        }
+        if (!(_latitude.width() > 0.0) || !(_longitudes.width() > 0.0)) return false;
+        const double equatorward = _latitude.lower * _latitude.upper <= 0.0
+                                       ? 0.0
+                                       : std::min(std::abs(_latitude.lower), std::abs(_latitude.upper));
+        _roomAlong = MeshCover::kTolerance * _latitude.width() + _error;
+        _roomAcross = MeshCover::kTolerance * _longitudes.width() * squeezed(equatorward) + _error;
+        return true;
+    }
+    [[nodiscard]] double squeezed(double latitude) const {
+        return _ellipsoid.isPlane() ? 1.0 : std::max(std::cos(latitude), 1e-9);
+    }
+    void expandBy(const std::vector<std::uint32_t>& vertices) {
+        // farther than float vertices of large tiles are rounded
+        constexpr double kAtPole = 2e-6;
+        _latitude = {kPi, -kPi};
+        _longitudes = {1e9, -1e9};
+        for (const std::uint32_t vertex : vertices) {
+            const Geodetic& place = placeOf(vertex);
+            _latitude = {std::min(_latitude.lower, place.latitude), std::max(_latitude.upper, place.latitude)};
+            if (isAtPole(place, kAtPole)) continue;
+            _longitudes = {std::min(_longitudes.lower, place.longitude), std::max(_longitudes.upper, place.longitude)};
+        }
+    }
+    // Of a surface around much of the globe: it lies beside its widest gap in longitude. Where no gap is much wider
+    // than the next one it goes around the whole globe, from a seam at which it ends, if there is one.
+    void findWidePlace(const std::vector<std::uint32_t>& vertices) {
+        expandBy(vertices);
+        std::vector<double> longitudes;
+        constexpr double kNearPole = 1e-3;
+        for (const std::uint32_t vertex : vertices) {
+            if (!isAtPole(placeOf(vertex), kNearPole)) longitudes.push_back(placeOf(vertex).longitude);
+        }
+        if (longitudes.empty()) return;
+        std::sort(longitudes.begin(), longitudes.end());
+        double widest = longitudes.front() + 2.0 * kPi - longitudes.back(), second = 0.0;
+        double middle = 0.5 * (longitudes.front() + longitudes.back());
+        for (std::size_t i = 0; i + 1 < longitudes.size(); ++i) {
+            const double gap = longitudes[i + 1] - longitudes[i];
+            second = std::max(second, std::min(gap, widest));
+            if (gap <= widest) continue;
+            widest = gap;
+            middle = 0.5 * (longitudes[i] + longitudes[i + 1]) + kPi;
+        }
+        constexpr double kMuchWider = 0.6;
+        const bool isAround = second > kMuchWider * widest;
+        if (isAround) middle = seam().value_or(middle - kPi) + kPi;
+        _longitude = std::remainder(_longitude + middle, 2.0 * kPi);
+        _places.assign(_places.size(), std::nullopt);
+        expandBy(vertices);
+        if (isAround) _longitudes = {-kPi, kPi};
+    }
+    [[nodiscard]] std::optional<double> seam() {
+        constexpr double kAlongMeridian = 1e-6, kNearPole = 1e-3;
+        for (const auto& [a, b] : _ends) {
+            const Geodetic p = placeOf(a), q = placeOf(b);
+            if (isAtPole(p, kNearPole) || isAtPole(q, kNearPole)) continue;
+            if (std::abs(std::remainder(p.longitude - q.longitude, 2.0 * kPi)) < kAlongMeridian) return p.longitude;
+        }
+        return std::nullopt;
+    }
+
+    // Which borders a vertex is at, one bit for each, south, north, west and east. `along` and `across`: radians of
+    // great circles by which it may be beside them.
+    [[nodiscard]] unsigned int bordersAt(std::uint32_t vertex, double along, double across) {
+        const Geodetic& at = placeOf(vertex);
+        const bool isPole = isAtPole(at, along);
+        const double aside = across / squeezed(at.latitude);
+        const bool isAround = _longitudes.width() >= 2.0 * kPi && !_ellipsoid.isPlane();
+        const bool isWest = isPole || at.longitude <= _longitudes.lower + aside;
+        const bool isEast = isPole || at.longitude >= _longitudes.upper - aside;
+        return unsigned{at.latitude <= _latitude.lower + along} |
+               unsigned{at.latitude >= _latitude.upper - along} << 1U | unsigned{isWest || (isAround && isEast)} << 2U |
+               unsigned{isEast || (isAround && isWest)} << 3U;
+    }
+    // Adds steep triangles that are no skirts to the surface. Returns: whether there are any.
+    [[nodiscard]] bool addSteep() {
+        const double along = kSkirtRoom * _latitude.width(), across = kSkirtRoom * _longitudes.width();
+        bool hasSteep = false;
+        for (Triangle& triangle : _triangles) {
+            if (triangle.isGentle) continue;
+            unsigned int borders = ~0U;
+            for (const std::uint32_t vertex : triangle.corners)
+                borders &= bordersAt(vertex, along, across * squeezed(placeOf(vertex).latitude));
+            triangle.isSurface = borders == 0;
+            hasSteep = hasSteep || triangle.isSurface;
+        }
+        return hasSteep;
+    }
+    [[nodiscard]] bool endsAtBorders() {
+        return std::all_of(_ends.begin(), _ends.end(), [this](const auto& end) {
+            return (bordersAt(end[0], _roomAlong, _roomAcross) & bordersAt(end[1], _roomAlong, _roomAcross)) != 0;
+        });
+    }
+
+    // Counts the faces on the normal through a point of the place, those that face up less those that face down.
+    [[nodiscard]] bool facesUpInTheMiddle() const {
+        // beside the lines that meshes are symmetric about
+        constexpr double kAlong = 0.4871, kAcross = 0.5137;
+        const Geodetic at{_latitude.lower + kAlong * _latitude.width(),
+                          _longitude + _longitudes.lower + kAcross * _longitudes.width(), 0.0};
+        const glm::dvec3 foot = _ellipsoid.toEcef(at), up = _ellipsoid.up(at.latitude, at.longitude);
+        const double deepest = _ellipsoid.isPlane() ? HUGE_VAL : 0.5 * smallestCurvatureRadius(_ellipsoid);
+        int count = 0;
+        for (const Triangle& triangle : _triangles) {
+            if (!triangle.isSurface) continue;
+            const glm::dvec3 p = _mesh.vertex(triangle.corners[0]) - foot, q = _mesh.vertex(triangle.corners[1]) - foot,
+                             r = _mesh.vertex(triangle.corners[2]) - foot;
+            const double pq = glm::dot(up, glm::cross(p, q)), qr = glm::dot(up, glm::cross(q, r)),
+                         rp = glm::dot(up, glm::cross(r, p)), all = pq + qr + rp;
+            const bool isMet = (pq > 0.0 && qr > 0.0 && rp > 0.0) || (pq < 0.0 && qr < 0.0 && rp < 0.0);
+            if (!isMet) continue;
+            const double altitude = (pq * glm::dot(up, r) + qr * glm::dot(up, p) + rp * glm::dot(up, q)) / all;
+            if (altitude > -deepest) count += all > 0.0 ? 1 : -1;
+        }
+        return count > 0;
+    }
+
+    struct Triangle {
+        Corners corners;
+        bool isGentle, isSurface;
+    };
+
+    const Ellipsoid& _ellipsoid;
+    const EcefMesh& _mesh;
+    const double _metre, _error;         // in radians of great circles
+    std::vector<std::uint32_t> _merged;  // the vertex that stands for each
+    std::vector<std::optional<Geodetic>> _places;
+    std::vector<Triangle> _triangles;
+    std::vector<std::array<std::uint32_t, 2>> _ends;
+    glm::dvec3 _middle{0.0};          // of gentle triangles
+    double _longitude = 0.0;          // of the middle
+    Interval _latitude, _longitudes;  // of the place, the longitudes from the middle
+    double _roomAlong = 0.0, _roomAcross = 0.0;
+};
+
+}  // namespace
+
+MeshCover MeshCover::of(const Ellipsoid& ellipsoid, const EcefMesh& mesh, double error) {
+    return CoverSearch(ellipsoid, mesh, error).run();
+}
+
+}  // namespace osgAnalyticBin::core

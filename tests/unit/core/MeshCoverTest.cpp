@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// MeshCover: a mesh fills its rectangle only where every normal meets a front face. Oracles: meshes that are whole by
+// construction, with and without a triangle; lines along the normals of random places, against all triangles.
+
+#include "MeshSamples.h"
+
+#include <osgAnalyticBin/core/mesh/MeshCover.h>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <support/Random.h>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+const core::Ellipsoid kEarth(6378137.0, 6356752.314245);
+
+core::GeodeticBin extentsDeg(double south, double north, double west, double east) {
+    const double relief = std::min(1.0, north - south);
+    return {{south * kDegree, north * kDegree}, {west * kDegree, east * kDegree}, {-400.0 * relief, 3000.0 * relief}};
+}
+
+// Poles, the date line, many turns around, tiles of any size, and the whole globe.
+const std::vector<core::GeodeticBin> kExtents{
+    extentsDeg(0.0, 45.0, 0.0, 45.0),      extentsDeg(45.0, 90.0, 90.0, 135.0),  extentsDeg(-90.0, -45.0, 0.0, 45.0),
+    extentsDeg(-90.0, 90.0, -180.0, 0.0),  extentsDeg(-90.0, 90.0, 0.0, 180.0),  extentsDeg(-90.0, 90.0, -180.0, 180.0),
+    extentsDeg(10.0, 11.0, 179.5, 180.5),  extentsDeg(47.0, 47.01, 8.0, 8.01),   extentsDeg(60.0, 90.0, -180.0, 180.0),
+    extentsDeg(-20.0, 20.0, 170.0, 350.0), extentsDeg(-40.0, 30.0, -30.0, 170.0)};
+
+double tolerance(const core::Interval& interval) {
+    return 2.0 * core::MeshCover::kTolerance * interval.width();
+}
+
+void expectSame(const core::GeodeticBin& place, const core::GeodeticBin& extents) {
+    ASSERT_FALSE(place.empty());
+    EXPECT_NEAR(place.latitude().lower, extents.latitude().lower, tolerance(extents.latitude()));
+    EXPECT_NEAR(place.latitude().upper, extents.latitude().upper, tolerance(extents.latitude()));
+    EXPECT_NEAR(place.longitude().width(), extents.longitude().width(), tolerance(extents.longitude()));
+    const double turn = std::remainder(place.longitude().lower - extents.longitude().lower, 2.0 * 3.14159265358979);
+    if (!extents.isFullCircle()) {
+        EXPECT_NEAR(turn, 0.0, tolerance(extents.longitude()));
+    }
+}
+
+std::array<std::uint32_t, 3> cornersAt(const core::EcefMesh& mesh, std::size_t first) {
+    return {mesh.triangles[first], mesh.triangles[first + 1], mesh.triangles[first + 2]};
+}
+
+core::EcefMesh without(const core::EcefMesh& mesh, std::size_t first) {
+    core::EcefMesh less = mesh;
+    const auto at = less.triangles.begin() + static_cast<std::ptrdiff_t>(first);
+    less.triangles.erase(at, at + 3);
+    return less;
+}
+
+// Seen from above. Those between vertices at a pole have none.
+bool hasArea(const core::EcefMesh& mesh, std::size_t first) {
+    const Triangle t = triangleAt(mesh, first);
+    const glm::dvec3 normal = glm::cross(t.b - t.a, t.c - t.a);
+    return glm::dot(normal, glm::normalize(t.a)) > 0.1 * glm::length(normal);
+}
+
+// Front faces less back faces on the normal through a place, far from edges by chance.
+int facesAt(const core::EcefMesh& mesh, const core::Geodetic& at) {
+    const glm::dvec3 foot = kEarth.toEcef({at.latitude, at.longitude, 0.0}), up = kEarth.up(at.latitude, at.longitude);
+    int count = 0;
+    for (std::size_t first = 0; first + 2 < mesh.triangles.size(); first += 3) {
+        const Triangle triangle = triangleAt(mesh, first);
+        const std::array<glm::dvec3, 3> t{triangle.a, triangle.b, triangle.c};
+        const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
+        const double slope = glm::dot(normal, up);
+        if (slope == 0.0) continue;
+        const double height = glm::dot(normal, t[0] - foot) / slope;
+        const glm::dvec3 hit = foot + height * up;
+        bool isInside = height > -3e6;
+        for (std::size_t k = 0; k < 3; ++k)
+            isInside = isInside && glm::dot(glm::cross(t[(k + 1) % 3] - t[k], hit - t[k]), normal) >= 0.0;
+        if (isInside) count += slope > 0.0 ? 1 : -1;
+    }
+    return count;
+}
+
+TEST(MeshCover, IsThatOfAGridWithAndWithoutSkirts) {
+    Random random(1);
+    for (const core::GeodeticBin& extents : kExtents) {
+        for (const std::uint32_t cells : {9U, 17U}) {
+            const core::EcefMesh grid = gridMesh(random, kEarth, extents, cells);
+            for (const core::EcefMesh& mesh : {grid, withSkirts(kEarth, grid, cells, 2000.0), unmerged(grid)}) {
+                const core::MeshCover cover = core::MeshCover::of(kEarth, mesh);
+                EXPECT_TRUE(cover.isFilled) << extents.latitude().lower / kDegree << ' ' << cells;
+                expectSame(cover.place, extents);
+            }
+        }
+    }
+}
+
+TEST(MeshCover, IsNotFilledWithoutAnyOfItsTriangles) {
+    Random random(2);
+    for (const core::GeodeticBin& extents : kExtents) {
+        const core::EcefMesh mesh = gridMesh(random, kEarth, extents, 9);
+        for (std::size_t first = 0; first + 2 < mesh.triangles.size(); first += 3) {
+            if (!hasArea(mesh, first)) continue;
+            EXPECT_FALSE(core::MeshCover::of(kEarth, without(mesh, first)).isFilled) << first;
+        }
+    }
+}
+
+TEST(MeshCover, IsNotFilledByBackFaces) {
+    Random random(3);
+    for (const core::GeodeticBin& extents : kExtents) {
+        core::EcefMesh mesh = gridMesh(random, kEarth, extents, 9);
+        for (std::size_t first = 0; first + 2 < mesh.triangles.size(); first += 3)
+            std::swap(mesh.triangles[first], mesh.triangles[first + 1]);
+        EXPECT_FALSE(core::MeshCover::of(kEarth, mesh).isFilled);
+        // one that is reversed is a hole
+        core::EcefMesh holed = gridMesh(random, kEarth, extents, 9);
+        const std::size_t first = 3 * 40;
+        ASSERT_TRUE(hasArea(holed, first));
+        std::swap(holed.triangles[first], holed.triangles[first + 1]);
+        EXPECT_FALSE(core::MeshCover::of(kEarth, holed).isFilled);
+    }
+}
+
+TEST(MeshCover, IsNotFilledWhereABorderVertexIsBesideTheBorder) {
+    Random random(4);
+    const core::GeodeticBin extents = extentsDeg(10.0, 20.0, 30.0, 40.0);
+    for (const double metres : {0.5, 5.0, 5000.0}) {
+        core::EcefMesh mesh = gridMesh(random, kEarth, extents, 9);
+        moveVertex(mesh, 4, metres * kEarth.up(15.0 * kDegree, 125.0 * kDegree));
+        moveVertex(mesh, 4, glm::dvec3(0.0, 0.0, metres));  // northward, into the place
+        EXPECT_EQ(core::MeshCover::of(kEarth, mesh).isFilled, metres < 1.0) << metres;
+        // a vertex within does not matter
+        core::EcefMesh within = gridMesh(random, kEarth, extents, 9);
+        moveVertex(within, 44, glm::dvec3(0.0, 0.0, metres));
+        EXPECT_TRUE(core::MeshCover::of(kEarth, within).isFilled) << metres;
+    }
+}
+
+// Float vertices about the tile's middle.
+TEST(MeshCover, IsFilledByRoundedVertices) {
+    Random random(5);
+    for (const core::GeodeticBin& extents : kExtents) {
+        core::EcefMesh mesh = gridMesh(random, kEarth, extents, 16);
+        const core::Geodetic middle{extents.latitude().middle(), extents.longitude().middle(), 0.0};
+        const glm::dvec3 origin = extents.isFullCircle() ? glm::dvec3(0.0) : kEarth.toEcef(middle);
+        const auto rounded = [](double value, double about) {
+            return about + static_cast<double>(static_cast<float>(value - about));
+        };
+        for (std::size_t i = 0; i < mesh.size(); ++i) {
+            mesh.x[i] = rounded(mesh.x[i], origin.x);
+            mesh.y[i] = rounded(mesh.y[i], origin.y);
+            mesh.z[i] = rounded(mesh.z[i], origin.z);
+        }
+        const core::MeshCover cover = core::MeshCover::of(kEarth, mesh);
+        EXPECT_TRUE(cover.isFilled) << extents.latitude().lower / kDegree << ' ' << extents.longitude().lower / kDegree;
+        expectSame(cover.place, extents);
+    }
+}
+
+TEST(MeshCover, IsThatOfAMap) {
+    core::EcefMesh mesh;
+    const core::Ellipsoid plane = core::Ellipsoid::plane();
+    for (int row = 0; row < 5; ++row) {
+        for (int column = 0; column < 5; ++column)
+            addVertex(mesh, {500000.0 + 250.0 * column, 4600000.0 + 250.0 * row, 30.0 * ((row * column) % 3)});
+    }
+    for (std::uint32_t row = 0; row < 4; ++row) {
+        for (std::uint32_t column = 0; column < 4; ++column) {
+            const std::uint32_t a = 5 * row + column;
+            for (const std::uint32_t corner : {a, a + 1, a + 6, a, a + 6, a + 5}) mesh.triangles.push_back(corner);
+        }
+    }
+    const core::MeshCover cover = core::MeshCover::of(plane, mesh);
+    EXPECT_TRUE(cover.isFilled);
+    EXPECT_NEAR(cover.place.longitude().width() * core::Ellipsoid::kMapUnitsInRadian, 1000.0, 1e-3);
+    for (std::size_t first = 0; first + 2 < mesh.triangles.size(); first += 3)
+        EXPECT_FALSE(core::MeshCover::of(plane, without(mesh, first)).isFilled);
+}
+
+// Triangles taken away, turned around, doubled, moved: whatever is left, it is filled only where it says so.
+TEST(MeshCover, HasAFrontFaceOnEachNormalOfAFilledPlace) {
+    Random random(6);
+    int filled = 0;
+    for (int trial = 0; trial < 1500; ++trial) {
+        const core::GeodeticBin& extents = kExtents[static_cast<std::size_t>(random.integer(0, 10))];
+        const auto cells = static_cast<std::uint32_t>(random.integer(8, 10));
+        core::EcefMesh mesh = gridMesh(random, kEarth, extents, cells);
+        if (random.chance(0.5)) mesh = withSkirts(kEarth, mesh, cells, random.logUniform(10.0, 20000.0));
+        for (int change = random.integer(0, 2); change > 0; --change) {
+            const auto last = static_cast<int>(mesh.triangles.size() / 3) - 1;
+            const auto first = static_cast<std::size_t>(3 * random.integer(0, last));
+            const auto corners = cornersAt(mesh, first);
+            switch (random.integer(0, 4)) {
+                case 0:
+                    mesh = without(mesh, first);
+                    break;
+                case 1:
+                    std::swap(mesh.triangles[first], mesh.triangles[first + 1]);
+                    break;
+                case 2:
+                    mesh.triangles.insert(mesh.triangles.end(), corners.begin(), corners.end());
+                    break;
+                case 3:
+                    mesh.triangles.insert(mesh.triangles.end(), {corners[1], corners[0], corners[2]});
+                    break;
+                default:
+                    moveVertex(mesh, corners[0], random.logUniform(1.0, 1e5) * random.direction());
+                    break;
+            }
+        }
+        const core::MeshCover cover = core::MeshCover::of(kEarth, mesh);
+        if (!cover.isFilled) continue;
+        ++filled;
+        for (int i = 0; i < 40; ++i) {
+            // chords along parallels bulge toward the pole
+            const double south = cover.place.latitude().lower, north = cover.place.latitude().upper;
+            const double cell = extents.longitude().width() / static_cast<double>(cells), bulge = 0.14 * cell * cell;
+            const double lower =
+                south <= -1.5707 ? south : south + (south > -1e-6 ? bulge : 0.0) + 1e-5 * (north - south);
+            const double upper =
+                north >= 1.5707 ? north : north - (north < 1e-6 ? bulge : 0.0) - 1e-5 * (north - south);
+            const core::Geodetic at{
+                random.uniform(lower, upper),
+                cover.place.longitude().lower + cover.place.longitude().width() * random.uniform(1e-5, 1.0 - 1e-5),
+                0.0};
+            EXPECT_GT(facesAt(mesh, at), 0) << trial << ' ' << at.latitude / kDegree << ' ' << at.longitude / kDegree;
+        }
+    }
+    EXPECT_GT(filled, 300);
+}
+
+}  // namespace
+
+}  // namespace osgAnalyticBin::test
