@@ -239,6 +239,7 @@ private:
                                   const core::HorizonEye* eye, const core::RegionalSight* sight,
                                   CullTraversal& traversal) const;
     [[nodiscard]] bool isHiddenFrom(const core::HorizonEye& eye) const;
+    [[nodiscard]] bool mayBeHidden(const osg::Node& node) const;
     [[nodiscard]] bool isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,
                                       core::PlaneMask undecided) const;
 

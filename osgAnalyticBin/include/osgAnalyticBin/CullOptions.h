@@ -117,6 +117,10 @@ struct CullOptions {
     /// value. The horizon is still used, but a value above zero keeps tiles from hiding the tiles behind them. Without
     /// a value, tiles with another technique are never culled, and shaders are assumed to move nothing.
     std::optional<double> techniqueMargin;
+    /// Whether all shaders (osg::Program) on the terrain and above it draw all of each triangle where its vertices are,
+    /// and nearer or farther as these are. Without this, terrain under a program hides nothing unless
+    /// setDrawsTriangles() was called for the program.
+    bool plainShaders = false;
     /// Whether an index is used, and made where there is none.
     IndexUse index = IndexUse::Auto;
 
@@ -136,9 +140,10 @@ struct CullOptions {
 };
 
 /// Parses "method=paper,growth=1.1", "horizon=-500", "horizon=off", "inheritviewpoint=on", "edges=off",
-/// "occlusion=on", "expiry=3", "skirts=all", "cluster=keep", "heights=-500..9000", "techniquemargin=50", "index=off";
-/// separated by commas or blanks; capital letters in a name do not matter; an empty text gives the default. Returns:
-/// nullopt when an item is unknown or malformed, with one line in `error` that names it and what is allowed.
+/// "occlusion=on", "expiry=3", "skirts=all", "cluster=keep", "heights=-500..9000", "techniquemargin=50",
+/// "shaders=plain", "index=off"; separated by commas or blanks; capital letters in a name do not matter; an empty text
+/// gives the default. Returns: nullopt when an item is unknown or malformed, with one line in `error` that names it and
+/// what is allowed.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<CullOptions> cullOptionsFromText(const std::string& text,
                                                                                    std::string& error);
 

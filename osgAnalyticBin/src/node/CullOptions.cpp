@@ -153,6 +153,10 @@ bool applyOcclusion(const std::string& value, CullOptions& options, std::string&
     return true;
 }
 
+bool applyShaders(const std::string& value, CullOptions& options, std::string& error) {
+    return applyChoice("shaders", value, "plain", "declared", options.plainShaders, error);
+}
+
 bool applyIndex(const std::string& value, CullOptions& options, std::string& error) {
     for (const auto& [use, name] : kIndexNames) {
         if (value != name) continue;
@@ -173,7 +177,7 @@ struct KnownItem {
     bool (*apply)(const std::string& value, CullOptions& options, std::string& error);
 };
 
-constexpr std::array<KnownItem, 12> kItems{{{"method", "NAME", applyMethod},
+constexpr std::array<KnownItem, 13> kItems{{{"method", "NAME", applyMethod},
                                             {"growth", "FACTOR", applyGrowth},
                                             {"horizon", "METRES|declared|off", applyHorizon},
                                             {"inheritviewpoint", "on|off", applyInheritViewpoint},
@@ -184,6 +188,7 @@ constexpr std::array<KnownItem, 12> kItems{{{"method", "NAME", applyMethod},
                                             {"cluster", "replace|keep", applyCluster},
                                             {"heights", "LOW..HIGH", applyHeights},
                                             {"techniquemargin", "METRES", applyTechniqueMargin},
+                                            {"shaders", "declared|plain", applyShaders},
                                             {"index", "auto|on|off", applyIndex}}};
 
 // The name that edges= had; it is read in stored scenes, too.
@@ -246,7 +251,8 @@ bool CullOptions::effectiveEdges() const noexcept {
 bool CullOptions::operator==(const CullOptions& other) const noexcept {
     const auto items = [](const CullOptions& o) {
         return std::tie(o.method, o.growth, o.horizonUse, o.horizon, o.inheritViewpoint, o.edges, o.occlusion, o.expiry,
-                        o.skirts, o.cluster, o.heights.lower, o.heights.upper, o.techniqueMargin, o.index);
+                        o.skirts, o.cluster, o.heights.lower, o.heights.upper, o.techniqueMargin, o.plainShaders,
+                        o.index);
     };
     return items(*this) == items(other);
 }
@@ -289,6 +295,7 @@ std::string toText(const CullOptions& options) {
         text += ",heights=" + numberToText(options.heights.lower) + ".." + numberToText(options.heights.upper);
     }
     if (options.techniqueMargin) text += ",techniquemargin=" + numberToText(*options.techniqueMargin);
+    if (options.plainShaders) text += ",shaders=plain";
     if (options.index != IndexUse::Auto) text += options.index == IndexUse::On ? ",index=on" : ",index=off";
     return text;
 }

@@ -7,6 +7,7 @@
 #include "../Spheres.h"
 #include "../install/InstalledTile.h"
 #include "BinCulling.h"
+#include "DrawnState.h"
 #include "Occluders.h"
 #include "TilePlan.h"
 
@@ -323,6 +324,7 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
         if (side == core::Side::Outside || (!prepared().horizon && !isInMap()))
             return verdict(side, planes, undecided, nullptr, nullptr, traversal);
         const DatabaseView* const view = viewOn(cullStack, traversal);
+        if (!mayBeHidden(node)) return verdict(side, planes, undecided, nullptr, nullptr, traversal);
         if (view && view->plan && view->plan->isOccluded(*this)) return Verdict{core::Side::Outside, Verdict::Terrain};
         const core::HorizonEye* const eye = view ? view->eye : eyeWithoutDatabase(cullStack, nv, traversal);
         return verdict(side, planes, undecided, eye, view ? view->sight : nullptr, traversal);
@@ -332,6 +334,12 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
                              return _frame ? test(ecefPlanes(frustum, _frame->fromEcef), undecided)
                                            : test(traversal.planes(cullStack), undecided);
                          });
+}
+
+// Whether it obeys depth, with all that is below it.
+bool AnalyticBinCullCallback::mayBeHidden(const osg::Node& node) const {
+    const bool obeys = !_installed || _installed->obeysDepth();
+    return obeys && drawnStateOf(node, {_setup->options.plainShaders, false, nullptr}).obeysDepth;
 }
 
 // A tile may have several parents, and transforms above it may have changed: the planes follow, the globe does not.

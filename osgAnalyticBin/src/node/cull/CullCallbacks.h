@@ -25,14 +25,18 @@ template <class Class, class Object>
 
 /// The cull callbacks of a node: the bin's, and whether others may leave out what is below them.
 struct CullCallbacks {
-    explicit CullCallbacks(const osg::Node& node) {
+    explicit CullCallbacks(const osg::Node& node) : CullCallbacks(node, [](const osg::Callback&) { return false; }) {}
+
+    /// `isHarmless`: knows more callbacks that leave nothing out.
+    template <class IsHarmless>
+    CullCallbacks(const osg::Node& node, const IsHarmless& isHarmless) {
         // A dynamic_cast across OSG's virtual bases would be most of the search's cost.
         for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
             if (!bin && isExactly<AnalyticBinCullCallback>(*at)) {
                 bin = static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback());
             } else if (isExactly<TileFamily>(*at)) {
                 family = static_cast<const TileFamily*>(at->asNodeCallback());
-            } else if (!isClusterCulling(*at) && !traversesAlways(*at)) {
+            } else if (!isClusterCulling(*at) && !isHarmless(*at) && !traversesAlways(*at)) {
                 mayLeaveOut = true;
             }
         }

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "GroundBelow.h"
+#include "DrawnState.h"
 #include "NearMeshes.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -52,6 +52,7 @@ struct DatabaseView {
     const osg::RefMatrix* projection;
     core::PlaneSet planes;
     TilePlan* plan;                              // nullptr: none was made
+    StateRules rules{};                          // what the database's states are judged by
     const core::RegionalSight* sight = nullptr;  // nullptr: the eye sees past no border of a region
 };
 
@@ -113,8 +114,6 @@ public:
     [[nodiscard]] bool isKept(const osg::Node& node) const { return _kept == &node; }
     [[nodiscard]] osg::CullingSet::Mask maskBelowKept() const { return _maskBelowKept; }
 
-    /// The ground that this visitor last found below its eye.
-    [[nodiscard]] GroundBelow& ground() { return _ground; }
     /// The meshes that it last read around its eye.
     [[nodiscard]] NearMeshes& nearMeshes() { return _nearMeshes; }
 
@@ -133,7 +132,6 @@ private:
     osg::CullingSet::Mask _maskBelowKept = 0;
     std::deque<TilePlan> _plans;  // of databases within each other
     std::size_t _openPlans = 0;
-    GroundBelow _ground;
     NearMeshes _nearMeshes;
 
     core::PlaneSet _planes;

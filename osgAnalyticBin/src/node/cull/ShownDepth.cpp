@@ -12,8 +12,9 @@
 #include "Bits.h"
 #include "CullCallbacks.h"
 #include "CullTraversal.h"
+#include "DrawnState.h"
+#include "GroundBelow.h"
 #include "Scoped.h"
-#include "SeeThrough.h"
 #include "TileFamily.h"
 #include "TilePlan.h"
 
@@ -129,7 +130,7 @@ private:
     // Tiles out of view whose column is the bin, and that are not about the eye.
     [[nodiscard]] std::uint64_t passedOverIn(const TileFamily::Verdicts& verdicts, const TileBlock::Part& part) const {
         if (_place && _place->altitude <= part.highest) return 0;
-        return verdicts.members & verdicts.outOfView() & ~part.withOwnColumns;
+        return verdicts.members & (verdicts.outOfView() | verdicts.beyond) & ~part.withOwnColumns;
     }
 
     void searchMember(osg::Node& node, const TileFamily& family, const TileFamily::Verdicts& verdicts,
@@ -139,7 +140,7 @@ private:
         const TileFamily::Member& member = family.member(slot);
         const TileBlock::Slot& numbers = block[slot];
         const bool isAboutEye = _place && _place->altitude <= numbers.binHigh && isAbout(*member.tile);
-        const bool isOutOfView = hasBit(verdicts.outOfView(), number);
+        const bool isOutOfView = hasBit(verdicts.outOfView() | verdicts.beyond, number);
         const bool mayBePassedOver = isOutOfView || !hasBit(verdicts.tested, number);
         if (mayBePassedOver && !isAboutEye) {
             const bool isBin = !hasBit(block.partFrom(slot).withOwnColumns, number);
@@ -227,10 +228,8 @@ private:
     }
 
     void searchTile(osg::Node& node, osg::PagedLOD* paged, const SearchedTile& tile, bool mayLeaveOut) {
-        const bool isSeenThrough =
-            tile.member ? tile.member->isSeeThrough
-                        : tile.callback.getInstalledTile() && tile.callback.getInstalledTile()->isSeeThrough();
-        if (_isDoubtful || isSeenThrough || !isSurelyDrawn(node, mayLeaveOut)) {
+        const InstalledTile* const installed = tile.callback.getInstalledTile();
+        if (_isDoubtful || (installed && installed->isSeeThrough()) || !isSurelyDrawn(node, mayLeaveOut)) {
             _hasHole = true;
         } else if (paged) {
             searchPaged(*paged, tile);
@@ -240,11 +239,11 @@ private:
     }
 
     [[nodiscard]] bool isSurelyDrawn(const osg::Node& node, bool mayLeaveOut) const {
-        const osg::StateSet* const state = node.getStateSet();
-        return _visitor.validNodeMask(node) && !mayLeaveOut && !(state && isPartSeeThrough(*state));
+        return _visitor.validNodeMask(node) && !mayLeaveOut && drawnStateOf(node, _database.view.rules).hides;
     }
 
-    // Whether all of a tile's own mesh is drawn. Its state was asked for when bins were installed.
+    // Whether all of a tile's own mesh is drawn. Classes and drawables' callbacks were asked for when bins were
+    // installed.
     [[nodiscard]] bool isDrawnWhole(const osg::Node& mesh, const SearchedTile& tile) const {
         const bool isKnown = tile.member && tile.member->meshParts.front() == &mesh;
         if (!isKnown) {
@@ -255,16 +254,16 @@ private:
         }
         const auto& parts = tile.member->meshParts;
         return std::all_of(parts.begin(), parts.end(), [this](const auto& part) {
-            return !part ||
-                   (_visitor.validNodeMask(*part) && !(part->getCullCallback() && CullCallbacks(*part).mayLeaveOut));
+            return !part || (isSurelyDrawn(*part, part->getCullCallback() && CullCallbacks(*part).mayLeaveOut) &&
+                             isDrawnByTechnique(*part));
         });
     }
 
     [[nodiscard]] bool isDrawnWhole(const osg::Node& part, bool& hasDrawable) const {
-        if (!_visitor.validNodeMask(part) || CullCallbacks(part).mayLeaveOut) return false;
+        if (!isSurelyDrawn(part, CullCallbacks(part).mayLeaveOut)) return false;
         const bool isTerrain = typeid(part) == typeid(osgTerrain::TerrainTile);
         hasDrawable = hasDrawable || isTerrain || part.asDrawable();
-        if (isTerrain) return true;
+        if (isTerrain) return isDrawnByTechnique(part);
         if (!drawsAllChildren(part)) return false;
         const osg::Group* const group = part.asGroup();
         for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
@@ -304,7 +303,9 @@ private:
             _nearGround.push_back({&tile.callback, &mesh});
         // tiles about the eye are searched even beside the frustum, for the ground alone
         if (tile.isAboutEye && isBeside(tile)) return;
-        if (!isDrawnWhole(mesh, tile)) _hasHole = true;
+        const InstalledTile* const installed = tile.callback.getInstalledTile();
+        // the application's own tiles are not counted in what covers the globe
+        if ((installed && !installed->isFilled()) || !isDrawnWhole(mesh, tile)) _hasHole = true;
         if (isLeftOutInView(tile, mesh)) _hasHole = true;
         if (_database.findsOccluded && _database.view.plan) {
             const bool isSure = !_isChoiceUnknown && tile.isFitted;
@@ -333,22 +334,41 @@ private:
             return !byDistance || (range >= node.getMinRange(i) && range < node.getMaxRange(i));
         };
         unsigned int due = 0;
-        for (unsigned int i = 0; i < node.getNumRanges(); ++i) due += isDue(i) ? 1U : 0U;
+        bool isOwnShown = false;  // whatever else is shown then adds to it, and need not cover anything
+        for (unsigned int i = 0; i < node.getNumRanges(); ++i) {
+            if (!isDue(i)) continue;
+            ++due;
+            isOwnShown = isOwnShown || (byDistance && i < children && !isPaged(node, i));
+        }
         bool isOneAwaited = !byDistance;
         for (unsigned int i = 0; i < node.getNumRanges(); ++i) {
             if (!isDue(i)) continue;
+            const bool hadHole = _hasHole;
             if (i < children) searchChild(node, i, tile, byDistance && due == 1);
+            if (isOwnShown && isPaged(node, i)) _hasHole = hadHole;
             isOneAwaited = isOneAwaited || i >= children;
         }
         // the last child stands in for one that is awaited
-        if (isOneAwaited && children > 0) searchChild(node, children - 1, tile, false);
+        if (isOneAwaited && children > 0 && !isOwnShown) searchChild(node, children - 1, tile, false);
         if (((byDistance && due == 0) || children == 0) && !isBeside(tile)) _hasHole = true;
     }
 
     void searchChild(osg::PagedLOD& node, unsigned int i, const SearchedTile& tile, bool isOnlyLevel) {
-        const bool isPaged = i < node.getNumFileNames() && !node.getFileName(i).empty();
-        if (!isPaged) return show(tile, *node.getChild(i), isOnlyLevel);
+        if (!isPaged(node, i)) return show(tile, *node.getChild(i), isOnlyLevel);
+        const InstalledTile* const installed = tile.callback.getInstalledTile();
+        if (installed && installed->hasGapBelow()) _hasHole = true;
         searchNode(*node.getChild(i));
+    }
+
+    [[nodiscard]] static bool isPaged(const osg::PagedLOD& node, unsigned int i) {
+        return i < node.getNumFileNames() && !node.getFileName(i).empty();
+    }
+
+    // Whether a node is no osgTerrain tile that has lost its technique.
+    [[nodiscard]] static bool isDrawnByTechnique(const osg::Node& node) {
+        if (typeid(node) != typeid(osgTerrain::TerrainTile)) return true;
+        const auto& tile = static_cast<const osgTerrain::TerrainTile&>(node);
+        return tile.getTerrainTechnique() || !hasBeenTraversed(tile);
     }
 
     const ShownDatabase& _database;
@@ -378,9 +398,7 @@ std::optional<core::Geodetic> placeOf(const Viewpoint& viewpoint, const core::El
 bool isTrusted(const ShownDatabase& database, const LowestShown& lowest, const std::optional<core::Geodetic>& place) {
     const std::vector<NearGround>& ground = lowest.nearGround();
     return !lowest.hasHole() && std::all_of(ground.begin(), ground.end(), [&](const NearGround& close) {
-        return CullTraversal::of(database.visitor)
-            .ground()
-            .isBelow(*place, *close.mesh, *close.tile, database.view.ellipsoid);
+        return isGroundBelow(*place, *close.mesh, *close.tile, database.view.ellipsoid);
     });
 }
 

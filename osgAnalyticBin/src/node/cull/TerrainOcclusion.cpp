@@ -7,7 +7,6 @@
 #include "../page/Database.h"
 #include "BinCulling.h"
 #include "CullTraversal.h"
-#include "SeeThrough.h"
 #include "TilePlan.h"
 
 #include <glm/geometric.hpp>
@@ -110,7 +109,7 @@ OccludedTiles noteIn(TilePlan& plan, const FoundOcclusion& found) {
         const TilePlan::ShownTile& tile = plan.shown()[i];
         if (found.findings[i] == FoundOcclusion::Finding::Beside || plan.isOutOfView(tile)) continue;
         ++tiles.inView;
-        if (!found.hides(i, tile)) continue;
+        if (!found.hides(i, tile) || !tile.tile->getInstalledTile()->obeysDepth()) continue;
         ++tiles.hidden;
         plan.addOccluded(tile);
     }
@@ -127,9 +126,8 @@ OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& 
     if (database.cullStack.getCurrentCullingSet().getCullingMask() & kNear) return {};
     const glm::dvec3& eye = *viewpoint.eye();
     if (database.region && !database.region->holdsSegmentsFrom(eye)) return {};
-    auto view = LevelView::of(database.cullStack, database.view.ellipsoid, eye);
+    const auto view = LevelView::of(database.cullStack, database.view.ellipsoid, eye);
     if (!view) return {};
-    view->depthStep /= depthRangeOfState(database.visitor);
     if (!kept) kept = std::make_shared<FoundOcclusion>();
     FoundOcclusion& found = *kept;
     const Ground ground = describe(database, found.shown);

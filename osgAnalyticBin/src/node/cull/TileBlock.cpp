@@ -16,6 +16,19 @@ const core::HorizonBin& neverHidden() {
 
 }  // namespace
 
+namespace {
+
+void setBit(std::atomic<std::uint64_t>& bits, std::size_t number, bool is) {
+    const std::uint64_t bit = std::uint64_t{1} << number;
+    if (is) {
+        bits.fetch_or(bit, std::memory_order_relaxed);
+    } else {
+        bits.fetch_and(~bit, std::memory_order_relaxed);
+    }
+}
+
+}  // namespace
+
 TileBlock::TileBlock(std::size_t slots) : _slots(slots) {
     for (std::size_t first = 0; first < slots; first += Part::kMost) {
         _parts.push_back(std::make_unique<Part>(std::min<std::size_t>(Part::kMost, slots - first)));
@@ -41,13 +54,11 @@ void TileBlock::set(std::size_t slot, const Slot& tile, const Bins& bins) {
 }
 
 void TileBlock::believe(std::size_t slot, bool is) {
-    std::atomic<std::uint64_t>& believed = _parts[slot / Part::kMost]->believed;
-    const std::uint64_t bit = std::uint64_t{1} << (slot % Part::kMost);
-    if (is) {
-        believed.fetch_or(bit, std::memory_order_relaxed);
-    } else {
-        believed.fetch_and(~bit, std::memory_order_relaxed);
-    }
+    setBit(_parts[slot / Part::kMost]->believed, slot % Part::kMost, is);
+}
+
+void TileBlock::allowHiding(std::size_t slot, bool is) {
+    setBit(_parts[slot / Part::kMost]->hideable, slot % Part::kMost, is);
 }
 
 }  // namespace osgAnalyticBin

@@ -20,7 +20,7 @@ namespace osgAnalyticBin {
 
 /// The numbers of sibling tiles that culling and the search for the lowest surface read, side by side in memory, so
 /// that nothing else of a tile out of view is read. Each child of the group has a slot. Frame: ECEF, metres. Threads:
-/// believe() at any time; set() where no cull traversal runs.
+/// believe() and allowHiding() at any time; set() where no cull traversal runs.
 class TileBlock final : public osg::Referenced {
 public:
     struct Slot {
@@ -51,6 +51,7 @@ public:
         core::BinFamily bins;
         std::uint64_t members = 0;               ///< slots of tiles
         std::atomic<std::uint64_t> believed{0};  ///< tiles that may be culled without their own callbacks being asked
+        std::atomic<std::uint64_t> hideable{0};  ///< tiles that may be hidden, by the horizon or behind terrain
         std::uint64_t withOwnColumns = 0;        ///< see Slot::hasOwnColumn
         std::uint64_t withSpheres = 0;           ///< see Slot::testsSphere
         double highest = -std::numeric_limits<double>::infinity();  ///< no binHigh is above
@@ -72,6 +73,8 @@ public:
 
     /// Says whether the tile of a slot may be culled without its own callback being asked.
     void believe(std::size_t slot, bool is);
+    /// Says whether the tile of a slot may be hidden. At any time.
+    void allowHiding(std::size_t slot, bool is);
 
     /// Whether the horizon hides the column of a tile that has its own.
     [[nodiscard]] bool isColumnHidden(std::size_t slot, const core::HorizonEye& eye) const {

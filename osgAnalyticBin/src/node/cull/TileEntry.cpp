@@ -9,6 +9,7 @@
 #include "BinCulling.h"
 #include "CullCallbacks.h"
 #include "CullTraversal.h"
+#include "DrawnState.h"
 #include "TileFamily.h"
 
 #include <osg/Geode>
@@ -33,11 +34,6 @@ constexpr unsigned int kLinesOfGroup = 4, kLinesOfTransform = 6, kLinesOfGeometr
 struct OpenGroup : public osg::Group {
     [[nodiscard]] static const void* childrenOf(const osg::Group& group) {
         return (group.*(&OpenGroup::_children)).data();
-    }
-};
-struct OpenTile : public osgTerrain::TerrainTile {
-    [[nodiscard]] static bool wasTraversed(const osgTerrain::TerrainTile& tile) {
-        return tile.*(&OpenTile::_hasBeenTraversal);
     }
 };
 struct OpenTechnique : public osgTerrain::GeometryTechnique {
@@ -134,7 +130,7 @@ public:
     // Returns: false where the tile has no mesh yet, or another than osgTerrain::GeometryTechnique makes.
     [[nodiscard]] bool draw(osgTerrain::TerrainTile& tile, Footprint::Notes& notes, bool mayBeSmall) {
         auto* const technique = tile.getTerrainTechnique();
-        if (!technique || technique->getTerrainTile() != &tile || !OpenTile::wasTraversed(tile) ||
+        if (!technique || technique->getTerrainTile() != &tile || !hasBeenTraversed(tile) ||
             !isExactly<osgTerrain::GeometryTechnique>(*technique))
             return false;
         const auto* const mesh = OpenTechnique::meshOf(static_cast<osgTerrain::GeometryTechnique&>(*technique));

@@ -7,10 +7,11 @@
 #include "../install/InstalledTile.h"
 #include "../install/TileCallback.h"
 #include "../page/Database.h"
+#include "../surface/TilePlates.h"
 #include "BinCulling.h"
 #include "Bits.h"
 #include "CullCallbacks.h"
-#include "SeeThrough.h"
+#include "DrawnState.h"
 #include "TilePlan.h"
 
 #include <osg/CoordinateSystemNode>
@@ -62,6 +63,19 @@ MeshParts meshPartsOf(osg::Node& tile) {
     return parts;
 }
 
+// Of a mesh that has changed.
+void renewEvidence(osg::Node& mesh, const AnalyticBinCullCallback& tile, InstalledTile& installed) {
+    const osg::ref_ptr<osg::Node> kept(&mesh);
+    const TerrainShape shape = tile.getTerrainShape().value_or(TerrainShape());
+    core::MeshCover cover = coverOf({{kept}, *installed.database().ellipsoid(), tile.getLocalToEcef(), shape});
+    if (!isSamePlace(cover.place, installed.place())) cover.isFilled = false;
+    cover.place = installed.place();
+    installed.setCover(cover);
+    const DrawnState drawn = drawnStateBelow(mesh, {tile.getCullOptions().plainShaders, false, nullptr});
+    if (!drawn.hides) installed.setSeeThrough();
+    if (!drawn.obeysDepth) installed.ignoreDepth();
+}
+
 }  // namespace
 
 TileFamily::TileFamily(const TileFamily& other, const osg::CopyOp& copyop)
@@ -81,11 +95,12 @@ TileFamily::TileFamily(osg::Group& group)
     for (unsigned int i = 0; i < group.getNumChildren(); ++i) _hasTiles = add(*group.getChild(i), i) || _hasTiles;
 }
 
-void TileFamily::place(osg::Node& node) {
+bool TileFamily::place(osg::Node& node) {
     remove(node);
-    if (!isPossibleOn(node)) return;
+    if (!isPossibleOn(node)) return false;
     const osg::ref_ptr<TileFamily> family = new TileFamily(*node.asGroup());
     if (family->_hasTiles) node.addCullCallback(family);
+    return family->_hasTiles;
 }
 
 void TileFamily::remove(osg::Node& node) {
@@ -115,6 +130,7 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
         _ellipsoid = tile->ellipsoid();
         _shape = tile->_setup->shape;
         _testsEdges = tile->_testsEdges;
+        _trustsShaders = tile->_setup->options.plainShaders;
     }
     const bool isSame =
         *_ellipsoid == tile->ellipsoid() && _testsEdges == tile->_testsEdges && _shape == tile->_setup->shape;
@@ -122,11 +138,14 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
     _nodes[slot] = &child;
     _block->addMember(slot);
     const MeshParts parts = meshPartsOf(child);
-    _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), tile->getInstalledTile()->isSeeThrough(), parts,
-                      TileEntry(child, parts)};
+    _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), parts, TileEntry(child, parts)};
     tile->getInstalledTile()->joinFamily(*_block, slot);
     // osgUtil::Optimizer may have changed the form of the mesh: the new form is as good
-    if (_members[slot].meshParts.front()) tile->getInstalledTile()->trustMesh();
+    InstalledTile& installed = *tile->getInstalledTile();
+    if (_members[slot].meshParts.front()) {
+        if (installed.isMeshDoubted()) renewEvidence(*_members[slot].meshParts.front(), *tile, installed);
+        installed.trustMesh();
+    }
     tile->fillSlot();
     return true;
 }
@@ -175,13 +194,14 @@ bool TileFamily::enterFamilyOf(osg::Node& node, osgUtil::CullVisitor& visitor, C
 void TileFamily::test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes,
                       core::PlaneMask undecided, const core::HorizonEye* eye, CullTraversal& traversal,
                       Verdicts& verdicts) const {
-    verdicts.members = verdicts.tested = verdicts.hidden = verdicts.separated = verdicts.occluded = 0;
+    verdicts.beyond = verdicts.members = verdicts.tested = verdicts.hidden = verdicts.separated = verdicts.occluded = 0;
     verdicts.lacksTiles = false;
     if (first >= _block->size()) return;
     const TileBlock::Part& part = _block->partFrom(first);
     part.bins.classify(planes, undecided, verdicts.planes);
     verdicts.tested = part.bins.filled();
-    if (eye) verdicts.hidden = part.bins.hiddenFrom(*eye, verdicts.tested & ~verdicts.planes.outside);
+    verdicts.beyond = eye ? part.bins.hiddenFrom(*eye, verdicts.tested & ~verdicts.planes.outside) : 0;
+    verdicts.hidden = hideable(first, verdicts.beyond & part.hideable);
     const std::size_t end =
         std::min<std::size_t>({first + TileBlock::Part::kMost, group.getNumChildren(), _nodes.size()});
     for (std::size_t i = first; i < end; ++i) {
@@ -196,6 +216,17 @@ void TileFamily::test(const osg::Group& group, unsigned int first, const core::P
 void TileFamily::fetchKept(unsigned int first, const Verdicts& verdicts) const {
     forEachBit(verdicts.members & ~verdicts.outOfView(),
                [&](unsigned int number) { _members[first + number].entry.fetch(); });
+}
+
+// A state that the application has set since then is asked for.
+std::uint64_t TileFamily::hideable(unsigned int first, std::uint64_t tiles) const {
+    std::uint64_t hideable = tiles;
+    forEachBit(tiles, [&](unsigned int number) {
+        const osg::Node* const node = _nodes[first + number];
+        if (node && !drawnStateOf(*node, {_trustsShaders, false, nullptr}).obeysDepth)
+            hideable &= ~(std::uint64_t{1} << number);
+    });
+    return hideable;
 }
 
 void TileFamily::findSeparated(unsigned int first, std::uint64_t candidates, const core::PlaneSet& planes,

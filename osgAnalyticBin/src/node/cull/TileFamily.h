@@ -43,8 +43,8 @@ public:
     [[nodiscard]] static bool isPossibleOn(const osg::Node& node);
 
     /// Replaces the node's family, if any, by a new one behind the node's other callbacks. Only removes it if a family
-    /// is not possible or no child is a tile with a bin in the group's own frame, ECEF.
-    static void place(osg::Node& node);
+    /// is not possible or no child is a tile with a bin in the group's own frame, ECEF. Returns: whether there is one.
+    static bool place(osg::Node& node);
 
     /// Removes the family.
     static void remove(osg::Node& node);
@@ -61,7 +61,6 @@ public:
     struct Member {
         osg::ref_ptr<const AnalyticBinCullCallback> tile;
         osg::PagedLOD* paged = nullptr;  ///< the node, if it is one
-        bool isSeeThrough = false;
         MeshParts meshParts;
         TileEntry entry;
     };
@@ -73,7 +72,8 @@ public:
         core::FamilyVerdict planes;
         std::uint64_t members = 0;    ///< the family's tiles; other children are left to their callbacks
         std::uint64_t tested = 0;     ///< slots with a bin
-        std::uint64_t hidden = 0;     ///< behind the horizon
+        std::uint64_t beyond = 0;     ///< behind the horizon
+        std::uint64_t hidden = 0;     ///< of these, those that obey depth
         std::uint64_t separated = 0;  ///< proven outside by an edge of the frustum
         std::uint64_t occluded = 0;   ///< behind terrain
         bool lacksTiles = false;      ///< a tile was removed: the terrain may have a hole
@@ -120,6 +120,8 @@ private:
     [[nodiscard]] bool add(osg::Node& child, std::size_t slot);
     void lookUp(const osg::Group& group, unsigned int first, core::PlaneMask undecided, const DatabaseView& view,
                 CullTraversal& traversal, Verdicts& verdicts) const;
+    // Of these tiles, those that may be hidden now.
+    [[nodiscard]] std::uint64_t hideable(unsigned int first, std::uint64_t tiles) const;
     void findSeparated(unsigned int first, std::uint64_t candidates, const core::PlaneSet& planes,
                        CullTraversal& traversal, Verdicts& verdicts) const;
     [[nodiscard]] std::uint64_t culled(unsigned int first, const Verdicts& verdicts, const osg::NodeVisitor& nv,
@@ -141,6 +143,7 @@ private:
     std::optional<core::Ellipsoid> _ellipsoid;
     std::optional<TerrainShape> _shape;
     bool _testsEdges = false;
+    bool _trustsShaders = false;
 };
 
 }  // namespace osgAnalyticBin

@@ -4,7 +4,6 @@
 #include "BinInstaller.h"
 
 #include "../cull/Scoped.h"
-#include "../cull/SeeThrough.h"
 #include "../cull/TileFamily.h"
 #include "../page/BinReadFileCallback.h"
 #include "../page/Database.h"
@@ -91,8 +90,8 @@ void BinInstaller::continueBelow(Database* database, const TileFrame& frame, con
     _database = database;
     _index = database->index();
     _parent = parent;
-    if (!parent) return;
-    (*_coverage)[frame.file].expect(Coverage::areaOf(parent->extents));
+    if (!parent || !parent->isTile) return;
+    (*_coverage)[frame.file].expect(*parent);
     (*_coverage)[frame.file].setVisited();
 }
 
@@ -124,7 +123,11 @@ void BinInstaller::finish(osg::Node* content) {
 
 // Called after the walk: families that are placed during it would need more stack in deep scenes.
 void BinInstaller::placeFamilies() {
-    for (osg::Node* const group : _groups) TileFamily::place(*group);
+    for (osg::Node* const group : _groups) {
+        const bool hasTiles = TileFamily::place(*group);
+        // it notices where the application takes the watch of a tile away
+        if (hasTiles && !ContentWatch::isOn(*group)) ContentWatch::place(*group, {});
+    }
     _groups.clear();
 }
 
@@ -247,6 +250,20 @@ void BinInstaller::visitOther(osg::Node& node) {
     }
     TileFamily::remove(node);
     if (installsBins() && TileFamily::isPossibleOn(node)) _groups.emplace_back(&node);
+    if (isUnruly(node)) return visitUnruly(node);
+    visitWithoutBin(node, false);
+}
+
+// The root of the database is asked in every cull traversal.
+bool BinInstaller::isUnruly(const osg::Node& node) const {
+    const bool isRoot = !_parent && dynamic_cast<const osg::CoordinateSystemNode*>(&node);
+    return installsBins() && !isRoot && !_isInMesh && !drawnStateAt(node, stateRules()).obeysDepth;
+}
+
+// By itself, to leave stack for scenes that are nested deep.
+void BinInstaller::visitUnruly(osg::Node& node) {
+    noteIgnoresDepth();
+    const Scoped unruly(_isBelowUnruly, true);
     visitWithoutBin(node, false);
 }
 
@@ -259,8 +276,20 @@ void BinInstaller::visitWithoutBin(osg::Node& node, bool isTile) {
     } else if (!_isInMesh) {
         resumeClusterCullingOf(node);
     }
+    // a tile's own meshes are not visited
+    if (isTile && installsBins() && !drawnStateOfTile(node).obeysDepth) noteIgnoresDepth();
     const Scoped selective(_isBelowSelection, _isBelowSelection || (!isTile && !drawsAllChildren(node)));
     traverseBelow(node);
+}
+
+DrawnState BinInstaller::drawnStateOfTile(osg::Node& node) const {
+    DrawnState drawn = drawnStateAt(node, stateRules());
+    const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&node);
+    for (unsigned int i = 0; paged && i < paged->getNumChildren(); ++i) {
+        const bool isPaged = i < paged->getNumFileNames() && !paged->getFileName(i).empty();
+        if (!isPaged) drawn &= drawnStateBelow(*node.asGroup()->getChild(i), stateRules());
+    }
+    return drawn;
 }
 
 // It keeps OSG's own culling; how deep it lies is not known.
@@ -300,6 +329,11 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
         for (const auto& mesh : tile.meshes) suspendClusterCulling(*mesh);
     }
     link->callback = callback.get();
+    noteDrawn(tile, *callback->getInstalledTile());
+    const core::MeshCover cover = coverBy(tile, database(), shape, *link);
+    link->place = cover.place;
+    callback->getInstalledTile()->setCover(cover);
+    if (!cover.isFilled) database().noteHole(tile.frame.file);
     if (fit.awaitsIndex && database().adoption().isAwaited()) {
         callback->getInstalledTile()->keep(*link);
         _awaiting.push_back({link.get(), tileFingerprint(tile), fit.ownSkirt, !tile.pagedFiles.empty()});
@@ -335,11 +369,21 @@ osg::ref_ptr<const ParentTile> BinInstaller::linkBetween() const {
 void BinInstaller::noteCovered(const FoundTile& tile, const TileFit& fit, const ParentTile& link) {
     Coverage& coverage = (*_coverage)[tile.frame.file];
     coverage.setVisited();
-    if (!_isBelowSelection && !_isInMesh) {
-        coverage.add(link.extents);
-        if (coverage.isOfGlobe() && fit.isInPlace) coverage.addMesh(finderOfFilled(tile, fit, link));
-    }
-    for (const std::string& file : tile.pagedFiles) (*_coverage)[file].expect(Coverage::areaOf(link.extents));
+    if (!_isBelowSelection && !_isInMesh) coverage.add(link.place, fit.isInPlace);
+    for (const std::string& file : tile.pagedFiles) (*_coverage)[file].expect(link);
+}
+
+void BinInstaller::noteDrawn(const FoundTile& tile, InstalledTile& installed) {
+    DrawnState drawn = drawnStateOf(*tile.node, stateRules());
+    for (const auto& mesh : tile.meshes) drawn &= drawnStateBelow(*mesh, stateRules());
+    if (!drawn.hides) installed.setSeeThrough();
+    if (drawn.obeysDepth && !_isBelowUnruly) return;
+    installed.ignoreDepth();
+    noteIgnoresDepth();
+}
+
+void BinInstaller::noteIgnoresDepth() {
+    if (_parent) Database::noteIgnoresDepth(*_parent);
 }
 
 void BinInstaller::visitChildren(const FoundTile& tile, const ParentTile& link) {

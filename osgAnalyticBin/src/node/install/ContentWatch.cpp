@@ -6,6 +6,7 @@
 #include "../../core/EarthScale.h"
 #include "../GlmBridge.h"
 #include "../Spheres.h"
+#include "../cull/DrawnState.h"
 #include "../page/Database.h"
 #include "../page/DatabaseCallbacks.h"
 #include "../surface/TerrainTileSurface.h"
@@ -155,6 +156,7 @@ public:
     void fitInto(const AnalyticBinCullCallback& callback) {
         InstalledTile* const tile = callback.getInstalledTile();
         if (!tile || !callback.getBin().valid()) return;
+        if (!obeysDepth(callback)) tile->ignoreDepth();
         const bool isOther = !isOfSameShape(callback.getTerrainShape());
         const osg::EllipsoidModel& model = *tile->database().ellipsoid();
         const AnalyticBin about = binAbout(movedSphere(_sphere, callback.getLocalToEcef()), toCore(model));
@@ -175,6 +177,12 @@ private:
         TerrainShape whole;
         whole.verticalScale = shape->verticalScale;
         return *shape == whole;
+    }
+
+    [[nodiscard]] bool obeysDepth(const AnalyticBinCullCallback& tile) {
+        const StateRules rules{tile.getCullOptions().plainShaders, false, nullptr};
+        if (!_obeysDepth) _obeysDepth = drawnStateBelow(_node, rules).obeysDepth;
+        return *_obeysDepth;
     }
 
     // A fitted mesh may have another form by now, as after osgUtil::Optimizer: it is recognised by its posts.
@@ -198,6 +206,7 @@ private:
     bool _isMerged;
     osg::Matrixd _toHere;
     std::optional<AnalyticBin> _surface;
+    std::optional<bool> _obeysDepth;
 };
 
 // Looks whether all tiles from the node upwards hold what stands among the node's children.
@@ -231,6 +240,14 @@ void doubtMeshOf(const osg::Node& node, bool isMoved) {
     // the update traversal must not touch what is not merged into the scene yet
     if (!isBelowDatabase(*culled)) return;
     for (osg::Group* const parent : culled->getParents()) tile->database().noteChanged(*parent);
+}
+
+// The application has replaced the watch of a tile: the next update places it anew.
+void keepUnwatchedVisible(const osg::Node& node) {
+    const AnalyticBinCullCallback* const tile = installedBinOf(node);
+    if (!tile || watchOf(node)) return;
+    tile->getInstalledTile()->keepVisible(true);
+    if (isBelowDatabase(node)) tile->getInstalledTile()->database().requestRefit();
 }
 
 bool isAbsolute(const osg::Node& node) {
@@ -276,6 +293,10 @@ void ContentWatch::remove(osg::Node& node) {
     if (const ContentWatch* const watch = watchOf(node)) {
         node.setComputeBoundingSphereCallback(osg::ref_ptr(watch->_previous).get());
     }
+}
+
+bool ContentWatch::isOn(const osg::Node& node) {
+    return watchOf(node) != nullptr;
 }
 
 void ContentWatch::look() const {
@@ -342,6 +363,7 @@ void ContentWatch::check(const osg::Node& node) const {
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
         const osg::BoundingSphere& sphere = child.getBound();  // has others look at what is below it, too
+        keepUnwatchedVisible(child);
         if (const ContentWatch* const watch = ownWatchOf(child)) {
             if (watch->_isPending) watch->check(child);
             _isPending = _isPending || watch->_isPending;

@@ -32,6 +32,8 @@ public:
         /// that the node's bin was fitted to.
         static void place(osg::Node& node, const std::vector<osg::ref_ptr<osg::Node>>& fitted);
 
+    /// Whether the node has a watch.
+    [[nodiscard]] static bool isOn(const osg::Node& node);
     /// Removes the watch.
     static void remove(osg::Node& node);
 

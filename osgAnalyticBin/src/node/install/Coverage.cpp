@@ -3,6 +3,8 @@
 
 #include "Coverage.h"
 
+#include "../page/Database.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +13,8 @@ namespace osgAnalyticBin {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+
+using Places = std::vector<core::GeodeticBin>;
 
 // The length that intervals cover together.
 double lengthOf(std::vector<core::Interval>& intervals) {
@@ -25,63 +29,94 @@ double lengthOf(std::vector<core::Interval>& intervals) {
     return length;
 }
 
-}  // namespace
-
-double Coverage::areaOf(const core::GeodeticBin& extents) {
-    return extents.empty() ? 0.0 : extents.latitude().width() * extents.longitude().width();
+// Square radians on the map of latitudes and longitudes, not on the globe.
+double areaOf(const core::GeodeticBin& place) {
+    return place.latitude().width() * place.longitude().width();
 }
 
-void Coverage::expectGlobe() {
-    _expected = 2.0 * kPi * kPi;
-    _isOfGlobe = true;
-    setVisited();
-}
-
-void Coverage::add(const core::GeodeticBin& tile) {
-    if (tile.empty()) return;
-    _smallest = std::min(_smallest, areaOf(tile));
-    _tallest = std::max(_tallest, tile.latitude().width());
-    _widest = std::max(_widest, tile.longitude().width());
-    const double width = std::min(tile.longitude().width(), 2.0 * kPi);
-    const double west = std::remainder(tile.longitude().lower, 2.0 * kPi);
-    const double east = west + width;
-    _tiles.emplace_back(tile.latitude(), core::Interval{west, std::min(east, kPi)}, tile.altitude());
-    if (east > kPi) _tiles.emplace_back(tile.latitude(), core::Interval{-kPi, east - 2.0 * kPi}, tile.altitude());
-}
-
-// Strip by strip from the south, between the latitudes at which tiles begin or end.
-double Coverage::area() const {
+// What places cover together, strip by strip from the south, between the latitudes at which one begins or ends.
+double areaOf(const Places& places) {
     std::vector<double> latitudes;
-    for (const core::GeodeticBin& tile : _tiles) {
-        latitudes.insert(latitudes.end(), {tile.latitude().lower, tile.latitude().upper});
-    }
+    for (const core::GeodeticBin& place : places)
+        latitudes.insert(latitudes.end(), {place.latitude().lower, place.latitude().upper});
     std::sort(latitudes.begin(), latitudes.end());
     double area = 0.0;
     std::vector<core::Interval> longitudes;
     for (std::size_t i = 0; i + 1 < latitudes.size(); ++i) {
-        const double south = latitudes[i];
-        const double north = latitudes[i + 1];
+        const double south = latitudes[i], north = latitudes[i + 1];
         if (!(south < north)) continue;
         longitudes.clear();
-        for (const core::GeodeticBin& tile : _tiles) {
-            const bool isInStrip = tile.latitude().lower <= south && tile.latitude().upper >= north;
-            if (isInStrip) longitudes.push_back(tile.longitude());
+        for (const core::GeodeticBin& place : places) {
+            const bool isInStrip = place.latitude().lower <= south && place.latitude().upper >= north;
+            if (isInStrip) longitudes.push_back(place.longitude());
         }
         area += (north - south) * lengthOf(longitudes);
     }
     return area;
 }
 
+// Adds a place that may run across the date line.
+void addTo(Places& places, const core::Interval& latitude, const core::Interval& longitude) {
+    if (!(latitude.width() > 0.0) || !(longitude.width() > 0.0)) return;
+    const double width = std::min(longitude.width(), 2.0 * kPi);
+    const double west = std::remainder(longitude.lower, 2.0 * kPi), east = west + width;
+    places.emplace_back(latitude, core::Interval{west, std::min(east, kPi)}, core::Interval{0.0, 0.0});
+    if (east > kPi) places.emplace_back(latitude, core::Interval{-kPi, east - 2.0 * kPi}, core::Interval{0.0, 0.0});
+}
+
+}  // namespace
+
+void Coverage::expect(const ParentTile& tile) {
+    _tile = &tile;
+    _expected = tile.place;
+}
+
+const ParentTile* Coverage::tile() const {
+    return _tile.get();
+}
+
+void Coverage::expectGlobe() {
+    _expected = {{-0.5 * kPi, 0.5 * kPi}, {-kPi, kPi}, {0.0, 0.0}};
+    _isOfGlobe = true;
+    setVisited();
+}
+
+void Coverage::add(const core::GeodeticBin& place, bool isExact) {
+    if (place.empty()) return;
+    _isExact = _isExact && isExact;
+    _tallest = std::max(_tallest, place.latitude().width());
+    _widest = std::max(_widest, place.longitude().width());
+    constexpr double kSeam = 2e-6;  // of a tile: vertices of neighbours are rounded apart
+    const double up = kSeam * place.latitude().width(), aside = kSeam * place.longitude().width();
+    addTo(_places, {place.latitude().lower - up, place.latitude().upper + up},
+          {place.longitude().lower - aside, place.longitude().upper + aside});
+}
+
 bool Coverage::hasGap() const {
-    if (!_isVisited || !(_expected > 0.0)) return false;
-    return _expected - area() >= 0.5 * std::min(_smallest, _expected);
+    if (!_isVisited || (!_isOfGlobe && !_tile)) return false;
+    return _expected.empty() || !covers(_expected);
+}
+
+bool Coverage::covers(const core::GeodeticBin& place) const {
+    constexpr double kRounding = 1e-9;
+    Places within;
+    const auto common = [](const core::Interval& a, const core::Interval& b) {
+        return core::Interval{std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
+    };
+    for (const core::GeodeticBin& tile : _places) {
+        for (const double turn : {-2.0 * kPi, 0.0, 2.0 * kPi}) {
+            const core::Interval turned{tile.longitude().lower + turn, tile.longitude().upper + turn};
+            addTo(within, common(tile.latitude(), place.latitude()), common(turned, place.longitude()));
+        }
+    }
+    return areaOf(place) - areaOf(within) <= kRounding * areaOf(place);
 }
 
 // From the first to the last tile eastward, beginning after the widest strip of longitudes without tiles.
 core::GeodeticBin Coverage::extents() const {
     std::vector<core::Interval> longitudes;
     core::Interval latitude{kPi, -kPi};
-    for (const core::GeodeticBin& tile : _tiles) {
+    for (const core::GeodeticBin& tile : _places) {
         longitudes.push_back(tile.longitude());
         latitude = {std::min(latitude.lower, tile.latitude().lower), std::max(latitude.upper, tile.latitude().upper)};
     }
@@ -100,53 +135,22 @@ core::GeodeticBin Coverage::extents() const {
     return {latitude, {widest.upper, widest.lower + 2.0 * kPi}, {0.0, 0.0}};
 }
 
-bool Coverage::reachesPoles() const {
-    constexpr double kNearPole = 1e-5;  // radians
-    const core::Interval latitude = extents().latitude();
-    return latitude.lower <= kNearPole - 0.5 * kPi && latitude.upper >= 0.5 * kPi - kNearPole;
-}
-
 core::GeodeticBin Coverage::region() const {
     constexpr double kBorder = 1.0 / 32.0;
-    constexpr double kSeam = 2e-6;  // of a tile: vertices of neighbours are rounded apart
-    constexpr double kRounding = 1e-9;
-    Coverage filled;
-    for (const FindFilled& findFilled : _meshes) {
-        const core::GeodeticBin mesh = findFilled();
-        if (mesh.empty()) return {};
-        const auto [south, north] = mesh.latitude();
-        const auto [west, east] = mesh.longitude();
-        const double up = kSeam * (north - south), aside = kSeam * (east - west);
-        filled.add({{south - up, north + up}, {west - aside, east + aside}, mesh.altitude()});
-    }
-    const core::GeodeticBin all = filled.extents();
-    if (all.empty()) return {};
+    const core::GeodeticBin all = extents();
+    if (all.empty() || !_isExact) return {};
     // the edge of a mesh along a parallel is made of chords
-    const double sag = filled._widest < 0.9 * kPi ? 0.55 * (1.0 / std::cos(0.5 * filled._widest) - 1.0) : kPi;
-    const double margin = std::max(kBorder * filled._tallest, sag);
+    const double sag = _widest < 0.9 * kPi ? 0.55 * (1.0 / std::cos(0.5 * _widest) - 1.0) : kPi;
+    const double margin = std::max(kBorder * _tallest, sag);
     const auto [west, east] = all.longitude();
     const bool isFullCircle = all.isFullCircle();
-    const double aside = isFullCircle ? 0.0 : kBorder * filled._widest;
+    const double aside = isFullCircle ? 0.0 : kBorder * _widest;
     const auto inside = [&](double latitude, double inward) {
         return isFullCircle && std::abs(latitude) >= 0.5 * kPi ? latitude : latitude + inward;
     };
     const core::GeodeticBin region({inside(all.latitude().lower, margin), inside(all.latitude().upper, -margin)},
                                    {west + aside, east - aside}, {0.0, 0.0});
-    return areaOf(region) - filled.areaWithin(region) <= kRounding * areaOf(region) ? region : core::GeodeticBin();
-}
-
-double Coverage::areaWithin(const core::GeodeticBin& region) const {
-    Coverage within;
-    const auto common = [](const core::Interval& a, const core::Interval& b) {
-        return core::Interval{std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
-    };
-    for (const core::GeodeticBin& tile : _tiles) {
-        for (const double turn : {-2.0 * kPi, 0.0, 2.0 * kPi}) {
-            const core::Interval turned{tile.longitude().lower + turn, tile.longitude().upper + turn};
-            within.add({common(tile.latitude(), region.latitude()), common(turned, region.longitude()), {0.0, 0.0}});
-        }
-    }
-    return within.area();
+    return !region.empty() && covers(region) ? region : core::GeodeticBin();
 }
 
 }  // namespace osgAnalyticBin

@@ -5,57 +5,47 @@
 
 #include <osgAnalyticBin/core/GeodeticBin.h>
 
-#include <functional>
-#include <utility>
+#include <osg/ref_ptr>
+
 #include <vector>
 
 namespace osgAnalyticBin {
 
-/// What the tiles of one file cover of what they are paged below, in latitude and longitude. Areas are in square
-/// radians of the map of both, not of the globe.
+struct ParentTile;
+
+/// What the tiles of one file cover of what they are paged below. A tile stands for the place of its mesh; whether the
+/// mesh fills it is asked of each tile that is shown.
 class Coverage {
 public:
-    /// The area of a rectangle.
-    [[nodiscard]] static double areaOf(const core::GeodeticBin& extents);
-
-    /// What the tiles have to cover; 0: not known.
-    void expect(double area) { _expected = area; }
+    /// For a file that is paged below a tile.
+    void expect(const ParentTile& tile);
     /// Marks the file as the root file, which is loaded.
     void expectGlobe();
     [[nodiscard]] bool isOfGlobe() const { return _isOfGlobe; }
-    [[nodiscard]] bool hasTiles() const { return !_tiles.empty(); }
+    /// The tile that pages the file; null: none.
+    [[nodiscard]] const ParentTile* tile() const;
+    [[nodiscard]] bool hasTiles() const { return !_places.empty(); }
     /// Marks the file as loaded.
     void setVisited() { _isVisited = true; }
-    void add(const core::GeodeticBin& tile);
-
-    /// Whether the tiles of a loaded file leave out half a tile or more. Overlaps count once: coarse tiles run over
-    /// their lines.
+    /// Adds the place of a tile. `isExact`: false where another technique may draw less of it at its borders.
+    void add(const core::GeodeticBin& place, bool isExact);
+    /// Whether the tiles of a loaded file leave out a part of what they are paged below, or of the globe. True in
+    /// doubt.
     [[nodiscard]] bool hasGap() const;
-
-    /// Adds the rectangle that the mesh of a tile of the root file fills, found when it is asked for; empty: none is
-    /// known.
-    using FindFilled = std::function<core::GeodeticBin()>;
-    void addMesh(FindFilled findFilled) { _meshes.push_back(std::move(findFilled)); }
-
-    /// Whether tiles reach both poles.
-    [[nodiscard]] bool reachesPoles() const;
-
-    /// What the meshes of the root file fill together without any gap, less a border of a 32nd of a tile, because edges
-    /// of meshes are made of chords. Between two latitudes and two longitudes; empty: they fill no such rectangle.
+    /// What the tiles of the root file cover together without any gap, less a border of a 32nd of a tile, because edges
+    /// of meshes are made of chords. Between two latitudes and two longitudes; empty: they cover no such rectangle.
     /// Source: doc/theory/horizon.md, section 10.
     [[nodiscard]] core::GeodeticBin region() const;
 
 private:
-    [[nodiscard]] double area() const;
-    [[nodiscard]] double areaWithin(const core::GeodeticBin& region) const;
+    [[nodiscard]] bool covers(const core::GeodeticBin& place) const;
     [[nodiscard]] core::GeodeticBin extents() const;
 
-    std::vector<core::GeodeticBin> _tiles;  // none crosses the date line
-    std::vector<FindFilled> _meshes;
-    double _tallest = 0.0, _widest = 0.0;  // radians of latitude and longitude
-    double _smallest = 1e9;
-    double _expected = 0.0;
-    bool _isVisited = false, _isOfGlobe = false;
+    std::vector<core::GeodeticBin> _places;  // none crosses the date line; grown by the seams between neighbours
+    double _tallest = 0.0, _widest = 0.0;    // radians of latitude and longitude
+    core::GeodeticBin _expected;             // empty: not known
+    osg::ref_ptr<const ParentTile> _tile;
+    bool _isVisited = false, _isOfGlobe = false, _isExact = true;
 };
 
 }  // namespace osgAnalyticBin

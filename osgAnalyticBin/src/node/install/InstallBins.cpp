@@ -83,6 +83,7 @@ void BinInstaller::visitSet(osg::Group& set) {
 void BinInstaller::visitMoving(osg::Transform& node) {
     if (isPhotogrammetrySet(node)) return visitSet(node);
     removeCallbacksBelow(node, _nested);
+    if (installsBins() && !drawnStateBelow(node, stateRules()).obeysDepth) noteIgnoresDepth();
     if (installsBins() && hasTileBelow(node)) database().noteStrayTile(frame().file);
 }
 

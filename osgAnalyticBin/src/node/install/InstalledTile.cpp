@@ -29,7 +29,18 @@ void InstalledTile::doubtMesh(bool isMoved) {
     if (isMoved) _isMoved.store(true, std::memory_order_relaxed);
     _isMeshDoubted.store(true, std::memory_order_relaxed);
     _isMeshChanged.store(true, std::memory_order_relaxed);
+    _isFilled.store(false, std::memory_order_relaxed);
     tellFamily();
+}
+
+void InstalledTile::ignoreDepth() {
+    _ignoresDepth.store(true, std::memory_order_relaxed);
+    tellFamily();
+}
+
+void InstalledTile::setCover(const core::MeshCover& cover) {
+    _place = cover.place;
+    _isFilled.store(cover.isFilled, std::memory_order_relaxed);
 }
 
 void InstalledTile::trustMesh() {
@@ -38,7 +49,9 @@ void InstalledTile::trustMesh() {
 }
 
 void InstalledTile::tellFamily() {
-    if (_block) _block->believe(_slot, _isSlotFilled && !isKeptVisible() && !isMeshDoubted());
+    if (!_block) return;
+    _block->believe(_slot, _isSlotFilled && !isKeptVisible() && !isMeshDoubted());
+    _block->allowHiding(_slot, obeysDepth());
 }
 
 void InstalledTile::joinFamily(TileBlock& block, std::size_t slot) {

@@ -5,6 +5,7 @@
 
 #include "../cull/TileBlock.h"
 
+#include <osgAnalyticBin/core/mesh/MeshCover.h>
 #include <osgAnalyticBin/core/occlusion/GroundPlates.h>
 
 #include <osg/Node>
@@ -66,10 +67,23 @@ public:
     /// Until the slot is filled again, the tile is tested by its own callback.
     void emptySlot();
 
-    /// Call when the tile draws something see-through. At any time.
+    /// Call when the tile draws something that is not known to hide what is behind it. At any time.
     void setSeeThrough() { _isSeeThrough.store(true, std::memory_order_relaxed); }
     /// Whether the horizon must not rely on the tile: it can be seen through, or its place may be empty.
     [[nodiscard]] bool isSeeThrough() const { return _isSeeThrough.load(std::memory_order_relaxed) || isMoved(); }
+    /// Call when the tile, or something below it, may be drawn in front of what is nearer: nothing hides the tile from
+    /// then on. At any time.
+    void ignoreDepth();
+    [[nodiscard]] bool obeysDepth() const { return !_ignoresDepth.load(std::memory_order_relaxed); }
+    /// What the tile's own mesh covers. It holds until the mesh changes.
+    void setCover(const core::MeshCover& cover);
+    /// Where the tile belongs: the rectangle of its mesh when it was installed.
+    [[nodiscard]] const core::GeodeticBin& place() const { return _place; }
+    /// Whether the mesh is known to fill its place.
+    [[nodiscard]] bool isFilled() const { return _isFilled.load(std::memory_order_relaxed); }
+    /// Call when the tiles of a file that is paged below are not known to fill the place. At any time.
+    void noteGapBelow() { _hasGapBelow.store(true, std::memory_order_relaxed); }
+    [[nodiscard]] bool hasGapBelow() const { return _hasGapBelow.load(std::memory_order_relaxed); }
     /// Whether the mesh has moved since bins were installed.
     [[nodiscard]] bool isMoved() const { return _isMoved.load(std::memory_order_relaxed); }
 
@@ -111,6 +125,10 @@ private:
     bool _isSlotFilled = false;
     bool _testsSphere = false;
     std::atomic<bool> _isSeeThrough{false};
+    std::atomic<bool> _ignoresDepth{false};
+    std::atomic<bool> _isFilled{false};
+    std::atomic<bool> _hasGapBelow{false};
+    core::GeodeticBin _place;
     std::atomic<bool> _isMoved{false};
     osg::ref_ptr<const osg::Referenced> _kept;
 };

@@ -3,8 +3,6 @@
 
 #include "MeshCulling.h"
 
-#include "../cull/SeeThrough.h"
-
 #include <osg/ClusterCullingCallback>
 #include <osg/Drawable>
 #include <osg/NodeVisitor>
@@ -76,28 +74,11 @@ std::vector<osg::ref_ptr<osg::Callback>> cullCallbacks(osg::Node& node) {
     return callbacks;
 }
 
-// Whether what the drawable draws, if anything, may not be its vertices.
-bool hasDoubtfulCallback(osg::Node& node) {
-    osg::Drawable* const drawable = node.asDrawable();
-    return drawable && (drawable->getDrawCallback() || drawable->getUpdateCallback() || drawable->getEventCallback());
-}
-
 }  // namespace
 
 void forEachNode(osg::Node& root, std::function<void(osg::Node&)> action) {
     ForEachNode visitor(std::move(action));
     root.accept(visitor);
-}
-
-bool isSeeThroughMesh(osg::Node& mesh) {
-    bool isFound = false;
-    forEachNode(mesh, [&isFound](osg::Node& node) {
-        const osg::StateSet* const state = node.getStateSet();
-        const auto* const terrain = dynamic_cast<osgTerrain::TerrainTile*>(&node);
-        isFound = isFound || hasDoubtfulCallback(node) || (state && isPartSeeThrough(*state)) ||
-                  (terrain && isSeeThrough(*terrain));
-    });
-    return isFound;
 }
 
 // Clones share user data with their original: what is noted of one node is not to be noted of the other.

@@ -15,9 +15,6 @@ namespace osgAnalyticBin {
 /// Visits all nodes of a mesh, but nothing below osgTerrain tiles, the same way every time.
 void forEachNode(osg::Node& root, std::function<void(osg::Node&)> action);
 
-/// Whether a state in the mesh makes the terrain see-through: isPartSeeThrough(). Callbacks of drawables that draw, or
-/// that may change what is drawn, count as well.
-[[nodiscard]] bool isSeeThroughMesh(osg::Node& mesh);
 
 /// Gives a node that shares its user data a copy of its own.
 void ownValues(osg::Node& node);

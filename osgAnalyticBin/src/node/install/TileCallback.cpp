@@ -104,9 +104,6 @@ void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCall
     // In front: what is nested runs when the tile is kept.
     callback.setNestedCallback(culled.getCullCallback());
     culled.setCullCallback(&callback);
-    for (const auto& mesh : tile.meshes) {
-        if (isSeeThroughMesh(*mesh)) installed->setSeeThrough();
-    }
     if (&culled != tile.node) ContentWatch::place(culled, {});
     ContentWatch::place(*tile.node, tile.meshes);
 }

@@ -313,6 +313,11 @@ bool leavesHeights(const AnalyticBin& surface, const Database& database) {
     return altitude.upper > heights.upper || altitude.lower + surface.sag() < heights.lower;
 }
 
+// Who declares a horizon says that the tiles of the globe have no holes.
+bool isVouchedFor(const CullOptions& options, const osg::EllipsoidModel& ellipsoid) {
+    return options.effectiveHorizonUse() == HorizonUse::Given && !isMapPlane(ellipsoid);
+}
+
 }  // namespace
 
 TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
@@ -333,6 +338,15 @@ TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& s
     }
     fit.awaitsIndex = fit.awaitsIndex && fit.isTerrain && !shape.areBoundariesEqual;
     return fit;
+}
+
+core::MeshCover coverBy(const FoundTile& tile, const Database& database, const TerrainShape& shape,
+                        const ParentTile& link) {
+    const CullOptions options = database.options();
+    const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database.ellipsoid();
+    if (isVouchedFor(options, ellipsoid)) return {link.extents, true};
+    if (options.effectiveHorizonUse() == HorizonUse::Off && options.occlusion == OcclusionUse::Off) return {};
+    return coverOf({tile.meshes, ellipsoid, tile.frame.localToEcef, shape});
 }
 
 IndexedFit fitByEntry(const BinIndex::Entry& entry, bool isWhole, double ownSkirt, const Database& database,
@@ -363,17 +377,6 @@ bool isSmallPart(const FoundTile& tile) {
     const osg::Group* above = groupAbove(node);
     while (above && typeid(*above) == typeid(osg::Group)) above = groupAbove(*above);
     return above && above->asTransform() && node.getBound().radius() < kLargest * above->getBound().radius();
-}
-
-std::function<core::GeodeticBin()> finderOfFilled(const FoundTile& tile, const TileFit& fit, const ParentTile& link) {
-    const osg::ref_ptr<const osg::EllipsoidModel> ellipsoid =
-        tile.frame.ellipsoid ? tile.frame.ellipsoid.get() : link.database->ellipsoid();
-    // osgTerrain makes grids of the whole rectangle
-    const bool isGrid = fit.isScalable && !link.stored.valid();
-    const core::GeodeticBin grid = isGrid ? fit.surface.bin() : core::GeodeticBin();
-    return [tile, ellipsoid, grid] {
-        return grid.empty() ? rectangleFilledBy({tile.meshes, *ellipsoid, tile.frame.localToEcef, {}}) : grid;
-    };
 }
 
 }  // namespace osgAnalyticBin

@@ -7,8 +7,7 @@
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/TileFinder.h>
-
-#include <functional>
+#include <osgAnalyticBin/core/mesh/MeshCover.h>
 
 namespace osgAnalyticBin {
 
@@ -40,6 +39,11 @@ struct TileFit {
 /// Source: doc/theory/tiles.md, sections 2 and 4.
 [[nodiscard]] TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link);
 
+/// What a tile's own meshes cover: as its bin says where the database's horizon is given; nothing where neither the
+/// horizon nor occlusion is used. `link`: as fitTile() has left it.
+[[nodiscard]] core::MeshCover coverBy(const FoundTile& tile, const Database& database, const TerrainShape& shape,
+                                      const ParentTile& link);
+
 /// What a tile is culled by that an index knows.
 struct IndexedFit {
     AnalyticBin bin;     ///< not valid: never
@@ -54,10 +58,5 @@ struct IndexedFit {
 /// Whether a leaf is a small part of a transform that is no tile itself, because something in it moves: a house or a
 /// tree beside the ground. A bin of its own would cost more than it saves.
 [[nodiscard]] bool isSmallPart(const FoundTile& tile);
-
-/// Finds the rectangle that the tile's own surface fills without holes, whatever its bin holds beside it: empty where
-/// that is not known. Cost of a call: a fraction of a millisecond.
-[[nodiscard]] std::function<core::GeodeticBin()> finderOfFilled(const FoundTile& tile, const TileFit& fit,
-                                                                const ParentTile& link);
 
 }  // namespace osgAnalyticBin

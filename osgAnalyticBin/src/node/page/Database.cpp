@@ -26,8 +26,12 @@ constexpr std::size_t kMostToWiden = 65536;
 
 using Contents = std::vector<osg::observer_ptr<osg::Node>>;
 
+std::string fileName(const std::string& file) {
+    return file.empty() ? "the root file" : '"' + file + '"';
+}
+
 std::string nameOf(const ParentTile& tile) {
-    return tile.file.empty() ? "the root file" : '"' + tile.file + '"';
+    return fileName(tile.file);
 }
 
 // Forgets what is in the scene or deleted. Returns: whether some of it is in the scene.
@@ -156,18 +160,37 @@ void Database::noteGap(const std::string& where) {
                  << std::endl;
         return;
     }
-    OSG_NOTICE
-        << "osgAnalyticBin: the tiles of \"" << where
-        << "\" leave gaps: they cover neither the tile that they are paged below nor a rectangle of latitude and "
-           "longitude. The horizon is not used."
-        << std::endl;
+    OSG_NOTICE << "osgAnalyticBin: the tiles of " << fileName(where)
+               << " leave gaps: their meshes cover neither the globe nor a rectangle of latitude and longitude. The "
+                  "horizon is not used."
+               << std::endl;
+}
+
+void Database::noteHole(const std::string& where) {
+    if (_hasHole.exchange(true, std::memory_order_relaxed)) return;
+    OSG_NOTICE << "osgAnalyticBin: in " << fileName(where)
+               << " a mesh has a hole, or it is not known whether it covers all of its tile. The horizon is not used "
+                  "while such tiles are in view."
+               << std::endl;
+}
+
+void Database::noteIgnoresDepth(const ParentTile& tile) {
+    for (const ParentTile* at = &tile; at; at = at->parent.get()) {
+        osg::ref_ptr<AnalyticBinCullCallback> callback;
+        if (at->callback.lock(callback) && callback->getInstalledTile()) callback->getInstalledTile()->ignoreDepth();
+    }
 }
 
 void Database::noteCoverage(const std::string& file, const Coverage& coverage) {
-    const bool hasGap = coverage.hasGap() || (coverage.isOfGlobe() && coverage.hasTiles() && !coverage.reachesPoles());
-    const core::GeodeticBin region = hasGap && coverage.isOfGlobe() ? coverage.region() : core::GeodeticBin();
+    const bool hasGap = coverage.hasGap();
+    if (!coverage.isOfGlobe()) {
+        osg::ref_ptr<AnalyticBinCullCallback> tile;
+        if (hasGap && coverage.tile()->callback.lock(tile) && tile->getInstalledTile())
+            tile->getInstalledTile()->noteGapBelow();
+        return;
+    }
+    const core::GeodeticBin region = hasGap ? coverage.region() : core::GeodeticBin();
     if (hasGap && region.empty()) noteGap(file);
-    if (!coverage.isOfGlobe()) return;
     const std::lock_guard<std::mutex> lock(_mutex);
     _region.reset();
     if (!region.empty()) _region.emplace(toCore(*ellipsoid()), region);

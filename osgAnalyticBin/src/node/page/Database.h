@@ -119,13 +119,19 @@ public:
     void noteGap(const std::string& where);
     [[nodiscard]] bool hasGap() const { return _hasGap.load(std::memory_order_relaxed); }
 
+    /// Call when the mesh of a tile is not known to fill its place. Tells the user once. The horizon is off while the
+    /// tile is in view.
+    void noteHole(const std::string& where);
+    /// Records that something below a tile may be drawn in front of what is nearer: neither the tile nor its ancestors
+    /// are hidden.
+    static void noteIgnoresDepth(const ParentTile& tile);
     /// Records a tile that is drawn in several places or that moves. Such a tile has no bin, and does not count as an
     /// occluder: if there is a gap as well, the horizon is off, even if its altitude was given.
     void noteStrayTile(const std::string& where);
     [[nodiscard]] bool hasStrayTile() const { return _hasStrayTile.load(std::memory_order_relaxed); }
 
-    /// Records what the tiles of a file cover. A file with gaps counts as noteGap(), except for a root file that covers
-    /// a region.
+    /// Records what the tiles of a file cover. Gaps in the root file count as noteGap(), unless it covers a region;
+    /// those in a paged file are noted with the tile that pages it.
     void noteCoverage(const std::string& file, const Coverage& coverage);
 
     /// The region that a regional database covers. Returns: nullopt if it covers the globe or has a gap.
@@ -204,6 +210,7 @@ private:
     std::atomic<Ground> _ground{Ground::Open};
     std::atomic<bool> _isRemoved{false};
     std::atomic<bool> _hasGap{false};
+    std::atomic<bool> _hasHole{false};
     std::atomic<bool> _hasStrayTile{false};
     std::atomic<bool> _hasMovedTile{false};
     std::atomic<bool> _hasUnknownTechnique{false};
@@ -233,6 +240,7 @@ struct ParentTile : public osg::Referenced {
     std::size_t ordinal = 0;
     bool hasNewContent = false;  // since bins were last installed on it
     core::GeodeticBin extents;
+    core::GeodeticBin place;  // that its own mesh has; empty: not known
     core::TileEdges edges;
     // The tile's stored bin, or that of the nearest ancestor with one. Invalid: there is none.
     AnalyticBin stored;

@@ -5,8 +5,9 @@
 
 #include "../GlmBridge.h"
 #include "../cull/BinCulling.h"
+#include "../cull/CullCallbacks.h"
 #include "../cull/CullTraversal.h"
-#include "../cull/SeeThrough.h"
+#include "../cull/DrawnState.h"
 #include "../cull/ShownDepth.h"
 #include "../cull/TerrainOcclusion.h"
 #include "../cull/TilePlan.h"
@@ -66,6 +67,16 @@ Horizon over(const std::optional<core::CoveredRegion>& region, const std::option
     return sight ? Horizon{eye, sight} : Horizon();
 }
 
+// Whether a callback of the application's at the database's root or above may leave tiles out, or have them drawn
+// otherwise; or the root's class may.
+bool isAltered(const osg::NodePath& path) {
+    const auto isOurs = [](const osg::Callback& callback) { return isExactly<DatabaseCullCallback>(callback); };
+    return path.empty() || !drawsAllChildren(*path.back()) ||
+           std::any_of(path.begin(), path.end(), [&](const osg::Node* node) {
+               return node->getCullCallback() && CullCallbacks(*node, isOurs).mayLeaveOut;
+           });
+}
+
 Horizon horizonOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack, Database& database,
                     const CullOptions& options, const DatabaseView& view) {
     const HorizonUse horizonUse = options.effectiveHorizonUse();
@@ -80,7 +91,8 @@ Horizon horizonOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cull
     // where other tiles cover the globe, stray ones hide nothing that these do not
     const bool isPartial = database.hasGap() || region;
     const bool isRelyingOnStrays = isPartial && database.hasStrayTile();
-    if (!isUsed || isRelyingOnStrays || isStateSeeThrough(nv)) return {};
+    if (!isUsed || isRelyingOnStrays || isAltered(nv.getNodePath()) || !drawnStateAbove(nv, view.rules).hides)
+        return {};
     const auto viewpoint = Viewpoint::of(cullStack, nv, options.inheritViewpoint);
     if (!viewpoint) return {};
     const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
@@ -149,7 +161,8 @@ void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
                       cullStack->getModelViewMatrix(),
                       cullStack->getProjectionMatrix(),
                       traversal.planes(*cullStack),
-                      &traversal.plan()};
+                      &traversal.plan(),
+                      StateRules::of(*nv, options.plainShaders)};
     view.plan->clear();
     const Horizon horizon = horizonOver(*group, *nv, *cullStack, *_database, options, view);
     if (horizon.eye) view.eye = &*horizon.eye;

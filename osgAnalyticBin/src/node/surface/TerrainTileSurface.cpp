@@ -182,6 +182,20 @@ TileSurface terrainTileSurface(osgTerrain::TerrainTile& tile, const osg::Ellipso
     return surface;
 }
 
+std::optional<core::GeodeticBin> terrainExtents(osgTerrain::TerrainTile& tile, const osg::EllipsoidModel& ellipsoid) {
+    const std::optional<core::GeodeticGrid> grid = gridOf(tile, ellipsoid);
+    osgTerrain::Layer* const layer = tile.getElevationLayer();
+    const bool isBroken = layer && !heightField(tile) && dynamic_cast<osgTerrain::HeightFieldLayer*>(layer);
+    if (!grid || isBroken || !isOnTheGlobe(*grid)) return std::nullopt;
+    for (unsigned int row = 0; layer && layer->getValidDataOperator() && row < layer->getNumRows(); ++row) {
+        for (unsigned int column = 0; column < layer->getNumColumns(); ++column) {
+            float height = 0.0f;
+            if (!layer->getValidValue(column, row, height)) return std::nullopt;
+        }
+    }
+    return core::GeodeticBin(grid->latitude, grid->longitude, {0.0, 0.0});
+}
+
 std::optional<TerrainPosts> terrainPosts(osgTerrain::TerrainTile& tile, const osg::EllipsoidModel& ellipsoid,
                                          const TerrainShape& shape) {
     if (shape.techniqueMargin != 0.0 || shape.areBoundariesEqual || shape.sampleRatio != 1.0) return std::nullopt;

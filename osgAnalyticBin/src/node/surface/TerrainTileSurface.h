@@ -34,6 +34,11 @@ struct TerrainPosts {
 [[nodiscard]] std::optional<TerrainPosts> terrainPosts(osgTerrain::TerrainTile& tile,
                                                        const osg::EllipsoidModel& ellipsoid, const TerrainShape& shape);
 
+/// The rectangle that a tile whose frame is ECEF fills by any technique that draws all of it. Returns: nullopt where
+/// the tile has posts that are not valid, or stands elsewhere.
+[[nodiscard]] std::optional<core::GeodeticBin> terrainExtents(osgTerrain::TerrainTile& tile,
+                                                              const osg::EllipsoidModel& ellipsoid);
+
 /// The locator by which GeometryTechnique places the tile's vertices. Returns: nullptr when there is none.
 [[nodiscard]] const osgTerrain::Locator* masterLocator(osgTerrain::TerrainTile& tile);
 

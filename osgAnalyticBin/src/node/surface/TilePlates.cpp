@@ -27,13 +27,20 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// The graphics driver chooses the diagonals of polygons.
-bool isOfTriangles(const osg::Drawable& drawable) {
+// What a mesh is read for.
+enum class Reading {
+    Triangles,       // all of them, skirts included
+    WithoutSkirts,   // with skirts folded up
+    WithAnyDiagonal  // the graphics driver chooses the diagonals of quads
+};
+
+bool isReadable(const osg::Drawable& drawable, Reading reading) {
     const osg::Geometry* const geometry = drawable.asGeometry();
     if (!geometry) return false;
     const osg::Geometry::PrimitiveSetList& sets = geometry->getPrimitiveSetList();
-    return std::none_of(sets.begin(), sets.end(), [](const osg::ref_ptr<osg::PrimitiveSet>& set) {
-        return set->getMode() == GL_QUADS || set->getMode() == GL_QUAD_STRIP || set->getMode() == GL_POLYGON;
+    return std::none_of(sets.begin(), sets.end(), [reading](const osg::ref_ptr<osg::PrimitiveSet>& set) {
+        const bool isOfQuads = set->getMode() == GL_QUADS || set->getMode() == GL_QUAD_STRIP;
+        return set->getMode() == GL_POLYGON || (isOfQuads && reading != Reading::WithAnyDiagonal);
     });
 }
 
@@ -49,16 +56,22 @@ bool hasFoldedSurface(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& 
     return false;
 }
 
+// Half a unit in the last place, in three directions.
+constexpr double kFloatRounding = 1.1e-7;
+
 // Puts the meshes of all parts of a tile together. An osgTerrain tile has to be the only part.
 class MeshUnion final : public SurfaceWalk {
 public:
-    MeshUnion(const TileMeshes& meshes, const core::Ellipsoid* withoutSkirts, core::EcefMesh& mesh)
-        : SurfaceWalk(meshes.localToEcef), _meshes(meshes), _withoutSkirts(withoutSkirts), _mesh(mesh) {
-        meshes.nodes.front()->accept(*this);
+    MeshUnion(const TileMeshes& meshes, osg::Node& node, const core::Ellipsoid& globe, Reading reading,
+              core::EcefMesh& mesh)
+        : SurfaceWalk(meshes.localToEcef), _meshes(meshes), _globe(globe), _reading(reading), _mesh(mesh) {
+        node.accept(*this);
         if (_posts && !_mesh.triangles.empty()) giveUp();
     }
 
     [[nodiscard]] bool isMesh() const { return isKnown() && !_mesh.triangles.empty(); }
+    // By how much float vertices are rounded.
+    [[nodiscard]] double rounding() const { return kFloatRounding * _farthest; }
     // How far from its place the mesh may be drawn.
     [[nodiscard]] double drawingError(const core::Ellipsoid& globe) const {
         return globe.isPlane() ? drawingErrorInMap(_farthest) : osgAnalyticBin::drawingError(globe);
@@ -78,10 +91,10 @@ private:
     void visit(osg::Drawable& drawable) override {
         thread_local PerThread<SurfaceMesh> kept;  // keeps its memory from tile to tile
         SurfaceMesh& part = *kept;
-        if (!isOfTriangles(drawable) || !readMesh(drawable, localToEcef(), part)) return giveUp();
+        if (!isReadable(drawable, _reading) || !readMesh(drawable, localToEcef(), part)) return giveUp();
         if (part.triangles.empty()) return;
-        if (_withoutSkirts) {
-            const MeshSkirts skirts = foldSkirts(part, *_withoutSkirts);
+        if (_reading == Reading::WithoutSkirts) {
+            const MeshSkirts skirts = foldSkirts(part, _globe);
             if (hasFoldedSurface(part, skirts.marks)) return giveUp();
             _skirt = std::max(_skirt, skirts.depth);
         }
@@ -97,7 +110,8 @@ private:
     }
 
     const TileMeshes& _meshes;
-    const core::Ellipsoid* const _withoutSkirts;
+    const core::Ellipsoid& _globe;
+    const Reading _reading;
     core::EcefMesh& _mesh;
     std::optional<TerrainPosts> _posts;
     double _farthest = 0.0;  // of a vertex from the origin of its frame
@@ -128,45 +142,74 @@ void appendTriangles(const TerrainPosts& posts, const core::Ellipsoid& ellipsoid
     }
 }
 
-struct PlatesAndExtents {
-    std::unique_ptr<const core::GroundPlates> plates;
-    core::GeodeticBin extents;
-};
+bool hasGround(const TileMeshes& meshes) {
+    return hasValidRadii(meshes.ellipsoid) || isMapPlane(meshes.ellipsoid);
+}
 
-PlatesAndExtents platesAndExtents(const TileMeshes& meshes) {
-    const bool hasGround = hasValidRadii(meshes.ellipsoid) || isMapPlane(meshes.ellipsoid);
-    if (meshes.nodes.size() != 1 || !hasGround) return {};
+core::MeshCover coverOf(const TileMeshes& meshes, osg::Node& node) {
+    if (auto* const terrain = dynamic_cast<osgTerrain::TerrainTile*>(&node)) {
+        const bool isInFrame = meshes.localToEcef.isIdentity();
+        const auto extents = isInFrame ? terrainExtents(*terrain, meshes.ellipsoid) : std::nullopt;
+        return extents ? core::MeshCover{*extents, meshes.shape.isKnown()} : core::MeshCover();
+    }
     const core::Ellipsoid globe = toCore(meshes.ellipsoid);
     core::EcefMesh mesh;
-    const MeshUnion parts(meshes, &globe, mesh);
-    const double error = parts.drawingError(globe);
-    if (const TerrainPosts* const posts = parts.posts()) {
-        return {std::make_unique<const core::GroundPlates>(globe, posts->grid, posts->altitudes, posts->margin + error,
-                                                           posts->skirt),
-                {posts->grid.latitude, posts->grid.longitude, {0.0, 0.0}}};
-    }
-    if (!parts.isMesh()) return {};
-    const core::MeshBounds bounds(globe, mesh);
-    if (bounds.bin().empty() || bounds.touchesAxis()) return {};
-    return {std::make_unique<const core::GroundPlates>(globe, mesh, bounds.bin(), error, parts.skirt()), bounds.bin()};
+    const MeshUnion parts(meshes, node, globe, Reading::WithAnyDiagonal, mesh);
+    return parts.isMesh() ? core::MeshCover::of(globe, mesh, parts.rounding()) : core::MeshCover();
+}
+
+bool isNear(double a, double b, const core::Interval& of) {
+    return std::abs(a - b) <= 4.0 * core::MeshCover::kTolerance * of.width();
 }
 
 }  // namespace
 
 std::unique_ptr<const core::GroundPlates> tilePlates(const TileMeshes& meshes) {
-    auto [plates, extents] = platesAndExtents(meshes);
+    if (meshes.nodes.size() != 1 || !hasGround(meshes)) return nullptr;
+    const core::Ellipsoid globe = toCore(meshes.ellipsoid);
+    core::EcefMesh mesh;
+    const MeshUnion parts(meshes, *meshes.nodes.front(), globe, Reading::WithoutSkirts, mesh);
+    const double error = parts.drawingError(globe);
+    std::unique_ptr<const core::GroundPlates> plates;
+    if (const TerrainPosts* const posts = parts.posts()) {
+        plates = std::make_unique<const core::GroundPlates>(globe, posts->grid, posts->altitudes, posts->margin + error,
+                                                            posts->skirt);
+    } else if (parts.isMesh()) {
+        const core::MeshBounds bounds(globe, mesh);
+        if (bounds.bin().empty() || bounds.touchesAxis()) return nullptr;
+        plates = std::make_unique<const core::GroundPlates>(globe, mesh, bounds.bin(), error, parts.skirt());
+    }
     return plates && plates->isKnown() ? std::move(plates) : nullptr;
 }
 
-core::GeodeticBin rectangleFilledBy(const TileMeshes& meshes) {
-    const auto [plates, extents] = platesAndExtents(meshes);
-    return plates && std::isfinite(plates->least(1, 0, 0)) ? extents : core::GeodeticBin();
+core::MeshCover coverOf(const TileMeshes& meshes) {
+    core::MeshCover cover;
+    if (!hasGround(meshes)) return cover;
+    for (const osg::ref_ptr<osg::Node>& node : meshes.nodes) {
+        const core::MeshCover own = coverOf(meshes, *node);
+        const bool isFilled =
+            own.isFilled && (cover.place.empty() || (cover.isFilled && isSamePlace(cover.place, own.place)));
+        cover = {own.place, isFilled};
+        if (!isFilled) break;
+    }
+    return cover;
+}
+
+bool isSamePlace(const core::GeodeticBin& a, const core::GeodeticBin& b) {
+    if (a.empty() || b.empty()) return false;
+    const double turn = std::remainder(a.longitude().lower - b.longitude().lower, 2.0 * osg::PI);
+    const bool isTurned =
+        a.isFullCircle() || std::abs(turn) <= 4.0 * core::MeshCover::kTolerance * b.longitude().width();
+    return isTurned && isNear(a.longitude().width(), b.longitude().width(), b.longitude()) &&
+           isNear(a.latitude().lower, b.latitude().lower, b.latitude()) &&
+           isNear(a.latitude().upper, b.latitude().upper, b.latitude());
 }
 
 bool readTileMesh(const TileMeshes& meshes, core::EcefMesh& mesh) {
     if (meshes.nodes.size() != 1) return false;
-    const MeshUnion parts(meshes, nullptr, mesh);
-    if (const TerrainPosts* const posts = parts.posts()) appendTriangles(*posts, toCore(meshes.ellipsoid), mesh);
+    const core::Ellipsoid globe = toCore(meshes.ellipsoid);
+    const MeshUnion parts(meshes, *meshes.nodes.front(), globe, Reading::Triangles, mesh);
+    if (const TerrainPosts* const posts = parts.posts()) appendTriangles(*posts, globe, mesh);
     return parts.posts() || parts.isMesh();
 }
 

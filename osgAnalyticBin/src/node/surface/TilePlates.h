@@ -5,6 +5,7 @@
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/core/mesh/MeshCover.h>
 #include <osgAnalyticBin/core/occlusion/GroundPlates.h>
 
 #include <osg/CoordinateSystemNode>
@@ -30,8 +31,11 @@ struct TileMeshes {
 /// ten microseconds.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::unique_ptr<const core::GroundPlates> tilePlates(const TileMeshes& meshes);
 
-/// The rectangle that such meshes fill without holes, up to half a rim of a plate on each side; empty: not known.
-[[nodiscard]] core::GeodeticBin rectangleFilledBy(const TileMeshes& meshes);
+/// What a tile's own meshes cover, skirts left out. Several levels of detail have to fill the same place each. Of
+/// osgTerrain tiles: the whole grid, by any technique that is vouched for.
+[[nodiscard]] core::MeshCover coverOf(const TileMeshes& meshes);
+/// Whether two places are the same, up to the rounding of float vertices.
+[[nodiscard]] bool isSamePlace(const core::GeodeticBin& a, const core::GeodeticBin& b);
 
 /// Reads all triangles of a tile's only mesh, skirts included, into an empty mesh; of osgTerrain tiles those with
 /// either diagonal, and no skirts. Returns: false where they are not known, as above.

@@ -1,0 +1,375 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "DrawnState.h"
+
+#include "../install/MeshCulling.h"
+#include "../install/TileCallback.h"
+#include "CullCallbacks.h"
+
+#include <osgAnalyticBin/InstallBins.h>
+
+#include <osg/AlphaFunc>
+#include <osg/Billboard>
+#include <osg/BlendColor>
+#include <osg/BlendEquation>
+#include <osg/BlendFunc>
+#include <osg/ClampColor>
+#include <osg/ClipPlane>
+#include <osg/ColorMask>
+#include <osg/CoordinateSystemNode>
+#include <osg/CullFace>
+#include <osg/Depth>
+#include <osg/Fog>
+#include <osg/FrontFace>
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/Hint>
+#include <osg/Image>
+#include <osg/LOD>
+#include <osg/Light>
+#include <osg/LightModel>
+#include <osg/LineStipple>
+#include <osg/LineWidth>
+#include <osg/LogicOp>
+#include <osg/Material>
+#include <osg/MatrixTransform>
+#include <osg/Multisample>
+#include <osg/PagedLOD>
+#include <osg/Point>
+#include <osg/PolygonMode>
+#include <osg/PolygonStipple>
+#include <osg/PositionAttitudeTransform>
+#include <osg/Program>
+#include <osg/Scissor>
+#include <osg/Sequence>
+#include <osg/ShadeModel>
+#include <osg/ShapeDrawable>
+#include <osg/Switch>
+#include <osg/TexEnv>
+#include <osg/TexEnvCombine>
+#include <osg/TexEnvFilter>
+#include <osg/TexGen>
+#include <osg/TexMat>
+#include <osg/Texture1D>
+#include <osg/Texture2D>
+#include <osg/Texture2DArray>
+#include <osg/Texture3D>
+#include <osg/TextureCubeMap>
+#include <osg/TextureRectangle>
+#include <osg/UserDataContainer>
+#include <osg/ValueObject>
+#include <osgTerrain/Terrain>
+#include <osgUtil/CullVisitor>
+
+#include <algorithm>
+#include <array>
+#include <typeinfo>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+using Attribute = osg::StateAttribute;
+
+constexpr const char* kDrawsTriangles = "osgAnalyticBin.drawsTriangles";
+constexpr DrawnState kHarmless{true, true}, kUnknown{false, false}, kHidesNothing{false, true};
+
+// Whether an object is of one of these classes, and not of one derived from it.
+template <class... Classes, class Object>
+bool isOneOf(const Object& object) {
+    const std::type_info& type = typeid(object);
+    // by address first: comparing names takes longer
+    return ((&type == &typeid(Classes)) || ...) || ((type == typeid(Classes)) || ...);
+}
+
+template <class... Classes>
+DrawnState harmlessIf(const Attribute& attribute) {
+    return isOneOf<Classes...>(attribute) ? kHarmless : kUnknown;
+}
+
+DrawnState ofDepth(const osg::Depth& depth) {
+    const bool isNearest = depth.getFunction() == osg::Depth::LESS || depth.getFunction() == osg::Depth::LEQUAL;
+    if (!isNearest || depth.getZNear() != 0.0 || depth.getZFar() != 1.0) return kUnknown;
+    return depth.getWriteMask() ? kHarmless : kHidesNothing;
+}
+
+DrawnState ofPolygonMode(const osg::PolygonMode& mode) {
+    const bool isFilled = mode.getMode(osg::PolygonMode::FRONT) == osg::PolygonMode::FILL &&
+                          mode.getMode(osg::PolygonMode::BACK) == osg::PolygonMode::FILL;
+    return isFilled ? kHarmless : kHidesNothing;
+}
+
+DrawnState ofColorMask(const osg::ColorMask& mask) {
+    return mask.getRedMask() && mask.getGreenMask() && mask.getBlueMask() ? kHarmless : kHidesNothing;
+}
+
+DrawnState ofProgram(const osg::Program& program, const StateRules& rules) {
+    if (rules.trustsShaders || program.isFixedFunction()) return kHarmless;
+    bool isDeclared = false;
+    if (program.getUserDataContainer()) (void)program.getUserValue(kDrawsTriangles, isDeclared);
+    return isDeclared ? kHarmless : kUnknown;
+}
+
+// Those that only matter while a mode is on are known by the mode.
+DrawnState ofAttribute(const Attribute& attribute, const StateRules& rules) {
+    if (attribute.getShaderComponent()) return kUnknown;
+    switch (attribute.getType()) {
+        case Attribute::MATERIAL:
+            return harmlessIf<osg::Material>(attribute);
+        case Attribute::LIGHT:
+            return harmlessIf<osg::Light>(attribute);
+        case Attribute::LIGHTMODEL:
+            return harmlessIf<osg::LightModel>(attribute);
+        case Attribute::FOG:
+            return harmlessIf<osg::Fog>(attribute);
+        case Attribute::SHADEMODEL:
+            return harmlessIf<osg::ShadeModel>(attribute);
+        case Attribute::ALPHAFUNC:
+            return harmlessIf<osg::AlphaFunc>(attribute);
+        case Attribute::BLENDFUNC:
+            return harmlessIf<osg::BlendFunc>(attribute);
+        case Attribute::BLENDEQUATION:
+            return harmlessIf<osg::BlendEquation>(attribute);
+        case Attribute::BLENDCOLOR:
+            return harmlessIf<osg::BlendColor>(attribute);
+        case Attribute::SCISSOR:
+            return harmlessIf<osg::Scissor>(attribute);
+        case Attribute::LOGICOP:
+            return harmlessIf<osg::LogicOp>(attribute);
+        case Attribute::POLYGONSTIPPLE:
+            return harmlessIf<osg::PolygonStipple>(attribute);
+        case Attribute::LINEWIDTH:
+            return harmlessIf<osg::LineWidth>(attribute);
+        case Attribute::LINESTIPPLE:
+            return harmlessIf<osg::LineStipple>(attribute);
+        case Attribute::POINT:
+            return harmlessIf<osg::Point>(attribute);
+        case Attribute::HINT:
+            return harmlessIf<osg::Hint>(attribute);
+        case Attribute::CLAMPCOLOR:
+            return harmlessIf<osg::ClampColor>(attribute);
+        case Attribute::MULTISAMPLE:
+            return harmlessIf<osg::Multisample>(attribute);
+        case Attribute::CLIPPLANE:
+            return harmlessIf<osg::ClipPlane>(attribute);
+        case Attribute::CULLFACE:
+            if (!isOneOf<osg::CullFace>(attribute)) return kUnknown;
+            return static_cast<const osg::CullFace&>(attribute).getMode() == osg::CullFace::BACK ? kHarmless
+                                                                                                 : kHidesNothing;
+        case Attribute::FRONTFACE:
+            if (!isOneOf<osg::FrontFace>(attribute)) return kUnknown;
+            return (static_cast<const osg::FrontFace&>(attribute).getMode() == osg::FrontFace::CLOCKWISE) ==
+                           rules.isClockwise
+                       ? kHarmless
+                       : kHidesNothing;
+        case Attribute::DEPTH:
+            return isOneOf<osg::Depth>(attribute) ? ofDepth(static_cast<const osg::Depth&>(attribute)) : kUnknown;
+        case Attribute::POLYGONMODE:
+            if (!isOneOf<osg::PolygonMode>(attribute)) return kUnknown;
+            return ofPolygonMode(static_cast<const osg::PolygonMode&>(attribute));
+        case Attribute::COLORMASK:
+            if (!isOneOf<osg::ColorMask>(attribute)) return kUnknown;
+            return ofColorMask(static_cast<const osg::ColorMask&>(attribute));
+        case Attribute::PROGRAM:
+            if (!isOneOf<osg::Program>(attribute)) return kUnknown;
+            return ofProgram(static_cast<const osg::Program&>(attribute), rules);
+        case Attribute::VIEWPORT:
+            return &attribute == rules.viewport ? kHarmless : kUnknown;
+        default:
+            return kUnknown;
+    }
+}
+
+DrawnState ofTextureAttribute(const Attribute& attribute) {
+    if (attribute.getShaderComponent()) return kUnknown;
+    switch (attribute.getType()) {
+        case Attribute::TEXTURE:
+            return harmlessIf<osg::Texture2D, osg::Texture1D, osg::Texture3D, osg::TextureCubeMap,
+                              osg::TextureRectangle, osg::Texture2DArray>(attribute);
+        case Attribute::TEXENV:
+            return harmlessIf<osg::TexEnv, osg::TexEnvCombine>(attribute);
+        case Attribute::TEXENVFILTER:
+            return harmlessIf<osg::TexEnvFilter>(attribute);
+        case Attribute::TEXGEN:
+            return harmlessIf<osg::TexGen>(attribute);
+        case Attribute::TEXMAT:
+            return harmlessIf<osg::TexMat>(attribute);
+        default:
+            return kUnknown;
+    }
+}
+
+DrawnState ofMode(GLenum mode, Attribute::GLModeValue value) {
+    if (value & Attribute::INHERIT) return kHarmless;
+    const bool isOn = value & Attribute::ON;
+    if (mode == GL_DEPTH_TEST) return isOn ? kHarmless : kUnknown;
+    if (!isOn) return kHarmless;
+    constexpr GLenum kMostOfAKind = 16;  // lights, clip planes
+    if (mode >= GL_LIGHT0 && mode < GL_LIGHT0 + kMostOfAKind) return kHarmless;
+    if (mode >= GL_CLIP_PLANE0 && mode < GL_CLIP_PLANE0 + kMostOfAKind) return kHidesNothing;
+    switch (mode) {
+        case GL_LIGHTING:
+        case GL_FOG:
+        case GL_NORMALIZE:
+        case GL_RESCALE_NORMAL:
+        case GL_COLOR_MATERIAL:
+        case GL_COLOR_SUM:
+        case GL_DITHER:
+        case GL_CULL_FACE:
+        case GL_MULTISAMPLE_ARB:
+        case GL_LINE_SMOOTH:
+        case GL_LINE_STIPPLE:
+        case GL_POINT_SMOOTH:
+            return kHarmless;
+        case GL_BLEND:
+        case GL_ALPHA_TEST:
+        case GL_POLYGON_STIPPLE:
+        case GL_POLYGON_SMOOTH:
+        case GL_COLOR_LOGIC_OP:
+        case GL_SCISSOR_TEST:
+        case GL_SAMPLE_ALPHA_TO_COVERAGE_ARB:
+        case GL_SAMPLE_COVERAGE_ARB:
+            return kHidesNothing;
+        default:
+            return kUnknown;
+    }
+}
+
+// The bins that come with OSG draw what they hold, in one order or another.
+DrawnState ofRenderBin(const osg::StateSet& state) {
+    if (state.getRenderBinMode() == osg::StateSet::INHERIT_RENDERBIN_DETAILS) return kHarmless;
+    const std::string& name = state.getBinName();
+    const bool isKnown = name == "RenderBin" || name == "DepthSortedBin" || name == "StateSortedBin" || name.empty();
+    if (!isKnown) return kUnknown;
+    return state.getRenderingHint() == osg::StateSet::TRANSPARENT_BIN ? kHidesNothing : kHarmless;
+}
+
+bool isMirror(const osg::Matrixd& m) {
+    const osg::Vec3d x(m(0, 0), m(0, 1), m(0, 2)), y(m(1, 0), m(1, 1), m(1, 2)), z(m(2, 0), m(2, 1), m(2, 2));
+    return (x ^ y) * z < 0.0;
+}
+
+// OSG takes some textures without alpha for translucent.
+bool hasAlpha(const osg::Image& image) {
+    return image.getPixelFormat() != GL_COMPRESSED_RGB_S3TC_DXT1_EXT && image.isImageTranslucent();
+}
+
+// osgTerrain::GeometryTechnique leaves out the triangles at posts that are not valid.
+bool hasHole(const osgTerrain::TerrainTile& tile) {
+    const osgTerrain::Layer* const layer = tile.getElevationLayer();
+    if (!layer || !layer->getValidDataOperator()) return false;
+    for (unsigned int row = 0; row < layer->getNumRows(); ++row) {
+        for (unsigned int column = 0; column < layer->getNumColumns(); ++column) {
+            float height = 0.0f;
+            if (!layer->getValidValue(column, row, height)) return true;
+        }
+    }
+    return false;
+}
+
+// As the technique decides, by the first image.
+bool isBlended(const osgTerrain::TerrainTile& tile) {
+    using Tile = osgTerrain::TerrainTile;
+    Tile::BlendingPolicy policy = tile.getBlendingPolicy();
+    if (policy == Tile::INHERIT && tile.getTerrain()) policy = tile.getTerrain()->getBlendingPolicy();
+    if (policy == Tile::DO_NOT_SET_BLENDING) return false;
+    if (policy == Tile::ENABLE_BLENDING) return true;
+    for (unsigned int i = 0; i < tile.getNumColorLayers(); ++i) {
+        const osgTerrain::Layer* const layer = tile.getColorLayer(i);
+        const osg::Image* const image = layer ? layer->getImage() : nullptr;
+        if (image) return hasAlpha(*image);
+    }
+    return false;
+}
+
+// Those that enter their children, all or some, and change no state but by their StateSets.
+bool isKnownGroup(const osg::Node& node) {
+    return isOneOf<osg::Group, osg::Geode, osg::MatrixTransform, Carrier, osg::PagedLOD, osg::LOD, osg::Switch,
+                   osg::PositionAttitudeTransform, osg::CoordinateSystemNode, osgTerrain::Terrain, osg::Sequence,
+                   osg::Billboard>(node);
+}
+
+DrawnState ofDrawable(const osg::Drawable& drawable) {
+    if (drawable.getDrawCallback()) return kUnknown;
+    if (!isOneOf<osg::Geometry, osg::ShapeDrawable>(drawable)) return kUnknown;
+    // it may change what is drawn
+    return drawable.getUpdateCallback() || drawable.getEventCallback() ? kHidesNothing : kHarmless;
+}
+
+DrawnState ofClass(const osg::Node& node) {
+    if (const osg::Drawable* const drawable = node.asDrawable()) return ofDrawable(*drawable);
+    if (isOneOf<osgTerrain::TerrainTile>(node))
+        return isSeeThrough(static_cast<const osgTerrain::TerrainTile&>(node)) ? kHidesNothing : kHarmless;
+    if (!isKnownGroup(node)) return kUnknown;
+    return drawsAllChildren(node) ? kHarmless : kHidesNothing;
+}
+
+}  // namespace
+
+DrawnState drawnState(const osg::StateSet& state, const StateRules& rules) {
+    DrawnState drawn = ofRenderBin(state);
+    for (const auto& [mode, value] : state.getModeList()) drawn &= ofMode(mode, value);
+    for (const auto& [key, value] : state.getAttributeList()) drawn &= ofAttribute(*value.first, rules);
+    for (const auto& unit : state.getTextureAttributeList()) {
+        for (const auto& [key, value] : unit) drawn &= ofTextureAttribute(*value.first);
+    }
+    return drawn;
+}
+
+StateRules StateRules::of(osg::NodeVisitor& visitor, bool trustsShaders) {
+    osgUtil::CullVisitor* const cullVisitor = visitor.asCullVisitor();
+    if (!cullVisitor) return {trustsShaders, false, nullptr};
+    return {trustsShaders, isMirror(*cullVisitor->getModelViewMatrix()), cullVisitor->getViewport()};
+}
+
+DrawnState drawnStateAt(const osg::Node& node, const StateRules& rules) {
+    DrawnState drawn = drawnStateOf(node, rules);
+    drawn &= ofClass(node);
+    if (node.getCullCallback() && CullCallbacks(node).mayLeaveOut) drawn &= kUnknown;
+    return drawn;
+}
+
+DrawnState drawnStateBelow(osg::Node& node, const StateRules& rules) {
+    DrawnState drawn;
+    forEachNode(node, [&](osg::Node& part) { drawn &= drawnStateAt(part, rules); });
+    return drawn;
+}
+
+DrawnState drawnStateAbove(osg::NodeVisitor& visitor, const StateRules& rules) {
+    osgUtil::CullVisitor* const cullVisitor = visitor.asCullVisitor();
+    if (!cullVisitor) return kHarmless;
+    DrawnState drawn;
+    bool isWindingSet = !rules.isClockwise;
+    for (const auto* graph = cullVisitor->getCurrentStateGraph(); graph; graph = graph->_parent) {
+        if (!graph->_stateset) continue;
+        drawn &= drawnState(*graph->_stateset, rules);
+        isWindingSet = isWindingSet || graph->_stateset->getAttribute(Attribute::FRONTFACE);
+    }
+    if (!isWindingSet) drawn &= kHidesNothing;
+    return drawn;
+}
+
+bool isSeeThrough(const osgTerrain::TerrainTile& tile) {
+    return hasHole(tile) || isBlended(tile);
+}
+
+bool hasBeenTraversed(const osgTerrain::TerrainTile& tile) {
+    // what osgTerrain keeps for derived classes
+    struct OpenTile : public osgTerrain::TerrainTile {
+        static bool wasTraversed(const osgTerrain::TerrainTile& tile) { return tile.*(&OpenTile::_hasBeenTraversal); }
+    };
+    return OpenTile::wasTraversed(tile);
+}
+
+bool drawsAllChildren(const osg::Node& node) {
+    return !node.asGroup() ||
+           isOneOf<osg::Group, osg::Geode, osg::MatrixTransform, Carrier, osg::PositionAttitudeTransform,
+                   osg::CoordinateSystemNode, osgTerrain::Terrain>(node);
+}
+
+void setDrawsTriangles(osg::Program& program) {
+    program.setUserValue(kDrawsTriangles, true);
+}
+
+}  // namespace osgAnalyticBin

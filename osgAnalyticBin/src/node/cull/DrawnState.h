@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Evidence that something is drawn as its vertices say. Only what is known to be harmless counts: unknown attributes,
+// modes, classes and callbacks do not.
+
+#pragma once
+
+#include <osg/Node>
+#include <osg/NodeVisitor>
+#include <osg/StateSet>
+#include <osg/Viewport>
+#include <osgTerrain/TerrainTile>
+
+namespace osgAnalyticBin {
+
+/// What is known of the way in which something is drawn.
+struct DrawnState {
+    /// Front faces are drawn whole and opaque, back faces too or not, at the depths of their vertices.
+    bool hides = true;
+    /// Nothing is drawn where something nearer is.
+    bool obeysDepth = true;
+
+    DrawnState& operator&=(const DrawnState& other) {
+        hides = hides && other.hides;
+        obeysDepth = obeysDepth && other.obeysDepth;
+        return *this;
+    }
+};
+
+/// What else is known.
+struct StateRules {
+    /// In the present frame of a visitor.
+    [[nodiscard]] static StateRules of(osg::NodeVisitor& visitor, bool trustsShaders);
+
+    /// All programs draw all of each triangle where its vertices are: CullOptions::plainShaders.
+    bool trustsShaders = false;
+    /// The winding of front faces: clockwise below a matrix that mirrors.
+    bool isClockwise = false;
+    /// Where the camera draws; a state may set this one. Null: none.
+    const osg::Viewport* viewport = nullptr;
+};
+
+/// Of a state by itself, whatever stands above or below it: combinations of states that are each harmless are harmless.
+[[nodiscard]] DrawnState drawnState(const osg::StateSet& state, const StateRules& rules);
+
+/// The same for a node that may have no state.
+[[nodiscard]] inline DrawnState drawnStateOf(const osg::Node& node, const StateRules& rules) {
+    return node.getStateSet() ? drawnState(*node.getStateSet(), rules) : DrawnState();
+}
+
+/// Of a node without what is below it: its state, its class, its callbacks.
+[[nodiscard]] DrawnState drawnStateAt(const osg::Node& node, const StateRules& rules);
+
+/// Of a node with all that is below it; nothing is below osgTerrain tiles. `hides` is for meshes, all of whose
+/// drawables are to hide.
+[[nodiscard]] DrawnState drawnStateBelow(osg::Node& node, const StateRules& rules);
+
+/// Of the states from the camera to the visitor's present node. Returns: all is known for visitors that collect no
+/// state.
+[[nodiscard]] DrawnState drawnStateAbove(osg::NodeVisitor& visitor, const StateRules& rules);
+
+/// Whether a terrain tile has holes or is blended: posts that are not valid, image layers, by its own and its Terrain's
+/// blending policy.
+[[nodiscard]] bool isSeeThrough(const osgTerrain::TerrainTile& tile);
+
+/// Whether a traversal has come to a terrain tile, which makes its technique then.
+[[nodiscard]] bool hasBeenTraversed(const osgTerrain::TerrainTile& tile);
+
+/// Whether a node is known to draw all of its children: switches, levels of detail, sequences and classes of others may
+/// leave some out.
+[[nodiscard]] bool drawsAllChildren(const osg::Node& node);
+
+}  // namespace osgAnalyticBin
