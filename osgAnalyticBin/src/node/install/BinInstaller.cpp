@@ -38,8 +38,6 @@ namespace osgAnalyticBin {
 
 namespace {
 
-using CoverageByFile = std::map<std::string, Coverage>;
-
 // Marks a database's own request to install bins as done; the horizon that it declares is used where the installer's
 // options give none. Returns: the options for the node and what is below it.
 CullOptions settled(osg::Node& node, const CullOptions& options) {
@@ -77,8 +75,7 @@ bool isSameGlobe(const TileFrame& above, const TileFrame& inside) {
 
 }  // namespace
 
-BinInstaller::BinInstaller(const CullOptions& options)
-    : _options(options), _coverage(std::make_shared<CoverageByFile>()) {}
+BinInstaller::BinInstaller(const CullOptions& options) : _options(options), _coverage(std::make_shared<Coverages>()) {}
 
 BinInstaller::~BinInstaller() {
     takeOff(_nested);
@@ -91,8 +88,9 @@ void BinInstaller::continueBelow(Database* database, const TileFrame& frame, con
     _index = database->index();
     _parent = parent;
     if (!parent || !parent->isTile) return;
-    (*_coverage)[frame.file].expect(*parent);
-    (*_coverage)[frame.file].setVisited();
+    Coverage& coverage = (*_coverage)[{parent, frame.file}];
+    coverage.expect(*parent);
+    coverage.setVisited();
 }
 
 void BinInstaller::refit(osg::Node& node, Database& database) {
@@ -113,7 +111,7 @@ void BinInstaller::refit(osg::Node& node, Database& database) {
 
 void BinInstaller::finish(osg::Node* content) {
     for (const auto& [file, coverage] : *_coverage) {
-        if (installsBins()) database().noteCoverage(file, coverage);
+        if (installsBins()) database().noteCoverage(file.second, coverage);
     }
     _coverage->clear();
     placeFamilies();
@@ -201,8 +199,8 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const Scoped index(_index, isKept ? osg::ref_ptr<const BinIndex>(own->index()) : _index);
     const Scoped database(_database, own);
     const Scoped paging(_paging, PagingByOptions());
-    const Scoped coverage(_coverage, std::make_shared<CoverageByFile>());
-    (*_coverage)[frame().file].expectGlobe();
+    const Scoped coverage(_coverage, std::make_shared<Coverages>());
+    (*_coverage)[{nullptr, frame().file}].expectGlobe();
     const std::size_t before = _installed, boxesBefore = _boxes;
     TileFinder::apply(node);
     // photogrammetry alone is no globe with gaps
@@ -367,10 +365,10 @@ osg::ref_ptr<const ParentTile> BinInstaller::linkBetween() const {
 
 // Tiles within the mesh of another cover nothing beside it.
 void BinInstaller::noteCovered(const FoundTile& tile, const TileFit& fit, const ParentTile& link) {
-    Coverage& coverage = (*_coverage)[tile.frame.file];
+    Coverage& coverage = (*_coverage)[{_parent.get(), tile.frame.file}];
     coverage.setVisited();
     if (!_isBelowSelection && !_isInMesh) coverage.add(link.place, fit.isInPlace);
-    for (const std::string& file : tile.pagedFiles) (*_coverage)[file].expect(link);
+    for (const std::string& file : tile.pagedFiles) (*_coverage)[{&link, file}].expect(link);
 }
 
 void BinInstaller::noteDrawn(const FoundTile& tile, InstalledTile& installed) {

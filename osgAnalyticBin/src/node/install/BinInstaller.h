@@ -17,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -121,7 +122,9 @@ private:
     osg::ref_ptr<Database> _refitted;        // about to be fitted again
     osg::ref_ptr<const ParentTile> _parent;  // the parent tile of the visited node
     PagingByOptions _paging;
-    std::shared_ptr<std::map<std::string, Coverage>> _coverage;  // by file
+    // By the tile that pages the file (null: none) and the file's name, which may be the same for several tiles.
+    using Coverages = std::map<std::pair<const ParentTile*, std::string>, Coverage>;
+    std::shared_ptr<Coverages> _coverage;
     std::size_t _installed = 0;
     std::size_t _boxes = 0;           // of photogrammetry sets
     std::vector<osg::Node*> _groups;  // candidates for families

@@ -81,11 +81,10 @@ std::uint64_t frameOf(const osg::Node& node) {
     return hash;
 }
 
-// What changes when vertices or heights do. Never 0.
-std::uint64_t boundsOf(const osg::Node& mesh) {
+// What changes when vertices or triangles are said to have changed, and with heights.
+std::uint64_t revisionOf(const osg::Node& mesh) {
     std::uint64_t hash = 1;
     forEachPart(mesh, [&hash](const osg::Node& part) {
-        if (part.asDrawable()) mixBound(hash, part.getBound());
         if (const auto* const terrain = asTerrain(part)) {
             mix(hash, surfaceFingerprint(const_cast<osg::Node&>(part), osg::Matrixd()));
             mix(hash, std::uint64_t{isDrawnByOsg(*terrain)});
@@ -103,6 +102,15 @@ std::uint64_t boundsOf(const osg::Node& mesh) {
             mix(hash, std::uint64_t{primitives->getNumIndices()});
             mix(hash, std::uint64_t{primitives->getModifiedCount()});
         }
+    });
+    return hash;
+}
+
+// Of the bounds of drawables, for vertices that moved without a word. Never 0.
+std::uint64_t boundsOf(const osg::Node& mesh) {
+    std::uint64_t hash = 1;
+    forEachPart(mesh, [&hash](const osg::Node& part) {
+        if (part.asDrawable()) mixBound(hash, part.getBound());
     });
     return hash | 1;
 }
@@ -267,13 +275,14 @@ void ContentWatch::place(osg::Node& node, const std::vector<osg::ref_ptr<osg::No
     watch->_frame = frameOf(node);
     watch->_previous = node.getComputeBoundingSphereCallback();
     for (const auto& mesh : fitted) {
-        if (mesh != &node || asTerrain(node)) watch->_fitted.push_back({mesh, structureOf(*mesh), 0});
+        if (mesh != &node || asTerrain(node))
+            watch->_fitted.push_back({mesh, structureOf(*mesh), revisionOf(*mesh), 0});
     }
     const bool isMesh = std::find(fitted.begin(), fitted.end(), &node) != fitted.end();
     const osg::Group* const group = isMesh && !asTerrain(node) ? node.asGroup() : nullptr;
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
-        watch->_fitted.push_back({&child, structureOf(child), 0});
+        watch->_fitted.push_back({&child, structureOf(child), revisionOf(child), 0});
     }
     node.setComputeBoundingSphereCallback(watch);
     // what is there already, beside meshes, is looked at with the next bound
@@ -340,6 +349,7 @@ bool ContentWatch::isFitted(const osg::Node& child, bool withBounds) const {
     const auto known =
         std::find_if(_fitted.begin(), _fitted.end(), [&](const Fitted& fitted) { return fitted.node == &child; });
     if (known == _fitted.end() || !(known->structure == structureOf(child))) return false;
+    if (known->revision != revisionOf(child)) return false;
     if (!withBounds && known->bounds == 0) return true;
     const std::uint64_t bounds = boundsOf(child);
     if (known->bounds == 0) known->bounds = bounds;

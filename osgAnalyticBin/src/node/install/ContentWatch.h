@@ -63,6 +63,7 @@ private:
     struct Fitted {
         const osg::Node* node;
         Structure structure;
+        std::uint64_t revision;        // hash of the counts by which OSG tells that vertices and triangles have changed
         mutable std::uint64_t bounds;  // 0: not known yet
     };
 

@@ -15,7 +15,6 @@ namespace osgAnalyticBin {
 /// Visits all nodes of a mesh, but nothing below osgTerrain tiles, the same way every time.
 void forEachNode(osg::Node& root, std::function<void(osg::Node&)> action);
 
-
 /// Gives a node that shares its user data a copy of its own.
 void ownValues(osg::Node& node);
 
