@@ -15,6 +15,8 @@ namespace osgAnalyticBin {
 /// The update callback of a database whose tiles carry stored bins: installs bins below the node at the first
 /// update traversal. It is the only object of this library in such a database; OSG without the library warns about
 /// it once, and draws the database with its own spheres.
+/// Then it becomes an event callback of its node, so that it is saved with a scene: viewers that draw on demand draw
+/// frames as long as there is an update callback.
 class OSGANALYTICBIN_EXPORT InstallBinsCallback : public osg::NodeCallback {
 public:
     /// Installs bins with these options.
@@ -39,7 +41,7 @@ public:
     /// Marks bins as installed: the callback does nothing from then on.
     void setDone() { _done = true; }
 
-    /// Called by OSG's update traversal.
+    /// Called by OSG's update traversal, then by its event traversals.
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
 protected:

@@ -93,16 +93,19 @@ public:
 
 /// Takes InstallBinsCallbacks off globes.
 class RequestRemover : public osg::NodeVisitor {
+    static osg::ref_ptr<osg::Callback> requestAmong(osg::Callback* callback) {
+        while (callback && !dynamic_cast<InstallBinsCallback*>(callback)) callback = callback->getNestedCallback();
+        return callback;
+    }
+
 public:
     RequestRemover() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
     void apply(osg::Node& node) override {
         if (!dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
     }
     void apply(osg::CoordinateSystemNode& node) override {
-        osg::ref_ptr<osg::Callback> callback = node.getUpdateCallback();
-        while (callback && !dynamic_cast<InstallBinsCallback*>(callback.get()))
-            callback = callback->getNestedCallback();
-        if (callback) node.removeUpdateCallback(callback.get());
+        if (const auto request = requestAmong(node.getUpdateCallback())) node.removeUpdateCallback(request);
+        if (const auto request = requestAmong(node.getEventCallback())) node.removeEventCallback(request);
     }
 };
 

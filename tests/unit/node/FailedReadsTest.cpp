@@ -8,10 +8,12 @@
 #include "PagedFlight.h"
 
 #include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <gtest/gtest.h>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
+#include <osgTerrain/Terrain>
 
 #include <filesystem>
 #include <map>
@@ -132,6 +134,45 @@ TEST_F(MissingTiles, AreLookedForInEveryFrameByOsgItself) {
     _scene->setUpdateCallback(nullptr);  // no bins
     flight.frames(_view, kFrames);
     EXPECT_GT(_attempts->most(), 20);
+}
+
+// What keeps a viewer awake that draws on demand: osgViewer::Scene::requiresUpdateSceneGraph().
+bool needsFrames(const osg::Node& scene) {
+    return scene.getUpdateCallback() || scene.getNumChildrenRequiringUpdateTraversal() > 0;
+}
+
+TEST_F(MissingTiles, LetAViewerRestThatDrawsOnDemand) {
+    ASSERT_TRUE(needsFrames(*_scene)) << "a request to install bins";
+    PagedFlight flight(*_scene);
+    flight.frames(_view, 4);
+    EXPECT_FALSE(needsFrames(*_scene));
+    EXPECT_GT(_attempts->most(), 0);
+    bringFilesBack();
+    ASSERT_TRUE(flight.load(_view));
+    flight.frames(_view, 3);
+    EXPECT_FALSE(needsFrames(*_scene));
+    // the options are still those of the database
+    EXPECT_NE(dynamic_cast<InstallBinsCallback*>(_scene->getEventCallback()), nullptr);
+}
+
+// An osgTerrain::Terrain itself asks for updates always.
+TEST_F(MissingTiles, LetAViewerRestUntilThereIsWork) {
+    _scene->setUpdateCallback(nullptr);
+    const osg::ref_ptr<osgTerrain::Terrain> terrain = new osgTerrain::Terrain;
+    while (_scene->asGroup()->getNumChildren() > 0) {
+        terrain->addChild(_scene->asGroup()->getChild(0));
+        _scene->asGroup()->removeChild(0u);
+    }
+    terrain->setEllipsoidModel(new osg::EllipsoidModel);
+    installBins(*terrain);
+    PagedFlight flight(*terrain);
+    flight.frames(_view, 3);
+    EXPECT_EQ(terrain->getUpdateCallback(), nullptr);
+    terrain->setVerticalScale(2.0F);
+    flight.frame(_view);
+    EXPECT_NE(terrain->getUpdateCallback(), nullptr) << "to fit bins to the shape";
+    flight.frames(_view, 2);
+    EXPECT_EQ(terrain->getUpdateCallback(), nullptr);
 }
 
 }  // namespace

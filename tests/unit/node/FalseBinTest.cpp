@@ -328,7 +328,7 @@ TEST_F(FalseBins, StayAsTheyAreAboveTilesThatHaveNoneAndAreNotLarger) {
     EXPECT_EQ(_notes.count(""), 0u);
 }
 
-TEST_F(FalseBins, HideAPeakForNoLongerThanTheFrameInWhichItAppears) {
+TEST_F(FalseBins, HideNoPeakFromTheFrameOnInWhichItAppears) {
     write(_south, 40000.0, claim(_south).toText());
     std::set<std::string> reached;
     installedOn(*_leaf)->setNestedCallback(new VisitRecorder("leaf", reached));
@@ -336,11 +336,12 @@ TEST_F(FalseBins, HideAPeakForNoLongerThanTheFrameInWhichItAppears) {
     const osg::Vec3d summit = ecefDeg(20, 20, 39990), eye = ecefDeg(20, 18, 42000);
     const CullView view = CullView::lookAt(eye, summit, eye, 0.1);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    (void)cull(*_scene, view, *visitor);
-    EXPECT_EQ(reached.count("leaf"), 0u) << "the claim would not have hidden it";
-    update();
-    (void)cull(*_scene, view, *visitor);
-    EXPECT_EQ(reached.count("leaf"), 1u);
+    for (int i = 0; i < 2; ++i) {
+        (void)cull(*_scene, view, *visitor);
+        EXPECT_EQ(reached.count("leaf"), 1u) << i;
+        update();
+        reached.clear();
+    }
 }
 
 // On a globe in another unit a tile is as much too large as on earth.

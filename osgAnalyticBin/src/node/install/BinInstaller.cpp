@@ -13,6 +13,7 @@
 #include "../surface/TilePlates.h"
 #include "ContentWatch.h"
 #include "Coverage.h"
+#include "FindCallback.h"
 #include "InstalledTile.h"
 #include "Instances.h"
 #include "MeshCulling.h"
@@ -42,8 +43,8 @@ namespace {
 // options give none. Returns: the options for the node and what is below it.
 CullOptions settled(osg::Node& node, const CullOptions& options) {
     CullOptions effective = options;
-    for (osg::Callback* callback = node.getUpdateCallback(); callback; callback = callback->getNestedCallback()) {
-        auto* request = dynamic_cast<InstallBinsCallback*>(callback);
+    for (osg::Callback* const first : {node.getUpdateCallback(), node.getEventCallback()}) {
+        const osg::ref_ptr<InstallBinsCallback> request = findCallback<InstallBinsCallback>(first);
         if (!request) continue;
         const CullOptions declared = request->getCullOptions();
         if (effective.effectiveHorizonUse() == HorizonUse::Declared && declared.horizonUse == HorizonUse::Given) {
@@ -150,7 +151,7 @@ void BinInstaller::installAt(osg::Node& root) {
     placeFamilies();
     publishTiles(nullptr);
     if (_database) _database->widenLoaded();
-    if (!isGlobe && _database && installsBins()) attachUpdate(root, *_database);
+    if (!isGlobe && _database && installsBins()) attachDatabase(root, *_database, false);
 }
 
 void BinInstaller::apply(osg::Node& node) {
@@ -207,9 +208,9 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     if (_boxes > boxesBefore && _installed == before && _paging.empty()) _coverage->clear();
     finish();
     if (isRefit) return;
-    if (installsBins() && (_installed > before || !_paging.empty())) return attachDatabase(node, *own);
+    if (installsBins() && (_installed > before || !_paging.empty())) return attachDatabase(node, *own, true);
     // tiles that are on their way may have bins
-    if (isKept) attachUpdate(node, *own);
+    if (isKept) attachDatabase(node, *own, false);
 }
 
 void BinInstaller::visitTile(FoundTile& tile) {

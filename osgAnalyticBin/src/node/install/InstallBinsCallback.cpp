@@ -5,6 +5,7 @@
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <osg/Node>
+#include <osg/NodeVisitor>
 #include <osg/Notify>
 
 namespace osgAnalyticBin {
@@ -33,7 +34,13 @@ void InstallBinsCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         installBins(*node, _options);
         _done = true;
     }
+    const osg::ref_ptr<osg::Callback> self(this);
     traverse(node, nv);
+    // a clone of the node may share it
+    constexpr int kOwn = 2;  // references: the node's and this one
+    if (nv->getVisitorType() != osg::NodeVisitor::UPDATE_VISITOR || referenceCount() > kOwn) return;
+    node->removeUpdateCallback(this);
+    node->addEventCallback(this);
 }
 
 }  // namespace osgAnalyticBin

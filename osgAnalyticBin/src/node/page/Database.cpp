@@ -117,15 +117,22 @@ void Database::noteRead(osg::Node& content, unsigned int generation) {
     const std::lock_guard<std::mutex> lock(_mutex);
     Contents& contents = generation == _generation ? _onTheirWay : _lateComers;
     contents.emplace_back(&content);
-    // a database without our update callback never processes this list
+    // a database that is not drawn never processes this list
     constexpr std::size_t kMostOnTheirWay = 4096;
     if (contents.size() > kMostOnTheirWay) contents.erase(contents.begin(), contents.begin() + kMostOnTheirWay / 2);
 }
 
-void Database::refitLateComers() {
+void Database::findLateComers() {
+    constexpr std::size_t kMany = 64;
     const std::lock_guard<std::mutex> lock(_mutex);
-    (void)takeMerged(_onTheirWay);
-    if (takeMerged(_lateComers)) requestRefit();
+    if (_onTheirWay.size() > kMany) (void)takeMerged(_onTheirWay);
+    if (!_lateComers.empty() && takeMerged(_lateComers)) requestRefit();
+}
+
+bool Database::needsUpdate() {
+    findLateComers();
+    return _isUpdateWanted.load(std::memory_order_relaxed) || _adoption.hasNews() ||
+           !(shape(options()) == fittedShape());
 }
 
 TerrainShape Database::shape(const CullOptions& options) const {
@@ -233,11 +240,12 @@ void Database::askForPlates(const AnalyticBinCullCallback& tile, osg::Node& mesh
     if (!tile.getInstalledTile()->askForPlates()) return;
     const std::lock_guard<std::mutex> lock(_mutex);
     _awaitPlates.emplace_back(&tile, &mesh);
+    requestUpdate();
 }
 
-// A few at a time: each takes a fraction of a millisecond.
+// Some at a time: each takes a fraction of a millisecond.
 void Database::makePlates() {
-    constexpr std::size_t kMostTiles = 4;
+    constexpr std::size_t kMostTiles = 64;
     for (std::size_t i = 0; i < kMostTiles; ++i) {
         osg::ref_ptr<const AnalyticBinCullCallback> tile;
         osg::ref_ptr<osg::Node> mesh;
@@ -251,6 +259,7 @@ void Database::makePlates() {
         const TerrainShape shape = tile->getTerrainShape().value_or(TerrainShape());
         tile->getInstalledTile()->setPlates(tilePlates({{mesh}, *ellipsoid(), tile->getLocalToEcef(), shape}));
     }
+    requestUpdate();
 }
 
 void Database::noteUnknownTechnique() {
@@ -310,10 +319,15 @@ void Database::widen(const ParentTile& tile, const Widening& by, bool isFitted) 
     if (!tile.widening) tile.widening = std::make_unique<Widening>();
     tile.widening->expandBy(by);
     _toWiden.emplace_back(tile.callback, by);
+    requestUpdate();
+    // until the next update
+    osg::ref_ptr<AnalyticBinCullCallback> callback;
+    if (tile.callback.lock(callback) && callback->getInstalledTile()) callback->getInstalledTile()->keepVisible(true);
 }
 
 void Database::noteContent(const AnalyticBinCullCallback& tile, const Widening& by) {
     const std::lock_guard<std::mutex> lock(_mutex);
+    requestUpdate();
     // where no update traversal ever comes, tiles stay visible
     if (_toWiden.size() < kMostToWiden) _toWiden.emplace_back(const_cast<AnalyticBinCullCallback*>(&tile), by);
 }
@@ -328,6 +342,7 @@ void Database::noteChanged(osg::Group& group) const {
     const std::lock_guard<std::mutex> lock(_mutex);
     constexpr std::size_t kMostGroups = 4096;  // where no update traversal ever comes
     if (_changedGroups.size() < kMostGroups) _changedGroups.emplace_back(&group);
+    requestUpdate();
 }
 
 void Database::renewFamilies() {
@@ -343,7 +358,8 @@ void Database::renewFamilies() {
 }
 
 void Database::update() {
-    refitLateComers();
+    _isUpdateWanted.store(false, std::memory_order_relaxed);
+    findLateComers();
     renewFamilies();
     makePlates();
     constexpr std::size_t kMostTiles = 32;

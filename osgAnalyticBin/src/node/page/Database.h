@@ -106,7 +106,14 @@ public:
     [[nodiscard]] TerrainShape fittedShape() const;
 
     /// Call when a tile was found that is not fitted to the present shape.
-    void requestRefit() const { _isRefitWanted.store(true, std::memory_order_relaxed); }
+    void requestRefit() const {
+        _isRefitWanted.store(true, std::memory_order_relaxed);
+        requestUpdate();
+    }
+
+    /// Whether update() has something to do, or will have once what is on its way is merged. The database's update
+    /// callback is on its node only meanwhile: viewers that draw on demand draw frames as long as there is one.
+    [[nodiscard]] bool needsUpdate();
 
     /// Call when the children of a group with a family have changed. The next update rebuilds the family.
     void noteChanged(osg::Group& group) const;
@@ -177,8 +184,16 @@ public:
     /// What was reported for a tile or its descendants.
     [[nodiscard]] Widening correction(const std::string& file, std::size_t ordinal) const;
 
-    /// In the update traversal, before takeShapeChange(): expands the bins of loaded tiles that were reported.
+    /// In the update traversal, before takeShapeChange(): does what was asked for since the last one.
     void update();
+
+    /// Call in cull traversals: they notice most of what there is to do.
+    void noteCull() { _wasCulled.store(true, std::memory_order_relaxed); }
+    /// Whether there was a cull traversal since this was last asked.
+    [[nodiscard]] bool takeCull() { return _wasCulled.exchange(false, std::memory_order_relaxed); }
+
+    /// Guards the update callbacks of the database's node in cull traversals.
+    [[nodiscard]] std::mutex& attaching() { return _attaching; }
 
     /// Expands the bins of tiles by what was found below them. Call it after bins were installed on nodes of the scene.
     /// Requires: no cull traversal runs.
@@ -191,10 +206,11 @@ private:
     enum class Ground { Open, Globe, Map };
     using TileKey = std::pair<std::string, std::size_t>;
 
+    void requestUpdate() const { _isUpdateWanted.store(true, std::memory_order_relaxed); }
     void widen(const ParentTile& tile, const Widening& by, bool isFitted);
     static void widenFrom(const ParentTile& tile, const Widening& by);
     static void warn(const ParentTile& tile, bool Database::*hasWarned, const char* what);
-    void refitLateComers();
+    void findLateComers();
     void makePlates();
     void renewFamilies();
 
@@ -206,7 +222,10 @@ private:
     const osg::Node* _root = nullptr;
     const osg::ref_ptr<const BinIndex> _index;
     IndexAdoption _adoption;
+    mutable std::atomic<bool> _isUpdateWanted{false};
     mutable std::atomic<bool> _isRefitWanted{false};
+    std::atomic<bool> _wasCulled{false};
+    std::mutex _attaching;
     std::atomic<Ground> _ground{Ground::Open};
     std::atomic<bool> _isRemoved{false};
     std::atomic<bool> _hasGap{false};

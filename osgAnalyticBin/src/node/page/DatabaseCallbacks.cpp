@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <mutex>
 #include <optional>
 
 namespace osgAnalyticBin {
@@ -133,42 +134,69 @@ void beginWithAllPlanes(osg::CullStack& cullStack) {
     setUndecided(frustum, static_cast<core::PlaneMask>((std::uint64_t{1} << frustum.getPlaneList().size()) - 1));
 }
 
+// In a cull traversal, which others may run at the same time. The next update traversal comes after all of them.
+void putUpdateCallback(osg::Node& node, Database& database, osg::NodeCallback& callback) {
+    const std::lock_guard<std::mutex> lock(database.attaching());
+    if (!findCallback<DatabaseUpdateCallback>(node.getUpdateCallback())) node.addUpdateCallback(&callback);
+}
+
+// Clones of a node may share its callbacks.
+void takeOffUpdate(osg::Node& node, const osg::ref_ptr<osg::Callback>& update) {
+    const osg::ref_ptr<osg::Callback> nested = update->getNestedCallback();
+    const bool isFirst = node.getUpdateCallback() == update;
+    constexpr int kOwn = 2;  // references: the node's and the caller's
+    if (isFirst && update->referenceCount() > kOwn) return node.setUpdateCallback(nested.get());
+    node.removeUpdateCallback(update.get());
+}
+
 }  // namespace
+
+DatabaseCullCallback::DatabaseCullCallback(Database* database, const osg::Node* node, bool isCulling)
+    : _database(database), _node(node), _isCulling(isCulling) {}
 
 DatabaseCullCallback::DatabaseCullCallback(const DatabaseCullCallback& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop),
       osg::Callback(other, copyop),
       osg::NodeCallback(other, copyop),
       _database(other._database),
-      _node(nullptr) {}
+      _node(nullptr),
+      _isCulling(other._isCulling) {}
 
 void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     osg::CullStack* cullStack = nv->asCullStack();
     osg::Group* group = node->asGroup();
-    if (!cullStack || !group || node != _node) {
+    if (cullStack && group && _isCulling && node == _node) {
+        cull(*group, *nv, *cullStack);
+    } else {
         traverse(node, nv);
-        return;
     }
+    _database->noteCull();
+    if (node == _node && _database->needsUpdate())
+        putUpdateCallback(*node, *_database, *osg::ref_ptr(new DatabaseUpdateCallback(_database, node)));
+    if (!_node) putUpdateCallback(*node, *_database, *osg::ref_ptr(new DatabaseUpdateCallback(_database, nullptr)));
+}
+
+void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack) {
     // makes tiles notice what was added below them
-    (void)node->getBound();
-    beginWithAllPlanes(*cullStack);
-    CullTraversal& traversal = CullTraversal::of(*nv);
+    (void)node.getBound();
+    beginWithAllPlanes(cullStack);
+    CullTraversal& traversal = CullTraversal::of(nv);
     const CullOptions options = _database->options();
     DatabaseView view{_database.get(),
                       toCore(*_database->ellipsoid()),
                       _database->shape(options),
                       nullptr,
-                      cullStack->getModelViewMatrix(),
-                      cullStack->getProjectionMatrix(),
-                      traversal.planes(*cullStack),
+                      cullStack.getModelViewMatrix(),
+                      cullStack.getProjectionMatrix(),
+                      traversal.planes(cullStack),
                       &traversal.plan(),
-                      StateRules::of(*nv, options.plainShaders)};
+                      StateRules::of(nv, options.plainShaders)};
     view.plan->clear();
-    const Horizon horizon = horizonOver(*group, *nv, *cullStack, *_database, options, view);
+    const Horizon horizon = horizonOver(node, nv, cullStack, *_database, options, view);
     if (horizon.eye) view.eye = &*horizon.eye;
     if (horizon.sight && !horizon.sight->holdsAll()) view.sight = &*horizon.sight;
-    const CullTraversal::DatabaseScope scope(*nv, traversal, view);
-    traverse(node, nv);
+    const CullTraversal::DatabaseScope scope(nv, traversal, view);
+    traverse(&node, &nv);
 }
 
 DatabaseUpdateCallback::DatabaseUpdateCallback(const DatabaseUpdateCallback& other, const osg::CopyOp& copyop)
@@ -198,6 +226,7 @@ void DatabaseUpdateCallback::runOnClone(osg::Node& node, osg::NodeVisitor& nv) {
 }
 
 void DatabaseUpdateCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
+    const osg::ref_ptr<osg::Callback> self(this);
     if (node != _node) return runOnClone(*node, *nv);
     _database->update();
     if (_database->takeShapeChange()) {
@@ -205,38 +234,30 @@ void DatabaseUpdateCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         installer.refit(*node, *_database);
     }
     traverse(node, nv);
+    if (_database->takeCull() && !_database->needsUpdate()) takeOffUpdate(*node, self);
 }
 
-void attachDatabase(osg::Node& node, Database& database) {
-    attachUpdate(node, database);
-    // in front: what is nested runs in the scope of the database
-    const osg::ref_ptr<DatabaseCullCallback> cull = new DatabaseCullCallback(&database, &node);
-    cull->setNestedCallback(node.getCullCallback());
-    node.setCullCallback(cull);
-}
-
-void attachUpdate(osg::Node& node, Database& database) {
+void attachDatabase(osg::Node& node, Database& database, bool isCulling) {
     detachDatabase(node);
     database.setRoot(node);
-    const osg::ref_ptr<DatabaseUpdateCallback> update = new DatabaseUpdateCallback(&database, &node);
-    node.addUpdateCallback(update);
+    // in front: what is nested runs in the scope of the database
+    const osg::ref_ptr<DatabaseCullCallback> cull = new DatabaseCullCallback(&database, &node, isCulling);
+    cull->setNestedCallback(node.getCullCallback());
+    node.setCullCallback(cull);
+    node.addUpdateCallback(new DatabaseUpdateCallback(&database, &node));
 }
 
 Database* attachedDatabase(osg::Node& node) {
-    const auto* update = findCallback<DatabaseUpdateCallback>(node.getUpdateCallback());
-    return update && update->database()->isAttachedTo(node) ? update->database() : nullptr;
+    const auto* cull = findCallback<DatabaseCullCallback>(node.getCullCallback());
+    return cull && cull->database()->isAttachedTo(node) ? cull->database() : nullptr;
 }
 
 void detachDatabase(osg::Node& node) {
     if (const osg::ref_ptr<osg::Callback> cull = findCallback<DatabaseCullCallback>(node.getCullCallback())) {
         takeOff(node, *cull);
     }
-    const osg::ref_ptr<osg::Callback> update = findCallback<DatabaseUpdateCallback>(node.getUpdateCallback());
-    if (!update) return;
-    const osg::ref_ptr<osg::Callback> nested = update->getNestedCallback();
-    const bool isFirst = node.getUpdateCallback() == update;
-    if (isFirst && update->referenceCount() > 2) return node.setUpdateCallback(nested.get());
-    node.removeUpdateCallback(update.get());
+    if (const osg::ref_ptr<osg::Callback> update = findCallback<DatabaseUpdateCallback>(node.getUpdateCallback()))
+        takeOffUpdate(node, update);
 }
 
 }  // namespace osgAnalyticBin

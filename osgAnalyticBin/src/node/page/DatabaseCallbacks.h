@@ -2,24 +2,31 @@
 // SPDX-License-Identifier: MIT
 //
 // The callbacks on the CoordinateSystemNode of an installed database. Their class name is that of a plain
-// osg::NodeCallback, so that nothing of them is saved with a scene. On a clone of the node the update callback installs
-// bins anew; until then all tiles there are visible.
+// osg::NodeCallback, so that nothing of them is saved with a scene. On a clone of the node they install bins anew;
+// until then all tiles there are visible. The cull callback is always there, the update callback until a cull traversal
+// has found nothing for it to do: viewers that draw on demand draw frames as long as there is one.
 
 #pragma once
 
 #include "Database.h"
 
+#include <osg/CullStack>
+#include <osg/Group>
 #include <osg/Node>
 #include <osg/NodeCallback>
 
 namespace osgAnalyticBin {
 
-/// Tells the tiles below, for the length of a cull traversal, how the terrain is shaped and what its horizon is.
+/// Tells the tiles below, for the length of a cull traversal, how the terrain is shaped and what its horizon is. Then
+/// puts the update callback on the node if the database has work for it.
 class DatabaseCullCallback : public osg::NodeCallback {
 public:
-    DatabaseCullCallback(Database* database, const osg::Node* node) : _database(database), _node(node) {}
+    /// `isCulling`: false for a database that bins do not cull at present; it only looks for work then.
+    DatabaseCullCallback(Database* database, const osg::Node* node, bool isCulling);
     DatabaseCullCallback(const DatabaseCullCallback& other, const osg::CopyOp& copyop);
     osg::Object* clone(const osg::CopyOp& copyop) const override { return new DatabaseCullCallback(*this, copyop); }
+
+    [[nodiscard]] Database* database() const { return _database.get(); }
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
@@ -27,18 +34,20 @@ protected:
     ~DatabaseCullCallback() override = default;
 
 private:
+    void cull(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack);
+
     const osg::ref_ptr<Database> _database;
     const osg::Node* const _node;  // that it was attached to
+    const bool _isCulling;
 };
 
-/// Brings the loaded tiles up to date: when the Terrain's shape has changed, and when a tile did not fit the index.
+/// Brings the loaded tiles up to date: when the Terrain's shape has changed, and when a tile did not fit the index. It
+/// takes itself off the node when nothing is left to do.
 class DatabaseUpdateCallback : public osg::NodeCallback {
 public:
     DatabaseUpdateCallback(Database* database, const osg::Node* node) : _database(database), _node(node) {}
     DatabaseUpdateCallback(const DatabaseUpdateCallback& other, const osg::CopyOp& copyop);
     osg::Object* clone(const osg::CopyOp& copyop) const override { return new DatabaseUpdateCallback(*this, copyop); }
-
-    [[nodiscard]] Database* database() const { return _database.get(); }
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
@@ -52,16 +61,13 @@ private:
     const osg::Node* const _node;  // that it was attached to
 };
 
-/// Sets both on the node, in place of those that are there.
-void attachDatabase(osg::Node& node, Database& database);
+/// Attaches a database to the node, in place of one that is there. `isCulling`: see DatabaseCullCallback.
+void attachDatabase(osg::Node& node, Database& database, bool isCulling);
 
-/// Puts the update callback alone on the node, for a database that bins do not cull at present.
-void attachUpdate(osg::Node& node, Database& database);
-
-/// Returns: nullptr when neither is on the node.
+/// Returns: nullptr when none is attached.
 [[nodiscard]] Database* attachedDatabase(osg::Node& node);
 
-/// Removes both from the node.
+/// Removes all callbacks of databases from the node.
 void detachDatabase(osg::Node& node);
 
 }  // namespace osgAnalyticBin

@@ -62,6 +62,13 @@ bool IndexAdoption::isAwaited() const {
     return _isExpected;
 }
 
+bool IndexAdoption::hasNews() const {
+    const osg::ref_ptr<AutoIndex> index = this->index();
+    if (!index || !index->isWhole()) return false;
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return !_contents.empty() && (_next != 0 || _hasUnseen || _adoptedGeneration != index->generation());
+}
+
 bool IndexAdoption::hasWaiting() const {
     const std::lock_guard<std::mutex> lock(_mutex);
     return std::any_of(_contents.begin(), _contents.end(), [](const Content& content) {

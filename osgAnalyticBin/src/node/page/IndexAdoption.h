@@ -43,6 +43,9 @@ public:
     /// Whether tiles have to be passed to await().
     [[nodiscard]] bool isAwaited() const;
 
+    /// Whether adopt() has something to do with an index that is whole.
+    [[nodiscard]] bool hasNews() const;
+
     /// Whether tiles that page finer ones wait.
     [[nodiscard]] bool hasWaiting() const;
 
