@@ -130,18 +130,24 @@ TEST(MeshCover, IsNotFilledByBackFaces) {
     }
 }
 
-TEST(MeshCover, IsNotFilledWhereABorderVertexIsBesideTheBorder) {
+TEST(MeshCover, EndsWhereAVertexOfTheBorderIsWithinIt) {
     Random random(4);
     const core::GeodeticBin extents = extentsDeg(10.0, 20.0, 30.0, 40.0);
-    for (const double metres : {0.5, 5.0, 5000.0}) {
+    const double metre = 1.0 / 6335439.0;  // radians of latitude
+    for (const double metres : {0.5, 5.0, 500.0, 20000.0}) {
         core::EcefMesh mesh = gridMesh(random, kEarth, extents, 9);
-        moveVertex(mesh, 4, metres * kEarth.up(15.0 * kDegree, 125.0 * kDegree));
         moveVertex(mesh, 4, glm::dvec3(0.0, 0.0, metres));  // northward, into the place
-        EXPECT_EQ(core::MeshCover::of(kEarth, mesh).isFilled, metres < 1.0) << metres;
+        const core::MeshCover cover = core::MeshCover::of(kEarth, mesh);
+        EXPECT_EQ(cover.isFilled, metres < 1000.0) << metres;
+        if (!cover.isFilled) continue;
+        EXPECT_NEAR(cover.place.latitude().lower, extents.latitude().lower + 0.98 * metres * metre,
+                    0.03 * metres * metre);
         // a vertex within does not matter
         core::EcefMesh within = gridMesh(random, kEarth, extents, 9);
         moveVertex(within, 44, glm::dvec3(0.0, 0.0, metres));
-        EXPECT_TRUE(core::MeshCover::of(kEarth, within).isFilled) << metres;
+        const core::MeshCover same = core::MeshCover::of(kEarth, within);
+        EXPECT_TRUE(same.isFilled) << metres;
+        expectSame(same.place, extents);
     }
 }
 

@@ -40,11 +40,11 @@ public:
         findEnds();
         if (_ends.empty() && _ellipsoid.isPlane()) return cover;
         if (!findPlace()) return cover;
-        cover.place =
-            GeodeticBin(_latitude, {_longitude + _longitudes.lower, _longitude + _longitudes.upper}, {0.0, 0.0});
         // what is steep within the place is surface, too
         if (addSteep()) findEnds();
         cover.isFilled = endsAtBorders() && facesUpInTheMiddle();
+        cover.place =
+            GeodeticBin(_latitude, {_longitude + _longitudes.lower, _longitude + _longitudes.upper}, {0.0, 0.0});
         if (_ends.empty()) cover.place = GeodeticBin({-0.5 * kPi, 0.5 * kPi}, {-kPi, kPi}, {0.0, 0.0});
         return cover;
     }
@@ -220,13 +220,13 @@ private:
         const Geodetic& at = placeOf(vertex);
         const bool isPole = isAtPole(at, along);
         const double aside = across / squeezed(at.latitude);
-        const bool isAround = _longitudes.width() >= 2.0 * kPi && !_ellipsoid.isPlane();
         const bool isWest = isPole || at.longitude <= _longitudes.lower + aside;
         const bool isEast = isPole || at.longitude >= _longitudes.upper - aside;
         return unsigned{at.latitude <= _latitude.lower + along} |
-               unsigned{at.latitude >= _latitude.upper - along} << 1U | unsigned{isWest || (isAround && isEast)} << 2U |
-               unsigned{isEast || (isAround && isWest)} << 3U;
+               unsigned{at.latitude >= _latitude.upper - along} << 1U |
+               unsigned{isWest || (isAround() && isEast)} << 2U | unsigned{isEast || (isAround() && isWest)} << 3U;
     }
+    [[nodiscard]] bool isAround() const { return !_ellipsoid.isPlane() && _longitudes.width() >= 2.0 * kPi; }
     // Adds steep triangles that are no skirts to the surface. Returns: whether there are any.
     [[nodiscard]] bool addSteep() {
         const double along = kSkirtRoom * _latitude.width(), across = kSkirtRoom * _longitudes.width();
@@ -241,10 +241,43 @@ private:
         }
         return hasSteep;
     }
+    // Draws the borders of the place in to where the surface ends, because meshes may run over their borders with a
+    // part of a cell or a skirt. Returns: false where the surface ends within the place.
     [[nodiscard]] bool endsAtBorders() {
-        return std::all_of(_ends.begin(), _ends.end(), [this](const auto& end) {
-            return (bordersAt(end[0], _roomAlong, _roomAcross) & bordersAt(end[1], _roomAlong, _roomAcross)) != 0;
-        });
+        // of the place's height and width, south, north, west and east
+        std::array<double, 4> inward{};
+        const double along = kSkirtRoom * _latitude.width();
+        // a seam is one line
+        const double across = isAround() ? _roomAcross : kSkirtRoom * _longitudes.width();
+        for (const auto& [a, b] : _ends) {
+            const auto bordersOf = [&](std::uint32_t vertex) {
+                return bordersAt(vertex, along, isAround() ? across : across * squeezed(placeOf(vertex).latitude));
+            };
+            const unsigned int borders = bordersOf(a) & bordersOf(b);
+            const std::array<double, 4> from = sharesFromBorders(a), to = sharesFromBorders(b);
+            std::size_t nearest = from.size();
+            for (std::size_t i = 0; i < from.size(); ++i) {
+                const bool isNear = ((borders >> i) & 1U) != 0;
+                const bool isNearer =
+                    nearest == from.size() || std::max(from[i], to[i]) < std::max(from[nearest], to[nearest]);
+                if (isNear && isNearer) nearest = i;
+            }
+            if (nearest == from.size()) return false;
+            const bool isOnSeam = isAround() && nearest >= 2;
+            if (!isOnSeam) inward[nearest] = std::max({inward[nearest], from[nearest], to[nearest]});
+        }
+        const double height = _latitude.width(), width = _longitudes.width();
+        _latitude = {_latitude.lower + inward[0] * height, _latitude.upper - inward[1] * height};
+        _longitudes = {_longitudes.lower + inward[2] * width, _longitudes.upper - inward[3] * width};
+        return true;
+    }
+    // How far a vertex is within each border.
+    [[nodiscard]] std::array<double, 4> sharesFromBorders(std::uint32_t vertex) {
+        const Geodetic& at = placeOf(vertex);
+        const double south = (at.latitude - _latitude.lower) / _latitude.width();
+        const double west = (at.longitude - _longitudes.lower) / _longitudes.width();
+        if (isAtPole(at, _roomAlong)) return {south, 1.0 - south, 0.0, 0.0};
+        return {south, 1.0 - south, west, 1.0 - west};
     }
 
     // Counts the faces on the normal through a point of the place, those that face up less those that face down.

@@ -11,14 +11,15 @@ namespace osgAnalyticBin::core {
 
 /// Whether a mesh covers a rectangle of latitude and longitude, seen from above.
 struct MeshCover {
-    /// The rectangle about the surface, skirts left out, without altitudes; of a mesh that is closed around the globe:
-    /// all latitudes and longitudes. Empty: the mesh has no surface that faces up.
+    /// The largest rectangle that the surface reaches, skirts left out, without altitudes; of a mesh that is closed
+    /// around the globe: all latitudes and longitudes. A surface may run over its borders, by a 256th of the rectangle.
+    /// Empty: the mesh has no surface that faces up.
     GeodeticBin place;
     /// Whether every line along the ellipsoid's normal in the rectangle meets the surface more often on a front face
     /// than on a back face. At borders along a parallel the surface ends at the chords between its vertices.
     bool isFilled = false;
 
-    /// The share of the rectangle's width by which vertices of its border may be beside it.
+    /// The share of a rectangle's width by which places that are the same may differ, for the rounding of vertices.
     static constexpr double kTolerance = 1e-6;
 
     /// Of a mesh, where triangles count with their front faces. `error`: metres by which vertices are rounded; it adds
