@@ -192,7 +192,10 @@ void Database::noteCoverage(const std::string& file, const Coverage& coverage) {
     const bool hasGap = coverage.hasGap();
     if (!coverage.isOfGlobe()) {
         osg::ref_ptr<AnalyticBinCullCallback> tile;
-        if (hasGap && coverage.tile()->callback.lock(tile) && tile->getInstalledTile())
+        // who declares a horizon says that there are none
+        const bool isVouchedFor = options().effectiveHorizonUse() == HorizonUse::Given &&
+                                  _ground.load(std::memory_order_relaxed) != Ground::Map;
+        if (hasGap && !isVouchedFor && coverage.tile()->callback.lock(tile) && tile->getInstalledTile())
             tile->getInstalledTile()->noteGapBelow();
         return;
     }
