@@ -139,7 +139,7 @@ FAULTS = [
     Fault("a near plane behind the horizon's eye", "src/node/cull/Viewpoint.cpp",
           "if (_nearReach > 0.0 && !(_nearReach < distanceTo(ellipsoid, depth, _point))) return std::nullopt;",
           "(void)&distanceTo;", NODE, "*NearFar*:Projections*:HorizonCulling*"),
-    Fault("skirts are not in the bin", "src/node/cull/LoadedBin.cpp", "altitude.lower - _skirt", "altitude.lower",
+    Fault("skirts are not in the bin", "src/node/cull/AnalyticBinCullCallback.cpp", "altitude.lower - _skirt", "altitude.lower",
           NODE, "*Skirt*:Border*:*Surface*"),
     Fault("eyes of other cameras", "src/node/cull/AnalyticBinCullCallback.cpp",
           "database->projection == cullStack.getProjectionMatrix() &&\n", "", NODE, "NestedCamera*:*Stereo*"),
@@ -389,6 +389,18 @@ FAULTS = [
           "if (isBeyond) verdicts.separated |=", "if (false) verdicts.separated |=", NODE, "TileFamily.*"),
     Fault("family: an edge is no edge in the slots", "src/core/bin/BinFamily.cpp",
           "return core::isSeparated(SlotBin(", "return true || core::isSeparated(SlotBin(", CORE, "BinFamily.*"),
+
+    # files and frames
+    Fault("bins are installed on what OSG's cache keeps", "src/node/page/CachedContent.cpp",
+          "osg::clone(&content, CopyOfNodes());", "const_cast<osg::Node*>(&content);", NODE, "ObjectCache.*"),
+    Fault("OSG's cache keeps our read callback", "src/node/page/BinReadFileCallback.cpp",
+          "if (plain) plain->setReadFileCallback(_previous.get());", "", NODE, "ObjectCache.*"),
+    Fault("a database never rests", "src/node/page/DatabaseCallbacks.cpp",
+          "if (_database->takeCull() && !_database->needsUpdate()) takeOffUpdate(*node, self);", "", NODE, "MissingTiles.*"),
+    Fault("a database rests for ever", "src/node/page/DatabaseCallbacks.cpp",
+          "if (node == _node && _database->needsUpdate()) putUpdateCallback(*node, *_database, node);", "", NODE, "MissingTiles.*:VerticalScale.*"),
+    Fault("what is reported while files are read waits for the next update", "src/node/page/Database.cpp",
+          "callback->getInstalledTile()->keepVisible(true);", ";", NODE, "FalseBins.*"),
 
     # found by the generator of scenes, and in databases of others
     Fault("stored bins are believed by a quarter of the sag", "src/node/install/TileFit.cpp", "{least + sag, least, least",

@@ -8,7 +8,8 @@
 namespace osgAnalyticBin {
 
 SharedTiles& SharedTiles::instance() {
-    static SharedTiles tiles;
+    // never destroyed: a pager that an application never deletes may still read
+    static SharedTiles& tiles = *new SharedTiles;
     return tiles;
 }
 

@@ -25,7 +25,8 @@ namespace {
 
 // The globe of tiles with stored bins that no CoordinateSystemNode stands above, and of what is below them.
 const osg::ref_ptr<const osg::EllipsoidModel>& wgs84() {
-    static const osg::ref_ptr<const osg::EllipsoidModel> ellipsoid = new osg::EllipsoidModel;
+    // never destroyed: a pager that an application never deletes may still read
+    static const auto& ellipsoid = *new osg::ref_ptr<const osg::EllipsoidModel>(new osg::EllipsoidModel);
     return ellipsoid;
 }
 

@@ -192,9 +192,6 @@ public:
     /// Whether there was a cull traversal since this was last asked.
     [[nodiscard]] bool takeCull() { return _wasCulled.exchange(false, std::memory_order_relaxed); }
 
-    /// Guards the update callbacks of the database's node in cull traversals.
-    [[nodiscard]] std::mutex& attaching() { return _attaching; }
-
     /// Expands the bins of tiles by what was found below them. Call it after bins were installed on nodes of the scene.
     /// Requires: no cull traversal runs.
     void widenLoaded();
@@ -225,7 +222,6 @@ private:
     mutable std::atomic<bool> _isUpdateWanted{false};
     mutable std::atomic<bool> _isRefitWanted{false};
     std::atomic<bool> _wasCulled{false};
-    std::mutex _attaching;
     std::atomic<Ground> _ground{Ground::Open};
     std::atomic<bool> _isRemoved{false};
     std::atomic<bool> _hasGap{false};

@@ -135,9 +135,12 @@ void beginWithAllPlanes(osg::CullStack& cullStack) {
 }
 
 // In a cull traversal, which others may run at the same time. The next update traversal comes after all of them.
-void putUpdateCallback(osg::Node& node, Database& database, osg::NodeCallback& callback) {
-    const std::lock_guard<std::mutex> lock(database.attaching());
-    if (!findCallback<DatabaseUpdateCallback>(node.getUpdateCallback())) node.addUpdateCallback(&callback);
+void putUpdateCallback(osg::Node& node, Database& database, const osg::Node* attachedTo) {
+    // for all databases: nodes above count what is below them
+    static std::mutex attaching;
+    const std::lock_guard<std::mutex> lock(attaching);
+    if (!findCallback<DatabaseUpdateCallback>(node.getUpdateCallback()))
+        node.addUpdateCallback(new DatabaseUpdateCallback(&database, attachedTo));
 }
 
 // Clones of a node may share its callbacks.
@@ -171,9 +174,9 @@ void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         traverse(node, nv);
     }
     _database->noteCull();
-    if (node == _node && _database->needsUpdate())
-        putUpdateCallback(*node, *_database, *osg::ref_ptr(new DatabaseUpdateCallback(_database, node)));
-    if (!_node) putUpdateCallback(*node, *_database, *osg::ref_ptr(new DatabaseUpdateCallback(_database, nullptr)));
+    if (node == _node && _database->needsUpdate()) putUpdateCallback(*node, *_database, node);
+    // a clone
+    if (!_node) putUpdateCallback(*node, *_database, nullptr);
 }
 
 void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack) {
