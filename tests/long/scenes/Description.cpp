@@ -8,6 +8,7 @@
 #include <osg/Math>
 #include <osg/StateAttribute>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -252,6 +253,13 @@ std::string nodeName(Hook hook, const TileKey& tile) {
     return {};
 }
 
+bool hasScaledTerrain(const Description& description) {
+    const auto isScaled = [](const DatabaseSpec& d) { return d.mesh == MeshKind::Terrain && d.verticalScale != 1.0; };
+    const auto scales = [](const Part& part) { return part.kind == PartKind::SetScale; };
+    return std::any_of(description.databases.begin(), description.databases.end(), isScaled) ||
+           std::any_of(description.parts.begin(), description.parts.end(), scales);
+}
+
 bool isStateWithinMesh(const Part& part) {
     const bool isWithin = part.hook == Hook::Mesh || part.hook == Hook::Geode || part.hook == Hook::Drawable;
     return part.kind == PartKind::State && isWithin;
@@ -265,7 +273,12 @@ std::string inWords(const Part& part) {
     std::ostringstream out;
     out.precision(9);
     out << "#" << part.id << ": ";
-    out << (isStateWithinMesh(part) && part.frame > 0 ? "a state, set late within a mesh, on" : kindName(part.kind));
+    if (isStateWithinMesh(part) && part.frame > 0)
+        out << "a state, set late within a mesh, on";
+    else if (part.kind == PartKind::DrawableDraw && part.frame > 0)
+        out << "a drawable's draw callback, set late, on";
+    else
+        out << kindName(part.kind);
     if (isSomewhere(part.kind)) out << " " << nodeName(part.hook, part.tile);
     if (isModel(part.kind))
         out << " at " << osg::RadiansToDegrees(part.latitude) << " " << osg::RadiansToDegrees(part.longitude) << ", "

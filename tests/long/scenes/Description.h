@@ -215,6 +215,10 @@ struct Description {
 /// Whether parts of a kind are built by makeModel().
 [[nodiscard]] bool isModel(PartKind kind);
 
+/// Whether a vertical scale is set. OSG's spheres of osgTerrain tiles do not follow it: without bins visible tiles are
+/// culled.
+[[nodiscard]] bool hasScaledTerrain(const Description& description);
+
 [[nodiscard]] bool isStateWithinMesh(const Part& part);
 
 /// "a tower of 12 km on the globe, from frame 2".

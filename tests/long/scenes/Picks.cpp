@@ -64,7 +64,7 @@ Picked pick(osg::Node& scene, const osg::Vec3d& from, const osg::Vec3d& to) {
     return picked;
 }
 
-std::optional<std::string> findPickDifference(const Picked& without, const Picked& with) {
+std::optional<std::string> findPickDifference(const Picked& without, const Picked& with, bool comparesVisits) {
     std::ostringstream text;
     if (with.hits != without.hits) {
         const auto first = [](const Picked& picked) { return picked.hits.empty() ? "nothing" : picked.hits.front(); };
@@ -72,7 +72,8 @@ std::optional<std::string> findPickDifference(const Picked& without, const Picke
              << first(without) << "> and <" << first(with) << ">";
         return text.str();
     }
-    if (static_cast<double>(with.visited) <= kMostVisits * static_cast<double>(without.visited) + kMoreVisits)
+    if (!comparesVisits ||
+        static_cast<double>(with.visited) <= kMostVisits * static_cast<double>(without.visited) + kMoreVisits)
         return std::nullopt;
     text << without.visited << " nodes visited without bins, " << with.visited << " with them";
     return text.str();

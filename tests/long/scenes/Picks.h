@@ -21,7 +21,8 @@ struct Picked {
 
 [[nodiscard]] Picked pick(osg::Node& scene, const osg::Vec3d& from, const osg::Vec3d& to);
 
-/// Compares picks with bins and without. Returns: what is wrong.
-[[nodiscard]] std::optional<std::string> findPickDifference(const Picked& without, const Picked& with);
+/// Compares picks with bins and without. `comparesVisits`: else hits alone. Returns: what is wrong.
+[[nodiscard]] std::optional<std::string> findPickDifference(const Picked& without, const Picked& with,
+                                                            bool comparesVisits);
 
 }  // namespace osgAnalyticBin::test

@@ -32,14 +32,6 @@ struct Place {
     [[nodiscard]] bool isAtBorder() const { return std::min(column, row) < 2 || std::max(column, row) >= size - 2; }
 };
 
-// OSG's spheres of osgTerrain tiles do not follow the vertical scale: without bins visible tiles are culled.
-bool hasScaledTerrain(const Description& description) {
-    const auto isScaled = [](const DatabaseSpec& d) { return d.mesh == MeshKind::Terrain && d.verticalScale != 1.0; };
-    const auto scales = [](const Part& part) { return part.kind == PartKind::SetScale; };
-    return std::any_of(description.databases.begin(), description.databases.end(), isScaled) ||
-           std::any_of(description.parts.begin(), description.parts.end(), scales);
-}
-
 // Whether the application takes terrain away, or draws it as lines.
 bool hasHoles(const Description& description) {
     return std::any_of(description.parts.begin(), description.parts.end(), [](const Part& part) {

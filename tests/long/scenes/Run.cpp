@@ -273,7 +273,9 @@ private:
             };
             const Picked without = pick(*_without.root, end(part.high), end(part.low));
             const Picked with = pick(*_with.root, end(part.high), end(part.low));
-            if (const auto text = findPickDifference(without, with)) return Failure{frame, "a pick differs", *text};
+            // spheres with bins hold scaled terrain, and are larger than OSG's
+            const auto text = findPickDifference(without, with, !hasScaledTerrain(_description));
+            if (text) return Failure{frame, "a pick differs", *text};
         }
         return std::nullopt;
     }
