@@ -400,7 +400,7 @@ FAULTS = [
     Fault("a database rests for ever", "src/node/page/DatabaseCallbacks.cpp",
           "if (node == _node && _database->needsUpdate()) putUpdateCallback(*node, *_database, node);", "", NODE, "MissingTiles.*:VerticalScale.*"),
     Fault("what is reported while files are read waits for the next update", "src/node/page/Database.cpp",
-          "callback->getInstalledTile()->keepVisible(true);", ";", NODE, "FalseBins.*"),
+          "if (tile.callback.lock(callback) && callback->getInstalledTile()) callback->getInstalledTile()->keepVisible(true);", "", NODE, "FalseBins.*"),
 
     # found by the generator of scenes, and in databases of others
     Fault("stored bins are believed by a quarter of the sag", "src/node/install/TileFit.cpp", "{least + sag, least, least",
