@@ -182,9 +182,7 @@ private:
                        bool isIndexAwaited) {
         using osgAnalyticBin::Method;
         const bool wantsBins = options.method != Method::Sphere && options.method != Method::None;
-        if (wantsBins && installed == 0) {
-            OSG_WARN << "analyticbin: no tile found in \"" << name << "\"; OSG's own culling is used." << std::endl;
-        } else if (wantsBins) {
+        if (wantsBins && installed > 0) {
             OSG_NOTICE << "analyticbin: \"" << name << "\" has bins on " << installed
                        << " tiles, and on those that are loaded later (" << osgAnalyticBin::toText(options) << ")."
                        << (isIndexAwaited ? " Their index is being made." : "") << std::endl;

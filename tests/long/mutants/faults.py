@@ -222,10 +222,16 @@ FAULTS = [
           'if (_skirt != 0.0) text += "; skirt " + numberToText(_skirt);', "", PLUGIN, "*Serializer*"),
 
     # content of tiles
-    Fault("content: groups of small things lose OSG's culling", "src/node/install/TileCallback.cpp",
-          "if (!surface.has(node)) return false;", "", NODE, "AddedContent.*"),
-    Fault("content: houses beside something that moves have bins", "src/node/install/BinInstaller.cpp",
-          " || isSmallPart(tile)", "", NODE, "AddedContent.*"),
+    Fault("content: houses have bins", "src/node/install/BinInstaller.cpp", " || !isGround(tile, *link)", "", NODE,
+          "AddedContent.*:Spheres.*"),
+    Fault("what OSG leaves out by a group's sphere counts as drawn", "src/node/cull/ShownDepth.cpp",
+          "if (isLeftOutInView(tile, mesh)) _hasHole = true;", "", NODE, "Spheres.*"),
+    Fault("groups that OSG drops as small features count as drawn", "src/node/cull/ShownDepth.cpp",
+          "!_isBelowOutOfView && isSmallFeature(node)", "false", NODE, "Spheres.*"),
+    Fault("kept tiles have OSG's test of their spheres", "src/node/cull/TileFamily.cpp",
+          "setCullingMask(osg::CullingSet::NO_CULLING);", "setCullingMask(mask);", NODE, "TileFamily.*:VerticalScale.*"),
+    Fault("spheres without the vertical scale", "src/node/install/ContentWatch.cpp",
+          "bound.expandBy(scaledTerrainOf(node));", "", NODE, "VerticalScale.*"),
 
     # terrain that hides terrain
     Fault("region: the picture is a half-plane narrower", "src/core/horizon/RegionalSight.cpp",

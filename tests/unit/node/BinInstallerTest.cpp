@@ -80,6 +80,8 @@ TEST(BinInstaller, TreatsTilesAndLeavesTheirSiblingsAlone) {
 TEST(BinInstaller, TakesTheRadiiOfTheCoordinateSystemNode) {
     Database db;
     db.root->setEllipsoidModel(new osg::EllipsoidModel(3396190.0, 3376200.0));
+    const double size = 3396190.0 / osg::WGS_84_RADIUS_EQUATOR;
+    db.mesh->setMatrix(osg::Matrixd::scale(size, size, size));
     installBins(*db.root);
     EXPECT_EQ(callbackOf(*db.tile)->getRadiiText(), "3396190 3376200");
 }
@@ -264,6 +266,27 @@ TEST(BinInstaller, LeavesGeometryThatIsNoTerrainAlone) {
     EXPECT_EQ(installBins(*db.root), 1u);
     EXPECT_EQ(paged->getCullCallback(), nullptr);
     EXPECT_TRUE(paged->getCullingActive());
+}
+
+// In one line each.
+TEST(BinInstaller, SaysWhatIsMissingWhereItFindsNoTile) {
+    const auto notesOf = [](osg::Node& scene, const char* what) {
+        const test::CapturedNotes notes(osg::NOTICE);
+        EXPECT_EQ(installBins(scene), 0u);
+        EXPECT_EQ(notes.count("0 tiles got bins"), 1u);
+        EXPECT_EQ(notes.count(what), 1u);
+        EXPECT_EQ(notes.count(""), 1u);
+    };
+    const osg::ref_ptr<osg::CoordinateSystemNode> empty = new osg::CoordinateSystemNode;
+    notesOf(*empty, "Install bins again when there are some");
+    const osg::ref_ptr<osg::Group> withoutGlobe = new osg::Group;
+    withoutGlobe->addChild(test::makePaged(test::makeMeshTile(test::extentsDeg(0, 5, 0, 5), 0.0), "no.osgb"));
+    notesOf(*withoutGlobe, "CoordinateSystemNode");
+    empty->addChild(withoutGlobe);
+    const test::CapturedNotes notes(osg::NOTICE);
+    EXPECT_EQ(installBins(*empty), 1u);
+    EXPECT_EQ(notes.count("0 tiles"), 0u);
+    EXPECT_EQ(notes.count("\"\""), 0u);
 }
 
 TEST(InstallBinsCallback, InstallsAtTheFirstUpdateAndOnlyThen) {

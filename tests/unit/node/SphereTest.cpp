@@ -9,11 +9,14 @@
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
+#include <osg/Geode>
 #include <osg/Group>
+#include <osg/LOD>
 #include <osg/PagedLOD>
 #include <osgUtil/IntersectionVisitor>
 #include <osgUtil/LineSegmentIntersector>
 
+#include <support/CapturedNotes.h>
 #include <support/Random.h>
 
 namespace osgAnalyticBin::test {
@@ -131,6 +134,68 @@ TEST(Spheres, OfGroupsThatLeaveOutTilesInViewEndTheHorizon) {
     EXPECT_FALSE(drawsAntipode(around));
     EXPECT_TRUE(drawsAntipode(elsewhere));
     EXPECT_TRUE(drawsAntipode(small));
+}
+
+// Houses in a file of their own, and a finer level of the ground beside them.
+TEST(Spheres, OfObjectsStayTheirOnlyTest) {
+    MeshGlobe globe;
+    const auto makeHouses = [](osg::Group* houses) {
+        for (const double place : {1.0, 2.0, 3.0, 4.0}) houses->addChild(makeTower(ecefDeg(place, place, 0.0)));
+        return osg::ref_ptr<osg::Group>(houses);
+    };
+    const auto levels = makeHouses(new osg::LOD), houses = makeHouses(new osg::Group);
+    for (unsigned int i = 0; i < 4; ++i) static_cast<osg::LOD&>(*levels).setRange(i, 0.0f, 1e9f);
+    const auto ground = makeMeshTile(extentsDeg(0.0, 5.0, 0.0, 5.0), 0.0);
+    const osg::ref_ptr<osg::Group> file = new osg::Group;
+    for (const auto& child : {levels, houses, osg::ref_ptr<osg::Group>(ground)}) file->addChild(child);
+    const osg::ref_ptr<osg::PagedLOD> tile =
+        makePaged(makeMeshTile(extentsDeg(0.0, 5.0, 0.0, 5.0), 0.0), "houses", 1e9f);
+    putBelow(*tile, file);
+    globe.root->addChild(tile);
+    installBins(*globe.root);
+    EXPECT_NE(installedOn(*tile), nullptr);
+    EXPECT_NE(installedOn(*ground), nullptr);
+    EXPECT_EQ(levels->getCullCallback(), nullptr);
+    for (unsigned int i = 0; i < 4; ++i) EXPECT_EQ(houses->getChild(i)->getCullCallback(), nullptr);
+    for (const auto& group : {levels, houses}) {
+        EXPECT_TRUE(globe.draws(*group->getChild(1), downTo(2.0, 2.0, 20000.0)));
+        EXPECT_FALSE(globe.draws(*group->getChild(2), downTo(2.0, 2.0, 20000.0)));
+    }
+}
+
+// A kind of Geode that may draw anything.
+struct EffectGeode : osg::Geode {};
+
+TEST(Spheres, CullTilesWhoseStoredBinsCannotBeCompared) {
+    const auto drawnIn = [](bool isInstalled, const CullView& view) {
+        const osg::ref_ptr<osg::Group> scene = new osg::Group;
+        for (int i = 0; i < 20; ++i) {
+            const core::GeodeticBin extents = extentsDeg(i, i + 1, 0, 1);
+            const auto mesh = makeMeshTile(extents, 0.0);
+            const osg::ref_ptr<osg::Geode> geode = new EffectGeode;
+            geode->addDrawable(drawableOf(*mesh));
+            mesh->removeChildren(0, mesh->getNumChildren());
+            mesh->addChild(geode);
+            const osg::ref_ptr<osg::PagedLOD> objects = new osg::PagedLOD;
+            objects->setFileName(0, "objects");
+            mesh->addChild(objects);
+            const osg::ref_ptr<osg::LOD> tile = new osg::LOD;
+            tile->addChild(mesh, 0.0f, 1e9f);
+            setStoredBin(*tile, AnalyticBin(extents.withAltitude({-100.0, 100.0})));
+            scene->addChild(tile);
+        }
+        if (isInstalled) (void)installBins(*scene);
+        const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+        return cull(*scene, view, *visitor).drawn.size();
+    };
+    const CapturedNotes notes;
+    for (const double latitude : {3.0, 11.0}) {
+        const CullView view = downTo(latitude, 0.5, 30000.0);
+        EXPECT_GT(drawnIn(false, view), 0u);
+        EXPECT_LE(drawnIn(true, view), drawnIn(false, view));
+        EXPECT_GT(drawnIn(true, view), 0u);
+    }
+    EXPECT_GT(notes.count("the root file holds content that cannot be compared"), 0u);
 }
 
 }  // namespace

@@ -202,10 +202,10 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const Scoped paging(_paging, PagingByOptions());
     const Scoped coverage(_coverage, std::make_shared<Coverages>());
     (*_coverage)[{nullptr, frame().file}].expectGlobe();
-    const std::size_t before = _installed, boxesBefore = _boxes;
+    const std::size_t before = _installed;
     TileFinder::apply(node);
-    // photogrammetry alone is no globe with gaps
-    if (_boxes > boxesBefore && _installed == before && _paging.empty()) _coverage->clear();
+    // photogrammetry alone is no globe with gaps, and neither is one whose tiles are still to come
+    if (!isKept && _installed == before && _paging.empty()) _coverage->clear();
     finish();
     if (isRefit) return;
     if (installsBins() && (_installed > before || !_paging.empty())) return attachDatabase(node, *own, true);
@@ -307,7 +307,7 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     link->hasNewContent = hasNewContent;
     const TerrainShape shape = database().fittedShape();
     const TileFit fit = fitTile(tile, database(), shape, *link);
-    if (!fit.isTerrain || isSmallPart(tile)) return visitWithoutBin(*tile.node, true);
+    if (!fit.isTerrain || !isGround(tile, *link)) return visitWithoutBin(*tile.node, true);
 
     const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database().ellipsoid();
     const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);

@@ -9,7 +9,10 @@
 
 #include <osgAnalyticBin/TileSurface.h>
 
+#include <osg/Drawable>
+#include <osg/NodeVisitor>
 #include <osg/PagedLOD>
+#include <osg/Transform>
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
@@ -223,6 +226,7 @@ AnalyticBin checkStored(const FoundTile& tile, Database& database, const Terrain
     const TileSurface own = surfaceOf(tile, model, shape);
     if (!own.bin.valid() && !own.isEmpty) {
         fit.bin.init();
+        fit.isTerrain = false;
         Database::reportUnverifiable(link);
         return {};
     }
@@ -318,6 +322,42 @@ bool isVouchedFor(const CullOptions& options, const osg::EllipsoidModel& ellipso
     return options.effectiveHorizonUse() == HorizonUse::Given && !isMapPlane(ellipsoid);
 }
 
+// Looks for a drawable in a leaf that spans a good part of the tile above it, as ground does. Objects on the ground do
+// not, however far they stand apart.
+class GroundSearch : public osg::NodeVisitor {
+public:
+    // `extents`: of the whole leaf.
+    GroundSearch(const core::GeodeticBin& above, const core::GeodeticBin& extents, const FoundTile& leaf)
+        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _above(above), _leaf(leaf) {
+        setNodeMaskOverride(~0u);
+        if (isWide(extents)) leaf.node->accept(*this);
+    }
+    [[nodiscard]] bool found() const { return _found; }
+
+    void apply(osg::Node& node) override {
+        if (!_found) traverse(node);
+    }
+    void apply(osg::Drawable& drawable) override {
+        if (_found) return;
+        osg::NodePath path = getNodePath();
+        path.pop_back();
+        const osg::Matrixd toEcef = osg::computeLocalToWorld(path) * _leaf.frame.localToEcef;
+        const AnalyticBin bin = tileSurface(drawable, *_leaf.frame.ellipsoid, toEcef).bin;
+        _found = bin.valid() && isWide(bin.bin());
+    }
+
+private:
+    [[nodiscard]] bool isWide(const core::GeodeticBin& bin) const {
+        constexpr double kLeast = 1.0 / 16.0;
+        return bin.latitude().width() >= kLeast * _above.latitude().width() &&
+               bin.longitude().width() >= kLeast * _above.longitude().width();
+    }
+
+    const core::GeodeticBin _above;
+    const FoundTile& _leaf;
+    bool _found = false;
+};
+
 }  // namespace
 
 TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
@@ -365,18 +405,13 @@ IndexedFit fitByEntry(const BinIndex::Entry& entry, bool isWhole, double ownSkir
     return fit;
 }
 
-bool isSmallPart(const FoundTile& tile) {
-    constexpr float kLargest = 0.25f;
+bool isGround(const FoundTile& tile, const ParentTile& link) {
     const osg::Node& node = *tile.node;
     const bool isLeaf = tile.frame.isBelowTile && !hasStoredBin(node) && !dynamic_cast<const osg::PagedLOD*>(&node) &&
                         !dynamic_cast<const osgTerrain::TerrainTile*>(&node);
-    if (!isLeaf || !node.getBound().valid()) return false;
-    const auto groupAbove = [](const osg::Node& below) {
-        return below.getNumParents() == 1 ? below.getParent(0) : nullptr;
-    };
-    const osg::Group* above = groupAbove(node);
-    while (above && typeid(*above) == typeid(osg::Group)) above = groupAbove(*above);
-    return above && above->asTransform() && node.getBound().radius() < kLargest * above->getBound().radius();
+    if (!isLeaf || !link.parent) return true;
+    GroundSearch search(link.parent->extents, link.extents, tile);
+    return search.found();
 }
 
 }  // namespace osgAnalyticBin

@@ -55,8 +55,9 @@ struct IndexedFit {
 [[nodiscard]] IndexedFit fitByEntry(const BinIndex::Entry& entry, bool isWhole, double ownSkirt,
                                     const Database& database, const TerrainShape& shape, const ParentTile& link);
 
-/// Whether a leaf is a small part of a transform that is no tile itself, because something in it moves: a house or a
-/// tree beside the ground. A bin of its own would cost more than it saves.
-[[nodiscard]] bool isSmallPart(const FoundTile& tile);
+/// Whether a tile is ground, as its mesh tells: one of its drawables spans at least a 16th of the tile above in both
+/// directions. Leaves that hold objects on the ground alone, such as houses, do not; OSG culls them better. `link`:
+/// that of the tile, fitted.
+[[nodiscard]] bool isGround(const FoundTile& tile, const ParentTile& link);
 
 }  // namespace osgAnalyticBin

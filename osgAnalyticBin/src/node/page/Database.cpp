@@ -162,8 +162,8 @@ bool Database::takeShapeChange() {
 void Database::noteGap(const std::string& where) {
     if (_hasGap.exchange(true, std::memory_order_relaxed)) return;
     if (_ground == Ground::Map) {
-        OSG_INFO << "osgAnalyticBin: the tiles of \"" << where
-                 << "\" leave gaps in the map, or it is not known whether they do. No tile is hidden behind terrain."
+        OSG_INFO << "osgAnalyticBin: the tiles of " << fileName(where)
+                 << " leave gaps in the map, or it is not known whether they do. No tile is hidden behind terrain."
                  << std::endl;
         return;
     }
@@ -303,7 +303,7 @@ void Database::reportFalseBin(const ParentTile& tile, const AnalyticBin& bin) {
 void Database::reportUnverifiable(const ParentTile& tile) {
     warn(tile, &Database::_hasWarnedOfUnverifiable,
          " holds content that cannot be compared with the bin stored with it or above it: it stands on another globe, "
-         "or its mesh has no known bounds. Tiles are kept visible there.");
+         "or its mesh has no known bounds. Such bins are not used; OSG culls these tiles by their spheres.");
     widenFrom(tile, {{}, true});
 }
 
