@@ -63,17 +63,17 @@ struct TerrainShape {
 /// The cull callback of a tile: tests the tile's bin against the frustum planes that are still undecided, and culls
 /// the tile when the bin is outside one of them. OSG tests the node's sphere before, as on any node; installBins() has
 /// siblings tested together in place of that. Planes that have the whole bin inside are not tested again in the
-/// subgraph. Small-feature and shadow-occluder culling still work. Nested callbacks run when the tile is not culled. It
-/// obeys the camera's culling mode. Without frustum culling the horizon is not used either, because neither frustum nor
-/// eye determine what is drawn then. Frame: the bin is in ECEF. The node's children are in ECEF, too, unless
-/// setLocalToEcef() gives another frame. Transforms above the globe need no setting, because OSG's planes follow them.
-/// Guarantee (all methods but Method::Paper and Method::Corners): a tile is never culled if a point of its bin is
-/// inside all planes and not behind the horizon; tests: AnalyticBinCullCallback.*. An invalid bin is never culled.
-/// Threads: run() changes nothing in the callback; any number of cull traversals may run it at once. Setters must not
-/// be called while a cull traversal runs.
-/// Cost: the first test after a change of the bin prepares it, with one allocation and trigonometry; later tests need
-/// neither. Memory: 330 bytes, and 750 more once a tile has been tested alone. A tile that is tested together with its
-/// siblings does not need these.
+/// subgraph. Small-feature culling still works; while the camera has active OccluderNodes, OSG's own culling is all
+/// there is. Nested callbacks run when the tile is not culled. It obeys the camera's culling mode. Without frustum
+/// culling the horizon is not used either, because neither frustum nor eye determine what is drawn then. Frame: the bin
+/// is in ECEF. The node's children are in ECEF, too, unless setLocalToEcef() gives another frame. Transforms above the
+/// globe need no setting, because OSG's planes follow them. Guarantee (all methods but Method::Paper and
+/// Method::Corners): a tile is never culled if a point of its bin is inside all planes and not behind the horizon;
+/// tests: AnalyticBinCullCallback.*. An invalid bin is never culled. Threads: run() changes nothing in the callback;
+/// any number of cull traversals may run it at once. Setters must not be called while a cull traversal runs. Cost: the
+/// first test after a change of the bin prepares it, with one allocation and trigonometry; later tests need neither.
+/// Memory: 330 bytes, and 750 more once a tile has been tested alone. A tile that is tested together with its siblings
+/// does not need these.
 class OSGANALYTICBIN_EXPORT AnalyticBinCullCallback : public osg::NodeCallback {
 public:
     AnalyticBinCullCallback();

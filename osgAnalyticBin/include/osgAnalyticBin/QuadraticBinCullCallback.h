@@ -33,7 +33,7 @@ public:
     /// Without a bin: never culls.
     QuadraticBinCullCallback() = default;
 
-    /// The sphere is for small-feature and occluder culling, and has to hold what the node draws; an invalid one
+    /// The sphere is for small-feature culling, and has to hold what the node draws; an invalid one
     /// leaves these out.
     explicit QuadraticBinCullCallback(const core::QuadraticBin& bin,
                                       const osg::BoundingSphere& sphere = osg::BoundingSphere());

@@ -12,10 +12,8 @@
 #include <osgAnalyticBin/BinStatistics.h>
 
 #include <gtest/gtest.h>
-#include <osg/ConvexPlanarOccluder>
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
-#include <osg/OccluderNode>
 
 #include <algorithm>
 #include <atomic>
@@ -232,34 +230,6 @@ TEST(AnalyticBinCullCallback, KeepsSmallFeatureCulling) {
     view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
     test::cull(*root, view, *visitor, 2);
     EXPECT_EQ(visited, std::set<std::string>{"large"});
-}
-
-osg::ref_ptr<osg::OccluderNode> wall(double x, double halfWidth) {
-    osg::ref_ptr<osg::ConvexPlanarOccluder> occluder = new osg::ConvexPlanarOccluder;
-    occluder->getOccluder().add(osg::Vec3(float(x), float(-halfWidth), float(-halfWidth)));
-    occluder->getOccluder().add(osg::Vec3(float(x), float(halfWidth), float(-halfWidth)));
-    occluder->getOccluder().add(osg::Vec3(float(x), float(halfWidth), float(halfWidth)));
-    occluder->getOccluder().add(osg::Vec3(float(x), float(-halfWidth), float(halfWidth)));
-    osg::ref_ptr<osg::OccluderNode> node = new osg::OccluderNode;
-    node->setOccluder(occluder.get());
-    node->setCullingActive(false);
-    return node;
-}
-
-TEST(AnalyticBinCullCallback, KeepsShadowOccluderCulling) {
-    std::set<std::string> visited;
-    const osg::ref_ptr<osg::Group> root = new osg::Group;
-    root->addChild(wall(kEarthRadius + 5e5, 4e5));
-    root->addChild(test::makeTile("behind", AnalyticBin(GeodeticBin::fromDegrees({-1, 1}, {-1, 1}, {0, 10})), visited));
-    root->addChild(
-        test::makeTile("beside", AnalyticBin(GeodeticBin::fromDegrees({10, 12}, {-1, 1}, {0, 10})), visited));
-    CullView view = CullView::lookAt({kEarthRadius + 1e6, 0, 0}, {0, 0, 0}, {0, 0, 1}, 120.0);
-    // OSG drops occluders whose volume in clip space is small: near and far as close as the scene allows
-    view.projection = osg::Matrixd::perspective(120.0, 1.0, 4e5, 2e6);
-    view.cullingMode |= osg::CullSettings::SHADOW_OCCLUSION_CULLING;
-    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
-    test::cull(*root, view, *visitor);
-    EXPECT_EQ(visited, std::set<std::string>{"beside"});
 }
 
 TEST(AnalyticBinCullCallback, HonoursTheCullingModeWithoutFrustumCulling) {

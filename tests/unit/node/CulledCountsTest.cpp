@@ -10,8 +10,6 @@
 #include <osgAnalyticBin/BinStatistics.h>
 
 #include <gtest/gtest.h>
-#include <osg/ConvexPlanarOccluder>
-#include <osg/OccluderNode>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -59,46 +57,6 @@ TEST_F(CulledCounts, SmallFeaturesAreOutside) {
     EXPECT_GT(partly, 2);
     _pixels = 1e6F;
     EXPECT_EQ(counted().outside, _tiles);
-}
-
-// A wall before the middle of the globe.
-osg::ref_ptr<osg::OccluderNode> makeWall() {
-    const osg::ref_ptr<osg::ConvexPlanarOccluder> wall = new osg::ConvexPlanarOccluder;
-    for (const auto& [y, z] : {std::pair{-0.45, -0.45}, {0.45, -0.45}, {0.45, 0.45}, {-0.45, 0.45}})
-        wall->getOccluder().add(osg::Vec3(osg::Vec3d(3.0, y, z) * kGlobeRadius));
-    osg::ref_ptr<osg::OccluderNode> occluder = new osg::OccluderNode;
-    occluder->setOccluder(wall);
-    occluder->setCullingActive(false);
-    return occluder;
-}
-
-TEST_F(CulledCounts, TilesBehindOccludersAreOutside) {
-    _scene->addChild(makeWall());
-    const BinCounts all = counted();
-    _view.cullingMode |= osg::CullSettings::SHADOW_OCCLUSION_CULLING;
-    const BinCounts behind = counted();
-    EXPECT_GT(behind.outside, all.outside + 4);
-    EXPECT_LT(behind.outside, _tiles);
-}
-
-// A fault that no test noticed.
-TEST_F(CulledCounts, WhatIsBelowAnOccluderIsNotHiddenByIt) {
-    const osg::ref_ptr<osg::OccluderNode> wall = makeWall();
-    _scene->addChild(wall);
-    (void)counted();
-    const std::set<std::string> inView = _visited;
-    _view.cullingMode |= osg::CullSettings::SHADOW_OCCLUSION_CULLING;
-    (void)counted();
-    const std::vector<AnalyticBin> bins = startTiles();
-    std::size_t hidden = 0;
-    while (hidden < bins.size() &&
-           (inView.count(std::to_string(hidden)) == 0 || _visited.count(std::to_string(hidden))))
-        ++hidden;
-    ASSERT_LT(hidden, bins.size());
-    wall->addChild(makeTile("below", bins[hidden], _visited));
-    ++_tiles;
-    (void)counted();
-    EXPECT_EQ(_visited.count("below"), 1U);
 }
 
 }  // namespace

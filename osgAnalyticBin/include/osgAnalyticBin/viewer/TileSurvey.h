@@ -21,7 +21,7 @@ namespace osgAnalyticBin {
 
 /// The verdict of a cull traversal on a tile.
 enum class TileVerdict {
-    Outside,     ///< outside a plane of the frustum, by its bin or its sphere, too small, or behind an occluder
+    Outside,     ///< outside a plane of the frustum, by its bin or its sphere, or too small
     Straddling,  ///< of the frustum's planes some are undecided
     Inside,      ///< inside all planes
     Hidden,      ///< behind the horizon

@@ -96,6 +96,8 @@ void BoxSetCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     setUndecided(frustum, static_cast<core::PlaneMask>((std::uint64_t{1} << frustum.getPlaneList().size()) - 1));
     const TraversalOfThread outer = traversalOfThread;
     traversalOfThread = {nv, &CullTraversal::of(*nv), {}};
+    // OSG's tests of occluders need the spheres that are switched off
+    const CullingMaskScope mask(*cullStack, ~osg::CullingSet::Mask{osg::CullingSet::SHADOW_OCCLUSION_CULLING});
     traverse(node, nv);
     const BinCounts counts = traversalOfThread.counts;
     traversalOfThread = outer;

@@ -26,11 +26,9 @@ void enter(osg::Node& child, const BoxSlots::Slot& slot, osg::NodeVisitor& nv) {
     enterWithoutTest(child, static_cast<osgUtil::CullVisitor&>(nv));
 }
 
-// Whether what is in view is culled all the same: as a small feature, or behind an occluder.
-bool isCulledInView(const BoxTest& test, const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) {
-    if (!test.isTested) return false;
-    const osg::BoundingSphere& sphere = test.sphereOf(node);
-    return isSmall(cullStack.getCurrentCullingSet(), sphere) || isOccluded(cullStack, nv.getNodePath(), sphere);
+// Whether what is in view is culled all the same: as a small feature.
+bool isCulledInView(const BoxTest& test, const osg::Node& node, osg::CullStack& cullStack) {
+    return test.isTested && isSmall(cullStack.getCurrentCullingSet(), test.sphereOf(node));
 }
 
 }  // namespace
@@ -82,7 +80,6 @@ void BoxFamily::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         traverse(node, nv);
         return;
     }
-    const OccluderScope occluders(*cullStack);
     cullChildren(*node->asGroup(), *nv, *cullStack);
 }
 
@@ -100,7 +97,7 @@ void BoxFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullS
         osg::Polytope& frustum = cullStack.getCurrentCullingSet().getFrustum();
         core::PlaneMask undecided = before;
         const core::Side side = slots[i].test.sideOf(frustum.getPlaneList(), undecided, child);
-        if (side == core::Side::Outside || isCulledInView(slots[i].test, child, cullStack, nv)) {
+        if (side == core::Side::Outside || isCulledInView(slots[i].test, child, cullStack)) {
             ++counts.outside;
             continue;
         }

@@ -8,7 +8,6 @@
 #include "../install/InstalledTile.h"
 #include "BinCulling.h"
 #include "DrawnState.h"
-#include "Occluders.h"
 #include "TilePlan.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>

@@ -6,12 +6,13 @@
 #pragma once
 
 #include "CullTraversal.h"
-#include "Occluders.h"
 
 #include <osgAnalyticBin/core/Plane.h>
 
 #include <osg/BoundingSphere>
+#include <osg/CullSettings>
 #include <osg/CullStack>
+#include <osg/CullingSet>
 #include <osg/NodeVisitor>
 #include <osg/Polytope>
 
@@ -29,6 +30,13 @@ struct Verdict {
     core::Side side;
     Reason reason;
 };
+
+/// Whether the camera that is culled for has occluders. OSG's tests of spheres are all that is needed then: those of
+/// occluders keep masks of what is left to test, which they inherit from node to node.
+[[nodiscard]] inline bool hasActiveOccluders(osg::CullStack& cullStack) {
+    return (cullStack.getCullingMode() & osg::CullSettings::SHADOW_OCCLUSION_CULLING) &&
+           !cullStack.getOccluderList().empty();
+}
 
 /// OSG's own small-feature test, and nothing else of CullingSet::isCulled(BoundingSphere).
 [[nodiscard]] bool isSmall(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere);
@@ -64,6 +72,31 @@ private:
     core::PlaneMask _before;
 };
 
+/// While it exists, OSG tests below the present node only what is in `mask`, too.
+class CullingMaskScope {
+public:
+    CullingMaskScope(osg::CullStack& cullStack, osg::CullingSet::Mask mask)
+        : _cullStack(cullStack),
+          _current(cullStack.getCurrentCullingSet().getCullingMask()),
+          _projection(cullStack.getProjectionCullingStack().back().getCullingMask()) {
+        set(_current & mask, _projection & mask);
+    }
+    // the stacks may have moved meanwhile
+    ~CullingMaskScope() { set(_current, _projection); }
+    CullingMaskScope(const CullingMaskScope&) = delete;
+    CullingMaskScope& operator=(const CullingMaskScope&) = delete;
+
+private:
+    // culling sets of transforms below are made from that of the projection
+    void set(osg::CullingSet::Mask current, osg::CullingSet::Mask projection) {
+        _cullStack.getCurrentCullingSet().setCullingMask(current);
+        _cullStack.getProjectionCullingStack().back().setCullingMask(projection);
+    }
+
+    osg::CullStack& _cullStack;
+    const osg::CullingSet::Mask _current, _projection;
+};
+
 /// Enters a node without cull callbacks of others as osgUtil::CullVisitor does it, without its test of the sphere: for
 /// nodes that were tested together with their siblings. Requires: a visitor of this very type, and a node that it
 /// enters by apply(osg::LOD&) or apply(osg::Group&).
@@ -76,10 +109,9 @@ void enterWithoutTest(osg::Node& node, osgUtil::CullVisitor& visitor);
 /// Counts a tile that was tested, in cull traversals. `culled`: by its bin or otherwise.
 void count(CullTraversal& traversal, const osg::NodeVisitor& nv, const Verdict& verdict, bool culled);
 
-/// Whether a node is culled: by its bin against the undecided planes, as a small feature, or behind an occluder. Planes
-/// that have the bin inside are cleared from the frustum's masks, so that they are not tested again below the node. The
-/// verdict is counted.
-/// `classify(const osg::Polytope& frustum, core::PlaneMask& undecided)` tests the bin.
+/// Whether a node is culled: by its bin against the undecided planes, or as a small feature. Planes that have the bin
+/// inside are cleared from the frustum's masks, so that they are not tested again below the node. The verdict is
+/// counted. `classify(const osg::Polytope& frustum, core::PlaneMask& undecided)` tests the bin.
 template <class Classify>
 [[nodiscard]] bool isCulledByBin(osg::CullStack& cullStack, osg::NodeVisitor& nv, CullTraversal& traversal,
                                  const osg::BoundingSphere& sphere, const Classify& classify) {
@@ -92,24 +124,23 @@ template <class Classify>
         // OSG pops this mask after the subgraph: a plane cleared here stays cleared just there.
         setUndecided(frustum, undecided);
     }
-    const bool culled = verdict.side == core::Side::Outside || isSmall(cullingSet, sphere) ||
-                        isOccluded(cullStack, nv.getNodePath(), sphere);
+    const bool culled = verdict.side == core::Side::Outside || isSmall(cullingSet, sphere);
     count(traversal, nv, verdict, culled);
     return culled;
 }
 
-/// The body of such a callback: `isCulled(osg::CullStack&)` decides in a cull traversal, `traverse()` goes on.
+/// The body of such a callback: `isCulled(osg::CullStack&)` decides in a cull traversal without occluders, `traverse()`
+/// goes on.
 template <class IsCulled, class Traverse>
 void cullOrTraverse(osg::NodeVisitor& nv, const IsCulled& isCulled, const Traverse& traverse) {
     osg::CullStack* cullStack = nv.asCullStack();
-    if (!cullStack) {
+    if (!cullStack || hasActiveOccluders(*cullStack)) {
         traverse();
         return;
     }
     osg::Polytope& frustum = cullStack->getCurrentCullingSet().getFrustum();
     const osg::Polytope::ClippingMask before = frustum.getCurrentMask();
     if (!isCulled(*cullStack)) {
-        const OccluderScope occluders(*cullStack);
         const PlanesBelow planes(*cullStack, cullStack->getCurrentCullingSet().getFrustum().getCurrentMask());
         traverse();
     }

@@ -3,6 +3,7 @@
 
 #include "NoCulling.h"
 
+#include "../cull/BinCulling.h"
 #include "FindCallback.h"
 #include "TileCallback.h"
 
@@ -33,15 +34,8 @@ void NoCulling::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         traverse(node, nv);
         return;
     }
-    // culling sets of transforms below are made from that of the projection
-    const osg::CullingSet::Mask current = cullStack->getCurrentCullingSet().getCullingMask();
-    const osg::CullingSet::Mask projection = cullStack->getProjectionCullingStack().back().getCullingMask();
-    cullStack->getCurrentCullingSet().setCullingMask(osg::CullingSet::NO_CULLING);
-    cullStack->getProjectionCullingStack().back().setCullingMask(osg::CullingSet::NO_CULLING);
+    const CullingMaskScope scope(*cullStack, osg::CullingSet::NO_CULLING);
     traverse(node, nv);
-    // the stacks may have moved meanwhile
-    cullStack->getCurrentCullingSet().setCullingMask(current);
-    cullStack->getProjectionCullingStack().back().setCullingMask(projection);
 }
 
 }  // namespace osgAnalyticBin

@@ -82,6 +82,7 @@ Horizon horizonOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cull
                     const CullOptions& options, const DatabaseView& view) {
     const HorizonUse horizonUse = options.effectiveHorizonUse();
     const bool isMap = view.ellipsoid.isPlane();
+    if (hasActiveOccluders(cullStack)) return {};
     // nothing else is looked for
     if (isMap && options.occlusion == OcclusionUse::Off) return {};
     const bool isGiven = horizonUse == HorizonUse::Given && !isMap;
