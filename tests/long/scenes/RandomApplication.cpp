@@ -297,6 +297,12 @@ private:
 void addApplication(Random& random, Description& description, int frames) {
     // the fewer other parts there are, the more is hidden
     if (random.chance(0.5)) description.parts.clear();
+    // who gives a horizon vouches for terrain without holes
+    const auto vouchForNothing = [](CullOptions& options) {
+        if (options.horizonUse == HorizonUse::Given) options.horizonUse = HorizonUse::ByMethod;
+    };
+    for (DatabaseSpec& database : description.databases) vouchForNothing(database.options);
+    for (Part& part : description.parts) vouchForNothing(part.options);
     for (int count = random.integer(1, 2); count > 0; --count)
         ApplicationMaker(random, description, frames).addSubject();
 }
