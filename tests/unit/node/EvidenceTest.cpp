@@ -271,6 +271,17 @@ TEST(Evidence, IsMissingForGeometryOfAnotherClass) {
     EXPECT_TRUE(globe.drawsAntipode());
 }
 
+TEST(Evidence, IsMissingForADrawableThatIsDrawnByACallback) {
+    struct DrawsNothing : osg::Drawable::DrawCallback {
+        void drawImplementation(osg::RenderInfo&, const osg::Drawable*) const override {}
+    };
+    MeshGlobe globe;
+    installBins(*globe.root);
+    EXPECT_FALSE(globe.drawsAntipode());
+    geometryOf(*globe.tiles[19]).setDrawCallback(new DrawsNothing);
+    EXPECT_TRUE(globe.drawsAntipode());
+}
+
 // Leaves one child out.
 struct LeavesOut : osg::NodeCallback {
     explicit LeavesOut(osg::Node* node) : out(node) {}

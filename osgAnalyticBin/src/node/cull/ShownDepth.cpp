@@ -239,11 +239,13 @@ private:
     }
 
     [[nodiscard]] bool isSurelyDrawn(const osg::Node& node, bool mayLeaveOut) const {
-        return _visitor.validNodeMask(node) && !mayLeaveOut && drawnStateOf(node, _database.view.rules).hides;
+        const StateRules& rules = _database.view.rules;
+        // other classes, and their parts, were asked for when bins were installed
+        const DrawnState drawn = node.asDrawable() ? drawnStateAt(node, rules) : drawnStateOf(node, rules);
+        return _visitor.validNodeMask(node) && !mayLeaveOut && drawn.hides;
     }
 
-    // Whether all of a tile's own mesh is drawn. Classes and drawables' callbacks were asked for when bins were
-    // installed.
+    // Whether all of a tile's own mesh is drawn.
     [[nodiscard]] bool isDrawnWhole(const osg::Node& mesh, const SearchedTile& tile) const {
         const bool isKnown = tile.member && tile.member->meshParts.front() == &mesh;
         if (!isKnown) {
