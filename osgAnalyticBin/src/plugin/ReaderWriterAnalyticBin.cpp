@@ -72,6 +72,10 @@ public:
             "techniquemargin=METRES",
             "Declares that osgTerrain tiles with another technique, or moved by shaders, stay within this distance "
             "of the mesh that GeometryTechnique makes; default: other techniques are not culled.");
+        supportsOption("shaders=declared|plain",
+                       "plain: declares that all shaders draw all of each triangle where its vertices are; otherwise "
+                       "terrain under a shader hides nothing unless the application declares its program; default "
+                       "declared.");
         supportsOption("index=auto|on|off",
                        "Whether an index beside the database (DATABASE.bins) is used; auto (default): made in the "
                        "background where there is none.");
