@@ -4,6 +4,7 @@
 #pragma once
 
 #include "DrawnState.h"
+#include "GroundBelow.h"
 #include "NearMeshes.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -114,6 +115,8 @@ public:
     [[nodiscard]] bool isKept(const osg::Node& node) const { return _kept == &node; }
     [[nodiscard]] osg::CullingSet::Mask maskBelowKept() const { return _maskBelowKept; }
 
+    /// The ground that this visitor last found below its eye.
+    [[nodiscard]] GroundBelow& ground() { return _ground; }
     /// The meshes that it last read around its eye.
     [[nodiscard]] NearMeshes& nearMeshes() { return _nearMeshes; }
 
@@ -132,6 +135,7 @@ private:
     osg::CullingSet::Mask _maskBelowKept = 0;
     std::deque<TilePlan> _plans;  // of databases within each other
     std::size_t _openPlans = 0;
+    GroundBelow _ground;
     NearMeshes _nearMeshes;
 
     core::PlaneSet _planes;

@@ -6,6 +6,7 @@
 #include "../../core/EarthScale.h"
 #include "../GlmBridge.h"
 #include "../Inverse.h"
+#include "../install/InstalledTile.h"
 #include "../install/MeshCulling.h"
 
 #include <glm/geometric.hpp>
@@ -42,6 +43,21 @@ bool hasMesh(osg::Node& mesh) {
     return has;
 }
 
+// The corners of the triangle that was met, in ECEF; all zero where OSG does not say.
+std::array<glm::dvec3, 3> triangleOf(const Intersector::Intersection& hit, const osg::Matrixd& localToEcef) {
+    const osg::Geometry* const geometry = hit.drawable ? hit.drawable->asGeometry() : nullptr;
+    const auto* const vertices = geometry ? dynamic_cast<const osg::Vec3Array*>(geometry->getVertexArray()) : nullptr;
+    std::array<glm::dvec3, 3> triangle{};
+    if (!vertices || hit.indexList.size() != 3) return triangle;
+    osg::Matrixd toEcef = localToEcef;
+    if (hit.matrix) toEcef.preMult(*hit.matrix);
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (hit.indexList[i] >= vertices->size()) return {};
+        triangle[i] = toGlm(osg::Vec3d((*vertices)[hit.indexList[i]]) * toEcef);
+    }
+    return triangle;
+}
+
 // Metres by which what is drawn may lie outside of the mesh.
 double overhang(const AnalyticBinCullCallback& tile) {
     return tile.getTerrainShape() ? tile.getTerrainShape()->techniqueMargin : 0.0;
@@ -62,10 +78,32 @@ bool isInColumn(const core::Geodetic& place, const AnalyticBinCullCallback& tile
            0.5 * bin.longitude().width() + east;
 }
 
-bool isGroundBelow(const core::Geodetic& eye, osg::Node& mesh, const AnalyticBinCullCallback& tile,
-                   const core::Ellipsoid& ellipsoid) {
+bool GroundBelow::isTriangleBelow(const glm::dvec3& eye, const glm::dvec3& up) const {
+    const auto& [a, b, c] = _triangle;
+    const double ab = glm::dot(up, glm::cross(a - eye, b - eye));
+    const double bc = glm::dot(up, glm::cross(b - eye, c - eye));
+    const double ca = glm::dot(up, glm::cross(c - eye, a - eye));
+    const bool isWithin = (ab > 0.0 && bc > 0.0 && ca > 0.0) || (ab < 0.0 && bc < 0.0 && ca < 0.0);
+    return isWithin &&
+           (ab * glm::dot(up, c - eye) + bc * glm::dot(up, a - eye) + ca * glm::dot(up, b - eye)) / (ab + bc + ca) <
+               0.0;
+}
+
+bool GroundBelow::isBelow(const core::Geodetic& eye, osg::Node& mesh, const AnalyticBinCullCallback& tile,
+                          const core::Ellipsoid& ellipsoid) {
+    if (overhang(tile) > 0.0) return false;
+    const glm::dvec3 point = ellipsoid.toEcef(eye);
+    const glm::dvec3 up = ellipsoid.up(eye.latitude, eye.longitude);
+    // a mesh may change without a word: a result is used for a few frames only
+    constexpr int kMostUses = 16;
+    const InstalledTile* const installed = tile.getInstalledTile();
+    const bool isChanged = !installed || installed->isMeshChanged();
+    const bool isSame = !isChanged && _mesh.get() == &mesh && _tile.get() == &tile && ++_uses < kMostUses;
+    if (isSame && isTriangleBelow(point, up)) return true;
+    _mesh = nullptr;
     const auto ecefToLocal = affineInverse(tile.getLocalToEcef());
-    if (overhang(tile) > 0.0 || !ecefToLocal || !hasMesh(mesh)) return false;
+    if (!ecefToLocal || !hasMesh(mesh)) return false;
+
     const double room = 1.0 + tile.getBin().margin();
     const double top = std::max(tile.getBinHigh(), eye.altitude) + room;
     const double bottom = std::min(tile.getBinLow(), eye.altitude) - room;
@@ -78,9 +116,14 @@ bool isGroundBelow(const core::Geodetic& eye, osg::Node& mesh, const AnalyticBin
     mesh.accept(visitor);
     if (!intersector->containsIntersections()) return false;
     // the first is the highest
-    const osg::Vec3d highest = intersector->getIntersections().begin()->getWorldIntersectPoint();
-    const glm::dvec3 up = ellipsoid.up(eye.latitude, eye.longitude);
-    return glm::dot(toGlm(highest * tile.getLocalToEcef()) - ellipsoid.toEcef(eye), up) < 0.0;
+    const Intersector::Intersection& highest = *intersector->getIntersections().begin();
+    const glm::dvec3 hit = toGlm(highest.getWorldIntersectPoint() * tile.getLocalToEcef());
+    if (!(glm::dot(hit - point, up) < 0.0)) return false;
+    _triangle = triangleOf(highest, tile.getLocalToEcef());
+    _mesh = &mesh;
+    _tile = &tile;
+    _uses = 0;
+    return true;
 }
 
 }  // namespace osgAnalyticBin

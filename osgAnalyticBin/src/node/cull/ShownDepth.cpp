@@ -13,7 +13,6 @@
 #include "CullCallbacks.h"
 #include "CullTraversal.h"
 #include "DrawnState.h"
-#include "GroundBelow.h"
 #include "Scoped.h"
 #include "TileFamily.h"
 #include "TilePlan.h"
@@ -400,7 +399,9 @@ std::optional<core::Geodetic> placeOf(const Viewpoint& viewpoint, const core::El
 bool isTrusted(const ShownDatabase& database, const LowestShown& lowest, const std::optional<core::Geodetic>& place) {
     const std::vector<NearGround>& ground = lowest.nearGround();
     return !lowest.hasHole() && std::all_of(ground.begin(), ground.end(), [&](const NearGround& close) {
-        return isGroundBelow(*place, *close.mesh, *close.tile, database.view.ellipsoid);
+        return CullTraversal::of(database.visitor)
+            .ground()
+            .isBelow(*place, *close.mesh, *close.tile, database.view.ellipsoid);
     });
 }
 
