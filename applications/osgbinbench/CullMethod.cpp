@@ -5,6 +5,7 @@
 
 #include "Failure.h"
 #include "MethodName.h"
+#include "RivalOptions.h"
 
 #include <algorithm>
 #include <array>
@@ -64,7 +65,11 @@ std::string CullMethod::sceneName(const std::string& database, const std::string
         const std::string use = usesOcclusion ? (mayRest ? "auto" : "on") : "off";
         parameters += ",occlusion=" + use;
     }
-    return database + ".(" + parameters + ").analyticbin";
+    return database + ".(" + parameters + (usesRivals() ? ").binrival" : ").analyticbin");
+}
+
+bool CullMethod::usesRivals() const {
+    return rivals::ruleFromName(loaderMethod).has_value();
 }
 
 CullMethod cullMethodFromName(const std::string& name) {

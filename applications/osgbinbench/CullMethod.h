@@ -14,7 +14,7 @@ namespace osgAnalyticBin::bench {
 /// BASE[+horizon][+edges][+occlusion or +autoocclusion]. A plain base culls by the frustum's planes alone.
 struct CullMethod {
     std::string name;
-    /// What the pseudo-loader analyticbin is asked for.
+    /// What the pseudo-loader analyticbin is asked for, or binrival for another's rule.
     std::string loaderMethod;
     bool usesHorizon = false;
     bool usesEdges = false;
@@ -31,6 +31,9 @@ struct CullMethod {
 
     /// Whether terrain hides terrain in a small depth buffer: RasterCulling.h.
     [[nodiscard]] bool usesRaster() const { return clusters == Clusters::FillForRaster; }
+
+    /// Whether the rule is another's: rivals/InstallRivals.h.
+    [[nodiscard]] bool usesRivals() const;
 
     [[nodiscard]] bool usesBins() const { return loaderMethod != "sphere" && loaderMethod != "none"; }
 

@@ -199,7 +199,7 @@ void check(const Settings& settings) {
     if (!binOptions) throw UsageError("--options: " + error);
     if (binOptions->horizonUse == HorizonUse::Off)
         throw UsageError("--options: leave +horizon out of the names in --methods instead of horizon=off");
-    if (binOptions->edges)
+    if (!binOptions->edges || settings.binOptions.find("edges=") != std::string::npos)
         throw UsageError("--options: name methods with or without +edges in --methods instead of edges=on or off");
     if (settings.binOptions.find("occlusion=") != std::string::npos)
         throw UsageError("--options: name methods with +occlusion or +autoocclusion in --methods instead of \"" +

@@ -3,16 +3,16 @@
 
 #include "TileTruth.h"
 
+#include "BoxBins.h"
+#include "FrustumHull.h"
 #include "GlmBridge.h"
 #include "SurfaceBin.h"
 
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
-#include <osgAnalyticBin/core/edge/FrustumHull.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
-#include <osgAnalyticBin/core/rivals/BoxBins.h>
 
 #include <osg/Polytope>
 
@@ -55,11 +55,11 @@ public:
         const core::GeodeticBin& bin = shown.bin();
         if (_ellipsoid.isPlane()) {
             const core::QuadraticBin box(core::GeodeticMapping(_ellipsoid), core::parameterBox(bin), shown.margin());
-            return meets(box) && !core::isSeparated(core::BoxBin(_ellipsoid, bin, shown.margin()), _hull);
+            return meets(box) && !isSeparated(rivals::BoxBin(_ellipsoid, bin, shown.margin()), _hull);
         }
         if (!core::ExactGeodeticBin::holds(_ellipsoid, bin)) return true;
         const core::ExactGeodeticBin exact(_ellipsoid, bin, shown.margin());
-        return meets(exact) && !core::isSeparated(core::ReverseBin(exact, bin), _hull);
+        return meets(exact) && !isSeparated(rivals::ReverseBin(exact, bin), _hull);
     }
 
     [[nodiscard]] bool hides(const AnalyticBin& shown) const {
@@ -79,7 +79,7 @@ private:
     core::Ellipsoid _ellipsoid;
     glm::dvec3 _eye;
     std::vector<core::Plane> _planes;
-    core::FrustumHull _hull;
+    rivals::FrustumHull _hull;
     std::optional<core::HorizonEye> _horizon;
 };
 

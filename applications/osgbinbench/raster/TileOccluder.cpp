@@ -4,8 +4,7 @@
 #include "TileOccluder.h"
 
 #include "Angles.h"
-
-#include <osgAnalyticBin/core/rivals/BoxBins.h>
+#include "BoxBins.h"
 
 #include <glm/geometric.hpp>
 
@@ -33,10 +32,10 @@ struct Extent {
     double low = 0.0, high = 0.0;
 };
 
-std::array<Extent, 3> extentsOf(const core::OrientedBoxBin& box) {
+std::array<Extent, 3> extentsOf(const rivals::OrientedBoxBin& box) {
     std::array<Extent, 3> extents;
     std::size_t count = 0;
-    for (std::size_t i = 0; i < core::OrientedBoxBin::kFaces; ++i) {
+    for (std::size_t i = 0; i < rivals::OrientedBoxBin::kFaces; ++i) {
         const core::Plane face = box.face(i);
         const auto end = extents.begin() + static_cast<std::ptrdiff_t>(count);
         const auto opposite =
@@ -91,7 +90,7 @@ std::optional<OccluderGrid> occluderOf(const std::vector<Vertex>& surface, const
 }
 
 std::array<glm::dvec3, 8> boxCorners(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid) {
-    const std::array<Extent, 3> extents = extentsOf(core::OrientedBoxBin(ellipsoid, bin.bin(), bin.margin()));
+    const std::array<Extent, 3> extents = extentsOf(rivals::OrientedBoxBin(ellipsoid, bin.bin(), bin.margin()));
     std::array<glm::dvec3, 8> corners;
     for (std::size_t corner = 0; corner < corners.size(); ++corner) {
         corners[corner] = glm::dvec3(0.0);

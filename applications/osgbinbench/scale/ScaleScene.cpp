@@ -61,7 +61,7 @@ private:
 };
 
 osg::ref_ptr<osg::Group> readGlobe(const ScaleMethod& method, const globe::GlobeOptions& options) {
-    const std::string name = globe::rootFileOf(options) + ".(" + method.parameters + ").analyticbin";
+    const std::string name = globe::rootFileOf(options) + ".(" + method.parameters + ")." + method.loader;
     osgDB::ReaderWriter::ReadResult result = osgDB::Registry::instance()->readNode(name, nullptr);
     const osg::ref_ptr<osg::Node> node = result.getNode();
     if (node && node->asGroup()) return node->asGroup();
@@ -152,7 +152,13 @@ void ScaleScene::settle(const flight::CameraPose& pose) {
         nextFrame();
         _stage.setRequestHandler(*_loader);
         (void)_stage.cull(*_camera, *_frameStamp);
-    } while (_loader->load(_pagedLods));
+    } while (loadAndUpdate());
+}
+
+bool ScaleScene::loadAndUpdate() {
+    const bool isAsked = _loader->load(_pagedLods);
+    if (isAsked) (void)updateMs();
+    return isAsked;
 }
 
 void ScaleScene::fill(std::size_t pagedLods) {
@@ -172,6 +178,7 @@ void ScaleScene::fill(std::size_t pagedLods) {
         _frontier.insert(_frontier.end(), children.begin(), children.end());
         _pagedLods += children.size();
     }
+    (void)updateMs();
 }
 
 TileTally ScaleScene::tally() {

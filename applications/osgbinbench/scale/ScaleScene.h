@@ -85,6 +85,7 @@ public:
 private:
     void readRoot();
     void nextFrame();
+    [[nodiscard]] bool loadAndUpdate();
 
     ScaleMethod _method;
     globe::GlobeOptions _options;

@@ -7,6 +7,7 @@
 #include "Failure.h"
 #include "MethodName.h"
 #include "ProgramRun.h"
+#include "RivalOptions.h"
 #include "TextFile.h"
 
 #include <osgAnalyticBin/CullOptions.h>
@@ -110,20 +111,21 @@ ScaleMethod scaleMethodFromName(const std::string& given) {
     const std::string base = name.substr(0, plus);
     const std::string suffixes = plus == std::string::npos ? std::string() : name.substr(plus);
     const auto method = methodFromName(base);
+    const bool isRival = rivals::ruleFromName(base).has_value();
     const bool isPlain = suffixes.empty();
-    const bool hasBins = method && *method != Method::Sphere && *method != Method::None;
+    const bool hasBins = isRival || (method && *method != Method::Sphere && *method != Method::None);
     const bool isKnown = isPlain || suffixes == "+horizon" || suffixes == "+edges" || suffixes == "+horizon+edges";
-    if (!method || !isKnown || (!hasBins && !isPlain))
+    if (!(method || isRival) || !isKnown || (!hasBins && !isPlain))
         throw UsageError("--methods: unknown method \"" + name +
                          "\"; use none, sphere, oracle, or quadratic, exact, box, orientedbox, paper or corners with "
                          "+horizon, +edges or +horizon+edges after it");
-    if (!hasBins) return {name, "method=" + base, *method == Method::None};
+    if (!hasBins) return {name, "method=" + base, "analyticbin", *method == Method::None};
     const bool usesHorizon = suffixes.find("+horizon") != std::string::npos;
     const bool usesEdges = suffixes.find("+edges") != std::string::npos;
     return {
         name,
         "method=" + base + ",horizon=" + (usesHorizon ? "declared" : "off") + ",edges=" + (usesEdges ? "on" : "off"),
-        false};
+        isRival ? "binrival" : "analyticbin"};
 }
 
 bool settingsFromCommandLine(int argc, char** argv, Settings& settings) {

@@ -11,8 +11,8 @@ namespace osgAnalyticBin::scale {
 /// A way to cull, by the name that the command line and the tables use: BASE[+horizon][+edges].
 struct ScaleMethod {
     std::string name;
-    /// For the pseudo-loader analyticbin.
-    std::string parameters;
+    /// For the pseudo-loader, and its name.
+    std::string parameters, loader;
     /// Whether the camera culls nothing at all.
     bool cullsNothing = false;
     /// Whether what bins decide is repeated without tests: osgbinbench's oracle.

@@ -95,7 +95,7 @@ Tested testedBy(Method method, const core::GeodeticMapping& mapping, const core:
             [&mapping, box](const glm::dvec3& shares) { return mapping.ellipsoid().toEcef(positionIn(box, shares)); },
             "the 8 corners tested", ""};
     }
-    const core::QuadraticBin model(mapping, grown(parameters, core::PaperBin::kDefaultGrowth));
+    const core::QuadraticBin model(mapping, grown(parameters, rivals::PaperBin::kDefaultGrowth));
     return {[model](const glm::dvec3& shares) { return model.modelPoint(2.0 * shares - 1.0); },
             "the 8 corners of its model, all outside", "the model, box x 1.1"};
 }

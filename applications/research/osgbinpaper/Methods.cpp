@@ -85,8 +85,8 @@ Side classify(const HullBin& bin, const Frustum& frustum) noexcept {
     const Side side = core::classify(bin.exact, frustum.planes, undecided);
     if (side != Side::Straddling) return side;
     const std::size_t count = frustum.planes.size();
-    const bool isApart = core::isSeparated(bin.reverse, frustum.hull) ||
-                         core::isSeparated(bin.exact, frustum.planes, count, undecided, count);
+    const bool isApart =
+        isSeparated(bin.reverse, frustum.hull) || core::isSeparated(bin.exact, frustum.planes, count, undecided, count);
     return isApart ? Side::Outside : Side::Straddling;
 }
 

@@ -4,12 +4,12 @@
 #pragma once
 
 #include "Camera.h"
+#include "ComparisonBins.h"
+#include "FrustumHull.h"
 
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
-#include <osgAnalyticBin/core/edge/FrustumHull.h>
-#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <array>
 #include <cstddef>
@@ -34,7 +34,7 @@ struct Frustum {
     explicit Frustum(const Camera& camera) noexcept;
 
     core::PlaneSet planes;
-    core::FrustumHull hull;
+    rivals::FrustumHull hull;
 };
 
 /// A sphere that holds the bin, about the middle of its box along the axes of ECEF.
@@ -67,7 +67,7 @@ struct HullBin {
         : exact(ellipsoid, bin), reverse(exact, bin) {}
 
     core::ExactGeodeticBin exact;
-    core::ReverseBin reverse;
+    rivals::ReverseBin reverse;
 };
 
 /// Where the bin lies with respect to the frustum; all planes are undecided at first.
@@ -80,9 +80,9 @@ template <class Bin>
 [[nodiscard]] core::Side classify(const HullBin& bin, const Frustum& frustum) noexcept;
 
 /// The bins of a list of tiles, for every method; prepared once.
-using MethodBins =
-    std::tuple<std::vector<SphereBin>, std::vector<BoxBin>, std::vector<core::CornersBin>, std::vector<core::PaperBin>,
-               std::vector<core::QuadraticOrExact>, std::vector<core::ExactGeodeticBin>, std::vector<HullBin>>;
+using MethodBins = std::tuple<std::vector<SphereBin>, std::vector<BoxBin>, std::vector<rivals::CornersBin>,
+                              std::vector<rivals::PaperBin>, std::vector<core::QuadraticOrExact>,
+                              std::vector<core::ExactGeodeticBin>, std::vector<HullBin>>;
 
 [[nodiscard]] MethodBins methodBins(const core::Ellipsoid& ellipsoid, const std::vector<core::GeodeticBin>& bins);
 

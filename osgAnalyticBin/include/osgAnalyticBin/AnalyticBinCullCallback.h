@@ -7,10 +7,8 @@
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Export.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
-#include <osgAnalyticBin/core/bin/QuadraticBin.h>
+#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
-#include <osgAnalyticBin/core/rivals/BoxBins.h>
-#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Matrixd>
@@ -65,15 +63,16 @@ struct TerrainShape {
 /// siblings tested together in place of that. Planes that have the whole bin inside are not tested again in the
 /// subgraph. Small-feature culling still works; while the camera has active OccluderNodes, OSG's own culling is all
 /// there is. Nested callbacks run when the tile is not culled. It obeys the camera's culling mode. Without frustum
-/// culling the horizon is not used either, because neither frustum nor eye determine what is drawn then. Frame: the bin
-/// is in ECEF. The node's children are in ECEF, too, unless setLocalToEcef() gives another frame. Transforms above the
-/// globe need no setting, because OSG's planes follow them. Guarantee (all methods but Method::Paper and
-/// Method::Corners): a tile is never culled if a point of its bin is inside all planes and not behind the horizon;
-/// tests: AnalyticBinCullCallback.*. An invalid bin is never culled. Threads: run() changes nothing in the callback;
-/// any number of cull traversals may run it at once. Setters must not be called while a cull traversal runs. Cost: the
-/// first test after a change of the bin prepares it, with one allocation and trigonometry; later tests need neither.
-/// Memory: 330 bytes, and 750 more once a tile has been tested alone. A tile that is tested together with its siblings
-/// does not need these.
+/// culling the horizon is not used either, because neither frustum nor eye determine what is drawn then.
+/// Frame: the bin is in ECEF. The node's children are in ECEF, too, unless setLocalToEcef() gives another frame.
+/// Transforms above the globe need no setting, because OSG's planes follow them.
+/// Guarantee: a tile is never culled if a point of its bin is inside all planes and not behind the horizon;
+/// tests: AnalyticBinCullCallback.*. An invalid bin is never culled.
+/// Threads: run() changes nothing in the callback; any number of cull traversals may run it at once. Setters must not
+/// be called while a cull traversal runs.
+/// Cost: the first test after a change of the bin prepares it, with one allocation and trigonometry; later tests need
+/// neither. Memory: 330 bytes, and 750 more once a tile has been tested alone. A tile that is tested together with its
+/// siblings does not need these.
 class OSGANALYTICBIN_EXPORT AnalyticBinCullCallback : public osg::NodeCallback {
 public:
     AnalyticBinCullCallback();
@@ -104,6 +103,8 @@ public:
     /// coordinates then, and there is no horizon. With other radii that are not finite and positive the tile is never
     /// culled.
     void setRadii(double equatorial, double polar);
+    /// See setRadii().
+    [[nodiscard]] core::Ellipsoid ellipsoid() const { return {_setup->equatorialRadius, _setup->polarRadius}; }
 
     /// From the frame of the node's children to ECEF; default identity. The frustum test is right under any invertible
     /// affine matrix; small-feature culling needs a rigid matrix or a uniform scale.
@@ -187,18 +188,15 @@ protected:
 private:
     friend class TileFamily;
 
-    using PreparedBin = std::variant<core::QuadraticBin, core::ExactGeodeticBin, core::PaperBin, core::CornersBin,
-                                     core::BoxBin, core::OrientedBoxBin>;
     // What a test of this tile alone reads.
     struct Prepared {
-        PreparedBin bin;
+        core::QuadraticOrExact bin;
         std::optional<core::ExactGeodeticBin>
             separable;  // for the test against edges, where `bin` is not the exact one
         std::optional<core::HorizonBin> horizon;
         osg::BoundingSphere sphere;  // in the frame of the node's children
         osg::BoundingSphere columnSphere;
-        std::optional<core::HorizonBin> columnHorizon;   // where it is not that of the bin
-        std::optional<core::HorizonPoint> horizonPoint;  // in place of the bin's horizon, for boxes
+        std::optional<core::HorizonBin> columnHorizon;  // where it is not that of the bin
     };
     // What most tiles of a database have in common. A setter replaces the whole object; nothing changes it.
     struct Setup {
@@ -223,32 +221,25 @@ private:
     [[nodiscard]] bool isInMap() const {
         return std::isinf(_setup->equatorialRadius) && std::isinf(_setup->polarRadius);
     }
-    [[nodiscard]] core::Ellipsoid ellipsoid() const { return {_setup->equatorialRadius, _setup->polarRadius}; }
     void leaveFamily();
     void fillSlot() const;
     void refuse(const char* why);
     [[nodiscard]] bool readItem(const std::string& item);
-    [[nodiscard]] PreparedBin preparedBin(const AnalyticBin& shown, const core::Ellipsoid& ellipsoid) const;
+    [[nodiscard]] core::QuadraticOrExact preparedBin(const AnalyticBin& shown, const core::Ellipsoid& ellipsoid) const;
     [[nodiscard]] const DatabaseView* viewOn(osg::CullStack& cullStack, CullTraversal& traversal) const;
     [[nodiscard]] const core::HorizonEye* eyeWithoutDatabase(osg::CullStack& cullStack, osg::NodeVisitor& nv,
                                                              CullTraversal& traversal) const;
     [[nodiscard]] bool standsAsInstalled(osg::CullStack& cullStack, const DatabaseView& database) const;
     [[nodiscard]] bool isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
-    [[nodiscard]] core::Side sideOf(const core::PlaneSet& planes, core::PlaneMask& undecided) const;
     [[nodiscard]] Verdict verdict(core::Side side, const core::PlaneSet& planes, core::PlaneMask undecided,
-                                  const core::HorizonEye* eye, const core::RegionalSight* sight,
-                                  CullTraversal& traversal) const;
-    [[nodiscard]] bool isHiddenFrom(const core::HorizonEye& eye) const;
+                                  const core::HorizonEye* eye, const core::RegionalSight* sight) const;
     [[nodiscard]] bool mayBeHidden(const osg::Node& node) const;
-    [[nodiscard]] bool isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,
-                                      core::PlaneMask undecided) const;
+    [[nodiscard]] bool isBeyondAnEdge(const core::PlaneSet& planes, core::PlaneMask undecided) const;
 
     bool _wasInstalled = false;  // in a scene that was saved
     osg::ref_ptr<InstalledTile> _installed;
     bool _isTested = false;                                   // by a bin; without one the tile is never culled
     mutable std::atomic<const Prepared*> _prepared{nullptr};  // owned; made when it is first asked for
-    bool _testsEdges = false;
-    bool _hidesByPoint = false;
     std::shared_ptr<const Setup> _setup;
     std::unique_ptr<const LocalFrame> _frame;  // null: ECEF
     AnalyticBin _bin;

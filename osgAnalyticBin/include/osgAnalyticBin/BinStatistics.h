@@ -18,6 +18,9 @@ class NodeVisitor;
 
 namespace osgAnalyticBin {
 
+namespace core {
+class HorizonEye;
+}
 struct CoveredPicture;
 
 /// The verdicts of bins in one cull traversal.
@@ -55,6 +58,11 @@ public:
 
     /// Returns: nullptr when the visitor has met no bin yet.
     [[nodiscard]] static const BinStatistics* find(const osg::NodeVisitor& visitor);
+
+    /// The eye whose horizon hides tiles of the database that the visitor is traversing; ECEF. For cull callbacks of
+    /// applications below the database. Returns: nullptr when nothing is hidden, or when the database covers a region
+    /// that the eye sees beyond.
+    [[nodiscard]] static const core::HorizonEye* horizonEye(osg::NodeVisitor& visitor);
 
     /// Counts one tested tile.
     void count(core::Side side, unsigned int frame) noexcept;

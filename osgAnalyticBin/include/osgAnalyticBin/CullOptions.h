@@ -4,7 +4,7 @@
 #pragma once
 
 #include <osgAnalyticBin/Export.h>
-#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
+#include <osgAnalyticBin/core/GeodeticBin.h>
 
 #include <optional>
 #include <string>
@@ -14,31 +14,21 @@ namespace osgAnalyticBin {
 
 /// How the tiles of a database are culled.
 enum class Method {
-    Quadratic,    ///< the quadratic bin: sound; the default
-    Exact,        ///< the closed form of the geodetic bin: sound, and tight to rounding
-    Paper,        ///< the published nine-point rule: unsound, for comparison
-    Corners,      ///< the eight corners of the bin: unsound, for comparison
-    Box,          ///< the bin's box along the axes of ECEF: sound, for comparison
-    OrientedBox,  ///< the bin's box along east, north and up, and a horizon point: sound, for comparison
-    Sphere,       ///< OpenSceneGraph's own bounding spheres, untouched
-    None          ///< no culling below the node that it is installed on: every tile is drawn
+    Quadratic,  ///< the quadratic bin; the default
+    Exact,      ///< the closed form of the geodetic bin: tight to rounding
+    Sphere,     ///< OpenSceneGraph's own bounding spheres, untouched
+    None        ///< no culling below the node that it is installed on: every tile is drawn
 };
 
-/// The name that files, options and command lines use: "quadratic", "exact", "paper", "corners", "box", "orientedbox",
-/// "sphere", "none".
+/// The name that files, options and command lines use: "quadratic", "exact", "sphere", "none".
 [[nodiscard]] OSGANALYTICBIN_EXPORT const char* methodName(Method method) noexcept;
 
 /// Returns: nullopt for an unknown name.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<Method> methodFromName(const std::string& name) noexcept;
 
-/// Whether a method is for comparison. Such methods cull by the planes of the frustum alone unless an option says
-/// otherwise.
-[[nodiscard]] OSGANALYTICBIN_EXPORT bool isForComparison(Method method) noexcept;
-
 /// Whether tiles behind the horizon are culled.
 enum class HorizonUse {
-    ByMethod,  ///< Off with methods for comparison, Declared with the others; the default
-    Declared,  ///< with the lowest surface shown, which is never taken to be below the declared altitude
+    Declared,  ///< with the lowest surface shown, which is never taken to be below the declared altitude; the default
     Off,       ///< never
     Given      ///< with the lowest surface shown, which is never taken to be below CullOptions::horizon
 };
@@ -80,20 +70,16 @@ enum class IndexUse {
 struct CullOptions {
     /// How tiles are culled.
     Method method = Method::Quadratic;
-    /// Factor by which Method::Paper enlarges its box; at least 1.
-    double growth = core::PaperBin::kDefaultGrowth;
     /// Whether tiles behind the horizon are culled.
-    HorizonUse horizonUse = HorizonUse::ByMethod;
+    HorizonUse horizonUse = HorizonUse::Declared;
     /// Altitude in metres below which the database draws nothing, not even between the posts of its meshes. The
     /// database has to cover the whole globe. Used with HorizonUse::Given.
     double horizon = 0.0;
     /// Whether shadow passes use the horizon, too: cameras that inherit a view point or draw depth alone, and cameras
     /// relative to them. By default they do not, because terrain behind the horizon may cast a shadow into the picture.
     bool inheritViewpoint = false;
-    /// Whether tiles across an edge of the frustum are also tested against the edge. Boxes are tested for a frustum
-    /// beyond one of their faces instead. Without a value: on, but off with methods for comparison. The tiles of a map
-    /// are boxes, which are tested unless the value is false.
-    std::optional<bool> edges;
+    /// Whether tiles across an edge of the frustum are also tested against the edge.
+    bool edges = true;
     /// Whether tiles behind terrain are culled: on a globe or a region of one that uses the horizon (see `horizonUse`),
     /// for tiles whose meshes the kit reads, by cameras that do not compute their near plane.
     OcclusionUse occlusion = OcclusionUse::Auto;
@@ -124,12 +110,6 @@ struct CullOptions {
     /// Whether an index is used, and made where there is none.
     IndexUse index = IndexUse::Auto;
 
-    /// The use of the horizon with this method, after ByMethod is resolved.
-    [[nodiscard]] OSGANALYTICBIN_EXPORT HorizonUse effectiveHorizonUse() const noexcept;
-
-    /// Whether tiles are tested against edges with this method, after the default is resolved.
-    [[nodiscard]] OSGANALYTICBIN_EXPORT bool effectiveEdges() const noexcept;
-
     /// Whether every item is the same.
     [[nodiscard]] OSGANALYTICBIN_EXPORT bool operator==(const CullOptions& other) const noexcept;
 
@@ -139,7 +119,7 @@ struct CullOptions {
     static constexpr core::Interval kTerrainOnEarth{-11500.0, 9000.0};
 };
 
-/// Parses "method=paper,growth=1.1", "horizon=-500", "horizon=off", "inheritviewpoint=on", "edges=off",
+/// Parses "method=exact,edges=off", "horizon=-500", "horizon=off", "inheritviewpoint=on",
 /// "occlusion=on", "expiry=3", "skirts=all", "cluster=keep", "heights=-500..9000", "techniquemargin=50",
 /// "shaders=plain", "index=off"; separated by commas or blanks; capital letters in a name do not matter; an empty text
 /// gives the default. Returns: nullopt when an item is unknown or malformed, with one line in `error` that names it and
@@ -147,7 +127,7 @@ struct CullOptions {
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<CullOptions> cullOptionsFromText(const std::string& text,
                                                                                    std::string& error);
 
-/// The names of the options in cullOptionsFromText(): "method", "growth" and so on.
+/// The names of the options in cullOptionsFromText(): "method", "horizon" and so on.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::vector<std::string> cullOptionKeys();
 
 /// The text that cullOptionsFromText() reads back to the same options.

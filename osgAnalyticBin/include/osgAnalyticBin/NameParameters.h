@@ -7,13 +7,13 @@
 
 namespace osgAnalyticBin {
 
-/// What a pseudo-loader is asked for, without its extension: "earth.osgb" and "method=paper,growth=1.1".
+/// What a pseudo-loader is asked for, without its extension: "earth.osgb" and "method=exact,edges=off".
 struct NameParameters {
     std::string name;        ///< what stands before the brackets
     std::string parameters;  ///< empty when there are no brackets
 };
 
-/// Divides "earth.osgb.(method=paper,growth=1.1)". The name may be missing: "(levels=12)".
+/// Divides "earth.osgb.(method=exact,edges=off)". The name may be missing: "(levels=12)".
 [[nodiscard]] inline NameParameters nameParametersFrom(const std::string& text) {
     if (text.empty() || text.back() != ')') return {text, {}};
     if (const std::size_t open = text.rfind(".("); open != std::string::npos)

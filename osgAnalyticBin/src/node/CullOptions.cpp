@@ -8,8 +8,11 @@
 #include <osg/Notify>
 #include <osgDB/FileNameUtils>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <mutex>
+#include <set>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -18,19 +21,17 @@ namespace osgAnalyticBin {
 
 namespace {
 
-constexpr std::array<std::pair<Method, const char*>, 8> kMethodNames{{{Method::Quadratic, "quadratic"},
-                                                                      {Method::Exact, "exact"},
-                                                                      {Method::Paper, "paper"},
-                                                                      {Method::Corners, "corners"},
-                                                                      {Method::Box, "box"},
-                                                                      {Method::OrientedBox, "orientedbox"},
-                                                                      {Method::Sphere, "sphere"},
-                                                                      {Method::None, "none"}}};
+constexpr std::array<std::pair<Method, const char*>, 4> kMethodNames{
+    {{Method::Quadratic, "quadratic"}, {Method::Exact, "exact"}, {Method::Sphere, "sphere"}, {Method::None, "none"}}};
 
 constexpr std::array<std::pair<IndexUse, const char*>, 3> kIndexNames{
     {{IndexUse::Auto, "auto"}, {IndexUse::On, "on"}, {IndexUse::Off, "off"}}};
 
-constexpr double kMaxGrowth = 10.0;
+// Methods that older versions had, which are in the applications now.
+constexpr std::array<const char*, 4> kMovedMethods{"paper", "corners", "box", "orientedbox"};
+// The factor of method=paper, which older versions stored with every method.
+constexpr const char* kMovedKey = "growth";
+constexpr const char* kStoredGrowth = "1.1";
 
 // Deeper than any sea, shallower than half of the smallest radius of a planet that is flown over.
 constexpr double kDeepestHorizon = -1e6;
@@ -44,9 +45,13 @@ constexpr double kWidestTechnique = 1e4;
 bool applyMethod(const std::string& value, CullOptions& options, std::string& error) {
     const std::optional<Method> method = methodFromName(value);
     if (method) options.method = *method;
-    if (!method)
-        error =
-            "unknown method \"" + value + "\" (use quadratic, exact, paper, corners, box, orientedbox, sphere or none)";
+    const bool isMoved = std::find(kMovedMethods.begin(), kMovedMethods.end(), value) != kMovedMethods.end();
+    if (isMoved) {
+        error = "method=" + value + " is there for comparison alone: read DATABASE.(method=" + value +
+                ").binrival, or run osgbinbench --methods " + value;
+    } else if (!method) {
+        error = "unknown method \"" + value + "\" (use quadratic, exact, sphere or none)";
+    }
     return method.has_value();
 }
 
@@ -61,11 +66,6 @@ bool applyNumber(const std::string& key, const std::string& value, const core::I
     }
     option = (*number)[0];
     return true;
-}
-
-bool applyGrowth(const std::string& value, CullOptions& options, std::string& error) {
-    return applyNumber("growth", value, {1.0, kMaxGrowth}, "a factor from 1 to 10, e.g. growth=1.1", options.growth,
-                       error);
 }
 
 bool applyExpiry(const std::string& value, CullOptions& options, std::string& error) {
@@ -114,14 +114,6 @@ bool applyChoice(const std::string& key, const std::string& value, const char* f
     return false;
 }
 
-template <class Switch>
-bool applySwitch(const std::string& key, const std::string& value, Switch& option, std::string& error) {
-    bool isOn = false;
-    if (!applyChoice(key, value, "on", "off", isOn, error)) return false;
-    option = isOn;
-    return true;
-}
-
 bool applySkirts(const std::string& value, CullOptions& options, std::string& error) {
     bool all = false;
     if (!applyChoice("skirts", value, "all", "cracks", all, error)) return false;
@@ -137,7 +129,7 @@ bool applyCluster(const std::string& value, CullOptions& options, std::string& e
 }
 
 bool applyEdges(const std::string& value, CullOptions& options, std::string& error) {
-    return applySwitch("edges", value, options.edges, error);
+    return applyChoice("edges", value, "on", "off", options.edges, error);
 }
 
 bool applyOcclusion(const std::string& value, CullOptions& options, std::string& error) {
@@ -168,7 +160,7 @@ bool applyIndex(const std::string& value, CullOptions& options, std::string& err
 }
 
 bool applyInheritViewpoint(const std::string& value, CullOptions& options, std::string& error) {
-    return applySwitch("inheritviewpoint", value, options.inheritViewpoint, error);
+    return applyChoice("inheritviewpoint", value, "on", "off", options.inheritViewpoint, error);
 }
 
 struct KnownItem {
@@ -177,8 +169,7 @@ struct KnownItem {
     bool (*apply)(const std::string& value, CullOptions& options, std::string& error);
 };
 
-constexpr std::array<KnownItem, 13> kItems{{{"method", "NAME", applyMethod},
-                                            {"growth", "FACTOR", applyGrowth},
+constexpr std::array<KnownItem, 12> kItems{{{"method", "NAME", applyMethod},
                                             {"horizon", "METRES|declared|off", applyHorizon},
                                             {"inheritviewpoint", "on|off", applyInheritViewpoint},
                                             {"edges", "on|off", applyEdges},
@@ -214,6 +205,11 @@ bool applyItem(const std::string& key, const std::string& value, CullOptions& op
                        << std::endl;
         return applyEdges(value, options, error);
     }
+    if (key == kMovedKey && value == kStoredGrowth) return true;
+    if (key == kMovedKey) {
+        error = "growth= belongs to method=paper: read DATABASE.(method=paper,growth=FACTOR).binrival";
+        return false;
+    }
     error = "unknown parameter \"" + key + "\" (use " + usage() + ")";
     return false;
 }
@@ -234,25 +230,10 @@ std::optional<Method> methodFromName(const std::string& name) noexcept {
     return std::nullopt;
 }
 
-bool isForComparison(Method method) noexcept {
-    return method == Method::Paper || method == Method::Corners || method == Method::Box ||
-           method == Method::OrientedBox;
-}
-
-HorizonUse CullOptions::effectiveHorizonUse() const noexcept {
-    if (horizonUse != HorizonUse::ByMethod) return horizonUse;
-    return isForComparison(method) ? HorizonUse::Off : HorizonUse::Declared;
-}
-
-bool CullOptions::effectiveEdges() const noexcept {
-    return edges.value_or(!isForComparison(method));
-}
-
 bool CullOptions::operator==(const CullOptions& other) const noexcept {
     const auto items = [](const CullOptions& o) {
-        return std::tie(o.method, o.growth, o.horizonUse, o.horizon, o.inheritViewpoint, o.edges, o.occlusion, o.expiry,
-                        o.skirts, o.cluster, o.heights.lower, o.heights.upper, o.techniqueMargin, o.plainShaders,
-                        o.index);
+        return std::tie(o.method, o.horizonUse, o.horizon, o.inheritViewpoint, o.edges, o.occlusion, o.expiry, o.skirts,
+                        o.cluster, o.heights.lower, o.heights.upper, o.techniqueMargin, o.plainShaders, o.index);
     };
     return items(*this) == items(other);
 }
@@ -279,13 +260,23 @@ std::optional<CullOptions> cullOptionsFromText(const std::string& text, std::str
     return options;
 }
 
+CullOptions storedCullOptions(const std::string& text) {
+    std::string error;
+    if (const auto options = cullOptionsFromText(text, error)) return *options;
+    static std::mutex mutex;
+    static std::set<std::string> told;
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (told.insert(text).second)
+        OSG_WARN << "osgAnalyticBin: a stored scene: " << error << "; using the default options." << std::endl;
+    return {};
+}
+
 std::string toText(const CullOptions& options) {
-    std::string text = std::string("method=") + methodName(options.method) + ",growth=" + numberToText(options.growth);
-    if (options.horizonUse == HorizonUse::Declared) text += ",horizon=declared";
+    std::string text = std::string("method=") + methodName(options.method);
     if (options.horizonUse == HorizonUse::Off) text += ",horizon=off";
     if (options.horizonUse == HorizonUse::Given) text += ",horizon=" + numberToText(options.horizon);
     if (options.inheritViewpoint) text += ",inheritviewpoint=on";
-    if (options.edges) text += *options.edges ? ",edges=on" : ",edges=off";
+    if (!options.edges) text += ",edges=off";
     if (options.occlusion != OcclusionUse::Auto)
         text += options.occlusion == OcclusionUse::On ? ",occlusion=on" : ",occlusion=off";
     if (options.expiry != CullOptions::kDefaultExpiry) text += ",expiry=" + numberToText(options.expiry);

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <osgAnalyticBin/CullOptions.h>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,5 +20,8 @@ namespace osgAnalyticBin {
 
 /// Numbers separated by single blanks.
 [[nodiscard]] std::string numbersToText(const std::vector<double>& values);
+
+/// The options of a stored scene. The default where the text is malformed, after one warning for all scenes with it.
+[[nodiscard]] CullOptions storedCullOptions(const std::string& text);
 
 }  // namespace osgAnalyticBin

@@ -38,26 +38,23 @@ osg::ref_ptr<osgDB::Options> withoutNodeCache(const osgDB::Options* options) {
 }  // namespace
 
 /// The pseudo-loader `database.analyticbin`: reads the database and installs analytic bins on it and on every tile that
-/// is paged in later. Parameters: `database.(method=NAME,growth=FACTOR).analyticbin`, or the plugin option string; the
+/// is paged in later. Parameters: `database.(method=NAME,edges=off).analyticbin`, or the plugin option string; the
 /// file name wins. Reads indexes of bins too, "database.bins".
 class ReaderWriterAnalyticBin : public osgDB::ReaderWriter {
 public:
     ReaderWriterAnalyticBin() {
         supportsExtension(kExtension, "Culls the tiles of a terrain database by their analytic bins (pseudo-loader)");
         supportsExtension(kIndexExtension, "The bins of a whole terrain database, made by osgbinconv --index");
-        supportsOption("method=quadratic|exact|paper|corners|box|orientedbox|sphere|none",
-                       "How tiles are culled. quadratic (default) and exact are sound and tight; paper, corners, box "
-                       "and orientedbox are there for comparison, the first two cull visible tiles; sphere leaves "
-                       "OSG's culling alone; none culls nothing.");
+        supportsOption("method=quadratic|exact|sphere|none",
+                       "How tiles are culled: by bins, quadratic (default) or exact; sphere leaves OSG's culling "
+                       "alone; none culls nothing.");
         supportsOption("horizon=METRES|declared|off",
                        "Culls tiles behind the horizon of the lowest surface shown. METRES: altitude below which "
-                       "nothing is drawn; declared: the altitude that the database declares; default declared, for "
-                       "comparison off.");
+                       "nothing is drawn; declared: the altitude that the database declares; default "
+                       "declared.");
         supportsOption("inheritviewpoint=on|off",
                        "The horizon also for cameras that inherit a view point (shadow passes); default off.");
-        supportsOption(
-            "edges=on|off",
-            "Tests tiles across an edge of the frustum against the edge too; default on, for comparison off.");
+        supportsOption("edges=on|off", "Tests tiles across an edge of the frustum against the edge too; default on.");
         supportsOption("occlusion=on|off|auto",
                        "Culls tiles behind terrain, where the near plane is fixed; auto: while that hides a quarter of "
                        "the tiles in view; default auto.");
@@ -84,7 +81,6 @@ public:
                        "below it.");
         supportsOption("cluster=replace|keep",
                        "Whether the database's ClusterCullingCallbacks are taken off (default) or left in charge.");
-        supportsOption("growth=FACTOR", "How much method=paper enlarges its boxes: 1 .. 10, default 1.1.");
     }
 
     const char* className() const override { return "analytic bin pseudo-loader"; }

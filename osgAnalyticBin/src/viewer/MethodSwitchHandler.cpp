@@ -18,8 +18,7 @@ namespace osgAnalyticBin {
 namespace {
 
 // the comparison that most ask for comes first
-constexpr std::array<Method, 8> kMethods{Method::Quadratic, Method::Sphere,      Method::None,  Method::Exact,
-                                         Method::Box,       Method::OrientedBox, Method::Paper, Method::Corners};
+constexpr std::array<Method, 4> kMethods{Method::Quadratic, Method::Sphere, Method::None, Method::Exact};
 constexpr double kSecondsShown = 15.0;
 const osg::Vec4 kSameColour(0.9F, 0.9F, 0.9F, 1.0F);
 const osg::Vec4 kFewerColour(0.3F, 1.0F, 0.35F, 1.0F);

@@ -6,6 +6,8 @@
 // BM_Occlusion: what the core does in a search behind terrain, for each tile. Before anything is timed, all answers are
 // compared with the oracle.
 
+#include "BoxBins.h"
+#include "ComparisonBins.h"
 #include "FamilyBenchmark.h"
 #include "OcclusionBenchmark.h"
 #include "TileMix.h"
@@ -16,8 +18,6 @@
 #include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
-#include <osgAnalyticBin/core/rivals/BoxBins.h>
-#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <benchmark/benchmark.h>
 #include <glm/geometric.hpp>
@@ -131,15 +131,15 @@ public:
         const core::GeodeticMapping mapping(wgs84());
         const auto sphere = [&](const BinOracle& tile) { return AnalyticBin(tile.bin()).boundingSphere(*model); };
         const auto corners = [&](const BinOracle& tile) {
-            return core::CornersBin(mapping, core::parameterBox(tile.bin()));
+            return rivals::CornersBin(mapping, core::parameterBox(tile.bin()));
         };
         const auto paper = [&](const BinOracle& tile) {
-            return core::PaperBin(mapping, core::parameterBox(tile.bin()));
+            return rivals::PaperBin(mapping, core::parameterBox(tile.bin()));
         };
         const auto quadratic = [&](const BinOracle& tile) { return core::quadraticOrExact(wgs84(), tile.bin()); };
         const auto exact = [&](const BinOracle& tile) { return ExactGeodeticBin(wgs84(), tile.bin()); };
-        const auto box = [&](const BinOracle& tile) { return core::BoxBin(wgs84(), tile.bin()); };
-        const auto orientedBox = [&](const BinOracle& tile) { return core::OrientedBoxBin(wgs84(), tile.bin()); };
+        const auto box = [&](const BinOracle& tile) { return rivals::BoxBin(wgs84(), tile.bin()); };
+        const auto orientedBox = [&](const BinOracle& tile) { return rivals::OrientedBoxBin(wgs84(), tile.bin()); };
         const Real never = std::numeric_limits<Real>::infinity();
         bool right = addMethod("osgSphere", madeOf(_scene.tiles, sphere), OsgTest(), ReachesIn{kFloatTolerance});
         right &= addMethod("osgBox", madeOf(_scene.tiles, axisAlignedBox), OsgTest(), ReachesIn{kFloatTolerance});

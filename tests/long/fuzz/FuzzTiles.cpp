@@ -271,8 +271,7 @@ void look(Bytes& bytes, Scene& scene) {
 }
 
 CullOptions makeOptions(Bytes& bytes) {
-    constexpr std::array<Method, 5> kMethods{Method::Quadratic, Method::Exact, Method::Box, Method::OrientedBox,
-                                             Method::None};
+    constexpr std::array<Method, 3> kMethods{Method::Quadratic, Method::Exact, Method::None};
     CullOptions options;
     options.method = bytes.pick(kMethods);
     options.horizonUse = HorizonUse::Off;

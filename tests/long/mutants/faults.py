@@ -108,8 +108,6 @@ FAULTS = [
           CORE, "Horizon*"),
     Fault("dip and radius beyond half a turn", "src/core/kernels/HorizonTest.inl",
           "isAny = cosC > broadcast<Real>(0.0);", "isAny = cosC == cosC;", CORE, "Horizon*"),
-    Fault("a point spreads to the nearer end of its bin", "src/core/horizon/Horizon.cpp", "std::min(radial * rows[row::CosSouthern]",
-          "std::max(radial * rows[row::CosSouthern]", CORE, "HorizonPoint*"),
     Fault("the bin's margin does not spread its directions", "src/core/horizon/Horizon.cpp",
           "_numbers[row::SinMargin] = step / lowest * kUp;",
           "_numbers[row::SinMargin] = 0.0 * step / lowest;", CORE, "Horizon*"),

@@ -206,7 +206,7 @@ private:
     CullOptions anyOptions() {
         CullOptions options = randomOptions(_random, database());
         if (_description.databases.size() > 1) {
-            if (options.horizonUse == HorizonUse::Given) options.horizonUse = HorizonUse::ByMethod;
+            if (options.horizonUse == HorizonUse::Given) options.horizonUse = HorizonUse::Declared;
             options.heights = CullOptions::kTerrainOnEarth;
         }
         if (_random.chance(0.15)) options.method = Method::Sphere;
@@ -272,7 +272,7 @@ void chooseTheme(Random& random, Description& description) {
         database.mesh = MeshKind::Terrain;
         database.relief = random.uniform(2000.0, 5000.0) * database.scale();
         if (random.chance(0.5)) database.verticalScale = 10.0;
-        if (database.options.horizonUse == HorizonUse::Given) database.options.horizonUse = HorizonUse::ByMethod;
+        if (database.options.horizonUse == HorizonUse::Given) database.options.horizonUse = HorizonUse::Declared;
         database.options.heights = CullOptions::kTerrainOnEarth;
     } else if (theme < (database.isMap ? 0.9 : 0.45)) {
         description.theme = Theme::Hills;
@@ -298,7 +298,7 @@ void chooseTheme(Random& random, Description& description) {
         // else nothing hides terrain
         if (random.chance(0.8)) database.options.skirts = SkirtUse::Cracks;
         database.options.heights = {-database.relief - 1.0, database.relief + 1.0};
-        if (database.options.horizonUse != HorizonUse::Declared) database.options.horizonUse = HorizonUse::ByMethod;
+        database.options.horizonUse = HorizonUse::Declared;
     }
 }
 

@@ -98,14 +98,9 @@ DatabaseSpec randomDatabase(Random& random, int number) {
 CullOptions randomOptions(Random& random, const DatabaseSpec& database) {
     CullOptions options;
     const double method = random.uniform();
-    options.method = method < 0.6    ? Method::Quadratic
-                     : method < 0.8  ? Method::Exact
-                     : method < 0.88 ? Method::Box
-                     : method < 0.96 ? Method::OrientedBox
-                                     : Method::None;
+    options.method = method < 0.7 ? Method::Quadratic : method < 0.96 ? Method::Exact : Method::None;
     const double horizon = random.uniform();
     const bool isFixed = database.mesh != MeshKind::Terrain && database.isWhole();
-    if (horizon < 0.15) options.horizonUse = HorizonUse::Declared;
     if (horizon > 0.95) options.horizonUse = HorizonUse::Off;
     if (horizon > 0.85 && horizon < 0.95 && isFixed) {
         options.horizonUse = HorizonUse::Given;

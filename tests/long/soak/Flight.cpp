@@ -32,10 +32,8 @@ CullOptions defaultOptions() {
 }
 
 CullOptions randomOptions(Random& random) {
-    constexpr std::array<Method, 8> kMethods{Method::Quadratic, Method::Exact, Method::Box,    Method::OrientedBox,
-                                             Method::Paper,     Method::None,  Method::Sphere, Method::Corners};
-    constexpr std::array<HorizonUse, 4> kHorizons{HorizonUse::ByMethod, HorizonUse::Declared, HorizonUse::Off,
-                                                  HorizonUse::Given};
+    constexpr std::array<Method, 4> kMethods{Method::Quadratic, Method::Exact, Method::None, Method::Sphere};
+    constexpr std::array<HorizonUse, 3> kHorizons{HorizonUse::Declared, HorizonUse::Off, HorizonUse::Given};
     CullOptions options;
     options.method = random.pick(kMethods);
     options.horizonUse = random.pick(kHorizons);

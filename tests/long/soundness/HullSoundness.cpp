@@ -7,15 +7,17 @@
 // Outside of the plane tests. Fails when there is a single one. With --ties the cases are on planets from the Moon to
 // Saturn and beyond, in metres, kilometres and radii, and as near to a tie as doubles come: up to 1e-9 of the radius.
 
+#include "BoxBins.h"
+#include "FrustumHull.h"
+#include "HorizonPoint.h"
+
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
 #include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
-#include <osgAnalyticBin/core/edge/FrustumHull.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
-#include <osgAnalyticBin/core/rivals/BoxBins.h>
 
 #include <glm/geometric.hpp>
 
@@ -38,19 +40,19 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-using core::BoxBin;
 using core::Ellipsoid;
 using core::ExactGeodeticBin;
-using core::FrustumHull;
 using core::GeodeticBin;
 using core::HorizonBin;
 using core::HorizonEye;
-using core::HorizonPoint;
-using core::OrientedBoxBin;
 using core::Plane;
 using core::PlaneMask;
-using core::ReverseBin;
 using core::Side;
+using rivals::BoxBin;
+using rivals::FrustumHull;
+using rivals::HorizonPoint;
+using rivals::OrientedBoxBin;
+using rivals::ReverseBin;
 
 constexpr std::uint64_t kTrialsPerChunk = 10000;
 
@@ -93,7 +95,7 @@ void trySight(Random& random, Counts& counts) {
     if (segmentMissesOccluder(line.ellipsoid, line.depth, line.target, real(line.eye))) {
         const auto eye = HorizonEye::fromEye(line.ellipsoid, line.depth, line.eye);
         counts.note(kHorizon, eye && isHidden(bin, *eye));
-        counts.note(kHorizonPoint, eye && eye->hides(HorizonPoint(bin)));
+        counts.note(kHorizonPoint, eye && HorizonPoint(bin).isHiddenFrom(*eye));
     }
     const glm::dvec3 view = glm::normalize(rounded(line.target) - line.eye);
     if (halfLineMissesOccluder(line.ellipsoid, line.depth, line.target, real(-view))) {
@@ -228,7 +230,7 @@ void tryTiedSight(Random& random, const TieCase& tie, Counts& counts) {
         const glm::dvec3 last = sees(far) ? far : lastWhere(top, far, sees);
         const auto eye = HorizonEye::fromEye(tie.ellipsoid, depth, last);
         counts.note(kHorizon, eye && isHidden(bin, *eye));
-        counts.note(kHorizonPoint, eye && eye->hides(HorizonPoint(bin)));
+        counts.note(kHorizonPoint, eye && HorizonPoint(bin).isHiddenFrom(*eye));
     }
     const auto isSeenAlong = [&](const glm::dvec3& back) {
         return halfLineMissesOccluder(tie.ellipsoid, depth, target, real(back));

@@ -5,10 +5,11 @@
 // tangent. The truth is the closed form in long double, which shares no code with the core. Fails when the quadratic or
 // the exact bin has a single wrong verdict, or a distance range that does not hold the true one.
 
+#include "ComparisonBins.h"
+
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
-#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <algorithm>
 #include <array>
@@ -28,17 +29,17 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-using core::CornersBin;
 using core::Ellipsoid;
 using core::ExactGeodeticBin;
 using core::GeodeticBin;
 using core::GeodeticMapping;
 using core::Interval;
-using core::PaperBin;
 using core::ParameterBox;
 using core::Plane;
 using core::QuadraticBin;
 using core::Side;
+using rivals::CornersBin;
+using rivals::PaperBin;
 
 using Clock = std::chrono::steady_clock;
 

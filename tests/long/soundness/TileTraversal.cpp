@@ -4,15 +4,15 @@
 #include "TileTraversal.h"
 
 #include "BinSamples.h"
+#include "ComparisonBins.h"
+#include "FrustumHull.h"
 #include "RivalBins.h"
 
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
-#include <osgAnalyticBin/core/edge/FrustumHull.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
-#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <glm/geometric.hpp>
 
@@ -25,22 +25,22 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-using core::CornersBin;
 using core::Ellipsoid;
 using core::ExactGeodeticBin;
-using core::FrustumHull;
 using core::Geodetic;
 using core::GeodeticBin;
 using core::GeodeticMapping;
 using core::HorizonBin;
 using core::HorizonEye;
 using core::Interval;
-using core::PaperBin;
 using core::Plane;
 using core::PlaneMask;
 using core::QuadraticBin;
-using core::ReverseBin;
 using core::Side;
+using rivals::CornersBin;
+using rivals::FrustumHull;
+using rivals::PaperBin;
+using rivals::ReverseBin;
 
 // Tiles are refined while they are closer than this many of their widths.
 constexpr double kRefineWithin = 3.0;
@@ -161,7 +161,7 @@ private:
         PlaneMask quadraticMask = 0;
         const bool exactKeeps = inPlanes(exact, &exactMask);
         const bool quadraticKeeps = inPlanes(quadratic, &quadraticMask);
-        const bool reverse = exactKeeps && core::isSeparated(ReverseBin(exact, bin), _hull);
+        const bool reverse = exactKeeps && isSeparated(ReverseBin(exact, bin), _hull);
         const bool hull = exactKeeps && core::isSeparated(exact, _planes, _planes.size(), exactMask);
         const bool quadraticHull = reverse || core::isSeparated(exact, _planes, _planes.size(), quadraticMask);
         MethodMask result = 0;

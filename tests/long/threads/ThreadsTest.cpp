@@ -71,7 +71,7 @@ unsigned int culledBy(const std::vector<osg::Camera*>& cameras) {
     return outside;
 }
 
-CullOptions optionsWith(Method method, HorizonUse horizonUse = HorizonUse::ByMethod) {
+CullOptions optionsWith(Method method, HorizonUse horizonUse = HorizonUse::Declared) {
     CullOptions options;
     options.method = method;
     options.horizonUse = horizonUse;
@@ -108,10 +108,10 @@ public:
 
     void make(int frame) {
         constexpr std::array<Method, 6> kMethods{Method::Quadratic, Method::Sphere, Method::Exact,
-                                                 Method::None,      Method::Box,    Method::Quadratic};
+                                                 Method::None,      Method::Exact,  Method::Quadratic};
         const auto step = static_cast<std::size_t>(frame / 4);
         const CullOptions options =
-            optionsWith(kMethods[step % kMethods.size()], step % 2 == 0 ? HorizonUse::ByMethod : HorizonUse::Given);
+            optionsWith(kMethods[step % kMethods.size()], step % 2 == 0 ? HorizonUse::Declared : HorizonUse::Given);
         if (frame % 8 == 3) setCullOptions(_scene, options);
         if (frame % 8 == 7) _switch->setMethod(_rig.view(), options.method);
         if (frame % 6 == 1) _freeze->setFrozen(_rig.view(), !_freeze->isFrozen());

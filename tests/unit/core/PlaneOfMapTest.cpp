@@ -16,7 +16,6 @@
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
 #include <osgAnalyticBin/core/mesh/MeshBounds.h>
-#include <osgAnalyticBin/core/rivals/BoxBins.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -141,20 +140,6 @@ TEST(PlaneOfMap, ABoxBeyondAnEdgeIsSeparated) {
         }
     }
     EXPECT_GT(separated, 300);
-}
-
-TEST(PlaneOfMap, BinsForComparisonAreTheBox) {
-    Random random(4813);
-    for (int trial = 0; trial < 1000; ++trial) {
-        const MapBox box(random);
-        EXPECT_FALSE(core::ExactGeodeticBin::holds(Ellipsoid::plane(), box.bin()));
-        const core::BoxBin aligned(Ellipsoid::plane(), box.bin(), box.margin);
-        const core::OrientedBoxBin oriented(Ellipsoid::plane(), box.bin(), box.margin);
-        const Plane plane{random.direction(), random.uniform(-1e6, 1e6)};
-        const Side side = box.quadratic().classify(plane);
-        EXPECT_EQ(aligned.classify(plane), side);
-        EXPECT_EQ(oriented.classify(plane), side);
-    }
 }
 
 TEST(PlaneOfMap, BoundsOfMeshesAreThoseOfTheirVertices) {

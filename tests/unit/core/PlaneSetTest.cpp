@@ -9,8 +9,6 @@
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
 #include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
-#include <osgAnalyticBin/core/rivals/BoxBins.h>
-#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <gtest/gtest.h>
 
@@ -164,23 +162,17 @@ TEST(PlaneSet, PlanesWithoutAUnitNormalDecideNothing) {
             expectUndecidedInASet(ExactGeodeticBin(wgs84(), box), plane);
             expectUndecidedInASet(QuadraticBin(mapping, core::parameterBox(box)), plane);
             expectUndecidedInASet(ExactGeodeticBin(wgs84(), wide), plane);
-            expectUndecidedInASet(core::BoxBin(wgs84(), box), plane);
-            expectUndecidedInASet(core::OrientedBoxBin(wgs84(), box), plane);
-            expectUndecided(core::PaperBin(mapping, core::parameterBox(box), 1.1), plane);
-            expectUndecided(core::CornersBin(mapping, core::parameterBox(box)), plane);
         }
     }
     // to the tolerance they do
     for (const double factor : {1.0 - 0.99e-9, 1.0 + 0.99e-9}) {
         const Plane away{factor * glm::dvec3(0.6, 0.0, 0.8), -1e8};
         EXPECT_EQ(ExactGeodeticBin(wgs84(), box).classify(away), Side::Outside);
-        EXPECT_EQ(core::BoxBin(wgs84(), box).classify(away), Side::Outside);
     }
 }
 
 TEST(PlaneSet, NothingIsInsideOfMorePlanesThanItHolds) {
     const ExactGeodeticBin bin(wgs84(), core::GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0}));
-    const core::BoxBin box(wgs84(), core::GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0}));
     const Plane around{{1.0, 0.0, 0.0}, 1e9};
     const Plane away{{1.0, 0.0, 0.0}, -1e9};
     PlaneSet full;
@@ -196,8 +188,6 @@ TEST(PlaneSet, NothingIsInsideOfMorePlanesThanItHolds) {
         PlaneMask left = planes.all();
         EXPECT_EQ(core::classify(bin, planes, left), first.offset < 0.0 ? Side::Outside : Side::Straddling);
         EXPECT_NE(left, PlaneMask{0}) << "what is below the bin is not inside either";
-        left = planes.all();
-        EXPECT_EQ(core::classify(box, planes, left), first.offset < 0.0 ? Side::Outside : Side::Straddling);
     };
     EXPECT_DEBUG_DEATH(overflow(around), "kMaxPlanes");
     EXPECT_DEBUG_DEATH(overflow(away), "kMaxPlanes");

@@ -119,11 +119,11 @@ TEST(BinInstaller, RunningItAgainReplacesAndRunningItWithSpheresUndoes) {
     const osg::ref_ptr<test::VisitRecorder> user = new test::VisitRecorder("user", visited);
     db.tile->setCullCallback(user.get());
     installBins(*db.root);
-    CullOptions paper;
-    paper.method = Method::Paper;
-    EXPECT_EQ(installBins(*db.root, paper), 1u);
+    CullOptions exact;
+    exact.method = Method::Exact;
+    EXPECT_EQ(installBins(*db.root, exact), 1u);
     ASSERT_NE(callbackOf(*db.tile), nullptr);
-    EXPECT_EQ(callbackOf(*db.tile)->getCullOptions().method, Method::Paper);
+    EXPECT_EQ(callbackOf(*db.tile)->getCullOptions().method, Method::Exact);
     EXPECT_EQ(callbackOf(*db.tile)->getNestedCallback(), user.get());
     EXPECT_EQ(user->getNestedCallback(), nullptr);
 

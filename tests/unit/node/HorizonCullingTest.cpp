@@ -72,7 +72,7 @@ CullView randomView(test::Random& random, osg::Vec3d& eye) {
 }
 
 TEST(HorizonCulling, NeverCullsATileWithASampleInSight) {
-    for (const Method method : {Method::Quadratic, Method::Exact, Method::Box, Method::OrientedBox}) {
+    for (const Method method : {Method::Quadratic, Method::Exact}) {
         CullOptions options = horizonOptions(method);
         options.edges = true;
         CountedGlobe globe(options);
@@ -146,32 +146,6 @@ TEST(HorizonCulling, IsOffWhereItIsNotAskedFor) {
     CountedGlobe undeclared({});
     undeclared.reached(*undeclared.root, view);
     EXPECT_EQ(undeclared.counts.hidden, 0u);
-    for (const Method method : {Method::Paper, Method::Corners, Method::Box, Method::OrientedBox}) {
-        CountedGlobe asked(horizonOptions(method));
-        asked.reached(*asked.root, view);
-        EXPECT_GT(asked.counts.hidden, 40u) << methodName(method);
-    }
-}
-
-TEST(HorizonCulling, OfBoxesIsThatOfAPoint) {
-    CountedGlobe corners(horizonOptions(Method::Corners));
-    CountedGlobe boxes(horizonOptions(Method::Box));
-    test::Random random(34);
-    unsigned int byBin = 0;
-    unsigned int byPoint = 0;
-    for (int i = 0; i < 100; ++i) {
-        osg::Vec3d eye;
-        // the whole globe is inside all planes: nothing but the horizon culls
-        CullView view = randomView(random, eye);
-        view.projection = osg::Matrixd::ortho(-1e8, 1e8, -1e8, 1e8, 1.0, 1e9);
-        view.modelView = osg::Matrixd::lookAt(eye, {0, 0, 0}, {0.1, 0.2, 0.9});
-        corners.reached(*corners.root, view);
-        boxes.reached(*boxes.root, view);
-        byBin += corners.counts.hidden;
-        byPoint += boxes.counts.hidden;
-    }
-    EXPECT_LT(byPoint, byBin);
-    EXPECT_GT(byPoint, byBin * 3 / 4);
 }
 
 TEST(HorizonCulling, ADatabaseDeclaresItAndTheUserHasTheLastWord) {
@@ -189,11 +163,6 @@ TEST(HorizonCulling, ADatabaseDeclaresItAndTheUserHasTheLastWord) {
     CullOptions off;
     off.horizonUse = HorizonUse::Off;
     EXPECT_EQ(installed(off).horizonUse, HorizonUse::Off);
-    CullOptions box;
-    box.method = Method::Box;
-    EXPECT_EQ(installed(box).effectiveHorizonUse(), HorizonUse::Off);
-    box.horizonUse = HorizonUse::Declared;
-    EXPECT_EQ(installed(box).horizonUse, HorizonUse::Given);
     CullOptions other = horizonOptions();
     other.horizon = -9.0;
     EXPECT_EQ(installed(other).horizon, -9.0);
@@ -216,27 +185,6 @@ TEST(EdgeCulling, CullsTilesBeyondTheEdgesOfANarrowFrustumAndNoneInSight) {
         EXPECT_EQ(reached.size() + with.counts.beyondEdge, more.size());
     }
     EXPECT_GT(separated, 20u);
-}
-
-TEST(EdgeCulling, IsOffForMethodsForComparisonUnlessAskedFor) {
-    for (const Method method : {Method::Paper, Method::Corners, Method::Box, Method::OrientedBox}) {
-        CullOptions options;
-        options.method = method;
-        CountedGlobe plain(options);
-        options.edges = true;
-        CountedGlobe asked(options);
-        test::Random random(33);
-        unsigned int separated = 0;
-        for (int i = 0; i < 200; ++i) {
-            osg::Vec3d eye;
-            const CullView view = randomView(random, eye);
-            const std::set<std::string> all = plain.reached(*plain.root, view);
-            EXPECT_EQ(plain.counts.beyondEdge, 0u);
-            EXPECT_EQ(asked.reached(*asked.root, view).size() + asked.counts.beyondEdge, all.size());
-            separated += asked.counts.beyondEdge;
-        }
-        EXPECT_GT(separated, 0u) << methodName(method);
-    }
 }
 
 }  // namespace

@@ -73,9 +73,9 @@ protected:
 
 TEST_F(Paging, TilesReadLaterGetBinsAndPassThemOn) {
     _root->setEllipsoidModel(new osg::EllipsoidModel(3396190.0, 3376200.0));
-    CullOptions paper;
-    paper.method = Method::Paper;
-    installBins(*_root, paper);
+    CullOptions exact;
+    exact.method = Method::Exact;
+    installBins(*_root, exact);
     const osg::ref_ptr<osg::Node> children = readChildren();
     ASSERT_TRUE(children);
     auto* tile = dynamic_cast<osg::PagedLOD*>(children->asGroup()->getChild(0));
@@ -83,7 +83,7 @@ TEST_F(Paging, TilesReadLaterGetBinsAndPassThemOn) {
     auto* callback = dynamic_cast<AnalyticBinCullCallback*>(tile->getCullCallback());
     ASSERT_NE(callback, nullptr);
     EXPECT_EQ(callback->getBin(), kPagedBin);
-    EXPECT_EQ(callback->getCullOptions().method, Method::Paper);
+    EXPECT_EQ(callback->getCullOptions().method, Method::Exact);
     EXPECT_EQ(callback->getRadiiText(), "3396190 3376200");
     EXPECT_TRUE(tile->getCullingActive());
     ASSERT_NE(optionsOf(*tile), nullptr);

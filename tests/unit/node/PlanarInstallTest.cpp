@@ -185,7 +185,7 @@ TEST(PlanarDatabase, SpheresTakeItBackAndClusterCallbacksStay) {
     cluster->set(osg::Vec3(1, 2, 3), osg::Vec3(0, 0, 1), -0.5f, 1000.0f);
     tile->setCullCallback(cluster);
     root->addChild(tile);
-    for (const char* method : {"quadratic", "exact", "paper", "corners", "quadratic"}) {
+    for (const char* method : {"quadratic", "exact", "quadratic"}) {
         EXPECT_EQ(installBins(*root, optionsOf(std::string("method=") + method)), 1u) << method;
         EXPECT_EQ(tile->getCullCallback()->getNestedCallback(), cluster.get()) << "and one of ours, not two";
         EXPECT_EQ(tile->getMinimumExpiryTime(1), CullOptions::kDefaultExpiry);

@@ -92,7 +92,7 @@ TEST_F(SwitchedCulling, DrawsWhatTheMethodDrawsAfreshAlsoWhatIsPagedInLater) {
     ASSERT_TRUE(flight.load(look(+1)));
     double side = -1.0;
     for (const Method method : {Method::Sphere, Method::Quadratic, Method::None, Method::Exact, Method::None,
-                                Method::Sphere, Method::Paper, Method::Corners, Method::Quadratic}) {
+                                Method::Sphere, Method::Exact, Method::Quadratic}) {
         setCullOptions(*scene, by(method));
         ASSERT_TRUE(flight.load(look(-side)));
         EXPECT_EQ(flight.drawn(), drawnAfresh(method, look(-side))) << methodName(method) << ", tiles loaded before";
@@ -111,9 +111,9 @@ TEST_F(SwitchedCulling, MethodsDrawDifferently) {
 }
 
 TEST_F(SwitchedCulling, WhileThePagerReadsLosesNoTile) {
-    const osg::ref_ptr<osg::Node> scene = read(Method::Paper);
+    const osg::ref_ptr<osg::Node> scene = read(Method::Quadratic);
     PagedFlight flight(*scene);
-    constexpr std::array<Method, 4> kMethods{Method::Sphere, Method::Exact, Method::None, Method::Paper};
+    constexpr std::array<Method, 4> kMethods{Method::Sphere, Method::Exact, Method::None, Method::Quadratic};
     for (std::size_t i = 0; i < 60; ++i) {
         setCullOptions(*scene, by(kMethods[i % kMethods.size()]));
         flight.frames(look(i % 8 < 4 ? 1.0 : -1.0), 1);
@@ -157,8 +157,7 @@ TEST_P(LateComer, HasNoBinsWhereTheNewMethodHasNone) {
     EXPECT_TRUE(InactiveNodes::of(*scene).nodes.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, LateComer,
-                         ::testing::Values(Method::Quadratic, Method::Paper, Method::Sphere, Method::None),
+INSTANTIATE_TEST_SUITE_P(Of, LateComer, ::testing::Values(Method::Quadratic, Method::Sphere, Method::None),
                          [](const auto& test) { return std::string(methodName(test.param)); });
 
 TEST_F(SwitchedCulling, LeavesFlagsAndValuesAsTheApplicationSetThem) {
@@ -182,14 +181,14 @@ TEST_F(SwitchedCulling, FindsNoTileOfAnEarlierMethodInTheObjectCache) {
     caching->setObjectCacheHint(osgDB::Options::CACHE_NODES);
     const osg::ref_ptr<osg::Node> scene = osgDB::readRefNodeFile(_file, caching);
     pagedIn(*scene).setDatabaseOptions(caching);
-    installBins(*scene, by(Method::Paper));
-    for (const Method method : {Method::Exact, Method::Paper, Method::Exact}) {
+    installBins(*scene, by(Method::Quadratic));
+    for (const Method method : {Method::Exact, Method::Quadratic, Method::Exact}) {
         setCullOptions(*scene, by(method));
         const osg::ref_ptr<osg::Node> page = test::readBelow(pagedIn(*scene));
         ASSERT_TRUE(page && test::installedOn(pagedIn(*page)));
         EXPECT_EQ(test::installedOn(pagedIn(*page))->getCullOptions().method, method);
         test::putBelow(pagedIn(*scene), page);
-        setCullOptions(*scene, by(Method::Quadratic));
+        setCullOptions(*scene, by(Method::None));
         test::pageOut(pagedIn(*scene));
     }
     osgDB::Registry::instance()->clearObjectCache();

@@ -48,8 +48,7 @@ TEST_F(OptionString, ItemsThatLookLikeOursAreRefused) {
                                       {"inherit_viewpoint=on", "inheritviewpoint="},
                                       {"compressed;skirt=all", "skirts="},
                                       {"method", "method="},
-                                      {"precision 17,reverse", "reverse="},
-                                      {"method=exact growht=2", "growth="}}) {
+                                      {"precision 17,reverse", "reverse="}}) {
         const osgDB::ReaderWriter::ReadResult result = read(text);
         EXPECT_TRUE(result.error()) << text;
         EXPECT_NE(result.message().find(meant), std::string::npos) << text << ": " << result.message();

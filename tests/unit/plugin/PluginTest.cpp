@@ -100,16 +100,16 @@ TEST_F(Plugin, InstallsTheQuadraticByDefault) {
 }
 
 TEST_F(Plugin, TakesParametersInThePseudoLoadersManner) {
-    const osg::ref_ptr<osg::Node> node = read(".(method=paper,growth=1.25).analyticbin");
+    const osg::ref_ptr<osg::Node> node = read(".(method=exact,expiry=1.25).analyticbin");
     ASSERT_TRUE(node);
     const CallbackCounter counter = counted(*node);
-    EXPECT_EQ(counter.options.method, Method::Paper);
-    EXPECT_EQ(counter.options.growth, 1.25);
+    EXPECT_EQ(counter.options.method, Method::Exact);
+    EXPECT_EQ(counter.options.expiry, 1.25);
 }
 
 TEST_F(Plugin, TakesTheSameThroughTheOptionStringAndTheFileNameWins) {
-    EXPECT_EQ(counted(*read(".analyticbin", "other=1 method=corners")).options.method, Method::Corners);
-    EXPECT_EQ(counted(*read(".(method=paper).analyticbin", "method=corners")).options.method, Method::Paper);
+    EXPECT_EQ(counted(*read(".analyticbin", "other=1 method=exact")).options.method, Method::Exact);
+    EXPECT_EQ(counted(*read(".(method=exact).analyticbin", "method=none")).options.method, Method::Exact);
 }
 
 TEST_F(Plugin, SphereInstallsNothingAndNoneSwitchesCullingOff) {
@@ -122,7 +122,7 @@ TEST_F(Plugin, SphereInstallsNothingAndNoneSwitchesCullingOff) {
 }
 
 TEST_F(Plugin, RefusesWhatItDoesNotKnow) {
-    for (const char* suffix : {".(method=cube).analyticbin", ".(growth=-1).analyticbin", ".(speed=9).analyticbin",
+    for (const char* suffix : {".(method=cube).analyticbin", ".(method=paper).analyticbin", ".(speed=9).analyticbin",
                                ".(method).analyticbin"}) {
         EXPECT_FALSE(read(suffix)) << suffix;
     }

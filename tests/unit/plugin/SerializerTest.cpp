@@ -15,6 +15,7 @@
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 
+#include <support/CapturedNotes.h>
 #include <support/TemporaryFolder.h>
 
 namespace osgAnalyticBin {
@@ -39,8 +40,8 @@ AnalyticBin awkwardBin() {
 
 TEST_P(Serializer, TheCullCallbackReadsBackExactly) {
     CullOptions options;
-    options.method = Method::Paper;
-    options.growth = 1.0 + 1.0 / 3.0;
+    options.method = Method::Exact;
+    options.expiry = 1.0 + 1.0 / 3.0;
     const osg::Matrixd frame = osg::Matrixd::rotate(1.0, 1, 2, 3) * osg::Matrixd::translate(1e6 / 3.0, 2e6 / 7.0, -5e6);
     const osg::ref_ptr<AnalyticBinCullCallback> written = new AnalyticBinCullCallback(
         AnalyticBin(GeodeticBin::fromDegrees({0, 11.25}, {168.75, 180}, {-7.25, 8848.86}), 1.0),
@@ -54,8 +55,8 @@ TEST_P(Serializer, TheCullCallbackReadsBackExactly) {
     auto* read = dynamic_cast<AnalyticBinCullCallback*>(back->getCullCallback());
     ASSERT_NE(read, nullptr);
     EXPECT_EQ(read->getBin(), written->getBin());
-    EXPECT_EQ(read->getCullOptions().method, Method::Paper);
-    EXPECT_EQ(read->getCullOptions().growth, options.growth);
+    EXPECT_EQ(read->getCullOptions().method, Method::Exact);
+    EXPECT_EQ(read->getCullOptions().expiry, options.expiry);
     EXPECT_EQ(read->getRadiiText(), written->getRadiiText());
     EXPECT_EQ(read->getLocalToEcef(), frame);
 }
@@ -133,17 +134,17 @@ TEST_P(Serializer, DefaultsReadBackAsDefaults) {
 }
 
 TEST_P(Serializer, NestedCallbacksAndOptionsOfTheRequestReadBack) {
-    CullOptions corners;
-    corners.method = Method::Corners;
+    CullOptions exact;
+    exact.method = Method::Exact;
     const osg::ref_ptr<osg::Group> node = new osg::Group;
-    node->setUpdateCallback(new InstallBinsCallback(corners));
+    node->setUpdateCallback(new InstallBinsCallback(exact));
     const osg::ref_ptr<AnalyticBinCullCallback> outer =
         new AnalyticBinCullCallback(awkwardBin(), osg::EllipsoidModel());
     outer->setNestedCallback(new AnalyticBinCullCallback);
     node->setCullCallback(outer.get());
     const osg::ref_ptr<osg::Node> back = roundTrip(*node);
     ASSERT_TRUE(back);
-    EXPECT_EQ(dynamic_cast<InstallBinsCallback&>(*back->getUpdateCallback()).getCullOptions().method, Method::Corners);
+    EXPECT_EQ(dynamic_cast<InstallBinsCallback&>(*back->getUpdateCallback()).getCullOptions().method, Method::Exact);
     EXPECT_NE(back->getCullCallback()->getNestedCallback(), nullptr);
 }
 
@@ -160,6 +161,21 @@ TEST_P(Serializer, AStoredBinReadsBackExactly) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, Serializer, ::testing::Values("osgt", "osgb", "osgx"),
                          [](const auto& suite) { return std::string(suite.param); });
+
+// As older versions stored it with every tile.
+TEST(StoredOptions, OfAMethodForComparisonAreTheDefaultAfterOneWarning) {
+    const std::string text = "method=paper,growth=1.1,horizon=-500";
+    const test::CapturedNotes notes;
+    const osg::ref_ptr<InstallBinsCallback> request = new InstallBinsCallback;
+    request->setOptionsText(text);
+    EXPECT_TRUE(request->getCullOptions() == CullOptions());
+    for (int tile = 0; tile < 3; ++tile) {
+        const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback;
+        callback->setOptionsText(text);
+        EXPECT_TRUE(callback->getCullOptions() == CullOptions());
+    }
+    EXPECT_EQ(notes.count("method=paper"), 1u);
+}
 
 }  // namespace
 }  // namespace osgAnalyticBin

@@ -21,8 +21,6 @@ namespace {
 // Outward rounding of products and quotients of a few factors; doc/theory/horizon.md, section 5.
 constexpr double kUp = 1.0 + 16.0 * kEpsilon;
 constexpr double kDown = 1.0 - 16.0 * kEpsilon;
-// Error bound of the cosine that a point's spread is computed from; doc/theory/horizon.md, section 9.
-constexpr double kSpreadSlack = 16.0 * kEpsilon;
 
 glm::dvec3 toUnitSpace(const Ellipsoid& ellipsoid, const glm::dvec3& v) {
     const double a = ellipsoid.equatorialRadius();
@@ -129,29 +127,6 @@ void HorizonBin::setRadius(const Ellipsoid& ellipsoid, const GeodeticBin& bin, d
     _numbers[row::InverseRadius] = kDown / (highest + step);
 }
 
-HorizonPoint::HorizonPoint(const HorizonBin& bin) noexcept {
-    const auto& rows = bin.numbers();
-    const glm::dvec2 sum(rows[row::CosSouthern] + rows[row::CosNorthern],
-                         rows[row::SinSouthern] + rows[row::SinNorthern]);
-    const glm::dvec2 middle = glm::length(sum) > 0.0 ? glm::normalize(sum) : glm::dvec2(1.0, 0.0);
-    // In longitude the cosine is least at the ends; along them it is least at the south or the north end, unless it
-    // falls and rises again, which it does beyond a quarter turn only.
-    const double radial = middle.x * rows[row::CosHalfWidth];
-    const bool falls = middle.y * rows[row::CosSouthern] - radial * rows[row::SinSouthern] < 0.0;
-    const bool rises = middle.y * rows[row::CosNorthern] - radial * rows[row::SinNorthern] > 0.0;
-    if (falls && rises) return;
-    const double cosine = std::min(radial * rows[row::CosSouthern] + middle.y * rows[row::SinSouthern],
-                                   radial * rows[row::CosNorthern] + middle.y * rows[row::SinNorthern]) -
-                          kSpreadSlack;
-    if (!(cosine > 0.0)) return;
-    const double sine = std::sqrt((1.0 - cosine) * (1.0 + cosine));
-    _cosSpread = cosine * rows[row::CosMargin] - sine * rows[row::SinMargin];
-    _sinSpread = sine * rows[row::CosMargin] + cosine * rows[row::SinMargin];
-    if (!(_cosSpread > 0.0)) return;
-    _direction = {middle.x * rows[row::CosMiddleLongitude], middle.x * rows[row::SinMiddleLongitude], middle.y};
-    _inverseRadius = rows[row::InverseRadius];
-}
-
 std::optional<HorizonEye> HorizonEye::fromEye(const Ellipsoid& ellipsoid, double depth,
                                               const glm::dvec3& eyeEcef) noexcept {
     const double scale = occluderScale(ellipsoid, depth);
@@ -187,13 +162,6 @@ HorizonEye::HorizonEye(const glm::dvec3& direction, double cosDip, double sinDip
 bool HorizonEye::hides(const HorizonBin& bin) const noexcept {
     const double* rows = bin.numbers().data();
     return !kernels::scalar::showsAnEnd<double>(rows, _data) && kernels::scalar::isBehindHorizon<double>(rows, _data);
-}
-
-bool HorizonEye::hides(const HorizonPoint& point) const noexcept {
-    const double cosine = glm::dot({_data.x, _data.y, _data.z}, point._direction);
-    if (cosine >= _data.cosDip) return false;
-    const kernels::scalar::HiddenBelow<double> below(_data, point._inverseRadius, point._cosSpread, point._sinSpread);
-    return below.isAny && cosine < below.cosine;
 }
 
 }  // namespace osgAnalyticBin::core

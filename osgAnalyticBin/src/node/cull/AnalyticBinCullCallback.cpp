@@ -12,8 +12,6 @@
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/TileFinder.h>
-#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
-#include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
 
 #include <osg/CullStack>
@@ -30,10 +28,6 @@ namespace osgAnalyticBin {
 namespace {
 
 constexpr double kUnknown = -std::numeric_limits<double>::infinity();
-
-bool isBox(Method method) {
-    return method == Method::Box || method == Method::OrientedBox;
-}
 
 // The planes of a frustum, moved to ECEF.
 core::PlaneSet ecefPlanes(const osg::Polytope& frustum, const osg::Matrixd& ecefToLocal) {
@@ -73,8 +67,6 @@ AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& 
       _wasInstalled(other._wasInstalled),
       _installed(other._installed ? new InstalledTile(*other._installed) : nullptr),
       _isTested(other._isTested),
-      _testsEdges(other._testsEdges),
-      _hidesByPoint(other._hidesByPoint),
       _setup(other._setup),
       _frame(other._frame ? std::make_unique<const LocalFrame>(*other._frame) : nullptr),
       _bin(other._bin),
@@ -107,30 +99,11 @@ AnalyticBinCullCallback::~AnalyticBinCullCallback() {
     discardPrepared();
 }
 
-AnalyticBinCullCallback::PreparedBin AnalyticBinCullCallback::preparedBin(const AnalyticBin& shown,
-                                                                          const core::Ellipsoid& ellipsoid) const {
-    const core::ParameterBox box = core::parameterBox(shown.bin());
-    switch (_setup->options.method) {
-        case Method::Paper:
-            return core::PaperBin(core::GeodeticMapping(ellipsoid), box, _setup->options.growth);
-        case Method::Corners:
-            return core::CornersBin(core::GeodeticMapping(ellipsoid), box);
-        case Method::Box:
-            return core::BoxBin(ellipsoid, shown.bin(), shown.margin());
-        case Method::OrientedBox:
-            return core::OrientedBoxBin(ellipsoid, shown.bin(), shown.margin());
-        case Method::Exact:
-            if (core::ExactGeodeticBin::holds(ellipsoid, shown.bin())) {
-                return core::ExactGeodeticBin(ellipsoid, shown.bin(), shown.margin());
-            }
-            break;
-        case Method::Quadratic:
-        case Method::Sphere:
-        case Method::None:
-            break;
-    }
-    return std::visit([](const auto& bin) -> PreparedBin { return bin; },
-                      core::quadraticOrExact(ellipsoid, shown.bin(), shown.margin()));
+core::QuadraticOrExact AnalyticBinCullCallback::preparedBin(const AnalyticBin& shown,
+                                                            const core::Ellipsoid& ellipsoid) const {
+    if (_setup->options.method == Method::Exact && core::ExactGeodeticBin::holds(ellipsoid, shown.bin()))
+        return core::ExactGeodeticBin(ellipsoid, shown.bin(), shown.margin());
+    return core::quadraticOrExact(ellipsoid, shown.bin(), shown.margin());
 }
 
 // Called when the shown bin, the globe, the frame or the options have changed.
@@ -141,8 +114,6 @@ void AnalyticBinCullCallback::changeBin() {
     const bool hasMethod = _setup->options.method != Method::None && _setup->options.method != Method::Sphere;
     _isTested =
         hasMethod && shown.valid() && (areValidRadii(_setup->equatorialRadius, _setup->polarRadius) || isInMap());
-    _testsEdges = _setup->options.effectiveEdges();
-    _hidesByPoint = isBox(_setup->options.method);
     discardPrepared();
     fillSlot();
 }
@@ -166,15 +137,13 @@ AnalyticBinCullCallback::Prepared AnalyticBinCullCallback::makePrepared() const 
         new osg::EllipsoidModel(_setup->equatorialRadius, _setup->polarRadius);
     osg::BoundingSphere sphere = shown.boundingSphere(*model);
     if (_frame) sphere = movedSphere(sphere, _frame->fromEcef);
-    Prepared prepared{preparedBin(shown, ellipsoid), {}, {}, sphere, sphere, {}, {}};
-    const bool isOwnEdge =
-        isBox(_setup->options.method) || std::holds_alternative<core::ExactGeodeticBin>(prepared.bin);
-    if (_testsEdges && !isOwnEdge && core::ExactGeodeticBin::holds(ellipsoid, shown.bin())) {
+    Prepared prepared{preparedBin(shown, ellipsoid), {}, {}, sphere, sphere, {}};
+    const bool isExact = std::holds_alternative<core::ExactGeodeticBin>(prepared.bin);
+    if (_setup->options.edges && !isExact && core::ExactGeodeticBin::holds(ellipsoid, shown.bin())) {
         prepared.separable.emplace(ellipsoid, shown.bin(), shown.margin());
     }
-    if (_setup->options.effectiveHorizonUse() == HorizonUse::Off || isInMap()) return prepared;
+    if (_setup->options.horizonUse == HorizonUse::Off || isInMap()) return prepared;
     prepared.horizon.emplace(ellipsoid, shown.bin(), shown.margin());
-    if (_hidesByPoint) prepared.horizonPoint.emplace(*prepared.horizon);
     if (shown.bin().altitude().upper >= 0.0) return prepared;
     AnalyticBin column = shown;
     column.setBin(shown.bin().withAltitude({shown.bin().altitude().lower, 0.0}));
@@ -203,12 +172,10 @@ void AnalyticBinCullCallback::fillSlot() const {
     const Prepared prepared = makePrepared();
     TileBlock::Bins bins{std::get_if<core::QuadraticBin>(&prepared.bin),
                          std::get_if<core::ExactGeodeticBin>(&prepared.bin)};
-    const bool isForComparison = !bins.quadratic && !bins.exact;
-    if (prepared.horizon) bins.column = prepared.columnHorizon ? &*prepared.columnHorizon : &*prepared.horizon;
-    if (prepared.horizon && !isForComparison) bins.horizon = &*prepared.horizon;
-    const bool hasOwnColumn = isForComparison || prepared.columnHorizon.has_value();
+    if (prepared.horizon) bins.horizon = &*prepared.horizon;
+    bins.column = prepared.columnHorizon ? &*prepared.columnHorizon : bins.horizon;
     _installed->fillSlot({prepared.sphere, prepared.columnSphere, _binHigh, _binLow, _surfaceHigh, _surfaceLow,
-                          hasOwnColumn, _installed->testsSphere()},
+                          prepared.columnHorizon.has_value(), _installed->testsSphere()},
                          bins);
 }
 
@@ -255,7 +222,7 @@ const osg::BoundingSphere* AnalyticBinCullCallback::ecefColumnSphere() const {
 }
 
 void AnalyticBinCullCallback::setCullOptions(const CullOptions& options) {
-    if (options.effectiveEdges() != _testsEdges) leaveFamily();
+    if (options.edges != _setup->options.edges) leaveFamily();
     changeSetup([&](Setup& setup) { setup.options = options; });
     changeBin();
 }
@@ -318,15 +285,15 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
     CullTraversal& traversal = CullTraversal::of(nv);
     if (_setup->shape && !isShownIn(*_setup->shape, traversal)) return false;
     const auto test = [&](const core::PlaneSet& planes, core::PlaneMask& undecided) {
-        const core::Side side = sideOf(planes, undecided);
+        const core::Side side = core::classify(prepared().bin, planes, undecided);
         // what else is known of the view takes time to find
         if (side == core::Side::Outside || (!prepared().horizon && !isInMap()))
-            return verdict(side, planes, undecided, nullptr, nullptr, traversal);
+            return verdict(side, planes, undecided, nullptr, nullptr);
         const DatabaseView* const view = viewOn(cullStack, traversal);
-        if (!mayBeHidden(node)) return verdict(side, planes, undecided, nullptr, nullptr, traversal);
+        if (!mayBeHidden(node)) return verdict(side, planes, undecided, nullptr, nullptr);
         if (view && view->plan && view->plan->isOccluded(*this)) return Verdict{core::Side::Outside, Verdict::Terrain};
         const core::HorizonEye* const eye = view ? view->eye : eyeWithoutDatabase(cullStack, nv, traversal);
-        return verdict(side, planes, undecided, eye, view ? view->sight : nullptr, traversal);
+        return verdict(side, planes, undecided, eye, view ? view->sight : nullptr);
     };
     return isCulledByBin(cullStack, nv, traversal, prepared().sphere,
                          [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
@@ -368,36 +335,19 @@ const core::HorizonEye* AnalyticBinCullCallback::eyeWithoutDatabase(osg::CullSta
     return traversal.horizonEye(cullStack, nv, occluder);
 }
 
-core::Side AnalyticBinCullCallback::sideOf(const core::PlaneSet& planes, core::PlaneMask& undecided) const {
-    return std::visit([&](const auto& bin) { return core::classify(bin, planes, undecided); }, prepared().bin);
-}
-
 Verdict AnalyticBinCullCallback::verdict(core::Side side, const core::PlaneSet& planes, core::PlaneMask undecided,
-                                         const core::HorizonEye* eye, const core::RegionalSight* sight,
-                                         CullTraversal& traversal) const {
+                                         const core::HorizonEye* eye, const core::RegionalSight* sight) const {
     if (side == core::Side::Outside) return {side, Verdict::Plane};
-    if (eye && isHiddenFrom(*eye) && (!sight || sight->holds(*prepared().horizon)))
+    if (eye && eye->hides(*prepared().horizon) && (!sight || sight->holds(*prepared().horizon)))
         return {core::Side::Outside, Verdict::Horizon};
-    if (side == core::Side::Straddling && _testsEdges && isBeyondAnEdge(traversal, planes, undecided)) {
+    if (side == core::Side::Straddling && _setup->options.edges && isBeyondAnEdge(planes, undecided)) {
         return {core::Side::Outside, Verdict::Edge};
     }
     return {side, Verdict::Plane};
 }
 
-bool AnalyticBinCullCallback::isHiddenFrom(const core::HorizonEye& eye) const {
+bool AnalyticBinCullCallback::isBeyondAnEdge(const core::PlaneSet& planes, core::PlaneMask undecided) const {
     const Prepared& tile = prepared();
-    return _hidesByPoint ? eye.hides(*tile.horizonPoint) : eye.hides(*tile.horizon);
-}
-
-bool AnalyticBinCullCallback::isBeyondAnEdge(CullTraversal& traversal, const core::PlaneSet& planes,
-                                             core::PlaneMask undecided) const {
-    const Prepared& tile = prepared();
-    if (const auto* box = std::get_if<core::BoxBin>(&tile.bin)) {
-        return core::isSeparated(*box, traversal.hull(planes));
-    }
-    if (const auto* box = std::get_if<core::OrientedBoxBin>(&tile.bin)) {
-        return core::isSeparated(*box, traversal.hull(planes));
-    }
     const auto* quadratic = isInMap() ? std::get_if<core::QuadraticBin>(&tile.bin) : nullptr;
     if (quadratic) return core::isSeparated(*quadratic, planes, planes.size(), undecided);
     const auto* exact = std::get_if<core::ExactGeodeticBin>(&tile.bin);

@@ -74,12 +74,7 @@ std::string AnalyticBinCullCallback::getBinText() const {
 }
 
 void AnalyticBinCullCallback::setOptionsText(const std::string& text) {
-    std::string error;
-    if (const auto options = cullOptionsFromText(text, error)) {
-        setCullOptions(*options);
-    } else {
-        OSG_WARN << "AnalyticBinCullCallback: " << error << "; using the default." << std::endl;
-    }
+    setCullOptions(storedCullOptions(text));
 }
 
 std::string AnalyticBinCullCallback::getOptionsText() const {

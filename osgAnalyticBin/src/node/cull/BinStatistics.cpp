@@ -46,6 +46,11 @@ const BinStatistics* BinStatistics::find(const osg::NodeVisitor& visitor) {
     return nullptr;
 }
 
+const core::HorizonEye* BinStatistics::horizonEye(osg::NodeVisitor& visitor) {
+    const DatabaseView* const view = CullTraversal::of(visitor).databaseView();
+    return view && !view->sight ? view->eye : nullptr;
+}
+
 void BinStatistics::beginFrame(unsigned int frame) noexcept {
     if (_frame.load(std::memory_order_relaxed) == frame) return;
     reset();

@@ -18,14 +18,6 @@ std::array<double, 3> depthOf(const osg::Matrixd& modelView, const osg::Matrixd&
     return {modelView(3, 2), projection(2, 2), projection(3, 2)};
 }
 
-bool areSame(const core::PlaneSet& some, const core::PlaneSet& others) {
-    if (some.size() != others.size()) return false;
-    for (std::size_t i = 0; i < some.size(); ++i) {
-        if (some[i].normal != others[i].normal || some[i].offset != others[i].offset) return false;
-    }
-    return true;
-}
-
 // The visitor that traverses a database in this thread. Looking it up in the user data of visitors is slower.
 struct ScopeOfThread {
     const osg::NodeVisitor* visitor = nullptr;
@@ -92,14 +84,6 @@ const core::PlaneSet& CullTraversal::planes(osg::CullStack& cullStack) {
     }
     _eyeEllipsoid.reset();
     return _planes;
-}
-
-const core::FrustumHull& CullTraversal::hull(const core::PlaneSet& planes) {
-    if (!_hull || !areSame(planes, _hullPlanes)) {
-        _hull.emplace(planes, planes.size());
-        _hullPlanes = planes;
-    }
-    return *_hull;
 }
 
 const core::HorizonEye* CullTraversal::horizonEye(osg::CullStack& cullStack, osg::NodeVisitor& visitor,

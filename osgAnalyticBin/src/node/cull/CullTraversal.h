@@ -10,7 +10,6 @@
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
-#include <osgAnalyticBin/core/edge/FrustumHull.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 #include <osgAnalyticBin/core/horizon/RegionalSight.h>
 
@@ -84,9 +83,6 @@ public:
     /// All planes of the cull stack's current frustum, because OSG's masks may refer to any of them.
     [[nodiscard]] const core::PlaneSet& planes(osg::CullStack& cullStack);
 
-    /// The corners of the frustum inside the planes; recomputed when the planes have changed.
-    [[nodiscard]] const core::FrustumHull& hull(const core::PlaneSet& planes);
-
     /// The eye in the frame of the planes last asked for. Returns: nullptr when nothing can be hidden from it.
     [[nodiscard]] const core::HorizonEye* horizonEye(osg::CullStack& cullStack, osg::NodeVisitor& visitor,
                                                      const Occluder& occluder);
@@ -141,9 +137,6 @@ private:
     core::PlaneSet _planes;
     Coefficients _coefficients{};
     std::size_t _planeCount = 0;
-
-    std::optional<core::FrustumHull> _hull;
-    core::PlaneSet _hullPlanes;
 
     // The eye, and what it was prepared for.
     std::optional<core::HorizonEye> _eye;

@@ -120,7 +120,7 @@ private:
     std::size_t test(const osg::Group& group, const TileFamily& family, unsigned int first,
                      TileFamily::Verdicts& verdicts) {
         const DatabaseView& view = _database.view;
-        family.test(group, first, view.planes, _undecided, _eye, _traversal, verdicts);
+        family.test(group, first, view.planes, _undecided, _eye, verdicts);
         if (verdicts.lacksTiles) _hasHole = true;
         if (!view.plan) return TilePlan::kAlone;
         return view.plan->add(family, first, _undecided, verdicts, group.getNumChildren() - first);

@@ -30,7 +30,7 @@ public:
         double binLow = 0.0;         ///< likewise
         double surfaceHigh = 0.0;    ///< likewise
         double surfaceLow = 0.0;     ///< likewise
-        bool hasOwnColumn = true;    ///< the column is more than the bin, or the bin is one for comparison
+        bool hasOwnColumn = true;    ///< the column is more than the bin
         bool testsSphere = false;    ///< see InstalledTile
     };
 

@@ -129,11 +129,11 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
     if (!_ellipsoid) {
         _ellipsoid = tile->ellipsoid();
         _shape = tile->_setup->shape;
-        _testsEdges = tile->_testsEdges;
+        _testsEdges = tile->_setup->options.edges;
         _trustsShaders = tile->_setup->options.plainShaders;
     }
     const bool isSame =
-        *_ellipsoid == tile->ellipsoid() && _testsEdges == tile->_testsEdges && _shape == tile->_setup->shape;
+        *_ellipsoid == tile->ellipsoid() && _testsEdges == tile->_setup->options.edges && _shape == tile->_setup->shape;
     if (!isSame) return false;
     _nodes[slot] = &child;
     _block->addMember(slot);
@@ -192,8 +192,7 @@ bool TileFamily::enterFamilyOf(osg::Node& node, osgUtil::CullVisitor& visitor, C
 }
 
 void TileFamily::test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes,
-                      core::PlaneMask undecided, const core::HorizonEye* eye, CullTraversal& traversal,
-                      Verdicts& verdicts) const {
+                      core::PlaneMask undecided, const core::HorizonEye* eye, Verdicts& verdicts) const {
     verdicts.beyond = verdicts.members = verdicts.tested = verdicts.hidden = verdicts.separated = verdicts.occluded = 0;
     verdicts.lacksTiles = false;
     if (first >= _block->size()) return;
@@ -210,7 +209,7 @@ void TileFamily::test(const osg::Group& group, unsigned int first, const core::P
     verdicts.lacksTiles = verdicts.members != part.members;
     verdicts.members &= part.believed.load(std::memory_order_relaxed);
     findSeparated(first, verdicts.members & verdicts.tested & ~(verdicts.planes.outside | verdicts.hidden), planes,
-                  traversal, verdicts);
+                  verdicts);
 }
 
 void TileFamily::fetchKept(unsigned int first, const Verdicts& verdicts) const {
@@ -230,7 +229,7 @@ std::uint64_t TileFamily::hideable(unsigned int first, std::uint64_t tiles) cons
 }
 
 void TileFamily::findSeparated(unsigned int first, std::uint64_t candidates, const core::PlaneSet& planes,
-                               CullTraversal& traversal, Verdicts& verdicts) const {
+                               Verdicts& verdicts) const {
     const core::BinFamily& bins = _block->partFrom(first).bins;
     forEachBit(candidates & ~verdicts.planes.insideAll, [&](unsigned int number) {
         const core::PlaneMask undecided = verdicts.planes.undecided[number];
@@ -238,44 +237,30 @@ void TileFamily::findSeparated(unsigned int first, std::uint64_t candidates, con
         if (!isAcrossEdge || !_testsEdges) return;
         const bool isBeyond = hasBit(bins.exact(), number) || _ellipsoid->isPlane()
                                   ? bins.isSeparated(number, planes, undecided)
-                                  : _members[first + number].tile->isBeyondAnEdge(traversal, planes, undecided);
+                                  : _members[first + number].tile->isBeyondAnEdge(planes, undecided);
         if (isBeyond) verdicts.separated |= std::uint64_t{1} << number;
     });
 }
 
 void TileFamily::lookUp(const osg::Group& group, unsigned int first, core::PlaneMask undecided,
-                        const DatabaseView& view, CullTraversal& traversal, Verdicts& verdicts) const {
+                        const DatabaseView& view, Verdicts& verdicts) const {
     if (!view.plan || !view.plan->find(*this, first, undecided, verdicts)) {
-        test(group, first, view.planes, undecided, view.eye, traversal, verdicts);
+        test(group, first, view.planes, undecided, view.eye, verdicts);
         fetchKept(first, verdicts);
     }
     if (verdicts.hidden == 0 || (view.eye && !view.sight)) return;
     // the plan does not look at borders, and may be that of an eye which came to nothing
     std::uint64_t seen = verdicts.hidden;
     if (view.eye) seen &= ~_block->partFrom(first).bins.heldIn(*view.sight, seen);
-    findSeparated(first, verdicts.members & seen, view.planes, traversal, verdicts);
+    findSeparated(first, verdicts.members & seen, view.planes, verdicts);
     verdicts.hidden &= ~seen;
 }
 
 // Which of the tiles are culled, one bit each.
 std::uint64_t TileFamily::culled(unsigned int first, const Verdicts& verdicts, const osg::NodeVisitor& nv,
-                                 osg::CullStack& cullStack, const DatabaseView& view, CullTraversal& traversal) const {
-    std::uint64_t inside = verdicts.members & verdicts.tested & verdicts.planes.insideAll;
-    std::uint64_t hidden = verdicts.members & verdicts.hidden;
-    std::uint64_t separated = verdicts.members & verdicts.separated;
+                                 osg::CullStack& cullStack, CullTraversal& traversal) const {
+    const std::uint64_t inside = verdicts.members & verdicts.tested & verdicts.planes.insideAll;
     std::uint64_t culled = verdicts.members & verdicts.outOfView();
-    // bins for comparison
-    forEachBit(verdicts.members & ~verdicts.tested, [&](unsigned int number) {
-        const AnalyticBinCullCallback& tile = *_members[first + number].tile;
-        core::PlaneMask undecided = verdicts.planes.undecided[number];
-        const core::Side side = tile.sideOf(view.planes, undecided);
-        const Verdict verdict = tile.verdict(side, view.planes, undecided, view.eye, view.sight, traversal);
-        const std::uint64_t bit = std::uint64_t{1} << number;
-        if (verdict.side == core::Side::Outside) culled |= bit;
-        if (verdict.side == core::Side::Inside) inside |= bit;
-        if (verdict.reason == Verdict::Horizon) hidden |= bit;
-        if (verdict.reason == Verdict::Edge) separated |= bit;
-    });
     osg::CullingSet& cullingSet = cullStack.getCurrentCullingSet();
     if (cullingSet.getCullingMask() & osg::CullingSet::SMALL_FEATURE_CULLING) {
         forEachBit(verdicts.members & ~culled, [&](unsigned int number) {
@@ -287,8 +272,8 @@ std::uint64_t TileFamily::culled(unsigned int first, const Verdicts& verdicts, c
         counts.outside = countBits(culled);
         counts.inside = countBits(inside & ~culled);
         counts.straddling = countBits(verdicts.members & ~culled & ~inside);
-        counts.hidden = countBits(hidden);
-        counts.beyondEdge = countBits(separated);
+        counts.hidden = countBits(verdicts.members & verdicts.hidden);
+        counts.beyondEdge = countBits(verdicts.members & verdicts.separated);
         counts.occluded = countBits(verdicts.members & verdicts.occluded);
         counts.frame = nv.getTraversalNumber();
         traversal.add(counts);
@@ -335,9 +320,9 @@ void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::Cull
     bool isChanged = children != _nodes.size();
     Verdicts verdicts;
     for (unsigned int first = 0; first < children; first += TileBlock::Part::kMost) {
-        lookUp(group, first, before, view, traversal, verdicts);
+        lookUp(group, first, before, view, verdicts);
         isChanged = isChanged || verdicts.lacksTiles;
-        const std::uint64_t culled = this->culled(first, verdicts, nv, cullStack, view, traversal);
+        const std::uint64_t culled = this->culled(first, verdicts, nv, cullStack, traversal);
         const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
         forEachBit(lowestBits(here) & ~culled, [&](unsigned int number) {
             if (first + number >= group.getNumChildren()) return;

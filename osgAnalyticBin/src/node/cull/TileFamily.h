@@ -89,7 +89,7 @@ public:
 
     /// Tests the children from `first` on, a multiple of kMost. `eye`: null where nothing is hidden.
     void test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes, core::PlaneMask undecided,
-              const core::HorizonEye* eye, CullTraversal& traversal, Verdicts& verdicts) const;
+              const core::HorizonEye* eye, Verdicts& verdicts) const;
 
     /// Prefetches the memory that entering the tiles in view reads.
     void fetchKept(unsigned int first, const Verdicts& verdicts) const;
@@ -119,14 +119,13 @@ private:
     explicit TileFamily(osg::Group& group);
     [[nodiscard]] bool add(osg::Node& child, std::size_t slot);
     void lookUp(const osg::Group& group, unsigned int first, core::PlaneMask undecided, const DatabaseView& view,
-                CullTraversal& traversal, Verdicts& verdicts) const;
+                Verdicts& verdicts) const;
     // Of these tiles, those that may be hidden now.
     [[nodiscard]] std::uint64_t hideable(unsigned int first, std::uint64_t tiles) const;
     void findSeparated(unsigned int first, std::uint64_t candidates, const core::PlaneSet& planes,
-                       CullTraversal& traversal, Verdicts& verdicts) const;
+                       Verdicts& verdicts) const;
     [[nodiscard]] std::uint64_t culled(unsigned int first, const Verdicts& verdicts, const osg::NodeVisitor& nv,
-                                       osg::CullStack& cullStack, const DatabaseView& view,
-                                       CullTraversal& traversal) const;
+                                       osg::CullStack& cullStack, CullTraversal& traversal) const;
     void cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack, const DatabaseView& view,
                       CullTraversal& traversal) const;
     static void enter(osg::Node& child, const Member& member, osg::NodeVisitor& nv, osg::CullStack& cullStack,

@@ -47,7 +47,7 @@ CullOptions settled(osg::Node& node, const CullOptions& options) {
         const osg::ref_ptr<InstallBinsCallback> request = findCallback<InstallBinsCallback>(first);
         if (!request) continue;
         const CullOptions declared = request->getCullOptions();
-        if (effective.effectiveHorizonUse() == HorizonUse::Declared && declared.horizonUse == HorizonUse::Given) {
+        if (effective.horizonUse == HorizonUse::Declared && declared.horizonUse == HorizonUse::Given) {
             effective.horizonUse = HorizonUse::Given;
             effective.horizon = declared.horizon;
         }

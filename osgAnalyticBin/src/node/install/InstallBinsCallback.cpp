@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "../Text.h"
+
 #include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
 #include <osg/Node>
 #include <osg/NodeVisitor>
-#include <osg/Notify>
 
 namespace osgAnalyticBin {
 
@@ -17,12 +18,7 @@ InstallBinsCallback::InstallBinsCallback(const InstallBinsCallback& other, const
       _options(other._options) {}
 
 void InstallBinsCallback::setOptionsText(const std::string& text) {
-    std::string error;
-    if (const auto options = cullOptionsFromText(text, error)) {
-        _options = *options;
-    } else {
-        OSG_WARN << "InstallBinsCallback: " << error << "; using the default." << std::endl;
-    }
+    _options = storedCullOptions(text);
 }
 
 std::string InstallBinsCallback::getOptionsText() const {

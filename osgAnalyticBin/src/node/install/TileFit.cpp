@@ -319,7 +319,7 @@ bool leavesHeights(const AnalyticBin& surface, const Database& database) {
 
 // Who declares a horizon says that the tiles of the globe have no holes.
 bool isVouchedFor(const CullOptions& options, const osg::EllipsoidModel& ellipsoid) {
-    return options.effectiveHorizonUse() == HorizonUse::Given && !isMapPlane(ellipsoid);
+    return options.horizonUse == HorizonUse::Given && !isMapPlane(ellipsoid);
 }
 
 // Looks for a drawable in a leaf that spans a good part of the tile above it, as ground does. Objects on the ground do
@@ -385,7 +385,7 @@ core::MeshCover coverBy(const FoundTile& tile, const Database& database, const T
     const CullOptions options = database.options();
     const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database.ellipsoid();
     if (isVouchedFor(options, ellipsoid)) return {link.extents, true};
-    if (options.effectiveHorizonUse() == HorizonUse::Off && options.occlusion == OcclusionUse::Off) return {};
+    if (options.horizonUse == HorizonUse::Off && options.occlusion == OcclusionUse::Off) return {};
     return coverOf({tile.meshes, ellipsoid, tile.frame.localToEcef, shape});
 }
 

@@ -193,8 +193,8 @@ void Database::noteCoverage(const std::string& file, const Coverage& coverage) {
     if (!coverage.isOfGlobe()) {
         osg::ref_ptr<AnalyticBinCullCallback> tile;
         // who declares a horizon says that there are none
-        const bool isVouchedFor = options().effectiveHorizonUse() == HorizonUse::Given &&
-                                  _ground.load(std::memory_order_relaxed) != Ground::Map;
+        const bool isVouchedFor =
+            options().horizonUse == HorizonUse::Given && _ground.load(std::memory_order_relaxed) != Ground::Map;
         if (hasGap && !isVouchedFor && coverage.tile()->callback.lock(tile) && tile->getInstalledTile())
             tile->getInstalledTile()->noteGapBelow();
         return;

@@ -80,16 +80,15 @@ bool isAltered(const osg::NodePath& path) {
 
 Horizon horizonOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack, Database& database,
                     const CullOptions& options, const DatabaseView& view) {
-    const HorizonUse horizonUse = options.effectiveHorizonUse();
     const bool isMap = view.ellipsoid.isPlane();
     if (hasActiveOccluders(cullStack)) return {};
     // nothing else is looked for
     if (isMap && options.occlusion == OcclusionUse::Off) return {};
-    const bool isGiven = horizonUse == HorizonUse::Given && !isMap;
+    const bool isGiven = options.horizonUse == HorizonUse::Given && !isMap;
     // an eye below the terrain looks through the backs of the faces that would hide
     const bool isAboveTerrain = options.skirts == SkirtUse::Cracks;
     const auto region = database.region();
-    const bool isUsed = isGiven || (horizonUse != HorizonUse::Off && isAboveTerrain && !database.hasGap());
+    const bool isUsed = isGiven || (options.horizonUse != HorizonUse::Off && isAboveTerrain && !database.hasGap());
     // where other tiles cover the globe, stray ones hide nothing that these do not
     const bool isPartial = database.hasGap() || region;
     const bool isRelyingOnStrays = isPartial && database.hasStrayTile();
@@ -105,7 +104,7 @@ Horizon horizonOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cull
         return {};
     }
     CullTraversal::LastView& last = CullTraversal::of(nv).lastView(database);
-    const bool mayFindOccluded = viewpoint->eye() && isAboveTerrain && !isForComparison(options.method);
+    const bool mayFindOccluded = viewpoint->eye() && isAboveTerrain;
     if (mayFindOccluded && options.occlusion == OcclusionUse::On && !isFinalProjection(cullStack))
         database.noteUnknownNearPlane();
     const bool findsOccluded =

@@ -3,6 +3,7 @@
 
 #include "CullMethod.h"
 #include "Failure.h"
+#include "RivalOptions.h"
 
 #include <osgAnalyticBin/CullOptions.h>
 
@@ -77,35 +78,60 @@ TEST(CullMethod, KnowsWhatBecomesOfTheClusterCallbacks) {
 }
 
 TEST(CullMethod, PlainNamesCullByPlanesAlone) {
-    for (const char* const name : {"box", "orientedbox", "corners", "paper", "quadratic", "exact"}) {
+    for (const char* const name : {"quadratic", "exact"}) {
         const CullOptions plain = optionsOf(name, "horizon=-5");
-        EXPECT_EQ(plain.effectiveHorizonUse(), HorizonUse::Off) << name;
-        EXPECT_FALSE(plain.effectiveEdges()) << name;
+        EXPECT_EQ(plain.horizonUse, HorizonUse::Off) << name;
+        EXPECT_FALSE(plain.edges) << name;
         const CullOptions horizon = optionsOf(std::string(name) + "+horizon");
-        EXPECT_EQ(horizon.effectiveHorizonUse(), HorizonUse::Declared) << name;
-        EXPECT_FALSE(horizon.effectiveEdges()) << name;
-        const CullOptions reverse = optionsOf(std::string(name) + "+edges");
-        EXPECT_EQ(reverse.effectiveHorizonUse(), HorizonUse::Off) << name;
-        EXPECT_TRUE(reverse.effectiveEdges()) << name;
+        EXPECT_EQ(horizon.horizonUse, HorizonUse::Declared) << name;
+        EXPECT_FALSE(horizon.edges) << name;
+        const CullOptions edges = optionsOf(std::string(name) + "+edges");
+        EXPECT_EQ(edges.horizonUse, HorizonUse::Off) << name;
+        EXPECT_TRUE(edges.edges) << name;
         const CullOptions both = optionsOf(std::string(name) + "+horizon+edges", "horizon=-5,skirts=all");
-        EXPECT_EQ(both.effectiveHorizonUse(), HorizonUse::Given) << name;
+        EXPECT_EQ(both.horizonUse, HorizonUse::Given) << name;
         EXPECT_EQ(both.horizon, -5.0) << name;
         EXPECT_EQ(both.skirts, SkirtUse::All) << name;
-        EXPECT_TRUE(both.effectiveEdges()) << name;
+        EXPECT_TRUE(both.edges) << name;
     }
-    EXPECT_EQ(optionsOf("orientedbox").method, Method::OrientedBox);
     EXPECT_EQ(optionsOf("exact+horizon").method, Method::Exact);
+}
+
+TEST(CullMethod, RulesOfOthersAreReadBySomethingElse) {
+    const auto rivalOf = [](const std::string& method, const std::string& binOptions = {}) {
+        const std::string scene = cullMethodFromName(method).sceneName("earth.osgb", binOptions);
+        const std::size_t begin = scene.find(".(") + 2;
+        std::string error;
+        const auto options = rivals::rivalOptionsFromText(scene.substr(begin, scene.find(").binrival") - begin), error);
+        EXPECT_TRUE(options) << scene << ": " << error;
+        return options.value_or(rivals::RivalOptions());
+    };
+    for (const char* const name : {"box", "orientedbox", "corners", "paper"}) {
+        EXPECT_TRUE(cullMethodFromName(name).usesBins() && cullMethodFromName(name).usesRivals()) << name;
+        const rivals::RivalOptions plain = rivalOf(name, "horizon=-5");
+        EXPECT_EQ(plain.rule, rivals::ruleFromName(name)) << name;
+        EXPECT_FALSE(plain.usesHorizon || plain.testsEdges) << name;
+        const rivals::RivalOptions both = rivalOf(std::string(name) + "+horizon+edges", "horizon=-5,skirts=all");
+        EXPECT_TRUE(both.usesHorizon && both.testsEdges) << name;
+        std::string error;
+        const auto ofBins = cullOptionsFromText(both.binOptions, error);
+        ASSERT_TRUE(ofBins) << error;
+        EXPECT_EQ(ofBins->horizon, -5.0) << name;
+        EXPECT_EQ(ofBins->skirts, SkirtUse::All) << name;
+        EXPECT_EQ(ofBins->occlusion, OcclusionUse::Off) << name;
+    }
+    EXPECT_FALSE(cullMethodFromName("exact+horizon").usesRivals());
 }
 
 TEST(CullMethod, TerrainHidesTerrainOnlyWhereItIsNamed) {
     EXPECT_EQ(optionsOf("exact+horizon+edges").occlusion, OcclusionUse::Off);
     for (const char* const name : {"exact+horizon+edges+occlusion", "quadratic+horizon+occlusion"}) {
         EXPECT_EQ(optionsOf(name).occlusion, OcclusionUse::On) << name;
-        EXPECT_EQ(optionsOf(name).effectiveHorizonUse(), HorizonUse::Declared) << name;
+        EXPECT_EQ(optionsOf(name).horizonUse, HorizonUse::Declared) << name;
     }
     EXPECT_EQ(optionsOf("quadratic+horizon+edges+autoocclusion").occlusion, OcclusionUse::Auto);
-    EXPECT_TRUE(optionsOf("exact+horizon+edges+occlusion").effectiveEdges());
-    EXPECT_FALSE(optionsOf("exact+horizon+occlusion").effectiveEdges());
+    EXPECT_TRUE(optionsOf("exact+horizon+edges+occlusion").edges);
+    EXPECT_FALSE(optionsOf("exact+horizon+occlusion").edges);
 }
 
 TEST(CullMethod, NamesThePseudoLoader) {

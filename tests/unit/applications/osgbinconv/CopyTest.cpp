@@ -142,7 +142,7 @@ TEST(SmallCopy, ClusterCallbacksAreRemovedUnlessTheyAreToStay) {
         EXPECT_EQ(geode->getCullCallback() != nullptr, isKept);
         EXPECT_EQ(requestOf(root).cluster, isKept ? ClusterUse::Keep : ClusterUse::Replace);
         // a patch declares no horizon
-        EXPECT_EQ(requestOf(root).horizonUse, HorizonUse::ByMethod);
+        EXPECT_EQ(requestOf(root).horizonUse, HorizonUse::Declared);
     }
 }
 

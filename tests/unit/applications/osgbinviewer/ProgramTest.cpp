@@ -28,10 +28,10 @@ TEST(ViewerProgram, WithoutADisplayFailsWithOneLine) {
 }
 
 TEST(ViewerProgram, NamesTheDatabaseAsTheUserDid) {
-    for (const char* options : {"", " --options growth=1.2"}) {
+    for (const char* options : {"", " --options edges=off"}) {
         const Outcome outcome = runWithoutDisplay(std::string("nope.osgb") + options);
         expectOneLine(outcome, "nope.osgb: ");
-        EXPECT_EQ(outcome.text.find("growth"), std::string::npos) << outcome.text;
+        EXPECT_EQ(outcome.text.find("edges"), std::string::npos) << outcome.text;
         EXPECT_EQ(outcome.text.find("analyticbin"), std::string::npos) << outcome.text;
     }
     const TemporaryFolder folder;

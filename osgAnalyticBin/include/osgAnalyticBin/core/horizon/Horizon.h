@@ -38,23 +38,6 @@ private:
     std::array<double, row::kHorizonRows> _numbers{1.0, 0.0, 0.0, -1.0, 0.0, 1.0, -1.0, 0.0, 0.0, 1.0, 0.0};
 };
 
-/// One point that replaces a bin, as Cesium's horizon culling point: above the bin's middle in unit space, and so high
-/// that the whole bin is hidden if the point is. For comparison: it hides less than the bin itself. The height depends
-/// on the occluder's depth. The object keeps the numbers that determine it: the middle, the angle from there to the
-/// bin's farthest direction, and the bin's largest radius. Source: [R13]; doc/theory/horizon.md, section 9.
-class HorizonPoint final {
-public:
-    /// `bin` holds the margin already. A bin more than a quarter turn from its middle is never hidden.
-    explicit HorizonPoint(const HorizonBin& bin) noexcept;
-
-private:
-    friend class HorizonEye;
-
-    glm::dvec3 _direction{1.0, 0.0, 0.0};       // to the bin's middle, unit length in unit space
-    double _cosSpread = 1.0, _sinSpread = 0.0;  // the largest angle from there to a direction of the bin
-    double _inverseRadius = 0.0;                // of the farthest point, rounded down; zero: never hidden
-};
-
 /// An eye, or the viewing direction of an orthographic camera, together with the body that hides: the ellipsoid scaled
 /// about its centre so that it lies `depth` or more below the surface. Prepared once per camera and frame.
 /// Frame: the ellipsoid's own; a globe that is moved, turned or scaled uniformly needs its eye brought there.
@@ -84,11 +67,6 @@ public:
     /// Requires: a bin prepared for the same ellipsoid.
     /// Cost: about 35 multiplications and two or three square roots; no trigonometry.
     [[nodiscard]] bool hides(const HorizonBin& bin) const noexcept;
-
-    /// Guarantee: true only if the bin that the point was made for is hidden, as above;
-    /// tests: HorizonPoint.HidesNoVisiblePoint, HullSoundness.HasNoFalseVerdict.
-    /// Cost: about a dozen multiplications and a square root.
-    [[nodiscard]] bool hides(const HorizonPoint& point) const noexcept;
 
     /// What the test reads.
     [[nodiscard]] const HorizonEyeData& data() const noexcept { return _data; }

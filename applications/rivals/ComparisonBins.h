@@ -7,9 +7,11 @@
 #include <osgAnalyticBin/core/bin/AnalyticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
 
+#include <glm/vec3.hpp>
+
 #include <array>
 
-namespace osgAnalyticBin::core {
+namespace osgAnalyticBin::rivals {
 
 /// The rule of [JJ] as published, for comparison only: the second-order model over the box grown by a factor, its
 /// range taken over nine points (the eight corners and the stationary point), no remainder.
@@ -20,13 +22,14 @@ public:
     static constexpr double kDefaultGrowth = 1.1;
 
     /// `growth`: 1 or more. Cost: one evaluation of the mapping and its derivatives.
-    PaperBin(const AnalyticMapping& mapping, const ParameterBox& box, double growth = kDefaultGrowth) noexcept;
+    PaperBin(const core::AnalyticMapping& mapping, const core::ParameterBox& box,
+             double growth = kDefaultGrowth) noexcept;
 
     /// By the nine points; never a proof.
-    [[nodiscard]] Side classify(const Plane& plane) const noexcept;
+    [[nodiscard]] core::Side classify(const core::Plane& plane) const noexcept;
 
 private:
-    QuadraticBin _model;
+    core::QuadraticBin _model;
 };
 
 /// The test of the eight mapped corners, for comparison only.
@@ -34,13 +37,13 @@ private:
 class CornersBin final {
 public:
     /// Cost: eight evaluations of the mapping.
-    CornersBin(const AnalyticMapping& mapping, const ParameterBox& box) noexcept;
+    CornersBin(const core::AnalyticMapping& mapping, const core::ParameterBox& box) noexcept;
 
     /// By the eight corners; never a proof.
-    [[nodiscard]] Side classify(const Plane& plane) const noexcept;
+    [[nodiscard]] core::Side classify(const core::Plane& plane) const noexcept;
 
 private:
     std::array<glm::dvec3, 8> _corners;
 };
 
-}  // namespace osgAnalyticBin::core
+}  // namespace osgAnalyticBin::rivals

@@ -3,17 +3,18 @@
 
 #pragma once
 
+#include "FrustumHull.h"
+
 #include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 #include <osgAnalyticBin/core/Plane.h>
-#include <osgAnalyticBin/core/edge/FrustumHull.h>
 
 #include <glm/vec3.hpp>
 
 #include <array>
 #include <cstddef>
 
-namespace osgAnalyticBin::core {
+namespace osgAnalyticBin::rivals {
 
 // Boxes around a geodetic bin, as other programs cull by: for comparison, yet sound. Both touch the bin on all six
 // sides, to 160 epsilon times the distance of its farthest point from the earth's centre, 0.3 micrometres on earth;
@@ -25,17 +26,17 @@ public:
     /// `margin` (metres) is added on all sides: what is drawn may leave the bin by that much.
     /// Requires: the bin is not empty.
     /// Cost: that of an ExactGeodeticBin, and three of its ranges.
-    BoxBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin = 0.0) noexcept;
+    BoxBin(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin, double margin = 0.0) noexcept;
 
     /// Guarantee: Outside only if distance(x) < 0, Inside only if >= 0, for every x in the bin and every point within
     /// the margin of it; tests: BoxBins.NeverContradictASample. A plane with NaN is Straddling.
-    [[nodiscard]] Side classify(const Plane& plane) const noexcept;
+    [[nodiscard]] core::Side classify(const core::Plane& plane) const noexcept;
 
     /// How many faces a box has.
     static constexpr std::size_t kFaces = 6;
 
     /// Points into the box; holds the bin, margin included.
-    [[nodiscard]] Plane face(std::size_t i) const noexcept;
+    [[nodiscard]] core::Plane face(std::size_t i) const noexcept;
 
     /// No point of the bin, margin included, is farther from the earth's centre.
     [[nodiscard]] double reach() const noexcept { return _reach; }
@@ -50,16 +51,16 @@ private:
 class OrientedBoxBin final {
 public:
     /// As BoxBin's.
-    OrientedBoxBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin = 0.0) noexcept;
+    OrientedBoxBin(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin, double margin = 0.0) noexcept;
 
     /// Guarantee: as BoxBin's.
-    [[nodiscard]] Side classify(const Plane& plane) const noexcept;
+    [[nodiscard]] core::Side classify(const core::Plane& plane) const noexcept;
 
     /// How many faces a box has.
     static constexpr std::size_t kFaces = 6;
 
     /// Points into the box; holds the bin, margin included.
-    [[nodiscard]] Plane face(std::size_t i) const noexcept;
+    [[nodiscard]] core::Plane face(std::size_t i) const noexcept;
 
     /// No point of the bin, margin included, is farther from the earth's centre.
     [[nodiscard]] double reach() const noexcept { return _reach; }
@@ -80,4 +81,4 @@ private:
 /// As that of BoxBin.
 [[nodiscard]] bool isSeparated(const OrientedBoxBin& box, const FrustumHull& frustum) noexcept;
 
-}  // namespace osgAnalyticBin::core
+}  // namespace osgAnalyticBin::rivals

@@ -13,7 +13,7 @@
 #include <array>
 #include <cstddef>
 
-namespace osgAnalyticBin::core {
+namespace osgAnalyticBin::rivals {
 
 /// The corners of a frustum, from its planes; prepared once per frustum. Side planes alone make an apex and the rays
 /// between two planes; with near and far planes there are eight corners. An orthographic frustum without near and far
@@ -31,7 +31,7 @@ public:
     template <class Planes>
     FrustumHull(const Planes& planes, std::size_t count) noexcept {
         for (std::size_t i = 0; i < count && i < kMostPlanes; ++i) {
-            if (isUsable(planes[i])) _planes[_planeCount++] = planes[i];
+            if (core::isUsable(planes[i])) _planes[_planeCount++] = planes[i];
         }
         findCorners();
     }
@@ -42,7 +42,7 @@ public:
     [[nodiscard]] const glm::dvec3& corner(std::size_t i) const noexcept { return _corners[i].point; }
 
     /// Guarantee: true only if no point x with |x| <= reach and face.distance(x) >= 0 is inside all planes.
-    [[nodiscard]] bool isBehind(const Plane& face, double reach) const noexcept;
+    [[nodiscard]] bool isBehind(const core::Plane& face, double reach) const noexcept;
 
 private:
     struct Corner {
@@ -53,9 +53,9 @@ private:
 
     void findCorners() noexcept;
     void addCorner(std::size_t i, std::size_t j, std::size_t k) noexcept;
-    [[nodiscard]] bool proves(const Corner& corner, const Plane& face, double reach) const noexcept;
+    [[nodiscard]] bool proves(const Corner& corner, const core::Plane& face, double reach) const noexcept;
 
-    std::array<Plane, kMostPlanes> _planes{};
+    std::array<core::Plane, kMostPlanes> _planes{};
     std::array<Corner, kMostCorners> _corners{};
     std::size_t _planeCount = 0;
     std::size_t _cornerCount = 0;
@@ -67,7 +67,7 @@ private:
 class ReverseBin final {
 public:
     /// `exact` is the same bin, with its margin. Cost: sines and cosines of the edges, three support values.
-    ReverseBin(const ExactGeodeticBin& exact, const GeodeticBin& bin) noexcept;
+    ReverseBin(const core::ExactGeodeticBin& exact, const core::GeodeticBin& bin) noexcept;
 
     /// Two meridians, the top, south and north.
     static constexpr std::size_t kMostFaces = 5;
@@ -75,14 +75,14 @@ public:
     /// Faces that the bin has.
     [[nodiscard]] std::size_t faceCount() const noexcept { return _faceCount; }
     /// Requires: i < faceCount().
-    [[nodiscard]] const Plane& face(std::size_t i) const noexcept { return _faces[i]; }
+    [[nodiscard]] const core::Plane& face(std::size_t i) const noexcept { return _faces[i]; }
     /// No point of the bin, margin included, is farther from the earth's centre; metres.
     [[nodiscard]] double reach() const noexcept { return _reach; }
 
 private:
-    void addFace(const ExactGeodeticBin& exact, const glm::dvec3& outward) noexcept;
+    void addFace(const core::ExactGeodeticBin& exact, const glm::dvec3& outward) noexcept;
 
-    std::array<Plane, kMostFaces> _faces{};
+    std::array<core::Plane, kMostFaces> _faces{};
     std::size_t _faceCount = 0;
     double _reach;
 };
@@ -92,4 +92,4 @@ private:
 /// Cost: up to five faces times eight corners, three multiplications each; most faces end at their first corner.
 [[nodiscard]] bool isSeparated(const ReverseBin& bin, const FrustumHull& frustum) noexcept;
 
-}  // namespace osgAnalyticBin::core
+}  // namespace osgAnalyticBin::rivals

@@ -4,8 +4,9 @@
 // The two published rules must be what they claim to be, faults included. Oracles: the rules written down a second
 // time; the closed form, against which they are shown to be wrong.
 
+#include "ComparisonBins.h"
+
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
-#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -19,15 +20,15 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-using core::CornersBin;
 using core::GeodeticMapping;
 using core::Interval;
-using core::PaperBin;
 using core::ParameterBox;
 using core::Plane;
 using core::Quadratic;
 using core::QuadraticBin;
 using core::Side;
+using rivals::CornersBin;
+using rivals::PaperBin;
 
 constexpr double kTie = 1e-6;  // metres from a plane within which a verdict may go either way
 
@@ -214,8 +215,8 @@ TEST(ComparisonBins, PlaneWithoutNumbersIsUndecided) {
     const core::Ellipsoid wgs84(6378137.0, 6356752.3142);
     const core::ParameterBox box =
         core::parameterBox(core::GeodeticBin::fromDegrees({10.0, 12.0}, {20.0, 22.0}, {0.0, 9000.0}));
-    const core::PaperBin paper(core::GeodeticMapping(wgs84), box, core::PaperBin::kDefaultGrowth);
-    const core::CornersBin corners(core::GeodeticMapping(wgs84), box);
+    const rivals::PaperBin paper(core::GeodeticMapping(wgs84), box, rivals::PaperBin::kDefaultGrowth);
+    const rivals::CornersBin corners(core::GeodeticMapping(wgs84), box);
     for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
         for (int place = 0; place < 4; ++place) {
             Plane plane{{0.0, 0.0, 1.0}, 0.0};
@@ -250,6 +251,20 @@ TEST(CornersBin, CullsTheHorizonItStandsOn) {
     const Plane plane{up, 10e3 - static_cast<double>(oracle.range(up).upper)};
     EXPECT_EQ(CornersBin(GeodeticMapping(wgs84()), core::parameterBox(tile)).classify(plane), Side::Outside);
     EXPECT_GT(oracle.distanceRange(plane).upper, 9999.0L);
+}
+
+TEST(ComparisonBins, PlanesWithoutAUnitNormalDecideNothing) {
+    const GeodeticMapping mapping(wgs84());
+    const ParameterBox box = core::parameterBox(core::GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0}));
+    const PaperBin paper(mapping, box);
+    const CornersBin corners(mapping, box);
+    for (const double factor : {0.0, 1e-3, 1.0 - 1e-8, 1.0 + 1e-8, 2.0, 1e6}) {
+        for (const double offset : {-1e13, 1e13}) {
+            const Plane plane{factor * glm::dvec3(0.6, 0.0, 0.8), offset};
+            EXPECT_DEBUG_DEATH(EXPECT_EQ(paper.classify(plane), Side::Straddling), "hasUnitNormal");
+            EXPECT_DEBUG_DEATH(EXPECT_EQ(corners.classify(plane), Side::Straddling), "hasUnitNormal");
+        }
+    }
 }
 
 }  // namespace

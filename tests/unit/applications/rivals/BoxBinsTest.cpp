@@ -4,7 +4,10 @@
 // Oracles: the bin's exact range by long double; random positions of the bin; frusta that hold a point of the bin. Ten
 // million more trials: HullSoundness.cpp.
 
-#include <osgAnalyticBin/core/rivals/BoxBins.h>
+#include "BoxBins.h"
+
+#include <osgAnalyticBin/core/bin/GeodeticMapping.h>
+#include <osgAnalyticBin/core/bin/QuadraticBin.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -22,13 +25,13 @@
 namespace osgAnalyticBin::test {
 namespace {
 
-using core::BoxBin;
 using core::Ellipsoid;
-using core::FrustumHull;
 using core::GeodeticBin;
-using core::OrientedBoxBin;
 using core::Plane;
 using core::Side;
+using rivals::BoxBin;
+using rivals::FrustumHull;
+using rivals::OrientedBoxBin;
 
 // Documented above BoxBin.
 constexpr double kBoxTightness = 160.0 * std::numeric_limits<double>::epsilon();
@@ -184,6 +187,30 @@ TYPED_TEST(BoxBins, ReverseTestFindsAFrustumBeyondAFace) {
         found += isSeparated(box, FrustumHull(planes, planes.size())) ? 1 : 0;
     }
     EXPECT_EQ(found, 1000);
+}
+
+// Debug builds stop at planes without a unit normal; others must not cull by them.
+TYPED_TEST(BoxBins, PlanesWithoutAUnitNormalDecideNothing) {
+    const TypeParam box(wgs84(), GeodeticBin::fromDegrees({0.0, 1.0}, {0.0, 1.0}, {0.0, 1000.0}));
+    for (const double factor : {0.0, 1e-3, 1.0 - 1e-8, 1.0 + 1e-8, 2.0, 1e6}) {
+        const Plane plane{factor * glm::dvec3(0.6, 0.0, 0.8), -1e13};
+        EXPECT_DEBUG_DEATH(EXPECT_EQ(box.classify(plane), Side::Straddling), "hasUnitNormal");
+        EXPECT_DEBUG_DEATH(EXPECT_EQ(box.classify(plane.flipped()), Side::Straddling), "hasUnitNormal");
+    }
+    // to the tolerance they do
+    for (const double factor : {1.0 - 0.99e-9, 1.0 + 0.99e-9})
+        EXPECT_EQ(box.classify({factor * glm::dvec3(0.6, 0.0, 0.8), -1e8}), Side::Outside);
+}
+
+TYPED_TEST(BoxBins, OfAMapAreTheBoxItself) {
+    const GeodeticBin bin({0.1, 0.2}, {0.3, 0.5}, {-10.0, 900.0});
+    const TypeParam box(Ellipsoid::plane(), bin, 1.0);
+    const core::QuadraticBin quadratic(core::GeodeticMapping(Ellipsoid::plane()), core::parameterBox(bin), 1.0);
+    Random random(4813);
+    for (int trial = 0; trial < 1000; ++trial) {
+        const Plane plane{random.direction(), random.uniform(-3e6, 3e6)};
+        EXPECT_EQ(box.classify(plane), quadratic.classify(plane));
+    }
 }
 
 }  // namespace

@@ -1,24 +1,24 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "../Constants.h"
-#include "../LocalFrame.h"
+#include "BoxBins.h"
 
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
-#include <osgAnalyticBin/core/rivals/BoxBins.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-namespace osgAnalyticBin::core {
+namespace osgAnalyticBin::rivals {
 
 namespace {
 
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // Rounding of one signed distance, in units of epsilon times the bin's reach: some twenty roundings of sums and
 // products of three, and axes that are of unit length and at right angles to a few epsilon.
 constexpr double kRounding = 64.0 * kEpsilon;
@@ -33,7 +33,7 @@ struct Extents {
     double reach = 0.0;
 };
 
-Extents wholeGlobe(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) {
+Extents wholeGlobe(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin, double margin) {
     const double altitude = std::max(std::abs(bin.altitude().lower), std::abs(bin.altitude().upper));
     const double reach = (std::max(ellipsoid.equatorialRadius(), ellipsoid.polarRadius()) + altitude + margin) * kUp;
     return {glm::dvec3(0.0), glm::dvec3(reach), reach};
@@ -44,18 +44,19 @@ Extents extentsAlong(const Axes& axes, const Bin& bin) {
     Extents extents;
     extents.reach = bin.reach();
     for (glm::length_t i = 0; i < 3; ++i) {
-        const Interval range = bin.distanceRange({axes[static_cast<std::size_t>(i)], 0.0});
+        const core::Interval range = bin.distanceRange({axes[static_cast<std::size_t>(i)], 0.0});
         extents.center[i] = range.middle();
         extents.halfSize[i] = 0.5 * range.width();
     }
     return extents;
 }
 
-Extents extentsAlong(const Axes& axes, const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) {
+Extents extentsAlong(const Axes& axes, const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin, double margin) {
     if (ellipsoid.isPlane())
-        return extentsAlong(axes, QuadraticBin(GeodeticMapping(ellipsoid), parameterBox(bin), margin));
-    if (!ExactGeodeticBin::holds(ellipsoid, bin)) return wholeGlobe(ellipsoid, bin, margin);
-    return extentsAlong(axes, ExactGeodeticBin(ellipsoid, bin, margin));
+        return extentsAlong(axes,
+                            core::QuadraticBin(core::GeodeticMapping(ellipsoid), core::parameterBox(bin), margin));
+    if (!core::ExactGeodeticBin::holds(ellipsoid, bin)) return wholeGlobe(ellipsoid, bin, margin);
+    return extentsAlong(axes, core::ExactGeodeticBin(ellipsoid, bin, margin));
 }
 
 const Axes& ecefAxes() {
@@ -63,22 +64,25 @@ const Axes& ecefAxes() {
     return axes;
 }
 
-Axes eastNorthUp(const Ellipsoid& ellipsoid, const Geodetic& position) {
+Axes eastNorthUp(const core::Ellipsoid& ellipsoid, const core::Geodetic& position) {
     if (ellipsoid.isPlane()) return ecefAxes();
-    const LocalFrame frame(position.latitude, position.longitude);
-    return {frame.east, frame.north, frame.up};
+    const double sine = std::sin(position.latitude);
+    const double cosine = std::cos(position.latitude);
+    const glm::dvec3 radial(std::cos(position.longitude), std::sin(position.longitude), 0.0);
+    return {glm::dvec3(-radial.y, radial.x, 0.0), glm::dvec3(-sine * radial.x, -sine * radial.y, cosine),
+            glm::dvec3(cosine * radial.x, cosine * radial.y, sine)};
 }
 
 // `radius`: half of what the box measures across the plane. A number that is not finite decides nothing.
-Side sideOf(double distance, double radius, double slack, const Plane& plane) {
-    if (!isUsable(plane)) return Side::Straddling;
+core::Side sideOf(double distance, double radius, double slack, const core::Plane& plane) {
+    if (!core::isUsable(plane)) return core::Side::Straddling;
     const double reach = radius + slack + kOffsetRounding * std::abs(plane.offset);
-    if (distance + reach < 0.0) return Side::Outside;
-    return distance - reach >= 0.0 ? Side::Inside : Side::Straddling;
+    if (distance + reach < 0.0) return core::Side::Outside;
+    return distance - reach >= 0.0 ? core::Side::Inside : core::Side::Straddling;
 }
 
 // Faces 0 to 2 are the lower ends of the axes, 3 to 5 the upper ones.
-Plane faceOf(const glm::dvec3& axis, std::size_t i, double center, double halfSize, double slack) {
+core::Plane faceOf(const glm::dvec3& axis, std::size_t i, double center, double halfSize, double slack) {
     const double sign = i < 3 ? 1.0 : -1.0;
     return {sign * axis, halfSize - sign * center + slack};
 }
@@ -94,7 +98,7 @@ bool isBeyondAFace(const Box& box, const FrustumHull& frustum) {
 
 }  // namespace
 
-BoxBin::BoxBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept {
+BoxBin::BoxBin(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin, double margin) noexcept {
     const Extents extents = extentsAlong(ecefAxes(), ellipsoid, bin, margin);
     _center = extents.center;
     _halfSize = extents.halfSize;
@@ -102,16 +106,16 @@ BoxBin::BoxBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin
     _reach = extents.reach;
 }
 
-Side BoxBin::classify(const Plane& plane) const noexcept {
+core::Side BoxBin::classify(const core::Plane& plane) const noexcept {
     return sideOf(plane.distance(_center), glm::dot(glm::abs(plane.normal), _halfSize), _slack, plane);
 }
 
-Plane BoxBin::face(std::size_t i) const noexcept {
+core::Plane BoxBin::face(std::size_t i) const noexcept {
     const auto k = static_cast<glm::length_t>(i % 3);
     return faceOf(ecefAxes()[i % 3], i, _center[k], _halfSize[k], _slack);
 }
 
-OrientedBoxBin::OrientedBoxBin(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double margin) noexcept
+OrientedBoxBin::OrientedBoxBin(const core::Ellipsoid& ellipsoid, const core::GeodeticBin& bin, double margin) noexcept
     : _center(0.0), _axes(eastNorthUp(ellipsoid, bin.center())) {
     const Extents extents = extentsAlong(_axes, ellipsoid, bin, margin);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -123,14 +127,14 @@ OrientedBoxBin::OrientedBoxBin(const Ellipsoid& ellipsoid, const GeodeticBin& bi
     _reach = extents.reach;
 }
 
-Side OrientedBoxBin::classify(const Plane& plane) const noexcept {
+core::Side OrientedBoxBin::classify(const core::Plane& plane) const noexcept {
     const double radius = std::abs(glm::dot(plane.normal, _halfAxes[0])) +
                           std::abs(glm::dot(plane.normal, _halfAxes[1])) +
                           std::abs(glm::dot(plane.normal, _halfAxes[2]));
     return sideOf(plane.distance(_center), radius, _slack, plane);
 }
 
-Plane OrientedBoxBin::face(std::size_t i) const noexcept {
+core::Plane OrientedBoxBin::face(std::size_t i) const noexcept {
     const glm::dvec3& axis = _axes[i % 3];
     return faceOf(axis, i, glm::dot(axis, _center), glm::dot(axis, _halfAxes[i % 3]), _slack);
 }
@@ -143,4 +147,4 @@ bool isSeparated(const OrientedBoxBin& box, const FrustumHull& frustum) noexcept
     return isBeyondAFace(box, frustum);
 }
 
-}  // namespace osgAnalyticBin::core
+}  // namespace osgAnalyticBin::rivals

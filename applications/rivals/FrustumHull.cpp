@@ -1,21 +1,21 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "../Constants.h"
-
-#include <osgAnalyticBin/core/edge/FrustumHull.h>
+#include "FrustumHull.h"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-namespace osgAnalyticBin::core {
+namespace osgAnalyticBin::rivals {
 
 namespace {
 
 // Rounding of a mixture of three planes, in units of epsilon times its terms; doc/theory/horizon.md, section 6.
-constexpr double kRounding = 16.0 * kEpsilon;
+constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
 // Three planes closer to sharing a line than this have no corner.
 constexpr double kSmallestDeterminant = 1e-12;
 // Corners are computed without error bounds: the proofs do not depend on them.
@@ -50,7 +50,7 @@ void FrustumHull::addCorner(std::size_t i, std::size_t j, std::size_t k) noexcep
     _corners[_cornerCount++] = corner;
 }
 
-bool FrustumHull::isBehind(const Plane& face, double reach) const noexcept {
+bool FrustumHull::isBehind(const core::Plane& face, double reach) const noexcept {
     for (std::size_t i = 0; i < _cornerCount; ++i) {
         if (!(face.distance(_corners[i].point) < 0.0)) return false;
     }
@@ -62,11 +62,11 @@ bool FrustumHull::isBehind(const Plane& face, double reach) const noexcept {
 
 // The frustum is inside any mixture of its planes with weights >= 0. If the mixture's normal is the face's reversed,
 // and its own side begins beyond the face, nothing before the face is in the frustum.
-bool FrustumHull::proves(const Corner& corner, const Plane& face, double reach) const noexcept {
-    Plane mixture{glm::dvec3(0.0), 0.0};
+bool FrustumHull::proves(const Corner& corner, const core::Plane& face, double reach) const noexcept {
+    core::Plane mixture{glm::dvec3(0.0), 0.0};
     double magnitude = std::abs(face.offset) + reach;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Plane& plane = _planes[corner.planes[i]];
+        const core::Plane& plane = _planes[corner.planes[i]];
         const double weight = -glm::dot(corner.weights[glm::length_t(i)], face.normal);
         if (!(weight >= -kCornerTolerance)) return false;
         const double share = std::max(0.0, weight);
@@ -78,22 +78,23 @@ bool FrustumHull::proves(const Corner& corner, const Plane& face, double reach) 
     return mixture.offset + face.offset + mismatch + kRounding * magnitude < 0.0;
 }
 
-ReverseBin::ReverseBin(const ExactGeodeticBin& exact, const GeodeticBin& bin) noexcept : _reach(exact.reach()) {
+ReverseBin::ReverseBin(const core::ExactGeodeticBin& exact, const core::GeodeticBin& bin) noexcept
+    : _reach(exact.reach()) {
     const double west = bin.longitude().lower;
     const double east = bin.longitude().upper;
-    const Geodetic middle = bin.center();
+    const core::Geodetic middle = bin.center();
     const glm::dvec3 radial(std::cos(middle.longitude), std::sin(middle.longitude), 0.0);
     const auto up = [&](double p) { return std::cos(p) * radial + glm::dvec3(0.0, 0.0, std::sin(p)); };
     const auto north = [&](double p) { return -std::sin(p) * radial + glm::dvec3(0.0, 0.0, std::cos(p)); };
     addFace(exact, up(middle.latitude));
     addFace(exact, -north(bin.latitude().lower));
     addFace(exact, north(bin.latitude().upper));
-    if (!(bin.longitude().width() < kPi)) return;
+    if (!(bin.longitude().width() < glm::pi<double>())) return;
     addFace(exact, {std::sin(west), -std::cos(west), 0.0});
     addFace(exact, {-std::sin(east), std::cos(east), 0.0});
 }
 
-void ReverseBin::addFace(const ExactGeodeticBin& exact, const glm::dvec3& outward) noexcept {
+void ReverseBin::addFace(const core::ExactGeodeticBin& exact, const glm::dvec3& outward) noexcept {
     _faces[_faceCount++] = {-outward, exact.distanceRange({outward, 0.0}).upper};
 }
 
@@ -105,4 +106,4 @@ bool isSeparated(const ReverseBin& bin, const FrustumHull& frustum) noexcept {
     return false;
 }
 
-}  // namespace osgAnalyticBin::core
+}  // namespace osgAnalyticBin::rivals

@@ -1,27 +1,28 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "ComparisonBins.h"
+
 #include <osgAnalyticBin/core/PlaneSet.h>
-#include <osgAnalyticBin/core/rivals/ComparisonBins.h>
 
 #include <glm/matrix.hpp>
 
 #include <cmath>
 
-namespace osgAnalyticBin::core {
+namespace osgAnalyticBin::rivals {
 
 namespace {
 
-ParameterBox grown(const ParameterBox& box, double factor) {
+core::ParameterBox grown(const core::ParameterBox& box, double factor) {
     return {box.center, box.halfSize * factor};
 }
 
 // A plane with a number that is not finite decides nothing.
-Side sideOf(const Plane& plane, double lowest, double highest) {
-    if (std::isnan(roundingOf(plane))) return Side::Straddling;
-    if (highest < 0.0) return Side::Outside;
-    if (lowest >= 0.0) return Side::Inside;
-    return Side::Straddling;
+core::Side sideOf(const core::Plane& plane, double lowest, double highest) {
+    if (std::isnan(core::roundingOf(plane))) return core::Side::Straddling;
+    if (highest < 0.0) return core::Side::Outside;
+    if (lowest >= 0.0) return core::Side::Inside;
+    return core::Side::Straddling;
 }
 
 // Corner i of the unit cube: bit k of i chooses the sign of coordinate k.
@@ -30,7 +31,7 @@ glm::dvec3 unitCorner(std::size_t i) {
 }
 
 // Where the gradient of q vanishes; NaN where it has no such point.
-glm::dvec3 stationaryPoint(const Quadratic& q) {
+glm::dvec3 stationaryPoint(const core::Quadratic& q) {
     const auto& h = q.hessian;
     const glm::dmat3 matrix(h[0], h[3], h[4], h[3], h[1], h[5], h[4], h[5], h[2]);
     return -(glm::inverse(matrix) * glm::dvec3(q.gradient[0], q.gradient[1], q.gradient[2]));
@@ -42,11 +43,11 @@ bool inUnitBox(const glm::dvec3& x) {
 
 }  // namespace
 
-PaperBin::PaperBin(const AnalyticMapping& mapping, const ParameterBox& box, double growth) noexcept
+PaperBin::PaperBin(const core::AnalyticMapping& mapping, const core::ParameterBox& box, double growth) noexcept
     : _model(mapping, grown(box, growth)) {}
 
-Side PaperBin::classify(const Plane& plane) const noexcept {
-    const Quadratic q = _model.distanceModel(plane);
+core::Side PaperBin::classify(const core::Plane& plane) const noexcept {
+    const core::Quadratic q = _model.distanceModel(plane);
     double lowest = q(-1.0, -1.0, -1.0);
     double highest = lowest;
     const auto take = [&](const glm::dvec3& x) {
@@ -60,11 +61,11 @@ Side PaperBin::classify(const Plane& plane) const noexcept {
     return sideOf(plane, lowest, highest);
 }
 
-CornersBin::CornersBin(const AnalyticMapping& mapping, const ParameterBox& box) noexcept : _corners() {
+CornersBin::CornersBin(const core::AnalyticMapping& mapping, const core::ParameterBox& box) noexcept : _corners() {
     for (std::size_t i = 0; i < 8; ++i) _corners[i] = mapping.value(box.center + unitCorner(i) * box.halfSize);
 }
 
-Side CornersBin::classify(const Plane& plane) const noexcept {
+core::Side CornersBin::classify(const core::Plane& plane) const noexcept {
     double lowest = plane.distance(_corners[0]);
     double highest = lowest;
     for (std::size_t i = 1; i < 8; ++i) {
@@ -75,4 +76,4 @@ Side CornersBin::classify(const Plane& plane) const noexcept {
     return sideOf(plane, lowest, highest);
 }
 
-}  // namespace osgAnalyticBin::core
+}  // namespace osgAnalyticBin::rivals

@@ -4,7 +4,8 @@
 // Oracles: the exact intersection of a line of sight with the occluder in long double; the point itself, found from
 // samples of the bin, whose own line of sight is tested. Ten million more trials: HullSoundness.cpp.
 
-#include "HorizonChecks.h"
+#include "../../core/HorizonChecks.h"
+#include "HorizonPoint.h"
 
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
@@ -27,7 +28,7 @@ using core::Ellipsoid;
 using core::GeodeticBin;
 using core::HorizonBin;
 using core::HorizonEye;
-using core::HorizonPoint;
+using rivals::HorizonPoint;
 
 constexpr double kPointDepth = 11000.0;
 
@@ -36,7 +37,7 @@ HorizonPoint pointOf(const Ellipsoid& ellipsoid, const GeodeticBin& bin, double 
 }
 
 bool hidesPointOf(const HorizonEye& eye, const HorizonBin& bin) {
-    return eye.hides(HorizonPoint(bin));
+    return HorizonPoint(bin).isHiddenFrom(eye);
 }
 
 TEST(HorizonPoint, HidesNoVisiblePoint) {
@@ -60,7 +61,7 @@ TEST(HorizonPoint, NeverHidesWhatTheBinItselfDoesNot) {
         const auto prepared = HorizonEye::fromEye(wgs84(), kPointDepth, eye);
         if (!prepared) continue;
         const bool isBinHidden = prepared->hides(HorizonBin(wgs84(), bin));
-        const bool isPointHidden = prepared->hides(pointOf(wgs84(), bin));
+        const bool isPointHidden = pointOf(wgs84(), bin).isHiddenFrom(*prepared);
         ASSERT_TRUE(isBinHidden || !isPointHidden) << "trial " << trial;
         byBin += isBinHidden ? 1 : 0;
         byBoth += isPointHidden ? 1 : 0;
@@ -110,7 +111,7 @@ TEST(HorizonPoint, IsThePublishedPoint) {
         if (!prepared || !point) continue;
         const bool isPublishedHidden = !segmentMissesOccluder(wgs84(), kPointDepth, *point, real(eye));
         hidden += isPublishedHidden ? 1 : 0;
-        differences += isPublishedHidden != prepared->hides(pointOf(wgs84(), bin)) ? 1 : 0;
+        differences += isPublishedHidden != pointOf(wgs84(), bin).isHiddenFrom(*prepared) ? 1 : 0;
     }
     EXPECT_GT(hidden, kTrials / 4);
     // The middle in latitude is not quite that of the scaled latitudes, and no sample may be the farthest point.
@@ -123,12 +124,13 @@ TEST(HorizonPoint, MissingInformationIsVisible) {
     const auto behind = [](double halfWidthDeg, core::Interval altitude) {
         return GeodeticBin::fromDegrees({-1.0, 1.0}, {180.0 - halfWidthDeg, 180.0 + halfWidthDeg}, altitude);
     };
-    EXPECT_TRUE(eye->hides(pointOf(wgs84(), behind(1.0, {0.0, 1000.0}))));
-    EXPECT_FALSE(eye->hides(pointOf(wgs84(), behind(1.0, {0.0, 1000.0}), kNaN)));
-    EXPECT_FALSE(eye->hides(pointOf(wgs84(), behind(1.0, {-4e6, 1000.0})))) << "nearer the centre than altitudes go";
-    EXPECT_FALSE(eye->hides(pointOf(wgs84(), behind(95.0, {0.0, 1000.0})))) << "wider than any point stands for";
-    EXPECT_FALSE(eye->hides(pointOf(wgs84(), GeodeticBin())));
-    EXPECT_FALSE(eye->hides(pointOf(wgs84(), GeodeticBin::wholeGlobe({0.0, 1000.0}))));
+    EXPECT_TRUE(pointOf(wgs84(), behind(1.0, {0.0, 1000.0})).isHiddenFrom(*eye));
+    EXPECT_FALSE(pointOf(wgs84(), behind(1.0, {0.0, 1000.0}), kNaN).isHiddenFrom(*eye));
+    EXPECT_FALSE(pointOf(wgs84(), behind(1.0, {-4e6, 1000.0})).isHiddenFrom(*eye))
+        << "nearer the centre than altitudes go";
+    EXPECT_FALSE(pointOf(wgs84(), behind(95.0, {0.0, 1000.0})).isHiddenFrom(*eye)) << "wider than any point stands for";
+    EXPECT_FALSE(pointOf(wgs84(), GeodeticBin()).isHiddenFrom(*eye));
+    EXPECT_FALSE(pointOf(wgs84(), GeodeticBin::wholeGlobe({0.0, 1000.0})).isHiddenFrom(*eye));
 }
 
 }  // namespace

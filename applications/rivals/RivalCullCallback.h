@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "BoxBins.h"
+#include "ComparisonBins.h"
+#include "HorizonPoint.h"
+#include "RivalOptions.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
+#include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
+
+#include <osg/Callback>
+#include <osg/CullStack>
+#include <osg/NodeVisitor>
+
+#include <optional>
+#include <variant>
+
+namespace osgAnalyticBin::rivals {
+
+/// Culls a tile by one of the rules in place of the kit's own callback, which is nested in it and not run: it says what
+/// the tile's bin is. What is nested in the kit's callback runs when the tile is kept.
+/// Requires: a tile that is tested by itself (BinStatistics::setTileByTile()), without OSG's sphere test.
+/// Threads: run() changes nothing.
+class RivalCullCallback final : public osg::Callback {
+public:
+    /// `tile`: the kit's callback, with a valid bin.
+    RivalCullCallback(AnalyticBinCullCallback& tile, const RivalOptions& options);
+
+    /// Whether the rule is that for the tile's present bin.
+    [[nodiscard]] bool isFor(const AnalyticBinCullCallback& tile) const;
+
+    bool run(osg::Object* object, osg::Object* data) override;
+
+protected:
+    ~RivalCullCallback() override = default;
+
+private:
+    using RivalBin = std::variant<PaperBin, CornersBin, BoxBin, OrientedBoxBin>;
+
+    [[nodiscard]] static RivalBin rivalBin(const AnalyticBin& bin, const core::Ellipsoid& ellipsoid,
+                                           const RivalOptions& options);
+    [[nodiscard]] bool isBox() const { return _bin.index() > 1; }
+    [[nodiscard]] bool isHidden(osg::NodeVisitor& visitor) const;
+    [[nodiscard]] bool isBeyondAnEdge(const core::PlaneSet& planes, core::PlaneMask undecided) const;
+    [[nodiscard]] core::Side test(osg::NodeVisitor& visitor, osg::CullStack& cullStack,
+                                  core::PlaneMask& undecided) const;
+
+    const AnalyticBin _shown;
+    const RivalBin _bin;
+    std::optional<core::ExactGeodeticBin> _exact;  // for the test against edges, where the bin is no box
+    std::optional<core::HorizonBin> _horizon;
+    std::optional<HorizonPoint> _horizonPoint;  // for boxes, in place of the bin's horizon
+    bool _testsEdges;
+    bool _isInEcef;
+    osg::Matrixd _fromEcef;
+};
+
+}  // namespace osgAnalyticBin::rivals
