@@ -299,7 +299,7 @@ void addApplication(Random& random, Description& description, int frames) {
     if (random.chance(0.5)) description.parts.clear();
     // who gives a horizon vouches for terrain without holes
     const auto vouchForNothing = [](CullOptions& options) {
-        if (options.horizonUse == HorizonUse::Given) options.horizonUse = HorizonUse::ByMethod;
+        if (options.horizonUse == HorizonUse::Given) options.horizonUse = HorizonUse::Declared;
     };
     for (DatabaseSpec& database : description.databases) vouchForNothing(database.options);
     for (Part& part : description.parts) vouchForNothing(part.options);
