@@ -173,6 +173,7 @@ TEST_F(SwitchedCulling, LeavesFlagsAndValuesAsTheApplicationSetThem) {
     const InactiveNodes after = InactiveNodes::of(*scene);
     EXPECT_EQ(after.nodes, std::set<const osg::Node*>{&own});
     EXPECT_EQ(after.values, values);
+    removeBins(*scene);
     EXPECT_EQ(scene->getCullCallback(), nullptr);
 }
 
