@@ -89,6 +89,13 @@ std::uint64_t filesOf(const Flight& run) {
     return sum;
 }
 
+// The census is a visitor of its own class, for which OSG's spheres cull before bins are asked: whatever they leave is
+// tested by its bin.
+void expectTestedByBins(const Flight& run) {
+    EXPECT_LE(sumOf(run, &flight::TileCounts::binsTested), sumOf(run, &flight::TileCounts::tested));
+    EXPECT_GE(sumOf(run, &flight::TileCounts::binsTested), sumOf(run, &flight::TileCounts::kept));
+}
+
 TEST(ViewerFlight, EveryMethodDrawsTheSamePictures) {
     if (!test::canRunViewer()) GTEST_SKIP() << "needs osgviewer and xvfb-run";
     const Flights flights;
@@ -111,7 +118,7 @@ TEST(ViewerFlight, EveryMethodDrawsTheSamePictures) {
     EXPECT_GT(sumOf(sphere, &flight::TileCounts::kept), sumOf(quadratic, &flight::TileCounts::kept));
     EXPECT_GE(filesOf(none), filesOf(quadratic));
     EXPECT_GT(filesOf(quadratic), 0u);
-    EXPECT_EQ(sumOf(quadratic, &flight::TileCounts::binsTested), sumOf(quadratic, &flight::TileCounts::tested));
+    expectTestedByBins(quadratic);
     EXPECT_EQ(sumOf(sphere, &flight::TileCounts::binsTested), 0u);
 }
 
@@ -125,7 +132,7 @@ TEST(ViewerFlight, AStoredDatabaseNeedsNothingButTheModules) {
     ASSERT_TRUE(report.has_value()) << error << '\n' << flights.lastLog;
     expectEqualPictures(*report);
     const Flight& run = report->runs()[1];
-    EXPECT_EQ(sumOf(run, &flight::TileCounts::binsTested), sumOf(run, &flight::TileCounts::tested));
+    expectTestedByBins(run);
     EXPECT_LT(sumOf(run, &flight::TileCounts::kept), sumOf(report->runs()[0], &flight::TileCounts::kept));
 }
 
