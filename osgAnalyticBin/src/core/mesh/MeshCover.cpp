@@ -214,12 +214,11 @@ private:
         return std::nullopt;
     }
 
-    // Which borders a vertex is at, one bit for each, south, north, west and east. `along` and `across`: radians of
-    // great circles by which it may be beside them.
-    [[nodiscard]] unsigned int bordersAt(std::uint32_t vertex, double along, double across) {
+    // Which borders a vertex is at, one bit for each, south, north, west and east. `along` and `aside`: radians of
+    // latitude and longitude by which it may be beside them.
+    [[nodiscard]] unsigned int bordersAt(std::uint32_t vertex, double along, double aside) {
         const Geodetic& at = placeOf(vertex);
         const bool isPole = isAtPole(at, along);
-        const double aside = across / squeezed(at.latitude);
         const bool isWest = isPole || at.longitude <= _longitudes.lower + aside;
         const bool isEast = isPole || at.longitude >= _longitudes.upper - aside;
         return unsigned{at.latitude <= _latitude.lower + along} |
@@ -229,13 +228,12 @@ private:
     [[nodiscard]] bool isAround() const { return !_ellipsoid.isPlane() && _longitudes.width() >= 2.0 * kPi; }
     // Adds steep triangles that are no skirts to the surface. Returns: whether there are any.
     [[nodiscard]] bool addSteep() {
-        const double along = kSkirtRoom * _latitude.width(), across = kSkirtRoom * _longitudes.width();
+        const double along = kSkirtRoom * _latitude.width(), aside = kSkirtRoom * _longitudes.width();
         bool hasSteep = false;
         for (Triangle& triangle : _triangles) {
             if (triangle.isGentle) continue;
             unsigned int borders = ~0U;
-            for (const std::uint32_t vertex : triangle.corners)
-                borders &= bordersAt(vertex, along, across * squeezed(placeOf(vertex).latitude));
+            for (const std::uint32_t vertex : triangle.corners) borders &= bordersAt(vertex, along, aside);
             triangle.isSurface = borders == 0;
             hasSteep = hasSteep || triangle.isSurface;
         }
@@ -247,12 +245,13 @@ private:
         // of the place's height and width, south, north, west and east
         std::array<double, 4> inward{};
         const double along = kSkirtRoom * _latitude.width();
-        // a seam is one line
-        const double across = isAround() ? _roomAcross : kSkirtRoom * _longitudes.width();
+        const auto bordersOf = [&](std::uint32_t vertex) {
+            // a seam is one line
+            const double aside =
+                isAround() ? _roomAcross / squeezed(placeOf(vertex).latitude) : kSkirtRoom * _longitudes.width();
+            return bordersAt(vertex, along, aside);
+        };
         for (const auto& [a, b] : _ends) {
-            const auto bordersOf = [&](std::uint32_t vertex) {
-                return bordersAt(vertex, along, isAround() ? across : across * squeezed(placeOf(vertex).latitude));
-            };
             const unsigned int borders = bordersOf(a) & bordersOf(b);
             const std::array<double, 4> from = sharesFromBorders(a), to = sharesFromBorders(b);
             std::size_t nearest = from.size();

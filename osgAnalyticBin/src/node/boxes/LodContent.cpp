@@ -3,6 +3,8 @@
 
 #include "LodContent.h"
 
+#include "../Classes.h"
+#include "../PagedChildren.h"
 #include "../cull/Scoped.h"
 
 #include <osg/Geode>
@@ -13,16 +15,9 @@
 #include <osg/ShapeDrawable>
 #include <osg/Switch>
 
-#include <typeinfo>
-
 namespace osgAnalyticBin {
 
 namespace {
-
-template <class... Types>
-bool isOneOf(const osg::Node& node) {
-    return ((typeid(node) == typeid(Types)) || ...);
-}
 
 bool staysInPlace(osg::Node& node) {
     return !node.getUpdateCallback() && !node.getComputeBoundingSphereCallback();
@@ -119,7 +114,7 @@ LodContent findLods(osg::Node& node) {
 
 bool isPagedChildOf(const osg::LOD& node, unsigned int child) {
     const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&node);
-    return paged && child < paged->getNumFileNames() && !paged->getFileName(child).empty();
+    return paged && isPaged(*paged, child);
 }
 
 }  // namespace osgAnalyticBin

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "../Classes.h"
 #include "../install/MeshCulling.h"
 #include "../install/TileCallback.h"
 #include "TileFamily.h"
@@ -13,15 +14,7 @@
 #include <osg/Callback>
 #include <osg/Node>
 
-#include <typeinfo>
-
 namespace osgAnalyticBin {
-
-/// Whether an object is of this class, and not of one derived from it. By address: comparing names takes longer.
-template <class Class, class Object>
-[[nodiscard]] bool isExactly(const Object& object) {
-    return &typeid(object) == &typeid(Class);
-}
 
 /// The cull callbacks of a node: the bin's, and whether others may leave out what is below them.
 struct CullCallbacks {

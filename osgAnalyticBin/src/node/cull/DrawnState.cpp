@@ -3,6 +3,7 @@
 
 #include "DrawnState.h"
 
+#include "../Classes.h"
 #include "../install/MeshCulling.h"
 #include "../install/TileCallback.h"
 #include "CullCallbacks.h"
@@ -64,7 +65,6 @@
 
 #include <algorithm>
 #include <array>
-#include <typeinfo>
 
 namespace osgAnalyticBin {
 
@@ -74,14 +74,6 @@ using Attribute = osg::StateAttribute;
 
 constexpr const char* kDrawsTriangles = "osgAnalyticBin.drawsTriangles";
 constexpr DrawnState kHarmless{true, true}, kUnknown{false, false}, kHidesNothing{false, true};
-
-// Whether an object is of one of these classes, and not of one derived from it.
-template <class... Classes, class Object>
-bool isOneOf(const Object& object) {
-    const std::type_info& type = typeid(object);
-    // by address first: comparing names takes longer
-    return ((&type == &typeid(Classes)) || ...) || ((type == typeid(Classes)) || ...);
-}
 
 template <class... Classes>
 DrawnState harmlessIf(const Attribute& attribute) {
@@ -319,7 +311,7 @@ DrawnState drawnState(const osg::StateSet& state, const StateRules& rules) {
 
 StateRules StateRules::of(osg::NodeVisitor& visitor, bool trustsShaders) {
     osgUtil::CullVisitor* const cullVisitor = visitor.asCullVisitor();
-    if (!cullVisitor) return {trustsShaders, false, nullptr};
+    if (!cullVisitor) return {trustsShaders};
     return {trustsShaders, isMirror(*cullVisitor->getModelViewMatrix()), cullVisitor->getViewport()};
 }
 

@@ -28,7 +28,7 @@ struct DrawnState {
     }
 };
 
-/// What else is known.
+/// What else is known. By itself: in a frame that does not mirror, whatever the camera.
 struct StateRules {
     /// In the present frame of a visitor.
     [[nodiscard]] static StateRules of(osg::NodeVisitor& visitor, bool trustsShaders);

@@ -4,7 +4,9 @@
 #include "ShownDepth.h"
 
 #include "../../core/EarthScale.h"
+#include "../Classes.h"
 #include "../Inverse.h"
+#include "../PagedChildren.h"
 #include "../Spheres.h"
 #include "../install/ContentWatch.h"
 #include "../install/InstalledTile.h"
@@ -361,13 +363,9 @@ private:
         searchNode(*node.getChild(i));
     }
 
-    [[nodiscard]] static bool isPaged(const osg::PagedLOD& node, unsigned int i) {
-        return i < node.getNumFileNames() && !node.getFileName(i).empty();
-    }
-
     // Whether a node is no osgTerrain tile that has lost its technique.
     [[nodiscard]] static bool isDrawnByTechnique(const osg::Node& node) {
-        if (typeid(node) != typeid(osgTerrain::TerrainTile)) return true;
+        if (!isOneOf<osgTerrain::TerrainTile>(node)) return true;
         const auto& tile = static_cast<const osgTerrain::TerrainTile&>(node);
         return tile.getTerrainTechnique() || !hasBeenTraversed(tile);
     }

@@ -3,6 +3,7 @@
 
 #include "TileEntry.h"
 
+#include "../Classes.h"
 #include "../Spheres.h"
 #include "../install/MeshCulling.h"
 #include "../install/TileCallback.h"

@@ -3,6 +3,7 @@
 
 #include "TileFamily.h"
 
+#include "../Classes.h"
 #include "../install/FindCallback.h"
 #include "../install/InstalledTile.h"
 #include "../install/TileCallback.h"
@@ -71,7 +72,7 @@ void renewEvidence(osg::Node& mesh, const AnalyticBinCullCallback& tile, Install
     if (!isSamePlace(cover.place, installed.place())) cover.isFilled = false;
     cover.place = installed.place();
     installed.setCover(cover);
-    const DrawnState drawn = drawnStateBelow(mesh, {tile.getCullOptions().plainShaders, false, nullptr});
+    const DrawnState drawn = drawnStateBelow(mesh, {tile.getCullOptions().plainShaders});
     if (!drawn.hides) installed.setSeeThrough();
     if (!drawn.obeysDepth) installed.ignoreDepth();
 }
@@ -222,8 +223,7 @@ std::uint64_t TileFamily::hideable(unsigned int first, std::uint64_t tiles) cons
     std::uint64_t hideable = tiles;
     forEachBit(tiles, [&](unsigned int number) {
         const osg::Node* const node = _nodes[first + number];
-        if (node && !drawnStateOf(*node, {_trustsShaders, false, nullptr}).obeysDepth)
-            hideable &= ~(std::uint64_t{1} << number);
+        if (node && !drawnStateOf(*node, {_trustsShaders}).obeysDepth) hideable &= ~(std::uint64_t{1} << number);
     });
     return hideable;
 }

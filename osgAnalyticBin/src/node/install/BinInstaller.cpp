@@ -3,6 +3,7 @@
 
 #include "BinInstaller.h"
 
+#include "../PagedChildren.h"
 #include "../cull/Scoped.h"
 #include "../cull/TileFamily.h"
 #include "../page/BinReadFileCallback.h"
@@ -285,8 +286,7 @@ DrawnState BinInstaller::drawnStateOfTile(osg::Node& node) const {
     DrawnState drawn = drawnStateAt(node, stateRules());
     const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&node);
     for (unsigned int i = 0; paged && i < paged->getNumChildren(); ++i) {
-        const bool isPaged = i < paged->getNumFileNames() && !paged->getFileName(i).empty();
-        if (!isPaged) drawn &= drawnStateBelow(*node.asGroup()->getChild(i), stateRules());
+        if (!isPaged(*paged, i)) drawn &= drawnStateBelow(*node.asGroup()->getChild(i), stateRules());
     }
     return drawn;
 }

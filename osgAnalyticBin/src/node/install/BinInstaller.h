@@ -101,7 +101,7 @@ private:
     void visitUnruly(osg::Node& node);
     // Says that something below the present parent tile may be drawn in front of what is nearer.
     void noteIgnoresDepth();
-    [[nodiscard]] StateRules stateRules() const { return {_options.plainShaders, false, nullptr}; }
+    [[nodiscard]] StateRules stateRules() const { return {_options.plainShaders}; }
     void visitChildren(const FoundTile& tile, const ParentTile& link);
     void uninstall(FoundTile& tile);
     // Whether an ancestor of the visited node has a stored bin, which must contain it.

@@ -188,8 +188,7 @@ private:
     }
 
     [[nodiscard]] bool obeysDepth(const AnalyticBinCullCallback& tile) {
-        const StateRules rules{tile.getCullOptions().plainShaders, false, nullptr};
-        if (!_obeysDepth) _obeysDepth = drawnStateBelow(_node, rules).obeysDepth;
+        if (!_obeysDepth) _obeysDepth = drawnStateBelow(_node, {tile.getCullOptions().plainShaders}).obeysDepth;
         return *_obeysDepth;
     }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "../PagedChildren.h"
 #include "../cull/Scoped.h"
 #include "../surface/MapGround.h"
 #include "TileCallback.h"
@@ -32,10 +33,6 @@ const osg::ref_ptr<const osg::EllipsoidModel>& wgs84() {
 
 bool isTerrainTile(osg::Node& node) {
     return dynamic_cast<osgTerrain::TerrainTile*>(&node) != nullptr;
-}
-
-bool isPagedChild(const osg::PagedLOD& node, unsigned int i) {
-    return i < node.getNumFileNames() && !node.getFileName(i).empty();
 }
 
 // Transforms that stay as they are once loaded; others have no fixed place on the globe.
@@ -74,7 +71,7 @@ std::vector<osg::ref_ptr<osg::Node>> ownMeshes(osg::Node& node) {
     if (!paged) return {&node};
     std::vector<osg::ref_ptr<osg::Node>> meshes;
     for (unsigned int i = 0; i < paged->getNumChildren(); ++i) {
-        if (!isPagedChild(*paged, i)) meshes.emplace_back(paged->getChild(i));
+        if (!isPaged(*paged, i)) meshes.emplace_back(paged->getChild(i));
     }
     return meshes;
 }
@@ -83,7 +80,7 @@ std::vector<std::string> filesBelow(const osg::Node& node, const std::string& fi
     std::vector<std::string> files;
     if (const auto* paged = dynamic_cast<const osg::PagedLOD*>(&node)) {
         for (unsigned int i = 0; i < paged->getNumFileNames(); ++i) {
-            if (isPagedChild(*paged, i)) files.push_back(pagedFilePath(file, paged->getFileName(i)));
+            if (isPaged(*paged, i)) files.push_back(pagedFilePath(file, paged->getFileName(i)));
         }
     }
     return files;
@@ -241,7 +238,7 @@ void TileFinder::traversePaged(osg::PagedLOD& node) {
     const bool isTile = _tile == &node;
     const Scoped depth(_depth, _depth + 1);
     for (unsigned int i = 0; i < node.getNumChildren(); ++i) {
-        if (!isPagedChild(node, i)) {
+        if (!isPaged(node, i)) {
             // a tile's own mesh is no tile beside it
             if (!isTile) node.getChild(i)->accept(*this);
             continue;

@@ -3,6 +3,7 @@
 
 #include "DatabaseCallbacks.h"
 
+#include "../Classes.h"
 #include "../GlmBridge.h"
 #include "../cull/BinCulling.h"
 #include "../cull/CullCallbacks.h"

@@ -3,6 +3,7 @@
 
 #include "PagingExpiry.h"
 
+#include "../PagedChildren.h"
 #include "../install/MeshCulling.h"
 
 #include <osg/PagedLOD>
@@ -18,10 +19,6 @@ namespace {
 // Nearly every child's time is 0 at first and is restored to 0: only other times are recorded.
 std::string keyOf(unsigned int child) {
     return "osgAnalyticBin expiry " + std::to_string(child);
-}
-
-bool isPaged(const osg::PagedLOD& node, unsigned int child) {
-    return child < node.getNumFileNames() && !node.getFileName(child).empty();
 }
 
 void forget(osg::PagedLOD& node, const std::string& key) {
