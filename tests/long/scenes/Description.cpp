@@ -269,6 +269,25 @@ bool isModel(PartKind kind) {
     return kind == PartKind::Tower || kind == PartKind::Vehicle || kind == PartKind::Sign;
 }
 
+bool altersDrawing(PartKind kind) {
+    switch (kind) {
+        case PartKind::MeshHole:
+        case PartKind::ReversedFaces:
+        case PartKind::NarrowTile:
+        case PartKind::DrawsNothing:
+        case PartKind::State:
+        case PartKind::LeavesOut:
+        case PartKind::PushesState:
+        case PartKind::Masks:
+        case PartKind::DrawableCull:
+        case PartKind::DrawableDraw:
+        case PartKind::VisitorLeavesOut:
+            return true;
+        default:
+            return false;
+    }
+}
+
 std::string inWords(const Part& part) {
     std::ostringstream out;
     out.precision(9);

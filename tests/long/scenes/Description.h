@@ -214,6 +214,8 @@ struct Description {
 
 /// Whether parts of a kind are built by makeModel().
 [[nodiscard]] bool isModel(PartKind kind);
+/// Whether the application may leave out a tile or a part of one, or draw it otherwise than by its vertices.
+[[nodiscard]] bool altersDrawing(PartKind kind);
 
 /// Whether a vertical scale is set. OSG's spheres of osgTerrain tiles do not follow it: without bins visible tiles are
 /// culled.

@@ -35,26 +35,8 @@ struct Place {
 // Whether the application takes terrain away, or draws it as lines.
 bool hasHoles(const Description& description) {
     return std::any_of(description.parts.begin(), description.parts.end(), [](const Part& part) {
-        switch (part.kind) {
-            case PartKind::Switch:
-            case PartKind::UserCull:
-            case PartKind::Outline:
-            case PartKind::MeshHole:
-            case PartKind::ReversedFaces:
-            case PartKind::NarrowTile:
-            case PartKind::DrawsNothing:
-            case PartKind::State:
-            case PartKind::LeavesOut:
-            case PartKind::PushesState:
-            case PartKind::Masks:
-            case PartKind::DrawableCull:
-            case PartKind::DrawableDraw:
-            case PartKind::Raise:
-            case PartKind::VisitorLeavesOut:
-                return true;
-            default:
-                return false;
-        }
+        return altersDrawing(part.kind) || part.kind == PartKind::Switch || part.kind == PartKind::UserCull ||
+               part.kind == PartKind::Outline || part.kind == PartKind::Raise;
     });
 }
 

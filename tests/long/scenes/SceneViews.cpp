@@ -179,24 +179,7 @@ Look lookAtSign(Random& random, const Description& description, const Part& part
 }
 
 bool isOfApplication(PartKind kind) {
-    switch (kind) {
-        case PartKind::MeshHole:
-        case PartKind::ReversedFaces:
-        case PartKind::NarrowTile:
-        case PartKind::DrawsNothing:
-        case PartKind::Adding:
-        case PartKind::State:
-        case PartKind::LeavesOut:
-        case PartKind::PushesState:
-        case PartKind::Masks:
-        case PartKind::DrawableCull:
-        case PartKind::DrawableDraw:
-        case PartKind::VisitorLeavesOut:
-        case PartKind::Sign:
-            return true;
-        default:
-            return false;
-    }
+    return altersDrawing(kind) || kind == PartKind::Adding || kind == PartKind::Sign;
 }
 
 /// At what the application has done to a tile.

@@ -29,26 +29,6 @@ using core::Plane;
 using rivals::FrustumHull;
 using rivals::ReverseBin;
 
-// A bin and a frustum that holds a point of it, by as little as 1e-9 m.
-struct MeetingPair {
-    explicit MeetingPair(Random& random)
-        : ellipsoid(randomEllipsoid(random)),
-          bin(randomBin(random)),
-          margin(random.chance(0.7) ? 0.0 : random.logUniform(1e-3, 1e4)),
-          point(randomPointWithin(random, ellipsoid, bin, margin)),
-          planes(randomView(random, ellipsoid, bin, point).planes()),
-          exact(ellipsoid, bin, margin) {
-        moveToHold(random, point, sizeOf(ellipsoid, bin), planes);
-    }
-
-    Ellipsoid ellipsoid;
-    GeodeticBin bin;
-    double margin;
-    RealVector point;
-    std::vector<Plane> planes;
-    ExactGeodeticBin exact;
-};
-
 TEST(FrustumHull, PartsNoBinFromAPointOfIt) {
     Random random(320);
     for (int trial = 0; trial < 100000; ++trial) {
