@@ -164,7 +164,7 @@ osg::ref_ptr<osg::Geometry> makeTower(double height, double width) {
     return geometry;
 }
 
-// Drawn after all others, or in front of them.
+// Gives a sign a state in which nearer terrain does not cover it. Its render bin is drawn last.
 void ignoreDepth(int variant, osg::StateSet& states) {
     static constexpr std::array<const char*, 4> kNames{"depth test", "depth ALWAYS", "depth range in front",
                                                        "program that draws in front"};

@@ -54,8 +54,8 @@ public:
     /// For CullView::states.
     [[nodiscard]] osg::StateSet* states() { return _states; }
 
-    /// What a cull visitor pushes around a drawable. `hasProgram`: the scene has a program there, which paints as
-    /// kPaintFunction does, or as it likes.
+    /// The state that paints a drawable in the colour of its key. `hasProgram`: the scene has a shader program there,
+    /// which does the painting itself, by kPaintFunction or otherwise.
     [[nodiscard]] const osg::StateSet* paintFor(const std::string& key, bool hasProgram = false);
 
     /// Returns: nullptr for the background.

@@ -124,7 +124,7 @@ Maker geometryProgram() {
     });
 }
 
-// Assembly programs are in force where there is no program of GLSL.
+// OpenGL uses assembly programs only while no GLSL program is bound.
 Maker assembly(bool isVertex, const std::string& text) {
     return shared([=]() -> osg::ref_ptr<osg::StateAttribute> {
         if (!isVertex) {

@@ -29,7 +29,7 @@ bool adoptTile(const AwaitingTile& waiting, const AutoIndex& index, Database& da
         if (isWhole) Database::reportMisfit(tile, callback->getBin());
         return !isWhole;
     }
-    // the tile keeps the bin of the declared heights
+    // the index has no bin for this tile: it keeps the one that was made from the declared heights
     if (!entry->bin.valid()) return false;
     const TerrainShape shape = callback->getTerrainShape().value_or(TerrainShape());
     const IndexedFit fit = fitByEntry(*entry, isWhole, waiting.skirt, database, shape, tile);

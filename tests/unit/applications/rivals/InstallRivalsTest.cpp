@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Rules of others on the tiles of a database. Oracles: the rule's own verdict on each tile's bin; what the kit draws of
-// the same database. The rules themselves: ComparisonBinsTest.cpp, BoxBinsTest.cpp.
+// Databases that are culled by the rules of the paper and of other programs. Oracles: the rule's own verdict on each
+// tile's bin, and what the kit draws of the same database. The rules themselves: ComparisonBinsTest.cpp,
+// BoxBinsTest.cpp.
 
 #include "InstallRivals.h"
 #include "PagedFlight.h"
