@@ -305,7 +305,7 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
 // Whether it obeys depth, with all that is below it.
 bool AnalyticBinCullCallback::mayBeHidden(const osg::Node& node) const {
     const bool obeys = !_installed || _installed->obeysDepth();
-    return obeys && drawnStateOf(node, {_setup->options.plainShaders, false, nullptr}).obeysDepth;
+    return obeys && drawnStateOf(node, {_setup->options.plainShaders}).obeysDepth;
 }
 
 // A tile may have several parents, and transforms above it may have changed: the planes follow, the globe does not.
