@@ -229,7 +229,9 @@ FAULTS = [
     Fault("kept tiles have OSG's test of their spheres", "src/node/cull/TileFamily.cpp",
           "setCullingMask(osg::CullingSet::NO_CULLING);", "setCullingMask(mask);", NODE, "TileFamily.*:VerticalScale.*"),
     Fault("spheres without the vertical scale", "src/node/install/ContentWatch.cpp",
-          "bound.expandBy(scaledTerrainOf(node));", "", NODE, "VerticalScale.*"),
+          "bound.expandRadiusBy(scaledTerrainOf(node));", "", NODE, "VerticalScale.*"),
+    Fault("a vertical scale moves the middles of spheres", "src/node/install/ContentWatch.cpp",
+          "bound.expandRadiusBy(scaledTerrainOf(node));", "bound.expandBy(scaledTerrainOf(node));", NODE, "VerticalScale.*"),
 
     # terrain that hides terrain
     Fault("region: the picture is a half-plane narrower", "src/core/horizon/RegionalSight.cpp",

@@ -125,6 +125,22 @@ TEST(VerticalScale, TilesInViewAreKeptWhereOsgsSpheresLoseThem) {
     expectHeld(bins);
 }
 
+// An osg::LOD measures distances from there.
+TEST(VerticalScale, LeavesTheMiddlesOfSpheresWhereOsgHasThem) {
+    Hills spheres, bins;
+    for (Hills* const hills : {&spheres, &bins}) hills->terrain->setVerticalScale(10.0f);
+    installBins(*bins.terrain);
+    for (Hills* const hills : {&spheres, &bins}) hills->update();
+    bool isGrown = false;
+    for (std::size_t i = 0; i < bins.tiles.size(); ++i) {
+        const osg::BoundingSphere theirs = spheres.tiles[i]->getBound(), ours = bins.tiles[i]->getBound();
+        EXPECT_EQ(ours.center(), theirs.center()) << i;
+        EXPECT_GE(ours.radius(), theirs.radius()) << i;
+        isGrown = isGrown || ours.radius() > theirs.radius();
+    }
+    EXPECT_TRUE(isGrown);
+}
+
 TEST(VerticalScale, IsFollowedAtRunTime) {
     Hills hills;
     hills.watch();

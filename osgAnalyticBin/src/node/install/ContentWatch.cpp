@@ -315,7 +315,8 @@ osg::BoundingSphere ContentWatch::computeBound(const osg::Node& node) const {
     if (&node != _node) return boundOf(node);
     check(node);
     osg::BoundingSphere bound = boundOf(node);
-    bound.expandBy(scaledTerrainOf(node));
+    // about the middle that it has: levels of detail are chosen by the distance from there
+    bound.expandRadiusBy(scaledTerrainOf(node));
     return bound;
 }
 
