@@ -233,7 +233,7 @@ private:
     [[nodiscard]] bool isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
     [[nodiscard]] Verdict verdict(core::Side side, const core::PlaneSet& planes, core::PlaneMask undecided,
                                   const core::HorizonEye* eye, const core::RegionalSight* sight) const;
-    [[nodiscard]] bool mayBeHidden(const osg::Node& node) const;
+    [[nodiscard]] bool mayBeHidden(const osg::Node& node, osg::NodeVisitor& nv, const DatabaseView* view) const;
     [[nodiscard]] bool isBeyondAnEdge(const core::PlaneSet& planes, core::PlaneMask undecided) const;
 
     bool _wasInstalled = false;  // in a scene that was saved

@@ -351,6 +351,34 @@ TEST(WhatIgnoresDepth, KeepsTheTileThatItStandsBelow) {
     }
 }
 
+// States are inherited: those of a group above tiles, and those of a tile by its finer ones.
+TEST(WhatIgnoresDepth, IsAllThatIsBelowIt) {
+    struct Derived : osgUtil::CullVisitor {};
+    for (const bool isDerived : {false, true}) {
+        for (const bool isOnGroup : {false, true}) {
+            for (const bool isLater : {false, true}) {
+                MeshGlobe globe;
+                if (isDerived) globe.visitor = new Derived;
+                const osg::ref_ptr<osg::Group> group = new osg::Group, file = new osg::Group;
+                osg::PagedLOD& tile = *globe.tiles[15];
+                globe.root->replaceChild(&tile, group);
+                group->addChild(&tile);
+                tile.setRange(0, 1e9f, 1e10f);
+                tile.setRange(1, 0.0f, 1e9f);
+                file->addChild(makeMeshTile(extentsDeg(-45.0, 0.0, 135.0, 180.0), 10.0));
+                putBelow(tile, file);
+                if (isLater) installBins(*globe.root);
+                EXPECT_EQ(globe.draws(*file, MeshGlobe::fromAbove()), !isLater);
+                osg::Node& node = isOnGroup ? *group : static_cast<osg::Node&>(tile);
+                node.getOrCreateStateSet()->setMode(GL_DEPTH_TEST, State::OFF);
+                if (!isLater) installBins(*globe.root);
+                EXPECT_TRUE(globe.draws(*file, MeshGlobe::fromAbove())) << isDerived << isOnGroup << isLater;
+                EXPECT_FALSE(globe.draws(*globe.tiles[14], MeshGlobe::fromAbove()));
+            }
+        }
+    }
+}
+
 // Vertices that were raised, as OSG asks for it.
 TEST(Evidence, IsMissingForGroundThatHasRisenAboveTheEye) {
     MeshGlobe globe;

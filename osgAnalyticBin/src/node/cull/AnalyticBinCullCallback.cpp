@@ -290,7 +290,7 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
         if (side == core::Side::Outside || (!prepared().horizon && !isInMap()))
             return verdict(side, planes, undecided, nullptr, nullptr);
         const DatabaseView* const view = viewOn(cullStack, traversal);
-        if (!mayBeHidden(node)) return verdict(side, planes, undecided, nullptr, nullptr);
+        if (!mayBeHidden(node, nv, view)) return verdict(side, planes, undecided, nullptr, nullptr);
         if (view && view->plan && view->plan->isOccluded(*this)) return Verdict{core::Side::Outside, Verdict::Terrain};
         const core::HorizonEye* const eye = view ? view->eye : eyeWithoutDatabase(cullStack, nv, traversal);
         return verdict(side, planes, undecided, eye, view ? view->sight : nullptr);
@@ -302,10 +302,12 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
                          });
 }
 
-// Whether it obeys depth, with all that is below it.
-bool AnalyticBinCullCallback::mayBeHidden(const osg::Node& node) const {
+// Whether it obeys depth, with all that is below it, and by the states from the database down to it.
+bool AnalyticBinCullCallback::mayBeHidden(const osg::Node& node, osg::NodeVisitor& nv, const DatabaseView* view) const {
+    const StateRules rules{_setup->options.plainShaders};
     const bool obeys = !_installed || _installed->obeysDepth();
-    return obeys && drawnStateOf(node, {_setup->options.plainShaders}).obeysDepth;
+    return obeys && drawnStateOf(node, rules).obeysDepth &&
+           (!view || drawnStateAbove(nv, view->rules, view->states).obeysDepth);
 }
 
 // A tile may have several parents, and transforms above it may have changed: the planes follow, the globe does not.

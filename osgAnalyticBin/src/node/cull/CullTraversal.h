@@ -51,9 +51,10 @@ struct DatabaseView {
     const osg::RefMatrix* modelView;
     const osg::RefMatrix* projection;
     core::PlaneSet planes;
-    TilePlan* plan;                              // nullptr: none was made
-    StateRules rules{};                          // what the database's states are judged by
-    const core::RegionalSight* sight = nullptr;  // nullptr: the eye sees past no border of a region
+    TilePlan* plan;                               // nullptr: none was made
+    StateRules rules{};                           // what the database's states are judged by
+    const core::RegionalSight* sight = nullptr;   // nullptr: the eye sees past no border of a region
+    const osgUtil::StateGraph* states = nullptr;  // down to the database's root
 };
 
 /// The state of one cull visitor: its frustum, prepared once for all tiles, and the database that is traversed. Stored

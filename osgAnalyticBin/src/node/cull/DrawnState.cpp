@@ -328,12 +328,12 @@ DrawnState drawnStateBelow(osg::Node& node, const StateRules& rules) {
     return drawn;
 }
 
-DrawnState drawnStateAbove(osg::NodeVisitor& visitor, const StateRules& rules) {
+DrawnState drawnStateAbove(osg::NodeVisitor& visitor, const StateRules& rules, const osgUtil::StateGraph* end) {
     osgUtil::CullVisitor* const cullVisitor = visitor.asCullVisitor();
     if (!cullVisitor) return kHarmless;
     DrawnState drawn;
     bool isWindingSet = !rules.isClockwise;
-    for (const auto* graph = cullVisitor->getCurrentStateGraph(); graph; graph = graph->_parent) {
+    for (const auto* graph = cullVisitor->getCurrentStateGraph(); graph && graph != end; graph = graph->_parent) {
         if (!graph->_stateset) continue;
         drawn &= drawnState(*graph->_stateset, rules);
         isWindingSet = isWindingSet || graph->_stateset->getAttribute(Attribute::FRONTFACE);

@@ -12,6 +12,10 @@
 #include <osg/Viewport>
 #include <osgTerrain/TerrainTile>
 
+namespace osgUtil {
+class StateGraph;
+}
+
 namespace osgAnalyticBin {
 
 /// What is known of the way in which something is drawn.
@@ -56,9 +60,10 @@ struct StateRules {
 /// drawables are to hide.
 [[nodiscard]] DrawnState drawnStateBelow(osg::Node& node, const StateRules& rules);
 
-/// Of the states from the camera to the visitor's present node. Returns: all is known for visitors that collect no
-/// state.
-[[nodiscard]] DrawnState drawnStateAbove(osg::NodeVisitor& visitor, const StateRules& rules);
+/// Of the states from the camera to the visitor's present node, or from below `end` where it is among them. Returns:
+/// all is known for visitors that collect no state.
+[[nodiscard]] DrawnState drawnStateAbove(osg::NodeVisitor& visitor, const StateRules& rules,
+                                         const osgUtil::StateGraph* end = nullptr);
 
 /// Whether a terrain tile has holes or is blended: posts that are not valid, image layers, by its own and its Terrain's
 /// blending policy.

@@ -321,6 +321,9 @@ void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::Cull
     Verdicts verdicts;
     for (unsigned int first = 0; first < children; first += TileBlock::Part::kMost) {
         lookUp(group, first, before, view, verdicts);
+        const bool isAnyHidden = (verdicts.hidden | verdicts.occluded) != 0;
+        if (isAnyHidden && !drawnStateAbove(nv, view.rules, view.states).obeysDepth)
+            verdicts.hidden = verdicts.occluded = 0;
         isChanged = isChanged || verdicts.lacksTiles;
         const std::uint64_t culled = this->culled(first, verdicts, nv, cullStack, traversal);
         const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);

@@ -250,7 +250,7 @@ void BinInstaller::visitOther(osg::Node& node) {
     }
     TileFamily::remove(node);
     if (installsBins() && TileFamily::isPossibleOn(node)) _groups.emplace_back(&node);
-    if (isUnruly(node)) return visitUnruly(node);
+    if (isUnruly(node)) noteIgnoresDepth();
     visitWithoutBin(node, false);
 }
 
@@ -258,13 +258,6 @@ void BinInstaller::visitOther(osg::Node& node) {
 bool BinInstaller::isUnruly(const osg::Node& node) const {
     const bool isRoot = !_parent && dynamic_cast<const osg::CoordinateSystemNode*>(&node);
     return installsBins() && !isRoot && !_isInMesh && !drawnStateAt(node, stateRules()).obeysDepth;
-}
-
-// By itself, to leave stack for scenes that are nested deep.
-void BinInstaller::visitUnruly(osg::Node& node) {
-    noteIgnoresDepth();
-    const Scoped unruly(_isBelowUnruly, true);
-    visitWithoutBin(node, false);
 }
 
 void BinInstaller::visitWithoutBin(osg::Node& node, bool isTile) {
@@ -376,7 +369,7 @@ void BinInstaller::noteDrawn(const FoundTile& tile, InstalledTile& installed) {
     DrawnState drawn = drawnStateOf(*tile.node, stateRules());
     for (const auto& mesh : tile.meshes) drawn &= drawnStateBelow(*mesh, stateRules());
     if (!drawn.hides) installed.setSeeThrough();
-    if (drawn.obeysDepth && !_isBelowUnruly) return;
+    if (drawn.obeysDepth) return;
     installed.ignoreDepth();
     noteIgnoresDepth();
 }

@@ -98,7 +98,6 @@ private:
     // Whether a node that is no tile may have what is below it drawn in front of what is nearer.
     // Not inlined, to leave stack for scenes that are nested deep.
     [[nodiscard, gnu::noinline]] bool isUnruly(const osg::Node& node) const;
-    void visitUnruly(osg::Node& node);
     // Says that something below the present parent tile may be drawn in front of what is nearer.
     void noteIgnoresDepth();
     [[nodiscard]] StateRules stateRules() const { return {_options.plainShaders}; }
@@ -116,7 +115,6 @@ private:
     bool _isReading = false;         // the content of a file, not merged into the scene yet
     bool _isInMesh = false;          // within a tile's own mesh
     bool _isBelowSelection = false;  // below a node that may not draw all of its children
-    bool _isBelowUnruly = false;     // below a node that may have what is drawn ignore depth
     osg::ref_ptr<const BinIndex> _index;
     osg::ref_ptr<Database> _database;        // the visited one
     osg::ref_ptr<Database> _refitted;        // about to be fitted again

@@ -19,6 +19,7 @@
 
 #include <osg/CoordinateSystemNode>
 #include <osg/CullStack>
+#include <osgUtil/CullVisitor>
 
 #include <algorithm>
 #include <cstdint>
@@ -195,6 +196,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
                       traversal.planes(cullStack),
                       &traversal.plan(),
                       StateRules::of(nv, options.plainShaders)};
+    if (osgUtil::CullVisitor* const visitor = nv.asCullVisitor()) view.states = visitor->getCurrentStateGraph();
     view.plan->clear();
     const Horizon horizon = horizonOver(node, nv, cullStack, *_database, options, view);
     if (horizon.eye) view.eye = &*horizon.eye;
