@@ -126,15 +126,20 @@ TEST(Border, VirtualPlanetBuildersGlobesHaveNone) {
 }
 
 // A stored bin says nothing of skirts.
-TEST(Border, StoredBinsHoldSkirtsWholeWhereAsked) {
-    const Pair pair(extentsDeg(10, 50, 0, 40), extentsDeg(10, 20, 10, 20));
-    const AnalyticBin stored(core::GeodeticBin::fromDegrees({10, 20}, {10, 20}, {-3000, 100}));
-    setStoredBin(*pair.tile, stored);
-    CullOptions options = lowHeights();
-    options.skirts = SkirtUse::All;
-    installBins(*pair.terrain, options);
-    ASSERT_NE(installedOn(*pair.tile), nullptr);
-    EXPECT_GE(installedOn(*pair.tile)->getSkirt(), kSkirt);
+TEST(Border, StoredBinsHoldSkirtsWholeThereAndWhereAsked) {
+    for (const bool isAsked : {false, true}) {
+        for (const double east : {20.0, 40.0}) {
+            const Pair pair(extentsDeg(10, 50, 0, 40), extentsDeg(20, 30, east - 10.0, east));
+            const AnalyticBin stored(core::GeodeticBin::fromDegrees({20, 30}, {east - 10.0, east}, {-3000, 100}));
+            setStoredBin(*pair.tile, stored);
+            CullOptions options = lowHeights();
+            if (isAsked) options.skirts = SkirtUse::All;
+            installBins(*pair.terrain, options);
+            ASSERT_NE(installedOn(*pair.tile), nullptr);
+            const bool isHeld = isAsked || east == 40.0;
+            EXPECT_EQ(installedOn(*pair.tile)->getSkirt(), isHeld ? kSkirt : 0.0f) << isAsked << east;
+        }
+    }
 }
 
 }  // namespace

@@ -230,7 +230,7 @@ AnalyticBin checkStored(const FoundTile& tile, Database& database, const Terrain
         Database::reportUnverifiable(link);
         return {};
     }
-    if (database.options().skirts == SkirtUse::All) fit.skirt = own.skirt;
+    fit.ownSkirt = own.skirt;
     // other sample ratios make other meshes than those that the bin was made of
     const AnalyticBin surface = own.isScalable && shape.sampleRatio != 1.0 ? AnalyticBin() : own.bin;
     const core::Ellipsoid ellipsoid = toCore(model);
@@ -285,6 +285,8 @@ TileFit fitStored(const FoundTile& tile, Database& database, const TerrainShape&
     if (!fit.bin.valid()) return fit;
     fit.surface = shownSurface(tile, surface, fit.bin, toCore(*database.ellipsoid()));
     linkTo(fit.bin.bin(), link);
+    // makers of bins need not know that nothing stands before the skirts there
+    if (database.options().skirts == SkirtUse::All || link.edges.areOnBorder()) fit.skirt = fit.ownSkirt;
     correct(tile, database, link, fit);
     link.stored = fit.bin;
     return fit;
