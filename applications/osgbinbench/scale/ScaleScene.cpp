@@ -178,6 +178,8 @@ void ScaleScene::fill(std::size_t pagedLods) {
         _frontier.insert(_frontier.end(), children.begin(), children.end());
         _pagedLods += children.size();
     }
+    // what was loaded is noticed by the next cull traversal, which has the next update traversal look after it
+    (void)cullMs();
     (void)updateMs();
 }
 
