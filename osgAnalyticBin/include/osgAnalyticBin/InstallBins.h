@@ -39,7 +39,7 @@ OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions
 /// The same for the root of a database that was read from a file. If there is an index beside the file, and the options
 /// allow it, the index gives the heights of tiles that are not loaded yet. An index that cannot be used gives one
 /// warning. Without an index, the default options make one in a thread of low priority. This thread ends with
-/// removeBins() or with the scene. Tiles use the parts that are finished from the next update traversal on.
+/// removeBins() or with the scene. When the index is complete, the next update traversal fits the loaded tiles to it.
 /// `readOptions`: the options that the database was read with, for archives and http; null: none. Returns: as
 /// above.
 OSGANALYTICBIN_EXPORT std::size_t installBins(osg::Node& node, const CullOptions& options,

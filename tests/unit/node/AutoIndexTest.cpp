@@ -97,6 +97,19 @@ TEST_F(AutoIndex, LoadedTilesGetItsBinsInUpdateTraversals) {
     EXPECT_NEAR(installedOn(north)->getBin().bin().altitude().upper, 900.0, 1.0);
 }
 
+// A file that was read before the index was complete, and comes into the scene after.
+TEST_F(AutoIndex, TilesOnTheirWayGetItsBinsWhenTheyArrive) {
+    open();
+    const osg::ref_ptr<osg::Node> children = readBelow(*_root);
+    osg::Node& north = *children->asGroup()->getChild(1);
+    ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
+    EXPECT_TRUE(isRootWhole());
+    putBelow(*_root, children);
+    EXPECT_FALSE(installedOn(north)->getBin().bin().altitude().upper < CullOptions::kTerrainOnEarth.upper);
+    update(*_scene);
+    EXPECT_NEAR(installedOn(north)->getBin().bin().altitude().upper, 900.0, 1.0);
+}
+
 // A tile that nobody knows the extent of has no bounds in the index, and those above it have none either.
 TEST_F(AutoIndex, TilesAboveOneWithoutBoundsKeepTheDeclaredHeights) {
     const std::string file = _folder.path() + "/children.osgb";

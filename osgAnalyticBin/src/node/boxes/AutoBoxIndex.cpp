@@ -23,13 +23,6 @@ namespace {
 // An index of more files takes more memory in a viewer than the tiles that are shown.
 constexpr std::size_t kMostFiles = 1000000;
 
-std::vector<std::string> rootsOf(const std::string& metadataFile) {
-    std::string error;
-    std::vector<std::string> roots = findPhotogrammetryFiles(metadataFile, error).roots;
-    if (roots.empty()) throw indexing::Failure(error);
-    return roots;
-}
-
 // Returns: null where there is none, or with the reason in `error`, where it is broken.
 osg::ref_ptr<BoxIndex> readIfThere(const std::string& path, std::string& error) {
     return !path.empty() && osgDB::fileExists(path) ? BoxIndex::read(path, error) : nullptr;
@@ -37,71 +30,30 @@ osg::ref_ptr<BoxIndex> readIfThere(const std::string& path, std::string& error) 
 
 }  // namespace
 
-AutoBoxIndex::AutoBoxIndex(const std::string& metadataFile, osg::ref_ptr<BoxIndex> kept)
-    : BackgroundIndex(metadataFile), _kept(std::move(kept)), _known(new BoxIndex) {}
-
-std::optional<BoxIndex::Boxes> AutoBoxIndex::find(const std::string& file) const {
-    const auto guard = lock();
-    const auto found = _known->files().find(file);
-    return found == _known->files().end() ? std::nullopt : std::optional(found->second);
-}
-
-osg::ref_ptr<const BoxIndex> AutoBoxIndex::whole() const {
-    if (!isWhole()) return nullptr;
-    const auto guard = lock();
-    return _known;
-}
-
-bool AutoBoxIndex::isCurrent(const BoxIndex& index, const indexing::DatabaseFiles& files,
-                             const std::function<void()>& checkpoint) {
+bool isCurrent(const BoxIndex& index, const indexing::DatabaseFiles& files, const std::function<void()>& checkpoint) {
     std::string error;
     const std::vector<std::string> roots = findPhotogrammetryFiles(files.rootFile(), error).roots;
     const auto isKnown = [&](const std::string& root) { return index.stamps().count(root) > 0; };
     return std::all_of(roots.begin(), roots.end(), isKnown) && indexing::areCurrent(index.stamps(), files, checkpoint);
 }
 
-void AutoBoxIndex::make() {
-    if (_kept && isCurrent(*_kept, indexing::DatabaseFiles(rootFile()), [this] { throwIfStopped(); })) {
-        publish(true, [this] { _known = std::exchange(_kept, nullptr); });
-        return;
-    }
-    _kept = nullptr;
-    constexpr int kMostRounds = 3;
-    for (int round = 0; round < kMostRounds; ++round) {
-        if (makeOnce()) return;
-    }
-    throw indexing::Failure("its files change all the time");
+osg::ref_ptr<BoxIndex> AutoBoxIndex::makeFrom(const indexing::DatabaseFiles&) {
+    std::size_t files = 0;
+    BoxIndexProgress progress;
+    progress.goesOn = [&] {
+        giveWay();
+        if (++files <= kMostFiles) return true;
+        throw indexing::Failure("it has more than " + std::to_string(kMostFiles) + " files; run osgbinconv --index");
+    };
+    std::string error;
+    osg::ref_ptr<BoxIndex> index = surveyBoxes(rootFile(), 1, progress, error);
+    if (!index) throw indexing::Failure(error);
+    return index;
 }
 
-// Returns: whether no file was changed meanwhile.
-bool AutoBoxIndex::makeOnce() {
-    BoxIndexProgress progress;
-    progress.goesOn = [this] {
-        giveWay();
-        return true;
-    };
-    BinIndex::Stamps stamps;
-    for (const std::string& root : rootsOf(rootFile())) {
-        const osg::ref_ptr<BoxIndex> part = surveyBoxes(rootFile(), {root}, 1, progress);
-        stamps.insert(part->stamps().begin(), part->stamps().end());
-        if (stamps.size() > kMostFiles) {
-            throw indexing::Failure("it has more than " + std::to_string(kMostFiles) +
-                                    " files; run osgbinconv --index");
-        }
-        publish(false, [&] {
-            for (const auto& [file, boxes] : part->files()) _known->add(file, boxes);
-        });
-    }
-    const BoxIndex& index = *_known;
-    publish(false, [&] { _known->setStamps(std::move(stamps)); });
-    if (!isCurrent(index, indexing::DatabaseFiles(rootFile()), [this] { throwIfStopped(); })) {
-        publish(false, [this] { _known = new BoxIndex; });
-        return false;
-    }
-    publish(true, [] {});
+void AutoBoxIndex::keepWhole(const BoxIndex& index) {
     keep({boxIndexPath(rootFile()), BoxIndex::kMagic, [&](std::ostream& out) { return index.write(out); }},
          std::to_string(index.numBoxes()) + " boxes");
-    return true;
 }
 
 ChosenBoxIndex chooseBoxIndex(const std::string& metadataFile, IndexUse use) {

@@ -76,28 +76,25 @@ void BoxSet::awaitIndex(osg::Node& root, const std::string& file, BoxTile* paren
     // where no update traversal ever comes
     constexpr std::size_t kMostContents = 65536;
     const std::lock_guard<std::mutex> lock(_mutex);
+    const auto isGone = [](const Awaiting& content) { return !content.root.valid(); };
+    _awaiting.erase(std::remove_if(_awaiting.begin(), _awaiting.end(), isGone), _awaiting.end());
     if (!making() || _awaiting.size() > kMostContents) return;
     _awaiting.push_back({&root, file, parent, tiles});
-    _hasNewAwaiting = true;
 }
 
-// Returns: whether nothing more is to come.
-bool BoxSet::adopt(const Awaiting& content) {
+void BoxSet::adopt(const Awaiting& content, const BoxIndex& index) {
     osg::ref_ptr<osg::Node> root;
-    if (!content.root.lock(root)) return true;
-    // asked first: what is not found in a whole index is not in it
-    const bool isWhole = making()->isWhole();
-    const std::optional<BoxIndex::Boxes> boxes = making()->find(content.file);
-    if (!boxes && !isWhole) return false;
-    const bool isKnown = boxes && boxes->size() == content.tiles.size();
+    if (!content.root.lock(root)) return;
+    const auto found = index.files().find(content.file);
+    const bool isKnown = found != index.files().end() && found->second.size() == content.tiles.size();
     if (!isKnown) {
         noteMisfit(content.file);
         if (content.parent) _growths.push_back({content.parent, {}, true});
         for (const osg::ref_ptr<BoxTile>& tile : content.tiles) tile->setMisfit();
     }
-    for (std::size_t i = 0; isKnown && i < boxes->size(); ++i) {
+    for (std::size_t i = 0; isKnown && i < content.tiles.size(); ++i) {
         BoxTile& tile = *content.tiles[i];
-        const osg::BoundingBoxf& known = (*boxes)[i];
+        const osg::BoundingBoxf& known = found->second[i];
         const MeshBox whole = known.valid() ? MeshBox(known) : MeshBox::boundless();
         if (!tile.isMisfit() && whole.contains(tile.box())) {
             tile.set(whole, true);
@@ -106,17 +103,13 @@ bool BoxSet::adopt(const Awaiting& content) {
             _growths.push_back({&tile, {}, true});
         }
     }
-    return true;
 }
 
 void BoxSet::adoptIndex() {
-    if (!making()) return;
-    const unsigned int generation = making()->generation();
-    if (generation == _adoptedGeneration && !_hasNewAwaiting) return;
-    const auto isDone = [this](const Awaiting& content) { return adopt(content); };
-    _awaiting.erase(std::remove_if(_awaiting.begin(), _awaiting.end(), isDone), _awaiting.end());
-    _adoptedGeneration = generation;
-    _hasNewAwaiting = false;
+    const osg::ref_ptr<const BoxIndex> whole = making() ? making()->whole() : nullptr;
+    if (!whole) return;
+    for (const Awaiting& content : _awaiting) adopt(content, *whole);
+    _awaiting.clear();
 }
 
 void BoxSet::update() {

@@ -119,7 +119,7 @@ public:
     [[nodiscard]] const osg::ref_ptr<AutoBoxIndex>& making() const { return _index.making; }
 
     /// Records that the tiles of a file got boxes without an index; an update gives them those of the index that is
-    /// being made, if any. `parent`: the LOD that pages the file; null: none.
+    /// being made, if any, when it is complete. `parent`: the LOD that pages the file; null: none.
     void awaitIndex(osg::Node& root, const std::string& file, BoxTile* parent,
                     const std::vector<osg::ref_ptr<BoxTile>>& tiles);
 
@@ -159,7 +159,7 @@ private:
         std::vector<osg::ref_ptr<BoxTile>> tiles;
     };
 
-    [[nodiscard]] bool adopt(const Awaiting& content);
+    void adopt(const Awaiting& content, const BoxIndex& index);
     void adoptIndex();
 
     const CullOptions _options;
@@ -168,8 +168,6 @@ private:
     std::mutex _mutex;  // guards what follows, and changes of tiles in the scene
     std::vector<Growth> _growths;
     std::vector<Awaiting> _awaiting;
-    bool _hasNewAwaiting = false;
-    unsigned int _adoptedGeneration = 0;
 };
 
 }  // namespace osgAnalyticBin

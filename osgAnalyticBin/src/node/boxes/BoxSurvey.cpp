@@ -166,28 +166,27 @@ private:
 
 }  // namespace
 
-osg::ref_ptr<BoxIndex> surveyBoxes(const std::string& metadataFile, const std::vector<std::string>& roots, int threads,
-                                   const BoxIndexProgress& progress) {
+osg::ref_ptr<BoxIndex> surveyBoxes(const std::string& metadataFile, int threads, const BoxIndexProgress& progress,
+                                   std::string& error) {
+    const PhotogrammetryFiles files = findPhotogrammetryFiles(metadataFile, error);
+    if (files.roots.empty()) return nullptr;
     Survey survey(osgDB::getFilePath(metadataFile), progress);
-    survey.run(roots, threads);
-    return survey.isStopped() ? nullptr : survey.result();
+    survey.run(files.roots, threads);
+    if (survey.isStopped()) {
+        error = "was stopped";
+        return nullptr;
+    }
+    osg::ref_ptr<BoxIndex> index = survey.result();
+    if (index->numFiles() > 0) return index;
+    error = "no tile of \"" + metadataFile + "\" can be read";
+    return nullptr;
 }
 
 osg::ref_ptr<BoxIndex> makeBoxIndex(const std::string& metadataFile, int threads, const BoxIndexProgress& progress,
                                     std::string& error) {
-    const PhotogrammetryFiles files = findPhotogrammetryFiles(metadataFile, error);
-    if (files.roots.empty()) return nullptr;
-    osg::ref_ptr<BoxIndex> index = surveyBoxes(metadataFile, files.roots, threads, progress);
-    if (!index) {
-        error = "was stopped";
-        return nullptr;
-    }
+    osg::ref_ptr<BoxIndex> index = surveyBoxes(metadataFile, threads, progress, error);
     // it may be copied together with the set
-    index->setStamps({});
-    if (index->numFiles() == 0) {
-        error = "no tile of \"" + metadataFile + "\" can be read";
-        return nullptr;
-    }
+    if (index) index->setStamps({});
     return index;
 }
 

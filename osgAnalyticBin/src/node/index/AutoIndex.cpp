@@ -3,8 +3,6 @@
 
 #include "AutoIndex.h"
 
-#include "SubtreeBins.h"
-
 #include <osgAnalyticBin/index/DatabaseWalk.h>
 #include <osgAnalyticBin/index/Failure.h>
 #include <osgAnalyticBin/index/MadeIndex.h>
@@ -53,83 +51,32 @@ osg::ref_ptr<BinIndex> readCached(const std::string& root, std::string& error) {
 // What the thread does between the files.
 class AutoIndex::Observer final : public indexing::WalkObserver {
 public:
-    explicit Observer(AutoIndex& index)
-        : _index(index), _subtrees([this](const std::string& file, std::vector<BinIndex::Entry> tiles) {
-              _index.publish(false, [&] { _index._subtrees[file] = std::move(tiles); });
-          }) {}
+    explicit Observer(AutoIndex& index) : _index(index) {}
 
     void beforeFile() override { _index.giveWay(); }
     void done(const indexing::FileRecord& record, bool, double) override {
         _tiles += record.tiles.size();
-        if (_tiles > kMostTiles) {
-            throw indexing::Failure("it has more than " + std::to_string(kMostTiles) +
-                                    " tiles; run osgbinconv --index");
-        }
-        _subtrees.add(record);
+        if (_tiles <= kMostTiles) return;
+        throw indexing::Failure("it has more than " + std::to_string(kMostTiles) + " tiles; run osgbinconv --index");
     }
 
 private:
     AutoIndex& _index;
-    indexing::SubtreeBins _subtrees;
     std::size_t _tiles = 0;
 };
 
-AutoIndex::AutoIndex(const std::string& rootFile, osg::ref_ptr<BinIndex> kept)
-    : BackgroundIndex(rootFile), _kept(std::move(kept)) {}
-
-void AutoIndex::make() {
-    const DatabaseFiles files(rootFile());
-    if (_kept && isCurrent(*_kept, files, [this] { throwIfStopped(); })) {
-        publishWhole(std::exchange(_kept, nullptr));
-    } else {
-        _kept = nullptr;
-        makeFrom(files);
-    }
+osg::ref_ptr<BinIndex> AutoIndex::makeFrom(const DatabaseFiles& files) {
+    Observer observer(*this);
+    indexing::MadeIndex made = indexing::indexFrom(files, indexing::walkDatabase(files, {}, observer, 1));
+    BinIndex::Stamps stamps;
+    for (const auto& [file, record] : made.records) stamps[file] = record.stamp;
+    made.index->setStamps(std::move(stamps));
+    return made.index;
 }
 
-void AutoIndex::makeFrom(const DatabaseFiles& files) {
-    constexpr int kMostRounds = 3;
-    std::vector<indexing::FileRecord> known;
-    for (int round = 0; round < kMostRounds; ++round) {
-        Observer observer(*this);
-        indexing::FileRecords records = indexing::walkDatabase(files, std::move(known), observer, 1);
-        indexing::MadeIndex made = indexing::indexFrom(files, std::move(records));
-        BinIndex::Stamps stamps;
-        for (const auto& [file, record] : made.records) stamps[file] = record.stamp;
-        made.index->setStamps(std::move(stamps));
-        if (!isCurrent(*made.index, files, [this] { throwIfStopped(); })) {
-            // files were changed meanwhile
-            const auto guard = lock();
-            _subtrees.clear();
-            known.clear();
-            for (auto& [file, record] : made.records) known.push_back(std::move(record));
-            continue;
-        }
-        publishWhole(made.index);
-        const BinIndex& index = *made.index;
-        keep({binIndexName(rootFile()), BinIndex::kMagic, [&](std::ostream& out) { return index.write(out); }},
-             std::to_string(index.tileCount()) + " tiles");
-        return;
-    }
-    throw indexing::Failure("its files change all the time");
-}
-
-std::optional<BinIndex::Entry> AutoIndex::find(const std::string& file, std::size_t ordinal) const {
-    const auto guard = lock();
-    if (_whole) {
-        const BinIndex::Entry* const entry = _whole->find(file, ordinal);
-        return entry ? std::optional(*entry) : std::nullopt;
-    }
-    const auto found = _subtrees.find(file);
-    if (found == _subtrees.end() || ordinal >= found->second.size()) return std::nullopt;
-    return found->second[ordinal];
-}
-
-void AutoIndex::publishWhole(osg::ref_ptr<const BinIndex> index) {
-    publish(true, [&] {
-        _whole = std::move(index);
-        _subtrees.clear();
-    });
+void AutoIndex::keepWhole(const BinIndex& index) {
+    keep({binIndexName(rootFile()), BinIndex::kMagic, [&](std::ostream& out) { return index.write(out); }},
+         std::to_string(index.tileCount()) + " tiles");
 }
 
 ChosenIndex chooseIndex(const std::string& databaseFileName, const osgDB::Options* readOptions, IndexUse use) {

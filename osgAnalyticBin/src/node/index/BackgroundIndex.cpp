@@ -111,11 +111,10 @@ void BackgroundIndex::showNotes() {
     for (const std::string& line : notes) OSG_NOTICE << "osgAnalyticBin: " << line << std::endl;
 }
 
-void BackgroundIndex::publish(bool isWhole, const std::function<void()>& change) {
+void BackgroundIndex::publish(const std::function<void()>& change) {
     const std::lock_guard<std::mutex> guard(_mutex);
     change();
-    if (isWhole) _isWhole.store(true, std::memory_order_release);
-    ++_generation;
+    _isWhole.store(true, std::memory_order_release);
 }
 
 void BackgroundIndex::keep(const indexing::IndexFile& file, const std::string& content) {

@@ -6,6 +6,7 @@
 #include "IndexStore.h"
 
 #include <osgAnalyticBin/index/DatabaseFiles.h>
+#include <osgAnalyticBin/index/Failure.h>
 
 #include <osg/Referenced>
 #include <osg/ref_ptr>
@@ -18,6 +19,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -32,8 +34,6 @@ public:
 
     /// Whether the index is complete.
     [[nodiscard]] bool isWhole() const { return _isWhole.load(std::memory_order_acquire); }
-    /// Increases whenever more is known.
-    [[nodiscard]] unsigned int generation() const { return _generation.load(std::memory_order_acquire); }
 
     /// Waits until the index is complete or has failed. Returns: whether it is complete.
     bool waitUntilWhole(std::chrono::duration<double> most) const;
@@ -53,10 +53,10 @@ protected:
     virtual void make() = 0;
 
     [[nodiscard]] const std::string& rootFile() const { return _rootFile; }
-    /// Guards what find() reads.
+    /// Guards what publish() changes.
     [[nodiscard]] std::unique_lock<std::mutex> lock() const { return std::unique_lock<std::mutex>(_mutex); }
-    /// Runs `change` under the lock and increases the generation.
-    void publish(bool isWhole, const std::function<void()>& change);
+    /// Runs `change` under the lock: the index is complete with it.
+    void publish(const std::function<void()>& change);
     /// Stores the complete index for the next time, and reports that. `content`: what it holds, for the user.
     void keep(const indexing::IndexFile& file, const std::string& content);
 
@@ -74,12 +74,53 @@ private:
     std::mutex _threadMutex;  // of _thread
     std::atomic<bool> _isStopped{false};
     std::atomic<bool> _isWhole{false};
-    std::atomic<unsigned int> _generation{0};
     std::atomic<int> _reads{0};
     mutable std::mutex _mutex;  // guards what follows, and what publish() changes
     mutable std::condition_variable _changed;
     bool _hasEnded = false;
     std::vector<std::string> _notes;
+};
+
+/// The same for a kind of index. isCurrent() tells whether no file has changed since an index with stamps was made.
+template <class Index>
+class BackgroundIndexOf : public BackgroundIndex {
+public:
+    /// `kept`: an index with stamps, which is used if no file has changed since; null: none.
+    BackgroundIndexOf(const std::string& rootFile, osg::ref_ptr<const Index> kept)
+        : BackgroundIndex(rootFile), _kept(std::move(kept)) {}
+
+    /// Returns: null until it is complete.
+    [[nodiscard]] osg::ref_ptr<const Index> whole() const {
+        const auto guard = lock();
+        return _whole;
+    }
+
+protected:
+    /// Reads all files. Returns: the index, with stamps.
+    [[nodiscard]] virtual osg::ref_ptr<Index> makeFrom(const indexing::DatabaseFiles& files) = 0;
+    /// Stores it for the next time.
+    virtual void keepWhole(const Index& index) = 0;
+
+private:
+    void make() override {
+        const indexing::DatabaseFiles files(rootFile());
+        const auto isUpToDate = [&](const Index& index) {
+            return isCurrent(index, files, [this] { throwIfStopped(); });
+        };
+        osg::ref_ptr<const Index> index = std::exchange(_kept, nullptr);
+        if (index && isUpToDate(*index)) return publish([&] { _whole = index; });
+        constexpr int kMostRounds = 3;
+        for (int round = 0; round < kMostRounds; ++round) {
+            index = makeFrom(files);
+            if (!isUpToDate(*index)) continue;  // files were changed meanwhile
+            publish([&] { _whole = index; });
+            return keepWhole(*index);
+        }
+        throw indexing::Failure("its files change all the time");
+    }
+
+    osg::ref_ptr<const Index> _kept;
+    osg::ref_ptr<const Index> _whole;  // guarded by lock()
 };
 
 /// Makes the thread that makes an index wait while a file is read. `index` may be null.
@@ -115,7 +156,7 @@ template <class Making, class Index>
     // times of files in archives and on servers are not known
     if (index && root.empty()) return {};
     const bool isSoonCompared = index && (!isMade || index->stamps().size() <= kFewFiles);
-    if (isSoonCompared && Making::isCurrent(*index, indexing::DatabaseFiles(root), [] {})) return {index, nullptr};
+    if (isSoonCompared && isCurrent(*index, indexing::DatabaseFiles(root), [] {})) return {index, nullptr};
     if (isSoonCompared) index = nullptr;
     return {nullptr, isMade ? osg::ref_ptr<Making>(new Making(root, index)) : nullptr};
 }

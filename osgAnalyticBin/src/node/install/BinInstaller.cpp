@@ -106,18 +106,16 @@ void BinInstaller::refit(osg::Node& node, Database& database) {
     }
     node.accept(*this);
     placeFamilies();
-    publishTiles(nullptr);
     database.widenLoaded();
     _refitted = nullptr;
 }
 
-void BinInstaller::finish(osg::Node* content) {
+void BinInstaller::finish() {
     for (const auto& [file, coverage] : *_coverage) {
         if (installsBins()) database().noteCoverage(file.second, coverage);
     }
     _coverage->clear();
     placeFamilies();
-    publishTiles(content);
     if (!_isReading && _database) _database->widenLoaded();
 }
 
@@ -150,7 +148,6 @@ void BinInstaller::installAt(osg::Node& root) {
     root.accept(*this);
     if (_options.method == Method::None) NoCulling::place(root);
     placeFamilies();
-    publishTiles(nullptr);
     if (_database) _database->widenLoaded();
     if (!isGlobe && _database && installsBins()) attachDatabase(root, *_database, false);
 }
@@ -198,7 +195,7 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
         // new bins do not tell where a tile stood before
         if (hasMovedTile) own->noteMovedTile(frame().file);
     }
-    const Scoped index(_index, isKept ? osg::ref_ptr<const BinIndex>(own->index()) : _index);
+    const Scoped index(_index, isKept ? own->index() : _index);
     const Scoped database(_database, own);
     const Scoped paging(_paging, PagingByOptions());
     const Scoped coverage(_coverage, std::make_shared<Coverages>());
@@ -326,10 +323,6 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     link->place = cover.place;
     callback->getInstalledTile()->setCover(cover);
     if (!cover.isFilled) database().noteHole(tile.frame.file);
-    if (fit.awaitsIndex && database().adoption().isAwaited()) {
-        callback->getInstalledTile()->keep(*link);
-        _awaiting.push_back({link.get(), tileFingerprint(tile), fit.ownSkirt, !tile.pagedFiles.empty()});
-    }
     noteCovered(tile, fit, *link);
     visitChildren(tile, *link);
 }

@@ -23,7 +23,6 @@
 namespace osgAnalyticBin {
 
 class BinReadFileCallback;
-struct AwaitingTile;
 class Coverage;
 struct TileFit;
 class Database;
@@ -66,7 +65,7 @@ protected:
 
 private:
     friend class BinReadFileCallback;
-    friend class DatabaseUpdateCallback;
+    friend void bringUpToDate(osg::Node& node, Database& database);
     friend OSGANALYTICBIN_EXPORT std::size_t setCullOptions(osg::Node& node, const CullOptions& options);
 
     // The database options that replace those which PagedLODs came with (null: none).
@@ -80,10 +79,8 @@ private:
     void continueBelow(Database* database, const TileFrame& frame, const ParentTile* parent);
     // Fits the loaded tiles of an installed database again.
     void refit(osg::Node& node, Database& database);
-    // Checks whether the tiles of each file cover their parent. `content`: the file's nodes; null: a scene.
-    void finish(osg::Node* content = nullptr);
-    // Has tiles wait for the index that is being made.
-    void publishTiles(osg::Node* content);
+    // Checks whether the tiles of each file cover their parent.
+    void finish();
     void placeFamilies();
 
     [[nodiscard]] bool installsBins() const;
@@ -127,7 +124,6 @@ private:
     std::size_t _boxes = 0;           // of photogrammetry sets
     std::vector<osg::Node*> _groups;  // candidates for families
     NestedCallbacks _nested;          // taken off when the installer is done
-    std::vector<AwaitingTile> _awaiting;
 };
 
 }  // namespace osgAnalyticBin

@@ -17,11 +17,6 @@
 
 namespace osgAnalyticBin {
 
-void BinInstaller::publishTiles(osg::Node* content) {
-    if (_database) _database->adoption().await(content, std::move(_awaiting));
-    _awaiting.clear();
-}
-
 void BinInstaller::followPaging(osg::PagedLOD& node, const ParentTile* parent, bool isTile) {
     const osg::ref_ptr<osgDB::Options> own = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
     const std::vector<PagedFile> files = filesPagedBy(node, frame(), isTile);
@@ -33,7 +28,7 @@ void BinInstaller::followPaging(osg::PagedLOD& node, const ParentTile* parent, b
     if (!paging.callback || isTaken) {
         const osgDB::Options* base = own ? own.get() : osgDB::Registry::instance()->getOptions();
         paging.options = base ? base->cloneOptions() : new osgDB::Options;
-        paging.callback = new BinReadFileCallback(_options, &database(), frame(), previousCallback(*paging.options));
+        paging.callback = new BinReadFileCallback(&database(), frame(), previousCallback(*paging.options));
         paging.callback->setReplaced(optionsWithoutBins(own.get()));
         paging.options->setReadFileCallback(paging.callback);
     }

@@ -22,7 +22,6 @@
 
 #include <chrono>
 #include <functional>
-#include <limits>
 #include <typeinfo>
 
 namespace osgAnalyticBin {
@@ -85,9 +84,9 @@ bool hasTileBelow(osg::Node& subgraph) {
 }
 
 // Visits the databases that are attached to nodes of a scene.
-void forEachDatabase(osg::Node& node, const std::function<void(Database&)>& visit) {
+void forEachDatabase(osg::Node& node, const std::function<void(osg::Node&, Database&)>& visit) {
     forEachNode(node, [&visit](osg::Node& at) {
-        if (const osg::ref_ptr<Database> database = attachedDatabase(at)) visit(*database);
+        if (const osg::ref_ptr<Database> database = attachedDatabase(at)) visit(at, *database);
     });
 }
 
@@ -98,15 +97,15 @@ void forEachSet(osg::Node& node, const std::function<void(BoxSet&)>& visit) {
     });
 }
 
-// Starts to make an index, if tiles wait for one.
+// Starts to make an index, if tiles want one.
 void makeIndex(osg::Node& node, AutoIndex* index) {
-    bool isAwaited = false;
-    forEachDatabase(node, [&](Database& database) {
-        const bool isAwaitedHere = index && database.adoption().hasWaiting();
-        database.adoption().setIndex(isAwaitedHere ? index : nullptr);
-        isAwaited = isAwaited || isAwaitedHere;
+    bool isWanted = false;
+    forEachDatabase(node, [&](osg::Node&, Database& database) {
+        const bool isWantedHere = index && database.isIndexWanted();
+        database.setMaking(isWantedHere ? index : nullptr);
+        isWanted = isWanted || isWantedHere;
     });
-    if (isAwaited) index->start();
+    if (isWanted) index->start();
 }
 
 }  // namespace
@@ -147,8 +146,8 @@ bool isIndexAwaited(osg::Node& node) {
     bool isAwaited = false;
     forEachSet(node,
                [&isAwaited](BoxSet& set) { isAwaited = isAwaited || (set.making() && !set.making()->isWhole()); });
-    forEachDatabase(node, [&isAwaited](Database& database) {
-        const osg::ref_ptr<AutoIndex> index = database.adoption().index();
+    forEachDatabase(node, [&isAwaited](osg::Node&, Database& database) {
+        const osg::ref_ptr<AutoIndex> index = database.making();
         isAwaited = isAwaited || (index && !index->isWhole());
     });
     return isAwaited;
@@ -161,12 +160,11 @@ bool waitForIndex(osg::Node& node, double seconds) {
         isWhole = set.making()->waitUntilWhole(std::chrono::duration<double>(seconds)) && isWhole;
         set.update();
     });
-    forEachDatabase(node, [&](Database& database) {
-        const osg::ref_ptr<AutoIndex> index = database.adoption().index();
+    forEachDatabase(node, [&](osg::Node& at, Database& database) {
+        const osg::ref_ptr<AutoIndex> index = database.making();
         if (!index) return;
         isWhole = index->waitUntilWhole(std::chrono::duration<double>(seconds)) && isWhole;
-        database.adoption().adopt(database, std::numeric_limits<std::size_t>::max());
-        database.widenLoaded();
+        bringUpToDate(at, database);
     });
     return isWhole;
 }

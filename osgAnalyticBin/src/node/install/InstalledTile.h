@@ -48,7 +48,7 @@ public:
     [[nodiscard]] bool isKeptVisible() const { return _isKeptVisible.load(std::memory_order_relaxed); }
 
     /// Whether the bin holds heights that were declared alone. OSG's sphere bounds what is loaded below the tile then,
-    /// and the tile is culled by both. The tile's callback has to be given a bin after a change.
+    /// and the tile is culled by both.
     [[nodiscard]] bool testsSphere() const { return _testsSphere; }
     void setTestsSphere(bool does) { _testsSphere = does; }
 
@@ -100,9 +100,6 @@ public:
     /// Whether a change of the mesh was noticed since bins were installed.
     [[nodiscard]] bool isMeshChanged() const { return _isMeshChanged.load(std::memory_order_relaxed); }
 
-    /// Holds a reference to `observed` as long as the tile exists.
-    void keep(const osg::Referenced& observed) { _kept = &observed; }
-
     /// From now on the record is for no node.
     void forgetNode() { _culled = nullptr; }
 
@@ -130,7 +127,6 @@ private:
     std::atomic<bool> _hasGapBelow{false};
     core::GeodeticBin _place;
     std::atomic<bool> _isMoved{false};
-    osg::ref_ptr<const osg::Referenced> _kept;
 };
 
 }  // namespace osgAnalyticBin

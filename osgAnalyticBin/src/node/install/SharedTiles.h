@@ -27,8 +27,7 @@ public:
     [[nodiscard]] static SharedTiles& instance();
 
     /// Runs `install` unless bins are installed on the node already. `place`: the node's globe and frame. With a later
-    /// `generation` of the globe's options it runs again for nodes that are not in the scene; the scene's are updated
-    /// with it.
+    /// Database::generation() it runs again for nodes that are not in the scene; the scene's are updated with it.
     [[nodiscard]] Outcome installOnce(osg::Node& node, const std::string& place, unsigned int generation,
                                       const std::function<void()>& install);
 

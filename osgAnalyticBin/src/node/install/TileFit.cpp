@@ -104,7 +104,6 @@ void fitSurface(const FoundTile& tile, Database& database, const TerrainShape& s
     linkTo(surface.bin.bin(), link);
     fit.surface = surface.bin;
     fit.isScalable = surface.isScalable;
-    fit.ownSkirt = surface.skirt;
     // what is drawn, and nothing else; exaggeration would not treat skirts as heights
     const core::Interval& altitude = surface.bin.bin().altitude();
     const bool isScaled = surface.isScalable && shape.verticalScale != 1.0;
@@ -136,21 +135,16 @@ AnalyticBin dippedBin(const AnalyticBin& bin, const Database& database, const Pa
 // place.
 bool fitIndexed(const FoundTile& tile, const Database& database, const TerrainShape& shape, ParentTile& link,
                 TileFit& fit, bool& isContradicted) {
-    bool isWhole = false;
-    const auto entry = database.indexEntry(tile.frame.file, tile.ordinal, isWhole);
+    const osg::ref_ptr<const BinIndex> index = database.index();
+    const BinIndex::Entry* const entry = index ? index->find(tile.frame.file, tile.ordinal) : nullptr;
     const bool isAsKnown = entry && entry->fingerprint == tileFingerprint(tile);
-    isContradicted = !isAsKnown && (entry || isWhole);
+    isContradicted = index && !isAsKnown;
     if (!isAsKnown || !entry->bin.valid()) return false;
     fit.isTerrain = true;
     fit.bin = entry->bin;
     fit.isScalable = hasTerrainTile(tile);
-    fit.awaitsIndex = !isWhole;
     linkTo(fit.bin.bin(), link);
     fit.surface = surfaceAbove(entry->ownLow, fit.bin);
-    if (!isWhole) {
-        fit.ownSkirt = surfaceOf(tile, *tile.frame.ellipsoid, shape).skirt;
-        return true;
-    }
     fit.bin = dippedBin(fit.bin, database, link);
     if (link.edges.areOnBorder()) fitSkirt(tile, shape, fit);
     return true;
@@ -300,7 +294,8 @@ TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& 
     bool isContradicted = false;
     if (!isIndexFit || !fitIndexed(tile, database, shape, link, fit, isContradicted)) {
         fitSurface(tile, database, shape, link, fit);
-        fit.awaitsIndex = isIndexFit && !isContradicted;
+        const bool isIndexWanted = isIndexFit && fit.isTerrain && !tile.pagedFiles.empty() && !shape.areBoundariesEqual;
+        if (isIndexWanted) database.noteIndexWanted();
         if (isContradicted && fit.isTerrain) Database::reportMisfit(link, fit.bin);
         if (!fit.isScalable || shape.sampleRatio == 1.0) checkUnstored(fit.surface, fit.surface.sag(), database, link);
     } else {
@@ -378,7 +373,6 @@ TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& s
         fit.isInPlace = false;
         for (AnalyticBin* const bin : {&fit.bin, &fit.surface}) bin->setMargin(bin->margin() + shape.techniqueMargin);
     }
-    fit.awaitsIndex = fit.awaitsIndex && fit.isTerrain && !shape.areBoundariesEqual;
     return fit;
 }
 
@@ -389,22 +383,6 @@ core::MeshCover coverBy(const FoundTile& tile, const Database& database, const T
     if (isVouchedFor(options, ellipsoid)) return {link.extents, true};
     if (options.horizonUse == HorizonUse::Off && options.occlusion == OcclusionUse::Off) return {};
     return coverOf({tile.meshes, ellipsoid, tile.frame.localToEcef, shape});
-}
-
-IndexedFit fitByEntry(const BinIndex::Entry& entry, bool isWhole, double ownSkirt, const Database& database,
-                      const TerrainShape& shape, const ParentTile& link) {
-    IndexedFit fit;
-    fit.bin = entry.bin;
-    if (!fit.bin.valid()) return fit;
-    if (isWhole) {
-        fit.bin = dippedBin(fit.bin, database, link);
-        fit.bin.setBin(core::withGaps(toCore(*database.ellipsoid()), fit.bin.bin(), link.edges));
-        if (link.edges.areOnBorder()) fit.skirt = ownSkirt;
-    }
-    const Widening correction = database.correction(link.file, link.ordinal);
-    if (correction.any()) fit.bin = correction.widened(fit.bin);
-    if (fit.bin.valid()) fit.bin.setMargin(fit.bin.margin() + shape.techniqueMargin);
-    return fit;
 }
 
 bool isGround(const FoundTile& tile, const ParentTile& link) {

@@ -22,10 +22,8 @@ struct TileFit {
     bool isScalable = false;
     /// Whether the bin holds heights that were declared alone, while OSG's sphere bounds what is loaded.
     bool isDeclared = false;
-    /// Metres that skirts of its own mesh hang, where that was asked for.
+    /// Metres that skirts of its own mesh hang, where a bin is stored.
     double ownSkirt = 0.0;
-    /// Whether an index that is being made will say more.
-    bool awaitsIndex = false;
     /// False: another technique may draw less than the whole surface at its borders.
     bool isInPlace = true;
     /// False: the node is not terrain, and left as it is. True with a bin that is not valid: never culled.
@@ -43,17 +41,6 @@ struct TileFit {
 /// horizon nor occlusion is used. `link`: as fitTile() has left it.
 [[nodiscard]] core::MeshCover coverBy(const FoundTile& tile, const Database& database, const TerrainShape& shape,
                                       const ParentTile& link);
-
-/// What a tile is culled by that an index knows.
-struct IndexedFit {
-    AnalyticBin bin;     ///< not valid: never
-    double skirt = 0.0;  ///< see TileFit
-};
-
-/// From an entry of an index. `isWhole`: false where it is not that of the whole index yet. `ownSkirt`: metres.
-/// `link`: the tile, with its edges.
-[[nodiscard]] IndexedFit fitByEntry(const BinIndex::Entry& entry, bool isWhole, double ownSkirt,
-                                    const Database& database, const TerrainShape& shape, const ParentTile& link);
 
 /// Whether a tile is ground, as its mesh tells: one of its drawables spans at least a 16th of the tile above in both
 /// directions. Leaves that hold objects on the ground alone, such as houses, do not; OSG culls them better. `link`:

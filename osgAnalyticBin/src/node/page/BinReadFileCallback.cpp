@@ -32,13 +32,8 @@ std::string placeText(const Database& database, const TileFrame& frame) {
 
 }  // namespace
 
-BinReadFileCallback::BinReadFileCallback(const CullOptions& options, Database* database, const TileFrame& frame,
-                                         osgDB::ReadFileCallback* previous)
-    : _options(options),
-      _database(database),
-      _generation(database->generation()),
-      _unexpected{frame, nullptr},
-      _previous(previous) {}
+BinReadFileCallback::BinReadFileCallback(Database* database, const TileFrame& frame, osgDB::ReadFileCallback* previous)
+    : _database(database), _unexpected{frame, nullptr}, _previous(previous) {}
 
 BinReadFileCallback::~BinReadFileCallback() = default;
 
@@ -71,15 +66,18 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readNode(const std::string&
                                                               const osgDB::Options* options) {
     // No node and no error: the pager prints nothing, and requests the file again in the next frame.
     if (!_failures.mayRead(fileName, FailedReads::Clock::now())) return ReadResult::FILE_LOADED;
-    const BusyPager busy(_database->adoption().index());
-    ReadResult result = readCarefully(fileName, [&] { return readAndInstall(fileName, options); });
+    const BusyPager busy(_database->making());
+    // before anything is asked of the database: what changes meanwhile is a later one
+    const unsigned int generation = _database->generation();
+    ReadResult result = readCarefully(fileName, [&] { return readAndInstall(fileName, options, generation); });
     _failures.note(fileName, result.validNode(), FailedReads::Clock::now());
-    if (result.validNode()) _database->noteRead(*result.getNode(), _generation);
+    if (result.validNode()) _database->noteRead(*result.getNode(), generation);
     return result;
 }
 
 osgDB::ReaderWriter::ReadResult BinReadFileCallback::readAndInstall(const std::string& fileName,
-                                                                    const osgDB::Options* options) {
+                                                                    const osgDB::Options* options,
+                                                                    unsigned int generation) {
     // OSG's object cache keeps the options that a file was read with
     const osg::ref_ptr<osgDB::Options> plain = options ? options->cloneOptions() : nullptr;
     if (plain) plain->setReadFileCallback(_previous.get());
@@ -108,7 +106,7 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readAndInstall(const std::s
         install(*root, known);
         return ReadResult(root.get(), result.status());
     }
-    const auto outcome = SharedTiles::instance().installOnce(*node, placeText(*_database, known.frame), _generation,
+    const auto outcome = SharedTiles::instance().installOnce(*node, placeText(*_database, known.frame), generation,
                                                              [&] { install(*node, known); });
     if (outcome == SharedTiles::Outcome::Usable) return result;
     return unreadable(fileName, "a read callback shares one copy between two places or installations");
@@ -116,10 +114,10 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readAndInstall(const std::s
 
 void BinReadFileCallback::install(osg::Node& node, const Expected& expected) const {
     if (_database->isRemoved()) return;
-    BinInstaller installer(_options);
+    BinInstaller installer(_database->options());
     installer.continueBelow(_database.get(), expected.frame, expected.parent.get());
     node.accept(installer);
-    installer.finish(&node);
+    installer.finish();
 }
 
 }  // namespace osgAnalyticBin

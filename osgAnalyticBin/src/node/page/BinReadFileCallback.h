@@ -24,8 +24,7 @@ namespace osgAnalyticBin {
 class BinReadFileCallback : public osgDB::ReadFileCallback {
 public:
     /// `frame` is that of files of which expect() says nothing.
-    BinReadFileCallback(const CullOptions& options, Database* database, const TileFrame& frame,
-                        osgDB::ReadFileCallback* previous);
+    BinReadFileCallback(Database* database, const TileFrame& frame, osgDB::ReadFileCallback* previous);
 
     /// Announces a file: the name by which it will be requested, the frame of its content, and the tile that pages it
     /// (null: none). Do not call once the pager may read.
@@ -50,7 +49,8 @@ protected:
 private:
     using ReadResult = osgDB::ReaderWriter::ReadResult;
 
-    [[nodiscard]] ReadResult readAndInstall(const std::string& fileName, const osgDB::Options* options);
+    [[nodiscard]] ReadResult readAndInstall(const std::string& fileName, const osgDB::Options* options,
+                                            unsigned int generation);
     struct Expected {
         TileFrame frame;
         osg::ref_ptr<const ParentTile> parent;
@@ -59,9 +59,7 @@ private:
     [[nodiscard]] const Expected& expected(const std::string& fileName, const osgDB::Options* options) const;
     void install(osg::Node& node, const Expected& expected) const;
 
-    const CullOptions _options;
     const osg::ref_ptr<Database> _database;
-    const unsigned int _generation;  // of the database's options
     const Expected _unexpected;
     std::map<std::string, Expected> _expected;
     const osg::ref_ptr<osgDB::ReadFileCallback> _previous;

@@ -89,6 +89,11 @@ void Database::setOptions(const CullOptions& options) {
     const std::lock_guard<std::mutex> lock(_mutex);
     _options = options;
     _fittedShape = present;
+    renewOnTheirWay();
+}
+
+// Requires: the lock.
+void Database::renewOnTheirWay() {
     ++_generation;
     (void)takeMerged(_onTheirWay);
     _lateComers.insert(_lateComers.end(), _onTheirWay.begin(), _onTheirWay.end());
@@ -97,15 +102,36 @@ void Database::setOptions(const CullOptions& options) {
 
 void Database::setRemoved() {
     _isRemoved.store(true, std::memory_order_relaxed);
-    _adoption.setIndex(nullptr);
+    setMaking(nullptr);
 }
 
-std::optional<BinIndex::Entry> Database::indexEntry(const std::string& file, std::size_t ordinal, bool& isWhole) const {
-    const osg::ref_ptr<AutoIndex> made = _index ? nullptr : _adoption.index();
-    isWhole = _index || (made && made->isWhole());
-    if (made) return made->find(file, ordinal);
-    const BinIndex::Entry* const entry = _index ? _index->find(file, ordinal) : nullptr;
-    return entry ? std::optional(*entry) : std::nullopt;
+osg::ref_ptr<const BinIndex> Database::index() const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return _index;
+}
+
+// The one before ends, and is waited for, without the lock.
+void Database::setMaking(AutoIndex* making) {
+    osg::ref_ptr<AutoIndex> replaced = making;
+    const std::lock_guard<std::mutex> lock(_mutex);
+    _making.swap(replaced);
+}
+
+osg::ref_ptr<AutoIndex> Database::making() const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return _making;
+}
+
+void Database::adoptIndex() {
+    const osg::ref_ptr<AutoIndex> making = this->making();
+    if (!making) return;
+    making->showNotes();
+    const osg::ref_ptr<const BinIndex> whole = making->whole();
+    const std::lock_guard<std::mutex> lock(_mutex);
+    if (!whole || _index) return;
+    _index = whole;
+    renewOnTheirWay();
+    requestRefit();
 }
 
 unsigned int Database::generation() const {
@@ -131,7 +157,8 @@ void Database::findLateComers() {
 
 bool Database::needsUpdate() {
     findLateComers();
-    return _isUpdateWanted.load(std::memory_order_relaxed) || _adoption.hasNews() ||
+    const osg::ref_ptr<AutoIndex> making = this->making();
+    return _isUpdateWanted.load(std::memory_order_relaxed) || (making && making->isWhole() && !index()) ||
            !(shape(options()) == fittedShape());
 }
 
@@ -365,9 +392,7 @@ void Database::update() {
     findLateComers();
     renewFamilies();
     makePlates();
-    constexpr std::size_t kMostTiles = 32;
-    if (const osg::ref_ptr<AutoIndex> made = _adoption.index()) made->showNotes();
-    _adoption.adopt(*this, kMostTiles);
+    adoptIndex();
     widenLoaded();
 }
 

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "IndexAdoption.h"
+#include "../index/AutoIndex.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinIndex.h>
@@ -51,12 +51,7 @@ public:
     /// `terrain` and `index` may be null.
     Database(const CullOptions& options, const osg::EllipsoidModel* ellipsoid, osgTerrain::Terrain* terrain,
              const BinIndex* index)
-        : _ellipsoid(ellipsoid),
-          _terrain(terrain),
-          _index(index),
-          _adoption(!index && options.index == IndexUse::Auto),
-          _options(options),
-          _fittedShape(shape(options)) {}
+        : _ellipsoid(ellipsoid), _terrain(terrain), _options(options), _index(index), _fittedShape(shape(options)) {}
 
     /// The node that the database is attached to: the CoordinateSystemNode, or, without one, the root of the scene.
     void setRoot(const osg::Node& node) { _root = &node; }
@@ -73,14 +68,14 @@ public:
     /// fitted again in the first update traversal that finds them there. Requires: no cull traversal runs.
     void setOptions(const CullOptions& options);
 
-    /// How often setOptions() was called.
+    /// How often setOptions() was called or an index was adopted.
     [[nodiscard]] unsigned int generation() const;
 
     /// Call when bins are removed: files that are read from now on get none.
     void setRemoved();
     [[nodiscard]] bool isRemoved() const { return _isRemoved.load(std::memory_order_relaxed); }
 
-    /// Records that a file was read and its bins were installed with the options of `generation`.
+    /// Records that a file was read, and its bins were installed with the options and the index of `generation`.
     void noteRead(osg::Node& content, unsigned int generation);
 
     /// The database's ellipsoid, or mapPlane() once a tile of a map has a bin.
@@ -90,13 +85,15 @@ public:
     /// Whether a tile on this ellipsoid (for maps: mapPlane()) may have a bin. A database is either a globe or a map;
     /// the first call decides which.
     [[nodiscard]] bool takes(const osg::EllipsoidModel& ellipsoid);
-    [[nodiscard]] const BinIndex* index() const { return _index.get(); }
-    /// The entry of a tile in the index that is in use or being made. Returns: nullopt where there is no index, or no
-    /// entry yet. `isWhole`: whether the index is complete.
-    [[nodiscard]] std::optional<BinIndex::Entry> indexEntry(const std::string& file, std::size_t ordinal,
-                                                            bool& isWhole) const;
-    /// The index that is being made, and the tiles that wait for it.
-    [[nodiscard]] IndexAdoption& adoption() { return _adoption; }
+    /// Null: there is none, or none yet.
+    [[nodiscard]] osg::ref_ptr<const BinIndex> index() const;
+    /// Call when a tile that pages finer ones would take its bin from an index.
+    void noteIndexWanted() { _isIndexWanted.store(true, std::memory_order_relaxed); }
+    [[nodiscard]] bool isIndexWanted() const { return _isIndexWanted.load(std::memory_order_relaxed); }
+    /// Sets an index that is being made. When it is complete, an update adopts it: the tiles in the scene are fitted
+    /// again. Null: none is made.
+    void setMaking(AutoIndex* making);
+    [[nodiscard]] osg::ref_ptr<AutoIndex> making() const;
 
     /// The present shape (vertical scale, skirts) from the Terrain, if any, and these options. Not for pager threads,
     /// because the application may change the Terrain at the same time.
@@ -207,6 +204,8 @@ private:
     void widen(const ParentTile& tile, const Widening& by, bool isFitted);
     static void widenFrom(const ParentTile& tile, const Widening& by);
     static void warn(const ParentTile& tile, bool Database::*hasWarned, const char* what);
+    void adoptIndex();
+    void renewOnTheirWay();
     void findLateComers();
     void makePlates();
     void renewFamilies();
@@ -217,8 +216,6 @@ private:
     const osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;
     const osg::observer_ptr<osgTerrain::Terrain> _terrain;
     const osg::Node* _root = nullptr;
-    const osg::ref_ptr<const BinIndex> _index;
-    IndexAdoption _adoption;
     mutable std::atomic<bool> _isUpdateWanted{false};
     mutable std::atomic<bool> _isRefitWanted{false};
     std::atomic<bool> _wasCulled{false};
@@ -232,13 +229,16 @@ private:
     std::atomic<bool> _hasUnknownNearPlane{false};
     std::atomic<bool> _hasEyeBesideRegion{false};
     std::atomic<bool> _wantsPlates{false};
+    std::atomic<bool> _isIndexWanted{false};
     mutable std::mutex _mutex;  // guards the members below
     CullOptions _options;
+    osg::ref_ptr<const BinIndex> _index;
+    osg::ref_ptr<AutoIndex> _making;
     std::optional<core::CoveredRegion> _region;
     TerrainShape _fittedShape;
     unsigned int _generation = 0;
-    std::vector<osg::observer_ptr<osg::Node>> _onTheirWay;  // not merged yet, with the present options
-    std::vector<osg::observer_ptr<osg::Node>> _lateComers;  // the same, with earlier ones
+    std::vector<osg::observer_ptr<osg::Node>> _onTheirWay;  // not merged yet, of this generation
+    std::vector<osg::observer_ptr<osg::Node>> _lateComers;  // the same, of earlier ones
     bool _hasWarnedOfIndex = false, _hasWarnedOfStored = false, _hasWarnedOfUnverifiable = false;
     std::map<TileKey, Widening> _corrections;
     std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, Widening>> _toWiden;

@@ -205,6 +205,13 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
     traverse(&node, &nv);
 }
 
+void bringUpToDate(osg::Node& node, Database& database) {
+    database.update();
+    if (!database.takeShapeChange()) return;
+    BinInstaller installer(database.options());
+    installer.refit(node, database);
+}
+
 DatabaseUpdateCallback::DatabaseUpdateCallback(const DatabaseUpdateCallback& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop),
       osg::Callback(other, copyop),
@@ -219,10 +226,9 @@ void DatabaseUpdateCallback::runOnClone(osg::Node& node, osg::NodeVisitor& nv) {
     const osg::ref_ptr<osg::Callback> nested = getNestedCallback();
     if (!_node) {
         BinInstaller installer(_database->options());
-        installer.setIndex(_database->index());
+        installer.setIndex(_database->index().get());
         installer.installAt(node);
-        if (const osg::ref_ptr<Database> own = attachedDatabase(node))
-            own->adoption().setIndex(_database->adoption().index().get());
+        if (const osg::ref_ptr<Database> own = attachedDatabase(node)) own->setMaking(_database->making().get());
     }
     if (nested) {
         nested->run(&node, &nv);
@@ -234,11 +240,7 @@ void DatabaseUpdateCallback::runOnClone(osg::Node& node, osg::NodeVisitor& nv) {
 void DatabaseUpdateCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     const osg::ref_ptr<osg::Callback> self(this);
     if (node != _node) return runOnClone(*node, *nv);
-    _database->update();
-    if (_database->takeShapeChange()) {
-        BinInstaller installer(_database->options());
-        installer.refit(*node, *_database);
-    }
+    bringUpToDate(*node, *_database);
     traverse(node, nv);
     if (_database->takeCull() && !_database->needsUpdate()) takeOffUpdate(*node, self);
 }

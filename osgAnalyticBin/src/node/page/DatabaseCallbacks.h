@@ -41,8 +41,12 @@ private:
     const bool _isCulling;
 };
 
-/// Brings the loaded tiles up to date: when the Terrain's shape has changed, and when a tile did not fit the index. It
-/// takes itself off the node when nothing is left to do.
+/// Does what a database was asked for, in the update traversal: loaded tiles are fitted again when the Terrain's shape
+/// has changed, when a tile did not fit the index, and when an index is complete. `node`: the one that it is attached
+/// to.
+void bringUpToDate(osg::Node& node, Database& database);
+
+/// Calls bringUpToDate(). It takes itself off the node when nothing is left to do.
 class DatabaseUpdateCallback : public osg::NodeCallback {
 public:
     DatabaseUpdateCallback(Database* database, const osg::Node* node) : _database(database), _node(node) {}
