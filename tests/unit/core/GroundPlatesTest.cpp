@@ -405,5 +405,37 @@ TEST(GroundPlates, CornersOfColumnsAreWrongByTheirErrorAtMost) {
     EXPECT_GT(wide, 1000);
 }
 
+// Turned upside down, twice there, missing, or across two others.
+TEST(GroundPlates, NothingIsKnownWhereATriangleIsWrong) {
+    Random random(1714);
+    const Ellipsoid earth = wgs84();
+    const GeodeticBin extents({0.5, 0.51}, {1.0, 1.01}, {-300.0, 2000.0});
+    const EcefMesh whole = gridMesh(random, earth, extents, 16);
+    ASSERT_TRUE(std::isfinite(GroundPlates(earth, whole, extents).least(1, 0, 0)));
+    const auto isWhole = [&](const std::function<void(std::vector<std::uint32_t>&)>& change) {
+        EcefMesh mesh = whole;
+        change(mesh.triangles);
+        return std::isfinite(GroundPlates(earth, mesh, extents).least(1, 0, 0));
+    };
+    using Triangles = std::vector<std::uint32_t>;
+    EXPECT_TRUE(isWhole([](Triangles& triangles) { triangles.insert(triangles.end(), {5, 5, 9}); }));
+    EXPECT_FALSE(isWhole([](Triangles& triangles) { std::swap(triangles[3], triangles[4]); }));
+    EXPECT_FALSE(isWhole([](Triangles& triangles) { std::copy_n(triangles.begin(), 3, triangles.begin() + 3); }));
+    EXPECT_FALSE(isWhole([](Triangles& triangles) { triangles.resize(triangles.size() - 3); }));
+    EXPECT_FALSE(isWhole([](Triangles& triangles) { triangles.insert(triangles.end(), {0, 2, 34}); }));
+    // the southernmost posts, but for the corners, stand farther north
+    EcefMesh shorter = whole;
+    for (std::size_t i = 1; i < 16; ++i) {
+        Geodetic place = earth.toGeodetic(whole.vertex(i));
+        place.latitude += 0.05 * extents.latitude().width() / 16.0;
+        const glm::dvec3 v = earth.toEcef(place);
+        shorter.x[i] = v.x;
+        shorter.y[i] = v.y;
+        shorter.z[i] = v.z;
+    }
+    EXPECT_TRUE(std::isfinite(GroundPlates(earth, whole, extents).least(8, 0, 3)));
+    EXPECT_FALSE(std::isfinite(GroundPlates(earth, shorter, extents).least(8, 0, 3)));
+}
+
 }  // namespace
 }  // namespace osgAnalyticBin::test

@@ -233,8 +233,13 @@ void addTile(HorizonBuffer& buffer, const OcclusionScene& scene, const GroundTil
     core::EarthColumns columns;
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
         plates.columns(cells, cells, quarter, depth, frameOf(scene), columns);
-        columns.addToErrors(reach);
-        buffer.add(columns);
+        core::EarthColumns widened;  // for eyes that may be away from their place
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+            core::EarthColumn column = columns[i];
+            column.error += reach;
+            widened.append(column);
+        }
+        buffer.add(widened);
     }
 }
 

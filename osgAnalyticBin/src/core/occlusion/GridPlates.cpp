@@ -98,9 +98,8 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const GeodeticGrid& grid,
     const double normal = sides.horizontal * (sides.horizontal + 2.0 * sides.vertical);
     const bool facesUp = upward > (2.0 * longest / radius + 1e-9) * normal;
     // columns keep out of the rims, which the outermost chords may cut
-    constexpr double kRoom = kReachOfRim * kRim / static_cast<double>(kCellsOfGrids.back());
     const bool isWithinRims =
-        reach.aside < kRoom * grid.latitude.width() && reach.around < kRoom * grid.longitude.width();
+        reach.aside < kBorder * grid.latitude.width() && reach.around < kBorder * grid.longitude.width();
     if (!facesUp || !isWithinRims) return;
 
     std::array<double, kNumbers> low;

@@ -6,7 +6,6 @@
 #include "../kernels/OcclusionKernels.h"
 #include "../mesh/KeyNumbers.h"
 #include "PlateCells.h"
-#include "PostGrid.h"
 
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
 #include <osgAnalyticBin/core/occlusion/GroundPlates.h>
@@ -287,24 +286,8 @@ GroundPlates::GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, con
         return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
     };
     if (!isFinite(mesh.x) || !isFinite(mesh.y) || !isFinite(mesh.z)) return;
-    // those of a grid take less time
-    const auto posts = postGridOf(ellipsoid, mesh, extents);
-    if (posts && fills(posts->grid)) {
-        *this = GroundPlates(ellipsoid, posts->grid, posts->altitudes, margin + posts->error, skirt);
-        for (std::size_t quarter = 0; quarter < 4; ++quarter)
-            raise(quarter, posts->skirtTops[quarter] + margin + posts->error);
-    }
-    if (isKnown()) return;
     Builder(*this, mesh, margin);
     if (!mayHang(skirt)) _most.fill(kUnknown);
-}
-
-// Whether a grid reaches into all cells as far as triangles have to.
-bool GroundPlates::fills(const GeodeticGrid& grid) const noexcept {
-    const auto isSame = [](const Interval& a, const Interval& b) {
-        return std::max(std::abs(a.lower - b.lower), std::abs(a.upper - b.upper)) <= kBorder * b.width();
-    };
-    return isSame(grid.latitude, _latitude) && isSame(grid.longitude, _longitude);
 }
 
 // Whether a mesh that is drawn `margin` metres away from its place still covers what is within the rims.
@@ -512,10 +495,6 @@ void EarthColumns::append(const EarthColumn& column) noexcept {
         x[0] = corner.x, x[kMost] = corner.y, x[2 * kMost] = corner.z;
     }
     _error[_size++] = column.error;
-}
-
-void EarthColumns::addToErrors(double metres) noexcept {
-    for (double& error : _error) error += metres;
 }
 
 }  // namespace osgAnalyticBin::core

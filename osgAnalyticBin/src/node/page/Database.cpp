@@ -273,9 +273,9 @@ void Database::askForPlates(const AnalyticBinCullCallback& tile, osg::Node& mesh
     requestUpdate();
 }
 
-// Some at a time: each takes a fraction of a millisecond.
+// Some at a time: each takes up to some milliseconds.
 void Database::makePlates() {
-    constexpr std::size_t kMostTiles = 64;
+    constexpr std::size_t kMostTiles = 8;
     for (std::size_t i = 0; i < kMostTiles; ++i) {
         osg::ref_ptr<const AnalyticBinCullCallback> tile;
         osg::ref_ptr<osg::Node> mesh;

@@ -47,8 +47,6 @@ public:
     void append(const EarthColumn& column) noexcept;
     /// Leaves no column.
     void clear() noexcept { _size = 0; }
-    /// For eyes that may be so many metres away from their place.
-    void addToErrors(double metres) noexcept;
 
 private:
     friend class GroundPlates;
@@ -75,8 +73,7 @@ public:
     /// mesh may be drawn. Bounds are lowered by the margin. Nothing is known if it is wider than a tenth of a rim.
     /// `skirt`: how many metres skirts that the mesh does not have hang from its border, within 3 degrees of straight
     /// down. No tops are known if these are deeper than half of the mesh's width.
-    /// Cost: some 0.2 microseconds for each triangle, a quarter of that where the mesh is a grid. Requires: indices
-    /// within the vertices.
+    /// Cost: some 0.2 microseconds for each triangle. Requires: indices within the vertices.
     GroundPlates(const Ellipsoid& ellipsoid, const EcefMesh& mesh, const GeodeticBin& extents, double margin = 0.0,
                  double skirt = 0.0);
 
@@ -127,7 +124,6 @@ private:
     /// Nothing is known yet.
     GroundPlates(const Ellipsoid& ellipsoid, const Interval& latitude, const Interval& longitude) noexcept;
     [[nodiscard]] bool mayStandBeside(double margin) const noexcept;
-    [[nodiscard]] bool fills(const GeodeticGrid& grid) const noexcept;
     [[nodiscard]] double narrowest() const noexcept;
     [[nodiscard]] bool mayHang(double skirt) const noexcept;
     [[nodiscard]] bool hasQuartersOf(const GeodeticBin& bin) const noexcept;
