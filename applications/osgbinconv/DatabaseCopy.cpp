@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <future>
 #include <map>
 #include <mutex>
@@ -161,10 +160,6 @@ private:
     void requestBins(osg::Node& root) const {
         osgAnalyticBin::CullOptions options;
         if (_options.keepClusters) options.cluster = osgAnalyticBin::ClusterUse::Keep;
-        if (_built.horizon) {
-            options.horizonUse = osgAnalyticBin::HorizonUse::Given;
-            options.horizon = std::floor(*_built.horizon);
-        }
         root.addUpdateCallback(new InstallBinsCallback(options));
     }
 

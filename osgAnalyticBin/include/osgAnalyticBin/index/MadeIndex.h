@@ -8,7 +8,6 @@
 #include <osgAnalyticBin/index/DatabaseFiles.h>
 #include <osgAnalyticBin/index/DatabaseWalk.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +19,6 @@ struct MadeIndex {
     osg::ref_ptr<BinIndex> index;
     /// Of all files of the database.
     FileRecords records;
-    /// Where the tiles cover the whole globe: the altitude in metres that no surface goes below.
-    std::optional<double> horizon;
     /// Missing files and tiles without a bin, a line each.
     std::vector<std::string> warnings;
 };

@@ -205,22 +205,4 @@ std::vector<AnalyticBin> binsWithCracks(const std::vector<TreeTile>& tiles, std:
     return bins;
 }
 
-bool coversTheGlobe(const std::vector<TreeTile>& tiles) {
-    std::vector<TreeTile> top;
-    for (const TreeTile& tile : tiles) {
-        if (tile.depth == 0) top.push_back(tile);
-    }
-    const Neighbourhood beside = findNeighbours(top);
-    for (std::size_t i = 0; i < top.size(); ++i) {
-        if (!top[i].record->surface.bin.valid() || beside.isCrowded[i]) return false;
-        const TileRect rect = rectOf(top[i].record->surface);
-        EdgeCover cover(rect);
-        for (const Neighbour& neighbour : beside.neighbours[i]) {
-            cover.add(rectOf(top[neighbour.tile].record->surface).turned(neighbour.turn));
-        }
-        if (!cover.isWhole()) return false;
-    }
-    return !top.empty();
-}
-
 }  // namespace osgAnalyticBin::indexing

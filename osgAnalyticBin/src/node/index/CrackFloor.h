@@ -28,8 +28,4 @@ namespace osgAnalyticBin::indexing {
 [[nodiscard]] std::vector<osgAnalyticBin::AnalyticBin> binsWithCracks(const std::vector<TreeTile>& tiles,
                                                                       std::size_t* comparisons = nullptr);
 
-/// Whether the tiles that stand below no other leave nothing of the globe out: each of their edges has a neighbour, or
-/// is a pole.
-[[nodiscard]] bool coversTheGlobe(const std::vector<TreeTile>& tiles);
-
 }  // namespace osgAnalyticBin::indexing

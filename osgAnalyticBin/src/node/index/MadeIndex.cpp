@@ -8,7 +8,6 @@
 #include <osgAnalyticBin/index/MadeIndex.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace osgAnalyticBin::indexing {
 
@@ -32,18 +31,6 @@ std::vector<BinIndex::Entry> entriesOf(const FileRecord& record, const AnalyticB
     return entries;
 }
 
-/// The lowest surface, where all of it is known and nothing of the globe is without.
-std::optional<double> horizonOf(const std::vector<TreeTile>& tiles) {
-    double lowest = HUGE_VAL;
-    for (const TreeTile& tile : tiles) {
-        if (tile.depth > 0) continue;
-        if (!tile.isKnown) return std::nullopt;
-        lowest = std::min(lowest, tile.united.bin().altitude().lower - tile.united.margin());
-    }
-    if (!coversTheGlobe(tiles)) return std::nullopt;
-    return lowest;
-}
-
 }  // namespace
 
 MadeIndex indexFrom(const DatabaseFiles& files, FileRecords records) {
@@ -63,7 +50,6 @@ MadeIndex indexFrom(const DatabaseFiles& files, FileRecords records) {
         const std::size_t first = record.tiles.empty() ? 0 : tree.firstOf(file);
         made.index->setTiles(file, entriesOf(record, bins.data() + first));
     }
-    made.horizon = horizonOf(tree.tiles());
     warn(tree.unreadFiles(), files, "files are missing or broken",
          "the tiles above are taken to reach from -11500 m to 9000 m", made);
     warn(tree.unknownTiles(), files, "tiles have surfaces whose bounds are not known",
