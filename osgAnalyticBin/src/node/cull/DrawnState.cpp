@@ -75,11 +75,6 @@ using Attribute = osg::StateAttribute;
 constexpr const char* kDrawsTriangles = "osgAnalyticBin.drawsTriangles";
 constexpr DrawnState kHarmless{true, true}, kUnknown{false, false}, kHidesNothing{false, true};
 
-template <class... Classes>
-DrawnState harmlessIf(const Attribute& attribute) {
-    return isOneOf<Classes...>(attribute) ? kHarmless : kUnknown;
-}
-
 DrawnState ofDepth(const osg::Depth& depth) {
     const bool isNearest = depth.getFunction() == osg::Depth::LESS || depth.getFunction() == osg::Depth::LEQUAL;
     if (!isNearest || depth.getZNear() != 0.0 || depth.getZFar() != 1.0) return kUnknown;
@@ -103,93 +98,34 @@ DrawnState ofProgram(const osg::Program& program, const StateRules& rules) {
     return isDeclared ? kHarmless : kUnknown;
 }
 
-// Those that only matter while a mode is on are known by the mode.
 DrawnState ofAttribute(const Attribute& attribute, const StateRules& rules) {
     if (attribute.getShaderComponent()) return kUnknown;
-    switch (attribute.getType()) {
-        case Attribute::MATERIAL:
-            return harmlessIf<osg::Material>(attribute);
-        case Attribute::LIGHT:
-            return harmlessIf<osg::Light>(attribute);
-        case Attribute::LIGHTMODEL:
-            return harmlessIf<osg::LightModel>(attribute);
-        case Attribute::FOG:
-            return harmlessIf<osg::Fog>(attribute);
-        case Attribute::SHADEMODEL:
-            return harmlessIf<osg::ShadeModel>(attribute);
-        case Attribute::ALPHAFUNC:
-            return harmlessIf<osg::AlphaFunc>(attribute);
-        case Attribute::BLENDFUNC:
-            return harmlessIf<osg::BlendFunc>(attribute);
-        case Attribute::BLENDEQUATION:
-            return harmlessIf<osg::BlendEquation>(attribute);
-        case Attribute::BLENDCOLOR:
-            return harmlessIf<osg::BlendColor>(attribute);
-        case Attribute::SCISSOR:
-            return harmlessIf<osg::Scissor>(attribute);
-        case Attribute::LOGICOP:
-            return harmlessIf<osg::LogicOp>(attribute);
-        case Attribute::POLYGONSTIPPLE:
-            return harmlessIf<osg::PolygonStipple>(attribute);
-        case Attribute::LINEWIDTH:
-            return harmlessIf<osg::LineWidth>(attribute);
-        case Attribute::LINESTIPPLE:
-            return harmlessIf<osg::LineStipple>(attribute);
-        case Attribute::POINT:
-            return harmlessIf<osg::Point>(attribute);
-        case Attribute::HINT:
-            return harmlessIf<osg::Hint>(attribute);
-        case Attribute::CLAMPCOLOR:
-            return harmlessIf<osg::ClampColor>(attribute);
-        case Attribute::MULTISAMPLE:
-            return harmlessIf<osg::Multisample>(attribute);
-        case Attribute::CLIPPLANE:
-            return harmlessIf<osg::ClipPlane>(attribute);
-        case Attribute::CULLFACE:
-            if (!isOneOf<osg::CullFace>(attribute)) return kUnknown;
-            return static_cast<const osg::CullFace&>(attribute).getMode() == osg::CullFace::BACK ? kHarmless
-                                                                                                 : kHidesNothing;
-        case Attribute::FRONTFACE:
-            if (!isOneOf<osg::FrontFace>(attribute)) return kUnknown;
-            return (static_cast<const osg::FrontFace&>(attribute).getMode() == osg::FrontFace::CLOCKWISE) ==
-                           rules.isClockwise
-                       ? kHarmless
-                       : kHidesNothing;
-        case Attribute::DEPTH:
-            return isOneOf<osg::Depth>(attribute) ? ofDepth(static_cast<const osg::Depth&>(attribute)) : kUnknown;
-        case Attribute::POLYGONMODE:
-            if (!isOneOf<osg::PolygonMode>(attribute)) return kUnknown;
-            return ofPolygonMode(static_cast<const osg::PolygonMode&>(attribute));
-        case Attribute::COLORMASK:
-            if (!isOneOf<osg::ColorMask>(attribute)) return kUnknown;
-            return ofColorMask(static_cast<const osg::ColorMask&>(attribute));
-        case Attribute::PROGRAM:
-            if (!isOneOf<osg::Program>(attribute)) return kUnknown;
-            return ofProgram(static_cast<const osg::Program&>(attribute), rules);
-        case Attribute::VIEWPORT:
-            return &attribute == rules.viewport ? kHarmless : kUnknown;
-        default:
-            return kUnknown;
+    // the rest only matters while a mode is on, and is known by the mode
+    if (isOneOf<osg::Material, osg::Light, osg::LightModel, osg::Fog, osg::ShadeModel, osg::AlphaFunc, osg::BlendFunc,
+                osg::BlendEquation, osg::BlendColor, osg::Scissor, osg::LogicOp, osg::PolygonStipple, osg::LineWidth,
+                osg::LineStipple, osg::Point, osg::Hint, osg::ClampColor, osg::Multisample, osg::ClipPlane>(attribute))
+        return kHarmless;
+    if (isOneOf<osg::CullFace>(attribute)) {
+        const bool isBack = static_cast<const osg::CullFace&>(attribute).getMode() == osg::CullFace::BACK;
+        return isBack ? kHarmless : kHidesNothing;
     }
+    if (isOneOf<osg::FrontFace>(attribute)) {
+        const bool isClockwise = static_cast<const osg::FrontFace&>(attribute).getMode() == osg::FrontFace::CLOCKWISE;
+        return isClockwise == rules.isClockwise ? kHarmless : kHidesNothing;
+    }
+    if (isOneOf<osg::Depth>(attribute)) return ofDepth(static_cast<const osg::Depth&>(attribute));
+    if (isOneOf<osg::PolygonMode>(attribute)) return ofPolygonMode(static_cast<const osg::PolygonMode&>(attribute));
+    if (isOneOf<osg::ColorMask>(attribute)) return ofColorMask(static_cast<const osg::ColorMask&>(attribute));
+    if (isOneOf<osg::Program>(attribute)) return ofProgram(static_cast<const osg::Program&>(attribute), rules);
+    return &attribute == rules.viewport ? kHarmless : kUnknown;
 }
 
 DrawnState ofTextureAttribute(const Attribute& attribute) {
-    if (attribute.getShaderComponent()) return kUnknown;
-    switch (attribute.getType()) {
-        case Attribute::TEXTURE:
-            return harmlessIf<osg::Texture2D, osg::Texture1D, osg::Texture3D, osg::TextureCubeMap,
-                              osg::TextureRectangle, osg::Texture2DArray>(attribute);
-        case Attribute::TEXENV:
-            return harmlessIf<osg::TexEnv, osg::TexEnvCombine>(attribute);
-        case Attribute::TEXENVFILTER:
-            return harmlessIf<osg::TexEnvFilter>(attribute);
-        case Attribute::TEXGEN:
-            return harmlessIf<osg::TexGen>(attribute);
-        case Attribute::TEXMAT:
-            return harmlessIf<osg::TexMat>(attribute);
-        default:
-            return kUnknown;
-    }
+    const bool isKnown =
+        isOneOf<osg::Texture2D, osg::TexEnv, osg::TexEnvCombine, osg::TexEnvFilter, osg::TexGen, osg::TexMat,
+                osg::Texture1D, osg::Texture3D, osg::TextureCubeMap, osg::TextureRectangle, osg::Texture2DArray>(
+            attribute);
+    return isKnown && !attribute.getShaderComponent() ? kHarmless : kUnknown;
 }
 
 DrawnState ofMode(GLenum mode, Attribute::GLModeValue value) {
@@ -247,19 +183,6 @@ bool hasAlpha(const osg::Image& image) {
     return image.getPixelFormat() != GL_COMPRESSED_RGB_S3TC_DXT1_EXT && image.isImageTranslucent();
 }
 
-// osgTerrain::GeometryTechnique leaves out the triangles at posts that are not valid.
-bool hasHole(const osgTerrain::TerrainTile& tile) {
-    const osgTerrain::Layer* const layer = tile.getElevationLayer();
-    if (!layer || !layer->getValidDataOperator()) return false;
-    for (unsigned int row = 0; row < layer->getNumRows(); ++row) {
-        for (unsigned int column = 0; column < layer->getNumColumns(); ++column) {
-            float height = 0.0f;
-            if (!layer->getValidValue(column, row, height)) return true;
-        }
-    }
-    return false;
-}
-
 // As the technique decides, by the first image.
 bool isBlended(const osgTerrain::TerrainTile& tile) {
     using Tile = osgTerrain::TerrainTile;
@@ -292,7 +215,7 @@ DrawnState ofDrawable(const osg::Drawable& drawable) {
 DrawnState ofClass(const osg::Node& node) {
     if (const osg::Drawable* const drawable = node.asDrawable()) return ofDrawable(*drawable);
     if (isOneOf<osgTerrain::TerrainTile>(node))
-        return isSeeThrough(static_cast<const osgTerrain::TerrainTile&>(node)) ? kHidesNothing : kHarmless;
+        return isBlended(static_cast<const osgTerrain::TerrainTile&>(node)) ? kHidesNothing : kHarmless;
     if (!isKnownGroup(node)) return kUnknown;
     return drawsAllChildren(node) ? kHarmless : kHidesNothing;
 }
@@ -340,10 +263,6 @@ DrawnState drawnStateAbove(osg::NodeVisitor& visitor, const StateRules& rules, c
     }
     if (!isWindingSet) drawn &= kHidesNothing;
     return drawn;
-}
-
-bool isSeeThrough(const osgTerrain::TerrainTile& tile) {
-    return hasHole(tile) || isBlended(tile);
 }
 
 bool hasBeenTraversed(const osgTerrain::TerrainTile& tile) {

@@ -65,10 +65,6 @@ struct StateRules {
 [[nodiscard]] DrawnState drawnStateAbove(osg::NodeVisitor& visitor, const StateRules& rules,
                                          const osgUtil::StateGraph* end = nullptr);
 
-/// Whether a terrain tile has holes or is blended: posts that are not valid, image layers, by its own and its Terrain's
-/// blending policy.
-[[nodiscard]] bool isSeeThrough(const osgTerrain::TerrainTile& tile);
-
 /// Whether a traversal has come to a terrain tile, which makes its technique then.
 [[nodiscard]] bool hasBeenTraversed(const osgTerrain::TerrainTile& tile);
 
