@@ -3,125 +3,20 @@
 
 #include "IndexStore.h"
 
-#if defined(_WIN32)
 #include "../WholeFile.h"
-#endif
 
 #include <boost/crc.hpp>
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
-#include <sys/stat.h>
-#if defined(_WIN32)
-#include <io.h>
-#include <share.h>
-#else
-#include <sys/file.h>
-#include <unistd.h>
-#endif
+#include <random>
 
 namespace osgAnalyticBin::indexing {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-#if defined(_WIN32)
-
-// A file that one process at a time can open. Windows deletes it when it is closed, also where the process ends.
-class LockFile {
-public:
-    explicit LockFile(const std::string& path)
-        : _handle(::_sopen(path.c_str(), _O_RDWR | _O_CREAT | _O_TEMPORARY, _SH_DENYRW, _S_IREAD | _S_IWRITE)) {
-        if (_handle >= 0) return;
-        error = std::strerror(errno);
-        std::error_code ignored;
-        isBusy = fs::exists(path, ignored);
-    }
-    ~LockFile() {
-        if (_handle >= 0) ::_close(_handle);
-    }
-    LockFile(const LockFile&) = delete;
-    LockFile& operator=(const LockFile&) = delete;
-
-    bool isBusy = false;
-    std::string error;
-
-private:
-    const int _handle;
-};
-
-bool keepAlone(const IndexFile& index, const std::string& path, std::string& error) {
-    const LockFile lock(path + ".making");
-    if (lock.isBusy) return true;
-    if (lock.error.empty()) return writeWholeFile(path, index.write, error);
-    error = "cannot write \"" + path + "\": " + lock.error;
-    return false;
-}
-
-#else
-
-// A temporary file that one process at a time may write. It is removed unless it becomes the file.
-class LockedFile {
-public:
-    explicit LockedFile(const std::string& path) : _path(path + ".making") {
-        _handle = ::open(_path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-        if (_handle < 0) {
-            error = std::strerror(errno);
-            return;
-        }
-        struct stat own {
-        }, named{};
-        const bool isLocked = ::flock(_handle, LOCK_EX | LOCK_NB) == 0;
-        // another process may have renamed it meanwhile
-        const bool isNamed = isLocked && ::fstat(_handle, &own) == 0 && ::stat(_path.c_str(), &named) == 0 &&
-                             own.st_ino == named.st_ino && own.st_dev == named.st_dev;
-        if (isNamed) return;
-        isBusy = true;
-        ::close(_handle);
-        _handle = -1;
-    }
-    ~LockedFile() {
-        if (_handle < 0) return;
-        if (!_isRenamed) ::unlink(_path.c_str());
-        ::close(_handle);
-    }
-    LockedFile(const LockedFile&) = delete;
-    LockedFile& operator=(const LockedFile&) = delete;
-
-    [[nodiscard]] bool become(const IndexFile& index, const std::string& path) {
-        std::ofstream out(_path, std::ios::binary | std::ios::trunc);
-        errno = 0;
-        const bool isWritten = out && index.write(out) && out.flush();
-        out.close();
-        _isRenamed = isWritten && out && std::rename(_path.c_str(), path.c_str()) == 0;
-        if (!_isRenamed) error = errno != 0 ? std::strerror(errno) : "the disk may be full";
-        return _isRenamed;
-    }
-    [[nodiscard]] bool isOpen() const { return _handle >= 0; }
-
-    bool isBusy = false;
-    std::string error;
-
-private:
-    const std::string _path;
-    int _handle = -1;
-    bool _isRenamed = false;
-};
-
-bool keepAlone(const IndexFile& index, const std::string& path, std::string& error) {
-    LockedFile file(path);
-    if (file.isBusy) return true;
-    if (file.isOpen() && file.become(index, path)) return true;
-    error = "cannot write \"" + path + "\": " + file.error;
-    return false;
-}
-
-#endif
 
 // Whether a file may be replaced: there is none, or it is such an index, whole or broken at its end.
 bool isOurs(const std::string& path, std::string_view kind) {
@@ -140,7 +35,16 @@ bool keepAt(const IndexFile& index, const std::string& path, std::string& error)
         error = "\"" + path + "\" is no index";
         return false;
     }
-    return keepAlone(index, path, error);
+    // others may be keeping the same index
+    std::random_device random;
+    const std::string own = path + "." + std::to_string(random());
+    if (!writeWholeFile(own, index.write, error)) return false;
+    std::error_code failure;
+    fs::rename(own, path, failure);
+    if (!failure) return true;
+    error = "cannot write \"" + path + "\": " + failure.message();
+    fs::remove(own, failure);
+    return false;
 }
 
 std::string cacheFolder() {

@@ -31,8 +31,8 @@ struct IndexFile {
 };
 
 /// Keeps an index: beside the database, or, where that cannot be written or another file has its name, in the cache
-/// folder. A file is replaced when the new one is complete. Where another process is writing the same file, that one
-/// keeps it. Returns: the path; empty, with the reason in `error`, when the index could not be kept.
+/// folder. A file is replaced when the new one is complete. Of several processes that write the same file, the last one
+/// keeps its own. Returns: the path; empty, with the reason in `error`, when the index could not be kept.
 [[nodiscard]] std::string keepIndex(const IndexFile& index, const std::string& rootFile, std::string& error);
 
 }  // namespace osgAnalyticBin::indexing
