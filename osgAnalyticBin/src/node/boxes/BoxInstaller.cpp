@@ -4,7 +4,6 @@
 #include "BoxInstaller.h"
 
 #include "../install/FindCallback.h"
-#include "../install/MeshCulling.h"
 #include "../install/TileCallback.h"
 #include "../page/PagingExpiry.h"
 #include "BoxCullCallback.h"
@@ -39,7 +38,6 @@ public:
 
     void apply(osg::LOD& node) override {
         BoxCullCallback::remove(node);
-        resumeCullingOf(node);
         traverse(node);
     }
 
@@ -138,16 +136,11 @@ bool BoxInstaller::isInGroup(const osg::Node& node) const {
     return &parent == _root || typeid(parent) == typeid(osg::Group);
 }
 
-// In a chain of single children, each about as large as the one above, one test is enough. Children of groups are
-// tested by their families.
+// Children of groups are tested by their families.
 void BoxInstaller::placeCallbacks(const LodContent& content, const std::vector<osg::ref_ptr<BoxTile>>& tiles) {
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         osg::LOD& node = *content.lods[i].node;
-        const bool isInChain = tiles.size() == 1 || content.lods[i].parent;
-        if (isInChain && _set.options().method != Method::None && _set.isLikeParent(*tiles[i])) {
-            tiles[i]->setFollowsParent();
-            suspendCullingOf(node);
-        } else if (isInGroup(node)) {
+        if (isInGroup(node)) {
             _members[&node] = tiles[i];
         } else {
             BoxCullCallback::place(node, _set, *tiles[i]);

@@ -39,19 +39,6 @@ void BoxTile::join(BoxSlots& slots, std::size_t number) {
     slots.slots[number].test = _test;
 }
 
-bool BoxTile::isLikeParent() const {
-    constexpr double kShare = 0.9;
-    const BoxTile* above = _parent.get();
-    while (above && above->_followsParent) above = above->_parent.get();
-    if (!above || !_test.isTested || !above->_test.isTested) return false;
-    if (isBySphere() && above->isBySphere())
-        return _sphere.center() == above->_sphere.center() && _sphere.radius() >= above->_sphere.radius();
-    if (!_test.isComplete || !above->_test.isComplete) return false;
-    const osg::Vec3d own = _box.box()._max - _box.box()._min;
-    const osg::Vec3d all = above->_box.box()._max - above->_box.box()._min;
-    return own.x() >= kShare * all.x() && own.y() >= kShare * all.y() && own.z() >= kShare * all.z();
-}
-
 void BoxSet::noteMisfit(const std::string& file) {
     if (_hasWarned.exchange(true)) return;
     OSG_WARN << "osgAnalyticBin: \"" << file
@@ -64,11 +51,6 @@ void BoxSet::grow(BoxTile& tile, const MeshBox& box, bool isMisfit) {
     if (box.isEmpty() && !isMisfit) return;
     const std::lock_guard<std::mutex> lock(_mutex);
     _growths.push_back({&tile, box, isMisfit});
-}
-
-bool BoxSet::isLikeParent(const BoxTile& tile) {
-    const std::lock_guard<std::mutex> lock(_mutex);
-    return tile.isLikeParent();
 }
 
 void BoxSet::awaitIndex(osg::Node& root, const std::string& file, BoxTile* parent,

@@ -73,12 +73,6 @@ public:
     /// Keeps a slot up to date with the tile.
     void join(BoxSlots& slots, std::size_t number);
 
-    /// Marks the tile as not tested by itself: it is kept whenever its parent is.
-    void setFollowsParent() { _followsParent = true; }
-    /// Whether its box or sphere differs so little from that of the next tested tile above that a test of its own is of
-    /// no use.
-    [[nodiscard]] bool isLikeParent() const;
-
     /// Records that something below differs from the index: the box never becomes complete.
     void setMisfit() { _isMisfit = true; }
     [[nodiscard]] bool isMisfit() const { return _isMisfit; }
@@ -92,14 +86,10 @@ protected:
     ~BoxTile() override = default;
 
 private:
-    // Whether the tile's own sphere says more than its box, and holds it.
-    [[nodiscard]] bool isBySphere() const { return !_test.isComplete && _test.isTested && !_test.asksNode; }
-
     const osg::ref_ptr<BoxTile> _parent;
     const osg::BoundingSphere _sphere;
     MeshBox _box;
     BoxTest _test;
-    bool _followsParent = false;
     bool _isMisfit = false;
     osg::ref_ptr<BoxSlots> _slots;
     std::size_t _slot = 0;
@@ -134,9 +124,6 @@ public:
     /// index does
     /// not know the content, and no tile above it is complete.
     void grow(BoxTile& tile, const MeshBox& box, bool isMisfit);
-
-    /// BoxTile::isLikeParent(), where tiles above may be in the scene. In any thread.
-    [[nodiscard]] bool isLikeParent(const BoxTile& tile);
 
     /// In update traversals.
     void update();

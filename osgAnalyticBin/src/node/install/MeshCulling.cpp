@@ -18,9 +18,6 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// A user value of nodes whose culling is suspended.
-constexpr const char* kWasCulling = "osgAnalyticBin culling";
-
 class ForEachNode : public osg::NodeVisitor {
 public:
     explicit ForEachNode(std::function<void(osg::Node&)> action)
@@ -94,23 +91,6 @@ void forgetEmptyValues(osg::Node& node) {
     const bool isEmpty =
         values && values->getNumUserObjects() == 0 && !values->getUserData() && values->getNumDescriptions() == 0;
     if (isEmpty) node.setUserDataContainer(nullptr);
-}
-
-void suspendCullingOf(osg::Node& node) {
-    if (!node.getCullingActive()) return;
-    node.setCullingActive(false);
-    ownValues(node);
-    node.setUserValue(kWasCulling, true);
-}
-
-void resumeCullingOf(osg::Node& node) {
-    osg::UserDataContainer* values = node.getUserDataContainer();
-    const unsigned int index = values ? values->getUserObjectIndex(kWasCulling) : 0;
-    if (!values || index >= values->getNumUserObjects()) return;
-    ownValues(node);
-    node.getUserDataContainer()->removeUserObject(index);
-    forgetEmptyValues(node);
-    node.setCullingActive(true);
 }
 
 bool isClusterCulling(const osg::Callback& callback) {

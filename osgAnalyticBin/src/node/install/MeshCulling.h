@@ -21,10 +21,6 @@ void ownValues(osg::Node& node);
 /// Removes a node's user data if they are empty without our last value.
 void forgetEmptyValues(osg::Node& node);
 
-/// Switches culling off for one node, and records in the node that it was on; or restores it.
-void suspendCullingOf(osg::Node& node);
-void resumeCullingOf(osg::Node& node);
-
 /// Makes osg::ClusterCullingCallbacks of the mesh cull nothing, or restores them. A scene that is saved meanwhile has
 /// the original callbacks.
 void suspendClusterCulling(osg::Node& mesh);
