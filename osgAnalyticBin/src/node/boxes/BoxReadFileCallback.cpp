@@ -11,17 +11,13 @@ namespace osgAnalyticBin {
 osgDB::ReaderWriter::ReadResult BoxReadFileCallback::readNode(const std::string& fileName,
                                                               const osgDB::Options* options) {
     using ReadResult = osgDB::ReaderWriter::ReadResult;
-    // No node and no error: the pager prints nothing, and requests the file again in the next frame.
-    if (!_failures.mayRead(fileName, FailedReads::Clock::now())) return ReadResult::FILE_LOADED;
     const BusyPager busy(_set->making());
-    ReadResult result = readCarefully(fileName, [&] {
+    return readCarefully(fileName, _failures, [&] {
         ReadResult read = readPlain(fileName, options, _previous.get());
         const auto found = _expected.find(fileName);
         if (read.validNode() && found != _expected.end()) install(*read.getNode(), found->second);
         return read;
     });
-    _failures.note(fileName, result.validNode(), FailedReads::Clock::now());
-    return result;
 }
 
 void BoxReadFileCallback::install(osg::Node& node, const Expected& expected) const {

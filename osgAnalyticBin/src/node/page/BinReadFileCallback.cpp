@@ -64,13 +64,11 @@ const BinReadFileCallback::Expected& BinReadFileCallback::expected(const std::st
 
 osgDB::ReaderWriter::ReadResult BinReadFileCallback::readNode(const std::string& fileName,
                                                               const osgDB::Options* options) {
-    // No node and no error: the pager prints nothing, and requests the file again in the next frame.
-    if (!_failures.mayRead(fileName, FailedReads::Clock::now())) return ReadResult::FILE_LOADED;
     const BusyPager busy(_database->making());
     // before anything is asked of the database: what changes meanwhile is a later one
     const unsigned int generation = _database->generation();
-    ReadResult result = readCarefully(fileName, [&] { return readAndInstall(fileName, options, generation); });
-    _failures.note(fileName, result.validNode(), FailedReads::Clock::now());
+    ReadResult result =
+        readCarefully(fileName, _failures, [&] { return readAndInstall(fileName, options, generation); });
     if (result.validNode()) _database->noteRead(*result.getNode(), generation);
     return result;
 }

@@ -27,14 +27,19 @@ ReadResult readPlain(const std::string& fileName, const osgDB::Options* options,
     return global ? global->readNode(fileName, options) : readTileFile(fileName, options);
 }
 
-ReadResult readCarefully(const std::string& fileName, const std::function<ReadResult()>& read) {
+ReadResult readCarefully(const std::string& fileName, FailedReads& failures, const std::function<ReadResult()>& read) {
+    // No node and no error: the pager prints nothing, and requests the file again in the next frame.
+    if (!failures.mayRead(fileName, FailedReads::Clock::now())) return ReadResult::FILE_LOADED;
+    ReadResult result;
     try {
-        return read();
+        result = read();
     } catch (const std::ios_base::failure&) {
-        return unreadable(fileName, "it ends too early");
+        result = unreadable(fileName, "it ends too early");
     } catch (const std::exception& error) {
-        return unreadable(fileName, error.what());
+        result = unreadable(fileName, error.what());
     }
+    failures.note(fileName, result.validNode(), FailedReads::Clock::now());
+    return result;
 }
 
 }  // namespace osgAnalyticBin

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "FailedReads.h"
+
 #include <osgDB/Options>
 #include <osgDB/ReadFile>
 #include <osgDB/ReaderWriter>
@@ -19,9 +21,9 @@ namespace osgAnalyticBin {
 [[nodiscard]] osgDB::ReaderWriter::ReadResult readPlain(const std::string& fileName, const osgDB::Options* options,
                                                         osgDB::ReadFileCallback* previous);
 
-/// Runs `read`; what it throws becomes unreadable(): a corrupt file may ask for absurd amounts of memory, and the
-/// pager's thread must outlive that.
+/// Runs `read`, unless the file failed lately. What it throws becomes unreadable(): a corrupt file may ask for absurd
+/// amounts of memory, and the pager's thread must outlive that.
 [[nodiscard]] osgDB::ReaderWriter::ReadResult readCarefully(
-    const std::string& fileName, const std::function<osgDB::ReaderWriter::ReadResult()>& read);
+    const std::string& fileName, FailedReads& failures, const std::function<osgDB::ReaderWriter::ReadResult()>& read);
 
 }  // namespace osgAnalyticBin
