@@ -21,7 +21,6 @@ namespace {
 
 using core::exactRange;
 using core::Interval;
-using core::intervalBound;
 using core::Quadratic;
 
 using Real = long double;
@@ -312,27 +311,6 @@ TEST(QuadraticRange, NinePointsAreNotEnough) {
     const Quadratic q{0.0, {0.0, 1.0, 0.0}, {-2.0, 0.0, 0.0, 0.0, 0.0, 0.0}};
     EXPECT_EQ(exactRange(q).upper, 1.0);
     EXPECT_EQ(std::max({q(1, 1, 1), q(-1, 1, 1), q(1, -1, 1), q(-1, -1, 1)}), 0.0);
-}
-
-TEST(QuadraticRange, IntervalBoundHoldsTheRange) {
-    Random random(52);
-    for (int trial = 0; trial < 200000; ++trial) {
-        const Quadratic q = randomQuadratic(random, random.pick(kShapes));
-        const Interval range = exactRange(q);
-        const Interval bound = intervalBound(q);
-        const double rounding = kRangePromised * magnitudeOf(q);
-        ASSERT_LE(bound.lower, range.lower + rounding);
-        ASSERT_GE(bound.upper, range.upper - rounding);
-        ASSERT_GE(bound.lower, q.value - magnitudeOf(q));
-        ASSERT_LE(bound.upper, q.value + magnitudeOf(q));
-    }
-}
-
-TEST(QuadraticRange, IntervalBoundIsExactWithoutMixedTerms) {
-    const Quadratic linear{1.0, {1.0, -2.0, 3.0}, {}};
-    EXPECT_EQ(intervalBound(linear), exactRange(linear));
-    const Quadratic squares{1.0, {}, {2.0, -4.0, 6.0, 0.0, 0.0, 0.0}};
-    EXPECT_EQ(intervalBound(squares), exactRange(squares));
 }
 
 TEST(QuadraticRange, EvaluatesThePolynomial) {

@@ -35,8 +35,6 @@ public:
 
     /// Starts or stops, as the key does; stopping writes the file.
     void setRecording(bool recording);
-    /// Whether poses are being recorded.
-    [[nodiscard]] bool isRecording() const { return _isRecording; }
 
     /// What has been recorded so far.
     [[nodiscard]] const std::vector<flight::CameraPose>& path() const { return _path; }

@@ -141,18 +141,6 @@ double Quadratic::operator()(double u, double v, double w) const noexcept {
            hessian[kUW] * u * w + hessian[kVW] * v * w;
 }
 
-Interval intervalBound(const Quadratic& q) noexcept {
-    const auto& g = q.gradient;
-    const auto& h = q.hessian;
-    const double spread =
-        std::abs(g[0]) + std::abs(g[1]) + std::abs(g[2]) + std::abs(h[kUV]) + std::abs(h[kUW]) + std::abs(h[kVW]);
-    // a square lies in [0, 1]: half its coefficient counts on one side only
-    const auto below = [](double x) { return 0.5 * std::min(x, 0.0); };
-    const auto above = [](double x) { return 0.5 * std::max(x, 0.0); };
-    return {q.value - spread + below(h[kUU]) + below(h[kVV]) + below(h[kWW]),
-            q.value + spread + above(h[kUU]) + above(h[kVV]) + above(h[kWW])};
-}
-
 Interval exactRange(const Quadratic& q) noexcept {
     Interval range = hullOf(rangeOf(atW(q, -1.0)), rangeOf(atW(q, 1.0)));
     // For given u and v, q without a square of w is linear in w: its extrema are on the two faces done.

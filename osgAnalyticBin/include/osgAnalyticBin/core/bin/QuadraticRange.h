@@ -22,10 +22,6 @@ struct Quadratic {
     [[nodiscard]] double operator()(double u, double v, double w) const noexcept;
 };
 
-/// An interval that holds q's range over the unit box: every term by itself.
-/// Cost: about 20 additions; no branch.
-[[nodiscard]] Interval intervalBound(const Quadratic& q) noexcept;
-
 /// The exact range of q over the unit box: all vertices, edges, faces and the interior, each by its own stationary
 /// point. The nine points of [JJ] are not enough: an extremum may lie on an edge or a face.
 /// Guarantee: both ends are attained values, and the true range exceeds them by at most 64 epsilon times the sum of the
