@@ -68,13 +68,6 @@ osg::ref_ptr<osgDB::Options> readingOptions(const osgDB::Options* own) {
     return options;
 }
 
-// Where it does not depend on the children.
-osg::BoundingSphere sphereOf(const osg::LOD& node) {
-    const bool isOwn = node.getCenterMode() == osg::LOD::USER_DEFINED_CENTER && node.getRadius() >= 0.0F &&
-                       !node.getComputeBoundingSphereCallback() && !node.getInitialBound().valid();
-    return isOwn ? osg::BoundingSphere(node.getCenter(), node.getRadius()) : osg::BoundingSphere();
-}
-
 }  // namespace
 
 bool BoxInstaller::isKnown(const std::string& file, std::size_t lods) const {
@@ -94,7 +87,7 @@ BoxInstaller::Content BoxInstaller::install(osg::Node& node, const std::string& 
     std::vector<Content> below;
     Pagings pagings;
     for (const FoundLod& lod : content.lods) {
-        tiles.emplace_back(new BoxTile(lod.parent ? tiles[*lod.parent].get() : parent, sphereOf(*lod.node)));
+        tiles.emplace_back(new BoxTile(lod.parent ? tiles[*lod.parent].get() : parent));
         below.push_back(installBelow(*lod.node, file, *tiles.back()));
         if (auto* const paged = dynamic_cast<osg::PagedLOD*>(lod.node)) {
             followPaging(*paged, file, *tiles.back(), pagings);

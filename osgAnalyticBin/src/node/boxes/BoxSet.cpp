@@ -9,27 +9,11 @@
 
 namespace osgAnalyticBin {
 
-namespace {
-
-bool holds(const osg::BoundingSphere& sphere, const osg::BoundingBoxd& box) {
-    if (!sphere.valid()) return false;
-    const osg::Vec3d center = sphere.center();
-    double farthest = 0.0;
-    for (unsigned int i = 0; i < 8; ++i) farthest = std::max(farthest, (box.corner(i) - center).length());
-    constexpr double kRounding = 1e-12;
-    return farthest * (1.0 + kRounding) <= static_cast<double>(sphere.radius());
-}
-
-}  // namespace
-
 void BoxTile::set(const MeshBox& box, bool isComplete) {
     _box = box;
     _test.isComplete = isComplete;
     _test.isTested = box.box().valid();
-    // of what is not loaded, only OSG's own sphere is known
-    const bool isBySphere = _test.isTested && !isComplete && holds(_sphere, box.box());
-    _test.asksNode = !isComplete && !isBySphere;
-    if (_test.isTested) _test.box = isBySphere ? TestedBox(_sphere) : TestedBox(box.box());
+    if (_test.isTested) _test.box = TestedBox(box.box());
     if (_slots) _slots->slots[_slot].test = _test;
 }
 

@@ -26,19 +26,20 @@ namespace osgAnalyticBin {
 
 /// How a LOD of a photogrammetry set is tested.
 struct BoxTest {
-    TestedBox box;            ///< what has to be out of view: the box, or a sphere that holds it
-    bool isTested = false;    ///< otherwise it is never culled
-    bool asksNode = false;    ///< whether OSG's own sphere of the node has to be out of view, too
-    bool isComplete = false;  ///< whether the box holds all that is paged below, loaded or not
+    TestedBox box;          ///< what has to be out of view
+    bool isTested = false;  ///< otherwise it is never culled
+    /// Whether the box holds all that is paged below, loaded or not. Otherwise OSG's own sphere of the node has to be
+    /// out of view, too.
+    bool isComplete = false;
 
     [[nodiscard]] core::Side sideOf(const osg::Polytope::PlaneList& planes, core::PlaneMask& undecided,
                                     const osg::Node& node) const {
         if (!isTested) return core::Side::Straddling;
-        return box.classify(planes, undecided, asksNode ? &node.getBound() : nullptr);
+        return box.classify(planes, undecided, isComplete ? nullptr : &node.getBound());
     }
     /// What is tested for other reasons than the planes: small features, occluders.
     [[nodiscard]] const osg::BoundingSphere& sphereOf(const osg::Node& node) const {
-        return asksNode ? node.getBound() : box.sphere();
+        return isComplete ? box.sphere() : node.getBound();
     }
 };
 
@@ -63,9 +64,8 @@ protected:
 /// What is known of a LOD of a photogrammetry set. Cull traversals read it; it changes in update traversals alone.
 class BoxTile final : public osg::Referenced {
 public:
-    /// `parent`: the LOD above it; null: none. `sphere`: the one that the LOD was given; not valid: none, it follows
-    /// the children.
-    BoxTile(BoxTile* parent, const osg::BoundingSphere& sphere) : _parent(parent), _sphere(sphere) {}
+    /// `parent`: the LOD above it; null: none.
+    explicit BoxTile(BoxTile* parent) : _parent(parent) {}
 
     /// `isComplete`: the box holds all that is paged below, loaded or not.
     void set(const MeshBox& box, bool isComplete);
@@ -87,7 +87,6 @@ protected:
 
 private:
     const osg::ref_ptr<BoxTile> _parent;
-    const osg::BoundingSphere _sphere;
     MeshBox _box;
     BoxTest _test;
     bool _isMisfit = false;

@@ -67,12 +67,6 @@ TestedBox::TestedBox(const osg::BoundingBoxd& box)
       _reach(_center.length() + _half.length()),
       _sphere(roundedOutward(_center, _half.length())) {}
 
-TestedBox::TestedBox(const osg::BoundingSphere& sphere)
-    : _center(sphere.center()),
-      _radius(static_cast<double>(sphere.radius())),
-      _reach(_center.length() + _radius),
-      _sphere(sphere) {}
-
 core::Side TestedBox::classify(const osg::Polytope::PlaneList& planes, core::PlaneMask& undecided,
                                const osg::BoundingSphere* also) const {
     constexpr double kRounding = 32.0 * std::numeric_limits<double>::epsilon();
@@ -82,7 +76,7 @@ core::Side TestedBox::classify(const osg::Polytope::PlaneList& planes, core::Pla
         const osg::Plane& plane = planes[i];
         const double middle = plane[0] * _center.x() + plane[1] * _center.y() + plane[2] * _center.z() + plane[3];
         const double half =
-            std::abs(plane[0]) * _half.x() + std::abs(plane[1]) * _half.y() + std::abs(plane[2]) * _half.z() + _radius;
+            std::abs(plane[0]) * _half.x() + std::abs(plane[1]) * _half.y() + std::abs(plane[2]) * _half.z();
         const double slack = kRounding * (_reach + std::abs(plane[3]));
         double low = middle - half - slack;
         double high = middle + half + slack;

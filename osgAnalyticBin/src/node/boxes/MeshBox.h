@@ -48,8 +48,6 @@ public:
     TestedBox() = default;
     /// Requires: the box is valid.
     explicit TestedBox(const osg::BoundingBoxd& box);
-    /// In place of a box: a sphere. Requires: it is valid.
-    explicit TestedBox(const osg::BoundingSphere& sphere);
 
     /// Tests the planes that are undecided, and clears those that have the box inside. `also`: has to be out of view,
     /// too, for the same plane; null: nothing else.
@@ -60,7 +58,6 @@ public:
 
 private:
     osg::Vec3d _center, _half;
-    double _radius = 0.0;  // about the box
     double _reach = 0.0;
     osg::BoundingSphere _sphere;
 };
