@@ -59,7 +59,7 @@ struct Differences {
     std::string firstFile;
 
     void compare(const BinIndex& expected, const BinIndex& found) {
-        expected.forEachFile([&](const std::string& file, const std::vector<Entry>& tiles) {
+        for (const auto& [file, tiles] : expected.files()) {
             const std::vector<Entry>* others = found.tilesOf(file);
             std::size_t differing = others ? 0 : std::max<std::size_t>(tiles.size(), 1);
             for (std::size_t i = 0; others && i < tiles.size(); ++i) {
@@ -67,7 +67,7 @@ struct Differences {
             }
             if (differing > 0 && count == 0) firstFile = file;
             count += differing;
-        });
+        }
     }
 };
 
@@ -99,9 +99,9 @@ void printIndex(const std::string& path) {
     const osg::ref_ptr<BinIndex> index = BinIndex::read(path, error);
     if (!index) throw Failure(error);
     Statistics all;
-    index->forEachFile([&all](const std::string&, const std::vector<Entry>& tiles) {
+    for (const auto& [file, tiles] : index->files()) {
         for (const Entry& entry : tiles) all.add(entry);
-    });
+    }
     const auto bytes = std::filesystem::file_size(path);
     std::printf("database     %s, %llu bytes\n", index->source().name.c_str(),
                 static_cast<unsigned long long>(index->source().size));

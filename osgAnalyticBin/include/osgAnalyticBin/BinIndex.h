@@ -11,7 +11,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <iosfwd>
 #include <map>
 #include <string>
@@ -89,8 +88,8 @@ public:
     /// written entries are read back unchanged.
     void setTiles(const std::string& file, std::vector<Entry> tiles);
 
-    /// Visits all files in the order of their names.
-    void forEachFile(const std::function<void(const std::string& file, const std::vector<Entry>& tiles)>& visit) const;
+    /// All files with tiles, by name.
+    [[nodiscard]] const std::map<std::string, std::vector<Entry>>& files() const { return _files; }
 
     /// Number of files with tiles.
     [[nodiscard]] std::size_t fileCount() const { return _files.size(); }

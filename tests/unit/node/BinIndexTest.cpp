@@ -67,7 +67,7 @@ void expectRefused(const std::string& bytes, const std::string& what) {
 
 void expectSame(const BinIndex& a, const BinIndex& b) {
     ASSERT_EQ(a.fileCount(), b.fileCount());
-    a.forEachFile([&b](const std::string& file, const std::vector<BinIndex::Entry>& tiles) {
+    for (const auto& [file, tiles] : a.files()) {
         const std::vector<BinIndex::Entry>* others = b.tilesOf(file);
         ASSERT_TRUE(others) << file;
         ASSERT_EQ(tiles.size(), others->size());
@@ -77,7 +77,7 @@ void expectSame(const BinIndex& a, const BinIndex& b) {
             EXPECT_EQ(tiles[i].ownLow, (*others)[i].ownLow);
             EXPECT_EQ(tiles[i].fingerprint, (*others)[i].fingerprint);
         }
-    });
+    }
 }
 
 TEST(BinIndex, ReadsBackWhatItWrote) {

@@ -95,11 +95,6 @@ void BinIndex::setTiles(const std::string& file, std::vector<Entry> tiles) {
     _files[file] = std::move(tiles);
 }
 
-void BinIndex::forEachFile(
-    const std::function<void(const std::string& file, const std::vector<Entry>& tiles)>& visit) const {
-    for (const auto& [file, tiles] : _files) visit(file, tiles);
-}
-
 std::size_t BinIndex::tileCount() const {
     std::size_t count = 0;
     for (const auto& file : _files) count += file.second.size();

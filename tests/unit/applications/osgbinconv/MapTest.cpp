@@ -57,13 +57,13 @@ TEST_P(MapIndex, HoldsTheHeightsOfAllTiles) {
     constexpr double kUnits = core::Ellipsoid::kMapUnitsInRadian;
     // all levels have the peaks and pits of the finest; skirts of the border hang below
     const double skirt = 0.02 * std::sqrt(0.5) * _map.size;
-    _index->forEachFile([&](const std::string& file, const std::vector<BinIndex::Entry>& tiles) {
+    for (const auto& [file, tiles] : _index->files()) {
         for (const BinIndex::Entry& tile : tiles) {
             ASSERT_TRUE(tile.bin.valid()) << file;
             EXPECT_LT(tile.bin.margin(), 3.0);
             expectHolds(tile.bin.bin().altitude(), 0.0, 2600.0, skirt + 1.0);
         }
-    });
+    }
     const core::GeodeticBin& root = _index->find("", 0)->bin.bin();
     expectHolds({kUnits * root.longitude().lower, kUnits * root.longitude().upper}, _map.origin.x(),
                 _map.origin.x() + _map.size, 0.01);
