@@ -3,12 +3,14 @@
 
 #include "PictureOracle.h"
 
+#include "States.h"
 #include "Triangles.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <sstream>
+#include <vector>
 
 namespace osgAnalyticBin::test {
 
@@ -196,6 +198,12 @@ Description picturable(Description description) {
         view.computeNearFar = osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
         view.cullingMode &= ~static_cast<int>(osg::CullSettings::SMALL_FEATURE_CULLING);
     }
+    const auto isPlacedByOrder = [](const Part& part) {
+        const bool isState = part.kind == PartKind::State || part.kind == PartKind::PushesState;
+        return isState && stateName(part.variant) == "clip plane";
+    };
+    std::vector<Part>& parts = description.parts;
+    parts.erase(std::remove_if(parts.begin(), parts.end(), isPlacedByOrder), parts.end());
     return description;
 }
 
