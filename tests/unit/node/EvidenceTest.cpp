@@ -132,6 +132,17 @@ osg::Geometry& geometryOf(osg::Node& tile) {
     return *drawableOf(tile)->asGeometry();
 }
 
+// Gives a tile the vertices of another mesh, as OSG asks for it.
+void takeVertices(osg::MatrixTransform& from, osg::PagedLOD& tile) {
+    const auto& mesh = dynamic_cast<const osg::MatrixTransform&>(*tile.getChild(0));
+    const osg::Vec3d shift = from.getMatrix().getTrans() - mesh.getMatrix().getTrans();
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    for (const osg::Vec3& vertex : static_cast<const osg::Vec3Array&>(*geometryOf(from).getVertexArray()))
+        vertices->push_back(osg::Vec3d(vertex) + shift);
+    geometryOf(tile).setVertexArray(vertices);
+    geometryOf(tile).dirtyBound();
+}
+
 // Above the database, on it, on a tile, and on what the tile draws.
 std::vector<osg::Node*> placesIn(MeshGlobe& globe) {
     return {globe.scene, globe.root, globe.tiles[19], drawableOf(*globe.tiles[19])->getParent(0),
@@ -229,6 +240,16 @@ TEST(Evidence, ComesBackWithTheMesh) {
     EXPECT_FALSE(globe.drawsAntipode());
 }
 
+TEST(Evidence, IsMissingForAMeshThatHasBecomeNarrower) {
+    MeshGlobe globe;
+    installBins(*globe.root);
+    takeVertices(*makeMeshTile(extentsDeg(0.0, 45.0, -45.0, -1.0), 0.0), *globe.tiles[19]);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(globe.drawsAntipode()) << i;
+        update(*globe.root);
+    }
+}
+
 TEST(Evidence, IsMissingForATileThatIsNarrowerThanItsPlace) {
     MeshGlobe globe;
     globe.root->removeChild(globe.tiles[19]);
@@ -280,6 +301,19 @@ TEST(Evidence, IsMissingForADrawableThatIsDrawnByACallback) {
     EXPECT_FALSE(globe.drawsAntipode());
     geometryOf(*globe.tiles[19]).setDrawCallback(new DrawsNothing);
     EXPECT_TRUE(globe.drawsAntipode());
+}
+
+// They may change its vertices or leave it out; where they do in their own time cannot be known.
+TEST(Evidence, IsMissingForADrawableThatACallbackMayChange) {
+    for (const bool isUpdate : {false, true}) {
+        MeshGlobe globe;
+        installBins(*globe.root);
+        EXPECT_FALSE(globe.drawsAntipode());
+        osg::Geometry& geometry = geometryOf(*globe.tiles[19]);
+        if (isUpdate) geometry.setUpdateCallback(new osg::DrawableUpdateCallback);
+        if (!isUpdate) geometry.setEventCallback(new osg::DrawableEventCallback);
+        EXPECT_TRUE(globe.drawsAntipode()) << isUpdate;
+    }
 }
 
 // Leaves one child out.
@@ -335,9 +369,11 @@ TEST(WhatIgnoresDepth, KeepsTheTileThatItStandsBelow) {
         return tower;
     };
     const osg::Vec3d antipode = ecefDeg(-22.5, 157.5, 0.0);
+    const std::pair<bool, bool> pairs[] = {{false, false}, {false, true}, {true, false}, {true, true}};
     // in a file, and added by the application
-    for (const bool isLater : {false, true}) {
+    for (const auto& [isLater, isTestedByItself] : pairs) {
         MeshGlobe globe;
+        BinStatistics::of(*globe.visitor).setTileByTile(isTestedByItself);
         const osg::ref_ptr<osg::Group> file = new osg::Group;
         if (!isLater) file->addChild(sign(antipode));
         globe.tiles[15]->setRange(1, 0.0f, 1e10f);
@@ -347,55 +383,56 @@ TEST(WhatIgnoresDepth, KeepsTheTileThatItStandsBelow) {
             EXPECT_FALSE(globe.drawsAntipode());
             file->addChild(sign(antipode));
         }
-        EXPECT_TRUE(globe.draws(*file, MeshGlobe::fromAbove())) << isLater;
+        EXPECT_TRUE(globe.draws(*file, MeshGlobe::fromAbove())) << isLater << isTestedByItself;
     }
 }
 
-// States are inherited: those of a group above tiles, and those of a tile by its finer ones.
+// States are inherited: those of a group above tiles, those of a tile by its finer ones, and those of a file by its
+// tiles.
 TEST(WhatIgnoresDepth, IsAllThatIsBelowIt) {
     struct Derived : osgUtil::CullVisitor {};
+    enum Place { Group, Tile, File };
+    const std::pair<Place, bool> cases[] = {{Group, false}, {Group, true}, {Tile, false}, {Tile, true}, {File, false}};
     for (const bool isDerived : {false, true}) {
-        for (const bool isOnGroup : {false, true}) {
-            for (const bool isLater : {false, true}) {
-                MeshGlobe globe;
-                if (isDerived) globe.visitor = new Derived;
-                const osg::ref_ptr<osg::Group> group = new osg::Group, file = new osg::Group;
-                osg::PagedLOD& tile = *globe.tiles[15];
-                globe.root->replaceChild(&tile, group);
-                group->addChild(&tile);
-                tile.setRange(0, 1e9f, 1e10f);
-                tile.setRange(1, 0.0f, 1e9f);
-                file->addChild(makeMeshTile(extentsDeg(-45.0, 0.0, 135.0, 180.0), 10.0));
-                putBelow(tile, file);
-                if (isLater) installBins(*globe.root);
-                EXPECT_EQ(globe.draws(*file, MeshGlobe::fromAbove()), !isLater);
-                osg::Node& node = isOnGroup ? *group : static_cast<osg::Node&>(tile);
-                node.getOrCreateStateSet()->setMode(GL_DEPTH_TEST, State::OFF);
-                if (!isLater) installBins(*globe.root);
-                EXPECT_TRUE(globe.draws(*file, MeshGlobe::fromAbove())) << isDerived << isOnGroup << isLater;
-                EXPECT_FALSE(globe.draws(*globe.tiles[14], MeshGlobe::fromAbove()));
-            }
+        for (const auto& [place, isLater] : cases) {
+            MeshGlobe globe;
+            if (isDerived) globe.visitor = new Derived;
+            const osg::ref_ptr<osg::Group> group = new osg::Group, file = new osg::Group;
+            osg::PagedLOD& tile = *globe.tiles[15];
+            globe.root->replaceChild(&tile, group);
+            group->addChild(&tile);
+            tile.setRange(0, 1e9f, 1e10f);
+            tile.setRange(1, 0.0f, 1e9f);
+            file->addChild(makeMeshTile(extentsDeg(-45.0, 0.0, 135.0, 180.0), 10.0));
+            putBelow(tile, file);
+            if (isLater) installBins(*globe.root);
+            EXPECT_EQ(globe.draws(*file, MeshGlobe::fromAbove()), !isLater);
+            osg::Node& node = place == Group ? *group : place == Tile ? static_cast<osg::Node&>(tile) : *file;
+            node.getOrCreateStateSet()->setMode(GL_DEPTH_TEST, State::OFF);
+            if (!isLater) installBins(*globe.root);
+            EXPECT_TRUE(globe.draws(*file, MeshGlobe::fromAbove())) << isDerived << place << isLater;
+            EXPECT_FALSE(globe.draws(*globe.tiles[14], MeshGlobe::fromAbove()));
         }
     }
 }
 
-// Vertices that were raised, as OSG asks for it.
 TEST(Evidence, IsMissingForGroundThatHasRisenAboveTheEye) {
-    MeshGlobe globe;
-    installBins(*globe.root);
-    const CullView low = CullView::lookAt(ecefDeg(22.0, -22.5, 4000.0), ecefDeg(60.0, 60.0, 0.0), {0, 0, 1}, 60.0);
-    for (int i = 0; i < 4; ++i) EXPECT_FALSE(globe.draws(*globe.tiles[15], low));
-    osg::Geometry& geometry = geometryOf(*globe.tiles[19]);
-    auto& vertices = static_cast<osg::Vec3Array&>(*geometry.getVertexArray());
-    const osg::Vec3d up = ecefDeg(22.5, -22.5, 0.0) / ecefDeg(22.5, -22.5, 0.0).length();
-    for (osg::Vec3& vertex : vertices) vertex += osg::Vec3(up * 20000.0);
-    vertices.dirty();
-    geometry.dirtyBound();
-    for (int i = 0; i < 20; ++i) {
-        (void)globe.draws(*globe.tiles[15], low);
-        const BinCounts counts = BinStatistics::find(*globe.visitor)->getCounts();
-        EXPECT_EQ(counts.hidden, 0u) << i;
-        update(*globe.root);
+    // above all posts, and between them, where the mesh sags
+    for (const double altitude : {4000.0, -1000.0}) {
+        MeshGlobe globe;
+        installBins(*globe.root);
+        const CullView low =
+            CullView::lookAt(ecefDeg(22.0, -22.5, altitude), ecefDeg(60.0, 60.0, 0.0), {0, 0, 1}, 60.0);
+        for (int i = 0; i < 4; ++i) {
+            EXPECT_FALSE(globe.draws(*globe.tiles[15], low)) << altitude;
+            EXPECT_GT(BinStatistics::find(*globe.visitor)->getCounts().hidden, 0u) << altitude;
+        }
+        takeVertices(*makeMeshTile(extentsDeg(0.0, 45.0, -45.0, 0.0), 20000.0), *globe.tiles[19]);
+        for (int i = 0; i < 20; ++i) {
+            (void)globe.draws(*globe.tiles[15], low);
+            EXPECT_EQ(BinStatistics::find(*globe.visitor)->getCounts().hidden, 0u) << altitude << ' ' << i;
+            update(*globe.root);
+        }
     }
 }
 

@@ -92,6 +92,14 @@ TEST(OccludingTerrainTiles, HideWhatIsBehindARidge) {
     EXPECT_GE(globe.counts().occluded, 1u);
 }
 
+TEST(OccludingTerrainTiles, HideNothingOnceTheyHaveLostTheirTechnique) {
+    TerrainGlobe globe;
+    installBins(*globe.terrain, withOcclusion(OcclusionUse::On));
+    for (int i = 0; i < 2; ++i) EXPECT_FALSE(globe.drawsFarTile());
+    globe.row[2]->setTerrainTechnique(nullptr);
+    EXPECT_TRUE(globe.drawsFarTile());
+}
+
 TEST(OccludingTerrainTiles, GetTheirPlatesInUpdatesWhereTheyAreLeftToThemselves) {
     TerrainGlobe globe;
     installBins(*globe.terrain, withOcclusion(OcclusionUse::Auto));

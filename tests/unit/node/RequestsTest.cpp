@@ -77,16 +77,17 @@ TEST(Requests, MeetTheVisitorsOwnHandlerEverywhereInADatabase) {
 
 // With declared heights alone, files below tiles out of view may be due.
 TEST(Requests, AreMadeByNoVisitorThatOnlySaysItIsACullVisitor) {
-    struct Caster : osg::NodeCallback {
-        void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
-            areReal = areReal && dynamic_cast<osgUtil::CullVisitor*>(nv);
-            traverse(node, nv);
+    struct Caster : osg::Group {
+        void traverse(osg::NodeVisitor& nv) override {
+            const bool saysSo = nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR;
+            areReal = areReal && (!saysSo || dynamic_cast<osgUtil::CullVisitor*>(&nv));
+            osg::Group::traverse(nv);
         }
         bool areReal = true;
     };
     RequestingGlobe globe;
     const osg::ref_ptr<Caster> caster = new Caster;
-    for (const auto& tile : globe.tiles) tile->getChild(0)->addCullCallback(caster);
+    for (const auto& tile : globe.tiles) tile->getChild(0)->asGroup()->addChild(caster);
     installBins(*globe.root);
     for (int i = 0; i < 40; ++i) {
         const osg::Vec3d eye = ecefDeg(22.5, 0.0, 3000.0);

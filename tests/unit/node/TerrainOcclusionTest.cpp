@@ -114,6 +114,22 @@ TEST(TerrainOcclusion, HidesAMeshByItsOwnHeightWhereNoFinerTileIsDue) {
     EXPECT_TRUE(globe.drawsFarTile());
 }
 
+// Such as a sign in a file that adds to the tile's mesh.
+TEST(TerrainOcclusion, HidesNoTileBelowWhichSomethingIgnoresDepth) {
+    for (const bool ignores : {false, true}) {
+        RidgeGlobe globe;
+        const osg::ref_ptr<osg::Node> sign = makeTower(ecefDeg(0.1, 0.9, 100.0));
+        if (ignores) drawableOf(*sign)->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+        osg::PagedLOD& tile = *globe.row[4];
+        setStoredBin(tile, AnalyticBin(extentsDeg(0.0, 0.2, 0.8, 1.0).withAltitude({-12000.0, 500.0}), 10.0));
+        tile.setRange(0, 0.0f, 1e10f);
+        tile.setRange(1, 0.0f, 1e10f);
+        putBelow(tile, sign);
+        installBins(*globe.root, withOcclusion());
+        EXPECT_EQ(globe.draws(*sign, RidgeGlobe::alongRow()), ignores);
+    }
+}
+
 TEST(TerrainOcclusion, IsTheSameWhenTilesAreTestedOneByOne) {
     RidgeGlobe globe;
     installBins(*globe.root, withOcclusion());
