@@ -68,10 +68,6 @@ void BoxCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
 }
 
 bool BoxCullCallback::isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
-    if (_set->options().method == Method::None) {
-        setUndecided(cullStack.getCurrentCullingSet().getFrustum(), 0);
-        return false;
-    }
     if (_set->isRemoved() || !_tile->test().isTested) return false;
     const BoxTest& test = _tile->test();
     const osg::BoundingSphere& sphere = test.sphereOf(node);

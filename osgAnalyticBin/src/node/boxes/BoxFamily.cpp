@@ -70,7 +70,7 @@ void BoxFamily::remove(osg::Group& group) {
 
 bool BoxFamily::culls(const osg::Node& group, osg::CullStack& cullStack) const {
     const osg::CullingSet::Mask mask = cullStack.getCurrentCullingSet().getCullingMask();
-    return &group == _group && !getNestedCallback() && _set->options().method != Method::None && !_set->isRemoved() &&
+    return &group == _group && !getNestedCallback() && !_set->isRemoved() &&
            (mask & osg::CullingSet::VIEW_FRUSTUM_CULLING);
 }
 

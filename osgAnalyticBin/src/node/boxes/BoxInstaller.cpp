@@ -54,7 +54,6 @@ public:
 
 // `before`: the boxes that the set has; null: none. An index that is being made for them goes on.
 ChosenBoxIndex indexFor(const osg::Node& set, const CullOptions& options, const BoxSet* before) {
-    if (options.method == Method::None) return {};
     if (before && before->making() && options.index == IndexUse::Auto) return {nullptr, before->making()};
     return chooseBoxIndex(metadataFileOf(set), options.index);
 }

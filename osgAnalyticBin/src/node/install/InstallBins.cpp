@@ -112,7 +112,7 @@ void makeIndex(osg::Node& node, AutoIndex* index) {
 
 // A set is culled by boxes of its vertices, also below other nodes.
 void BinInstaller::visitSet(osg::Group& set) {
-    if (_options.method == Method::Sphere) return removeBoxes(set);
+    if (!installsBins()) return removeBoxes(set);
     _boxes += installBoxes(set, _options);
 }
 
