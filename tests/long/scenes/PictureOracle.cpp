@@ -10,6 +10,7 @@
 #include <cmath>
 #include <iterator>
 #include <sstream>
+#include <string>
 #include <vector>
 
 namespace osgAnalyticBin::test {
@@ -198,12 +199,13 @@ Description picturable(Description description) {
         view.computeNearFar = osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
         view.cullingMode &= ~static_cast<int>(osg::CullSettings::SMALL_FEATURE_CULLING);
     }
-    const auto isPlacedByOrder = [](const Part& part) {
+    const auto dependsOnOrder = [](const Part& part) {
         const bool isState = part.kind == PartKind::State || part.kind == PartKind::PushesState;
-        return isState && stateName(part.variant) == "clip plane";
+        const std::string name = isState ? stateName(part.variant) : std::string();
+        return name == "clip plane" || name == "primitive restart";
     };
     std::vector<Part>& parts = description.parts;
-    parts.erase(std::remove_if(parts.begin(), parts.end(), isPlacedByOrder), parts.end());
+    parts.erase(std::remove_if(parts.begin(), parts.end(), dependsOnOrder), parts.end());
     return description;
 }
 
