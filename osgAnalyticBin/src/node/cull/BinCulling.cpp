@@ -27,12 +27,16 @@ bool isSphereCulled(osg::CullingSet& cullingSet, core::PlaneMask undecided, cons
     return isCulled;
 }
 
-void enterWithoutTest(osg::Node& node, osgUtil::CullVisitor& visitor) {
+void enterWithoutTest(osg::Node& node, osgUtil::CullVisitor& visitor, osg::Callback* callback) {
     if (!visitor.validNodeMask(node)) return;
     osg::StateSet* const state = node.getStateSet();
     visitor.pushOntoNodePath(&node);
     if (state) visitor.pushStateSet(state);
-    node.traverse(visitor);
+    if (callback) {
+        callback->run(&node, &visitor);
+    } else {
+        node.traverse(visitor);
+    }
     if (state) visitor.popStateSet();
     visitor.popFromNodePath();
 }

@@ -10,6 +10,7 @@
 #include <osgAnalyticBin/core/Plane.h>
 
 #include <osg/BoundingSphere>
+#include <osg/Callback>
 #include <osg/CullSettings>
 #include <osg/CullStack>
 #include <osg/CullingSet>
@@ -97,10 +98,10 @@ private:
     const osg::CullingSet::Mask _current, _projection;
 };
 
-/// Enters a node without cull callbacks of others as osgUtil::CullVisitor does it, without its test of the sphere: for
-/// nodes that were tested together with their siblings. Requires: a visitor of this very type, and a node that it
-/// enters by apply(osg::LOD&) or apply(osg::Group&).
-void enterWithoutTest(osg::Node& node, osgUtil::CullVisitor& visitor);
+/// Enters a node as osgUtil::CullVisitor does it, without its test of the sphere: for nodes that were tested together
+/// with their siblings. `callback`: the node's cull callback, or what is nested in that of a bin; null: none. Requires:
+/// a visitor of this very type, and a node that it enters by apply(osg::LOD&) or apply(osg::Group&).
+void enterWithoutTest(osg::Node& node, osgUtil::CullVisitor& visitor, osg::Callback* callback = nullptr);
 
 /// Whether the database that is traversed is shown in the shape that a bin was fitted to. If it is not, requests a fit
 /// to the present shape. Returns: false without a database.

@@ -5,6 +5,7 @@
 
 #include "../../core/EarthScale.h"
 #include "../Classes.h"
+#include "../GlmBridge.h"
 #include "../Inverse.h"
 #include "../PagedChildren.h"
 #include "../Spheres.h"
@@ -73,6 +74,8 @@ public:
           _place(place),
           _deepest(deepest) {
         if (database.view.plan) database.view.plan->clear();
+        if (place) _up = toOsg(database.view.ellipsoid.up(place->latitude, place->longitude));
+        if (place) _eyeAt = toOsg(database.view.ellipsoid.toEcef(*place));
         const osg::CullingSet& cullingSet = database.cullStack.getCurrentCullingSet();
         if (!(cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING)) return;
         _planes = cullingSet.getFrustum().getPlaneList();
@@ -91,10 +94,30 @@ public:
 
 private:
     void searchChildren(osg::Group& group, const TileFamily* family) {
-        if (family && family->hasLostTiles()) _hasHole = true;
+        if (family && !_toEcef && isPassedOver(group, *family)) return;
+        if (family && family->hasLost(group)) _hasHole = true;
         const bool isFamily = family && !_toEcef && family->culls(group, _database.cullStack, _database.view);
         if (isFamily) return searchFamily(group, *family);
         for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) searchNode(*group.getChild(i));
+    }
+
+    // Whether all columns below a group are out of view, and none is about the eye.
+    [[nodiscard]] bool isPassedOver(const osg::Group& group, const TileFamily& family) const {
+        const ColumnUnion* const columns = family.columnUnion(group);
+        if (!columns || !columns->sphere().valid()) return false;
+        // unions are expanded column by column
+        constexpr double kRounding = 1e-9;
+        const osg::Vec3d& center = columns->sphere().center();
+        const double radius = columns->sphere().radius() + kRounding * (center.length() + columns->sphere().radius());
+        if (!isBesideFrustum(center, radius) || (_place && isOverEye(center, radius))) return false;
+        // without it children may have changed unnoticed
+        return ContentWatch::isOn(group);
+    }
+
+    // Whether a sphere is about the eye or above it.
+    [[nodiscard]] bool isOverEye(const osg::Vec3d& center, double radius) const {
+        const osg::Vec3d toCenter = center - _eyeAt;
+        return (toCenter - _up * std::max(0.0, toCenter * _up)).length() <= radius;
     }
 
     // Does not read tiles that are passed over.
@@ -287,11 +310,12 @@ private:
     }
 
     [[nodiscard]] bool isBesideFrustum(const osg::BoundingSphere& sphere) const {
-        if (!sphere.valid()) return false;
-        const osg::Vec3d center = sphere.center();
-        return std::any_of(_planes.begin(), _planes.end(), [&](const osg::Plane& plane) {
-            return plane.distance(center) < -static_cast<double>(sphere.radius());
-        });
+        return sphere.valid() && isBesideFrustum(sphere.center(), sphere.radius());
+    }
+
+    [[nodiscard]] bool isBesideFrustum(const osg::Vec3d& center, double radius) const {
+        return std::any_of(_planes.begin(), _planes.end(),
+                           [&](const osg::Plane& plane) { return plane.distance(center) < -radius; });
     }
 
     // Whether OSG does not draw a mesh that may be in view, because of a sphere that does not hold it.
@@ -377,6 +401,7 @@ private:
     const bool _isPlainVisitor = typeid(_visitor) == typeid(osgUtil::CullVisitor);
     const std::optional<core::Geodetic> _place;  // of the eye
     const double _deepest;
+    osg::Vec3d _eyeAt, _up;  // where the place is known
     osg::Polytope::PlaneList _planes;
     core::PlaneMask _undecided = 0;         // of the view's planes, for families
     const osg::Matrixd* _toEcef = nullptr;  // below a transform, where OSG measures distances in another frame

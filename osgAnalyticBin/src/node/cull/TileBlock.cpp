@@ -18,13 +18,12 @@ const core::HorizonBin& neverHidden() {
 
 namespace {
 
-void setBit(std::atomic<std::uint64_t>& bits, std::size_t number, bool is) {
+// Returns: whether it was set otherwise.
+bool setBit(std::atomic<std::uint64_t>& bits, std::size_t number, bool is) {
     const std::uint64_t bit = std::uint64_t{1} << number;
-    if (is) {
-        bits.fetch_or(bit, std::memory_order_relaxed);
-    } else {
-        bits.fetch_and(~bit, std::memory_order_relaxed);
-    }
+    const std::uint64_t before =
+        is ? bits.fetch_or(bit, std::memory_order_relaxed) : bits.fetch_and(~bit, std::memory_order_relaxed);
+    return ((before & bit) != 0) != is;
 }
 
 }  // namespace
@@ -45,6 +44,7 @@ void TileBlock::set(std::size_t slot, const Slot& tile, const Bins& bins) {
     part.withOwnColumns = tile.hasOwnColumn ? part.withOwnColumns | bit : part.withOwnColumns & ~bit;
     part.withSpheres = tile.testsSphere ? part.withSpheres | bit : part.withSpheres & ~bit;
     part.highest = std::max(part.highest, tile.binHigh);
+    if (tile.column.valid()) _columnUnion->expandBy({tile.column.center(), tile.column.radius()});
     part.bins.clear(i);
     if (bins.quadratic) part.bins.set(i, *bins.quadratic);
     if (bins.exact) part.bins.set(i, *bins.exact);
@@ -54,11 +54,11 @@ void TileBlock::set(std::size_t slot, const Slot& tile, const Bins& bins) {
 }
 
 void TileBlock::believe(std::size_t slot, bool is) {
-    setBit(_parts[slot / Part::kMost]->believed, slot % Part::kMost, is);
+    if (setBit(_parts[slot / Part::kMost]->believed, slot % Part::kMost, is)) _columnUnion->addDoubts(is ? -1 : 1);
 }
 
 void TileBlock::allowHiding(std::size_t slot, bool is) {
-    setBit(_parts[slot / Part::kMost]->hideable, slot % Part::kMost, is);
+    (void)setBit(_parts[slot / Part::kMost]->hideable, slot % Part::kMost, is);
 }
 
 }  // namespace osgAnalyticBin

@@ -3,11 +3,14 @@
 
 #pragma once
 
+#include "ColumnUnion.h"
+
 #include <osgAnalyticBin/core/bin/BinFamily.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <osg/BoundingSphere>
 #include <osg/Referenced>
+#include <osg/ref_ptr>
 
 #include <atomic>
 #include <cstddef>
@@ -64,8 +67,10 @@ public:
     /// The one that begins with the slot `first`, a multiple of kMost. Requires: first < size().
     [[nodiscard]] const Part& partFrom(std::size_t first) const { return *_parts[first / Part::kMost]; }
 
+    /// Its column is in doubt until the tile is believed.
     void addMember(std::size_t slot) {
         _parts[slot / Part::kMost]->members |= std::uint64_t{1} << (slot % Part::kMost);
+        _columnUnion->addDoubts(1);
     }
 
     /// Copies what a tile is tested by.
@@ -75,6 +80,9 @@ public:
     void believe(std::size_t slot, bool is);
     /// Says whether the tile of a slot may be hidden. At any time.
     void allowHiding(std::size_t slot, bool is);
+
+    /// Holds the columns of all tiles.
+    [[nodiscard]] ColumnUnion& columnUnion() const { return *_columnUnion; }
 
     /// Whether the horizon hides the column of a tile that has its own.
     [[nodiscard]] bool isColumnHidden(std::size_t slot, const core::HorizonEye& eye) const {
@@ -88,6 +96,7 @@ private:
     std::vector<std::unique_ptr<Part>> _parts;
     std::vector<Slot> _slots;
     std::vector<core::HorizonBin> _columns;
+    const osg::ref_ptr<ColumnUnion> _columnUnion = new ColumnUnion;
 };
 
 }  // namespace osgAnalyticBin

@@ -93,26 +93,36 @@ TileFamily::TileFamily(osg::Group& group)
       _block(new TileBlock(group.getNumChildren())),
       _nodes(group.getNumChildren()),
       _members(group.getNumChildren()) {
-    for (unsigned int i = 0; i < group.getNumChildren(); ++i) _hasTiles = add(*group.getChild(i), i) || _hasTiles;
+    const unsigned int children = group.getNumChildren();
+    for (unsigned int i = 0; i < children; ++i) _hasTiles = add(*group.getChild(i), i) || _hasTiles;
+    for (unsigned int i = 0; i < children; ++i) _hasGroups = addFamilyOf(*group.getChild(i), i) || _hasGroups;
+    if (!hasSameChildren(group)) _block->columnUnion().addDoubts(1);
 }
 
 bool TileFamily::place(osg::Node& node) {
     remove(node);
     if (!isPossibleOn(node)) return false;
     const osg::ref_ptr<TileFamily> family = new TileFamily(*node.asGroup());
-    if (family->_hasTiles) node.addCullCallback(family);
-    return family->_hasTiles;
+    const bool isUsed = family->_hasTiles || family->_hasGroups;
+    if (isUsed) node.addCullCallback(family);
+    return isUsed;
 }
 
 void TileFamily::remove(osg::Node& node) {
     if (const osg::ref_ptr<TileFamily> family = findCallback<TileFamily>(node.getCullCallback())) {
         takeOff(node, *family);
+        ColumnUnion* const columns = family->_block ? &family->_block->columnUnion() : nullptr;
+        // what the group shows is no longer held there
+        if (columns && columns->above()) columns->above()->addDoubts(1);
+        if (columns) columns->setAbove(nullptr);
     }
 }
 
 void TileFamily::renew(osg::Node& node) {
     const osg::ref_ptr<TileFamily> old = findCallback<TileFamily>(node.getCullCallback());
-    if (!old || old->_group != &node) return;
+    if (!old || old->_group != &node || !old->_hasTiles) return;
+    const osg::ref_ptr<ColumnUnion> above = old->_block->columnUnion().above();
+    old->_block->columnUnion().setAbove(nullptr);
     remove(node);
     osg::Group& group = *node.asGroup();
     const osg::ref_ptr<TileFamily> family = new TileFamily(group);
@@ -120,7 +130,45 @@ void TileFamily::renew(osg::Node& node) {
         old->_hasLostTiles || std::any_of(old->_nodes.begin(), old->_nodes.end(),
                                           [&](const auto& tile) { return tile && !group.containsNode(tile); });
     if (!family->_ellipsoid) family->_ellipsoid = old->_ellipsoid;
+    if (above) family->_block->columnUnion().setAbove(above);
     if (family->_hasTiles || family->_hasLostTiles) node.addCullCallback(family);
+}
+
+bool TileFamily::addFamilyOf(osg::Node& child, std::size_t slot) {
+    const TileFamily* const below = findCallback<TileFamily>(child.getCullCallback());
+    const bool isBelow = below && !_nodes[slot] && below->_group == &child && below->_ellipsoid &&
+                         child.getNumParents() == 1 && isExactly<osg::Group>(child) &&
+                         !(_ellipsoid && *_ellipsoid != *below->_ellipsoid);
+    if (!isBelow) return false;
+    _nodes[slot] = &child;
+    _ellipsoid = below->_ellipsoid;
+    below->_block->columnUnion().setAbove(&_block->columnUnion());
+    return true;
+}
+
+bool TileFamily::hasSameChildren(const osg::Group& group) const {
+    bool isSame = group.getNumChildren() == _nodes.size();
+    for (unsigned int i = 0; isSame && i < group.getNumChildren(); ++i) isSame = group.getChild(i) == _nodes[i];
+    return isSame;
+}
+
+bool TileFamily::hasLost(const osg::Group& group) const {
+    // tiles are looked for when they are tested
+    const bool hasLostGroup = _hasGroups && std::any_of(_nodes.begin(), _nodes.end(), [&](const auto& node) {
+                                  return node && !group.containsNode(node);
+                              });
+    return _hasLostTiles || hasLostGroup;
+}
+
+void TileFamily::look(const osg::Node& node) {
+    const TileFamily* const family = findCallback<TileFamily>(const_cast<osg::Node&>(node).getCullCallback());
+    if (!family || family->_group != &node || family->hasSameChildren(*node.asGroup())) return;
+    if (family->_block->columnUnion().isSure()) family->_block->columnUnion().addDoubts(1);
+}
+
+const ColumnUnion* TileFamily::columnUnion(const osg::Group& group) const {
+    const ColumnUnion* const columns = _group == &group ? &_block->columnUnion() : nullptr;
+    return columns && columns->isSure() ? columns : nullptr;
 }
 
 bool TileFamily::add(osg::Node& child, std::size_t slot) {
@@ -154,7 +202,7 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
 // The same conditions as in AnalyticBinCullCallback::isCulled() and eyeOn(), for all tiles together.
 bool TileFamily::culls(const osg::Node& group, osg::CullStack& cullStack, const DatabaseView& view) const {
     const osg::CullingSet::Mask mask = cullStack.getCurrentCullingSet().getCullingMask();
-    return &group == _group && !getNestedCallback() && (mask & osg::CullingSet::VIEW_FRUSTUM_CULLING) &&
+    return &group == _group && _hasTiles && !getNestedCallback() && (mask & osg::CullingSet::VIEW_FRUSTUM_CULLING) &&
            view.modelView == cullStack.getModelViewMatrix() && view.projection == cullStack.getProjectionMatrix() &&
            view.ellipsoid == *_ellipsoid && (!_shape || *_shape == view.shape) && !hasActiveOccluders(cullStack);
 }
@@ -207,7 +255,7 @@ void TileFamily::test(const osg::Group& group, unsigned int first, const core::P
     for (std::size_t i = first; i < end; ++i) {
         verdicts.members |= std::uint64_t{_nodes[i] == group.getChild(static_cast<unsigned int>(i))} << (i - first);
     }
-    verdicts.lacksTiles = verdicts.members != part.members;
+    verdicts.lacksTiles = (part.members & ~verdicts.members) != 0;
     verdicts.members &= part.believed.load(std::memory_order_relaxed);
     findSeparated(first, verdicts.members & verdicts.tested & ~(verdicts.planes.outside | verdicts.hidden), planes,
                   verdicts);
@@ -294,12 +342,16 @@ bool TileFamily::isAlone(const osg::Node& tile, const Member& member) {
            (!nested || (isSuspendedCluster(*nested) && !nested->getNestedCallback()));
 }
 
-// A plain tile without other callbacks is entered as osgUtil::CullVisitor does it, but for the test of its sphere and
-// for the calls that lead to the tile's own callback, which would do nothing: its family has tested it.
+// A plain tile is entered as osgUtil::CullVisitor does it, but for the test of its sphere and for the calls that lead
+// to the tile's own callback, which would do nothing: its family has tested it.
 void TileFamily::enter(osg::Node& child, const Member& member, osg::NodeVisitor& nv, osg::CullStack& cullStack,
                        CullTraversal& traversal) {
-    if (member.entry.isPossible() && isAlone(child, member) && typeid(nv) == typeid(osgUtil::CullVisitor))
-        return member.entry.enter(child, static_cast<osgUtil::CullVisitor&>(nv), traversal);
+    if (member.entry.isPossible() && child.getCullCallback() == member.tile &&
+        typeid(nv) == typeid(osgUtil::CullVisitor)) {
+        auto& visitor = static_cast<osgUtil::CullVisitor&>(nv);
+        if (isAlone(child, member)) return member.entry.enter(child, visitor, traversal);
+        return enterWithoutTest(child, visitor, child.getCullCallback()->getNestedCallback());
+    }
     // OSG does not test the sphere in this mask; the tile's callback sets the mask of what is below again
     const osg::CullingSet::Mask mask = cullStack.getCurrentCullingSet().getCullingMask();
     cullStack.getCurrentCullingSet().setCullingMask(osg::CullingSet::NO_CULLING);

@@ -7,6 +7,7 @@
 #include "TileEntry.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/Export.h>
 #include <osgAnalyticBin/core/Plane.h>
 
 #include <osg/CullStack>
@@ -28,12 +29,12 @@ struct DatabaseView;
 struct Verdict;
 
 /// The cull callback of a group with tiles among its children. It tests all tiles together, enters those that it keeps,
-/// and does not access the others. The tiles' own callbacks are used for children that it does not know, in another
-/// frame than that of the database, with occluders, and with callbacks behind it.
-/// It reports the class name of a plain osg::NodeCallback, so that saved scenes do not contain it.
-/// Guarantee: it culls the tiles that their own callbacks would cull; tests: TileFamily.*.
-/// Threads: run() changes nothing in the callback.
-class TileFamily final : public osg::NodeCallback {
+/// and does not access the others. On a group of groups with tiles it tests nothing, and holds the union of their
+/// columns. The tiles' own callbacks are used for children that it does not know, in another frame than that of the
+/// database, with occluders, and with callbacks behind it. It reports the class name of a plain osg::NodeCallback, so
+/// that saved scenes do not contain it. Guarantee: it culls the tiles that their own callbacks would cull; tests:
+/// TileFamily.*. Threads: run() changes nothing in the callback.
+class OSGANALYTICBIN_EXPORT TileFamily final : public osg::NodeCallback {
 public:
     /// The copy has no tiles.
     TileFamily(const TileFamily& other, const osg::CopyOp& copyop);
@@ -43,7 +44,8 @@ public:
     [[nodiscard]] static bool isPossibleOn(const osg::Node& node);
 
     /// Replaces the node's family, if any, by a new one behind the node's other callbacks. Only removes it if a family
-    /// is not possible or no child is a tile with a bin in the group's own frame, ECEF. Returns: whether there is one.
+    /// is not possible, or no child is a tile with a bin in the group's own frame, ECEF, and not all are groups with
+    /// families. Families of children have to be placed before. Returns: whether there is one.
     static bool place(osg::Node& node);
 
     /// Removes the family.
@@ -97,11 +99,18 @@ public:
     [[nodiscard]] const Member& member(unsigned int i) const { return _members[i]; }
     [[nodiscard]] const TileBlock& block() const { return *_block; }
 
+    /// Call when a group's bound is computed: notices children that were added, removed or replaced.
+    static void look(const osg::Node& node);
+
+    /// Holds the columns of all tiles below the group. Returns: nullptr where there may be others.
+    [[nodiscard]] const ColumnUnion* columnUnion(const osg::Group& group) const;
+
     /// Whether a tile has no cull callbacks other than that of its bin, and a suspended one for clusters.
     [[nodiscard]] static bool isAlone(const osg::Node& tile, const Member& member);
 
-    /// Whether a tile was removed from the group since bins were installed: the terrain may have a hole.
-    [[nodiscard]] bool hasLostTiles() const { return _hasLostTiles; }
+    /// Whether a tile, or a group of tiles, was removed from the group since bins were installed: the terrain may have
+    /// a hole.
+    [[nodiscard]] bool hasLost(const osg::Group& group) const;
 
     /// The number of children when the family was made.
     [[nodiscard]] std::size_t size() const { return _nodes.size(); }
@@ -118,6 +127,8 @@ protected:
 private:
     explicit TileFamily(osg::Group& group);
     [[nodiscard]] bool add(osg::Node& child, std::size_t slot);
+    [[nodiscard]] bool addFamilyOf(osg::Node& child, std::size_t slot);
+    [[nodiscard]] bool hasSameChildren(const osg::Group& group) const;
     void lookUp(const osg::Group& group, unsigned int first, core::PlaneMask undecided, const DatabaseView& view,
                 Verdicts& verdicts) const;
     // Of these tiles, those that may be hidden now.
@@ -133,10 +144,12 @@ private:
 
     const osg::Node* _group = nullptr;
     bool _hasTiles = false;
+    bool _hasGroups = false;
     bool _hasLostTiles = false;
     osg::ref_ptr<TileBlock> _block;
     // one for each child
-    std::vector<osg::ref_ptr<osg::Node>> _nodes;  // references, so that no address is used again; null: no tile
+    // references, so that no address is used again; null: neither a tile nor a group with a family
+    std::vector<osg::ref_ptr<osg::Node>> _nodes;
     std::vector<Member> _members;
     // the same for all tiles
     std::optional<core::Ellipsoid> _ellipsoid;

@@ -119,12 +119,12 @@ void BinInstaller::finish() {
     if (!_isReading && _database) _database->widenLoaded();
 }
 
-// Called after the walk: families that are placed during it would need more stack in deep scenes.
+// Called after the walk: families that are placed during it would need more stack in deep scenes. From below upwards.
 void BinInstaller::placeFamilies() {
-    for (osg::Node* const group : _groups) {
-        const bool hasTiles = TileFamily::place(*group);
+    for (auto at = _groups.rbegin(); at != _groups.rend(); ++at) {
+        osg::Node& group = **at;
         // it notices where the application takes the watch of a tile away
-        if (hasTiles && !ContentWatch::isOn(*group)) ContentWatch::place(*group, {});
+        if (TileFamily::place(group) && !ContentWatch::isOn(group)) ContentWatch::place(group, {});
     }
     _groups.clear();
 }

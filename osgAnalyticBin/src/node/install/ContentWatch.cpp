@@ -7,6 +7,7 @@
 #include "../GlmBridge.h"
 #include "../Spheres.h"
 #include "../cull/DrawnState.h"
+#include "../cull/TileFamily.h"
 #include "../page/Database.h"
 #include "../page/DatabaseCallbacks.h"
 #include "../surface/TerrainTileSurface.h"
@@ -366,6 +367,7 @@ bool ContentWatch::isPartMoved(const osg::Group& group) const {
 
 void ContentWatch::check(const osg::Node& node) const {
     _isPending = false;
+    TileFamily::look(node);
     const bool isOwnFrame = frameOf(node) == _frame;
     // osgTerrain draws nothing of what is below its tiles
     const osg::Group* const group = asTerrain(node) ? nullptr : node.asGroup();
