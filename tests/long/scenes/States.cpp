@@ -218,8 +218,9 @@ std::vector<NamedState> makeStates() {
         {"program that discards",
          program(kVertexShader, "void main() { if (mod(gl_FragCoord.x, 16.0) < 12.0) discard; paintFragment(); }\n"),
          {}},
+        // outwards: what is out of view stays there, as any test of bounds takes for granted
         {"program that moves vertices",
-         program("void main() { gl_Position = ftransform(); gl_Position.y += 0.7 * gl_Position.w; }\n", paints),
+         program("void main() { gl_Position = ftransform(); gl_Position.xy *= 1.7; }\n", paints),
          {}},
         {"program that draws in front",
          program(kVertexShader, "void main() { paintFragment(); gl_FragDepth = 1e-4; }\n"),
