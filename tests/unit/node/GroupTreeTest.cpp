@@ -34,14 +34,10 @@ struct GroupTree : MeshGlobe {
         for (unsigned int i = 0; i < 32; ++i) groups[i / 16 * 4 + i % 8 / 2]->addChild(tiles[i]);
     }
 
-    [[nodiscard]] static const TileFamily* familyOf(osg::Group& group) {
-        return findCallback<TileFamily>(group.getCullCallback());
-    }
     // Returns: nullptr where the search does not pass over the group.
     [[nodiscard]] const ColumnUnion* columnsBelow(osg::Group& group) const {
         (void)root->getBound();
-        const TileFamily* const family = familyOf(group);
-        return family ? family->columnUnion(group) : nullptr;
+        return TileFamily::columnUnionOf(group);
     }
 
     std::vector<osg::ref_ptr<osg::Group>> halves, groups;

@@ -74,9 +74,8 @@ public:
           _place(place),
           _deepest(deepest) {
         if (database.view.plan) database.view.plan->clear();
-        if (place) _up = toOsg(database.view.ellipsoid.up(place->latitude, place->longitude));
-        if (place) _eyeAt = toOsg(database.view.ellipsoid.toEcef(*place));
         const osg::CullingSet& cullingSet = database.cullStack.getCurrentCullingSet();
+        _testsSmallFeatures = (cullingSet.getCullingMask() & osg::CullingSet::SMALL_FEATURE_CULLING) != 0;
         if (!(cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING)) return;
         _planes = cullingSet.getFrustum().getPlaneList();
         _undecided = cullingSet.getFrustum().getCurrentMask();
@@ -102,7 +101,7 @@ private:
     }
 
     // Whether all columns below a group are out of view, and none is about the eye.
-    [[nodiscard]] bool isPassedOver(const osg::Group& group, const TileFamily& family) const {
+    [[nodiscard]] bool isPassedOver(const osg::Group& group, const TileFamily& family) {
         const ColumnUnion* const columns = family.columnUnion(group);
         if (!columns || !columns->sphere().valid()) return false;
         // unions are expanded column by column
@@ -115,9 +114,13 @@ private:
     }
 
     // Whether a sphere is about the eye or above it.
-    [[nodiscard]] bool isOverEye(const osg::Vec3d& center, double radius) const {
-        const osg::Vec3d toCenter = center - _eyeAt;
-        return (toCenter - _up * std::max(0.0, toCenter * _up)).length() <= radius;
+    [[nodiscard]] bool isOverEye(const osg::Vec3d& center, double radius) {
+        const core::Ellipsoid& ellipsoid = _database.view.ellipsoid;
+        if (!_standing)
+            _standing =
+                StandingEye{toOsg(ellipsoid.toEcef(*_place)), toOsg(ellipsoid.up(_place->latitude, _place->longitude))};
+        const osg::Vec3d toCenter = center - _standing->at;
+        return (toCenter - _standing->up * std::max(0.0, toCenter * _standing->up)).length() <= radius;
     }
 
     // Does not read tiles that are passed over.
@@ -208,11 +211,22 @@ private:
 
     // Whether OSG finds the sphere of a node out of view. The sphere may be an application's own.
     [[nodiscard]] bool isLeftOut(const osg::Node& node) const {
-        return node.isCullingActive() && isBesideFrustum(sphereOf(node));
+        // OSG tests the planes that are left; below transforms, which are rare, all are taken
+        const core::PlaneMask planes = _toEcef ? ~core::PlaneMask{0} : _undecided;
+        if (planes == 0 || !node.isCullingActive()) return false;
+        const osg::BoundingSphere sphere = sphereOf(node);
+        if (!sphere.valid()) return false;
+        for (std::size_t i = 0; i < _planes.size(); ++i) {
+            const bool isTested = ((planes >> i) & 1) != 0;
+            if (isTested && _planes[i].distance(osg::Vec3d(sphere.center())) < -static_cast<double>(sphere.radius()))
+                return true;
+        }
+        return false;
     }
 
     [[nodiscard]] bool isSmallFeature(const osg::Node& node) const {
-        return node.isCullingActive() && isSmall(_database.cullStack.getCurrentCullingSet(), sphereOf(node));
+        return _testsSmallFeatures && node.isCullingActive() &&
+               isSmall(_database.cullStack.getCurrentCullingSet(), sphereOf(node));
     }
 
     // From the frame of what a node draws.
@@ -278,11 +292,16 @@ private:
             bool hasDrawable = false;
             return isDrawnWhole(mesh, hasDrawable) && (hasDrawable || !isMeshDoubted);
         }
-        const auto& parts = tile.member->meshParts;
-        return std::all_of(parts.begin(), parts.end(), [this](const auto& part) {
-            return !part || (isSurelyDrawn(*part, part->getCullCallback() && CullCallbacks(*part).mayLeaveOut) &&
-                             isDrawnByTechnique(*part));
-        });
+        const TileFamily::Member& member = *tile.member;
+        for (std::size_t i = 0; i < member.meshParts.size() && member.meshParts[i]; ++i) {
+            const osg::Node& part = *member.meshParts[i];
+            const bool isDrawn = member.entry.isBare(i)
+                                     ? _visitor.validNodeMask(part)
+                                     : isSurelyDrawn(part, part.getCullCallback() && CullCallbacks(part).mayLeaveOut) &&
+                                           (!member.hasTerrain || isDrawnByTechnique(part));
+            if (!isDrawn) return false;
+        }
+        return true;
     }
 
     [[nodiscard]] bool isDrawnWhole(const osg::Node& part, bool& hasDrawable) const {
@@ -320,6 +339,7 @@ private:
 
     // Whether OSG does not draw a mesh that may be in view, because of a sphere that does not hold it.
     [[nodiscard]] bool isLeftOutInView(const SearchedTile& tile, const osg::Node& mesh) const {
+        if (!tile.isEnteredByOsg && !_isBelowOutOfView) return false;
         const bool mayBeFalse = _database.view.shape.verticalScale != 1.0 || ContentWatch::hasOwnBound(mesh);
         if (tile.isEnteredByOsg && mayBeFalse && isLeftOut(mesh)) return true;
         return _isBelowOutOfView && (mayBeFalse || !isBesideFrustum(sphereOf(mesh)));
@@ -401,8 +421,12 @@ private:
     const bool _isPlainVisitor = typeid(_visitor) == typeid(osgUtil::CullVisitor);
     const std::optional<core::Geodetic> _place;  // of the eye
     const double _deepest;
-    osg::Vec3d _eyeAt, _up;  // where the place is known
+    struct StandingEye {
+        osg::Vec3d at, up;
+    };
+    std::optional<StandingEye> _standing;  // of the eye, once it is needed
     osg::Polytope::PlaneList _planes;
+    bool _testsSmallFeatures = false;
     core::PlaneMask _undecided = 0;         // of the view's planes, for families
     const osg::Matrixd* _toEcef = nullptr;  // below a transform, where OSG measures distances in another frame
     bool _isDoubtful = false;               // below something that may not be drawn

@@ -5,6 +5,7 @@
 
 #include "Footprint.h"
 
+#include <osg/Drawable>
 #include <osg/Node>
 #include <osg/PagedLOD>
 #include <osg/ref_ptr>
@@ -41,6 +42,17 @@ public:
     /// tile without cull callbacks other than that of its bin and a suspended one for clusters.
     [[nodiscard]] bool isPossible() const { return _isPossible; }
     void enter(osg::Node& tile, osgUtil::CullVisitor& visitor, CullTraversal& traversal) const;
+
+    /// Whether a part of the mesh is of a known class that draws all below it, with neither state nor callbacks. False
+    /// where it takes longer to tell. A tile of osgTerrain is not.
+    [[nodiscard]] bool isBare(std::size_t part) const {
+        const Kind kind = _parts[part].kind;
+        if (kind == Kind::Unknown || kind == Kind::Terrain) return false;
+        const osg::Node& node = *_parts[part].node;
+        return !node.getStateSet() && !node.getCullCallback() && !node.getUpdateCallback() &&
+               !node.getEventCallback() &&
+               !(kind == Kind::Geometry && static_cast<const osg::Drawable&>(node).getDrawCallback());
+    }
 
     /// Prefetches the memory that the last enter() read.
     void fetch() const { _footprint.fetch(); }

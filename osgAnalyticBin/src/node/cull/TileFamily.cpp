@@ -167,8 +167,15 @@ void TileFamily::look(const osg::Node& node) {
 }
 
 const ColumnUnion* TileFamily::columnUnion(const osg::Group& group) const {
-    const ColumnUnion* const columns = _group == &group ? &_block->columnUnion() : nullptr;
-    return columns && columns->isSure() ? columns : nullptr;
+    if (_group != &group) return nullptr;
+    const ColumnUnion& columns = _block->columnUnion();
+    const bool isInTree = _hasGroups || columns.above();
+    return isInTree && columns.isSure() ? &columns : nullptr;
+}
+
+const ColumnUnion* TileFamily::columnUnionOf(osg::Group& group) {
+    const TileFamily* const family = findCallback<TileFamily>(group.getCullCallback());
+    return family ? family->columnUnion(group) : nullptr;
 }
 
 bool TileFamily::add(osg::Node& child, std::size_t slot) {
@@ -187,7 +194,10 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
     _nodes[slot] = &child;
     _block->addMember(slot);
     const MeshParts parts = meshPartsOf(child);
-    _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), parts, TileEntry(child, parts)};
+    const bool hasTerrain = std::any_of(parts.begin(), parts.end(), [](const auto& part) {
+        return dynamic_cast<const osgTerrain::TerrainTile*>(part.get()) != nullptr;
+    });
+    _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), parts, hasTerrain, TileEntry(child, parts)};
     tile->getInstalledTile()->joinFamily(*_block, slot);
     // osgUtil::Optimizer may have changed the form of the mesh: the new form is as good
     InstalledTile& installed = *tile->getInstalledTile();

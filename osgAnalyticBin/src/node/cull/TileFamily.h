@@ -34,7 +34,7 @@ struct Verdict;
 /// database, with occluders, and with callbacks behind it. It reports the class name of a plain osg::NodeCallback, so
 /// that saved scenes do not contain it. Guarantee: it culls the tiles that their own callbacks would cull; tests:
 /// TileFamily.*. Threads: run() changes nothing in the callback.
-class OSGANALYTICBIN_EXPORT TileFamily final : public osg::NodeCallback {
+class TileFamily final : public osg::NodeCallback {
 public:
     /// The copy has no tiles.
     TileFamily(const TileFamily& other, const osg::CopyOp& copyop);
@@ -53,7 +53,7 @@ public:
 
     /// Rebuilds the family of a group after the application has added, removed or replaced children. Requires: no cull
     /// traversal runs.
-    static void renew(osg::Node& node);
+    OSGANALYTICBIN_EXPORT static void renew(osg::Node& node);
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
@@ -64,6 +64,7 @@ public:
         osg::ref_ptr<const AnalyticBinCullCallback> tile;
         osg::PagedLOD* paged = nullptr;  ///< the node, if it is one
         MeshParts meshParts;
+        bool hasTerrain = false;  ///< a part is a tile of osgTerrain
         TileEntry entry;
     };
 
@@ -102,8 +103,10 @@ public:
     /// Call when a group's bound is computed: notices children that were added, removed or replaced.
     static void look(const osg::Node& node);
 
-    /// Holds the columns of all tiles below the group. Returns: nullptr where there may be others.
+    /// In a tree of groups: holds the columns of all tiles below the group. Returns: nullptr where there may be others.
     [[nodiscard]] const ColumnUnion* columnUnion(const osg::Group& group) const;
+    /// That of the group's family. Returns: nullptr where there is none, too.
+    [[nodiscard]] OSGANALYTICBIN_EXPORT static const ColumnUnion* columnUnionOf(osg::Group& group);
 
     /// Whether a tile has no cull callbacks other than that of its bin, and a suspended one for clusters.
     [[nodiscard]] static bool isAlone(const osg::Node& tile, const Member& member);
