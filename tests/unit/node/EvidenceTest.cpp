@@ -316,6 +316,20 @@ TEST(Evidence, IsMissingForADrawableThatACallbackMayChange) {
     }
 }
 
+// Such callbacks often run once, when a file has come, and take themselves off.
+TEST(Evidence, ComesWhenTheCallbacksOfAMeshAreGone) {
+    MeshGlobe globe;
+    osg::Node& mesh = *globe.tiles[19]->getChild(0)->asGroup()->getChild(0);
+    ASSERT_TRUE(mesh.asGroup());
+    mesh.setUpdateCallback(new osg::NodeCallback);
+    EXPECT_EQ(installBins(*globe.root), 32u);
+    EXPECT_TRUE(globe.drawsAntipode());
+    mesh.setUpdateCallback(nullptr);
+    EXPECT_FALSE(globe.drawsAntipode());
+    mesh.setEventCallback(new osg::NodeCallback);
+    EXPECT_TRUE(globe.drawsAntipode());
+}
+
 // Leaves one child out.
 struct LeavesOut : osg::NodeCallback {
     explicit LeavesOut(osg::Node* node) : out(node) {}

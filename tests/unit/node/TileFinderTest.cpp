@@ -104,7 +104,7 @@ TEST(TileFinder, WhatMayMoveIsNoTile) {
     const osg::ref_ptr<osg::MatrixTransform> moving = makeMesh();
     moving->setDataVariance(osg::Object::DYNAMIC);
     const osg::ref_ptr<osg::MatrixTransform> animated = makeMesh();
-    animated->getChild(0)->setUpdateCallback(new osg::NodeCallback);
+    animated->getChild(0)->asGroup()->getChild(0)->setUpdateCallback(new osg::NodeCallback);
     file->addChild(moving);
     file->addChild(animated);
     file->addChild(makePaged(moving, "c.osgb"));

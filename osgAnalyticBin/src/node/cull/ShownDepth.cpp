@@ -283,6 +283,11 @@ private:
         return _visitor.validNodeMask(node) && !mayLeaveOut && drawn.hides;
     }
 
+    // Whether a callback may change a part of a mesh after the search.
+    [[nodiscard]] static bool mayChange(const osg::Node& part) {
+        return part.getUpdateCallback() || part.getEventCallback();
+    }
+
     // Whether all of a tile's own mesh is drawn.
     [[nodiscard]] bool isDrawnWhole(const osg::Node& mesh, const SearchedTile& tile) const {
         const bool isKnown = tile.member && tile.member->meshParts.front() == &mesh;
@@ -295,17 +300,19 @@ private:
         const TileFamily::Member& member = *tile.member;
         for (std::size_t i = 0; i < member.meshParts.size() && member.meshParts[i]; ++i) {
             const osg::Node& part = *member.meshParts[i];
-            const bool isDrawn = member.entry.isBare(i)
-                                     ? _visitor.validNodeMask(part)
-                                     : isSurelyDrawn(part, part.getCullCallback() && CullCallbacks(part).mayLeaveOut) &&
-                                           (!member.hasTerrain || isDrawnByTechnique(part));
+            const bool isDrawn =
+                member.entry.isBare(i)
+                    ? _visitor.validNodeMask(part)
+                    : !mayChange(part) &&
+                          isSurelyDrawn(part, part.getCullCallback() && CullCallbacks(part).mayLeaveOut) &&
+                          (!member.hasTerrain || isDrawnByTechnique(part));
             if (!isDrawn) return false;
         }
         return true;
     }
 
     [[nodiscard]] bool isDrawnWhole(const osg::Node& part, bool& hasDrawable) const {
-        if (!isSurelyDrawn(part, CullCallbacks(part).mayLeaveOut)) return false;
+        if (mayChange(part) || !isSurelyDrawn(part, CullCallbacks(part).mayLeaveOut)) return false;
         const bool isTerrain = typeid(part) == typeid(osgTerrain::TerrainTile);
         hasDrawable = hasDrawable || isTerrain || part.asDrawable();
         if (isTerrain) return isDrawnByTechnique(part);

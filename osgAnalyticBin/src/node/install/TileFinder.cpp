@@ -50,7 +50,9 @@ public:
     void apply(osg::Node& node) override {
         const bool isTile = isTerrainTile(node) || hasStoredBin(node);
         osg::Transform* transform = node.asTransform();
-        if (isTile || node.getUpdateCallback() || (transform && !hasFixedPlace(*transform))) result = false;
+        // what a callback on a group changes is noticed like any other change
+        const bool isAnimated = node.getUpdateCallback() && !node.asGroup();
+        if (isTile || isAnimated || (transform && !hasFixedPlace(*transform))) result = false;
         hasDrawable = hasDrawable || node.asDrawable();
         if (result) traverse(node);
     }
