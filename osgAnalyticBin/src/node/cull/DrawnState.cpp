@@ -100,11 +100,6 @@ DrawnState ofProgram(const osg::Program& program, const StateRules& rules) {
 
 DrawnState ofAttribute(const Attribute& attribute, const StateRules& rules) {
     if (attribute.getShaderComponent()) return kUnknown;
-    // the rest only matters while a mode is on, and is known by the mode
-    if (isOneOf<osg::Material, osg::Light, osg::LightModel, osg::Fog, osg::ShadeModel, osg::AlphaFunc, osg::BlendFunc,
-                osg::BlendEquation, osg::BlendColor, osg::Scissor, osg::LogicOp, osg::PolygonStipple, osg::LineWidth,
-                osg::LineStipple, osg::Point, osg::Hint, osg::ClampColor, osg::Multisample, osg::ClipPlane>(attribute))
-        return kHarmless;
     if (isOneOf<osg::CullFace>(attribute)) {
         const bool isBack = static_cast<const osg::CullFace&>(attribute).getMode() == osg::CullFace::BACK;
         return isBack ? kHarmless : kHidesNothing;
@@ -117,6 +112,11 @@ DrawnState ofAttribute(const Attribute& attribute, const StateRules& rules) {
     if (isOneOf<osg::PolygonMode>(attribute)) return ofPolygonMode(static_cast<const osg::PolygonMode&>(attribute));
     if (isOneOf<osg::ColorMask>(attribute)) return ofColorMask(static_cast<const osg::ColorMask&>(attribute));
     if (isOneOf<osg::Program>(attribute)) return ofProgram(static_cast<const osg::Program&>(attribute), rules);
+    // the others only matter while a mode is on, and are known by the mode
+    if (isOneOf<osg::Material, osg::Light, osg::LightModel, osg::Fog, osg::ShadeModel, osg::AlphaFunc, osg::BlendFunc,
+                osg::BlendEquation, osg::BlendColor, osg::Scissor, osg::LogicOp, osg::PolygonStipple, osg::LineWidth,
+                osg::LineStipple, osg::Point, osg::Hint, osg::ClampColor, osg::Multisample, osg::ClipPlane>(attribute))
+        return kHarmless;
     return &attribute == rules.viewport ? kHarmless : kUnknown;
 }
 

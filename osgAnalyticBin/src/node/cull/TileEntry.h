@@ -43,8 +43,8 @@ public:
     [[nodiscard]] bool isPossible() const { return _isPossible; }
     void enter(osg::Node& tile, osgUtil::CullVisitor& visitor, CullTraversal& traversal) const;
 
-    /// Whether a part of the mesh is of a known class that draws all below it, with neither state nor callbacks. False
-    /// where it takes longer to tell. A tile of osgTerrain is not.
+    /// Whether a part of the mesh has neither a state nor callbacks, and is of a class that is known to draw everything
+    /// below it. False also for tiles of osgTerrain, and where it takes longer to tell.
     [[nodiscard]] bool isBare(std::size_t part) const {
         const Kind kind = _parts[part].kind;
         if (kind == Kind::Unknown || kind == Kind::Terrain) return false;

@@ -154,9 +154,9 @@ bool TileFamily::hasSameChildren(const osg::Group& group) const {
 
 bool TileFamily::hasLost(const osg::Group& group) const {
     // tiles are looked for when they are tested
-    const bool hasLostGroup = _hasGroups && std::any_of(_nodes.begin(), _nodes.end(), [&](const auto& node) {
-                                  return node && !group.containsNode(node);
-                              });
+    const bool hasLostGroup =
+        _hasGroups && !hasSameChildren(group) &&
+        std::any_of(_nodes.begin(), _nodes.end(), [&](const auto& node) { return node && !group.containsNode(node); });
     return _hasLostTiles || hasLostGroup;
 }
 

@@ -105,7 +105,7 @@ public:
 
     /// In a tree of groups: holds the columns of all tiles below the group. Returns: nullptr where there may be others.
     [[nodiscard]] const ColumnUnion* columnUnion(const osg::Group& group) const;
-    /// That of the group's family. Returns: nullptr where there is none, too.
+    /// The same for the family of any group. Returns: nullptr also where the group has no family.
     [[nodiscard]] OSGANALYTICBIN_EXPORT static const ColumnUnion* columnUnionOf(osg::Group& group);
 
     /// Whether a tile has no cull callbacks other than that of its bin, and a suspended one for clusters.
