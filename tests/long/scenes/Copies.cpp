@@ -3,6 +3,7 @@
 
 #include "Copies.h"
 
+#include <osg/Camera>
 #include <osg/CopyOp>
 #include <osgDB/Registry>
 
@@ -10,6 +11,19 @@
 #include <stdexcept>
 
 namespace osgAnalyticBin::test {
+
+namespace {
+
+// OSG does not store that a camera computes no near and far planes. Those that it computes follow from what is
+// delivered: where a nested camera draws into the depths of the view, other culling shows another picture.
+void fixNearAndFar(osg::Group& scene) {
+    for (unsigned int i = 0; i < scene.getNumChildren(); ++i) {
+        if (osg::Camera* const camera = scene.getChild(i)->asCamera())
+            camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    }
+}
+
+}  // namespace
 
 osg::ref_ptr<osg::Group> writtenAndRead(const osg::Node& scene, bool asText) {
     const char* const extension = asText ? "osgt" : "osgb";
@@ -20,9 +34,10 @@ osg::ref_ptr<osg::Group> writtenAndRead(const osg::Node& scene, bool asText) {
     std::stringstream stream;
     if (!plugin->writeNode(scene, stream, options).success()) throw std::runtime_error("the scene cannot be saved");
     osgDB::ReaderWriter::ReadResult result = plugin->readNode(stream, options);
-    osg::Node* const node = result.getNode();
-    if (!node || !node->asGroup()) throw std::runtime_error("the scene cannot be loaded");
-    return node->asGroup();
+    osg::Group* const loaded = result.getNode() ? result.getNode()->asGroup() : nullptr;
+    if (!loaded) throw std::runtime_error("the scene cannot be loaded");
+    fixNearAndFar(*loaded);
+    return loaded;
 }
 
 osg::ref_ptr<osg::Group> clonedScene(const osg::Group& scene, int variant) {
