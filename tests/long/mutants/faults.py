@@ -48,6 +48,9 @@ FAULTS = [
           "return kHarmless;\n    if (isOneOf<osg::CullFace>", SCENES,
           "--pictures --seed 800 --scenes 300 --failures 1 --no-shrink"),
 
+    Fault("programs without shaders are harmless", "src/node/cull/DrawnState.cpp",
+          "if (rules.trustsShaders) return", "if (rules.trustsShaders || program.isFixedFunction()) return", NODE, "Evidence.*"),
+
     # the polynomial and its proof
     Fault("no remainder", "src/core/bin/QuadraticBin.cpp", "(mapping.remainder(box) + margin)", "(margin)",
           CORE, "*QuadraticBin*"),

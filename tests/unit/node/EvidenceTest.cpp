@@ -86,6 +86,8 @@ std::vector<NamedState> doubtfulStates() {
             attributeAndModes("clip plane", new osg::ClipPlane),
             attributeAndModes("vertex program", new osg::VertexProgram),
             attributeAndModes("fragment program", new osg::FragmentProgram),
+            // what it draws has other depths than beside it, where a program makes those
+            attributeAndModes("program without shaders", new osg::Program),
             {"program",
              [](osg::StateSet& state) {
                  const osg::ref_ptr<osg::Program> program = new osg::Program;
@@ -120,7 +122,6 @@ std::vector<NamedState> harmlessStates() {
             attributeAndModes("depth", new osg::Depth(osg::Depth::LEQUAL)),
             attributeAndModes("blending off", new osg::BlendFunc, State::OFF),
             attributeAndModes("scissor off", new osg::Scissor(0, 0, 1, 1), State::OFF),
-            attributeAndModes("program without shaders", new osg::Program),
             mode("lighting off", GL_LIGHTING, State::OFF),
             {"texture", [](osg::StateSet& state) {
                  state.setTextureAttributeAndModes(0, new osg::Texture2D);

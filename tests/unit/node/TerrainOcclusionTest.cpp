@@ -249,11 +249,9 @@ TEST(TerrainOcclusion, NeedsStateInWhichRidgesPaintTheirTriangles) {
 TEST(TerrainOcclusion, TrustsShadersThatAreDeclared) {
     RidgeGlobe globe;
     installBins(*globe.root, withOcclusion());
-    globe.root->getOrCreateStateSet()->setAttributeAndModes(new osg::Program);
-    EXPECT_FALSE(globe.drawsFarTile());
     const osg::ref_ptr<osg::Program> plain =
         program(osg::Shader::FRAGMENT, "void main() { gl_FragColor = vec4(1.0); }");
-    globe.root->getStateSet()->setAttributeAndModes(plain);
+    globe.root->getOrCreateStateSet()->setAttributeAndModes(plain);
     EXPECT_TRUE(globe.drawsFarTile());
     CullOptions trusting = withOcclusion();
     trusting.plainShaders = true;

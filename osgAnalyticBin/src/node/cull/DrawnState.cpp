@@ -92,7 +92,7 @@ DrawnState ofColorMask(const osg::ColorMask& mask) {
 }
 
 DrawnState ofProgram(const osg::Program& program, const StateRules& rules) {
-    if (rules.trustsShaders || program.isFixedFunction()) return kHarmless;
+    if (rules.trustsShaders) return kHarmless;
     bool isDeclared = false;
     if (program.getUserDataContainer()) (void)program.getUserValue(kDrawsTriangles, isDeclared);
     return isDeclared ? kHarmless : kUnknown;
