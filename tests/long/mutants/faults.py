@@ -154,6 +154,8 @@ FAULTS = [
     # databases
     Fault("descendants are no higher than their tile", "src/node/install/TileFit.cpp",
           "altitude.upper = std::max(altitude.upper, heights.upper);", "", NODE),
+    Fault("finer tiles are never beside their tile", "src/node/install/TileFit.cpp",
+          "link.isMeasured = true;", "", NODE, "DeclaredBins.*"),
     Fault("false stored bins are not widened", "src/node/install/TileFit.cpp", "if (!isWithinBin || (link.hasNewContent && surface.valid())) fit.bin.expandBy(surface);", "",
           NODE, "FalseBins*:StoredBinNearPole*"),
     Fault("coarse meshes beside poles", "src/node/install/TileFit.cpp", "runBeyond(-latitude.lower, sag, ellipsoid)", "0.0", NODE,

@@ -266,6 +266,28 @@ TEST(DeclaredBins, TilesAreCulledByOsgsSphereToo) {
     }
 }
 
+TEST(DeclaredBins, FinerTilesBesideTheMeshAboveThemAreDrawn) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(osgDB::writeNodeFile(*makeMeshTile(extentsDeg(10.0, 10.2, 10.2, 10.6), 0.0), folder / "east.osgb"));
+    for (const bool isLoadedBefore : {true, false}) {
+        PlainGlobe globe;
+        globe.plain->setFileName(1, folder / "east.osgb");
+        if (!isLoadedBefore) installBins(*globe.root);
+        const osg::ref_ptr<osg::Node> east = readBelow(*globe.plain);
+        ASSERT_TRUE(east);
+        putBelow(*globe.plain, east);
+        if (isLoadedBefore) installBins(*globe.root);
+        const auto drawsEast = [&](double longitude) {
+            return globe.draws(*east, CullView::lookAt(ecefDeg(10.1, longitude, 9500.0), ecefDeg(10.1, longitude, 0.0),
+                                                       {0, 0, 1}, 20.0));
+        };
+        EXPECT_TRUE(drawsEast(10.5)) << isLoadedBefore;
+        update(*globe.root);
+        EXPECT_TRUE(drawsEast(10.5)) << isLoadedBefore;
+        EXPECT_FALSE(drawsEast(11.0)) << isLoadedBefore;
+    }
+}
+
 // As an application does that hands a treated tile to another place, or a cache that keeps it.
 TEST(DeclaredBins, ATileThatComesFromElsewhereIsDrawn) {
     PlainGlobe globe, other;

@@ -80,6 +80,11 @@ core::Interval heightsIn(const Database& database) {
     return {heights.lower * scale, heights.upper * scale};
 }
 
+// Metres by which rounded vertices of finer tiles may leave the extents of the mesh above them.
+double roundingOf(const core::Ellipsoid& ellipsoid) {
+    return core::earthScale(ellipsoid);
+}
+
 // The bin of a tile of which no more is known than its surface and the declared heights.
 AnalyticBin rangedBin(const TileSurface& surface, bool hasDescendants, const Database& database,
                       const ParentTile& link) {
@@ -93,7 +98,10 @@ AnalyticBin rangedBin(const TileSurface& surface, bool hasDescendants, const Dat
         altitude.upper = std::max(altitude.upper, heights.upper);
     }
     altitude.lower = std::min(altitude.lower, heights.lower - sag);
-    return withAltitude(surface.bin, altitude, sag);
+    AnalyticBin bin = withAltitude(surface.bin, altitude, sag);
+    // in latitude and in longitude
+    if (hasDescendants) bin.setMargin(bin.margin() + 2.0 * roundingOf(ellipsoid));
+    return bin;
 }
 
 void fitSurface(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link, TileFit& fit) {
@@ -102,6 +110,7 @@ void fitSurface(const FoundTile& tile, Database& database, const TerrainShape& s
     if (!fit.isTerrain && !surface.isEmpty && link.stored.valid()) Database::reportUnverifiable(link);
     if (!fit.isTerrain) return;
     linkTo(surface.bin.bin(), link);
+    link.isMeasured = true;
     fit.surface = surface.bin;
     fit.isScalable = surface.isScalable;
     // what is drawn, and nothing else; exaggeration would not treat skirts as heights
@@ -262,7 +271,7 @@ void correct(const FoundTile& tile, Database& database, const ParentTile& link, 
 // A stored lowest altitude is closer than the bound of a mesh's sag; it is used where the mesh's vertices allow it.
 AnalyticBin shownSurface(const FoundTile& tile, const AnalyticBin& surface, const AnalyticBin& bin,
                          const core::Ellipsoid& ellipsoid) {
-    const double rounding = core::earthScale(ellipsoid);
+    const double rounding = roundingOf(ellipsoid);
     const auto low = storedSurfaceLow(*tile.node);
     if (!low) return surface;
     const bool isPossible =
@@ -314,6 +323,22 @@ bool leavesHeights(const AnalyticBin& surface, const Database& database) {
     return altitude.upper > heights.upper || altitude.lower + surface.sag() < heights.lower;
 }
 
+// Whether a tile leaves the extents of the mesh above it, by more than vertices are rounded.
+bool leavesExtents(const TileFit& fit, const Database& database, const ParentTile& link) {
+    const ParentTile* above = link.parent.get();
+    while (above && !above->isTile) above = above->parent.get();
+    const core::GeodeticBin& own = (link.isMeasured ? fit.surface : fit.bin).bin();
+    if (!above || !above->isMeasured || own.empty()) return false;
+    const core::Ellipsoid ellipsoid = toCore(*database.ellipsoid());
+    const core::Interval &latitude = above->extents.latitude(), &longitude = above->extents.longitude();
+    const double angle = roundingOf(ellipsoid) / ellipsoid.polarRadius();
+    const double eastward =
+        angle / std::max(std::cos(std::min(std::abs(latitude.lower), std::abs(latitude.upper))), 1e-3);
+    return !core::GeodeticBin({latitude.lower - angle, latitude.upper + angle},
+                              {longitude.lower - eastward, longitude.upper + eastward}, own.altitude())
+                .contains(own);
+}
+
 // Who declares a horizon says that the tiles of the globe have no holes.
 bool isVouchedFor(const CullOptions& options, const osg::EllipsoidModel& ellipsoid) {
     return options.horizonUse == HorizonUse::Given && !isMapPlane(ellipsoid);
@@ -362,9 +387,9 @@ TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& s
         return unknownFit(tile, database, shape, link);
     }
     TileFit fit = fitKnown(tile, database, shape, link);
-    if (fit.surface.valid() && (link.hasNewContent || leavesHeights(fit.surface, database))) {
+    if (fit.surface.valid() && (link.hasNewContent || leavesHeights(fit.surface, database)))
         Database::noteLarger(link, fit.surface);
-    }
+    if (leavesExtents(fit, database, link)) Database::noteLarger(link, link.isMeasured ? fit.surface : fit.bin);
     if (shape.areBoundariesEqual && fit.isScalable) {
         fit.bin = withHeights(fit.bin, heightsIn(database));
         fit.surface = withHeights(fit.surface, heightsIn(database));

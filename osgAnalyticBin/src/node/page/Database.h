@@ -255,6 +255,7 @@ struct ParentTile : public osg::Referenced {
     std::size_t ordinal = 0;
     bool hasNewContent = false;  // since bins were last installed on it
     core::GeodeticBin extents;
+    bool isMeasured = false;  // the extents are those of its mesh, and finer tiles may leave them
     core::GeodeticBin place;  // that its own mesh has; empty: not known
     core::TileEdges edges;
     // The tile's stored bin, or that of the nearest ancestor with one. Invalid: there is none.
