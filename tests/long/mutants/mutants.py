@@ -18,7 +18,7 @@ from faults import FAULTS, SCENES
 
 SOURCES = pathlib.Path(__file__).resolve().parents[3]
 # what a build needs; documents, data and programs are not looked at
-PARTS = ("CMakeLists.txt", "LICENSE", "osgAnalyticBin", "tests", "data")
+PARTS = ("CMakeLists.txt", "LICENSE", "osgAnalyticBin", "tests", "data", "applications/rivals")
 LONGEST_RUN = 900  # seconds; a fault may make a test loop
 
 
