@@ -147,7 +147,7 @@ osg::ref_ptr<osg::Group> makeCamera(const Part& part) {
     camera->setProjectionMatrix(part.projection);
     if (order != osg::Camera::NESTED_RENDER)
         camera->setViewport(kInnerPictureStart, 0, kInnerPictureSize, kInnerPictureSize);
-    camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    if (part.variant < kFixedCameras) camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
     return camera;
 }
 

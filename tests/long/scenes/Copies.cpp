@@ -16,16 +16,18 @@ namespace {
 
 // OSG does not store that a camera computes no near and far planes. Those that it computes follow from what is
 // delivered: where a nested camera draws into the depths of the view, other culling shows another picture.
-void fixNearAndFar(osg::Group& scene) {
+void keepNearAndFar(const osg::Group& scene, osg::Group& loaded) {
     for (unsigned int i = 0; i < scene.getNumChildren(); ++i) {
-        if (osg::Camera* const camera = scene.getChild(i)->asCamera())
-            camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+        const osg::Camera* const from = scene.getChild(i)->asCamera();
+        osg::Camera* const to = loaded.getChild(i)->asCamera();
+        const bool isOwn = from && !(from->getInheritanceMask() & osg::CullSettings::COMPUTE_NEAR_FAR_MODE);
+        if (isOwn && to) to->setComputeNearFarMode(from->getComputeNearFarMode());
     }
 }
 
 }  // namespace
 
-osg::ref_ptr<osg::Group> writtenAndRead(const osg::Node& scene, bool asText) {
+osg::ref_ptr<osg::Group> writtenAndRead(const osg::Group& scene, bool asText) {
     const char* const extension = asText ? "osgt" : "osgb";
     osgDB::ReaderWriter* const plugin = osgDB::Registry::instance()->getReaderWriterForExtension(extension);
     if (!plugin) throw std::runtime_error("no plugin for osgb");
@@ -36,7 +38,7 @@ osg::ref_ptr<osg::Group> writtenAndRead(const osg::Node& scene, bool asText) {
     osgDB::ReaderWriter::ReadResult result = plugin->readNode(stream, options);
     osg::Group* const loaded = result.getNode() ? result.getNode()->asGroup() : nullptr;
     if (!loaded) throw std::runtime_error("the scene cannot be loaded");
-    fixNearAndFar(*loaded);
+    keepNearAndFar(scene, *loaded);
     return loaded;
 }
 

@@ -212,6 +212,9 @@ struct Description {
 /// The name of the node that a hook is.
 [[nodiscard]] std::string nodeName(Hook hook, const TileKey& tile);
 
+/// Variants of cameras in the scene from this number on let near and far planes be computed where the view does.
+constexpr int kFixedCameras = 9;
+
 /// Whether parts of a kind are built by makeModel().
 [[nodiscard]] bool isModel(PartKind kind);
 /// Whether the application may leave out a tile or a part of one, or draw it otherwise than by its vertices.

@@ -222,7 +222,7 @@ private:
         }
         if (!_random.chance(0.15)) return;
         Part& part = add(PartKind::Camera);
-        part.variant = _random.integer(0, 8);
+        part.variant = _random.integer(0, 2 * kFixedCameras - 1);
         const bool isRelative = part.variant % 3 == 0;
         const ViewSpec own = randomView(_random, _description, 1);
         part.view = isRelative ? osg::Matrixd::rotate(_random.uniform(-0.5, 0.5), osg::Vec3d(0.1, 1.0, 0.2)) : own.view;

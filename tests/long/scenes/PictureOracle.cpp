@@ -205,6 +205,9 @@ Description picturable(Description description) {
         return name == "clip plane" || name == "primitive restart";
     };
     std::vector<Part>& parts = description.parts;
+    for (Part& part : parts) {
+        if (part.kind == PartKind::Camera) part.variant %= kFixedCameras;
+    }
     parts.erase(std::remove_if(parts.begin(), parts.end(), dependsOnOrder), parts.end());
     return description;
 }
