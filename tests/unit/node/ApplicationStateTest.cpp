@@ -96,6 +96,18 @@ TEST(SeeThroughTerrain, IsNotWhatIsFilled) {
     EXPECT_FALSE(globe.drawsAntipode());
 }
 
+// Programs that compare pictures draw in the order of the traversal.
+TEST(SeeThroughTerrain, IsNotWhatAnyBinOfOsgHolds) {
+    for (const char* const name : {"RenderBin", "StateSortedBin", "DepthSortedBin", "TraversalOrderBin"}) {
+        MeshGlobe globe;
+        globe.root->getOrCreateStateSet()->setRenderBinDetails(0, name);
+        installBins(*globe.root);
+        EXPECT_FALSE(globe.drawsAntipode()) << name;
+        globe.root->getStateSet()->setRenderBinDetails(0, "BinOfTheApplication");
+        EXPECT_TRUE(globe.drawsAntipode());
+    }
+}
+
 // Leaves its node out.
 struct Pruner : osg::NodeCallback {
     void operator()(osg::Node*, osg::NodeVisitor*) override {}

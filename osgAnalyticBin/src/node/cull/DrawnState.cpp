@@ -168,7 +168,8 @@ DrawnState ofMode(GLenum mode, Attribute::GLModeValue value) {
 DrawnState ofRenderBin(const osg::StateSet& state) {
     if (state.getRenderBinMode() == osg::StateSet::INHERIT_RENDERBIN_DETAILS) return kHarmless;
     const std::string& name = state.getBinName();
-    const bool isKnown = name == "RenderBin" || name == "DepthSortedBin" || name == "StateSortedBin" || name.empty();
+    const bool isKnown = name.empty() || name == "RenderBin" || name == "StateSortedBin" || name == "DepthSortedBin" ||
+                         name == "TraversalOrderBin";
     if (!isKnown) return kUnknown;
     return state.getRenderingHint() == osg::StateSet::TRANSPARENT_BIN ? kHidesNothing : kHarmless;
 }
