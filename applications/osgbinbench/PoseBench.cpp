@@ -100,6 +100,8 @@ PoseBench::Visit PoseBench::visit(MethodScene& scene, const flight::CameraPose& 
     const std::uint64_t files = _watch.reads->nodeFiles();
     const std::uint64_t bytes = _watch.reads->nodeBytes();
     scene.settle(pose);
+    // whatever its picture asks for is not read in the next scene's turn
+    scene.pause();
     visit.files = _watch.reads->nodeFiles() - files;
     visit.bytes = _watch.reads->nodeBytes() - bytes;
     if (scene.method().replaysVerdicts) replayVerdicts(scene.camera(), scene.frameStamp());
