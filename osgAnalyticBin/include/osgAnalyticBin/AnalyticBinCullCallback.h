@@ -29,7 +29,6 @@ namespace osgAnalyticBin {
 
 namespace core {
 class PlaneSet;
-class RegionalSight;
 }  // namespace core
 class CullTraversal;
 class InstalledTile;
@@ -231,8 +230,8 @@ private:
                                                              CullTraversal& traversal) const;
     [[nodiscard]] bool standsAsInstalled(osg::CullStack& cullStack, const DatabaseView& database) const;
     [[nodiscard]] bool isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
-    [[nodiscard]] Verdict verdict(core::Side side, const core::PlaneSet& planes, core::PlaneMask undecided,
-                                  const core::HorizonEye* eye, const core::RegionalSight* sight) const;
+    [[nodiscard]] std::optional<Verdict> hiddenVerdict(const osg::Node& node, osg::NodeVisitor& nv,
+                                                       osg::CullStack& cullStack, CullTraversal& traversal) const;
     [[nodiscard]] bool mayBeHidden(const osg::Node& node, osg::NodeVisitor& nv, const DatabaseView* view) const;
     [[nodiscard]] bool isBeyondAnEdge(const core::PlaneSet& planes, core::PlaneMask undecided) const;
 

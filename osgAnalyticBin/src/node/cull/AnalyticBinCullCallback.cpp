@@ -286,14 +286,14 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
     if (_setup->shape && !isShownIn(*_setup->shape, traversal)) return false;
     const auto test = [&](const core::PlaneSet& planes, core::PlaneMask& undecided) {
         const core::Side side = core::classify(prepared().bin, planes, undecided);
+        if (side == core::Side::Outside) return Verdict{side, Verdict::Plane};
         // what else is known of the view takes time to find
-        if (side == core::Side::Outside || (!prepared().horizon && !isInMap()))
-            return verdict(side, planes, undecided, nullptr, nullptr);
-        const DatabaseView* const view = viewOn(cullStack, traversal);
-        if (!mayBeHidden(node, nv, view)) return verdict(side, planes, undecided, nullptr, nullptr);
-        if (view && view->plan && view->plan->isOccluded(*this)) return Verdict{core::Side::Outside, Verdict::Terrain};
-        const core::HorizonEye* const eye = view ? view->eye : eyeWithoutDatabase(cullStack, nv, traversal);
-        return verdict(side, planes, undecided, eye, view ? view->sight : nullptr);
+        if (prepared().horizon || isInMap()) {
+            if (const auto hidden = hiddenVerdict(node, nv, cullStack, traversal)) return *hidden;
+        }
+        const bool isBeyond =
+            side == core::Side::Straddling && _setup->options.edges && isBeyondAnEdge(planes, undecided);
+        return isBeyond ? Verdict{core::Side::Outside, Verdict::Edge} : Verdict{side, Verdict::Plane};
     };
     return isCulledByBin(cullStack, nv, traversal, prepared().sphere,
                          [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
@@ -308,6 +308,19 @@ bool AnalyticBinCullCallback::mayBeHidden(const osg::Node& node, osg::NodeVisito
     const bool obeys = !_installed || _installed->obeysDepth();
     return obeys && drawnStateOf(node, rules).obeysDepth &&
            (!view || drawnStateAbove(nv, view->rules, view->states).obeysDepth);
+}
+
+// By what the tile is hidden; nullopt: by nothing. The states are asked last: that takes longest.
+std::optional<Verdict> AnalyticBinCullCallback::hiddenVerdict(const osg::Node& node, osg::NodeVisitor& nv,
+                                                              osg::CullStack& cullStack,
+                                                              CullTraversal& traversal) const {
+    const DatabaseView* const view = viewOn(cullStack, traversal);
+    const bool isOccluded = view && view->plan && view->plan->isOccluded(*this);
+    const core::HorizonEye* const eye = view ? view->eye : eyeWithoutDatabase(cullStack, nv, traversal);
+    const bool isBeyondHorizon = !isOccluded && eye && prepared().horizon && eye->hides(*prepared().horizon) &&
+                                 (!view || !view->sight || view->sight->holds(*prepared().horizon));
+    if (!(isOccluded || isBeyondHorizon) || !mayBeHidden(node, nv, view)) return std::nullopt;
+    return Verdict{core::Side::Outside, isOccluded ? Verdict::Terrain : Verdict::Horizon};
 }
 
 // A tile may have several parents, and transforms above it may have changed: the planes follow, the globe does not.
@@ -335,17 +348,6 @@ const core::HorizonEye* AnalyticBinCullCallback::eyeWithoutDatabase(osg::CullSta
     if (_setup->options.horizonUse != HorizonUse::Given || _frame || isInMap()) return nullptr;
     const Occluder occluder{ellipsoid(), std::max(0.0, -_setup->options.horizon), _setup->options.inheritViewpoint};
     return traversal.horizonEye(cullStack, nv, occluder);
-}
-
-Verdict AnalyticBinCullCallback::verdict(core::Side side, const core::PlaneSet& planes, core::PlaneMask undecided,
-                                         const core::HorizonEye* eye, const core::RegionalSight* sight) const {
-    if (side == core::Side::Outside) return {side, Verdict::Plane};
-    if (eye && eye->hides(*prepared().horizon) && (!sight || sight->holds(*prepared().horizon)))
-        return {core::Side::Outside, Verdict::Horizon};
-    if (side == core::Side::Straddling && _setup->options.edges && isBeyondAnEdge(planes, undecided)) {
-        return {core::Side::Outside, Verdict::Edge};
-    }
-    return {side, Verdict::Plane};
 }
 
 bool AnalyticBinCullCallback::isBeyondAnEdge(const core::PlaneSet& planes, core::PlaneMask undecided) const {

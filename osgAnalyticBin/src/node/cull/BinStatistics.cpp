@@ -48,7 +48,7 @@ const BinStatistics* BinStatistics::find(const osg::NodeVisitor& visitor) {
 
 const core::HorizonEye* BinStatistics::horizonEye(osg::NodeVisitor& visitor) {
     const DatabaseView* const view = CullTraversal::of(visitor).databaseView();
-    return view && !view->sight ? view->eye : nullptr;
+    return view && (!view->sight || view->sight->holdsAll()) ? view->eye : nullptr;
 }
 
 void BinStatistics::beginFrame(unsigned int frame) noexcept {

@@ -6,12 +6,12 @@
 #include "DrawnState.h"
 #include "GroundBelow.h"
 #include "NearMeshes.h"
+#include "SightOverRegion.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
-#include <osgAnalyticBin/core/horizon/RegionalSight.h>
 
 #include <osg/CullStack>
 #include <osg/CullingSet>
@@ -53,7 +53,7 @@ struct DatabaseView {
     core::PlaneSet planes;
     TilePlan* plan;                               // nullptr: none was made
     StateRules rules{};                           // what the database's states are judged by
-    const core::RegionalSight* sight = nullptr;   // nullptr: the eye sees past no border of a region
+    const SightOverRegion* sight = nullptr;       // of an eye over a region
     const osgUtil::StateGraph* states = nullptr;  // down to the database's root
 };
 

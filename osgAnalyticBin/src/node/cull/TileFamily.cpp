@@ -309,7 +309,7 @@ void TileFamily::lookUp(const osg::Group& group, unsigned int first, core::Plane
     if (verdicts.hidden == 0 || (view.eye && !view.sight)) return;
     // the plan does not look at borders, and may be that of an eye which came to nothing
     std::uint64_t seen = verdicts.hidden;
-    if (view.eye) seen &= ~_block->partFrom(first).bins.heldIn(*view.sight, seen);
+    if (view.eye) seen &= ~view.sight->heldIn(_block->partFrom(first).bins, seen);
     findSeparated(first, verdicts.members & seen, view.planes, verdicts);
     verdicts.hidden &= ~seen;
 }

@@ -54,20 +54,13 @@ void noteOccluded(const OccludedTiles& tiles, CullTraversal::LastView& last) {
 // What is hidden by the horizon in a view.
 struct Horizon {
     std::optional<core::HorizonEye> eye;
-    std::optional<core::RegionalSight> sight;  // of an eye over a region
+    std::optional<core::CoveredRegion> region;  // that the eye is over
 };
 
 bool isOver(const core::CoveredRegion& region, const Viewpoint& viewpoint) {
     if (!viewpoint.eye()) return false;
     const core::Geodetic at = region.ellipsoid().toGeodetic(*viewpoint.eye());
     return region.contains({{at.latitude, at.latitude}, {at.longitude, at.longitude}, {0.0, 0.0}});
-}
-
-Horizon over(const std::optional<core::CoveredRegion>& region, const std::optional<core::HorizonEye>& eye,
-             const core::PlaneSet& planes) {
-    if (!region || !eye) return {eye, {}};
-    const auto sight = core::RegionalSight::from(*eye, *region, planes);
-    return sight ? Horizon{eye, sight} : Horizon();
 }
 
 // Whether a callback of the application's at the database's root or above may leave tiles out, or have them drawn
@@ -127,7 +120,7 @@ Horizon horizonOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cull
     const auto eye = eyeAboveWhatIsShown(shown, *viewpoint, deepest, last.depth);
     // coarse meshes, while finer ones are awaited, may be too deep for a horizon
     if (findsOccluded) find(eye || (region && planWithoutHorizon(shown, *viewpoint)));
-    return over(region, eye, view.planes);
+    return {eye, region};
 }
 
 // Culled or kept siblings before the database leave a part of the planes behind.
@@ -199,8 +192,9 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
     if (osgUtil::CullVisitor* const visitor = nv.asCullVisitor()) view.states = visitor->getCurrentStateGraph();
     view.plan->clear();
     const Horizon horizon = horizonOver(node, nv, cullStack, *_database, options, view);
+    std::optional<SightOverRegion> sight;
     if (horizon.eye) view.eye = &*horizon.eye;
-    if (horizon.sight && !horizon.sight->holdsAll()) view.sight = &*horizon.sight;
+    if (horizon.eye && horizon.region) view.sight = &sight.emplace(*horizon.eye, *horizon.region, view.planes);
     const CullTraversal::DatabaseScope scope(nv, traversal, view);
     traverse(&node, &nv);
 }
