@@ -95,8 +95,8 @@ private:
         const double twist = between(_random, -0.02, 0.02);
         for (int i = 0; i < kPanels; ++i) {
             for (int j = 0; j < kPanels; ++j) {
-                core::ControlNet inner{3, 3, {}};
-                core::ControlNet outer{3, 3, {}};
+                ControlNet inner{3, 3, {}};
+                ControlNet outer{3, 3, {}};
                 for (int k = 0; k < 16; ++k) {
                     const double x = (i + k / 4 / 3.0 - 0.5 * kPanels) * kPanelSize;
                     const double y = (j + k % 4 / 3.0 - 0.5 * kPanels) * kPanelSize;
@@ -106,7 +106,7 @@ private:
                     inner.points.push_back(_place.toOuter(point));
                     outer.points.push_back(_place.toOuter(point + 0.05 * up));
                 }
-                _parts.push_back(makePanel(core::BezierSolid(inner, outer)));
+                _parts.push_back(makePanel(BezierSolid(inner, outer)));
             }
         }
     }

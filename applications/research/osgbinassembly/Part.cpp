@@ -4,11 +4,11 @@
 #include "Part.h"
 
 #include "Angles.h"
+#include "TorusSegment.h"
 
 #include <osgAnalyticBin/core/bin/AnalyticMapping.h>
 #include <osgAnalyticBin/core/formula/AutodiffMapping.h>
 #include <osgAnalyticBin/core/formula/CylinderSegment.h>
-#include <osgAnalyticBin/core/formula/TorusSegment.h>
 
 #include <glm/geometric.hpp>
 #include <osg/Geometry>
@@ -166,10 +166,10 @@ Part makePipeQuarter(const core::Frame& frame, double radius, double wall, doubl
 Part makeBendQuarter(const core::Frame& frame, double bendRadius, double radius, double wall, int half, int quarter) {
     const core::ParameterBox box{{(0.125 + 0.25 * half) * kPi, (0.25 + 0.5 * quarter) * kPi, radius - 0.5 * wall},
                                  {0.125 * kPi, 0.25 * kPi, 0.5 * wall}};
-    return makePart(core::AutodiffMapping(core::TorusSegment(frame, bendRadius)), box, kBendSteps);
+    return makePart(core::AutodiffMapping(TorusSegment(frame, bendRadius)), box, kBendSteps);
 }
 
-Part makePanel(const core::BezierSolid& panel) {
+Part makePanel(const BezierSolid& panel) {
     return makePart(core::AutodiffMapping(panel), {glm::dvec3(0.5), glm::dvec3(0.5)}, kPanelSteps);
 }
 

@@ -3,9 +3,10 @@
 
 #pragma once
 
+#include "BezierSolid.h"
+
 #include <osgAnalyticBin/core/Frame.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
-#include <osgAnalyticBin/core/formula/BezierSolid.h>
 
 #include <osg/Geode>
 
@@ -30,6 +31,6 @@ struct Part {
                                    int quarter);
 
 /// A curved panel.
-[[nodiscard]] Part makePanel(const core::BezierSolid& panel);
+[[nodiscard]] Part makePanel(const BezierSolid& panel);
 
 }  // namespace osgAnalyticBin::assembly

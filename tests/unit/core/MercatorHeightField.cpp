@@ -3,9 +3,10 @@
 
 #include "MercatorHeightField.h"
 
+#include <osgAnalyticBin/core/formula/FormulaRounding.h>
+
 #include <algorithm>
 #include <cmath>
-#include <core/formula/FormulaRounding.h>
 
 namespace osgAnalyticBin::test {
 

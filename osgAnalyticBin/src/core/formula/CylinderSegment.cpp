@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "FormulaRounding.h"
-
 #include <osgAnalyticBin/core/formula/CylinderSegment.h>
+#include <osgAnalyticBin/core/formula/FormulaRounding.h>
 
 #include <glm/geometric.hpp>
 

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace osgAnalyticBin::core {
+namespace osgAnalyticBin::assembly {
 
 /// The formula of a torus' solid wall, for AutodiffMapping: the bend of a pipe. (bend angle, tube angle, tube radius)
 /// to origin + (bendRadius + r cos tube) (cos bend x + sin bend y) + r sin tube z. The parameter box chooses the piece.
@@ -19,24 +19,24 @@ namespace osgAnalyticBin::core {
 class TorusSegment final {
 public:
     /// The radius of the circle along which the tube's middle runs, in metres.
-    TorusSegment(const Frame& frame, double bendRadius) noexcept : _frame(frame), _bendRadius(bendRadius) {}
+    TorusSegment(const core::Frame& frame, double bendRadius) noexcept : _frame(frame), _bendRadius(bendRadius) {}
 
     /// Radians, radians, metres.
     template <class T>
-    [[nodiscard]] Vec3<T> operator()(T bend, T tube, T radius) const {
+    [[nodiscard]] core::Vec3<T> operator()(T bend, T tube, T radius) const {
         using std::cos;
         using std::sin;
         const T distance = radius * cos(tube) + _bendRadius;
-        return combined<T>(_frame.origin, distance * cos(bend), _frame.x, distance * sin(bend), _frame.y,
-                           radius * sin(tube), _frame.z);
+        return core::combined<T>(_frame.origin, distance * cos(bend), _frame.x, distance * sin(bend), _frame.y,
+                                 radius * sin(tube), _frame.z);
     }
 
     /// See AnalyticMapping; holds for every box.
-    [[nodiscard]] double remainder(const ParameterBox& box) const noexcept;
+    [[nodiscard]] double remainder(const core::ParameterBox& box) const noexcept;
 
 private:
-    Frame _frame;
+    core::Frame _frame;
     double _bendRadius;
 };
 
-}  // namespace osgAnalyticBin::core
+}  // namespace osgAnalyticBin::assembly

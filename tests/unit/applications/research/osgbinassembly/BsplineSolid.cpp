@@ -38,17 +38,17 @@ Line bezierLine(const Line& points, const Knots& knots, std::size_t span, std::s
     return result;
 }
 
-core::ControlNet bezierNet(const core::ControlNet& net, const Knots& knotsU, std::size_t spanU, const Knots& knotsV,
-                           std::size_t spanV) {
+assembly::ControlNet bezierNet(const assembly::ControlNet& net, const Knots& knotsU, std::size_t spanU,
+                               const Knots& knotsV, std::size_t spanV) {
     const std::size_t degreeU = knotsU.size() - net.degreeU - 2;
     const std::size_t degreeV = knotsV.size() - net.degreeV - 2;
-    core::ControlNet rows{net.degreeU, degreeV, {}};
+    assembly::ControlNet rows{net.degreeU, degreeV, {}};
     for (std::size_t i = 0; i <= net.degreeU; ++i) {
         Line row;
         for (std::size_t j = 0; j <= net.degreeV; ++j) row.push_back(net.at(i, j));
         for (const glm::dvec3& p : bezierLine(row, knotsV, spanV, degreeV)) rows.points.push_back(p);
     }
-    core::ControlNet result{degreeU, degreeV, Line((degreeU + 1) * (degreeV + 1))};
+    assembly::ControlNet result{degreeU, degreeV, Line((degreeU + 1) * (degreeV + 1))};
     for (std::size_t j = 0; j <= degreeV; ++j) {
         Line column;
         for (std::size_t i = 0; i <= net.degreeU; ++i) column.push_back(rows.at(i, j));
@@ -69,11 +69,11 @@ std::vector<std::size_t> spans(const Knots& knots, std::size_t lastPoint) {
 
 }  // namespace
 
-std::vector<core::BezierSolid> bezierSolids(const core::ControlNet& inner, const core::ControlNet& outer,
-                                            const Knots& knotsU, const Knots& knotsV) {
+std::vector<assembly::BezierSolid> bezierSolids(const assembly::ControlNet& inner, const assembly::ControlNet& outer,
+                                                const Knots& knotsU, const Knots& knotsV) {
     assert(inner.degreeU == outer.degreeU && inner.degreeV == outer.degreeV);
     assert(knotsU.size() >= inner.degreeU + 3 && knotsV.size() >= inner.degreeV + 3);
-    std::vector<core::BezierSolid> result;
+    std::vector<assembly::BezierSolid> result;
     for (const std::size_t u : spans(knotsU, inner.degreeU)) {
         for (const std::size_t v : spans(knotsV, inner.degreeV)) {
             result.emplace_back(bezierNet(inner, knotsU, u, knotsV, v), bezierNet(outer, knotsU, u, knotsV, v));

@@ -1,28 +1,28 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "FormulaRounding.h"
+#include "TorusSegment.h"
 
+#include <osgAnalyticBin/core/formula/FormulaRounding.h>
 #include <osgAnalyticBin/core/formula/IntervalNumber.h>
-#include <osgAnalyticBin/core/formula/TorusSegment.h>
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-namespace osgAnalyticBin::core {
+namespace osgAnalyticBin::assembly {
 
-double TorusSegment::remainder(const ParameterBox& box) const noexcept {
+double TorusSegment::remainder(const core::ParameterBox& box) const noexcept {
     const double a = box.halfSize.x;
     const double b = box.halfSize.y;
     const double dr = box.halfSize.z;
     const double r = std::abs(box.center.z) + dr;
-    const IntervalNumber tube = IntervalNumber(box.center.y) + IntervalNumber(-b, b);
+    const core::IntervalNumber tube = core::IntervalNumber(box.center.y) + core::IntervalNumber(-b, b);
     const double c = cos(tube).magnitude();
     const double s = sin(tube).magnitude();
     // The distance from the axis, P, with bounds of its differentials; of those of (P, z) together, the tube's circle
-    const IntervalNumber radius = IntervalNumber(box.center.z) + IntervalNumber(-dr, dr);
+    const core::IntervalNumber radius = core::IntervalNumber(box.center.z) + core::IntervalNumber(-dr, dr);
     const double p0 = (radius * cos(tube) + _bendRadius).magnitude();
     const double p1 = std::min(std::hypot(r * b, dr), s * r * b + c * dr);
     const double p2 = std::min(std::hypot(r * b * b, 2.0 * b * dr), c * r * b * b + 2.0 * s * b * dr);
@@ -32,7 +32,7 @@ double TorusSegment::remainder(const ParameterBox& box) const noexcept {
     const double along = 3.0 * a * p2 + a * a * a * p0;
     const double angles = (1.0 + a + b) * (1.0 + a + b);
     const double size = glm::length(_frame.origin) + (std::abs(_bendRadius) + 2.0 * r) * angles;
-    return withRounding(std::hypot(across, along) / 6.0, size);
+    return core::withRounding(std::hypot(across, along) / 6.0, size);
 }
 
-}  // namespace osgAnalyticBin::core
+}  // namespace osgAnalyticBin::assembly

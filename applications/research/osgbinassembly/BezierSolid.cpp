@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "FormulaRounding.h"
+#include "BezierSolid.h"
 
-#include <osgAnalyticBin/core/formula/BezierSolid.h>
+#include <osgAnalyticBin/core/formula/FormulaRounding.h>
 
 #include <glm/geometric.hpp>
 
@@ -14,7 +14,7 @@
 #include <limits>
 #include <utility>
 
-namespace osgAnalyticBin::core {
+namespace osgAnalyticBin::assembly {
 
 namespace {
 
@@ -22,7 +22,7 @@ namespace {
 // this.
 constexpr double kBeyond = 1e-15;
 
-bool isWithinUnitCube(const ParameterBox& box) {
+bool isWithinUnitCube(const core::ParameterBox& box) {
     for (glm::length_t axis = 0; axis < 3; ++axis) {
         const bool within =
             box.center[axis] - box.halfSize[axis] >= -kBeyond && box.center[axis] + box.halfSize[axis] <= 1.0 + kBeyond;
@@ -46,7 +46,7 @@ void cut(std::vector<glm::dvec3>& points, double from, double to) {
     }
 }
 
-ControlNet cutNet(ControlNet net, const ParameterBox& box) {
+ControlNet cutNet(ControlNet net, const core::ParameterBox& box) {
     const auto cutLine = [&](std::size_t count, glm::length_t axis, auto&& at) {
         std::vector<glm::dvec3> line(count);
         for (std::size_t k = 0; k < count; ++k) line[k] = at(k);
@@ -128,13 +128,13 @@ BezierSolid::BezierSolid(ControlNet inner, ControlNet outer) : _inner(std::move(
     assert(_outer.points.size() == _inner.points.size());
 }
 
-double BezierSolid::remainder(const ParameterBox& box) const noexcept {
+double BezierSolid::remainder(const core::ParameterBox& box) const noexcept {
     if (!isWithinUnitCube(box)) return std::numeric_limits<double>::infinity();
     // The hull of a net is tighter on a piece: four pieces, whose width is a half size of the box.
     double differential = 0.0;
     for (const double u : {-0.5, 0.5}) {
         for (const double v : {-0.5, 0.5}) {
-            ParameterBox piece = box;
+            core::ParameterBox piece = box;
             piece.center += glm::dvec3(u * box.halfSize.x, v * box.halfSize.y, 0.0);
             piece.halfSize *= glm::dvec3(0.5, 0.5, 1.0);
             const ControlNet bottom = cutNet(between(_inner, _outer, box.center.z - box.halfSize.z), piece);
@@ -142,10 +142,10 @@ double BezierSolid::remainder(const ParameterBox& box) const noexcept {
             differential = std::max(differential, differentialBound(bottom, top));
         }
     }
-    return withRounding(differential / 6.0, roundingSize());
+    return core::withRounding(differential / 6.0, roundingSize());
 }
 
-double BezierSolid::triangleSagBound(const ParameterBox& box, const glm::dvec3& cell) const noexcept {
+double BezierSolid::triangleSagBound(const core::ParameterBox& box, const glm::dvec3& cell) const noexcept {
     if (!isWithinUnitCube(box)) return std::numeric_limits<double>::infinity();
     const ControlNet bottom = cutNet(between(_inner, _outer, box.center.z - box.halfSize.z), box);
     const ControlNet top = cutNet(between(_inner, _outer, box.center.z + box.halfSize.z), box);
@@ -161,7 +161,7 @@ double BezierSolid::triangleSagBound(const ParameterBox& box, const glm::dvec3& 
         face(2, 0) * share.x * share.x + face(0, 2) * share.y * share.y +
         2.0 * (face(1, 1) * share.x * share.y + largest(derivative(thickness, 1, 0)) * share.x * share.z +
                largest(derivative(thickness, 0, 1)) * share.y * share.z);
-    return withRounding(sum / 8.0, 6.0 * roundingSize());
+    return core::withRounding(sum / 8.0, 6.0 * roundingSize());
 }
 
 double BezierSolid::roundingSize() const noexcept {
@@ -170,4 +170,4 @@ double BezierSolid::roundingSize() const noexcept {
     return 32.0 * degree * degree * degree * degree * std::max(largest(_inner), largest(_outer));
 }
 
-}  // namespace osgAnalyticBin::core
+}  // namespace osgAnalyticBin::assembly

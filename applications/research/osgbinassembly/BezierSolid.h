@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace osgAnalyticBin::core {
+namespace osgAnalyticBin::assembly {
 
 /// The control points of a Bezier patch, (degreeU + 1) rows of (degreeV + 1).
 struct ControlNet {
@@ -43,29 +43,29 @@ public:
 
     /// The point of the solid at u, v, w.
     template <class T>
-    [[nodiscard]] Vec3<T> operator()(T u, T v, T w) const {
-        const Vec3<T> a = point(_inner, u, v);
-        const Vec3<T> b = point(_outer, u, v);
+    [[nodiscard]] core::Vec3<T> operator()(T u, T v, T w) const {
+        const core::Vec3<T> a = point(_inner, u, v);
+        const core::Vec3<T> b = point(_outer, u, v);
         return mixed(a, b, w);
     }
 
     /// See AnalyticMapping.
-    [[nodiscard]] double remainder(const ParameterBox& box) const noexcept;
+    [[nodiscard]] double remainder(const core::ParameterBox& box) const noexcept;
 
     /// See AutodiffMapping. Uses the convex-hull property, too, which gives far tighter bounds than intervals.
-    [[nodiscard]] double triangleSagBound(const ParameterBox& box, const glm::dvec3& cell) const noexcept;
+    [[nodiscard]] double triangleSagBound(const core::ParameterBox& box, const glm::dvec3& cell) const noexcept;
 
 private:
     [[nodiscard]] double roundingSize() const noexcept;
 
     template <class T>
-    [[nodiscard]] static Vec3<T> mixed(const Vec3<T>& a, const Vec3<T>& b, const T& t) {
+    [[nodiscard]] static core::Vec3<T> mixed(const core::Vec3<T>& a, const core::Vec3<T>& b, const T& t) {
         return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t};
     }
 
     // De Casteljau's steps, in place.
     template <class T>
-    [[nodiscard]] static Vec3<T> reduced(std::vector<Vec3<T>>& points, const T& t) {
+    [[nodiscard]] static core::Vec3<T> reduced(std::vector<core::Vec3<T>>& points, const T& t) {
         for (std::size_t n = points.size() - 1; n > 0; --n) {
             for (std::size_t i = 0; i < n; ++i) points[i] = mixed(points[i], points[i + 1], t);
         }
@@ -73,10 +73,10 @@ private:
     }
 
     template <class T>
-    [[nodiscard]] static Vec3<T> point(const ControlNet& net, const T& u, const T& v) {
-        std::vector<Vec3<T>> column;
+    [[nodiscard]] static core::Vec3<T> point(const ControlNet& net, const T& u, const T& v) {
+        std::vector<core::Vec3<T>> column;
         for (std::size_t i = 0; i <= net.degreeU; ++i) {
-            std::vector<Vec3<T>> row;
+            std::vector<core::Vec3<T>> row;
             for (std::size_t j = 0; j <= net.degreeV; ++j) {
                 const glm::dvec3& p = net.at(i, j);
                 row.push_back({T(p.x), T(p.y), T(p.z)});
@@ -90,4 +90,4 @@ private:
     ControlNet _outer;
 };
 
-}  // namespace osgAnalyticBin::core
+}  // namespace osgAnalyticBin::assembly

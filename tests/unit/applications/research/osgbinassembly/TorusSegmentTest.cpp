@@ -3,8 +3,9 @@
 
 // Oracles: see support/MappingChecks.h; the interval bound of the same formula.
 
+#include "TorusSegment.h"
+
 #include <osgAnalyticBin/core/formula/AutodiffMapping.h>
-#include <osgAnalyticBin/core/formula/TorusSegment.h>
 
 #include <gtest/gtest.h>
 
@@ -16,10 +17,10 @@
 namespace osgAnalyticBin::test {
 namespace {
 
+using assembly::TorusSegment;
 using core::AutodiffMapping;
 using core::Frame;
 using core::ParameterBox;
-using core::TorusSegment;
 
 // The formula alone, without the bound it brings.
 struct UnboundedTorus {

@@ -7,7 +7,6 @@
 #include "BsplineSolid.h"
 
 #include <osgAnalyticBin/core/formula/AutodiffMapping.h>
-#include <osgAnalyticBin/core/formula/BezierSolid.h>
 
 #include <gtest/gtest.h>
 
@@ -19,9 +18,9 @@
 namespace osgAnalyticBin::test {
 namespace {
 
+using assembly::BezierSolid;
+using assembly::ControlNet;
 using core::AutodiffMapping;
-using core::BezierSolid;
-using core::ControlNet;
 using core::ParameterBox;
 
 // A panel: a plane grid of points, moved by up to `roughness` of the grid's step.
