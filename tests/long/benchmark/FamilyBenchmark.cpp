@@ -78,7 +78,7 @@ struct FamilyTest {
         std::uint64_t kept = kAllSiblings & ~verdict.outside;
         if (frustum.horizon && kept != 0) kept &= ~families[family].hiddenFrom(*frustum.horizon, kept);
         for (std::uint64_t left = kept & ~verdict.insideAll; left != 0; left &= left - 1) {
-            const unsigned k = core::kernels::firstBit(left);
+            const unsigned k = firstBit(left);
             const ExactGeodeticBin& bin = bins[kSiblings * family + k];
             if (core::isSeparated(bin, frustum.set, frustum.set.size(), verdict.undecided[k])) kept &= ~(1ULL << k);
         }

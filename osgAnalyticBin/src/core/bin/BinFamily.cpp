@@ -126,7 +126,7 @@ std::uint64_t BinFamily::heldIn(const RegionalSight& sight, std::uint64_t candid
     const double* const first = _data.numbers + row::kBinRows * _data.stride;
     std::uint64_t held = 0;
     for (std::uint64_t left = candidates & _data.filled; left != 0; left &= left - 1) {
-        const unsigned i = kernels::firstBit(left);
+        const unsigned i = firstBit(left);
         if (sight.holds(first + i, _data.stride)) held |= kFirst << i;
     }
     return held;

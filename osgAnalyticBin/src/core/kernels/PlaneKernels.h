@@ -3,30 +3,17 @@
 
 #pragma once
 
+#include "../Bits.h"
+
 #include <osgAnalyticBin/core/bin/KernelData.h>
 
 #include <cstddef>
 #include <cstdint>
 
-#if defined(_MSC_VER) && !defined(__clang__)
-#include <intrin.h>
-#endif
-
 /// The frustum and horizon tests, compiled for several instruction sets from one source. The forms agree bit for bit.
 /// Tests run in stages over all planes: sphere, coarse form, fine form, exact range. When one finds a plane outside, or
 /// leaves none open, the next is left out.
 namespace osgAnalyticBin::core::kernels {
-
-/// The number of the lowest bit. Requires: one is set.
-[[nodiscard]] inline unsigned firstBit(std::uint64_t bits) noexcept {
-#if defined(_MSC_VER) && !defined(__clang__)
-    unsigned long first = 0;
-    _BitScanForward64(&first, bits);
-    return static_cast<unsigned>(first);
-#else
-    return static_cast<unsigned>(__builtin_ctzll(bits));
-#endif
-}
 
 /// The verdicts of the planes on a bin, one bit each; the masks do not overlap. They share one register: storing masks
 /// of 32 bits separately and reading them together costs more than the whole first test.

@@ -42,7 +42,7 @@ void HorizonBuffer::add(const EarthColumns& columns) {
         _picture, {columns._corners.data(), columns._error.data(), kMost, columns._size}, rows.data());
     _nearestEarth2 = std::min(_nearestEarth2, walls.nearest2);
     for (std::uint64_t left = walls.bits; left != 0; left &= left - 1) {
-        const double* const numbers = rows.data() + kernels::firstBit(left);
+        const double* const numbers = rows.data() + firstBit(left);
         Wall wall;
         for (std::size_t row = 0; row < WallRow::kCount; ++row) wall[row] = numbers[row * kMost];
         const Strips strips = stripsOf(wall);

@@ -98,26 +98,47 @@ DrawnState ofProgram(const osg::Program& program, const StateRules& rules) {
     return isDeclared ? kHarmless : kUnknown;
 }
 
+DrawnState ofCullFace(const osg::CullFace& face) {
+    return face.getMode() == osg::CullFace::BACK ? kHarmless : kHidesNothing;
+}
+
+DrawnState ofFrontFace(const osg::FrontFace& face, const StateRules& rules) {
+    const bool isClockwise = face.getMode() == osg::FrontFace::CLOCKWISE;
+    return isClockwise == rules.isClockwise ? kHarmless : kHidesNothing;
+}
+
+// Of an attribute whose type is that of the class, if it is of no class derived from it.
+template <class Class, class Of, class... Rules>
+DrawnState ofExactly(const Attribute& attribute, const Of& of, const Rules&... rules) {
+    return isOneOf<Class>(attribute) ? of(static_cast<const Class&>(attribute), rules...) : kUnknown;
+}
+
 DrawnState ofAttribute(const Attribute& attribute, const StateRules& rules) {
     if (attribute.getShaderComponent()) return kUnknown;
-    if (isOneOf<osg::CullFace>(attribute)) {
-        const bool isBack = static_cast<const osg::CullFace&>(attribute).getMode() == osg::CullFace::BACK;
-        return isBack ? kHarmless : kHidesNothing;
+    switch (attribute.getType()) {
+        case Attribute::CULLFACE:
+            return ofExactly<osg::CullFace>(attribute, ofCullFace);
+        case Attribute::FRONTFACE:
+            return ofExactly<osg::FrontFace>(attribute, ofFrontFace, rules);
+        case Attribute::DEPTH:
+            return ofExactly<osg::Depth>(attribute, ofDepth);
+        case Attribute::POLYGONMODE:
+            return ofExactly<osg::PolygonMode>(attribute, ofPolygonMode);
+        case Attribute::COLORMASK:
+            return ofExactly<osg::ColorMask>(attribute, ofColorMask);
+        case Attribute::PROGRAM:
+            return ofExactly<osg::Program>(attribute, ofProgram, rules);
+        case Attribute::VIEWPORT:
+            return &attribute == rules.viewport ? kHarmless : kUnknown;
+        default:
+            break;
     }
-    if (isOneOf<osg::FrontFace>(attribute)) {
-        const bool isClockwise = static_cast<const osg::FrontFace&>(attribute).getMode() == osg::FrontFace::CLOCKWISE;
-        return isClockwise == rules.isClockwise ? kHarmless : kHidesNothing;
-    }
-    if (isOneOf<osg::Depth>(attribute)) return ofDepth(static_cast<const osg::Depth&>(attribute));
-    if (isOneOf<osg::PolygonMode>(attribute)) return ofPolygonMode(static_cast<const osg::PolygonMode&>(attribute));
-    if (isOneOf<osg::ColorMask>(attribute)) return ofColorMask(static_cast<const osg::ColorMask&>(attribute));
-    if (isOneOf<osg::Program>(attribute)) return ofProgram(static_cast<const osg::Program&>(attribute), rules);
     // the others only matter while a mode is on, and are known by the mode
-    if (isOneOf<osg::Material, osg::Light, osg::LightModel, osg::Fog, osg::ShadeModel, osg::AlphaFunc, osg::BlendFunc,
+    const bool isKnown =
+        isOneOf<osg::Material, osg::Light, osg::LightModel, osg::Fog, osg::ShadeModel, osg::AlphaFunc, osg::BlendFunc,
                 osg::BlendEquation, osg::BlendColor, osg::Scissor, osg::LogicOp, osg::PolygonStipple, osg::LineWidth,
-                osg::LineStipple, osg::Point, osg::Hint, osg::ClampColor, osg::Multisample, osg::ClipPlane>(attribute))
-        return kHarmless;
-    return &attribute == rules.viewport ? kHarmless : kUnknown;
+                osg::LineStipple, osg::Point, osg::Hint, osg::ClampColor, osg::Multisample, osg::ClipPlane>(attribute);
+    return isKnown ? kHarmless : kUnknown;
 }
 
 DrawnState ofTextureAttribute(const Attribute& attribute) {

@@ -12,7 +12,7 @@
 #include "../install/ContentWatch.h"
 #include "../install/InstalledTile.h"
 #include "BinCulling.h"
-#include "Bits.h"
+#include "../../core/Bits.h"
 #include "CullCallbacks.h"
 #include "CullTraversal.h"
 #include "DrawnState.h"
@@ -216,10 +216,10 @@ private:
         if (planes == 0 || !node.isCullingActive()) return false;
         const osg::BoundingSphere sphere = sphereOf(node);
         if (!sphere.valid()) return false;
-        for (std::size_t i = 0; i < _planes.size(); ++i) {
-            const bool isTested = ((planes >> i) & 1) != 0;
-            if (isTested && _planes[i].distance(osg::Vec3d(sphere.center())) < -static_cast<double>(sphere.radius()))
-                return true;
+        const osg::Vec3d center(sphere.center());
+        for (std::uint64_t left = planes & lowestBits(static_cast<unsigned int>(_planes.size())); left != 0;
+             left &= left - 1) {
+            if (_planes[firstBit(left)].distance(center) < -static_cast<double>(sphere.radius())) return true;
         }
         return false;
     }

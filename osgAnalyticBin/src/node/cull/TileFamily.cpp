@@ -10,7 +10,7 @@
 #include "../page/Database.h"
 #include "../surface/TilePlates.h"
 #include "BinCulling.h"
-#include "Bits.h"
+#include "../../core/Bits.h"
 #include "CullCallbacks.h"
 #include "DrawnState.h"
 #include "TilePlan.h"

@@ -3,7 +3,7 @@
 
 #include "TilePlan.h"
 
-#include "Bits.h"
+#include "../../core/Bits.h"
 
 #include <algorithm>
 #include <functional>

@@ -6,6 +6,10 @@
 #include <bitset>
 #include <cstdint>
 
+#if defined(_MSC_VER) && !defined(__clang__)
+#include <intrin.h>
+#endif
+
 namespace osgAnalyticBin {
 
 /// Requires: count <= 64.
@@ -21,12 +25,21 @@ namespace osgAnalyticBin {
     return bits == 0 ? 0 : static_cast<std::uint32_t>(std::bitset<64>(bits).count());
 }
 
+/// The number of the lowest bit. Requires: one is set.
+[[nodiscard]] inline unsigned firstBit(std::uint64_t bits) noexcept {
+#if defined(_MSC_VER) && !defined(__clang__)
+    unsigned long first = 0;
+    _BitScanForward64(&first, bits);
+    return static_cast<unsigned>(first);
+#else
+    return static_cast<unsigned>(__builtin_ctzll(bits));
+#endif
+}
+
 /// Calls `visit(number)` for each bit that is set, the lowest first.
 template <class Visit>
 void forEachBit(std::uint64_t bits, const Visit& visit) {
-    for (unsigned int number = 0; bits != 0; ++number, bits >>= 1) {
-        if (bits & 1) visit(number);
-    }
+    for (; bits != 0; bits &= bits - 1) visit(firstBit(bits));
 }
 
 }  // namespace osgAnalyticBin
