@@ -3,8 +3,9 @@
 
 #pragma once
 
+#include "SpyViewHandler.h"
+
 #include <osgAnalyticBin/viewer/CameraPath.h>
-#include <osgAnalyticBin/viewer/SpyViewHandler.h>
 
 #include <osgViewer/Viewer>
 

@@ -1,21 +1,21 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "BinDisplayHandler.h"
+#include "CoveredPictureHandler.h"
+#include "FreezeCullHandler.h"
 #include "HomeView.h"
+#include "MethodSwitchHandler.h"
 #include "ModuleFolder.h"
+#include "PathRecorder.h"
 #include "ProgramRun.h"
 #include "Settings.h"
+#include "SpyViewHandler.h"
 #include "Steps.h"
 #include "WithoutAnisotropy.h"
 
 #include <osgAnalyticBin/Version.h>
-#include <osgAnalyticBin/viewer/BinDisplayHandler.h>
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
-#include <osgAnalyticBin/viewer/CoveredPictureHandler.h>
-#include <osgAnalyticBin/viewer/FreezeCullHandler.h>
-#include <osgAnalyticBin/viewer/MethodSwitchHandler.h>
-#include <osgAnalyticBin/viewer/PathRecorder.h>
-#include <osgAnalyticBin/viewer/SpyViewHandler.h>
 
 #include <osgDB/Registry>
 #include <osgGA/AnimationPathManipulator>
@@ -65,8 +65,8 @@ osg::ref_ptr<osgGA::CameraManipulator> makeManipulator(const viewer::Settings& s
     return keys;
 }
 
-osg::ref_ptr<SpyViewHandler> addHandlers(osgViewer::Viewer& viewer, const viewer::Settings& settings,
-                                         osg::ApplicationUsage& usage) {
+osg::ref_ptr<viewer::SpyViewHandler> addHandlers(osgViewer::Viewer& viewer, const viewer::Settings& settings,
+                                                 osg::ApplicationUsage& usage) {
     viewer.addEventHandler(new osgGA::StateSetManipulator(viewer.getCamera()->getOrCreateStateSet()));
     viewer.addEventHandler(new osgViewer::ThreadingHandler);
     viewer.addEventHandler(new osgViewer::WindowSizeHandler);
@@ -77,15 +77,15 @@ osg::ref_ptr<SpyViewHandler> addHandlers(osgViewer::Viewer& viewer, const viewer
     const osg::ref_ptr<osgViewer::StatsHandler> stats = new osgViewer::StatsHandler;
     viewer.addEventHandler(new BinStatsHandler(*stats));
     viewer.addEventHandler(stats);
-    viewer.addEventHandler(new FreezeCullHandler);
-    viewer.addEventHandler(new BinDisplayHandler);
-    viewer.addEventHandler(new CoveredPictureHandler);
-    viewer.addEventHandler(new MethodSwitchHandler(settings.cullOptions));
-    const osg::ref_ptr<PathRecorder> recorder =
-        new PathRecorder(settings.record.empty() ? "recorded.csv" : settings.record);
+    viewer.addEventHandler(new viewer::FreezeCullHandler);
+    viewer.addEventHandler(new viewer::BinDisplayHandler);
+    viewer.addEventHandler(new viewer::CoveredPictureHandler);
+    viewer.addEventHandler(new viewer::MethodSwitchHandler(settings.cullOptions));
+    const osg::ref_ptr<viewer::PathRecorder> recorder =
+        new viewer::PathRecorder(settings.record.empty() ? "recorded.csv" : settings.record);
     recorder->setRecording(!settings.record.empty());
     viewer.addEventHandler(recorder);
-    const osg::ref_ptr<SpyViewHandler> spy = new SpyViewHandler;
+    const osg::ref_ptr<viewer::SpyViewHandler> spy = new viewer::SpyViewHandler;
     viewer.addEventHandler(spy);
     return spy;
 }
@@ -129,7 +129,7 @@ osg::ref_ptr<osg::Node> readDatabase(const viewer::NamedDatabase& database) {
     throw std::runtime_error(database.given + ": " + result.statusMessage());
 }
 
-ExitCode runSteps(osgViewer::Viewer& viewer, const viewer::Settings& settings, SpyViewHandler& spy) {
+ExitCode runSteps(osgViewer::Viewer& viewer, const viewer::Settings& settings, viewer::SpyViewHandler& spy) {
     std::vector<flight::CameraPose> poses;
     if (!settings.poses.empty()) {
         std::string error;
@@ -166,7 +166,7 @@ ExitCode show(osg::ArgumentParser& arguments) {
     }
     if (!error.empty()) throw std::runtime_error(error);
     viewer.setSceneData(scene->getNumChildren() == 1 ? scene->getChild(0) : scene.get());
-    const osg::ref_ptr<SpyViewHandler> spy = addHandlers(viewer, settings, *arguments.getApplicationUsage());
+    const osg::ref_ptr<viewer::SpyViewHandler> spy = addHandlers(viewer, settings, *arguments.getApplicationUsage());
     if (!settings.steps.empty()) return runSteps(viewer, settings, *spy);
     viewer.setCameraManipulator(makeManipulator(settings, *viewer.getSceneData()));
     realize(viewer);

@@ -38,7 +38,7 @@ Culls each tile of a paged terrain database by its box in latitude, longitude
 and altitude in place of a bounding sphere. A tile is culled only when it is
 proven to be out of view.
 .
-This package has the library, event handlers for viewers, and the plugins that
+This package has the library, statistics for viewers, and the plugins that
 osgviewer and every other application of OpenSceneGraph find by themselves:
 \"osgviewer earth.ive.analyticbin\".")
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "ViewTools.h"
-
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
+#include <osgAnalyticBin/viewer/CameraCulling.h>
 #include <osgAnalyticBin/viewer/TileSurvey.h>
 #include <osgAnalyticBin/viewer/ViewerCounts.h>
 
 #include <osg/Stats>
+#include <osgViewer/View>
 #include <osgViewer/ViewerBase>
 #include <osgViewer/ViewerEventHandlers>
 
@@ -64,13 +64,13 @@ BinStatsHandler::BinStatsHandler(osgViewer::StatsHandler& stats, unsigned int ca
 BinStatsHandler::~BinStatsHandler() = default;
 
 bool BinStatsHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) {
-    osgViewer::View* view = viewOf(action);
+    auto* view = dynamic_cast<osgViewer::View*>(action.asView());
     if (!view || event.getEventType() != osgGA::GUIEventAdapter::FRAME) return false;
     osg::Stats* stats = view->getViewerBase()->getViewerStats();
     osg::FrameStamp& frameStamp = *view->getFrameStamp();
     // what the StatsHandler asks for as long as it shows anything
     if (!stats || !stats->collectStats("frame_rate") || frameStamp.getFrameNumber() == 0) return false;
-    const std::vector<osg::Camera*> cameras = drawingCameras(*view);
+    const std::vector<osg::Camera*> cameras = CameraCulling::drawingCameras(*view);
     for (unsigned int i = 0; i < _cameras && i < cameras.size(); ++i) {
         const TileCounts counts = countsOf(*cameras[i], frameStamp);
         for (const Line& line : kLines) {

@@ -6,8 +6,18 @@
 #include <osgAnalyticBin/viewer/CameraCulling.h>
 
 #include <osgUtil/CullVisitor>
+#include <osgViewer/View>
 
 namespace osgAnalyticBin {
+
+namespace {
+
+bool draws(osg::Camera& camera) {
+    const CameraCulling* culling = CameraCulling::find(camera);
+    return camera.getGraphicsContext() && camera.getViewport() && !(culling && culling->isFollowing());
+}
+
+}  // namespace
 
 CameraCulling::CameraCulling() : _overlay(new osg::Group) {
     // DYNAMIC meshes are drawn before they change; near and far planes are the scene's alone
@@ -31,6 +41,16 @@ CameraCulling& CameraCulling::of(osg::Camera& camera) {
     const osg::ref_ptr<CameraCulling> made = new CameraCulling;
     camera.addCullCallback(made);
     return *made;
+}
+
+std::vector<osg::Camera*> CameraCulling::drawingCameras(osgViewer::View& view) {
+    std::vector<osg::Camera*> cameras;
+    if (draws(*view.getCamera())) cameras.push_back(view.getCamera());
+    for (unsigned int i = 0; i < view.getNumSlaves(); ++i) {
+        const osg::View::Slave& slave = view.getSlave(i);
+        if (slave._useMastersSceneData && slave._camera && draws(*slave._camera)) cameras.push_back(slave._camera);
+    }
+    return cameras;
 }
 
 std::optional<CullingView> CameraCulling::foreignView() const {

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "ViewTools.h"
-
 #include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/viewer/CameraView.h>
 
@@ -15,6 +13,23 @@
 namespace osgAnalyticBin::flight {
 
 namespace {
+
+class GlobeFinder : public osg::NodeVisitor {
+public:
+    GlobeFinder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Node& node) override {
+        if (!found) traverse(node);
+    }
+    void apply(osg::CoordinateSystemNode& node) override {
+        if (!found && node.getEllipsoidModel() && hasValidRadii(*node.getEllipsoidModel())) {
+            found = Globe{node.getEllipsoidModel(), osg::computeLocalToWorld(getNodePath())};
+        }
+        apply(static_cast<osg::Node&>(node));
+    }
+
+    std::optional<Globe> found;
+};
 
 // Sine of the angle to the vertical below which the horizon has no "up": 0.006 degrees.
 constexpr double kStraight = 1e-4;
@@ -59,9 +74,15 @@ osg::Vec3d directionToWorld(const osg::Vec3d& direction, const Globe& globe) {
 
 }  // namespace
 
+std::optional<Globe> findGlobe(osg::Node& scene) {
+    GlobeFinder finder;
+    scene.accept(finder);
+    return finder.found;
+}
+
 Globe globeOf(osg::Node& scene) {
     if (const auto map = mapOf(scene)) return *map;
-    if (const auto globe = osgAnalyticBin::globeOf(scene)) return {globe->ellipsoid, globe->toWorld};
+    if (const auto globe = findGlobe(scene)) return *globe;
     return {new osg::EllipsoidModel, osg::Matrixd()};
 }
 

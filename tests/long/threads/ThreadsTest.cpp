@@ -5,16 +5,16 @@
 // DatabasePager. Built with the thread sanitizer (preset tsan) this fails on data races; without, on crashes, hangs and
 // tiles that never come. Needs a display; skipped where no graphics context can be made.
 
+#include "BinDisplayHandler.h"
+#include "FreezeCullHandler.h"
+#include "MethodSwitchHandler.h"
 #include "PagedScenes.h"
+#include "SpyViewHandler.h"
 #include "ViewerRig.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/viewer/BinDisplayHandler.h>
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
-#include <osgAnalyticBin/viewer/FreezeCullHandler.h>
-#include <osgAnalyticBin/viewer/MethodSwitchHandler.h>
-#include <osgAnalyticBin/viewer/SpyViewHandler.h>
 #include <osgAnalyticBin/viewer/TileSurvey.h>
 
 #include <gtest/gtest.h>
@@ -94,11 +94,11 @@ public:
         : _rig(rig),
           _scene(scene),
           _stats(new osgViewer::StatsHandler),
-          _freeze(new FreezeCullHandler),
-          _switch(new MethodSwitchHandler(optionsWith(Method::Quadratic))),
-          _display(new BinDisplayHandler),
-          _spy(new SpyViewHandler) {
-        _display->setShown(BinDisplayHandler::Shown::All);
+          _freeze(new viewer::FreezeCullHandler),
+          _switch(new viewer::MethodSwitchHandler(optionsWith(Method::Quadratic))),
+          _display(new viewer::BinDisplayHandler),
+          _spy(new viewer::SpyViewHandler) {
+        _display->setShown(viewer::BinDisplayHandler::Shown::All);
         rig.view().addEventHandler(new BinStatsHandler(*_stats));
         rig.view().addEventHandler(_display);
         rig.view().addEventHandler(_switch);
@@ -133,10 +133,10 @@ private:
     ViewerRig& _rig;
     osg::Group& _scene;
     const osg::ref_ptr<osgViewer::StatsHandler> _stats;
-    const osg::ref_ptr<FreezeCullHandler> _freeze;
-    const osg::ref_ptr<MethodSwitchHandler> _switch;
-    const osg::ref_ptr<BinDisplayHandler> _display;
-    const osg::ref_ptr<SpyViewHandler> _spy;
+    const osg::ref_ptr<viewer::FreezeCullHandler> _freeze;
+    const osg::ref_ptr<viewer::MethodSwitchHandler> _switch;
+    const osg::ref_ptr<viewer::BinDisplayHandler> _display;
+    const osg::ref_ptr<viewer::SpyViewHandler> _spy;
 };
 
 osg::ref_ptr<osg::Group> readScene(const std::vector<std::string>& files) {

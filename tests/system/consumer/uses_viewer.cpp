@@ -1,13 +1,10 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <osgAnalyticBin/viewer/BinDisplayHandler.h>
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
+#include <osgAnalyticBin/viewer/CameraCulling.h>
 #include <osgAnalyticBin/viewer/CameraPath.h>
-#include <osgAnalyticBin/viewer/FreezeCullHandler.h>
-#include <osgAnalyticBin/viewer/MethodSwitchHandler.h>
-#include <osgAnalyticBin/viewer/PathRecorder.h>
-#include <osgAnalyticBin/viewer/SpyViewHandler.h>
+#include <osgAnalyticBin/viewer/ViewerCounts.h>
 
 #include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
@@ -18,12 +15,10 @@
 int main() {
     osgViewer::Viewer viewer;
     const osg::ref_ptr<osgViewer::StatsHandler> stats = new osgViewer::StatsHandler;
-    viewer.addEventHandler(new osgAnalyticBin::FreezeCullHandler);
-    viewer.addEventHandler(new osgAnalyticBin::SpyViewHandler);
-    viewer.addEventHandler(new osgAnalyticBin::BinDisplayHandler);
-    viewer.addEventHandler(new osgAnalyticBin::MethodSwitchHandler);
     viewer.addEventHandler(new osgAnalyticBin::BinStatsHandler(*stats));
     viewer.addEventHandler(stats);
+    osgAnalyticBin::CameraCulling& culling = osgAnalyticBin::CameraCulling::of(*viewer.getCamera());
+    culling.freeze(osgAnalyticBin::CameraCulling::cullingView(*viewer.getCamera()));
     std::stringstream path;
     osgAnalyticBin::flight::CameraPose pose;
     pose.eye.altitude = 1000.0;
@@ -33,5 +28,6 @@ int main() {
     osgAnalyticBin::flight::writeCameraPath(path, {pose}, osgAnalyticBin::flight::PathColumns::Poses);
     std::string error;
     const auto read = osgAnalyticBin::flight::readCameraPath(path, "path", error);
-    return viewer.getEventHandlers().size() == 6 && read && read->front().name == "p1" ? 0 : 1;
+    const bool isCounted = viewer.getEventHandlers().size() == 2 && osgAnalyticBin::binCounts(viewer).tested == 0;
+    return isCounted && culling.isFrozen() && read && read->front().name == "p1" ? 0 : 1;
 }

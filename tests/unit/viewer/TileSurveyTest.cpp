@@ -8,7 +8,6 @@
 #include "ViewerScene.h"
 
 #include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/viewer/BinDisplayHandler.h>
 #include <osgAnalyticBin/viewer/TileSurvey.h>
 
 #include <gtest/gtest.h>
@@ -102,15 +101,6 @@ TEST(TileSurvey, KnowsWhereABinStandsInTheWorld) {
         for (int i = 0; i < 4; ++i)
             for (int j = 0; j < 4; ++j) EXPECT_NEAR(tile.ecefToWorld(i, j), identity(i, j), 1e-6);
     }
-}
-
-TEST(VerdictColours, AreAllDifferent) {
-    std::set<osg::Vec4> colours;
-    for (const TileVerdict verdict : {TileVerdict::Outside, TileVerdict::Straddling, TileVerdict::Inside,
-                                      TileVerdict::Hidden, TileVerdict::BeyondEdge}) {
-        colours.insert(verdictColour(verdict));
-    }
-    EXPECT_EQ(colours.size(), 5u);
 }
 
 }  // namespace

@@ -13,9 +13,13 @@
 #include <osg/observer_ptr>
 
 #include <optional>
+#include <vector>
 
 namespace osgUtil {
 class CullVisitor;
+}
+namespace osgViewer {
+class View;
 }
 
 namespace osgAnalyticBin {
@@ -42,6 +46,9 @@ public:
 
     /// Returns: nullptr when the camera has none.
     [[nodiscard]] static CameraCulling* find(osg::Camera& camera);
+
+    /// The cameras that draw a view's scene: the master or its slaves, without those that follow another camera.
+    [[nodiscard]] static std::vector<osg::Camera*> drawingCameras(osgViewer::View& view);
 
     /// The present culling view; by default the camera's own.
     [[nodiscard]] static CullingView cullingView(osg::Camera& camera);

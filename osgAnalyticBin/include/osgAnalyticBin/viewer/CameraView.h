@@ -9,6 +9,8 @@
 #include <osg/CoordinateSystemNode>
 #include <osg/Matrixd>
 
+#include <optional>
+
 namespace osgAnalyticBin::flight {
 
 /// The globe of a scene: its ellipsoid, and where it stands in the world. That of a map is mapPlane().
@@ -17,8 +19,11 @@ struct Globe {
     osg::Matrixd localToWorld;                          ///< from ECEF, or the map, to the world
 };
 
-/// The map of the scene's first tile, if that tile is in a map; else the globe of the first CoordinateSystemNode with
-/// an ellipsoid; else OSG's default ellipsoid in world coordinates.
+/// The globe of the first CoordinateSystemNode with an ellipsoid. Returns: nullopt for scenes without.
+[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<Globe> findGlobe(osg::Node& scene);
+
+/// The map of the scene's first tile, if that tile is in a map; else findGlobe(); else OSG's default ellipsoid in world
+/// coordinates.
 [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT Globe globeOf(osg::Node& scene);
 
 /// The "up" of a view without roll, in the world's frame: the local vertical at the eye, or north where the view goes

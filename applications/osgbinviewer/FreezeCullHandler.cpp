@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "FreezeCullHandler.h"
+
 #include "ViewTools.h"
 
 #include <osgAnalyticBin/viewer/CameraCulling.h>
-#include <osgAnalyticBin/viewer/FreezeCullHandler.h>
 
 #include <osgViewer/View>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 namespace {
 
@@ -29,8 +30,8 @@ void FreezeCullHandler::setFrozen(osgGA::GUIActionAdapter& action, bool frozen) 
     osgViewer::View* view = viewOf(action);
     if (!view || !view->getSceneData()) return;
     _isFrozen = frozen;
-    const auto globe = globeOf(*view->getSceneData());
-    for (osg::Camera* camera : drawingCameras(*view)) {
+    const auto globe = flight::findGlobe(*view->getSceneData());
+    for (osg::Camera* camera : CameraCulling::drawingCameras(*view)) {
         CameraCulling& culling = CameraCulling::of(*camera);
         culling.thaw();
         removeFrustum(culling.overlay());
@@ -59,4 +60,4 @@ void FreezeCullHandler::getUsage(osg::ApplicationUsage& usage) const {
     usage.addKeyboardMouseBinding(_key, "Freeze the culling camera, to fly round what it draws.");
 }
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

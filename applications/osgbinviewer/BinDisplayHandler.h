@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <osgAnalyticBin/viewer/Export.h>
 #include <osgAnalyticBin/viewer/TileSurvey.h>
 
 #include <osg/Group>
@@ -12,21 +11,21 @@
 
 #include <map>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 class TextPanel;
 
 /// The colour that a verdict is shown in, opaque.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT osg::Vec4 verdictColour(TileVerdict verdict);
+[[nodiscard]] osg::Vec4 verdictColour(TileVerdict verdict);
 
 /// A short name: "outside", "straddling", "inside", "behind the horizon", "beyond an edge".
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT const char* verdictName(TileVerdict verdict);
+[[nodiscard]] const char* verdictName(TileVerdict verdict);
 
 /// Key `B`: draws the bins that the view's camera tests as curved slabs, coloured by verdict: first those where its
 /// cull traversal ends (tiles culled or drawn), then all, then none. Key `Q`: the same bins' quadratic approximation as
 /// white lines. Bins of maps are not drawn. One handler for each view.
 /// Cost: while shown, a TileSurvey for each frame.
-class OSGANALYTICBINVIEWER_EXPORT BinDisplayHandler : public osgGA::GUIEventHandler {
+class BinDisplayHandler : public osgGA::GUIEventHandler {
 public:
     /// Which bins are drawn.
     enum class Shown {
@@ -83,4 +82,4 @@ private:
     std::map<osg::ref_ptr<osg::Node>, Slab> _known;
 };
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

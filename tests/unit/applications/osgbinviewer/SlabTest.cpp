@@ -4,17 +4,18 @@
 //
 // Slabs as they are drawn. Oracle: the mapping's inverse, point by point.
 
+#include "Slab.h"
+
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
-#include <osgAnalyticBin/viewer/Slab.h>
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>
 
 #include <cmath>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 namespace {
 
 const core::Ellipsoid kEarth(6378137.0, 6356752.3142);
@@ -123,4 +124,4 @@ TEST(QuadraticSlab, LeavesTheBinByNoMoreThanTheRemainder) {
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "ViewTools.h"
+#include "PathRecorder.h"
 
-#include <osgAnalyticBin/viewer/CameraView.h>
-#include <osgAnalyticBin/viewer/PathRecorder.h>
+#include "ViewTools.h"
 
 #include <osg/Notify>
 #include <osgUtil/CullVisitor>
@@ -14,7 +13,7 @@
 
 #include <cmath>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 using flight::CameraPose;
 using flight::PathColumns;
@@ -23,14 +22,6 @@ namespace {
 
 // Camera paths go no deeper: an eye near the earth's centre is none that somebody flies to.
 constexpr double kLowestAltitude = -6.3e6;
-
-core::Geodetic toGeodetic(const SceneGlobe& globe, const osg::Vec3d& position) {
-    const osg::Vec3d ecef = position * osg::Matrixd::inverse(globe.toWorld);
-    core::Geodetic geodetic{};
-    globe.ellipsoid->convertXYZToLatLongHeight(ecef.x(), ecef.y(), ecef.z(), geodetic.latitude, geodetic.longitude,
-                                               geodetic.altitude);
-    return geodetic;
-}
 
 // Clockwise about the line of sight, radians.
 double rollOf(const osg::Vec3d& sight, const osg::Vec3d& up, const osg::Vec3d& upWithoutRoll) {
@@ -56,7 +47,7 @@ bool drawnPlanes(osg::Camera& camera, double& nearPlane, double& farPlane) {
 }  // namespace
 
 std::optional<CameraPose> recordedPose(osg::Camera& camera, double time) {
-    const auto globe = globeOf(camera);
+    const auto globe = flight::findGlobe(camera);
     CameraPose pose;
     pose.time = time;
     double verticalFovDeg = 0.0;
@@ -72,14 +63,14 @@ std::optional<CameraPose> recordedPose(osg::Camera& camera, double time) {
     camera.getViewMatrixAsLookAt(eye, center, up);
     osg::Vec3d sight = center - eye;
     sight.normalize();
-    const auto ground = globe->intersection(eye, sight);
+    const auto ground = intersection(*globe, eye, sight);
     constexpr double kShortestSight = 100.0;
-    const double distance = std::max(kShortestSight, std::abs(globe->altitude(eye)));
-    pose.eye = toGeodetic(*globe, eye);
+    const double distance = std::max(kShortestSight, std::abs(geodetic(*globe, eye).altitude));
+    pose.eye = geodetic(*globe, eye);
     pose.look =
-        toGeodetic(*globe, ground && (*ground - eye).length() > kShortestSight ? *ground : eye + sight * distance);
+        geodetic(*globe, ground && (*ground - eye).length() > kShortestSight ? *ground : eye + sight * distance);
     if (pose.eye.altitude < kLowestAltitude || pose.look.altitude < kLowestAltitude) return std::nullopt;
-    pose.roll = rollOf(sight, up, flight::upWithoutRoll({globe->ellipsoid, globe->toWorld}, pose.eye, sight));
+    pose.roll = rollOf(sight, up, flight::upWithoutRoll(*globe, pose.eye, sight));
     return pose;
 }
 
@@ -128,7 +119,7 @@ bool PathRecorder::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionA
         return true;
     }
     if (event.getEventType() != osgGA::GUIEventAdapter::FRAME || !_isRecording) return false;
-    const std::vector<osg::Camera*> cameras = drawingCameras(*view);
+    const std::vector<osg::Camera*> cameras = CameraCulling::drawingCameras(*view);
     // the frame before is the one that was drawn: in the first, number 1, the camera does not stand anywhere yet
     if (!cameras.empty() && view->getFrameStamp()->getFrameNumber() > 1) {
         record(*cameras.front(), view->getFrameStamp()->getReferenceTime());
@@ -140,4 +131,4 @@ void PathRecorder::getUsage(osg::ApplicationUsage& usage) const {
     usage.addKeyboardMouseBinding(_key, "Start or stop recording the camera for osgbinbench.");
 }
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

@@ -9,11 +9,11 @@
 
 #include <vector>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 /// Triangles or lines of one colour between vertices.
 [[nodiscard]] osg::ref_ptr<osg::Geometry> makeIndexed(osg::Vec3Array& vertices, GLenum primitives,
                                                       const std::vector<unsigned int>& indices,
                                                       const osg::Vec4& colour);
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

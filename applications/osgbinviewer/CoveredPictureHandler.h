@@ -3,18 +3,16 @@
 
 #pragma once
 
-#include <osgAnalyticBin/viewer/Export.h>
-
 #include <osg/Group>
 #include <osgGA/GUIEventHandler>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 /// Key `O`: draws a curtain over the part of the picture that terrain covers. Tiles behind the curtain are culled with
 /// `occlusion=on`, and with `auto` while it is in use. With frozen culling and in a second window, the curtain stands
 /// in front of the eye that culls. There is no curtain while terrain hides no tile. Use one handler for each view.
 /// Cost: one TileSurvey a frame while the curtain is shown.
-class OSGANALYTICBINVIEWER_EXPORT CoveredPictureHandler : public osgGA::GUIEventHandler {
+class CoveredPictureHandler : public osgGA::GUIEventHandler {
 public:
     CoveredPictureHandler();
 
@@ -40,4 +38,4 @@ private:
     const osg::ref_ptr<osg::Group> _curtain;
 };
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

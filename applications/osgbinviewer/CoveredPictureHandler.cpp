@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "CoveredPictureHandler.h"
+
 #include "IndexedGeometry.h"
 #include "ViewTools.h"
 
 #include <osgAnalyticBin/viewer/CameraCulling.h>
-#include <osgAnalyticBin/viewer/CoveredPictureHandler.h>
 #include <osgAnalyticBin/viewer/TileSurvey.h>
 
 #include <osg/BlendFunc>
@@ -17,7 +18,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 namespace {
 
@@ -82,7 +83,7 @@ bool CoveredPictureHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::G
         return true;
     }
     if (event.getEventType() != osgGA::GUIEventAdapter::FRAME) return false;
-    const std::vector<osg::Camera*> cameras = drawingCameras(*view);
+    const std::vector<osg::Camera*> cameras = CameraCulling::drawingCameras(*view);
     if (cameras.empty()) return false;
     osg::Group& overlay = CameraCulling::of(*cameras.front()).overlay();
     _curtain->removeChildren(0, _curtain->getNumChildren());
@@ -104,4 +105,4 @@ void CoveredPictureHandler::getUsage(osg::ApplicationUsage& usage) const {
     usage.addKeyboardMouseBinding(_key, "Show what of the picture terrain covers: tiles behind it are culled.");
 }
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

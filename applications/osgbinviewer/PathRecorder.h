@@ -4,7 +4,6 @@
 #pragma once
 
 #include <osgAnalyticBin/viewer/CameraPath.h>
-#include <osgAnalyticBin/viewer/Export.h>
 
 #include <osg/Camera>
 #include <osgGA/GUIEventHandler>
@@ -13,18 +12,17 @@
 #include <string>
 #include <vector>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 /// The present pose of a camera over the globe of its scene; near and far planes are those of the last frame, with some
 /// room. It has no name.
 /// Returns: nullopt for views that are not perspective or from near the globe's centre, and where there is no globe.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<flight::CameraPose> recordedPose(osg::Camera& camera,
-                                                                                         double time);
+[[nodiscard]] std::optional<flight::CameraPose> recordedPose(osg::Camera& camera, double time);
 
 /// Key `R`: starts or stops recording the view's camera into a file that osgbinbench plays: a pose every half second
 /// while it moves. The file is written every five seconds, whenever recording stops, and at the end. One handler for
 /// each view.
-class OSGANALYTICBINVIEWER_EXPORT PathRecorder : public osgGA::GUIEventHandler {
+class PathRecorder : public osgGA::GUIEventHandler {
 public:
     /// `interval`: seconds between poses.
     explicit PathRecorder(const std::string& fileName, double interval = 0.5,
@@ -63,4 +61,4 @@ private:
     std::vector<flight::CameraPose> _path;
 };
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

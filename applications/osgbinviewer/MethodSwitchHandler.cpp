@@ -1,19 +1,20 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "MethodSwitchHandler.h"
+
 #include "TextPanel.h"
 #include "ViewTools.h"
 
 #include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/viewer/CameraCulling.h>
-#include <osgAnalyticBin/viewer/MethodSwitchHandler.h>
 
 #include <osgViewer/View>
 
 #include <array>
 #include <string>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 namespace {
 
@@ -52,7 +53,7 @@ MethodSwitchHandler::~MethodSwitchHandler() = default;
 void MethodSwitchHandler::setMethod(osgGA::GUIActionAdapter& action, Method method) {
     osgViewer::View* view = viewOf(action);
     if (!view || !view->getSceneData()) return;
-    const std::vector<osg::Camera*> cameras = drawingCameras(*view);
+    const std::vector<osg::Camera*> cameras = CameraCulling::drawingCameras(*view);
     _methodBefore = _options.method;
     if (!cameras.empty()) {
         _countsBefore = TileSurvey(*cameras.front(), *view->getFrameStamp()).counts();
@@ -87,7 +88,7 @@ bool MethodSwitchHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUI
     osgViewer::View* view = viewOf(action);
     if (!view || isTaken(event)) return false;
     if (event.getEventType() == osgGA::GUIEventAdapter::FRAME) {
-        const std::vector<osg::Camera*> cameras = drawingCameras(*view);
+        const std::vector<osg::Camera*> cameras = CameraCulling::drawingCameras(*view);
         const bool isWanted = _shownUntil >= 0.0 && !cameras.empty();
         if (isWanted) showChange(*cameras.front(), *view->getFrameStamp());
         if (isWanted && !_panel->isShown()) _shownUntil = -1.0;
@@ -104,4 +105,4 @@ void MethodSwitchHandler::getUsage(osg::ApplicationUsage& usage) const {
     usage.addKeyboardMouseBinding(_keyPrevious, "Previous culling method.");
 }
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

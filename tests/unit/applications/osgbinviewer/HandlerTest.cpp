@@ -5,63 +5,44 @@
 // The event handlers in a whole viewer that draws into a pbuffer; keys are pressed as a user would. Needs a display
 // (Xvfb will do); skipped where no graphics context can be made.
 
-#include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/viewer/BinDisplayHandler.h>
+#include "BinDisplayHandler.h"
+#include "CoveredPictureHandler.h"
+#include "DrawnViewer.h"
+#include "FreezeCullHandler.h"
+#include "MethodSwitchHandler.h"
+#include "PathRecorder.h"
+#include "SpyViewHandler.h"
+
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
 #include <osgAnalyticBin/viewer/CameraCulling.h>
-#include <osgAnalyticBin/viewer/CoveredPictureHandler.h>
 #include <osgAnalyticBin/viewer/CsvTable.h>
-#include <osgAnalyticBin/viewer/FreezeCullHandler.h>
-#include <osgAnalyticBin/viewer/MethodSwitchHandler.h>
-#include <osgAnalyticBin/viewer/PathRecorder.h>
-#include <osgAnalyticBin/viewer/SpyViewHandler.h>
-#include <osgAnalyticBin/viewer/ViewerCounts.h>
 
 #include <gtest/gtest.h>
-#include <osgDB/DatabasePager>
-#include <osgDB/ReadFile>
 #include <osgGA/StateSetManipulator>
 #include <osgGA/TerrainManipulator>
-#include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 #include <support/StockPrograms.h>
-#include <support/SyntheticDatabase.h>
-#include <support/TemporaryFolder.h>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 namespace {
-
-constexpr int kSize = 128;
-
-osg::ref_ptr<osg::GraphicsContext> makeSurface() {
-    osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
-    traits->readDISPLAY();
-    traits->setUndefinedScreenDetailsToDefaultScreen();
-    traits->width = kSize;
-    traits->height = kSize;
-    traits->pbuffer = true;
-    traits->doubleBuffer = true;
-    return osg::GraphicsContext::createGraphicsContext(traits);
-}
 
 class Picture : public osg::Camera::DrawCallback {
 public:
     void operator()(osg::RenderInfo&) const override {
-        image->readPixels(0, 0, kSize, kSize, GL_RGB, GL_UNSIGNED_BYTE);
+        image->readPixels(0, 0, test::kSurfaceSize, test::kSurfaceSize, GL_RGB, GL_UNSIGNED_BYTE);
     }
     osg::ref_ptr<osg::Image> image = new osg::Image;
 };
 
-class Handlers : public ::testing::Test {
+class Handlers : public test::DrawnViewer {
 protected:
     void SetUp() override {
-        _file = test::writeSyntheticDatabase(_folder.path());
-        const osg::ref_ptr<osg::GraphicsContext> surface = makeSurface();
-        if (!surface) GTEST_SKIP() << "no graphics context; run under xvfb-run";
-        setUp(_viewer, *surface, *read(Method::Quadratic));
+        DrawnViewer::SetUp();
+        if (IsSkipped()) return;
         _methods = new MethodSwitchHandler;
         _freeze = new FreezeCullHandler;
         _bins = new BinDisplayHandler;
@@ -71,50 +52,6 @@ protected:
                  _methods, _freeze, _bins, _spy, new BinStatsHandler(*_stats), _stats}) {
             _viewer.addEventHandler(handler);
         }
-    }
-
-    osg::ref_ptr<osg::Node> read(Method method) const {
-        osg::ref_ptr<osg::Node> database = osgDB::readRefNodeFile(_file);
-        CullOptions options;
-        options.method = method;
-        installBins(*database, options);
-        return database;
-    }
-
-    void setUp(osgViewer::Viewer& viewer, osg::GraphicsContext& surface, osg::Node& database) {
-        viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
-        osg::Camera& camera = *viewer.getCamera();
-        camera.setGraphicsContext(&surface);
-        camera.setViewport(0, 0, kSize, kSize);
-        camera.setProjectionMatrixAsPerspective(40.0, 1.0, 1e3, 1e7);
-        camera.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-        camera.setDrawBuffer(GL_BACK);
-        camera.setReadBuffer(GL_BACK);
-        viewer.setSceneData(&database);
-        viewer.realize();
-        look(viewer, 1.0);
-    }
-
-    // 300 km above the equator, looking down at 45 degrees to the east or west.
-    static void look(osgViewer::Viewer& viewer, double side) {
-        const osg::Vec3d eye(6378137.0 + 300e3, 0.0, 0.0);
-        viewer.getCamera()->setViewMatrixAsLookAt(eye, eye + osg::Vec3d(-1.0, side, 0.0), osg::Vec3d(1.0, 0.0, 0.0));
-    }
-
-    static void drawUntilIdle(osgViewer::Viewer& viewer) {
-        constexpr int kMostFrames = 2000;
-        for (int idle = 0, frame = 0; idle < 5 && frame < kMostFrames; ++frame) {
-            viewer.frame();
-            osgDB::DatabasePager& pager = *viewer.getDatabasePager();
-            idle = pager.getRequestsInProgress() || pager.requiresUpdateSceneGraph() ? 0 : idle + 1;
-            if (idle == 0) OpenThreads::Thread::microSleep(2000);
-        }
-    }
-
-    void press(int key) {
-        _viewer.getEventQueue()->keyPress(key);
-        _viewer.getEventQueue()->keyRelease(key);
-        drawUntilIdle(_viewer);
     }
 
     void showOverlay(bool shown) { CameraCulling::of(*_viewer.getCamera()).overlay().setNodeMask(shown ? ~0U : 0U); }
@@ -133,13 +70,6 @@ protected:
         return count;
     }
 
-    TileCounts counts(osgViewer::Viewer& viewer) {
-        return TileSurvey(*viewer.getCamera(), *viewer.getFrameStamp()).counts();
-    }
-
-    test::TemporaryFolder _folder;
-    std::string _file;
-    osgViewer::Viewer _viewer;
     osg::ref_ptr<MethodSwitchHandler> _methods;
     osg::ref_ptr<FreezeCullHandler> _freeze;
     osg::ref_ptr<BinDisplayHandler> _bins;
@@ -157,7 +87,7 @@ TEST_F(Handlers, SwitchToWhatAFreshViewerShowsWithTheMethod) {
         drawUntilIdle(_viewer);
         showOverlay(false);
         osgViewer::Viewer fresh;
-        const osg::ref_ptr<osg::GraphicsContext> surface = makeSurface();
+        const osg::ref_ptr<osg::GraphicsContext> surface = test::makeSurface();
         setUp(fresh, *surface, *read(method));
         look(fresh, side);
         drawUntilIdle(fresh);
@@ -266,50 +196,6 @@ TEST_F(Handlers, LeaveRoomForASecondWindowInTextures) {
     press('y');
 }
 
-TEST_F(Handlers, FillOsgsStatistics) {
-    drawUntilIdle(_viewer);
-    osg::Stats& stats = *_viewer.getViewerStats();
-    double value = -1.0;
-    EXPECT_FALSE(stats.getAttribute(_viewer.getFrameStamp()->getFrameNumber() - 1, "Tiles tested", value));
-    press('s');
-    const TileCounts expected = counts(_viewer);
-    const unsigned int frame = _viewer.getFrameStamp()->getFrameNumber() - 1;
-    const auto attribute = [&](const char* name) {
-        double number = -1.0;
-        EXPECT_TRUE(stats.getAttribute(frame, name, number)) << name;
-        return number;
-    };
-    EXPECT_EQ(attribute("Tiles tested"), double(expected.tested));
-    EXPECT_EQ(attribute("Tiles kept"), double(expected.kept));
-    EXPECT_EQ(attribute("Tiles drawn"), double(expected.drawn));
-    EXPECT_EQ(attribute("Tiles hidden"), double(expected.hidden));
-    EXPECT_EQ(attribute("Tiles beyond an edge"), double(expected.beyondEdge));
-    EXPECT_EQ(attribute("Tiles behind terrain"), double(expected.occluded));
-    EXPECT_GT(expected.drawn, 0u);
-}
-
-TEST_F(Handlers, CountWhatBinsDecidedOverAllCameras) {
-    drawUntilIdle(_viewer);
-    const unsigned int frame = _viewer.getFrameStamp()->getFrameNumber();
-    const BinCounts one = binCounts(_viewer);
-    const TileCounts expected = counts(_viewer);
-    EXPECT_EQ(one.frame, frame);
-    EXPECT_EQ(one.tested, expected.tested);
-    EXPECT_EQ(one.tested - one.outside, expected.kept);
-    EXPECT_EQ(one.hidden, expected.hidden);
-    EXPECT_EQ(one.inside + one.straddling, expected.kept);
-    EXPECT_GT(one.outside, 0u);
-    EXPECT_EQ(binCounts(*_viewer.getCamera(), frame + 1).tested, 0u) << "of another frame";
-    press('y');
-    ASSERT_TRUE(_spy->isOpen());
-    const BinCounts two = binCounts(_viewer);
-    const unsigned int last = _viewer.getFrameStamp()->getFrameNumber();
-    EXPECT_EQ(two.tested, binCounts(*_viewer.getCamera(), last).tested + binCounts(*_spy->camera(), last).tested);
-    EXPECT_GT(two.tested, binCounts(*_viewer.getCamera(), last).tested);
-    press('y');
-    EXPECT_EQ(binCounts(*osg::ref_ptr<osg::Camera>(new osg::Camera), last).tested, 0u);
-}
-
 class HandlersInThreads : public Handlers,
                           public ::testing::WithParamInterface<osgViewer::ViewerBase::ThreadingModel> {};
 
@@ -352,7 +238,7 @@ TEST_F(Handlers, RecordWhileTheCameraMoves) {
 
 TEST_F(Handlers, RecordFromTheFirstViewOfAManipulatorOn) {
     osgViewer::Viewer viewer;
-    const osg::ref_ptr<osg::GraphicsContext> surface = makeSurface();
+    const osg::ref_ptr<osg::GraphicsContext> surface = test::makeSurface();
     setUp(viewer, *surface, *read(Method::Quadratic));
     const osg::ref_ptr<osgGA::TerrainManipulator> manipulator = new osgGA::TerrainManipulator;
     const double altitude = 500e3;
@@ -423,5 +309,14 @@ TEST_F(Handlers, NameTheirKeysAndTakeNoneOfOsgs) {
     for (const auto& [key, text] : ours) EXPECT_EQ(osgs.count(key), 0u) << key << ": " << text;
 }
 
+TEST(VerdictColours, AreAllDifferent) {
+    std::set<osg::Vec4> colours;
+    for (const TileVerdict verdict : {TileVerdict::Outside, TileVerdict::Straddling, TileVerdict::Inside,
+                                      TileVerdict::Hidden, TileVerdict::BeyondEdge}) {
+        colours.insert(verdictColour(verdict));
+    }
+    EXPECT_EQ(colours.size(), 5u);
+}
+
 }  // namespace
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <osgAnalyticBin/viewer/Export.h>
-
 #include <osg/GraphicsContext>
 #include <osg/Group>
 #include <osgGA/GUIEventHandler>
@@ -16,11 +14,11 @@ namespace osgViewer {
 class View;
 }
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 /// Key `y`: opens or closes a second window that shows the view's camera from the side: what that camera draws,
 /// and its frustum. Drag in the window to orbit, scroll to zoom. One handler for each view.
-class OSGANALYTICBINVIEWER_EXPORT SpyViewHandler : public osgGA::GUIEventHandler {
+class SpyViewHandler : public osgGA::GUIEventHandler {
 public:
     SpyViewHandler();
 
@@ -63,4 +61,4 @@ private:
     float _lastY = 0.0F;
 };
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

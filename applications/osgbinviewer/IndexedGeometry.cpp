@@ -3,7 +3,7 @@
 
 #include "IndexedGeometry.h"
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 osg::ref_ptr<osg::Geometry> makeIndexed(osg::Vec3Array& vertices, GLenum primitives,
                                         const std::vector<unsigned int>& indices, const osg::Vec4& colour) {
@@ -18,4 +18,4 @@ osg::ref_ptr<osg::Geometry> makeIndexed(osg::Vec3Array& vertices, GLenum primiti
     return geometry;
 }
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "Slab.h"
+
 #include "IndexedGeometry.h"
 
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
-#include <osgAnalyticBin/viewer/Slab.h>
 
 #include <osg/BlendFunc>
 #include <osg/CullFace>
@@ -20,7 +21,7 @@
 #include <cmath>
 #include <functional>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 namespace {
 
@@ -161,4 +162,4 @@ osg::ref_ptr<osg::Node> makeSlab(const SlabMesh& mesh, const osg::Vec4& faces, c
     return placed;
 }
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 /// Lines of text in a corner of a camera's picture, part of its overlay.
 class TextPanel : public osg::Referenced {
@@ -42,4 +42,4 @@ private:
     double _width = 0.0;
 };
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "SpyViewHandler.h"
+
 #include "ViewTools.h"
 
 #include <osgAnalyticBin/viewer/CameraCulling.h>
-#include <osgAnalyticBin/viewer/SpyViewHandler.h>
 
 #include <osg/Notify>
 #include <osgViewer/View>
@@ -14,7 +15,7 @@
 #include <cmath>
 #include <optional>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 namespace {
 
@@ -107,7 +108,7 @@ public:
     }
 
     osg::observer_ptr<osg::Camera> camera;
-    std::optional<SceneGlobe> globe;
+    std::optional<flight::Globe> globe;
     double azimuth = osg::DegreesToRadians(60.0);
     double elevation = osg::DegreesToRadians(35.0);
     double distance = 2.4;
@@ -119,7 +120,7 @@ private:
         const osg::Vec3d sight = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, -1.0), toWorld);
         const osg::Vec3d target = targetOf(eye, sight, scene);
         const osg::Vec3d center = eye * 0.4 + target * 0.6;
-        osg::Vec3d up = globe ? globe->vertical(center) : osg::Vec3d(0.0, 0.0, 1.0);
+        osg::Vec3d up = globe ? vertical(*globe, center) : osg::Vec3d(0.0, 0.0, 1.0);
         osg::Vec3d forward = sight - up * (sight * up);
         if (forward.normalize() < 1e-3) {
             forward = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 1.0, 0.0), toWorld);
@@ -135,9 +136,9 @@ private:
     // What the camera looks at: on the globe, else as far as its horizon.
     [[nodiscard]] osg::Vec3d targetOf(const osg::Vec3d& eye, const osg::Vec3d& sight, const osg::Node& scene) const {
         if (!globe) return eye + sight * std::max(1.0, (osg::Vec3d(scene.getBound().center()) - eye).length());
-        if (const auto ground = globe->intersection(eye, sight)) return *ground;
+        if (const auto ground = intersection(*globe, eye, sight)) return *ground;
         const double radius = globe->ellipsoid->getRadiusEquator();
-        const double height = std::max(globe->altitude(eye), 1.0);
+        const double height = std::max(geodetic(*globe, eye).altitude, 1.0);
         return eye + sight * std::sqrt(height * (2.0 * radius + height));
     }
 };
@@ -157,7 +158,7 @@ void SpyViewHandler::setOpen(osgViewer::View& view, bool isOpenWanted) {
 }
 
 void SpyViewHandler::open(osgViewer::View& view) {
-    const std::vector<osg::Camera*> cameras = drawingCameras(view);
+    const std::vector<osg::Camera*> cameras = CameraCulling::drawingCameras(view);
     if (cameras.empty() || !view.getSceneData()) return;
     osg::Camera& watched = *cameras.front();
     const ThreadPause pause(*view.getViewerBase());
@@ -168,7 +169,7 @@ void SpyViewHandler::open(osgViewer::View& view) {
     }
     _camera = makeCamera(*window, watched);
     _placement->camera = &watched;
-    _placement->globe = globeOf(*view.getSceneData());
+    _placement->globe = flight::findGlobe(*view.getSceneData());
     CameraCulling& culling = CameraCulling::of(*_camera);
     culling.follow(&watched);
     culling.updateFollowed();
@@ -256,4 +257,4 @@ void SpyViewHandler::getUsage(osg::ApplicationUsage& usage) const {
     usage.addKeyboardMouseBinding(_key, "Second window that shows from aside what the camera draws.");
 }
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

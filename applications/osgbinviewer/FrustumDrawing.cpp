@@ -15,7 +15,7 @@
 #include <cmath>
 #include <vector>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 namespace {
 
@@ -24,7 +24,7 @@ const osg::Vec4 kSideColour(0.2F, 0.9F, 1.0F, 0.13F);
 const osg::Vec4 kEdgeColour(0.3F, 1.0F, 1.0F, 1.0F);
 
 // Points all round the frustum's border, where its rays end.
-std::vector<osg::Vec3d> borderOf(const CullingView& view, const std::optional<SceneGlobe>& globe, double reach,
+std::vector<osg::Vec3d> borderOf(const CullingView& view, const std::optional<flight::Globe>& globe, double reach,
                                  const osg::Vec3d& eye) {
     const osg::Matrixd toWorld = osg::Matrixd::inverse(view.view * view.projection);
     constexpr std::array<std::array<double, 2>, 5> kCorners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}}};
@@ -36,7 +36,7 @@ std::vector<osg::Vec3d> borderOf(const CullingView& view, const std::optional<Sc
             const double y = kCorners[side][1] * (1.0 - t) + kCorners[side + 1][1] * t;
             osg::Vec3d direction = osg::Vec3d(x, y, 0.0) * toWorld - eye;
             direction.normalize();
-            const auto ground = globe ? globe->intersection(eye, direction) : std::nullopt;
+            const auto ground = globe ? intersection(*globe, eye, direction) : std::nullopt;
             border.push_back(ground ? *ground : eye + direction * reach);
         }
     }
@@ -44,9 +44,9 @@ std::vector<osg::Vec3d> borderOf(const CullingView& view, const std::optional<Sc
 }
 
 // The distance to the tangent point on the globe, and a little more.
-double reachOver(const SceneGlobe& globe, const osg::Vec3d& eye) {
+double reachOver(const flight::Globe& globe, const osg::Vec3d& eye) {
     const double radius = globe.ellipsoid->getRadiusEquator();
-    const double height = std::max(globe.altitude(eye), 0.0);
+    const double height = std::max(geodetic(globe, eye).altitude, 0.0);
     return 1.15 * std::sqrt(height * (2.0 * radius + height));
 }
 
@@ -64,7 +64,7 @@ osg::ref_ptr<osg::Geometry> makePart(osg::Vec3Array& vertices, GLenum primitives
 
 }  // namespace
 
-osg::ref_ptr<osg::Node> makeFrustum(const CullingView& view, const std::optional<SceneGlobe>& globe, double reach) {
+osg::ref_ptr<osg::Node> makeFrustum(const CullingView& view, const std::optional<flight::Globe>& globe, double reach) {
     const osg::Vec3d eye = osg::Vec3d() * osg::Matrixd::inverse(view.view);
     const std::vector<osg::Vec3d> border = borderOf(view, globe, globe ? reachOver(*globe, eye) : reach, eye);
     const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
@@ -87,4 +87,4 @@ osg::ref_ptr<osg::Node> makeFrustum(const CullingView& view, const std::optional
     return placed;
 }
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

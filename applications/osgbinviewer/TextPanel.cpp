@@ -12,7 +12,7 @@
 
 #include <algorithm>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 namespace {
 
@@ -98,4 +98,4 @@ void TextPanel::show(osg::Camera& camera, const std::vector<Line>& lines) {
     computeBounds(*_hud);
 }
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

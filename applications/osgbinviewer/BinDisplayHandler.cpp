@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "BinDisplayHandler.h"
+
+#include "Slab.h"
 #include "TextPanel.h"
 #include "ViewTools.h"
 
-#include <osgAnalyticBin/viewer/BinDisplayHandler.h>
 #include <osgAnalyticBin/viewer/CameraCulling.h>
-#include <osgAnalyticBin/viewer/Slab.h>
 
 #include <osg/MatrixTransform>
 #include <osgViewer/View>
@@ -15,7 +16,7 @@
 #include <array>
 #include <string>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 namespace {
 
@@ -137,7 +138,7 @@ bool BinDisplayHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIAc
         return true;
     }
     if (event.getEventType() != osgGA::GUIEventAdapter::FRAME) return false;
-    const std::vector<osg::Camera*> cameras = drawingCameras(*view);
+    const std::vector<osg::Camera*> cameras = CameraCulling::drawingCameras(*view);
     if (cameras.empty()) return false;
     osg::Camera& camera = *cameras.front();
     osg::Group& overlay = CameraCulling::of(camera).overlay();
@@ -161,4 +162,4 @@ void BinDisplayHandler::getUsage(osg::ApplicationUsage& usage) const {
     usage.addKeyboardMouseBinding(_keyQuadratic, "Show the quadratic approximation of the bins.");
 }
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

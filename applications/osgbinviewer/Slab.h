@@ -5,7 +5,6 @@
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
-#include <osgAnalyticBin/viewer/Export.h>
 
 #include <osg/Node>
 #include <osg/Vec3d>
@@ -13,7 +12,7 @@
 
 #include <vector>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 /// The surface of a bin as meshes and lines.
 struct SlabMesh {
@@ -33,12 +32,10 @@ enum class SlabShape {
 /// Guarantee: every vertex of SlabShape::Bin is on the bin's surface to the rounding of float; the faces leave it by
 /// 500 m at most, the sag of chords of a degree both ways; tests: Slab.*.
 /// Requires: a bin that is not empty.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT SlabMesh slabMesh(const core::GeodeticBin& bin,
-                                                            const core::Ellipsoid& ellipsoid, SlabShape shape);
+[[nodiscard]] SlabMesh slabMesh(const core::GeodeticBin& bin, const core::Ellipsoid& ellipsoid, SlabShape shape);
 
 /// Faces that look towards the eye, translucent where the colour is, and edges; in ECEF. Slabs without faces are drawn
 /// after those that have some.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT osg::ref_ptr<osg::Node> makeSlab(const SlabMesh& mesh, const osg::Vec4& faces,
-                                                                           const osg::Vec4& edges);
+[[nodiscard]] osg::ref_ptr<osg::Node> makeSlab(const SlabMesh& mesh, const osg::Vec4& faces, const osg::Vec4& edges);
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

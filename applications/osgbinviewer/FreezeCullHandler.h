@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <osgAnalyticBin/viewer/Export.h>
-
 #include <osgGA/GUIEventHandler>
 
 namespace osg {
@@ -12,12 +10,12 @@ class Camera;
 class Node;
 }  // namespace osg
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 /// Key `F`: freezes the culling of a view's cameras, while the view can still be moved. The tiles that were in view
 /// stay drawn, with the frustum as lines and translucent sides down to the globe. `F` again: back to normal. One
 /// handler for each view.
-class OSGANALYTICBINVIEWER_EXPORT FreezeCullHandler : public osgGA::GUIEventHandler {
+class FreezeCullHandler : public osgGA::GUIEventHandler {
 public:
     FreezeCullHandler();
 
@@ -43,4 +41,4 @@ private:
     bool _isFrozen = false;
 };
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

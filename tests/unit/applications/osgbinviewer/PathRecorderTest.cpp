@@ -3,11 +3,11 @@
 //
 // Recorded camera paths. Oracle: what osgbinbench makes of them.
 
+#include "PathRecorder.h"
 #include "ViewerScene.h"
 
 #include <osgAnalyticBin/viewer/CameraPath.h>
 #include <osgAnalyticBin/viewer/CameraView.h>
-#include <osgAnalyticBin/viewer/PathRecorder.h>
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 namespace {
 
 using test::ViewerScene;
@@ -132,4 +132,4 @@ TEST(PathRecorder, LeavesTheOldFileWhereTheNewCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

@@ -4,19 +4,18 @@
 #pragma once
 
 #include <osgAnalyticBin/CullOptions.h>
-#include <osgAnalyticBin/viewer/Export.h>
 #include <osgAnalyticBin/viewer/TileSurvey.h>
 
 #include <osgGA/GUIEventHandler>
 
-namespace osgAnalyticBin {
+namespace osgAnalyticBin::viewer {
 
 class TextPanel;
 
 /// Keys `n` and `N`: the next and the previous culling method for the view's scene, tiles that are paged in later
 /// included; the change in counts of tiles is shown for a while, as a difference while the camera does not move. One
 /// handler for each scene.
-class OSGANALYTICBINVIEWER_EXPORT MethodSwitchHandler : public osgGA::GUIEventHandler {
+class MethodSwitchHandler : public osgGA::GUIEventHandler {
 public:
     /// `options`: those that the scene's bins were installed with.
     explicit MethodSwitchHandler(const CullOptions& options = {});
@@ -53,4 +52,4 @@ private:
     const osg::ref_ptr<TextPanel> _panel;
 };
 
-}  // namespace osgAnalyticBin
+}  // namespace osgAnalyticBin::viewer

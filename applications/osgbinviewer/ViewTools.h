@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/viewer/CameraCulling.h>
+#include <osgAnalyticBin/viewer/CameraView.h>
+
+#include <osg/Node>
+#include <osg/Vec3d>
+
+#include <optional>
+
+namespace osgGA {
+class GUIActionAdapter;
+class GUIEventAdapter;
+}  // namespace osgGA
+namespace osgViewer {
+class View;
+}
+
+namespace osgAnalyticBin::viewer {
+
+/// The osgViewer view that an event handler was called for. Returns: nullptr for other viewers.
+[[nodiscard]] osgViewer::View* viewOf(osgGA::GUIActionAdapter& action);
+
+/// Whether another handler has handled an event; FRAME events are for all handlers.
+[[nodiscard]] bool isTaken(const osgGA::GUIEventAdapter& event);
+
+/// Where a ray from the eye meets a globe's ellipsoid first. Frame: the world's.
+[[nodiscard]] std::optional<osg::Vec3d> intersection(const flight::Globe& globe, const osg::Vec3d& eye,
+                                                     const osg::Vec3d& direction);
+
+/// The local vertical of a position, of unit length. Frame: the world's.
+[[nodiscard]] osg::Vec3d vertical(const flight::Globe& globe, const osg::Vec3d& position);
+
+/// A position of the world on a globe.
+[[nodiscard]] core::Geodetic geodetic(const flight::Globe& globe, const osg::Vec3d& position);
+
+/// Computes the bounds of everything below a node, hidden or not. OSG does so on first use, which for an overlay that
+/// two cameras draw happens in two cull threads at once. Call between frames.
+void computeBounds(osg::Node& node);
+
+/// A view's frustum: edges and translucent sides from the eye to the globe, or as far as the eye sees past it.
+/// `reach`: metres that it is drawn where there is no globe.
+[[nodiscard]] osg::ref_ptr<osg::Node> makeFrustum(const CullingView& view, const std::optional<flight::Globe>& globe,
+                                                  double reach);
+
+}  // namespace osgAnalyticBin::viewer

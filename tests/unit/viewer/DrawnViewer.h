@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/viewer/TileSurvey.h>
+
+#include <gtest/gtest.h>
+#include <osg/GraphicsContext>
+#include <osgViewer/Viewer>
+
+#include <string>
+#include <support/TemporaryFolder.h>
+
+namespace osgAnalyticBin::test {
+
+/// Pixels along an edge of makeSurface().
+constexpr int kSurfaceSize = 128;
+
+/// A pbuffer. Returns: nullptr where no graphics context can be made.
+[[nodiscard]] osg::ref_ptr<osg::GraphicsContext> makeSurface();
+
+/// A whole viewer that draws a synthetic globe into a pbuffer. Needs a display (Xvfb will do); skipped where no
+/// graphics context can be made.
+class DrawnViewer : public ::testing::Test {
+protected:
+    void SetUp() override;
+
+    /// The globe with bins.
+    [[nodiscard]] osg::ref_ptr<osg::Node> read(Method method) const;
+
+    /// Lets a viewer draw a scene on a surface.
+    static void setUp(osgViewer::Viewer& viewer, osg::GraphicsContext& surface, osg::Node& database);
+
+    /// 300 km above the equator, looking down at 45 degrees to the east (1) or west (-1).
+    static void look(osgViewer::Viewer& viewer, double side);
+
+    static void drawUntilIdle(osgViewer::Viewer& viewer);
+
+    void press(int key);
+
+    [[nodiscard]] static TileCounts counts(osgViewer::Viewer& viewer);
+
+    TemporaryFolder _folder;
+    std::string _file;
+    osgViewer::Viewer _viewer;
+};
+
+}  // namespace osgAnalyticBin::test
