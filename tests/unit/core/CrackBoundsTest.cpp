@@ -73,6 +73,17 @@ TEST(CrackBounds, EdgesFollowATileAcrossTheDateLine) {
     EXPECT_DOUBLE_EQ(edges.east, 0.6);
 }
 
+TEST(CrackBounds, EdgesBeyondThoseOfTheTileAboveAreOnTheBorderWhereTheseAre) {
+    const GeodeticBin parent = GeodeticBin::fromDegrees({0.0, 20.0}, {0.0, 20.0}, {0.0, 0.0});
+    const TileEdges parentEdges{0.5, 0.6, 0.7, 0.8, {true, true, false, true}};
+    const GeodeticBin child = GeodeticBin::fromDegrees({-10.0, 30.0}, {10.0, 35.0}, {0.0, 0.0});
+    const TileEdges edges = TileEdges::of(child, &parent, &parentEdges);
+    EXPECT_TRUE(edges.border.south);
+    EXPECT_TRUE(edges.border.east);
+    EXPECT_FALSE(edges.border.north);
+    EXPECT_FALSE(edges.border.west);
+}
+
 // What a tile's neighbours of one level draw along its edges, as far as the tile goes.
 class NeighbourSamples {
 public:

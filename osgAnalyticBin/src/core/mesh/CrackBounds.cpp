@@ -30,8 +30,9 @@ struct Edge {
     bool& isOnBorder;
 };
 
-void inherit(const Edge& edge, double parentWidth, bool isParentOnBorder, double distance) noexcept {
-    if (!(std::abs(distance) < kSameLine * edge.width)) return;
+// `outward`: how far it lies beyond the parent's edge. Finer tiles may be wider than the mesh above them.
+void inherit(const Edge& edge, double parentWidth, bool isParentOnBorder, double outward) noexcept {
+    if (!(outward > -kSameLine * edge.width)) return;
     edge.width = std::max(edge.width, parentWidth);
     edge.isOnBorder = isParentOnBorder;
 }
@@ -92,11 +93,11 @@ TileEdges TileEdges::of(const GeodeticBin& tile, const GeodeticBin* parentTile, 
     const double east = lon / lat;
     const auto turn = [](double angle) { return std::remainder(angle, 2.0 * kPi); };
     inherit({edges.south, border.south}, of.south, of.border.south,
-            (tile.latitude().lower - p.latitude().lower) * east);
+            (p.latitude().lower - tile.latitude().lower) * east);
     inherit({edges.north, border.north}, of.north, of.border.north,
             (tile.latitude().upper - p.latitude().upper) * east);
     inherit({edges.west, border.west}, of.west, of.border.west,
-            turn(tile.longitude().lower - p.longitude().lower) / east);
+            turn(p.longitude().lower - tile.longitude().lower) / east);
     inherit({edges.east, border.east}, of.east, of.border.east,
             turn(tile.longitude().upper - p.longitude().upper) / east);
     return edges;
