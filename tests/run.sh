@@ -58,7 +58,7 @@ fi
 test_preset release -LE threads
 
 build dev
-test_preset dev -LE 'soundness|pictures|threads'
+test_preset dev -LE 'soundness|pictures|threads|http'
 build tsan --target osganalyticbin_threads_tests osgdb_serializers_osganalyticbin
 test_preset tsan -L threads
 build scalar --target osganalyticbin_core_tests
