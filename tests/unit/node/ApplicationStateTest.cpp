@@ -92,6 +92,7 @@ TEST(SeeThroughTerrain, IsNotWhatIsFilled) {
     state.setAttributeAndModes(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::FILL));
     state.setMode(GL_DEPTH_TEST, osg::StateAttribute::ON);
     state.setMode(GL_ALPHA_TEST, osg::StateAttribute::OFF);
+    state.setMode(GL_FRAMEBUFFER_SRGB, osg::StateAttribute::ON);
     installBins(*globe.root);
     EXPECT_FALSE(globe.drawsAntipode());
 }

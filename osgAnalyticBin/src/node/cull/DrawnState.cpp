@@ -38,6 +38,7 @@
 #include <osg/Multisample>
 #include <osg/PagedLOD>
 #include <osg/Point>
+#include <osg/PointSprite>
 #include <osg/PolygonMode>
 #include <osg/PolygonStipple>
 #include <osg/PositionAttitudeTransform>
@@ -72,6 +73,7 @@ namespace {
 
 using Attribute = osg::StateAttribute;
 
+constexpr GLenum kSeamlessCubeMaps = 0x884F;  // GL_TEXTURE_CUBE_MAP_SEAMLESS
 constexpr const char* kDrawsTriangles = "osgAnalyticBin.drawsTriangles";
 constexpr DrawnState kHarmless{true, true}, kUnknown{false, false}, kHidesNothing{false, true};
 
@@ -142,10 +144,9 @@ DrawnState ofAttribute(const Attribute& attribute, const StateRules& rules) {
 }
 
 DrawnState ofTextureAttribute(const Attribute& attribute) {
-    const bool isKnown =
-        isOneOf<osg::Texture2D, osg::TexEnv, osg::TexEnvCombine, osg::TexEnvFilter, osg::TexGen, osg::TexMat,
-                osg::Texture1D, osg::Texture3D, osg::TextureCubeMap, osg::TextureRectangle, osg::Texture2DArray>(
-            attribute);
+    const bool isKnown = isOneOf<osg::Texture2D, osg::TexEnv, osg::PointSprite, osg::TexEnvCombine, osg::TexEnvFilter,
+                                 osg::TexGen, osg::TexMat, osg::Texture1D, osg::Texture3D, osg::TextureCubeMap,
+                                 osg::TextureRectangle, osg::Texture2DArray>(attribute);
     return isKnown && !attribute.getShaderComponent() ? kHarmless : kUnknown;
 }
 
@@ -170,6 +171,10 @@ DrawnState ofMode(GLenum mode, Attribute::GLModeValue value) {
         case GL_LINE_SMOOTH:
         case GL_LINE_STIPPLE:
         case GL_POINT_SMOOTH:
+        case GL_POINT_SPRITE_ARB:
+        case GL_PROGRAM_POINT_SIZE:
+        case GL_FRAMEBUFFER_SRGB:
+        case kSeamlessCubeMaps:
             return kHarmless;
         case GL_BLEND:
         case GL_ALPHA_TEST:
