@@ -15,7 +15,6 @@
 #include <osgUtil/StateGraph>
 
 #include <algorithm>
-#include <typeinfo>
 #include <unordered_map>
 
 namespace osgAnalyticBin {
@@ -81,12 +80,13 @@ private:
         if (isTile) close();
     }
 
-    // The tile that a node is, or stands for: installers put a group above tiles that are transforms.
-    [[nodiscard]] const osg::Node* tileOf(const osg::Node& node) const {
+    // The tile that a node is, or whose bin it has: installers put a group with the bin above tiles that are
+    // transforms.
+    [[nodiscard]] const osg::Node* tileOf(osg::Node& node) const {
         if (_known.count(&node)) return &node;
-        const osg::Group* group = node.asGroup();
-        const bool isCarrier = group && typeid(node) == typeid(osg::Group) && group->getNumChildren() == 1;
-        return isCarrier && _known.count(group->getChild(0)) ? group->getChild(0) : nullptr;
+        const osg::Group* const group = node.asGroup();
+        const bool hasOne = group && group->getNumChildren() == 1 && _known.count(group->getChild(0)) != 0;
+        return hasOne && binCallbackOf(node) ? group->getChild(0) : nullptr;
     }
 
     bool open(osg::Node& node) {
