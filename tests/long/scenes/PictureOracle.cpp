@@ -74,6 +74,7 @@ public:
         if (!lost.isFilled && Place(pixel).isAtBorder()) return true;
         const auto sight = sightTo(pixel, lost, _without.painting);
         if (lost.isPlain && (isInCrack(pixel) || isSkirtInHole(pixel, lost))) return true;
+        if (sight && isInSlit(pixel) && isBehindCoarseTiles(lost, *sight)) return true;
         return sight && (mayHide(_without, lost.camera, *sight) || mayHide(_with, lost.camera, *sight));
     }
 
@@ -117,6 +118,39 @@ private:
         const std::size_t steps[] = {1, kRow - 1, kRow, kRow + 1};
         return std::any_of(std::begin(steps), std::end(steps),
                            [&](std::size_t step) { return isNearer(pixel - step) && isNearer(pixel + step); });
+    }
+
+    // Whether nearer terrain is on both sides of it.
+    [[nodiscard]] bool isInSlit(std::size_t pixel) const {
+        constexpr int kWidest = 8;
+        const Place place(pixel);
+        const std::vector<float>& depths = _without.painting.depths;
+        const auto hasNearer = [&](int columns, int rows) {
+            for (int i = 1; i <= kWidest; ++i) {
+                const int column = place.column + i * columns, row = place.row + i * rows;
+                if (std::min(column, row) < 0 || std::max(column, row) >= place.size) return false;
+                const std::ptrdiff_t step = i * (std::ptrdiff_t{rows} * Painting::kWidth + columns);
+                if (depths[pixel + static_cast<std::size_t>(step)] < depths[pixel]) return true;
+            }
+            return false;
+        };
+        constexpr int kSteps[][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}};
+        return std::any_of(std::begin(kSteps), std::end(kSteps), [&](const int(&step)[2]) {
+            return hasNearer(step[0], step[1]) && hasNearer(-step[0], -step[1]);
+        });
+    }
+
+    // doc/limits.md: "On globes of very coarse tiles (...) such slits are kilometres wide, and an eye that looks along
+    // one may see what is below the skirts' lower edges".
+    [[nodiscard]] bool isBehindCoarseTiles(const Delivered& lost, const Sight& sight) const {
+        constexpr double kLongChord = 0.17;  // radians
+        return std::any_of(_without.databases.begin(), _without.databases.end(), [&](const MetDatabase& met) {
+            const DatabaseSpec& database = _description.databases[static_cast<std::size_t>(met.number)];
+            const bool isCoarse =
+                !database.isMap && database.levels > 0 && database.tileWidth(0) > kLongChord * (database.posts - 1);
+            return isCoarse && met.camera == lost.camera &&
+                   test::mayHide({met.number, database.relief, false, true}, _description, met, sight);
+        });
     }
 
     // doc/limits.md: "Bins hold those parts of skirts that an eye above the terrain can see through cracks." Through
