@@ -3,7 +3,7 @@
 
 #include "HeightGrid.h"
 
-#include <osgAnalyticBin/TerrainGrid.h>
+#include "TerrainGrid.h"
 
 #include <cmath>
 #include <utility>

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/TerrainGrid.h>
+#include "TerrainGrid.h"
 
 #include <array>
 #include <cstdint>

@@ -6,9 +6,8 @@
 #include "BlendBand.h"
 #include "GdalRaster.h"
 #include "Settings.h"
+#include "TerrainGrid.h"
 #include "TileLayout.h"
-
-#include <osgAnalyticBin/TerrainGrid.h>
 
 #include <osg/Image>
 

@@ -5,10 +5,10 @@
 
 #include "Failure.h"
 #include "ModuleFolder.h"
+#include "PackedTerrain.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
-#include <osgAnalyticBin/PackedTerrain.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Geometry>

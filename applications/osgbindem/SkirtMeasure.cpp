@@ -3,7 +3,7 @@
 
 #include "SkirtMeasure.h"
 
-#include <osgAnalyticBin/TerrainGrid.h>
+#include "TerrainGrid.h"
 
 #include <glm/geometric.hpp>
 

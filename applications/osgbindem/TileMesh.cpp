@@ -4,8 +4,8 @@
 #include "TileMesh.h"
 
 #include "Hypsometry.h"
+#include "PackedTerrain.h"
 
-#include <osgAnalyticBin/PackedTerrain.h>
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 #include <osgAnalyticBin/core/mesh/GeodeticMeshBounds.h>
 

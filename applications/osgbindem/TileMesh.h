@@ -5,10 +5,10 @@
 
 #include "HeightGrid.h"
 #include "SkirtMeasure.h"
+#include "TerrainGrid.h"
 #include "TileLayout.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
-#include <osgAnalyticBin/TerrainGrid.h>
 
 #include <glm/vec3.hpp>
 #include <osg/Geometry>

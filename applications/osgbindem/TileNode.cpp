@@ -3,7 +3,7 @@
 
 #include "TileNode.h"
 
-#include <osgAnalyticBin/TerrainGrid.h>
+#include "TerrainGrid.h"
 
 #include <glm/geometric.hpp>
 #include <osg/CoordinateSystemNode>

@@ -4,9 +4,9 @@
 #include "ProceduralGlobe.h"
 
 #include "Angles.h"
+#include "TerrainGrid.h"
 
 #include <osgAnalyticBin/InstallBinsCallback.h>
-#include <osgAnalyticBin/TerrainGrid.h>
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 
 #include <glm/geometric.hpp>

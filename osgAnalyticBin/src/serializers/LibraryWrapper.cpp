@@ -6,7 +6,6 @@
 USE_SERIALIZER_WRAPPER(osgAnalyticBin_AnalyticBinCullCallback)
 USE_SERIALIZER_WRAPPER(osgAnalyticBin_ContentWatch)
 USE_SERIALIZER_WRAPPER(osgAnalyticBin_InstallBinsCallback)
-USE_SERIALIZER_WRAPPER(osgAnalyticBin_PackedTerrain)
 
 #if defined(_WIN32)
 #define OSGANALYTICBIN_WRAPPER_EXPORT __declspec(dllexport)

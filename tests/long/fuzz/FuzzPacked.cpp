@@ -5,8 +5,8 @@
 // vertex its triangles name, at finite places.
 
 #include "Fuzz.h"
+#include "TerrainGrid.h"
 
-#include <osgAnalyticBin/TerrainGrid.h>
 #include <osgAnalyticBin/TileSurface.h>
 
 #include <cmath>

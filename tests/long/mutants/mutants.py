@@ -17,8 +17,8 @@ import time
 from faults import FAULTS, SCENES
 
 SOURCES = pathlib.Path(__file__).resolve().parents[3]
-# what a build needs; documents, data and programs are not looked at
-PARTS = ("CMakeLists.txt", "LICENSE", "osgAnalyticBin", "tests", "data", "applications/rivals")
+# what a build needs; documents, data and other programs are not looked at
+PARTS = ("CMakeLists.txt", "LICENSE", "osgAnalyticBin", "tests", "data", "applications/packed", "applications/rivals")
 LONGEST_RUN = 900  # seconds; a fault may make a test loop
 
 
@@ -82,7 +82,7 @@ class Scratch:
 
 def put_in(fault, sources):
     """Returns: the file and its text as it was; None when the fault's text is not there just once."""
-    file = sources / "osgAnalyticBin" / fault.file
+    file = sources / fault.place
     if not file.exists():
         return None
     before = file.read_text(encoding="utf-8")
@@ -96,7 +96,7 @@ def trial(fault, scratch):
     """Returns: a word for what became of the fault, and what there is to say of it."""
     placed = put_in(fault, scratch.sources)
     if not placed:
-        return "TEXT GONE", f"its text does not stand once in osgAnalyticBin/{fault.file}"
+        return "TEXT GONE", f"its text does not stand once in {fault.place}"
     file, before = placed
     try:
         if scratch.make(fault.target) != 0:

@@ -80,6 +80,12 @@ for format in analyticbin binflight binrival proceduralglobe; do
     OSG_LIBRARY_PATH="$moved/$libdir" osgconv --format "$format" 2>&1 | grep -q "=" || fail "no plugin $format"
 done
 
+echo "== the stock osgconv reads the packed tiles of an installed osgbindem"
+printf '%s\n' "ncols 4" "nrows 2" "xllcorner -180" "yllcorner -90" "cellsize 90" "0 1 2 3" "4 5 6 7" >"$scratch/heights.asc"
+quietly "$moved/bin/osgbindem" "$scratch/heights.asc" --packed --levels 0 --cells 4 --quiet -o "$scratch/earth.osgb"
+quietly env OSG_LIBRARY_PATH="$moved/$libdir" osgconv "$scratch/earth.osgb" "$scratch/earth.osgt"
+grep -q "osg::Vec3Array" "$scratch/earth.osgt" || fail "no meshes of packed tiles"
+
 echo "== uninstall leaves nothing"
 quietly cmake --install "$build" --prefix "$scratch/second/deeper"
 quietly cmake --build "$build" --target uninstall

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // Databases of packed tiles against those of meshes: all that is loaded has to be equal, number by number. The bytes of
-// a grid by themselves: tests/unit/node/TerrainGridTest.cpp.
+// a grid by themselves: tests/unit/applications/packed/TerrainGridTest.cpp.
 
 #include "DatabaseCheck.h"
 #include "Program.h"

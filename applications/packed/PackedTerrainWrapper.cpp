@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <osgAnalyticBin/PackedTerrain.h>
+#include "PackedTerrain.h"
 
 #include <osgDB/InputStream>
 #include <osgDB/ObjectWrapper>

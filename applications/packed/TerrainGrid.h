@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <osgAnalyticBin/Export.h>
 #include <osgAnalyticBin/core/Ellipsoid.h>
 
 #include <glm/vec3.hpp>
@@ -72,22 +71,22 @@ struct TerrainGrid {
 
 /// The vertices of a grid, row by row from the south-west, then the skirts' edge by edge, in ECEF metres.
 /// Guarantee: a post that two grids with the same quantum share is mapped to exactly the same point.
-[[nodiscard]] OSGANALYTICBIN_EXPORT std::vector<glm::dvec3> verticesOf(const TerrainGrid& grid);
+[[nodiscard]] std::vector<glm::dvec3> verticesOf(const TerrainGrid& grid);
 
 /// Three vertices a triangle, the surface's first.
-[[nodiscard]] OSGANALYTICBIN_EXPORT std::vector<std::uint16_t> trianglesOf(int cells);
+[[nodiscard]] std::vector<std::uint16_t> trianglesOf(int cells);
 
 /// The mesh as OSG draws it, without the triangles and texture coordinates, which tiles may share.
-OSGANALYTICBIN_EXPORT void fillGeometry(const TerrainGrid& grid, osg::Geometry& geometry);
+void fillGeometry(const TerrainGrid& grid, osg::Geometry& geometry);
 
 /// One for each vertex, behind what is there already.
-OSGANALYTICBIN_EXPORT void addTextureCoordinates(int cells, int textureSize, osg::Vec2Array& coordinates);
+void addTextureCoordinates(int cells, int textureSize, osg::Vec2Array& coordinates);
 
 /// The bytes of a grid. Each height is stored as its difference from a prediction by its neighbours. The bytes are the
 /// same on every machine.
-[[nodiscard]] OSGANALYTICBIN_EXPORT std::string packed(const TerrainGrid& grid);
+[[nodiscard]] std::string packed(const TerrainGrid& grid);
 
 /// Returns: nullopt for what packed() has not made.
-[[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<TerrainGrid> unpacked(const std::string& bytes);
+[[nodiscard]] std::optional<TerrainGrid> unpacked(const std::string& bytes);
 
 }  // namespace osgAnalyticBin

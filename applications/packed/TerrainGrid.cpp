@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "Relief.h"
+#include "TerrainGrid.h"
 
-#include <osgAnalyticBin/TerrainGrid.h>
+#include "Relief.h"
 
 #include <glm/geometric.hpp>
 

@@ -4,7 +4,7 @@
 // The bytes of a grid: all of it comes back, and broken bytes are refused. That the mesh is right is tested on whole
 // databases: tests/unit/applications/osgbindem.
 
-#include <osgAnalyticBin/TerrainGrid.h>
+#include "TerrainGrid.h"
 
 #include <gtest/gtest.h>
 
