@@ -128,11 +128,11 @@ void BinDisplayHandler::showLegend(const TileSurvey& survey, osg::Camera& camera
 bool BinDisplayHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) {
     osgViewer::View* view = viewOf(action);
     if (!view || isTaken(event)) return false;
-    if (event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN && event.getKey() == _keyBins) {
+    if (event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN && event.getKey() == kKeyBins) {
         _shown = _shown == Shown::Nothing ? Shown::Ends : _shown == Shown::Ends ? Shown::All : Shown::Nothing;
         return true;
     }
-    if (event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN && event.getKey() == _keyQuadratic) {
+    if (event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN && event.getKey() == kKeyQuadratic) {
         _showsQuadratic = !_showsQuadratic;
         if (_shown == Shown::Nothing) _shown = Shown::Ends;
         return true;
@@ -158,8 +158,8 @@ bool BinDisplayHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIAc
 }
 
 void BinDisplayHandler::getUsage(osg::ApplicationUsage& usage) const {
-    usage.addKeyboardMouseBinding(_keyBins, "Show bins by verdict: where culling ends, all, none.");
-    usage.addKeyboardMouseBinding(_keyQuadratic, "Show the quadratic approximation of the bins.");
+    usage.addKeyboardMouseBinding(kKeyBins, "Show bins by verdict: where culling ends, all, none.");
+    usage.addKeyboardMouseBinding(kKeyQuadratic, "Show the quadratic approximation of the bins.");
 }
 
 }  // namespace osgAnalyticBin::viewer

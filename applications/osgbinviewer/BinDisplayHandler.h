@@ -36,17 +36,10 @@ public:
 
     BinDisplayHandler();
 
-    /// Default `B`.
-    void setKeyEventBins(int key) { _keyBins = key; }
-    /// Default `Q`.
-    void setKeyEventQuadratic(int key) { _keyQuadratic = key; }
-
     /// Which bins are drawn from the next frame on, as key `B` chooses.
     void setShown(Shown shown) { _shown = shown; }
     /// Which bins are drawn.
     [[nodiscard]] Shown shown() const { return _shown; }
-    /// Whether their quadratic approximation is drawn, as key `Q` chooses.
-    void setQuadraticShown(bool shown) { _showsQuadratic = shown; }
 
     /// The present drawing in the world's frame, one child for each slab.
     [[nodiscard]] const osg::Group& slabs() const { return *_slabs; }
@@ -73,8 +66,8 @@ private:
     osg::Node* slabOf(const SurveyedTile& tile);
     void showLegend(const TileSurvey& survey, osg::Camera& camera);
 
-    int _keyBins = 'B';
-    int _keyQuadratic = 'Q';
+    static constexpr int kKeyBins = 'B';
+    static constexpr int kKeyQuadratic = 'Q';
     Shown _shown = Shown::Nothing;
     bool _showsQuadratic = false;
     const osg::ref_ptr<osg::Group> _slabs;

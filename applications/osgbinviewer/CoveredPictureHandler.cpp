@@ -78,7 +78,7 @@ CoveredPictureHandler::~CoveredPictureHandler() = default;
 bool CoveredPictureHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) {
     osgViewer::View* view = viewOf(action);
     if (!view || isTaken(event)) return false;
-    if (event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN && event.getKey() == _key) {
+    if (event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN && event.getKey() == kKey) {
         _isShown = !_isShown;
         return true;
     }
@@ -102,7 +102,7 @@ bool CoveredPictureHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::G
 }
 
 void CoveredPictureHandler::getUsage(osg::ApplicationUsage& usage) const {
-    usage.addKeyboardMouseBinding(_key, "Show what of the picture terrain covers: tiles behind it are culled.");
+    usage.addKeyboardMouseBinding(kKey, "Show what of the picture terrain covers: tiles behind it are culled.");
 }
 
 }  // namespace osgAnalyticBin::viewer

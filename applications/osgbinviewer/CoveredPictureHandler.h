@@ -16,11 +16,6 @@ class CoveredPictureHandler : public osgGA::GUIEventHandler {
 public:
     CoveredPictureHandler();
 
-    /// Default `O`.
-    void setKeyEvent(int key) { _key = key; }
-    /// Shows or removes the curtain from the next frame on, as the key does.
-    void setShown(bool shown) { _isShown = shown; }
-
     /// The curtain, in the world's frame. It has no children while nothing is drawn.
     [[nodiscard]] const osg::Group& curtain() const { return *_curtain; }
 
@@ -33,7 +28,7 @@ protected:
     ~CoveredPictureHandler() override;
 
 private:
-    int _key = 'O';
+    static constexpr int kKey = 'O';
     bool _isShown = false;
     const osg::ref_ptr<osg::Group> _curtain;
 };

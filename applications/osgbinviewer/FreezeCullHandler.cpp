@@ -48,7 +48,7 @@ void FreezeCullHandler::setFrozen(osgGA::GUIActionAdapter& action, bool frozen) 
 }
 
 bool FreezeCullHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) {
-    if (event.getHandled() || event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN || event.getKey() != _key) {
+    if (event.getHandled() || event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN || event.getKey() != kKey) {
         return false;
     }
     setFrozen(action, !_isFrozen);
@@ -57,7 +57,7 @@ bool FreezeCullHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIAc
 }
 
 void FreezeCullHandler::getUsage(osg::ApplicationUsage& usage) const {
-    usage.addKeyboardMouseBinding(_key, "Freeze the culling camera, to fly round what it draws.");
+    usage.addKeyboardMouseBinding(kKey, "Freeze the culling camera, to fly round what it draws.");
 }
 
 }  // namespace osgAnalyticBin::viewer

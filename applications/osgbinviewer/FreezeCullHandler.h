@@ -19,9 +19,6 @@ class FreezeCullHandler : public osgGA::GUIEventHandler {
 public:
     FreezeCullHandler();
 
-    /// Default `F`.
-    void setKeyEventFreeze(int key) { _key = key; }
-
     /// Whether culling is frozen.
     [[nodiscard]] bool isFrozen() const { return _isFrozen; }
 
@@ -37,7 +34,7 @@ protected:
     ~FreezeCullHandler() override;
 
 private:
-    int _key = 'F';
+    static constexpr int kKey = 'F';
     bool _isFrozen = false;
 };
 

@@ -95,14 +95,14 @@ bool MethodSwitchHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUI
         return false;
     }
     if (event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return false;
-    if (event.getKey() != _keyNext && event.getKey() != _keyPrevious) return false;
-    setMethod(action, neighbour(_options.method, event.getKey() == _keyNext ? 1 : kMethods.size() - 1));
+    if (event.getKey() != kKeyNext && event.getKey() != kKeyPrevious) return false;
+    setMethod(action, neighbour(_options.method, event.getKey() == kKeyNext ? 1 : kMethods.size() - 1));
     return true;
 }
 
 void MethodSwitchHandler::getUsage(osg::ApplicationUsage& usage) const {
-    usage.addKeyboardMouseBinding(_keyNext, "Next culling method, and its change in tiles.");
-    usage.addKeyboardMouseBinding(_keyPrevious, "Previous culling method.");
+    usage.addKeyboardMouseBinding(kKeyNext, "Next culling method, and its change in tiles.");
+    usage.addKeyboardMouseBinding(kKeyPrevious, "Previous culling method.");
 }
 
 }  // namespace osgAnalyticBin::viewer

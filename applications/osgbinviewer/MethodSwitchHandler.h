@@ -20,11 +20,6 @@ public:
     /// `options`: those that the scene's bins were installed with.
     explicit MethodSwitchHandler(const CullOptions& options = {});
 
-    /// Default `n`.
-    void setKeyEventNext(int key) { _keyNext = key; }
-    /// Default `N`.
-    void setKeyEventPrevious(int key) { _keyPrevious = key; }
-
     /// The present culling method.
     [[nodiscard]] const CullOptions& cullOptions() const { return _options; }
 
@@ -42,8 +37,8 @@ protected:
 private:
     void showChange(osg::Camera& camera, osg::FrameStamp& frameStamp);
 
-    int _keyNext = 'n';
-    int _keyPrevious = 'N';
+    static constexpr int kKeyNext = 'n';
+    static constexpr int kKeyPrevious = 'N';
     CullOptions _options;
     Method _methodBefore;
     TileCounts _countsBefore;

@@ -16,7 +16,6 @@
 namespace osgAnalyticBin::viewer {
 
 using flight::CameraPose;
-using flight::PathColumns;
 
 namespace {
 
@@ -74,8 +73,7 @@ std::optional<CameraPose> recordedPose(osg::Camera& camera, double time) {
     return pose;
 }
 
-PathRecorder::PathRecorder(const std::string& fileName, double interval, PathColumns columns)
-    : _fileName(fileName), _interval(interval), _columns(columns) {}
+PathRecorder::PathRecorder(const std::string& fileName, double interval) : _fileName(fileName), _interval(interval) {}
 
 PathRecorder::~PathRecorder() {
     write();
@@ -89,7 +87,7 @@ void PathRecorder::setRecording(bool recording) {
 void PathRecorder::write() {
     if (_isWritten) return;
     std::string error;
-    const bool isGood = flight::writeCameraPathFile(_fileName, _path, _columns, error);
+    const bool isGood = flight::writeCameraPathFile(_fileName, _path, flight::PathColumns::PosesInTime, error);
     _isWritten = true;
     if (!isGood) OSG_WARN << "PathRecorder: " << error << std::endl;
 }
@@ -113,7 +111,7 @@ void PathRecorder::record(osg::Camera& camera, double time) {
 bool PathRecorder::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) {
     osgViewer::View* view = viewOf(action);
     if (!view || isTaken(event)) return false;
-    if (event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN && event.getKey() == _key) {
+    if (event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN && event.getKey() == kKey) {
         setRecording(!_isRecording);
         OSG_NOTICE << (_isRecording ? "recording the camera into " : "camera path written: ") << _fileName << std::endl;
         return true;
@@ -128,7 +126,7 @@ bool PathRecorder::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionA
 }
 
 void PathRecorder::getUsage(osg::ApplicationUsage& usage) const {
-    usage.addKeyboardMouseBinding(_key, "Start or stop recording the camera for osgbinbench.");
+    usage.addKeyboardMouseBinding(kKey, "Start or stop recording the camera for osgbinbench.");
 }
 
 }  // namespace osgAnalyticBin::viewer

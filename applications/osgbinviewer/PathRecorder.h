@@ -25,11 +25,7 @@ namespace osgAnalyticBin::viewer {
 class PathRecorder : public osgGA::GUIEventHandler {
 public:
     /// `interval`: seconds between poses.
-    explicit PathRecorder(const std::string& fileName, double interval = 0.5,
-                          flight::PathColumns columns = flight::PathColumns::PosesInTime);
-
-    /// Default `R`.
-    void setKeyEventRecord(int key) { _key = key; }
+    explicit PathRecorder(const std::string& fileName, double interval = 0.5);
 
     /// Starts or stops, as the key does; stopping writes the file.
     void setRecording(bool recording);
@@ -49,10 +45,9 @@ private:
     void record(osg::Camera& camera, double time);
     void write();
 
-    int _key = 'R';
+    static constexpr int kKey = 'R';
     const std::string _fileName;
     const double _interval;
-    const flight::PathColumns _columns;
     bool _isRecording = false;
     bool _isWritten = true;
     double _lastTime = 0.0;

@@ -241,7 +241,7 @@ bool SpyViewHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActio
         if (isOpen()) drawFrustum(*view);
         return false;
     }
-    if (event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN && event.getKey() == _key) {
+    if (event.getEventType() == osgGA::GUIEventAdapter::KEYDOWN && event.getKey() == kKey) {
         setOpen(*view, !isOpen());
         return true;
     }
@@ -254,7 +254,7 @@ bool SpyViewHandler::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActio
 }
 
 void SpyViewHandler::getUsage(osg::ApplicationUsage& usage) const {
-    usage.addKeyboardMouseBinding(_key, "Second window that shows from aside what the camera draws.");
+    usage.addKeyboardMouseBinding(kKey, "Second window that shows from aside what the camera draws.");
 }
 
 }  // namespace osgAnalyticBin::viewer

@@ -22,9 +22,6 @@ class SpyViewHandler : public osgGA::GUIEventHandler {
 public:
     SpyViewHandler();
 
-    /// Default `y`.
-    void setKeyEventSpy(int key) { _key = key; }
-
     /// Opens or closes the window, as the key does. Between frames only; a viewer that draws in threads pauses them.
     void setOpen(osgViewer::View& view, bool open);
     /// Whether the window is there.
@@ -53,7 +50,7 @@ private:
     void drawFrustum(osgViewer::View& view);
     bool orbit(const osgGA::GUIEventAdapter& event);
 
-    int _key = 'y';
+    static constexpr int kKey = 'y';
     osg::ref_ptr<osg::Camera> _camera;
     osg::ref_ptr<osg::Group> _frustum;
     const osg::ref_ptr<Placement> _placement;
