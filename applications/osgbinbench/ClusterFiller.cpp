@@ -8,7 +8,7 @@
 #include "GlmBridge.h"
 #include "TileVertices.h"
 
-#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileFrame.h>
 
 #include <glm/geometric.hpp>
 #include <osg/ClusterCullingCallback>

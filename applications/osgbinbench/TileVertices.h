@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileFrame.h>
 #include <osgAnalyticBin/core/Ellipsoid.h>
 
 #include <glm/vec3.hpp>

@@ -6,7 +6,7 @@
 #include "RivalCullCallback.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
-#include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/Declarations.h>
 
 #include <osg/Geode>
 #include <osg/NodeCallback>

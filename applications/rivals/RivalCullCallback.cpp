@@ -4,7 +4,7 @@
 #include "RivalCullCallback.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
-#include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
 

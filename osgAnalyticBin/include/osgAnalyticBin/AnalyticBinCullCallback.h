@@ -6,6 +6,7 @@
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/TerrainShape.h>
 #include <osgAnalyticBin/core/bin/ExactGeodeticBin.h>
 #include <osgAnalyticBin/core/bin/QuadraticOrExact.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
@@ -35,27 +36,6 @@ class InstalledTile;
 class TileFamily;
 struct DatabaseView;
 struct Verdict;
-
-/// What osgTerrain::Terrain says about the meshes of its tiles while they are shown.
-struct TerrainShape {
-    /// osgTerrain::Terrain::setVerticalScale().
-    double verticalScale = 1.0;
-    /// osgTerrain::Terrain::setSampleRatio().
-    double sampleRatio = 1.0;
-    bool areBoundariesEqual = false;  ///< Whether edges lie half way to the heights of neighbours.
-    /// The greatest distance in metres between what is drawn and the meshes of osgTerrain::GeometryTechnique; 0: these
-    /// meshes are drawn; infinity: nothing is known.
-    double techniqueMargin = 0.0;
-
-    /// Whether it is known where the meshes are.
-    [[nodiscard]] bool isKnown() const { return std::isfinite(techniqueMargin); }
-
-    /// Whether the meshes have the same shape.
-    [[nodiscard]] bool operator==(const TerrainShape& other) const {
-        return verticalScale == other.verticalScale && sampleRatio == other.sampleRatio &&
-               areBoundariesEqual == other.areBoundariesEqual && techniqueMargin == other.techniqueMargin;
-    }
-};
 
 /// The cull callback of a tile: tests the tile's bin against the frustum planes that are still undecided, and culls
 /// the tile when the bin is outside one of them. OSG tests the node's sphere before, as on any node; installBins() has

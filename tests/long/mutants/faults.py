@@ -55,7 +55,7 @@ FAULTS = [
           "--pictures --seed 800 --scenes 300 --failures 1 --no-shrink"),
 
     Fault("programs without shaders are harmless", "src/node/cull/DrawnState.cpp",
-          "if (rules.trustsShaders) return", "if (rules.trustsShaders || program.isFixedFunction()) return", NODE, "Evidence.*"),
+          "return rules.trustsShaders ||", "return rules.trustsShaders || program.isFixedFunction() ||", NODE, "Evidence.*"),
 
     # the polynomial and its proof
     Fault("no remainder", "src/core/bin/QuadraticBin.cpp", "(mapping.remainder(box) + margin)", "(margin)",
@@ -196,7 +196,7 @@ FAULTS = [
           "kTerrainOnEarth{-11500.0, 9000.0}", "kTerrainOnEarth{-11500.0, 8000.0}", NODE, "HeightsOnEarth.*"),
 
     # what applications do with a database
-    Fault("copies of callbacks cull", "src/node/install/InstalledTile.h", "return node == _culled;", "return true;", NODE,
+    Fault("copies of callbacks cull", "src/node/tile/InstalledTile.h", "return node == _culled;", "return true;", NODE,
           "Clones.*"),
     Fault("osgTerrain tiles keep their heights", "src/node/install/ContentWatch.cpp",
           "mix(hash, surfaceFingerprint(const_cast<osg::Node&>(part), osg::Matrixd()));", "", NODE, "OccludingTerrainTiles.*"),
@@ -356,7 +356,7 @@ FAULTS = [
           "if (highest < -(hull.reach + kRoom)) return true;", "if (highest < -(0.0 * hull.reach + kRoom)) return true;", NODE, "TerrainOcclusion.*"),
     Fault("occlusion: what was found serves views of anything", "src/node/cull/TerrainOcclusion.cpp",
           "isWithin(span->across, found.span.across)", "(isWithin(span->across, found.span.across) || true)", NODE, "TerrainOcclusion.*"),
-    Fault("occlusion: meshes stay as they were", "src/node/install/InstalledTile.cpp",
+    Fault("occlusion: meshes stay as they were", "src/node/tile/InstalledTile.cpp",
           "    _isMeshChanged.store(true, std::memory_order_relaxed);\n", "", NODE, "TerrainOcclusion.*"),
 
     # families of tiles
@@ -371,7 +371,7 @@ FAULTS = [
           "setMask(undecided);", "", NODE, "DecidedPlanes.*"),
     Fault("family: decided planes are left to siblings", "src/node/cull/TileFamily.cpp", "setMask(before);", "", NODE,
           "DecidedPlanes.*:TileFamily.*"),
-    Fault("family: tiles that are kept visible are culled", "src/node/install/InstalledTile.cpp",
+    Fault("family: tiles that are kept visible are culled", "src/node/tile/InstalledTile.cpp",
           "_isSlotFilled && !isKeptVisible() && ", "_isSlotFilled && ", NODE, "AddedContent.*"),
     Fault("family: callbacks behind it are not run", "src/node/cull/TileFamily.cpp",
           "&group == _group && _hasTiles && !getNestedCallback() && ", "&group == _group && _hasTiles && ", NODE, "TileFamily.*"),
@@ -466,7 +466,7 @@ FAULTS = [
           "if (TileFamily::place(group) && !ContentWatch::isOn(group)) ContentWatch::place(group, {});",
           "(void)TileFamily::place(group);", NODE,
           "AddedContent.*"),
-    Fault("a tree of groups passes over tiles that are kept visible", "src/node/cull/TileBlock.cpp",
+    Fault("a tree of groups passes over tiles that are kept visible", "src/node/tile/TileBlock.cpp",
           "if (setBit(_parts[slot / Part::kMost]->believed, slot % Part::kMost, is)) _columnUnion->addDoubts(is ? -1 : 1);",
           "if (setBit(_parts[slot / Part::kMost]->believed, slot % Part::kMost, is) && is) _columnUnion->addDoubts(-1);",
           NODE, "GroupTree.*"),
@@ -476,7 +476,7 @@ FAULTS = [
     Fault("a tree of groups has no hole where a group was", "src/node/cull/TileFamily.cpp",
           "return _hasLostTiles || hasLostGroup;", "(void)hasLostGroup;\n    return _hasLostTiles;", NODE,
           "GroupTree.*"),
-    Fault("a tree of groups keeps the columns of bins that have grown", "src/node/cull/TileBlock.cpp",
+    Fault("a tree of groups keeps the columns of bins that have grown", "src/node/tile/TileBlock.cpp",
           "if (tile.column.valid())", "if (tile.column.valid() && !_columnUnion->sphere().valid())", NODE,
           "GroupTree.*"),
     Fault("a part of a mesh is taken for bare whatever its state", "src/node/cull/TileEntry.h",
@@ -488,7 +488,7 @@ FAULTS = [
           "ReadResult result = readPlain(fileName, plain.get(), _previous.get());",
           "const osg::ref_ptr<osg::Node> early = plain ? cachedNode(fileName, *plain) : nullptr;\n    ReadResult result = early ? ReadResult(early.get()) : readPlain(fileName, plain.get(), _previous.get());", NODE,
           "ObjectCache.*"),
-    Fault("requests: a visitor of ours says that it culls", "src/node/install/MeshCulling.cpp",
+    Fault("requests: a visitor of ours says that it culls", "src/node/tile/MeshCulling.cpp",
           ": osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _action(std::move(action)) {",
           ": osg::NodeVisitor(CULL_VISITOR, TRAVERSE_ALL_CHILDREN), _action(std::move(action)) {", NODE,
           "Requests.*"),

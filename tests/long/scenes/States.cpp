@@ -5,7 +5,7 @@
 
 #include "Painter.h"
 
-#include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/Declarations.h>
 
 #include <osg/AlphaFunc>
 #include <osg/BlendColor>

@@ -6,6 +6,7 @@
 
 #include "ApplicationGlobe.h"
 
+#include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/TileSurface.h>
 

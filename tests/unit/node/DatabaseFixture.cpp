@@ -6,7 +6,7 @@
 #include "CullFixture.h"
 #include "TileFixture.h"
 
-#include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/Declarations.h>
 
 #include <osg/Geode>
 #include <osg/Geometry>

@@ -3,8 +3,8 @@
 //
 // Tiles below a tree of plain groups: the search for the lowest surface passes over groups out of view.
 
+#include "../../../osgAnalyticBin/src/node/CallbackChain.h"
 #include "../../../osgAnalyticBin/src/node/cull/TileFamily.h"
-#include "../../../osgAnalyticBin/src/node/install/FindCallback.h"
 #include "ApplicationGlobe.h"
 #include "CameraGlobe.h"
 

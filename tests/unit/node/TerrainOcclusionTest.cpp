@@ -9,6 +9,7 @@
 
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/CoveredPicture.h>
+#include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>

@@ -8,6 +8,7 @@
 #include "DatabaseFixture.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/Export.h>
-#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileFrame.h>
 #include <osgAnalyticBin/TileSurface.h>
 
 #include <array>

@@ -3,9 +3,8 @@
 
 #include "BoxFamily.h"
 
+#include "../CallbackChain.h"
 #include "../cull/BinCulling.h"
-#include "../install/FindCallback.h"
-#include "../install/TileCallback.h"
 #include "BoxCullCallback.h"
 
 #include <osg/PagedLOD>

@@ -3,8 +3,7 @@
 
 #include "BoxInstaller.h"
 
-#include "../install/FindCallback.h"
-#include "../install/TileCallback.h"
+#include "../CallbackChain.h"
 #include "../page/PagingExpiry.h"
 #include "BoxCullCallback.h"
 #include "BoxFamily.h"
@@ -12,7 +11,7 @@
 #include "SetMarks.h"
 
 #include <osgAnalyticBin/PhotogrammetrySet.h>
-#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileFrame.h>
 
 #include <osg/NodeVisitor>
 #include <osg/Notify>

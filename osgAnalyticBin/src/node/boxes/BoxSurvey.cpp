@@ -11,7 +11,7 @@
 #include <osgAnalyticBin/BoxIndex.h>
 #include <osgAnalyticBin/PhotogrammetrySet.h>
 #include <osgAnalyticBin/TileFile.h>
-#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileFrame.h>
 #include <osgAnalyticBin/index/DatabaseFiles.h>
 
 #include <osg/PagedLOD>

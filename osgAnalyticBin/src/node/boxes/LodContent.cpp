@@ -5,7 +5,7 @@
 
 #include "../Classes.h"
 #include "../PagedChildren.h"
-#include "../cull/Scoped.h"
+#include "../Scoped.h"
 
 #include <osg/Geode>
 #include <osg/Geometry>

@@ -5,13 +5,13 @@
 #include "../Inverse.h"
 #include "../PerThread.h"
 #include "../Spheres.h"
-#include "../install/InstalledTile.h"
+#include "../tile/InstalledTile.h"
 #include "BinCulling.h"
 #include "DrawnState.h"
 #include "TilePlan.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileFrame.h>
 #include <osgAnalyticBin/core/edge/HullSeparation.h>
 
 #include <osg/CullStack>

@@ -4,7 +4,7 @@
 // The properties of the callback as text, as files hold them.
 
 #include "../Text.h"
-#include "../install/InstalledTile.h"
+#include "../tile/InstalledTile.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 

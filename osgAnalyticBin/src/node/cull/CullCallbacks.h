@@ -4,12 +4,11 @@
 #pragma once
 
 #include "../Classes.h"
-#include "../install/MeshCulling.h"
-#include "../install/TileCallback.h"
+#include "../tile/MeshCulling.h"
 #include "TileFamily.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/Declarations.h>
 
 #include <osg/Callback>
 #include <osg/Node>

@@ -8,8 +8,8 @@
 #include "NearMeshes.h"
 #include "SightOverRegion.h"
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/TerrainShape.h>
 #include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 

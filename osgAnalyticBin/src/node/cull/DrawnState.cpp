@@ -4,11 +4,11 @@
 #include "DrawnState.h"
 
 #include "../Classes.h"
-#include "../install/MeshCulling.h"
-#include "../install/TileCallback.h"
+#include "../tile/Carrier.h"
+#include "../tile/MeshCulling.h"
 #include "CullCallbacks.h"
 
-#include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/Declarations.h>
 
 #include <osg/AlphaFunc>
 #include <osg/Billboard>
@@ -59,8 +59,6 @@
 #include <osg/Texture3D>
 #include <osg/TextureCubeMap>
 #include <osg/TextureRectangle>
-#include <osg/UserDataContainer>
-#include <osg/ValueObject>
 #include <osgTerrain/Terrain>
 #include <osgUtil/CullVisitor>
 
@@ -74,7 +72,6 @@ namespace {
 using Attribute = osg::StateAttribute;
 
 constexpr GLenum kSeamlessCubeMaps = 0x884F;  // GL_TEXTURE_CUBE_MAP_SEAMLESS
-constexpr const char* kDrawsTriangles = "osgAnalyticBin.drawsTriangles";
 constexpr DrawnState kHarmless{true, true}, kUnknown{false, false}, kHidesNothing{false, true};
 
 DrawnState ofDepth(const osg::Depth& depth) {
@@ -94,10 +91,7 @@ DrawnState ofColorMask(const osg::ColorMask& mask) {
 }
 
 DrawnState ofProgram(const osg::Program& program, const StateRules& rules) {
-    if (rules.trustsShaders) return kHarmless;
-    bool isDeclared = false;
-    if (program.getUserDataContainer()) (void)program.getUserValue(kDrawsTriangles, isDeclared);
-    return isDeclared ? kHarmless : kUnknown;
+    return rules.trustsShaders || drawsTriangles(program) ? kHarmless : kUnknown;
 }
 
 DrawnState ofCullFace(const osg::CullFace& face) {
@@ -304,10 +298,6 @@ bool drawsAllChildren(const osg::Node& node) {
     return !node.asGroup() ||
            isOneOf<osg::Group, osg::Geode, osg::MatrixTransform, Carrier, osg::PositionAttitudeTransform,
                    osg::CoordinateSystemNode, osgTerrain::Terrain>(node);
-}
-
-void setDrawsTriangles(osg::Program& program) {
-    program.setUserValue(kDrawsTriangles, true);
 }
 
 }  // namespace osgAnalyticBin

@@ -3,10 +3,10 @@
 
 #include "NearMeshes.h"
 
-#include "../install/InstalledTile.h"
-#include "../install/TileCallback.h"
 #include "../page/Database.h"
 #include "../surface/TilePlates.h"
+#include "../tile/InstalledTile.h"
+#include "InstalledBin.h"
 
 #include <glm/geometric.hpp>
 

@@ -3,7 +3,7 @@
 
 #include "OcclusionSearch.h"
 
-#include "../install/InstalledTile.h"
+#include "../tile/InstalledTile.h"
 #include "CullTraversal.h"
 #include "TilePlan.h"
 

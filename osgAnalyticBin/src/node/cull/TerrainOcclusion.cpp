@@ -3,8 +3,8 @@
 
 #include "TerrainOcclusion.h"
 
-#include "../install/InstalledTile.h"
 #include "../page/Database.h"
+#include "../tile/InstalledTile.h"
 #include "BinCulling.h"
 #include "CullTraversal.h"
 #include "TilePlan.h"

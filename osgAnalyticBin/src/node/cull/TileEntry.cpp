@@ -5,8 +5,8 @@
 
 #include "../Classes.h"
 #include "../Spheres.h"
-#include "../install/MeshCulling.h"
-#include "../install/TileCallback.h"
+#include "../tile/Carrier.h"
+#include "../tile/MeshCulling.h"
 #include "BinCulling.h"
 #include "CullCallbacks.h"
 #include "CullTraversal.h"

@@ -3,16 +3,16 @@
 
 #include "TileFamily.h"
 
+#include "../CallbackChain.h"
 #include "../Classes.h"
-#include "../install/FindCallback.h"
-#include "../install/InstalledTile.h"
-#include "../install/TileCallback.h"
 #include "../page/Database.h"
 #include "../surface/TilePlates.h"
+#include "../tile/InstalledTile.h"
 #include "BinCulling.h"
 #include "../../core/Bits.h"
 #include "CullCallbacks.h"
 #include "DrawnState.h"
+#include "InstalledBin.h"
 #include "TilePlan.h"
 
 #include <osg/CoordinateSystemNode>

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "TileBlock.h"
+#include "../tile/TileBlock.h"
 #include "TileEntry.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>

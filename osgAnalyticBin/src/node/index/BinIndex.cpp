@@ -4,7 +4,7 @@
 #include "../../core/FloatRounding.h"
 
 #include <osgAnalyticBin/BinIndex.h>
-#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileFrame.h>
 #include <osgAnalyticBin/TileSurface.h>
 
 #include <osgDB/FileNameUtils>

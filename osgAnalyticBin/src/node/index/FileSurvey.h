@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileFrame.h>
 #include <osgAnalyticBin/index/DatabaseFiles.h>
 #include <osgAnalyticBin/index/FileRecord.h>
 

@@ -4,7 +4,7 @@
 #include "NestedReads.h"
 
 #include <osgAnalyticBin/TileFile.h>
-#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileFrame.h>
 
 #include <osg/Image>
 #include <osgDB/FileNameUtils>

@@ -24,6 +24,7 @@ namespace osgAnalyticBin {
 
 class BinReadFileCallback;
 class Coverage;
+class InstalledTile;
 struct TileFit;
 class Database;
 struct ParentTile;

@@ -7,12 +7,13 @@
 #include "../GlmBridge.h"
 #include "../Spheres.h"
 #include "../cull/DrawnState.h"
+#include "../cull/InstalledBin.h"
 #include "../cull/TileFamily.h"
 #include "../page/Database.h"
 #include "../page/DatabaseCallbacks.h"
 #include "../surface/TerrainTileSurface.h"
-#include "InstalledTile.h"
-#include "TileCallback.h"
+#include "../tile/Carrier.h"
+#include "../tile/InstalledTile.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/TileSurface.h>

@@ -5,30 +5,25 @@
 #include "../index/AutoIndex.h"
 #include "../page/Database.h"
 #include "../page/DatabaseCallbacks.h"
+#include "../tile/MeshCulling.h"
 #include "BinInstaller.h"
-#include "MeshCulling.h"
 #include "TileCallback.h"
 
 #include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/PhotogrammetrySet.h>
 
 #include <osg/CoordinateSystemNode>
-#include <osg/NodeCallback>
 #include <osg/NodeVisitor>
 #include <osg/Notify>
 #include <osg/PagedLOD>
-#include <osg/ValueObject>
 #include <osgTerrain/TerrainTile>
 
 #include <chrono>
 #include <functional>
-#include <typeinfo>
 
 namespace osgAnalyticBin {
 
 namespace {
-
-constexpr const char* kTraversesAlways = "osgAnalyticBin.traversesAlways";
 
 // What an installer looks for.
 class TileSigns : public osg::NodeVisitor {
@@ -171,16 +166,6 @@ bool waitForIndex(osg::Node& node, double seconds) {
 
 std::size_t installBinsByIndex(osg::Node& node, const CullOptions& options, const BinIndex& index) {
     return install(node, options, &index);
-}
-
-void setTraversesAlways(osg::Callback& callback) {
-    callback.setUserValue(kTraversesAlways, true);
-}
-
-bool traversesAlways(const osg::Callback& callback) {
-    bool does = typeid(callback) == typeid(osg::NodeCallback);
-    if (!does) (void)callback.getUserValue(kTraversesAlways, does);
-    return does;
 }
 
 }  // namespace osgAnalyticBin

@@ -3,9 +3,8 @@
 
 #include "NoCulling.h"
 
+#include "../CallbackChain.h"
 #include "../cull/BinCulling.h"
-#include "FindCallback.h"
-#include "TileCallback.h"
 
 #include <osg/CullStack>
 #include <osg/CullingSet>

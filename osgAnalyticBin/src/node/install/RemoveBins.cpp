@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "../cull/InstalledBin.h"
 #include "../cull/TileFamily.h"
 #include "../page/BinReadFileCallback.h"
 #include "../page/DatabaseCallbacks.h"
 #include "../page/PagedFiles.h"
+#include "../tile/Carrier.h"
 #include "ContentWatch.h"
 #include "TileCallback.h"
 

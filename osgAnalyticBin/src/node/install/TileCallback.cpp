@@ -3,11 +3,14 @@
 
 #include "TileCallback.h"
 
+#include "../CallbackChain.h"
+#include "../cull/InstalledBin.h"
 #include "../cull/TileFamily.h"
 #include "../page/PagingExpiry.h"
+#include "../tile/Carrier.h"
+#include "../tile/InstalledTile.h"
+#include "../tile/MeshCulling.h"
 #include "ContentWatch.h"
-#include "InstalledTile.h"
-#include "MeshCulling.h"
 #include "NoCulling.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -46,37 +49,11 @@ void removeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCal
 
 }  // namespace
 
-InstalledTile* installedTileOf(const osg::Node& node) {
-    for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
-        if (const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(at)) return bin->getInstalledTile();
-    }
-    return nullptr;
-}
-
 bool hasMoved(osg::Node& tile) {
     const Carrier* const carrier = carrierOf(tile);
     const InstalledTile* const own = installedTileOf(tile);
     const InstalledTile* const installed = own || !carrier ? own : installedTileOf(*carrier);
     return installed && installed->isMoved();
-}
-
-const AnalyticBinCullCallback* installedBinOf(const osg::Node& node) {
-    for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
-        const auto* const bin = dynamic_cast<const AnalyticBinCullCallback*>(at);
-        if (bin && bin->getInstalledTile() && bin->getInstalledTile()->isFor(&node)) return bin;
-    }
-    return nullptr;
-}
-
-void takeOff(osg::Node& node, osg::Callback& callback) {
-    if (node.getCullCallback() != &callback) return node.removeCullCallback(&callback);
-    const osg::ref_ptr<osg::Callback> nested = callback.getNestedCallback();
-    node.setCullCallback(nested.get());
-    if (callback.referenceCount() == 1) callback.setNestedCallback(nullptr);
-}
-
-Carrier* carrierOf(osg::Node& node) {
-    return node.getNumParents() == 1 ? dynamic_cast<Carrier*>(node.getParent(0)) : nullptr;
 }
 
 // OSG enters the frame of a transform before it asks the transform's callbacks, which costs more than the bin's test:

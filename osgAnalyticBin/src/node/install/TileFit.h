@@ -6,7 +6,7 @@
 #include "../page/Database.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
-#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileFrame.h>
 #include <osgAnalyticBin/core/mesh/MeshCover.h>
 
 namespace osgAnalyticBin {

@@ -6,7 +6,7 @@
 #include "../Text.h"
 #include "../install/BinInstaller.h"
 #include "../install/SharedTiles.h"
-#include "../install/TileCallback.h"
+#include "../tile/Carrier.h"
 #include "CachedContent.h"
 #include "CarefulRead.h"
 

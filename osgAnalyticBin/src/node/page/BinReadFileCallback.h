@@ -7,7 +7,7 @@
 #include "FailedReads.h"
 
 #include <osgAnalyticBin/CullOptions.h>
-#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileFrame.h>
 
 #include <osgDB/ReadFile>
 

@@ -3,7 +3,7 @@
 
 #include "CachedContent.h"
 
-#include "../install/MeshCulling.h"
+#include "../tile/MeshCulling.h"
 
 #include <osg/CopyOp>
 #include <osg/Drawable>

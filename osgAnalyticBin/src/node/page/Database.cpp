@@ -6,8 +6,8 @@
 #include "../GlmBridge.h"
 #include "../cull/TileFamily.h"
 #include "../install/Coverage.h"
-#include "../install/InstalledTile.h"
 #include "../surface/TilePlates.h"
+#include "../tile/InstalledTile.h"
 
 #include <osg/Notify>
 #include <osgTerrain/GeometryTechnique>

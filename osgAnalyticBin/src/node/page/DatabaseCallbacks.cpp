@@ -3,6 +3,7 @@
 
 #include "DatabaseCallbacks.h"
 
+#include "../CallbackChain.h"
 #include "../Classes.h"
 #include "../GlmBridge.h"
 #include "../cull/BinCulling.h"
@@ -14,8 +15,6 @@
 #include "../cull/TilePlan.h"
 #include "../cull/Viewpoint.h"
 #include "../install/BinInstaller.h"
-#include "../install/FindCallback.h"
-#include "../install/TileCallback.h"
 
 #include <osg/CoordinateSystemNode>
 #include <osg/CullStack>

@@ -7,7 +7,7 @@
 
 #include "Database.h"
 
-#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileFrame.h>
 
 #include <osg/Node>
 #include <osg/PagedLOD>

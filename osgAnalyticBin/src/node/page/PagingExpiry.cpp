@@ -4,7 +4,7 @@
 #include "PagingExpiry.h"
 
 #include "../PagedChildren.h"
-#include "../install/MeshCulling.h"
+#include "../tile/MeshCulling.h"
 
 #include <osg/PagedLOD>
 #include <osg/UserDataContainer>

@@ -7,7 +7,7 @@
 #include "HeightRange.h"
 #include "TerrainLimits.h"
 
-#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileFrame.h>
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 
 #include <osgTerrain/GeometryTechnique>

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/TerrainShape.h>
 #include <osgAnalyticBin/TileSurface.h>
 #include <osgAnalyticBin/core/mesh/GeodeticGridBounds.h>
 

@@ -12,7 +12,7 @@
 #include "TerrainLimits.h"
 #include "TerrainTileSurface.h"
 
-#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileFrame.h>
 
 #include <glm/geometric.hpp>
 #include <osg/Geometry>

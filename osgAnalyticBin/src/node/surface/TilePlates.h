@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/TerrainShape.h>
 #include <osgAnalyticBin/core/mesh/MeshCover.h>
 #include <osgAnalyticBin/core/occlusion/GroundPlates.h>
 

@@ -7,7 +7,7 @@
 #include "SurfaceWalk.h"
 #include "TerrainTileSurface.h"
 
-#include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileFrame.h>
 
 #include <osg/Billboard>
 

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <osg/Callback>
+#include <osg/Node>
+#include <osg/ref_ptr>
 
 namespace osgAnalyticBin {
 
@@ -14,6 +16,15 @@ template <class Callback>
         if (auto* found = dynamic_cast<Callback*>(callback)) return found;
     }
     return nullptr;
+}
+
+/// Removes a cull callback from a node. It keeps its nested callbacks while other nodes have it, too: clones of a scene
+/// may share callbacks.
+inline void takeOff(osg::Node& node, osg::Callback& callback) {
+    if (node.getCullCallback() != &callback) return node.removeCullCallback(&callback);
+    const osg::ref_ptr<osg::Callback> nested = callback.getNestedCallback();
+    node.setCullCallback(nested.get());
+    if (callback.referenceCount() == 1) callback.setNestedCallback(nullptr);
 }
 
 }  // namespace osgAnalyticBin

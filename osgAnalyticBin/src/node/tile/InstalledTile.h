@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "../cull/TileBlock.h"
+#include "TileBlock.h"
 
 #include <osgAnalyticBin/core/mesh/MeshCover.h>
 #include <osgAnalyticBin/core/occlusion/GroundPlates.h>

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/Export.h>
+
+#include <osg/Callback>
+#include <osg/Program>
+
+namespace osgAnalyticBin {
+
+/// Declares that a cull callback of the application always traverses its nested callback or its node and changes
+/// neither state nor masks, by the user value "osgAnalyticBin.traversesAlways" of the callback. A callback without this
+/// declaration may leave out terrain; the horizon is not used while such a callback is on a tile in view or above one,
+/// the CoordinateSystemNode and its ancestors included.
+OSGANALYTICBIN_EXPORT void setTraversesAlways(osg::Callback& callback);
+
+/// Returns: whether setTraversesAlways() was called for the callback, or it is a plain osg::NodeCallback.
+[[nodiscard]] OSGANALYTICBIN_EXPORT bool traversesAlways(const osg::Callback& callback);
+
+/// Declares that shaders draw every triangle of the terrain, all of it, where its vertices are, and nearer or farther
+/// as these are; by the user value "osgAnalyticBin.drawsTriangles" of the program. Terrain under any other program
+/// hides nothing; CullOptions::plainShaders declares all programs.
+OSGANALYTICBIN_EXPORT void setDrawsTriangles(osg::Program& program);
+/// Returns: whether setDrawsTriangles() was called for the program.
+[[nodiscard]] OSGANALYTICBIN_EXPORT bool drawsTriangles(const osg::Program& program);
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include <osgAnalyticBin/Declarations.h>
+
+#include <osg/NodeCallback>
+#include <osg/UserDataContainer>
+#include <osg/ValueObject>
+
+#include <typeinfo>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+constexpr const char* kTraversesAlways = "osgAnalyticBin.traversesAlways";
+constexpr const char* kDrawsTriangles = "osgAnalyticBin.drawsTriangles";
+
+}  // namespace
+
+void setTraversesAlways(osg::Callback& callback) {
+    callback.setUserValue(kTraversesAlways, true);
+}
+
+bool traversesAlways(const osg::Callback& callback) {
+    bool does = typeid(callback) == typeid(osg::NodeCallback);
+    if (!does) (void)callback.getUserValue(kTraversesAlways, does);
+    return does;
+}
+
+void setDrawsTriangles(osg::Program& program) {
+    program.setUserValue(kDrawsTriangles, true);
+}
+
+bool drawsTriangles(const osg::Program& program) {
+    bool does = false;
+    if (program.getUserDataContainer()) (void)program.getUserValue(kDrawsTriangles, does);
+    return does;
+}
+
+}  // namespace osgAnalyticBin
