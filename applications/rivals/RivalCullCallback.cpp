@@ -115,7 +115,7 @@ bool RivalCullCallback::isFor(const AnalyticBinCullCallback& tile) const {
 }
 
 bool RivalCullCallback::isHidden(osg::NodeVisitor& visitor) const {
-    const core::HorizonEye* const eye = _horizon ? BinStatistics::horizonEye(visitor) : nullptr;
+    const core::HorizonEye* const eye = _horizon ? AnalyticBinCullCallback::horizonEye(visitor) : nullptr;
     return eye && (_horizonPoint ? _horizonPoint->isHiddenFrom(*eye) : eye->hides(*_horizon));
 }
 

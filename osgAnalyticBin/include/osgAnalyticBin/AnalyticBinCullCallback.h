@@ -158,6 +158,11 @@ public:
     /// See getInstalledTile(); for installers.
     void setInstalledTile(InstalledTile* tile);
 
+    /// The eye whose horizon hides tiles of the database that the visitor is traversing; ECEF. For cull callbacks of
+    /// applications below the database. Returns: nullptr when nothing is hidden, or when the database covers a region
+    /// that the eye sees beyond.
+    [[nodiscard]] static const core::HorizonEye* horizonEye(osg::NodeVisitor& visitor);
+
     /// Called by OSG's cull traversal: goes on below the node unless the tile is culled.
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 

@@ -7,6 +7,8 @@
 #include <osgAnalyticBin/core/Plane.h>
 
 #include <osg/Object>
+#include <osg/Referenced>
+#include <osg/ref_ptr>
 
 #include <atomic>
 #include <cstdint>
@@ -18,9 +20,7 @@ class NodeVisitor;
 
 namespace osgAnalyticBin {
 
-namespace core {
-class HorizonEye;
-}
+class CullTraversal;
 struct CoveredPicture;
 
 /// The verdicts of bins in one cull traversal.
@@ -59,11 +59,6 @@ public:
     /// Returns: nullptr when the visitor has met no bin yet.
     [[nodiscard]] static const BinStatistics* find(const osg::NodeVisitor& visitor);
 
-    /// The eye whose horizon hides tiles of the database that the visitor is traversing; ECEF. For cull callbacks of
-    /// applications below the database. Returns: nullptr when nothing is hidden, or when the database covers a region
-    /// that the eye sees beyond.
-    [[nodiscard]] static const core::HorizonEye* horizonEye(osg::NodeVisitor& visitor);
-
     /// Counts one tested tile.
     void count(core::Side side, unsigned int frame) noexcept;
 
@@ -101,6 +96,8 @@ protected:
     ~BinStatistics() override = default;
 
 private:
+    friend class CullTraversal;
+
     void beginFrame(unsigned int frame) noexcept;
 
     std::atomic<std::uint32_t> _outside{0};
@@ -111,6 +108,7 @@ private:
     std::atomic<std::uint32_t> _occluded{0};
     std::atomic<unsigned int> _frame{0};
     const osg::NodeVisitor* _owner = nullptr;
+    osg::ref_ptr<osg::Referenced> _traversal;  // what culling keeps with the visitor
     bool _isTileByTile = false;
     std::shared_ptr<const CoveredPicture> _covered;
 };

@@ -31,7 +31,7 @@ void countBoxes(osg::NodeVisitor& visitor, const BinCounts& counts) {
     if (traversalOfThread.visitor != &visitor) {
         BinCounts ofFrame = counts;
         ofFrame.frame = visitor.getTraversalNumber();
-        return CullTraversal::of(visitor).add(ofFrame);
+        return BinStatistics::of(visitor).add(ofFrame);
     }
     traversalOfThread.counts.outside += counts.outside;
     traversalOfThread.counts.inside += counts.inside;

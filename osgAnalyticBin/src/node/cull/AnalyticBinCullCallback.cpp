@@ -266,6 +266,11 @@ void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) 
         *nv, [&](osg::CullStack& cullStack) { return isCulled(*node, cullStack, *nv); }, [&] { traverse(node, nv); });
 }
 
+const core::HorizonEye* AnalyticBinCullCallback::horizonEye(osg::NodeVisitor& visitor) {
+    const DatabaseView* const view = CullTraversal::of(visitor).databaseView();
+    return view && (!view->sight || view->sight->holdsAll()) ? view->eye : nullptr;
+}
+
 InstalledTile* AnalyticBinCullCallback::getInstalledTile() const {
     return _installed.get();
 }

@@ -51,10 +51,11 @@ bool isShownIn(const TerrainShape& fitted, const CullTraversal& traversal) {
 
 void count(CullTraversal& traversal, const osg::NodeVisitor& nv, const Verdict& verdict, bool culled) {
     if (nv.getVisitorType() != osg::NodeVisitor::CULL_VISITOR) return;
-    traversal.count(culled ? core::Side::Outside : verdict.side, nv.getTraversalNumber());
-    if (verdict.reason == Verdict::Horizon) traversal.countHidden();
-    if (verdict.reason == Verdict::Edge) traversal.countBeyondEdge();
-    if (verdict.reason == Verdict::Terrain) traversal.countOccluded();
+    BinStatistics& statistics = traversal.statistics();
+    statistics.count(culled ? core::Side::Outside : verdict.side, nv.getTraversalNumber());
+    if (verdict.reason == Verdict::Horizon) statistics.countHidden();
+    if (verdict.reason == Verdict::Edge) statistics.countBeyondEdge();
+    if (verdict.reason == Verdict::Terrain) statistics.countOccluded();
 }
 
 }  // namespace osgAnalyticBin

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "CullTraversal.h"
-
 #include <osgAnalyticBin/BinStatistics.h>
 
 #include <osg/NodeVisitor>
@@ -27,7 +25,7 @@ BinStatistics::BinStatistics(const BinStatistics& other, const osg::CopyOp& copy
 
 BinStatistics& BinStatistics::of(osg::NodeVisitor& visitor) {
     if (const BinStatistics* known = find(visitor)) return const_cast<BinStatistics&>(*known);
-    osg::ref_ptr<BinStatistics> made = new CullTraversal;
+    osg::ref_ptr<BinStatistics> made = new BinStatistics;
     made->_owner = &visitor;
     visitor.getOrCreateUserDataContainer()->addUserObject(made.get());
     return *made;
@@ -39,16 +37,11 @@ const BinStatistics* BinStatistics::find(const osg::NodeVisitor& visitor) {
     for (unsigned int i = 0; i < container->getNumUserObjects(); ++i) {
         // A cloned visitor shares the container of its original: the owner tells whose counters these are.
         const osg::Object* object = container->getUserObject(i);
-        if (!object || typeid(*object) != typeid(CullTraversal)) continue;
+        if (!object || typeid(*object) != typeid(BinStatistics)) continue;
         const auto* statistics = static_cast<const BinStatistics*>(object);
         if (statistics->_owner == &visitor) return statistics;
     }
     return nullptr;
-}
-
-const core::HorizonEye* BinStatistics::horizonEye(osg::NodeVisitor& visitor) {
-    const DatabaseView* const view = CullTraversal::of(visitor).databaseView();
-    return view && (!view->sight || view->sight->holdsAll()) ? view->eye : nullptr;
 }
 
 void BinStatistics::beginFrame(unsigned int frame) noexcept {

@@ -4,7 +4,6 @@
 #include "CullTraversal.h"
 
 #include "../GlmBridge.h"
-#include "TilePlan.h"
 #include "Viewpoint.h"
 
 #include <algorithm>
@@ -44,7 +43,7 @@ CullTraversal::DatabaseScope::~DatabaseScope() {
     scopeOfThread = {_outerVisitor, _outerTraversal};
 }
 
-CullTraversal::CullTraversal() = default;
+CullTraversal::CullTraversal(BinStatistics& statistics) : _statistics(statistics) {}
 
 CullTraversal::~CullTraversal() = default;
 
@@ -55,8 +54,9 @@ TilePlan& CullTraversal::plan() {
 
 CullTraversal& CullTraversal::of(osg::NodeVisitor& visitor) {
     if (scopeOfThread.visitor == &visitor) return *scopeOfThread.traversal;
-    // the statistics of a visitor always are of this class
-    return static_cast<CullTraversal&>(BinStatistics::of(visitor));
+    BinStatistics& statistics = BinStatistics::of(visitor);
+    if (!statistics._traversal) statistics._traversal = new CullTraversal(statistics);
+    return static_cast<CullTraversal&>(*statistics._traversal);
 }
 
 bool CullTraversal::holds(const osg::Polytope::PlaneList& list) const {
@@ -106,15 +106,6 @@ const core::HorizonEye* CullTraversal::horizonEye(osg::CullStack& cullStack, osg
         _eyeEllipsoid = occluder.ellipsoid;
     }
     return _eye ? &*_eye : nullptr;
-}
-
-CullTraversal::LastView& CullTraversal::lastView(const Database& database) {
-    for (auto& [known, view] : _lastViews) {
-        if (known == &database) return view;
-    }
-    constexpr std::size_t kMostDatabases = 64;
-    if (_lastViews.size() >= kMostDatabases) _lastViews.clear();
-    return _lastViews.emplace_back(&database, LastView()).second;
 }
 
 }  // namespace osgAnalyticBin

@@ -4,9 +4,8 @@
 #pragma once
 
 #include "DrawnState.h"
-#include "GroundBelow.h"
-#include "NearMeshes.h"
 #include "SightOverRegion.h"
+#include "TilePlan.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/TerrainShape.h>
@@ -17,15 +16,13 @@
 #include <osg/CullingSet>
 #include <osg/NodeVisitor>
 #include <osg/Polytope>
+#include <osg/Referenced>
 #include <osg/ref_ptr>
 
 #include <array>
 #include <cstddef>
 #include <deque>
-#include <memory>
 #include <optional>
-#include <utility>
-#include <vector>
 
 namespace osgAnalyticBin {
 
@@ -38,8 +35,6 @@ struct Occluder {
 };
 
 class Database;
-class TilePlan;
-struct FoundOcclusion;
 
 /// What a database provides to its tiles during its traversal.
 struct DatabaseView {
@@ -58,13 +53,16 @@ struct DatabaseView {
 };
 
 /// The state of one cull visitor: its frustum, prepared once for all tiles, and the database that is traversed. Stored
-/// in the visitor's user data container with the counters, so that cull threads share nothing.
-class CullTraversal final : public BinStatistics {
+/// with the visitor's counters, so that cull threads share nothing.
+class CullTraversal final : public osg::Referenced {
 public:
-    CullTraversal();
+    explicit CullTraversal(BinStatistics& statistics);
 
     /// The visitor's state, created at the first call.
     [[nodiscard]] static CullTraversal& of(osg::NodeVisitor& visitor);
+
+    /// The visitor's counters.
+    [[nodiscard]] BinStatistics& statistics() const { return _statistics; }
 
     /// Sets, while it exists, what a database provides to its tiles.
     class DatabaseScope {
@@ -91,15 +89,6 @@ public:
     /// What the traversed database provides; nullptr: there is none.
     [[nodiscard]] const DatabaseView* databaseView() const { return _databaseView; }
 
-    /// Results about a database that this visitor keeps from frame to frame.
-    struct LastView {
-        double depth = 0.0;        ///< metres, of the lowest surface shown; the next search starts there
-        unsigned int rest = 0;     ///< views without occlusion that follow a view in which it hid too little
-        unsigned int resting = 0;  ///< how many of them are left
-        std::shared_ptr<FoundOcclusion> occlusion;
-    };
-    [[nodiscard]] LastView& lastView(const Database& database);
-
     /// The plan for the database that is traversed next. Each of several nested databases has its own.
     [[nodiscard]] TilePlan& plan();
 
@@ -112,10 +101,8 @@ public:
     [[nodiscard]] bool isKept(const osg::Node& node) const { return _kept == &node; }
     [[nodiscard]] osg::CullingSet::Mask maskBelowKept() const { return _maskBelowKept; }
 
-    /// The ground that this visitor last found below its eye.
-    [[nodiscard]] GroundBelow& ground() { return _ground; }
-    /// The meshes that it last read around its eye.
-    [[nodiscard]] NearMeshes& nearMeshes() { return _nearMeshes; }
+    /// What searches of this visitor keep from view to view: see SearchMemory. Null: nothing yet.
+    [[nodiscard]] osg::ref_ptr<osg::Referenced>& searchMemory() { return _searchMemory; }
 
 protected:
     ~CullTraversal() override;
@@ -126,14 +113,13 @@ private:
 
     [[nodiscard]] bool holds(const osg::Polytope::PlaneList& list) const;
 
+    BinStatistics& _statistics;  // they own this state
     const DatabaseView* _databaseView = nullptr;
-    std::vector<std::pair<const Database*, LastView>> _lastViews;
     const osg::Node* _kept = nullptr;
     osg::CullingSet::Mask _maskBelowKept = 0;
     std::deque<TilePlan> _plans;  // of databases within each other
     std::size_t _openPlans = 0;
-    GroundBelow _ground;
-    NearMeshes _nearMeshes;
+    osg::ref_ptr<osg::Referenced> _searchMemory;
 
     core::PlaneSet _planes;
     Coefficients _coefficients{};

@@ -5,6 +5,7 @@
 
 #include "../tile/InstalledTile.h"
 #include "CullTraversal.h"
+#include "SearchMemory.h"
 #include "TilePlan.h"
 
 #include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
@@ -129,7 +130,7 @@ private:
     // Metres above the eye of the highest point of the terrain that is in the picture and within `reach` of the eye.
     // Returns: nullopt where that is not known.
     [[nodiscard]] std::optional<double> highestWithin(double reach) const {
-        NearMeshes& meshes = CullTraversal::of(_database.visitor).nearMeshes();
+        NearMeshes& meshes = SearchMemory::of(_database.visitor).nearMeshes;
         const core::Interval& across = _found.span.across;
         const double widest = std::max(std::abs(across.lower), std::abs(across.upper));
         double highest = -HUGE_VAL;

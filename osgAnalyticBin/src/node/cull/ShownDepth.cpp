@@ -17,6 +17,7 @@
 #include "CullCallbacks.h"
 #include "CullTraversal.h"
 #include "DrawnState.h"
+#include "SearchMemory.h"
 #include "TileFamily.h"
 #include "TilePlan.h"
 
@@ -453,9 +454,8 @@ std::optional<core::Geodetic> placeOf(const Viewpoint& viewpoint, const core::El
 bool isTrusted(const ShownDatabase& database, const LowestShown& lowest, const std::optional<core::Geodetic>& place) {
     const std::vector<NearGround>& ground = lowest.nearGround();
     return !lowest.hasHole() && std::all_of(ground.begin(), ground.end(), [&](const NearGround& close) {
-        return CullTraversal::of(database.visitor)
-            .ground()
-            .isBelow(*place, *close.mesh, *close.tile, database.view.ellipsoid);
+        return SearchMemory::of(database.visitor)
+            .ground.isBelow(*place, *close.mesh, *close.tile, database.view.ellipsoid);
     });
 }
 

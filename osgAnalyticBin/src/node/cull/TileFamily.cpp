@@ -220,7 +220,8 @@ bool TileFamily::culls(const osg::Node& group, osg::CullStack& cullStack, const 
 void TileFamily::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     osg::CullStack* const cullStack = nv->asCullStack();
     CullTraversal* const traversal = cullStack ? &CullTraversal::of(*nv) : nullptr;
-    const DatabaseView* const view = traversal && !traversal->isTileByTile() ? traversal->databaseView() : nullptr;
+    const DatabaseView* const view =
+        traversal && !traversal->statistics().isTileByTile() ? traversal->databaseView() : nullptr;
     if (!view || !culls(*node, *cullStack, *view)) {
         traverse(node, nv);
         return;
@@ -233,7 +234,7 @@ bool TileFamily::enterFamilyOf(osg::Node& node, osgUtil::CullVisitor& visitor, C
     osg::Callback* const callback = node.getCullCallback();
     if (!callback || !isExactly<TileFamily>(*callback) || !isExactly<osg::Group>(node)) return false;
     const TileFamily& family = static_cast<const TileFamily&>(*callback->asNodeCallback());
-    const DatabaseView* const view = traversal.isTileByTile() ? nullptr : traversal.databaseView();
+    const DatabaseView* const view = traversal.statistics().isTileByTile() ? nullptr : traversal.databaseView();
     if (!view || !visitor.validNodeMask(node) || !family.culls(node, visitor, *view)) return false;
     notes.add(&node, 4);
     notes.add(&family, 5);
@@ -334,7 +335,7 @@ std::uint64_t TileFamily::culled(unsigned int first, const Verdicts& verdicts, c
         counts.beyondEdge = countBits(verdicts.members & verdicts.separated);
         counts.occluded = countBits(verdicts.members & verdicts.occluded);
         counts.frame = nv.getTraversalNumber();
-        traversal.add(counts);
+        traversal.statistics().add(counts);
     }
     if (first < _block->size()) {
         forEachBit(verdicts.members & ~culled & _block->partFrom(first).withSpheres, [&](unsigned int number) {

@@ -5,6 +5,7 @@
 
 #include "../tile/TileBlock.h"
 #include "TileEntry.h"
+#include "TilePlan.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/Export.h>
@@ -68,24 +69,7 @@ public:
         TileEntry entry;
     };
 
-    /// The results for up to TileBlock::Part::kMost children, one bit each.
-    struct Verdicts {
-        Verdicts() { planes.outside = planes.insideAll = 0; }  // masks of slots without a tile are not read
-
-        core::FamilyVerdict planes;
-        std::uint64_t members = 0;    ///< the family's tiles; other children are left to their callbacks
-        std::uint64_t tested = 0;     ///< slots with a bin
-        std::uint64_t beyond = 0;     ///< behind the horizon
-        std::uint64_t hidden = 0;     ///< of these, those that obey depth
-        std::uint64_t separated = 0;  ///< proven outside by an edge of the frustum
-        std::uint64_t occluded = 0;   ///< behind terrain
-        bool lacksTiles = false;      ///< a tile was removed: the terrain may have a hole
-
-        /// Slots whose bin is out of view.
-        [[nodiscard]] std::uint64_t outOfView() const {
-            return tested & (planes.outside | hidden | separated | occluded);
-        }
-    };
+    using Verdicts = TilePlan::Verdicts;
 
     /// Whether the family may cull the children of the group in this traversal.
     [[nodiscard]] bool culls(const osg::Node& group, osg::CullStack& cullStack, const DatabaseView& view) const;

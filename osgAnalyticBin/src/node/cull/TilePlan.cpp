@@ -19,7 +19,7 @@ void TilePlan::clear() {
 }
 
 std::size_t TilePlan::add(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
-                          const TileFamily::Verdicts& verdicts, std::size_t children) {
+                          const Verdicts& verdicts, std::size_t children) {
     const core::PlaneMask* const masks = verdicts.planes.undecided;
     const std::size_t begin = _masks.size();
     _masks.insert(_masks.end(), masks, masks + std::min<std::size_t>(children, TileBlock::Part::kMost));
@@ -47,8 +47,7 @@ bool TilePlan::isOccluded(const AnalyticBinCullCallback& tile) {
     return std::binary_search(_occluded.begin(), _occluded.end(), &tile, std::less<>());
 }
 
-bool TilePlan::find(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
-                    TileFamily::Verdicts& verdicts) {
+bool TilePlan::find(const TileFamily& family, unsigned int first, core::PlaneMask undecided, Verdicts& verdicts) {
     // the plan also has families that the traversal does not enter: those below tiles of which only the column is seen
     constexpr std::size_t kFarthest = 32;
     const std::size_t end = std::min(_entries.size(), _next + kFarthest);

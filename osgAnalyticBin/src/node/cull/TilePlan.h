@@ -3,7 +3,11 @@
 
 #pragma once
 
-#include "TileFamily.h"
+#include "../tile/TileBlock.h"
+
+#include <osgAnalyticBin/core/Plane.h>
+
+#include <osg/Node>
 
 #include <cstddef>
 #include <cstdint>
@@ -11,15 +15,37 @@
 
 namespace osgAnalyticBin {
 
+class AnalyticBinCullCallback;
+class TileFamily;
+
 /// The results of families that were tested before OSG traverses a database, in the order in which the traversal meets
 /// them. A plan is made for one traversal of one visitor.
 class TilePlan {
 public:
+    /// The results for up to TileBlock::Part::kMost children, one bit each.
+    struct Verdicts {
+        Verdicts() { planes.outside = planes.insideAll = 0; }  // masks of slots without a tile are not read
+
+        core::FamilyVerdict planes;
+        std::uint64_t members = 0;    ///< the family's tiles; other children are left to their callbacks
+        std::uint64_t tested = 0;     ///< slots with a bin
+        std::uint64_t beyond = 0;     ///< behind the horizon
+        std::uint64_t hidden = 0;     ///< of these, those that obey depth
+        std::uint64_t separated = 0;  ///< proven outside by an edge of the frustum
+        std::uint64_t occluded = 0;   ///< behind terrain
+        bool lacksTiles = false;      ///< a tile was removed: the terrain may have a hole
+
+        /// Slots whose bin is out of view.
+        [[nodiscard]] std::uint64_t outOfView() const {
+            return tested & (planes.outside | hidden | separated | occluded);
+        }
+    };
+
     void clear();
 
     /// Returns: the number of the result.
-    std::size_t add(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
-                    const TileFamily::Verdicts& verdicts, std::size_t children);
+    std::size_t add(const TileFamily& family, unsigned int first, core::PlaneMask undecided, const Verdicts& verdicts,
+                    std::size_t children);
 
     /// A tile that a camera's levels of detail show, whether in view or not.
     struct ShownTile {
@@ -46,7 +72,7 @@ public:
     /// not used; OSG may have found the sphere of a group inside some of the others.
     /// Returns: false where the plan has no such result; `verdicts` stays as it is then.
     [[nodiscard]] bool find(const TileFamily& family, unsigned int first, core::PlaneMask undecided,
-                            TileFamily::Verdicts& verdicts);
+                            Verdicts& verdicts);
 
 private:
     struct Entry {

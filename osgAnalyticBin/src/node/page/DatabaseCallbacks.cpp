@@ -10,6 +10,7 @@
 #include "../cull/CullCallbacks.h"
 #include "../cull/CullTraversal.h"
 #include "../cull/DrawnState.h"
+#include "../cull/SearchMemory.h"
 #include "../cull/ShownDepth.h"
 #include "../cull/TerrainOcclusion.h"
 #include "../cull/TilePlan.h"
@@ -33,7 +34,7 @@ namespace {
 constexpr unsigned int kShortestRest = 8;
 
 // Whether to look for tiles behind terrain in this view.
-bool isOcclusionDue(OcclusionUse use, CullTraversal::LastView& last) {
+bool isOcclusionDue(OcclusionUse use, SearchMemory::LastView& last) {
     if (use != OcclusionUse::Auto || last.resting == 0) return use != OcclusionUse::Off;
     --last.resting;
     return false;
@@ -42,7 +43,7 @@ bool isOcclusionDue(OcclusionUse use, CullTraversal::LastView& last) {
 // After a view in which occlusion did not pay, it rests, for longer each time. A hidden tile saves at least some
 // microseconds of drawing; looking for hidden tiles takes three to seven microseconds for each tile in view, and serves
 // some views.
-void noteOccluded(const OccludedTiles& tiles, CullTraversal::LastView& last) {
+void noteOccluded(const OccludedTiles& tiles, SearchMemory::LastView& last) {
     if (tiles.isAwaited) return;
     constexpr unsigned int kLongestRest = 256;
     const bool pays = 4 * tiles.hidden >= tiles.inView && tiles.hidden > 0;
@@ -97,7 +98,7 @@ Horizon horizonOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cull
         if (!isMap) database.noteEyeBesideRegion();
         return {};
     }
-    CullTraversal::LastView& last = CullTraversal::of(nv).lastView(database);
+    SearchMemory::LastView& last = SearchMemory::of(nv).lastView(database);
     const bool mayFindOccluded = viewpoint->eye() && isAboveTerrain;
     if (mayFindOccluded && options.occlusion == OcclusionUse::On && !isFinalProjection(cullStack))
         database.noteUnknownNearPlane();

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "GroundBelow.h"
+#include "NearMeshes.h"
+
+#include <osg/NodeVisitor>
+#include <osg/Referenced>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+class Database;
+struct FoundOcclusion;
+
+/// What a cull visitor keeps from view to view for searches among the tiles that are shown.
+class SearchMemory final : public osg::Referenced {
+public:
+    /// The visitor's memory, made at the first call.
+    [[nodiscard]] static SearchMemory& of(osg::NodeVisitor& visitor);
+
+    /// Results about a database.
+    struct LastView {
+        double depth = 0.0;        ///< metres, of the lowest surface shown; the next search starts there
+        unsigned int rest = 0;     ///< views without occlusion that follow a view in which it hid too little
+        unsigned int resting = 0;  ///< how many of them are left
+        std::shared_ptr<FoundOcclusion> occlusion;
+    };
+    [[nodiscard]] LastView& lastView(const Database& database);
+
+    GroundBelow ground;     ///< last found below the eye
+    NearMeshes nearMeshes;  ///< last read around the eye
+
+protected:
+    ~SearchMemory() override = default;
+
+private:
+    std::vector<std::pair<const Database*, LastView>> _lastViews;
+};
+
+}  // namespace osgAnalyticBin
