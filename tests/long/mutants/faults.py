@@ -205,7 +205,7 @@ FAULTS = [
     Fault("new content does not keep tiles visible", "src/node/install/ContentWatch.cpp", "tile->keepVisible(true);\n        if",
           "if", NODE, "AddedContent.*"),
     Fault("bins do not grow", "src/node/install/ContentWatch.cpp",
-          "if (_isMerged) tile->database().noteContent(", "if (false) tile->database().noteContent(", NODE, "AddedContent.*"),
+          "if (_isMerged) Database::of(*tile).noteContent(", "if (false) Database::of(*tile).noteContent(", NODE, "AddedContent.*"),
     Fault("content of files is not looked at when they are merged", "src/node/install/ContentWatch.cpp",
           "if (watch->_isPending) watch->check(child);", "", NODE, "AddedContent.*"),
     Fault("tiles are believed wherever they stand", "src/node/cull/AnalyticBinCullCallback.cpp",

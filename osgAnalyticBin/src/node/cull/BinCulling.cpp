@@ -3,7 +3,7 @@
 
 #include "BinCulling.h"
 
-#include "../page/Database.h"
+#include "../tile/InstalledDatabase.h"
 
 #include <osgUtil/CullVisitor>
 

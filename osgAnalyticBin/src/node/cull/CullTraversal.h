@@ -34,11 +34,11 @@ struct Occluder {
     bool forInheritedViewpoints;
 };
 
-class Database;
+class InstalledDatabase;
 
 /// What a database provides to its tiles during its traversal.
 struct DatabaseView {
-    const Database* database;
+    const InstalledDatabase* database;
     core::Ellipsoid ellipsoid;
     TerrainShape shape;
     const core::HorizonEye* eye;  // in ECEF, whatever transforms are below; nullptr: nothing is hidden

@@ -3,7 +3,6 @@
 
 #include "NearMeshes.h"
 
-#include "../page/Database.h"
 #include "../surface/TilePlates.h"
 #include "../tile/InstalledTile.h"
 #include "InstalledBin.h"

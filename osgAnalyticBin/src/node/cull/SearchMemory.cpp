@@ -13,7 +13,7 @@ SearchMemory& SearchMemory::of(osg::NodeVisitor& visitor) {
     return static_cast<SearchMemory&>(*memory);
 }
 
-SearchMemory::LastView& SearchMemory::lastView(const Database& database) {
+SearchMemory::LastView& SearchMemory::lastView(const InstalledDatabase& database) {
     for (auto& [known, view] : _lastViews) {
         if (known == &database) return view;
     }

@@ -15,7 +15,7 @@
 
 namespace osgAnalyticBin {
 
-class Database;
+class InstalledDatabase;
 struct FoundOcclusion;
 
 /// What a cull visitor keeps from view to view for searches among the tiles that are shown.
@@ -31,7 +31,7 @@ public:
         unsigned int resting = 0;  ///< how many of them are left
         std::shared_ptr<FoundOcclusion> occlusion;
     };
-    [[nodiscard]] LastView& lastView(const Database& database);
+    [[nodiscard]] LastView& lastView(const InstalledDatabase& database);
 
     GroundBelow ground;     ///< last found below the eye
     NearMeshes nearMeshes;  ///< last read around the eye
@@ -40,7 +40,7 @@ protected:
     ~SearchMemory() override = default;
 
 private:
-    std::vector<std::pair<const Database*, LastView>> _lastViews;
+    std::vector<std::pair<const InstalledDatabase*, LastView>> _lastViews;
 };
 
 }  // namespace osgAnalyticBin

@@ -3,7 +3,6 @@
 
 #include "TerrainOcclusion.h"
 
-#include "../page/Database.h"
 #include "../tile/InstalledTile.h"
 #include "BinCulling.h"
 #include "CullTraversal.h"
@@ -34,7 +33,8 @@ enum class Ground {
 };
 
 // Notes the tiles that are shown.
-Ground describe(const ShownDatabase& database, std::vector<FoundOcclusion::Tile>& tiles) {
+Ground describe(const ShownDatabase& database, std::vector<FoundOcclusion::Tile>& tiles,
+                std::vector<TilePlan::ShownTile>& withoutPlates) {
     osg::CullingSet& cullingSet = database.cullStack.getCurrentCullingSet();
     tiles.clear();
     Ground ground = Ground::Known;
@@ -44,7 +44,7 @@ Ground describe(const ShownDatabase& database, std::vector<FoundOcclusion::Tile>
         const bool isFitted = !tile.getTerrainShape() || *tile.getTerrainShape() == database.view.shape;
         if (!installed || !isFitted) return Ground::Unknown;
         if (installed->numberOfPlates() == 0) {
-            installed->database().askForPlates(tile, *shown.mesh);
+            withoutPlates.push_back(shown);
             ground = Ground::Awaited;
             continue;
         }
@@ -130,8 +130,10 @@ OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& 
     if (!view) return {};
     if (!kept) kept = std::make_shared<FoundOcclusion>();
     FoundOcclusion& found = *kept;
-    const Ground ground = describe(database, found.shown);
-    if (ground != Ground::Known) return {0, 0, ground == Ground::Awaited};
+    OccludedTiles none;
+    const Ground ground = describe(database, found.shown, none.withoutPlates);
+    none.isAwaited = ground == Ground::Awaited;
+    if (ground != Ground::Known) return none;
     const auto spanThen = PictureSpan::of(*view, found.eye);
     found.leaveOut(database.view.planes, database.view.ellipsoid);
     if (!serves(found, database, eye, spanThen, viewpoint.nearReach())) {

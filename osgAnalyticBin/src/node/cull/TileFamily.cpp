@@ -5,7 +5,6 @@
 
 #include "../CallbackChain.h"
 #include "../Classes.h"
-#include "../page/Database.h"
 #include "../surface/TilePlates.h"
 #include "../tile/InstalledTile.h"
 #include "BinCulling.h"

@@ -25,7 +25,6 @@
 namespace osgAnalyticBin {
 
 class CullTraversal;
-class Database;
 struct DatabaseView;
 struct Verdict;
 

@@ -114,7 +114,7 @@ void BinInstaller::refit(osg::Node& node, Database& database) {
 
 void BinInstaller::finish() {
     for (const auto& [file, coverage] : *_coverage) {
-        if (installsBins()) database().noteCoverage(file.second, coverage);
+        if (installsBins()) coverage.report(file.second, database());
     }
     _coverage->clear();
     placeFamilies();

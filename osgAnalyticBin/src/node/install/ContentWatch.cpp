@@ -175,7 +175,7 @@ public:
         if (!isOther && (_isTerrain ? callback.getBin().contains(own) : isHeld(own, callback.getBin()))) return;
         const AnalyticBin& content = own.valid() ? own : about;
         tile->keepVisible(true);
-        if (_isMerged) tile->database().noteContent(callback, {content, isOther || !content.valid()});
+        if (_isMerged) Database::of(*tile).noteContent(callback, {content, isOther || !content.valid()});
     }
 
 private:

@@ -71,8 +71,18 @@ void Coverage::expect(const ParentTile& tile) {
     _expected = tile.place;
 }
 
-const ParentTile* Coverage::tile() const {
-    return _tile.get();
+void Coverage::report(const std::string& file, Database& database) const {
+    const bool isWithGap = hasGap();
+    if (_isOfGlobe) {
+        const core::GeodeticBin covered = isWithGap ? region() : core::GeodeticBin();
+        if (isWithGap && covered.empty()) database.noteGap(file);
+        return database.setRegion(covered);
+    }
+    osg::ref_ptr<AnalyticBinCullCallback> tile;
+    // who declares a horizon says that there are none
+    const bool isVouchedFor = database.options().horizonUse == HorizonUse::Given && !isMapPlane(*database.ellipsoid());
+    if (isWithGap && !isVouchedFor && _tile->callback.lock(tile) && tile->getInstalledTile())
+        tile->getInstalledTile()->noteGapBelow();
 }
 
 void Coverage::expectGlobe() {

@@ -7,10 +7,12 @@
 
 #include <osg/ref_ptr>
 
+#include <string>
 #include <vector>
 
 namespace osgAnalyticBin {
 
+class Database;
 struct ParentTile;
 
 /// What the tiles of one file cover of what they are paged below. A tile stands for the place of its mesh; whether the
@@ -21,23 +23,22 @@ public:
     void expect(const ParentTile& tile);
     /// Marks the file as the root file, which is loaded.
     void expectGlobe();
-    [[nodiscard]] bool isOfGlobe() const { return _isOfGlobe; }
-    /// The tile that pages the file; null: none.
-    [[nodiscard]] const ParentTile* tile() const;
-    [[nodiscard]] bool hasTiles() const { return !_places.empty(); }
     /// Marks the file as loaded.
     void setVisited() { _isVisited = true; }
     /// Adds the place of a tile. `isExact`: false where another technique may draw less of it at its borders.
     void add(const core::GeodeticBin& place, bool isExact);
-    /// Whether the tiles of a loaded file leave out a part of what they are paged below, or of the globe. True in
-    /// doubt.
-    [[nodiscard]] bool hasGap() const;
-    /// What the tiles of the root file cover together without any gap, less a border of a 32nd of a tile, because edges
-    /// of meshes are made of chords. Between two latitudes and two longitudes; empty: they cover no such rectangle.
-    /// Source: doc/theory/horizon.md, section 10.
-    [[nodiscard]] core::GeodeticBin region() const;
+    /// Tells the database. Gaps in the root file count as Database::noteGap(), unless it covers a region; those in a
+    /// paged file are noted with the tile that pages it.
+    void report(const std::string& file, Database& database) const;
 
 private:
+    // Whether the tiles of a loaded file leave out a part of what they are paged below, or of the globe. True in
+    // doubt.
+    [[nodiscard]] bool hasGap() const;
+    // What the tiles of the root file cover together without any gap, less a border of a 32nd of a tile, because edges
+    // of meshes are made of chords. Between two latitudes and two longitudes; empty: they cover no such rectangle.
+    // Source: doc/theory/horizon.md, section 10.
+    [[nodiscard]] core::GeodeticBin region() const;
     [[nodiscard]] bool covers(const core::GeodeticBin& place) const;
     [[nodiscard]] core::GeodeticBin extents() const;
 

@@ -75,7 +75,8 @@ osg::Matrixd culledFrame(const FoundTile& tile, osg::Node& culled) {
     return transform ? frameInside(*transform, tile.frame) : tile.frame.localToEcef;
 }
 
-void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& callback, Database& database) {
+void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& callback,
+                   InstalledDatabase& database) {
     const osg::ref_ptr<InstalledTile> installed = new InstalledTile(culled, database);
     callback.setInstalledTile(installed);
     // In front: what is nested runs when the tile is kept.

@@ -17,7 +17,7 @@
 namespace osgAnalyticBin {
 
 class AnalyticBinCullCallback;
-class Database;
+class InstalledDatabase;
 
 /// Whether the kit noticed that the mesh of a tile was moved after bins were installed on it.
 [[nodiscard]] bool hasMoved(osg::Node& tile);
@@ -31,7 +31,8 @@ class Database;
 [[nodiscard]] osg::Matrixd culledFrame(const FoundTile& tile, osg::Node& culled);
 
 /// Puts the callback in front of those of `culled`. From then on the tile notices what is added below it.
-void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& callback, Database& database);
+void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& callback,
+                   InstalledDatabase& database);
 
 /// Nodes whose callback of a bin is nested in an application's. Clones of the node may share the application's
 /// callback, and are known as tiles with bins by what is nested in it: it is taken off when all nodes have been

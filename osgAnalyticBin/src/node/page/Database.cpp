@@ -5,9 +5,7 @@
 
 #include "../GlmBridge.h"
 #include "../cull/TileFamily.h"
-#include "../install/Coverage.h"
 #include "../surface/TilePlates.h"
-#include "../tile/InstalledTile.h"
 
 #include <osg/Notify>
 #include <osgTerrain/GeometryTechnique>
@@ -71,12 +69,6 @@ bool Database::isAttachedTo(const osg::Node& node) const {
     osg::ref_ptr<osgTerrain::Terrain> terrain;
     (void)_terrain.lock(terrain);
     return _root == &node && terrain == dynamic_cast<const osgTerrain::Terrain*>(&node);
-}
-
-bool Database::takes(const osg::EllipsoidModel& ellipsoid) {
-    const Ground wanted = isMapPlane(ellipsoid) ? Ground::Map : Ground::Globe;
-    Ground known = Ground::Open;
-    return _ground.compare_exchange_strong(known, wanted, std::memory_order_relaxed) || known == wanted;
 }
 
 CullOptions Database::options() const {
@@ -158,8 +150,7 @@ void Database::findLateComers() {
 bool Database::needsUpdate() {
     findLateComers();
     const osg::ref_ptr<AutoIndex> making = this->making();
-    return _isUpdateWanted.load(std::memory_order_relaxed) || (making && making->isWhole() && !index()) ||
-           !(shape(options()) == fittedShape());
+    return isUpdateWanted() || (making && making->isWhole() && !index()) || !(shape(options()) == fittedShape());
 }
 
 TerrainShape Database::shape(const CullOptions& options) const {
@@ -183,12 +174,12 @@ bool Database::takeShapeChange() {
     const std::lock_guard<std::mutex> lock(_mutex);
     const bool hasChanged = !(present == _fittedShape);
     _fittedShape = present;
-    return _isRefitWanted.exchange(false, std::memory_order_relaxed) || hasChanged;
+    return takeRefit() || hasChanged;
 }
 
 void Database::noteGap(const std::string& where) {
     if (_hasGap.exchange(true, std::memory_order_relaxed)) return;
-    if (_ground == Ground::Map) {
+    if (isMap()) {
         OSG_INFO << "osgAnalyticBin: the tiles of " << fileName(where)
                  << " leave gaps in the map, or it is not known whether they do. No tile is hidden behind terrain."
                  << std::endl;
@@ -215,19 +206,7 @@ void Database::noteIgnoresDepth(const ParentTile& tile) {
     }
 }
 
-void Database::noteCoverage(const std::string& file, const Coverage& coverage) {
-    const bool hasGap = coverage.hasGap();
-    if (!coverage.isOfGlobe()) {
-        osg::ref_ptr<AnalyticBinCullCallback> tile;
-        // who declares a horizon says that there are none
-        const bool isVouchedFor =
-            options().horizonUse == HorizonUse::Given && _ground.load(std::memory_order_relaxed) != Ground::Map;
-        if (hasGap && !isVouchedFor && coverage.tile()->callback.lock(tile) && tile->getInstalledTile())
-            tile->getInstalledTile()->noteGapBelow();
-        return;
-    }
-    const core::GeodeticBin region = hasGap ? coverage.region() : core::GeodeticBin();
-    if (hasGap && region.empty()) noteGap(file);
+void Database::setRegion(const core::GeodeticBin& region) {
     const std::lock_guard<std::mutex> lock(_mutex);
     _region.reset();
     if (!region.empty()) _region.emplace(toCore(*ellipsoid()), region);
@@ -284,7 +263,7 @@ void Database::makePlates() {
             if (_awaitPlates.empty()) return;
             const bool isThere = _awaitPlates.back().first.lock(tile) && _awaitPlates.back().second.lock(mesh);
             _awaitPlates.pop_back();
-            if (!isThere || !tile->getInstalledTile() || !_ellipsoid) continue;
+            if (!isThere || !tile->getInstalledTile() || !ellipsoid()) continue;
         }
         const TerrainShape shape = tile->getTerrainShape().value_or(TerrainShape());
         tile->getInstalledTile()->setPlates(tilePlates({{mesh}, *ellipsoid(), tile->getLocalToEcef(), shape}));
@@ -368,27 +347,15 @@ Widening Database::correction(const std::string& file, std::size_t ordinal) cons
     return known == _corrections.end() ? Widening() : known->second;
 }
 
-void Database::noteChanged(osg::Group& group) const {
-    const std::lock_guard<std::mutex> lock(_mutex);
-    constexpr std::size_t kMostGroups = 4096;  // where no update traversal ever comes
-    if (_changedGroups.size() < kMostGroups) _changedGroups.emplace_back(&group);
-    requestUpdate();
-}
-
 void Database::renewFamilies() {
-    std::vector<osg::observer_ptr<osg::Group>> changed;
-    {
-        const std::lock_guard<std::mutex> lock(_mutex);
-        changed.swap(_changedGroups);
-    }
-    for (const auto& observed : changed) {
+    for (const auto& observed : takeChanged()) {
         osg::ref_ptr<osg::Group> group;
         if (observed.lock(group)) TileFamily::renew(*group);
     }
 }
 
 void Database::update() {
-    _isUpdateWanted.store(false, std::memory_order_relaxed);
+    beginUpdate();
     findLateComers();
     renewFamilies();
     makePlates();

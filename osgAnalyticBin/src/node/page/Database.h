@@ -4,11 +4,11 @@
 #pragma once
 
 #include "../index/AutoIndex.h"
+#include "../tile/InstalledTile.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/CullOptions.h>
-#include <osgAnalyticBin/TileFrame.h>
 #include <osgAnalyticBin/core/horizon/CoveredRegion.h>
 #include <osgAnalyticBin/core/mesh/CrackBounds.h>
 
@@ -29,7 +29,6 @@
 
 namespace osgAnalyticBin {
 
-class Coverage;
 struct ParentTile;
 
 /// What a tile's bin has to be expanded by.
@@ -46,12 +45,19 @@ struct Widening {
 
 /// State shared by all tiles of one installed database, loaded already or paged in later.
 /// Threads: pager and cull threads may call everything except update() and setOptions().
-class Database : public osg::Referenced {
+class Database : public InstalledDatabase {
 public:
     /// `terrain` and `index` may be null.
     Database(const CullOptions& options, const osg::EllipsoidModel* ellipsoid, osgTerrain::Terrain* terrain,
              const BinIndex* index)
-        : _ellipsoid(ellipsoid), _terrain(terrain), _options(options), _index(index), _fittedShape(shape(options)) {}
+        : InstalledDatabase(ellipsoid),
+          _terrain(terrain),
+          _options(options),
+          _index(index),
+          _fittedShape(shape(options)) {}
+
+    /// The database of a tile.
+    [[nodiscard]] static Database& of(const InstalledTile& tile) { return static_cast<Database&>(tile.database()); }
 
     /// The node that the database is attached to: the CoordinateSystemNode, or, without one, the root of the scene.
     void setRoot(const osg::Node& node) { _root = &node; }
@@ -78,13 +84,6 @@ public:
     /// Records that a file was read, and its bins were installed with the options and the index of `generation`.
     void noteRead(osg::Node& content, unsigned int generation);
 
-    /// The database's ellipsoid, or mapPlane() once a tile of a map has a bin.
-    [[nodiscard]] const osg::EllipsoidModel* ellipsoid() const {
-        return _ground.load(std::memory_order_relaxed) == Ground::Map ? mapPlane() : _ellipsoid.get();
-    }
-    /// Whether a tile on this ellipsoid (for maps: mapPlane()) may have a bin. A database is either a globe or a map;
-    /// the first call decides which.
-    [[nodiscard]] bool takes(const osg::EllipsoidModel& ellipsoid);
     /// Null: there is none, or none yet.
     [[nodiscard]] osg::ref_ptr<const BinIndex> index() const;
     /// Call when a tile that pages finer ones would take its bin from an index.
@@ -102,18 +101,9 @@ public:
     /// The shape at the last update traversal, which tiles are fitted to. For any thread.
     [[nodiscard]] TerrainShape fittedShape() const;
 
-    /// Call when a tile was found that is not fitted to the present shape.
-    void requestRefit() const {
-        _isRefitWanted.store(true, std::memory_order_relaxed);
-        requestUpdate();
-    }
-
     /// Whether update() has something to do, or will have once what is on its way is merged. The database's update
     /// callback is on its node only meanwhile: viewers that draw on demand draw frames as long as there is one.
     [[nodiscard]] bool needsUpdate();
-
-    /// Call when the children of a group with a family have changed. The next update rebuilds the family.
-    void noteChanged(osg::Group& group) const;
 
     /// In the update traversal: whether all loaded tiles have to be fitted again. Resets the answer.
     [[nodiscard]] bool takeShapeChange();
@@ -134,11 +124,9 @@ public:
     void noteStrayTile(const std::string& where);
     [[nodiscard]] bool hasStrayTile() const { return _hasStrayTile.load(std::memory_order_relaxed); }
 
-    /// Records what the tiles of a file cover. Gaps in the root file count as noteGap(), unless it covers a region;
-    /// those in a paged file are noted with the tile that pages it.
-    void noteCoverage(const std::string& file, const Coverage& coverage);
-
-    /// The region that a regional database covers. Returns: nullopt if it covers the globe or has a gap.
+    /// Says which region a regional database covers; empty: it covers the globe or has a gap.
+    void setRegion(const core::GeodeticBin& region);
+    /// Returns: nullopt if it covers the globe or has a gap.
     [[nodiscard]] std::optional<core::CoveredRegion> region() const;
 
     /// Call when the eye is not over the region, so that the horizon hides nothing. Tells the user once.
@@ -197,10 +185,8 @@ protected:
     ~Database() override = default;
 
 private:
-    enum class Ground { Open, Globe, Map };
     using TileKey = std::pair<std::string, std::size_t>;
 
-    void requestUpdate() const { _isUpdateWanted.store(true, std::memory_order_relaxed); }
     void widen(const ParentTile& tile, const Widening& by, bool isFitted);
     static void widenFrom(const ParentTile& tile, const Widening& by);
     static void warn(const ParentTile& tile, bool Database::*hasWarned, const char* what);
@@ -213,13 +199,9 @@ private:
     static inline std::atomic<unsigned long> _count{0};
 
     const unsigned long _number = ++_count;
-    const osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;
     const osg::observer_ptr<osgTerrain::Terrain> _terrain;
     const osg::Node* _root = nullptr;
-    mutable std::atomic<bool> _isUpdateWanted{false};
-    mutable std::atomic<bool> _isRefitWanted{false};
     std::atomic<bool> _wasCulled{false};
-    std::atomic<Ground> _ground{Ground::Open};
     std::atomic<bool> _isRemoved{false};
     std::atomic<bool> _hasGap{false};
     std::atomic<bool> _hasHole{false};
@@ -242,7 +224,6 @@ private:
     bool _hasWarnedOfIndex = false, _hasWarnedOfStored = false, _hasWarnedOfUnverifiable = false;
     std::map<TileKey, Widening> _corrections;
     std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, Widening>> _toWiden;
-    mutable std::vector<osg::observer_ptr<osg::Group>> _changedGroups;
     std::vector<std::pair<osg::observer_ptr<const AnalyticBinCullCallback>, osg::observer_ptr<osg::Node>>> _awaitPlates;
 };
 

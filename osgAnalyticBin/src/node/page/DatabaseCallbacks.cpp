@@ -107,6 +107,8 @@ Horizon horizonOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cull
     const ShownDatabase shown{node, nv, cullStack, view, findsOccluded, region ? &*region : nullptr};
     const auto find = [&](bool isPlanned) {
         const OccludedTiles tiles = isPlanned ? cullBehindTerrain(shown, *viewpoint, last.occlusion) : OccludedTiles();
+        for (const TilePlan::ShownTile& tile : tiles.withoutPlates)
+            Database::of(*tile.tile->getInstalledTile()).askForPlates(*tile.tile, *tile.mesh);
         noteOccluded(tiles, last);
     };
     if (isMap) {

@@ -3,11 +3,7 @@
 
 #include "InstalledTile.h"
 
-#include "../page/Database.h"
-
 namespace osgAnalyticBin {
-
-InstalledTile::InstalledTile(const osg::Node& culled, Database& database) : _culled(&culled), _database(&database) {}
 
 InstalledTile::InstalledTile(const InstalledTile& other)
     : osg::Referenced(other), _culled(nullptr), _database(other._database) {}

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "InstalledDatabase.h"
 #include "TileBlock.h"
 
 #include <osgAnalyticBin/core/mesh/MeshCover.h>
@@ -19,20 +20,18 @@
 
 namespace osgAnalyticBin {
 
-class Database;
-
 /// The installer's record of a tile, owned by the tile's cull callback: the node that the bin was made for, and
 /// whether the bin contains everything below that node.
 /// Threads: mayCull() and keepVisible() at any time; the rest only while no cull traversal runs.
 class InstalledTile final : public osg::Referenced {
 public:
     /// `culled`: the node that carries the callback.
-    InstalledTile(const osg::Node& culled, Database& database);
+    InstalledTile(const osg::Node& culled, InstalledDatabase& database) : _culled(&culled), _database(&database) {}
 
     /// For a copied callback: it belongs to no node.
     InstalledTile(const InstalledTile& other);
 
-    [[nodiscard]] Database& database() const { return *_database; }
+    [[nodiscard]] InstalledDatabase& database() const { return *_database; }
 
     /// Whether `node` is the one that the bin was made for. A clone of a scene may share the callback.
     [[nodiscard]] bool isFor(const osg::Node* node) const { return node == _culled; }
@@ -110,7 +109,7 @@ private:
     void tellFamily();
 
     const osg::Node* _culled;
-    const osg::ref_ptr<Database> _database;
+    const osg::ref_ptr<InstalledDatabase> _database;
     std::atomic<bool> _isKeptVisible{false};
     std::atomic<bool> _isMeshDoubted{false};
     std::atomic<bool> _isMeshChanged{false};  // since bins were installed

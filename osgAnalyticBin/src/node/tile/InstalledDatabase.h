@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/TileFrame.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Group>
+#include <osg/Referenced>
+#include <osg/observer_ptr>
+#include <osg/ref_ptr>
+
+#include <atomic>
+#include <mutex>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+/// What tiles and their callbacks know of the database that they belong to: its ground, and how to ask for something in
+/// the next update traversal. Threads: any number at once.
+class InstalledDatabase : public osg::Referenced {
+public:
+    /// `ellipsoid`: that of the database, unless its tiles turn out to stand in a map.
+    explicit InstalledDatabase(const osg::EllipsoidModel* ellipsoid) : _ellipsoid(ellipsoid) {}
+
+    /// The database's ellipsoid, or mapPlane() once a tile of a map has a bin.
+    [[nodiscard]] const osg::EllipsoidModel* ellipsoid() const { return isMap() ? mapPlane() : _ellipsoid.get(); }
+    /// Whether a tile on this ellipsoid (for maps: mapPlane()) may have a bin. A database is either a globe or a map;
+    /// the first call decides which.
+    [[nodiscard]] bool takes(const osg::EllipsoidModel& ellipsoid);
+
+    /// Call when a tile was found that is not fitted to the present shape.
+    void requestRefit() const {
+        _isRefitWanted.store(true, std::memory_order_relaxed);
+        requestUpdate();
+    }
+
+    /// Call when the children of a group with a family have changed. The next update rebuilds the family.
+    void noteChanged(osg::Group& group) const;
+
+protected:
+    using Groups = std::vector<osg::observer_ptr<osg::Group>>;
+
+    ~InstalledDatabase() override;
+
+    [[nodiscard]] bool isMap() const { return _ground.load(std::memory_order_relaxed) == Ground::Map; }
+    void requestUpdate() const { _isUpdateWanted.store(true, std::memory_order_relaxed); }
+    [[nodiscard]] bool isUpdateWanted() const { return _isUpdateWanted.load(std::memory_order_relaxed); }
+    /// For the update traversal: what was asked for is done now.
+    void beginUpdate() { _isUpdateWanted.store(false, std::memory_order_relaxed); }
+    [[nodiscard]] bool takeRefit() { return _isRefitWanted.exchange(false, std::memory_order_relaxed); }
+    [[nodiscard]] Groups takeChanged();
+
+private:
+    enum class Ground { Open, Globe, Map };
+
+    const osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;
+    std::atomic<Ground> _ground{Ground::Open};
+    mutable std::atomic<bool> _isUpdateWanted{false};
+    mutable std::atomic<bool> _isRefitWanted{false};
+    mutable std::mutex _changing;  // guards the groups
+    mutable Groups _changed;
+};
+
+}  // namespace osgAnalyticBin
