@@ -5,8 +5,6 @@
 
 #include "../Classes.h"
 #include "../tile/Carrier.h"
-#include "../tile/MeshCulling.h"
-#include "CullCallbacks.h"
 
 #include <osgAnalyticBin/Declarations.h>
 
@@ -259,16 +257,9 @@ StateRules StateRules::of(osg::NodeVisitor& visitor, bool trustsShaders) {
     return {trustsShaders, isMirror(*cullVisitor->getModelViewMatrix()), cullVisitor->getViewport()};
 }
 
-DrawnState drawnStateAt(const osg::Node& node, const StateRules& rules) {
+DrawnState drawnStateByClass(const osg::Node& node, const StateRules& rules) {
     DrawnState drawn = drawnStateOf(node, rules);
     drawn &= ofClass(node);
-    if (node.getCullCallback() && CullCallbacks(node).mayLeaveOut) drawn &= kUnknown;
-    return drawn;
-}
-
-DrawnState drawnStateBelow(osg::Node& node, const StateRules& rules) {
-    DrawnState drawn;
-    forEachNode(node, [&](osg::Node& part) { drawn &= drawnStateAt(part, rules); });
     return drawn;
 }
 

@@ -53,12 +53,8 @@ struct StateRules {
     return node.getStateSet() ? drawnState(*node.getStateSet(), rules) : DrawnState();
 }
 
-/// Of a node without what is below it: its state, its class, its callbacks.
-[[nodiscard]] DrawnState drawnStateAt(const osg::Node& node, const StateRules& rules);
-
-/// Of a node with all that is below it; nothing is below osgTerrain tiles. `hides` is for meshes, all of whose
-/// drawables are to hide.
-[[nodiscard]] DrawnState drawnStateBelow(osg::Node& node, const StateRules& rules);
+/// Of a node by its state and its class, whatever its callbacks and what is below it.
+[[nodiscard]] DrawnState drawnStateByClass(const osg::Node& node, const StateRules& rules);
 
 /// Of the states from the camera to the visitor's present node, or from below `end` where it is among them. Returns:
 /// all is known for visitors that collect no state.

@@ -10,13 +10,13 @@
 #include "../PagedChildren.h"
 #include "../Scoped.h"
 #include "../Spheres.h"
-#include "../install/ContentWatch.h"
+#include "../tile/BoundWatch.h"
 #include "../tile/InstalledTile.h"
 #include "BinCulling.h"
 #include "../../core/Bits.h"
 #include "CullCallbacks.h"
 #include "CullTraversal.h"
-#include "DrawnState.h"
+#include "DrawnNode.h"
 #include "SearchMemory.h"
 #include "TileFamily.h"
 #include "TilePlan.h"
@@ -111,7 +111,7 @@ private:
         const double radius = columns->sphere().radius() + kRounding * (center.length() + columns->sphere().radius());
         if (!isBesideFrustum(center, radius) || (_place && isOverEye(center, radius))) return false;
         // without it children may have changed unnoticed
-        return ContentWatch::isOn(group);
+        return BoundWatch::isOn(group);
     }
 
     // Whether a sphere is about the eye or above it.
@@ -348,7 +348,7 @@ private:
     // Whether OSG does not draw a mesh that may be in view, because of a sphere that does not hold it.
     [[nodiscard]] bool isLeftOutInView(const SearchedTile& tile, const osg::Node& mesh) const {
         if (!tile.isEnteredByOsg && !_isBelowOutOfView) return false;
-        const bool mayBeFalse = _database.view.shape.verticalScale != 1.0 || ContentWatch::hasOwnBound(mesh);
+        const bool mayBeFalse = _database.view.shape.verticalScale != 1.0 || BoundWatch::hasOwnBound(mesh);
         if (tile.isEnteredByOsg && mayBeFalse && isLeftOut(mesh)) return true;
         return _isBelowOutOfView && (mayBeFalse || !isBesideFrustum(sphereOf(mesh)));
     }

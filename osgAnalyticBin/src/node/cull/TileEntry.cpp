@@ -8,10 +8,7 @@
 #include "../tile/Carrier.h"
 #include "../tile/MeshCulling.h"
 #include "BinCulling.h"
-#include "CullCallbacks.h"
-#include "CullTraversal.h"
 #include "DrawnState.h"
-#include "TileFamily.h"
 
 #include <osg/Geode>
 #include <osg/Geometry>
@@ -263,22 +260,33 @@ TileEntry::TileEntry(osg::Node& tile, const MeshParts& parts)
     _parts = known;
 }
 
-void TileEntry::enter(osg::Node& tile, osgUtil::CullVisitor& visitor, CullTraversal& traversal) const {
-    Footprint::Notes notes(_footprint);
+TileEntry::Level TileEntry::enter(osg::Node& tile, osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const {
     notes.add(&tile, kLinesOfTile);
-    if (!visitor.validNodeMask(tile)) return;
-    const bool isEntered = _isOwnMesh ? drawMesh(visitor, notes) : _paged && enterShownLevel(visitor, traversal, notes);
-    if (!isEntered) enterWithoutTest(tile, visitor);
+    if (!visitor.validNodeMask(tile)) return {};
+    const bool isDrawn = _isOwnMesh && drawMesh(visitor, notes);
+    if (isDrawn) return {};
+    const Level level = _paged && !_isOwnMesh ? enterShownLevel(visitor, notes) : Level();
+    if (!level.node) {
+        enterWithoutTest(tile, visitor);
+        return {};
+    }
+    if (!drawLevel(*level.node, visitor, notes)) return level;
+    leave(level, visitor);
+    return {};
+}
+
+void TileEntry::leave(const Level& level, osgUtil::CullVisitor& visitor) {
+    visitor.popFromNodePath();
+    if (level.state) visitor.popStateSet();
 }
 
 // As osg::PagedLOD::traverse() where one child is shown and no file is asked for.
-bool TileEntry::enterShownLevel(osgUtil::CullVisitor& visitor, CullTraversal& traversal,
-                                Footprint::Notes& notes) const {
+TileEntry::Level TileEntry::enterShownLevel(osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const {
     const osg::FrameStamp* const now = visitor.getFrameStamp();
     const osg::LOD::RangeList& ranges = _paged->getRangeList();
     if (!now || visitor.getTraversalMode() != osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN ||
         _paged->getRangeMode() != osg::LOD::DISTANCE_FROM_EYE_POINT || _paged->getNumFileNames() == 0)
-        return false;
+        return {};
     notes.add(OpenGroup::childrenOf(*_paged), 1);
     notes.add(ranges.data(), 1);
     notes.add(&_paged->getFileName(0), 3);
@@ -286,27 +294,27 @@ bool TileEntry::enterShownLevel(osgUtil::CullVisitor& visitor, CullTraversal& tr
     std::optional<unsigned int> shown;
     for (unsigned int i = 0; i < ranges.size(); ++i) {
         if (!(ranges[i].first <= range && range < ranges[i].second)) continue;
-        if (shown || i >= _paged->getNumChildren()) return false;
+        if (shown || i >= _paged->getNumChildren()) return {};
         shown = i;
     }
-    if (!shown) return false;
+    if (!shown) return {};
     _paged->setFrameNumberOfLastTraversal(now->getFrameNumber());
     _paged->setTimeStamp(*shown, now->getReferenceTime());
     _paged->setFrameNumber(*shown, now->getFrameNumber());
-    const StateScope state(visitor, _paged->getStateSet());
+    const Level level{_paged->getChild(*shown), _paged->getStateSet()};
+    if (level.state) visitor.pushStateSet(level.state);
     visitor.pushOntoNodePath(_paged);
-    osg::Node& child = *_paged->getChild(*shown);
-    const bool isMesh = &child == _parts.front().node;
-    const bool isDrawn = isMesh && drawMesh(visitor, notes);
-    const bool isScaled = isMesh && _parts.front().kind == Kind::Terrain && isPassive(child, visitor);
-    if (!isDrawn && isScaled) {
-        // OSG makes its sphere without the vertical scale
-        enterWithoutTest(child, visitor);
-    } else if (!isDrawn && !TileFamily::enterFamilyOf(child, visitor, traversal, notes)) {
-        child.accept(visitor);
-    }
-    visitor.popFromNodePath();
-    return true;
+    return level;
+}
+
+// Returns: false where the level is not the mesh, or the mesh is left to OSG.
+bool TileEntry::drawLevel(osg::Node& level, osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const {
+    if (&level != _parts.front().node) return false;
+    if (drawMesh(visitor, notes)) return true;
+    const bool isScaled = _parts.front().kind == Kind::Terrain && isPassive(level, visitor);
+    // OSG makes its sphere without the vertical scale
+    if (isScaled) enterWithoutTest(level, visitor);
+    return isScaled;
 }
 
 bool TileEntry::drawMesh(osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const {

@@ -17,8 +17,6 @@
 
 namespace osgAnalyticBin {
 
-class CullTraversal;
-
 /// Enters a kept tile like osgUtil::CullVisitor, in less time: it adds the drawables of the tile's own mesh without
 /// creating a culling set for the mesh's transform, and passes the root group of a file to its family directly. The
 /// nodes of the mesh are those at the time when the family was made. If they have changed, or one of them has a cull
@@ -41,7 +39,15 @@ public:
     /// Whether enter() may be called. It requires, besides: a visitor of exactly the class osgUtil::CullVisitor, and a
     /// tile without cull callbacks other than that of its bin and a suspended one for clusters.
     [[nodiscard]] bool isPossible() const { return _isPossible; }
-    void enter(osg::Node& tile, osgUtil::CullVisitor& visitor, CullTraversal& traversal) const;
+    /// A level of detail that remains to be entered.
+    struct Level {
+        osg::Node* node = nullptr;
+        const osg::StateSet* state = nullptr;  ///< of the tile
+    };
+    /// `notes`: of the footprint. Returns: the level that is shown, if it is not the mesh; the visitor stands in the
+    /// tile until leave() then.
+    [[nodiscard]] Level enter(osg::Node& tile, osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const;
+    static void leave(const Level& level, osgUtil::CullVisitor& visitor);
 
     /// Whether a part of the mesh has neither a state nor callbacks, and is of a class that is known to draw everything
     /// below it. False also for tiles of osgTerrain, and where it takes longer to tell.
@@ -54,7 +60,9 @@ public:
                !(kind == Kind::Geometry && static_cast<const osg::Drawable&>(node).getDrawCallback());
     }
 
-    /// Prefetches the memory that the last enter() read.
+    /// The memory that the last enter() read, and what was entered for it.
+    [[nodiscard]] const Footprint& footprint() const { return _footprint; }
+    /// Prefetches that memory.
     void fetch() const { _footprint.fetch(); }
 
 private:
@@ -81,8 +89,8 @@ private:
     class Delivery;
 
     [[nodiscard]] static Kind kindOf(const osg::Node& node);
-    [[nodiscard]] bool enterShownLevel(osgUtil::CullVisitor& visitor, CullTraversal& traversal,
-                                       Footprint::Notes& notes) const;
+    [[nodiscard]] Level enterShownLevel(osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const;
+    [[nodiscard]] bool drawLevel(osg::Node& level, osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const;
     [[nodiscard]] bool drawMesh(osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const;
     [[nodiscard]] bool isMeshAsKnown(const osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const;
 

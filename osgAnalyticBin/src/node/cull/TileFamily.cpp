@@ -3,13 +3,12 @@
 
 #include "TileFamily.h"
 
+#include "../../core/Bits.h"
 #include "../CallbackChain.h"
 #include "../Classes.h"
-#include "../surface/TilePlates.h"
 #include "../tile/InstalledTile.h"
+#include "../tile/MeshCulling.h"
 #include "BinCulling.h"
-#include "../../core/Bits.h"
-#include "CullCallbacks.h"
 #include "DrawnState.h"
 #include "InstalledBin.h"
 #include "TilePlan.h"
@@ -61,19 +60,6 @@ MeshParts meshPartsOf(osg::Node& tile) {
     std::size_t count = 0;
     if (!mesh || !appendParts(*mesh, parts, count)) return {};
     return parts;
-}
-
-// Of a mesh that has changed.
-void renewEvidence(osg::Node& mesh, const AnalyticBinCullCallback& tile, InstalledTile& installed) {
-    const osg::ref_ptr<osg::Node> kept(&mesh);
-    const TerrainShape shape = tile.getTerrainShape().value_or(TerrainShape());
-    core::MeshCover cover = coverOf({{kept}, *installed.database().ellipsoid(), tile.getLocalToEcef(), shape});
-    if (!isSamePlace(cover.place, installed.place())) cover.isFilled = false;
-    cover.place = installed.place();
-    installed.setCover(cover);
-    const DrawnState drawn = drawnStateBelow(mesh, {tile.getCullOptions().plainShaders});
-    if (!drawn.hides) installed.setSeeThrough();
-    if (!drawn.obeysDepth) installed.ignoreDepth();
 }
 
 }  // namespace
@@ -198,12 +184,6 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
     });
     _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), parts, hasTerrain, TileEntry(child, parts)};
     tile->getInstalledTile()->joinFamily(*_block, slot);
-    // osgUtil::Optimizer may have changed the form of the mesh: the new form is as good
-    InstalledTile& installed = *tile->getInstalledTile();
-    if (_members[slot].meshParts.front()) {
-        if (installed.isMeshDoubted()) renewEvidence(*_members[slot].meshParts.front(), *tile, installed);
-        installed.trustMesh();
-    }
     tile->fillSlot();
     return true;
 }
@@ -352,6 +332,15 @@ bool TileFamily::isAlone(const osg::Node& tile, const Member& member) {
            (!nested || (isSuspendedCluster(*nested) && !nested->getNestedCallback()));
 }
 
+void TileFamily::enterAlone(osg::Node& tile, const TileEntry& entry, osgUtil::CullVisitor& visitor,
+                            CullTraversal& traversal) {
+    Footprint::Notes notes(entry.footprint());
+    const TileEntry::Level level = entry.enter(tile, visitor, notes);
+    if (!level.node) return;
+    if (!enterFamilyOf(*level.node, visitor, traversal, notes)) level.node->accept(visitor);
+    TileEntry::leave(level, visitor);
+}
+
 // A plain tile is entered as osgUtil::CullVisitor does it, but for the test of its sphere and for the calls that lead
 // to the tile's own callback, which would do nothing: its family has tested it.
 void TileFamily::enter(osg::Node& child, const Member& member, osg::NodeVisitor& nv, osg::CullStack& cullStack,
@@ -359,7 +348,7 @@ void TileFamily::enter(osg::Node& child, const Member& member, osg::NodeVisitor&
     if (member.entry.isPossible() && child.getCullCallback() == member.tile &&
         typeid(nv) == typeid(osgUtil::CullVisitor)) {
         auto& visitor = static_cast<osgUtil::CullVisitor&>(nv);
-        if (isAlone(child, member)) return member.entry.enter(child, visitor, traversal);
+        if (isAlone(child, member)) return enterAlone(child, member.entry, visitor, traversal);
         return enterWithoutTest(child, visitor, child.getCullCallback()->getNestedCallback());
     }
     // OSG does not test the sphere in this mask; the tile's callback sets the mask of what is below again

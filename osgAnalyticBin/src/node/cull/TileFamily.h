@@ -125,6 +125,8 @@ private:
                                        osg::CullStack& cullStack, CullTraversal& traversal) const;
     void cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack, const DatabaseView& view,
                       CullTraversal& traversal) const;
+    static void enterAlone(osg::Node& tile, const TileEntry& entry, osgUtil::CullVisitor& visitor,
+                           CullTraversal& traversal);
     static void enter(osg::Node& child, const Member& member, osg::NodeVisitor& nv, osg::CullStack& cullStack,
                       CullTraversal& traversal);
 

@@ -6,11 +6,13 @@
 #include "../CallbackChain.h"
 #include "../PagedChildren.h"
 #include "../Scoped.h"
+#include "../cull/DrawnNode.h"
 #include "../cull/InstalledBin.h"
 #include "../cull/TileFamily.h"
 #include "../page/BinReadFileCallback.h"
 #include "../page/Database.h"
 #include "../page/DatabaseCallbacks.h"
+#include "../page/MeshEvidence.h"
 #include "../page/PagedFiles.h"
 #include "../page/PagingExpiry.h"
 #include "../surface/TilePlates.h"
@@ -125,8 +127,10 @@ void BinInstaller::finish() {
 void BinInstaller::placeFamilies() {
     for (auto at = _groups.rbegin(); at != _groups.rend(); ++at) {
         osg::Node& group = **at;
+        if (!TileFamily::place(group)) continue;
+        trustMeshes(group);
         // it notices where the application takes the watch of a tile away
-        if (TileFamily::place(group) && !ContentWatch::isOn(group)) ContentWatch::place(group, {});
+        if (!ContentWatch::isOn(group)) ContentWatch::place(group, {});
     }
     _groups.clear();
 }

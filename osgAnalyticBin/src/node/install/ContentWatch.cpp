@@ -6,7 +6,7 @@
 #include "../../core/EarthScale.h"
 #include "../GlmBridge.h"
 #include "../Spheres.h"
-#include "../cull/DrawnState.h"
+#include "../cull/DrawnNode.h"
 #include "../cull/InstalledBin.h"
 #include "../cull/TileFamily.h"
 #include "../page/Database.h"
@@ -266,8 +266,7 @@ bool isAbsolute(const osg::Node& node) {
 
 }  // namespace
 
-ContentWatch::ContentWatch(const ContentWatch& other, const osg::CopyOp& copyop)
-    : osg::Node::ComputeBoundingSphereCallback(other, copyop) {}
+ContentWatch::ContentWatch(const ContentWatch& other, const osg::CopyOp& copyop) : BoundWatch(other, copyop) {}
 
 void ContentWatch::place(osg::Node& node, const std::vector<osg::ref_ptr<osg::Node>>& fitted) {
     remove(node);
@@ -305,10 +304,6 @@ void ContentWatch::remove(osg::Node& node) {
     }
 }
 
-bool ContentWatch::isOn(const osg::Node& node) {
-    return watchOf(node) != nullptr;
-}
-
 void ContentWatch::look() const {
     if (_node) (void)_node->getBound();
 }
@@ -320,15 +315,6 @@ osg::BoundingSphere ContentWatch::computeBound(const osg::Node& node) const {
     // about the middle that it has: levels of detail are chosen by the distance from there
     bound.expandRadiusBy(scaledTerrainOf(node));
     return bound;
-}
-
-osg::BoundingSphere ContentWatch::boundOf(const osg::Node& node) const {
-    return _previous ? _previous->computeBound(node) : node.computeBound();
-}
-
-bool ContentWatch::hasOwnBound(const osg::Node& node) {
-    const ContentWatch* const watch = watchOf(node);
-    return watch ? watch->_previous.valid() : node.getComputeBoundingSphereCallback() != nullptr;
 }
 
 bool ContentWatch::hasNewContent(const osg::Node& node) {

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "../tile/BoundWatch.h"
+
 #include <osgAnalyticBin/Export.h>
 
 #include <osg/Node>
@@ -21,7 +23,7 @@ namespace osgAnalyticBin {
 /// Every tile and every group between tiles has a watch, which checks the node's own children, down to the next node
 /// with a watch. It knows the meshes that the tile's bin was fitted to.
 /// Bounds are computed before tiles are culled: by osgViewer in every frame, and by DatabaseCullCallback.
-class OSGANALYTICBIN_EXPORT ContentWatch final : public osg::Node::ComputeBoundingSphereCallback {
+class OSGANALYTICBIN_EXPORT ContentWatch final : public BoundWatch {
 public:
     ContentWatch() = default;
     /// A copy watches nothing.
@@ -32,13 +34,8 @@ public:
         /// that the node's bin was fitted to.
         static void place(osg::Node& node, const std::vector<osg::ref_ptr<osg::Node>>& fitted);
 
-    /// Whether the node has a watch.
-    [[nodiscard]] static bool isOn(const osg::Node& node);
     /// Removes the watch.
     static void remove(osg::Node& node);
-
-    /// Whether the application has the node's bound computed by a callback of its own.
-    [[nodiscard]] static bool hasOwnBound(const osg::Node& node);
 
     /// Whether the node has a watch that found content among its children which the bin was not fitted to.
     [[nodiscard]] static bool hasNewContent(const osg::Node& node);
@@ -73,9 +70,6 @@ private:
     [[nodiscard]] static const ContentWatch* ownWatchOf(const osg::Node& node);
     [[nodiscard]] bool isFitted(const osg::Node& child, bool withBounds) const;
     void check(const osg::Node& node) const;
-    // The bound as it is without the watch.
-    [[nodiscard]] osg::BoundingSphere boundOf(const osg::Node& node) const;
-
     // Whether a transform in a fitted mesh has another matrix now, while the mesh still has the same parts.
     [[nodiscard]] bool isPartMoved(const osg::Group& group) const;
 
@@ -84,7 +78,6 @@ private:
     std::vector<Fitted> _fitted;
     mutable bool _isPending = false;  // not all ancestors' bins have been checked: the file is not merged
                                       // yet
-    osg::ref_ptr<osg::Node::ComputeBoundingSphereCallback> _previous;
 };
 
 }  // namespace osgAnalyticBin

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 #include "../boxes/BoxInstaller.h"
+#include "../cull/DrawnNode.h"
 #include "../index/AutoIndex.h"
 #include "../page/Database.h"
 #include "../page/DatabaseCallbacks.h"

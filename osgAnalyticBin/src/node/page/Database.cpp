@@ -6,6 +6,7 @@
 #include "../GlmBridge.h"
 #include "../cull/TileFamily.h"
 #include "../surface/TilePlates.h"
+#include "MeshEvidence.h"
 
 #include <osg/Notify>
 #include <osgTerrain/GeometryTechnique>
@@ -350,7 +351,9 @@ Widening Database::correction(const std::string& file, std::size_t ordinal) cons
 void Database::renewFamilies() {
     for (const auto& observed : takeChanged()) {
         osg::ref_ptr<osg::Group> group;
-        if (observed.lock(group)) TileFamily::renew(*group);
+        if (!observed.lock(group)) continue;
+        TileFamily::renew(*group);
+        trustMeshes(*group);
     }
 }
 
