@@ -3,12 +3,8 @@
 
 #pragma once
 
-#include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Export.h>
-
-#include <osg/NodeCallback>
-
-#include <string>
+#include <osgAnalyticBin/InstallRequest.h>
 
 namespace osgAnalyticBin {
 
@@ -17,39 +13,20 @@ namespace osgAnalyticBin {
 /// it once, and draws the database with its own spheres.
 /// Then it becomes an event callback of its node, so that it is saved with a scene: viewers that draw on demand draw
 /// frames as long as there is an update callback.
-class OSGANALYTICBIN_EXPORT InstallBinsCallback : public osg::NodeCallback {
+class OSGANALYTICBIN_EXPORT InstallBinsCallback : public InstallRequest {
 public:
     /// Installs bins with these options.
-    explicit InstallBinsCallback(const CullOptions& options = {}) : _options(options) {}
+    explicit InstallBinsCallback(const CullOptions& options = {}) : InstallRequest(options) {}
     /// Copies the options; the copy installs bins even if the original has done so.
     InstallBinsCallback(const InstallBinsCallback& other, const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
-
-    META_Object(osgAnalyticBin, InstallBinsCallback)
-
-        /// Read at the first update traversal.
-        void setCullOptions(const CullOptions& options) {
-        _options = options;
-    }
-    /// Default: CullOptions().
-    [[nodiscard]] const CullOptions& getCullOptions() const { return _options; }
-
-    /// The options as text; what the serializer stores.
-    void setOptionsText(const std::string& text);
-    /// toText() of the options.
-    [[nodiscard]] std::string getOptionsText() const;
-
-    /// Marks bins as installed: the callback does nothing from then on.
-    void setDone() { _done = true; }
 
     /// Called by OSG's update traversal, then by its event traversals.
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
+    META_Object(osgAnalyticBin, InstallBinsCallback);
+
 protected:
     ~InstallBinsCallback() override = default;
-
-private:
-    CullOptions _options;
-    bool _done = false;
 };
 
 }  // namespace osgAnalyticBin

@@ -218,7 +218,7 @@ FAULTS = [
           "HoledGlobe.*"),
     Fault("tiles that stand in several places hide whatever they are drawn as", "src/node/install/BinInstaller.cpp",
           "if (installsBins()) database().noteStrayTile(tile.frame.file);", "", NODE, "TilesWithoutBins.*"),
-    Fault("tiles that move hide whatever they are drawn as", "src/node/install/InstallBins.cpp",
+    Fault("tiles that move hide whatever they are drawn as", "src/node/install/BinInstaller.cpp",
           "if (installsBins() && hasTileBelow(node)) database().noteStrayTile(frame().file);", "(void)hasTileBelow(node);", NODE, "TilesWithoutBins.*"),
     Fault("tiles that are moved away leave no hole", "src/node/cull/ShownDepth.cpp",
           "if (!standsAsInstalled(node, bin)) _hasHole = true;", "", NODE, "HoledGlobe.*"),

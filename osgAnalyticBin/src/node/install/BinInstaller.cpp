@@ -6,6 +6,7 @@
 #include "../CallbackChain.h"
 #include "../PagedChildren.h"
 #include "../Scoped.h"
+#include "../boxes/BoxInstaller.h"
 #include "../cull/DrawnNode.h"
 #include "../cull/InstalledBin.h"
 #include "../cull/TileFamily.h"
@@ -27,13 +28,14 @@
 #include "TileFit.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/InstallBinsCallback.h>
+#include <osgAnalyticBin/InstallRequest.h>
 #include <osgAnalyticBin/PhotogrammetrySet.h>
 
 #include <osg/Notify>
 #include <osg/PagedLOD>
 #include <osgDB/Registry>
 #include <osgTerrain/Terrain>
+#include <osgTerrain/TerrainTile>
 
 #include <algorithm>
 #include <optional>
@@ -49,7 +51,7 @@ namespace {
 CullOptions settled(osg::Node& node, const CullOptions& options) {
     CullOptions effective = options;
     for (osg::Callback* const first : {node.getUpdateCallback(), node.getEventCallback()}) {
-        const osg::ref_ptr<InstallBinsCallback> request = findCallback<InstallBinsCallback>(first);
+        const osg::ref_ptr<InstallRequest> request = findCallback<InstallRequest>(first);
         if (!request) continue;
         const CullOptions declared = request->getCullOptions();
         if (effective.horizonUse == HorizonUse::Declared && declared.horizonUse == HorizonUse::Given) {
@@ -79,6 +81,16 @@ bool isSameGlobe(const TileFrame& above, const TileFrame& inside) {
            above.ellipsoid->getRadiusPolar() == inside.ellipsoid->getRadiusPolar();
 }
 
+// Whether a subgraph that the installer does not search has nodes that look like tiles.
+bool hasTileBelow(osg::Node& subgraph) {
+    bool has = false;
+    forEachNode(subgraph, [&has](osg::Node& node) {
+        has = has || hasStoredBin(node) || dynamic_cast<osg::PagedLOD*>(&node) ||
+              dynamic_cast<osgTerrain::TerrainTile*>(&node);
+    });
+    return has;
+}
+
 }  // namespace
 
 BinInstaller::BinInstaller(const CullOptions& options) : _options(options), _coverage(std::make_shared<Coverages>()) {}
@@ -102,7 +114,7 @@ void BinInstaller::continueBelow(Database* database, const TileFrame& frame, con
 void BinInstaller::refit(osg::Node& node, Database& database) {
     _index = database.index();
     // globes keep their databases
-    _keepsDatabases = true;
+    keepDatabases();
     if (dynamic_cast<osg::CoordinateSystemNode*>(&node)) {
         _refitted = &database;
     } else {
@@ -140,7 +152,7 @@ bool BinInstaller::installsBins() const {
 }
 
 Database& BinInstaller::database() {
-    if (!_database) _database = new Database(_options, new osg::EllipsoidModel, nullptr, _index.get());
+    if (!_database) _database = newDatabase(new osg::EllipsoidModel, nullptr);
     return *_database;
 }
 
@@ -196,7 +208,7 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     if (!own) {
         const osg::ref_ptr<osg::EllipsoidModel> ellipsoid =
             node.getEllipsoidModel() && !isGlobeBroken(node) ? node.getEllipsoidModel() : new osg::EllipsoidModel;
-        own = new Database(_options, ellipsoid.get(), dynamic_cast<osgTerrain::Terrain*>(&node), _index.get());
+        own = newDatabase(ellipsoid.get(), dynamic_cast<osgTerrain::Terrain*>(&node));
         own->setRoot(node);
         // new bins do not tell where a tile stood before
         if (hasMovedTile) own->noteMovedTile(frame().file);
@@ -285,6 +297,19 @@ DrawnState BinInstaller::drawnStateOfTile(osg::Node& node) const {
         if (!isPaged(*paged, i)) drawn &= drawnStateBelow(*node.asGroup()->getChild(i), stateRules());
     }
     return drawn;
+}
+
+// A set is culled by boxes of its vertices, also below other nodes.
+void BinInstaller::visitSet(osg::Group& set) {
+    if (!installsBins()) return removeBoxes(set);
+    _boxes += installBoxes(set, _options);
+}
+
+void BinInstaller::visitMoving(osg::Transform& node) {
+    if (isPhotogrammetrySet(node)) return visitSet(node);
+    removeCallbacksBelow(node, _nested);
+    if (installsBins() && !drawnStateBelow(node, stateRules()).obeysDepth) noteIgnoresDepth();
+    if (installsBins() && hasTileBelow(node)) database().noteStrayTile(frame().file);
 }
 
 // It keeps OSG's own culling; how deep it lies is not known.

@@ -8,7 +8,7 @@
 
 #include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/BinIndex.h>
-#include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/TileFinder.h>
 
 #include <osgDB/Options>
@@ -19,6 +19,10 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+namespace osgTerrain {
+class Terrain;
+}
 
 namespace osgAnalyticBin {
 
@@ -43,6 +47,9 @@ public:
         _index = index;
     }
 
+    /// Has databases that are there keep what they know.
+    void keepDatabases() { _keepsDatabases = true; }
+
     /// Installs bins below the root of a scene or a database.
     void installAt(osg::Node& root);
 
@@ -65,9 +72,7 @@ protected:
     void visitMoving(osg::Transform& node) override;
 
 private:
-    friend class BinReadFileCallback;
-    friend void bringUpToDate(osg::Node& node, Database& database);
-    friend OSGANALYTICBIN_EXPORT std::size_t setCullOptions(osg::Node& node, const CullOptions& options);
+    class InstallingDatabase;
 
     // The database options that replace those which PagedLODs came with (null: none).
     struct Paging {
@@ -86,6 +91,8 @@ private:
 
     [[nodiscard]] bool installsBins() const;
     [[nodiscard]] Database& database();
+    [[nodiscard]] osg::ref_ptr<Database> newDatabase(const osg::EllipsoidModel* ellipsoid,
+                                                     osgTerrain::Terrain* terrain) const;
     void visitWithoutBin(osg::Node& node, bool isTile);
     void visitSet(osg::Group& set);
     void install(FoundTile& tile, bool hasNewContent);

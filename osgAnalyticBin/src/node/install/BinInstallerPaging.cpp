@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// How BinInstaller has the DatabasePager treat what it reads later.
+// How BinInstaller treats what the DatabasePager reads later.
 
 #include "../page/BinReadFileCallback.h"
 #include "../page/Database.h"
+#include "../page/DatabaseCallbacks.h"
 #include "../page/PagedFiles.h"
 #include "BinInstaller.h"
 
@@ -16,6 +17,37 @@
 #include <vector>
 
 namespace osgAnalyticBin {
+
+// The database whose tiles this installer puts bins on.
+class BinInstaller::InstallingDatabase final : public Database {
+public:
+    using Database::Database;
+
+    void install(osg::Node& content, const TileFrame& frame, const ParentTile* parent) override {
+        BinInstaller installer(options());
+        installer.continueBelow(this, frame, parent);
+        content.accept(installer);
+        installer.finish();
+    }
+    void refit(osg::Node& root) override {
+        BinInstaller installer(options());
+        installer.refit(root, *this);
+    }
+    void installOnClone(osg::Node& root) override {
+        BinInstaller installer(options());
+        installer.setIndex(index().get());
+        installer.installAt(root);
+        if (const osg::ref_ptr<Database> own = attachedDatabase(root)) own->setMaking(making().get());
+    }
+
+protected:
+    ~InstallingDatabase() override = default;
+};
+
+osg::ref_ptr<Database> BinInstaller::newDatabase(const osg::EllipsoidModel* ellipsoid,
+                                                 osgTerrain::Terrain* terrain) const {
+    return new InstallingDatabase(_options, ellipsoid, terrain, _index.get());
+}
 
 void BinInstaller::followPaging(osg::PagedLOD& node, const ParentTile* parent, bool isTile) {
     const osg::ref_ptr<osgDB::Options> own = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());

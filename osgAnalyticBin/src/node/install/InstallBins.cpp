@@ -2,16 +2,13 @@
 // SPDX-License-Identifier: MIT
 
 #include "../boxes/BoxInstaller.h"
-#include "../cull/DrawnNode.h"
 #include "../index/AutoIndex.h"
 #include "../page/Database.h"
 #include "../page/DatabaseCallbacks.h"
 #include "../tile/MeshCulling.h"
 #include "BinInstaller.h"
-#include "TileCallback.h"
 
 #include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/PhotogrammetrySet.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/NodeVisitor>
@@ -69,16 +66,6 @@ std::size_t install(osg::Node& node, const CullOptions& options, const BinIndex*
     return installer.installed();
 }
 
-// Whether a subgraph that the installer does not search has nodes that look like tiles.
-bool hasTileBelow(osg::Node& subgraph) {
-    bool has = false;
-    forEachNode(subgraph, [&has](osg::Node& node) {
-        has = has || hasStoredBin(node) || dynamic_cast<osg::PagedLOD*>(&node) ||
-              dynamic_cast<osgTerrain::TerrainTile*>(&node);
-    });
-    return has;
-}
-
 // Visits the databases that are attached to nodes of a scene.
 void forEachDatabase(osg::Node& node, const std::function<void(osg::Node&, Database&)>& visit) {
     forEachNode(node, [&visit](osg::Node& at) {
@@ -106,22 +93,9 @@ void makeIndex(osg::Node& node, AutoIndex* index) {
 
 }  // namespace
 
-// A set is culled by boxes of its vertices, also below other nodes.
-void BinInstaller::visitSet(osg::Group& set) {
-    if (!installsBins()) return removeBoxes(set);
-    _boxes += installBoxes(set, _options);
-}
-
-void BinInstaller::visitMoving(osg::Transform& node) {
-    if (isPhotogrammetrySet(node)) return visitSet(node);
-    removeCallbacksBelow(node, _nested);
-    if (installsBins() && !drawnStateBelow(node, stateRules()).obeysDepth) noteIgnoresDepth();
-    if (installsBins() && hasTileBelow(node)) database().noteStrayTile(frame().file);
-}
-
 std::size_t setCullOptions(osg::Node& node, const CullOptions& options) {
     BinInstaller installer(options);
-    installer._keepsDatabases = true;
+    installer.keepDatabases();
     installer.installAt(node);
     return installer.installed();
 }

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "../Text.h"
-
 #include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
@@ -12,23 +10,12 @@
 namespace osgAnalyticBin {
 
 InstallBinsCallback::InstallBinsCallback(const InstallBinsCallback& other, const osg::CopyOp& copyop)
-    : osg::Object(other, copyop),
-      osg::Callback(other, copyop),
-      osg::NodeCallback(other, copyop),
-      _options(other._options) {}
-
-void InstallBinsCallback::setOptionsText(const std::string& text) {
-    _options = storedCullOptions(text);
-}
-
-std::string InstallBinsCallback::getOptionsText() const {
-    return toText(_options);
-}
+    : osg::Object(other, copyop), osg::Callback(other, copyop), InstallRequest(other, copyop) {}
 
 void InstallBinsCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
-    if (!_done) {
-        installBins(*node, _options);
-        _done = true;
+    if (!isDone()) {
+        installBins(*node, getCullOptions());
+        setDone();
     }
     const osg::ref_ptr<osg::Callback> self(this);
     traverse(node, nv);

@@ -4,7 +4,6 @@
 #include "BinReadFileCallback.h"
 
 #include "../Text.h"
-#include "../install/BinInstaller.h"
 #include "../install/SharedTiles.h"
 #include "../tile/Carrier.h"
 #include "CachedContent.h"
@@ -111,11 +110,7 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readAndInstall(const std::s
 }
 
 void BinReadFileCallback::install(osg::Node& node, const Expected& expected) const {
-    if (_database->isRemoved()) return;
-    BinInstaller installer(_database->options());
-    installer.continueBelow(_database.get(), expected.frame, expected.parent.get());
-    node.accept(installer);
-    installer.finish();
+    if (!_database->isRemoved()) _database->install(node, expected.frame, expected.parent.get());
 }
 
 }  // namespace osgAnalyticBin

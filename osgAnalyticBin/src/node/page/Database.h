@@ -43,7 +43,8 @@ struct Widening {
     [[nodiscard]] AnalyticBin widened(const AnalyticBin& bin) const;
 };
 
-/// State shared by all tiles of one installed database, loaded already or paged in later.
+/// State shared by all tiles of one installed database, loaded already or paged in later. Bins are put on them by the
+/// installer, which derives from it.
 /// Threads: pager and cull threads may call everything except update() and setOptions().
 class Database : public InstalledDatabase {
 public:
@@ -58,6 +59,14 @@ public:
 
     /// The database of a tile.
     [[nodiscard]] static Database& of(const InstalledTile& tile) { return static_cast<Database&>(tile.database()); }
+
+    /// Installs bins on content that was read from one of its files, in the thread that reads it. `frame`: where it
+    /// stands; `parent`: the tile that pages it, null: none.
+    virtual void install(osg::Node& content, const TileFrame& frame, const ParentTile* parent) = 0;
+    /// Fits the loaded tiles again. `root`: the node that it is attached to. Requires: no cull traversal runs.
+    virtual void refit(osg::Node& root) = 0;
+    /// Gives a clone of its root a database of its own.
+    virtual void installOnClone(osg::Node& root) = 0;
 
     /// The node that the database is attached to: the CoordinateSystemNode, or, without one, the root of the scene.
     void setRoot(const osg::Node& node) { _root = &node; }

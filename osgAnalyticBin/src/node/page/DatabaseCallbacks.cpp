@@ -15,7 +15,6 @@
 #include "../cull/TerrainOcclusion.h"
 #include "../cull/TilePlan.h"
 #include "../cull/Viewpoint.h"
-#include "../install/BinInstaller.h"
 
 #include <osg/CoordinateSystemNode>
 #include <osg/CullStack>
@@ -203,9 +202,7 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
 
 void bringUpToDate(osg::Node& node, Database& database) {
     database.update();
-    if (!database.takeShapeChange()) return;
-    BinInstaller installer(database.options());
-    installer.refit(node, database);
+    if (database.takeShapeChange()) database.refit(node);
 }
 
 DatabaseUpdateCallback::DatabaseUpdateCallback(const DatabaseUpdateCallback& other, const osg::CopyOp& copyop)
@@ -220,12 +217,7 @@ DatabaseUpdateCallback::DatabaseUpdateCallback(const DatabaseUpdateCallback& oth
 void DatabaseUpdateCallback::runOnClone(osg::Node& node, osg::NodeVisitor& nv) {
     const osg::ref_ptr<DatabaseUpdateCallback> self(this);
     const osg::ref_ptr<osg::Callback> nested = getNestedCallback();
-    if (!_node) {
-        BinInstaller installer(_database->options());
-        installer.setIndex(_database->index().get());
-        installer.installAt(node);
-        if (const osg::ref_ptr<Database> own = attachedDatabase(node)) own->setMaking(_database->making().get());
-    }
+    if (!_node) _database->installOnClone(node);
     if (nested) {
         nested->run(&node, &nv);
     } else {
