@@ -133,4 +133,7 @@ struct CullOptions {
 /// The text that cullOptionsFromText() reads back to the same options.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::string toText(const CullOptions& options);
 
+/// The options of a stored scene. The default where the text is malformed, after one warning for all scenes with it.
+[[nodiscard]] OSGANALYTICBIN_EXPORT CullOptions storedCullOptions(const std::string& text);
+
 }  // namespace osgAnalyticBin

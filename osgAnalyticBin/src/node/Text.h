@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <osgAnalyticBin/CullOptions.h>
-
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,8 +18,5 @@ namespace osgAnalyticBin {
 
 /// Numbers separated by single blanks.
 [[nodiscard]] std::string numbersToText(const std::vector<double>& values);
-
-/// The options of a stored scene. The default where the text is malformed, after one warning for all scenes with it.
-[[nodiscard]] CullOptions storedCullOptions(const std::string& text);
 
 }  // namespace osgAnalyticBin

@@ -43,7 +43,7 @@ FAULTS = [
     Fault("without an index spheres do not count", "src/node/cull/TileFamily.cpp",
           "verdicts.members & ~culled & _block->partFrom(first).withSpheres", "verdicts.members & ~verdicts.members", NODE, "DeclaredBins.*"),
 
-    Fault("billboards do not turn", "src/node/surface/TileSurface.cpp",
+    Fault("billboards do not turn", "src/node/surface/SurfaceReading.cpp",
           "std::optional(reach * (1.0 + kRoomOfTurning))", "std::optional(0.5 * reach)", NODE, "TileSurface.HoldsABillboard*"),
     Fault("an index does not know where billboards stand", "src/node/surface/SurfaceFingerprint.cpp",
           "node.getPositionList())", "osg::Billboard::PositionList())", NODE, "SurfaceFingerprint.TellsWhere*"),
@@ -532,7 +532,7 @@ FAULTS = [
           "link->place = cover.place;",
           "link->place = link->extents;", NODE,
           "Evidence.*:RegionalHorizon.*"),
-    Fault("evidence: a changed mesh may be narrower", "src/node/page/MeshEvidence.cpp",
+    Fault("evidence: a changed mesh may be narrower", "src/node/page/Database.cpp",
           "if (!isSamePlace(cover.place, installed.place())) cover.isFilled = false;",
           "", NODE,
           "Evidence.*"),

@@ -8,7 +8,6 @@
 #include "DatabaseFixture.h"
 
 #include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>

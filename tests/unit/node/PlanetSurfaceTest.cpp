@@ -7,7 +7,7 @@
 
 #include "TileFixture.h"
 
-#include <osgAnalyticBin/TileSurface.h>
+#include <osgAnalyticBin/SurfaceReading.h>
 
 #include <gtest/gtest.h>
 #include <osg/Geode>

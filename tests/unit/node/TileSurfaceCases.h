@@ -5,7 +5,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/TileSurface.h>
+#include <osgAnalyticBin/SurfaceReading.h>
 
 #include <osg/CoordinateSystemNode>
 

@@ -13,9 +13,6 @@
 
 namespace osgAnalyticBin::core {
 
-class ExactGeodeticBin;
-class QuadraticBin;
-
 /// The error of the signed distance to the plane that is due to the plane's offset; doc/theory/derivation.md, section
 /// 7.
 /// Returns: NaN, which decides nothing, when a number of the plane is not finite or its normal not of unit length.
@@ -54,17 +51,16 @@ private:
     std::array<PlaneBlock, kMaxPlanes / PlaneBlock::kLanes> _blocks;
 };
 
-/// Tests a bin against the undecided planes of a set, four at a time.
+/// Tests a bin by its numbers, see KernelData.h, against the undecided planes of a set, four at a time.
 /// Returns: as classify() over single planes does, and by the same verdicts; of the planes that have the whole bin
 /// inside, an Outside result need not clear all bits.
 /// Guarantee: result and mask are the same, bit for bit, on every instruction set and in builds without SIMD;
 /// tests: PlaneKernels.EveryTargetAgreesWithTheScalarForm.
 /// Cost: for most bins one sphere test of all planes together; no allocation, no trigonometry.
-[[nodiscard]] Side classify(const ExactGeodeticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept;
-/// The same for a bin of any mapping.
-[[nodiscard]] Side classify(const QuadraticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept;
+[[nodiscard]] Side classifyNumbers(const double* numbers, bool isExact, const PlaneSet& planes,
+                                   PlaneMask& undecided) noexcept;
 
-/// Every other bin, plane by plane.
+/// Bins that have no such numbers, plane by plane.
 template <class Bin>
 [[nodiscard]] Side classify(const Bin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept {
     return classify(bin, planes, planes.size(), undecided);

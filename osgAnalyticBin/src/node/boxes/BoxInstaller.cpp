@@ -4,10 +4,10 @@
 #include "BoxInstaller.h"
 
 #include "../CallbackChain.h"
+#include "../page/CarefulRead.h"
 #include "../page/PagingExpiry.h"
 #include "BoxCullCallback.h"
 #include "BoxFamily.h"
-#include "BoxReadFileCallback.h"
 #include "SetMarks.h"
 
 #include <osgAnalyticBin/PhotogrammetrySet.h>
@@ -16,12 +16,52 @@
 #include <osg/NodeVisitor>
 #include <osg/Notify>
 #include <osgDB/FileUtils>
+#include <osgDB/ReadFile>
 #include <osgDB/Registry>
 
 #include <algorithm>
 #include <typeinfo>
 
 namespace osgAnalyticBin {
+
+// Installs boxes on what the DatabasePager reads below a photogrammetry set, in the thread that reads it. A file that
+// could not be read is not tried again for a while (FailedReads).
+class BoxReadFileCallback final : public osgDB::ReadFileCallback {
+public:
+    // `replaced`: the options that the PagedLODs came with; null: none.
+    BoxReadFileCallback(BoxSet* set, osgDB::Options* replaced, osgDB::ReadFileCallback* previous)
+        : _set(set), _replaced(replaced), _previous(previous) {}
+
+    // Announces a file: the name by which it will be requested, its name in the index, and the tile that pages it. Do
+    // not call once the pager may read.
+    void expect(const std::string& fileName, const std::string& file, BoxTile* parent) {
+        _expected[fileName] = {file, parent};
+    }
+    [[nodiscard]] bool expects(const std::string& fileName) const { return _expected.count(fileName) > 0; }
+
+    [[nodiscard]] osgDB::Options* replaced() const { return _replaced.get(); }
+    // The expiry times that the PagedLODs were given.
+    [[nodiscard]] double expiry() const { return _set->options().expiry; }
+
+    osgDB::ReaderWriter::ReadResult readNode(const std::string& fileName, const osgDB::Options* options) override;
+
+protected:
+    ~BoxReadFileCallback() override = default;
+
+private:
+    struct Expected {
+        std::string file;
+        osg::ref_ptr<BoxTile> parent;
+    };
+
+    void install(osg::Node& node, const Expected& expected) const;
+
+    const osg::ref_ptr<BoxSet> _set;
+    const osg::ref_ptr<osgDB::Options> _replaced;
+    const osg::ref_ptr<osgDB::ReadFileCallback> _previous;
+    std::map<std::string, Expected> _expected;
+    FailedReads _failures;
+};
 
 namespace {
 
@@ -67,6 +107,27 @@ osg::ref_ptr<osgDB::Options> readingOptions(const osgDB::Options* own) {
 }
 
 }  // namespace
+
+osgDB::ReaderWriter::ReadResult BoxReadFileCallback::readNode(const std::string& fileName,
+                                                              const osgDB::Options* options) {
+    using ReadResult = osgDB::ReaderWriter::ReadResult;
+    const BusyPager busy(_set->making());
+    return readCarefully(fileName, _failures, [&] {
+        ReadResult read = readPlain(fileName, options, _previous.get());
+        const auto found = _expected.find(fileName);
+        if (read.validNode() && found != _expected.end()) install(*read.getNode(), found->second);
+        return read;
+    });
+}
+
+void BoxReadFileCallback::install(osg::Node& node, const Expected& expected) const {
+    if (_set->isRemoved()) return;
+    BoxInstaller installer(*_set);
+    // nodes that others refer to as well keep OSG's spheres
+    const bool isOwn = node.referenceCount() == 1;
+    const auto content = isOwn ? installer.install(node, expected.file, expected.parent.get()) : installer.survey(node);
+    _set->grow(*expected.parent, content.box, content.isMisfit);
+}
 
 bool BoxInstaller::isKnown(const std::string& file, std::size_t lods) const {
     if (!_index) return false;

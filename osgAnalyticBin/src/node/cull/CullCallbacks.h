@@ -5,6 +5,7 @@
 
 #include "../Classes.h"
 #include "../tile/MeshCulling.h"
+#include "DrawnState.h"
 #include "TileFamily.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -38,5 +39,19 @@ struct CullCallbacks {
     const TileFamily* family = nullptr;
     bool mayLeaveOut = false;
 };
+
+/// Of a node without what is below it: its state, its class, its callbacks.
+[[nodiscard]] inline DrawnState drawnStateAt(const osg::Node& node, const StateRules& rules) {
+    const bool mayBeLeftOut = node.getCullCallback() && CullCallbacks(node).mayLeaveOut;
+    return mayBeLeftOut ? DrawnState{false, false} : drawnStateByClass(node, rules);
+}
+
+/// Of a node with all that is below it; nothing is below osgTerrain tiles. `hides` is for meshes, all of whose
+/// drawables are to hide.
+[[nodiscard]] inline DrawnState drawnStateBelow(osg::Node& node, const StateRules& rules) {
+    DrawnState drawn;
+    forEachNode(node, [&](osg::Node& part) { drawn &= drawnStateAt(part, rules); });
+    return drawn;
+}
 
 }  // namespace osgAnalyticBin

@@ -16,7 +16,6 @@
 #include "../../core/Bits.h"
 #include "CullCallbacks.h"
 #include "CullTraversal.h"
-#include "DrawnNode.h"
 #include "SearchMemory.h"
 #include "TileFamily.h"
 #include "TilePlan.h"

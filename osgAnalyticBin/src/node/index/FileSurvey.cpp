@@ -4,6 +4,7 @@
 #include "FileSurvey.h"
 
 #include <osgAnalyticBin/BinIndex.h>
+#include <osgAnalyticBin/SurfaceReading.h>
 #include <osgAnalyticBin/TileFinder.h>
 #include <osgAnalyticBin/index/Failure.h>
 

@@ -7,13 +7,12 @@
 #include "../PagedChildren.h"
 #include "../Scoped.h"
 #include "../boxes/BoxInstaller.h"
-#include "../cull/DrawnNode.h"
+#include "../cull/CullCallbacks.h"
 #include "../cull/InstalledBin.h"
 #include "../cull/TileFamily.h"
 #include "../page/BinReadFileCallback.h"
 #include "../page/Database.h"
 #include "../page/DatabaseCallbacks.h"
-#include "../page/MeshEvidence.h"
 #include "../page/PagedFiles.h"
 #include "../page/PagingExpiry.h"
 #include "../surface/TilePlates.h"
@@ -140,7 +139,7 @@ void BinInstaller::placeFamilies() {
     for (auto at = _groups.rbegin(); at != _groups.rend(); ++at) {
         osg::Node& group = **at;
         if (!TileFamily::place(group)) continue;
-        trustMeshes(group);
+        Database::trustMeshes(group);
         // it notices where the application takes the watch of a tile away
         if (!ContentWatch::isOn(group)) ContentWatch::place(group, {});
     }

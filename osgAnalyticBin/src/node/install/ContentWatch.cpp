@@ -6,7 +6,7 @@
 #include "../../core/EarthScale.h"
 #include "../GlmBridge.h"
 #include "../Spheres.h"
-#include "../cull/DrawnNode.h"
+#include "../cull/CullCallbacks.h"
 #include "../cull/InstalledBin.h"
 #include "../cull/TileFamily.h"
 #include "../page/Database.h"
@@ -16,7 +16,7 @@
 #include "../tile/InstalledTile.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/TileSurface.h>
+#include <osgAnalyticBin/SurfaceReading.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Geometry>

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "../Text.h"
-
 #include <osgAnalyticBin/InstallRequest.h>
 
 namespace osgAnalyticBin {

@@ -7,7 +7,7 @@
 #include "../GlmBridge.h"
 #include "../surface/TilePlates.h"
 
-#include <osgAnalyticBin/TileSurface.h>
+#include <osgAnalyticBin/SurfaceReading.h>
 
 #include <osg/Drawable>
 #include <osg/NodeVisitor>

@@ -4,10 +4,10 @@
 #include "BinReadFileCallback.h"
 
 #include "../Text.h"
-#include "../install/SharedTiles.h"
 #include "../tile/Carrier.h"
 #include "CachedContent.h"
 #include "CarefulRead.h"
+#include "SharedTiles.h"
 
 #include <osgDB/FileCache>
 #include <osgDB/Registry>

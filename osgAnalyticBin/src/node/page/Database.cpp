@@ -3,10 +3,10 @@
 
 #include "Database.h"
 
+#include "../CallbackChain.h"
 #include "../GlmBridge.h"
-#include "../cull/TileFamily.h"
+#include "../cull/CullCallbacks.h"
 #include "../surface/TilePlates.h"
-#include "MeshEvidence.h"
 
 #include <osg/Notify>
 #include <osgTerrain/GeometryTechnique>
@@ -45,6 +45,19 @@ bool takeMerged(Contents& contents) {
     };
     contents.erase(std::remove_if(contents.begin(), contents.end(), isGone), contents.end());
     return found;
+}
+
+// Of a mesh that has changed.
+void renewEvidence(osg::Node& mesh, const AnalyticBinCullCallback& tile, InstalledTile& installed) {
+    const osg::ref_ptr<osg::Node> kept(&mesh);
+    const TerrainShape shape = tile.getTerrainShape().value_or(TerrainShape());
+    core::MeshCover cover = coverOf({{kept}, *installed.database().ellipsoid(), tile.getLocalToEcef(), shape});
+    if (!isSamePlace(cover.place, installed.place())) cover.isFilled = false;
+    cover.place = installed.place();
+    installed.setCover(cover);
+    const DrawnState drawn = drawnStateBelow(mesh, {tile.getCullOptions().plainShaders});
+    if (!drawn.hides) installed.setSeeThrough();
+    if (!drawn.obeysDepth) installed.ignoreDepth();
 }
 
 }  // namespace
@@ -346,6 +359,17 @@ Widening Database::correction(const std::string& file, std::size_t ordinal) cons
     const std::lock_guard<std::mutex> lock(_mutex);
     const auto known = _corrections.find({file, ordinal});
     return known == _corrections.end() ? Widening() : known->second;
+}
+
+void Database::trustMeshes(osg::Node& group) {
+    const TileFamily* const family = findCallback<TileFamily>(group.getCullCallback());
+    for (unsigned int i = 0; family && i < family->size(); ++i) {
+        const TileFamily::Member& member = family->member(i);
+        if (!member.tile || !member.meshParts.front()) continue;
+        InstalledTile& installed = *member.tile->getInstalledTile();
+        if (installed.isMeshDoubted()) renewEvidence(*member.meshParts.front(), *member.tile, installed);
+        installed.trustMesh();
+    }
 }
 
 void Database::renewFamilies() {

@@ -175,6 +175,11 @@ public:
     /// the bin.
     void noteContent(const AnalyticBinCullCallback& tile, const Widening& by);
 
+    /// Call when a family was placed on a group or made anew: meshes of its tiles that have changed since bins were
+    /// installed are trusted again, by new evidence. osgUtil::Optimizer may have changed their form: the new form is as
+    /// good. Requires: no cull traversal runs.
+    static void trustMeshes(osg::Node& group);
+
     /// What was reported for a tile or its descendants.
     [[nodiscard]] Widening correction(const std::string& file, std::size_t ordinal) const;
 

@@ -6,6 +6,7 @@
 #include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
 #include <osgAnalyticBin/core/Plane.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/bin/KernelData.h>
 
 #include <array>
@@ -70,5 +71,10 @@ private:
 };
 
 static_assert(sizeof(ExactGeodeticBin) <= 256, "a database holds one for every tile");
+
+/// Tests the bin against the undecided planes of a set: see classifyNumbers().
+[[nodiscard]] inline Side classify(const ExactGeodeticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept {
+    return classifyNumbers(bin.numbers().data(), true, planes, undecided);
+}
 
 }  // namespace osgAnalyticBin::core

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <osgAnalyticBin/core/Plane.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
 #include <osgAnalyticBin/core/bin/AnalyticMapping.h>
 #include <osgAnalyticBin/core/bin/KernelData.h>
 #include <osgAnalyticBin/core/bin/QuadraticRange.h>
@@ -79,5 +80,10 @@ private:
 };
 
 static_assert(sizeof(QuadraticBin) <= 264, "a database holds one for every tile");
+
+/// Tests the bin against the undecided planes of a set: see classifyNumbers().
+[[nodiscard]] inline Side classify(const QuadraticBin& bin, const PlaneSet& planes, PlaneMask& undecided) noexcept {
+    return classifyNumbers(bin.numbers().data(), false, planes, undecided);
+}
 
 }  // namespace osgAnalyticBin::core
