@@ -47,6 +47,9 @@ mkdir -p build
 step "format"
 git ls-files '*.cpp' '*.h' 2>/dev/null | xargs -r clang-format --dry-run --Werror
 
+step "layers"
+python3 tests/system/layers/layers.py .
+
 build release
 step "each public header by itself"
 build release --target all_verify_interface_header_sets
