@@ -6,6 +6,8 @@
 #include "Angles.h"
 #include "GlmBridge.h"
 
+#include <osgAnalyticBin/TileFinder.h>
+
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <osg/Geometry>

@@ -8,6 +8,7 @@
 #include "Progress.h"
 
 #include <osgAnalyticBin/InstallBinsCallback.h>
+#include <osgAnalyticBin/TileFinder.h>
 
 #include <osg/ClusterCullingCallback>
 #include <osg/Drawable>
