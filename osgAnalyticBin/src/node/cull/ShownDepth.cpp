@@ -3,6 +3,7 @@
 
 #include "ShownDepth.h"
 
+#include "../../core/Bits.h"
 #include "../../core/EarthScale.h"
 #include "../Classes.h"
 #include "../GlmBridge.h"
@@ -13,7 +14,6 @@
 #include "../tile/BoundWatch.h"
 #include "../tile/InstalledTile.h"
 #include "BinCulling.h"
-#include "../../core/Bits.h"
 #include "CullCallbacks.h"
 #include "CullTraversal.h"
 #include "SearchMemory.h"
