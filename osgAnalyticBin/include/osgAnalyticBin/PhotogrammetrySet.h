@@ -41,4 +41,10 @@ OSGANALYTICBIN_EXPORT void markPhotogrammetrySet(osg::Group& set, const std::str
 /// Records the file, relative to the metadata, that a child of the set was read from.
 OSGANALYTICBIN_EXPORT void setPhotogrammetryFile(osg::Node& tile, const std::string& file);
 
+/// The file that markPhotogrammetrySet() recorded.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::string metadataFileOf(const osg::Node& set);
+
+/// The file that setPhotogrammetryFile() recorded.
+[[nodiscard]] OSGANALYTICBIN_EXPORT std::string photogrammetryFileOf(const osg::Node& tile);
+
 }  // namespace osgAnalyticBin

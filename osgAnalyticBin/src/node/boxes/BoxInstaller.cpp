@@ -8,7 +8,6 @@
 #include "../page/PagingExpiry.h"
 #include "BoxCullCallback.h"
 #include "BoxFamily.h"
-#include "SetMarks.h"
 
 #include <osgAnalyticBin/PhotogrammetrySet.h>
 #include <osgAnalyticBin/TileFrame.h>

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "SetMarks.h"
-
 #include <osgAnalyticBin/PhotogrammetrySet.h>
 
 #include <osg/ValueObject>

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "CullTraversal.h"
 #include "GroundBelow.h"
 #include "NearMeshes.h"
 
@@ -22,7 +23,11 @@ struct FoundOcclusion;
 class SearchMemory final : public osg::Referenced {
 public:
     /// The visitor's memory, made at the first call.
-    [[nodiscard]] static SearchMemory& of(osg::NodeVisitor& visitor);
+    [[nodiscard]] static SearchMemory& of(osg::NodeVisitor& visitor) {
+        osg::ref_ptr<osg::Referenced>& memory = CullTraversal::of(visitor).searchMemory();
+        if (!memory) memory = new SearchMemory;
+        return static_cast<SearchMemory&>(*memory);
+    }
 
     /// Results about a database.
     struct LastView {
@@ -31,7 +36,14 @@ public:
         unsigned int resting = 0;  ///< how many of them are left
         std::shared_ptr<FoundOcclusion> occlusion;
     };
-    [[nodiscard]] LastView& lastView(const InstalledDatabase& database);
+    [[nodiscard]] LastView& lastView(const InstalledDatabase& database) {
+        for (auto& [known, view] : _lastViews) {
+            if (known == &database) return view;
+        }
+        constexpr std::size_t kMostDatabases = 64;
+        if (_lastViews.size() >= kMostDatabases) _lastViews.clear();
+        return _lastViews.emplace_back(&database, LastView()).second;
+    }
 
     GroundBelow ground;     ///< last found below the eye
     NearMeshes nearMeshes;  ///< last read around the eye

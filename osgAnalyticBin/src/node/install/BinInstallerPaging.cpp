@@ -6,7 +6,6 @@
 #include "../page/BinReadFileCallback.h"
 #include "../page/Database.h"
 #include "../page/DatabaseCallbacks.h"
-#include "../page/PagedFiles.h"
 #include "BinInstaller.h"
 
 #include <osg/PagedLOD>

@@ -5,7 +5,6 @@
 #include "../cull/TileFamily.h"
 #include "../page/BinReadFileCallback.h"
 #include "../page/DatabaseCallbacks.h"
-#include "../page/PagedFiles.h"
 #include "../tile/Carrier.h"
 #include "ContentWatch.h"
 #include "TileCallback.h"

@@ -19,6 +19,9 @@ namespace osgAnalyticBin {
 class AnalyticBinCullCallback;
 class InstalledDatabase;
 
+/// Whether a tile is drawn in several places of its globe: no bin holds for all of them.
+[[nodiscard]] bool isInstanced(const osg::Node& node, const TileFrame& frame);
+
 /// Whether the kit noticed that the mesh of a tile was moved after bins were installed on it.
 [[nodiscard]] bool hasMoved(osg::Node& tile);
 

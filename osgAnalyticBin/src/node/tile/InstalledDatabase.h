@@ -12,7 +12,9 @@
 #include <osg/ref_ptr>
 
 #include <atomic>
+#include <cstddef>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -28,7 +30,11 @@ public:
     [[nodiscard]] const osg::EllipsoidModel* ellipsoid() const { return isMap() ? mapPlane() : _ellipsoid.get(); }
     /// Whether a tile on this ellipsoid (for maps: mapPlane()) may have a bin. A database is either a globe or a map;
     /// the first call decides which.
-    [[nodiscard]] bool takes(const osg::EllipsoidModel& ellipsoid);
+    [[nodiscard]] bool takes(const osg::EllipsoidModel& ellipsoid) {
+        const Ground wanted = isMapPlane(ellipsoid) ? Ground::Map : Ground::Globe;
+        Ground known = Ground::Open;
+        return _ground.compare_exchange_strong(known, wanted, std::memory_order_relaxed) || known == wanted;
+    }
 
     /// Call when a tile was found that is not fitted to the present shape.
     void requestRefit() const {
@@ -37,12 +43,17 @@ public:
     }
 
     /// Call when the children of a group with a family have changed. The next update rebuilds the family.
-    void noteChanged(osg::Group& group) const;
+    void noteChanged(osg::Group& group) const {
+        const std::lock_guard<std::mutex> lock(_changing);
+        constexpr std::size_t kMostGroups = 4096;  // where no update traversal ever comes
+        if (_changed.size() < kMostGroups) _changed.emplace_back(&group);
+        requestUpdate();
+    }
 
 protected:
     using Groups = std::vector<osg::observer_ptr<osg::Group>>;
 
-    ~InstalledDatabase() override;
+    ~InstalledDatabase() override = default;
 
     [[nodiscard]] bool isMap() const { return _ground.load(std::memory_order_relaxed) == Ground::Map; }
     void requestUpdate() const { _isUpdateWanted.store(true, std::memory_order_relaxed); }
@@ -50,7 +61,10 @@ protected:
     /// For the update traversal: what was asked for is done now.
     void beginUpdate() { _isUpdateWanted.store(false, std::memory_order_relaxed); }
     [[nodiscard]] bool takeRefit() { return _isRefitWanted.exchange(false, std::memory_order_relaxed); }
-    [[nodiscard]] Groups takeChanged();
+    [[nodiscard]] Groups takeChanged() {
+        const std::lock_guard<std::mutex> lock(_changing);
+        return std::exchange(_changed, {});
+    }
 
 private:
     enum class Ground { Open, Globe, Map };
