@@ -42,7 +42,16 @@ public:
     // The expiry times that the PagedLODs were given.
     [[nodiscard]] double expiry() const { return _set->options().expiry; }
 
-    osgDB::ReaderWriter::ReadResult readNode(const std::string& fileName, const osgDB::Options* options) override;
+    osgDB::ReaderWriter::ReadResult readNode(const std::string& fileName, const osgDB::Options* options) override {
+        using ReadResult = osgDB::ReaderWriter::ReadResult;
+        const BusyPager busy(_set->making());
+        return readCarefully(fileName, _failures, [&] {
+            ReadResult read = readPlain(fileName, options, _previous.get());
+            const auto found = _expected.find(fileName);
+            if (read.validNode() && found != _expected.end()) install(*read.getNode(), found->second);
+            return read;
+        });
+    }
 
 protected:
     ~BoxReadFileCallback() override = default;
@@ -53,7 +62,15 @@ private:
         osg::ref_ptr<BoxTile> parent;
     };
 
-    void install(osg::Node& node, const Expected& expected) const;
+    void install(osg::Node& node, const Expected& expected) const {
+        if (_set->isRemoved()) return;
+        BoxInstaller installer(*_set);
+        // nodes that others refer to as well keep OSG's spheres
+        const bool isOwn = node.referenceCount() == 1;
+        const auto content =
+            isOwn ? installer.install(node, expected.file, expected.parent.get()) : installer.survey(node);
+        _set->grow(*expected.parent, content.box, content.isMisfit);
+    }
 
     const osg::ref_ptr<BoxSet> _set;
     const osg::ref_ptr<osgDB::Options> _replaced;
@@ -106,27 +123,6 @@ osg::ref_ptr<osgDB::Options> readingOptions(const osgDB::Options* own) {
 }
 
 }  // namespace
-
-osgDB::ReaderWriter::ReadResult BoxReadFileCallback::readNode(const std::string& fileName,
-                                                              const osgDB::Options* options) {
-    using ReadResult = osgDB::ReaderWriter::ReadResult;
-    const BusyPager busy(_set->making());
-    return readCarefully(fileName, _failures, [&] {
-        ReadResult read = readPlain(fileName, options, _previous.get());
-        const auto found = _expected.find(fileName);
-        if (read.validNode() && found != _expected.end()) install(*read.getNode(), found->second);
-        return read;
-    });
-}
-
-void BoxReadFileCallback::install(osg::Node& node, const Expected& expected) const {
-    if (_set->isRemoved()) return;
-    BoxInstaller installer(*_set);
-    // nodes that others refer to as well keep OSG's spheres
-    const bool isOwn = node.referenceCount() == 1;
-    const auto content = isOwn ? installer.install(node, expected.file, expected.parent.get()) : installer.survey(node);
-    _set->grow(*expected.parent, content.box, content.isMisfit);
-}
 
 bool BoxInstaller::isKnown(const std::string& file, std::size_t lods) const {
     if (!_index) return false;

@@ -42,59 +42,10 @@ bool leavesFolder(const std::string& file) {
     return climbs || isElsewhere || file.empty();
 }
 
-// While it exists, files that OSG reads in this thread because a file of a database names them (the content of
-// proxies, height fields, images, shaders, fonts) are searched for only below the database's folder and on OSG's data
-// path, and no server is contacted. Names that end in a pseudo-loader's extension, except .gdal, do not count as
-// files. Files that plugins of other formats than OSG's open by themselves are not noticed.
-class NestedReads final {
-public:
-    // `file`: the one that is read, as DatabaseFiles names it. Requires: no other in this thread.
-    NestedReads(const DatabaseFiles& files, const std::string& file, Images images);
-    ~NestedReads();
-    NestedReads(const NestedReads&) = delete;
-    NestedReads& operator=(const NestedReads&) = delete;
-
-    // Why the file must not be used, in one line: the first name that leads elsewhere; empty: nothing is wrong.
-    [[nodiscard]] const std::string& refusal() const { return _refusal; }
-
-    // The read callback that has to be set in the options of a read, or in the registry, for this to work.
-    [[nodiscard]] static osg::ref_ptr<osgDB::ReadFileCallback> callback();
-
-    using Result = osgDB::ReaderWriter::ReadResult;
-    using Reader = std::function<Result(const std::string& path)>;
-    // What bins depend on: a name that leads elsewhere is refused.
-    [[nodiscard]] Result readScene(const std::string& name, const Reader& reader);
-    // What only a copy needs. Images::Left: `standIn`, whatever the name; Images::Checked: the same, or refused.
-    [[nodiscard]] Result readPart(const std::string& name, const Result& standIn, const Reader& reader);
-    // As readPart(); found among the system's fonts, too.
-    [[nodiscard]] Result readFont(const std::string& path, const Reader& reader);
-
-private:
-    // The file that a name means, where another one names it. Absolute paths may lead into the folder.
-    [[nodiscard]] std::string fileFrom(const std::string& referring, const std::string& name) const;
-    [[nodiscard]] bool leaves(const std::string& name) const;
-    // A file of the database, "" none.
-    [[nodiscard]] std::string fileCalled(const std::string& name) const;
-
-    struct Found {
-        // As DatabaseFiles names it; a path when it is on OSG's data path.
-        std::string file;
-        // Empty: there is none.
-        std::string path;
-    };
-    [[nodiscard]] Found find(const std::string& name) const;
-    void refuse(const std::string& name, const std::string& why);
-
-    const DatabaseFiles& _files;
-    const Images _images;
-    // The files that are being read, each named by the one before.
-    std::vector<std::string> _stack;
-    std::string _refusal;
-};
-
+class NestedReads;
 thread_local NestedReads* current = nullptr;
 
-using Result = NestedReads::Result;
+using Result = osgDB::ReaderWriter::ReadResult;
 
 // Neither an object nor an error: OSG goes on without.
 Result nothing() {
@@ -117,6 +68,114 @@ bool isOfferedFont(const std::string& path) {
         return above.size() > 1 && plain.compare(0, above.size(), above) == 0;
     });
 }
+
+// While it exists, files that OSG reads in this thread because a file of a database names them (the content of
+// proxies, height fields, images, shaders, fonts) are searched for only below the database's folder and on OSG's data
+// path, and no server is contacted. Names that end in a pseudo-loader's extension, except .gdal, do not count as
+// files. Files that plugins of other formats than OSG's open by themselves are not noticed.
+class NestedReads final {
+public:
+    // `file`: the one that is read, as DatabaseFiles names it. Requires: no other in this thread.
+    NestedReads(const DatabaseFiles& files, const std::string& file, Images images)
+        : _files(files), _images(images), _stack{file} {
+        current = this;
+    }
+    ~NestedReads() { current = nullptr; }
+    NestedReads(const NestedReads&) = delete;
+    NestedReads& operator=(const NestedReads&) = delete;
+
+    // Why the file must not be used, in one line: the first name that leads elsewhere; empty: nothing is wrong.
+    [[nodiscard]] const std::string& refusal() const { return _refusal; }
+
+    // The read callback that has to be set in the options of a read, or in the registry, for this to work.
+    [[nodiscard]] static osg::ref_ptr<osgDB::ReadFileCallback> callback();
+
+    using Reader = std::function<Result(const std::string& path)>;
+    // What bins depend on: a name that leads elsewhere is refused.
+    [[nodiscard]] Result readScene(const std::string& name, const Reader& reader) {
+        if (leaves(name)) {
+            refuse(name, kIsOutside);
+            return nothing();
+        }
+        const Found found = find(name);
+        if (found.path.empty()) return nothing();
+        if (std::find(_stack.begin(), _stack.end(), found.file) != _stack.end()) {
+            refuse(name, "which is read below itself; such a database has no end");
+            return nothing();
+        }
+        _stack.push_back(found.file);
+        Result result = nothing();
+        try {
+            result = reader(found.path);
+        } catch (const std::exception&) {
+            // as a file that is missing
+        }
+        _stack.pop_back();
+        return result;
+    }
+    // What only a copy needs. Images::Left: `standIn`, whatever the name; Images::Checked: the same, or refused.
+    [[nodiscard]] Result readPart(const std::string& name, const Result& standIn, const Reader& reader) {
+        if (_images == Images::Left) return standIn;
+        const std::string path = find(name).path;
+        if (path.empty() && leaves(name)) {
+            refuse(name, "which is outside of the database's folder; put a copy beside that file, where OSG finds it");
+        }
+        if (_images == Images::Checked) return standIn;
+        return path.empty() ? nothing() : reader(path);
+    }
+    // As readPart(); found among the system's fonts, too.
+    [[nodiscard]] Result readFont(const std::string& path, const Reader& reader) {
+        if (_images == Images::Read && isOfferedFont(path)) return reader(path);
+        return isOfferedFont(path) ? nothing() : readPart(path, nothing(), reader);
+    }
+
+private:
+    // The file that a name means, where another one names it. Absolute paths may lead into the folder.
+    [[nodiscard]] std::string fileFrom(const std::string& referring, const std::string& name) const {
+        if (!osgDB::isAbsolutePath(name)) return pagedFilePath(referring, name);
+        const fs::path folder = fs::absolute(_files.rootFile()).lexically_normal().parent_path();
+        return fs::path(name).lexically_normal().lexically_relative(folder).generic_string();
+    }
+    [[nodiscard]] bool leaves(const std::string& name) const { return leavesFolder(fileFrom(_stack.back(), name)); }
+    // A file of the database, "" none.
+    [[nodiscard]] std::string fileCalled(const std::string& name) const {
+        const bool isGdal = osgDB::getLowerCaseFileExtension(name) == "gdal";
+        const std::string own = isGdal ? osgDB::getNameLessExtension(name) : name;
+        for (auto outer = _stack.rbegin(); outer != _stack.rend(); ++outer) {
+            const std::string file = fileFrom(*outer, own);
+            std::error_code ignored;
+            if (!leavesFolder(file) && fs::is_regular_file(_files.pathOf(file), ignored)) {
+                return isGdal ? file + ".gdal" : file;
+            }
+        }
+        return {};
+    }
+
+    struct Found {
+        // As DatabaseFiles names it; a path when it is on OSG's data path.
+        std::string file;
+        // Empty: there is none.
+        std::string path;
+    };
+    [[nodiscard]] Found find(const std::string& name) const {
+        std::string file = fileCalled(name);
+        if (file.empty()) file = fileCalled(osgDB::getSimpleFileName(name));  // as OSG looks
+        // absolute, for OSG would look for a relative path in other folders first
+        if (!file.empty()) return {file == _files.rootName() ? "" : file, fs::absolute(_files.pathOf(file)).string()};
+        if (leaves(name) || leavesFolder(fileFrom("", name))) return {};
+        const std::string path = osgDB::findFileInPath(name, osgDB::Registry::instance()->getDataFilePathList());
+        return {path, path};
+    }
+    void refuse(const std::string& name, const std::string& why) {
+        if (_refusal.empty()) _refusal = "\"" + _files.pathOf(_stack.back()) + "\" names \"" + name + "\", " + why;
+    }
+
+    const DatabaseFiles& _files;
+    const Images _images;
+    // The files that are being read, each named by the one before.
+    std::vector<std::string> _stack;
+    std::string _refusal;
+};
 
 // What OSG asks for by name, of the one that reads in this thread.
 class ReadsOfThread : public osgDB::ReadFileCallback {
@@ -161,91 +220,8 @@ protected:
     ~ReadsOfThread() override = default;
 };
 
-NestedReads::NestedReads(const DatabaseFiles& files, const std::string& file, Images images)
-    : _files(files), _images(images), _stack{file} {
-    current = this;
-}
-
-NestedReads::~NestedReads() {
-    current = nullptr;
-}
-
 osg::ref_ptr<osgDB::ReadFileCallback> NestedReads::callback() {
     return new ReadsOfThread;
-}
-
-std::string NestedReads::fileFrom(const std::string& referring, const std::string& name) const {
-    if (!osgDB::isAbsolutePath(name)) return pagedFilePath(referring, name);
-    const fs::path folder = fs::absolute(_files.rootFile()).lexically_normal().parent_path();
-    return fs::path(name).lexically_normal().lexically_relative(folder).generic_string();
-}
-
-bool NestedReads::leaves(const std::string& name) const {
-    return leavesFolder(fileFrom(_stack.back(), name));
-}
-
-std::string NestedReads::fileCalled(const std::string& name) const {
-    const bool isGdal = osgDB::getLowerCaseFileExtension(name) == "gdal";
-    const std::string own = isGdal ? osgDB::getNameLessExtension(name) : name;
-    for (auto outer = _stack.rbegin(); outer != _stack.rend(); ++outer) {
-        const std::string file = fileFrom(*outer, own);
-        std::error_code ignored;
-        if (!leavesFolder(file) && fs::is_regular_file(_files.pathOf(file), ignored)) {
-            return isGdal ? file + ".gdal" : file;
-        }
-    }
-    return {};
-}
-
-NestedReads::Found NestedReads::find(const std::string& name) const {
-    std::string file = fileCalled(name);
-    if (file.empty()) file = fileCalled(osgDB::getSimpleFileName(name));  // as OSG looks
-    // absolute, for OSG would look for a relative path in other folders first
-    if (!file.empty()) return {file == _files.rootName() ? "" : file, fs::absolute(_files.pathOf(file)).string()};
-    if (leaves(name) || leavesFolder(fileFrom("", name))) return {};
-    const std::string path = osgDB::findFileInPath(name, osgDB::Registry::instance()->getDataFilePathList());
-    return {path, path};
-}
-
-void NestedReads::refuse(const std::string& name, const std::string& why) {
-    if (_refusal.empty()) _refusal = "\"" + _files.pathOf(_stack.back()) + "\" names \"" + name + "\", " + why;
-}
-
-NestedReads::Result NestedReads::readScene(const std::string& name, const Reader& reader) {
-    if (leaves(name)) {
-        refuse(name, kIsOutside);
-        return nothing();
-    }
-    const Found found = find(name);
-    if (found.path.empty()) return nothing();
-    if (std::find(_stack.begin(), _stack.end(), found.file) != _stack.end()) {
-        refuse(name, "which is read below itself; such a database has no end");
-        return nothing();
-    }
-    _stack.push_back(found.file);
-    Result result = nothing();
-    try {
-        result = reader(found.path);
-    } catch (const std::exception&) {
-        // as a file that is missing
-    }
-    _stack.pop_back();
-    return result;
-}
-
-NestedReads::Result NestedReads::readPart(const std::string& name, const Result& standIn, const Reader& reader) {
-    if (_images == Images::Left) return standIn;
-    const std::string path = find(name).path;
-    if (path.empty() && leaves(name)) {
-        refuse(name, "which is outside of the database's folder; put a copy beside that file, where OSG finds it");
-    }
-    if (_images == Images::Checked) return standIn;
-    return path.empty() ? nothing() : reader(path);
-}
-
-NestedReads::Result NestedReads::readFont(const std::string& path, const Reader& reader) {
-    if (_images == Images::Read && isOfferedFont(path)) return reader(path);
-    return isOfferedFont(path) ? nothing() : readPart(path, nothing(), reader);
 }
 
 }  // namespace
