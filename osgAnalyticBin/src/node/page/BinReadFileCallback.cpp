@@ -8,20 +8,79 @@
 #include "CachedContent.h"
 #include "CarefulRead.h"
 #include "DatabaseCallbacks.h"
-#include "SharedTiles.h"
 
 #include <osg/NodeVisitor>
+#include <osg/observer_ptr>
 #include <osgDB/FileCache>
 #include <osgDB/Registry>
 #include <osgTerrain/TerrainTile>
 
 #include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <mutex>
 #include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
 
 namespace {
+
+// Nodes that a user's read callback keeps, and so may hand out more than once, to several threads, or while they are
+// being drawn: bins are installed on each only once.
+// Threads: any number at once; one installs while the others wait.
+class SharedTiles {
+public:
+    enum class Outcome {
+        Usable,    // installed now or before, for the same place; or drawn already by a scene without bins
+        Elsewhere  // installed before for another place: its bins would be wrong here
+    };
+
+    [[nodiscard]] static SharedTiles& instance() {
+        // never destroyed: a pager that an application never deletes may still read
+        static SharedTiles& tiles = *new SharedTiles;
+        return tiles;
+    }
+
+    // Runs `install` unless bins are installed on the node already. `place`: the node's globe and frame. With a later
+    // Database::generation() it runs again for nodes that are not in the scene; the scene's are updated with it.
+    [[nodiscard]] Outcome installOnce(osg::Node& node, const std::string& place, unsigned int generation,
+                                      const std::function<void()>& install) {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        const auto known = _installed.find(&node);
+        if (known != _installed.end() && known->second.node.valid()) {
+            if (known->second.place != place) return Outcome::Elsewhere;
+            if (known->second.generation == generation || node.getNumParents() > 0) return Outcome::Usable;
+        }
+        // In a scene already, without bins: a cull traversal may be in it just now. OSG's spheres stay in charge there.
+        if (node.getNumParents() > 0) return Outcome::Usable;
+        install();
+        forgetDeleted();
+        _installed[&node] = {osg::observer_ptr<osg::Node>(&node), place, generation};
+        return Outcome::Usable;
+    }
+
+private:
+    struct Installed {
+        osg::observer_ptr<osg::Node> node;
+        std::string place;
+        unsigned int generation = 0;
+    };
+
+    void forgetDeleted() {
+        if (_installed.size() < _enough) return;
+        for (auto entry = _installed.begin(); entry != _installed.end();) {
+            entry = entry->second.node.valid() ? std::next(entry) : _installed.erase(entry);
+        }
+        _enough = std::max<std::size_t>(64, 2 * _installed.size());
+    }
+
+    std::mutex _mutex;
+    std::map<const osg::Node*, Installed> _installed;
+    std::size_t _enough = 64;  // entries at which those of deleted nodes are looked for
+};
 
 // Which installation, and where on its globe. A tile's bin holds for one Database alone: another may have other
 // corrections, another shape of terrain, or a horizon that the tile was never counted in.

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <mutex>
@@ -20,10 +21,23 @@ public:
     static constexpr std::chrono::seconds kFirstWait{1};
     static constexpr std::chrono::seconds kLongestWait{10};
 
-    [[nodiscard]] bool mayRead(const std::string& fileName, Clock::time_point now) const;
+    [[nodiscard]] bool mayRead(const std::string& fileName, Clock::time_point now) const {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        const auto failure = _failures.find(fileName);
+        return failure == _failures.end() || now >= failure->second.next;
+    }
 
     /// Records whether reading the file succeeded; success clears earlier failures.
-    void note(const std::string& fileName, bool success, Clock::time_point now);
+    void note(const std::string& fileName, bool success, Clock::time_point now) {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        if (success) {
+            _failures.erase(fileName);
+            return;
+        }
+        Failure& failure = _failures[fileName];
+        failure.wait = std::clamp(2 * failure.wait, kFirstWait, kLongestWait);
+        failure.next = now + failure.wait;
+    }
 
 private:
     struct Failure {
