@@ -21,7 +21,8 @@ namespace osgAnalyticBin {
 }
 
 /// The callback of a bin that an installer made for this very node. Returns: nullptr when there is none.
-[[nodiscard]] inline const AnalyticBinCullCallback* installedBinOf(const osg::Node& node) {
+/// Not inlined, to leave stack for scenes that are nested deep.
+[[nodiscard, gnu::noinline]] inline const AnalyticBinCullCallback* installedBinOf(const osg::Node& node) {
     for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
         const auto* const bin = dynamic_cast<const AnalyticBinCullCallback*>(at);
         if (bin && bin->getInstalledTile() && bin->getInstalledTile()->isFor(&node)) return bin;
