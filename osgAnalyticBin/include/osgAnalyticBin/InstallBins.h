@@ -5,6 +5,7 @@
 
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/Export.h>
 
 #include <osg/Node>

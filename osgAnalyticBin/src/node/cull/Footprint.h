@@ -60,6 +60,7 @@ inline void Footprint::fetch() const {
 #ifdef __GNUC__
     for (const auto& noted : _runs) {
         const std::uintptr_t run = noted.load(std::memory_order_relaxed);
+        if (run == 0) break;  // nor is there any after it
         std::uintptr_t line = run & ~(kLine - 1);
         for (std::uintptr_t left = run & (kLine - 1); left > 0; --left, line += kLine) {
             __builtin_prefetch(reinterpret_cast<const void*>(line));
