@@ -7,7 +7,7 @@
 #include "Fuzz.h"
 #include "TerrainGrid.h"
 
-#include <osgAnalyticBin/SurfaceReading.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <cmath>
 #include <string>

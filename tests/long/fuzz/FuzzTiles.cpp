@@ -9,8 +9,8 @@
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/SurfaceReading.h>
 #include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <osg/Geometry>
 #include <osg/Notify>

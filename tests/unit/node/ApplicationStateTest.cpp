@@ -8,7 +8,7 @@
 
 #include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/SurfaceReading.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>
 #include <osg/AlphaFunc>

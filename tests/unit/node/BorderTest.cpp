@@ -8,7 +8,7 @@
 #include "TileFixture.h"
 
 #include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/SurfaceReading.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>
 #include <osgDB/ReadFile>

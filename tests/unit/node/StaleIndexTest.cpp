@@ -9,8 +9,8 @@
 
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/InstallBins.h>
-#include <osgAnalyticBin/SurfaceReading.h>
 #include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>
 #include <osgDB/ReadFile>

@@ -5,7 +5,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/SurfaceReading.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <osg/CoordinateSystemNode>
 

@@ -5,7 +5,7 @@
 
 #include "TileFixture.h"
 
-#include <osgAnalyticBin/SurfaceReading.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>

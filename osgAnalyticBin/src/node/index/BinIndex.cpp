@@ -4,8 +4,8 @@
 #include "../../core/FloatRounding.h"
 
 #include <osgAnalyticBin/BinIndex.h>
-#include <osgAnalyticBin/SurfaceReading.h>
 #include <osgAnalyticBin/TileFrame.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>

@@ -4,8 +4,8 @@
 #include "FileSurvey.h"
 
 #include <osgAnalyticBin/BinIndex.h>
-#include <osgAnalyticBin/SurfaceReading.h>
 #include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileSurface.h>
 #include <osgAnalyticBin/index/Failure.h>
 
 #include <osg/PagedLOD>

@@ -16,7 +16,7 @@
 #include "../tile/InstalledTile.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
-#include <osgAnalyticBin/SurfaceReading.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Geometry>

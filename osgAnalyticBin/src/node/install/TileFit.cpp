@@ -7,7 +7,7 @@
 #include "../GlmBridge.h"
 #include "../surface/TilePlates.h"
 
-#include <osgAnalyticBin/SurfaceReading.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <osg/Drawable>
 #include <osg/NodeVisitor>

@@ -4,7 +4,7 @@
 #include "SurfaceWalk.h"
 #include "TerrainTileSurface.h"
 
-#include <osgAnalyticBin/SurfaceReading.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <osg/Billboard>
 #include <osg/Geometry>

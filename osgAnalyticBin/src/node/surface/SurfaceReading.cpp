@@ -9,8 +9,8 @@
 #include "TerrainLimits.h"
 #include "TerrainTileSurface.h"
 
-#include <osgAnalyticBin/SurfaceReading.h>
 #include <osgAnalyticBin/TileFrame.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <osg/Billboard>
 

@@ -3,8 +3,8 @@
 
 #include "DrawnDatabase.h"
 
-#include <osgAnalyticBin/SurfaceReading.h>
 #include <osgAnalyticBin/TileFinder.h>
+#include <osgAnalyticBin/TileSurface.h>
 
 #include <glm/geometric.hpp>
 #include <osgDB/FileNameUtils>
