@@ -10,11 +10,11 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <functional>
 #include <future>
+#include <set>
+#include <string>
 #include <support/StockPrograms.h>
 #include <support/TemporaryFolder.h>
 #include <thread>
@@ -108,21 +108,21 @@ TEST_F(HttpFlight, BinsAskForLessThanSpheresAndDrawTheSame) {
     EXPECT_LT(sent[1].bytes, sent[0].bytes);
 }
 
-// The pager writes what it has read, bins and all, into the cache.
+// The pager writes what it has read, bins and all, into the cache. A later flight may ask for other files, too: what is
+// hidden while files are on their way depends on which came first.
 TEST_F(HttpFlight, OsgsFileCacheServesLaterFlights) {
     Nginx nginx(globe);
     ASSERT_TRUE(nginx.start());
     const std::string cache = "OSG_FILE_CACHE=" + folder->makeFolder("cache");
     const std::string database = nginx.url("earth.osgb");
     const std::string first = fly(database, "quadratic", "uncached", cache);
-    const auto tiles = [&nginx] {
-        const std::vector<Nginx::Request> requests = nginx.requests();
-        return std::count_if(requests.begin(), requests.end(), std::mem_fn(&Nginx::Request::isTile));
-    };
-    const auto loaded = tiles();
-    EXPECT_GT(loaded, 10);
     const std::string second = fly(database, "quadratic", "cached", cache);
-    EXPECT_EQ(tiles(), loaded);
+    std::multiset<std::string> fetched;
+    for (const Nginx::Request& request : nginx.requests()) {
+        if (request.isTile()) fetched.insert(request.path);
+    }
+    EXPECT_GT(fetched.size(), 10u);
+    for (const std::string& file : fetched) EXPECT_EQ(fetched.count(file), 1u) << file;
     expectEqualPictures({first, second, fly(database, "sphere", "cached_sphere", cache)});
 }
 
