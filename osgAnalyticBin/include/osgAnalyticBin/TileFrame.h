@@ -20,7 +20,7 @@ namespace osgAnalyticBin {
 /// The coordinate frame of a file's content, and the file that it comes from.
 struct TileFrame {
     /// mapPlane() for a tile in a map. Null where there is neither a globe above nor a stored bin, and for a tile
-    /// without a stored bin of which it is not known whether it is on a globe or in a map.
+    /// without a stored bin that may be on a globe or in a map.
     osg::ref_ptr<const osg::EllipsoidModel> ellipsoid;
     osg::Matrixd localToEcef;  ///< in a map: to the map
     /// Whether the coordinate system's text names a map projection. Without an ellipsoid, the tiles are in that map;

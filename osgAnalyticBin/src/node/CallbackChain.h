@@ -9,10 +9,10 @@
 
 namespace osgAnalyticBin {
 
-/// Searches a chain of nested callbacks. Returns: the first one of the class; nullptr when there is none.
-template <class Callback>
-[[nodiscard]] Callback* findCallback(osg::Callback* first) {
-    for (osg::Callback* callback = first; callback; callback = callback->getNestedCallback()) {
+/// Searches a chain of nested callbacks, const or not. Returns: the first one of the class; nullptr when there is none.
+template <class Callback, class First>
+[[nodiscard]] Callback* findCallback(First* first) {
+    for (First* callback = first; callback; callback = callback->getNestedCallback()) {
         if (auto* found = dynamic_cast<Callback*>(callback)) return found;
     }
     return nullptr;

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "../node/CallbackChain.h"
+
 #include <osgAnalyticBin/viewer/CameraCulling.h>
 
 #include <osgUtil/CullVisitor>
@@ -113,10 +115,7 @@ CameraCulling::CameraCulling() : _overlay(new osg::Group) {
 CameraCulling::~CameraCulling() = default;
 
 CameraCulling* CameraCulling::find(osg::Camera& camera) {
-    for (osg::Callback* callback = camera.getCullCallback(); callback; callback = callback->getNestedCallback()) {
-        if (auto* found = dynamic_cast<CameraCulling*>(callback)) return found;
-    }
-    return nullptr;
+    return findCallback<CameraCulling>(camera.getCullCallback());
 }
 
 CameraCulling& CameraCulling::of(osg::Camera& camera) {

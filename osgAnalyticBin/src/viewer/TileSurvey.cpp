@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "../node/CallbackChain.h"
+
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/TileFinder.h>
@@ -31,11 +33,8 @@ EllipsoidOfTile tilesBelow(osg::Group& camera) {
     return tiles;
 }
 
-const AnalyticBinCullCallback* binCallbackOf(osg::Node& node) {
-    for (osg::Callback* callback = node.getCullCallback(); callback; callback = callback->getNestedCallback()) {
-        if (const auto* found = dynamic_cast<const AnalyticBinCullCallback*>(callback)) return found;
-    }
-    return nullptr;
+const AnalyticBinCullCallback* binCallbackOf(const osg::Node& node) {
+    return findCallback<const AnalyticBinCullCallback>(node.getCullCallback());
 }
 
 class Surveyor : public osgUtil::CullVisitor {

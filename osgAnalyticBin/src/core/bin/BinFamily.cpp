@@ -125,10 +125,9 @@ std::uint64_t BinFamily::hiddenFrom(const HorizonEye& eye, std::uint64_t candida
 std::uint64_t BinFamily::heldIn(const RegionalSight& sight, std::uint64_t candidates) const noexcept {
     const double* const first = _data.numbers + row::kBinRows * _data.stride;
     std::uint64_t held = 0;
-    for (std::uint64_t left = candidates & _data.filled; left != 0; left &= left - 1) {
-        const unsigned i = firstBit(left);
+    forEachBit(candidates & _data.filled, [&](unsigned i) {
         if (sight.holds(first + i, _data.stride)) held |= kFirst << i;
-    }
+    });
     return held;
 }
 

@@ -129,12 +129,11 @@ kernels::PlaneSides kernels::sidesByExactRange(const double* numbers, std::size_
     const QuadraticBin bin(numbers, stride);
     PlaneMask outside = 0;
     PlaneMask inside = 0;
-    for (PlaneMask left = planes; left != 0; left &= left - 1) {
-        const unsigned i = firstBit(left);
+    forEachBit(planes, [&](unsigned i) {
         const Side side = bin.classifyByExactRange(planeOf(blocks, i));
         if (side == Side::Outside) outside |= PlaneMask{1} << i;
         if (side == Side::Inside) inside |= PlaneMask{1} << i;
-    }
+    });
     return PlaneSides::of(outside, inside);
 }
 

@@ -31,7 +31,7 @@ public:
     public:
         explicit Notes(const Footprint& footprint) : _runs(footprint._runs) {}
         ~Notes() {
-            while (_next < kRuns) note(0);
+            if (_next < kRuns) note(0);
         }
         Notes(const Notes&) = delete;
         Notes& operator=(const Notes&) = delete;
@@ -52,7 +52,7 @@ public:
     };
 
 private:
-    // the address of a cache line, and in its low bits how many lines are read from there
+    // the address of a cache line, and in its low bits how many lines are read from there; 0 follows the last one
     mutable std::array<std::atomic<std::uintptr_t>, kRuns> _runs{};
 };
 
@@ -60,7 +60,7 @@ inline void Footprint::fetch() const {
 #ifdef __GNUC__
     for (const auto& noted : _runs) {
         const std::uintptr_t run = noted.load(std::memory_order_relaxed);
-        if (run == 0) break;  // nor is there any after it
+        if (run == 0) break;
         std::uintptr_t line = run & ~(kLine - 1);
         for (std::uintptr_t left = run & (kLine - 1); left > 0; --left, line += kLine) {
             __builtin_prefetch(reinterpret_cast<const void*>(line));

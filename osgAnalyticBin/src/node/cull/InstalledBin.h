@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "../CallbackChain.h"
 #include "../tile/InstalledTile.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -14,14 +15,12 @@ namespace osgAnalyticBin {
 /// What the callback of a bin on the node keeps. Returns: nullptr without such a callback, and for an application's
 /// own.
 [[nodiscard]] inline InstalledTile* installedTileOf(const osg::Node& node) {
-    for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
-        if (const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(at)) return bin->getInstalledTile();
-    }
-    return nullptr;
+    const auto* const bin = findCallback<const AnalyticBinCullCallback>(node.getCullCallback());
+    return bin ? bin->getInstalledTile() : nullptr;
 }
 
 /// The callback of a bin that an installer made for this very node. Returns: nullptr when there is none.
-/// Not inlined, to leave stack for scenes that are nested deep.
+/// Not inlined: deeply nested scenes need the stack.
 [[nodiscard, gnu::noinline]] inline const AnalyticBinCullCallback* installedBinOf(const osg::Node& node) {
     for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
         const auto* const bin = dynamic_cast<const AnalyticBinCullCallback*>(at);

@@ -11,8 +11,8 @@
 
 namespace osgAnalyticBin {
 
-/// The lines of sight of an eye over a region. They take microseconds to find, so they are found when first something
-/// is to be hidden; in many views of a region nothing is.
+/// The lines of sight of an eye over a region. Finding them takes microseconds, so they are looked for only when
+/// something would be hidden; in many views of a region nothing is.
 class SightOverRegion final {
 public:
     /// All have to outlive it.
@@ -27,8 +27,7 @@ public:
 
     /// The same for tiles of a family, one bit each.
     [[nodiscard]] std::uint64_t heldIn(const core::BinFamily& bins, std::uint64_t candidates) const {
-        if (!sight() || sight()->holdsAll()) return sight() ? candidates : 0;
-        return bins.heldIn(*sight(), candidates);
+        return sight() ? bins.heldIn(*sight(), candidates) : 0;
     }
 
 private:

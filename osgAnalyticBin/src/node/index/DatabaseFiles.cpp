@@ -130,7 +130,7 @@ public:
     }
 
 private:
-    // The file that a name means, where another one names it. Absolute paths may lead into the folder.
+    // The file that `referring` refers to by a name. An absolute path may lead into the folder.
     [[nodiscard]] std::string fileFrom(const std::string& referring, const std::string& name) const {
         if (!osgDB::isAbsolutePath(name)) return pagedFilePath(referring, name);
         const fs::path folder = fs::absolute(_files.rootFile()).lexically_normal().parent_path();

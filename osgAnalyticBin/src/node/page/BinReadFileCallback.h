@@ -80,7 +80,7 @@ struct PagedFile {
 /// The files of a PagedLOD that stands in `frame`; `isTile`: and is a tile.
 [[nodiscard]] std::vector<PagedFile> filesPagedBy(const osg::PagedLOD& node, const TileFrame& frame, bool isTile);
 
-/// The read callback of options, or the one that ours among them hands on to. May be null.
+/// The read callback in the options; where that is one of ours, the one behind it. May be null.
 [[nodiscard]] osgDB::ReadFileCallback* previousCallback(const osgDB::Options& options);
 
 /// The read callback of ours that a PagedLOD's options have; null: none.
