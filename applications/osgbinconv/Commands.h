@@ -50,10 +50,10 @@ void checkIndex(const DatabaseFiles& files, const WalkOptions& options);
 /// Whether a root file is the metadata of a photogrammetry set, "metadata.xml".
 [[nodiscard]] bool isPhotogrammetry(const std::string& file);
 
-/// Writes "metadata.xml.boxes" beside the metadata of a photogrammetry set. Throws Failure or Interrupted.
+/// Writes "metadata.xml.bins" beside the metadata of a photogrammetry set. Throws Failure or Interrupted.
 void writeBoxIndex(const std::string& metadataFile, const WalkOptions& options);
 
-/// Compares "metadata.xml.boxes" with the set. Throws Failure when it does not fit, or Interrupted.
+/// Compares "metadata.xml.bins" with the set. Throws Failure when it does not fit, or Interrupted.
 void checkBoxIndex(const std::string& metadataFile, const WalkOptions& options);
 
 struct CopyOptions {

@@ -41,7 +41,7 @@ constexpr const char* kExamples =
     "  osgbinconv earth.ive bins/earth.osgb     writes a copy with the bins in its files; the folder has to be there\n"
     "  osgbinconv --print earth.ive.bins        prints what is in an index\n"
     "  osgbinconv --check earth.ive             compares earth.ive.bins with its database\n"
-    "  osgbinconv --index metadata.xml          writes metadata.xml.boxes, the boxes of a photogrammetry set\n"
+    "  osgbinconv --index metadata.xml          writes metadata.xml.bins, the boxes of a photogrammetry set\n"
     "An interrupted index is kept in earth.ive.bins.part; the same command resumes it.\n"
     "A copy that was killed leaves earth.osgb.copying; the same command makes it again.\n"
     "Exit codes: 0 done, 1 an error or an index that does not fit, 2 a wrong command line, 130 interrupted.";

@@ -16,6 +16,9 @@
 
 namespace osgAnalyticBin {
 
+/// Whether a root file is the metadata of a set, by its name alone: "metadata.xml".
+[[nodiscard]] OSGANALYTICBIN_EXPORT bool isMetadataName(const std::string& rootFile);
+
 /// The files of a set on the disk.
 struct PhotogrammetryFiles {
     /// The root files of the tiles, relative to the folder of the metadata, in alphabetical order.

@@ -1,17 +1,14 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 //
-// Boxes of meshes against planes, and their index. Oracles: corners in long double; the text of the index.
+// Boxes of meshes against planes, and as bins. Oracle: corners in long double.
 
-#include "../../osgAnalyticBin/src/node/boxes/MeshBox.h"
-
-#include <osgAnalyticBin/BoxIndex.h>
+#include "../../osgAnalyticBin/src/node/surface/MeshBox.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <support/Random.h>
 
 namespace osgAnalyticBin {
@@ -76,56 +73,22 @@ TEST(MeshBox, WithASphereIsOutsideOnlyWhereBothAre) {
     EXPECT_EQ(sideOf(-1.0, &sphere), core::Side::Inside);
 }
 
-TEST(MeshBox, IsRoundedOutwardToFloat) {
+TEST(MeshBox, IsABinOfAMapAndBack) {
     test::Random random(103);
     for (int trial = 0; trial < 1000; ++trial) {
-        osg::BoundingBoxd box = randomBox(random);
-        MeshBox mesh;
-        mesh.expandBy(MeshBox(osg::BoundingBoxf()));
-        EXPECT_TRUE(mesh.isEmpty());
-        mesh = MeshBox(osg::BoundingBoxf(-1, -1, -1, 1, 1, 1))
-                   .moved(osg::Matrixd::scale(box._max) * osg::Matrixd::translate(box._min));
-        EXPECT_TRUE(MeshBox(mesh.toFloat()).contains(mesh));
+        const osg::BoundingBoxd box = randomBox(random);
+        const MeshBox mesh = MeshBox(osg::BoundingBoxf(-1, -1, -1, 1, 1, 1))
+                                 .moved(osg::Matrixd::scale(box._max) * osg::Matrixd::translate(box._min));
+        const MeshBox back(mesh.bin());
+        EXPECT_TRUE(back.contains(mesh));
+        EXPECT_TRUE(mesh.contains(back));
     }
-    EXPECT_FALSE(MeshBox::boundless().toFloat().valid());
+    EXPECT_FALSE(MeshBox::boundless().bin().valid());
+    EXPECT_FALSE(MeshBox().bin().valid());
+    EXPECT_FALSE(MeshBox(osg::BoundingBoxf(0, 0, 0, 1e10F, 1, 1)).bin().valid());
+    EXPECT_TRUE(MeshBox(AnalyticBin()).isBoundless());
     EXPECT_TRUE(MeshBox::boundless().contains(MeshBox(osg::BoundingBoxf(0, 0, 0, 1, 1, 1))));
     EXPECT_FALSE(MeshBox(osg::BoundingBoxf(0, 0, 0, 1, 1, 1)).contains(MeshBox::boundless()));
-}
-
-TEST(BoxIndex, ReadsWhatItWrote) {
-    BoxIndex* const index = new BoxIndex;
-    const osg::ref_ptr<BoxIndex> keep(index);
-    index->add("Data/a b.osgb", {osg::BoundingBoxf(0.1F, -2, 3e-20F, 4, 5, 1e20F), osg::BoundingBoxf()});
-    index->add("Data/none.osgb", {});
-    std::stringstream file;
-    ASSERT_TRUE(index->write(file));
-    std::string error;
-    const osg::ref_ptr<BoxIndex> read = BoxIndex::read(file, error);
-    ASSERT_TRUE(read) << error;
-    EXPECT_EQ(read->files(), index->files());
-    EXPECT_EQ(read->numBoxes(), 2U);
-    EXPECT_FALSE(read->find("Data/a b.osgb", 2));
-    EXPECT_FALSE(read->find("elsewhere", 0));
-}
-
-TEST(BoxIndex, IsRefusedWhenItIsCutOrChanged) {
-    const osg::ref_ptr<BoxIndex> index = new BoxIndex;
-    index->add("Data/a.osgb", {osg::BoundingBoxf(0, 0, 0, 1, 2, 3)});
-    std::stringstream file;
-    ASSERT_TRUE(index->write(file));
-    const std::string text = file.str();
-    const auto isRead = [](const std::string& part) {
-        std::istringstream in(part);
-        std::string error;
-        return BoxIndex::read(in, error).valid() || error.empty();
-    };
-    EXPECT_TRUE(isRead(text));
-    for (std::size_t size = 0; size + 1 < text.size(); ++size) EXPECT_FALSE(isRead(text.substr(0, size))) << size;
-    for (const char* wrong : {"osgAnalyticBin boxes 2\nend 0 0\n", "osgAnalyticBin boxes 1\n1 a\n0 0 0 1 2\nend 1 1\n",
-                              "osgAnalyticBin boxes 1\n1 a\n0 0 0 1 2 nan\nend 1 1\n",
-                              "osgAnalyticBin boxes 1\n1 a\n0 0 0 -1 2 3\nend 1 1\n",
-                              "osgAnalyticBin boxes 1\n99999999999999999999 a\nend 1 0\n"})
-        EXPECT_FALSE(isRead(wrong)) << wrong;
 }
 
 }  // namespace

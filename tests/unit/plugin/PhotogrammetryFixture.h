@@ -42,9 +42,9 @@ protected:
 
     void makeIndex() const {
         std::string error;
-        const osg::ref_ptr<BoxIndex> index = makeBoxIndex(_metadata, 2, {}, error);
+        const osg::ref_ptr<BinIndex> index = makeBoxIndex(_metadata, 2, {}, error);
         ASSERT_TRUE(index) << error;
-        ASSERT_TRUE(index->write(boxIndexPath(_metadata), error)) << error;
+        ASSERT_TRUE(index->write(binIndexName(_metadata), error)) << error;
     }
 
     [[nodiscard]] osgDB::ReaderWriter::ReadResult readResult(const std::string& options = "") const {

@@ -108,9 +108,9 @@ public:
 };
 
 // `before`: the boxes that the set has; null: none. An index that is being made for them goes on.
-ChosenBoxIndex indexFor(const osg::Node& set, const CullOptions& options, const BoxSet* before) {
+ChosenIndex indexFor(const osg::Node& set, const CullOptions& options, const BoxSet* before) {
     if (before && before->making() && options.index == IndexUse::Auto) return {nullptr, before->making()};
-    return chooseBoxIndex(metadataFileOf(set), options.index);
+    return chooseIndex(metadataFileOf(set), nullptr, options.index);
 }
 
 // Boxes are tested, and files read, without osgDB's cache of nodes: each tile stands in one place.
@@ -163,8 +163,7 @@ BoxInstaller::Content BoxInstaller::place(const LodContent& content, const std::
     for (std::size_t i = tiles.size(); i-- > 0;) {
         MeshBox box = boxes[i];
         if (fits[i]) {
-            const osg::BoundingBoxf& known = *_index->find(file, i);
-            const MeshBox whole = known.valid() ? MeshBox(known) : MeshBox::boundless();
+            const MeshBox whole(_index->find(file, i)->bin);
             fits[i] = !below[i].isMisfit && whole.contains(box);
             box.expandBy(whole);
         }

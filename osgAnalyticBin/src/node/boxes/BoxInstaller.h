@@ -3,8 +3,8 @@
 
 #pragma once
 
+#include "../surface/LodContent.h"
 #include "BoxSet.h"
-#include "LodContent.h"
 
 #include <osg/Group>
 #include <osg/PagedLOD>
@@ -63,7 +63,7 @@ private:
     [[nodiscard]] bool isInGroup(const osg::Node& node) const;
 
     BoxSet& _set;
-    const osg::ref_ptr<const BoxIndex> _index;
+    const osg::ref_ptr<const BinIndex> _index;
     const osg::Group* const _root;
     std::map<const osg::Node*, osg::ref_ptr<BoxTile>> _members;  // of groups
     std::size_t _installed = 0;

@@ -48,7 +48,7 @@ void BoxSet::awaitIndex(osg::Node& root, const std::string& file, BoxTile* paren
     _awaiting.push_back({&root, file, parent, tiles});
 }
 
-void BoxSet::adopt(const Awaiting& content, const BoxIndex& index) {
+void BoxSet::adopt(const Awaiting& content, const BinIndex& index) {
     osg::ref_ptr<osg::Node> root;
     if (!content.root.lock(root)) return;
     const auto found = index.files().find(content.file);
@@ -60,8 +60,7 @@ void BoxSet::adopt(const Awaiting& content, const BoxIndex& index) {
     }
     for (std::size_t i = 0; isKnown && i < content.tiles.size(); ++i) {
         BoxTile& tile = *content.tiles[i];
-        const osg::BoundingBoxf& known = found->second[i];
-        const MeshBox whole = known.valid() ? MeshBox(known) : MeshBox::boundless();
+        const MeshBox whole(found->second[i].bin);
         if (!tile.isMisfit() && whole.contains(tile.box())) {
             tile.set(whole, true);
         } else {
@@ -72,7 +71,7 @@ void BoxSet::adopt(const Awaiting& content, const BoxIndex& index) {
 }
 
 void BoxSet::adoptIndex() {
-    const osg::ref_ptr<const BoxIndex> whole = making() ? making()->whole() : nullptr;
+    const osg::ref_ptr<const BinIndex> whole = making() ? making()->whole() : nullptr;
     if (!whole) return;
     for (const Awaiting& content : _awaiting) adopt(content, *whole);
     _awaiting.clear();

@@ -3,10 +3,10 @@
 
 #pragma once
 
-#include "AutoBoxIndex.h"
-#include "MeshBox.h"
+#include "../index/AutoIndex.h"
+#include "../surface/MeshBox.h"
 
-#include <osgAnalyticBin/BoxIndex.h>
+#include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/CullOptions.h>
 
 #include <osg/CullingSet>
@@ -97,15 +97,15 @@ private:
 /// A photogrammetry set that is culled by boxes. Threads: all but update().
 class BoxSet final : public osg::Referenced {
 public:
-    BoxSet(const CullOptions& options, ChosenBoxIndex index) : _options(options), _index(std::move(index)) {}
+    BoxSet(const CullOptions& options, ChosenIndex index) : _options(options), _index(std::move(index)) {}
 
     [[nodiscard]] const CullOptions& options() const { return _options; }
     /// Returns: null where there is none, or it is not whole yet.
-    [[nodiscard]] osg::ref_ptr<const BoxIndex> index() const {
+    [[nodiscard]] osg::ref_ptr<const BinIndex> index() const {
         return _index.making ? _index.making->whole() : _index.index;
     }
     /// Returns: null where none is made.
-    [[nodiscard]] const osg::ref_ptr<AutoBoxIndex>& making() const { return _index.making; }
+    [[nodiscard]] const osg::ref_ptr<AutoIndex>& making() const { return _index.making; }
 
     /// Records that the tiles of a file got boxes without an index; an update gives them those of the index that is
     /// being made, if any, when it is complete. `parent`: the LOD that pages the file; null: none.
@@ -145,11 +145,11 @@ private:
         std::vector<osg::ref_ptr<BoxTile>> tiles;
     };
 
-    void adopt(const Awaiting& content, const BoxIndex& index);
+    void adopt(const Awaiting& content, const BinIndex& index);
     void adoptIndex();
 
     const CullOptions _options;
-    const ChosenBoxIndex _index;
+    const ChosenIndex _index;
     std::atomic<bool> _isRemoved{false}, _hasWarned{false};
     std::mutex _mutex;  // guards what follows, and changes of tiles in the scene
     std::vector<Growth> _growths;

@@ -3,6 +3,10 @@
 
 #include "AutoIndex.h"
 
+#include "IndexStore.h"
+
+#include <osgAnalyticBin/BoxIndex.h>
+#include <osgAnalyticBin/PhotogrammetrySet.h>
 #include <osgAnalyticBin/index/DatabaseWalk.h>
 #include <osgAnalyticBin/index/Failure.h>
 #include <osgAnalyticBin/index/MadeIndex.h>
@@ -14,7 +18,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <utility>
+#include <vector>
 
 namespace osgAnalyticBin {
 
@@ -36,9 +42,20 @@ std::string localRoot(const std::string& databaseFileName, const osgDB::Options*
     return isLocal && std::find(archives.begin(), archives.end(), extension) == archives.end() ? root : std::string();
 }
 
+// Whether all files are those that an index with stamps was made from, and a photogrammetry set has no other tiles.
+bool isCurrent(const BinIndex& index, const DatabaseFiles& files, const std::function<void()>& checkpoint) {
+    std::string none;
+    const auto isKnown = [&](const std::string& root) { return index.stamps().count(root) > 0; };
+    if (isMetadataName(files.rootFile())) {
+        const std::vector<std::string> roots = findPhotogrammetryFiles(files.rootFile(), none).roots;
+        if (!std::all_of(roots.begin(), roots.end(), isKnown)) return false;
+    }
+    return indexing::areCurrent(index.stamps(), files, checkpoint);
+}
+
 // The index that was kept in the cache folder. What is broken there is made anew.
 osg::ref_ptr<BinIndex> readCached(const std::string& root, std::string& error) {
-    const std::string cached = indexing::cachedIndexName(root, osgDB::getFileExtension(binIndexName(root)));
+    const std::string cached = indexing::cachedIndexName(root);
     std::error_code ignored;
     if (cached.empty() || !std::filesystem::exists(cached, ignored)) return nullptr;
     osg::ref_ptr<BinIndex> index = BinIndex::read(cached, error);
@@ -54,18 +71,21 @@ public:
     explicit Observer(AutoIndex& index) : _index(index) {}
 
     void beforeFile() override { _index.giveWay(); }
-    void done(const indexing::FileRecord& record, bool, double) override {
-        _tiles += record.tiles.size();
-        if (_tiles <= kMostTiles) return;
-        throw indexing::Failure("it has more than " + std::to_string(kMostTiles) + " tiles; run osgbinconv --index");
-    }
+    void done(const indexing::FileRecord& record, bool, double) override { _index.countTiles(record.tiles.size()); }
 
 private:
     AutoIndex& _index;
-    std::size_t _tiles = 0;
 };
 
+void AutoIndex::countTiles(std::size_t more) {
+    _tiles += more;
+    if (_tiles <= kMostTiles) return;
+    throw indexing::Failure("it has more than " + std::to_string(kMostTiles) + " tiles; run osgbinconv --index");
+}
+
 osg::ref_ptr<BinIndex> AutoIndex::makeFrom(const DatabaseFiles& files) {
+    _tiles = 0;
+    if (isMetadataName(rootFile())) return makeOfSet();
     Observer observer(*this);
     indexing::MadeIndex made = indexing::indexFrom(files, indexing::walkDatabase(files, {}, observer, 1));
     BinIndex::Stamps stamps;
@@ -74,9 +94,39 @@ osg::ref_ptr<BinIndex> AutoIndex::makeFrom(const DatabaseFiles& files) {
     return made.index;
 }
 
-void AutoIndex::keepWhole(const BinIndex& index) {
-    keep({binIndexName(rootFile()), BinIndex::kMagic, [&](std::ostream& out) { return index.write(out); }},
-         std::to_string(index.tileCount()) + " tiles");
+osg::ref_ptr<BinIndex> AutoIndex::makeOfSet() {
+    BoxIndexProgress progress;
+    progress.fileDone = [this](std::size_t boxes, double) { countTiles(boxes); };
+    progress.goesOn = [this] {
+        giveWay();
+        return true;
+    };
+    std::string error;
+    osg::ref_ptr<BinIndex> index = makeStampedBoxIndex(rootFile(), 1, progress, error);
+    if (!index) throw indexing::Failure(error);
+    return index;
+}
+
+bool AutoIndex::isUpToDate(const BinIndex& index, const DatabaseFiles& files) const {
+    return isCurrent(index, files, [this] { throwIfStopped(); });
+}
+
+void AutoIndex::publish(const osg::ref_ptr<const BinIndex>& index) {
+    BackgroundIndex::publish([&] { _whole = index; });
+}
+
+void AutoIndex::make() {
+    const DatabaseFiles files(rootFile());
+    const osg::ref_ptr<const BinIndex> kept = std::exchange(_kept, nullptr);
+    if (kept && isUpToDate(*kept, files)) return publish(kept);
+    constexpr int kMostRounds = 3;
+    for (int round = 0; round < kMostRounds; ++round) {
+        const osg::ref_ptr<const BinIndex> index = makeFrom(files);
+        if (!isUpToDate(*index, files)) continue;  // files were changed meanwhile
+        publish(index);
+        return keep(*index);
+    }
+    throw indexing::Failure("its files change all the time");
 }
 
 ChosenIndex chooseIndex(const std::string& databaseFileName, const osgDB::Options* readOptions, IndexUse use) {
@@ -91,7 +141,15 @@ ChosenIndex chooseIndex(const std::string& databaseFileName, const osgDB::Option
     if (!error.empty()) {
         OSG_WARN << "osgAnalyticBin: " << error << (isMade ? "; that is done in the background now" : "") << std::endl;
     }
-    return chosenFrom<AutoIndex>(index, root, isMade);
+    // stamps of so many files are compared before the first frame
+    constexpr std::size_t kFewFiles = 4096;
+    if (index && index->stamps().empty()) return {index, nullptr};
+    // times of files in archives and on servers are not known
+    if (index && root.empty()) return {};
+    const bool isSoonCompared = index && (!isMade || index->stamps().size() <= kFewFiles);
+    if (isSoonCompared && isCurrent(*index, DatabaseFiles(root), [] {})) return {index, nullptr};
+    if (isSoonCompared) index = nullptr;
+    return {nullptr, isMade ? new AutoIndex(root, index) : nullptr};
 }
 
 }  // namespace osgAnalyticBin

@@ -12,32 +12,49 @@
 #include <osg/ref_ptr>
 #include <osgDB/Options>
 
-#include <functional>
+#include <cstddef>
 #include <string>
+#include <utility>
 
 namespace osgAnalyticBin {
 
-/// As indexing::areCurrent().
-[[nodiscard]] inline bool isCurrent(const BinIndex& index, const indexing::DatabaseFiles& files,
-                                    const std::function<void()>& checkpoint) {
-    return indexing::areCurrent(index.stamps(), files, checkpoint);
-}
-
-/// Makes the index of a database in the background, and keeps it for the next time.
-class AutoIndex final : public BackgroundIndexOf<BinIndex> {
+/// Makes the index of a database or a photogrammetry set in the background, and keeps it for the next time.
+class AutoIndex final : public BackgroundIndex {
 public:
-    using BackgroundIndexOf::BackgroundIndexOf;
+    /// `kept`: an index with stamps, which is used if no file has changed since; null: none.
+    AutoIndex(const std::string& rootFile, osg::ref_ptr<const BinIndex> kept)
+        : BackgroundIndex(rootFile), _kept(std::move(kept)) {}
+
+    /// Returns: null until it is complete.
+    [[nodiscard]] osg::ref_ptr<const BinIndex> whole() const {
+        const auto guard = lock();
+        return _whole;
+    }
 
 protected:
     ~AutoIndex() override { stop(); }
-    [[nodiscard]] osg::ref_ptr<BinIndex> makeFrom(const indexing::DatabaseFiles& files) override;
-    void keepWhole(const BinIndex& index) override;
 
 private:
     class Observer;
+
+    void make() override;
+    [[nodiscard]] bool isUpToDate(const BinIndex& index, const indexing::DatabaseFiles& files) const;
+    // Reads all files. Returns: the index, with stamps.
+    [[nodiscard]] osg::ref_ptr<BinIndex> makeFrom(const indexing::DatabaseFiles& files);
+    [[nodiscard]] osg::ref_ptr<BinIndex> makeOfSet();
+    void publish(const osg::ref_ptr<const BinIndex>& index);
+    void countTiles(std::size_t more);
+
+    std::size_t _tiles = 0;
+    osg::ref_ptr<const BinIndex> _kept;
+    osg::ref_ptr<const BinIndex> _whole;  // guarded by lock()
 };
 
-using ChosenIndex = ChosenOf<BinIndex, AutoIndex>;
+/// The index that a database is opened with.
+struct ChosenIndex {
+    osg::ref_ptr<const BinIndex> index;  ///< null: none that can be used at once
+    osg::ref_ptr<AutoIndex> making;      ///< makes one, once it is started; null: none is made
+};
 
 /// Looks for an index beside the database, and in the user's cache folder. One that cannot be used gives one warning.
 [[nodiscard]] ChosenIndex chooseIndex(const std::string& databaseFileName, const osgDB::Options* readOptions,

@@ -3,6 +3,10 @@
 
 #include "BackgroundIndex.h"
 
+#include "IndexStore.h"
+
+#include <osgAnalyticBin/index/DatabaseFiles.h>
+
 #include <osg/Notify>
 #include <osgDB/Registry>
 
@@ -117,11 +121,11 @@ void BackgroundIndex::publish(const std::function<void()>& change) {
     _isWhole.store(true, std::memory_order_release);
 }
 
-void BackgroundIndex::keep(const indexing::IndexFile& file, const std::string& content) {
+void BackgroundIndex::keep(const BinIndex& index) {
     throwIfStopped();
     std::string error;
-    const std::string path = indexing::keepIndex(file, _rootFile, error);
-    note("the index of \"" + _rootFile + "\" is complete: " + content + ", " +
+    const std::string path = indexing::keepIndex(index, _rootFile, error);
+    note("the index of \"" + _rootFile + "\" is complete: " + std::to_string(index.tileCount()) + " tiles, " +
          (path.empty() ? "not kept (" + error + ")" : "kept in \"" + path + "\""));
 }
 

@@ -3,10 +3,7 @@
 
 #pragma once
 
-#include "IndexStore.h"
-
-#include <osgAnalyticBin/index/DatabaseFiles.h>
-#include <osgAnalyticBin/index/Failure.h>
+#include <osgAnalyticBin/BinIndex.h>
 
 #include <osg/Referenced>
 #include <osg/ref_ptr>
@@ -14,7 +11,6 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <cstddef>
 #include <functional>
 #include <mutex>
 #include <string>
@@ -57,8 +53,8 @@ protected:
     [[nodiscard]] std::unique_lock<std::mutex> lock() const { return std::unique_lock<std::mutex>(_mutex); }
     /// Runs `change` under the lock: the index is complete with it.
     void publish(const std::function<void()>& change);
-    /// Stores the complete index for the next time, and reports that. `content`: what it holds, for the user.
-    void keep(const indexing::IndexFile& file, const std::string& content);
+    /// Stores the complete index for the next time, and reports that.
+    void keep(const BinIndex& index);
 
     /// Ends the thread, by an exception, once stop() was called.
     void throwIfStopped() const;
@@ -81,48 +77,6 @@ private:
     std::vector<std::string> _notes;
 };
 
-/// The same for a kind of index. isCurrent() tells whether no file has changed since an index with stamps was made.
-template <class Index>
-class BackgroundIndexOf : public BackgroundIndex {
-public:
-    /// `kept`: an index with stamps, which is used if no file has changed since; null: none.
-    BackgroundIndexOf(const std::string& rootFile, osg::ref_ptr<const Index> kept)
-        : BackgroundIndex(rootFile), _kept(std::move(kept)) {}
-
-    /// Returns: null until it is complete.
-    [[nodiscard]] osg::ref_ptr<const Index> whole() const {
-        const auto guard = lock();
-        return _whole;
-    }
-
-protected:
-    /// Reads all files. Returns: the index, with stamps.
-    [[nodiscard]] virtual osg::ref_ptr<Index> makeFrom(const indexing::DatabaseFiles& files) = 0;
-    /// Stores it for the next time.
-    virtual void keepWhole(const Index& index) = 0;
-
-private:
-    void make() override {
-        const indexing::DatabaseFiles files(rootFile());
-        const auto isUpToDate = [&](const Index& index) {
-            return isCurrent(index, files, [this] { throwIfStopped(); });
-        };
-        osg::ref_ptr<const Index> index = std::exchange(_kept, nullptr);
-        if (index && isUpToDate(*index)) return publish([&] { _whole = index; });
-        constexpr int kMostRounds = 3;
-        for (int round = 0; round < kMostRounds; ++round) {
-            index = makeFrom(files);
-            if (!isUpToDate(*index)) continue;  // files were changed meanwhile
-            publish([&] { _whole = index; });
-            return keepWhole(*index);
-        }
-        throw indexing::Failure("its files change all the time");
-    }
-
-    osg::ref_ptr<const Index> _kept;
-    osg::ref_ptr<const Index> _whole;  // guarded by lock()
-};
-
 /// Makes the thread that makes an index wait while a file is read. `index` may be null.
 class BusyPager final {
 public:
@@ -138,27 +92,5 @@ public:
 private:
     const osg::ref_ptr<BackgroundIndex> _index;
 };
-
-/// The index that a database is opened with.
-template <class Index, class Making>
-struct ChosenOf {
-    osg::ref_ptr<const Index> index;  ///< null: none that can be used at once
-    osg::ref_ptr<Making> making;      ///< not started; null: none is made
-};
-
-/// What is done with an index that was found. `index`: null: there is none. `root`: the local file of the database;
-/// empty: it has none. `isMade`: whether one is made where this one cannot be used.
-template <class Making, class Index>
-[[nodiscard]] ChosenOf<Index, Making> chosenFrom(osg::ref_ptr<Index> index, const std::string& root, bool isMade) {
-    // stamps of so many files are compared before the first frame
-    constexpr std::size_t kFewFiles = 4096;
-    if (index && index->stamps().empty()) return {index, nullptr};
-    // times of files in archives and on servers are not known
-    if (index && root.empty()) return {};
-    const bool isSoonCompared = index && (!isMade || index->stamps().size() <= kFewFiles);
-    if (isSoonCompared && isCurrent(*index, indexing::DatabaseFiles(root), [] {})) return {index, nullptr};
-    if (isSoonCompared) index = nullptr;
-    return {nullptr, isMade ? osg::ref_ptr<Making>(new Making(root, index)) : nullptr};
-}
 
 }  // namespace osgAnalyticBin

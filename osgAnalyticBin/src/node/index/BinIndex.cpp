@@ -127,7 +127,8 @@ osg::ref_ptr<BinIndex> readBinIndex(const std::string& databaseFileName, const o
     if (!index) return nullptr;
     std::error_code failure;
     const auto size = isLocal ? std::filesystem::file_size(root, failure) : 0;
-    if (!isLocal || failure || size == index->source().size) return index;
+    const std::uint64_t known = index->source().size;
+    if (!isLocal || failure || known == 0 || size == known) return index;
     error = "\"" + name + "\" was made of another \"" + withoutFolder(databaseFileName) + "\" (" +
             std::to_string(index->source().size) + " bytes, now " + std::to_string(size) +
             "); make it again with osgbinconv --index";

@@ -3,8 +3,6 @@
 
 #include "IndexStore.h"
 
-#include "../WholeFile.h"
-
 #include <boost/crc.hpp>
 #include <cstdio>
 #include <cstdlib>
@@ -19,26 +17,26 @@ namespace {
 namespace fs = std::filesystem;
 
 // Whether a file may be replaced: there is none, or it is such an index, whole or broken at its end.
-bool isOurs(const std::string& path, std::string_view kind) {
+bool isOurs(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
     if (!in) {
         std::error_code ignored;
         return !fs::exists(path, ignored);
     }
-    std::string magic(kind.size(), '\0');
+    std::string magic(BinIndex::kMagic.size(), '\0');
     in.read(magic.data(), static_cast<std::streamsize>(magic.size()));
-    return in.gcount() == 0 || magic == kind;
+    return in.gcount() == 0 || magic == BinIndex::kMagic;
 }
 
-bool keepAt(const IndexFile& index, const std::string& path, std::string& error) {
-    if (!isOurs(path, index.magic)) {
+bool keepAt(const BinIndex& index, const std::string& path, std::string& error) {
+    if (!isOurs(path)) {
         error = "\"" + path + "\" is no index";
         return false;
     }
     // others may be keeping the same index
     std::random_device random;
     const std::string own = path + "." + std::to_string(random());
-    if (!writeWholeFile(own, index.write, error)) return false;
+    if (!index.write(own, error)) return false;
     std::error_code failure;
     fs::rename(own, path, failure);
     if (!failure) return true;
@@ -70,7 +68,7 @@ bool areCurrent(const BinIndex::Stamps& stamps, const DatabaseFiles& files, cons
     return true;
 }
 
-std::string cachedIndexName(const std::string& rootFile, const std::string& extension) {
+std::string cachedIndexName(const std::string& rootFile) {
     const std::string folder = cacheFolder();
     std::error_code failure;
     const std::string path = fs::canonical(rootFile, failure).string();
@@ -78,13 +76,14 @@ std::string cachedIndexName(const std::string& rootFile, const std::string& exte
     boost::crc_optimal<64, 0x42F0E1EBA9EA3693u, 0xFFFFFFFFFFFFFFFFu, 0xFFFFFFFFFFFFFFFFu, true, true> crc;
     crc.process_bytes(path.data(), path.size());
     char name[32];
-    std::snprintf(name, sizeof name, "/%016llx.", static_cast<unsigned long long>(crc.checksum()));
-    return folder + name + extension;
+    std::snprintf(name, sizeof name, "/%016llx", static_cast<unsigned long long>(crc.checksum()));
+    return binIndexName(folder + name);
 }
 
-std::string keepIndex(const IndexFile& index, const std::string& rootFile, std::string& error) {
-    if (keepAt(index, index.beside, error)) return index.beside;
-    const std::string cached = cachedIndexName(rootFile, fs::path(index.beside).extension().string().substr(1));
+std::string keepIndex(const BinIndex& index, const std::string& rootFile, std::string& error) {
+    const std::string beside = binIndexName(rootFile);
+    if (keepAt(index, beside, error)) return beside;
+    const std::string cached = cachedIndexName(rootFile);
     if (cached.empty()) return {};
     std::error_code failure;
     fs::create_directories(fs::path(cached).parent_path(), failure);

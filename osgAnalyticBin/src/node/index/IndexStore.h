@@ -7,9 +7,7 @@
 #include <osgAnalyticBin/index/DatabaseFiles.h>
 
 #include <functional>
-#include <iosfwd>
 #include <string>
-#include <string_view>
 
 namespace osgAnalyticBin::indexing {
 
@@ -19,20 +17,13 @@ namespace osgAnalyticBin::indexing {
                               const std::function<void()>& checkpoint);
 
 /// The file in the user's cache folder that keeps the index of a database:
-/// "$XDG_CACHE_HOME/osgAnalyticBin/CHECKSUM.EXTENSION", or below "$HOME/.cache", on Windows below "%LOCALAPPDATA%", by
+/// "$XDG_CACHE_HOME/osgAnalyticBin/CHECKSUM.bins", or below "$HOME/.cache", on Windows below "%LOCALAPPDATA%", by
 /// a checksum of the absolute path of the root file. Returns: empty where there is no such folder.
-[[nodiscard]] std::string cachedIndexName(const std::string& rootFile, const std::string& extension);
-
-/// An index of any kind, as a file.
-struct IndexFile {
-    std::string beside;      ///< its path beside the database
-    std::string_view magic;  ///< what such files begin with
-    std::function<bool(std::ostream&)> write;
-};
+[[nodiscard]] std::string cachedIndexName(const std::string& rootFile);
 
 /// Keeps an index: beside the database, or, where that cannot be written or another file has its name, in the cache
 /// folder. A file is replaced when the new one is complete. Of several processes that write the same file, the last one
 /// keeps its own. Returns: the path; empty, with the reason in `error`, when the index could not be kept.
-[[nodiscard]] std::string keepIndex(const IndexFile& index, const std::string& rootFile, std::string& error);
+[[nodiscard]] std::string keepIndex(const BinIndex& index, const std::string& rootFile, std::string& error);
 
 }  // namespace osgAnalyticBin::indexing

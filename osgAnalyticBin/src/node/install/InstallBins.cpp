@@ -9,6 +9,7 @@
 #include "BinInstaller.h"
 
 #include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/PhotogrammetrySet.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/NodeVisitor>
@@ -106,7 +107,9 @@ std::size_t installBins(osg::Node& node, const CullOptions& options) {
 
 std::size_t installBins(osg::Node& node, const CullOptions& options, const std::string& databaseFileName,
                         const osgDB::Options* readOptions) {
-    const ChosenIndex chosen = chooseIndex(databaseFileName, readOptions, options.index);
+    // photogrammetry sets look for theirs themselves
+    const std::string& database = isMetadataName(databaseFileName) ? std::string() : databaseFileName;
+    const ChosenIndex chosen = chooseIndex(database, readOptions, options.index);
     const std::size_t installed = install(node, options, chosen.index.get());
     makeIndex(node, chosen.making.get());
     return installed;

@@ -269,7 +269,7 @@ TEST(Program, APhotogrammetrySetLosesNothing) {
     const auto index = makeBoxIndex(set, 2, {}, error);
     ASSERT_TRUE(index) << error;
     for (const bool isIndexed : {false, true}) {
-        ASSERT_TRUE(!isIndexed || index->write(boxIndexPath(set), error)) << error;
+        ASSERT_TRUE(!isIndexed || index->write(binIndexName(set), error)) << error;
         const Json methods = bench.run("set", "--methods sphere,quadratic --live 0");
         ASSERT_EQ(methods.size(), 3U);
         EXPECT_EQ(methods["quadratic"]["false_culls"], 0);

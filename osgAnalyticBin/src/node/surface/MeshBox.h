@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <osgAnalyticBin/AnalyticBin.h>
 #include <osgAnalyticBin/core/Plane.h>
 
 #include <osg/BoundingBox>
@@ -17,6 +18,8 @@ class MeshBox final {
 public:
     MeshBox() = default;
     explicit MeshBox(const osg::BoundingBoxf& box) : _box(box._min, box._max) {}
+    /// What bin() has made a bin; boundless when that is not valid.
+    explicit MeshBox(const AnalyticBin& bin);
 
     /// The box of a mesh of unknown extent.
     [[nodiscard]] static MeshBox boundless();
@@ -31,8 +34,9 @@ public:
     /// The box of what is in this one, moved by an affine matrix.
     [[nodiscard]] MeshBox moved(const osg::Matrixd& matrix) const;
 
-    /// Rounded outward. Not valid when it is empty or boundless.
-    [[nodiscard]] osg::BoundingBoxf toFloat() const;
+    /// As a bin of the map whose coordinates are those of the mesh. Not valid when the box is empty, boundless, or too
+    /// far away for a map.
+    [[nodiscard]] AnalyticBin bin() const;
 
 private:
     osg::BoundingBoxd _box;

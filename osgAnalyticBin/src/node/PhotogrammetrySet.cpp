@@ -56,6 +56,10 @@ std::string rootFileIn(const std::string& folder) {
 
 }  // namespace
 
+bool isMetadataName(const std::string& rootFile) {
+    return osgDB::getLowerCaseFileExtension(rootFile) == "xml";
+}
+
 PhotogrammetryFiles findPhotogrammetryFiles(const std::string& metadataFile, std::string& error) {
     PhotogrammetryFiles found;
     const std::string above = osgDB::getFilePath(metadataFile);

@@ -5,6 +5,8 @@
 
 #include "../Spheres.h"
 
+#include <osgAnalyticBin/core/Ellipsoid.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -14,14 +16,7 @@ namespace osgAnalyticBin {
 
 namespace {
 
-float roundedDown(double value) {
-    const auto rounded = static_cast<float>(value);
-    return rounded > value ? std::nextafter(rounded, -std::numeric_limits<float>::infinity()) : rounded;
-}
-
-float roundedUp(double value) {
-    return -roundedDown(-value);
-}
+constexpr double kUnits = core::Ellipsoid::kMapUnitsInRadian;
 
 bool isFinite(const osg::BoundingBoxd& box) {
     const double sum = box.xMin() + box.xMax() + box.yMin() + box.yMax() + box.zMin() + box.zMax();
@@ -29,6 +24,12 @@ bool isFinite(const osg::BoundingBoxd& box) {
 }
 
 }  // namespace
+
+MeshBox::MeshBox(const AnalyticBin& bin) : _isBoundless(!bin.valid()) {
+    const core::Interval &x = bin.bin().longitude(), &y = bin.bin().latitude(), &z = bin.bin().altitude();
+    if (!_isBoundless)
+        _box.set(x.lower * kUnits, y.lower * kUnits, z.lower, x.upper * kUnits, y.upper * kUnits, z.upper);
+}
 
 MeshBox MeshBox::boundless() {
     MeshBox box;
@@ -55,10 +56,13 @@ MeshBox MeshBox::moved(const osg::Matrixd& matrix) const {
     return isFinite(result._box) ? result : boundless();
 }
 
-osg::BoundingBoxf MeshBox::toFloat() const {
-    if (!_box.valid()) return {};
-    return {roundedDown(_box.xMin()), roundedDown(_box.yMin()), roundedDown(_box.zMin()),
-            roundedUp(_box.xMax()),   roundedUp(_box.yMax()),   roundedUp(_box.zMax())};
+AnalyticBin MeshBox::bin() const {
+    const auto isInMap = [](double x) { return std::abs(x) <= core::Ellipsoid::kFarthestInMap; };
+    if (!_box.valid() || !isInMap(_box.xMin()) || !isInMap(_box.xMax()) || !isInMap(_box.yMin()) ||
+        !isInMap(_box.yMax()))
+        return {};
+    return AnalyticBin(core::GeodeticBin({_box.yMin() / kUnits, _box.yMax() / kUnits},
+                                         {_box.xMin() / kUnits, _box.xMax() / kUnits}, {_box.zMin(), _box.zMax()}));
 }
 
 TestedBox::TestedBox(const osg::BoundingBoxd& box)

@@ -3,10 +3,8 @@
 //
 // makeBoxIndex(): reads all files of a set, each once, and adds up their boxes from the leaves.
 
-#include "BoxSurvey.h"
-
 #include "../WorkQueue.h"
-#include "LodContent.h"
+#include "../surface/LodContent.h"
 
 #include <osgAnalyticBin/BoxIndex.h>
 #include <osgAnalyticBin/PhotogrammetrySet.h>
@@ -65,16 +63,15 @@ public:
     [[nodiscard]] bool isStopped() const { return _isStopped; }
 
     /// Requires: run().
-    [[nodiscard]] osg::ref_ptr<BoxIndex> result() {
-        const osg::ref_ptr<BoxIndex> index = new BoxIndex;
+    [[nodiscard]] osg::ref_ptr<BinIndex> result() {
+        const osg::ref_ptr<BinIndex> index = new BinIndex;
         BinIndex::Stamps stamps;
         for (const auto& [file, read] : _read) {
             stamps[file] = read.stamp;
             if (!read.content) continue;
-            const std::vector<MeshBox> boxes = boxesOf(*read.content);
-            BoxIndex::Boxes known;
-            for (const MeshBox& box : boxes) known.push_back(box.toFloat());
-            index->add(file, std::move(known));
+            std::vector<BinIndex::Entry> entries;
+            for (const MeshBox& box : boxesOf(*read.content)) entries.push_back({box.bin()});
+            index->setTiles(file, std::move(entries));
         }
         index->setStamps(std::move(stamps));
         return index;
@@ -166,8 +163,8 @@ private:
 
 }  // namespace
 
-osg::ref_ptr<BoxIndex> surveyBoxes(const std::string& metadataFile, int threads, const BoxIndexProgress& progress,
-                                   std::string& error) {
+osg::ref_ptr<BinIndex> makeStampedBoxIndex(const std::string& metadataFile, int threads,
+                                           const BoxIndexProgress& progress, std::string& error) {
     const PhotogrammetryFiles files = findPhotogrammetryFiles(metadataFile, error);
     if (files.roots.empty()) return nullptr;
     Survey survey(osgDB::getFilePath(metadataFile), progress);
@@ -176,15 +173,16 @@ osg::ref_ptr<BoxIndex> surveyBoxes(const std::string& metadataFile, int threads,
         error = "was stopped";
         return nullptr;
     }
-    osg::ref_ptr<BoxIndex> index = survey.result();
-    if (index->numFiles() > 0) return index;
+    osg::ref_ptr<BinIndex> index = survey.result();
+    index->setSource({osgDB::getSimpleFileName(metadataFile), 0, 0});
+    if (index->fileCount() > 0) return index;
     error = "no tile of \"" + metadataFile + "\" can be read";
     return nullptr;
 }
 
-osg::ref_ptr<BoxIndex> makeBoxIndex(const std::string& metadataFile, int threads, const BoxIndexProgress& progress,
+osg::ref_ptr<BinIndex> makeBoxIndex(const std::string& metadataFile, int threads, const BoxIndexProgress& progress,
                                     std::string& error) {
-    osg::ref_ptr<BoxIndex> index = surveyBoxes(metadataFile, threads, progress, error);
+    osg::ref_ptr<BinIndex> index = makeStampedBoxIndex(metadataFile, threads, progress, error);
     // it may be copied together with the set
     if (index) index->setStamps({});
     return index;
