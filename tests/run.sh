@@ -66,7 +66,7 @@ build tsan --target osganalyticbin_threads_tests osgdb_serializers_osganalyticbi
 test_preset tsan -L threads
 build scalar --target osganalyticbin_core_tests
 test_preset scalar -L core-quick
-build static --target osgAnalyticBinViewer
+build static --target osgAnalyticBinViewer osgAnalyticBinMappings
 step "a static kit and viewer library, as others use them"
 sh tests/system/package/buildtree.sh "$PWD" "$PWD/build/static" "$PWD/build/static/buildtree"
 

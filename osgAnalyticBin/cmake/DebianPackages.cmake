@@ -45,10 +45,11 @@ osgviewer and every other application of OpenSceneGraph find by themselves:
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libosganalyticbin-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "${_same_library}, libopenscenegraph-dev (>= 3.6), libglm-dev, libboost-dev (>= 1.74)")
+    "${_same_library}, libopenscenegraph-dev (>= 3.6), libglm-dev")
 if(OSGANALYTICBIN_SIMD)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libhwy-dev")
 endif()
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libboost-dev (>= 1.74)")  # component mappings
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
     "analytic-bin culling of paged terrain for OpenSceneGraph, development files
 Headers, the mathematics as a static library that does not need

@@ -21,10 +21,21 @@ install(
   RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT runtime
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT runtime NAMELINK_COMPONENT development
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
-install(DIRECTORY include/osgAnalyticBin DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development)
+set(_headers_left_out PATTERN mappings EXCLUDE)
+set(_parts Core Kit Viewer)
+set(_pkgconfig_files osgAnalyticBinCore osgAnalyticBin osgAnalyticBinViewer)
+if(TARGET osgAnalyticBinMappings)
+  set(_headers_left_out "")
+  install(TARGETS osgAnalyticBinMappings EXPORT osgAnalyticBinMappingsTargets
+          ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
+  list(APPEND _parts Mappings)
+  list(APPEND _pkgconfig_files osgAnalyticBinMappings)
+endif()
+install(DIRECTORY include/osgAnalyticBin DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development
+        ${_headers_left_out})
 
 # The same in the build folder: find_package finds it there as soon as the folder of the programs is on PATH.
-foreach(_part IN ITEMS Core Kit Viewer)
+foreach(_part IN LISTS _parts)
   install(EXPORT osgAnalyticBin${_part}Targets NAMESPACE osgAnalyticBin:: DESTINATION "${_package_dir}"
           COMPONENT development)
   export(EXPORT osgAnalyticBin${_part}Targets NAMESPACE osgAnalyticBin::
@@ -45,7 +56,7 @@ set(_simd_package "")
 if(OSGANALYTICBIN_SIMD)
   set(_simd_package "libhwy")
 endif()
-foreach(_name IN ITEMS osgAnalyticBinCore osgAnalyticBin osgAnalyticBinViewer)
+foreach(_name IN LISTS _pkgconfig_files)
   configure_file(cmake/${_name}.pc.in ${_name}.pc @ONLY)
   install(FILES "${CMAKE_CURRENT_BINARY_DIR}/${_name}.pc" DESTINATION "${_pkgconfig_dir}" COMPONENT development)
 endforeach()

@@ -7,7 +7,7 @@
 #pragma once
 
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
-#include <osgAnalyticBin/core/formula/AutodiffMapping.h>
+#include <osgAnalyticBin/mappings/AutodiffMapping.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 
 #include "BezierSolid.h"
 
-#include <osgAnalyticBin/core/formula/FormulaRounding.h>
+#include <osgAnalyticBin/mappings/FormulaRounding.h>
 
 #include <glm/geometric.hpp>
 

@@ -5,7 +5,7 @@
 
 #include "CullWatcher.h"
 
-#include <osgAnalyticBin/QuadraticBinCullCallback.h>
+#include <osgAnalyticBin/mappings/QuadraticBinCullCallback.h>
 
 #include <osg/Polytope>
 #include <osgUtil/RenderStage>

@@ -7,8 +7,8 @@
 #include "TorusSegment.h"
 
 #include <osgAnalyticBin/core/bin/AnalyticMapping.h>
-#include <osgAnalyticBin/core/formula/AutodiffMapping.h>
-#include <osgAnalyticBin/core/formula/CylinderSegment.h>
+#include <osgAnalyticBin/mappings/AutodiffMapping.h>
+#include <osgAnalyticBin/mappings/CylinderSegment.h>
 
 #include <glm/geometric.hpp>
 #include <osg/Geometry>

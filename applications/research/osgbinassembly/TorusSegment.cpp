@@ -3,8 +3,8 @@
 
 #include "TorusSegment.h"
 
-#include <osgAnalyticBin/core/formula/FormulaRounding.h>
-#include <osgAnalyticBin/core/formula/IntervalNumber.h>
+#include <osgAnalyticBin/mappings/FormulaRounding.h>
+#include <osgAnalyticBin/mappings/IntervalNumber.h>
 
 #include <glm/geometric.hpp>
 

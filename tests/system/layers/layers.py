@@ -18,7 +18,7 @@ TILE = BASE + ["node/surface", "node/tile"]
 PAGE = TILE + ["node/cull", "node/index", "node/page"]
 KIT = PAGE + ["node/boxes", "node/install"]
 LAYERS = {
-    "core": ([], GLM | {"boost", "hwy"}),
+    "core": ([], GLM | {"hwy"}),
     "node": (CORE, GLM | {"osg", "osgDB"}),
     "node/surface": (BASE, OSG),
     "node/tile": (TILE, OSG),
@@ -27,6 +27,7 @@ LAYERS = {
     "node/page": (PAGE, OSG | {"osgDB", "osgUtil"}),
     "node/boxes": (PAGE, OSG | {"osgDB", "osgUtil"}),
     "node/install": (KIT, OSG | {"osgDB"}),
+    "mappings": (BASE + ["node/cull"], GLM | {"boost", "osg"}),
     "serializers": (KIT, OSG | {"osgDB"}),
     "plugin": (KIT, OSG | {"osgDB", "proj"}),
     "viewer": (KIT, OSG | {"osgDB", "osgGA", "osgText", "osgUtil", "osgViewer"}),

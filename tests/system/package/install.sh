@@ -41,23 +41,25 @@ export LD_LIBRARY_PATH=
 echo "== no installed text names a folder of the build"
 ! grep -rIlF -e "$source" -e "$build" -e "$scratch" "$moved" || fail "the files above do"
 
-echo "== find_package, components core and kit"
+echo "== find_package, all components"
 quietly consumer build
 quietly cmake --build "$scratch/build"
 ctest --test-dir "$scratch/build" --output-on-failure --no-tests=error
 
-echo "== component core without OpenSceneGraph; components kit and viewer say what it needs"
-quietly consumer core -DCONSUMER_COMPONENTS=core -DCMAKE_DISABLE_FIND_PACKAGE_OpenSceneGraph=ON
+echo "== without Boost all but mappings; component core without OpenSceneGraph; the others say what they need"
+quietly consumer viewer "-DCONSUMER_COMPONENTS=kit;viewer" -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON
+! consumer mappings -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON >"$scratch/log" 2>&1 || fail "mappings was found without Boost"
+quietly consumer core -DCONSUMER_COMPONENTS=core -DCMAKE_DISABLE_FIND_PACKAGE_OpenSceneGraph=ON -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON
 quietly cmake --build "$scratch/core"
 ! consumer kit -DCMAKE_DISABLE_FIND_PACKAGE_OpenSceneGraph=ON >"$scratch/log" 2>&1 || fail "kit was found without OSG"
-tr '\n' ' ' <"$scratch/log" | tr -s ' ' | grep -q "components kit and viewer need OpenSceneGraph" || {
+tr '\n' ' ' <"$scratch/log" | tr -s ' ' | grep -q "components kit, viewer and mappings need OpenSceneGraph" || {
     cat "$scratch/log" >&2
     fail "no clear word about OpenSceneGraph"
 }
 
 echo "== pkg-config"
 export PKG_CONFIG_PATH="$moved/$libdir/pkgconfig"
-for pair in uses_core:osgAnalyticBinCore uses_kit:osgAnalyticBin uses_viewer:osgAnalyticBinViewer; do
+for pair in uses_core:osgAnalyticBinCore uses_kit:osgAnalyticBin uses_viewer:osgAnalyticBinViewer uses_mappings:osgAnalyticBinMappings; do
     program=${pair%:*}
     flags=$(pkg-config --cflags --libs "${pair#*:}")
     # shellcheck disable=SC2086

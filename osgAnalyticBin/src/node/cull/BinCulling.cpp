@@ -9,15 +9,6 @@
 
 namespace osgAnalyticBin {
 
-bool isSmall(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere) {
-    const osg::CullingSet::Mask mask = cullingSet.getCullingMask();
-    if (!(mask & osg::CullingSet::SMALL_FEATURE_CULLING) || !sphere.valid()) return false;
-    cullingSet.setCullingMask(osg::CullingSet::SMALL_FEATURE_CULLING);
-    const bool culled = cullingSet.isCulled(sphere);
-    cullingSet.setCullingMask(mask);
-    return culled;
-}
-
 bool isSphereCulled(osg::CullingSet& cullingSet, core::PlaneMask undecided, const osg::BoundingSphere& sphere) {
     osg::Polytope& frustum = cullingSet.getFrustum();
     const core::PlaneMask before = frustum.getCurrentMask();

@@ -5,7 +5,7 @@
 
 #include "TorusSegment.h"
 
-#include <osgAnalyticBin/core/formula/AutodiffMapping.h>
+#include <osgAnalyticBin/mappings/AutodiffMapping.h>
 
 #include <gtest/gtest.h>
 

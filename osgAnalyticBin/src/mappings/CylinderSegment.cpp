@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <osgAnalyticBin/core/formula/CylinderSegment.h>
-#include <osgAnalyticBin/core/formula/FormulaRounding.h>
+#include <osgAnalyticBin/mappings/CylinderSegment.h>
+#include <osgAnalyticBin/mappings/FormulaRounding.h>
 
 #include <glm/geometric.hpp>
 

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <osgAnalyticBin/Export.h>
 #include <osgAnalyticBin/core/bin/QuadraticBin.h>
 
 #include <osg/BoundingSphere>
@@ -28,7 +27,7 @@ namespace osgAnalyticBin {
 /// tests: QuadraticBinCullCallback.*.
 /// Threads: run() changes nothing in the callback.
 /// Cost: no allocation, no trigonometry.
-class OSGANALYTICBIN_EXPORT QuadraticBinCullCallback : public osg::NodeCallback {
+class QuadraticBinCullCallback : public osg::NodeCallback {
 public:
     /// Without a bin: never culls.
     QuadraticBinCullCallback() = default;

@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "BinCulling.h"
+#include "../node/GlmBridge.h"
+#include "../node/cull/CullScopes.h"
 
-#include <osgAnalyticBin/QuadraticBinCullCallback.h>
+#include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
+#include <osgAnalyticBin/mappings/QuadraticBinCullCallback.h>
 
 namespace osgAnalyticBin {
 
@@ -26,11 +29,17 @@ void QuadraticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv)
 
 bool QuadraticBinCullCallback::isCulled(osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
     if (!_bin) return false;
-    CullTraversal& traversal = CullTraversal::of(nv);
-    return isCulledByBin(cullStack, nv, traversal, _sphere, [&](const osg::Polytope&, core::PlaneMask& undecided) {
-        const core::PlaneSet& planes = traversal.planes(cullStack);
-        return Verdict{core::classify(*_bin, planes, undecided), Verdict::Plane};
-    });
+    core::Side side = core::Side::Straddling;
+    const bool culled =
+        isOutsideOrSmall(cullStack, _sphere, [&](const osg::Polytope& frustum, core::PlaneMask& undecided) {
+            core::PlaneSet planes;
+            for (const osg::Plane& plane : frustum.getPlaneList()) planes.push_back(toCore(plane));
+            return side = core::classify(*_bin, planes, undecided);
+        });
+    if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR) {
+        BinStatistics::of(nv).count(culled ? core::Side::Outside : side, nv.getTraversalNumber());
+    }
+    return culled;
 }
 
 }  // namespace osgAnalyticBin

@@ -5,7 +5,7 @@
 
 #include <osgAnalyticBin/core/Vec3.h>
 #include <osgAnalyticBin/core/bin/AnalyticMapping.h>
-#include <osgAnalyticBin/core/formula/IntervalNumber.h>
+#include <osgAnalyticBin/mappings/IntervalNumber.h>
 
 #include <array>
 #include <cstddef>

@@ -5,7 +5,7 @@
 
 #include <osgAnalyticBin/core/Vec3.h>
 #include <osgAnalyticBin/core/bin/AnalyticMapping.h>
-#include <osgAnalyticBin/core/formula/TaylorInterval.h>
+#include <osgAnalyticBin/mappings/TaylorInterval.h>
 
 #include <algorithm>
 #include <boost/math/differentiation/autodiff.hpp>

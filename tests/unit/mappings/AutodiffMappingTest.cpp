@@ -4,7 +4,7 @@
 // Oracles: GeodeticMapping's closed forms, finite differences and dense sampling in long double, convergence order.
 
 #include <osgAnalyticBin/core/bin/GeodeticMapping.h>
-#include <osgAnalyticBin/core/formula/AutodiffMapping.h>
+#include <osgAnalyticBin/mappings/AutodiffMapping.h>
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include "MercatorHeightField.h"
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
-#include <osgAnalyticBin/core/formula/AutodiffMapping.h>
+#include <osgAnalyticBin/mappings/AutodiffMapping.h>
 
 #include <gtest/gtest.h>
 

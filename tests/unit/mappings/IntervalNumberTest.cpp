@@ -3,7 +3,7 @@
 
 // Oracle: long double evaluation at points of the interval, ends and extrema among them.
 
-#include <osgAnalyticBin/core/formula/IntervalNumber.h>
+#include <osgAnalyticBin/mappings/IntervalNumber.h>
 
 #include <gtest/gtest.h>
 

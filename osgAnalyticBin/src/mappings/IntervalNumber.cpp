@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "../Constants.h"
+#include "../core/Constants.h"
 
-#include <osgAnalyticBin/core/formula/IntervalNumber.h>
+#include <osgAnalyticBin/mappings/IntervalNumber.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <osgAnalyticBin/core/formula/TaylorInterval.h>
+#include <osgAnalyticBin/mappings/TaylorInterval.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,17 +5,16 @@
 // planes; the same scene under a transform; OSG's own small-feature test. The verdict against a single plane is tested
 // in core/, what it shares with AnalyticBinCullCallback in that callback's test.
 
-#include "CullFixture.h"
-
 #include <osgAnalyticBin/BinStatistics.h>
-#include <osgAnalyticBin/QuadraticBinCullCallback.h>
-#include <osgAnalyticBin/core/formula/AutodiffMapping.h>
-#include <osgAnalyticBin/core/formula/CylinderSegment.h>
+#include <osgAnalyticBin/mappings/AutodiffMapping.h>
+#include <osgAnalyticBin/mappings/CylinderSegment.h>
+#include <osgAnalyticBin/mappings/QuadraticBinCullCallback.h>
 
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
 
 #include <algorithm>
+#include <node/CullFixture.h>
 #include <support/Random.h>
 
 namespace osgAnalyticBin {

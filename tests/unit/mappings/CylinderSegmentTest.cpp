@@ -3,8 +3,8 @@
 
 // Oracles: see support/MappingChecks.h; the largest third differential in closed form.
 
-#include <osgAnalyticBin/core/formula/AutodiffMapping.h>
-#include <osgAnalyticBin/core/formula/CylinderSegment.h>
+#include <osgAnalyticBin/mappings/AutodiffMapping.h>
+#include <osgAnalyticBin/mappings/CylinderSegment.h>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include "MercatorHeightField.h"
 
-#include <osgAnalyticBin/core/formula/FormulaRounding.h>
+#include <osgAnalyticBin/mappings/FormulaRounding.h>
 
 #include <algorithm>
 #include <cmath>

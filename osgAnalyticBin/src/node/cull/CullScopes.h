@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// What a cull callback that tests its node by a bin does to OSG's masks. Headers alone: mappings/ includes it, too.
+
+#pragma once
+
+#include <osgAnalyticBin/core/Plane.h>
+
+#include <osg/BoundingSphere>
+#include <osg/CullSettings>
+#include <osg/CullStack>
+#include <osg/CullingSet>
+#include <osg/NodeVisitor>
+#include <osg/Polytope>
+
+#include <cstddef>
+
+namespace osgAnalyticBin {
+
+/// Whether the camera that is culled for has occluders. OSG's tests of spheres are all that is needed then: those of
+/// occluders keep masks of what is left to test, which they inherit from node to node.
+[[nodiscard]] inline bool hasActiveOccluders(osg::CullStack& cullStack) {
+    return (cullStack.getCullingMode() & osg::CullSettings::SHADOW_OCCLUSION_CULLING) &&
+           !cullStack.getOccluderList().empty();
+}
+
+/// OSG's own small-feature test, and nothing else of CullingSet::isCulled(BoundingSphere).
+[[nodiscard]] inline bool isSmall(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere) {
+    const osg::CullingSet::Mask mask = cullingSet.getCullingMask();
+    if (!(mask & osg::CullingSet::SMALL_FEATURE_CULLING) || !sphere.valid()) return false;
+    cullingSet.setCullingMask(osg::CullingSet::SMALL_FEATURE_CULLING);
+    const bool culled = cullingSet.isCulled(sphere);
+    cullingSet.setCullingMask(mask);
+    return culled;
+}
+
+/// Sets the planes that are tested from here on. The result mask is what a child with a sphere test begins with when no
+/// plane is left.
+inline void setUndecided(osg::Polytope& frustum, core::PlaneMask planes) {
+    frustum.getCurrentMask() = planes;
+    frustum.setResultMask(planes);
+}
+
+/// While it exists, OSG tests only the undecided planes below transforms, too. By itself OSG begins with all
+/// planes below each transform and moves them to its frame. `undecided` numbers the planes of the current culling set.
+/// Where these are not all planes of the camera, because a transform above has left some out, it does nothing.
+class PlanesBelow {
+public:
+    PlanesBelow(osg::CullStack& cullStack, core::PlaneMask undecided) : _cullStack(cullStack) {
+        osg::Polytope& frustum = cullStack.getProjectionCullingStack().back().getFrustum();
+        _before = frustum.getCurrentMask();
+        const std::size_t planes = cullStack.getCurrentCullingSet().getFrustum().getPlaneList().size();
+        if (frustum.getPlaneList().size() == planes) frustum.getCurrentMask() &= undecided;
+    }
+    ~PlanesBelow() { _cullStack.getProjectionCullingStack().back().getFrustum().getCurrentMask() = _before; }
+    PlanesBelow(const PlanesBelow&) = delete;
+    PlanesBelow& operator=(const PlanesBelow&) = delete;
+
+private:
+    osg::CullStack& _cullStack;
+    core::PlaneMask _before;
+};
+
+/// Whether a node is culled: by its bin against the undecided planes, or as a small feature. Planes that have the bin
+/// inside are cleared from the frustum's masks, so that they are not tested again below the node.
+/// `classify(const osg::Polytope& frustum, core::PlaneMask& undecided)` tests the bin; it is called where OSG culls by
+/// the frustum.
+template <class Classify>
+[[nodiscard]] bool isOutsideOrSmall(osg::CullStack& cullStack, const osg::BoundingSphere& sphere,
+                                    const Classify& classify) {
+    osg::CullingSet& cullingSet = cullStack.getCurrentCullingSet();
+    osg::Polytope& frustum = cullingSet.getFrustum();
+    core::Side side = core::Side::Straddling;
+    if (cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING) {
+        core::PlaneMask undecided = frustum.getCurrentMask();
+        side = classify(frustum, undecided);
+        // OSG pops this mask after the subgraph: a plane cleared here stays cleared just there.
+        setUndecided(frustum, undecided);
+    }
+    return side == core::Side::Outside || isSmall(cullingSet, sphere);
+}
+
+/// The body of such a callback: `isCulled(osg::CullStack&)` decides in a cull traversal without occluders, `traverse()`
+/// goes on.
+template <class IsCulled, class Traverse>
+void cullOrTraverse(osg::NodeVisitor& nv, const IsCulled& isCulled, const Traverse& traverse) {
+    osg::CullStack* cullStack = nv.asCullStack();
+    if (!cullStack || hasActiveOccluders(*cullStack)) {
+        traverse();
+        return;
+    }
+    osg::Polytope& frustum = cullStack->getCurrentCullingSet().getFrustum();
+    const osg::Polytope::ClippingMask before = frustum.getCurrentMask();
+    if (!isCulled(*cullStack)) {
+        const PlanesBelow planes(*cullStack, cullStack->getCurrentCullingSet().getFrustum().getCurrentMask());
+        traverse();
+    }
+    // not for siblings
+    cullStack->getCurrentCullingSet().getFrustum().setResultMask(before);
+}
+
+}  // namespace osgAnalyticBin
