@@ -64,7 +64,6 @@ step "packages"
 # shellcheck disable=SC2086
 sh applications/packages.sh demo libz-mingw-w64-dev $mingw_packages
 
-use_headers boost
 use_headers glm glm glm::glm
 use_headers CLI CLI11 CLI11::CLI11
 [ -e "$deps/lib/libjpeg.a" ] ||
@@ -78,7 +77,7 @@ use_headers CLI CLI11 CLI11::CLI11
 
 step "node kit, plugins and osgbinviewer for Windows"
 configure . "$work/build" -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DOSGANALYTICBIN_TESTS=OFF \
-    -DOSGANALYTICBIN_SIMD=OFF -DOSGANALYTICBIN_CCACHE=OFF
+    -DOSGANALYTICBIN_SIMD=OFF -DOSGANALYTICBIN_MAPPINGS=OFF -DOSGANALYTICBIN_CCACHE=OFF
 cmake --build "$work/build" --target install
 
 step "$archive.zip"

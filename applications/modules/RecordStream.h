@@ -5,7 +5,8 @@
 
 #include <osgAnalyticBin/AnalyticBin.h>
 
-#include <boost/endian/conversion.hpp>
+#include <osg/Endian>
+
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -20,9 +21,8 @@ class RecordWriter final {
 public:
     template <class T>
     void number(const T& value) {
-        unsigned char buffer[sizeof(T)];
-        boost::endian::endian_store<T, sizeof(T), boost::endian::order::little>(buffer, value);
-        bytes.append(reinterpret_cast<const char*>(buffer), sizeof buffer);
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+        if (osg::getCpuByteOrder() == osg::BigEndian) osg::swapBytes(&bytes[bytes.size() - sizeof value], sizeof value);
     }
     void flag(const bool& value) { number(static_cast<std::uint8_t>(value)); }
     void text(const std::string& value) {
@@ -59,9 +59,9 @@ public:
 
     template <class T>
     void number(T& value) {
-        const std::string_view bytes = take(sizeof(T));
-        value = boost::endian::endian_load<T, sizeof(T), boost::endian::order::little>(
-            reinterpret_cast<const unsigned char*>(bytes.data()));
+        char* const first = reinterpret_cast<char*>(&value);
+        take(sizeof value).copy(first, sizeof value);
+        if (osg::getCpuByteOrder() == osg::BigEndian) osg::swapBytes(first, sizeof value);
     }
     void flag(bool& value) {
         std::uint8_t byte = 0;

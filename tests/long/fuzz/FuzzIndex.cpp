@@ -8,7 +8,7 @@
 
 #include <osgAnalyticBin/BinIndex.h>
 
-#include <boost/crc.hpp>
+#include <node/index/Checksum.h>
 #include <sstream>
 #include <string>
 
@@ -35,9 +35,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::string bytes(reinterpret_cast<const char*>(data), size);
     tryIndex(bytes);
     if (size < 4) return 0;
-    boost::crc_32_type crc;
-    crc.process_bytes(bytes.data(), size - 4);
-    for (std::size_t i = 0; i < 4; ++i) bytes[size - 4 + i] = static_cast<char>(crc.checksum() >> (8 * i));
+    const std::uint32_t checksum = indexing::crc32(std::string_view(bytes).substr(0, size - 4));
+    for (std::size_t i = 0; i < 4; ++i) bytes[size - 4 + i] = static_cast<char>(checksum >> (8 * i));
     tryIndex(bytes);
     return 0;
 }

@@ -23,7 +23,7 @@ LAYERS = {
     "node/surface": (BASE, OSG),
     "node/tile": (TILE, OSG),
     "node/cull": (TILE, OSG | {"osgUtil"}),
-    "node/index": (TILE, OSG | {"osgDB", "boost"}),
+    "node/index": (TILE, OSG | {"osgDB"}),
     "node/page": (PAGE, OSG | {"osgDB", "osgUtil"}),
     "node/boxes": (PAGE, OSG | {"osgDB", "osgUtil"}),
     "node/install": (KIT, OSG | {"osgDB"}),

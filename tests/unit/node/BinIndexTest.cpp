@@ -4,6 +4,8 @@
 // The file format by round trips and by damage of every kind. What osgbinconv puts into an index is tested in
 // tests/unit/applications/osgbinconv, reading by OSG's file names in tests/unit/plugin.
 
+#include "../../osgAnalyticBin/src/node/index/Checksum.h"
+
 #include <osgAnalyticBin/BinIndex.h>
 
 #include <gtest/gtest.h>
@@ -78,6 +80,13 @@ void expectSame(const BinIndex& a, const BinIndex& b) {
             EXPECT_EQ(tiles[i].fingerprint, (*others)[i].fingerprint);
         }
     }
+}
+
+// The values that are published for "123456789" with these polynomials.
+TEST(BinIndex, ChecksumsAreThoseOfTheStandards) {
+    EXPECT_EQ(indexing::crc32("123456789"), 0xCBF43926u);
+    EXPECT_EQ(indexing::crc32("6789", indexing::crc32("12345")), 0xCBF43926u);
+    EXPECT_EQ(indexing::crc64("123456789"), 0x995DC9BBDF1939FAu);
 }
 
 TEST(BinIndex, ReadsBackWhatItWrote) {

@@ -9,16 +9,15 @@
 //   own-low (metres)  u32 flags (1: the bin is valid)  u64 fingerprint u32 CRC-32 of everything before
 // and, where the index has stamps: u64 number of files  for each, in order of their names: its name as above, u64 bytes
 //   i64 time  i64 nanoseconds  u32 CRC-32 of everything before
-// The checksum is Boost.CRC's: the core needs Boost's headers anyway, so that no further library is linked for it.
 
 #include "../WholeFile.h"
+#include "Checksum.h"
 
 #include <osgAnalyticBin/BinIndex.h>
 
+#include <osg/Endian>
+
 #include <algorithm>
-#include <array>
-#include <boost/crc.hpp>
-#include <boost/endian/conversion.hpp>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -46,26 +45,30 @@ struct Refusal {
     const char* why;
 };
 
+void toOrFromLittleEndian(char* number, std::size_t bytes) {
+    if (osg::getCpuByteOrder() == osg::BigEndian) osg::swapBytes(number, static_cast<unsigned int>(bytes));
+}
+
 class Writer {
 public:
     explicit Writer(std::ostream& out) : _out(out) {}
 
     void bytes(std::string_view text) {
-        _crc.process_bytes(text.data(), text.size());
+        _checksum = indexing::crc32(text, _checksum);
         _out.write(text.data(), static_cast<std::streamsize>(text.size()));
     }
     template <class T>
     void number(T value) {
-        std::array<unsigned char, sizeof(T)> buffer{};
-        boost::endian::endian_store<T, sizeof(T), boost::endian::order::little>(buffer.data(), value);
-        bytes({reinterpret_cast<const char*>(buffer.data()), buffer.size()});
+        char* const first = reinterpret_cast<char*>(&value);
+        toOrFromLittleEndian(first, sizeof value);
+        bytes({first, sizeof value});
     }
     void metres(double value) { number(static_cast<float>(value)); }
-    [[nodiscard]] std::uint32_t checksum() const { return _crc.checksum(); }
+    [[nodiscard]] std::uint32_t checksum() const { return _checksum; }
 
 private:
     std::ostream& _out;
-    boost::crc_32_type _crc;
+    std::uint32_t _checksum = 0;
 };
 
 class Reader {
@@ -83,22 +86,24 @@ public:
     }
     template <class T>
     T number() {
-        std::array<unsigned char, sizeof(T)> buffer{};
-        read(reinterpret_cast<char*>(buffer.data()), buffer.size());
-        return boost::endian::endian_load<T, sizeof(T), boost::endian::order::little>(buffer.data());
+        T value{};
+        char* const first = reinterpret_cast<char*>(&value);
+        read(first, sizeof value);
+        toOrFromLittleEndian(first, sizeof value);
+        return value;
     }
     double metres() { return static_cast<double>(number<float>()); }
-    [[nodiscard]] std::uint32_t checksum() const { return _crc.checksum(); }
+    [[nodiscard]] std::uint32_t checksum() const { return _checksum; }
 
 private:
     void read(char* to, std::size_t count) {
         _in.read(to, static_cast<std::streamsize>(count));
         if (static_cast<std::size_t>(_in.gcount()) != count) throw Refusal{kTruncated};
-        _crc.process_bytes(to, count);
+        _checksum = indexing::crc32({to, count}, _checksum);
     }
 
     std::istream& _in;
-    boost::crc_32_type _crc;
+    std::uint32_t _checksum = 0;
 };
 
 void writeTile(Writer& out, const BinIndex::Entry& tile) {

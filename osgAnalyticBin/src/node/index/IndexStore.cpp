@@ -3,7 +3,8 @@
 
 #include "IndexStore.h"
 
-#include <boost/crc.hpp>
+#include "Checksum.h"
+
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -73,10 +74,8 @@ std::string cachedIndexName(const std::string& rootFile) {
     std::error_code failure;
     const std::string path = fs::canonical(rootFile, failure).string();
     if (folder.empty() || failure) return {};
-    boost::crc_optimal<64, 0x42F0E1EBA9EA3693u, 0xFFFFFFFFFFFFFFFFu, 0xFFFFFFFFFFFFFFFFu, true, true> crc;
-    crc.process_bytes(path.data(), path.size());
     char name[32];
-    std::snprintf(name, sizeof name, "/%016llx", static_cast<unsigned long long>(crc.checksum()));
+    std::snprintf(name, sizeof name, "/%016llx", static_cast<unsigned long long>(crc64(path)));
     return binIndexName(folder + name);
 }
 

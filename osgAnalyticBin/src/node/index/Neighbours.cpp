@@ -3,10 +3,9 @@
 
 #include "Neighbours.h"
 
+#include <osg/BoundingBox>
+
 #include <algorithm>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
-#include <boost/geometry/index/rtree.hpp>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -17,9 +16,6 @@ using osgAnalyticBin::core::Interval;
 
 namespace {
 
-namespace bg = boost::geometry;
-namespace bgi = boost::geometry::index;
-
 constexpr double kTwoPi = 6.28318530717958647693;
 // Of a tile's width.
 constexpr double kTolerance = 1e-6;
@@ -28,14 +24,54 @@ constexpr double kSmallestRadius = 1.0e6;
 constexpr double kMapUnitsInRadian = osgAnalyticBin::core::Ellipsoid::kMapUnitsInRadian;
 constexpr double kSmallestCosine = 1e-3;
 
-using Point = bg::model::point<double, 2, bg::cs::cartesian>;
-using Box = bg::model::box<Point>;
-using Item = std::pair<Box, std::uint32_t>;
-using Tree = bgi::rtree<Item, bgi::quadratic<16>>;
+// Longitude and latitude on x and y, tolerances included.
+using Box = osg::BoundingBoxd;
+
+struct Item {
+    Box box;
+    std::uint32_t tile;
+    Box around{};  // all items of the half that this one is the middle of
+};
+
+// Items that are halved at their middles, in turn along each axis.
+class Tree {
+public:
+    explicit Tree(std::vector<Item> items) : _items(std::move(items)) { halve(0, _items.size(), 0); }
+
+    // Calls `visit(tile)` for those that meet a box, as long as it returns true.
+    template <class Visit>
+    void visitMeeting(const Box& box, const Visit& visit) const {
+        visitMeeting(box, 0, _items.size(), visit);
+    }
+
+private:
+    Box halve(std::size_t first, std::size_t end, int axis) {
+        const std::size_t middle = first + (end - first) / 2;
+        const auto at = [this](std::size_t i) { return _items.begin() + static_cast<std::ptrdiff_t>(i); };
+        std::nth_element(at(first), at(middle), at(end),
+                         [axis](const Item& a, const Item& b) { return a.box._min[axis] < b.box._min[axis]; });
+        Box around = _items[middle].box;
+        if (first < middle) around.expandBy(halve(first, middle, 1 - axis));
+        if (middle + 1 < end) around.expandBy(halve(middle + 1, end, 1 - axis));
+        return _items[middle].around = around;
+    }
+
+    template <class Visit>
+    bool visitMeeting(const Box& box, std::size_t first, std::size_t end, const Visit& visit) const {
+        if (first == end) return true;
+        const std::size_t middle = first + (end - first) / 2;
+        const Item& item = _items[middle];
+        if (!item.around.intersects(box)) return true;
+        return (!item.box.intersects(box) || visit(item.tile)) && visitMeeting(box, first, middle, visit) &&
+               visitMeeting(box, middle + 1, end, visit);
+    }
+
+    std::vector<Item> _items;
+};
 
 Box boxOf(const TileRect& rect) {
-    return {{rect.longitude.lower - rect.longitudeTolerance, rect.latitude.lower - rect.latitudeTolerance},
-            {rect.longitude.upper + rect.longitudeTolerance, rect.latitude.upper + rect.latitudeTolerance}};
+    return {rect.longitude.lower - rect.longitudeTolerance, rect.latitude.lower - rect.latitudeTolerance, 0.0,
+            rect.longitude.upper + rect.longitudeTolerance, rect.latitude.upper + rect.latitudeTolerance, 0.0};
 }
 
 bool isCorner(const TileRect& a, const TileRect& b) {
@@ -55,23 +91,22 @@ void addNeighbours(std::uint32_t index, const std::vector<TreeTile>& tiles, cons
     std::vector<Neighbour>& neighbours = result.neighbours[index];
     std::size_t compared = 0;
     for (const double turn : {-kTwoPi, 0.0, kTwoPi}) {
-        const auto box = bgi::intersects(boxOf(own.turned(-turn)));
-        for (auto item = tree.qbegin(box); item != tree.qend(); ++item) {
-            if (item->second == index && turn == 0.0) continue;
-            if (++compared > kMostBeside) {
-                result.isCrowded[index] = true;
-                neighbours = {};
-                break;
-            }
-            const TileRect other = rectOf(tiles[item->second].record->surface);
+        tree.visitMeeting(boxOf(own.turned(-turn)), [&](std::uint32_t tile) {
+            if (tile == index && turn == 0.0) return true;
+            if (++compared > kMostBeside) return false;
+            const TileRect other = rectOf(tiles[tile].record->surface);
             const double whole = shifted(other).longitude.lower - other.longitude.lower + turn +
                                  stored.longitude.lower - own.longitude.lower;
             const TileRect beside = other.turned(whole);
-            if (touch(stored, beside) && !isCorner(stored, beside)) neighbours.push_back({item->second, whole});
-        }
-        if (result.isCrowded[index]) break;
+            if (touch(stored, beside) && !isCorner(stored, beside)) neighbours.push_back({tile, whole});
+            return true;
+        });
     }
     result.comparisons += compared;
+    if (compared > kMostBeside) {
+        result.isCrowded[index] = true;
+        neighbours = {};
+    }
     std::sort(neighbours.begin(), neighbours.end(), [](const Neighbour& a, const Neighbour& b) {
         return a.tile != b.tile ? a.tile < b.tile : a.turn < b.turn;
     });
@@ -112,14 +147,14 @@ Neighbourhood findNeighbours(const std::vector<TreeTile>& tiles) {
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         const osgAnalyticBin::TileSurface& surface = tiles[i].record->surface;
         if (!surface.bin.valid()) continue;
-        levels[tiles[i].depth].emplace_back(boxOf(shifted(rectOf(surface))), static_cast<std::uint32_t>(i));
+        levels[tiles[i].depth].push_back({boxOf(shifted(rectOf(surface))), static_cast<std::uint32_t>(i)});
     }
     Neighbourhood result;
     result.neighbours.resize(tiles.size());
     result.isCrowded.resize(tiles.size(), false);
     for (const auto& level : levels) {
-        const Tree tree(level.second.begin(), level.second.end());
-        for (const Item& item : level.second) addNeighbours(item.second, tiles, tree, result);
+        const Tree tree(level.second);
+        for (const Item& item : level.second) addNeighbours(item.tile, tiles, tree, result);
     }
     return result;
 }
