@@ -5,6 +5,8 @@
 
 #include "Angles.h"
 
+#include <osgAnalyticBin/mappings/CylinderSegment.h>
+
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -26,6 +28,11 @@ using Generator = std::mt19937;
 double between(Generator& random, double lower, double upper) {
     // Not std::uniform_real_distribution, whose results differ between libraries.
     return lower + (upper - lower) * (static_cast<double>(random()) / static_cast<double>(Generator::max()));
+}
+
+core::Frame placed(const core::Frame& frame, const core::Frame& outer) {
+    const auto turned = [&](const glm::dvec3& v) { return v.x * outer.x + v.y * outer.y + v.z * outer.z; };
+    return {outer.toOuter(frame.origin), turned(frame.x), turned(frame.y), turned(frame.z)};
 }
 
 // A module under construction; everything in it is given in the module's own frame.
@@ -64,7 +71,7 @@ private:
 
     void addStraight(glm::dvec3& position, const glm::dvec3& direction, const glm::dvec3& side, double radius) {
         const double length = between(_random, 2.0, 8.0);
-        const core::Frame frame = core::Frame::aboutAxis(position, direction, side).placedIn(_place);
+        const core::Frame frame = placed(core::frameAboutAxis(position, direction, side), _place);
         for (int quarter = 0; quarter < 4; ++quarter) {
             _parts.push_back(makePipeQuarter(frame, radius, 0.05 * radius, length, quarter));
         }
@@ -81,7 +88,7 @@ private:
         for (int half = 0; half < 2; ++half) {
             for (int quarter = 0; quarter < 4; ++quarter) {
                 _parts.push_back(
-                    makeBendQuarter(frame.placedIn(_place), bendRadius, radius, 0.05 * radius, half, quarter));
+                    makeBendQuarter(placed(frame, _place), bendRadius, radius, 0.05 * radius, half, quarter));
             }
         }
         position = frame.origin + bendRadius * direction;
@@ -119,7 +126,7 @@ private:
 core::Frame modulePlace(int column, int row, int side, Generator& random) {
     const double yaw = between(random, 0.0, 2.0 * kPi);
     const glm::dvec3 origin((column - 0.5 * (side - 1)) * kModuleSize, (row - 0.5 * (side - 1)) * kModuleSize, 0.0);
-    return core::Frame::aboutAxis(origin, {0.0, 0.0, 1.0}, {std::cos(yaw), std::sin(yaw), 0.0});
+    return core::frameAboutAxis(origin, {0.0, 0.0, 1.0}, {std::cos(yaw), std::sin(yaw), 0.0});
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/Vec3.h>
 #include <osgAnalyticBin/core/bin/AnalyticMapping.h>
+#include <osgAnalyticBin/mappings/Vec3.h>
 
 #include <cstddef>
 #include <vector>

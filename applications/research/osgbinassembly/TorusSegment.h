@@ -4,8 +4,8 @@
 #pragma once
 
 #include <osgAnalyticBin/core/Frame.h>
-#include <osgAnalyticBin/core/Vec3.h>
 #include <osgAnalyticBin/core/bin/AnalyticMapping.h>
+#include <osgAnalyticBin/mappings/Vec3.h>
 
 #include <cmath>
 

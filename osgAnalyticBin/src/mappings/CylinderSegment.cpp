@@ -10,6 +10,12 @@
 
 namespace osgAnalyticBin::core {
 
+Frame frameAboutAxis(const glm::dvec3& origin, const glm::dvec3& axis, const glm::dvec3& zeroDirection) noexcept {
+    const glm::dvec3 z = glm::normalize(axis);
+    const glm::dvec3 y = glm::normalize(glm::cross(z, zeroDirection));
+    return {origin, glm::cross(y, z), y, z};
+}
+
 double CylinderSegment::remainder(const ParameterBox& box) const noexcept {
     const double a = box.halfSize.x;
     const double dr = box.halfSize.y;

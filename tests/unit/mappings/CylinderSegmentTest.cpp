@@ -20,10 +20,11 @@ namespace {
 using core::AutodiffMapping;
 using core::CylinderSegment;
 using core::Frame;
+using core::frameAboutAxis;
 using core::ParameterBox;
 
 Frame randomFrame(Random& random) {
-    return Frame::aboutAxis(random.direction() * random.logUniform(0.1, 1e6), random.direction(), random.direction());
+    return frameAboutAxis(random.direction() * random.logUniform(0.1, 1e6), random.direction(), random.direction());
 }
 
 // A piece of a pipe's wall, up to half a turn.
@@ -45,7 +46,7 @@ TEST(CylinderSegment, RemainderHoldsAndIsTight) {
     Random random(321);
     double worst = 0.0;
     for (int trial = 0; trial < 100; ++trial) {
-        const Frame frame = Frame::aboutAxis(random.direction(), random.direction(), random.direction());
+        const Frame frame = frameAboutAxis(random.direction(), random.direction(), random.direction());
         ParameterBox wall = randomWall(random);
         wall.halfSize.x = random.uniform(0.05, 0.8);
         worst = std::max(worst, expectRemainderHolds(AutodiffMapping(CylinderSegment(frame)), wall));

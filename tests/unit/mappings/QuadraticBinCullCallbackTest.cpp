@@ -30,7 +30,7 @@ osg::Vec3d vec(const glm::dvec3& v) {
 struct Pipes {
     explicit Pipes(test::Random& random) {
         for (int i = 0; i < 200; ++i) {
-            const core::AutodiffMapping mapping(core::CylinderSegment(core::Frame::aboutAxis(
+            const core::AutodiffMapping mapping(core::CylinderSegment(core::frameAboutAxis(
                 random.direction() * random.uniform(0.0, 100.0), random.direction(), random.direction())));
             const core::ParameterBox box{{random.uniform(0.0, 6.0), 0.5, 0.0}, {0.785, 0.02, 4.0}};
             add(std::to_string(i), core::QuadraticBin(mapping, box));

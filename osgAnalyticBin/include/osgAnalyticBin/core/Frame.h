@@ -18,14 +18,6 @@ struct Frame {
     /// Third axis.
     glm::dvec3 z{0.0, 0.0, 1.0};
 
-    /// The right-handed frame whose z points along `axis`, and x as nearly as possible along `zeroDirection`.
-    /// Requires: neither is zero, nor are they parallel.
-    [[nodiscard]] static Frame aboutAxis(const glm::dvec3& origin, const glm::dvec3& axis,
-                                         const glm::dvec3& zeroDirection) noexcept;
-
-    /// Moves and turns by another frame: origin and axes are given in its coordinates.
-    [[nodiscard]] Frame placedIn(const Frame& outer) const noexcept;
-
     /// A point of this frame in the outer one.
     [[nodiscard]] glm::dvec3 toOuter(const glm::dvec3& local) const noexcept {
         return origin + local.x * x + local.y * y + local.z * z;

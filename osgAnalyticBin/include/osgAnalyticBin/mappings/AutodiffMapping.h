@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/Vec3.h>
 #include <osgAnalyticBin/core/bin/AnalyticMapping.h>
 #include <osgAnalyticBin/mappings/TaylorInterval.h>
+#include <osgAnalyticBin/mappings/Vec3.h>
 
 #include <algorithm>
 #include <boost/math/differentiation/autodiff.hpp>

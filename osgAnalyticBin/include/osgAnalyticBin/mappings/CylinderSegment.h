@@ -4,12 +4,17 @@
 #pragma once
 
 #include <osgAnalyticBin/core/Frame.h>
-#include <osgAnalyticBin/core/Vec3.h>
 #include <osgAnalyticBin/core/bin/AnalyticMapping.h>
+#include <osgAnalyticBin/mappings/Vec3.h>
 
 #include <cmath>
 
 namespace osgAnalyticBin::core {
+
+/// The right-handed frame whose z points along `axis`, and x as nearly as possible along `zeroDirection`.
+/// Requires: neither is zero, nor are they parallel.
+[[nodiscard]] Frame frameAboutAxis(const glm::dvec3& origin, const glm::dvec3& axis,
+                                   const glm::dvec3& zeroDirection) noexcept;
 
 /// The formula of a cylinder's solid wall, for AutodiffMapping: (angle, radius, height) to
 /// origin + radius (cos angle x + sin angle y) + height z. The parameter box chooses the piece: its radii are the wall.

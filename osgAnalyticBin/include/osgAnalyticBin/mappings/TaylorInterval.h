@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include <osgAnalyticBin/core/Vec3.h>
 #include <osgAnalyticBin/core/bin/AnalyticMapping.h>
 #include <osgAnalyticBin/mappings/IntervalNumber.h>
+#include <osgAnalyticBin/mappings/Vec3.h>
 
 #include <array>
 #include <cstddef>

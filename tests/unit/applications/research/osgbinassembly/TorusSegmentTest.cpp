@@ -6,6 +6,7 @@
 #include "TorusSegment.h"
 
 #include <osgAnalyticBin/mappings/AutodiffMapping.h>
+#include <osgAnalyticBin/mappings/CylinderSegment.h>
 
 #include <gtest/gtest.h>
 
@@ -20,6 +21,7 @@ namespace {
 using assembly::TorusSegment;
 using core::AutodiffMapping;
 using core::Frame;
+using core::frameAboutAxis;
 using core::ParameterBox;
 
 // The formula alone, without the bound it brings.
@@ -33,7 +35,7 @@ struct UnboundedTorus {
 
 TorusSegment randomTorus(Random& random, double farthest) {
     const Frame frame =
-        Frame::aboutAxis(random.direction() * random.uniform(0.0, farthest), random.direction(), random.direction());
+        frameAboutAxis(random.direction() * random.uniform(0.0, farthest), random.direction(), random.direction());
     return {frame, random.logUniform(0.5, 50.0)};
 }
 
