@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "CsvTable.h"
 #include "CullMethod.h"
 #include "DiagramScripts.h"
 #include "PathGroups.h"
 #include "Plot.h"
-
-#include <osgAnalyticBin/viewer/CsvTable.h>
 
 #include <algorithm>
 #include <array>

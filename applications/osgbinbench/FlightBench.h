@@ -3,12 +3,11 @@
 
 #pragma once
 
+#include "CameraPath.h"
 #include "CullMethod.h"
 #include "Figures.h"
 #include "MethodScene.h"
 #include "Settings.h"
-
-#include <osgAnalyticBin/viewer/CameraPath.h>
 
 #include <vector>
 

@@ -3,10 +3,9 @@
 
 #include "MethodScene.h"
 
+#include "CsvTable.h"
 #include "Failure.h"
 #include "RasterCulling.h"
-
-#include <osgAnalyticBin/viewer/CsvTable.h>
 
 #include <osgDB/DatabasePager>
 #include <osgDB/Registry>

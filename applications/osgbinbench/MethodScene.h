@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "CameraPath.h"
+#include "CameraView.h"
 #include "ClusterRemover.h"
 #include "CullMethod.h"
 #include "ExpiryRaiser.h"
@@ -11,9 +13,6 @@
 #include "ReadCounter.h"
 #include "Settings.h"
 #include "TileCensus.h"
-
-#include <osgAnalyticBin/viewer/CameraPath.h>
-#include <osgAnalyticBin/viewer/CameraView.h>
 
 #include <chrono>
 #include <optional>

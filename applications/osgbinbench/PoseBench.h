@@ -4,14 +4,13 @@
 #pragma once
 
 #include "BenchViewer.h"
+#include "CameraPath.h"
 #include "CullMethod.h"
 #include "Figures.h"
 #include "MethodScene.h"
 #include "Settings.h"
 #include "TilePainter.h"
 #include "TileTruth.h"
-
-#include <osgAnalyticBin/viewer/CameraPath.h>
 
 #include <memory>
 #include <vector>

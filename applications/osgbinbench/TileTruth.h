@@ -3,11 +3,11 @@
 
 #pragma once
 
+#include "CameraView.h"
 #include "TileCensus.h"
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
 #include <osgAnalyticBin/core/GeodeticBin.h>
-#include <osgAnalyticBin/viewer/CameraView.h>
 
 #include <osg/Camera>
 

@@ -3,11 +3,10 @@
 
 #include "CameraFlight.h"
 
+#include "CsvTable.h"
 #include "Quantiles.h"
 #include "ThreadingName.h"
 #include "TileCensus.h"
-
-#include <osgAnalyticBin/viewer/CsvTable.h>
 
 #include <osg/Notify>
 #include <osg/Version>

@@ -3,13 +3,12 @@
 
 #pragma once
 
+#include "CameraPath.h"
+#include "CameraView.h"
 #include "FlightOptions.h"
 #include "FrameCapture.h"
 #include "PoseTable.h"
 #include "ReadCounter.h"
-
-#include <osgAnalyticBin/viewer/CameraPath.h>
-#include <osgAnalyticBin/viewer/CameraView.h>
 
 #include <osg/Callback>
 #include <osg/Timer>

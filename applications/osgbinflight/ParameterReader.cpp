@@ -3,7 +3,7 @@
 
 #include "ParameterReader.h"
 
-#include <osgAnalyticBin/viewer/CsvTable.h>
+#include "CsvTable.h"
 
 #include <algorithm>
 #include <cmath>

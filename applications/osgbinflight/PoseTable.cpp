@@ -3,9 +3,8 @@
 
 #include "PoseTable.h"
 
+#include "CsvTable.h"
 #include "TextFile.h"
-
-#include <osgAnalyticBin/viewer/CsvTable.h>
 
 #include <array>
 #include <cmath>

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 
 #include "CameraFlight.h"
+#include "CameraPath.h"
 #include "FlightOptions.h"
 
 #include <osgAnalyticBin/NameParameters.h>
-#include <osgAnalyticBin/viewer/CameraPath.h>
 
 #include <osg/Group>
 #include <osg/LightSource>

@@ -3,8 +3,9 @@
 
 #include "GlobeOptions.h"
 
+#include "CsvTable.h"
+
 #include <osgAnalyticBin/NameParameters.h>
-#include <osgAnalyticBin/viewer/CsvTable.h>
 
 #include <ParameterReader.h>
 #include <cstdio>

@@ -3,7 +3,7 @@
 
 #include "HomeView.h"
 
-#include <osgAnalyticBin/viewer/CameraView.h>
+#include "CameraView.h"
 
 namespace osgAnalyticBin::viewer {
 

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/viewer/CameraPath.h>
+#include "CameraPath.h"
 
 #include <osg/Camera>
 #include <osgGA/GUIEventHandler>

@@ -3,11 +3,10 @@
 
 #include "Steps.h"
 
+#include "CameraView.h"
 #include "Failure.h"
 #include "FrameCapture.h"
 #include "HomeView.h"
-
-#include <osgAnalyticBin/viewer/CameraView.h>
 
 #include <osg/Timer>
 #include <osgDB/DatabasePager>

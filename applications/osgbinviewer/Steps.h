@@ -3,9 +3,8 @@
 
 #pragma once
 
+#include "CameraPath.h"
 #include "SpyViewHandler.h"
-
-#include <osgAnalyticBin/viewer/CameraPath.h>
 
 #include <osgViewer/Viewer>
 

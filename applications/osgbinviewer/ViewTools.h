@@ -3,8 +3,9 @@
 
 #pragma once
 
+#include "CameraView.h"
+
 #include <osgAnalyticBin/viewer/CameraCulling.h>
-#include <osgAnalyticBin/viewer/CameraView.h>
 
 #include <osg/Node>
 #include <osg/Vec3d>

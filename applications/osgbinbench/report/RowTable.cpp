@@ -3,9 +3,8 @@
 
 #include "RowTable.h"
 
+#include "CsvTable.h"
 #include "TextFile.h"
-
-#include <osgAnalyticBin/viewer/CsvTable.h>
 
 #include <algorithm>
 

@@ -3,10 +3,9 @@
 
 #pragma once
 
+#include "CameraView.h"
 #include "CullStage.h"
 #include "Settings.h"
-
-#include <osgAnalyticBin/viewer/CameraView.h>
 
 #include <osg/Camera>
 #include <osg/PagedLOD>

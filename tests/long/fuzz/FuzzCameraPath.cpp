@@ -3,9 +3,8 @@
 
 // Camera paths: what is read has views of finite numbers.
 
+#include "CameraPath.h"
 #include "Fuzz.h"
-
-#include <osgAnalyticBin/viewer/CameraPath.h>
 
 #include <cmath>
 #include <sstream>

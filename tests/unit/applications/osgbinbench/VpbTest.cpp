@@ -4,8 +4,7 @@
 // Databases of VirtualPlanetBuilder, and the camera path that was made for them. Skipped where the samples are absent.
 
 #include "BenchProgram.h"
-
-#include <osgAnalyticBin/viewer/CameraPath.h>
+#include "CameraPath.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 //
 // Camera paths as text. Oracle: values worked out by hand. The table format itself is tested here too.
 
-#include <osgAnalyticBin/viewer/CameraPath.h>
+#include "CameraPath.h"
 
 #include <gtest/gtest.h>
 

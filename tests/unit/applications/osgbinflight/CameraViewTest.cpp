@@ -3,7 +3,7 @@
 //
 // Matrices of a pose. Oracle: where known points of the globe come to lie in the eye's frame (x right, y up, -z ahead).
 
-#include <osgAnalyticBin/viewer/CameraView.h>
+#include "CameraView.h"
 
 #include <gtest/gtest.h>
 #include <osg/CoordinateSystemNode>

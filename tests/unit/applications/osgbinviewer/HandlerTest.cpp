@@ -7,6 +7,7 @@
 
 #include "BinDisplayHandler.h"
 #include "CoveredPictureHandler.h"
+#include "CsvTable.h"
 #include "DrawnViewer.h"
 #include "FreezeCullHandler.h"
 #include "MethodSwitchHandler.h"
@@ -15,7 +16,6 @@
 
 #include <osgAnalyticBin/viewer/BinStatsHandler.h>
 #include <osgAnalyticBin/viewer/CameraCulling.h>
-#include <osgAnalyticBin/viewer/CsvTable.h>
 
 #include <gtest/gtest.h>
 #include <osgGA/StateSetManipulator>

@@ -3,11 +3,10 @@
 //
 // Recorded camera paths. Oracle: what osgbinbench makes of them.
 
+#include "CameraPath.h"
+#include "CameraView.h"
 #include "PathRecorder.h"
 #include "ViewerScene.h"
-
-#include <osgAnalyticBin/viewer/CameraPath.h>
-#include <osgAnalyticBin/viewer/CameraView.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
+#include "CameraView.h"
+
 #include <osgAnalyticBin/TileFinder.h>
-#include <osgAnalyticBin/viewer/CameraView.h>
 
 #include <osg/Transform>
 

@@ -3,8 +3,7 @@
 
 #pragma once
 
-#include <osgAnalyticBin/viewer/CameraPath.h>
-#include <osgAnalyticBin/viewer/Export.h>
+#include "CameraPath.h"
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Matrixd>
@@ -20,23 +19,21 @@ struct Globe {
 };
 
 /// The globe of the first CoordinateSystemNode with an ellipsoid. Returns: nullopt for scenes without.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<Globe> findGlobe(osg::Node& scene);
+[[nodiscard]] std::optional<Globe> findGlobe(osg::Node& scene);
 
 /// The map of the scene's first tile, if that tile is in a map; else findGlobe(); else OSG's default ellipsoid in world
 /// coordinates.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT Globe globeOf(osg::Node& scene);
+[[nodiscard]] Globe globeOf(osg::Node& scene);
 
 /// The "up" of a view without roll, in the world's frame: the local vertical at the eye, or north where the view goes
 /// straight up or down. `sight`: along the view, in the world's frame, of unit length.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT osg::Vec3d upWithoutRoll(const Globe& globe, const core::Geodetic& eye,
-                                                                   const osg::Vec3d& sight);
+[[nodiscard]] osg::Vec3d upWithoutRoll(const Globe& globe, const core::Geodetic& eye, const osg::Vec3d& sight);
 
 /// From the world to the eye. Up is upWithoutRoll(), turned by the roll.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT osg::Matrixd viewMatrixOf(const CameraPose& pose, const Globe& globe);
+[[nodiscard]] osg::Matrixd viewMatrixOf(const CameraPose& pose, const Globe& globe);
 
 /// Perspective with the pose's vertical field of view, near and far plane, sheared when `eyeRight` is not 0.
 /// `aspect` is width / height.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT osg::Matrixd projectionMatrixOf(const CameraPose& pose, const Globe& globe,
-                                                                          double aspect);
+[[nodiscard]] osg::Matrixd projectionMatrixOf(const CameraPose& pose, const Globe& globe, double aspect);
 
 }  // namespace osgAnalyticBin::flight

@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "../node/WholeFile.h"
+#include "CameraPath.h"
 
-#include <osgAnalyticBin/viewer/CameraPath.h>
-#include <osgAnalyticBin/viewer/CsvTable.h>
+#include "CsvTable.h"
+#include "TextFile.h"
 
 #include <algorithm>
 #include <array>
 #include <fstream>
 #include <limits>
 #include <map>
+#include <sstream>
 
 namespace osgAnalyticBin::flight {
 
@@ -243,11 +244,9 @@ void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path, Pat
 
 bool writeCameraPathFile(const std::string& fileName, const std::vector<CameraPose>& path, PathColumns columns,
                          std::string& error) {
-    const auto write = [&](std::ostream& out) {
-        writeCameraPath(out, path, columns);
-        return out.good();
-    };
-    return writeWholeFile(fileName, write, error);
+    std::ostringstream text;
+    writeCameraPath(text, path, columns);
+    return support::replaceFile(fileName, text.str(), error);
 }
 
 }  // namespace osgAnalyticBin::flight

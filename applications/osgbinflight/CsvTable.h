@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <osgAnalyticBin/viewer/Export.h>
-
 #include <cstddef>
 #include <iosfwd>
 #include <optional>
@@ -27,27 +25,24 @@ struct CsvTable {
     std::vector<Row> rows;             ///< all other lines
 
     /// Returns: nullopt when there is no such column.
-    [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<std::size_t> column(const std::string& name) const;
+    [[nodiscard]] std::optional<std::size_t> column(const std::string& name) const;
 };
 
 /// Reads a table; the file name is used in messages only.
 /// Returns: nullopt, with one line in `error` that names the file and the line, when the header is missing or names a
 /// column twice, or when a row has more or fewer cells than the header.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<CsvTable> readCsv(std::istream& input,
-                                                                          const std::string& fileName,
-                                                                          std::string& error);
+[[nodiscard]] std::optional<CsvTable> readCsv(std::istream& input, const std::string& fileName, std::string& error);
 
 /// Returns: "file:line: text", the form of all messages about a line.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::string atLine(const CsvTable& table, const CsvTable::Row& row,
-                                                             const std::string& text);
+[[nodiscard]] std::string atLine(const CsvTable& table, const CsvTable::Row& row, const std::string& text);
 
 /// Returns: nullopt unless the whole text is one finite number, written with a decimal point whatever the locale.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<double> numberFrom(const std::string& text);
+[[nodiscard]] std::optional<double> numberFrom(const std::string& text);
 
 /// The shortest text that reads back to the same number.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::string textFrom(double number);
+[[nodiscard]] std::string textFrom(double number);
 
 /// `text` without leading and trailing blanks.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::string trimmed(const std::string& text);
+[[nodiscard]] std::string trimmed(const std::string& text);
 
 }  // namespace osgAnalyticBin::flight

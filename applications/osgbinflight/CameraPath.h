@@ -4,7 +4,6 @@
 #pragma once
 
 #include <osgAnalyticBin/core/Ellipsoid.h>
-#include <osgAnalyticBin/viewer/Export.h>
 
 #include <iosfwd>
 #include <optional>
@@ -36,18 +35,18 @@ struct CameraPose {
 /// Returns: at least one pose; nullopt, with one line in `error` that names the file and the line, when a column is
 /// missing or unknown, a number is malformed or out of range, time does not grow, a name is used twice, or there is no
 /// pose.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<std::vector<CameraPose>> readCameraPath(
-    std::istream& input, const std::string& fileName, std::string& error);
+[[nodiscard]] std::optional<std::vector<CameraPose>> readCameraPath(std::istream& input, const std::string& fileName,
+                                                                    std::string& error);
 
 /// Opens and reads a file.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<std::vector<CameraPose>> readCameraPathFile(
-    const std::string& fileName, std::string& error);
+[[nodiscard]] std::optional<std::vector<CameraPose>> readCameraPathFile(const std::string& fileName,
+                                                                        std::string& error);
 
 /// Reads several files, one or more, and joins them to one path: the first pose of each is one second after the last of
 /// the file before.
 /// Returns: nullopt, with one line in `error`, when a file is broken or two share a pose's name.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT std::optional<std::vector<CameraPose>> readCameraPathFiles(
-    const std::vector<std::string>& fileNames, std::string& error);
+[[nodiscard]] std::optional<std::vector<CameraPose>> readCameraPathFiles(const std::vector<std::string>& fileNames,
+                                                                         std::string& error);
 
 /// Which columns a camera path has.
 enum class PathColumns {
@@ -57,13 +56,11 @@ enum class PathColumns {
 
 /// Writes a camera path over a globe. Metres and seconds read back exactly, angles but for the last bit. Poses without
 /// a name are p1, p2 and so on; `eyeRight` is not written.
-OSGANALYTICBINVIEWER_EXPORT void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path,
-                                                 PathColumns columns);
+void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path, PathColumns columns);
 
 /// Replaces a file when the new one is complete. Returns: false, with one line in `error`, when that fails; what was
 /// there before stays.
-[[nodiscard]] OSGANALYTICBINVIEWER_EXPORT bool writeCameraPathFile(const std::string& fileName,
-                                                                   const std::vector<CameraPose>& path,
-                                                                   PathColumns columns, std::string& error);
+[[nodiscard]] bool writeCameraPathFile(const std::string& fileName, const std::vector<CameraPose>& path,
+                                       PathColumns columns, std::string& error);
 
 }  // namespace osgAnalyticBin::flight

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include <osgAnalyticBin/viewer/CsvTable.h>
+#include "CsvTable.h"
 
 #include <algorithm>
 #include <array>
