@@ -21,11 +21,18 @@ namespace osgAnalyticBin {
 
 namespace {
 
-constexpr std::array<std::pair<Method, const char*>, 4> kMethodNames{
-    {{Method::Quadratic, "quadratic"}, {Method::Exact, "exact"}, {Method::Sphere, "sphere"}, {Method::None, "none"}}};
+template <class T, std::size_t n>
+using Names = std::array<std::pair<T, const char*>, n>;
 
-constexpr std::array<std::pair<IndexUse, const char*>, 3> kIndexNames{
-    {{IndexUse::Auto, "auto"}, {IndexUse::On, "on"}, {IndexUse::Off, "off"}}};
+constexpr Names<Method, 4> kMethods{
+    {{Method::Quadratic, "quadratic"}, {Method::Exact, "exact"}, {Method::Sphere, "sphere"}, {Method::None, "none"}}};
+constexpr Names<bool, 2> kOnOff{{{true, "on"}, {false, "off"}}};
+constexpr Names<OcclusionUse, 3> kOcclusions{
+    {{OcclusionUse::On, "on"}, {OcclusionUse::Off, "off"}, {OcclusionUse::Auto, "auto"}}};
+constexpr Names<SkirtUse, 2> kSkirts{{{SkirtUse::All, "all"}, {SkirtUse::Cracks, "cracks"}}};
+constexpr Names<ClusterUse, 2> kClusters{{{ClusterUse::Keep, "keep"}, {ClusterUse::Replace, "replace"}}};
+constexpr Names<bool, 2> kShaders{{{true, "plain"}, {false, "declared"}}};
+constexpr Names<IndexUse, 3> kIndexes{{{IndexUse::Auto, "auto"}, {IndexUse::On, "on"}, {IndexUse::Off, "off"}}};
 
 // Methods that older versions had, which are in the applications now.
 constexpr std::array<const char*, 4> kMovedMethods{"paper", "corners", "box", "orientedbox"};
@@ -34,7 +41,7 @@ constexpr const char* kMovedKey = "growth";
 constexpr const char* kStoredGrowth = "1.1";
 
 // Deeper than any sea, shallower than half of the smallest radius of a planet that is flown over.
-constexpr double kDeepestHorizon = -1e6;
+constexpr core::Interval kAltitudes{-1e6, 1e6};
 
 // A day. With longer times nothing expires, and memory fills up.
 constexpr double kLongestExpiry = 86400.0;
@@ -42,7 +49,53 @@ constexpr double kLongestExpiry = 86400.0;
 // Metres: as much as a mountain.
 constexpr double kWidestTechnique = 1e4;
 
-bool applyMethod(const std::string& value, CullOptions& options, std::string& error) {
+template <class T, std::size_t n>
+const char* nameOf(const Names<T, n>& names, T value) noexcept {
+    for (const auto& [known, name] : names) {
+        if (known == value) return name;
+    }
+    return names[0].second;
+}
+
+template <class T, std::size_t n>
+std::optional<T> valueNamed(const Names<T, n>& names, const std::string& name) noexcept {
+    for (const auto& [value, known] : names) {
+        if (name == known) return value;
+    }
+    return std::nullopt;
+}
+
+// "one, two or three"
+std::string alternatives(const std::vector<std::string>& words) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (i > 0) text += i + 1 < words.size() ? ", " : " or ";
+        text += words[i];
+    }
+    return text;
+}
+
+bool refuse(const std::string& key, const std::string& value, const std::string& use, std::string& error) {
+    error = "bad " + key + " \"" + value + "\" (use " + use + ")";
+    return false;
+}
+
+// An option whose values have names.
+template <const auto& kNames, auto kOption>
+struct Choice {
+    static bool apply(const char* key, const std::string& value, CullOptions& options, std::string& error) {
+        const auto found = valueNamed(kNames, value);
+        if (found) options.*kOption = *found;
+        std::vector<std::string> words;
+        for (const auto& known : kNames) words.emplace_back(known.second);
+        return found || refuse(key, value, alternatives(words), error);
+    }
+    static std::string text(const CullOptions& options) {
+        return options.*kOption == CullOptions().*kOption ? "" : nameOf(kNames, options.*kOption);
+    }
+};
+
+bool applyMethod(const char*, const std::string& value, CullOptions& options, std::string& error) {
     const std::optional<Method> method = methodFromName(value);
     if (method) options.method = *method;
     const bool isMoved = std::find(kMovedMethods.begin(), kMovedMethods.end(), value) != kMovedMethods.end();
@@ -55,155 +108,105 @@ bool applyMethod(const std::string& value, CullOptions& options, std::string& er
     return method.has_value();
 }
 
-// A number within a range. `meaning`: what the number is, and an example.
-template <class Number>
-bool applyNumber(const std::string& key, const std::string& value, const core::Interval& range, const char* meaning,
-                 Number& option, std::string& error) {
+std::optional<double> numberWithin(const std::string& value, const core::Interval& range) {
     const auto number = numbersFromText(value, 1);
-    if (!number || (*number)[0] < range.lower || (*number)[0] > range.upper) {
-        error = "bad " + key + " \"" + value + "\" (use " + meaning + ")";
-        return false;
-    }
-    option = (*number)[0];
-    return true;
+    const bool isWithin = number && (*number)[0] >= range.lower && (*number)[0] <= range.upper;
+    return isWithin ? std::optional<double>((*number)[0]) : std::nullopt;
 }
 
-bool applyExpiry(const std::string& value, CullOptions& options, std::string& error) {
-    return applyNumber("expiry", value, {0.0, kLongestExpiry}, "seconds from 0 to 86400, e.g. expiry=3", options.expiry,
-                       error);
+bool applyExpiry(const char* key, const std::string& value, CullOptions& options, std::string& error) {
+    const auto seconds = numberWithin(value, {0.0, kLongestExpiry});
+    if (seconds) options.expiry = *seconds;
+    return seconds || refuse(key, value, "seconds from 0 to 86400, e.g. expiry=3", error);
 }
 
-bool applyTechniqueMargin(const std::string& value, CullOptions& options, std::string& error) {
-    return applyNumber("techniquemargin", value, {0.0, kWidestTechnique},
-                       "metres from 0 to 10000, e.g. techniquemargin=50", options.techniqueMargin, error);
+std::string expiryText(const CullOptions& options) {
+    return options.expiry == CullOptions::kDefaultExpiry ? "" : numberToText(options.expiry);
 }
 
-bool applyHorizon(const std::string& value, CullOptions& options, std::string& error) {
-    if (value == "declared" || value == "off") {
-        options.horizonUse = value == "off" ? HorizonUse::Off : HorizonUse::Declared;
-        return true;
-    }
-    const auto number = numbersFromText(value, 1);
-    if (!number || (*number)[0] < kDeepestHorizon || (*number)[0] > -kDeepestHorizon) {
-        error = "bad horizon \"" + value + "\" (use an altitude in metres, e.g. horizon=-500, or declared or off)";
-        return false;
-    }
-    options.horizonUse = HorizonUse::Given;
-    options.horizon = (*number)[0];
-    return true;
+bool applyTechniqueMargin(const char* key, const std::string& value, CullOptions& options, std::string& error) {
+    options.techniqueMargin = numberWithin(value, {0.0, kWidestTechnique});
+    return options.techniqueMargin || refuse(key, value, "metres from 0 to 10000, e.g. techniquemargin=50", error);
 }
 
-bool applyHeights(const std::string& value, CullOptions& options, std::string& error) {
+std::string techniqueMarginText(const CullOptions& options) {
+    return options.techniqueMargin ? numberToText(*options.techniqueMargin) : "";
+}
+
+bool applyHorizon(const char* key, const std::string& value, CullOptions& options, std::string& error) {
+    const auto altitude = numberWithin(value, kAltitudes);
+    if (altitude) options.horizon = *altitude;
+    options.horizonUse = altitude ? HorizonUse::Given : value == "off" ? HorizonUse::Off : HorizonUse::Declared;
+    return altitude || value == "off" || value == "declared" ||
+           refuse(key, value, "an altitude in metres, e.g. horizon=-500, or declared or off", error);
+}
+
+std::string horizonText(const CullOptions& options) {
+    if (options.horizonUse == HorizonUse::Given) return numberToText(options.horizon);
+    return options.horizonUse == HorizonUse::Off ? "off" : "";
+}
+
+bool applyHeights(const char* key, const std::string& value, CullOptions& options, std::string& error) {
     const std::size_t dots = value.find("..");
-    const auto low = numbersFromText(value.substr(0, dots), 1);
-    const auto high = dots == std::string::npos ? std::nullopt : numbersFromText(value.substr(dots + 2), 1);
-    if (!low || !high || (*low)[0] > (*high)[0] || (*low)[0] < kDeepestHorizon || (*high)[0] > -kDeepestHorizon) {
-        error = "bad heights \"" + value + "\" (use two altitudes in metres, low to high, e.g. heights=-500..9000)";
-        return false;
+    const auto low = numberWithin(value.substr(0, dots), kAltitudes);
+    const auto high = dots == std::string::npos ? std::nullopt : numberWithin(value.substr(dots + 2), kAltitudes);
+    if (!low || !high || *low > *high) {
+        return refuse(key, value, "two altitudes in metres, low to high, e.g. heights=-500..9000", error);
     }
-    options.heights = {(*low)[0], (*high)[0]};
+    options.heights = {*low, *high};
     return true;
 }
 
-// One of two words.
-bool applyChoice(const std::string& key, const std::string& value, const char* first, const char* second, bool& isFirst,
-                 std::string& error) {
-    isFirst = value == first;
-    if (isFirst || value == second) return true;
-    error = "bad " + key + " \"" + value + "\" (use " + first + " or " + second + ")";
-    return false;
-}
-
-bool applySkirts(const std::string& value, CullOptions& options, std::string& error) {
-    bool all = false;
-    if (!applyChoice("skirts", value, "all", "cracks", all, error)) return false;
-    options.skirts = all ? SkirtUse::All : SkirtUse::Cracks;
-    return true;
-}
-
-bool applyCluster(const std::string& value, CullOptions& options, std::string& error) {
-    bool keep = false;
-    if (!applyChoice("cluster", value, "keep", "replace", keep, error)) return false;
-    options.cluster = keep ? ClusterUse::Keep : ClusterUse::Replace;
-    return true;
-}
-
-bool applyEdges(const std::string& value, CullOptions& options, std::string& error) {
-    return applyChoice("edges", value, "on", "off", options.edges, error);
-}
-
-bool applyOcclusion(const std::string& value, CullOptions& options, std::string& error) {
-    if (value == "auto") {
-        options.occlusion = OcclusionUse::Auto;
-        return true;
-    }
-    if (value != "on" && value != "off") {
-        error = "bad occlusion \"" + value + "\" (use on, off or auto)";
-        return false;
-    }
-    options.occlusion = value == "on" ? OcclusionUse::On : OcclusionUse::Off;
-    return true;
-}
-
-bool applyShaders(const std::string& value, CullOptions& options, std::string& error) {
-    return applyChoice("shaders", value, "plain", "declared", options.plainShaders, error);
-}
-
-bool applyIndex(const std::string& value, CullOptions& options, std::string& error) {
-    for (const auto& [use, name] : kIndexNames) {
-        if (value != name) continue;
-        options.index = use;
-        return true;
-    }
-    error = "bad index \"" + value + "\" (use auto, on or off)";
-    return false;
-}
-
-bool applyInheritViewpoint(const std::string& value, CullOptions& options, std::string& error) {
-    return applyChoice("inheritviewpoint", value, "on", "off", options.inheritViewpoint, error);
+std::string heightsText(const CullOptions& options) {
+    if (options.heights == CullOptions::kTerrainOnEarth) return {};
+    return numberToText(options.heights.lower) + ".." + numberToText(options.heights.upper);
 }
 
 struct KnownItem {
     const char* key;
     const char* values;
-    bool (*apply)(const std::string& value, CullOptions& options, std::string& error);
+    bool (*apply)(const char* key, const std::string& value, CullOptions& options, std::string& error);
+    std::string (*text)(const CullOptions& options);  // empty: the default
 };
 
-constexpr std::array<KnownItem, 12> kItems{{{"method", "NAME", applyMethod},
-                                            {"horizon", "METRES|declared|off", applyHorizon},
-                                            {"inheritviewpoint", "on|off", applyInheritViewpoint},
-                                            {"edges", "on|off", applyEdges},
-                                            {"occlusion", "on|off|auto", applyOcclusion},
-                                            {"expiry", "SECONDS", applyExpiry},
-                                            {"skirts", "cracks|all", applySkirts},
-                                            {"cluster", "replace|keep", applyCluster},
-                                            {"heights", "LOW..HIGH", applyHeights},
-                                            {"techniquemargin", "METRES", applyTechniqueMargin},
-                                            {"shaders", "declared|plain", applyShaders},
-                                            {"index", "auto|on|off", applyIndex}}};
+template <const auto& kNames, auto kOption>
+constexpr KnownItem choice(const char* key, const char* values) {
+    return {key, values, Choice<kNames, kOption>::apply, Choice<kNames, kOption>::text};
+}
+
+constexpr std::array<KnownItem, 12> kItems{
+    {{"method", "NAME", applyMethod, [](const CullOptions& o) { return std::string(methodName(o.method)); }},
+     {"horizon", "METRES|declared|off", applyHorizon, horizonText},
+     choice<kOnOff, &CullOptions::inheritViewpoint>("inheritviewpoint", "on|off"),
+     choice<kOnOff, &CullOptions::edges>("edges", "on|off"),
+     choice<kOcclusions, &CullOptions::occlusion>("occlusion", "on|off|auto"),
+     {"expiry", "SECONDS", applyExpiry, expiryText},
+     choice<kSkirts, &CullOptions::skirts>("skirts", "cracks|all"),
+     choice<kClusters, &CullOptions::cluster>("cluster", "replace|keep"),
+     {"heights", "LOW..HIGH", applyHeights, heightsText},
+     {"techniquemargin", "METRES", applyTechniqueMargin, techniqueMarginText},
+     choice<kShaders, &CullOptions::plainShaders>("shaders", "declared|plain"),
+     choice<kIndexes, &CullOptions::index>("index", "auto|on|off")}};
 
 // The name that edges= had; it is read in stored scenes, too.
 constexpr const char* kOldEdges = "reverse";
 
 std::string usage() {
-    std::string text;
-    for (std::size_t i = 0; i < kItems.size(); ++i) {
-        if (i > 0) text += i + 1 < kItems.size() ? ", " : " or ";
-        text += std::string(kItems[i].key) + '=' + kItems[i].values;
-    }
-    return text;
+    std::vector<std::string> words;
+    for (const KnownItem& item : kItems) words.push_back(std::string(item.key) + '=' + item.values);
+    return alternatives(words);
 }
 
 bool applyItem(const std::string& key, const std::string& value, CullOptions& options, std::string& error) {
     for (const KnownItem& item : kItems) {
-        if (key == item.key) return item.apply(value, options, error);
+        if (key == item.key) return item.apply(item.key, value, options, error);
     }
     if (key == kOldEdges) {
         static std::atomic<bool> hasSaid{false};
         if (!hasSaid.exchange(true))
             OSG_NOTICE << "osgAnalyticBin: the option reverse= is called edges= now; the old name is still read."
                        << std::endl;
-        return applyEdges(value, options, error);
+        return applyItem("edges", value, options, error);
     }
     if (key == kMovedKey && value == kStoredGrowth) return true;
     if (key == kMovedKey) {
@@ -217,17 +220,11 @@ bool applyItem(const std::string& key, const std::string& value, CullOptions& op
 }  // namespace
 
 const char* methodName(Method method) noexcept {
-    for (const auto& [value, name] : kMethodNames) {
-        if (value == method) return name;
-    }
-    return "quadratic";
+    return nameOf(kMethods, method);
 }
 
 std::optional<Method> methodFromName(const std::string& name) noexcept {
-    for (const auto& [value, known] : kMethodNames) {
-        if (name == known) return value;
-    }
-    return std::nullopt;
+    return valueNamed(kMethods, name);
 }
 
 bool CullOptions::operator==(const CullOptions& other) const noexcept {
@@ -272,22 +269,11 @@ CullOptions storedCullOptions(const std::string& text) {
 }
 
 std::string toText(const CullOptions& options) {
-    std::string text = std::string("method=") + methodName(options.method);
-    if (options.horizonUse == HorizonUse::Off) text += ",horizon=off";
-    if (options.horizonUse == HorizonUse::Given) text += ",horizon=" + numberToText(options.horizon);
-    if (options.inheritViewpoint) text += ",inheritviewpoint=on";
-    if (!options.edges) text += ",edges=off";
-    if (options.occlusion != OcclusionUse::Auto)
-        text += options.occlusion == OcclusionUse::On ? ",occlusion=on" : ",occlusion=off";
-    if (options.expiry != CullOptions::kDefaultExpiry) text += ",expiry=" + numberToText(options.expiry);
-    if (options.skirts == SkirtUse::All) text += ",skirts=all";
-    if (options.cluster == ClusterUse::Keep) text += ",cluster=keep";
-    if (!(options.heights == CullOptions::kTerrainOnEarth)) {
-        text += ",heights=" + numberToText(options.heights.lower) + ".." + numberToText(options.heights.upper);
+    std::string text;
+    for (const KnownItem& item : kItems) {
+        const std::string value = item.text(options);
+        if (!value.empty()) text += (text.empty() ? "" : ",") + std::string(item.key) + '=' + value;
     }
-    if (options.techniqueMargin) text += ",techniquemargin=" + numberToText(*options.techniqueMargin);
-    if (options.plainShaders) text += ",shaders=plain";
-    if (options.index != IndexUse::Auto) text += options.index == IndexUse::On ? ",index=on" : ",index=off";
     return text;
 }
 
