@@ -16,7 +16,7 @@ CORE = ["core"]
 BASE = CORE + ["node"]
 TILE = BASE + ["node/surface", "node/tile"]
 PAGE = TILE + ["node/cull", "node/index", "node/page"]
-KIT = PAGE + ["node/boxes", "node/install"]
+KIT = PAGE + ["node/install"]
 LAYERS = {
     "core": ([], GLM | {"hwy"}),
     "node": (CORE, GLM | {"osg", "osgDB"}),
@@ -25,7 +25,6 @@ LAYERS = {
     "node/cull": (TILE, OSG | {"osgUtil"}),
     "node/index": (TILE, OSG | {"osgDB"}),
     "node/page": (PAGE, OSG | {"osgDB", "osgUtil"}),
-    "node/boxes": (PAGE, OSG | {"osgDB", "osgUtil"}),
     "node/install": (KIT, OSG | {"osgDB"}),
     "mappings": (BASE + ["node/cull"], GLM | {"boost", "osg"}),
     "serializers": (KIT, OSG | {"osgDB"}),

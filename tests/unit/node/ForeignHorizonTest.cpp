@@ -6,8 +6,11 @@
 #include "DatabaseFixture.h"
 
 #include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/PhotogrammetrySet.h>
 
 #include <gtest/gtest.h>
+#include <osg/LOD>
+#include <osg/MatrixTransform>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -60,6 +63,20 @@ TEST(ForeignHorizon, IsNotUsedWhereTilesLeaveAGap) {
         Globe globe(isBelowATile, 31);
         EXPECT_EQ(globe.seen().count("19"), 1u);
         EXPECT_EQ(globe.seen().count(kAntipode), 1u);
+    }
+}
+
+// What a set draws stands before the terrain, if anything.
+TEST(ForeignHorizon, IsUsedBesideAPhotogrammetrySet) {
+    for (const bool isMoved : {false, true}) {
+        const osg::ref_ptr<osg::Group> set = isMoved ? new osg::MatrixTransform : new osg::Group;
+        const osg::ref_ptr<osg::LOD> tile = new osg::LOD;
+        tile->addChild(makeFlatTile(extentsDeg(20, 21, -21, -20), 100.0f), 0.0f, 1e9f);
+        set->addChild(tile);
+        markPhotogrammetrySet(*set, "");
+        Globe globe(false, 32, {}, set);
+        EXPECT_EQ(globe.seen().count("19"), 1u);
+        EXPECT_EQ(globe.seen().count(kAntipode), 0u);
     }
 }
 

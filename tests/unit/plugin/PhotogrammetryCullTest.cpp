@@ -8,7 +8,9 @@
 
 #include <osgAnalyticBin/InstallBins.h>
 
+#include <osg/ConvexPlanarOccluder>
 #include <osg/Geometry>
+#include <osg/OccluderNode>
 #include <osg/PagedLOD>
 
 #include <PagedFlight.h>
@@ -187,7 +189,7 @@ TEST_F(BoxSets, KeepVisibleWhatDoesNotFitTheIndex) {
     ASSERT_EQ(index, test::textOfFile(binIndexName(_metadata)));
     const CapturedNotes notes;
     EXPECT_EQ(lostBy("method=quadratic"), 0U);
-    EXPECT_EQ(notes.count("does not fit the index of boxes"), 1U);
+    EXPECT_EQ(notes.count("is not as the index knows it"), 1U);
 }
 
 TEST_F(BoxSets, AreCulledWithoutABrokenIndex) {
@@ -282,7 +284,7 @@ TEST_F(BoxSets, KeepVisibleWhatIsLoadedAndDoesNotFitTheIndexThatIsMade) {
     const CapturedNotes notes;
     setCullOptions(*culled.scene, {});
     ASSERT_TRUE(waitForIndex(*culled.scene, kSeconds));
-    EXPECT_EQ(notes.count("does not fit the index of boxes"), 1U);
+    EXPECT_EQ(notes.count("is not as the index knows it"), 1U);
     for (const CullView& view : views(12)) EXPECT_TRUE(lost(all, view, culled.keys(view)).empty());
 }
 
@@ -346,6 +348,59 @@ TEST_F(BoxSets, KeepBrokenFilesApart) {
     EXPECT_FALSE(test::cull(*boxes.scene, view, *visitor).drawn.empty());
     // each file is tried once in this second, not in every frame
     EXPECT_LE(notes.count("could not be read"), 36U);
+}
+
+// A wall before the eye, which hides no box: OSG tests occluders by spheres.
+TEST_F(BoxSets, AreCulledByBoxesWhereThereAreOccluders) {
+    Flown boxes(read("index=off"));
+    const CullView view = views(1).front();
+    const std::set<std::string> before = boxes.keys(view);
+    const osg::Matrixd toWorld = osg::Matrixd::inverse(view.modelView);
+    const osg::ref_ptr<osg::ConvexPlanarOccluder> wall = new osg::ConvexPlanarOccluder;
+    for (const osg::Vec3d& corner : {osg::Vec3d(-5, -5, -6), {5, -5, -6}, {5, 5, -6}, {-5, 5, -6}})
+        wall->getOccluder().add(osg::Vec3(corner));
+    const osg::ref_ptr<osg::OccluderNode> occluder = new osg::OccluderNode;
+    occluder->setOccluder(wall);
+    occluder->setCullingActive(false);
+    const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(toWorld);
+    place->addChild(occluder);
+    boxes.scene->asGroup()->addChild(place);
+    CullView occluded = view;
+    occluded.cullingMode |= osg::CullSettings::SHADOW_OCCLUSION_CULLING;
+    EXPECT_EQ(boxes.keys(occluded), before);
+}
+
+TEST_F(BoxSets, LetViewersThatDrawOnDemandRest) {
+    makeIndex();
+    Flown boxes(read());
+    const CullView view = views(1).front();
+    (void)boxes.keys(view);
+    boxes.flight.frames(view, 3);
+    EXPECT_FALSE(setIn(*boxes.scene)->getUpdateCallback());
+}
+
+TEST_F(BoxSets, LoseNothingInClones) {
+    Flown all(read("method=none"));
+    const osg::ref_ptr<osg::Node> original = read("index=off");
+    for (const unsigned int callbacks : {0U, unsigned(osg::CopyOp::DEEP_COPY_CALLBACKS)}) {
+        const unsigned int flags = unsigned(osg::CopyOp::DEEP_COPY_NODES) | callbacks;
+        Flown clone(osg::clone(original.get(), osg::CopyOp(flags)));
+        for (const CullView& view : views(6)) EXPECT_TRUE(lost(all, view, clone.keys(view)).empty());
+    }
+}
+
+TEST_F(BoxSets, MayBeTheRootOfTheScene) {
+    writeMetadata("", "0,0,0");
+    const osg::ref_ptr<osg::Node> scene = read("method=sphere");
+    const std::string before = flagsOf(*scene);
+    CullOptions options;
+    options.index = IndexUse::Off;
+    EXPECT_GT(installBins(*scene, options), 0U);
+    EXPECT_GT(setCullOptions(*scene, {}), 0U);
+    EXPECT_TRUE(isIndexAwaited(*scene));
+    EXPECT_TRUE(waitForIndex(*scene, kSeconds));
+    removeBins(*scene);
+    EXPECT_EQ(flagsOf(*scene), before);
 }
 
 }  // namespace

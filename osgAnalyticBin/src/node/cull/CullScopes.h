@@ -18,11 +18,13 @@
 
 namespace osgAnalyticBin {
 
-/// Whether the camera that is culled for has occluders. OSG's tests of spheres are all that is needed then: those of
-/// occluders keep masks of what is left to test, which they inherit from node to node.
+/// Whether the camera that is culled for has occluders, and they are tested at the present node. OSG's tests of spheres
+/// are all that is needed then: those of occluders keep masks of what is left to test, which they inherit from node to
+/// node.
 [[nodiscard]] inline bool hasActiveOccluders(osg::CullStack& cullStack) {
     return (cullStack.getCullingMode() & osg::CullSettings::SHADOW_OCCLUSION_CULLING) &&
-           !cullStack.getOccluderList().empty();
+           !cullStack.getOccluderList().empty() &&
+           (cullStack.getCurrentCullingSet().getCullingMask() & osg::CullingSet::SHADOW_OCCLUSION_CULLING);
 }
 
 /// OSG's own small-feature test, and nothing else of CullingSet::isCulled(BoundingSphere).

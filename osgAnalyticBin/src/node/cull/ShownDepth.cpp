@@ -20,6 +20,8 @@
 #include "TileFamily.h"
 #include "TilePlan.h"
 
+#include <osgAnalyticBin/PhotogrammetrySet.h>
+
 #include <osg/CoordinateSystemNode>
 #include <osg/PagedLOD>
 #include <osg/Transform>
@@ -188,8 +190,8 @@ private:
         const bool isGroup = isExactly<osg::Group>(node);
         const CullCallbacks callbacks(node);
         if (callbacks.bin) return searchTileWithoutFamily(node, *callbacks.bin, callbacks.mayLeaveOut);
-        // another database is on a globe of its own
-        if (!isGroup && dynamic_cast<osg::CoordinateSystemNode*>(&node)) return;
+        // another database is on a globe of its own, or in a map
+        if (isPhotogrammetrySet(node) || (!isGroup && dynamic_cast<osg::CoordinateSystemNode*>(&node))) return;
         const osg::Transform* const transform = isGroup ? nullptr : node.asTransform();
         const bool isDrawn = isSurelyDrawn(node, callbacks.mayLeaveOut) && (isGroup || drawsAllChildren(node)) &&
                              !(transform && transform->getReferenceFrame() != osg::Transform::RELATIVE_RF);

@@ -13,7 +13,10 @@
 #include "InstalledBin.h"
 #include "TilePlan.h"
 
+#include <osgAnalyticBin/PhotogrammetrySet.h>
+
 #include <osg/CoordinateSystemNode>
+#include <osg/MatrixTransform>
 #include <osg/PagedLOD>
 #include <osgTerrain/TerrainTile>
 #include <osgUtil/CullVisitor>
@@ -70,7 +73,8 @@ TileFamily::TileFamily(const TileFamily& other, const osg::CopyOp& copyop)
 TileFamily::~TileFamily() = default;
 
 bool TileFamily::isPossibleOn(const osg::Node& node) {
-    return typeid(node) == typeid(osg::Group) || typeid(node) == typeid(osg::CoordinateSystemNode);
+    return typeid(node) == typeid(osg::Group) || typeid(node) == typeid(osg::CoordinateSystemNode) ||
+           (typeid(node) == typeid(osg::MatrixTransform) && isPhotogrammetrySet(node));
 }
 
 TileFamily::TileFamily(osg::Group& group)

@@ -6,11 +6,9 @@
 #include "../CallbackChain.h"
 #include "../PagedChildren.h"
 #include "../Scoped.h"
-#include "../boxes/BoxInstaller.h"
 #include "../cull/CullCallbacks.h"
 #include "../cull/InstalledBin.h"
 #include "../cull/TileFamily.h"
-#include "../page/BinReadFileCallback.h"
 #include "../page/Database.h"
 #include "../page/DatabaseCallbacks.h"
 #include "../page/PagingExpiry.h"
@@ -18,6 +16,7 @@
 #include "../tile/Carrier.h"
 #include "../tile/InstalledTile.h"
 #include "../tile/MeshCulling.h"
+#include "BoxInstaller.h"
 #include "ContentWatch.h"
 #include "Coverage.h"
 #include "NoCulling.h"
@@ -156,7 +155,8 @@ Database& BinInstaller::database() {
 // Tiles that no CoordinateSystemNode stands above, and those that are paged in later, are brought up to date from the
 // root.
 void BinInstaller::installAt(osg::Node& root) {
-    const bool isGlobe = dynamic_cast<osg::CoordinateSystemNode*>(&root) != nullptr;
+    // these have databases of their own
+    const bool isGlobe = dynamic_cast<osg::CoordinateSystemNode*>(&root) || isPhotogrammetrySet(root);
     if (!isGlobe && _keepsDatabases) _database = attachedDatabase(root);
     if (!isGlobe && !_keepsDatabases) detachDatabase(root);
     if (_database) _database->setOptions(_options);
@@ -212,7 +212,7 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     }
     const Scoped index(_index, isKept ? own->index() : _index);
     const Scoped database(_database, own);
-    const Scoped paging(_paging, PagingByOptions());
+    const Scoped paging(_paging, PagedReads());
     const Scoped coverage(_coverage, std::make_shared<Coverages>());
     (*_coverage)[{nullptr, frame().file}].expectGlobe();
     const std::size_t before = _installed;
@@ -274,7 +274,7 @@ bool BinInstaller::isUnruly(const osg::Node& node) const {
 
 void BinInstaller::visitWithoutBin(osg::Node& node, bool isTile) {
     if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node))
-        followPaging(*paged, isBelowStored() ? linkBetween().get() : nullptr, isTile);
+        _paging.follow(*paged, frame(), database(), isBelowStored() ? linkBetween().get() : nullptr, isTile);
     NoCulling::remove(node);
     if (_options.method == Method::None) {
         suspendClusterCullingOf(node);
@@ -402,7 +402,7 @@ void BinInstaller::noteIgnoresDepth() {
 void BinInstaller::visitChildren(const FoundTile& tile, const ParentTile& link) {
     if (auto* paged = dynamic_cast<osg::PagedLOD*>(tile.node.get())) {
         raiseExpiry(*paged, _options.expiry);
-        followPaging(*paged, &link, true);
+        _paging.follow(*paged, frame(), database(), &link, true);
     }
     const Scoped inMesh(_isInMesh, !dynamic_cast<osg::PagedLOD*>(tile.node.get()));
     const Scoped below(_parent, osg::ref_ptr<const ParentTile>(&link));

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../cull/DrawnState.h"
+#include "../page/BinReadFileCallback.h"
 #include "TileCallback.h"
 
 #include <osgAnalyticBin/AnalyticBin.h>
@@ -26,7 +27,6 @@ class Terrain;
 
 namespace osgAnalyticBin {
 
-class BinReadFileCallback;
 class Coverage;
 class InstalledTile;
 struct TileFit;
@@ -74,13 +74,6 @@ protected:
 private:
     class InstallingDatabase;
 
-    // The database options that replace those which PagedLODs came with (null: none).
-    struct Paging {
-        osg::ref_ptr<osgDB::Options> options;
-        BinReadFileCallback* callback = nullptr;  // owned by the options
-    };
-    using PagingByOptions = std::map<osg::ref_ptr<osgDB::Options>, Paging>;
-
     // Prepares for a file that is paged below a tile of the database (`parent` null: below no tile).
     void continueBelow(Database* database, const TileFrame& frame, const ParentTile* parent);
     // Fits the loaded tiles of an installed database again.
@@ -113,7 +106,6 @@ private:
     // A link for nodes below one without a bin: the stored bin of an ancestor must contain them as well. Requires:
     // _parent.
     [[nodiscard]] osg::ref_ptr<const ParentTile> linkBetween() const;
-    void followPaging(osg::PagedLOD& node, const ParentTile* parent, bool isTile);
 
     CullOptions _options;
     bool _keepsDatabases = false;
@@ -124,7 +116,7 @@ private:
     osg::ref_ptr<Database> _database;        // the visited one
     osg::ref_ptr<Database> _refitted;        // about to be fitted again
     osg::ref_ptr<const ParentTile> _parent;  // the parent tile of the visited node
-    PagingByOptions _paging;
+    PagedReads _paging;
     // By the tile that pages the file (null: none) and the file's name, which may be the same for several tiles.
     using Coverages = std::map<std::pair<const ParentTile*, std::string>, Coverage>;
     std::shared_ptr<Coverages> _coverage;

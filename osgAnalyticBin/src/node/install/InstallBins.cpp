@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "../boxes/BoxInstaller.h"
 #include "../index/AutoIndex.h"
 #include "../page/Database.h"
 #include "../page/DatabaseCallbacks.h"
@@ -74,17 +73,11 @@ void forEachDatabase(osg::Node& node, const std::function<void(osg::Node&, Datab
     });
 }
 
-// Visits the photogrammetry sets with boxes.
-void forEachSet(osg::Node& node, const std::function<void(BoxSet&)>& visit) {
-    forEachNode(node, [&visit](osg::Node& at) {
-        if (const osg::ref_ptr<BoxSet> set = boxSetOf(at)) visit(*set);
-    });
-}
-
 // Starts to make an index, if tiles want one.
 void makeIndex(osg::Node& node, AutoIndex* index) {
     bool isWanted = false;
-    forEachDatabase(node, [&](osg::Node&, Database& database) {
+    forEachDatabase(node, [&](osg::Node& at, Database& database) {
+        if (isPhotogrammetrySet(at)) return;
         const bool isWantedHere = index && database.isIndexWanted();
         database.setMaking(isWantedHere ? index : nullptr);
         isWanted = isWanted || isWantedHere;
@@ -117,8 +110,6 @@ std::size_t installBins(osg::Node& node, const CullOptions& options, const std::
 
 bool isIndexAwaited(osg::Node& node) {
     bool isAwaited = false;
-    forEachSet(node,
-               [&isAwaited](BoxSet& set) { isAwaited = isAwaited || (set.making() && !set.making()->isWhole()); });
     forEachDatabase(node, [&isAwaited](osg::Node&, Database& database) {
         const osg::ref_ptr<AutoIndex> index = database.making();
         isAwaited = isAwaited || (index && !index->isWhole());
@@ -128,11 +119,6 @@ bool isIndexAwaited(osg::Node& node) {
 
 bool waitForIndex(osg::Node& node, double seconds) {
     bool isWhole = true;
-    forEachSet(node, [&](BoxSet& set) {
-        if (!set.making()) return;
-        isWhole = set.making()->waitUntilWhole(std::chrono::duration<double>(seconds)) && isWhole;
-        set.update();
-    });
     forEachDatabase(node, [&](osg::Node& at, Database& database) {
         const osg::ref_ptr<AutoIndex> index = database.making();
         if (!index) return;

@@ -46,7 +46,9 @@ void removeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCal
     if (installed) installed->leaveFamily();
     ContentWatch::remove(culled);
     ContentWatch::remove(*tile.node);
-    if (installed && installed->isFor(&culled)) installed->forgetNode();
+    if (!installed || !installed->isFor(&culled)) return;
+    installed->restoreSphere(culled);
+    installed->forgetNode();
 }
 
 // The most ways from a node up to its globe that are looked at.

@@ -207,6 +207,26 @@ std::vector<PagedFile> filesPagedBy(const osg::PagedLOD& node, const TileFrame& 
     return files;
 }
 
+void PagedReads::follow(osg::PagedLOD& node, const TileFrame& frame, Database& database, const ParentTile* parent,
+                        bool isTile) {
+    const osg::ref_ptr<osgDB::Options> own = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
+    const std::vector<PagedFile> files = filesPagedBy(node, frame, isTile);
+    Replacing& replacing = _replacing[own];
+    // One file may be paged in several places.
+    const bool isTaken = replacing.callback && std::any_of(files.begin(), files.end(), [&](const PagedFile& file) {
+                             return replacing.callback->expectsOtherwise(file.name, file.frame, parent);
+                         });
+    if (!replacing.callback || isTaken) {
+        const osgDB::Options* base = own ? own.get() : osgDB::Registry::instance()->getOptions();
+        replacing.options = base ? base->cloneOptions() : new osgDB::Options;
+        replacing.callback = new BinReadFileCallback(&database, frame, previousCallback(*replacing.options));
+        replacing.callback->setReplaced(optionsWithoutBins(own.get()));
+        replacing.options->setReadFileCallback(replacing.callback);
+    }
+    for (const PagedFile& file : files) replacing.callback->expect(file.name, file.frame, parent);
+    node.setDatabaseOptions(replacing.options.get());
+}
+
 osgDB::ReadFileCallback* previousCallback(const osgDB::Options& options) {
     osgDB::ReadFileCallback* callback = options.getReadFileCallback();
     auto* ours = dynamic_cast<BinReadFileCallback*>(callback);

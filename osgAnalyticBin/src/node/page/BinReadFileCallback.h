@@ -80,6 +80,23 @@ struct PagedFile {
 /// The files of a PagedLOD that stands in `frame`; `isTile`: and is a tile.
 [[nodiscard]] std::vector<PagedFile> filesPagedBy(const osg::PagedLOD& node, const TileFrame& frame, bool isTile);
 
+/// The database options that replace those which PagedLODs came with (or none), so that bins are installed on what they
+/// read.
+class PagedReads final {
+public:
+    /// Has the files of a PagedLOD, which stands in `frame`, read by a callback of ours. `parent`: the tile that pages
+    /// them, null: none; `isTile`: it is this node.
+    void follow(osg::PagedLOD& node, const TileFrame& frame, Database& database, const ParentTile* parent, bool isTile);
+    [[nodiscard]] bool empty() const { return _replacing.empty(); }
+
+private:
+    struct Replacing {
+        osg::ref_ptr<osgDB::Options> options;
+        BinReadFileCallback* callback = nullptr;  // owned by the options
+    };
+    std::map<osg::ref_ptr<osgDB::Options>, Replacing> _replacing;
+};
+
 /// The read callback in the options; where that is one of ours, the one behind it. May be null.
 [[nodiscard]] osgDB::ReadFileCallback* previousCallback(const osgDB::Options& options);
 

@@ -107,7 +107,7 @@ void Database::renewOnTheirWay() {
 }
 
 void Database::setRemoved() {
-    _isRemoved.store(true, std::memory_order_relaxed);
+    noteRemoved();
     setMaking(nullptr);
 }
 
@@ -332,6 +332,10 @@ void Database::widenFrom(const ParentTile& tile, const Widening& by) {
     for (const ParentTile* at = &tile; at; at = at->parent.get()) {
         if (at->isTile) at->database->widen(*at, by, at == &tile);
     }
+}
+
+void Database::widenAlone(const ParentTile& tile, const Widening& by) {
+    tile.database->widen(tile, by, false);
 }
 
 void Database::widen(const ParentTile& tile, const Widening& by, bool isFitted) {

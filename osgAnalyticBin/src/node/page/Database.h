@@ -88,7 +88,6 @@ public:
 
     /// Call when bins are removed: files that are read from now on get none.
     void setRemoved();
-    [[nodiscard]] bool isRemoved() const { return _isRemoved.load(std::memory_order_relaxed); }
 
     /// Records that a file was read, and its bins were installed with the options and the index of `generation`.
     void noteRead(osg::Node& content, unsigned int generation);
@@ -167,6 +166,9 @@ public:
     /// Call when a tile may legitimately draw outside of its ancestors' bins. Expands them without a warning.
     static void noteLarger(const ParentTile& tile, const AnalyticBin& bin) { widenFrom(tile, {bin}); }
 
+    /// The same for one tile, but not for its ancestors. Until the next update the tile stays visible.
+    static void widenAlone(const ParentTile& tile, const Widening& by);
+
     /// Call when it cannot be checked whether a tile fits into the bins stored with it and its ancestors: warns once,
     /// and keeps the ancestors visible from the next update on.
     static void reportUnverifiable(const ParentTile& tile);
@@ -216,7 +218,6 @@ private:
     const osg::observer_ptr<osgTerrain::Terrain> _terrain;
     const osg::Node* _root = nullptr;
     std::atomic<bool> _wasCulled{false};
-    std::atomic<bool> _isRemoved{false};
     std::atomic<bool> _hasGap{false};
     std::atomic<bool> _hasHole{false};
     std::atomic<bool> _hasStrayTile{false};

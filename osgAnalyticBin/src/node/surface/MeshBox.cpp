@@ -3,14 +3,9 @@
 
 #include "MeshBox.h"
 
-#include "../Spheres.h"
-
 #include <osgAnalyticBin/core/Ellipsoid.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <limits>
 
 namespace osgAnalyticBin {
 
@@ -63,37 +58,6 @@ AnalyticBin MeshBox::bin() const {
         return {};
     return AnalyticBin(core::GeodeticBin({_box.yMin() / kUnits, _box.yMax() / kUnits},
                                          {_box.xMin() / kUnits, _box.xMax() / kUnits}, {_box.zMin(), _box.zMax()}));
-}
-
-TestedBox::TestedBox(const osg::BoundingBoxd& box)
-    : _center(box.center()),
-      _half((box._max - box._min) * 0.5),
-      _reach(_center.length() + _half.length()),
-      _sphere(roundedOutward(_center, _half.length())) {}
-
-core::Side TestedBox::classify(const osg::Polytope::PlaneList& planes, core::PlaneMask& undecided,
-                               const osg::BoundingSphere* also) const {
-    constexpr double kRounding = 32.0 * std::numeric_limits<double>::epsilon();
-    for (std::size_t i = 0; i < planes.size() && i < core::kMaxPlanes; ++i) {
-        const core::PlaneMask bit = core::PlaneMask{1} << i;
-        if (!(undecided & bit)) continue;
-        const osg::Plane& plane = planes[i];
-        const double middle = plane[0] * _center.x() + plane[1] * _center.y() + plane[2] * _center.z() + plane[3];
-        const double half =
-            std::abs(plane[0]) * _half.x() + std::abs(plane[1]) * _half.y() + std::abs(plane[2]) * _half.z();
-        const double slack = kRounding * (_reach + std::abs(plane[3]));
-        double low = middle - half - slack;
-        double high = middle + half + slack;
-        if (also && also->valid()) {
-            const double other = plane.distance(osg::Vec3d(also->center()));
-            low = std::min(low, other - static_cast<double>(also->radius()) - slack);
-            high = std::max(high, other + static_cast<double>(also->radius()) + slack);
-        }
-        // written so that NaN is undecided
-        if (high < 0.0) return core::Side::Outside;
-        if (low >= 0.0) undecided &= ~bit;
-    }
-    return undecided == 0 ? core::Side::Inside : core::Side::Straddling;
 }
 
 }  // namespace osgAnalyticBin

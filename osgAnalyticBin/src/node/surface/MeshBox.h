@@ -4,12 +4,9 @@
 #pragma once
 
 #include <osgAnalyticBin/AnalyticBin.h>
-#include <osgAnalyticBin/core/Plane.h>
 
 #include <osg/BoundingBox>
-#include <osg/BoundingSphere>
 #include <osg/Matrixd>
-#include <osg/Polytope>
 
 namespace osgAnalyticBin {
 
@@ -18,6 +15,7 @@ class MeshBox final {
 public:
     MeshBox() = default;
     explicit MeshBox(const osg::BoundingBoxf& box) : _box(box._min, box._max) {}
+    explicit MeshBox(const osg::BoundingBoxd& box) : _box(box) {}
     /// What bin() has made a bin; boundless when that is not valid.
     explicit MeshBox(const AnalyticBin& bin);
 
@@ -41,29 +39,6 @@ public:
 private:
     osg::BoundingBoxd _box;
     bool _isBoundless = false;
-};
-
-/// A box, and the sphere that holds it, as they are tested against planes.
-/// Guarantee: Outside means that no point of the box, and of the second sphere of the call, is inside the plane; Inside
-/// that all are; rounding included. Tests: MeshBox.*.
-/// Cost: six products a plane, nothing allocated.
-class TestedBox final {
-public:
-    TestedBox() = default;
-    /// Requires: the box is valid.
-    explicit TestedBox(const osg::BoundingBoxd& box);
-
-    /// Tests the planes that are undecided, and clears those that have the box inside. `also`: has to be out of view,
-    /// too, for the same plane; null: nothing else.
-    [[nodiscard]] core::Side classify(const osg::Polytope::PlaneList& planes, core::PlaneMask& undecided,
-                                      const osg::BoundingSphere* also) const;
-
-    [[nodiscard]] const osg::BoundingSphere& sphere() const { return _sphere; }
-
-private:
-    osg::Vec3d _center, _half;
-    double _reach = 0.0;
-    osg::BoundingSphere _sphere;
 };
 
 }  // namespace osgAnalyticBin

@@ -36,6 +36,9 @@ public:
         return _ground.compare_exchange_strong(known, wanted, std::memory_order_relaxed) || known == wanted;
     }
 
+    /// Whether bins were removed: tiles that still have them are not culled by them.
+    [[nodiscard]] bool isRemoved() const { return _isRemoved.load(std::memory_order_relaxed); }
+
     /// Call when a tile was found that is not fitted to the present shape.
     void requestRefit() const {
         _isRefitWanted.store(true, std::memory_order_relaxed);
@@ -55,6 +58,7 @@ protected:
 
     ~InstalledDatabase() override = default;
 
+    void noteRemoved() { _isRemoved.store(true, std::memory_order_relaxed); }
     [[nodiscard]] bool isMap() const { return _ground.load(std::memory_order_relaxed) == Ground::Map; }
     void requestUpdate() const { _isUpdateWanted.store(true, std::memory_order_relaxed); }
     [[nodiscard]] bool isUpdateWanted() const { return _isUpdateWanted.load(std::memory_order_relaxed); }
@@ -71,6 +75,7 @@ private:
 
     const osg::ref_ptr<const osg::EllipsoidModel> _ellipsoid;
     std::atomic<Ground> _ground{Ground::Open};
+    std::atomic<bool> _isRemoved{false};
     mutable std::atomic<bool> _isUpdateWanted{false};
     mutable std::atomic<bool> _isRefitWanted{false};
     mutable std::mutex _changing;  // guards the groups

@@ -15,6 +15,20 @@ void InstalledTile::keepVisible(bool kept) {
     tellFamily();
 }
 
+void InstalledTile::needSphere() {
+    _needsSphere.store(true, std::memory_order_relaxed);
+    tellFamily();
+}
+
+void InstalledTile::switchOffSphere(osg::Node& node) {
+    _hasSwitchedOffSphere = node.getCullingActive();
+    node.setCullingActive(false);
+}
+
+void InstalledTile::restoreSphere(osg::Node& node) const {
+    if (_hasSwitchedOffSphere) node.setCullingActive(true);
+}
+
 void InstalledTile::setPlates(std::unique_ptr<const core::GroundPlates> plates) {
     static std::atomic<std::uint64_t> last{0};
     _plates = std::move(plates);
@@ -46,7 +60,7 @@ void InstalledTile::trustMesh() {
 
 void InstalledTile::tellFamily() {
     if (!_block) return;
-    _block->believe(_slot, _isSlotFilled && !isKeptVisible() && !isMeshDoubted());
+    _block->believe(_slot, _isSlotFilled && !isKeptVisible() && !isMeshDoubted() && !needsSphere());
     _block->allowHiding(_slot, obeysDepth());
 }
 

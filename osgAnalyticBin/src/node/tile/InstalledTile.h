@@ -38,7 +38,7 @@ public:
 
     /// Whether the callback may cull this node: the bin was made for it and contains everything below it.
     [[nodiscard]] bool mayCull(const osg::Node* node) const {
-        return isFor(node) && !_isKeptVisible.load(std::memory_order_relaxed);
+        return isFor(node) && !_isKeptVisible.load(std::memory_order_relaxed) && !_database->isRemoved();
     }
 
     /// While true, the tile is not culled.
@@ -50,6 +50,16 @@ public:
     /// and the tile is culled by both.
     [[nodiscard]] bool testsSphere() const { return _testsSphere; }
     void setTestsSphere(bool does) { _testsSphere = does; }
+
+    /// Call when the bin holds what is loaded alone, and OSG's sphere of the node what is not: the tile is culled where
+    /// both are out of view, by its own callback. At any time.
+    void needSphere();
+    [[nodiscard]] bool needsSphere() const { return _needsSphere.load(std::memory_order_relaxed); }
+
+    /// Has OSG test no sphere of the node before its callbacks, until restoreSphere(): what the sphere does not hold
+    /// may be in view.
+    void switchOffSphere(osg::Node& node);
+    void restoreSphere(osg::Node& node) const;
 
     /// Assigns the tile a slot in a family. The tile's callback calls fillSlot().
     void joinFamily(TileBlock& block, std::size_t slot);
@@ -120,6 +130,8 @@ private:
     std::size_t _slot = 0;
     bool _isSlotFilled = false;
     bool _testsSphere = false;
+    bool _hasSwitchedOffSphere = false;
+    std::atomic<bool> _needsSphere{false};
     std::atomic<bool> _isSeeThrough{false};
     std::atomic<bool> _ignoresDepth{false};
     std::atomic<bool> _isFilled{false};
