@@ -33,6 +33,7 @@ public:
         osg::CullStack& cullStack = *nv->asCullStack();
         const auto viewpoint = Viewpoint::of(cullStack, *nv, false);
         if (!viewpoint) return;
+        TileSelection selection;
         const DatabaseView view{nullptr,
                                 earth(),
                                 {},
@@ -40,9 +41,9 @@ public:
                                 cullStack.getModelViewMatrix(),
                                 cullStack.getProjectionMatrix(),
                                 planesOf(cullStack),
+                                &selection,
                                 nullptr};
-        eye =
-            eyeAboveWhatIsShown({*node->asGroup(), *nv, cullStack, view, false, nullptr}, *viewpoint, _deepest, depth);
+        eye = eyeAboveWhatIsShown({*node->asGroup(), {*nv, cullStack, view}, nullptr}, *viewpoint, _deepest, depth);
     }
 
     double depth;

@@ -7,8 +7,8 @@
 #include "../Spheres.h"
 #include "../tile/InstalledTile.h"
 #include "BinCulling.h"
+#include "CullTraversal.h"
 #include "DrawnState.h"
-#include "TilePlan.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/TileFrame.h>
@@ -332,7 +332,7 @@ std::optional<Verdict> AnalyticBinCullCallback::hiddenVerdict(const osg::Node& n
                                                               osg::CullStack& cullStack,
                                                               CullTraversal& traversal) const {
     const DatabaseView* const view = viewOn(cullStack, traversal);
-    const bool isOccluded = view && view->plan && view->plan->isOccluded(*this);
+    const bool isOccluded = view && view->selection->isOccluded(*this);
     const core::HorizonEye* const eye = view ? view->eye : eyeWithoutDatabase(cullStack, nv, traversal);
     const bool isBeyondHorizon = !isOccluded && eye && prepared().horizon && eye->hides(*prepared().horizon) &&
                                  (!view || !view->sight || view->sight->holds(*prepared().horizon));

@@ -9,11 +9,12 @@
 
 namespace osgAnalyticBin {
 
-bool isSphereCulled(osg::CullingSet& cullingSet, core::PlaneMask undecided, const osg::BoundingSphere& sphere) {
+bool isSphereCulled(osg::CullingSet& cullingSet, core::PlaneMask& undecided, const osg::BoundingSphere& sphere) {
     osg::Polytope& frustum = cullingSet.getFrustum();
     const core::PlaneMask before = frustum.getCurrentMask();
     setUndecided(frustum, undecided);
     const bool isCulled = cullingSet.isCulled(sphere);
+    undecided = frustum.getResultMask();
     setUndecided(frustum, before);
     return isCulled;
 }

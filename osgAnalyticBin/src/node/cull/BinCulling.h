@@ -30,8 +30,9 @@ struct Verdict {
     Reason reason;
 };
 
-/// OSG's whole test of a sphere against these planes of the current culling set.
-[[nodiscard]] bool isSphereCulled(osg::CullingSet& cullingSet, core::PlaneMask undecided,
+/// OSG's whole test of a sphere against the undecided planes of the current culling set. Those that have it inside are
+/// cleared.
+[[nodiscard]] bool isSphereCulled(osg::CullingSet& cullingSet, core::PlaneMask& undecided,
                                   const osg::BoundingSphere& sphere);
 
 /// While it exists, OSG tests below the present node only what is in `mask`, too.

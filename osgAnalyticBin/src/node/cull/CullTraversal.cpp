@@ -33,13 +33,13 @@ CullTraversal::DatabaseScope::DatabaseScope(osg::NodeVisitor& visitor, CullTrave
       _outerVisitor(scopeOfThread.visitor),
       _outerTraversal(scopeOfThread.traversal) {
     traversal._databaseView = &view;
-    ++traversal._openPlans;
+    ++traversal._openSelections;
     scopeOfThread = {&visitor, &traversal};
 }
 
 CullTraversal::DatabaseScope::~DatabaseScope() {
     _traversal._databaseView = _outerView;
-    --_traversal._openPlans;
+    --_traversal._openSelections;
     scopeOfThread = {_outerVisitor, _outerTraversal};
 }
 
@@ -47,9 +47,9 @@ CullTraversal::CullTraversal(BinStatistics& statistics) : _statistics(statistics
 
 CullTraversal::~CullTraversal() = default;
 
-TilePlan& CullTraversal::plan() {
-    if (_plans.size() <= _openPlans) _plans.resize(_openPlans + 1);
-    return _plans[_openPlans];
+TileSelection& CullTraversal::selection() {
+    if (_selections.size() <= _openSelections) _selections.resize(_openSelections + 1);
+    return _selections[_openSelections];
 }
 
 CullTraversal& CullTraversal::of(osg::NodeVisitor& visitor) {

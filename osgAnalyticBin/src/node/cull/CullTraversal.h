@@ -5,7 +5,7 @@
 
 #include "DrawnState.h"
 #include "SightOverRegion.h"
-#include "TilePlan.h"
+#include "TileSelection.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/TerrainShape.h>
@@ -14,6 +14,7 @@
 
 #include <osg/CullStack>
 #include <osg/CullingSet>
+#include <osg/Group>
 #include <osg/NodeVisitor>
 #include <osg/Polytope>
 #include <osg/Referenced>
@@ -38,6 +39,10 @@ class InstalledDatabase;
 
 /// What a database provides to its tiles during its traversal.
 struct DatabaseView {
+    /// Draws what is kept below the group of a family to which OSG's traversal has come.
+    using DrawFamily = void (*)(osg::Group& group, const TileFamily& family, osg::NodeVisitor& visitor,
+                                osg::CullStack& cullStack, const DatabaseView& view);
+
     const InstalledDatabase* database;
     core::Ellipsoid ellipsoid;
     TerrainShape shape;
@@ -46,7 +51,8 @@ struct DatabaseView {
     const osg::RefMatrix* modelView;
     const osg::RefMatrix* projection;
     core::PlaneSet planes;
-    TilePlan* plan;                               // nullptr: none was made
+    TileSelection* selection;
+    DrawFamily drawFamily;                        // see SelectionDrawing
     StateRules rules{};                           // what the database's states are judged by
     const SightOverRegion* sight = nullptr;       // of an eye over a region
     const osgUtil::StateGraph* states = nullptr;  // down to the database's root
@@ -89,8 +95,8 @@ public:
     /// What the traversed database provides; nullptr: there is none.
     [[nodiscard]] const DatabaseView* databaseView() const { return _databaseView; }
 
-    /// The plan for the database that is traversed next. Each of several nested databases has its own.
-    [[nodiscard]] TilePlan& plan();
+    /// The selection for the database that is traversed next. Each of several nested databases has its own.
+    [[nodiscard]] TileSelection& selection();
 
     /// Records the node that a family keeps and is about to enter, and the culling mask of what is below it; null:
     /// none.
@@ -117,8 +123,8 @@ private:
     const DatabaseView* _databaseView = nullptr;
     const osg::Node* _kept = nullptr;
     osg::CullingSet::Mask _maskBelowKept = 0;
-    std::deque<TilePlan> _plans;  // of databases within each other
-    std::size_t _openPlans = 0;
+    std::deque<TileSelection> _selections;  // of databases within each other
+    std::size_t _openSelections = 0;
     osg::ref_ptr<osg::Referenced> _searchMemory;
 
     core::PlaneSet _planes;

@@ -16,7 +16,7 @@ namespace osgAnalyticBin {
 /// Threads: everything at any time.
 class Footprint {
     static constexpr std::uintptr_t kLine = 64;
-    static constexpr std::size_t kRuns = 18;
+    static constexpr std::size_t kRuns = 10;
 
 public:
     Footprint() = default;

@@ -6,7 +6,7 @@
 #include "../tile/InstalledTile.h"
 #include "CullTraversal.h"
 #include "SearchMemory.h"
-#include "TilePlan.h"
+#include "TileSelection.h"
 
 #include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
 
@@ -32,7 +32,7 @@ using core::HorizonBuffer;
 
 // A shown tile.
 struct Candidate {
-    const TilePlan::ShownTile* tile;
+    const TileSelection::ShownTile* tile;
     double distance;   // metres from the eye to a corner of the bin, the nearest one
     double size;       // metres from corner to corner
     bool isHidden;     // as far as is known
@@ -51,7 +51,7 @@ class OcclusionSearch {
 public:
     OcclusionSearch(const ShownDatabase& database, FoundOcclusion& found)
         : _database(database),
-          _ellipsoid(database.view.ellipsoid),
+          _ellipsoid(database.selected.view.ellipsoid),
           _found(found),
           _frame(found.eye),
           _buffer(glm::length(found.eye.origin), found.span.across, found.span.drawing, found.span.depthStep,
@@ -59,11 +59,11 @@ public:
 
     // Returns: whether something was found.
     [[nodiscard]] bool run() {
-        const std::size_t tiles = _database.view.plan->shown().size();
+        const std::size_t tiles = _database.selected.view.selection->shown().size();
         _candidates.reserve(tiles);
         _quarters.reserve(2 * tiles);
         _order.reserve(2 * tiles);
-        for (const TilePlan::ShownTile& tile : _database.view.plan->shown()) {
+        for (const TileSelection::ShownTile& tile : _database.selected.view.selection->shown()) {
             if (!add(tile)) return false;
         }
         std::sort(_order.begin(), _order.end());
@@ -95,7 +95,7 @@ public:
 
 private:
     // Returns: false where the place of the tile is not known.
-    [[nodiscard]] bool add(const TilePlan::ShownTile& shown) {
+    [[nodiscard]] bool add(const TileSelection::ShownTile& shown) {
         const AnalyticBinCullCallback& tile = *shown.tile;
         const GeodeticBin& bin = tile.getBin().bin();
         const core::Interval altitude{tile.getBinLow(), tile.getBinHigh()};
@@ -130,7 +130,7 @@ private:
     // Metres above the eye of the highest point of the terrain that is in the picture and within `reach` of the eye.
     // Returns: nullopt where that is not known.
     [[nodiscard]] std::optional<double> highestWithin(double reach) const {
-        NearMeshes& meshes = SearchMemory::of(_database.visitor).nearMeshes;
+        NearMeshes& meshes = SearchMemory::of(_database.selected.visitor).nearMeshes;
         const core::Interval& across = _found.span.across;
         const double widest = std::max(std::abs(across.lower), std::abs(across.upper));
         double highest = -HUGE_VAL;
@@ -142,7 +142,7 @@ private:
             if (isKnown) continue;
             if (tiles.size() == NearMeshes::kMostTiles) return std::nullopt;
             tiles.push_back(quarter.candidate);
-            const TilePlan::ShownTile& tile = *_candidates[quarter.candidate].tile;
+            const TileSelection::ShownTile& tile = *_candidates[quarter.candidate].tile;
             const glm::dvec3 margin = _found.eyes + tile.tile->getBin().margin();
             const double radius = (reach + 2.0 * std::max(margin.x, margin.y)) * (1.0 + widest);
             const core::EcefMesh* const mesh = meshes.trianglesNear(*tile.tile, *tile.mesh, _found.eye, radius);

@@ -5,7 +5,7 @@
 
 #include "LevelPicture.h"
 #include "ShownDepth.h"
-#include "TilePlan.h"
+#include "TileSelection.h"
 
 #include <osgAnalyticBin/CoveredPicture.h>
 #include <osgAnalyticBin/Export.h>
@@ -29,7 +29,7 @@ struct FoundOcclusion {
     struct Tile {
         const AnalyticBinCullCallback* tile;
         const osg::Node* mesh;
-        bool isSure;           ///< see TilePlan::ShownTile
+        bool isSure;           ///< see TileSelection::ShownTile
         std::uint64_t plates;  ///< see InstalledTile::numberOfPlates()
         core::GeodeticBin bin;
         double margin, low, high;
@@ -71,7 +71,7 @@ struct FoundOcclusion {
     [[nodiscard]] bool holds(const glm::dvec3& place) const;
 
     /// Whether a tile is hidden. `tile`: as it is shown in the present view. Requires: i < findings.size().
-    [[nodiscard]] bool hides(std::size_t i, const TilePlan::ShownTile& tile) const {
+    [[nodiscard]] bool hides(std::size_t i, const TileSelection::ShownTile& tile) const {
         return findings[i] == Finding::Hidden || (findings[i] == Finding::MeshHidden && tile.isOnlyLevel);
     }
 

@@ -32,6 +32,7 @@ public:
     /// Results about a database.
     struct LastView {
         double depth = 0.0;        ///< metres, of the lowest surface shown; the next search starts there
+        bool hadHole = false;      ///< the search came to nothing
         unsigned int rest = 0;     ///< views without occlusion that follow a view in which it hid too little
         unsigned int resting = 0;  ///< how many of them are left
         std::shared_ptr<FoundOcclusion> occlusion;

@@ -3,30 +3,24 @@
 
 #pragma once
 
+#include "SelectionWalk.h"
 #include "Viewpoint.h"
 
-#include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/core/horizon/CoveredRegion.h>
 #include <osgAnalyticBin/core/horizon/Horizon.h>
 
-#include <osg/CullStack>
 #include <osg/Group>
-#include <osg/NodeVisitor>
 
 #include <optional>
 
 namespace osgAnalyticBin {
 
-struct DatabaseView;
-
 /// A database whose cull traversal is about to begin.
 struct ShownDatabase {
     osg::Group& root;
-    osg::NodeVisitor& visitor;
-    osg::CullStack& cullStack;
-    const DatabaseView& view;
-    bool findsOccluded;                 // whether the plan is to have the tiles that are shown
+    SelectedView selected;
     const core::CoveredRegion* region;  // that is covered; null: the globe
+    bool expectsHole = false;           // as in the last view
 };
 
 /// The eye over a database: the occluder lies just below the lowest surface that the traversal shows, by levels of
@@ -39,8 +33,8 @@ struct ShownDatabase {
 /// or 1.05 times the depth found, but for eyes below the ellipsoid; tests: ShownDepth.*, HoledGlobe.*.
 /// Returns: nullopt when something of unknown depth is shown and no altitude is declared, when nothing can be hidden,
 /// when a tile in view may not be drawn or can be seen through, and when the eye is not known to be above the ground
-/// below it. Cost: one short test for every tile shown on the near side of the horizon. Source: doc/theory/horizon.md,
-/// section 8.
+/// below it. Cost: that of the walk, mostly once. Source: doc/theory/horizon.md,
+/// section 8. The selection of the view is made for this eye; without an eye it has to be made anew.
 [[nodiscard]] OSGANALYTICBIN_EXPORT std::optional<core::HorizonEye> eyeAboveWhatIsShown(const ShownDatabase& database,
                                                                                         const Viewpoint& viewpoint,
                                                                                         double deepest, double& depth);
@@ -49,8 +43,9 @@ struct ShownDatabase {
 [[nodiscard]] std::optional<core::HorizonEye> eyeAboveDepth(const ShownDatabase& database, const Viewpoint& viewpoint,
                                                             double depth);
 
-/// Makes the plan of what is shown where no horizon can be used.
-/// Returns: whether all that is shown in view is drawn and opaque, and the eye is above the ground below it.
-[[nodiscard]] bool planWithoutHorizon(const ShownDatabase& database, const Viewpoint& viewpoint);
+/// Makes the selection where no horizon can be used.
+/// Returns: whether all that is shown in view is drawn and opaque, and the eye is above the ground below it; if not,
+/// the selection has to be made anew.
+[[nodiscard]] bool selectWithoutHorizon(const ShownDatabase& database, const Viewpoint& viewpoint);
 
 }  // namespace osgAnalyticBin

@@ -6,7 +6,7 @@
 #include "../tile/InstalledTile.h"
 #include "BinCulling.h"
 #include "CullTraversal.h"
-#include "TilePlan.h"
+#include "TileSelection.h"
 
 #include <glm/geometric.hpp>
 
@@ -34,14 +34,14 @@ enum class Ground {
 
 // Notes the tiles that are shown.
 Ground describe(const ShownDatabase& database, std::vector<FoundOcclusion::Tile>& tiles,
-                std::vector<TilePlan::ShownTile>& withoutPlates) {
-    osg::CullingSet& cullingSet = database.cullStack.getCurrentCullingSet();
+                std::vector<TileSelection::ShownTile>& withoutPlates) {
+    osg::CullingSet& cullingSet = database.selected.cullStack.getCurrentCullingSet();
     tiles.clear();
     Ground ground = Ground::Known;
-    for (const TilePlan::ShownTile& shown : database.view.plan->shown()) {
+    for (const TileSelection::ShownTile& shown : database.selected.view.selection->shown()) {
         const AnalyticBinCullCallback& tile = *shown.tile;
         const InstalledTile* const installed = tile.getInstalledTile();
-        const bool isFitted = !tile.getTerrainShape() || *tile.getTerrainShape() == database.view.shape;
+        const bool isFitted = !tile.getTerrainShape() || *tile.getTerrainShape() == database.selected.view.shape;
         if (!installed || !isFitted) return Ground::Unknown;
         if (installed->numberOfPlates() == 0) {
             withoutPlates.push_back(shown);
@@ -103,15 +103,15 @@ void aim(FoundOcclusion& found, const LevelView& view, const glm::dvec3& eye, co
     found.span.across.upper += room(spanThen->across.upper - found.lastAcross.upper);
 }
 
-OccludedTiles noteIn(TilePlan& plan, const FoundOcclusion& found) {
+OccludedTiles noteIn(TileSelection& selection, const FoundOcclusion& found) {
     OccludedTiles tiles;
     for (std::size_t i = 0; i < found.findings.size(); ++i) {
-        const TilePlan::ShownTile& tile = plan.shown()[i];
-        if (found.findings[i] == FoundOcclusion::Finding::Beside || plan.isOutOfView(tile)) continue;
+        const TileSelection::ShownTile& tile = selection.shown()[i];
+        if (found.findings[i] == FoundOcclusion::Finding::Beside || tile.isOutOfView) continue;
         ++tiles.inView;
         if (!found.hides(i, tile) || !tile.tile->getInstalledTile()->obeysDepth()) continue;
         ++tiles.hidden;
-        plan.addOccluded(tile);
+        selection.addOccluded(tile);
     }
     return tiles;
 }
@@ -120,13 +120,13 @@ OccludedTiles noteIn(TilePlan& plan, const FoundOcclusion& found) {
 
 OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& viewpoint,
                                 std::shared_ptr<FoundOcclusion>& kept) {
-    if (!viewpoint.eye() || !database.view.plan || !std::isfinite(viewpoint.nearReach())) return {};
+    if (!viewpoint.eye() || !std::isfinite(viewpoint.nearReach())) return {};
     // tiles in front of the near plane are not looked for then
     constexpr osg::CullingSet::Mask kNear = osg::CullingSet::NEAR_PLANE_CULLING;
-    if (database.cullStack.getCurrentCullingSet().getCullingMask() & kNear) return {};
+    if (database.selected.cullStack.getCurrentCullingSet().getCullingMask() & kNear) return {};
     const glm::dvec3& eye = *viewpoint.eye();
     if (database.region && !database.region->holdsSegmentsFrom(eye)) return {};
-    const auto view = LevelView::of(database.cullStack, database.view.ellipsoid, eye);
+    const auto view = LevelView::of(database.selected.cullStack, database.selected.view.ellipsoid, eye);
     if (!view) return {};
     if (!kept) kept = std::make_shared<FoundOcclusion>();
     FoundOcclusion& found = *kept;
@@ -135,7 +135,7 @@ OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& 
     none.isAwaited = ground == Ground::Awaited;
     if (ground != Ground::Known) return none;
     const auto spanThen = PictureSpan::of(*view, found.eye);
-    found.leaveOut(database.view.planes, database.view.ellipsoid);
+    found.leaveOut(database.selected.view.planes, database.selected.view.ellipsoid);
     if (!serves(found, database, eye, spanThen, viewpoint.nearReach())) {
         const auto span = PictureSpan::of(*view, view->frameAt(eye));
         if (!span) return {};
@@ -150,11 +150,11 @@ OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& 
         }
         found.uses = 1;
     }
-    BinStatistics::of(database.visitor)
-        .setCovered(found.covered, static_cast<unsigned int>(database.visitor.getTraversalNumber()));
+    BinStatistics::of(database.selected.visitor)
+        .setCovered(found.covered, static_cast<unsigned int>(database.selected.visitor.getTraversalNumber()));
     found.lastEye = eye;
     found.lastAcross = PictureSpan::of(*view, found.eye).value_or(found.span).across;
-    return noteIn(*database.view.plan, found);
+    return noteIn(*database.selected.view.selection, found);
 }
 
 }  // namespace osgAnalyticBin

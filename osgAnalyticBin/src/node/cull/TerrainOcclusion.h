@@ -17,7 +17,7 @@ struct OccludedTiles {
     std::size_t hidden = 0;
     std::size_t inView = 0;  ///< hidden ones included
     bool isAwaited = false;  ///< no result yet, because tiles have no plates yet
-    std::vector<TilePlan::ShownTile> withoutPlates;
+    std::vector<TileSelection::ShownTile> withoutPlates;
 };
 
 /// Marks in the database's plan which of the shown tiles are hidden behind the terrain of others, for an eye above the

@@ -9,9 +9,10 @@
 #include "../tile/InstalledTile.h"
 #include "../tile/MeshCulling.h"
 #include "BinCulling.h"
+#include "CullTraversal.h"
 #include "DrawnState.h"
 #include "InstalledBin.h"
-#include "TilePlan.h"
+#include "SightOverRegion.h"
 
 #include <osgAnalyticBin/PhotogrammetrySet.h>
 
@@ -27,46 +28,6 @@
 
 namespace osgAnalyticBin {
 
-namespace {
-
-using MeshParts = TileFamily::MeshParts;
-
-// Collects the nodes of a mesh. Returns: whether OSG draws the whole mesh as long as it enters each of them, and there
-// is room for all.
-bool appendParts(osg::Node& node, MeshParts& parts, std::size_t& count) {
-    if (count == parts.size()) return false;
-    parts[count++] = &node;
-    if (dynamic_cast<const osgTerrain::TerrainTile*>(&node)) return typeid(node) == typeid(osgTerrain::TerrainTile);
-    // a group without children draws nothing
-    osg::Group* const group = node.asGroup();
-    bool areKnown = drawsAllChildren(node) && (!group || group->getNumChildren() > 0);
-    for (unsigned int i = 0; areKnown && group && i < group->getNumChildren(); ++i) {
-        areKnown = appendParts(*group->getChild(i), parts, count);
-    }
-    return areKnown;
-}
-
-// The mesh of a tile. Returns: nullptr where the tile has several or none.
-osg::Node* meshOf(osg::Node& tile) {
-    auto* const paged = dynamic_cast<osg::PagedLOD*>(&tile);
-    if (!paged) return &tile;
-    const bool isSingle = paged->getNumChildren() > 0 && paged->getNumFileNames() > 0 && paged->getFileName(0).empty();
-    for (unsigned int i = 1; i < paged->getNumFileNames(); ++i) {
-        if (paged->getFileName(i).empty()) return nullptr;
-    }
-    return isSingle ? paged->getChild(0) : nullptr;
-}
-
-MeshParts meshPartsOf(osg::Node& tile) {
-    osg::Node* const mesh = meshOf(tile);
-    MeshParts parts;
-    std::size_t count = 0;
-    if (!mesh || !appendParts(*mesh, parts, count)) return {};
-    return parts;
-}
-
-}  // namespace
-
 TileFamily::TileFamily(const TileFamily& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop) {}
 
@@ -81,7 +42,7 @@ TileFamily::TileFamily(osg::Group& group)
     : _group(&group),
       _block(new TileBlock(group.getNumChildren())),
       _nodes(group.getNumChildren()),
-      _members(group.getNumChildren()) {
+      _tiles(group.getNumChildren()) {
     const unsigned int children = group.getNumChildren();
     for (unsigned int i = 0; i < children; ++i) _hasTiles = add(*group.getChild(i), i) || _hasTiles;
     for (unsigned int i = 0; i < children; ++i) _hasGroups = addFamilyOf(*group.getChild(i), i) || _hasGroups;
@@ -182,11 +143,7 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
     if (!isSame) return false;
     _nodes[slot] = &child;
     _block->addMember(slot);
-    const MeshParts parts = meshPartsOf(child);
-    const bool hasTerrain = std::any_of(parts.begin(), parts.end(), [](const auto& part) {
-        return dynamic_cast<const osgTerrain::TerrainTile*>(part.get()) != nullptr;
-    });
-    _members[slot] = {tile, dynamic_cast<osg::PagedLOD*>(&child), parts, hasTerrain, TileEntry(child, parts)};
+    _tiles[slot] = FamilyTile(child, *tile);
     tile->getInstalledTile()->joinFamily(*_block, slot);
     tile->fillSlot();
     return true;
@@ -195,7 +152,7 @@ bool TileFamily::add(osg::Node& child, std::size_t slot) {
 // The same conditions as in AnalyticBinCullCallback::isCulled() and eyeOn(), for all tiles together.
 bool TileFamily::culls(const osg::Node& group, osg::CullStack& cullStack, const DatabaseView& view) const {
     const osg::CullingSet::Mask mask = cullStack.getCurrentCullingSet().getCullingMask();
-    return &group == _group && _hasTiles && !getNestedCallback() && (mask & osg::CullingSet::VIEW_FRUSTUM_CULLING) &&
+    return &group == _group && !getNestedCallback() && (mask & osg::CullingSet::VIEW_FRUSTUM_CULLING) &&
            view.modelView == cullStack.getModelViewMatrix() && view.projection == cullStack.getProjectionMatrix() &&
            view.ellipsoid == *_ellipsoid && (!_shape || *_shape == view.shape) && !hasActiveOccluders(cullStack);
 }
@@ -209,41 +166,20 @@ void TileFamily::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         traverse(node, nv);
         return;
     }
-    cullChildren(*node->asGroup(), *nv, *cullStack, *view, *traversal);
-}
-
-bool TileFamily::enterFamilyOf(osg::Node& node, osgUtil::CullVisitor& visitor, CullTraversal& traversal,
-                               Footprint::Notes& notes) {
-    osg::Callback* const callback = node.getCullCallback();
-    if (!callback || !isExactly<TileFamily>(*callback) || !isExactly<osg::Group>(node)) return false;
-    const TileFamily& family = static_cast<const TileFamily&>(*callback->asNodeCallback());
-    const DatabaseView* const view = traversal.statistics().isTileByTile() ? nullptr : traversal.databaseView();
-    if (!view || !visitor.validNodeMask(node) || !family.culls(node, visitor, *view)) return false;
-    notes.add(&node, 4);
-    notes.add(&family, 5);
-    notes.add(family._block, 2);
-    if (family._block->size() > 0) notes.add(&family._block->partFrom(0), 3);
-    notes.add(family._nodes.data(), 1);
-    notes.add(family._members.data(), 16);
-    osg::StateSet* const state = node.getStateSet();
-    visitor.pushOntoNodePath(&node);
-    if (state) visitor.pushStateSet(state);
-    family.cullChildren(*node.asGroup(), visitor, visitor, *view, traversal);
-    if (state) visitor.popStateSet();
-    visitor.popFromNodePath();
-    return true;
+    view->drawFamily(*node->asGroup(), *this, *nv, *cullStack, *view);
 }
 
 void TileFamily::test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes,
-                      core::PlaneMask undecided, const core::HorizonEye* eye, Verdicts& verdicts) const {
-    verdicts.beyond = verdicts.members = verdicts.tested = verdicts.hidden = verdicts.separated = verdicts.occluded = 0;
+                      core::PlaneMask undecided, const Hiding& hiding, bool obeyDepth, Verdicts& verdicts) const {
+    verdicts.beyond = verdicts.members = verdicts.tested = verdicts.hidden = verdicts.separated = 0;
     verdicts.lacksTiles = false;
     if (first >= _block->size()) return;
     const TileBlock::Part& part = _block->partFrom(first);
     part.bins.classify(planes, undecided, verdicts.planes);
     verdicts.tested = part.bins.filled();
-    verdicts.beyond = eye ? part.bins.hiddenFrom(*eye, verdicts.tested & ~verdicts.planes.outside) : 0;
-    verdicts.hidden = hideable(first, verdicts.beyond & part.hideable);
+    verdicts.beyond = hiding.eye ? part.bins.hiddenFrom(*hiding.eye, verdicts.tested & ~verdicts.planes.outside) : 0;
+    verdicts.hidden = obeyDepth ? hideable(first, verdicts.beyond & part.hideable) : 0;
+    if (verdicts.hidden != 0 && hiding.sight) verdicts.hidden = hiding.sight->heldIn(part.bins, verdicts.hidden);
     const std::size_t end =
         std::min<std::size_t>({first + TileBlock::Part::kMost, group.getNumChildren(), _nodes.size()});
     for (std::size_t i = first; i < end; ++i) {
@@ -255,9 +191,17 @@ void TileFamily::test(const osg::Group& group, unsigned int first, const core::P
                   verdicts);
 }
 
-void TileFamily::fetchKept(unsigned int first, const Verdicts& verdicts) const {
-    forEachBit(verdicts.members & ~verdicts.outOfView(),
-               [&](unsigned int number) { _members[first + number].entry.fetch(); });
+void TileFamily::noteMemory(const Footprint& footprint, const osg::PagedLOD& tile, const osg::Node& level) const {
+    Footprint::Notes notes(footprint);
+    notes.add(&tile, 6);
+    notes.add(tile.getRangeList().data(), 1);
+    notes.add(&tile.getFileName(0), 3);
+    notes.add(&level, 4);
+    notes.add(this, 5);
+    notes.add(_block, 2);
+    if (_block->size() > 0) notes.add(&_block->partFrom(0), 3);
+    notes.add(_nodes.data(), 1);
+    notes.add(_tiles.data(), 16);
 }
 
 // A state that the application has set since then is asked for.
@@ -279,121 +223,9 @@ void TileFamily::findSeparated(unsigned int first, std::uint64_t candidates, con
         if (!isAcrossEdge || !_testsEdges) return;
         const bool isBeyond = hasBit(bins.exact(), number) || _ellipsoid->isPlane()
                                   ? bins.isSeparated(number, planes, undecided)
-                                  : _members[first + number].tile->isBeyondAnEdge(planes, undecided);
+                                  : _tiles[first + number].callback()->isBeyondAnEdge(planes, undecided);
         if (isBeyond) verdicts.separated |= std::uint64_t{1} << number;
     });
-}
-
-void TileFamily::lookUp(const osg::Group& group, unsigned int first, core::PlaneMask undecided,
-                        const DatabaseView& view, Verdicts& verdicts) const {
-    if (!view.plan || !view.plan->find(*this, first, undecided, verdicts)) {
-        test(group, first, view.planes, undecided, view.eye, verdicts);
-        fetchKept(first, verdicts);
-    }
-    if (verdicts.hidden == 0 || (view.eye && !view.sight)) return;
-    // the plan does not look at borders, and may be that of an eye which came to nothing
-    std::uint64_t seen = verdicts.hidden;
-    if (view.eye) seen &= ~view.sight->heldIn(_block->partFrom(first).bins, seen);
-    findSeparated(first, verdicts.members & seen, view.planes, verdicts);
-    verdicts.hidden &= ~seen;
-}
-
-// Which of the tiles are culled, one bit each.
-std::uint64_t TileFamily::culled(unsigned int first, const Verdicts& verdicts, const osg::NodeVisitor& nv,
-                                 osg::CullStack& cullStack, CullTraversal& traversal) const {
-    const std::uint64_t inside = verdicts.members & verdicts.tested & verdicts.planes.insideAll;
-    std::uint64_t culled = verdicts.members & verdicts.outOfView();
-    osg::CullingSet& cullingSet = cullStack.getCurrentCullingSet();
-    if (cullingSet.getCullingMask() & osg::CullingSet::SMALL_FEATURE_CULLING) {
-        forEachBit(verdicts.members & ~culled, [&](unsigned int number) {
-            if (isSmall(cullingSet, (*_block)[first + number].bound)) culled |= std::uint64_t{1} << number;
-        });
-    }
-    if (nv.getVisitorType() == osg::NodeVisitor::CULL_VISITOR) {
-        BinCounts counts;
-        counts.outside = countBits(culled);
-        counts.inside = countBits(inside & ~culled);
-        counts.straddling = countBits(verdicts.members & ~culled & ~inside);
-        counts.hidden = countBits(verdicts.members & verdicts.hidden);
-        counts.beyondEdge = countBits(verdicts.members & verdicts.separated);
-        counts.occluded = countBits(verdicts.members & verdicts.occluded);
-        counts.frame = nv.getTraversalNumber();
-        traversal.statistics().add(counts);
-    }
-    if (first < _block->size()) {
-        forEachBit(verdicts.members & ~culled & _block->partFrom(first).withSpheres, [&](unsigned int number) {
-            const core::PlaneMask undecided = verdicts.planes.undecided[number];
-            if (isSphereCulled(cullingSet, undecided, _nodes[first + number]->getBound()))
-                culled |= std::uint64_t{1} << number;
-        });
-    }
-    return culled;
-}
-
-bool TileFamily::isAlone(const osg::Node& tile, const Member& member) {
-    const osg::Callback* const nested = member.tile->getNestedCallback();
-    return tile.getCullCallback() == member.tile &&
-           (!nested || (isSuspendedCluster(*nested) && !nested->getNestedCallback()));
-}
-
-void TileFamily::enterAlone(osg::Node& tile, const TileEntry& entry, osgUtil::CullVisitor& visitor,
-                            CullTraversal& traversal) {
-    Footprint::Notes notes(entry.footprint());
-    const TileEntry::Level level = entry.enter(tile, visitor, notes);
-    if (!level.node) return;
-    if (!enterFamilyOf(*level.node, visitor, traversal, notes)) level.node->accept(visitor);
-    TileEntry::leave(level, visitor);
-}
-
-// A plain tile is entered as osgUtil::CullVisitor does it, but for the test of its sphere and for the calls that lead
-// to the tile's own callback, which would do nothing: its family has tested it.
-void TileFamily::enter(osg::Node& child, const Member& member, osg::NodeVisitor& nv, osg::CullStack& cullStack,
-                       CullTraversal& traversal) {
-    if (member.entry.isPossible() && child.getCullCallback() == member.tile &&
-        typeid(nv) == typeid(osgUtil::CullVisitor)) {
-        auto& visitor = static_cast<osgUtil::CullVisitor&>(nv);
-        if (isAlone(child, member)) return enterAlone(child, member.entry, visitor, traversal);
-        return enterWithoutTest(child, visitor, child.getCullCallback()->getNestedCallback());
-    }
-    // OSG does not test the sphere in this mask; the tile's callback sets the mask of what is below again
-    const osg::CullingSet::Mask mask = cullStack.getCurrentCullingSet().getCullingMask();
-    cullStack.getCurrentCullingSet().setCullingMask(osg::CullingSet::NO_CULLING);
-    traversal.setKept(&child, mask);
-    child.accept(nv);
-    traversal.setKept(nullptr, mask);
-    cullStack.getCurrentCullingSet().setCullingMask(mask);
-}
-
-void TileFamily::cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack,
-                              const DatabaseView& view, CullTraversal& traversal) const {
-    // OSG's stack of culling sets may move while a child is entered
-    const auto setMask = [&cullStack](core::PlaneMask mask) {
-        setUndecided(cullStack.getCurrentCullingSet().getFrustum(), mask);
-    };
-    const core::PlaneMask before = cullStack.getCurrentCullingSet().getFrustum().getCurrentMask();
-    const unsigned int children = group.getNumChildren();
-    bool isChanged = children != _nodes.size();
-    Verdicts verdicts;
-    for (unsigned int first = 0; first < children; first += TileBlock::Part::kMost) {
-        lookUp(group, first, before, view, verdicts);
-        const bool isAnyHidden = (verdicts.hidden | verdicts.occluded) != 0;
-        if (isAnyHidden && !drawnStateAbove(nv, view.rules, view.states).obeysDepth)
-            verdicts.hidden = verdicts.occluded = 0;
-        isChanged = isChanged || verdicts.lacksTiles;
-        const std::uint64_t culled = this->culled(first, verdicts, nv, cullStack, traversal);
-        const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
-        forEachBit(lowestBits(here) & ~culled, [&](unsigned int number) {
-            if (first + number >= group.getNumChildren()) return;
-            osg::Node& child = *group.getChild(first + number);
-            if (!hasBit(verdicts.members, number)) return child.accept(nv);
-            const core::PlaneMask undecided = verdicts.planes.undecided[number];
-            setMask(undecided);
-            const PlanesBelow planes(cullStack, undecided);
-            enter(child, _members[first + number], nv, cullStack, traversal);
-            setMask(before);
-        });
-    }
-    if (isChanged) view.database->noteChanged(group);
 }
 
 }  // namespace osgAnalyticBin

@@ -4,19 +4,18 @@
 #pragma once
 
 #include "../tile/TileBlock.h"
-#include "TileEntry.h"
-#include "TilePlan.h"
+#include "FamilyTile.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/Export.h>
-#include <osgAnalyticBin/core/Plane.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
 
 #include <osg/CullStack>
 #include <osg/Group>
 #include <osg/NodeCallback>
 #include <osg/PagedLOD>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -24,16 +23,16 @@
 
 namespace osgAnalyticBin {
 
-class CullTraversal;
+class SightOverRegion;
 struct DatabaseView;
-struct Verdict;
 
-/// The cull callback of a group with tiles among its children. It tests all tiles together, enters those that it keeps,
-/// and does not access the others. On a group of groups with tiles it tests nothing, and holds the union of their
-/// columns. The tiles' own callbacks are used for children that it does not know, in another frame than that of the
-/// database, with occluders, and with callbacks behind it. It reports the class name of a plain osg::NodeCallback, so
-/// that saved scenes do not contain it. Guarantee: it culls the tiles that their own callbacks would cull; tests:
-/// TileFamily.*. Threads: run() changes nothing in the callback.
+/// The cull callback of a group with tiles among its children, which are tested together, and what is known of the
+/// tiles. On a group of groups with tiles it holds the union of their columns. Where OSG's traversal comes to the
+/// group, the callback draws what was selected below it, or selects it now. The tiles' own callbacks are used for
+/// children that it does not know, in another frame than that of the database, with occluders, and with callbacks
+/// behind it. It reports the class name of a plain osg::NodeCallback, so that saved scenes do not contain it.
+/// Guarantee: it culls the tiles that their own callbacks would cull; tests: TileFamily.*. Threads: run() changes
+/// nothing in the callback.
 class TileFamily final : public osg::NodeCallback {
 public:
     /// The copy has no tiles.
@@ -57,30 +56,37 @@ public:
 
     void operator()(osg::Node* node, osg::NodeVisitor* nv) override;
 
-    using MeshParts = TileEntry::MeshParts;
+    /// The results for up to TileBlock::Part::kMost children, one bit each.
+    struct Verdicts {
+        Verdicts() { planes.outside = planes.insideAll = 0; }  // masks of slots without a tile are not read
 
-    /// A tile at the time when the family was made.
-    struct Member {
-        osg::ref_ptr<const AnalyticBinCullCallback> tile;
-        osg::PagedLOD* paged = nullptr;  ///< the node, if it is one
-        MeshParts meshParts;
-        bool hasTerrain = false;  ///< a part is a tile of osgTerrain
-        TileEntry entry;
+        core::FamilyVerdict planes;
+        std::uint64_t members = 0;    ///< the family's tiles; other children are left to their callbacks
+        std::uint64_t tested = 0;     ///< slots with a bin
+        std::uint64_t beyond = 0;     ///< behind the horizon
+        std::uint64_t hidden = 0;     ///< of these, those that are left out
+        std::uint64_t separated = 0;  ///< proven outside by an edge of the frustum
+        bool lacksTiles = false;      ///< a tile was removed: the terrain may have a hole
+
+        /// Slots whose bin is out of view.
+        [[nodiscard]] std::uint64_t outOfView() const { return tested & (planes.outside | hidden | separated); }
     };
-
-    using Verdicts = TilePlan::Verdicts;
 
     /// Whether the family may cull the children of the group in this traversal.
     [[nodiscard]] bool culls(const osg::Node& group, osg::CullStack& cullStack, const DatabaseView& view) const;
 
-    /// Tests the children from `first` on, a multiple of kMost. `eye`: null where nothing is hidden.
+    /// What hides tiles; null: nothing.
+    struct Hiding {
+        const core::HorizonEye* eye = nullptr;
+        const SightOverRegion* sight = nullptr;  ///< of an eye over a region
+    };
+    /// Tests the children from `first` on, a multiple of kMost. `obeyDepth`: whether they do by the states above.
     void test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes, core::PlaneMask undecided,
-              const core::HorizonEye* eye, Verdicts& verdicts) const;
+              const Hiding& hiding, bool obeyDepth, Verdicts& verdicts) const;
 
-    /// Prefetches the memory that entering the tiles in view reads.
-    void fetchKept(unsigned int first, const Verdicts& verdicts) const;
-
-    [[nodiscard]] const Member& member(unsigned int i) const { return _members[i]; }
+    [[nodiscard]] const FamilyTile& tile(unsigned int i) const { return _tiles[i]; }
+    /// Requires: a member.
+    [[nodiscard]] const osg::Node& node(unsigned int i) const { return *_nodes[i]; }
     [[nodiscard]] const TileBlock& block() const { return *_block; }
 
     /// Call when a group's bound is computed: notices children that were added, removed or replaced.
@@ -91,21 +97,15 @@ public:
     /// The same for the family of any group. Returns: nullptr also where the group has no family.
     [[nodiscard]] OSGANALYTICBIN_EXPORT static const ColumnUnion* columnUnionOf(osg::Group& group);
 
-    /// Whether a tile has no cull callbacks other than that of its bin, and a suspended one for clusters.
-    [[nodiscard]] static bool isAlone(const osg::Node& tile, const Member& member);
-
     /// Whether a tile, or a group of tiles, was removed from the group since bins were installed: the terrain may have
     /// a hole.
     [[nodiscard]] bool hasLost(const osg::Group& group) const;
 
+    /// Notes what a walk reads on its way from a tile to the family of the tile's finer level, the group `level`.
+    void noteMemory(const Footprint& footprint, const osg::PagedLOD& tile, const osg::Node& level) const;
+
     /// The number of children when the family was made.
     [[nodiscard]] std::size_t size() const { return _nodes.size(); }
-
-    /// Enters a plain group whose only cull callback is a family that may cull in this traversal. As OSG, but without
-    /// the test of the group's sphere, because the tiles are tested. `notes`: records the memory that is read. Returns:
-    /// false for any other node, without doing anything.
-    [[nodiscard]] static bool enterFamilyOf(osg::Node& node, osgUtil::CullVisitor& visitor, CullTraversal& traversal,
-                                            Footprint::Notes& notes);
 
 protected:
     ~TileFamily() override;
@@ -115,20 +115,10 @@ private:
     [[nodiscard]] bool add(osg::Node& child, std::size_t slot);
     [[nodiscard]] bool addFamilyOf(osg::Node& child, std::size_t slot);
     [[nodiscard]] bool hasSameChildren(const osg::Group& group) const;
-    void lookUp(const osg::Group& group, unsigned int first, core::PlaneMask undecided, const DatabaseView& view,
-                Verdicts& verdicts) const;
     // Of these tiles, those that may be hidden now.
     [[nodiscard]] std::uint64_t hideable(unsigned int first, std::uint64_t tiles) const;
     void findSeparated(unsigned int first, std::uint64_t candidates, const core::PlaneSet& planes,
                        Verdicts& verdicts) const;
-    [[nodiscard]] std::uint64_t culled(unsigned int first, const Verdicts& verdicts, const osg::NodeVisitor& nv,
-                                       osg::CullStack& cullStack, CullTraversal& traversal) const;
-    void cullChildren(osg::Group& group, osg::NodeVisitor& nv, osg::CullStack& cullStack, const DatabaseView& view,
-                      CullTraversal& traversal) const;
-    static void enterAlone(osg::Node& tile, const TileEntry& entry, osgUtil::CullVisitor& visitor,
-                           CullTraversal& traversal);
-    static void enter(osg::Node& child, const Member& member, osg::NodeVisitor& nv, osg::CullStack& cullStack,
-                      CullTraversal& traversal);
 
     const osg::Node* _group = nullptr;
     bool _hasTiles = false;
@@ -138,7 +128,7 @@ private:
     // one for each child
     // references, so that no address is used again; null: neither a tile nor a group with a family
     std::vector<osg::ref_ptr<osg::Node>> _nodes;
-    std::vector<Member> _members;
+    std::vector<FamilyTile> _tiles;
     // the same for all tiles
     std::optional<core::Ellipsoid> _ellipsoid;
     std::optional<TerrainShape> _shape;

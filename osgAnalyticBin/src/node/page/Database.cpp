@@ -368,10 +368,10 @@ Widening Database::correction(const std::string& file, std::size_t ordinal) cons
 void Database::trustMeshes(osg::Node& group) {
     const TileFamily* const family = findCallback<TileFamily>(group.getCullCallback());
     for (unsigned int i = 0; family && i < family->size(); ++i) {
-        const TileFamily::Member& member = family->member(i);
-        if (!member.tile || !member.meshParts.front()) continue;
-        InstalledTile& installed = *member.tile->getInstalledTile();
-        if (installed.isMeshDoubted()) renewEvidence(*member.meshParts.front(), *member.tile, installed);
+        const FamilyTile& tile = family->tile(i);
+        if (!tile.callback() || !tile.part(0)) continue;
+        InstalledTile& installed = *tile.callback()->getInstalledTile();
+        if (installed.isMeshDoubted()) renewEvidence(*tile.part(0), *tile.callback(), installed);
         installed.trustMesh();
     }
 }

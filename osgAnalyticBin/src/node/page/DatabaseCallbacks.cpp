@@ -11,9 +11,10 @@
 #include "../cull/CullTraversal.h"
 #include "../cull/DrawnState.h"
 #include "../cull/SearchMemory.h"
+#include "../cull/SelectionDrawing.h"
+#include "../cull/SelectionWalk.h"
 #include "../cull/ShownDepth.h"
 #include "../cull/TerrainOcclusion.h"
-#include "../cull/TilePlan.h"
 #include "../cull/Viewpoint.h"
 
 #include <osg/CoordinateSystemNode>
@@ -54,6 +55,7 @@ void noteOccluded(const OccludedTiles& tiles, SearchMemory::LastView& last) {
 struct Horizon {
     std::optional<core::HorizonEye> eye;
     std::optional<core::CoveredRegion> region;  // that the eye is over
+    bool isSelected = false;                    // what is drawn is selected already
 };
 
 bool isOver(const core::CoveredRegion& region, const Viewpoint& viewpoint) {
@@ -72,56 +74,72 @@ bool isAltered(const osg::NodePath& path) {
            });
 }
 
-Horizon horizonOver(osg::Group& node, osg::NodeVisitor& nv, osg::CullStack& cullStack, Database& database,
-                    const CullOptions& options, const DatabaseView& view) {
-    const bool isMap = view.ellipsoid.isPlane();
-    if (hasActiveOccluders(cullStack)) return {};
+// Whether something in this view may hide tiles, by what is known of the database as a whole.
+bool mayHide(const ShownDatabase& shown, Database& database, const CullOptions& options) {
+    const bool isMap = shown.selected.view.ellipsoid.isPlane();
     // nothing else is looked for
-    if (isMap && options.occlusion == OcclusionUse::Off) return {};
+    if (isMap && options.occlusion == OcclusionUse::Off) return false;
     const bool isGiven = options.horizonUse == HorizonUse::Given && !isMap;
     // an eye below the terrain looks through the backs of the faces that would hide
     const bool isAboveTerrain = options.skirts == SkirtUse::Cracks;
-    const auto region = database.region();
     const bool isUsed = isGiven || (options.horizonUse != HorizonUse::Off && isAboveTerrain && !database.hasGap());
     // where other tiles cover the globe, stray ones hide nothing that these do not
-    const bool isPartial = database.hasGap() || region;
-    const bool isRelyingOnStrays = isPartial && database.hasStrayTile();
-    if (!isUsed || isRelyingOnStrays || isAltered(nv.getNodePath()) || !drawnStateAbove(nv, view.rules).hides)
-        return {};
-    const auto viewpoint = Viewpoint::of(cullStack, nv, options.inheritViewpoint);
+    const bool isRelyingOnStrays = (database.hasGap() || shown.region) && database.hasStrayTile();
+    osg::NodeVisitor& visitor = shown.selected.visitor;
+    return isUsed && !isRelyingOnStrays && !isAltered(visitor.getNodePath()) &&
+           drawnStateAbove(visitor, shown.selected.view.rules).hides;
+}
+
+// Marks what terrain hides in the selection.
+void selectBehindTerrain(const ShownDatabase& shown, const Viewpoint& viewpoint, SearchMemory::LastView& last) {
+    const OccludedTiles tiles = cullBehindTerrain(shown, viewpoint, last.occlusion);
+    for (const TileSelection::ShownTile& tile : tiles.withoutPlates)
+        Database::of(*tile.tile->getInstalledTile()).askForPlates(*tile.tile, *tile.mesh);
+    noteOccluded(tiles, last);
+}
+
+Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& options) {
+    const auto& [visitor, cullStack, view] = shown.selected;
+    const auto region = database.region();
+    if (region) shown.region = &*region;
+    if (!mayHide(shown, database, options)) return {};
+    const auto viewpoint = Viewpoint::of(cullStack, visitor, options.inheritViewpoint);
     if (!viewpoint) return {};
+    const bool isMap = view.ellipsoid.isPlane();
+    const bool isGiven = options.horizonUse == HorizonUse::Given && !isMap;
+    const bool isAboveTerrain = options.skirts == SkirtUse::Cracks;
     const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
-    if (isGiven && (!isAboveTerrain || isPartial))
-        return {eyeAboveDepth({node, nv, cullStack, view, false, nullptr}, *viewpoint, deepest), {}};
+    SearchMemory::LastView& last = SearchMemory::of(visitor).lastView(database);
+    shown.expectsHole = last.hadHole;
+    const auto note = [&](Horizon found) {
+        last.hadHole = !found.isSelected;
+        return found;
+    };
+    if (isGiven && (!isAboveTerrain || database.hasGap() || region)) {
+        shown.region = nullptr;
+        const auto eye = eyeAboveDepth(shown, *viewpoint, deepest);
+        return note({eye, {}, eye.has_value()});
+    }
     if (region && !isOver(*region, *viewpoint)) {
         if (!isMap) database.noteEyeBesideRegion();
         return {};
     }
-    SearchMemory::LastView& last = SearchMemory::of(nv).lastView(database);
     const bool mayFindOccluded = viewpoint->eye() && isAboveTerrain;
     if (mayFindOccluded && options.occlusion == OcclusionUse::On && !isFinalProjection(cullStack))
         database.noteUnknownNearPlane();
     const bool findsOccluded =
         mayFindOccluded && isFinalProjection(cullStack) && isOcclusionDue(options.occlusion, last);
-    const ShownDatabase shown{node, nv, cullStack, view, findsOccluded, region ? &*region : nullptr};
-    const auto find = [&](bool isPlanned) {
-        const OccludedTiles tiles = isPlanned ? cullBehindTerrain(shown, *viewpoint, last.occlusion) : OccludedTiles();
-        for (const TilePlan::ShownTile& tile : tiles.withoutPlates)
-            Database::of(*tile.tile->getInstalledTile()).askForPlates(*tile.tile, *tile.mesh);
-        noteOccluded(tiles, last);
-    };
-    if (isMap) {
-        if (findsOccluded) find(region && planWithoutHorizon(shown, *viewpoint));
-        return {};
-    }
     // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: the horizon
     // shall not depend on where the camera has been.
     constexpr unsigned int kFreshStart = 16;
-    if (nv.getTraversalNumber() % kFreshStart == 0) last.depth = 0.0;
-    const auto eye = eyeAboveWhatIsShown(shown, *viewpoint, deepest, last.depth);
+    if (visitor.getTraversalNumber() % kFreshStart == 0) last.depth = 0.0;
+    const auto eye = isMap ? std::nullopt : eyeAboveWhatIsShown(shown, *viewpoint, deepest, last.depth);
     // coarse meshes, while finer ones are awaited, may be too deep for a horizon
-    if (findsOccluded) find(eye || (region && planWithoutHorizon(shown, *viewpoint)));
-    return {eye, region};
+    const bool isSelected = eye || (findsOccluded && region && selectWithoutHorizon(shown, *viewpoint));
+    if (isSelected && findsOccluded) selectBehindTerrain(shown, *viewpoint, last);
+    // a hole leaves nothing to pay for
+    if (!isSelected && findsOccluded) noteOccluded({}, last);
+    return note({eye, region, isSelected});
 }
 
 // Culled or kept siblings before the database leave a part of the planes behind.
@@ -188,16 +206,22 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
                       cullStack.getModelViewMatrix(),
                       cullStack.getProjectionMatrix(),
                       traversal.planes(cullStack),
-                      &traversal.plan(),
+                      &traversal.selection(),
+                      &drawFamily,
                       StateRules::of(nv, options.plainShaders)};
     if (osgUtil::CullVisitor* const visitor = nv.asCullVisitor()) view.states = visitor->getCurrentStateGraph();
-    view.plan->clear();
-    const Horizon horizon = horizonOver(node, nv, cullStack, *_database, options, view);
+    view.selection->clear();
+    const ShownDatabase shown{node, {nv, cullStack, view}, nullptr};
+    const Horizon horizon = hasActiveOccluders(cullStack) ? Horizon() : horizonOver(shown, *_database, options);
+    if (!horizon.isSelected) SelectionWalk(shown.selected, nullptr, nullptr).select(node);
     std::optional<SightOverRegion> sight;
     if (horizon.eye) view.eye = &*horizon.eye;
     if (horizon.eye && horizon.region) view.sight = &sight.emplace(*horizon.eye, *horizon.region, view.planes);
-    const CullTraversal::DatabaseScope scope(nv, traversal, view);
-    traverse(&node, &nv);
+    {
+        const CullTraversal::DatabaseScope scope(nv, traversal, view);
+        traverse(&node, &nv);
+    }
+    view.selection->clear();
 }
 
 void bringUpToDate(osg::Node& node, Database& database) {

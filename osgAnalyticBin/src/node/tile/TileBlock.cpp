@@ -44,6 +44,7 @@ void TileBlock::set(std::size_t slot, const Slot& tile, const Bins& bins) {
     part.withOwnColumns = tile.hasOwnColumn ? part.withOwnColumns | bit : part.withOwnColumns & ~bit;
     part.withSpheres = tile.testsSphere ? part.withSpheres | bit : part.withSpheres & ~bit;
     part.highest = std::max(part.highest, tile.binHigh);
+    part.lowest = std::min(part.lowest, tile.binLow);
     if (tile.column.valid()) _columnUnion->expandBy({tile.column.center(), tile.column.radius()});
     part.bins.clear(i);
     if (bins.quadratic) part.bins.set(i, *bins.quadratic);

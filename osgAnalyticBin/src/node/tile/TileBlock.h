@@ -58,6 +58,7 @@ public:
         std::uint64_t withOwnColumns = 0;        ///< see Slot::hasOwnColumn
         std::uint64_t withSpheres = 0;           ///< see Slot::testsSphere
         double highest = -std::numeric_limits<double>::infinity();  ///< no binHigh is above
+        double lowest = std::numeric_limits<double>::infinity();    ///< no binLow is below
     };
 
     explicit TileBlock(std::size_t slots);

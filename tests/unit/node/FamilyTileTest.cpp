@@ -138,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, MapEntry, testing::Bool(),
                          [](const auto& kind) { return kind.param ? "Terrain" : "Meshes"; });
 
 // Transforms that turn: the tiles of osgTerrain on a globe.
-TEST(TileEntry, DeliversWhatOsgDeliversOnAGlobe) {
+TEST(FamilyTile, DeliversWhatOsgDeliversOnAGlobe) {
     const TemporaryFolder folder;
     Random random(20261126);
     osg::ref_ptr<osg::CoordinateSystemNode> globe = new osg::CoordinateSystemNode;
@@ -177,7 +177,7 @@ struct OneTile {
     OneTile() { globe->setEllipsoidModel(new osg::EllipsoidModel); }
 };
 
-TEST(TileEntry, LeavesMeshesThatHangInTwoPlacesToOsg) {
+TEST(FamilyTile, LeavesMeshesThatHangInTwoPlacesToOsg) {
     OneTile scene;
     osg::Node& geode = *scene.mesh->getChild(0);
     const osg::ref_ptr<osg::Node> geometry = geode.asGroup()->getChild(0);
@@ -191,7 +191,7 @@ TEST(TileEntry, LeavesMeshesThatHangInTwoPlacesToOsg) {
     EXPECT_EQ(expectSameLeaves(*scene.globe, scene.view), 2u);
 }
 
-TEST(TileEntry, GoesOnWhereTheApplicationEmptiesAFile) {
+TEST(FamilyTile, GoesOnWhereTheApplicationEmptiesAFile) {
     OneTile scene;
     const osg::ref_ptr<osg::PagedLOD> paged = makePaged(scene.mesh, "finer.osgb", 1e7f);
     const osg::ref_ptr<osg::Group> file = new osg::Group;
@@ -212,7 +212,7 @@ TEST(TileEntry, GoesOnWhereTheApplicationEmptiesAFile) {
     }
 }
 
-TEST(TileEntry, MovesPlanesByWholeMatrices) {
+TEST(FamilyTile, MovesPlanesByWholeMatrices) {
     OneTile scene;
     scene.globe->addChild(makePaged(scene.mesh, "no.osgb"));
     EXPECT_GT(installBins(*scene.globe, {}), 0u);

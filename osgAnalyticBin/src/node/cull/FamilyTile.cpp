@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "TileEntry.h"
+#include "FamilyTile.h"
 
 #include "../Classes.h"
 #include "../Spheres.h"
@@ -68,15 +68,6 @@ private:
     const osg::StateSet* const _state;
 };
 
-// The other modes of near and far planes keep the frustum in the mesh's frame.
-bool needsNoFrustumOfMesh(osgUtil::CullVisitor& visitor) {
-    const auto mode = visitor.getComputeNearFarMode();
-    return (mode == osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR ||
-            mode == osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES) &&
-           visitor.getCurrentCullingSet().getStateFrustumList().empty() &&
-           visitor.getProjectionCullingStack().back().getStateFrustumList().empty();
-}
-
 // Whether a traversal goes through the node as if it had no cull callback.
 bool isPassive(const osg::Node& node, const osgUtil::CullVisitor& visitor) {
     const osg::Callback* const callback = node.getCullCallback();
@@ -106,9 +97,10 @@ bool isOutside(const osg::BoundingBox& box, const osg::Plane& plane, const osg::
 }  // namespace
 
 // Delivers drawables in the frame of the visitor, or of one transform in it.
-class TileEntry::Delivery {
+class FamilyTile::Delivery {
 public:
-    Delivery(osgUtil::CullVisitor& visitor, const BoundedMesh& bounded) : _visitor(visitor), _bounded(bounded) {}
+    Delivery(osgUtil::CullVisitor& visitor, const BoundedMesh& bounded, core::PlaneMask undecided)
+        : _visitor(visitor), _bounded(bounded), _undecided(undecided) {}
 
     // `mayBeSmall`: whether OSG's test for small features is made on the node.
     void draw(const std::array<Part, kMostParts>& parts, std::size_t number, bool mayBeSmall) {
@@ -188,11 +180,11 @@ private:
     }
 
     [[nodiscard]] bool isBesideFrustum(const osg::BoundingBox& box) const {
-        osg::Polytope& frustum = _visitor.getCurrentCullingSet().getFrustum();
-        core::PlaneMask undecided = frustum.getCurrentMask();
-        if (!box.valid()) return false;
-        for (std::size_t i = 0; undecided != 0 && i < frustum.getPlaneList().size(); ++i, undecided >>= 1) {
-            if ((undecided & 1) != 0 && isOutside(box, frustum.getPlaneList()[i], _frame)) return true;
+        if (_undecided == 0 || !box.valid()) return false;
+        const osg::Polytope::PlaneList& planes = _visitor.getCurrentCullingSet().getFrustum().getPlaneList();
+        core::PlaneMask undecided = _undecided;
+        for (std::size_t i = 0; undecided != 0 && i < planes.size(); ++i, undecided >>= 1) {
+            if ((undecided & 1) != 0 && isOutside(box, planes[i], _frame)) return true;
         }
         return false;
     }
@@ -214,11 +206,12 @@ private:
 
     osgUtil::CullVisitor& _visitor;
     const BoundedMesh& _bounded;
+    const core::PlaneMask _undecided;
     osg::RefMatrix* _matrix = _visitor.getModelViewMatrix();
     const osg::Matrix* _frame = nullptr;  // to the visitor's
 };
 
-void TileEntry::BoundedMesh::computeBoundOf(const osg::Node& mesh) const {
+void FamilyTile::BoundedMesh::computeBoundOf(const osg::Node& mesh) const {
     if (_mesh.load(std::memory_order_acquire) == &mesh) return;
     static std::mutex mutex;
     const std::lock_guard<std::mutex> lock(mutex);
@@ -226,107 +219,109 @@ void TileEntry::BoundedMesh::computeBoundOf(const osg::Node& mesh) const {
     _mesh.store(&mesh, std::memory_order_release);
 }
 
-TileEntry::Kind TileEntry::kindOf(const osg::Node& node) {
+FamilyTile::Kind FamilyTile::kindOf(const osg::Node& node) {
     if (isExactly<osg::Group>(node) || isExactly<osg::Geode>(node) || isExactly<Carrier>(node)) return Kind::Group;
     if (isExactly<osg::MatrixTransform>(node)) return Kind::Transform;
     if (isExactly<osg::Geometry>(node)) return Kind::Geometry;
     return isExactly<osgTerrain::TerrainTile>(node) ? Kind::Terrain : Kind::Unknown;
 }
 
-TileEntry::TileEntry(osg::Node& tile, const MeshParts& parts)
-    : _paged(isExactly<osg::PagedLOD>(tile) ? static_cast<osg::PagedLOD*>(&tile) : nullptr),
-      _isPossible(_paged || kindOf(tile) == Kind::Group || kindOf(tile) == Kind::Terrain),
-      _isOwnMesh(parts.front() == &tile) {
-    std::array<Part, kMostParts> known;
+// The mesh of a tile. Returns: nullptr where the tile has several or none.
+osg::Node* FamilyTile::meshOf(osg::Node& tile, osg::PagedLOD* paged) {
+    if (!paged) return &tile;
+    const bool isSingle = paged->getNumChildren() > 0 && paged->getNumFileNames() > 0 && paged->getFileName(0).empty();
+    for (unsigned int i = 1; i < paged->getNumFileNames(); ++i) {
+        if (paged->getFileName(i).empty()) return nullptr;
+    }
+    return isSingle ? paged->getChild(0) : nullptr;
+}
+
+FamilyTile::FamilyTile(osg::Node& tile, const AnalyticBinCullCallback& callback)
+    : _callback(&callback),
+      _paged(dynamic_cast<osg::PagedLOD*>(&tile)),
+      _isPossible(isExactly<osg::PagedLOD>(tile) || kindOf(tile) == Kind::Group || kindOf(tile) == Kind::Terrain) {
+    osg::Node* const mesh = meshOf(tile, _paged);
+    std::size_t count = 0;
+    if (!mesh || !append(*mesh, count)) {
+        _parts = {};
+        return;
+    }
+    _isOwnMesh = mesh == &tile;
+    _isDrawn = canBeDrawn();
+}
+
+// Adds a node of the mesh. Returns: whether OSG draws all of it as long as it enters each of the parts, and there is
+// room for all.
+bool FamilyTile::append(osg::Node& node, std::size_t& count) {
+    if (count == kMostParts) return false;
+    _parts[count].node = &node;
+    _parts[count++].kind = kindOf(node);
+    if (dynamic_cast<const osgTerrain::TerrainTile*>(&node)) return typeid(node) == typeid(osgTerrain::TerrainTile);
+    // a group without children draws nothing
+    osg::Group* const group = node.asGroup();
+    bool areKnown = drawsAllChildren(node) && (!group || group->getNumChildren() > 0);
+    for (unsigned int i = 0; areKnown && group && i < group->getNumChildren(); ++i) {
+        areKnown = append(*group->getChild(i), count);
+    }
+    return areKnown;
+}
+
+bool FamilyTile::canBeDrawn() {
     int transforms = 0;
-    for (std::size_t i = 0; i < known.size() && parts[i]; ++i) {
-        // one that hangs below two others is drawn in two places
-        if (std::find(parts.begin(), parts.begin() + i, parts[i]) != parts.begin() + i) return;
-        Part& part = known[i];
-        part = {parts[i].get(), kindOf(*parts[i]), 0, 0, 0};
-        transforms += part.kind == Kind::Transform ? 1 : 0;
-        const bool isTerrainBelow = part.kind == Kind::Terrain && i > 0;
-        if (part.kind == Kind::Unknown || isTerrainBelow || transforms > 1) return;
-        if (part.kind == Kind::Geometry) part.node->getBound();  // now, not in several cull threads at once
-        if (part.kind == Kind::Group || part.kind == Kind::Transform)
-            part.children = static_cast<unsigned char>(part.node->asGroup()->getNumChildren());
+    for (std::size_t i = 0; part(i); ++i) {
+        Part& part = _parts[i];
         for (std::size_t above = 0; above < i; ++above) {
-            const osg::Group* const group = parts[above]->asGroup();
+            // one that hangs below two others is drawn in two places
+            if (_parts[above].node == part.node) return false;
+            const osg::Group* const group = _parts[above].node->asGroup();
             if (!group || !group->containsNode(part.node)) continue;
             part.above = static_cast<unsigned char>(above);
             part.place = static_cast<unsigned char>(group->getChildIndex(part.node));
         }
+        transforms += part.kind == Kind::Transform ? 1 : 0;
+        const bool isTerrainBelow = part.kind == Kind::Terrain && i > 0;
+        if (part.kind == Kind::Unknown || isTerrainBelow || transforms > 1) return false;
+        if (part.kind == Kind::Geometry) part.node->getBound();  // now, not in several cull threads at once
+        if (part.kind == Kind::Group || part.kind == Kind::Transform)
+            part.children = static_cast<unsigned char>(part.node->asGroup()->getNumChildren());
     }
-    _parts = known;
+    return true;
 }
 
-TileEntry::Level TileEntry::enter(osg::Node& tile, osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const {
-    notes.add(&tile, kLinesOfTile);
-    if (!visitor.validNodeMask(tile)) return {};
-    const bool isDrawn = _isOwnMesh && drawMesh(visitor, notes);
-    if (isDrawn) return {};
-    const Level level = _paged && !_isOwnMesh ? enterShownLevel(visitor, notes) : Level();
-    if (!level.node) {
-        enterWithoutTest(tile, visitor);
-        return {};
+bool FamilyTile::isAlone(const osg::Node& tile) const {
+    const osg::Callback* const nested = _callback->getNestedCallback();
+    return tile.getCullCallback() == _callback &&
+           (!nested || (isSuspendedCluster(*nested) && !nested->getNestedCallback()));
+}
+
+// The other modes of near and far planes keep the frustum in the mesh's frame.
+bool FamilyTile::canDraw(osgUtil::CullVisitor& visitor) {
+    const auto mode = visitor.getComputeNearFarMode();
+    return (mode == osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR ||
+            mode == osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES) &&
+           visitor.getCurrentCullingSet().getStateFrustumList().empty() &&
+           visitor.getProjectionCullingStack().back().getStateFrustumList().empty();
+}
+
+bool FamilyTile::draw(osgUtil::CullVisitor& visitor, core::PlaneMask undecided) const {
+    Footprint::Notes notes(_footprint);
+    if (_paged) {
+        notes.add(_paged, kLinesOfTile);
+        notes.add(_paged->getRangeList().data(), 1);
     }
-    if (!drawLevel(*level.node, visitor, notes)) return level;
-    leave(level, visitor);
-    return {};
-}
-
-void TileEntry::leave(const Level& level, osgUtil::CullVisitor& visitor) {
-    visitor.popFromNodePath();
-    if (level.state) visitor.popStateSet();
-}
-
-// As osg::PagedLOD::traverse() where one child is shown and no file is asked for.
-TileEntry::Level TileEntry::enterShownLevel(osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const {
-    const osg::FrameStamp* const now = visitor.getFrameStamp();
-    const osg::LOD::RangeList& ranges = _paged->getRangeList();
-    if (!now || visitor.getTraversalMode() != osg::NodeVisitor::TRAVERSE_ACTIVE_CHILDREN ||
-        _paged->getRangeMode() != osg::LOD::DISTANCE_FROM_EYE_POINT || _paged->getNumFileNames() == 0)
-        return {};
-    notes.add(OpenGroup::childrenOf(*_paged), 1);
-    notes.add(ranges.data(), 1);
-    notes.add(&_paged->getFileName(0), 3);
-    const float range = visitor.getDistanceToViewPoint(_paged->getCenter(), true);
-    std::optional<unsigned int> shown;
-    for (unsigned int i = 0; i < ranges.size(); ++i) {
-        if (!(ranges[i].first <= range && range < ranges[i].second)) continue;
-        if (shown || i >= _paged->getNumChildren()) return {};
-        shown = i;
-    }
-    if (!shown) return {};
-    _paged->setFrameNumberOfLastTraversal(now->getFrameNumber());
-    _paged->setTimeStamp(*shown, now->getReferenceTime());
-    _paged->setFrameNumber(*shown, now->getFrameNumber());
-    const Level level{_paged->getChild(*shown), _paged->getStateSet()};
-    if (level.state) visitor.pushStateSet(level.state);
-    visitor.pushOntoNodePath(_paged);
-    return level;
-}
-
-// Returns: false where the level is not the mesh, or the mesh is left to OSG.
-bool TileEntry::drawLevel(osg::Node& level, osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const {
-    if (&level != _parts.front().node) return false;
-    if (drawMesh(visitor, notes)) return true;
-    const bool isScaled = _parts.front().kind == Kind::Terrain && isPassive(level, visitor);
-    // OSG makes its sphere without the vertical scale
-    if (isScaled) enterWithoutTest(level, visitor);
-    return isScaled;
-}
-
-bool TileEntry::drawMesh(osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const {
-    if (!_parts.front().node || !needsNoFrustumOfMesh(visitor) || !isMeshAsKnown(visitor, notes)) return false;
-    Delivery delivery(visitor, _bounded);
+    if (!_isDrawn || !isMeshAsKnown(visitor, notes)) return false;
+    Delivery delivery(visitor, _bounded, undecided);
     if (_parts.front().kind == Kind::Terrain)
         return delivery.draw(static_cast<osgTerrain::TerrainTile&>(*_parts.front().node), notes, !_isOwnMesh);
     delivery.draw(_parts, 0, !_isOwnMesh);
     return true;
 }
 
-bool TileEntry::isMeshAsKnown(const osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const {
+bool FamilyTile::isEnteredUntested(const osgUtil::CullVisitor& visitor) const {
+    return _isOwnMesh || (_parts.front().kind == Kind::Terrain && isPassive(*_parts.front().node, visitor));
+}
+
+bool FamilyTile::isMeshAsKnown(const osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const {
     for (std::size_t i = 0; i < _parts.size() && _parts[i].node; ++i) {
         const Part& part = _parts[i];
         const osg::Node& node = *part.node;

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "Footprint.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/core/Plane.h>
+
+#include <osg/Drawable>
+#include <osg/Node>
+#include <osg/PagedLOD>
+#include <osg/ref_ptr>
+#include <osgUtil/CullVisitor>
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+
+namespace osgAnalyticBin {
+
+/// A tile of a family at the time when the family was made, as far as cull traversals need it besides its bin. It draws
+/// the tile's own mesh like osgUtil::CullVisitor, in less time: it adds the drawables without creating a culling set
+/// for the mesh's transform. If nodes of the mesh have changed since, or one of them has a cull callback, OSG draws the
+/// mesh. Frustum tests of spheres are left out: the bin stands for that of the tile, and boxes of drawables are within
+/// those of the mesh. Guarantee: the render graph is that of OSG: the same drawables in the same order, with the same
+/// matrices, states, depths, and near and far planes; tests: FamilyTile.*. Threads: all functions at any time.
+class FamilyTile {
+public:
+    FamilyTile() = default;
+    FamilyTile(osg::Node& tile, const AnalyticBinCullCallback& callback);
+
+    /// The tile's bin. Returns: nullptr for what is no tile.
+    [[nodiscard]] const AnalyticBinCullCallback* callback() const { return _callback.get(); }
+    /// The tile itself. Returns: nullptr where it has no levels of detail.
+    [[nodiscard]] osg::PagedLOD* paged() const { return _paged; }
+
+    /// Whether the tile has no cull callbacks other than that of its bin, and a suspended one for clusters.
+    [[nodiscard]] bool isAlone(const osg::Node& tile) const;
+    /// Whether a traversal may pass by the tile's own callback and OSG's test of its sphere. It requires, besides: a
+    /// visitor of exactly the class osgUtil::CullVisitor, and a tile with the bin's callback in front.
+    [[nodiscard]] bool isPossible() const { return _isPossible; }
+    /// Whether the tile is its own mesh: it has no levels.
+    [[nodiscard]] bool isOwnMesh() const { return _isOwnMesh; }
+
+    static constexpr std::size_t kMostParts = 4;
+    /// A node of the own mesh, parents before children: part(0) is the mesh. OSG draws the whole mesh as long as it
+    /// enters each of them. Returns: nullptr behind the last one; of all, where the mesh is not known.
+    [[nodiscard]] osg::Node* part(std::size_t i) const { return i < kMostParts ? _parts[i].node.get() : nullptr; }
+    [[nodiscard]] bool isMesh(const osg::Node& node) const { return &node == part(0); }
+
+    /// Whether meshes can be drawn in this traversal.
+    [[nodiscard]] static bool canDraw(osgUtil::CullVisitor& visitor);
+    /// Draws the mesh; boxes are tested against the undecided planes. Returns: false where the mesh is left to OSG.
+    [[nodiscard]] bool draw(osgUtil::CullVisitor& visitor, core::PlaneMask undecided) const;
+    /// Whether OSG's test of the mesh's sphere has to be left out: OSG makes that of an osgTerrain tile without the
+    /// vertical scale. Requires: a mesh.
+    [[nodiscard]] bool isEnteredUntested(const osgUtil::CullVisitor& visitor) const;
+
+    /// Whether a part of the mesh has neither a state nor callbacks, and is of a class that is known to draw everything
+    /// below it. False also for tiles of osgTerrain, and where it takes longer to tell.
+    [[nodiscard]] bool isBare(std::size_t part) const {
+        const Kind kind = _parts[part].kind;
+        if (kind == Kind::Unknown || kind == Kind::Terrain) return false;
+        const osg::Node& node = *_parts[part].node;
+        return !node.getStateSet() && !node.getCullCallback() && !node.getUpdateCallback() &&
+               !node.getEventCallback() &&
+               !(kind == Kind::Geometry && static_cast<const osg::Drawable&>(node).getDrawCallback());
+    }
+
+    /// The memory that was last read for the tile.
+    [[nodiscard]] const Footprint& footprint() const { return _footprint; }
+
+private:
+    enum class Kind : unsigned char { Unknown, Group, Transform, Geometry, Terrain };
+    struct Part {
+        osg::ref_ptr<osg::Node> node;
+        Kind kind = Kind::Unknown;
+        unsigned char above = 0;     // number of its parent among the parts; the first has none
+        unsigned char place = 0;     // index among the parent's children
+        unsigned char children = 0;  // number of children of a group or transform
+    };
+    /// The mesh whose bound is known to be computed. osgTerrain makes meshes in the update traversal, and OSG computes
+    /// their bounds in all cull threads at once: one may read what another is writing.
+    class BoundedMesh {
+    public:
+        BoundedMesh() = default;
+        BoundedMesh(const BoundedMesh&) {}
+        BoundedMesh& operator=(const BoundedMesh&) { return *this; }
+        void computeBoundOf(const osg::Node& mesh) const;
+
+    private:
+        mutable std::atomic<const osg::Node*> _mesh{nullptr};
+    };
+    class Delivery;
+
+    [[nodiscard]] static Kind kindOf(const osg::Node& node);
+    [[nodiscard]] static osg::Node* meshOf(osg::Node& tile, osg::PagedLOD* paged);
+    [[nodiscard]] bool append(osg::Node& node, std::size_t& count);
+    [[nodiscard]] bool canBeDrawn();
+    [[nodiscard]] bool isMeshAsKnown(const osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const;
+
+    osg::ref_ptr<const AnalyticBinCullCallback> _callback;
+    osg::PagedLOD* _paged = nullptr;
+    bool _isPossible = false;
+    bool _isOwnMesh = false;
+    bool _isDrawn = false;  // here, not by OSG
+    std::array<Part, kMostParts> _parts;
+    Footprint _footprint;
+    BoundedMesh _bounded;
+};
+
+}  // namespace osgAnalyticBin

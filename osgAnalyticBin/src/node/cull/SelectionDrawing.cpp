@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "SelectionDrawing.h"
+
+#include "../Classes.h"
+#include "BinCulling.h"
+#include "CullTraversal.h"
+#include "SelectionWalk.h"
+#include "TileSelection.h"
+
+#include <osgUtil/CullVisitor>
+
+#include <algorithm>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// The states and the node path of places, pushed on a visitor as they are needed.
+class Places {
+    using Number = TileSelection::Number;
+    static constexpr Number kNone = TileSelection::kNone;
+
+public:
+    Places(const TileSelection& selection, osg::NodeVisitor& visitor)
+        : _selection(selection), _visitor(visitor), _cullVisitor(visitor.asCullVisitor()) {}
+    ~Places() { enter(kNone); }
+    Places(const Places&) = delete;
+    Places& operator=(const Places&) = delete;
+
+    void setState(Number place) {
+        if (!_cullVisitor) return;
+        const Number wanted = place == kNone ? kNone : _selection.places()[place].withState;
+        if (wanted == (_states.empty() ? kNone : _states.back())) return;
+        const auto above = [this](Number at) {
+            const Number outer = _selection.places()[at].above;
+            return outer == kNone ? kNone : _selection.places()[outer].withState;
+        };
+        change(
+            _states, wanted, above,
+            [this](Number at) { _cullVisitor->pushStateSet(_selection.places()[at].node->getStateSet()); },
+            [this] { _cullVisitor->popStateSet(); });
+    }
+
+    void enter(Number place) {
+        setState(place);
+        if (place == (_path.empty() ? kNone : _path.back())) return;
+        change(
+            _path, place, [this](Number at) { return _selection.places()[at].above; },
+            [this](Number at) { _visitor.pushOntoNodePath(_selection.places()[at].node); },
+            [this] { _visitor.popFromNodePath(); });
+    }
+
+private:
+    // Numbers of places grow from the outside inward.
+    template <class Above, class Push, class Pop>
+    void change(std::vector<Number>& entered, Number wanted, const Above& above, const Push& push, const Pop& pop) {
+        _missing.clear();
+        Number at = wanted;
+        while (true) {
+            const Number last = entered.empty() ? kNone : entered.back();
+            if (at == last) break;
+            if (last == kNone || (at != kNone && at > last)) {
+                _missing.push_back(at);
+                at = above(at);
+            } else {
+                entered.pop_back();
+                pop();
+            }
+        }
+        for (auto next = _missing.rbegin(); next != _missing.rend(); ++next) {
+            entered.push_back(*next);
+            push(*next);
+        }
+    }
+
+    const TileSelection& _selection;
+    osg::NodeVisitor& _visitor;
+    osgUtil::CullVisitor* const _cullVisitor;
+    std::vector<Number> _states, _path, _missing;
+};
+
+class SelectionDrawing {
+    using Number = TileSelection::Number;
+    using Way = TileSelection::Way;
+
+public:
+    SelectionDrawing(const DatabaseView& view, osg::NodeVisitor& visitor, osg::CullStack& cullStack)
+        : _selection(*view.selection),
+          _visitor(visitor),
+          _cullVisitor(isExactly<osgUtil::CullVisitor>(visitor) ? visitor.asCullVisitor() : nullptr),
+          _cullStack(cullStack),
+          _canDraw(_cullVisitor && FamilyTile::canDraw(*_cullVisitor)) {}
+
+    void draw(Number number) {
+        const TileSelection::Segment segment = _selection.segment(number);
+        stamp(number, segment);
+        BinCounts counts = segment.counts;
+        _limit = frustum().getCurrentMask();
+        {
+            Places places(_selection, _visitor);
+            Number end = 0;
+            for (Number i = segment.firstKept; i < segment.endOfKept; i = end) {
+                // the list may grow while a node is entered
+                const TileSelection::Kept kept = _selection.kept()[i];
+                end = kept.end;
+                kept.isOccluded ? countOccluded(kept, counts) : draw(kept, places);
+            }
+        }
+        setUndecided(frustum(), _limit);
+        if (_visitor.getVisitorType() != osg::NodeVisitor::CULL_VISITOR) return;
+        counts.frame = static_cast<unsigned int>(_visitor.getTraversalNumber());
+        CullTraversal::of(_visitor).statistics().add(counts);
+    }
+
+private:
+    // OSG's stack of culling sets may move while a node is entered.
+    [[nodiscard]] osg::Polytope& frustum() { return _cullStack.getCurrentCullingSet().getFrustum(); }
+
+    // As osg::PagedLOD::traverse() does it.
+    void stamp(Number number, const TileSelection::Segment& segment) {
+        const osg::FrameStamp* const now = _visitor.getFrameStamp();
+        for (Number i = segment.firstPlace; i < segment.endOfPlaces; ++i) {
+            const TileSelection::Place& place = _selection.places()[i];
+            if (!place.paged || place.segment != number) continue;
+            place.paged->setFrameNumberOfLastTraversal(now->getFrameNumber());
+            place.paged->setTimeStamp(place.level, now->getReferenceTime());
+            place.paged->setFrameNumber(place.level, now->getFrameNumber());
+        }
+    }
+
+    static void countOccluded(const TileSelection::Kept& kept, BinCounts& counts) {
+        ++counts.occluded;
+        ++counts.outside;
+        --(kept.undecided == 0 ? counts.inside : counts.straddling);
+    }
+
+    void draw(const TileSelection::Kept& kept, Places& places) {
+        const core::PlaneMask undecided = kept.undecided & _limit;
+        if (kept.way == Way::Mesh) {
+            places.setState(kept.place);
+            if (_canDraw && kept.member->draw(*_cullVisitor, undecided)) return;
+        }
+        _selection.hold();
+        places.enter(kept.place);
+        setUndecided(frustum(), undecided);
+        const PlanesBelow planes(_cullStack, undecided);
+        enter(kept);
+    }
+
+    void enter(const TileSelection::Kept& kept) {
+        const bool isUntested =
+            kept.way == Way::Untested || (kept.way == Way::Mesh && kept.member->isEnteredUntested(*_cullVisitor));
+        if (isUntested) {
+            // that of the bin has nothing left to do
+            osg::Callback* const callback = kept.node->getCullCallback();
+            const bool isOfBin = callback == kept.member->callback();
+            return enterWithoutTest(*kept.node, *_cullVisitor, isOfBin ? callback->getNestedCallback() : nullptr);
+        }
+        if (kept.way != Way::Tile) return kept.node->accept(_visitor);
+        // OSG does not test the sphere in this mask; the tile's callback sets the mask of what is below again
+        CullTraversal& traversal = CullTraversal::of(_visitor);
+        const osg::CullingSet::Mask mask = _cullStack.getCurrentCullingSet().getCullingMask();
+        _cullStack.getCurrentCullingSet().setCullingMask(osg::CullingSet::NO_CULLING);
+        traversal.setKept(kept.node, mask);
+        kept.node->accept(_visitor);
+        traversal.setKept(nullptr, mask);
+        _cullStack.getCurrentCullingSet().setCullingMask(mask);
+    }
+
+    TileSelection& _selection;
+    osg::NodeVisitor& _visitor;
+    osgUtil::CullVisitor* const _cullVisitor;  // null: a visitor of another class
+    osg::CullStack& _cullStack;
+    const bool _canDraw;
+    core::PlaneMask _limit = 0;
+};
+
+}  // namespace
+
+void drawFamily(osg::Group& group, const TileFamily& family, osg::NodeVisitor& visitor, osg::CullStack& cullStack,
+                const DatabaseView& view) {
+    TileSelection& selection = *view.selection;
+    const core::PlaneMask undecided = cullStack.getCurrentCullingSet().getFrustum().getCurrentMask();
+    const bool areSame = selection.conditions() == TileSelection::Conditions::of(visitor, cullStack);
+    const TileSelection::Number found = areSame ? selection.find(family, undecided) : TileSelection::kNone;
+    const bool mayHide = (found == TileSelection::kNone ? view.eye != nullptr : selection.segment(found).hides) &&
+                         drawnStateAbove(visitor, view.rules, view.states).obeysDepth;
+    SelectionDrawing drawing(view, visitor, cullStack);
+    if (found != TileSelection::kNone && (mayHide || !selection.segment(found).hides)) return drawing.draw(found);
+    const TileSelection::Inner inner(selection);
+    SelectionWalk walk({visitor, cullStack, view}, mayHide ? view.eye : nullptr, mayHide ? view.sight : nullptr);
+    drawing.draw(walk.selectBelow(group, family));
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "CullTraversal.h"
+#include "TileFamily.h"
+#include "TileSelection.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
+#include <osgAnalyticBin/core/horizon/Horizon.h>
+
+#include <osg/CullStack>
+#include <osg/Group>
+#include <osg/Matrixd>
+#include <osg/NodeVisitor>
+#include <osg/PagedLOD>
+#include <osg/Polytope>
+#include <osg/Vec3d>
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+/// The traversal that a database is selected for.
+struct SelectedView {
+    osg::NodeVisitor& visitor;
+    osg::CullStack& cullStack;
+    const DatabaseView& view;
+};
+
+/// The walk over the tiles that a camera's levels of detail show, which makes the selection of a view. It tests
+/// siblings together, chooses levels as osg::PagedLOD does, and keeps what is in view and not hidden. On the way it
+/// collects the evidence that what hides is drawn: it also goes to tiles out of view where lines of sight pass above
+/// their surface. Cost: reads only the numbers of tiles that are out of view; a few hundred instructions for each that
+/// is kept. Source: doc/theory/horizon.md, section 8.
+class SelectionWalk {
+public:
+    /// Selects, and collects no evidence. `eye` null: nothing is hidden.
+    SelectionWalk(const SelectedView& selected, const core::HorizonEye* eye, const SightOverRegion* sight);
+
+    /// What evidence is collected for.
+    struct Search {
+        std::optional<core::Geodetic> place;  ///< of the eye, where it has one
+        double occluder;                      ///< metres below the ellipsoid of the occluder; minus infinity: none
+        double deepest;                       ///< the same: nothing is drawn below
+        bool isEager;                         ///< a tile that is not drawn whole ends the walk at once
+    };
+    /// The same with evidence. A hole ends the walk, and what was selected is of no use then.
+    SelectionWalk(const SelectedView& selected, const core::HorizonEye* eye, const SightOverRegion* sight,
+                  const Search& search);
+
+    /// Walks over the database.
+    void select(osg::Group& root);
+
+    /// Walks below the group of a family that culls in this traversal. Returns: the segment. It adds to the selection.
+    [[nodiscard]] TileSelection::Number selectBelow(osg::Group& group, const TileFamily& family);
+
+    /// @{
+    /// For evidence, after select().
+    /// Metres below the ellipsoid of the lowest surface that is shown; negative above it.
+    [[nodiscard]] double depth() const { return _depth; }
+    /// Whether the terrain in view may be left out somewhere, or be seen through, by what is known of tiles as wholes.
+    [[nodiscard]] bool hasHole() const { return _hasHole; }
+    /// Whether the own meshes of all tiles that are shown are drawn whole.
+    [[nodiscard]] bool areMeshesDrawn() const;
+    /// A surface that is shown about the place of the eye, no lower than the eye by its bounds.
+    struct NearGround {
+        const AnalyticBinCullCallback* tile;
+        osg::Node* mesh;
+    };
+    [[nodiscard]] const std::vector<NearGround>& nearGround() const { return _nearGround; }
+    /// @}
+
+private:
+    using Number = TileSelection::Number;
+    using Way = TileSelection::Way;
+    struct Tile;
+    class Below;
+
+    void selectChildren(osg::Group& group, const TileFamily* family);
+    void selectFamily(osg::Group& group, const TileFamily& family);
+    [[nodiscard]] std::uint64_t keptOf(const TileFamily& family, unsigned int first,
+                                       const TileFamily::Verdicts& verdicts);
+    void selectMember(osg::Node& node, const TileFamily& family, const TileFamily::Verdicts& verdicts,
+                      unsigned int slot, bool isKept);
+    void selectNode(osg::Node& node);
+    void selectGroup(osg::Node& node, const TileFamily* family);
+    void selectLevel(osg::Node& level, const FamilyTile& above);
+    void searchNode(osg::Node& node);
+    void searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool mayLeaveOut);
+    void searchTile(osg::Node& node, osg::PagedLOD* paged, const Tile& tile);
+    void searchPaged(osg::PagedLOD& node, const Tile& tile);
+    void searchChild(osg::PagedLOD& node, unsigned int i, const Tile& tile, bool isOnlyLevel);
+    [[nodiscard]] bool selectShownLevel(osg::PagedLOD& node, const Tile& tile);
+    [[nodiscard]] static core::Interval surfaceOf(const Tile& tile);
+    void show(const Tile& tile, osg::Node& mesh, bool isOnlyLevel);
+
+    [[nodiscard]] Number keep(osg::Node& node, const FamilyTile* member, Way way);
+    void doubt() { _hasHole = _hasHole || _searches; }
+    [[nodiscard]] const TileFamily* inlineFamily(const osg::Node& node) const;
+    [[nodiscard]] bool isPassedOver(const osg::Group& group, const TileFamily& family);
+    [[nodiscard]] bool isOverEye(const osg::Vec3d& center, double radius);
+    [[nodiscard]] std::uint64_t notSearchedIn(const TileFamily::Verdicts& verdicts, const TileBlock::Part& part) const;
+    [[nodiscard]] bool isSearched(const Tile& tile, const TileFamily& family, const TileFamily::Verdicts& verdicts,
+                                  unsigned int slot) const;
+    [[nodiscard]] osg::BoundingSphere sphereOf(const osg::Node& node) const;
+    [[nodiscard]] bool isLeftOut(const osg::Node& node) const;
+    [[nodiscard]] bool isSmallFeature(const osg::Node& node) const;
+    [[nodiscard]] osg::Matrixd frameInside(const osg::Node& node) const;
+    [[nodiscard]] bool standsAsInstalled(const osg::Node& node, const AnalyticBinCullCallback& tile) const;
+    [[nodiscard]] bool isSurelyDrawn(const osg::Node& node, bool mayLeaveOut) const;
+    [[nodiscard]] bool isDrawnWhole(const osg::Node& mesh, const AnalyticBinCullCallback& tile,
+                                    const FamilyTile* member) const;
+    [[nodiscard]] bool isDrawnWhole(const osg::Node& part, bool& hasDrawable) const;
+    [[nodiscard]] bool isAbout(const AnalyticBinCullCallback& tile) const;
+    [[nodiscard]] bool isBeside(const Tile& tile) const;
+    [[nodiscard]] bool isBesideFrustum(const osg::Vec3d& center, double radius) const;
+    [[nodiscard]] bool isBesideFrustum(const osg::BoundingSphere& sphere) const {
+        return sphere.valid() && isBesideFrustum(sphere.center(), sphere.radius());
+    }
+    [[nodiscard]] bool isLeftOutInView(const Tile& tile, const osg::Node& mesh) const;
+
+    const SelectedView _selected;
+    osg::NodeVisitor& _visitor;
+    TileSelection& _selection;
+    const TileFamily::Hiding _hiding;
+    const std::optional<core::Geodetic> _place;  // of the eye
+    const double _occluder;                      // metres below the ellipsoid
+    const double _deepest;                       // likewise
+    const bool _isEager;
+    const bool _isPlainVisitor;
+    osg::Polytope::PlaneList _planes;
+    bool _testsSmallFeatures = false;
+    struct StandingEye {
+        osg::Vec3d at, up;
+    };
+    std::optional<StandingEye> _standing;  // of the eye, once it is needed
+
+    // Of the node where the walk is:
+    bool _searches = false;                  // for evidence
+    bool _keeps = true;                      // what is in view is drawn
+    Number _segment = TileSelection::kNone;  // kNone: OSG enters what is here by itself
+    Number _in = TileSelection::kNone;       // the innermost place
+    core::PlaneMask _undecided = 0;          // of the view's planes
+    const osg::Matrixd* _toEcef = nullptr;   // below a transform, where OSG measures distances in another frame
+    bool _ignoresDepth = false;              // by a state above: nothing is hidden
+    bool _isDoubtful = false;                // below something that may not be drawn
+    bool _isBelowOutOfView = false;          // below a sphere that is out of view
+    bool _isChoiceUnknown = false;           // below a choice of levels that may turn out otherwise
+
+    bool _hasHole = false;
+    std::vector<NearGround> _nearGround;
+    double _depth = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace osgAnalyticBin

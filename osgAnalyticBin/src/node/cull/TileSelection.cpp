@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TileSelection.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace osgAnalyticBin {
+
+TileSelection::Conditions TileSelection::Conditions::of(const osg::NodeVisitor& visitor, osg::CullStack& cullStack) {
+    return {visitor.getTraversalMask(), visitor.getNodeMaskOverride(),
+            cullStack.getCurrentCullingSet().getCullingMask(), cullStack.getLODScale()};
+}
+
+bool TileSelection::Conditions::operator==(const Conditions& other) const {
+    return traversalMask == other.traversalMask && maskOverride == other.maskOverride && culling == other.culling &&
+           lodScale == other.lodScale;
+}
+
+void TileSelection::begin(const Conditions& conditions) {
+    clear();
+    _conditions = conditions;
+}
+
+void TileSelection::clear() {
+    _segments.clear();
+    _places.clear();
+    _kept.clear();
+    _shown.clear();
+    _families.clear();
+    _held.clear();
+    _heldSizes = {};
+    _occluded.clear();
+    _next = 0;
+}
+
+TileSelection::Number TileSelection::beginSegment(const TileFamily& family, core::PlaneMask undecided) {
+    const auto kept = static_cast<Number>(_kept.size()), places = static_cast<Number>(_places.size());
+    _segments.push_back({&family, undecided, kept, kept, places, places, {}, false});
+    return static_cast<Number>(_segments.size() - 1);
+}
+
+void TileSelection::endSegment(Number segment) {
+    _segments[segment].endOfKept = static_cast<Number>(_kept.size());
+    _segments[segment].endOfPlaces = static_cast<Number>(_places.size());
+}
+
+TileSelection::Number TileSelection::enter(osg::Node& node, Number above, Number segment, osg::PagedLOD* paged,
+                                           unsigned int level) {
+    const auto number = static_cast<Number>(_places.size());
+    const Number stateAbove = above == kNone ? kNone : _places[above].withState;
+    _places.push_back({&node, above, node.getStateSet() ? number : stateAbove, segment, paged, level});
+    return number;
+}
+
+TileSelection::Number TileSelection::keep(const Kept& kept) {
+    _kept.push_back(kept);
+    return static_cast<Number>(_kept.size() - 1);
+}
+
+void TileSelection::addOccluded(const ShownTile& tile) {
+    _occluded.push_back(tile.tile);
+    _isSorted = false;
+    if (tile.kept == kNone) return;
+    Kept& kept = _kept[tile.kept];
+    kept.isOccluded = true;
+    // OSG would not come to its level
+    if (kept.isLevel) _places[kept.place].paged = nullptr;
+    if (tile.segment != kNone) _segments[tile.segment].hides = true;
+}
+
+bool TileSelection::isOccluded(const AnalyticBinCullCallback& tile) {
+    if (!_isSorted) std::sort(_occluded.begin(), _occluded.end(), std::less<>());
+    _isSorted = true;
+    return std::binary_search(_occluded.begin(), _occluded.end(), &tile, std::less<>());
+}
+
+TileSelection::Number TileSelection::find(const TileFamily& family, core::PlaneMask undecided) {
+    // there are also segments below nodes that OSG does not enter
+    constexpr std::size_t kFarthest = 32;
+    const std::size_t end = std::min(_segments.size(), _next + kFarthest);
+    for (std::size_t i = _next; i < end; ++i) {
+        if (_segments[i].family != &family) continue;
+        _next = i + 1;
+        return (undecided & ~_segments[i].undecided) == 0 ? static_cast<Number>(i) : kNone;
+    }
+    return kNone;
+}
+
+void TileSelection::hold() {
+    const Sizes now = sizes();
+    for (std::size_t i = _heldSizes.families; i < now.families; ++i) _held.emplace_back(_families[i]);
+    for (std::size_t i = _heldSizes.places; i < now.places; ++i) _held.emplace_back(_places[i].node);
+    for (std::size_t i = _heldSizes.kept; i < now.kept; ++i) _held.emplace_back(_kept[i].node);
+    _heldSizes = now;
+}
+
+TileSelection::Inner::Inner(TileSelection& selection)
+    : _selection(selection), _before(selection.sizes()), _next(selection._next) {
+    selection._next = _before.segments;
+}
+
+TileSelection::Inner::~Inner() {
+    const auto shorten = [](auto& list, std::size_t size) {
+        list.erase(list.begin() + static_cast<std::ptrdiff_t>(size), list.end());
+    };
+    shorten(_selection._segments, _before.segments);
+    shorten(_selection._places, _before.places);
+    shorten(_selection._kept, _before.kept);
+    shorten(_selection._families, _before.families);
+    _selection._heldSizes.families = std::min(_selection._heldSizes.families, _before.families);
+    _selection._heldSizes.places = std::min(_selection._heldSizes.places, _before.places);
+    _selection._heldSizes.kept = std::min(_selection._heldSizes.kept, _before.kept);
+    _selection._next = _next;
+}
+
+}  // namespace osgAnalyticBin
