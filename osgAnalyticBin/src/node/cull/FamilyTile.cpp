@@ -25,15 +25,7 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// cache lines that a traversal reads of an object
-constexpr unsigned int kLinesOfGroup = 4, kLinesOfTransform = 6, kLinesOfGeometry = 5, kLinesOfTile = 6;
-
 // What OSG keeps for derived classes.
-struct OpenGroup : public osg::Group {
-    [[nodiscard]] static const void* childrenOf(const osg::Group& group) {
-        return (group.*(&OpenGroup::_children)).data();
-    }
-};
 struct OpenTechnique : public osgTerrain::GeometryTechnique {
     [[nodiscard]] static const BufferData* meshOf(const osgTerrain::GeometryTechnique& technique) {
         return (technique.*(&OpenTechnique::_currentBufferData)).get();
@@ -67,6 +59,11 @@ private:
     osgUtil::CullVisitor& _visitor;
     const osg::StateSet* const _state;
 };
+
+// OSG says nothing when this changes.
+bool isRelative(const osg::Transform& transform) {
+    return transform.getReferenceFrame() == osg::Transform::RELATIVE_RF;
+}
 
 // Whether a traversal goes through the node as if it had no cull callback.
 bool isPassive(const osg::Node& node, const osgUtil::CullVisitor& visitor) {
@@ -118,28 +115,20 @@ public:
     }
 
     // Returns: false where the tile has no mesh yet, or another than osgTerrain::GeometryTechnique makes.
-    [[nodiscard]] bool draw(osgTerrain::TerrainTile& tile, Footprint::Notes& notes, bool mayBeSmall) {
+    [[nodiscard]] bool draw(osgTerrain::TerrainTile& tile, bool mayBeSmall) {
         auto* const technique = tile.getTerrainTechnique();
         if (!technique || technique->getTerrainTile() != &tile || !hasBeenTraversed(tile) ||
             !isExactly<osgTerrain::GeometryTechnique>(*technique))
             return false;
         const auto* const mesh = OpenTechnique::meshOf(static_cast<osgTerrain::GeometryTechnique&>(*technique));
-        notes.add(technique, kLinesOfGroup);
         if (!mesh || !mesh->_transform || !mesh->_geode || !mesh->_geometry) return false;
-        notes.add(mesh, 1);
         osg::MatrixTransform& transform = *mesh->_transform;
         osg::Geode& geode = *mesh->_geode;
         osg::Geometry& geometry = *mesh->_geometry;
-        notes.add(&transform, kLinesOfTransform);
-        notes.add(OpenGroup::childrenOf(transform), 1);
-        notes.add(&geode, kLinesOfGroup);
-        notes.add(OpenGroup::childrenOf(geode), 1);
-        notes.add(&geometry, kLinesOfGeometry);
         const bool isWhole = transform.getNumChildren() == 1 && transform.getChild(0) == &geode &&
                              geode.getNumChildren() == 1 && geode.getChild(0) == &geometry;
-        const bool isRelative = transform.getReferenceFrame() == osg::Transform::RELATIVE_RF;
-        if (!isWhole || !isRelative || !isExactly<osg::Geometry>(geometry) || !isPassive(transform, _visitor) ||
-            !isPassive(geode, _visitor) || !isPassive(geometry, _visitor))
+        if (!isWhole || !isRelative(transform) || !isExactly<osg::Geometry>(geometry) ||
+            !isPassive(transform, _visitor) || !isPassive(geode, _visitor) || !isPassive(geometry, _visitor))
             return false;
         _bounded.computeBoundOf(transform);
         if ((mayBeSmall && isDroppedAsSmall(tile)) || isDroppedAsSmall(transform)) return true;
@@ -238,6 +227,7 @@ osg::Node* FamilyTile::meshOf(osg::Node& tile, osg::PagedLOD* paged) {
 
 FamilyTile::FamilyTile(osg::Node& tile, const AnalyticBinCullCallback& callback)
     : _callback(&callback),
+      _anyCallback(&callback),
       _paged(dynamic_cast<osg::PagedLOD*>(&tile)),
       _isPossible(isExactly<osg::PagedLOD>(tile) || kindOf(tile) == Kind::Group || kindOf(tile) == Kind::Terrain) {
     osg::Node* const mesh = meshOf(tile, _paged);
@@ -284,14 +274,29 @@ bool FamilyTile::canBeDrawn() {
         if (part.kind == Kind::Geometry) part.node->getBound();  // now, not in several cull threads at once
         if (part.kind == Kind::Group || part.kind == Kind::Transform)
             part.children = static_cast<unsigned char>(part.node->asGroup()->getNumChildren());
+        const osg::Transform* const transform = part.node->asTransform();
+        if (transform && !isRelative(*transform)) return false;
     }
     return true;
 }
 
 bool FamilyTile::isAlone(const osg::Node& tile) const {
-    const osg::Callback* const nested = _callback->getNestedCallback();
-    return tile.getCullCallback() == _callback &&
-           (!nested || (isSuspendedCluster(*nested) && !nested->getNestedCallback()));
+    if (!isFirst(tile)) return false;
+    const osg::Callback* const nested = _anyCallback->getNestedCallback();
+    return !nested || (isSuspendedCluster(*nested) && !nested->getNestedCallback());
+}
+
+bool FamilyTile::isBareMesh(const osg::NodeVisitor& visitor) const {
+    for (std::size_t i = 0; part(i); ++i) {
+        const osg::Node& node = *_parts[i].node;
+        const Kind kind = _parts[i].kind;
+        const bool isBare = kind != Kind::Unknown && kind != Kind::Terrain && visitor.validNodeMask(node) &&
+                            !node.getStateSet() && !node.getCullCallback() && !node.getUpdateCallback() &&
+                            !node.getEventCallback();
+        if (!isBare) return false;
+        if (kind == Kind::Geometry && static_cast<const osg::Drawable&>(node).getDrawCallback()) return false;
+    }
+    return part(0) != nullptr;
 }
 
 // The other modes of near and far planes keep the frustum in the mesh's frame.
@@ -304,15 +309,10 @@ bool FamilyTile::canDraw(osgUtil::CullVisitor& visitor) {
 }
 
 bool FamilyTile::draw(osgUtil::CullVisitor& visitor, core::PlaneMask undecided) const {
-    Footprint::Notes notes(_footprint);
-    if (_paged) {
-        notes.add(_paged, kLinesOfTile);
-        notes.add(_paged->getRangeList().data(), 1);
-    }
-    if (!_isDrawn || !isMeshAsKnown(visitor, notes)) return false;
+    if (!_isDrawn || !isMeshAsKnown(visitor)) return false;
     Delivery delivery(visitor, _bounded, undecided);
     if (_parts.front().kind == Kind::Terrain)
-        return delivery.draw(static_cast<osgTerrain::TerrainTile&>(*_parts.front().node), notes, !_isOwnMesh);
+        return delivery.draw(static_cast<osgTerrain::TerrainTile&>(*_parts.front().node), !_isOwnMesh);
     delivery.draw(_parts, 0, !_isOwnMesh);
     return true;
 }
@@ -321,22 +321,16 @@ bool FamilyTile::isEnteredUntested(const osgUtil::CullVisitor& visitor) const {
     return _isOwnMesh || (_parts.front().kind == Kind::Terrain && isPassive(*_parts.front().node, visitor));
 }
 
-bool FamilyTile::isMeshAsKnown(const osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const {
-    for (std::size_t i = 0; i < _parts.size() && _parts[i].node; ++i) {
-        const Part& part = _parts[i];
-        const osg::Node& node = *part.node;
+bool FamilyTile::isMeshAsKnown(const osgUtil::CullVisitor& visitor) const {
+    for (std::size_t i = 0; part(i); ++i) {
+        const Part& known = _parts[i];
         const bool isTile = i == 0 && _isOwnMesh;
-        if (!isTile) notes.add(&node, part.kind == Kind::Transform ? kLinesOfTransform : kLinesOfGeometry);
-        if (!isTile && !isPassive(node, visitor)) return false;
-        if (part.kind == Kind::Geometry) continue;
-        if (part.kind == Kind::Terrain) continue;
-        const osg::Group& group = static_cast<const osg::Group&>(node);
-        notes.add(OpenGroup::childrenOf(group), 1);
-        const bool isRelative =
-            part.kind != Kind::Transform ||
-            static_cast<const osg::MatrixTransform&>(node).getReferenceFrame() == osg::Transform::RELATIVE_RF;
-        if (group.getNumChildren() != part.children || !isRelative) return false;
-        for (std::size_t k = i + 1; k < _parts.size() && _parts[k].node; ++k) {
+        if (!isTile && !isPassive(*known.node, visitor)) return false;
+        if (known.kind == Kind::Geometry || known.kind == Kind::Terrain) continue;
+        const osg::Group& group = static_cast<const osg::Group&>(*known.node);
+        if (group.getNumChildren() != known.children) return false;
+        if (known.kind == Kind::Transform && !isRelative(static_cast<const osg::Transform&>(group))) return false;
+        for (std::size_t k = i + 1; part(k); ++k) {
             if (_parts[k].above == i && group.getChild(_parts[k].place) != _parts[k].node) return false;
         }
     }

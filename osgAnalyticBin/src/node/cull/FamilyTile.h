@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "Footprint.h"
+#include "Prefetch.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/core/Plane.h>
@@ -36,6 +36,8 @@ public:
     /// The tile itself. Returns: nullptr where it has no levels of detail.
     [[nodiscard]] osg::PagedLOD* paged() const { return _paged; }
 
+    /// Whether the bin's callback is the first of the tile's cull callbacks.
+    [[nodiscard]] bool isFirst(const osg::Node& tile) const { return tile.getCullCallback() == _anyCallback; }
     /// Whether the tile has no cull callbacks other than that of its bin, and a suspended one for clusters.
     [[nodiscard]] bool isAlone(const osg::Node& tile) const;
     /// Whether a traversal may pass by the tile's own callback and OSG's test of its sphere. It requires, besides: a
@@ -49,6 +51,8 @@ public:
     /// enters each of them. Returns: nullptr behind the last one; of all, where the mesh is not known.
     [[nodiscard]] osg::Node* part(std::size_t i) const { return i < kMostParts ? _parts[i].node.get() : nullptr; }
     [[nodiscard]] bool isMesh(const osg::Node& node) const { return &node == part(0); }
+    /// Whether part(i) is a tile of osgTerrain.
+    [[nodiscard]] bool isTerrain(std::size_t i) const { return _parts[i].kind == Kind::Terrain; }
 
     /// Whether meshes can be drawn in this traversal.
     [[nodiscard]] static bool canDraw(osgUtil::CullVisitor& visitor);
@@ -58,19 +62,15 @@ public:
     /// vertical scale. Requires: a mesh.
     [[nodiscard]] bool isEnteredUntested(const osgUtil::CullVisitor& visitor) const;
 
-    /// Whether a part of the mesh has neither a state nor callbacks, and is of a class that is known to draw everything
-    /// below it. False also for tiles of osgTerrain, and where it takes longer to tell.
-    [[nodiscard]] bool isBare(std::size_t part) const {
-        const Kind kind = _parts[part].kind;
-        if (kind == Kind::Unknown || kind == Kind::Terrain) return false;
-        const osg::Node& node = *_parts[part].node;
-        return !node.getStateSet() && !node.getCullCallback() && !node.getUpdateCallback() &&
-               !node.getEventCallback() &&
-               !(kind == Kind::Geometry && static_cast<const osg::Drawable&>(node).getDrawCallback());
-    }
+    /// Whether a traversal draws the whole mesh, by what is quickly known: all parts are of classes that draw
+    /// everything below them, and have neither states nor callbacks. False also for tiles of osgTerrain.
+    [[nodiscard]] bool isBareMesh(const osg::NodeVisitor& visitor) const;
 
-    /// The memory that was last read for the tile.
-    [[nodiscard]] const Footprint& footprint() const { return _footprint; }
+    /// Prefetches what drawing the mesh reads.
+    void prefetchMesh() const {
+        constexpr unsigned int kLines = 4;
+        for (std::size_t i = 0; part(i); ++i) prefetchNode(*part(i), kLines);
+    }
 
 private:
     enum class Kind : unsigned char { Unknown, Group, Transform, Geometry, Terrain };
@@ -99,15 +99,15 @@ private:
     [[nodiscard]] static osg::Node* meshOf(osg::Node& tile, osg::PagedLOD* paged);
     [[nodiscard]] bool append(osg::Node& node, std::size_t& count);
     [[nodiscard]] bool canBeDrawn();
-    [[nodiscard]] bool isMeshAsKnown(const osgUtil::CullVisitor& visitor, Footprint::Notes& notes) const;
+    [[nodiscard]] bool isMeshAsKnown(const osgUtil::CullVisitor& visitor) const;
 
     osg::ref_ptr<const AnalyticBinCullCallback> _callback;
+    const osg::Callback* _anyCallback = nullptr;  // the same, found in fewer steps
     osg::PagedLOD* _paged = nullptr;
     bool _isPossible = false;
     bool _isOwnMesh = false;
     bool _isDrawn = false;  // here, not by OSG
     std::array<Part, kMostParts> _parts;
-    Footprint _footprint;
     BoundedMesh _bounded;
 };
 

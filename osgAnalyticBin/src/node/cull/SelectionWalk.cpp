@@ -47,6 +47,17 @@ bool isDrawnByTechnique(const osg::Node& node) {
     return tile.getTerrainTechnique() || !hasBeenTraversed(tile);
 }
 
+TileFamily::Hiding hidingFrom(const SelectedView& selected, const core::HorizonEye* eye, const SightOverRegion* sight) {
+    TileFamily::Hiding hiding{eye, sight};
+    if (!eye || !(eye->data().cosDip > 0.0)) return hiding;
+    // in the space where the occluder is a sphere; lengths are at most those on the ellipsoid over its smaller radius
+    const core::Ellipsoid& ellipsoid = selected.view.ellipsoid;
+    const double smaller = std::min(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
+    hiding.at = selected.visitor.getViewPoint();
+    hiding.tangent = smaller * eye->data().scale * eye->data().sinDip / eye->data().cosDip;
+    return hiding;
+}
+
 // Whether OSG's traversal may be anticipated, where it goes through plain groups and levels of detail.
 bool isPlain(const osg::NodeVisitor& visitor) {
     return isExactly<osgUtil::CullVisitor>(visitor) && visitor.getFrameStamp() &&
@@ -64,6 +75,7 @@ struct SelectionWalk::Tile {
     bool isEnteredByOsg;       // which tests spheres within the tile
     bool isAboutEye;
     bool isOutOfView = false;
+    bool isCertain = false;  // see InstalledTile; in doubt that has to be asked
     Number kept = TileSelection::kNone;
 };
 
@@ -95,7 +107,7 @@ SelectionWalk::SelectionWalk(const SelectedView& selected, const core::HorizonEy
     : _selected(selected),
       _visitor(selected.visitor),
       _selection(*selected.view.selection),
-      _hiding{eye, sight},
+      _hiding(hidingFrom(selected, eye, sight)),
       _place(search.place),
       _occluder(search.occluder),
       _deepest(search.deepest),
@@ -168,7 +180,8 @@ void SelectionWalk::selectFamily(osg::Group& group, const TileFamily& family) {
         const std::uint64_t notSearched = _searches && first < family.size()
                                               ? notSearchedIn(verdicts, family.block().partFrom(first))
                                               : verdicts.members;
-        forEachBit(kept, [&](unsigned int number) { family.tile(first + number).footprint().fetch(); });
+        constexpr unsigned int kLinesOfTile = 5;
+        forEachBit(kept, [&](unsigned int number) { prefetchNode(family.node(first + number), kLinesOfTile); });
         const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
         forEachBit(lowestBits(here) & ~(notSearched & ~kept), [&](unsigned int number) {
             if (_hasHole || first + number >= group.getNumChildren()) return;
@@ -242,12 +255,12 @@ void SelectionWalk::selectMember(osg::Node& node, const TileFamily& family, cons
     const Scoped undecided(_undecided, tile.isOutOfView ? _undecided : verdicts.planes.undecided[number]);
     const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || (numbers.testsSphere && isLeftOut(node)));
     const bool mayLeaveOut = _searches && !isAlone && CullCallbacks(node).mayLeaveOut;
-    const InstalledTile& installed = *member.callback()->getInstalledTile();
-    if (_isDoubtful || installed.isSeeThrough() || !drawn.hides || mayLeaveOut || !_visitor.validNodeMask(node))
-        doubt();
+    tile.isCertain = hasBit(family.block().partFrom(slot).certain.load(std::memory_order_relaxed), number);
+    const bool isSeeThrough = !tile.isCertain && member.callback()->getInstalledTile()->isSeeThrough();
+    if (_isDoubtful || isSeeThrough || !drawn.hides || mayLeaveOut || !_visitor.validNodeMask(node)) doubt();
     if (_hasHole) return;
     if (!_keeps) return searchTile(node, member.paged(), tile);
-    const bool isDirect = _isPlainVisitor && member.isPossible() && node.getCullCallback() == member.callback();
+    const bool isDirect = _isPlainVisitor && member.isPossible() && member.isFirst(node);
     if (isDirect && isAlone && member.paged() && selectShownLevel(*member.paged(), tile)) return;
     const Way way = isAlone && member.isMesh(node) ? Way::Mesh : Way::Untested;
     tile.kept = keep(node, &member, isDirect ? way : Way::Tile);
@@ -277,8 +290,8 @@ bool SelectionWalk::selectShownLevel(osg::PagedLOD& node, const Tile& tile) {
     const Scoped in(_in, _selection.enter(node, _in, _segment, &node, *shown));
     const bool isMesh = tile.member->isMesh(level);
     if (!isMesh && isPaged(node, *shown)) {
-        if (tile.callback.getInstalledTile()->hasGapBelow()) doubt();
-        selectLevel(level, *tile.member);
+        if (!tile.isCertain && tile.callback.getInstalledTile()->hasGapBelow()) doubt();
+        selectLevel(level);
         return true;
     }
     Tile here = tile;
@@ -299,10 +312,9 @@ const TileFamily* SelectionWalk::inlineFamily(const osg::Node& node) const {
 }
 
 // A level from a file. OSG's test of its sphere is left out, because the tiles in it are tested.
-void SelectionWalk::selectLevel(osg::Node& level, const FamilyTile& above) {
+void SelectionWalk::selectLevel(osg::Node& level) {
     const TileFamily* const family = inlineFamily(level);
     if (!family) return selectNode(level);
-    family->noteMemory(above.footprint(), *above.paged(), level);
     const DrawnState drawn = drawnStateOf(level, _selected.view.rules);
     const Scoped doubtful(_isDoubtful, _isDoubtful || !drawn.hides);
     const Scoped ignoresDepth(_ignoresDepth, _ignoresDepth || !drawn.obeysDepth);
@@ -431,7 +443,7 @@ void SelectionWalk::searchChild(osg::PagedLOD& node, unsigned int i, const Tile&
 
 // The altitudes of what a tile draws by itself. Its bin alone follows changes of the mesh.
 core::Interval SelectionWalk::surfaceOf(const Tile& tile) {
-    const InstalledTile* const installed = tile.callback.getInstalledTile();
+    const InstalledTile* const installed = tile.isCertain ? nullptr : tile.callback.getInstalledTile();
     if (installed && installed->isMeshChanged()) return {tile.numbers.binLow, tile.numbers.binHigh};
     return {tile.numbers.surfaceLow, tile.numbers.surfaceHigh};
 }
@@ -440,7 +452,7 @@ void SelectionWalk::show(const Tile& tile, osg::Node& mesh, bool isOnlyLevel) {
     if (tile.isAboutEye && _place->altitude <= surfaceOf(tile).upper) _nearGround.push_back({&tile.callback, &mesh});
     // tiles about the eye are searched even beside the frustum, for the ground alone
     if (tile.isAboutEye && isBeside(tile)) return;
-    const InstalledTile* const installed = tile.callback.getInstalledTile();
+    const InstalledTile* const installed = tile.isCertain ? nullptr : tile.callback.getInstalledTile();
     // the application's own tiles are not counted in what covers the globe
     if (installed && !installed->isFilled()) doubt();
     if (isLeftOutInView(tile, mesh)) doubt();
@@ -455,10 +467,14 @@ void SelectionWalk::show(const Tile& tile, osg::Node& mesh, bool isOnlyLevel) {
 }
 
 bool SelectionWalk::areMeshesDrawn() const {
+    constexpr std::size_t kAhead = 4;
     const std::vector<TileSelection::ShownTile>& shown = _selection.shown();
-    return _isEager || std::all_of(shown.begin(), shown.end(), [this](const TileSelection::ShownTile& one) {
-               return isDrawnWhole(*one.mesh, *one.tile, one.member);
-           });
+    for (std::size_t i = 0; i < shown.size() && !_isEager; ++i) {
+        const FamilyTile* const next = i + kAhead < shown.size() ? shown[i + kAhead].member : nullptr;
+        if (next) next->prefetchMesh();
+        if (!isDrawnWhole(*shown[i].mesh, *shown[i].tile, shown[i].member)) return false;
+    }
+    return true;
 }
 
 // In ECEF.
@@ -518,12 +534,11 @@ bool SelectionWalk::isDrawnWhole(const osg::Node& mesh, const AnalyticBinCullCal
         bool hasDrawable = false;
         return isDrawnWhole(mesh, hasDrawable) && (hasDrawable || !isMeshDoubted);
     }
+    if (member->isBareMesh(_visitor)) return true;
     for (std::size_t i = 0; const osg::Node* const part = member->part(i); ++i) {
-        const bool isDrawn =
-            member->isBare(i) ? _visitor.validNodeMask(*part)
-                              : !mayChange(*part) && isDrawnByTechnique(*part) &&
-                                    isSurelyDrawn(*part, part->getCullCallback() && CullCallbacks(*part).mayLeaveOut);
-        if (!isDrawn) return false;
+        const bool mayLeaveOut = part->getCullCallback() && CullCallbacks(*part).mayLeaveOut;
+        if (mayChange(*part) || !isSurelyDrawn(*part, mayLeaveOut)) return false;
+        if (member->isTerrain(i) && !isDrawnByTechnique(*part)) return false;
     }
     return true;
 }

@@ -177,7 +177,9 @@ void TileFamily::test(const osg::Group& group, unsigned int first, const core::P
     const TileBlock::Part& part = _block->partFrom(first);
     part.bins.classify(planes, undecided, verdicts.planes);
     verdicts.tested = part.bins.filled();
-    verdicts.beyond = hiding.eye ? part.bins.hiddenFrom(*hiding.eye, verdicts.tested & ~verdicts.planes.outside) : 0;
+    const bool isNear = (part.columns.center() - hiding.at).length() + part.columns.radius() < hiding.tangent;
+    verdicts.beyond =
+        hiding.eye && !isNear ? part.bins.hiddenFrom(*hiding.eye, verdicts.tested & ~verdicts.planes.outside) : 0;
     verdicts.hidden = obeyDepth ? hideable(first, verdicts.beyond & part.hideable) : 0;
     if (verdicts.hidden != 0 && hiding.sight) verdicts.hidden = hiding.sight->heldIn(part.bins, verdicts.hidden);
     const std::size_t end =
@@ -189,19 +191,6 @@ void TileFamily::test(const osg::Group& group, unsigned int first, const core::P
     verdicts.members &= part.believed.load(std::memory_order_relaxed);
     findSeparated(first, verdicts.members & verdicts.tested & ~(verdicts.planes.outside | verdicts.hidden), planes,
                   verdicts);
-}
-
-void TileFamily::noteMemory(const Footprint& footprint, const osg::PagedLOD& tile, const osg::Node& level) const {
-    Footprint::Notes notes(footprint);
-    notes.add(&tile, 6);
-    notes.add(tile.getRangeList().data(), 1);
-    notes.add(&tile.getFileName(0), 3);
-    notes.add(&level, 4);
-    notes.add(this, 5);
-    notes.add(_block, 2);
-    if (_block->size() > 0) notes.add(&_block->partFrom(0), 3);
-    notes.add(_nodes.data(), 1);
-    notes.add(_tiles.data(), 16);
 }
 
 // A state that the application has set since then is asked for.

@@ -79,6 +79,8 @@ public:
     struct Hiding {
         const core::HorizonEye* eye = nullptr;
         const SightOverRegion* sight = nullptr;  ///< of an eye over a region
+        osg::Vec3d at{};                         ///< of the eye
+        double tangent = 0.0;                    ///< metres from there within which the horizon hides nothing
     };
     /// Tests the children from `first` on, a multiple of kMost. `obeyDepth`: whether they do by the states above.
     void test(const osg::Group& group, unsigned int first, const core::PlaneSet& planes, core::PlaneMask undecided,
@@ -100,9 +102,6 @@ public:
     /// Whether a tile, or a group of tiles, was removed from the group since bins were installed: the terrain may have
     /// a hole.
     [[nodiscard]] bool hasLost(const osg::Group& group) const;
-
-    /// Notes what a walk reads on its way from a tile to the family of the tile's finer level, the group `level`.
-    void noteMemory(const Footprint& footprint, const osg::PagedLOD& tile, const osg::Node& level) const;
 
     /// The number of children when the family was made.
     [[nodiscard]] std::size_t size() const { return _nodes.size(); }

@@ -51,6 +51,7 @@ void InstalledTile::ignoreDepth() {
 void InstalledTile::setCover(const core::MeshCover& cover) {
     _place = cover.place;
     _isFilled.store(cover.isFilled, std::memory_order_relaxed);
+    tellFamily();
 }
 
 void InstalledTile::trustMesh() {
@@ -62,6 +63,7 @@ void InstalledTile::tellFamily() {
     if (!_block) return;
     _block->believe(_slot, _isSlotFilled && !isKeptVisible() && !isMeshDoubted() && !needsSphere());
     _block->allowHiding(_slot, obeysDepth());
+    _block->trust(_slot, isCertain());
 }
 
 void InstalledTile::joinFamily(TileBlock& block, std::size_t slot) {

@@ -77,7 +77,10 @@ public:
     void emptySlot();
 
     /// Call when the tile draws something that is not known to hide what is behind it. At any time.
-    void setSeeThrough() { _isSeeThrough.store(true, std::memory_order_relaxed); }
+    void setSeeThrough() {
+        _isSeeThrough.store(true, std::memory_order_relaxed);
+        tellFamily();
+    }
     /// Whether the horizon must not rely on the tile: it can be seen through, or its place may be empty.
     [[nodiscard]] bool isSeeThrough() const { return _isSeeThrough.load(std::memory_order_relaxed) || isMoved(); }
     /// Call when the tile, or something below it, may be drawn in front of what is nearer: nothing hides the tile from
@@ -91,7 +94,10 @@ public:
     /// Whether the mesh is known to fill its place.
     [[nodiscard]] bool isFilled() const { return _isFilled.load(std::memory_order_relaxed); }
     /// Call when the tiles of a file that is paged below are not known to fill the place. At any time.
-    void noteGapBelow() { _hasGapBelow.store(true, std::memory_order_relaxed); }
+    void noteGapBelow() {
+        _hasGapBelow.store(true, std::memory_order_relaxed);
+        tellFamily();
+    }
     [[nodiscard]] bool hasGapBelow() const { return _hasGapBelow.load(std::memory_order_relaxed); }
     /// Whether the mesh has moved since bins were installed.
     [[nodiscard]] bool isMoved() const { return _isMoved.load(std::memory_order_relaxed); }
@@ -108,6 +114,9 @@ public:
     [[nodiscard]] std::uint64_t numberOfPlates() const { return _numberOfPlates; }
     /// Whether a change of the mesh was noticed since bins were installed.
     [[nodiscard]] bool isMeshChanged() const { return _isMeshChanged.load(std::memory_order_relaxed); }
+
+    /// Whether the mesh fills its place and cannot be seen through, is as it was, and levels below leave no gap.
+    [[nodiscard]] bool isCertain() const { return isFilled() && !isSeeThrough() && !isMeshChanged() && !hasGapBelow(); }
 
     /// From now on the record is for no node.
     void forgetNode() { _culled = nullptr; }

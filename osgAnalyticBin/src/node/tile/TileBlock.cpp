@@ -45,7 +45,11 @@ void TileBlock::set(std::size_t slot, const Slot& tile, const Bins& bins) {
     part.withSpheres = tile.testsSphere ? part.withSpheres | bit : part.withSpheres & ~bit;
     part.highest = std::max(part.highest, tile.binHigh);
     part.lowest = std::min(part.lowest, tile.binLow);
-    if (tile.column.valid()) _columnUnion->expandBy({tile.column.center(), tile.column.radius()});
+    if (tile.column.valid()) {
+        const osg::BoundingSphered column(tile.column.center(), tile.column.radius());
+        _columnUnion->expandBy(column);
+        part.columns.expandBy(column);
+    }
     part.bins.clear(i);
     if (bins.quadratic) part.bins.set(i, *bins.quadratic);
     if (bins.exact) part.bins.set(i, *bins.exact);
@@ -60,6 +64,10 @@ void TileBlock::believe(std::size_t slot, bool is) {
 
 void TileBlock::allowHiding(std::size_t slot, bool is) {
     (void)setBit(_parts[slot / Part::kMost]->hideable, slot % Part::kMost, is);
+}
+
+void TileBlock::trust(std::size_t slot, bool is) {
+    (void)setBit(_parts[slot / Part::kMost]->certain, slot % Part::kMost, is);
 }
 
 }  // namespace osgAnalyticBin

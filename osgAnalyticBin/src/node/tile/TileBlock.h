@@ -23,7 +23,7 @@ namespace osgAnalyticBin {
 
 /// The numbers of sibling tiles that culling and the search for the lowest surface read, side by side in memory, so
 /// that nothing else of a tile out of view is read. Each child of the group has a slot. Frame: ECEF, metres. Threads:
-/// believe() and allowHiding() at any time; set() where no cull traversal runs.
+/// believe(), allowHiding() and trust() at any time; set() where no cull traversal runs.
 class TileBlock final : public osg::Referenced {
 public:
     struct Slot {
@@ -55,10 +55,12 @@ public:
         std::uint64_t members = 0;               ///< slots of tiles
         std::atomic<std::uint64_t> believed{0};  ///< tiles that may be culled without their own callbacks being asked
         std::atomic<std::uint64_t> hideable{0};  ///< tiles that may be hidden, by the horizon or behind terrain
+        std::atomic<std::uint64_t> certain{0};   ///< tiles of which nothing is in doubt: see InstalledTile::isCertain
         std::uint64_t withOwnColumns = 0;        ///< see Slot::hasOwnColumn
         std::uint64_t withSpheres = 0;           ///< see Slot::testsSphere
         double highest = -std::numeric_limits<double>::infinity();  ///< no binHigh is above
         double lowest = std::numeric_limits<double>::infinity();    ///< no binLow is below
+        osg::BoundingSphered columns;  ///< about all columns; not valid: there may be others
     };
 
     explicit TileBlock(std::size_t slots);
@@ -81,6 +83,8 @@ public:
     void believe(std::size_t slot, bool is);
     /// Says whether the tile of a slot may be hidden. At any time.
     void allowHiding(std::size_t slot, bool is);
+    /// Says whether something about the tile of a slot is in doubt. At any time.
+    void trust(std::size_t slot, bool is);
 
     /// Holds the columns of all tiles.
     [[nodiscard]] ColumnUnion& columnUnion() const { return *_columnUnion; }
