@@ -20,7 +20,7 @@ public:
     [[nodiscard]] bool isSure() const { return _doubts.load(std::memory_order_relaxed) == 0; }
     [[nodiscard]] const osg::BoundingSphered& sphere() const { return _sphere; }
 
-    /// Expands this union, and those above it, by a tile's column. Rounding: see LowestShown.
+    /// Expands this union, and those above it, by a tile's column. Rounding: see SelectionWalk.
     void expandBy(const osg::BoundingSphered& column);
 
     /// Counts what may be outside of the sphere, here and above. Negative: it is inside again.

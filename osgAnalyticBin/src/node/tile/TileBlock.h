@@ -60,7 +60,7 @@ public:
         std::uint64_t withSpheres = 0;           ///< see Slot::testsSphere
         double highest = -std::numeric_limits<double>::infinity();  ///< no binHigh is above
         double lowest = std::numeric_limits<double>::infinity();    ///< no binLow is below
-        osg::BoundingSphered columns;  ///< about all columns; not valid: there may be others
+        osg::BoundingSphered columns;                               ///< about all columns
     };
 
     explicit TileBlock(std::size_t slots);
