@@ -265,6 +265,7 @@ void SelectionWalk::selectMember(osg::Node& node, const TileFamily& family, cons
     const Way way = isAlone && member.isMesh(node) ? Way::Mesh : Way::Untested;
     tile.kept = keep(node, &member, isDirect ? way : Way::Tile);
     const Below below(*this, tile.kept);
+    tile.isEnteredByOsg = tile.isEnteredByOsg || member.paged();
     if (_searches) searchTile(node, member.paged(), tile);
 }
 
@@ -296,6 +297,7 @@ bool SelectionWalk::selectShownLevel(osg::PagedLOD& node, const Tile& tile) {
     }
     Tile here = tile;
     here.kept = keep(level, tile.member, isMesh ? Way::Mesh : Way::Plain);
+    here.isEnteredByOsg = !isMesh || level.getCullCallback();
     if (_searches) show(here, level, true);
     return true;
 }
@@ -574,10 +576,11 @@ bool SelectionWalk::isBesideFrustum(const osg::Vec3d& center, double radius) con
 
 // Whether OSG does not draw a mesh that may be in view, because of a sphere that does not hold it.
 bool SelectionWalk::isLeftOutInView(const Tile& tile, const osg::Node& mesh) const {
-    if (!tile.isEnteredByOsg && !_isBelowOutOfView) return false;
-    const bool mayBeFalse = _selected.view.shape.verticalScale != 1.0 || BoundWatch::hasOwnBound(mesh);
-    if (tile.isEnteredByOsg && mayBeFalse && isLeftOut(mesh)) return true;
-    return _isBelowOutOfView && (mayBeFalse || !isBesideFrustum(sphereOf(mesh)));
+    if (tile.isOutOfView && !_isBelowOutOfView) return false;
+    // OSG may enter the mesh also where it is to be drawn directly
+    const bool hasOwnBound = BoundWatch::hasOwnBound(mesh), isScaled = _selected.view.shape.verticalScale != 1.0;
+    if ((hasOwnBound || (isScaled && tile.isEnteredByOsg)) && isLeftOut(mesh)) return true;
+    return _isBelowOutOfView && (hasOwnBound || isScaled || !isBesideFrustum(sphereOf(mesh)));
 }
 
 }  // namespace osgAnalyticBin
