@@ -39,8 +39,7 @@ public:
             return outer == kNone ? kNone : _selection.places()[outer].withState;
         };
         change(
-            _states, wanted, above,
-            [this](Number at) { _cullVisitor->pushStateSet(_selection.places()[at].node->getStateSet()); },
+            _states, wanted, above, [this](Number at) { _cullVisitor->pushStateSet(_selection.places()[at].state); },
             [this] { _cullVisitor->popStateSet(); });
     }
 
@@ -139,15 +138,25 @@ private:
 
     void draw(const TileSelection::Kept& kept, Places& places) {
         const core::PlaneMask undecided = kept.undecided & _limit;
+        if (_isEntered && isMasked(kept)) return;
         if (kept.way == Way::Mesh) {
             places.setState(kept.place);
             if (_canDraw && kept.member->draw(*_cullVisitor, undecided)) return;
         }
         _selection.hold();
+        _isEntered = true;
         places.enter(kept.place);
         setUndecided(frustum(), undecided);
         const PlanesBelow planes(_cullStack, undecided);
         enter(kept);
+    }
+
+    // A callback of the application's may have set masks since they were asked.
+    [[nodiscard]] bool isMasked(const TileSelection::Kept& kept) const {
+        bool isMasked = !_visitor.validNodeMask(*kept.node);
+        for (Number at = kept.place; at != TileSelection::kNone; at = _selection.places()[at].above)
+            isMasked = isMasked || !_visitor.validNodeMask(*_selection.places()[at].node);
+        return isMasked;
     }
 
     void enter(const TileSelection::Kept& kept) {
@@ -176,6 +185,7 @@ private:
     osg::CullStack& _cullStack;
     const bool _canDraw;
     core::PlaneMask _limit = 0;
+    bool _isEntered = false;  // by OSG, where the application may change what comes later
 };
 
 }  // namespace

@@ -50,7 +50,8 @@ TileSelection::Number TileSelection::enter(osg::Node& node, Number above, Number
                                            unsigned int level) {
     const auto number = static_cast<Number>(_places.size());
     const Number stateAbove = above == kNone ? kNone : _places[above].withState;
-    _places.push_back({&node, above, node.getStateSet() ? number : stateAbove, segment, paged, level});
+    _places.push_back(
+        {&node, node.getStateSet(), above, node.getStateSet() ? number : stateAbove, segment, paged, level});
     return number;
 }
 
@@ -91,7 +92,10 @@ TileSelection::Number TileSelection::find(const TileFamily& family, core::PlaneM
 void TileSelection::hold() {
     const Sizes now = sizes();
     for (std::size_t i = _heldSizes.families; i < now.families; ++i) _held.emplace_back(_families[i]);
-    for (std::size_t i = _heldSizes.places; i < now.places; ++i) _held.emplace_back(_places[i].node);
+    for (std::size_t i = _heldSizes.places; i < now.places; ++i) {
+        _held.emplace_back(_places[i].node);
+        _held.emplace_back(_places[i].state);
+    }
     for (std::size_t i = _heldSizes.kept; i < now.kept; ++i) _held.emplace_back(_kept[i].node);
     _heldSizes = now;
 }

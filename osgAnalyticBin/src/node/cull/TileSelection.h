@@ -35,6 +35,7 @@ public:
     /// A node below the group of a segment, on the way to what is kept.
     struct Place {
         osg::Node* node;
+        const osg::StateSet* state;
         Number above;          ///< the place that it is in; kNone: the group of the segment
         Number withState;      ///< the nearest place with a state, counted from this one; kNone: none
         Number segment;        ///< that it belongs to

@@ -213,7 +213,8 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
     view.selection->clear();
     const ShownDatabase shown{node, {nv, cullStack, view}, nullptr};
     const Horizon horizon = hasActiveOccluders(cullStack) ? Horizon() : horizonOver(shown, *_database, options);
-    if (!horizon.isSelected) SelectionWalk(shown.selected, nullptr, nullptr).select(node);
+    // callbacks of the application's run before what is drawn is selected then
+    if (!horizon.isSelected) view.selection->clear();
     std::optional<SightOverRegion> sight;
     if (horizon.eye) view.eye = &*horizon.eye;
     if (horizon.eye && horizon.region) view.sight = &sight.emplace(*horizon.eye, *horizon.region, view.planes);
