@@ -406,7 +406,7 @@ TEST(DecidedPlanes, AreInheritedByChildrenAndNotBySiblings) {
         (void)cull(*root, view, *visitor);
         EXPECT_EQ(readers[0]->mask, 0u) << "the first tile is inside all planes";
         EXPECT_NE(readers[1]->mask, 0u) << "the second is not";
-        EXPECT_NE(readers[1]->mask, 99u);
+        EXPECT_LT(readers[1]->mask, 15u) << "of all";
         EXPECT_EQ(beside->mask, 15u) << "what tiles decided is theirs";
     }
 }

@@ -3,6 +3,7 @@
 //
 // What is delivered of kept tiles. Oracle: OSG's own traversal of the same scene, by a visitor of a derived class.
 
+#include "ApplicationGlobe.h"
 #include "DatabaseFixture.h"
 #include "PagedFlight.h"
 #include "PlanarMap.h"
@@ -137,7 +138,16 @@ TEST_P(MapEntry, LeavesWhatTheApplicationChangesToOsg) {
 INSTANTIATE_TEST_SUITE_P(Kinds, MapEntry, testing::Bool(),
                          [](const auto& kind) { return kind.param ? "Terrain" : "Meshes"; });
 
-// Transforms that turn: the tiles of osgTerrain on a globe.
+// The same mesh in a frame that is turned, as those of osgTerrain are on a globe.
+osg::ref_ptr<osg::MatrixTransform> turned(const osg::ref_ptr<osg::MatrixTransform>& mesh, const osg::Matrixd& turn) {
+    auto& geometry = dynamic_cast<osg::Geometry&>(*mesh->getChild(0)->asGroup()->getChild(0));
+    const osg::Matrixd back = osg::Matrixd::inverse(turn);
+    for (osg::Vec3& vertex : dynamic_cast<osg::Vec3Array&>(*geometry.getVertexArray())) vertex = vertex * back;
+    geometry.dirtyBound();
+    mesh->preMult(turn);
+    return mesh;
+}
+
 TEST(FamilyTile, DeliversWhatOsgDeliversOnAGlobe) {
     const TemporaryFolder folder;
     Random random(20261126);
@@ -146,13 +156,8 @@ TEST(FamilyTile, DeliversWhatOsgDeliversOnAGlobe) {
     for (double south = -90.0; south < 90.0; south += 30.0) {
         for (double west = -180.0; west < 180.0; west += 30.0) {
             const core::GeodeticBin extents = extentsDeg(south, south + 30.0, west, west + 30.0);
-            const osg::ref_ptr<osg::MatrixTransform> frame = new osg::MatrixTransform;
             const osg::Matrixd turn = osg::Matrixd::rotate(random.uniform(0.0, 3.0), osg::Vec3d(1.0, 2.0, 3.0));
-            frame->setMatrix(turn);
-            const osg::ref_ptr<osg::MatrixTransform> back = new osg::MatrixTransform(osg::Matrixd::inverse(turn));
-            back->addChild(makeMeshTile(extents, 100.0));
-            frame->addChild(back);
-            globe->addChild(makePaged(random.chance(0.5) ? frame : makeMeshTile(extents, 100.0), "no.osgb"));
+            globe->addChild(makePaged(turned(makeMeshTile(extents, 100.0), turn), "no.osgb"));
         }
     }
     EXPECT_GT(installBins(*globe, {}), 0u);
@@ -189,6 +194,21 @@ TEST(FamilyTile, LeavesMeshesThatHangInTwoPlacesToOsg) {
     scene.globe->addChild(makePaged(scene.mesh, "no.osgb"));
     EXPECT_GT(installBins(*scene.globe, {}), 0u);
     EXPECT_EQ(expectSameLeaves(*scene.globe, scene.view), 2u);
+}
+
+TEST(FamilyTile, LeavesOutPartsThatAreSmallFeatures) {
+    OneTile scene;
+    const osg::ref_ptr<osg::Node> ground = drawableOf(*scene.mesh), sign = drawableOf(*makeTower({}));
+    const osg::ref_ptr<osg::Group> small = new osg::Group;
+    small->addChild(sign);
+    scene.mesh->setChild(0, ground);
+    scene.mesh->addChild(small);
+    scene.globe->addChild(makePaged(scene.mesh, "no.osgb"));
+    EXPECT_GT(installBins(*scene.globe, {}), 0u);
+    CullView view = scene.view;
+    EXPECT_EQ(expectSameLeaves(*scene.globe, view), 2u);
+    view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
+    EXPECT_EQ(expectSameLeaves(*scene.globe, view), 1u);
 }
 
 TEST(FamilyTile, GoesOnWhereTheApplicationEmptiesAFile) {

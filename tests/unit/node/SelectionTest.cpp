@@ -65,6 +65,20 @@ TEST(Selection, AsksForMasksThatWereSetMeanwhile) {
     }
 }
 
+TEST(Selection, AsksForTheMasksOfGroups) {
+    ModelGlobe globe;
+    const osg::ref_ptr<osg::Group> above = new osg::Group;
+    globe.root->replaceChild(globe.tiles[19], above);
+    above->addChild(globe.tiles[19]);
+    installBins(*globe.root);
+    for (const auto& [group, content] :
+         {std::pair<osg::Group*, osg::Node*>(above, globe.tiles[19]), {globe.last, globe.last}}) {
+        EXPECT_TRUE(globe.shows(*content));
+        group->setNodeMask(0);
+        EXPECT_FALSE(globe.shows(*content));
+    }
+}
+
 TEST(Selection, GoesOnWithoutAStateThatWasTakenAwayMeanwhile) {
     ModelGlobe globe;
     osg::Node& tile = *globe.tiles[19];
@@ -116,6 +130,47 @@ TEST(Selection, HoldsForTheVisitorThatItWasMadeFor) {
     MeshGlobe masked = globeWith([](osgUtil::CullVisitor& visitor) { visitor.setTraversalMask(2); });
     masked.visitor->setTraversalMask(1);
     EXPECT_FALSE(masked.draws(*masked.tiles[18], MeshGlobe::fromAbove(3e6)));
+}
+
+// The state above is a group's, and obeys no depth.
+TEST(Selection, KnowsTheStatesAboveWhereItIsMadeAnew) {
+    MeshGlobe globe;
+    const osg::ref_ptr<osg::Group> above = new osg::Group;
+    above->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+    globe.root->replaceChild(globe.tiles[15], above);
+    above->addChild(globe.tiles[15]);
+    const osg::ref_ptr<Before> callback =
+        new Before([](osgUtil::CullVisitor& visitor) { visitor.setLODScale(2.0f * visitor.getLODScale()); });
+    setTraversesAlways(*callback);
+    above->setCullCallback(callback);
+    installBins(*globe.root);
+    EXPECT_FALSE(globe.draws(*globe.tiles[14], MeshGlobe::fromAbove()));
+    EXPECT_TRUE(globe.drawsAntipode());
+}
+
+// For a callback that goes on behind its node.
+TEST(Selection, LeavesTheVisitorAsItWas) {
+    struct After : osg::NodeCallback {
+        void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+            osgUtil::CullVisitor& visitor = *nv->asCullVisitor();
+            osg::CullingSet& set = visitor.getCurrentCullingSet();
+            const auto mask = set.getFrustum().getCurrentMask();
+            const osg::NodePath path = visitor.getNodePath();
+            const osgUtil::StateGraph* const states = visitor.getCurrentStateGraph();
+            traverse(node, nv);
+            isAsItWas = set.getFrustum().getCurrentMask() == mask && visitor.getNodePath() == path &&
+                        visitor.getCurrentStateGraph() == states;
+        }
+        bool isAsItWas = false;
+    };
+    MeshGlobe globe;
+    globe.tiles[19]->getOrCreateStateSet()->setAttributeAndModes(new osg::Depth);
+    globe.tiles[19]->getChild(0)->setCullCallback(new osg::NodeCallback);
+    const osg::ref_ptr<After> after = new After;
+    globe.root->setCullCallback(after);
+    installBins(*globe.root);
+    EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
+    EXPECT_TRUE(after->isAsItWas);
 }
 
 // As osg::PagedLOD does it itself: levels that are not come to grow old, and files with them.

@@ -6,10 +6,12 @@
 // has not met a surface by then would see what is hidden. Single cases: FlatGlobeTest.cpp.
 
 #include "CameraGlobe.h"
+#include "DatabaseFixture.h"
 #include "DeepGlobe.h"
 #include "ShownEye.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/InstallBins.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -165,8 +167,16 @@ TEST(ShownDepth, FindsTilesBehindOtherCallbacks) {
     EXPECT_GT(fly(terrain, 2104, 20).entered, 1000);
 }
 
-// Adds a tile without parts, its bin as flat as its surface. Degrees.
-void addFlatTile(osg::Group& root, core::Interval latitude, core::Interval longitude, double altitude) {
+// Adds a tile without parts, its bin as flat as its surface; or one with a mesh, for bins to be installed. Degrees.
+void addFlatTile(osg::Group& root, core::Interval latitude, core::Interval longitude, double altitude, bool hasMesh) {
+    if (hasMesh) {
+        const core::GeodeticBin extents = extentsDeg(latitude.lower, latitude.upper, longitude.lower, longitude.upper);
+        const osg::ref_ptr<osg::Group> tile = new osg::Group;
+        tile->addChild(makeMeshTile(extents, altitude));
+        setStoredBin(*tile, AnalyticBin(extents.withAltitude({altitude - 30.0, altitude + 1.0}), 1.0));
+        root.addChild(tile);
+        return;
+    }
     const AnalyticBin bin(GeodeticBin::fromDegrees(latitude, longitude, {altitude, altitude}));
     const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(bin, osg::EllipsoidModel());
     callback->setSurface(bin);
@@ -178,9 +188,6 @@ void addFlatTile(osg::Group& root, core::Interval latitude, core::Interval longi
 TEST(ShownDepth, FindsABasinThatLinesOfSightPassHighAbove) {
     // Looking east along the equator past the limb, 4500 m below the ellipsoid at its nearest, over tiles of a basin
     // at -9000 m that are all below the picture.
-    const osg::ref_ptr<osg::Group> root = new osg::Group;
-    addFlatTile(*root, {-1.0, 1.0}, {-1.0, 0.5}, -3000.0);
-    for (int i = 10; i < 100; ++i) addFlatTile(*root, {-0.025, 0.025}, {0.05 * i, 0.05 * (i + 1)}, -9000.0);
     const glm::dvec3 eye = earth().toEcef({0.0, 0.0, 2000.0});
     const double toLimb = std::acos((kEarthRadius - 4500.0) / (kEarthRadius + 2000.0));
     const glm::dvec3 limb = earth().toEcef({0.0, toLimb, -4500.0});
@@ -193,9 +200,19 @@ TEST(ShownDepth, FindsABasinThatLinesOfSightPassHighAbove) {
     ASSERT_TRUE(distance);
     EXPECT_GT(earth().toGeodetic(eye + picture.ray(0.0, 0.0) * *distance).longitude, osg::DegreesToRadians(0.5));
 
-    const ShownEye answer = askForEye(*root, picture, 3000.0);
-    ASSERT_TRUE(answer.eye);
-    EXPECT_NEAR(answer.found, 9000.0, 1e-9);
+    for (const bool isFamily : {false, true}) {
+        const osg::ref_ptr<osg::CoordinateSystemNode> root = new osg::CoordinateSystemNode;
+        root->setEllipsoidModel(new osg::EllipsoidModel);
+        addFlatTile(*root, {-1.0, 1.0}, {-1.0, 0.5}, -3000.0, isFamily);
+        for (int i = 10; i < 100; ++i)
+            addFlatTile(*root, {-0.025, 0.025}, {0.05 * i, 0.05 * (i + 1)}, -9000.0, isFamily);
+        if (isFamily) {
+            EXPECT_EQ(installBins(*root), 91u);
+        }
+        const ShownEye answer = askForEye(*root, picture, 3000.0);
+        ASSERT_TRUE(answer.eye) << isFamily;
+        EXPECT_NEAR(answer.found, 9000.0, 1.0);
+    }
 }
 
 }  // namespace

@@ -72,10 +72,11 @@ glm::dvec3 Picture::ray(double x, double y) const {
 
 ShownEye askForEye(osg::Group& database, const Picture& picture, double startDepth, double deepest) {
     const osg::ref_ptr<Asker> asker = new Asker(startDepth, deepest);
+    asker->setNestedCallback(database.getCullCallback());
     database.setCullCallback(asker);
     const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
     (void)cull(database, picture.view(), *visitor);
-    database.setCullCallback(nullptr);
+    database.setCullCallback(asker->getNestedCallback());
     return {asker->eye, asker->depth};
 }
 

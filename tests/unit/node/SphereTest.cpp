@@ -120,20 +120,41 @@ struct OwnBound : osg::Node::ComputeBoundingSphereCallback {
 TEST(Spheres, OfGroupsThatLeaveOutTilesInViewEndTheHorizon) {
     const osg::BoundingSphere around(osg::Vec3(), 7e6f), elsewhere(ecefDeg(0.0, 67.5, 1e8), 1e5f),
         small(ecefDeg(22.5, -22.5, 0.0), 1.0f);
-    const auto drawsAntipode = [](const osg::BoundingSphere& bound) {
+    const auto expectDrawn = [](const osg::BoundingSphere& bound, bool isDrawn, bool hasCallback) {
         MeshGlobe globe;
         const osg::ref_ptr<osg::Group> group = new osg::Group;
+        // OSG itself enters it
+        if (hasCallback) group->setCullCallback(new osg::NodeCallback);
         globe.root->replaceChild(globe.tiles[19], group);
         group->addChild(globe.tiles[19]);
         group->setComputeBoundingSphereCallback(new OwnBound(bound));
         installBins(*globe.root);
         CullView view = MeshGlobe::fromAbove();
         view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
-        return globe.draws(*globe.tiles[15], view);
+        EXPECT_EQ(globe.draws(*globe.tiles[19], view), isDrawn) << hasCallback;
+        EXPECT_EQ(globe.draws(*globe.tiles[15], view), !isDrawn) << hasCallback;
     };
-    EXPECT_FALSE(drawsAntipode(around));
-    EXPECT_TRUE(drawsAntipode(elsewhere));
-    EXPECT_TRUE(drawsAntipode(small));
+    for (const bool hasCallback : {false, true}) {
+        expectDrawn(around, true, hasCallback);
+        expectDrawn(elsewhere, false, hasCallback);
+        expectDrawn(small, false, hasCallback);
+    }
+}
+
+// The bin of a leaf is that of its mesh. By a visitor of another class, OSG enters it.
+TEST(Spheres, OfLeavesAreNotTestedBesideTheirBins) {
+    struct Derived : osgUtil::CullVisitor {};
+    for (const bool isDerived : {false, true}) {
+        MeshGlobe globe;
+        if (isDerived) globe.visitor = new Derived;
+        const osg::ref_ptr<osg::Group> leaf = new osg::Group;
+        leaf->addChild(globe.tiles[19]->getChild(0));
+        leaf->setComputeBoundingSphereCallback(new OwnBound({ecefDeg(0.0, 67.5, 1e8), 1e5f}));
+        setStoredBin(*leaf, AnalyticBin(extentsDeg(0.0, 45.0, -45.0, 0.0).withAltitude({-20000.0, 100.0}), 10.0));
+        globe.root->replaceChild(globe.tiles[19], leaf);
+        installBins(*globe.root);
+        EXPECT_TRUE(globe.draws(*leaf, MeshGlobe::fromAbove())) << isDerived;
+    }
 }
 
 // Where it is OSG that enters them: such as have callbacks, and such as stand in for a file.

@@ -78,6 +78,9 @@ TEST(TerrainOcclusion, HidesWhatIsBehindARidge) {
     EXPECT_FALSE(globe.drawsFarTile());
     EXPECT_GE(globe.counts().occluded, 1u);
     EXPECT_GE(globe.counts().outside, globe.counts().occluded);
+    // as OSG leaves what it culls
+    EXPECT_EQ(globe.row[1]->getFrameNumber(0), globe.frame);
+    EXPECT_NE(globe.row[4]->getFrameNumber(0), globe.frame);
     for (const int i : {0, 1, 2})
         EXPECT_TRUE(globe.draws(*globe.row[static_cast<std::size_t>(i)], globe.alongRow())) << i;
     // from above the ridge, and from above a lower one

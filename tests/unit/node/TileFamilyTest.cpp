@@ -160,6 +160,12 @@ TEST(TileFamily, RunsTheCallbacksOfItsGroupAndOfItsTiles) {
     EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
     EXPECT_EQ(behind->runs, 1);
     EXPECT_FALSE(globe.drawsAntipode());
+    globe.root->removeCullCallback(behind);
+    const osg::ref_ptr<RunCounter> inFront = new RunCounter;
+    inFront->setNestedCallback(globe.tiles[19]->getCullCallback());
+    globe.tiles[19]->setCullCallback(inFront);
+    EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
+    EXPECT_EQ(inFront->runs, 1);
 }
 
 TEST(TileFamily, EntersTilesWithTheirStateAndByTheirMasks) {
