@@ -251,6 +251,20 @@ TEST(Evidence, IsMissingForAMeshThatHasBecomeNarrower) {
     }
 }
 
+TEST(Evidence, IsOfMeshesAsDeepAsTheyHaveBecome) {
+    MeshGlobe globe;
+    installBins(*globe.root);
+    const auto hidden = [&] {
+        EXPECT_FALSE(globe.drawsAntipode());
+        return BinStatistics::of(*globe.visitor).getCounts().hidden;
+    };
+    const auto before = hidden();
+    takeVertices(*makeMeshTile(extentsDeg(0.0, 45.0, -45.0, 0.0), -6e5), *globe.tiles[19]);
+    EXPECT_TRUE(globe.drawsAntipode());
+    update(*globe.root);
+    EXPECT_LT(hidden(), before);
+}
+
 TEST(Evidence, IsMissingForATileThatIsNarrowerThanItsPlace) {
     MeshGlobe globe;
     globe.root->removeChild(globe.tiles[19]);

@@ -65,17 +65,25 @@ TEST(Selection, AsksForMasksThatWereSetMeanwhile) {
     }
 }
 
+// One with tiles, one without, and one that is the content of a file.
 TEST(Selection, AsksForTheMasksOfGroups) {
-    ModelGlobe globe;
-    const osg::ref_ptr<osg::Group> above = new osg::Group;
+    MeshGlobe globe;
+    const osg::ref_ptr<osg::Group> above = new osg::Group, model = new osg::Group, file = new osg::Group;
     globe.root->replaceChild(globe.tiles[19], above);
     above->addChild(globe.tiles[19]);
+    model->addChild(makeTower(ecefDeg(22.0, -22.0, 0.0)));
+    globe.root->addChild(model);
+    file->addChild(makePaged(makeMeshTile(extentsDeg(0.0, 45.0, -90.0, -45.0), 0.0), "no.osgb"));
+    globe.tiles[18]->setRange(0, 1e9f, 1e10f);
+    globe.tiles[18]->setRange(1, 0.0f, 1e9f);
+    putBelow(*globe.tiles[18], file);
     installBins(*globe.root);
-    for (const auto& [group, content] :
-         {std::pair<osg::Group*, osg::Node*>(above, globe.tiles[19]), {globe.last, globe.last}}) {
-        EXPECT_TRUE(globe.shows(*content));
+    const auto shows = [&](osg::Node& node) { return globe.draws(node, MeshGlobe::fromAbove(3e6)); };
+    for (const osg::ref_ptr<osg::Group>& group : {above, model, file}) {
+        EXPECT_TRUE(shows(*group));
         group->setNodeMask(0);
-        EXPECT_FALSE(globe.shows(*content));
+        EXPECT_FALSE(shows(*group));
+        group->setNodeMask(~0u);
     }
 }
 
@@ -153,23 +161,23 @@ TEST(Selection, LeavesTheVisitorAsItWas) {
     struct After : osg::NodeCallback {
         void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
             osgUtil::CullVisitor& visitor = *nv->asCullVisitor();
-            osg::CullingSet& set = visitor.getCurrentCullingSet();
-            const auto mask = set.getFrustum().getCurrentMask();
+            const auto planes = [&] { return visitor.getCurrentCullingSet().getFrustum().getCurrentMask(); };
+            const auto before = planes();
             const osg::NodePath path = visitor.getNodePath();
             const osgUtil::StateGraph* const states = visitor.getCurrentStateGraph();
             traverse(node, nv);
-            isAsItWas = set.getFrustum().getCurrentMask() == mask && visitor.getNodePath() == path &&
-                        visitor.getCurrentStateGraph() == states;
+            isAsItWas = planes() == before && visitor.getNodePath() == path && visitor.getCurrentStateGraph() == states;
         }
         bool isAsItWas = false;
     };
     MeshGlobe globe;
     globe.tiles[19]->getOrCreateStateSet()->setAttributeAndModes(new osg::Depth);
-    globe.tiles[19]->getChild(0)->setCullCallback(new osg::NodeCallback);
+    // OSG itself enters the meshes
+    for (const auto& tile : globe.tiles) tile->getChild(0)->setCullCallback(new osg::NodeCallback);
     const osg::ref_ptr<After> after = new After;
     globe.root->setCullCallback(after);
     installBins(*globe.root);
-    EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove()));
+    EXPECT_TRUE(globe.draws(*globe.tiles[19], MeshGlobe::fromAbove(3e6)));
     EXPECT_TRUE(after->isAsItWas);
 }
 

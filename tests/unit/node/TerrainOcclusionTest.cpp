@@ -78,9 +78,6 @@ TEST(TerrainOcclusion, HidesWhatIsBehindARidge) {
     EXPECT_FALSE(globe.drawsFarTile());
     EXPECT_GE(globe.counts().occluded, 1u);
     EXPECT_GE(globe.counts().outside, globe.counts().occluded);
-    // as OSG leaves what it culls
-    EXPECT_EQ(globe.row[1]->getFrameNumber(0), globe.frame);
-    EXPECT_NE(globe.row[4]->getFrameNumber(0), globe.frame);
     for (const int i : {0, 1, 2})
         EXPECT_TRUE(globe.draws(*globe.row[static_cast<std::size_t>(i)], globe.alongRow())) << i;
     // from above the ridge, and from above a lower one
@@ -104,6 +101,8 @@ TEST(TerrainOcclusion, HidesAMeshByItsOwnHeightWhereNoFinerTileIsDue) {
     for (int i = 0; i < 3; ++i) {
         setFinerWithin(never);
         EXPECT_FALSE(globe.drawsFarTile()) << i;
+        // as OSG leaves the levels of what it culls
+        EXPECT_NE(far.getFrameNumber(0), globe.frame);
         setFinerWithin(always);
         EXPECT_TRUE(globe.drawsFarTile()) << i;
     }
