@@ -11,9 +11,9 @@
 namespace osgAnalyticBin {
 
 /// Declares that a cull callback of the application always traverses its nested callback or its node and changes
-/// neither state nor masks, by the user value "osgAnalyticBin.traversesAlways" of the callback. A callback without this
-/// declaration may leave out terrain; the horizon is not used while such a callback is on a tile in view or above one,
-/// the CoordinateSystemNode and its ancestors included.
+/// neither state nor masks nor the scale of levels of detail, by the user value "osgAnalyticBin.traversesAlways" of the
+/// callback. A callback without this declaration may leave out terrain; the horizon is not used while such a callback
+/// is on a tile in view or above one, the CoordinateSystemNode and its ancestors included.
 OSGANALYTICBIN_EXPORT void setTraversesAlways(osg::Callback& callback);
 
 /// Returns: whether setTraversesAlways() was called for the callback, or it is a plain osg::NodeCallback.
