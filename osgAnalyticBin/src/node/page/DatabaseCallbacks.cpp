@@ -210,7 +210,6 @@ void DatabaseCullCallback::cull(osg::Group& node, osg::NodeVisitor& nv, osg::Cul
                       &drawFamily,
                       StateRules::of(nv, options.plainShaders)};
     if (osgUtil::CullVisitor* const visitor = nv.asCullVisitor()) view.states = visitor->getCurrentStateGraph();
-    view.selection->clear();
     const ShownDatabase shown{node, {nv, cullStack, view}, nullptr};
     const Horizon horizon = hasActiveOccluders(cullStack) ? Horizon() : horizonOver(shown, *_database, options);
     // callbacks of the application's run before what is drawn is selected then
