@@ -16,6 +16,8 @@
 #include "CullCallbacks.h"
 #include "GroundBelow.h"
 
+#include <osgAnalyticBin/PhotogrammetrySet.h>
+
 #include <osg/CoordinateSystemNode>
 #include <osg/PagedLOD>
 #include <osg/Transform>
@@ -56,6 +58,12 @@ TileFamily::Hiding hidingFrom(const SelectedView& selected, const core::HorizonE
     hiding.at = selected.visitor.getViewPoint();
     hiding.tangent = smaller * eye->data().scale * eye->data().sinDip / eye->data().cosDip;
     return hiding;
+}
+
+const osg::Polytope::PlaneList& testedPlanes(osg::CullingSet& cullingSet) {
+    static const osg::Polytope::PlaneList none;
+    const bool areTested = cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING;
+    return areTested ? cullingSet.getFrustum().getPlaneList() : none;
 }
 
 // Whether OSG's traversal may be anticipated, where it goes through plain groups and levels of detail.
@@ -113,11 +121,11 @@ SelectionWalk::SelectionWalk(const SelectedView& selected, const core::HorizonEy
       _deepest(search.deepest),
       _isEager(search.isEager),
       _isPlainVisitor(isPlain(selected.visitor)),
+      _planes(testedPlanes(selected.cullStack.getCurrentCullingSet())),
       _searches(true) {
     const osg::CullingSet& cullingSet = selected.cullStack.getCurrentCullingSet();
     _testsSmallFeatures = (cullingSet.getCullingMask() & osg::CullingSet::SMALL_FEATURE_CULLING) != 0;
     if (!(cullingSet.getCullingMask() & osg::CullingSet::VIEW_FRUSTUM_CULLING)) return;
-    _planes = cullingSet.getFrustum().getPlaneList();
     _undecided = cullingSet.getFrustum().getCurrentMask();
 }
 
@@ -253,7 +261,8 @@ void SelectionWalk::selectMember(osg::Node& node, const TileFamily& family, cons
     const DrawnState drawn = drawnStateOf(node, _selected.view.rules);
     const Scoped ignoresDepth(_ignoresDepth, _ignoresDepth || !drawn.obeysDepth);
     const Scoped undecided(_undecided, tile.isOutOfView ? _undecided : verdicts.planes.undecided[number]);
-    const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || (numbers.testsSphere && isLeftOut(node)));
+    const Scoped outOfView(_isBelowOutOfView,
+                           _isBelowOutOfView || (_searches && numbers.testsSphere && isLeftOut(node)));
     const bool mayLeaveOut = _searches && !isAlone && CullCallbacks(node).mayLeaveOut;
     tile.isCertain = hasBit(family.block().partFrom(slot).certain.load(std::memory_order_relaxed), number);
     const bool isSeeThrough = !tile.isCertain && member.callback()->getInstalledTile()->isSeeThrough();
@@ -277,9 +286,14 @@ TileSelection::Number SelectionWalk::keep(osg::Node& node, const FamilyTile* mem
 
 // As osg::PagedLOD::traverse() where one child is shown and no file is asked for. Returns: false where it is not so.
 bool SelectionWalk::selectShownLevel(osg::PagedLOD& node, const Tile& tile) {
-    if (node.getRangeMode() != osg::LOD::DISTANCE_FROM_EYE_POINT || node.getNumFileNames() == 0) return false;
+    const bool byDistance = node.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT;
+    // evidence does not rely on sizes on screen
+    if ((!byDistance && _searches) || node.getNumFileNames() == 0) return false;
+    const float scale = _selected.cullStack.getLODScale();
+    if (!byDistance && !(scale > 0.0f)) return false;
     const osg::LOD::RangeList& ranges = node.getRangeList();
-    const float range = _visitor.getDistanceToViewPoint(node.getCenter(), true);
+    const float range = byDistance ? _visitor.getDistanceToViewPoint(node.getCenter(), true)
+                                   : _selected.cullStack.clampedPixelSize(node.getBound()) / scale;
     std::optional<unsigned int> shown;
     for (unsigned int i = 0; i < ranges.size(); ++i) {
         if (!(ranges[i].first <= range && range < ranges[i].second)) continue;
@@ -329,7 +343,8 @@ void SelectionWalk::selectNode(osg::Node& node) {
     const bool isInSegment = _keeps && _segment != TileSelection::kNone;
     const TileFamily* const family = inlineFamily(node);
     const bool isPlainGroup = isInSegment && _isPlainVisitor && isExactly<osg::Group>(node) &&
-                              (family || !node.getCullCallback()) && _visitor.validNodeMask(node);
+                              (family || !node.getCullCallback()) && _visitor.validNodeMask(node) &&
+                              !isPhotogrammetrySet(node);
     if (isPlainGroup) return selectGroup(node, family);
     if (!isInSegment) return searchNode(node);
     const Below below(*this, keep(node, nullptr, Way::Plain));
@@ -364,8 +379,8 @@ void SelectionWalk::searchNode(osg::Node& node) {
     const bool isGroup = isExactly<osg::Group>(node);
     const CullCallbacks callbacks(node);
     if (callbacks.bin) return searchTileWithoutFamily(node, *callbacks.bin, callbacks.mayLeaveOut);
-    // another database is on a globe of its own
-    if (!isGroup && dynamic_cast<osg::CoordinateSystemNode*>(&node)) return;
+    // another database is on a globe of its own, or in a map
+    if (isPhotogrammetrySet(node) || (!isGroup && dynamic_cast<osg::CoordinateSystemNode*>(&node))) return;
     const osg::Transform* const transform = isGroup ? nullptr : node.asTransform();
     const bool isDrawn = isSurelyDrawn(node, callbacks.mayLeaveOut) && (isGroup || drawsAllChildren(node)) &&
                          !(transform && transform->getReferenceFrame() != osg::Transform::RELATIVE_RF);

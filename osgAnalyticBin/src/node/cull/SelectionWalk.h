@@ -134,7 +134,7 @@ private:
     const double _deepest;                       // likewise
     const bool _isEager;
     const bool _isPlainVisitor;
-    osg::Polytope::PlaneList _planes;
+    const osg::Polytope::PlaneList& _planes;
     bool _testsSmallFeatures = false;
     struct StandingEye {
         osg::Vec3d at, up;
