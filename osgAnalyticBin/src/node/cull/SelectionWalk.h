@@ -79,7 +79,18 @@ public:
 private:
     using Number = TileSelection::Number;
     using Way = TileSelection::Way;
-    struct Tile;
+    // A tile that the walk has come to.
+    struct Tile {
+        const AnalyticBinCullCallback& callback;
+        const TileBlock::Slot& numbers;
+        bool isFitted;             // to the shape in which the terrain is shown
+        const FamilyTile* member;  // null: of no family
+        bool isEnteredByOsg;       // which tests spheres within the tile
+        bool isAboutEye;
+        bool isOutOfView = false;
+        bool isCertain = false;  // see InstalledTile; in doubt that has to be asked
+        Number kept = TileSelection::kNone;
+    };
     class Below;
 
     void selectChildren(osg::Group& group, const TileFamily* family);

@@ -1,0 +1,279 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// The evidence of a walk: whether all that hides is drawn.
+
+#include "../../core/Bits.h"
+#include "../Classes.h"
+#include "../Inverse.h"
+#include "../PagedChildren.h"
+#include "../Scoped.h"
+#include "../Spheres.h"
+#include "../tile/BoundWatch.h"
+#include "../tile/InstalledTile.h"
+#include "BinCulling.h"
+#include "CullCallbacks.h"
+#include "GroundBelow.h"
+#include "SelectionWalk.h"
+
+#include <osgAnalyticBin/PhotogrammetrySet.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/PagedLOD>
+#include <osg/Transform>
+#include <osgTerrain/TerrainTile>
+
+#include <algorithm>
+#include <limits>
+#include <typeinfo>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+osg::PagedLOD* pagedLod(osg::Node& node) {
+    if (isExactly<osg::PagedLOD>(node)) return static_cast<osg::PagedLOD*>(&node);
+    return dynamic_cast<osg::PagedLOD*>(&node);
+}
+
+// Whether a callback may change a part of a mesh after the search.
+bool mayChange(const osg::Node& part) {
+    return part.getUpdateCallback() || part.getEventCallback();
+}
+
+// Whether a node is no osgTerrain tile that has lost its technique.
+bool isDrawnByTechnique(const osg::Node& node) {
+    if (!isOneOf<osgTerrain::TerrainTile>(node)) return true;
+    const auto& tile = static_cast<const osgTerrain::TerrainTile&>(node);
+    return tile.getTerrainTechnique() || !hasBeenTraversed(tile);
+}
+
+}  // namespace
+
+// For evidence, below what OSG enters by itself. The families there begin segments.
+void SelectionWalk::searchNode(osg::Node& node) {
+    if (!_searches) return;
+    // most nodes that are no tiles are roots of files: plain groups
+    const bool isGroup = isExactly<osg::Group>(node);
+    const CullCallbacks callbacks(node);
+    if (callbacks.bin) return searchTileWithoutFamily(node, *callbacks.bin, callbacks.mayLeaveOut);
+    // another database is on a globe of its own, or in a map
+    if (isPhotogrammetrySet(node) || (!isGroup && dynamic_cast<osg::CoordinateSystemNode*>(&node))) return;
+    const osg::Transform* const transform = isGroup ? nullptr : node.asTransform();
+    const bool isDrawn = isSurelyDrawn(node, callbacks.mayLeaveOut) && (isGroup || drawsAllChildren(node)) &&
+                         !(transform && transform->getReferenceFrame() != osg::Transform::RELATIVE_RF);
+    const Scoped ignoresDepth(_ignoresDepth, _ignoresDepth || !drawnStateOf(node, _selected.view.rules).obeysDepth);
+    const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || isLeftOut(node));
+    const bool isTooSmall = !_isBelowOutOfView && isSmallFeature(node);
+    const Scoped doubtful(_isDoubtful, _isDoubtful || !isDrawn || isTooSmall);
+    osg::Group* const group = node.asGroup();
+    if (!group) return;
+    if (!transform) return selectChildren(*group, callbacks.family);
+    const osg::Matrixd toEcef = frameInside(node);
+    const Scoped frame(_toEcef, &toEcef);
+    selectChildren(*group, callbacks.family);
+}
+
+void SelectionWalk::searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool mayLeaveOut) {
+    // the next update fits its bin to what its mesh has become
+    const InstalledTile* const installed = bin.getInstalledTile();
+    if (installed && installed->isMeshChanged() && installed->isKeptVisible()) doubt();
+    TileBlock::Slot numbers;
+    if (const osg::BoundingSphere* const column = bin.ecefColumnSphere()) numbers.column = *column;
+    numbers.binLow = bin.getBinLow();
+    numbers.binHigh = bin.getBinHigh();
+    numbers.surfaceLow = bin.getSurfaceLow();
+    numbers.surfaceHigh = bin.getSurfaceHigh();
+    const bool isFitted = !bin.getTerrainShape() || *bin.getTerrainShape() == _selected.view.shape;
+    const Tile tile{bin, numbers, isFitted, nullptr, true, isAbout(bin)};
+    const bool isHidden = _hiding.eye && bin.isColumnHiddenFrom(*_hiding.eye);
+    if (!tile.isAboutEye && (isBeside(tile) || isHidden)) return;
+    // its place may be empty
+    const bool isSeeThrough = installed && installed->isSeeThrough();
+    if (_isDoubtful || isSeeThrough || !isSurelyDrawn(node, mayLeaveOut) || !standsAsInstalled(node, bin)) doubt();
+    if (_hasHole) return;
+    const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || isLeftOut(node));
+    searchTile(node, pagedLod(node), tile);
+}
+
+void SelectionWalk::searchTile(osg::Node& node, osg::PagedLOD* paged, const Tile& tile) {
+    paged ? searchPaged(*paged, tile) : show(tile, node, true);
+}
+
+// As osg::PagedLOD chooses; where that is not certain all that it may show counts.
+void SelectionWalk::searchPaged(osg::PagedLOD& node, const Tile& tile) {
+    const bool byDistance = node.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT && !_toEcef;
+    const Scoped unknown(_isChoiceUnknown, _isChoiceUnknown || !byDistance);
+    const float range = byDistance ? _visitor.getDistanceToViewPoint(node.getCenter(), true) : 0.0f;
+    const unsigned int children = node.getNumChildren();
+    const auto isDue = [&](unsigned int i) {
+        return !byDistance || (range >= node.getMinRange(i) && range < node.getMaxRange(i));
+    };
+    unsigned int due = 0;
+    bool isOwnShown = false;  // whatever else is shown then adds to it, and need not cover anything
+    for (unsigned int i = 0; i < node.getNumRanges(); ++i) {
+        if (!isDue(i)) continue;
+        ++due;
+        isOwnShown = isOwnShown || (byDistance && i < children && !isPaged(node, i));
+    }
+    bool isOneAwaited = !byDistance;
+    for (unsigned int i = 0; i < node.getNumRanges(); ++i) {
+        if (!isDue(i)) continue;
+        const bool hadHole = _hasHole;
+        if (i < children) searchChild(node, i, tile, byDistance && due == 1);
+        if (isOwnShown && isPaged(node, i)) _hasHole = hadHole;
+        isOneAwaited = isOneAwaited || i >= children;
+    }
+    // the last child stands in for one that is awaited
+    if (isOneAwaited && children > 0 && !isOwnShown) searchChild(node, children - 1, tile, false);
+    if (((byDistance && due == 0) || children == 0) && !isBeside(tile)) doubt();
+}
+
+void SelectionWalk::searchChild(osg::PagedLOD& node, unsigned int i, const Tile& tile, bool isOnlyLevel) {
+    if (!isPaged(node, i)) return show(tile, *node.getChild(i), isOnlyLevel);
+    const InstalledTile* const installed = tile.callback.getInstalledTile();
+    if (installed && installed->hasGapBelow()) doubt();
+    searchNode(*node.getChild(i));
+}
+
+// The altitudes of what a tile draws by itself. Its bin alone follows changes of the mesh.
+core::Interval SelectionWalk::surfaceOf(const Tile& tile) {
+    const InstalledTile* const installed = tile.isCertain ? nullptr : tile.callback.getInstalledTile();
+    if (installed && installed->isMeshChanged()) return {tile.numbers.binLow, tile.numbers.binHigh};
+    return {tile.numbers.surfaceLow, tile.numbers.surfaceHigh};
+}
+
+void SelectionWalk::show(const Tile& tile, osg::Node& mesh, bool isOnlyLevel) {
+    if (tile.isAboutEye && _place->altitude <= surfaceOf(tile).upper) _nearGround.push_back({&tile.callback, &mesh});
+    // tiles about the eye are searched even beside the frustum, for the ground alone
+    if (tile.isAboutEye && isBeside(tile)) return;
+    const InstalledTile* const installed = tile.isCertain ? nullptr : tile.callback.getInstalledTile();
+    // the application's own tiles are not counted in what covers the globe
+    if (installed && !installed->isFilled()) doubt();
+    if (isLeftOutInView(tile, mesh)) doubt();
+    if (_isEager && !isDrawnWhole(mesh, tile.callback, tile.member)) doubt();
+    const bool isSure = !_isChoiceUnknown && tile.isFitted;
+    _selection.addShown(
+        {&tile.callback, &mesh, tile.member, isSure, isOnlyLevel, tile.isOutOfView, tile.kept, _segment});
+    // what a tile draws by itself is in its bin
+    if (tile.isFitted && tile.numbers.binLow >= -_depth) return;
+    const double own = tile.isFitted ? -surfaceOf(tile).lower : std::numeric_limits<double>::infinity();
+    _depth = std::max(_depth, std::min(own, _deepest));
+}
+
+bool SelectionWalk::areMeshesDrawn() const {
+    constexpr std::size_t kAhead = 4;
+    const std::vector<TileSelection::ShownTile>& shown = _selection.shown();
+    for (std::size_t i = 0; i < shown.size() && !_isEager; ++i) {
+        const FamilyTile* const next = i + kAhead < shown.size() ? shown[i + kAhead].member : nullptr;
+        if (next) next->prefetchMesh();
+        if (!isDrawnWhole(*shown[i].mesh, *shown[i].tile, shown[i].member)) return false;
+    }
+    return true;
+}
+
+// In ECEF.
+osg::BoundingSphere SelectionWalk::sphereOf(const osg::Node& node) const {
+    return _toEcef ? movedSphere(node.getBound(), *_toEcef) : node.getBound();
+}
+
+// Whether OSG finds the sphere of a node out of view. The sphere may be an application's own.
+bool SelectionWalk::isLeftOut(const osg::Node& node) const {
+    // OSG tests the planes that are left; below transforms, which are rare, all are taken
+    const core::PlaneMask planes = _toEcef ? ~core::PlaneMask{0} : _undecided;
+    if (planes == 0 || !node.isCullingActive()) return false;
+    const osg::BoundingSphere sphere = sphereOf(node);
+    if (!sphere.valid()) return false;
+    const osg::Vec3d center(sphere.center());
+    for (std::uint64_t left = planes & lowestBits(static_cast<unsigned int>(_planes.size())); left != 0;
+         left &= left - 1) {
+        if (_planes[firstBit(left)].distance(center) < -static_cast<double>(sphere.radius())) return true;
+    }
+    return false;
+}
+
+bool SelectionWalk::isSmallFeature(const osg::Node& node) const {
+    return _testsSmallFeatures && node.isCullingActive() &&
+           isSmall(_selected.cullStack.getCurrentCullingSet(), sphereOf(node));
+}
+
+// From the frame of what a node draws.
+osg::Matrixd SelectionWalk::frameInside(const osg::Node& node) const {
+    osg::Matrixd toEcef = _toEcef ? *_toEcef : osg::Matrixd();
+    if (const osg::Transform* const transform = node.asTransform())
+        transform->computeLocalToWorldMatrix(toEcef, nullptr);
+    return toEcef;
+}
+
+// A tile may have several parents, and transforms above it may have changed.
+bool SelectionWalk::standsAsInstalled(const osg::Node& node, const AnalyticBinCullCallback& tile) const {
+    if (!_toEcef && !node.asTransform()) return tile.getLocalToEcef().isIdentity();
+    const osg::Matrixd toEcef = frameInside(node);
+    const double reach = _selected.view.ellipsoid.equatorialRadius() + toEcef.getTrans().length();
+    return areNearlyEqual(toEcef, tile.getLocalToEcef(), reach);
+}
+
+bool SelectionWalk::isSurelyDrawn(const osg::Node& node, bool mayLeaveOut) const {
+    const StateRules& rules = _selected.view.rules;
+    // other classes, and their parts, were asked for when bins were installed
+    const DrawnState drawn = node.asDrawable() ? drawnStateAt(node, rules) : drawnStateOf(node, rules);
+    return _visitor.validNodeMask(node) && !mayLeaveOut && drawn.hides;
+}
+
+// Whether all of a tile's own mesh is drawn.
+bool SelectionWalk::isDrawnWhole(const osg::Node& mesh, const AnalyticBinCullCallback& tile,
+                                 const FamilyTile* member) const {
+    if (!member || !member->isMesh(mesh)) {
+        const InstalledTile* const installed = tile.getInstalledTile();
+        const bool isMeshDoubted = !member && installed && installed->isMeshDoubted();
+        bool hasDrawable = false;
+        return isDrawnWhole(mesh, hasDrawable) && (hasDrawable || !isMeshDoubted);
+    }
+    if (member->isBareMesh(_visitor)) return true;
+    for (std::size_t i = 0; const osg::Node* const part = member->part(i); ++i) {
+        const bool mayLeaveOut = part->getCullCallback() && CullCallbacks(*part).mayLeaveOut;
+        if (mayChange(*part) || !isSurelyDrawn(*part, mayLeaveOut)) return false;
+        if (member->isTerrain(i) && !isDrawnByTechnique(*part)) return false;
+    }
+    return true;
+}
+
+bool SelectionWalk::isDrawnWhole(const osg::Node& part, bool& hasDrawable) const {
+    if (mayChange(part) || !isSurelyDrawn(part, CullCallbacks(part).mayLeaveOut)) return false;
+    const bool isTerrain = typeid(part) == typeid(osgTerrain::TerrainTile);
+    hasDrawable = hasDrawable || isTerrain || part.asDrawable();
+    if (isTerrain) return isDrawnByTechnique(part);
+    if (!drawsAllChildren(part)) return false;
+    const osg::Group* const group = part.asGroup();
+    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
+        if (!isDrawnWhole(*group->getChild(i), hasDrawable)) return false;
+    }
+    return true;
+}
+
+// Whether the eye may be within or below what the tile or its descendants draw.
+bool SelectionWalk::isAbout(const AnalyticBinCullCallback& tile) const {
+    if (!_place || _place->altitude > tile.getBinHigh()) return false;
+    return isInColumn(*_place, tile, _selected.view.ellipsoid);
+}
+
+// Rays that are seen do not enter the occluder there: it lies below the ellipsoid, but it may lie above the tile.
+bool SelectionWalk::isBeside(const Tile& tile) const {
+    return tile.isFitted && isBesideFrustum(tile.numbers.column);
+}
+
+bool SelectionWalk::isBesideFrustum(const osg::Vec3d& center, double radius) const {
+    return std::any_of(_planes.begin(), _planes.end(),
+                       [&](const osg::Plane& plane) { return plane.distance(center) < -radius; });
+}
+
+// Whether OSG does not draw a mesh that may be in view, because of a sphere that does not hold it.
+bool SelectionWalk::isLeftOutInView(const Tile& tile, const osg::Node& mesh) const {
+    if (tile.isOutOfView && !_isBelowOutOfView) return false;
+    // OSG may enter the mesh also where it is to be drawn directly
+    const bool hasOwnBound = BoundWatch::hasOwnBound(mesh), isScaled = _selected.view.shape.verticalScale != 1.0;
+    if ((hasOwnBound || (isScaled && tile.isEnteredByOsg)) && isLeftOut(mesh)) return true;
+    return _isBelowOutOfView && (hasOwnBound || isScaled || !isBesideFrustum(sphereOf(mesh)));
+}
+
+}  // namespace osgAnalyticBin
