@@ -612,7 +612,7 @@ FAULTS = [
     Fault("selection: masks that callbacks set are not asked", "src/node/cull/SelectionDrawing.cpp",
           "if (_isEntered && isMasked(kept)) return;", "(void)&SelectionDrawing::isMasked;", NODE, "Selection.*"),
     Fault("selection: masks of the nodes above are not asked", "src/node/cull/SelectionDrawing.cpp",
-          "isMasked = isMasked || !_visitor.validNodeMask(*_selection.places()[at].node);", ";", NODE, "Selection.*"),
+          "_isLastMasked = _isLastMasked || !_visitor.validNodeMask(*_selection.places()[at].node);", ";", NODE, "Selection.*"),
     Fault("selection: states are those of the nodes", "src/node/cull/SelectionDrawing.cpp",
           "_cullVisitor->pushStateSet(_selection.places()[at].state);", "_cullVisitor->pushStateSet(_selection.places()[at].node->getStateSet());",
           NODE, "Selection.*"),

@@ -151,12 +151,16 @@ private:
         enter(kept);
     }
 
-    // A callback of the application's may have set masks since they were asked.
-    [[nodiscard]] bool isMasked(const TileSelection::Kept& kept) const {
-        bool isMasked = !_visitor.validNodeMask(*kept.node);
-        for (Number at = kept.place; at != TileSelection::kNone; at = _selection.places()[at].above)
-            isMasked = isMasked || !_visitor.validNodeMask(*_selection.places()[at].node);
-        return isMasked;
+    // A callback of the application's may have set masks since they were asked. Those of places are asked once for all
+    // that lies in the same one, as OSG asks them where it comes to a node.
+    [[nodiscard]] bool isMasked(const TileSelection::Kept& kept) {
+        if (kept.place != _lastPlace) {
+            _isLastMasked = false;
+            for (Number at = kept.place; at != TileSelection::kNone; at = _selection.places()[at].above)
+                _isLastMasked = _isLastMasked || !_visitor.validNodeMask(*_selection.places()[at].node);
+        }
+        _lastPlace = kept.place;
+        return _isLastMasked || !_visitor.validNodeMask(*kept.node);
     }
 
     void enter(const TileSelection::Kept& kept) {
@@ -186,6 +190,8 @@ private:
     const bool _canDraw;
     core::PlaneMask _limit = 0;
     bool _isEntered = false;  // by OSG, where the application may change what comes later
+    Number _lastPlace = TileSelection::kNone;
+    bool _isLastMasked = false;
 };
 
 }  // namespace

@@ -316,7 +316,8 @@ void SelectionWalk::selectNode(osg::Node& node) {
 // A plain group, which OSG tests by its sphere.
 void SelectionWalk::selectGroup(osg::Node& node, const TileFamily* family) {
     osg::Group& group = *node.asGroup();
-    if (family && isPassedOver(group, *family)) return;
+    // without evidence OSG's sphere is enough
+    if (_searches && family && isPassedOver(group, *family)) return;
     const DrawnState drawn = drawnStateOf(node, _selected.view.rules);
     const bool isTooSmall = _searches && !_isBelowOutOfView && isSmallFeature(node);
     const Scoped doubtful(_isDoubtful, _isDoubtful || !drawn.hides || isTooSmall);

@@ -96,7 +96,10 @@ void TileSelection::hold() {
         _held.emplace_back(_places[i].node);
         _held.emplace_back(_places[i].state);
     }
-    for (std::size_t i = _heldSizes.kept; i < now.kept; ++i) _held.emplace_back(_kept[i].node);
+    // families hold their tiles, and these their meshes
+    for (std::size_t i = _heldSizes.kept; i < now.kept; ++i) {
+        if (_kept[i].way == Way::Plain) _held.emplace_back(_kept[i].node);
+    }
     _heldSizes = now;
 }
 
