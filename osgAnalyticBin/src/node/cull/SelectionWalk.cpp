@@ -151,7 +151,10 @@ void SelectionWalk::selectFamily(osg::Group& group, const TileFamily& family) {
                                               ? notSearchedIn(verdicts, family.block().partFrom(first))
                                               : verdicts.members;
         constexpr unsigned int kLinesOfTile = 5;
-        forEachBit(kept, [&](unsigned int number) { prefetchNode(family.node(first + number), kLinesOfTile); });
+        forEachBit(kept, [&](unsigned int number) {
+            prefetchNode(family.node(first + number), kLinesOfTile);
+            family.tile(first + number).wayThrough().fetch();
+        });
         const unsigned int here = std::min<unsigned int>(TileBlock::Part::kMost, children - first);
         forEachBit(lowestBits(here) & ~(notSearched & ~kept), [&](unsigned int number) {
             if (_hasHole || first + number >= group.getNumChildren()) return;
@@ -268,7 +271,7 @@ bool SelectionWalk::selectShownLevel(osg::PagedLOD& node, const Tile& tile) {
     const bool isMesh = tile.member->isMesh(level);
     if (!isMesh && isPaged(node, *shown)) {
         if (!tile.isCertain && tile.callback.getInstalledTile()->hasGapBelow()) doubt();
-        selectLevel(level);
+        selectLevel(level, tile.member->wayThrough());
         return true;
     }
     Tile here = tile;
@@ -290,9 +293,10 @@ const TileFamily* SelectionWalk::inlineFamily(const osg::Node& node) const {
 }
 
 // A level from a file. OSG's test of its sphere is left out, because the tiles in it are tested.
-void SelectionWalk::selectLevel(osg::Node& level) {
+void SelectionWalk::selectLevel(osg::Node& level, const Footprint& wayThrough) {
     const TileFamily* const family = inlineFamily(level);
     if (!family) return selectNode(level);
+    family->noteMemory(wayThrough, level);
     const DrawnState drawn = drawnStateOf(level, _selected.view.rules);
     const Scoped doubtful(_isDoubtful, _isDoubtful || !drawn.hides);
     const Scoped ignoresDepth(_ignoresDepth, _ignoresDepth || !drawn.obeysDepth);

@@ -101,7 +101,7 @@ private:
                       unsigned int slot, bool isKept);
     void selectNode(osg::Node& node);
     void selectGroup(osg::Node& node, const TileFamily* family);
-    void selectLevel(osg::Node& level);
+    void selectLevel(osg::Node& level, const Footprint& wayThrough);
     void searchNode(osg::Node& node);
     void searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool mayLeaveOut);
     void searchTile(osg::Node& node, osg::PagedLOD* paged, const Tile& tile);

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+namespace osgAnalyticBin {
+
+/// Where the memory lies that was read when a tile was last entered. Fetched for several siblings at once, it is in the
+/// processor's caches when it is needed; OSG's traversal waits for one cache line after the other. Nothing is read
+/// through the addresses, so what was there may be gone. Cost: a tenth of entering a tile with warm caches.
+/// Threads: everything at any time.
+class Footprint {
+    static constexpr std::uintptr_t kLine = 64;
+    static constexpr std::size_t kRuns = 7;
+
+public:
+    Footprint() = default;
+    /// A copy is empty.
+    Footprint(const Footprint&) {}
+    Footprint& operator=(const Footprint&) { return *this; }
+
+    void fetch() const;
+
+    /// Notes what is read on the way into one tile. What is noted already is not written again.
+    class Notes {
+    public:
+        explicit Notes(const Footprint& footprint) : _runs(footprint._runs) {}
+        ~Notes() {
+            if (_next < kRuns) note(0);
+        }
+        Notes(const Notes&) = delete;
+        Notes& operator=(const Notes&) = delete;
+
+        /// Requires: fewer lines than a cache line has bytes.
+        void add(const void* begin, unsigned int lines) {
+            if (_next < kRuns) note((reinterpret_cast<std::uintptr_t>(begin) & ~(kLine - 1)) | lines);
+        }
+
+    private:
+        void note(std::uintptr_t run) {
+            std::atomic<std::uintptr_t>& noted = _runs[_next++];
+            if (noted.load(std::memory_order_relaxed) != run) noted.store(run, std::memory_order_relaxed);
+        }
+
+        std::array<std::atomic<std::uintptr_t>, kRuns>& _runs;
+        std::size_t _next = 0;
+    };
+
+private:
+    // the address of a cache line, and in its low bits how many lines are read from there; 0 follows the last one
+    mutable std::array<std::atomic<std::uintptr_t>, kRuns> _runs{};
+};
+
+inline void Footprint::fetch() const {
+#ifdef __GNUC__
+    for (const auto& noted : _runs) {
+        const std::uintptr_t run = noted.load(std::memory_order_relaxed);
+        if (run == 0) break;
+        std::uintptr_t line = run & ~(kLine - 1);
+        for (std::uintptr_t left = run & (kLine - 1); left > 0; --left, line += kLine) {
+            __builtin_prefetch(reinterpret_cast<const void*>(line));
+            // GCC leaves out calls of functions that do nothing but this
+            __asm__ volatile("" : : "r"(line));
+        }
+    }
+#endif
+}
+
+}  // namespace osgAnalyticBin
