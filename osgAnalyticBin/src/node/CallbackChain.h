@@ -27,4 +27,17 @@ inline void takeOff(osg::Node& node, osg::Callback& callback) {
     if (callback.referenceCount() == 1) callback.setNestedCallback(nullptr);
 }
 
+/// Removes the first cull callback of the class from a node, if it has one.
+template <class Callback>
+void takeOffFirst(osg::Node& node) {
+    if (const osg::ref_ptr<osg::Callback> callback = findCallback<Callback>(node.getCullCallback()))
+        takeOff(node, *callback);
+}
+
+/// Adds a cull callback to a node in front of those that it has.
+inline void putInFront(osg::Node& node, osg::Callback& callback) {
+    callback.setNestedCallback(node.getCullCallback());
+    node.setCullCallback(&callback);
+}
+
 }  // namespace osgAnalyticBin

@@ -88,17 +88,6 @@ protected:
     ~WithoutOccluders() override = default;
 };
 
-template <class Callback>
-void takeOffFirst(osg::Node& node) {
-    if (const osg::ref_ptr<osg::Callback> callback = findCallback<Callback>(node.getCullCallback()))
-        takeOff(node, *callback);
-}
-
-void putInFront(osg::Node& node, osg::NodeCallback* callback) {
-    callback->setNestedCallback(node.getCullCallback());
-    node.setCullCallback(callback);
-}
-
 class BoxSet final : public Database {
 public:
     BoxSet(const CullOptions& options, const ChosenIndex& index)
@@ -253,7 +242,7 @@ void BoxSet::cullByBin(osg::LOD& node, BoxTile& tile) {
     if (tile.kind == BoxTile::Kind::Both) installed->needSphere();
     installed->switchOffSphere(node);
     callback->setInstalledTile(installed);
-    putInFront(node, callback.get());
+    putInFront(node, *callback);
     tile.callback = callback.get();
 }
 
@@ -293,8 +282,10 @@ std::size_t BoxSet::installBelow(osg::Group& root) {
 void BoxSet::prepareCulling(osg::Node& root) {
     takeOffFirst<WithoutOccluders>(root);
     takeOffFirst<DatabaseCullCallback>(root);
-    putInFront(root, new DatabaseCullCallback(this, &root, _fittedTo.valid()));
-    putInFront(root, new WithoutOccluders);
+    const osg::ref_ptr<osg::Callback> cull = new DatabaseCullCallback(this, &root, _fittedTo.valid());
+    putInFront(root, *cull);
+    const osg::ref_ptr<osg::Callback> withoutOccluders = new WithoutOccluders;
+    putInFront(root, *withoutOccluders);
 }
 
 void BoxSet::refit(osg::Node& root) {

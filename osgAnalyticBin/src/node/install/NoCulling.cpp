@@ -18,13 +18,11 @@ NoCulling::NoCulling(const NoCulling& other, const osg::CopyOp& copyop)
 void NoCulling::place(osg::Node& node) {
     remove(node);
     const osg::ref_ptr<NoCulling> callback = new NoCulling;
-    callback->setNestedCallback(node.getCullCallback());
-    node.setCullCallback(callback);
+    putInFront(node, *callback);
 }
 
 void NoCulling::remove(osg::Node& node) {
-    if (const osg::ref_ptr<NoCulling> callback = findCallback<NoCulling>(node.getCullCallback()))
-        takeOff(node, *callback);
+    takeOffFirst<NoCulling>(node);
 }
 
 void NoCulling::operator()(osg::Node* node, osg::NodeVisitor* nv) {

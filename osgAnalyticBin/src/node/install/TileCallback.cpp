@@ -114,8 +114,7 @@ void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCall
     const osg::ref_ptr<InstalledTile> installed = new InstalledTile(culled, database);
     callback.setInstalledTile(installed);
     // In front: what is nested runs when the tile is kept.
-    callback.setNestedCallback(culled.getCullCallback());
-    culled.setCullCallback(&callback);
+    putInFront(culled, callback);
     if (&culled != tile.node) ContentWatch::place(culled, {});
     ContentWatch::place(*tile.node, tile.meshes);
 }

@@ -74,20 +74,28 @@ bool isAltered(const osg::NodePath& path) {
            });
 }
 
+// Whether the user has said how deep the occluder is.
+bool isDepthGiven(const DatabaseView& view, const CullOptions& options) {
+    return options.horizonUse == HorizonUse::Given && !view.ellipsoid.isPlane();
+}
+
+// An eye below the terrain looks through the backs of the faces that would hide.
+bool isAboveTerrain(const CullOptions& options) {
+    return options.skirts == SkirtUse::Cracks;
+}
+
 // Whether something in this view may hide tiles, by what is known of the database as a whole.
 bool mayHide(const ShownDatabase& shown, Database& database, const CullOptions& options) {
-    const bool isMap = shown.selected.view.ellipsoid.isPlane();
-    // nothing else is looked for
-    if (isMap && options.occlusion == OcclusionUse::Off) return false;
-    const bool isGiven = options.horizonUse == HorizonUse::Given && !isMap;
-    // an eye below the terrain looks through the backs of the faces that would hide
-    const bool isAboveTerrain = options.skirts == SkirtUse::Cracks;
-    const bool isUsed = isGiven || (options.horizonUse != HorizonUse::Off && isAboveTerrain && !database.hasGap());
+    const DatabaseView& view = shown.selected.view;
+    // in a map nothing else is looked for
+    if (view.ellipsoid.isPlane() && options.occlusion == OcclusionUse::Off) return false;
+    const bool isUsed = isDepthGiven(view, options) ||
+                        (options.horizonUse != HorizonUse::Off && isAboveTerrain(options) && !database.hasGap());
     // where other tiles cover the globe, stray ones hide nothing that these do not
     const bool isRelyingOnStrays = (database.hasGap() || shown.region) && database.hasStrayTile();
     osg::NodeVisitor& visitor = shown.selected.visitor;
     return isUsed && !isRelyingOnStrays && !isAltered(visitor.getNodePath()) &&
-           drawnStateAbove(visitor, shown.selected.view.rules).hides;
+           drawnStateAbove(visitor, view.rules).hides;
 }
 
 // Marks what terrain hides in the selection.
@@ -106,8 +114,7 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
     const auto viewpoint = Viewpoint::of(cullStack, visitor, options.inheritViewpoint);
     if (!viewpoint) return {};
     const bool isMap = view.ellipsoid.isPlane();
-    const bool isGiven = options.horizonUse == HorizonUse::Given && !isMap;
-    const bool isAboveTerrain = options.skirts == SkirtUse::Cracks;
+    const bool isGiven = isDepthGiven(view, options);
     const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
     SearchMemory::LastView& last = SearchMemory::of(visitor).lastView(database);
     shown.expectsHole = last.hadHole;
@@ -115,7 +122,7 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
         last.hadHole = !found.isSelected;
         return found;
     };
-    if (isGiven && (!isAboveTerrain || database.hasGap() || region)) {
+    if (isGiven && (!isAboveTerrain(options) || database.hasGap() || region)) {
         shown.region = nullptr;
         const auto eye = eyeAboveDepth(shown, *viewpoint, deepest);
         return note({eye, {}, eye.has_value()});
@@ -124,7 +131,7 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
         if (!isMap) database.noteEyeBesideRegion();
         return {};
     }
-    const bool mayFindOccluded = viewpoint->eye() && isAboveTerrain;
+    const bool mayFindOccluded = viewpoint->eye() && isAboveTerrain(options);
     if (mayFindOccluded && options.occlusion == OcclusionUse::On && !isFinalProjection(cullStack))
         database.noteUnknownNearPlane();
     const bool findsOccluded =
@@ -262,8 +269,7 @@ void attachDatabase(osg::Node& node, Database& database, bool isCulling) {
     database.setRoot(node);
     // in front: what is nested runs in the scope of the database
     const osg::ref_ptr<DatabaseCullCallback> cull = new DatabaseCullCallback(&database, &node, isCulling);
-    cull->setNestedCallback(node.getCullCallback());
-    node.setCullCallback(cull);
+    putInFront(node, *cull);
     node.addUpdateCallback(new DatabaseUpdateCallback(&database, &node));
 }
 
@@ -273,9 +279,7 @@ Database* attachedDatabase(osg::Node& node) {
 }
 
 void detachDatabase(osg::Node& node) {
-    if (const osg::ref_ptr<osg::Callback> cull = findCallback<DatabaseCullCallback>(node.getCullCallback())) {
-        takeOff(node, *cull);
-    }
+    takeOffFirst<DatabaseCullCallback>(node);
     if (const osg::ref_ptr<osg::Callback> update = findCallback<DatabaseUpdateCallback>(node.getUpdateCallback()))
         takeOffUpdate(node, update);
 }
