@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "Prefetch.h"
+
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -10,12 +12,10 @@
 
 namespace osgAnalyticBin {
 
-/// Where the memory lies that was read when a tile was last entered. Fetched for several siblings at once, it is in the
-/// processor's caches when it is needed; OSG's traversal waits for one cache line after the other. Nothing is read
-/// through the addresses, so what was there may be gone. Cost: a tenth of entering a tile with warm caches.
+/// Where the memory lies that a walk read when it last went through a tile to a finer level. These nodes and numbers
+/// refer to each other; fetched together for several siblings, they are in the processor's caches when they are needed.
 /// Threads: everything at any time.
 class Footprint {
-    static constexpr std::uintptr_t kLine = 64;
     static constexpr std::size_t kRuns = 7;
 
 public:
@@ -24,7 +24,13 @@ public:
     Footprint(const Footprint&) {}
     Footprint& operator=(const Footprint&) { return *this; }
 
-    void fetch() const;
+    void fetch() const {
+        for (const auto& noted : _runs) {
+            const std::uintptr_t run = noted.load(std::memory_order_relaxed);
+            if (run == 0) break;
+            prefetchLines(run & ~(kCacheLine - 1), run & (kCacheLine - 1));
+        }
+    }
 
     /// Notes what is read on the way into one tile. What is noted already is not written again.
     class Notes {
@@ -38,7 +44,7 @@ public:
 
         /// Requires: fewer lines than a cache line has bytes.
         void add(const void* begin, unsigned int lines) {
-            if (_next < kRuns) note((reinterpret_cast<std::uintptr_t>(begin) & ~(kLine - 1)) | lines);
+            if (_next < kRuns) note((reinterpret_cast<std::uintptr_t>(begin) & ~(kCacheLine - 1)) | lines);
         }
 
     private:
@@ -55,20 +61,5 @@ private:
     // the address of a cache line, and in its low bits how many lines are read from there; 0 follows the last one
     mutable std::array<std::atomic<std::uintptr_t>, kRuns> _runs{};
 };
-
-inline void Footprint::fetch() const {
-#ifdef __GNUC__
-    for (const auto& noted : _runs) {
-        const std::uintptr_t run = noted.load(std::memory_order_relaxed);
-        if (run == 0) break;
-        std::uintptr_t line = run & ~(kLine - 1);
-        for (std::uintptr_t left = run & (kLine - 1); left > 0; --left, line += kLine) {
-            __builtin_prefetch(reinterpret_cast<const void*>(line));
-            // GCC leaves out calls of functions that do nothing but this
-            __asm__ volatile("" : : "r"(line));
-        }
-    }
-#endif
-}
 
 }  // namespace osgAnalyticBin
