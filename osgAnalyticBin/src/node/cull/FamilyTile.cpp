@@ -16,10 +16,8 @@
 #include <osgTerrain/GeometryTechnique>
 #include <osgTerrain/TerrainTile>
 
-#include <algorithm>
 #include <cmath>
 #include <mutex>
-#include <optional>
 
 namespace osgAnalyticBin {
 

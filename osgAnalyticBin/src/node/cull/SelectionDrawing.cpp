@@ -6,12 +6,12 @@
 #include "../Classes.h"
 #include "BinCulling.h"
 #include "CullTraversal.h"
+#include "DrawnState.h"
 #include "SelectionWalk.h"
 #include "TileSelection.h"
 
 #include <osgUtil/CullVisitor>
 
-#include <algorithm>
 #include <vector>
 
 namespace osgAnalyticBin {

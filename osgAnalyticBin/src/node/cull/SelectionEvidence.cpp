@@ -50,6 +50,11 @@ bool isDrawnByTechnique(const osg::Node& node) {
 
 }  // namespace
 
+// Of a node by its state alone. It matters for evidence, and where something may be hidden.
+DrawnState SelectionWalk::stateOf(const osg::Node& node) const {
+    return _searches || _hiding.eye ? drawnStateOf(node, _selected.view.rules) : DrawnState();
+}
+
 // For evidence, below what OSG enters by itself. The families there begin segments.
 void SelectionWalk::searchNode(osg::Node& node) {
     if (!_searches) return;
@@ -60,9 +65,11 @@ void SelectionWalk::searchNode(osg::Node& node) {
     // another database is on a globe of its own, or in a map
     if (isPhotogrammetrySet(node) || (!isGroup && dynamic_cast<osg::CoordinateSystemNode*>(&node))) return;
     const osg::Transform* const transform = isGroup ? nullptr : node.asTransform();
-    const bool isDrawn = isSurelyDrawn(node, callbacks.mayLeaveOut) && (isGroup || drawsAllChildren(node)) &&
+    const DrawnState drawn = stateOf(node);
+    const bool isDrawn = _visitor.validNodeMask(node) && !callbacks.mayLeaveOut && drawn.hides &&
+                         (isGroup || drawsAllChildren(node)) &&
                          !(transform && transform->getReferenceFrame() != osg::Transform::RELATIVE_RF);
-    const Scoped ignoresDepth(_ignoresDepth, _ignoresDepth || !drawnStateOf(node, _selected.view.rules).obeysDepth);
+    const Scoped ignoresDepth(_ignoresDepth, _ignoresDepth || !drawn.obeysDepth);
     const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || isLeftOut(node));
     const bool isTooSmall = !_isBelowOutOfView && isSmallFeature(node);
     const Scoped doubtful(_isDoubtful, _isDoubtful || !isDrawn || isTooSmall);

@@ -27,7 +27,7 @@ namespace {
 TileFamily::Hiding hidingFrom(const SelectedView& selected, const core::HorizonEye* eye, const SightOverRegion* sight) {
     TileFamily::Hiding hiding{eye, sight};
     if (!eye || !(eye->data().cosDip > 0.0)) return hiding;
-    // in the space where the occluder is a sphere; lengths are at most those on the ellipsoid over its smaller radius
+    // In the space where the ellipsoid is the unit sphere, a length is at most that in metres over the smaller radius.
     const core::Ellipsoid& ellipsoid = selected.view.ellipsoid;
     const double smaller = std::min(ellipsoid.equatorialRadius(), ellipsoid.polarRadius());
     hiding.at = selected.visitor.getViewPoint();
@@ -223,7 +223,7 @@ void SelectionWalk::selectMember(osg::Node& node, const TileFamily& family, cons
     const Scoped searches(_searches, _searches && isSearched(tile, family, verdicts, slot));
     const Scoped keeps(_keeps, isKept && _visitor.validNodeMask(node));
     if (!_searches && !_keeps) return;
-    const DrawnState drawn = drawnStateOf(node, _selected.view.rules);
+    const DrawnState drawn = stateOf(node);
     const Scoped ignoresDepth(_ignoresDepth, _ignoresDepth || !drawn.obeysDepth);
     const Scoped undecided(_undecided, tile.isOutOfView ? _undecided : verdicts.planes.undecided[number]);
     const Scoped outOfView(_isBelowOutOfView,
@@ -245,8 +245,7 @@ void SelectionWalk::selectMember(osg::Node& node, const TileFamily& family, cons
 
 TileSelection::Number SelectionWalk::keep(osg::Node& node, const FamilyTile* member, Way way) {
     const auto end = static_cast<Number>(_selection.kept().size() + 1);
-    const bool isLevel = way == Way::Mesh && member->paged();
-    return _selection.keep({&node, member, _in, end, _undecided, way, isLevel, false});
+    return _selection.keep({&node, member, _in, end, _undecided, way, false});
 }
 
 // As osg::PagedLOD::traverse() where one child is shown and no file is asked for. Returns: false where it is not so.
@@ -297,12 +296,18 @@ void SelectionWalk::selectLevel(osg::Node& level, const Footprint& wayThrough) {
     const TileFamily* const family = inlineFamily(level);
     if (!family) return selectNode(level);
     family->noteMemory(wayThrough, level);
-    const DrawnState drawn = drawnStateOf(level, _selected.view.rules);
+    selectInside(*level.asGroup(), family);
+}
+
+// The children of a plain group, which is entered.
+void SelectionWalk::selectInside(osg::Group& group, const TileFamily* family) {
+    const DrawnState drawn = stateOf(group);
     const Scoped doubtful(_isDoubtful, _isDoubtful || !drawn.hides);
     const Scoped ignoresDepth(_ignoresDepth, _ignoresDepth || !drawn.obeysDepth);
-    const Scoped in(_in, _selection.enter(level, _in, _segment, nullptr, 0));
-    if (family->hasLost(*level.asGroup())) doubt();
-    selectFamily(*level.asGroup(), *family);
+    const Scoped in(_in, _keeps ? _selection.enter(group, _in, _segment, nullptr, 0) : _in);
+    if (family && family->hasLost(group)) doubt();
+    if (family) return selectFamily(group, *family);
+    for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) selectNode(*group.getChild(i));
 }
 
 void SelectionWalk::selectNode(osg::Node& node) {
@@ -322,10 +327,8 @@ void SelectionWalk::selectGroup(osg::Node& node, const TileFamily* family) {
     osg::Group& group = *node.asGroup();
     // without evidence OSG's sphere is enough
     if (_searches && family && isPassedOver(group, *family)) return;
-    const DrawnState drawn = drawnStateOf(node, _selected.view.rules);
     const bool isTooSmall = _searches && !_isBelowOutOfView && isSmallFeature(node);
-    const Scoped doubtful(_isDoubtful, _isDoubtful || !drawn.hides || isTooSmall);
-    const Scoped ignoresDepth(_ignoresDepth, _ignoresDepth || !drawn.obeysDepth);
+    const Scoped doubtful(_isDoubtful, _isDoubtful || isTooSmall);
     const Scoped outOfView(_isBelowOutOfView, _isBelowOutOfView || (_searches && isLeftOut(node)));
     core::PlaneMask left = _undecided;
     const bool isCulled =
@@ -333,10 +336,7 @@ void SelectionWalk::selectGroup(osg::Node& node, const TileFamily* family) {
     const Scoped keeps(_keeps, _keeps && !isCulled);
     if (!_keeps && !_searches) return;
     const Scoped undecided(_undecided, left);
-    const Scoped in(_in, _keeps ? _selection.enter(node, _in, _segment, nullptr, 0) : _in);
-    if (family && family->hasLost(group)) doubt();
-    if (family) return selectFamily(group, *family);
-    for (unsigned int i = 0; i < group.getNumChildren() && !_hasHole; ++i) selectNode(*group.getChild(i));
+    selectInside(group, family);
 }
 
 }  // namespace osgAnalyticBin

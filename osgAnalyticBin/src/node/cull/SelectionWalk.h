@@ -101,6 +101,7 @@ private:
                       unsigned int slot, bool isKept);
     void selectNode(osg::Node& node);
     void selectGroup(osg::Node& node, const TileFamily* family);
+    void selectInside(osg::Group& group, const TileFamily* family);
     void selectLevel(osg::Node& level, const Footprint& wayThrough);
     void searchNode(osg::Node& node);
     void searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool mayLeaveOut);
@@ -113,6 +114,7 @@ private:
 
     [[nodiscard]] Number keep(osg::Node& node, const FamilyTile* member, Way way);
     void doubt() { _hasHole = _hasHole || _searches; }
+    [[nodiscard]] DrawnState stateOf(const osg::Node& node) const;
     [[nodiscard]] const TileFamily* inlineFamily(const osg::Node& node) const;
     [[nodiscard]] bool isPassedOver(const osg::Group& group, const TileFamily& family);
     [[nodiscard]] bool isOverEye(const osg::Vec3d& center, double radius);

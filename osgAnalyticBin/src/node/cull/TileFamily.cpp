@@ -7,7 +7,6 @@
 #include "../CallbackChain.h"
 #include "../Classes.h"
 #include "../tile/InstalledTile.h"
-#include "../tile/MeshCulling.h"
 #include "BinCulling.h"
 #include "CullTraversal.h"
 #include "DrawnState.h"
@@ -18,9 +17,6 @@
 
 #include <osg/CoordinateSystemNode>
 #include <osg/MatrixTransform>
-#include <osg/PagedLOD>
-#include <osgTerrain/TerrainTile>
-#include <osgUtil/CullVisitor>
 
 #include <algorithm>
 #include <cstdint>

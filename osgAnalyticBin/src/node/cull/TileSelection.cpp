@@ -66,8 +66,8 @@ void TileSelection::addOccluded(const ShownTile& tile) {
     if (tile.kept == kNone) return;
     Kept& kept = _kept[tile.kept];
     kept.isOccluded = true;
-    // OSG would not come to its level
-    if (kept.isLevel) _places[kept.place].paged = nullptr;
+    // OSG would not come to its level; a tile without levels is in a group
+    if (kept.way == Way::Mesh && kept.place != kNone) _places[kept.place].paged = nullptr;
     if (tile.segment != kNone) _segments[tile.segment].hides = true;
 }
 

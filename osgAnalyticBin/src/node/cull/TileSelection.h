@@ -32,7 +32,7 @@ public:
     using Number = std::uint32_t;
     static constexpr Number kNone = ~Number{0};
 
-    /// A node below the group of a segment, on the way to what is kept.
+    /// A node between the group of a segment and what is kept.
     struct Place {
         osg::Node* node;
         const osg::StateSet* state;
@@ -57,7 +57,6 @@ public:
         Number end;                ///< what comes before this number is below the node
         core::PlaneMask undecided;
         Way way;
-        bool isLevel;     ///< the place is that of the tile itself
         bool isOccluded;  ///< behind terrain
     };
 
