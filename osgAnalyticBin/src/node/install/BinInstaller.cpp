@@ -186,7 +186,7 @@ void BinInstaller::apply(osg::PagedLOD& node) {
 void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const Scoped options(_options, settled(node, _options));
     const bool isForeign = _parent && !isSameGlobe(frame(), frameInside(node));
-    if (isForeign && installsBins()) Database::reportUnverifiable(*linkBetween());
+    if (isForeign && installsBins()) Database::report(*linkBetween(), Finding::Unverifiable);
     if (installsBins() && isGlobeBroken(node)) {
         OSG_WARN << "osgAnalyticBin: the radii of the globe \"" << node.getName() << "\" in \"" << frame().file
                  << "\" are not two positive numbers; nodes below it get no bins." << std::endl;
@@ -200,7 +200,7 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     _refitted = nullptr;
     if (isKept) own->setOptions(_options);
     const osg::ref_ptr<const Database> replaced = databaseOf(node);
-    const bool hasMovedTile = replaced && replaced->hasMovedTile();
+    const bool hasMovedTile = replaced && replaced->has(Finding::MovedTile);
     if (!isRefit) detachDatabase(node);
     if (!own) {
         const osg::ref_ptr<osg::EllipsoidModel> ellipsoid =
@@ -208,7 +208,7 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
         own = newDatabase(ellipsoid.get(), dynamic_cast<osgTerrain::Terrain*>(&node));
         own->setRoot(node);
         // new bins do not tell where a tile stood before
-        if (hasMovedTile) own->noteMovedTile(frame().file);
+        if (hasMovedTile) own->report(Finding::MovedTile, frame().file);
     }
     const Scoped index(_index, isKept ? own->index() : _index);
     const Scoped database(_database, own);
@@ -229,15 +229,15 @@ void BinInstaller::apply(osg::CoordinateSystemNode& node) {
 void BinInstaller::visitTile(FoundTile& tile) {
     const bool hasNewContent = ContentWatch::hasNewContent(*tile.node);
     // the new bin is where the tile stands now; there is a gap where it stood
-    if (hasMoved(*tile.node)) database().noteMovedTile(tile.frame.file);
+    if (hasMoved(*tile.node)) database().report(Finding::MovedTile, tile.frame.file);
     uninstall(tile);
     if (isInstanced(*tile.node, tile.frame)) {
-        if (installsBins()) database().noteStrayTile(tile.frame.file);
+        if (installsBins()) database().report(Finding::StrayTile, tile.frame.file);
         return visitWithoutBin(*tile.node, true);
     }
     if (installsBins() && !hasStoredBin(*tile.node)) {
         const bool isOnGlobe = tile.frame.ellipsoid && !isMapPlane(*tile.frame.ellipsoid);
-        if (!isOnGlobe && isBelowStored()) Database::reportUnverifiable(*linkBetween());
+        if (!isOnGlobe && isBelowStored()) Database::report(*linkBetween(), Finding::Unverifiable);
         if (!tile.frame.ellipsoid) return visitWithoutBin(*tile.node, true);
     }
     const bool hasGround = !tile.frame.ellipsoid || !installsBins() || database().takes(*tile.frame.ellipsoid);
@@ -262,7 +262,7 @@ void BinInstaller::visitOther(osg::Node& node) {
     }
     TileFamily::remove(node);
     if (installsBins() && TileFamily::isPossibleOn(node)) _groups.emplace_back(&node);
-    if (isUnruly(node)) noteIgnoresDepth();
+    if (isUnruly(node)) ignoreDepth();
     visitWithoutBin(node, false);
 }
 
@@ -282,7 +282,7 @@ void BinInstaller::visitWithoutBin(osg::Node& node, bool isTile) {
         resumeClusterCullingOf(node);
     }
     // a tile's own meshes are not visited
-    if (isTile && installsBins() && !drawnStateOfTile(node).obeysDepth) noteIgnoresDepth();
+    if (isTile && installsBins() && !drawnStateOfTile(node).obeysDepth) ignoreDepth();
     const Scoped selective(_isBelowSelection, _isBelowSelection || (!isTile && !drawsAllChildren(node)));
     traverseBelow(node);
 }
@@ -305,29 +305,35 @@ void BinInstaller::visitSet(osg::Group& set) {
 void BinInstaller::visitMoving(osg::Transform& node) {
     if (isPhotogrammetrySet(node)) return visitSet(node);
     removeCallbacksBelow(node, _nested);
-    if (installsBins() && !drawnStateBelow(node, stateRules()).obeysDepth) noteIgnoresDepth();
-    if (installsBins() && hasTileBelow(node)) database().noteStrayTile(frame().file);
+    if (installsBins() && !drawnStateBelow(node, stateRules()).obeysDepth) ignoreDepth();
+    if (installsBins() && hasTileBelow(node)) database().report(Finding::StrayTile, frame().file);
 }
 
 // It keeps OSG's own culling; how deep it lies is not known.
 void BinInstaller::visitTooDeep(osg::Node&) {
     if (!installsBins()) return;
-    if (!database().hasGap()) {
+    if (!database().has(Finding::Gap)) {
         OSG_WARN << "osgAnalyticBin: \"" << frame().file
                  << "\" has tiles nested hundreds deep; the innermost get no bins, and the horizon is not used."
                  << std::endl;
     }
-    database().noteGap(frame().file);
+    database().report(Finding::Gap, frame().file);
 }
 
 void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
-    const osg::ref_ptr<ParentTile> link = linkTo(tile);
-    link->hasNewContent = hasNewContent;
-    const TerrainShape shape = database().fittedShape();
-    const TileFit fit = fitTile(tile, database(), shape, *link);
-    if (!fit.isTerrain || !isGround(tile, *link)) return visitWithoutBin(*tile.node, true);
-
     const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database().ellipsoid();
+    const TerrainShape shape = database().fittedShape();
+    const FitSources sources{database().options(),
+                             ellipsoid,
+                             database().index(),
+                             _parent.get(),
+                             database().correction(tile.frame.file, tile.ordinal),
+                             hasNewContent};
+    const TileFit fit = fitTile(tile, sources, shape);
+    const osg::ref_ptr<ParentTile> link = linkTo(tile, fit);
+    for (const auto& [finding, drawn] : fit.findings) Database::report(*link, finding, drawn);
+    if (!fit.isTerrain || !isGround(tile, _parent.get(), fit)) return visitWithoutBin(*tile.node, true);
+
     const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);
     osg::Node& culled = culledNode(tile, _isReading);
     if (const osg::Matrixd frame = culledFrame(tile, culled); !frame.isIdentity()) callback->setLocalToEcef(frame);
@@ -337,7 +343,7 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     placeCallback(tile, culled, *callback, database());
     callback->getInstalledTile()->setTestsSphere(fit.isDeclared);
     const bool canWait = tile.meshes.size() == 1 && !culled.asTransform();
-    if (!canWait || _options.occlusion == OcclusionUse::On || database().wantsPlates())
+    if (!canWait || _options.occlusion == OcclusionUse::On || database().has(Finding::PlatesWanted))
         callback->getInstalledTile()->setPlates(tilePlates({tile.meshes, ellipsoid, tile.frame.localToEcef, shape}));
     ++_installed;
     // a map has no horizon in its place
@@ -347,21 +353,22 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     }
     link->callback = callback.get();
     noteDrawn(tile, *callback->getInstalledTile());
-    const core::MeshCover cover = coverBy(tile, database(), shape, *link);
+    const core::MeshCover cover = coverBy(tile, sources, shape, fit);
     link->place = cover.place;
     callback->getInstalledTile()->setCover(cover);
-    if (!cover.isFilled) database().noteHole(tile.frame.file);
+    if (!cover.isFilled) database().report(Finding::Hole, tile.frame.file);
     noteCovered(tile, fit, *link);
     visitChildren(tile, *link);
 }
 
-osg::ref_ptr<ParentTile> BinInstaller::linkTo(const FoundTile& tile) {
+osg::ref_ptr<ParentTile> BinInstaller::linkTo(const FoundTile& tile, const TileFit& fit) {
     osg::ref_ptr<ParentTile> link = new ParentTile;
     link->database = &database();
     link->parent = _parent;
     link->file = tile.frame.file;
     link->ordinal = tile.ordinal;
-    if (_parent) link->stored = _parent->stored;
+    link->extents = fit.extents;
+    link->stored = fit.stored;
     return link;
 }
 
@@ -392,11 +399,11 @@ void BinInstaller::noteDrawn(const FoundTile& tile, InstalledTile& installed) {
     if (!drawn.hides) installed.setSeeThrough();
     if (drawn.obeysDepth) return;
     installed.ignoreDepth();
-    noteIgnoresDepth();
+    ignoreDepth();
 }
 
-void BinInstaller::noteIgnoresDepth() {
-    if (_parent) Database::noteIgnoresDepth(*_parent);
+void BinInstaller::ignoreDepth() {
+    if (_parent) Database::ignoreDepth(*_parent);
 }
 
 void BinInstaller::visitChildren(const FoundTile& tile, const ParentTile& link) {

@@ -89,7 +89,7 @@ private:
     void visitWithoutBin(osg::Node& node, bool isTile);
     void visitSet(osg::Group& set);
     void install(FoundTile& tile, bool hasNewContent);
-    [[nodiscard]] osg::ref_ptr<ParentTile> linkTo(const FoundTile& tile);
+    [[nodiscard]] osg::ref_ptr<ParentTile> linkTo(const FoundTile& tile, const TileFit& fit);
     void noteCovered(const FoundTile& tile, const TileFit& fit, const ParentTile& link);
     void noteDrawn(const FoundTile& tile, InstalledTile& installed);
     [[nodiscard]] DrawnState drawnStateOfTile(osg::Node& node) const;
@@ -97,7 +97,7 @@ private:
     // Not inlined, to leave stack for scenes that are nested deep.
     [[nodiscard, gnu::noinline]] bool isUnruly(const osg::Node& node) const;
     // Says that something below the present parent tile may be drawn in front of what is nearer.
-    void noteIgnoresDepth();
+    void ignoreDepth();
     [[nodiscard]] StateRules stateRules() const { return {_options.plainShaders}; }
     void visitChildren(const FoundTile& tile, const ParentTile& link);
     void uninstall(FoundTile& tile);

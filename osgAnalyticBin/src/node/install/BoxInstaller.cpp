@@ -142,7 +142,7 @@ public:
             }
         }
         const FileContent all = place(content, below, tiles, file);
-        if (all.isMisfit && !tiles.empty()) Database::reportMisfit(*tiles.front(), {});
+        if (all.isMisfit && !tiles.empty()) Database::report(*tiles.front(), Finding::OtherThanIndexed);
         return all;
     }
 
@@ -264,7 +264,7 @@ void BoxSet::grow(BoxTile& tile, const FileContent& content) {
         }
         osg::ref_ptr<AnalyticBinCullCallback> callback;
         if (at->callback.lock(callback)) callback->getInstalledTile()->needSphere();
-        widenAlone(*at, by);
+        widen(*at, by, false);
     }
 }
 

@@ -75,7 +75,7 @@ void Coverage::report(const std::string& file, Database& database) const {
     const bool isWithGap = hasGap();
     if (_isOfGlobe) {
         const core::GeodeticBin covered = isWithGap ? region() : core::GeodeticBin();
-        if (isWithGap && covered.empty()) database.noteGap(file);
+        if (isWithGap && covered.empty()) database.report(Finding::Gap, file);
         return database.setRegion(covered);
     }
     osg::ref_ptr<AnalyticBinCullCallback> tile;

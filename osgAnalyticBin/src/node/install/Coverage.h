@@ -27,7 +27,7 @@ public:
     void setVisited() { _isVisited = true; }
     /// Adds the place of a tile. `isExact`: false where another technique may draw less of it at its borders.
     void add(const core::GeodeticBin& place, bool isExact);
-    /// Tells the database. Gaps in the root file count as Database::noteGap(), unless it covers a region; those in a
+    /// Tells the database. Gaps in the root file are a Finding::Gap, unless it covers a region; those in a
     /// paged file are noted with the tile that pages it.
     void report(const std::string& file, Database& database) const;
 

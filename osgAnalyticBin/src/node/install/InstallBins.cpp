@@ -78,7 +78,7 @@ void makeIndex(osg::Node& node, AutoIndex* index) {
     bool isWanted = false;
     forEachDatabase(node, [&](osg::Node& at, Database& database) {
         if (isPhotogrammetrySet(at)) return;
-        const bool isWantedHere = index && database.isIndexWanted();
+        const bool isWantedHere = index && database.has(Finding::IndexWanted);
         database.setMaking(isWantedHere ? index : nullptr);
         isWanted = isWanted || isWantedHere;
     });

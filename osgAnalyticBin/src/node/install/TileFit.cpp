@@ -37,29 +37,6 @@ bool hasTerrainTile(const FoundTile& tile) {
                        [](const osg::ref_ptr<osg::Node>& mesh) { return hasTerrainTile(*mesh); });
 }
 
-// Meshes of one tile are its levels of detail: any of them may be shown.
-TileSurface surfaceOf(const FoundTile& tile, const osg::EllipsoidModel& ellipsoid, const TerrainShape& shape) {
-    TileSurface surface;
-    surface.isEmpty = true;
-    for (const osg::ref_ptr<osg::Node>& mesh : tile.meshes) {
-        const TileSurface own =
-            tileSurface(*mesh, ellipsoid, tile.frame.localToEcef, shape.sampleRatio, shape.techniqueMargin > 0.0);
-        if (own.isEmpty) continue;
-        if (!own.bin.valid()) return {};
-        surface.isEmpty = false;
-        surface.bin.expandBy(own.bin);
-        surface.skirt = std::max(surface.skirt, own.skirt);
-        surface.isScalable = surface.isScalable || own.isScalable;
-    }
-    return surface;
-}
-
-void linkTo(const core::GeodeticBin& extents, ParentTile& link) {
-    link.extents = extents;
-    const ParentTile* parent = link.parent.get();
-    link.edges = core::TileEdges::of(extents, parent ? &parent->extents : nullptr, parent ? &parent->edges : nullptr);
-}
-
 AnalyticBin withAltitude(const AnalyticBin& bin, core::Interval altitude, double sag) {
     AnalyticBin result = bin;
     result.setBin(bin.bin().withAltitude(altitude));
@@ -73,109 +50,15 @@ AnalyticBin surfaceAbove(double low, const AnalyticBin& bin) {
 }
 
 // On a globe that is larger than the earth, or in smaller units, the default heights are scaled accordingly.
-core::Interval heightsIn(const Database& database) {
-    const core::Interval heights = database.options().heights;
+core::Interval heightsOn(const core::Ellipsoid& ellipsoid, const core::Interval& heights) {
     if (!(heights == CullOptions::kTerrainOnEarth)) return heights;
-    const double scale = std::max(1.0, core::earthScale(toCore(*database.ellipsoid())));
+    const double scale = std::max(1.0, core::earthScale(ellipsoid));
     return {heights.lower * scale, heights.upper * scale};
 }
 
 // Metres by which rounded vertices of finer tiles may leave the extents of the mesh above them.
 double roundingOf(const core::Ellipsoid& ellipsoid) {
     return core::earthScale(ellipsoid);
-}
-
-// The bin of a tile of which no more is known than its surface and the declared heights.
-AnalyticBin rangedBin(const TileSurface& surface, bool hasDescendants, const Database& database,
-                      const ParentTile& link) {
-    const core::Ellipsoid ellipsoid = toCore(*database.ellipsoid());
-    const core::GeodeticBin& extents = surface.bin.bin();
-    const core::Interval heights = heightsIn(database);
-    double sag = core::crackDepth(ellipsoid, extents, link.edges);
-    core::Interval altitude = extents.altitude();
-    if (hasDescendants) {
-        sag = std::max(sag, core::sagOfFinerMeshes(ellipsoid, extents, surface.isScalable));
-        altitude.upper = std::max(altitude.upper, heights.upper);
-    }
-    altitude.lower = std::min(altitude.lower, heights.lower - sag);
-    AnalyticBin bin = withAltitude(surface.bin, altitude, sag);
-    // in latitude and in longitude
-    if (hasDescendants) bin.setMargin(bin.margin() + 2.0 * roundingOf(ellipsoid));
-    return bin;
-}
-
-void fitSurface(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link, TileFit& fit) {
-    const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape);
-    fit.isTerrain = surface.bin.valid();
-    if (!fit.isTerrain && !surface.isEmpty && link.stored.valid()) Database::reportUnverifiable(link);
-    if (!fit.isTerrain) return;
-    linkTo(surface.bin.bin(), link);
-    link.isMeasured = true;
-    fit.surface = surface.bin;
-    fit.isScalable = surface.isScalable;
-    // what is drawn, and nothing else; exaggeration would not treat skirts as heights
-    const core::Interval& altitude = surface.bin.bin().altitude();
-    const bool isScaled = surface.isScalable && shape.verticalScale != 1.0;
-    const bool isDrawnAsRead = !isScaled && !shape.areBoundariesEqual;
-    const bool isLeaf = tile.pagedFiles.empty();
-    fit.isDeclared = isDrawnAsRead && !isLeaf;
-    if (database.options().skirts == SkirtUse::All || link.edges.areOnBorder()) fit.skirt = surface.skirt;
-    fit.bin = isLeaf && isDrawnAsRead
-                  ? withAltitude(surface.bin, {altitude.lower - surface.skirt + fit.skirt, altitude.upper}, 0.0)
-                  : rangedBin(surface, !isLeaf, database, link);
-}
-
-// For a tile whose bin says nothing of skirts.
-void fitSkirt(const FoundTile& tile, const TerrainShape& shape, TileFit& fit) {
-    const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape);
-    fit.skirt = surface.skirt;
-    if (!surface.bin.valid()) fit.bin.init();
-}
-
-// The bin of a whole index, lowered where edges may dip below those of neighbours: its floor is that of their edges.
-AnalyticBin dippedBin(const AnalyticBin& bin, const Database& database, const ParentTile& link) {
-    const double relief = heightsIn(database).width() + bin.sag();
-    const double dip = core::dipBehindEdge(toCore(*database.ellipsoid()), bin.bin(), link.edges, relief);
-    const core::Interval& altitude = bin.bin().altitude();
-    return withAltitude(bin, {altitude.lower - dip, altitude.upper}, bin.sag() + dip);
-}
-
-// Returns: whether the index knows the tile as it is, and its bin. `isContradicted`: it knows another tile in its
-// place.
-bool fitIndexed(const FoundTile& tile, const Database& database, const TerrainShape& shape, ParentTile& link,
-                TileFit& fit, bool& isContradicted) {
-    const osg::ref_ptr<const BinIndex> index = database.index();
-    const BinIndex::Entry* const entry = index ? index->find(tile.frame.file, tile.ordinal) : nullptr;
-    const bool isAsKnown = entry && entry->fingerprint == tileFingerprint(tile);
-    isContradicted = index && !isAsKnown;
-    if (!isAsKnown || !entry->bin.valid()) return false;
-    fit.isTerrain = true;
-    fit.bin = entry->bin;
-    fit.isScalable = hasTerrainTile(tile);
-    linkTo(fit.bin.bin(), link);
-    fit.surface = surfaceAbove(entry->ownLow, fit.bin);
-    fit.bin = dippedBin(fit.bin, database, link);
-    if (link.edges.areOnBorder()) fitSkirt(tile, shape, fit);
-    return true;
-}
-
-// Edges that lie half way to a neighbour's heights are anywhere in the heights that the options declare.
-AnalyticBin withHeights(const AnalyticBin& bin, const core::Interval& heights) {
-    if (!bin.valid()) return bin;
-    const core::Interval& own = bin.bin().altitude();
-    const core::Interval all{std::min(own.lower, heights.lower - bin.sag()), std::max(own.upper, heights.upper)};
-    return withAltitude(bin, all, 0.0);
-}
-
-// A terrain tile whose technique is not OSG's own and may draw anything.
-TileFit unknownFit(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
-    database.noteUnknownTechnique();
-    const TileSurface surface = surfaceOf(tile, *tile.frame.ellipsoid, shape);
-    if (surface.bin.valid()) linkTo(surface.bin.bin(), link);
-    TileFit fit;
-    fit.isScalable = true;
-    fit.isTerrain = true;
-    return fit;
 }
 
 // Tolerance when comparing a tile's mesh with its stored bin: bounds of surfaces are rough where meshes are coarse.
@@ -221,117 +104,253 @@ bool nearlyHolds(const AnalyticBin& outer, const AnalyticBin& inner, double sag,
         .contains(inner.bin());
 }
 
+// Who declares a horizon says that the tiles of the globe have no holes.
+bool isVouchedFor(const FitSources& from) {
+    return from.options.horizonUse == HorizonUse::Given && !isMapPlane(from.ellipsoid);
+}
+
+class Fitting {
+public:
+    Fitting(const FoundTile& tile, const FitSources& from, const TerrainShape& shape)
+        : _tile(tile),
+          _from(from),
+          _shape(shape),
+          _ellipsoid(toCore(from.ellipsoid)),
+          _heights(heightsOn(_ellipsoid, from.options.heights)),
+          _isLeaf(tile.pagedFiles.empty()),
+          _above(from.parent ? from.parent->stored : AnalyticBin()) {
+        _fit.stored = _above;
+    }
+
+    [[nodiscard]] TileFit result() &&;
+
+private:
+    void report(Finding finding, const AnalyticBin& drawn = {}) { _fit.findings.emplace_back(finding, drawn); }
+    [[nodiscard]] TileSurface meshSurface() const;
+    void standIn(const core::GeodeticBin& extents);
+    [[nodiscard]] bool countsSkirts() const {
+        // makers of bins need not know that nothing stands before the skirts on the border
+        return _from.options.skirts == SkirtUse::All || _fit.extents.edges.areOnBorder();
+    }
+    [[nodiscard]] AnalyticBin rangedBin(const TileSurface& surface) const;
+    void fitSurface();
+    [[nodiscard]] AnalyticBin dippedBin(const AnalyticBin& bin) const;
+    [[nodiscard]] const BinIndex::Entry* indexEntry() const;
+    void fitIndexed(const BinIndex::Entry& entry);
+    [[nodiscard]] AnalyticBin withHeights(const AnalyticBin& bin) const;
+    void fitUnknown();
+    [[nodiscard]] bool isHeld(const AnalyticBin& outer, const AnalyticBin& inner, double sag) const {
+        return !outer.valid() || !inner.valid() || nearlyHolds(outer, inner, sag, _ellipsoid);
+    }
+    void checkUnstored(const AnalyticBin& shown, double sag);
+    void correct();
+    [[nodiscard]] AnalyticBin shownSurface(const AnalyticBin& surface) const;
+    [[nodiscard]] AnalyticBin checkStored(const TileSurface& own);
+    void fitStored();
+    void fitUnstored();
+    [[nodiscard]] bool leavesHeights() const;
+    [[nodiscard]] bool leavesExtents() const;
+
+    const FoundTile& _tile;
+    const FitSources& _from;
+    const TerrainShape& _shape;
+    const core::Ellipsoid _ellipsoid;
+    const core::Interval _heights;
+    const bool _isLeaf;
+    const AnalyticBin _above;  // the nearest bin above that is stored with its tile
+    TileFit _fit;
+};
+
+// Meshes of one tile are its levels of detail: any of them may be shown.
+TileSurface Fitting::meshSurface() const {
+    TileSurface surface;
+    surface.isEmpty = true;
+    for (const osg::ref_ptr<osg::Node>& mesh : _tile.meshes) {
+        const TileSurface own = tileSurface(*mesh, _from.ellipsoid, _tile.frame.localToEcef, _shape.sampleRatio,
+                                            _shape.techniqueMargin > 0.0);
+        if (own.isEmpty) continue;
+        if (!own.bin.valid()) return {};
+        surface.isEmpty = false;
+        surface.bin.expandBy(own.bin);
+        surface.skirt = std::max(surface.skirt, own.skirt);
+        surface.isScalable = surface.isScalable || own.isScalable;
+    }
+    return surface;
+}
+
+void Fitting::standIn(const core::GeodeticBin& extents) {
+    const TileExtents* const above = _from.parent ? &_from.parent->extents : nullptr;
+    _fit.extents.bin = extents;
+    _fit.extents.edges = core::TileEdges::of(extents, above ? &above->bin : nullptr, above ? &above->edges : nullptr);
+}
+
+// The bin of a tile of which no more is known than its surface and the declared heights.
+AnalyticBin Fitting::rangedBin(const TileSurface& surface) const {
+    const core::GeodeticBin& extents = surface.bin.bin();
+    double sag = core::crackDepth(_ellipsoid, extents, _fit.extents.edges);
+    core::Interval altitude = extents.altitude();
+    if (!_isLeaf) {
+        sag = std::max(sag, core::sagOfFinerMeshes(_ellipsoid, extents, surface.isScalable));
+        altitude.upper = std::max(altitude.upper, _heights.upper);
+    }
+    altitude.lower = std::min(altitude.lower, _heights.lower - sag);
+    AnalyticBin bin = withAltitude(surface.bin, altitude, sag);
+    // in latitude and in longitude
+    if (!_isLeaf) bin.setMargin(bin.margin() + 2.0 * roundingOf(_ellipsoid));
+    return bin;
+}
+
+void Fitting::fitSurface() {
+    const TileSurface surface = meshSurface();
+    _fit.isTerrain = surface.bin.valid();
+    if (!_fit.isTerrain && !surface.isEmpty && _above.valid()) report(Finding::Unverifiable);
+    if (!_fit.isTerrain) return;
+    standIn(surface.bin.bin());
+    _fit.extents.isMeasured = true;
+    _fit.surface = surface.bin;
+    _fit.isScalable = surface.isScalable;
+    // what is drawn, and nothing else; exaggeration would not treat skirts as heights
+    const core::Interval& altitude = surface.bin.bin().altitude();
+    const bool isScaled = surface.isScalable && _shape.verticalScale != 1.0;
+    const bool isDrawnAsRead = !isScaled && !_shape.areBoundariesEqual;
+    _fit.isDeclared = isDrawnAsRead && !_isLeaf;
+    if (countsSkirts()) _fit.skirt = surface.skirt;
+    _fit.bin = _isLeaf && isDrawnAsRead
+                   ? withAltitude(surface.bin, {altitude.lower - surface.skirt + _fit.skirt, altitude.upper}, 0.0)
+                   : rangedBin(surface);
+}
+
+// The bin of a whole index, lowered where edges may dip below those of neighbours: its floor is that of their edges.
+AnalyticBin Fitting::dippedBin(const AnalyticBin& bin) const {
+    const double relief = _heights.width() + bin.sag();
+    const double dip = core::dipBehindEdge(_ellipsoid, bin.bin(), _fit.extents.edges, relief);
+    const core::Interval& altitude = bin.bin().altitude();
+    return withAltitude(bin, {altitude.lower - dip, altitude.upper}, bin.sag() + dip);
+}
+
+// Returns: nullptr when the index does not know the tile as it is.
+const BinIndex::Entry* Fitting::indexEntry() const {
+    const BinIndex::Entry* const entry = _from.index ? _from.index->find(_tile.frame.file, _tile.ordinal) : nullptr;
+    return entry && entry->fingerprint == tileFingerprint(_tile) ? entry : nullptr;
+}
+
+void Fitting::fitIndexed(const BinIndex::Entry& entry) {
+    _fit.isTerrain = true;
+    _fit.isScalable = hasTerrainTile(_tile);
+    standIn(entry.bin.bin());
+    _fit.surface = surfaceAbove(entry.ownLow, entry.bin);
+    _fit.bin = dippedBin(entry.bin);
+    if (!_fit.extents.edges.areOnBorder()) return;
+    // an index says nothing of skirts
+    const TileSurface surface = meshSurface();
+    _fit.skirt = surface.skirt;
+    if (!surface.bin.valid()) _fit.bin.init();
+}
+
+// Edges that lie half way to a neighbour's heights are anywhere in the heights that the options declare.
+AnalyticBin Fitting::withHeights(const AnalyticBin& bin) const {
+    if (!bin.valid()) return bin;
+    const core::Interval& own = bin.bin().altitude();
+    const core::Interval all{std::min(own.lower, _heights.lower - bin.sag()), std::max(own.upper, _heights.upper)};
+    return withAltitude(bin, all, 0.0);
+}
+
+// A terrain tile whose technique is not OSG's own and may draw anything.
+void Fitting::fitUnknown() {
+    report(Finding::UnknownTechnique);
+    const TileSurface surface = meshSurface();
+    if (surface.bin.valid()) standIn(surface.bin.bin());
+    _fit.isScalable = true;
+    _fit.isTerrain = true;
+}
+
 // A bin that is stored with a tile also stands for what is paged below it and not loaded yet. Content that turns out to
 // be larger expands it and its ancestors. Returns: the tile's own surface, where it is known.
-AnalyticBin checkStored(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link,
-                        TileFit& fit) {
-    const osg::EllipsoidModel& model = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database.ellipsoid();
-    const TileSurface own = surfaceOf(tile, model, shape);
-    if (!own.bin.valid() && !own.isEmpty) {
-        fit.bin.init();
-        fit.isTerrain = false;
-        Database::reportUnverifiable(link);
-        return {};
-    }
-    fit.ownSkirt = own.skirt;
+AnalyticBin Fitting::checkStored(const TileSurface& own) {
     // other sample ratios make other meshes than those that the bin was made of
-    const AnalyticBin surface = own.isScalable && shape.sampleRatio != 1.0 ? AnalyticBin() : own.bin;
-    const core::Ellipsoid ellipsoid = toCore(model);
-    const bool isWithinBin =
-        !surface.valid() || !fit.bin.valid() || nearlyHolds(fit.bin, surface, surface.sag(), ellipsoid);
+    const AnalyticBin surface = own.isScalable && _shape.sampleRatio != 1.0 ? AnalyticBin() : own.bin;
+    const bool isWithinBin = isHeld(_fit.bin, surface, surface.sag());
     if (!isWithinBin) {
         // a mesh that stands elsewhere may leave the place of the stored bin empty
-        const AnalyticBin column(fit.bin.bin().withAltitude(surface.bin().altitude()), fit.bin.margin());
-        if (!nearlyHolds(column, surface, surface.sag(), ellipsoid)) database.noteMovedTile(tile.frame.file);
+        const AnalyticBin column(_fit.bin.bin().withAltitude(surface.bin().altitude()), _fit.bin.margin());
+        if (!nearlyHolds(column, surface, surface.sag(), _ellipsoid)) report(Finding::MovedTile);
     }
-    if (!isWithinBin || (link.hasNewContent && surface.valid())) fit.bin.expandBy(surface);
-    const AnalyticBin& drawn = fit.bin.valid() ? fit.bin : surface;
+    if (!isWithinBin || (_from.hasNewContent && surface.valid())) _fit.bin.expandBy(surface);
+    const AnalyticBin& drawn = _fit.bin.valid() ? _fit.bin : surface;
     const double sag = surface.valid() ? std::min(surface.sag(), drawn.sag()) : 0.0;
-    const ParentTile* const parent = link.parent.get();
-    const bool isWithinParent =
-        !parent || !parent->stored.valid() || !drawn.valid() || nearlyHolds(parent->stored, drawn, sag, ellipsoid);
-    if (!isWithinBin || !isWithinParent) Database::reportFalseBin(link, drawn);
+    if (!isWithinBin || !isHeld(_above, drawn, sag)) report(Finding::LargerThanStored, drawn);
     return surface;
 }
 
 // The same of a tile that has no bin of its own stored, below one that has.
-void checkUnstored(const AnalyticBin& shown, double sag, Database& database, const ParentTile& link) {
-    if (!link.stored.valid() || !shown.valid()) return;
-    if (!nearlyHolds(link.stored, shown, sag, toCore(*database.ellipsoid()))) Database::reportFalseBin(link, shown);
+void Fitting::checkUnstored(const AnalyticBin& shown, double sag) {
+    if (!isHeld(_above, shown, sag)) report(Finding::LargerThanStored, shown);
 }
 
 // By what was found of the tile before. That may have been in another place, below other tiles.
-void correct(const FoundTile& tile, Database& database, const ParentTile& link, TileFit& fit) {
-    const Widening correction = database.correction(tile.frame.file, tile.ordinal);
-    if (correction.isBoundless && link.stored.valid()) Database::reportUnverifiable(link);
-    checkUnstored(correction.bin, 0.0, database, link);
-    if (correction.any()) fit.bin = correction.widened(fit.bin);
+void Fitting::correct() {
+    const Widening& correction = _from.correction;
+    if (correction.isBoundless && _above.valid()) report(Finding::Unverifiable);
+    checkUnstored(correction.bin, 0.0);
+    if (correction.any()) _fit.bin = correction.widened(_fit.bin);
 }
 
 // A stored lowest altitude is closer than the bound of a mesh's sag; it is used where the mesh's vertices allow it.
-AnalyticBin shownSurface(const FoundTile& tile, const AnalyticBin& surface, const AnalyticBin& bin,
-                         const core::Ellipsoid& ellipsoid) {
-    const double rounding = roundingOf(ellipsoid);
-    const auto low = storedSurfaceLow(*tile.node);
+AnalyticBin Fitting::shownSurface(const AnalyticBin& surface) const {
+    const auto low = storedSurfaceLow(*_tile.node);
     if (!low) return surface;
-    const bool isPossible =
-        !surface.valid() || *low <= surface.bin().altitude().lower + surface.sag() + surface.margin() + rounding;
-    return isPossible ? surfaceAbove(*low, bin) : surface;
+    const bool isPossible = !surface.valid() || *low <= surface.bin().altitude().lower + surface.sag() +
+                                                            surface.margin() + roundingOf(_ellipsoid);
+    return isPossible ? surfaceAbove(*low, _fit.bin) : surface;
 }
 
-TileFit fitStored(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
-    TileFit fit;
-    fit.bin = storedBin(*tile.node);
-    fit.isScalable = hasTerrainTile(tile);
-    fit.isTerrain = true;
-    const AnalyticBin surface = checkStored(tile, database, shape, link, fit);
-    if (!fit.bin.valid()) return fit;
-    fit.surface = shownSurface(tile, surface, fit.bin, toCore(*database.ellipsoid()));
-    linkTo(fit.bin.bin(), link);
-    // makers of bins need not know that nothing stands before the skirts there
-    if (database.options().skirts == SkirtUse::All || link.edges.areOnBorder()) fit.skirt = fit.ownSkirt;
-    correct(tile, database, link, fit);
-    link.stored = fit.bin;
-    return fit;
+void Fitting::fitStored() {
+    const TileSurface own = meshSurface();
+    if (!own.bin.valid() && !own.isEmpty) return report(Finding::Unverifiable);
+    _fit.bin = storedBin(*_tile.node);
+    _fit.isScalable = hasTerrainTile(_tile);
+    _fit.isTerrain = true;
+    const AnalyticBin surface = checkStored(own);
+    if (!_fit.bin.valid()) return;
+    _fit.surface = shownSurface(surface);
+    standIn(_fit.bin.bin());
+    if (countsSkirts()) _fit.skirt = own.skirt;
+    correct();
+    _fit.stored = _fit.bin;
 }
 
-TileFit fitKnown(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
-    if (hasStoredBin(*tile.node)) return fitStored(tile, database, shape, link);
-    TileFit fit;
+void Fitting::fitUnstored() {
     // an index does not know how far skirts hang, nor meshes of other sample ratios
-    const bool isIndexFit = database.options().skirts == SkirtUse::Cracks && shape.sampleRatio == 1.0;
-    bool isContradicted = false;
-    if (!isIndexFit || !fitIndexed(tile, database, shape, link, fit, isContradicted)) {
-        fitSurface(tile, database, shape, link, fit);
-        const bool isIndexWanted = isIndexFit && fit.isTerrain && !tile.pagedFiles.empty() && !shape.areBoundariesEqual;
-        if (isIndexWanted) database.noteIndexWanted();
-        if (isContradicted && fit.isTerrain) Database::reportMisfit(link, fit.bin);
-        if (!fit.isScalable || shape.sampleRatio == 1.0) checkUnstored(fit.surface, fit.surface.sag(), database, link);
+    const bool isIndexFit = _from.options.skirts == SkirtUse::Cracks && _shape.sampleRatio == 1.0;
+    const BinIndex::Entry* const entry = isIndexFit ? indexEntry() : nullptr;
+    if (entry && entry->bin.valid()) {
+        fitIndexed(*entry);
+        checkUnstored(_fit.bin, _fit.bin.sag());
     } else {
-        checkUnstored(fit.bin, fit.bin.sag(), database, link);
+        fitSurface();
+        if (isIndexFit && _fit.isTerrain && !_isLeaf && !_shape.areBoundariesEqual) report(Finding::IndexWanted);
+        if (isIndexFit && _fit.isTerrain && _from.index && !entry) report(Finding::OtherThanIndexed, _fit.bin);
+        if (!_fit.isScalable || _shape.sampleRatio == 1.0) checkUnstored(_fit.surface, _fit.surface.sag());
     }
-    if (!fit.bin.valid()) return fit;
-    fit.bin.setBin(core::withGaps(toCore(*database.ellipsoid()), fit.bin.bin(), link.edges));
-    correct(tile, database, link, fit);
-    return fit;
+    if (!_fit.bin.valid()) return;
+    _fit.bin.setBin(core::withGaps(_ellipsoid, _fit.bin.bin(), _fit.extents.edges));
+    correct();
 }
 
 // Whether tiles above it whose bins hold the declared heights may be too low for a surface, or not deep enough.
-bool leavesHeights(const AnalyticBin& surface, const Database& database) {
-    const core::Interval heights = heightsIn(database);
-    const core::Interval& altitude = surface.bin().altitude();
-    return altitude.upper > heights.upper || altitude.lower + surface.sag() < heights.lower;
+bool Fitting::leavesHeights() const {
+    const core::Interval& altitude = _fit.surface.bin().altitude();
+    return altitude.upper > _heights.upper || altitude.lower + _fit.surface.sag() < _heights.lower;
 }
 
 // Whether a tile leaves the extents of the mesh above it, by more than vertices are rounded.
-bool leavesExtents(const TileFit& fit, const Database& database, const ParentTile& link) {
-    const ParentTile* above = link.parent.get();
+bool Fitting::leavesExtents() const {
+    const ParentTile* above = _from.parent;
     while (above && !above->isTile) above = above->parent.get();
-    const core::GeodeticBin& own = (link.isMeasured ? fit.surface : fit.bin).bin();
-    if (!above || !above->isMeasured || own.empty()) return false;
-    const core::Ellipsoid ellipsoid = toCore(*database.ellipsoid());
-    const core::Interval &latitude = above->extents.latitude(), &longitude = above->extents.longitude();
-    const double angle = roundingOf(ellipsoid) / ellipsoid.polarRadius();
+    const core::GeodeticBin& own = (_fit.extents.isMeasured ? _fit.surface : _fit.bin).bin();
+    if (!above || !above->extents.isMeasured || own.empty()) return false;
+    const core::Interval &latitude = above->extents.bin.latitude(), &longitude = above->extents.bin.longitude();
+    const double angle = roundingOf(_ellipsoid) / _ellipsoid.polarRadius();
     const double eastward =
         angle / std::max(std::cos(std::min(std::abs(latitude.lower), std::abs(latitude.upper))), 1e-3);
     return !core::GeodeticBin({latitude.lower - angle, latitude.upper + angle},
@@ -339,9 +358,24 @@ bool leavesExtents(const TileFit& fit, const Database& database, const ParentTil
                 .contains(own);
 }
 
-// Who declares a horizon says that the tiles of the globe have no holes.
-bool isVouchedFor(const CullOptions& options, const osg::EllipsoidModel& ellipsoid) {
-    return options.horizonUse == HorizonUse::Given && !isMapPlane(ellipsoid);
+TileFit Fitting::result() && {
+    if (!_shape.isKnown() && hasTerrainTile(_tile)) {
+        fitUnknown();
+        return std::move(_fit);
+    }
+    hasStoredBin(*_tile.node) ? fitStored() : fitUnstored();
+    if (_fit.surface.valid() && (_from.hasNewContent || leavesHeights())) report(Finding::Larger, _fit.surface);
+    if (leavesExtents()) report(Finding::Larger, _fit.extents.isMeasured ? _fit.surface : _fit.bin);
+    if (_shape.areBoundariesEqual && _fit.isScalable) {
+        _fit.bin = withHeights(_fit.bin);
+        _fit.surface = withHeights(_fit.surface);
+    }
+    if (_fit.isScalable && _shape.techniqueMargin > 0.0) {
+        _fit.isInPlace = false;
+        for (AnalyticBin* const bin : {&_fit.bin, &_fit.surface})
+            bin->setMargin(bin->margin() + _shape.techniqueMargin);
+    }
+    return std::move(_fit);
 }
 
 // Looks for a drawable in a leaf that spans a good part of the tile above it, as ground does. Objects on the ground do
@@ -382,40 +416,22 @@ private:
 
 }  // namespace
 
-TileFit fitTile(const FoundTile& tile, Database& database, const TerrainShape& shape, ParentTile& link) {
-    if (!shape.isKnown() && hasTerrainTile(tile)) {
-        return unknownFit(tile, database, shape, link);
-    }
-    TileFit fit = fitKnown(tile, database, shape, link);
-    if (fit.surface.valid() && (link.hasNewContent || leavesHeights(fit.surface, database)))
-        Database::noteLarger(link, fit.surface);
-    if (leavesExtents(fit, database, link)) Database::noteLarger(link, link.isMeasured ? fit.surface : fit.bin);
-    if (shape.areBoundariesEqual && fit.isScalable) {
-        fit.bin = withHeights(fit.bin, heightsIn(database));
-        fit.surface = withHeights(fit.surface, heightsIn(database));
-    }
-    if (fit.isScalable && shape.techniqueMargin > 0.0) {
-        fit.isInPlace = false;
-        for (AnalyticBin* const bin : {&fit.bin, &fit.surface}) bin->setMargin(bin->margin() + shape.techniqueMargin);
-    }
-    return fit;
+TileFit fitTile(const FoundTile& tile, const FitSources& from, const TerrainShape& shape) {
+    return Fitting(tile, from, shape).result();
 }
 
-core::MeshCover coverBy(const FoundTile& tile, const Database& database, const TerrainShape& shape,
-                        const ParentTile& link) {
-    const CullOptions options = database.options();
-    const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database.ellipsoid();
-    if (isVouchedFor(options, ellipsoid)) return {link.extents, true};
-    if (options.horizonUse == HorizonUse::Off && options.occlusion == OcclusionUse::Off) return {};
-    return coverOf({tile.meshes, ellipsoid, tile.frame.localToEcef, shape});
+core::MeshCover coverBy(const FoundTile& tile, const FitSources& from, const TerrainShape& shape, const TileFit& fit) {
+    if (isVouchedFor(from)) return {fit.extents.bin, true};
+    if (from.options.horizonUse == HorizonUse::Off && from.options.occlusion == OcclusionUse::Off) return {};
+    return coverOf({tile.meshes, from.ellipsoid, tile.frame.localToEcef, shape});
 }
 
-bool isGround(const FoundTile& tile, const ParentTile& link) {
+bool isGround(const FoundTile& tile, const ParentTile* parent, const TileFit& fit) {
     const osg::Node& node = *tile.node;
     const bool isLeaf = tile.frame.isBelowTile && !hasStoredBin(node) && !dynamic_cast<const osg::PagedLOD*>(&node) &&
                         !dynamic_cast<const osgTerrain::TerrainTile*>(&node);
-    if (!isLeaf || !link.parent) return true;
-    GroundSearch search(link.parent->extents, link.extents, tile);
+    if (!isLeaf || !parent) return true;
+    GroundSearch search(parent->extents.bin, fit.extents.bin, tile);
     return search.found();
 }
 

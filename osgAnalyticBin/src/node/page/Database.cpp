@@ -8,7 +8,6 @@
 #include "../cull/CullCallbacks.h"
 #include "../surface/TilePlates.h"
 
-#include <osg/Notify>
 #include <osgTerrain/GeometryTechnique>
 
 #include <algorithm>
@@ -24,14 +23,6 @@ namespace {
 constexpr std::size_t kMostToWiden = 65536;
 
 using Contents = std::vector<osg::observer_ptr<osg::Node>>;
-
-std::string fileName(const std::string& file) {
-    return file.empty() ? "the root file" : '"' + file + '"';
-}
-
-std::string nameOf(const ParentTile& tile) {
-    return fileName(tile.file);
-}
 
 // Forgets what is in the scene or deleted. Returns: whether some of it is in the scene.
 bool takeMerged(Contents& contents) {
@@ -191,29 +182,27 @@ bool Database::takeShapeChange() {
     return takeRefit() || hasChanged;
 }
 
-void Database::noteGap(const std::string& where) {
-    if (_hasGap.exchange(true, std::memory_order_relaxed)) return;
-    if (isMap()) {
-        OSG_INFO << "osgAnalyticBin: the tiles of " << fileName(where)
-                 << " leave gaps in the map, or it is not known whether they do. No tile is hidden behind terrain."
-                 << std::endl;
-        return;
+void Database::report(Finding finding, const std::string& file) {
+    if ((_found.fetch_or(bitOf(finding), std::memory_order_relaxed) & bitOf(finding)) != 0) return;
+    tell(finding, file, isMap());
+    if (finding != Finding::MovedTile) return;
+    report(Finding::Gap, file);
+    report(Finding::StrayTile, file);
+}
+
+// Told once for a database, whatever globes are inside it. The tile itself has been fitted to what is reported.
+void Database::report(const ParentTile& tile, Finding finding, const AnalyticBin& drawn) {
+    if (finding < Finding::OtherThanIndexed) return tile.database->report(finding, tile.file);
+    const ParentTile* outermost = &tile;
+    while (outermost->parent) outermost = outermost->parent.get();
+    outermost->database->report(finding, tile.file);
+    const Widening by{drawn, finding == Finding::Unverifiable};
+    for (const ParentTile* at = &tile; at; at = at->parent.get()) {
+        if (at->isTile) at->database->widen(*at, by, at == &tile);
     }
-    OSG_NOTICE << "osgAnalyticBin: the tiles of " << fileName(where)
-               << " leave gaps: their meshes cover neither the globe nor a rectangle of latitude and longitude. The "
-                  "horizon is not used."
-               << std::endl;
 }
 
-void Database::noteHole(const std::string& where) {
-    if (_hasHole.exchange(true, std::memory_order_relaxed)) return;
-    OSG_NOTICE << "osgAnalyticBin: in " << fileName(where)
-               << " a mesh has a hole, or it is not known whether it covers all of its tile. The horizon is not used "
-                  "while such tiles are in view."
-               << std::endl;
-}
-
-void Database::noteIgnoresDepth(const ParentTile& tile) {
+void Database::ignoreDepth(const ParentTile& tile) {
     for (const ParentTile* at = &tile; at; at = at->parent.get()) {
         osg::ref_ptr<AnalyticBinCullCallback> callback;
         if (at->callback.lock(callback) && callback->getInstalledTile()) callback->getInstalledTile()->ignoreDepth();
@@ -231,35 +220,8 @@ std::optional<core::CoveredRegion> Database::region() const {
     return _region;
 }
 
-void Database::noteEyeBesideRegion() {
-    if (_hasEyeBesideRegion.exchange(true, std::memory_order_relaxed)) return;
-    OSG_NOTICE << "osgAnalyticBin: the camera is not over the regional database. The horizon is not used in such views."
-               << std::endl;
-}
-
-void Database::noteStrayTile(const std::string& where) {
-    if (_hasStrayTile.exchange(true, std::memory_order_relaxed)) return;
-    OSG_INFO << "osgAnalyticBin: \"" << where
-             << "\" has tiles that stand in several places, below a transform that moves, or elsewhere than where they "
-                "belong; where they leave a gap, the horizon is not used."
-             << std::endl;
-}
-
-void Database::noteMovedTile(const std::string& where) {
-    _hasMovedTile.store(true, std::memory_order_relaxed);
-    noteGap(where);
-    noteStrayTile(where);
-}
-
-void Database::noteUnknownNearPlane() {
-    if (_hasUnknownNearPlane.exchange(true, std::memory_order_relaxed)) return;
-    OSG_WARN << "osgAnalyticBin: occlusion= has no effect while OSG computes the camera's near plane. Set "
-                "DO_NOT_COMPUTE_NEAR_FAR, and near and far planes of your own."
-             << std::endl;
-}
-
 void Database::askForPlates(const AnalyticBinCullCallback& tile, osg::Node& mesh) {
-    _wantsPlates.store(true, std::memory_order_relaxed);
+    report(Finding::PlatesWanted);
     if (!tile.getInstalledTile()->askForPlates()) return;
     const std::lock_guard<std::mutex> lock(_mutex);
     _awaitPlates.emplace_back(&tile, &mesh);
@@ -283,59 +245,6 @@ void Database::makePlates() {
         tile->getInstalledTile()->setPlates(tilePlates({{mesh}, *ellipsoid(), tile->getLocalToEcef(), shape}));
     }
     requestUpdate();
-}
-
-void Database::noteUnknownTechnique() {
-    if (_hasUnknownTechnique.exchange(true, std::memory_order_relaxed)) return;
-    OSG_INFO << "osgAnalyticBin: the Terrain has a technique that is not osgTerrain::GeometryTechnique; its tiles are "
-                "not culled, unless techniquemargin= says how far from the heights it draws."
-             << std::endl;
-}
-
-// Once for a database, whatever globes are inside it.
-void Database::warn(const ParentTile& tile, bool Database::*hasWarned, const char* what) {
-    const ParentTile* outermost = &tile;
-    while (outermost->parent) outermost = outermost->parent.get();
-    Database& database = *outermost->database;
-    {
-        const std::lock_guard<std::mutex> lock(database._mutex);
-        if (std::exchange(database.*hasWarned, true)) return;
-    }
-    // OSG's stream is one for all threads
-    static std::mutex printing;
-    const std::lock_guard<std::mutex> lock(printing);
-    OSG_WARN << "osgAnalyticBin: " << nameOf(tile) << what << std::endl;
-}
-
-void Database::reportMisfit(const ParentTile& tile, const AnalyticBin& bin) {
-    warn(tile, &Database::_hasWarnedOfIndex,
-         " is not as the index knows it; tiles are kept visible there. Run osgbinconv --index again.");
-    widenFrom(tile, {bin});
-}
-
-void Database::reportFalseBin(const ParentTile& tile, const AnalyticBin& bin) {
-    warn(tile, &Database::_hasWarnedOfStored,
-         " holds a tile that is larger than the bin stored with it or above it; bins are widened there. Make the "
-         "database again.");
-    widenFrom(tile, {bin});
-}
-
-void Database::reportUnverifiable(const ParentTile& tile) {
-    warn(tile, &Database::_hasWarnedOfUnverifiable,
-         " holds content that cannot be compared with the bin stored with it or above it: it stands on another globe, "
-         "or its mesh has no known bounds. Such bins are not used; OSG culls these tiles by their spheres.");
-    widenFrom(tile, {{}, true});
-}
-
-// The tile itself has been fitted to what is reported, and need not be widened.
-void Database::widenFrom(const ParentTile& tile, const Widening& by) {
-    for (const ParentTile* at = &tile; at; at = at->parent.get()) {
-        if (at->isTile) at->database->widen(*at, by, at == &tile);
-    }
-}
-
-void Database::widenAlone(const ParentTile& tile, const Widening& by) {
-    tile.database->widen(tile, by, false);
 }
 
 void Database::widen(const ParentTile& tile, const Widening& by, bool isFitted) {

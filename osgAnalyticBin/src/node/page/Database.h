@@ -5,6 +5,7 @@
 
 #include "../index/AutoIndex.h"
 #include "../tile/InstalledTile.h"
+#include "Finding.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/BinIndex.h>
@@ -94,9 +95,6 @@ public:
 
     /// Null: there is none, or none yet.
     [[nodiscard]] osg::ref_ptr<const BinIndex> index() const;
-    /// Call when a tile that pages finer ones would take its bin from an index.
-    void noteIndexWanted() { _isIndexWanted.store(true, std::memory_order_relaxed); }
-    [[nodiscard]] bool isIndexWanted() const { return _isIndexWanted.load(std::memory_order_relaxed); }
     /// Sets an index that is being made. When it is complete, an update adopts it: the tiles in the scene are fitted
     /// again. Null: none is made.
     void setMaking(AutoIndex* making);
@@ -116,62 +114,27 @@ public:
     /// In the update traversal: whether all loaded tiles have to be fitted again. Resets the answer.
     [[nodiscard]] bool takeShapeChange();
 
-    /// Records that part of the globe may not be covered by tiles of known depth. The horizon is off then, unless the
-    /// options give its altitude.
-    void noteGap(const std::string& where);
-    [[nodiscard]] bool hasGap() const { return _hasGap.load(std::memory_order_relaxed); }
+    /// Remembers what was found in a file, and tells the user of it the first time.
+    void report(Finding finding, const std::string& file = {});
+    /// The same of a tile. If the bins of the tiles above it are concerned, these stay visible until the next update,
+    /// which expands their bins by what the tile draws, or, where that cannot be compared with them, takes these away.
+    static void report(const ParentTile& tile, Finding finding, const AnalyticBin& drawn = {});
+    [[nodiscard]] bool has(Finding finding) const {
+        return (_found.load(std::memory_order_relaxed) & bitOf(finding)) != 0;
+    }
 
-    /// Call when the mesh of a tile is not known to fill its place. Tells the user once. The horizon is off while the
-    /// tile is in view.
-    void noteHole(const std::string& where);
-    /// Records that something below a tile may be drawn in front of what is nearer: neither the tile nor its ancestors
-    /// are hidden.
-    static void noteIgnoresDepth(const ParentTile& tile);
-    /// Records a tile that is drawn in several places or that moves. Such a tile has no bin, and does not count as an
-    /// occluder: if there is a gap as well, the horizon is off, even if its altitude was given.
-    void noteStrayTile(const std::string& where);
-    [[nodiscard]] bool hasStrayTile() const { return _hasStrayTile.load(std::memory_order_relaxed); }
+    /// Call when something below a tile may be drawn in front of what is nearer: neither the tile nor its ancestors are
+    /// hidden from then on.
+    static void ignoreDepth(const ParentTile& tile);
 
     /// Says which region a regional database covers; empty: it covers the globe or has a gap.
     void setRegion(const core::GeodeticBin& region);
     /// Returns: nullopt if it covers the globe or has a gap.
     [[nodiscard]] std::optional<core::CoveredRegion> region() const;
 
-    /// Call when the eye is not over the region, so that the horizon hides nothing. Tells the user once.
-    void noteEyeBesideRegion();
-
-    /// Records that a tile is not where its bin was stored or installed. The horizon is off then, even if its altitude
-    /// was given.
-    void noteMovedTile(const std::string& where);
-    [[nodiscard]] bool hasMovedTile() const { return _hasMovedTile.load(std::memory_order_relaxed); }
-
-    /// Call when occlusion is wanted for a camera whose near plane OSG computes only after the cull traversal. Warns
-    /// once.
-    void noteUnknownNearPlane();
-
-    /// Call when a camera uses occlusion. Tiles that are read from now on get their plates while they are read, this
-    /// tile gets them in one of the next updates. `mesh`: the tile's own mesh.
+    /// Call when a camera uses occlusion: the tile gets plates in one of the next updates, those that are read from now
+    /// on get them at once. `mesh`: the tile's own mesh.
     void askForPlates(const AnalyticBinCullCallback& tile, osg::Node& mesh);
-    [[nodiscard]] bool wantsPlates() const { return _wantsPlates.load(std::memory_order_relaxed); }
-
-    /// Call when osgTerrain tiles have a technique that the kit does not know.
-    void noteUnknownTechnique();
-
-    /// Call when a tile does not fit the index: warns once, and expands the tile's ancestors at the next update.
-    static void reportMisfit(const ParentTile& tile, const AnalyticBin& bin);
-
-    /// Call when a tile is larger than the bin stored with it or with its parent. Does the same as reportMisfit().
-    static void reportFalseBin(const ParentTile& tile, const AnalyticBin& bin);
-
-    /// Call when a tile may legitimately draw outside of its ancestors' bins. Expands them without a warning.
-    static void noteLarger(const ParentTile& tile, const AnalyticBin& bin) { widenFrom(tile, {bin}); }
-
-    /// The same for one tile, but not for its ancestors. Until the next update the tile stays visible.
-    static void widenAlone(const ParentTile& tile, const Widening& by);
-
-    /// Call when it cannot be checked whether a tile fits into the bins stored with it and its ancestors: warns once,
-    /// and keeps the ancestors visible from the next update on.
-    static void reportUnverifiable(const ParentTile& tile);
 
     /// Records content below a tile that its bin does not contain. The tile stays visible until the next update expands
     /// the bin.
@@ -200,12 +163,14 @@ public:
 protected:
     ~Database() override = default;
 
+    /// Has the next update expand the bin of a tile, which stays visible until then. `isFitted`: the tile has been
+    /// fitted to that already.
+    void widen(const ParentTile& tile, const Widening& by, bool isFitted);
+
 private:
     using TileKey = std::pair<std::string, std::size_t>;
 
-    void widen(const ParentTile& tile, const Widening& by, bool isFitted);
-    static void widenFrom(const ParentTile& tile, const Widening& by);
-    static void warn(const ParentTile& tile, bool Database::*hasWarned, const char* what);
+    [[nodiscard]] static constexpr unsigned int bitOf(Finding finding) { return 1u << static_cast<unsigned>(finding); }
     void adoptIndex();
     void renewOnTheirWay();
     void findLateComers();
@@ -218,16 +183,8 @@ private:
     const osg::observer_ptr<osgTerrain::Terrain> _terrain;
     const osg::Node* _root = nullptr;
     std::atomic<bool> _wasCulled{false};
-    std::atomic<bool> _hasGap{false};
-    std::atomic<bool> _hasHole{false};
-    std::atomic<bool> _hasStrayTile{false};
-    std::atomic<bool> _hasMovedTile{false};
-    std::atomic<bool> _hasUnknownTechnique{false};
-    std::atomic<bool> _hasUnknownNearPlane{false};
-    std::atomic<bool> _hasEyeBesideRegion{false};
-    std::atomic<bool> _wantsPlates{false};
-    std::atomic<bool> _isIndexWanted{false};
-    mutable std::mutex _mutex;  // guards the members below
+    std::atomic<unsigned int> _found{0};  // a bit for each Finding
+    mutable std::mutex _mutex;            // guards the members below
     CullOptions _options;
     osg::ref_ptr<const BinIndex> _index;
     osg::ref_ptr<AutoIndex> _making;
@@ -236,10 +193,16 @@ private:
     unsigned int _generation = 0;
     std::vector<osg::observer_ptr<osg::Node>> _onTheirWay;  // not merged yet, of this generation
     std::vector<osg::observer_ptr<osg::Node>> _lateComers;  // the same, of earlier ones
-    bool _hasWarnedOfIndex = false, _hasWarnedOfStored = false, _hasWarnedOfUnverifiable = false;
     std::map<TileKey, Widening> _corrections;
     std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, Widening>> _toWiden;
     std::vector<std::pair<osg::observer_ptr<const AnalyticBinCullCallback>, osg::observer_ptr<osg::Node>>> _awaitPlates;
+};
+
+/// Where a tile lies, for the tiles below it.
+struct TileExtents {
+    core::GeodeticBin bin;
+    bool isMeasured = false;  ///< they are those of its mesh, and finer tiles may leave them
+    core::TileEdges edges;
 };
 
 /// A tile, as its paged descendants refer to it.
@@ -249,11 +212,8 @@ struct ParentTile : public osg::Referenced {
     bool isTile = true;  // false: a node without a bin, between tiles; it has neither number nor extents
     std::string file;
     std::size_t ordinal = 0;
-    bool hasNewContent = false;  // since bins were last installed on it
-    core::GeodeticBin extents;
-    bool isMeasured = false;  // the extents are those of its mesh, and finer tiles may leave them
+    TileExtents extents;
     core::GeodeticBin place;  // that its own mesh has; empty: not known
-    core::TileEdges edges;
     // The tile's stored bin, or that of the nearest ancestor with one. Invalid: there is none.
     AnalyticBin stored;
     // The database of the tile: a globe inside another globe has its own.

@@ -89,10 +89,10 @@ bool mayHide(const ShownDatabase& shown, Database& database, const CullOptions& 
     const DatabaseView& view = shown.selected.view;
     // in a map nothing else is looked for
     if (view.ellipsoid.isPlane() && options.occlusion == OcclusionUse::Off) return false;
-    const bool isUsed = isDepthGiven(view, options) ||
-                        (options.horizonUse != HorizonUse::Off && isAboveTerrain(options) && !database.hasGap());
+    const bool isUsed = isDepthGiven(view, options) || (options.horizonUse != HorizonUse::Off &&
+                                                        isAboveTerrain(options) && !database.has(Finding::Gap));
     // where other tiles cover the globe, stray ones hide nothing that these do not
-    const bool isRelyingOnStrays = (database.hasGap() || shown.region) && database.hasStrayTile();
+    const bool isRelyingOnStrays = (database.has(Finding::Gap) || shown.region) && database.has(Finding::StrayTile);
     osg::NodeVisitor& visitor = shown.selected.visitor;
     return isUsed && !isRelyingOnStrays && !isAltered(visitor.getNodePath()) &&
            drawnStateAbove(visitor, view.rules).hides;
@@ -122,18 +122,18 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
         last.hadHole = !found.isSelected;
         return found;
     };
-    if (isGiven && (!isAboveTerrain(options) || database.hasGap() || region)) {
+    if (isGiven && (!isAboveTerrain(options) || database.has(Finding::Gap) || region)) {
         shown.region = nullptr;
         const auto eye = eyeAboveDepth(shown, *viewpoint, deepest);
         return note({eye, {}, eye.has_value()});
     }
     if (region && !isOver(*region, *viewpoint)) {
-        if (!isMap) database.noteEyeBesideRegion();
+        if (!isMap) database.report(Finding::EyeBesideRegion);
         return {};
     }
     const bool mayFindOccluded = viewpoint->eye() && isAboveTerrain(options);
     if (mayFindOccluded && options.occlusion == OcclusionUse::On && !isFinalProjection(cullStack))
-        database.noteUnknownNearPlane();
+        database.report(Finding::UnknownNearPlane);
     const bool findsOccluded =
         mayFindOccluded && isFinalProjection(cullStack) && isOcclusionDue(options.occlusion, last);
     // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: the horizon
