@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "../node/GlmBridge.h"
-#include "../node/cull/CullScopes.h"
+#include "../kit/GlmBridge.h"
+#include "../kit/cull/CullScopes.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/core/PlaneSet.h>

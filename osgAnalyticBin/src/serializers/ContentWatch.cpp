@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "../node/install/ContentWatch.h"
+#include "../kit/install/ContentWatch.h"
 
 #undef OBJECT_CAST
 #define OBJECT_CAST dynamic_cast

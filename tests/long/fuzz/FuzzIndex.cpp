@@ -8,7 +8,7 @@
 
 #include <osgAnalyticBin/BinIndex.h>
 
-#include <node/index/Checksum.h>
+#include <index/Checksum.h>
 #include <sstream>
 #include <string>
 

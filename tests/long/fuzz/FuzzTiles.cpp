@@ -25,8 +25,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <kit/CullFixture.h>
 #include <map>
-#include <node/CullFixture.h>
 #include <string>
 #include <vector>
 

@@ -31,8 +31,8 @@
 #include <cmath>
 #include <exception>
 #include <iterator>
+#include <kit/CullFixture.h>
 #include <map>
-#include <node/CullFixture.h>
 #include <sstream>
 #include <stdexcept>
 

@@ -28,8 +28,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <kit/CullFixture.h>
 #include <memory>
-#include <node/CullFixture.h>
 #include <optional>
 #include <stdexcept>
 #include <string>

@@ -29,7 +29,7 @@
 
 #include <array>
 #include <chrono>
-#include <node/DatabaseFixture.h>
+#include <kit/DatabaseFixture.h>
 #include <support/CapturedNotes.h>
 #include <support/Random.h>
 #include <support/TemporaryFolder.h>

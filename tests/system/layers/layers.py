@@ -13,20 +13,22 @@ import sys
 # The folders below src, and what each may include besides itself: other folders, and other libraries' headers.
 GLM, OSG = {"glm"}, {"glm", "osg", "osgTerrain"}
 CORE = ["core"]
-BASE = CORE + ["node"]
-TILE = BASE + ["node/surface", "node/tile"]
-PAGE = TILE + ["node/cull", "node/index", "node/page"]
-KIT = PAGE + ["node/install"]
+BASE = CORE + ["kit"]
+TILE = BASE + ["kit/surface", "kit/tile"]
+CULL = TILE + ["kit/cull"]
+DATABASE = CULL + ["index", "occlusion", "kit/database"]
+KIT = DATABASE + ["kit/install"]
 LAYERS = {
     "core": ([], GLM | {"hwy"}),
-    "node": (CORE, GLM | {"osg", "osgDB"}),
-    "node/surface": (BASE, OSG),
-    "node/tile": (TILE, OSG),
-    "node/cull": (TILE, OSG | {"osgUtil"}),
-    "node/index": (TILE, OSG | {"osgDB"}),
-    "node/page": (PAGE, OSG | {"osgDB", "osgUtil"}),
-    "node/install": (KIT, OSG | {"osgDB"}),
-    "mappings": (BASE + ["node/cull"], GLM | {"boost", "osg"}),
+    "kit": (CORE, GLM | {"osg", "osgDB"}),
+    "kit/surface": (BASE, OSG),
+    "kit/tile": (TILE, OSG),
+    "kit/cull": (TILE, OSG | {"osgUtil"}),
+    "index": (TILE, OSG | {"osgDB"}),
+    "occlusion": (CULL, OSG),
+    "kit/database": (DATABASE, OSG | {"osgDB", "osgUtil"}),
+    "kit/install": (KIT, OSG | {"osgDB"}),
+    "mappings": (BASE + ["kit/cull"], GLM | {"boost", "osg"}),
     "serializers": (KIT, OSG | {"osgDB"}),
     "plugin": (KIT, OSG | {"osgDB", "proj"}),
     "viewer": (KIT, OSG | {"osgDB", "osgGA", "osgText", "osgUtil", "osgViewer"}),
@@ -64,8 +66,8 @@ class Library:
         return f"{apart}/{name}" if apart else name
 
     def layer_of(self, path):
-        folders = ["/".join(path.parts[:2]), path.parts[0], "node/" + path.parts[0]]
-        return next((folder for folder in folders if folder in LAYERS), "node")
+        folders = ["/".join(path.parts[:2]), path.parts[0], "kit/" + path.parts[0]]
+        return next((folder for folder in folders if folder in LAYERS), "kit")
 
     def included(self, file):
         """The files of the library that a file includes, and the names of others."""

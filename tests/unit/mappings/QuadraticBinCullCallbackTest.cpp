@@ -14,7 +14,7 @@
 #include <osg/MatrixTransform>
 
 #include <algorithm>
-#include <node/CullFixture.h>
+#include <kit/CullFixture.h>
 #include <support/Random.h>
 
 namespace osgAnalyticBin {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Which words of OSG's option string the pseudo-loader takes for its own, refuses, or reports. The string is one for
-// all plugins. Needs OSG_LIBRARY_PATH. What the options mean is tested in PluginTest.cpp and node/CullOptionsTest.cpp.
+// all plugins. Needs OSG_LIBRARY_PATH. What the options mean is tested in PluginTest.cpp and kit/CullOptionsTest.cpp.
 
 #include <osgAnalyticBin/CullOptions.h>
 

@@ -18,7 +18,7 @@
 #include <osgViewer/Renderer>
 #include <osgViewer/Viewer>
 
-#include <node/DatabaseFixture.h>
+#include <kit/DatabaseFixture.h>
 
 namespace osgAnalyticBin {
 namespace {

@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "../../index/AutoIndex.h"
+#include "../tile/InstalledTile.h"
+#include "Finding.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/BinIndex.h>
+#include <osgAnalyticBin/CullOptions.h>
+#include <osgAnalyticBin/core/horizon/CoveredRegion.h>
+#include <osgAnalyticBin/core/mesh/CrackBounds.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Referenced>
+#include <osg/observer_ptr>
+#include <osgTerrain/Terrain>
+
+#include <atomic>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+struct ParentTile;
+
+/// What a tile's bin has to be expanded by.
+struct Widening {
+    AnalyticBin bin;
+    bool isBoundless = false;  ///< the extents of what was found are unknown
+
+    [[nodiscard]] bool any() const { return isBoundless || bin.valid(); }
+    [[nodiscard]] bool contains(const Widening& other) const;
+    void expandBy(const Widening& other);
+    /// The expanded bin. An unknown (invalid) bin stays unknown.
+    [[nodiscard]] AnalyticBin widened(const AnalyticBin& bin) const;
+};
+
+/// State shared by all tiles of one installed database, loaded already or paged in later. Bins are put on them by the
+/// installer, which derives from it.
+/// Threads: pager and cull threads may call everything except update() and setOptions().
+class Database : public InstalledDatabase {
+public:
+    /// `terrain` and `index` may be null.
+    Database(const CullOptions& options, const osg::EllipsoidModel* ellipsoid, osgTerrain::Terrain* terrain,
+             const BinIndex* index)
+        : InstalledDatabase(ellipsoid),
+          _terrain(terrain),
+          _options(options),
+          _index(index),
+          _fittedShape(shape(options)) {}
+
+    /// The database of a tile.
+    [[nodiscard]] static Database& of(const InstalledTile& tile) { return static_cast<Database&>(tile.database()); }
+
+    /// Installs bins on content that was read from one of its files, in the thread that reads it. `frame`: where it
+    /// stands; `parent`: the tile that pages it, null: none.
+    virtual void install(osg::Node& content, const TileFrame& frame, const ParentTile* parent) = 0;
+    /// Fits the loaded tiles again. `root`: the node that it is attached to. Requires: no cull traversal runs.
+    virtual void refit(osg::Node& root) = 0;
+    /// Gives a clone of its root a database of its own.
+    virtual void installOnClone(osg::Node& root) = 0;
+
+    /// The node that the database is attached to: the CoordinateSystemNode, or, without one, the root of the scene.
+    void setRoot(const osg::Node& node) { _root = &node; }
+    /// Whether the database is attached to this node and follows its Terrain. A cloned scene may refer to the database
+    /// of the original.
+    [[nodiscard]] bool isAttachedTo(const osg::Node& node) const;
+
+    /// Unique within the process, also over databases that are deleted.
+    [[nodiscard]] unsigned long number() const { return _number; }
+
+    [[nodiscard]] CullOptions options() const;
+
+    /// Replaces the options. Tiles that were installed with the old ones but are not merged into the scene yet are
+    /// fitted again in the first update traversal that finds them there. Requires: no cull traversal runs.
+    void setOptions(const CullOptions& options);
+
+    /// How often setOptions() was called or an index was adopted.
+    [[nodiscard]] unsigned int generation() const;
+
+    /// Call when bins are removed: files that are read from now on get none.
+    void setRemoved();
+
+    /// Records that a file was read, and its bins were installed with the options and the index of `generation`.
+    void noteRead(osg::Node& content, unsigned int generation);
+
+    /// Null: there is none, or none yet.
+    [[nodiscard]] osg::ref_ptr<const BinIndex> index() const;
+    /// Sets an index that is being made. When it is complete, an update adopts it: the tiles in the scene are fitted
+    /// again. Null: none is made.
+    void setMaking(AutoIndex* making);
+    [[nodiscard]] osg::ref_ptr<AutoIndex> making() const;
+
+    /// The present shape (vertical scale, skirts) from the Terrain, if any, and these options. Not for pager threads,
+    /// because the application may change the Terrain at the same time.
+    [[nodiscard]] TerrainShape shape(const CullOptions& options) const;
+
+    /// The shape at the last update traversal, which tiles are fitted to. For any thread.
+    [[nodiscard]] TerrainShape fittedShape() const;
+
+    /// Whether update() has something to do, or will have once what is on its way is merged. The database's update
+    /// callback is on its node only meanwhile: viewers that draw on demand draw frames as long as there is one.
+    [[nodiscard]] bool needsUpdate();
+
+    /// In the update traversal: whether all loaded tiles have to be fitted again. Resets the answer.
+    [[nodiscard]] bool takeShapeChange();
+
+    /// Remembers what was found in a file, and tells the user of it the first time.
+    void report(Finding finding, const std::string& file = {});
+    /// The same of a tile. If the bins of the tiles above it are concerned, these stay visible until the next update,
+    /// which expands their bins by what the tile draws, or, where that cannot be compared with them, takes these away.
+    static void report(const ParentTile& tile, Finding finding, const AnalyticBin& drawn = {});
+    [[nodiscard]] bool has(Finding finding) const {
+        return (_found.load(std::memory_order_relaxed) & bitOf(finding)) != 0;
+    }
+
+    /// Call when something below a tile may be drawn in front of what is nearer: neither the tile nor its ancestors are
+    /// hidden from then on.
+    static void ignoreDepth(const ParentTile& tile);
+
+    /// Says which region a regional database covers; empty: it covers the globe or has a gap.
+    void setRegion(const core::GeodeticBin& region);
+    /// Returns: nullopt if it covers the globe or has a gap.
+    [[nodiscard]] std::optional<core::CoveredRegion> region() const;
+
+    /// Call when a camera uses occlusion: the tile gets plates in one of the next updates, those that are read from now
+    /// on get them at once. `mesh`: the tile's own mesh.
+    void askForPlates(const AnalyticBinCullCallback& tile, osg::Node& mesh);
+
+    /// Records content below a tile that its bin does not contain. The tile stays visible until the next update expands
+    /// the bin.
+    void noteContent(const AnalyticBinCullCallback& tile, const Widening& by);
+
+    /// Call when a family was placed on a group or made anew: meshes of its tiles that have changed since bins were
+    /// installed are trusted again, by new evidence. osgUtil::Optimizer may have changed their form: the new form is as
+    /// good. Requires: no cull traversal runs.
+    static void trustMeshes(osg::Node& group);
+
+    /// What was reported for a tile or its descendants.
+    [[nodiscard]] Widening correction(const std::string& file, std::size_t ordinal) const;
+
+    /// In the update traversal, before takeShapeChange(): does what was asked for since the last one.
+    void update();
+
+    /// Call in cull traversals: they notice most of what there is to do.
+    void noteCull() { _wasCulled.store(true, std::memory_order_relaxed); }
+    /// Whether there was a cull traversal since this was last asked.
+    [[nodiscard]] bool takeCull() { return _wasCulled.exchange(false, std::memory_order_relaxed); }
+
+    /// Expands the bins of tiles by what was found below them. Call it after bins were installed on nodes of the scene.
+    /// Requires: no cull traversal runs.
+    void widenLoaded();
+
+protected:
+    ~Database() override = default;
+
+    /// Has the next update expand the bin of a tile, which stays visible until then. `isFitted`: the tile has been
+    /// fitted to that already.
+    void widen(const ParentTile& tile, const Widening& by, bool isFitted);
+
+private:
+    using TileKey = std::pair<std::string, std::size_t>;
+
+    [[nodiscard]] static constexpr unsigned int bitOf(Finding finding) { return 1u << static_cast<unsigned>(finding); }
+    void adoptIndex();
+    void renewOnTheirWay();
+    void findLateComers();
+    void makePlates();
+    void renewFamilies();
+
+    static inline std::atomic<unsigned long> _count{0};
+
+    const unsigned long _number = ++_count;
+    const osg::observer_ptr<osgTerrain::Terrain> _terrain;
+    const osg::Node* _root = nullptr;
+    std::atomic<bool> _wasCulled{false};
+    std::atomic<unsigned int> _found{0};  // a bit for each Finding
+    mutable std::mutex _mutex;            // guards the members below
+    CullOptions _options;
+    osg::ref_ptr<const BinIndex> _index;
+    osg::ref_ptr<AutoIndex> _making;
+    std::optional<core::CoveredRegion> _region;
+    TerrainShape _fittedShape;
+    unsigned int _generation = 0;
+    std::vector<osg::observer_ptr<osg::Node>> _onTheirWay;  // not merged yet, of this generation
+    std::vector<osg::observer_ptr<osg::Node>> _lateComers;  // the same, of earlier ones
+    std::map<TileKey, Widening> _corrections;
+    std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, Widening>> _toWiden;
+    std::vector<std::pair<osg::observer_ptr<const AnalyticBinCullCallback>, osg::observer_ptr<osg::Node>>> _awaitPlates;
+};
+
+/// Where a tile lies, for the tiles below it.
+struct TileExtents {
+    core::GeodeticBin bin;
+    bool isMeasured = false;  ///< they are those of its mesh, and finer tiles may leave them
+    core::TileEdges edges;
+};
+
+/// A tile, as its paged descendants refer to it.
+struct ParentTile : public osg::Referenced {
+    osg::ref_ptr<const ParentTile> parent;  // null: a tile of the root file
+    osg::observer_ptr<AnalyticBinCullCallback> callback;
+    bool isTile = true;  // false: a node without a bin, between tiles; it has neither number nor extents
+    std::string file;
+    std::size_t ordinal = 0;
+    TileExtents extents;
+    core::GeodeticBin place;  // that its own mesh has; empty: not known
+    // The tile's stored bin, or that of the nearest ancestor with one. Invalid: there is none.
+    AnalyticBin stored;
+    // The database of the tile: a globe inside another globe has its own.
+    osg::ref_ptr<Database> database;
+    // What the callback's bin has to be expanded by; null: nothing. Guarded by the database.
+    mutable std::unique_ptr<Widening> widening;
+
+protected:
+    ~ParentTile() override = default;
+};
+
+}  // namespace osgAnalyticBin

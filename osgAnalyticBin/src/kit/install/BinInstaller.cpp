@@ -1,0 +1,426 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "BinInstaller.h"
+
+#include "../CallbackChain.h"
+#include "../PagedChildren.h"
+#include "../Scoped.h"
+#include "../cull/CullCallbacks.h"
+#include "../cull/InstalledBin.h"
+#include "../cull/TileFamily.h"
+#include "../database/Database.h"
+#include "../database/DatabaseCallbacks.h"
+#include "../database/PagingExpiry.h"
+#include "../surface/TilePlates.h"
+#include "../tile/Carrier.h"
+#include "../tile/InstalledTile.h"
+#include "../tile/MeshCulling.h"
+#include "BoxInstaller.h"
+#include "ContentWatch.h"
+#include "Coverage.h"
+#include "NoCulling.h"
+#include "TileCallback.h"
+#include "TileFit.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/InstallRequest.h>
+#include <osgAnalyticBin/PhotogrammetrySet.h>
+
+#include <osg/Notify>
+#include <osg/PagedLOD>
+#include <osgDB/Registry>
+#include <osgTerrain/Terrain>
+#include <osgTerrain/TerrainTile>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// Marks a database's own request to install bins as done; the horizon that it declares is used where the installer's
+// options give none. Returns: the options for the node and what is below it.
+CullOptions settled(osg::Node& node, const CullOptions& options) {
+    CullOptions effective = options;
+    for (osg::Callback* const first : {node.getUpdateCallback(), node.getEventCallback()}) {
+        const osg::ref_ptr<InstallRequest> request = findCallback<InstallRequest>(first);
+        if (!request) continue;
+        const CullOptions declared = request->getCullOptions();
+        if (effective.horizonUse == HorizonUse::Declared && declared.horizonUse == HorizonUse::Given) {
+            effective.horizonUse = HorizonUse::Given;
+            effective.horizon = declared.horizon;
+        }
+        request->setDone();
+    }
+    return effective;
+}
+
+// OSG draws a drawable regardless of what its callbacks decide.
+void warnOfDrawable(const osg::Node& node) {
+    OSG_WARN << "osgAnalyticBin: the drawable \"" << node.getName()
+             << "\" has a stored bin; drawables are not culled by bins. Store it with the group above." << std::endl;
+}
+
+bool isGlobeBroken(const osg::CoordinateSystemNode& node) {
+    return node.getEllipsoidModel() && !hasValidRadii(*node.getEllipsoidModel());
+}
+
+// Whether a globe is the same as that of the nodes above it.
+bool isSameGlobe(const TileFrame& above, const TileFrame& inside) {
+    if (!above.ellipsoid || !inside.ellipsoid || above.isProjected || inside.isProjected) return false;
+    return above.localToEcef.isIdentity() &&
+           above.ellipsoid->getRadiusEquator() == inside.ellipsoid->getRadiusEquator() &&
+           above.ellipsoid->getRadiusPolar() == inside.ellipsoid->getRadiusPolar();
+}
+
+// Whether a subgraph that the installer does not search has nodes that look like tiles.
+bool hasTileBelow(osg::Node& subgraph) {
+    bool has = false;
+    forEachNode(subgraph, [&has](osg::Node& node) {
+        has = has || hasStoredBin(node) || dynamic_cast<osg::PagedLOD*>(&node) ||
+              dynamic_cast<osgTerrain::TerrainTile*>(&node);
+    });
+    return has;
+}
+
+}  // namespace
+
+BinInstaller::BinInstaller(const CullOptions& options) : _options(options), _coverage(std::make_shared<Coverages>()) {}
+
+BinInstaller::~BinInstaller() {
+    takeOff(_nested);
+}
+
+void BinInstaller::continueBelow(Database* database, const TileFrame& frame, const ParentTile* parent) {
+    setFrame(frame);
+    _isReading = true;
+    _database = database;
+    _index = database->index();
+    _parent = parent;
+    if (!parent || !parent->isTile) return;
+    Coverage& coverage = (*_coverage)[{parent, frame.file}];
+    coverage.expect(*parent);
+    coverage.setVisited();
+}
+
+void BinInstaller::refit(osg::Node& node, Database& database) {
+    _index = database.index();
+    // globes keep their databases
+    keepDatabases();
+    if (dynamic_cast<osg::CoordinateSystemNode*>(&node)) {
+        _refitted = &database;
+    } else {
+        _database = &database;
+    }
+    node.accept(*this);
+    placeFamilies();
+    database.widenLoaded();
+    _refitted = nullptr;
+}
+
+void BinInstaller::finish() {
+    for (const auto& [file, coverage] : *_coverage) {
+        if (installsBins()) coverage.report(file.second, database());
+    }
+    _coverage->clear();
+    placeFamilies();
+    if (!_isReading && _database) _database->widenLoaded();
+}
+
+// Called after the walk: families that are placed during it would need more stack in deep scenes. From below upwards.
+void BinInstaller::placeFamilies() {
+    for (auto at = _groups.rbegin(); at != _groups.rend(); ++at) {
+        osg::Node& group = **at;
+        if (!TileFamily::place(group)) continue;
+        Database::trustMeshes(group);
+        // it notices where the application takes the watch of a tile away
+        if (!ContentWatch::isOn(group)) ContentWatch::place(group, {});
+    }
+    _groups.clear();
+}
+
+bool BinInstaller::installsBins() const {
+    return _options.method != Method::Sphere && _options.method != Method::None;
+}
+
+Database& BinInstaller::database() {
+    if (!_database) _database = newDatabase(new osg::EllipsoidModel, nullptr);
+    return *_database;
+}
+
+// Tiles that no CoordinateSystemNode stands above, and those that are paged in later, are brought up to date from the
+// root.
+void BinInstaller::installAt(osg::Node& root) {
+    // these have databases of their own
+    const bool isGlobe = dynamic_cast<osg::CoordinateSystemNode*>(&root) || isPhotogrammetrySet(root);
+    if (!isGlobe && _keepsDatabases) _database = attachedDatabase(root);
+    if (!isGlobe && !_keepsDatabases) detachDatabase(root);
+    if (_database) _database->setOptions(_options);
+    root.accept(*this);
+    if (_options.method == Method::None) NoCulling::place(root);
+    placeFamilies();
+    if (_database) _database->widenLoaded();
+    if (!isGlobe && _database && installsBins()) attachDatabase(root, *_database, false);
+}
+
+void BinInstaller::apply(osg::Node& node) {
+    const Scoped options(_options, settled(node, _options));
+    TileFinder::apply(node);
+}
+
+void BinInstaller::apply(osg::Transform& node) {
+    const Scoped options(_options, settled(node, _options));
+    TileFinder::apply(node);
+}
+
+void BinInstaller::apply(osg::PagedLOD& node) {
+    const Scoped options(_options, settled(node, _options));
+    const Scoped inMesh(_isInMesh, false);
+    TileFinder::apply(node);
+}
+
+void BinInstaller::apply(osg::CoordinateSystemNode& node) {
+    const Scoped options(_options, settled(node, _options));
+    const bool isForeign = _parent && !isSameGlobe(frame(), frameInside(node));
+    if (isForeign && installsBins()) Database::report(*linkBetween(), Finding::Unverifiable);
+    if (installsBins() && isGlobeBroken(node)) {
+        OSG_WARN << "osgAnalyticBin: the radii of the globe \"" << node.getName() << "\" in \"" << frame().file
+                 << "\" are not two positive numbers; nodes below it get no bins." << std::endl;
+        _options.method = Method::Sphere;
+    }
+    const Scoped parent(_parent, isForeign ? nullptr : _parent);
+    const bool isRefit = _refitted.valid();
+    osg::ref_ptr<Database> own = isRefit || !_keepsDatabases ? _refitted : databaseOf(node);
+    if (own && !own->isAttachedTo(node)) own = nullptr;
+    const bool isKept = !isRefit && own;
+    _refitted = nullptr;
+    if (isKept) own->setOptions(_options);
+    const osg::ref_ptr<const Database> replaced = databaseOf(node);
+    const bool hasMovedTile = replaced && replaced->has(Finding::MovedTile);
+    if (!isRefit) detachDatabase(node);
+    if (!own) {
+        const osg::ref_ptr<osg::EllipsoidModel> ellipsoid =
+            node.getEllipsoidModel() && !isGlobeBroken(node) ? node.getEllipsoidModel() : new osg::EllipsoidModel;
+        own = newDatabase(ellipsoid.get(), dynamic_cast<osgTerrain::Terrain*>(&node));
+        own->setRoot(node);
+        // new bins do not tell where a tile stood before
+        if (hasMovedTile) own->report(Finding::MovedTile, frame().file);
+    }
+    const Scoped index(_index, isKept ? own->index() : _index);
+    const Scoped database(_database, own);
+    const Scoped paging(_paging, PagedReads());
+    const Scoped coverage(_coverage, std::make_shared<Coverages>());
+    (*_coverage)[{nullptr, frame().file}].expectGlobe();
+    const std::size_t before = _installed;
+    TileFinder::apply(node);
+    // photogrammetry alone is no globe with gaps, and neither is one whose tiles are still to come
+    if (!isKept && _installed == before && _paging.empty()) _coverage->clear();
+    finish();
+    if (isRefit) return;
+    if (installsBins() && (_installed > before || !_paging.empty())) return attachDatabase(node, *own, true);
+    // tiles that are on their way may have bins
+    if (isKept) attachDatabase(node, *own, false);
+}
+
+void BinInstaller::visitTile(FoundTile& tile) {
+    const bool hasNewContent = ContentWatch::hasNewContent(*tile.node);
+    // the new bin is where the tile stands now; there is a gap where it stood
+    if (hasMoved(*tile.node)) database().report(Finding::MovedTile, tile.frame.file);
+    uninstall(tile);
+    if (isInstanced(*tile.node, tile.frame)) {
+        if (installsBins()) database().report(Finding::StrayTile, tile.frame.file);
+        return visitWithoutBin(*tile.node, true);
+    }
+    if (installsBins() && !hasStoredBin(*tile.node)) {
+        const bool isOnGlobe = tile.frame.ellipsoid && !isMapPlane(*tile.frame.ellipsoid);
+        if (!isOnGlobe && isBelowStored()) Database::report(*linkBetween(), Finding::Unverifiable);
+        if (!tile.frame.ellipsoid) return visitWithoutBin(*tile.node, true);
+    }
+    const bool hasGround = !tile.frame.ellipsoid || !installsBins() || database().takes(*tile.frame.ellipsoid);
+    if (installsBins() && hasGround) return install(tile, hasNewContent);
+    if (_options.method == Method::None) {
+        for (const auto& mesh : tile.meshes) suspendClusterCulling(*mesh);
+    }
+    visitWithoutBin(*tile.node, true);
+}
+
+void BinInstaller::visitOther(osg::Node& node) {
+    if (isPhotogrammetrySet(node)) return visitSet(*node.asGroup());
+    if (node.asDrawable() && hasStoredBin(node)) warnOfDrawable(node);
+    // it may have been a tile when bins were last installed
+    if (installedTileOf(node) && !dynamic_cast<Carrier*>(&node)) removeCallbacks({&node, {}, frame(), 0, {}}, _nested);
+    // some groups compute their bounds without their children
+    const bool mayKeepSilent = !drawsAllChildren(node) || node.getComputeBoundingSphereCallback();
+    if (installsBins() && node.asGroup() && !_isInMesh && (_parent || mayKeepSilent)) {
+        ContentWatch::place(node, {});
+    } else {
+        ContentWatch::remove(node);
+    }
+    TileFamily::remove(node);
+    if (installsBins() && TileFamily::isPossibleOn(node)) _groups.emplace_back(&node);
+    if (isUnruly(node)) ignoreDepth();
+    visitWithoutBin(node, false);
+}
+
+// The root of the database is asked in every cull traversal.
+bool BinInstaller::isUnruly(const osg::Node& node) const {
+    const bool isRoot = !_parent && dynamic_cast<const osg::CoordinateSystemNode*>(&node);
+    return installsBins() && !isRoot && !_isInMesh && !drawnStateAt(node, stateRules()).obeysDepth;
+}
+
+void BinInstaller::visitWithoutBin(osg::Node& node, bool isTile) {
+    if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node))
+        _paging.follow(*paged, frame(), database(), isBelowStored() ? linkBetween().get() : nullptr, isTile);
+    NoCulling::remove(node);
+    if (_options.method == Method::None) {
+        suspendClusterCullingOf(node);
+    } else if (!_isInMesh) {
+        resumeClusterCullingOf(node);
+    }
+    // a tile's own meshes are not visited
+    if (isTile && installsBins() && !drawnStateOfTile(node).obeysDepth) ignoreDepth();
+    const Scoped selective(_isBelowSelection, _isBelowSelection || (!isTile && !drawsAllChildren(node)));
+    traverseBelow(node);
+}
+
+DrawnState BinInstaller::drawnStateOfTile(osg::Node& node) const {
+    DrawnState drawn = drawnStateAt(node, stateRules());
+    const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&node);
+    for (unsigned int i = 0; paged && i < paged->getNumChildren(); ++i) {
+        if (!isPaged(*paged, i)) drawn &= drawnStateBelow(*node.asGroup()->getChild(i), stateRules());
+    }
+    return drawn;
+}
+
+// A set is culled by boxes of its vertices, also below other nodes.
+void BinInstaller::visitSet(osg::Group& set) {
+    if (!installsBins()) return removeBoxes(set);
+    _boxes += installBoxes(set, _options);
+}
+
+void BinInstaller::visitMoving(osg::Transform& node) {
+    if (isPhotogrammetrySet(node)) return visitSet(node);
+    removeCallbacksBelow(node, _nested);
+    if (installsBins() && !drawnStateBelow(node, stateRules()).obeysDepth) ignoreDepth();
+    if (installsBins() && hasTileBelow(node)) database().report(Finding::StrayTile, frame().file);
+}
+
+// It keeps OSG's own culling; how deep it lies is not known.
+void BinInstaller::visitTooDeep(osg::Node&) {
+    if (!installsBins()) return;
+    if (!database().has(Finding::Gap)) {
+        OSG_WARN << "osgAnalyticBin: \"" << frame().file
+                 << "\" has tiles nested hundreds deep; the innermost get no bins, and the horizon is not used."
+                 << std::endl;
+    }
+    database().report(Finding::Gap, frame().file);
+}
+
+void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
+    const osg::EllipsoidModel& ellipsoid = tile.frame.ellipsoid ? *tile.frame.ellipsoid : *database().ellipsoid();
+    const TerrainShape shape = database().fittedShape();
+    const FitSources sources{database().options(),
+                             ellipsoid,
+                             database().index(),
+                             _parent.get(),
+                             database().correction(tile.frame.file, tile.ordinal),
+                             hasNewContent};
+    const TileFit fit = fitTile(tile, sources, shape);
+    const osg::ref_ptr<ParentTile> link = linkTo(tile, fit);
+    for (const auto& [finding, drawn] : fit.findings) Database::report(*link, finding, drawn);
+    if (!fit.isTerrain || !isGround(tile, _parent.get(), fit)) return visitWithoutBin(*tile.node, true);
+
+    const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);
+    osg::Node& culled = culledNode(tile, _isReading);
+    if (const osg::Matrixd frame = culledFrame(tile, culled); !frame.isIdentity()) callback->setLocalToEcef(frame);
+    if (fit.isScalable) callback->setTerrainShape(shape);
+    if (fit.skirt > 0.0) callback->setSkirt(fit.skirt);
+    callback->setSurface(fit.surface);
+    placeCallback(tile, culled, *callback, database());
+    callback->getInstalledTile()->setTestsSphere(fit.isDeclared);
+    const bool canWait = tile.meshes.size() == 1 && !culled.asTransform();
+    if (!canWait || _options.occlusion == OcclusionUse::On || database().has(Finding::PlatesWanted))
+        callback->getInstalledTile()->setPlates(tilePlates({tile.meshes, ellipsoid, tile.frame.localToEcef, shape}));
+    ++_installed;
+    // a map has no horizon in its place
+    if (_options.cluster == ClusterUse::Replace && !isMapPlane(ellipsoid)) {
+        suspendClusterCullingOf(*tile.node);
+        for (const auto& mesh : tile.meshes) suspendClusterCulling(*mesh);
+    }
+    link->callback = callback.get();
+    noteDrawn(tile, *callback->getInstalledTile());
+    const core::MeshCover cover = coverBy(tile, sources, shape, fit);
+    link->place = cover.place;
+    callback->getInstalledTile()->setCover(cover);
+    if (!cover.isFilled) database().report(Finding::Hole, tile.frame.file);
+    noteCovered(tile, fit, *link);
+    visitChildren(tile, *link);
+}
+
+osg::ref_ptr<ParentTile> BinInstaller::linkTo(const FoundTile& tile, const TileFit& fit) {
+    osg::ref_ptr<ParentTile> link = new ParentTile;
+    link->database = &database();
+    link->parent = _parent;
+    link->file = tile.frame.file;
+    link->ordinal = tile.ordinal;
+    link->extents = fit.extents;
+    link->stored = fit.stored;
+    return link;
+}
+
+bool BinInstaller::isBelowStored() const {
+    return _parent && _parent->stored.valid();
+}
+
+osg::ref_ptr<const ParentTile> BinInstaller::linkBetween() const {
+    const osg::ref_ptr<ParentTile> link = new ParentTile;
+    link->isTile = false;
+    link->parent = _parent;
+    link->file = frame().file;
+    link->stored = _parent->stored;
+    return link;
+}
+
+// Tiles within the mesh of another cover nothing beside it.
+void BinInstaller::noteCovered(const FoundTile& tile, const TileFit& fit, const ParentTile& link) {
+    Coverage& coverage = (*_coverage)[{_parent.get(), tile.frame.file}];
+    coverage.setVisited();
+    if (!_isBelowSelection && !_isInMesh) coverage.add(link.place, fit.isInPlace);
+    for (const std::string& file : tile.pagedFiles) (*_coverage)[{&link, file}].expect(link);
+}
+
+void BinInstaller::noteDrawn(const FoundTile& tile, InstalledTile& installed) {
+    DrawnState drawn = drawnStateOf(*tile.node, stateRules());
+    for (const auto& mesh : tile.meshes) drawn &= drawnStateBelow(*mesh, stateRules());
+    if (!drawn.hides) installed.setSeeThrough();
+    if (drawn.obeysDepth) return;
+    installed.ignoreDepth();
+    ignoreDepth();
+}
+
+void BinInstaller::ignoreDepth() {
+    if (_parent) Database::ignoreDepth(*_parent);
+}
+
+void BinInstaller::visitChildren(const FoundTile& tile, const ParentTile& link) {
+    if (auto* paged = dynamic_cast<osg::PagedLOD*>(tile.node.get())) {
+        raiseExpiry(*paged, _options.expiry);
+        _paging.follow(*paged, frame(), database(), &link, true);
+    }
+    const Scoped inMesh(_isInMesh, !dynamic_cast<osg::PagedLOD*>(tile.node.get()));
+    const Scoped below(_parent, osg::ref_ptr<const ParentTile>(&link));
+    traverseBelow(*tile.node);
+}
+
+void BinInstaller::uninstall(FoundTile& tile) {
+    removeCallbacks(tile, _nested);
+    NoCulling::remove(*tile.node);
+    resumeClusterCullingOf(*tile.node);
+    for (const auto& mesh : tile.meshes) resumeClusterCulling(*mesh);
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,342 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "BoxInstaller.h"
+
+#include "../../index/AutoIndex.h"
+#include "../CallbackChain.h"
+#include "../cull/BinCulling.h"
+#include "../cull/InstalledBin.h"
+#include "../cull/TileFamily.h"
+#include "../database/BinReadFileCallback.h"
+#include "../database/Database.h"
+#include "../database/DatabaseCallbacks.h"
+#include "../database/PagingExpiry.h"
+#include "../surface/LodContent.h"
+#include "TileCallback.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/PhotogrammetrySet.h>
+
+#include <osg/NodeCallback>
+#include <osg/NodeVisitor>
+#include <osg/PagedLOD>
+#include <osg/observer_ptr>
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// Whether a sphere holds a box. Makers of files round spheres to float.
+bool holdsBox(const osg::BoundingSphere& sphere, const MeshBox& box) {
+    constexpr double kRounding = 1e-6;
+    if (box.isEmpty()) return true;
+    if (box.isBoundless()) return false;
+    const osg::Vec3d center(sphere.center());
+    double farthest = 0.0;
+    for (unsigned int i = 0; i < 8; ++i) farthest = std::max(farthest, (box.box().corner(i) - center).length());
+    const double radius = sphere.radius();
+    return farthest <= radius + kRounding * (center.length() + radius);
+}
+
+// A LOD of a set.
+struct BoxTile final : public ParentTile {
+    // What culls the node, guarded by the set: a bin of all that the index knows below it; or else OSG's sphere of the
+    // node, as long as that holds what is loaded; or that sphere and a bin of what is loaded.
+    enum class Kind { Whole, Sphere, Both };
+    Kind kind = Kind::Whole;
+    MeshBox box;  // of the bin; with a sphere alone, of what is loaded
+    osg::BoundingSphere sphere;
+    osg::observer_ptr<osg::LOD> node;
+
+    [[nodiscard]] BoxTile* above() const { return const_cast<BoxTile*>(static_cast<const BoxTile*>(parent.get())); }
+
+protected:
+    ~BoxTile() override = default;
+};
+
+// The content of a file, and of those below it.
+struct FileContent {
+    MeshBox box;            // all vertices that are loaded
+    bool isMisfit = false;  // whether the index does not know it as it is
+};
+
+// Has neither a horizon nor terrain that hides.
+CullOptions withoutHiding(CullOptions options) {
+    options.horizonUse = HorizonUse::Off;
+    options.occlusion = OcclusionUse::Off;
+    return options;
+}
+
+// On the root of a set.
+class WithoutOccluders final : public osg::NodeCallback {
+public:
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override {
+        std::optional<CullingMaskScope> mask;
+        if (osg::CullStack* const cullStack = nv->asCullStack())
+            mask.emplace(*cullStack, ~osg::CullingSet::Mask{osg::CullingSet::SHADOW_OCCLUSION_CULLING});
+        traverse(node, nv);
+    }
+
+protected:
+    ~WithoutOccluders() override = default;
+};
+
+class BoxSet final : public Database {
+public:
+    BoxSet(const CullOptions& options, const ChosenIndex& index)
+        : Database(withoutHiding(options), mapPlane(), nullptr, index.index.get()) {
+        (void)takes(*mapPlane());
+        setMaking(index.making.get());
+    }
+
+    void install(osg::Node& content, const TileFrame& frame, const ParentTile* parent) override;
+    void refit(osg::Node& root) override;
+    void installOnClone(osg::Node& root) override { (void)installBoxes(*root.asGroup(), options()); }
+
+    // Installs bins on all that is loaded. Returns: the number of LODs.
+    std::size_t installBelow(osg::Group& root);
+    void cullByBin(osg::LOD& node, BoxTile& tile);
+    // Has cull traversals prepare what families need. OSG's tests of occluders need the spheres that are switched off.
+    void prepareCulling(osg::Node& root);
+
+protected:
+    ~BoxSet() override = default;
+
+private:
+    void grow(BoxTile& tile, const FileContent& content);
+
+    std::mutex _boxes;
+    std::vector<osg::ref_ptr<BoxTile>> _outgrown;  // content has left their spheres; guarded
+    osg::ref_ptr<const BinIndex> _fittedTo;
+};
+
+// Installs bins on the LODs of files, and on what is loaded below.
+class BoxInstaller {
+public:
+    explicit BoxInstaller(BoxSet& set) : _set(set), _index(set.index()), _options(set.options()) {}
+
+    // `parent`: the LOD that pages the file; null: none.
+    FileContent install(osg::Node& node, const std::string& file, const BoxTile* parent) {
+        const LodContent content = findLods(node);
+        std::vector<osg::ref_ptr<BoxTile>> tiles;
+        std::vector<FileContent> below;
+        PagedReads reads;
+        for (const FoundLod& lod : content.lods) {
+            const osg::ref_ptr<BoxTile> tile = new BoxTile;
+            tile->parent = lod.parent ? tiles[*lod.parent].get() : parent;
+            tile->database = &_set;
+            tile->file = file;
+            tile->ordinal = tiles.size();
+            tiles.push_back(tile);
+            below.push_back(installBelow(*lod.node, *tile));
+            if (auto* const paged = dynamic_cast<osg::PagedLOD*>(lod.node)) {
+                raiseExpiry(*paged, _options.expiry);
+                reads.follow(*paged, frameOf(file), _set, tile.get(), true);
+            }
+        }
+        const FileContent all = place(content, below, tiles, file);
+        if (all.isMisfit && !tiles.empty()) Database::report(*tiles.front(), Finding::OtherThanIndexed);
+        return all;
+    }
+
+    [[nodiscard]] std::size_t installed() const { return _installed; }
+
+private:
+    static TileFrame frameOf(const std::string& file) {
+        TileFrame frame;
+        frame.ellipsoid = mapPlane();
+        frame.file = file;
+        return frame;
+    }
+
+    FileContent installBelow(osg::LOD& node, const BoxTile& tile) {
+        FileContent below;
+        for (unsigned int i = 0; i < node.getNumChildren(); ++i) {
+            if (!isPagedChildOf(node, i)) continue;
+            const std::string& name = static_cast<osg::PagedLOD&>(node).getFileName(i);
+            const FileContent content = install(*node.getChild(i), pagedFilePath(tile.file, name), &tile);
+            below.box.expandBy(content.box);
+            below.isMisfit = below.isMisfit || content.isMisfit;
+        }
+        return below;
+    }
+
+    // Gives the tiles of a file their bins.
+    FileContent place(const LodContent& content, const std::vector<FileContent>& below,
+                      const std::vector<osg::ref_ptr<BoxTile>>& tiles, const std::string& file) {
+        std::vector<MeshBox> loaded;
+        for (const FileContent& files : below) loaded.push_back(files.box);
+        const std::vector<MeshBox> boxes = content.boxes(loaded);
+        const std::vector<BinIndex::Entry>* const known = _index ? _index->tilesOf(file) : nullptr;
+        const bool isKnown = known && known->size() == tiles.size();
+        FileContent all{content.all(boxes), _index && !isKnown};
+        std::vector<bool> fits(tiles.size(), isKnown);
+        for (std::size_t i = tiles.size(); i-- > 0;) {
+            const MeshBox whole = isKnown ? MeshBox((*known)[i].bin) : MeshBox();
+            fits[i] = fits[i] && !below[i].isMisfit && whole.contains(boxes[i]);
+            if (!fits[i] && content.lods[i].parent) fits[*content.lods[i].parent] = false;
+            all.isMisfit = all.isMisfit || (_index && !fits[i]);
+            fit(*content.lods[i].node, *tiles[i], fits[i] ? whole : boxes[i], fits[i]);
+        }
+        // without an index all tiles are tested by their own callbacks, or by OSG
+        for (osg::Group* const group : content.groups) {
+            if (_index) (void)TileFamily::place(*group);
+        }
+        return all;
+    }
+
+    void fit(osg::LOD& node, BoxTile& tile, const MeshBox& box, bool isWhole) {
+        tile.node = &node;
+        tile.sphere = node.getBound();
+        tile.box = box;
+        if (!isWhole) tile.kind = holdsBox(tile.sphere, box) ? BoxTile::Kind::Sphere : BoxTile::Kind::Both;
+        if (tile.kind != BoxTile::Kind::Sphere) _set.cullByBin(node, tile);
+        ++_installed;
+    }
+
+    BoxSet& _set;
+    const osg::ref_ptr<const BinIndex> _index;
+    const CullOptions _options;
+    std::size_t _installed = 0;
+};
+
+// Takes off what was installed on the tiles of a set.
+class BoxRemover : public osg::NodeVisitor {
+public:
+    BoxRemover() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+
+    void apply(osg::PagedLOD& node) override {
+        if (BinReadFileCallback* const callback = readCallbackOf(node)) {
+            restoreExpiry(node, callback->database()->options().expiry);
+            node.setDatabaseOptions(osg::ref_ptr(callback->replaced()).get());
+        }
+        traverse(node);
+    }
+};
+
+void removeBelow(osg::Group& root) {
+    NestedCallbacks nested;
+    removeCallbacksBelow(root, nested);
+    takeOff(nested);
+    BoxRemover remover;
+    root.accept(remover);
+}
+
+void BoxSet::install(osg::Node& content, const TileFrame& frame, const ParentTile* parent) {
+    auto* const tile = const_cast<BoxTile*>(static_cast<const BoxTile*>(parent));
+    const FileContent found = BoxInstaller(*this).install(content, frame.file, tile);
+    if (tile) grow(*tile, found);
+}
+
+void BoxSet::cullByBin(osg::LOD& node, BoxTile& tile) {
+    const osg::ref_ptr<AnalyticBinCullCallback> callback =
+        new AnalyticBinCullCallback(tile.box.bin(), *mapPlane(), options());
+    const osg::ref_ptr<InstalledTile> installed = new InstalledTile(node, *this);
+    if (tile.kind == BoxTile::Kind::Both) installed->needSphere();
+    installed->switchOffSphere(node);
+    callback->setInstalledTile(installed);
+    putInFront(node, *callback);
+    tile.callback = callback.get();
+}
+
+// What was read does not fit into what the tile and those above it hold.
+void BoxSet::grow(BoxTile& tile, const FileContent& content) {
+    const AnalyticBin bin = content.box.bin();
+    const Widening by{bin, !bin.valid() && !content.box.isEmpty()};
+    const std::lock_guard<std::mutex> lock(_boxes);
+    for (BoxTile* at = &tile; at; at = at->above()) {
+        const bool isSphere = at->kind == BoxTile::Kind::Sphere;
+        const bool isHeld = isSphere ? holdsBox(at->sphere, content.box) : at->box.contains(content.box);
+        at->box.expandBy(content.box);
+        if (isHeld && !(content.isMisfit && at->kind == BoxTile::Kind::Whole)) continue;
+        at->kind = BoxTile::Kind::Both;
+        if (isSphere) {
+            _outgrown.emplace_back(at);
+            requestRefit();
+            continue;
+        }
+        osg::ref_ptr<AnalyticBinCullCallback> callback;
+        if (at->callback.lock(callback)) callback->getInstalledTile()->needSphere();
+        widen(*at, by, false);
+    }
+}
+
+std::size_t BoxSet::installBelow(osg::Group& root) {
+    BoxInstaller installer(*this);
+    _fittedTo = index();
+    for (unsigned int i = 0; i < root.getNumChildren(); ++i) {
+        osg::Node& tile = *root.getChild(i);
+        (void)installer.install(tile, photogrammetryFileOf(tile), nullptr);
+    }
+    if (_fittedTo) (void)TileFamily::place(root);
+    return installer.installed();
+}
+
+void BoxSet::prepareCulling(osg::Node& root) {
+    takeOffFirst<WithoutOccluders>(root);
+    takeOffFirst<DatabaseCullCallback>(root);
+    const osg::ref_ptr<osg::Callback> cull = new DatabaseCullCallback(this, &root, _fittedTo.valid());
+    putInFront(root, *cull);
+    const osg::ref_ptr<osg::Callback> withoutOccluders = new WithoutOccluders;
+    putInFront(root, *withoutOccluders);
+}
+
+void BoxSet::refit(osg::Node& root) {
+    std::vector<osg::ref_ptr<BoxTile>> outgrown;
+    {
+        const std::lock_guard<std::mutex> lock(_boxes);
+        outgrown.swap(_outgrown);
+    }
+    // a file that was on its way may refer to tiles of an earlier fit
+    const auto hasBin = [](const osg::ref_ptr<BoxTile>& tile) {
+        osg::ref_ptr<osg::LOD> node;
+        return tile->node.lock(node) && installedTileOf(*node);
+    };
+    if (outgrown.empty() || _fittedTo != index() || std::any_of(outgrown.begin(), outgrown.end(), hasBin)) {
+        removeBelow(*root.asGroup());
+        (void)installBelow(*root.asGroup());
+        return prepareCulling(root);
+    }
+    for (const osg::ref_ptr<BoxTile>& tile : outgrown) {
+        osg::ref_ptr<osg::LOD> node;
+        if (!tile->node.lock(node)) continue;
+        const std::lock_guard<std::mutex> lock(_boxes);
+        cullByBin(*node, *tile);
+    }
+}
+
+// `before`: the bins that the set has; null: none. An index that is being made for them goes on.
+ChosenIndex indexFor(const osg::Node& set, const CullOptions& options, const Database* before) {
+    const osg::ref_ptr<AutoIndex> making = before ? before->making() : nullptr;
+    if (making && options.index == IndexUse::Auto) return {making->whole(), making};
+    ChosenIndex chosen = chooseIndex(metadataFileOf(set), nullptr, options.index);
+    if (chosen.making) chosen.making->start();
+    return chosen;
+}
+
+}  // namespace
+
+std::size_t installBoxes(osg::Group& root, const CullOptions& options) {
+    const osg::ref_ptr<BoxSet> set = new BoxSet(options, indexFor(root, options, attachedDatabase(root)));
+    removeBoxes(root);
+    const std::size_t installed = set->installBelow(root);
+    attachDatabase(root, *set, false);
+    set->prepareCulling(root);
+    return installed;
+}
+
+void removeBoxes(osg::Group& root) {
+    if (Database* const before = attachedDatabase(root)) before->setRemoved();
+    takeOffFirst<WithoutOccluders>(root);
+    detachDatabase(root);
+    removeBelow(root);
+}
+
+}  // namespace osgAnalyticBin

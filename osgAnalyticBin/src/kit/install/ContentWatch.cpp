@@ -1,0 +1,385 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "ContentWatch.h"
+
+#include "../../core/EarthScale.h"
+#include "../GlmBridge.h"
+#include "../Spheres.h"
+#include "../cull/CullCallbacks.h"
+#include "../cull/InstalledBin.h"
+#include "../cull/TileFamily.h"
+#include "../database/Database.h"
+#include "../database/DatabaseCallbacks.h"
+#include "../surface/TerrainTileSurface.h"
+#include "../tile/Carrier.h"
+#include "../tile/InstalledTile.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/TileSurface.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Geometry>
+#include <osg/Transform>
+#include <osgTerrain/TerrainTile>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+const ContentWatch* watchOf(const osg::Node& node) {
+    return dynamic_cast<const ContentWatch*>(node.getComputeBoundingSphereCallback());
+}
+
+const osgTerrain::TerrainTile* asTerrain(const osg::Node& node) {
+    return dynamic_cast<const osgTerrain::TerrainTile*>(&node);
+}
+
+void mix(std::uint64_t& hash, std::uint64_t value) {
+    hash = (hash ^ value) * 0x9E3779B97F4A7C15u;
+    hash ^= hash >> 29;
+}
+
+void mixFloat(std::uint64_t& hash, float value) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    mix(hash, std::uint64_t{bits});
+}
+
+void mixBound(std::uint64_t& hash, const osg::BoundingSphere& bound) {
+    for (const float value : {bound.center().x(), bound.center().y(), bound.center().z(), bound.radius()}) {
+        mixFloat(hash, value);
+    }
+}
+
+void mixFrame(std::uint64_t& hash, const osg::Transform& transform) {
+    osg::Matrixd matrix;
+    transform.computeLocalToWorldMatrix(matrix, nullptr);
+    for (int i = 0; i < 16; ++i) {
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, matrix.ptr() + i, sizeof bits);
+        mix(hash, bits);
+    }
+}
+
+// Visits a mesh. Tiles inside look after themselves; a terrain tile draws nothing of what is below it.
+template <class Visit>
+void forEachPart(const osg::Node& node, const Visit& visit) {
+    visit(node);
+    if (watchOf(node) || asTerrain(node)) return;
+    const osg::Group* const group = node.asGroup();
+    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) forEachPart(*group->getChild(i), visit);
+}
+
+// A number that changes when a transform is moved; 0 for other nodes.
+std::uint64_t frameOf(const osg::Node& node) {
+    std::uint64_t hash = 0;
+    if (const osg::Transform* const transform = node.asTransform()) mixFrame(hash, *transform);
+    return hash;
+}
+
+// What changes when vertices or triangles are said to have changed, and with heights.
+std::uint64_t revisionOf(const osg::Node& mesh) {
+    std::uint64_t hash = 1;
+    forEachPart(mesh, [&hash](const osg::Node& part) {
+        if (const auto* const terrain = asTerrain(part)) {
+            mix(hash, surfaceFingerprint(const_cast<osg::Node&>(part), osg::Matrixd()));
+            mix(hash, std::uint64_t{isDrawnByOsg(*terrain)});
+        }
+        const osg::Geometry* const geometry = part.asGeometry();
+        const osg::Array* const vertices = geometry ? geometry->getVertexArray() : nullptr;
+        if (!vertices) return;
+        mix(hash, reinterpret_cast<std::uintptr_t>(vertices));
+        mix(hash, std::uint64_t{vertices->getNumElements()});
+        mix(hash, std::uint64_t{vertices->getModifiedCount()});
+        for (const auto& primitives : geometry->getPrimitiveSetList()) {
+            mix(hash, reinterpret_cast<std::uintptr_t>(primitives.get()));
+            if (!primitives) continue;
+            mix(hash, std::uint64_t{primitives->getMode()});
+            mix(hash, std::uint64_t{primitives->getNumIndices()});
+            mix(hash, std::uint64_t{primitives->getModifiedCount()});
+        }
+    });
+    return hash;
+}
+
+// Of the bounds of drawables, for vertices that moved without a word. Never 0.
+std::uint64_t boundsOf(const osg::Node& mesh) {
+    std::uint64_t hash = 1;
+    forEachPart(mesh, [&hash](const osg::Node& part) {
+        if (part.asDrawable()) mixBound(hash, part.getBound());
+    });
+    return hash | 1;
+}
+
+// The content as the box of latitudes, longitudes and altitudes about its sphere. Not valid: it has none.
+AnalyticBin binAbout(const osg::BoundingSphere& sphere, const core::Ellipsoid& ellipsoid) {
+    const glm::dvec3 center = toGlm(osg::Vec3d(sphere.center()));
+    const double radius = sphere.radius() * 1.001;
+    if (ellipsoid.isPlane()) {
+        const double farthest = std::max(std::abs(center.x), std::abs(center.y)) + radius;
+        if (!(farthest <= core::Ellipsoid::kFarthestInMap)) return {};
+        const core::Geodetic low = ellipsoid.toGeodetic(center - radius), high = ellipsoid.toGeodetic(center + radius);
+        return AnalyticBin(core::GeodeticBin({low.latitude, high.latitude}, {low.longitude, high.longitude},
+                                             {low.altitude, high.altitude}));
+    }
+    const core::Geodetic middle = ellipsoid.toGeodetic(center);
+    const double fromAxis = std::hypot(center.x, center.y);
+    // from the nearest centre of curvature
+    const double fromCurvature = core::smallestCurvatureRadius(ellipsoid) + middle.altitude - radius;
+    if (!std::isfinite(fromAxis + radius) || !(fromCurvature > radius) || !(fromAxis > radius)) return {};
+    const double north = std::asin(radius / fromCurvature);
+    const double east = std::asin(radius / fromAxis);
+    return AnalyticBin(core::GeodeticBin({middle.latitude - north, middle.latitude + north},
+                                         {middle.longitude - east, middle.longitude + east},
+                                         {middle.altitude - radius, middle.altitude + radius}));
+}
+
+// Whether a node is in the scene of a database.
+bool isBelowDatabase(const osg::Node& node) {
+    const bool isRoot = dynamic_cast<const osg::CoordinateSystemNode*>(&node) ||
+                        attachedDatabase(const_cast<osg::Node&>(node)) != nullptr;
+    return isRoot || std::any_of(node.getParents().begin(), node.getParents().end(),
+                                 [](const osg::Group* parent) { return isBelowDatabase(*parent); });
+}
+
+// Content below tiles, as it is passed up from one tile to the next.
+class Content {
+public:
+    // `isMerged`: it is in the scene, and what it does not fit into may be widened.
+    Content(osg::Node& node, const osg::BoundingSphere& sphere, bool isMerged)
+        : _node(node), _isTerrain(asTerrain(node)), _sphere(sphere), _isMerged(isMerged) {}
+
+    // Goes from the frame inside a transform to the one outside.
+    void leave(const osg::Transform& transform) {
+        osg::Matrixd matrix;
+        transform.computeLocalToWorldMatrix(matrix, nullptr);
+        _sphere = movedSphere(_sphere, matrix);
+        _toHere = _toHere * matrix;
+    }
+
+    void fitInto(const AnalyticBinCullCallback& callback) {
+        InstalledTile* const tile = callback.getInstalledTile();
+        if (!tile || !callback.getBin().valid()) return;
+        if (!obeysDepth(callback)) tile->ignoreDepth();
+        const bool isOther = !isOfSameShape(callback.getTerrainShape());
+        const osg::EllipsoidModel& model = *tile->database().ellipsoid();
+        const AnalyticBin about = binAbout(movedSphere(_sphere, callback.getLocalToEcef()), toCore(model));
+        if (!isOther && isHeld(about, callback.getBin())) return;
+        const AnalyticBin& own = surfaceOn(model, callback.getLocalToEcef());
+        if (!isOther && (_isTerrain ? callback.getBin().contains(own) : isHeld(own, callback.getBin()))) return;
+        const AnalyticBin& content = own.valid() ? own : about;
+        tile->keepVisible(true);
+        if (_isMerged) Database::of(*tile).noteContent(callback, {content, isOther || !content.valid()});
+    }
+
+private:
+    // Bins are those of the terrain before it is exaggerated. So is what is known of osgTerrain tiles, and nothing
+    // else.
+    [[nodiscard]] bool isOfSameShape(const std::optional<TerrainShape>& shape) const {
+        if (!_isTerrain) return !shape || shape->verticalScale == 1.0;
+        if (!shape) return false;
+        TerrainShape whole;
+        whole.verticalScale = shape->verticalScale;
+        return *shape == whole;
+    }
+
+    [[nodiscard]] bool obeysDepth(const AnalyticBinCullCallback& tile) {
+        if (!_obeysDepth) _obeysDepth = drawnStateBelow(_node, {tile.getCullOptions().plainShaders}).obeysDepth;
+        return *_obeysDepth;
+    }
+
+    // A fitted mesh may have another form by now, as after osgUtil::Optimizer: it is recognised by its posts.
+    static bool isHeld(const AnalyticBin& content, const AnalyticBin& bin) {
+        if (!content.valid()) return false;
+        const core::Interval& altitude = content.bin().altitude();
+        const double posts = std::min(altitude.lower + content.sag(), altitude.upper);
+        const core::Interval room{bin.bin().altitude().lower - bin.margin(), bin.bin().altitude().upper + bin.margin()};
+        return bin.bin().withAltitude(room).contains(content.bin().withAltitude({posts, altitude.upper}));
+    }
+
+    // Read once, for all tiles above.
+    const AnalyticBin& surfaceOn(const osg::EllipsoidModel& model, const osg::Matrixd& localToEcef) {
+        if (!_surface) _surface = tileSurface(_node, model, _toHere * localToEcef).bin;
+        return *_surface;
+    }
+
+    osg::Node& _node;
+    bool _isTerrain;
+    osg::BoundingSphere _sphere;
+    bool _isMerged;
+    osg::Matrixd _toHere;
+    std::optional<AnalyticBin> _surface;
+    std::optional<bool> _obeysDepth;
+};
+
+// Looks whether all tiles from the node upwards hold what stands among the node's children.
+void fitIntoTilesFrom(const osg::Node& node, Content content) {
+    for (const osg::Callback* at = node.getCullCallback(); at; at = at->getNestedCallback()) {
+        if (const auto* bin = dynamic_cast<const AnalyticBinCullCallback*>(at)) content.fitInto(*bin);
+    }
+    if (node.asTransform()) content.leave(*node.asTransform());
+    for (const osg::Group* const parent : node.getParents()) fitIntoTilesFrom(*parent, content);
+}
+
+// Holds what a tile of osgTerrain draws in a vertical scale, which OSG's own bound is made without. Not valid: there is
+// no such scale.
+osg::BoundingSphere scaledTerrainOf(const osg::Node& node) {
+    const AnalyticBinCullCallback* const tile = installedBinOf(node);
+    if (!tile || !tile->getTerrainShape() || tile->getTerrainShape()->verticalScale == 1.0) return {};
+    const AnalyticBin shown = tile->shownBin();
+    if (!shown.valid() || node.asTransform()) return {};
+    const osg::BoundingSphere sphere = shown.boundingSphere(*tile->getInstalledTile()->database().ellipsoid());
+    return movedSphere(sphere, osg::Matrixd::inverse(tile->getLocalToEcef()));
+}
+
+// Says that the mesh of the tile that a watched node belongs to has changed. The next update makes the tile's family
+// anew. `isMoved`: the mesh has left its place, which may be empty now.
+void doubtMeshOf(const osg::Node& node, bool isMoved) {
+    const osg::Node* culled = &node;
+    if (!installedTileOf(node)) culled = carrierOf(const_cast<osg::Node&>(node));
+    InstalledTile* const tile = culled ? installedTileOf(*culled) : nullptr;
+    if (!tile) return;
+    tile->doubtMesh(isMoved);
+    // the update traversal must not touch what is not merged into the scene yet
+    if (!isBelowDatabase(*culled)) return;
+    for (osg::Group* const parent : culled->getParents()) tile->database().noteChanged(*parent);
+}
+
+// The application has replaced the watch of a tile: the next update places it anew.
+void keepUnwatchedVisible(const osg::Node& node) {
+    const AnalyticBinCullCallback* const tile = installedBinOf(node);
+    if (!tile || watchOf(node)) return;
+    tile->getInstalledTile()->keepVisible(true);
+    if (isBelowDatabase(node)) tile->getInstalledTile()->database().requestRefit();
+}
+
+bool isAbsolute(const osg::Node& node) {
+    const osg::Transform* const transform = node.asTransform();
+    return transform && transform->getReferenceFrame() != osg::Transform::RELATIVE_RF;
+}
+
+}  // namespace
+
+ContentWatch::ContentWatch(const ContentWatch& other, const osg::CopyOp& copyop) : BoundWatch(other, copyop) {}
+
+void ContentWatch::place(osg::Node& node, const std::vector<osg::ref_ptr<osg::Node>>& fitted) {
+    remove(node);
+    const osg::ref_ptr<ContentWatch> watch = new ContentWatch;
+    watch->_node = &node;
+    watch->_frame = frameOf(node);
+    watch->_previous = node.getComputeBoundingSphereCallback();
+    for (const auto& mesh : fitted) {
+        if (mesh != &node || asTerrain(node))
+            watch->_fitted.push_back({mesh, structureOf(*mesh), revisionOf(*mesh), 0});
+    }
+    const bool isMesh = std::find(fitted.begin(), fitted.end(), &node) != fitted.end();
+    const osg::Group* const group = isMesh && !asTerrain(node) ? node.asGroup() : nullptr;
+    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
+        const osg::Node& child = *group->getChild(i);
+        watch->_fitted.push_back({&child, structureOf(child), revisionOf(child), 0});
+    }
+    node.setComputeBoundingSphereCallback(watch);
+    // what is there already, beside meshes, is looked at with the next bound
+    node.dirtyBound();
+}
+
+ContentWatch::Structure ContentWatch::structureOf(const osg::Node& mesh) {
+    Structure structure;
+    forEachPart(mesh, [&structure](const osg::Node& part) {
+        mix(structure.parts, reinterpret_cast<std::uintptr_t>(&part));
+        if (part.asTransform()) mixFrame(structure.frames, *part.asTransform());
+    });
+    return structure;
+}
+
+void ContentWatch::remove(osg::Node& node) {
+    if (const ContentWatch* const watch = watchOf(node)) {
+        node.setComputeBoundingSphereCallback(osg::ref_ptr(watch->_previous).get());
+    }
+}
+
+void ContentWatch::look() const {
+    if (_node) (void)_node->getBound();
+}
+
+osg::BoundingSphere ContentWatch::computeBound(const osg::Node& node) const {
+    if (&node != _node) return boundOf(node);
+    check(node);
+    osg::BoundingSphere bound = boundOf(node);
+    // about the middle that it has: levels of detail are chosen by the distance from there
+    bound.expandRadiusBy(scaledTerrainOf(node));
+    return bound;
+}
+
+bool ContentWatch::hasNewContent(const osg::Node& node) {
+    const ContentWatch* const watch = watchOf(node);
+    const osg::Group* const group = asTerrain(node) ? nullptr : node.asGroup();
+    for (unsigned int i = 0; watch && watch->_node == &node && group && i < group->getNumChildren(); ++i) {
+        const osg::Node& child = *group->getChild(i);
+        if (!ownWatchOf(child) && !watch->isFitted(child, false)) return true;
+    }
+    return false;
+}
+
+const ContentWatch* ContentWatch::ownWatchOf(const osg::Node& node) {
+    const ContentWatch* const watch = node.getNumParents() == 1 ? watchOf(node) : nullptr;
+    return watch && watch->_node == &node ? watch : nullptr;
+}
+
+// bounds are not computed before OSG does so: it may crash on those of broken meshes
+bool ContentWatch::isFitted(const osg::Node& child, bool withBounds) const {
+    const auto known =
+        std::find_if(_fitted.begin(), _fitted.end(), [&](const Fitted& fitted) { return fitted.node == &child; });
+    if (known == _fitted.end() || !(known->structure == structureOf(child))) return false;
+    if (known->revision != revisionOf(child)) return false;
+    if (!withBounds && known->bounds == 0) return true;
+    const std::uint64_t bounds = boundsOf(child);
+    if (known->bounds == 0) known->bounds = bounds;
+    return known->bounds == bounds;
+}
+
+bool ContentWatch::isPartMoved(const osg::Group& group) const {
+    return std::any_of(_fitted.begin(), _fitted.end(), [&](const Fitted& fitted) {
+        if (!group.containsNode(fitted.node)) return false;
+        const Structure now = structureOf(*fitted.node);
+        return now.parts == fitted.structure.parts && now.frames != fitted.structure.frames;
+    });
+}
+
+void ContentWatch::check(const osg::Node& node) const {
+    _isPending = false;
+    TileFamily::look(node);
+    const bool isOwnFrame = frameOf(node) == _frame;
+    // osgTerrain draws nothing of what is below its tiles
+    const osg::Group* const group = asTerrain(node) ? nullptr : node.asGroup();
+    std::size_t fitted = 0;
+    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
+        const osg::Node& child = *group->getChild(i);
+        const osg::BoundingSphere& sphere = child.getBound();  // has others look at what is below it, too
+        keepUnwatchedVisible(child);
+        if (const ContentWatch* const watch = ownWatchOf(child)) {
+            if (watch->_isPending) watch->check(child);
+            _isPending = _isPending || watch->_isPending;
+        } else if (isOwnFrame && isFitted(child, true)) {
+            ++fitted;
+        } else if (sphere.valid() && !isAbsolute(child)) {
+            const bool isMerged = isBelowDatabase(node);
+            fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere, isMerged));
+            _isPending = _isPending || !isMerged;
+        }
+    }
+    if (group && fitted < _fitted.size()) doubtMeshOf(node, !isOwnFrame || isPartMoved(*group));
+    if (group || _fitted.empty() || isFitted(node, true)) return;
+    // an osgTerrain tile that has other heights
+    _isPending = !isBelowDatabase(node);
+    fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(node), boundOf(node), !_isPending));
+    doubtMeshOf(node, false);
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "Coverage.h"
+
+#include "../database/Database.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+using Places = std::vector<core::GeodeticBin>;
+
+// The length that intervals cover together.
+double lengthOf(std::vector<core::Interval>& intervals) {
+    std::sort(intervals.begin(), intervals.end(),
+              [](const core::Interval& a, const core::Interval& b) { return a.lower < b.lower; });
+    double length = 0.0;
+    double end = -1e9;
+    for (const core::Interval& interval : intervals) {
+        length += std::max(0.0, interval.upper - std::max(interval.lower, end));
+        end = std::max(end, interval.upper);
+    }
+    return length;
+}
+
+// Square radians on the map of latitudes and longitudes, not on the globe.
+double areaOf(const core::GeodeticBin& place) {
+    return place.latitude().width() * place.longitude().width();
+}
+
+// What places cover together, strip by strip from the south, between the latitudes at which one begins or ends.
+double areaOf(const Places& places) {
+    std::vector<double> latitudes;
+    for (const core::GeodeticBin& place : places)
+        latitudes.insert(latitudes.end(), {place.latitude().lower, place.latitude().upper});
+    std::sort(latitudes.begin(), latitudes.end());
+    double area = 0.0;
+    std::vector<core::Interval> longitudes;
+    for (std::size_t i = 0; i + 1 < latitudes.size(); ++i) {
+        const double south = latitudes[i], north = latitudes[i + 1];
+        if (!(south < north)) continue;
+        longitudes.clear();
+        for (const core::GeodeticBin& place : places) {
+            const bool isInStrip = place.latitude().lower <= south && place.latitude().upper >= north;
+            if (isInStrip) longitudes.push_back(place.longitude());
+        }
+        area += (north - south) * lengthOf(longitudes);
+    }
+    return area;
+}
+
+// Adds a place that may run across the date line.
+void addTo(Places& places, const core::Interval& latitude, const core::Interval& longitude) {
+    if (!(latitude.width() > 0.0) || !(longitude.width() > 0.0)) return;
+    const double width = std::min(longitude.width(), 2.0 * kPi);
+    const double west = std::remainder(longitude.lower, 2.0 * kPi), east = west + width;
+    places.emplace_back(latitude, core::Interval{west, std::min(east, kPi)}, core::Interval{0.0, 0.0});
+    if (east > kPi) places.emplace_back(latitude, core::Interval{-kPi, east - 2.0 * kPi}, core::Interval{0.0, 0.0});
+}
+
+}  // namespace
+
+void Coverage::expect(const ParentTile& tile) {
+    _tile = &tile;
+    _expected = tile.place;
+}
+
+void Coverage::report(const std::string& file, Database& database) const {
+    const bool isWithGap = hasGap();
+    if (_isOfGlobe) {
+        const core::GeodeticBin covered = isWithGap ? region() : core::GeodeticBin();
+        if (isWithGap && covered.empty()) database.report(Finding::Gap, file);
+        return database.setRegion(covered);
+    }
+    osg::ref_ptr<AnalyticBinCullCallback> tile;
+    // who declares a horizon says that there are none
+    const bool isVouchedFor = database.options().horizonUse == HorizonUse::Given && !isMapPlane(*database.ellipsoid());
+    if (isWithGap && !isVouchedFor && _tile->callback.lock(tile) && tile->getInstalledTile())
+        tile->getInstalledTile()->noteGapBelow();
+}
+
+void Coverage::expectGlobe() {
+    _expected = {{-0.5 * kPi, 0.5 * kPi}, {-kPi, kPi}, {0.0, 0.0}};
+    _isOfGlobe = true;
+    setVisited();
+}
+
+void Coverage::add(const core::GeodeticBin& place, bool isExact) {
+    if (place.empty()) return;
+    _isExact = _isExact && isExact;
+    _tallest = std::max(_tallest, place.latitude().width());
+    _widest = std::max(_widest, place.longitude().width());
+    constexpr double kSeam = 2e-6;  // of a tile: vertices of neighbours are rounded apart
+    const double up = kSeam * place.latitude().width(), aside = kSeam * place.longitude().width();
+    addTo(_places, {place.latitude().lower - up, place.latitude().upper + up},
+          {place.longitude().lower - aside, place.longitude().upper + aside});
+}
+
+bool Coverage::hasGap() const {
+    if (!_isVisited || (!_isOfGlobe && !_tile)) return false;
+    return _expected.empty() || !covers(_expected);
+}
+
+bool Coverage::covers(const core::GeodeticBin& place) const {
+    constexpr double kRounding = 1e-9;
+    Places within;
+    const auto common = [](const core::Interval& a, const core::Interval& b) {
+        return core::Interval{std::max(a.lower, b.lower), std::min(a.upper, b.upper)};
+    };
+    for (const core::GeodeticBin& tile : _places) {
+        for (const double turn : {-2.0 * kPi, 0.0, 2.0 * kPi}) {
+            const core::Interval turned{tile.longitude().lower + turn, tile.longitude().upper + turn};
+            addTo(within, common(tile.latitude(), place.latitude()), common(turned, place.longitude()));
+        }
+    }
+    return areaOf(place) - areaOf(within) <= kRounding * areaOf(place);
+}
+
+// From the first to the last tile eastward, beginning after the widest strip of longitudes without tiles.
+core::GeodeticBin Coverage::extents() const {
+    std::vector<core::Interval> longitudes;
+    core::Interval latitude{kPi, -kPi};
+    for (const core::GeodeticBin& tile : _places) {
+        longitudes.push_back(tile.longitude());
+        latitude = {std::min(latitude.lower, tile.latitude().lower), std::max(latitude.upper, tile.latitude().upper)};
+    }
+    if (longitudes.empty()) return {};
+    std::sort(longitudes.begin(), longitudes.end(),
+              [](const core::Interval& a, const core::Interval& b) { return a.lower < b.lower; });
+    const double west = longitudes.front().lower;
+    double east = west;
+    core::Interval widest{0.0, 0.0};
+    for (const core::Interval& longitude : longitudes) {
+        if (longitude.lower - east > widest.width()) widest = {east, longitude.lower};
+        east = std::max(east, longitude.upper);
+    }
+    // turns would round the small angles of a map
+    if (west + 2.0 * kPi - east >= widest.width()) return {latitude, {west, east}, {0.0, 0.0}};
+    return {latitude, {widest.upper, widest.lower + 2.0 * kPi}, {0.0, 0.0}};
+}
+
+core::GeodeticBin Coverage::region() const {
+    constexpr double kBorder = 1.0 / 32.0;
+    const core::GeodeticBin all = extents();
+    if (all.empty() || !_isExact) return {};
+    // the edge of a mesh along a parallel is made of chords
+    const double sag = _widest < 0.9 * kPi ? 0.55 * (1.0 / std::cos(0.5 * _widest) - 1.0) : kPi;
+    const double margin = std::max(kBorder * _tallest, sag);
+    const auto [west, east] = all.longitude();
+    const bool isFullCircle = all.isFullCircle();
+    const double aside = isFullCircle ? 0.0 : kBorder * _widest;
+    const auto inside = [&](double latitude, double inward) {
+        return isFullCircle && std::abs(latitude) >= 0.5 * kPi ? latitude : latitude + inward;
+    };
+    const core::GeodeticBin region({inside(all.latitude().lower, margin), inside(all.latitude().upper, -margin)},
+                                   {west + aside, east - aside}, {0.0, 0.0});
+    return !region.empty() && covers(region) ? region : core::GeodeticBin();
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "../../index/AutoIndex.h"
+#include "../database/Database.h"
+#include "../database/DatabaseCallbacks.h"
+#include "../tile/MeshCulling.h"
+#include "BinInstaller.h"
+
+#include <osgAnalyticBin/InstallBins.h>
+#include <osgAnalyticBin/PhotogrammetrySet.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/NodeVisitor>
+#include <osg/Notify>
+#include <osg/PagedLOD>
+#include <osgTerrain/TerrainTile>
+
+#include <chrono>
+#include <functional>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+// What an installer looks for.
+class TileSigns : public osg::NodeVisitor {
+public:
+    TileSigns() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+    void apply(osg::Node& node) override {
+        hasGlobe = hasGlobe || dynamic_cast<osg::CoordinateSystemNode*>(&node);
+        const bool isTerrain = dynamic_cast<osgTerrain::TerrainTile*>(&node);
+        if (isTerrain || dynamic_cast<osg::PagedLOD*>(&node)) ++tiles;
+        if (hasStoredBin(node)) ++stored;
+        if (!isTerrain) traverse(node);
+    }
+    bool hasGlobe = false;
+    std::size_t tiles = 0;
+    std::size_t stored = 0;
+};
+
+void reportMissing(osg::Node& node) {
+    TileSigns signs;
+    node.accept(signs);
+    const auto missing = [&signs]() -> const char* {
+        if (signs.stored > 0) return "the bins stored there are not valid, or cannot be compared with what is drawn";
+        if (signs.tiles == 0)
+            return "tiles are PagedLODs with a mesh, osgTerrain tiles, and nodes with setStoredBin(). Install bins "
+                   "again "
+                   "when there are some";
+        if (signs.hasGlobe) return "none of them has a mesh that is known to be ground";
+        return "no osg::CoordinateSystemNode stands above them. Put one above them; one without an ellipsoid or a text "
+               "says that they are in earth-centred coordinates of WGS 84";
+    };
+    OSG_NOTICE << "osgAnalyticBin: 0 tiles got bins, of " << signs.tiles
+               << " PagedLODs and osgTerrain tiles: " << missing() << ". OSG's own culling is used." << std::endl;
+}
+
+std::size_t install(osg::Node& node, const CullOptions& options, const BinIndex* index) {
+    BinInstaller installer(options);
+    installer.setIndex(index);
+    installer.installAt(node);
+    OSG_INFO << "osgAnalyticBin: " << installer.installed() << " tiles with " << toText(options) << std::endl;
+    const bool wantsBins = options.method != Method::Sphere && options.method != Method::None;
+    if (wantsBins && installer.installed() == 0) reportMissing(node);
+    return installer.installed();
+}
+
+// Visits the databases that are attached to nodes of a scene.
+void forEachDatabase(osg::Node& node, const std::function<void(osg::Node&, Database&)>& visit) {
+    forEachNode(node, [&visit](osg::Node& at) {
+        if (const osg::ref_ptr<Database> database = attachedDatabase(at)) visit(at, *database);
+    });
+}
+
+// Starts to make an index, if tiles want one.
+void makeIndex(osg::Node& node, AutoIndex* index) {
+    bool isWanted = false;
+    forEachDatabase(node, [&](osg::Node& at, Database& database) {
+        if (isPhotogrammetrySet(at)) return;
+        const bool isWantedHere = index && database.has(Finding::IndexWanted);
+        database.setMaking(isWantedHere ? index : nullptr);
+        isWanted = isWanted || isWantedHere;
+    });
+    if (isWanted) index->start();
+}
+
+}  // namespace
+
+std::size_t setCullOptions(osg::Node& node, const CullOptions& options) {
+    BinInstaller installer(options);
+    installer.keepDatabases();
+    installer.installAt(node);
+    return installer.installed();
+}
+
+std::size_t installBins(osg::Node& node, const CullOptions& options) {
+    return installBins(node, options, {});
+}
+
+std::size_t installBins(osg::Node& node, const CullOptions& options, const std::string& databaseFileName,
+                        const osgDB::Options* readOptions) {
+    // photogrammetry sets look for theirs themselves
+    const std::string& database = isMetadataName(databaseFileName) ? std::string() : databaseFileName;
+    const ChosenIndex chosen = chooseIndex(database, readOptions, options.index);
+    const std::size_t installed = install(node, options, chosen.index.get());
+    makeIndex(node, chosen.making.get());
+    return installed;
+}
+
+bool isIndexAwaited(osg::Node& node) {
+    bool isAwaited = false;
+    forEachDatabase(node, [&isAwaited](osg::Node&, Database& database) {
+        const osg::ref_ptr<AutoIndex> index = database.making();
+        isAwaited = isAwaited || (index && !index->isWhole());
+    });
+    return isAwaited;
+}
+
+bool waitForIndex(osg::Node& node, double seconds) {
+    bool isWhole = true;
+    forEachDatabase(node, [&](osg::Node& at, Database& database) {
+        const osg::ref_ptr<AutoIndex> index = database.making();
+        if (!index) return;
+        isWhole = index->waitUntilWhole(std::chrono::duration<double>(seconds)) && isWhole;
+        bringUpToDate(at, database);
+    });
+    return isWhole;
+}
+
+std::size_t installBinsByIndex(osg::Node& node, const CullOptions& options, const BinIndex& index) {
+    return install(node, options, &index);
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#include "TileCallback.h"
+
+#include "../CallbackChain.h"
+#include "../Inverse.h"
+#include "../cull/InstalledBin.h"
+#include "../cull/TileFamily.h"
+#include "../database/PagingExpiry.h"
+#include "../tile/Carrier.h"
+#include "../tile/InstalledTile.h"
+#include "../tile/MeshCulling.h"
+#include "ContentWatch.h"
+#include "NoCulling.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+
+#include <osg/CoordinateSystemNode>
+#include <osg/Group>
+#include <osg/PagedLOD>
+#include <osg/Transform>
+
+#include <utility>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+namespace {
+
+std::vector<osg::ref_ptr<AnalyticBinCullCallback>> installedCallbacks(const osg::Node& node) {
+    std::vector<osg::ref_ptr<AnalyticBinCullCallback>> callbacks;
+    for (osg::Callback* at = const_cast<osg::Node&>(node).getCullCallback(); at; at = at->getNestedCallback()) {
+        if (auto* const bin = dynamic_cast<AnalyticBinCullCallback*>(at)) callbacks.emplace_back(bin);
+    }
+    return callbacks;
+}
+
+void removeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& ours, NestedCallbacks& nested) {
+    const bool isNested = culled.getCullCallback() != &ours;
+    if (isNested && !nested.emplace(&culled, &ours).second) return;
+    if (auto* paged = dynamic_cast<osg::PagedLOD*>(tile.node.get()))
+        restoreExpiry(*paged, ours.getCullOptions().expiry);
+    if (!isNested) takeOff(culled, ours);
+    InstalledTile* const installed = ours.getInstalledTile();
+    if (installed) installed->leaveFamily();
+    ContentWatch::remove(culled);
+    ContentWatch::remove(*tile.node);
+    if (!installed || !installed->isFor(&culled)) return;
+    installed->restoreSphere(culled);
+    installed->forgetNode();
+}
+
+// The most ways from a node up to its globe that are looked at.
+constexpr int kMostPaths = 64;
+
+// Whether a way from the node up to a globe leads through other transforms than those of `localToEcef`. Ways that end
+// without a globe have no horizon, and do not matter. `nodeToHere`: from the node's frame to that of this ancestor.
+bool hasOtherFrame(const osg::Node& ancestor, const osg::Matrixd& nodeToHere, const osg::Matrixd& localToEcef,
+                   int& paths) {
+    if (dynamic_cast<const osg::CoordinateSystemNode*>(&ancestor)) {
+        const double reach = nodeToHere.getTrans().length() + localToEcef.getTrans().length();
+        return !areNearlyEqual(nodeToHere, localToEcef, reach) || --paths < 0;
+    }
+    for (const osg::Group* const parent : ancestor.getParents()) {
+        osg::Matrixd matrix;
+        const osg::Transform* const transform = parent->asTransform();
+        const bool isGlobe = dynamic_cast<const osg::CoordinateSystemNode*>(parent) != nullptr;
+        if (transform && !isGlobe) transform->computeLocalToWorldMatrix(matrix, nullptr);
+        if (hasOtherFrame(*parent, nodeToHere * matrix, localToEcef, paths)) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+bool isInstanced(const osg::Node& node, const TileFrame& frame) {
+    if (!frame.isKnown()) return false;
+    const osg::Node* shared = &node;
+    while (shared->getNumParents() == 1) shared = shared->getParent(0);
+    if (shared->getNumParents() == 0) return false;
+    int paths = kMostPaths;
+    return hasOtherFrame(node, osg::Matrixd(), frame.localToEcef, paths);
+}
+
+bool hasMoved(osg::Node& tile) {
+    const Carrier* const carrier = carrierOf(tile);
+    const InstalledTile* const own = installedTileOf(tile);
+    const InstalledTile* const installed = own || !carrier ? own : installedTileOf(*carrier);
+    return installed && installed->isMoved();
+}
+
+// OSG enters the frame of a transform before it asks the transform's callbacks, which costs more than the bin's test:
+// in files of tiles a transform gets a group above it, while no application has seen it.
+osg::Node& culledNode(const FoundTile& tile, bool isNew) {
+    osg::Node& node = *tile.node;
+    if (!node.asTransform() || !tile.frame.isBelowTile || node.getNumParents() != 1) return node;
+    if (Carrier* const carrier = carrierOf(node)) return *carrier;
+    if (!isNew) return node;
+    osg::Group& parent = *node.getParent(0);
+    const osg::ref_ptr<Carrier> carrier = new Carrier;
+    carrier->addChild(&node);
+    parent.replaceChild(&node, carrier);
+    return *carrier;
+}
+
+osg::Matrixd culledFrame(const FoundTile& tile, osg::Node& culled) {
+    const osg::Transform* transform = culled.asTransform();
+    return transform ? frameInside(*transform, tile.frame) : tile.frame.localToEcef;
+}
+
+void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& callback,
+                   InstalledDatabase& database) {
+    const osg::ref_ptr<InstalledTile> installed = new InstalledTile(culled, database);
+    callback.setInstalledTile(installed);
+    // In front: what is nested runs when the tile is kept.
+    putInFront(culled, callback);
+    if (&culled != tile.node) ContentWatch::place(culled, {});
+    ContentWatch::place(*tile.node, tile.meshes);
+}
+
+void removeCallbacksBelow(osg::Node& subgraph, NestedCallbacks& nested) {
+    forEachNode(subgraph, [&nested](osg::Node& node) {
+        if (installedTileOf(node)) removeCallbacks({&node, {}, {}, 0, {}}, nested);
+        TileFamily::remove(node);
+        ContentWatch::remove(node);
+        NoCulling::remove(node);
+    });
+}
+
+void removeCallbacks(const FoundTile& tile, NestedCallbacks& nested) {
+    for (osg::Node* const culled : {tile.node.get(), static_cast<osg::Node*>(carrierOf(*tile.node))}) {
+        if (!culled) continue;
+        for (const auto& ours : installedCallbacks(*culled)) removeCallback(tile, *culled, *ours, nested);
+    }
+}
+
+void takeOff(NestedCallbacks& nested) {
+    for (const auto& [node, callback] : nested) takeOff(*node, *callback);
+    nested.clear();
+}
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include "../kit/cull/ShownDepth.h"
+#include "../kit/cull/TileSelection.h"
+#include "LevelPicture.h"
+
+#include <osgAnalyticBin/CoveredPicture.h>
+#include <osgAnalyticBin/Export.h>
+#include <osgAnalyticBin/core/Frame.h>
+#include <osgAnalyticBin/core/GeodeticBin.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+/// The tiles that terrain hides from all eyes near a place. Kept from view to view, because the search takes longer
+/// than all other culling.
+struct FoundOcclusion {
+    /// A tile at the time of the search.
+    struct Tile {
+        const AnalyticBinCullCallback* tile;
+        const osg::Node* mesh;
+        bool isSure;           ///< see TileSelection::ShownTile
+        std::uint64_t plates;  ///< see InstalledTile::numberOfPlates()
+        core::GeodeticBin bin;
+        double margin, low, high;
+        [[nodiscard]] OSGANALYTICBIN_EXPORT bool operator==(const Tile& other) const;
+    };
+    enum class Finding : std::uint8_t {
+        Beside,
+        Seen,
+        Hidden,
+        MeshHidden  ///< finer levels of the tile may be seen
+    };
+
+    std::vector<Tile> tiles;        ///< all tiles shown at the time of the search
+    std::vector<Tile> shown;        ///< all tiles shown in the present view; a member to avoid allocations
+    std::vector<Finding> findings;  ///< one for each of `tiles`
+    core::Frame eye{};              ///< origin: the place; axes: those of the picture
+    glm::dvec3 eyes{0.0};           ///< metres from the place to the farthest eyes, along each axis of the picture
+    PictureSpan span{};             ///< of the picture
+    double nearReach = 0.0;         ///< metres from the eye to the farthest point of the near plane; 0: not considered
+    std::optional<core::GeodeticBin> region;
+    std::shared_ptr<const CoveredPicture> covered;
+    int uses = 0;  ///< views since the search
+
+    /// @{
+    /// Of the last view, whether it used the result or not.
+    glm::dvec3 lastEye{0.0};
+    core::Interval lastAcross{};  ///< along the axes of the picture; empty after a change of view
+    double lastClearance = 0.0;   ///< metres from the eye to terrain in the picture, roughly
+    /// @}
+
+    /// Sets the place and the box of eyes for an eye that moves on from `from` by `step` in each view.
+    void aimAlong(const core::Frame& from, const glm::dvec3& step);
+
+    /// Removes tiles that are no longer shown, if the result holds without them: those that hid nothing, and those that
+    /// are out of view. Source: doc/theory/occlusion.md, section 5.
+    OSGANALYTICBIN_EXPORT void leaveOut(const core::PlaneSet& view, const core::Ellipsoid& ellipsoid);
+
+    /// Whether the box of eyes contains this one.
+    [[nodiscard]] bool holds(const glm::dvec3& place) const;
+
+    /// Whether a tile is hidden. `tile`: as it is shown in the present view. Requires: i < findings.size().
+    [[nodiscard]] bool hides(std::size_t i, const TileSelection::ShownTile& tile) const {
+        return findings[i] == Finding::Hidden || (findings[i] == Finding::MeshHidden && tile.isOnlyLevel);
+    }
+
+    /// Whether the eye has moved too far since the last view for a continuous motion.
+    [[nodiscard]] bool isJump(const glm::dvec3& step) const;
+};
+
+/// Finds shown tiles that are hidden behind the terrain of others.
+/// Requires: a plan with the shown tiles; in `found` everything is set except the findings.
+/// Guarantee: every line of sight to a tile that is found hidden meets the mesh of another shown tile before, for all
+/// of the eyes; source: doc/theory/occlusion.md, sections 4 and 5. Returns: false where the near plane may cut into
+/// terrain, or where the place of a tile is not known. Cost: a sort of the shown tiles, and a few microseconds for each
+/// that is not hidden.
+[[nodiscard]] bool findOccluded(const ShownDatabase& database, FoundOcclusion& found);
+
+}  // namespace osgAnalyticBin

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Tiles below a tree of plain groups: the search for the lowest surface passes over groups out of view.
+
+#include "../../../osgAnalyticBin/src/kit/CallbackChain.h"
+#include "../../../osgAnalyticBin/src/kit/cull/TileFamily.h"
+#include "ApplicationGlobe.h"
+#include "CameraGlobe.h"
+
+#include <osgAnalyticBin/AnalyticBinCullCallback.h>
+#include <osgAnalyticBin/InstallBins.h>
+
+#include <gtest/gtest.h>
+
+#include <support/Random.h>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+// 32 tiles of 45 degrees in groups of four, and these in two groups.
+struct GroupTree : MeshGlobe {
+    explicit GroupTree(double altitude = 0.0) : MeshGlobe(altitude) {
+        root->removeChildren(0, root->getNumChildren());
+        for (int half = 0; half < 2; ++half) {
+            halves.push_back(new osg::Group);
+            root->addChild(halves.back());
+            for (unsigned int i = 0; i < 4; ++i) {
+                groups.push_back(new osg::Group);
+                halves.back()->addChild(groups.back());
+            }
+        }
+        for (unsigned int i = 0; i < 32; ++i) groups[i / 16 * 4 + i % 8 / 2]->addChild(tiles[i]);
+    }
+
+    // Returns: nullptr where the search does not pass over the group.
+    [[nodiscard]] const ColumnUnion* columnsBelow(osg::Group& group) const {
+        (void)root->getBound();
+        return TileFamily::columnUnionOf(group);
+    }
+
+    std::vector<osg::ref_ptr<osg::Group>> halves, groups;
+};
+
+AnalyticBinCullCallback& binOf(osg::Node& tile) {
+    return *findCallback<AnalyticBinCullCallback>(tile.getCullCallback());
+}
+
+void expectHeld(const ColumnUnion& columns, const AnalyticBin& bin) {
+    const double reach = columns.sphere().radius() * (1.0 + 1e-9);
+    const core::GeodeticBin& box = bin.bin();
+    for (const double latitude : {box.latitude().lower, box.latitude().middle(), box.latitude().upper}) {
+        for (const double longitude : {box.longitude().lower, box.longitude().middle(), box.longitude().upper}) {
+            for (const double altitude : {box.altitude().lower, box.altitude().upper, 0.0}) {
+                const osg::Vec3d point = osgVector(earth().toEcef({latitude, longitude, altitude}));
+                EXPECT_LE((point - columns.sphere().center()).length(), reach);
+            }
+        }
+    }
+}
+
+TEST(GroupTree, HoldsTheColumnsOfAllTiles) {
+    for (const double altitude : {-9000.0, 0.0, 3000.0}) {
+        GroupTree tree(altitude);
+        ASSERT_EQ(installBins(*tree.root), 32u);
+        for (unsigned int i = 0; i < 32; ++i) {
+            const AnalyticBin bin = binOf(*tree.tiles[i]).getBin();
+            for (osg::Group* const group : {tree.halves[i / 16].get(), tree.tiles[i]->getParent(0)}) {
+                ASSERT_TRUE(tree.columnsBelow(*group));
+                expectHeld(*tree.columnsBelow(*group), bin);
+            }
+        }
+    }
+}
+
+TEST(GroupTree, FollowsBinsThatGrow) {
+    GroupTree tree;
+    ASSERT_EQ(installBins(*tree.root), 32u);
+    ASSERT_TRUE(tree.columnsBelow(*tree.halves[0]));
+    AnalyticBinCullCallback& callback = binOf(*tree.tiles[3]);
+    AnalyticBin wide = callback.getBin();
+    wide.expandBy(core::Geodetic{wide.bin().latitude().middle(), wide.bin().longitude().middle(), -2e6});
+    callback.setBin(wide);
+    ASSERT_TRUE(tree.columnsBelow(*tree.halves[0]));
+    expectHeld(*tree.columnsBelow(*tree.halves[0]), wide);
+    callback.setBin(AnalyticBin());
+    EXPECT_FALSE(tree.columnsBelow(*tree.halves[0]));
+    EXPECT_TRUE(tree.columnsBelow(*tree.halves[1]));
+}
+
+TEST(GroupTree, DoubtsWhatIsKeptVisible) {
+    GroupTree tree;
+    ASSERT_EQ(installBins(*tree.root), 32u);
+    // high in the air, until the next update widens the bin
+    tree.tiles[3]->insertChild(0, makeTower(ecefDeg(-70, -30, 50000.0)));
+    EXPECT_FALSE(tree.columnsBelow(*tree.halves[0]));
+    EXPECT_TRUE(tree.columnsBelow(*tree.halves[1]));
+    update(*tree.root);
+    ASSERT_TRUE(tree.columnsBelow(*tree.halves[0]));
+    expectHeld(*tree.columnsBelow(*tree.halves[0]), binOf(*tree.tiles[3]).getBin());
+}
+
+TEST(GroupTree, DoubtsChildrenThatItDoesNotKnow) {
+    const auto change = [](int what, osg::Group& group) {
+        const osg::ref_ptr<osg::Node> added = what < 2 ? new osg::Group : makeMeshTile(extentsDeg(0, 10, 0, 10), 0.0);
+        if (what % 2 == 0) group.addChild(added);
+        if (what % 2 == 1) group.setChild(0, added);
+    };
+    for (int what = 0; what < 4; ++what) {
+        for (const bool isDeep : {false, true}) {
+            GroupTree tree;
+            ASSERT_EQ(installBins(*tree.root), 32u);
+            ASSERT_TRUE(tree.columnsBelow(*tree.halves[0]));
+            change(what, isDeep ? *tree.groups[1] : *tree.halves[0]);
+            EXPECT_FALSE(tree.columnsBelow(*tree.halves[0])) << what << isDeep;
+            EXPECT_TRUE(tree.columnsBelow(*tree.halves[1]));
+        }
+    }
+}
+
+TEST(GroupTree, TrustsAFamilyThatWasMadeAnew) {
+    GroupTree tree;
+    ASSERT_EQ(installBins(*tree.root), 32u);
+    TileFamily::renew(*tree.groups[1]);
+    ASSERT_TRUE(tree.columnsBelow(*tree.halves[0]));
+    binOf(*tree.groups[1]->getChild(0)).setBin(AnalyticBin());
+    EXPECT_FALSE(tree.columnsBelow(*tree.halves[0]));
+}
+
+TEST(GroupTree, DoubtsAGroupWithoutItsWatch) {
+    GroupTree tree;
+    ASSERT_EQ(installBins(*tree.root), 32u);
+    removeBins(*tree.groups[1]);
+    EXPECT_FALSE(tree.columnsBelow(*tree.halves[0]));
+}
+
+// Where terrain is gone the horizon hides nothing.
+TEST(GroupTree, SeesThroughAHoleWhereGroupsWere) {
+    for (const bool isHalf : {false, true}) {
+        GroupTree tree;
+        ASSERT_EQ(installBins(*tree.root), 32u);
+        ASSERT_FALSE(tree.drawsAntipode());
+        osg::Group& seen = *tree.tiles[19]->getParent(0);
+        osg::Group& gone = isHalf ? *seen.getParent(0) : seen;
+        const osg::ref_ptr<osg::Node> kept(&gone);
+        gone.getParent(0)->removeChild(&gone);
+        EXPECT_TRUE(tree.drawsAntipode()) << isHalf;
+        update(*tree.root);
+        EXPECT_TRUE(tree.drawsAntipode()) << isHalf;
+    }
+}
+
+// What is drawn is what is drawn without bins, but for what the horizon hides.
+TEST(GroupTree, DrawsTheSameTilesAsOneGroupOfAll) {
+    GroupTree tree(-4000.0);
+    MeshGlobe flat(-4000.0);
+    ASSERT_EQ(installBins(*tree.root), 32u);
+    ASSERT_EQ(installBins(*flat.root), 32u);
+    Random random(4711);
+    int drawn = 0;
+    for (int i = 0; i < 300; ++i) {
+        const osg::Vec3d eye = osgVector(random.direction() * (kEarthRadius + random.logUniform(1e3, 1e7)));
+        const CullView view =
+            CullView::lookAt(eye, osgVector(random.direction() * kEarthRadius), {0, 0, 1}, random.uniform(5.0, 100.0));
+        const auto ofTree = cull(*tree.root, view, *tree.visitor, ++tree.frame).drawn;
+        const auto ofFlat = cull(*flat.root, view, *flat.visitor, ++flat.frame).drawn;
+        for (unsigned int k = 0; k < 32; ++k) {
+            EXPECT_EQ(ofTree.count(drawableOf(*tree.tiles[k])), ofFlat.count(drawableOf(*flat.tiles[k])));
+        }
+        drawn += static_cast<int>(ofTree.size());
+    }
+    EXPECT_GT(drawn, 300);
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test

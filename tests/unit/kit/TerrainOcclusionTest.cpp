@@ -1,0 +1,649 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+//
+// Tiles behind a ridge. Pictures and random scenes: tests/long/scenes. What the core proves: HorizonBufferTest.cpp.
+
+#include "../../../osgAnalyticBin/src/occlusion/OcclusionSearch.h"
+#include "ApplicationGlobe.h"
+#include "CullFixture.h"
+
+#include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/CoveredPicture.h>
+#include <osgAnalyticBin/Declarations.h>
+#include <osgAnalyticBin/InstallBins.h>
+
+#include <gtest/gtest.h>
+#include <osg/ColorMask>
+#include <osg/CullFace>
+#include <osg/Depth>
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/PolygonMode>
+#include <osg/Program>
+#include <osg/Shader>
+#include <osgUtil/UpdateVisitor>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <support/CapturedNotes.h>
+#include <support/Random.h>
+#include <utility>
+#include <vector>
+
+namespace osgAnalyticBin::test {
+namespace {
+
+CullOptions withOcclusion() {
+    CullOptions options;
+    options.occlusion = OcclusionUse::On;
+    return options;
+}
+
+// A globe of 32 tiles, of which one has a row of tiles of 0.2 degrees along the equator: a plain, and in the third tile
+// a ridge, which tile 4 lies behind. The eye is above the middle of tile 0.
+struct RidgeGlobe : MeshGlobe {
+    explicit RidgeGlobe(double ridgeHeight = 8000.0, int tilesInRow = 10) {
+        root->removeChild(tiles[20]);
+        const auto add = [this](double south, double north, double west, double east, double height) {
+            row.push_back(makePaged(makeMeshTile(extentsDeg(south, north, west, east), height), "no.osgb"));
+            // what is below the tiles may have any height
+            setStoredBin(*row.back(),
+                         AnalyticBin(extentsDeg(south, north, west, east).withAltitude({-12000.0, 9000.0}), 10.0));
+            root->addChild(row.back());
+        };
+        for (int i = 0; i < tilesInRow; ++i) add(0, 0.2, 0.2 * i, 0.2 * i + 0.2, i == 2 ? ridgeHeight : 0.0);
+        add(0, 0.2, 0.2 * tilesInRow, 45, 0.0);
+        add(0.2, 45, 0, 45, 0.0);
+    }
+
+    [[nodiscard]] static CullView alongRow(double altitude = 1000.0) {
+        return CullView::lookAt(ecefDeg(0.1, 0.1, altitude), ecefDeg(0.1, 1.0, altitude), {1, 0, 0}, 30.0);
+    }
+    [[nodiscard]] bool drawsFarTile(const CullView& view = alongRow()) { return draws(*row[4], view); }
+    [[nodiscard]] BinCounts counts() const { return BinStatistics::of(*visitor).getCounts(); }
+
+    std::vector<osg::ref_ptr<osg::PagedLOD>> row;
+};
+
+TEST(TerrainOcclusion, HidesWhatIsBehindARidge) {
+    RidgeGlobe globe;
+    CullOptions without;
+    without.occlusion = OcclusionUse::Off;
+    installBins(*globe.root, without);
+    EXPECT_TRUE(globe.drawsFarTile());
+    EXPECT_EQ(globe.counts().occluded, 0u);
+    setCullOptions(*globe.root, withOcclusion());
+    EXPECT_FALSE(globe.drawsFarTile());
+    EXPECT_GE(globe.counts().occluded, 1u);
+    EXPECT_GE(globe.counts().outside, globe.counts().occluded);
+    for (const int i : {0, 1, 2})
+        EXPECT_TRUE(globe.draws(*globe.row[static_cast<std::size_t>(i)], globe.alongRow())) << i;
+    // from above the ridge, and from above a lower one
+    EXPECT_TRUE(
+        globe.drawsFarTile(CullView::lookAt(ecefDeg(0.1, 0.1, 40000.0), ecefDeg(0.1, 0.9, 0.0), {1, 0, 0}, 30.0)));
+    RidgeGlobe low(500.0);
+    installBins(*low.root, withOcclusion());
+    EXPECT_TRUE(low.drawsFarTile());
+}
+
+// Bins of the row reach up to 9000 m, for finer tiles; the mesh behind the ridge is at 0 m.
+TEST(TerrainOcclusion, HidesAMeshByItsOwnHeightWhereNoFinerTileIsDue) {
+    RidgeGlobe globe(3500.0);
+    installBins(*globe.root, withOcclusion());
+    osg::PagedLOD& far = *globe.row[4];
+    const float never = 0.0f, always = 1e9f;
+    const auto setFinerWithin = [&far](float distance) {
+        far.setRange(0, distance, 1e10f);
+        far.setRange(1, 0.0f, distance);
+    };
+    for (int i = 0; i < 3; ++i) {
+        setFinerWithin(never);
+        EXPECT_FALSE(globe.drawsFarTile()) << i;
+        // as OSG leaves the levels of what it culls
+        EXPECT_NE(far.getFrameNumber(0), globe.frame);
+        setFinerWithin(always);
+        EXPECT_TRUE(globe.drawsFarTile()) << i;
+    }
+    // both may be drawn
+    setFinerWithin(never);
+    far.setRange(1, 0.0f, 1e10f);
+    EXPECT_TRUE(globe.drawsFarTile());
+    far.setRange(1, 0.0f, never);
+    EXPECT_FALSE(globe.drawsFarTile());
+    // where OSG chooses by pixels the kit does not know what it will choose
+    far.setRangeMode(osg::LOD::PIXEL_SIZE_ON_SCREEN);
+    EXPECT_TRUE(globe.drawsFarTile());
+}
+
+// Such as a sign in a file that adds to the tile's mesh.
+TEST(TerrainOcclusion, HidesNoTileBelowWhichSomethingIgnoresDepth) {
+    for (const bool ignores : {false, true}) {
+        RidgeGlobe globe;
+        const osg::ref_ptr<osg::Node> sign = makeTower(ecefDeg(0.1, 0.9, 100.0));
+        if (ignores) drawableOf(*sign)->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+        osg::PagedLOD& tile = *globe.row[4];
+        setStoredBin(tile, AnalyticBin(extentsDeg(0.0, 0.2, 0.8, 1.0).withAltitude({-12000.0, 500.0}), 10.0));
+        tile.setRange(0, 0.0f, 1e10f);
+        tile.setRange(1, 0.0f, 1e10f);
+        putBelow(tile, sign);
+        installBins(*globe.root, withOcclusion());
+        EXPECT_EQ(globe.draws(*sign, RidgeGlobe::alongRow()), ignores);
+    }
+}
+
+TEST(TerrainOcclusion, IsTheSameWhenTilesAreTestedOneByOne) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    BinStatistics::of(*globe.visitor).setTileByTile(true);
+    EXPECT_FALSE(globe.drawsFarTile());
+    EXPECT_GE(globe.counts().occluded, 1u);
+}
+
+TEST(TerrainOcclusion, TellsWhatOfThePictureIsCovered) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    BinStatistics& statistics = BinStatistics::of(*globe.visitor);
+    EXPECT_FALSE(statistics.covered());
+    EXPECT_FALSE(globe.drawsFarTile());
+    ASSERT_TRUE(statistics.covered());
+    const CoveredPicture picture = *statistics.covered();
+    const auto isCovered = [&](const osg::Vec3d& place) {
+        const glm::dvec3 from = glm::dvec3(place.x(), place.y(), place.z()) - picture.eye.origin;
+        const double forward = glm::dot(from, picture.eye.y), x = glm::dot(from, picture.eye.x) / forward;
+        const double share = (x - picture.across.lower) / picture.across.width();
+        const auto strip = static_cast<std::size_t>(share * static_cast<double>(picture.heights.size()));
+        return picture.heights.at(strip).contains(glm::dot(from, picture.eye.z) / forward);
+    };
+    EXPECT_TRUE(isCovered(ecefDeg(0.1, 0.9, 0.0)));       // in the tile behind the ridge
+    EXPECT_FALSE(isCovered(ecefDeg(0.1, 0.9, 20000.0)));  // above it
+    // a camera that looks down has no horizon in front of it
+    (void)globe.draws(*globe.row[0], CullView::lookAt(ecefDeg(0.1, 0.1, 1000.0), osg::Vec3d(), {0, 0, 1}, 1.0));
+    EXPECT_FALSE(statistics.covered());
+}
+
+osg::ref_ptr<osg::Program> program(osg::Shader::Type type, const std::string& source) {
+    const osg::ref_ptr<osg::Program> made = new osg::Program;
+    made->addShader(new osg::Shader(type, source));
+    return made;
+}
+
+// State in which a mesh may not paint what its vertices say.
+std::vector<std::pair<std::string, std::function<void(osg::StateSet&)>>> doubtfulStates() {
+    using Set = osg::StateSet;
+    const auto shader = [](osg::Shader::Type type, const std::string& source) {
+        return [=](Set& state) { state.setAttributeAndModes(program(type, source)); };
+    };
+    const auto mode = [](GLenum name, osg::StateAttribute::GLModeValue value) {
+        return [=](Set& state) { state.setMode(name, value | osg::StateAttribute::OVERRIDE); };
+    };
+    const auto polygons = [](osg::PolygonMode::Mode kind) {
+        return [=](Set& state) {
+            state.setAttributeAndModes(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, kind),
+                                       osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+        };
+    };
+    const auto depth = [](osg::Depth::Function function, bool isWritten) {
+        return [=](Set& state) { state.setAttributeAndModes(new osg::Depth(function, 0.0, 1.0, isWritten)); };
+    };
+    const auto colours = [](bool red, bool green, bool blue) {
+        return [=](Set& state) { state.setAttribute(new osg::ColorMask(red, green, blue, true)); };
+    };
+    constexpr auto kFragment = osg::Shader::FRAGMENT;
+    constexpr auto kVertex = osg::Shader::VERTEX;
+    return {
+        {"discards", shader(kFragment, "void main() { if (gl_FragCoord.x > 9.0) discard; gl_FragColor = vec4(1.0); }")},
+        {"depths by a shader", shader(kFragment, "void main() { gl_FragDepth = 0.0; gl_FragColor = vec4(1.0); }")},
+        {"defines of OSG", shader(kFragment, "#pragma import_defines(KILL)\nvoid main() { KILL; }")},
+        {"no text", shader(kFragment, "")},
+        {"moved vertices", shader(kVertex, "void main() { gl_Position = ftransform() + vec4(1.0); }")},
+        {"vertices moved later", shader(kVertex, "void main() { gl_Position = ftransform(); gl_Position.y += 1.0; }")},
+        {"other vertices", shader(kVertex, "void main() { gl_Position = osg_ModelViewProjectionMatrix * bent; }")},
+        {"a comment", shader(kVertex, "void main() { /* gl_Position = ftransform(); */ place(); }")},
+        {"triangles made anew", shader(osg::Shader::GEOMETRY, "void main() {}")},
+        {"no colours", colours(false, false, false)},
+        {"two colours", colours(true, false, true)},
+        {"lines", polygons(osg::PolygonMode::LINE)},
+        {"points", polygons(osg::PolygonMode::POINT)},
+        {"no depth test", mode(GL_DEPTH_TEST, osg::StateAttribute::OFF)},
+        {"always drawn", depth(osg::Depth::ALWAYS, true)},
+        {"never drawn", depth(osg::Depth::NEVER, true)},
+        {"drawn where equal", depth(osg::Depth::EQUAL, true)},
+        {"no depth written", depth(osg::Depth::LESS, false)},
+        {"clip plane", mode(GL_CLIP_PLANE0 + 5, osg::StateAttribute::ON)},
+        {"alpha test", mode(GL_ALPHA_TEST, osg::StateAttribute::ON)},
+        {"blending", mode(GL_BLEND, osg::StateAttribute::ON)},
+        {"stencil test", mode(GL_STENCIL_TEST, osg::StateAttribute::ON)},
+        {"stipple", mode(GL_POLYGON_STIPPLE, osg::StateAttribute::ON)},
+        {"alpha to coverage", mode(GL_SAMPLE_ALPHA_TO_COVERAGE_ARB, osg::StateAttribute::ON)},
+        {"bin of translucent things", [](Set& state) { state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN); }},
+        {"culled front faces", [](Set& state) { state.setAttributeAndModes(new osg::CullFace(osg::CullFace::FRONT)); }},
+    };
+}
+
+// Of the camera, whose state OSG puts above the scene, of a group, of the database, of the ridge's tile, and of its
+// drawable, which is asked when bins are installed.
+TEST(TerrainOcclusion, NeedsStateInWhichRidgesPaintTheirTriangles) {
+    for (const auto& [name, set] : doubtfulStates()) {
+        RidgeGlobe globe;
+        const osg::ref_ptr<osg::Group> above = new osg::Group;
+        above->addChild(globe.root);
+        globe.scene = above;
+        installBins(*globe.root, withOcclusion());
+        EXPECT_FALSE(globe.drawsFarTile()) << name;
+        for (osg::Node* const node : {static_cast<osg::Node*>(above), static_cast<osg::Node*>(globe.root.get()),
+                                      static_cast<osg::Node*>(globe.row[2].get())}) {
+            set(*node->getOrCreateStateSet());
+            EXPECT_TRUE(globe.drawsFarTile()) << name << " on " << node->className();
+            node->setStateSet(nullptr);
+            EXPECT_FALSE(globe.drawsFarTile()) << name;
+        }
+        CullView camera = RidgeGlobe::alongRow();
+        camera.states = new osg::StateSet;
+        set(*camera.states);
+        EXPECT_TRUE(globe.drawsFarTile(camera)) << name << " on a camera";
+        set(*drawableOf(*globe.row[2])->getOrCreateStateSet());
+        installBins(*globe.root, withOcclusion());
+        EXPECT_TRUE(globe.drawsFarTile()) << name << " on a drawable";
+    }
+}
+
+TEST(TerrainOcclusion, TrustsShadersThatAreDeclared) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    const osg::ref_ptr<osg::Program> plain =
+        program(osg::Shader::FRAGMENT, "void main() { gl_FragColor = vec4(1.0); }");
+    globe.root->getOrCreateStateSet()->setAttributeAndModes(plain);
+    EXPECT_TRUE(globe.drawsFarTile());
+    CullOptions trusting = withOcclusion();
+    trusting.plainShaders = true;
+    setCullOptions(*globe.root, trusting);
+    EXPECT_FALSE(globe.drawsFarTile());
+    setCullOptions(*globe.root, withOcclusion());
+    EXPECT_TRUE(globe.drawsFarTile());
+    setDrawsTriangles(*plain);
+    EXPECT_FALSE(globe.drawsFarTile());
+}
+
+// Draws nothing.
+struct NoDrawing : osg::Drawable::DrawCallback {
+    void drawImplementation(osg::RenderInfo&, const osg::Drawable*) const override {}
+};
+
+// May change what is drawn after the cull traversal has relied on it.
+struct Updater : osg::NodeCallback {
+    void operator()(osg::Node* node, osg::NodeVisitor* nv) override { traverse(node, nv); }
+};
+
+TEST(TerrainOcclusion, NeedsRidgesWithoutCallbacksOfTheApplication) {
+    const auto draw = [](RidgeGlobe& globe) { drawableOf(*globe.row[2])->setDrawCallback(new NoDrawing); };
+    const auto cull = [](RidgeGlobe& globe) { drawableOf(*globe.row[2])->addCullCallback(new Updater); };
+    const auto cullMesh = [](RidgeGlobe& globe) { globe.row[2]->getChild(0)->addCullCallback(new Updater); };
+    const auto updateMesh = [](RidgeGlobe& globe) { globe.row[2]->getChild(0)->addUpdateCallback(new Updater); };
+    const auto updateDrawable = [](RidgeGlobe& globe) { drawableOf(*globe.row[2])->addUpdateCallback(new Updater); };
+    const auto handleEvents = [](RidgeGlobe& globe) { drawableOf(*globe.row[2])->addEventCallback(new Updater); };
+    const std::vector<std::pair<const char*, std::function<void(RidgeGlobe&)>>> ways{
+        {"draw", draw},
+        {"cull", cull},
+        {"cull of the mesh", cullMesh},
+        {"update of the mesh", updateMesh},
+        {"update of the drawable", updateDrawable},
+        {"event of the drawable", handleEvents}};
+    for (const auto& [name, put] : ways) {
+        RidgeGlobe globe;
+        put(globe);
+        installBins(*globe.root, withOcclusion());
+        EXPECT_TRUE(globe.drawsFarTile()) << name;
+    }
+}
+
+TEST(TerrainOcclusion, NeedsRidgesThatTheCameraDraws) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    for (osg::Node* const node :
+         {static_cast<osg::Node*>(globe.row[2].get()), static_cast<osg::Node*>(drawableOf(*globe.row[2]))}) {
+        node->setNodeMask(2);
+        globe.visitor->setTraversalMask(1);
+        EXPECT_TRUE(globe.drawsFarTile()) << "another camera's";
+        globe.visitor->setTraversalMask(~0u);
+        EXPECT_FALSE(globe.drawsFarTile());
+        node->setNodeMask(~0u);
+    }
+}
+
+TEST(TerrainOcclusion, NeedsARidgeThatIsDrawnAsItWas) {
+    const auto mask = [](RidgeGlobe& globe) { drawableOf(*globe.row[2])->setNodeMask(0); };
+    const auto remove = [](RidgeGlobe& globe) { globe.root->removeChild(globe.row[2]); };
+    const auto outline = [](RidgeGlobe& globe) {
+        globe.row[2]->getOrCreateStateSet()->setAttributeAndModes(
+            new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
+    };
+    const auto flatten = [](RidgeGlobe& globe) {
+        const osg::ref_ptr<osg::MatrixTransform> flat = makeMeshTile(extentsDeg(0, 0.2, 0.4, 0.6), 0.0);
+        globe.row[2]->replaceChild(globe.row[2]->getChild(0), flat);
+    };
+    const auto lower = [](RidgeGlobe& globe) {
+        auto* const transform = globe.row[2]->getChild(0)->asTransform()->asMatrixTransform();
+        transform->setMatrix(transform->getMatrix() * osg::Matrixd::translate(-8000.0, 0.0, 0.0));
+    };
+    const auto lowerVertices = [](RidgeGlobe& globe) {
+        osg::Geometry& geometry = *drawableOf(*globe.row[2])->asGeometry();
+        auto& vertices = static_cast<osg::Vec3Array&>(*geometry.getVertexArray());
+        for (osg::Vec3& v : vertices) v.x() -= 8000.0F;
+        vertices.dirty();
+        geometry.dirtyBound();
+    };
+    const auto giveTriangles = [](RidgeGlobe& globe) {
+        osg::Geometry& geometry = *drawableOf(*globe.row[2])->asGeometry();
+        const auto& all = static_cast<const osg::DrawElementsUInt&>(*geometry.getPrimitiveSet(0));
+        geometry.setPrimitiveSet(0, new osg::DrawElementsUInt(GL_TRIANGLES, all.begin() + 186, all.end()));
+    };
+    const auto cutTriangles = [](RidgeGlobe& globe) {
+        osg::Geometry& geometry = *drawableOf(*globe.row[2])->asGeometry();
+        auto& triangles = static_cast<osg::DrawElementsUInt&>(*geometry.getPrimitiveSet(0));
+        triangles.erase(triangles.begin() + 90, triangles.begin() + 186);
+        triangles.dirty();
+        geometry.dirtyBound();
+    };
+    const std::vector<std::function<void(RidgeGlobe&)>> ways{mask,  remove,        outline,       flatten,
+                                                             lower, lowerVertices, giveTriangles, cutTriangles};
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        RidgeGlobe globe;
+        installBins(*globe.root, withOcclusion());
+        EXPECT_FALSE(globe.drawsFarTile());
+        ways[i](globe);
+        EXPECT_TRUE(globe.drawsFarTile()) << i;
+        update(*globe.root);
+        EXPECT_TRUE(globe.drawsFarTile()) << i;
+    }
+}
+
+TEST(TerrainOcclusion, RestsWhereItDoesNotPayIfLeftToItself) {
+    RidgeGlobe globe;
+    CullOptions options;
+    options.occlusion = OcclusionUse::Auto;
+    installBins(*globe.root, options);
+    // plates are made in the updates after a view that could use them
+    int awaited = 0;
+    for (; awaited < 20 && globe.drawsFarTile(); ++awaited) update(*globe.root);
+    EXPECT_GE(awaited, 1);
+    EXPECT_LT(awaited, 20);
+    for (int i = 0; i < 20; ++i) EXPECT_FALSE(globe.drawsFarTile()) << i;
+    const CullView high = CullView::lookAt(ecefDeg(0.1, 0.1, 40000.0), ecefDeg(0.1, 0.9, 0.0), {1, 0, 0}, 30.0);
+    for (int i = 0; i < 600; ++i) EXPECT_TRUE(globe.drawsFarTile(high)) << i;
+    // tried again after 256 views
+    int rested = 0;
+    while (rested < 300 && globe.drawsFarTile()) ++rested;
+    EXPECT_GE(rested, 9);
+    EXPECT_LE(rested, 256);
+    for (int i = 0; i < 20; ++i) EXPECT_FALSE(globe.drawsFarTile()) << i;
+}
+
+// What was found serves the next views as well. It must not outlast the place that it was found for.
+TEST(TerrainOcclusion, IsFoundAgainWhereTheEyeHasMoved) {
+    // the lowest eye that sees the tile behind the ridge, by what is found for one view alone
+    double lowest = 1000.0, highest = 40000.0;
+    while (highest > 1.0001 * lowest) {
+        RidgeGlobe globe;
+        installBins(*globe.root, withOcclusion());
+        const double middle = 0.5 * (lowest + highest);
+        (globe.drawsFarTile(RidgeGlobe::alongRow(middle)) ? highest : lowest) = middle;
+    }
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    for (const double step : {1.0, 5.0, 20.0, 60.0, 200.0, 500.0}) {
+        for (int start = 0; start < 20; ++start) {
+            for (int i = 0; i < 20; ++i) {
+                const double altitude = highest + (0.5 + i - 10 - 0.05 * start) * step;
+                const bool isDrawn = globe.drawsFarTile(RidgeGlobe::alongRow(altitude));
+                EXPECT_TRUE(isDrawn || altitude < 1.002 * highest) << altitude << " by steps of " << step;
+                // not much is lost by looking ahead
+                EXPECT_TRUE(!isDrawn || altitude > 0.8 * highest) << altitude << " by steps of " << step;
+            }
+        }
+    }
+}
+
+TEST(TerrainOcclusion, IsFoundAgainWhereTheCameraHasTurned) {
+    // beside the row: the ridge covers only the northern part of the tile behind it
+    const auto turned = [](double north) {
+        return CullView::lookAt(ecefDeg(-0.1, 0.1, 1000.0), ecefDeg(-0.1 + north, 1.1, 1000.0), {1, 0, 0}, 8.0);
+    };
+    for (const double step : {0.002, 0.01, 0.04}) {
+        // few tiles, so that all views show the same
+        RidgeGlobe globe(8000.0, 5);
+        installBins(*globe.root, withOcclusion());
+        double north = 0.28;
+        EXPECT_FALSE(globe.drawsFarTile(turned(north)));
+        for (; north > 0.25; north -= step) (void)globe.drawsFarTile(turned(north));
+        EXPECT_TRUE(globe.drawsFarTile(turned(north))) << step;
+    }
+}
+
+// Compares a camera that turns with a new search for each view.
+TEST(TerrainOcclusion, HidesNothingMoreWhereTheCameraTurns) {
+    Random random(1712);
+    int hidden = 0;
+    for (int flight = 0; flight < 20; ++flight) {
+        RidgeGlobe globe(8000.0, 5);
+        installBins(*globe.root, withOcclusion());
+        const double fov = random.uniform(2.0, 12.0), start = random.uniform(-0.2, 0.4);
+        double north = random.uniform(-0.2, 0.4);
+        for (int i = 0; i < 20; ++i) {
+            north += random.sign() * random.logUniform(1e-4, 0.1);
+            const CullView view =
+                CullView::lookAt(ecefDeg(start, 0.1, 1000.0), ecefDeg(start + north, 1.1, 1000.0), {1, 0, 0}, fov);
+            RidgeGlobe alone(8000.0, 5);
+            installBins(*alone.root, withOcclusion());
+            const bool isDrawn = globe.drawsFarTile(view), isDrawnAlone = alone.drawsFarTile(view);
+            hidden += alone.counts().occluded > 0 ? 1 : 0;
+            EXPECT_TRUE(isDrawn || !isDrawnAlone) << "flight " << flight << ", view " << i;
+        }
+    }
+    EXPECT_GT(hidden, 50);
+}
+
+// A search takes longer than all other culling.
+TEST(TerrainOcclusion, ServesManyViewsOfAStraightFlight) {
+    for (const double altitude : {200.0, 1000.0, 1717.0}) {
+        RidgeGlobe globe;
+        installBins(*globe.root, withOcclusion());
+        const BinStatistics& statistics = BinStatistics::of(*globe.visitor);
+        std::shared_ptr<const CoveredPicture> last;
+        int searches = 0;
+        for (int i = 0; i < 200; ++i) {
+            const double east = 0.1 + 1e-5 * i;
+            (void)globe.drawsFarTile(
+                CullView::lookAt(ecefDeg(0.1, east, altitude), ecefDeg(0.1, east + 0.9, altitude), {1, 0, 0}, 30.0));
+            searches += statistics.covered() != last ? 1 : 0;
+            last = statistics.covered();
+        }
+        EXPECT_LE(searches, 10) << altitude;
+    }
+}
+
+// Compares a flight over tiles that leave the view one after the other with a new search for each view.
+TEST(TerrainOcclusion, HidesNothingMoreWhereTilesLeaveTheView) {
+    RidgeGlobe globe(8000.0, 5);
+    installBins(*globe.root, withOcclusion());
+    int hidden = 0;
+    for (int i = 0; i < 400; ++i) {
+        const double east = 0.05 + 7e-4 * i, altitude = 1000.0 + 5.0 * i;
+        const CullView view =
+            CullView::lookAt(ecefDeg(0.1, east, altitude), ecefDeg(0.1, east + 0.9, altitude), {1, 0, 0}, 30.0);
+        const bool isDrawn = globe.drawsFarTile(view);
+        if (i % 8 != 0) continue;
+        RidgeGlobe alone(8000.0, 5);
+        installBins(*alone.root, withOcclusion());
+        const bool isDrawnAlone = alone.drawsFarTile(view);
+        hidden += isDrawnAlone ? 0 : 1;
+        EXPECT_TRUE(isDrawn || !isDrawnAlone) << "view " << i;
+    }
+    EXPECT_GT(hidden, 20);
+}
+
+TEST(TerrainOcclusion, OutlastsOnlyTilesThatHidNothingOrAreOutOfView) {
+    using Finding = FoundOcclusion::Finding;
+    const core::Ellipsoid ellipsoid(6378137.0, 6356752.3142);
+    // the half-space north of the equator
+    core::PlaneSet view;
+    view.push_back({{0.0, 0.0, 1.0}, 0.0});
+    std::uint64_t plates = 0;
+    const auto tile = [&](double south, double north, double margin = 0.0) {
+        return FoundOcclusion::Tile{nullptr, nullptr, true, ++plates, extentsDeg(south, north, 1, 2),
+                                    margin,  0.0,     10.0};
+    };
+    FoundOcclusion first;
+    first.tiles = {tile(1, 2), tile(2, 3), tile(-3, -2), tile(3, 4)};
+    first.findings = {Finding::Seen, Finding::Hidden, Finding::Seen, Finding::Seen};
+    const auto isLeftOut = [&](const std::vector<std::size_t>& shown, const FoundOcclusion& from) {
+        FoundOcclusion found = from;
+        for (const std::size_t i : shown) found.shown.push_back(found.tiles[i]);
+        found.leaveOut(view, ellipsoid);
+        EXPECT_EQ(found.tiles.size(), found.findings.size());
+        for (std::size_t i = 0; found.tiles == found.shown && i < shown.size(); ++i)
+            EXPECT_EQ(found.findings[i], from.findings[shown[i]]);
+        return found.tiles == found.shown;
+    };
+    EXPECT_TRUE(isLeftOut({0, 2, 3}, first));
+    EXPECT_TRUE(isLeftOut({0, 1, 3}, first));
+    EXPECT_TRUE(isLeftOut({0, 3}, first));
+    EXPECT_FALSE(isLeftOut({1, 2, 3}, first));
+    EXPECT_FALSE(isLeftOut({0, 1, 2}, first));
+    // another one has come
+    FoundOcclusion changed = first;
+    changed.shown = {changed.tiles[0], tile(2, 3), changed.tiles[3]};
+    changed.leaveOut(view, ellipsoid);
+    EXPECT_EQ(changed.tiles, first.tiles);
+    // what may reach into the view by its margin, or by the bulge of its sides
+    for (const auto& near : {tile(-1, -0.001, 200.0), tile(-1, 1e-4)}) {
+        FoundOcclusion reaching = first;
+        reaching.tiles[2] = near;
+        EXPECT_FALSE(isLeftOut({0, 1, 3}, reaching));
+    }
+}
+
+TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    EXPECT_FALSE(globe.drawsFarTile());
+    CullView parallel = RidgeGlobe::alongRow();
+    parallel.projection = osg::Matrixd::ortho(-2e4, 2e4, -2e4, 2e4, 1.0, 1e8);
+    EXPECT_TRUE(globe.drawsFarTile(parallel));
+    EXPECT_TRUE(globe.drawsFarTile(RidgeGlobe::alongRow(-200.0)));
+    // the near plane cuts the ridge, or the plain in front of it, away
+    CullView cutting = RidgeGlobe::alongRow();
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 60000.0, 1e8);
+    EXPECT_TRUE(globe.drawsFarTile(cutting));
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 8000.0, 1e8);
+    EXPECT_TRUE(globe.drawsFarTile(cutting));
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 2000.0, 1e8);
+    EXPECT_FALSE(globe.drawsFarTile(cutting));
+    // through a plain that is cut away, the eye sees past the foot of the ridge into a pit
+    RidgeGlobe pit;
+    pit.row[4]->replaceChild(pit.row[4]->getChild(0), makeMeshTile(extentsDeg(0, 0.2, 0.8, 1.0), -15000.0));
+    installBins(*pit.root, withOcclusion());
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 500.0, 1e8);
+    EXPECT_FALSE(pit.drawsFarTile(cutting));
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 6000.0, 1e8);
+    EXPECT_TRUE(pit.drawsFarTile(cutting));
+    // The depths of ridge and tile differ by three steps of a 24-bit depth buffer. A driver may draw either of them.
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 0.01, 1e8);
+    EXPECT_TRUE(globe.drawsFarTile(cutting));
+    cutting.projection = osg::Matrixd::perspective(30.0, 1.0, 1.0, 1e8);
+    EXPECT_FALSE(globe.drawsFarTile(cutting));
+    // where OSG computes it, anything far away in the scene may move it
+    CullView computed = RidgeGlobe::alongRow();
+    computed.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
+    {
+        const CapturedNotes notes;
+        for (int i = 0; i < 3; ++i) EXPECT_TRUE(globe.drawsFarTile(computed));
+        EXPECT_EQ(notes.count("DO_NOT_COMPUTE_NEAR_FAR"), 1u);
+    }
+    CullView nearPlane = RidgeGlobe::alongRow();
+    nearPlane.cullingMode |= osg::CullSettings::NEAR_PLANE_CULLING;
+    EXPECT_TRUE(globe.drawsFarTile(nearPlane));
+    // a scene in kilometres, and depths from 0 to 1
+    osg::ref_ptr<osg::MatrixTransform> scaled = new osg::MatrixTransform(osg::Matrixd::scale(1e-3, 1e-3, 1e-3));
+    scaled->addChild(globe.root);
+    globe.scene = scaled;
+    CullView inKilometres = RidgeGlobe::alongRow();
+    inKilometres.modelView =
+        osg::Matrixd::scale(1e3, 1e3, 1e3) * inKilometres.modelView * osg::Matrixd::scale(1e-3, 1e-3, 1e-3);
+    inKilometres.projection = osg::Matrixd::perspective(30.0, 1.0, 1e-3, 1e5);
+    EXPECT_FALSE(globe.drawsFarTile(inKilometres));
+    inKilometres.projection = osg::Matrixd::perspective(30.0, 1.0, 60.0, 1e5);
+    EXPECT_TRUE(globe.drawsFarTile(inKilometres));
+    globe.scene = globe.root;
+    CullView zeroToOne = RidgeGlobe::alongRow();
+    zeroToOne.projection = osg::Matrixd::perspective(30.0, 1.0, 60000.0, 1e8) * osg::Matrixd::scale(1, 1, 0.5) *
+                           osg::Matrixd::translate(0, 0, 0.5);
+    EXPECT_TRUE(globe.drawsFarTile(zeroToOne));
+    EXPECT_FALSE(globe.drawsFarTile());
+}
+
+// A hundredth of the depth buffer's range has as many steps as the whole with the near plane a hundred times as near.
+TEST(TerrainOcclusion, NeedsARangeOfDepthsThatTellsRidgeAndTileApart) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    CullView view = RidgeGlobe::alongRow();
+    view.projection = osg::Matrixd::perspective(30.0, 1.0, 1.0, 1e8);
+    EXPECT_FALSE(globe.drawsFarTile(view));
+    view.states = new osg::StateSet;
+    view.states->setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.99, 1.0));
+    EXPECT_TRUE(globe.drawsFarTile(view));
+}
+
+TEST(TerrainOcclusion, NeedsMeshesOfTrianglesWithoutHoles) {
+    const auto cutHole = [](osg::Geometry& geometry) {
+        auto& triangles = static_cast<osg::DrawElementsUInt&>(*geometry.getPrimitiveSet(0));
+        triangles.erase(triangles.begin() + 180, triangles.begin() + 186);
+    };
+    // whose diagonals nobody knows
+    const auto makeQuads = [](osg::Geometry& geometry) {
+        constexpr unsigned int kPosts = 9;
+        const osg::ref_ptr<osg::DrawElementsUInt> quads = new osg::DrawElementsUInt(GL_QUADS);
+        for (unsigned int i = 0; i + kPosts + 1 < kPosts * kPosts; ++i) {
+            if (i % kPosts == kPosts - 1) continue;
+            for (const unsigned int corner : {i, i + 1, i + kPosts + 1, i + kPosts}) quads->push_back(corner);
+        }
+        geometry.setPrimitiveSet(0, quads);
+    };
+    const std::vector<std::function<void(osg::Geometry&)>> ways{cutHole, makeQuads};
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        for (const std::size_t tile : {std::size_t{2}, std::size_t{6}}) {
+            RidgeGlobe globe;
+            ways[i](*drawableOf(*globe.row[tile])->asGeometry());
+            installBins(*globe.root, withOcclusion());
+            EXPECT_TRUE(globe.drawsFarTile()) << i << " " << tile;
+        }
+    }
+}
+
+TEST(TerrainOcclusion, NeedsTilesThatAreNotLeftOutAsSmall) {
+    RidgeGlobe globe;
+    installBins(*globe.root, withOcclusion());
+    CullView view = RidgeGlobe::alongRow();
+    view.cullingMode |= osg::CullSettings::SMALL_FEATURE_CULLING;
+    EXPECT_FALSE(globe.drawsFarTile(view));
+    EXPECT_GE(globe.counts().occluded, 1u);
+    globe.visitor->setSmallFeatureCullingPixelSize(500.0F);
+    (void)globe.drawsFarTile(view);
+    EXPECT_EQ(globe.counts().occluded, 0u);
+}
+
+TEST(TerrainOcclusion, IsOffWithoutAHorizon) {
+    for (const bool isOff : {false, true}) {
+        RidgeGlobe globe;
+        CullOptions options = withOcclusion();
+        if (isOff) options.horizonUse = HorizonUse::Off;
+        // a globe with a hole
+        if (!isOff) globe.root->removeChild(globe.tiles[3]);
+        installBins(*globe.root, options);
+        EXPECT_TRUE(globe.drawsFarTile()) << isOff;
+    }
+}
+
+}  // namespace
+}  // namespace osgAnalyticBin::test
