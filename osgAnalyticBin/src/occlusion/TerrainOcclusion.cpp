@@ -109,7 +109,7 @@ OccludedTiles noteIn(TileSelection& selection, const FoundOcclusion& found) {
         const TileSelection::ShownTile& tile = selection.shown()[i];
         if (found.findings[i] == FoundOcclusion::Finding::Beside || tile.isOutOfView) continue;
         ++tiles.inView;
-        if (!found.hides(i, tile) || !tile.tile->getInstalledTile()->obeysDepth()) continue;
+        if (!found.hides(i, tile) || tile.tile->getInstalledTile()->has(InstalledTile::IgnoresDepth)) continue;
         ++tiles.hidden;
         selection.addOccluded(tile);
     }

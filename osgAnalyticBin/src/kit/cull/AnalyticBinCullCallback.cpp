@@ -175,7 +175,7 @@ void AnalyticBinCullCallback::fillSlot() const {
     if (prepared.horizon) bins.horizon = &*prepared.horizon;
     bins.column = prepared.columnHorizon ? &*prepared.columnHorizon : bins.horizon;
     _installed->fillSlot({prepared.sphere, prepared.columnSphere, _binHigh, _binLow, _surfaceHigh, _surfaceLow,
-                          prepared.columnHorizon.has_value(), _installed->testsSphere()},
+                          prepared.columnHorizon.has_value(), _installed->has(InstalledTile::Declared)},
                          bins);
 }
 
@@ -277,6 +277,7 @@ InstalledTile* AnalyticBinCullCallback::getInstalledTile() const {
 
 void AnalyticBinCullCallback::setInstalledTile(InstalledTile* tile) {
     _installed = tile;
+    if (tile) tile->setCallback(this);
 }
 
 bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const {
@@ -315,14 +316,14 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
 // What its bin does not hold of a tile is held by OSG's sphere, which is not tested before.
 bool AnalyticBinCullCallback::isSphereInView(const osg::Node& node, osg::CullStack& cullStack,
                                              core::PlaneMask undecided) const {
-    return _installed && _installed->needsSphere() &&
+    return _installed && _installed->has(InstalledTile::NeedsSphere) &&
            !isSphereCulled(cullStack.getCurrentCullingSet(), undecided, node.getBound());
 }
 
 // Whether it obeys depth, with all that is below it, and by the states from the database down to it.
 bool AnalyticBinCullCallback::mayBeHidden(const osg::Node& node, osg::NodeVisitor& nv, const DatabaseView* view) const {
     const StateRules rules{_setup->options.plainShaders};
-    const bool obeys = !_installed || _installed->obeysDepth();
+    const bool obeys = !_installed || !_installed->has(InstalledTile::IgnoresDepth);
     return obeys && drawnStateOf(node, rules).obeysDepth &&
            (!view || drawnStateAbove(nv, view->rules, view->states).obeysDepth);
 }

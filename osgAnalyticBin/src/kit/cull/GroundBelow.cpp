@@ -97,7 +97,7 @@ bool GroundBelow::isBelow(const core::Geodetic& eye, osg::Node& mesh, const Anal
     // a mesh may change without a word: a result is used for a few frames only
     constexpr int kMostUses = 16;
     const InstalledTile* const installed = tile.getInstalledTile();
-    const bool isChanged = !installed || installed->isMeshChanged();
+    const bool isChanged = !installed || installed->has(InstalledTile::MeshChanged);
     const bool isSame = !isChanged && _mesh.get() == &mesh && _tile.get() == &tile && ++_uses < kMostUses;
     if (isSame && isTriangleBelow(point, up)) return true;
     _mesh = nullptr;

@@ -66,7 +66,7 @@ NearMeshes::Known* NearMeshes::meshOf(const AnalyticBinCullCallback& tile, osg::
     for (Known& one : _known) {
         if (one.tile.get() == &tile && one.node.get() == &mesh) known = &one;
     }
-    const bool isChanged = tile.getInstalledTile() && tile.getInstalledTile()->isMeshChanged();
+    const bool isChanged = tile.getInstalledTile() && tile.getInstalledTile()->has(InstalledTile::MeshChanged);
     const bool isSame = known && !isChanged && known->localToEcef == tile.getLocalToEcef();
     if (isSame && ++known->uses < kMostUses) return known;
     if (!known && _known.size() < kMostTiles) known = &_known.emplace_back();

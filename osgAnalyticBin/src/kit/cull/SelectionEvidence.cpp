@@ -84,7 +84,7 @@ void SelectionWalk::searchNode(osg::Node& node) {
 void SelectionWalk::searchTileWithoutFamily(osg::Node& node, const AnalyticBinCullCallback& bin, bool mayLeaveOut) {
     // the next update fits its bin to what its mesh has become
     const InstalledTile* const installed = bin.getInstalledTile();
-    if (installed && installed->isMeshChanged() && installed->isKeptVisible()) doubt();
+    if (installed && installed->has(InstalledTile::MeshChanged) && installed->has(InstalledTile::Outgrown)) doubt();
     TileBlock::Slot numbers;
     if (const osg::BoundingSphere* const column = bin.ecefColumnSphere()) numbers.column = *column;
     numbers.binLow = bin.getBinLow();
@@ -139,14 +139,14 @@ void SelectionWalk::searchPaged(osg::PagedLOD& node, const Tile& tile) {
 void SelectionWalk::searchChild(osg::PagedLOD& node, unsigned int i, const Tile& tile, bool isOnlyLevel) {
     if (!isPaged(node, i)) return show(tile, *node.getChild(i), isOnlyLevel);
     const InstalledTile* const installed = tile.callback.getInstalledTile();
-    if (installed && installed->hasGapBelow()) doubt();
+    if (installed && installed->has(InstalledTile::GapBelow)) doubt();
     searchNode(*node.getChild(i));
 }
 
 // The altitudes of what a tile draws by itself. Its bin alone follows changes of the mesh.
 core::Interval SelectionWalk::surfaceOf(const Tile& tile) {
     const InstalledTile* const installed = tile.isCertain ? nullptr : tile.callback.getInstalledTile();
-    if (installed && installed->isMeshChanged()) return {tile.numbers.binLow, tile.numbers.binHigh};
+    if (installed && installed->has(InstalledTile::MeshChanged)) return {tile.numbers.binLow, tile.numbers.binHigh};
     return {tile.numbers.surfaceLow, tile.numbers.surfaceHigh};
 }
 
@@ -156,7 +156,7 @@ void SelectionWalk::show(const Tile& tile, osg::Node& mesh, bool isOnlyLevel) {
     if (tile.isAboutEye && isBeside(tile)) return;
     const InstalledTile* const installed = tile.isCertain ? nullptr : tile.callback.getInstalledTile();
     // the application's own tiles are not counted in what covers the globe
-    if (installed && !installed->isFilled()) doubt();
+    if (installed && installed->has(InstalledTile::NotFilled)) doubt();
     if (isLeftOutInView(tile, mesh)) doubt();
     if (_isEager && !isDrawnWhole(mesh, tile.callback, tile.member)) doubt();
     const bool isSure = !_isChoiceUnknown && tile.isFitted;
@@ -232,7 +232,7 @@ bool SelectionWalk::isDrawnWhole(const osg::Node& mesh, const AnalyticBinCullCal
                                  const FamilyTile* member) const {
     if (!member || !member->isMesh(mesh)) {
         const InstalledTile* const installed = tile.getInstalledTile();
-        const bool isMeshDoubted = !member && installed && installed->isMeshDoubted();
+        const bool isMeshDoubted = !member && installed && installed->has(InstalledTile::MeshUnread);
         bool hasDrawable = false;
         return isDrawnWhole(mesh, hasDrawable) && (hasDrawable || !isMeshDoubted);
     }

@@ -269,7 +269,7 @@ bool SelectionWalk::selectShownLevel(osg::PagedLOD& node, const Tile& tile) {
     const Scoped in(_in, _selection.enter(node, _in, _segment, &node, *shown));
     const bool isMesh = tile.member->isMesh(level);
     if (!isMesh && isPaged(node, *shown)) {
-        if (!tile.isCertain && tile.callback.getInstalledTile()->hasGapBelow()) doubt();
+        if (!tile.isCertain && tile.callback.getInstalledTile()->has(InstalledTile::GapBelow)) doubt();
         selectLevel(level, tile.member->wayThrough());
         return true;
     }

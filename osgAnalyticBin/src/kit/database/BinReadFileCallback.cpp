@@ -118,12 +118,12 @@ BinReadFileCallback::BinReadFileCallback(Database* database, const TileFrame& fr
 
 BinReadFileCallback::~BinReadFileCallback() = default;
 
-void BinReadFileCallback::expect(const std::string& fileName, const TileFrame& frame, const ParentTile* parent) {
+void BinReadFileCallback::expect(const std::string& fileName, const TileFrame& frame, InstalledTile* parent) {
     _expected[fileName] = {frame, parent};
 }
 
 bool BinReadFileCallback::expectsOtherwise(const std::string& fileName, const TileFrame& frame,
-                                           const ParentTile* parent) const {
+                                           InstalledTile* parent) const {
     const auto found = _expected.find(fileName);
     if (found == _expected.end()) return false;
     return found->second.parent != parent || found->second.frame.localToEcef != frame.localToEcef;
@@ -207,7 +207,7 @@ std::vector<PagedFile> filesPagedBy(const osg::PagedLOD& node, const TileFrame& 
     return files;
 }
 
-void PagedReads::follow(osg::PagedLOD& node, const TileFrame& frame, Database& database, const ParentTile* parent,
+void PagedReads::follow(osg::PagedLOD& node, const TileFrame& frame, Database& database, InstalledTile* parent,
                         bool isTile) {
     const osg::ref_ptr<osgDB::Options> own = dynamic_cast<osgDB::Options*>(node.getDatabaseOptions());
     const std::vector<PagedFile> files = filesPagedBy(node, frame, isTile);

@@ -32,11 +32,11 @@ public:
 
     /// Announces a file: the name by which it will be requested, the frame of its content, and the tile that pages it
     /// (null: none). Do not call once the pager may read.
-    void expect(const std::string& fileName, const TileFrame& frame, const ParentTile* parent);
+    void expect(const std::string& fileName, const TileFrame& frame, InstalledTile* parent);
 
     /// Whether the file is expected in another frame or below another tile: it then needs another callback.
     [[nodiscard]] bool expectsOtherwise(const std::string& fileName, const TileFrame& frame,
-                                        const ParentTile* parent) const;
+                                        InstalledTile* parent) const;
 
     osgDB::ReaderWriter::ReadResult readNode(const std::string& fileName, const osgDB::Options* options) override;
 
@@ -57,7 +57,7 @@ private:
                                             unsigned int generation);
     struct Expected {
         TileFrame frame;
-        osg::ref_ptr<const ParentTile> parent;
+        osg::ref_ptr<InstalledTile> parent;
     };
 
     [[nodiscard]] const Expected& expected(const std::string& fileName, const osgDB::Options* options) const;
@@ -86,7 +86,7 @@ class PagedReads final {
 public:
     /// Has the files of a PagedLOD, which stands in `frame`, read by a callback of ours. `parent`: the tile that pages
     /// them, null: none; `isTile`: it is this node.
-    void follow(osg::PagedLOD& node, const TileFrame& frame, Database& database, const ParentTile* parent, bool isTile);
+    void follow(osg::PagedLOD& node, const TileFrame& frame, Database& database, InstalledTile* parent, bool isTile);
     [[nodiscard]] bool empty() const { return _replacing.empty(); }
 
 private:

@@ -47,28 +47,11 @@ void renewEvidence(osg::Node& mesh, const AnalyticBinCullCallback& tile, Install
     cover.place = installed.place();
     installed.setCover(cover);
     const DrawnState drawn = drawnStateBelow(mesh, {tile.getCullOptions().plainShaders});
-    if (!drawn.hides) installed.setSeeThrough();
-    if (!drawn.obeysDepth) installed.ignoreDepth();
+    if (!drawn.hides) installed.doubt(InstalledTile::SeeThrough);
+    if (!drawn.obeysDepth) installed.doubt(InstalledTile::IgnoresDepth);
 }
 
 }  // namespace
-
-bool Widening::contains(const Widening& other) const {
-    if (isBoundless || !other.any()) return true;
-    return !other.isBoundless && bin.valid() && bin.contains(other.bin);
-}
-
-void Widening::expandBy(const Widening& other) {
-    isBoundless = isBoundless || other.isBoundless;
-    bin.expandBy(other.bin);
-}
-
-AnalyticBin Widening::widened(const AnalyticBin& known) const {
-    if (isBoundless || !known.valid()) return {};
-    AnalyticBin wider = known;
-    wider.expandBy(bin);
-    return wider;
-}
 
 bool Database::isAttachedTo(const osg::Node& node) const {
     osg::ref_ptr<osgTerrain::Terrain> terrain;
@@ -191,22 +174,19 @@ void Database::report(Finding finding, const std::string& file) {
 }
 
 // Told once for a database, whatever globes are inside it. The tile itself has been fitted to what is reported.
-void Database::report(const ParentTile& tile, Finding finding, const AnalyticBin& drawn) {
-    if (finding < Finding::OtherThanIndexed) return tile.database->report(finding, tile.file);
-    const ParentTile* outermost = &tile;
+void Database::report(InstalledTile& tile, Finding finding, const AnalyticBin& drawn) {
+    if (finding < Finding::OtherThanIndexed) return of(tile).report(finding, tile.file);
+    const InstalledTile* outermost = &tile;
     while (outermost->parent) outermost = outermost->parent.get();
-    outermost->database->report(finding, tile.file);
+    of(*outermost).report(finding, tile.file);
     const Widening by{drawn, finding == Finding::Unverifiable};
-    for (const ParentTile* at = &tile; at; at = at->parent.get()) {
-        if (at->isTile) at->database->widen(*at, by, at == &tile);
+    for (InstalledTile* at = &tile; at; at = at->parent.get()) {
+        if (at->ordinal) of(*at).widen(*at, by, at == &tile);
     }
 }
 
-void Database::ignoreDepth(const ParentTile& tile) {
-    for (const ParentTile* at = &tile; at; at = at->parent.get()) {
-        osg::ref_ptr<AnalyticBinCullCallback> callback;
-        if (at->callback.lock(callback) && callback->getInstalledTile()) callback->getInstalledTile()->ignoreDepth();
-    }
+void Database::ignoreDepth(InstalledTile& tile) {
+    for (InstalledTile* at = &tile; at; at = at->parent.get()) at->doubt(InstalledTile::IgnoresDepth);
 }
 
 void Database::setRegion(const core::GeodeticBin& region) {
@@ -247,25 +227,24 @@ void Database::makePlates() {
     requestUpdate();
 }
 
-void Database::widen(const ParentTile& tile, const Widening& by, bool isFitted) {
+void Database::widen(InstalledTile& tile, const Widening& by, bool isFitted) {
     const std::lock_guard<std::mutex> lock(_mutex);
-    _corrections[{tile.file, tile.ordinal}].expandBy(by);
+    _corrections[{tile.file, *tile.ordinal}].expandBy(by);
     // one file may be paged in several places, and below itself
     if (isFitted || (tile.widening ? tile.widening->contains(by) : !by.any())) return;
     if (!tile.widening) tile.widening = std::make_unique<Widening>();
     tile.widening->expandBy(by);
-    _toWiden.emplace_back(tile.callback, by);
+    _toWiden.emplace_back(&tile, by);
     requestUpdate();
     // until the next update
-    osg::ref_ptr<AnalyticBinCullCallback> callback;
-    if (tile.callback.lock(callback) && callback->getInstalledTile()) callback->getInstalledTile()->keepVisible(true);
+    tile.doubt(InstalledTile::Outgrown);
 }
 
-void Database::noteContent(const AnalyticBinCullCallback& tile, const Widening& by) {
+void Database::noteContent(InstalledTile& tile, const Widening& by) {
     const std::lock_guard<std::mutex> lock(_mutex);
     requestUpdate();
     // where no update traversal ever comes, tiles stay visible
-    if (_toWiden.size() < kMostToWiden) _toWiden.emplace_back(const_cast<AnalyticBinCullCallback*>(&tile), by);
+    if (_toWiden.size() < kMostToWiden) _toWiden.emplace_back(&tile, by);
 }
 
 Widening Database::correction(const std::string& file, std::size_t ordinal) const {
@@ -280,8 +259,8 @@ void Database::trustMeshes(osg::Node& group) {
         const FamilyTile& tile = family->tile(i);
         if (!tile.callback() || !tile.part(0)) continue;
         InstalledTile& installed = *tile.callback()->getInstalledTile();
-        if (installed.isMeshDoubted()) renewEvidence(*tile.part(0), *tile.callback(), installed);
-        installed.trustMesh();
+        if (installed.has(InstalledTile::MeshUnread)) renewEvidence(*tile.part(0), *tile.callback(), installed);
+        installed.settle(InstalledTile::MeshUnread);
     }
 }
 
@@ -310,14 +289,16 @@ void Database::widenLoaded() {
         toWiden.swap(_toWiden);
     }
     for (const auto& [observed, widening] : toWiden) {
-        osg::ref_ptr<AnalyticBinCullCallback> callback;
-        if (!observed.lock(callback)) {
+        osg::ref_ptr<InstalledTile> tile;
+        const osg::ref_ptr<osg::NodeCallback> callback = observed.lock(tile) ? tile->callback() : nullptr;
+        if (!callback) {
             // paged out, or fitted anew while the tile was on its way
             requestRefit();
             continue;
         }
-        callback->setBin(widening.widened(callback->getBin()));
-        if (callback->getInstalledTile()) callback->getInstalledTile()->keepVisible(false);
+        auto& bin = static_cast<AnalyticBinCullCallback&>(*callback);
+        bin.setBin(widening.widened(bin.getBin()));
+        tile->settle(InstalledTile::Outgrown);
     }
 }
 

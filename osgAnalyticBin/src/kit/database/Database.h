@@ -11,7 +11,6 @@
 #include <osgAnalyticBin/BinIndex.h>
 #include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/core/horizon/CoveredRegion.h>
-#include <osgAnalyticBin/core/mesh/CrackBounds.h>
 
 #include <osg/CoordinateSystemNode>
 #include <osg/Referenced>
@@ -29,20 +28,6 @@
 #include <vector>
 
 namespace osgAnalyticBin {
-
-struct ParentTile;
-
-/// What a tile's bin has to be expanded by.
-struct Widening {
-    AnalyticBin bin;
-    bool isBoundless = false;  ///< the extents of what was found are unknown
-
-    [[nodiscard]] bool any() const { return isBoundless || bin.valid(); }
-    [[nodiscard]] bool contains(const Widening& other) const;
-    void expandBy(const Widening& other);
-    /// The expanded bin. An unknown (invalid) bin stays unknown.
-    [[nodiscard]] AnalyticBin widened(const AnalyticBin& bin) const;
-};
 
 /// State shared by all tiles of one installed database, loaded already or paged in later. Bins are put on them by the
 /// installer, which derives from it.
@@ -63,7 +48,7 @@ public:
 
     /// Installs bins on content that was read from one of its files, in the thread that reads it. `frame`: where it
     /// stands; `parent`: the tile that pages it, null: none.
-    virtual void install(osg::Node& content, const TileFrame& frame, const ParentTile* parent) = 0;
+    virtual void install(osg::Node& content, const TileFrame& frame, InstalledTile* parent) = 0;
     /// Fits the loaded tiles again. `root`: the node that it is attached to. Requires: no cull traversal runs.
     virtual void refit(osg::Node& root) = 0;
     /// Gives a clone of its root a database of its own.
@@ -118,14 +103,14 @@ public:
     void report(Finding finding, const std::string& file = {});
     /// The same of a tile. If the bins of the tiles above it are concerned, these stay visible until the next update,
     /// which expands their bins by what the tile draws, or, where that cannot be compared with them, takes these away.
-    static void report(const ParentTile& tile, Finding finding, const AnalyticBin& drawn = {});
+    static void report(InstalledTile& tile, Finding finding, const AnalyticBin& drawn = {});
     [[nodiscard]] bool has(Finding finding) const {
         return (_found.load(std::memory_order_relaxed) & bitOf(finding)) != 0;
     }
 
     /// Call when something below a tile may be drawn in front of what is nearer: neither the tile nor its ancestors are
     /// hidden from then on.
-    static void ignoreDepth(const ParentTile& tile);
+    static void ignoreDepth(InstalledTile& tile);
 
     /// Says which region a regional database covers; empty: it covers the globe or has a gap.
     void setRegion(const core::GeodeticBin& region);
@@ -138,7 +123,7 @@ public:
 
     /// Records content below a tile that its bin does not contain. The tile stays visible until the next update expands
     /// the bin.
-    void noteContent(const AnalyticBinCullCallback& tile, const Widening& by);
+    void noteContent(InstalledTile& tile, const Widening& by);
 
     /// Call when a family was placed on a group or made anew: meshes of its tiles that have changed since bins were
     /// installed are trusted again, by new evidence. osgUtil::Optimizer may have changed their form: the new form is as
@@ -165,7 +150,7 @@ protected:
 
     /// Has the next update expand the bin of a tile, which stays visible until then. `isFitted`: the tile has been
     /// fitted to that already.
-    void widen(const ParentTile& tile, const Widening& by, bool isFitted);
+    void widen(InstalledTile& tile, const Widening& by, bool isFitted);
 
 private:
     using TileKey = std::pair<std::string, std::size_t>;
@@ -194,35 +179,8 @@ private:
     std::vector<osg::observer_ptr<osg::Node>> _onTheirWay;  // not merged yet, of this generation
     std::vector<osg::observer_ptr<osg::Node>> _lateComers;  // the same, of earlier ones
     std::map<TileKey, Widening> _corrections;
-    std::vector<std::pair<osg::observer_ptr<AnalyticBinCullCallback>, Widening>> _toWiden;
+    std::vector<std::pair<osg::observer_ptr<InstalledTile>, Widening>> _toWiden;
     std::vector<std::pair<osg::observer_ptr<const AnalyticBinCullCallback>, osg::observer_ptr<osg::Node>>> _awaitPlates;
-};
-
-/// Where a tile lies, for the tiles below it.
-struct TileExtents {
-    core::GeodeticBin bin;
-    bool isMeasured = false;  ///< they are those of its mesh, and finer tiles may leave them
-    core::TileEdges edges;
-};
-
-/// A tile, as its paged descendants refer to it.
-struct ParentTile : public osg::Referenced {
-    osg::ref_ptr<const ParentTile> parent;  // null: a tile of the root file
-    osg::observer_ptr<AnalyticBinCullCallback> callback;
-    bool isTile = true;  // false: a node without a bin, between tiles; it has neither number nor extents
-    std::string file;
-    std::size_t ordinal = 0;
-    TileExtents extents;
-    core::GeodeticBin place;  // that its own mesh has; empty: not known
-    // The tile's stored bin, or that of the nearest ancestor with one. Invalid: there is none.
-    AnalyticBin stored;
-    // The database of the tile: a globe inside another globe has its own.
-    osg::ref_ptr<Database> database;
-    // What the callback's bin has to be expanded by; null: nothing. Guarded by the database.
-    mutable std::unique_ptr<Widening> widening;
-
-protected:
-    ~ParentTile() override = default;
 };
 
 }  // namespace osgAnalyticBin

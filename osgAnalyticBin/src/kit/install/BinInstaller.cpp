@@ -95,13 +95,13 @@ BinInstaller::~BinInstaller() {
     takeOff(_nested);
 }
 
-void BinInstaller::continueBelow(Database* database, const TileFrame& frame, const ParentTile* parent) {
+void BinInstaller::continueBelow(Database* database, const TileFrame& frame, InstalledTile* parent) {
     setFrame(frame);
     _isReading = true;
     _database = database;
     _index = database->index();
     _parent = parent;
-    if (!parent || !parent->isTile) return;
+    if (!parent || !parent->ordinal) return;
     Coverage& coverage = (*_coverage)[{parent, frame.file}];
     coverage.expect(*parent);
     coverage.setVisited();
@@ -186,7 +186,7 @@ void BinInstaller::apply(osg::PagedLOD& node) {
 void BinInstaller::apply(osg::CoordinateSystemNode& node) {
     const Scoped options(_options, settled(node, _options));
     const bool isForeign = _parent && !isSameGlobe(frame(), frameInside(node));
-    if (isForeign && installsBins()) Database::report(*linkBetween(), Finding::Unverifiable);
+    if (isForeign && installsBins()) Database::report(*recordBetween(), Finding::Unverifiable);
     if (installsBins() && isGlobeBroken(node)) {
         OSG_WARN << "osgAnalyticBin: the radii of the globe \"" << node.getName() << "\" in \"" << frame().file
                  << "\" are not two positive numbers; nodes below it get no bins." << std::endl;
@@ -237,7 +237,7 @@ void BinInstaller::visitTile(FoundTile& tile) {
     }
     if (installsBins() && !hasStoredBin(*tile.node)) {
         const bool isOnGlobe = tile.frame.ellipsoid && !isMapPlane(*tile.frame.ellipsoid);
-        if (!isOnGlobe && isBelowStored()) Database::report(*linkBetween(), Finding::Unverifiable);
+        if (!isOnGlobe && isBelowStored()) Database::report(*recordBetween(), Finding::Unverifiable);
         if (!tile.frame.ellipsoid) return visitWithoutBin(*tile.node, true);
     }
     const bool hasGround = !tile.frame.ellipsoid || !installsBins() || database().takes(*tile.frame.ellipsoid);
@@ -274,7 +274,7 @@ bool BinInstaller::isUnruly(const osg::Node& node) const {
 
 void BinInstaller::visitWithoutBin(osg::Node& node, bool isTile) {
     if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node))
-        _paging.follow(*paged, frame(), database(), isBelowStored() ? linkBetween().get() : nullptr, isTile);
+        _paging.follow(*paged, frame(), database(), isBelowStored() ? recordBetween().get() : nullptr, isTile);
     NoCulling::remove(node);
     if (_options.method == Method::None) {
         suspendClusterCullingOf(node);
@@ -330,8 +330,8 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
                              database().correction(tile.frame.file, tile.ordinal),
                              hasNewContent};
     const TileFit fit = fitTile(tile, sources, shape);
-    const osg::ref_ptr<ParentTile> link = linkTo(tile, fit);
-    for (const auto& [finding, drawn] : fit.findings) Database::report(*link, finding, drawn);
+    const osg::ref_ptr<InstalledTile> installed = recordOf(tile, fit);
+    for (const auto& [finding, drawn] : fit.findings) Database::report(*installed, finding, drawn);
     if (!fit.isTerrain || !isGround(tile, _parent.get(), fit)) return visitWithoutBin(*tile.node, true);
 
     const osg::ref_ptr<AnalyticBinCullCallback> callback = new AnalyticBinCullCallback(fit.bin, ellipsoid, _options);
@@ -340,65 +340,57 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     if (fit.isScalable) callback->setTerrainShape(shape);
     if (fit.skirt > 0.0) callback->setSkirt(fit.skirt);
     callback->setSurface(fit.surface);
-    placeCallback(tile, culled, *callback, database());
-    callback->getInstalledTile()->setTestsSphere(fit.isDeclared);
+    placeCallback(tile, culled, *callback, *installed);
+    if (fit.isDeclared) installed->doubt(InstalledTile::Declared);
     const bool canWait = tile.meshes.size() == 1 && !culled.asTransform();
     if (!canWait || _options.occlusion == OcclusionUse::On || database().has(Finding::PlatesWanted))
-        callback->getInstalledTile()->setPlates(tilePlates({tile.meshes, ellipsoid, tile.frame.localToEcef, shape}));
+        installed->setPlates(tilePlates({tile.meshes, ellipsoid, tile.frame.localToEcef, shape}));
     ++_installed;
     // a map has no horizon in its place
     if (_options.cluster == ClusterUse::Replace && !isMapPlane(ellipsoid)) {
         suspendClusterCullingOf(*tile.node);
         for (const auto& mesh : tile.meshes) suspendClusterCulling(*mesh);
     }
-    link->callback = callback.get();
-    noteDrawn(tile, *callback->getInstalledTile());
+    noteDrawn(tile, *installed);
     const core::MeshCover cover = coverBy(tile, sources, shape, fit);
-    link->place = cover.place;
-    callback->getInstalledTile()->setCover(cover);
+    installed->setCover(cover);
     if (!cover.isFilled) database().report(Finding::Hole, tile.frame.file);
-    noteCovered(tile, fit, *link);
-    visitChildren(tile, *link);
+    noteCovered(tile, fit, *installed);
+    visitChildren(tile, *installed);
 }
 
-osg::ref_ptr<ParentTile> BinInstaller::linkTo(const FoundTile& tile, const TileFit& fit) {
-    osg::ref_ptr<ParentTile> link = new ParentTile;
-    link->database = &database();
-    link->parent = _parent;
-    link->file = tile.frame.file;
-    link->ordinal = tile.ordinal;
-    link->extents = fit.extents;
-    link->stored = fit.stored;
-    return link;
+osg::ref_ptr<InstalledTile> BinInstaller::recordOf(const FoundTile& tile, const TileFit& fit) {
+    const osg::ref_ptr<InstalledTile> record =
+        new InstalledTile(database(), _parent.get(), tile.frame.file, tile.ordinal);
+    record->extents = fit.extents;
+    record->stored = fit.stored;
+    return record;
 }
 
 bool BinInstaller::isBelowStored() const {
     return _parent && _parent->stored.valid();
 }
 
-osg::ref_ptr<const ParentTile> BinInstaller::linkBetween() const {
-    const osg::ref_ptr<ParentTile> link = new ParentTile;
-    link->isTile = false;
-    link->parent = _parent;
-    link->file = frame().file;
-    link->stored = _parent->stored;
-    return link;
+osg::ref_ptr<InstalledTile> BinInstaller::recordBetween() {
+    const osg::ref_ptr<InstalledTile> record = new InstalledTile(database(), _parent.get(), frame().file, std::nullopt);
+    record->stored = _parent->stored;
+    return record;
 }
 
 // Tiles within the mesh of another cover nothing beside it.
-void BinInstaller::noteCovered(const FoundTile& tile, const TileFit& fit, const ParentTile& link) {
+void BinInstaller::noteCovered(const FoundTile& tile, const TileFit& fit, InstalledTile& installed) {
     Coverage& coverage = (*_coverage)[{_parent.get(), tile.frame.file}];
     coverage.setVisited();
-    if (!_isBelowSelection && !_isInMesh) coverage.add(link.place, fit.isInPlace);
-    for (const std::string& file : tile.pagedFiles) (*_coverage)[{&link, file}].expect(link);
+    if (!_isBelowSelection && !_isInMesh) coverage.add(installed.place(), fit.isInPlace);
+    for (const std::string& file : tile.pagedFiles) (*_coverage)[{&installed, file}].expect(installed);
 }
 
 void BinInstaller::noteDrawn(const FoundTile& tile, InstalledTile& installed) {
     DrawnState drawn = drawnStateOf(*tile.node, stateRules());
     for (const auto& mesh : tile.meshes) drawn &= drawnStateBelow(*mesh, stateRules());
-    if (!drawn.hides) installed.setSeeThrough();
+    if (!drawn.hides) installed.doubt(InstalledTile::SeeThrough);
     if (drawn.obeysDepth) return;
-    installed.ignoreDepth();
+    installed.doubt(InstalledTile::IgnoresDepth);
     ignoreDepth();
 }
 
@@ -406,13 +398,13 @@ void BinInstaller::ignoreDepth() {
     if (_parent) Database::ignoreDepth(*_parent);
 }
 
-void BinInstaller::visitChildren(const FoundTile& tile, const ParentTile& link) {
+void BinInstaller::visitChildren(const FoundTile& tile, InstalledTile& installed) {
     if (auto* paged = dynamic_cast<osg::PagedLOD*>(tile.node.get())) {
         raiseExpiry(*paged, _options.expiry);
-        _paging.follow(*paged, frame(), database(), &link, true);
+        _paging.follow(*paged, frame(), database(), &installed, true);
     }
     const Scoped inMesh(_isInMesh, !dynamic_cast<osg::PagedLOD*>(tile.node.get()));
-    const Scoped below(_parent, osg::ref_ptr<const ParentTile>(&link));
+    const Scoped below(_parent, osg::ref_ptr<InstalledTile>(&installed));
     traverseBelow(*tile.node);
 }
 

@@ -31,7 +31,6 @@ class Coverage;
 class InstalledTile;
 struct TileFit;
 class Database;
-struct ParentTile;
 
 /// Installs bins on the loaded part of a database; see installBins().
 class BinInstaller : public TileFinder {
@@ -75,7 +74,7 @@ private:
     class InstallingDatabase;
 
     // Prepares for a file that is paged below a tile of the database (`parent` null: below no tile).
-    void continueBelow(Database* database, const TileFrame& frame, const ParentTile* parent);
+    void continueBelow(Database* database, const TileFrame& frame, InstalledTile* parent);
     // Fits the loaded tiles of an installed database again.
     void refit(osg::Node& node, Database& database);
     // Checks whether the tiles of each file cover their parent.
@@ -89,8 +88,8 @@ private:
     void visitWithoutBin(osg::Node& node, bool isTile);
     void visitSet(osg::Group& set);
     void install(FoundTile& tile, bool hasNewContent);
-    [[nodiscard]] osg::ref_ptr<ParentTile> linkTo(const FoundTile& tile, const TileFit& fit);
-    void noteCovered(const FoundTile& tile, const TileFit& fit, const ParentTile& link);
+    [[nodiscard]] osg::ref_ptr<InstalledTile> recordOf(const FoundTile& tile, const TileFit& fit);
+    void noteCovered(const FoundTile& tile, const TileFit& fit, InstalledTile& installed);
     void noteDrawn(const FoundTile& tile, InstalledTile& installed);
     [[nodiscard]] DrawnState drawnStateOfTile(osg::Node& node) const;
     // Whether a node that is no tile may have what is below it drawn in front of what is nearer.
@@ -99,13 +98,13 @@ private:
     // Says that something below the present parent tile may be drawn in front of what is nearer.
     void ignoreDepth();
     [[nodiscard]] StateRules stateRules() const { return {_options.plainShaders}; }
-    void visitChildren(const FoundTile& tile, const ParentTile& link);
+    void visitChildren(const FoundTile& tile, InstalledTile& installed);
     void uninstall(FoundTile& tile);
     // Whether an ancestor of the visited node has a stored bin, which must contain it.
     [[nodiscard]] bool isBelowStored() const;
-    // A link for nodes below one without a bin: the stored bin of an ancestor must contain them as well. Requires:
+    // A record for nodes below one without a bin: the stored bin of an ancestor must contain them as well. Requires:
     // _parent.
-    [[nodiscard]] osg::ref_ptr<const ParentTile> linkBetween() const;
+    [[nodiscard]] osg::ref_ptr<InstalledTile> recordBetween();
 
     CullOptions _options;
     bool _keepsDatabases = false;
@@ -113,12 +112,12 @@ private:
     bool _isInMesh = false;          // within a tile's own mesh
     bool _isBelowSelection = false;  // below a node that may not draw all of its children
     osg::ref_ptr<const BinIndex> _index;
-    osg::ref_ptr<Database> _database;        // the visited one
-    osg::ref_ptr<Database> _refitted;        // about to be fitted again
-    osg::ref_ptr<const ParentTile> _parent;  // the parent tile of the visited node
+    osg::ref_ptr<Database> _database;     // the visited one
+    osg::ref_ptr<Database> _refitted;     // about to be fitted again
+    osg::ref_ptr<InstalledTile> _parent;  // the parent tile of the visited node
     PagedReads _paging;
     // By the tile that pages the file (null: none) and the file's name, which may be the same for several tiles.
-    using Coverages = std::map<std::pair<const ParentTile*, std::string>, Coverage>;
+    using Coverages = std::map<std::pair<const InstalledTile*, std::string>, Coverage>;
     std::shared_ptr<Coverages> _coverage;
     std::size_t _installed = 0;
     std::size_t _boxes = 0;           // of photogrammetry sets

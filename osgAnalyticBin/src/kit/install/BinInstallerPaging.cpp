@@ -14,7 +14,7 @@ class BinInstaller::InstallingDatabase final : public Database {
 public:
     using Database::Database;
 
-    void install(osg::Node& content, const TileFrame& frame, const ParentTile* parent) override {
+    void install(osg::Node& content, const TileFrame& frame, InstalledTile* parent) override {
         BinInstaller installer(options());
         installer.continueBelow(this, frame, parent);
         content.accept(installer);

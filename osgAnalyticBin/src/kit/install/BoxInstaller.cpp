@@ -46,7 +46,9 @@ bool holdsBox(const osg::BoundingSphere& sphere, const MeshBox& box) {
 }
 
 // A LOD of a set.
-struct BoxTile final : public ParentTile {
+struct BoxTile final : public InstalledTile {
+    using InstalledTile::InstalledTile;
+
     // What culls the node, guarded by the set: a bin of all that the index knows below it; or else OSG's sphere of the
     // node, as long as that holds what is loaded; or that sphere and a bin of what is loaded.
     enum class Kind { Whole, Sphere, Both };
@@ -55,7 +57,7 @@ struct BoxTile final : public ParentTile {
     osg::BoundingSphere sphere;
     osg::observer_ptr<osg::LOD> node;
 
-    [[nodiscard]] BoxTile* above() const { return const_cast<BoxTile*>(static_cast<const BoxTile*>(parent.get())); }
+    [[nodiscard]] BoxTile* above() const { return static_cast<BoxTile*>(parent.get()); }
 
 protected:
     ~BoxTile() override = default;
@@ -96,7 +98,7 @@ public:
         setMaking(index.making.get());
     }
 
-    void install(osg::Node& content, const TileFrame& frame, const ParentTile* parent) override;
+    void install(osg::Node& content, const TileFrame& frame, InstalledTile* parent) override;
     void refit(osg::Node& root) override;
     void installOnClone(osg::Node& root) override { (void)installBoxes(*root.asGroup(), options()); }
 
@@ -123,17 +125,14 @@ public:
     explicit BoxInstaller(BoxSet& set) : _set(set), _index(set.index()), _options(set.options()) {}
 
     // `parent`: the LOD that pages the file; null: none.
-    FileContent install(osg::Node& node, const std::string& file, const BoxTile* parent) {
+    FileContent install(osg::Node& node, const std::string& file, BoxTile* parent) {
         const LodContent content = findLods(node);
         std::vector<osg::ref_ptr<BoxTile>> tiles;
         std::vector<FileContent> below;
         PagedReads reads;
         for (const FoundLod& lod : content.lods) {
-            const osg::ref_ptr<BoxTile> tile = new BoxTile;
-            tile->parent = lod.parent ? tiles[*lod.parent].get() : parent;
-            tile->database = &_set;
-            tile->file = file;
-            tile->ordinal = tiles.size();
+            BoxTile* const above = lod.parent ? tiles[*lod.parent].get() : parent;
+            const osg::ref_ptr<BoxTile> tile = new BoxTile(_set, above, file, tiles.size());
             tiles.push_back(tile);
             below.push_back(installBelow(*lod.node, *tile));
             if (auto* const paged = dynamic_cast<osg::PagedLOD*>(lod.node)) {
@@ -156,7 +155,7 @@ private:
         return frame;
     }
 
-    FileContent installBelow(osg::LOD& node, const BoxTile& tile) {
+    FileContent installBelow(osg::LOD& node, BoxTile& tile) {
         FileContent below;
         for (unsigned int i = 0; i < node.getNumChildren(); ++i) {
             if (!isPagedChildOf(node, i)) continue;
@@ -229,8 +228,8 @@ void removeBelow(osg::Group& root) {
     root.accept(remover);
 }
 
-void BoxSet::install(osg::Node& content, const TileFrame& frame, const ParentTile* parent) {
-    auto* const tile = const_cast<BoxTile*>(static_cast<const BoxTile*>(parent));
+void BoxSet::install(osg::Node& content, const TileFrame& frame, InstalledTile* parent) {
+    auto* const tile = static_cast<BoxTile*>(parent);
     const FileContent found = BoxInstaller(*this).install(content, frame.file, tile);
     if (tile) grow(*tile, found);
 }
@@ -238,12 +237,11 @@ void BoxSet::install(osg::Node& content, const TileFrame& frame, const ParentTil
 void BoxSet::cullByBin(osg::LOD& node, BoxTile& tile) {
     const osg::ref_ptr<AnalyticBinCullCallback> callback =
         new AnalyticBinCullCallback(tile.box.bin(), *mapPlane(), options());
-    const osg::ref_ptr<InstalledTile> installed = new InstalledTile(node, *this);
-    if (tile.kind == BoxTile::Kind::Both) installed->needSphere();
-    installed->switchOffSphere(node);
-    callback->setInstalledTile(installed);
+    tile.setNode(&node);
+    if (tile.kind == BoxTile::Kind::Both) tile.doubt(InstalledTile::NeedsSphere);
+    tile.switchOffSphere(node);
+    callback->setInstalledTile(&tile);
     putInFront(node, *callback);
-    tile.callback = callback.get();
 }
 
 // What was read does not fit into what the tile and those above it hold.
@@ -262,8 +260,7 @@ void BoxSet::grow(BoxTile& tile, const FileContent& content) {
             requestRefit();
             continue;
         }
-        osg::ref_ptr<AnalyticBinCullCallback> callback;
-        if (at->callback.lock(callback)) callback->getInstalledTile()->needSphere();
+        at->doubt(InstalledTile::NeedsSphere);
         widen(*at, by, false);
     }
 }

@@ -166,7 +166,7 @@ public:
     void fitInto(const AnalyticBinCullCallback& callback) {
         InstalledTile* const tile = callback.getInstalledTile();
         if (!tile || !callback.getBin().valid()) return;
-        if (!obeysDepth(callback)) tile->ignoreDepth();
+        if (!obeysDepth(callback)) tile->doubt(InstalledTile::IgnoresDepth);
         const bool isOther = !isOfSameShape(callback.getTerrainShape());
         const osg::EllipsoidModel& model = *tile->database().ellipsoid();
         const AnalyticBin about = binAbout(movedSphere(_sphere, callback.getLocalToEcef()), toCore(model));
@@ -174,8 +174,8 @@ public:
         const AnalyticBin& own = surfaceOn(model, callback.getLocalToEcef());
         if (!isOther && (_isTerrain ? callback.getBin().contains(own) : isHeld(own, callback.getBin()))) return;
         const AnalyticBin& content = own.valid() ? own : about;
-        tile->keepVisible(true);
-        if (_isMerged) Database::of(*tile).noteContent(callback, {content, isOther || !content.valid()});
+        tile->doubt(InstalledTile::Outgrown);
+        if (_isMerged) Database::of(*tile).noteContent(*tile, {content, isOther || !content.valid()});
     }
 
 private:
@@ -245,7 +245,8 @@ void doubtMeshOf(const osg::Node& node, bool isMoved) {
     if (!installedTileOf(node)) culled = carrierOf(const_cast<osg::Node&>(node));
     InstalledTile* const tile = culled ? installedTileOf(*culled) : nullptr;
     if (!tile) return;
-    tile->doubtMesh(isMoved);
+    using Tile = InstalledTile;
+    tile->doubt(Tile::MeshUnread | Tile::MeshChanged | Tile::NotFilled | (isMoved ? Tile::MeshMoved : 0u));
     // the update traversal must not touch what is not merged into the scene yet
     if (!isBelowDatabase(*culled)) return;
     for (osg::Group* const parent : culled->getParents()) tile->database().noteChanged(*parent);
@@ -255,7 +256,7 @@ void doubtMeshOf(const osg::Node& node, bool isMoved) {
 void keepUnwatchedVisible(const osg::Node& node) {
     const AnalyticBinCullCallback* const tile = installedBinOf(node);
     if (!tile || watchOf(node)) return;
-    tile->getInstalledTile()->keepVisible(true);
+    tile->getInstalledTile()->doubt(InstalledTile::Outgrown);
     if (isBelowDatabase(node)) tile->getInstalledTile()->database().requestRefit();
 }
 

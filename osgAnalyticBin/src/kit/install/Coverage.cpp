@@ -66,9 +66,9 @@ void addTo(Places& places, const core::Interval& latitude, const core::Interval&
 
 }  // namespace
 
-void Coverage::expect(const ParentTile& tile) {
+void Coverage::expect(InstalledTile& tile) {
     _tile = &tile;
-    _expected = tile.place;
+    _expected = tile.place();
 }
 
 void Coverage::report(const std::string& file, Database& database) const {
@@ -78,11 +78,9 @@ void Coverage::report(const std::string& file, Database& database) const {
         if (isWithGap && covered.empty()) database.report(Finding::Gap, file);
         return database.setRegion(covered);
     }
-    osg::ref_ptr<AnalyticBinCullCallback> tile;
     // who declares a horizon says that there are none
     const bool isVouchedFor = database.options().horizonUse == HorizonUse::Given && !isMapPlane(*database.ellipsoid());
-    if (isWithGap && !isVouchedFor && _tile->callback.lock(tile) && tile->getInstalledTile())
-        tile->getInstalledTile()->noteGapBelow();
+    if (isWithGap && !isVouchedFor) _tile->doubt(InstalledTile::GapBelow);
 }
 
 void Coverage::expectGlobe() {

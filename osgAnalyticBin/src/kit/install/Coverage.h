@@ -13,14 +13,14 @@
 namespace osgAnalyticBin {
 
 class Database;
-struct ParentTile;
+class InstalledTile;
 
 /// What the tiles of one file cover of what they are paged below. A tile stands for the place of its mesh; whether the
 /// mesh fills it is asked of each tile that is shown.
 class Coverage {
 public:
     /// For a file that is paged below a tile.
-    void expect(const ParentTile& tile);
+    void expect(InstalledTile& tile);
     /// Marks the file as the root file, which is loaded.
     void expectGlobe();
     /// Marks the file as loaded.
@@ -45,7 +45,7 @@ private:
     std::vector<core::GeodeticBin> _places;  // none crosses the date line; grown by the seams between neighbours
     double _tallest = 0.0, _widest = 0.0;    // radians of latitude and longitude
     core::GeodeticBin _expected;             // empty: not known
-    osg::ref_ptr<const ParentTile> _tile;
+    osg::ref_ptr<InstalledTile> _tile;
     bool _isVisited = false, _isOfGlobe = false, _isExact = true;
 };
 

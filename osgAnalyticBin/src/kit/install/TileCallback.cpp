@@ -48,7 +48,7 @@ void removeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCal
     ContentWatch::remove(*tile.node);
     if (!installed || !installed->isFor(&culled)) return;
     installed->restoreSphere(culled);
-    installed->forgetNode();
+    installed->setNode(nullptr);
 }
 
 // The most ways from a node up to its globe that are looked at.
@@ -87,7 +87,7 @@ bool hasMoved(osg::Node& tile) {
     const Carrier* const carrier = carrierOf(tile);
     const InstalledTile* const own = installedTileOf(tile);
     const InstalledTile* const installed = own || !carrier ? own : installedTileOf(*carrier);
-    return installed && installed->isMoved();
+    return installed && installed->has(InstalledTile::MeshMoved);
 }
 
 // OSG enters the frame of a transform before it asks the transform's callbacks, which costs more than the bin's test:
@@ -109,10 +109,9 @@ osg::Matrixd culledFrame(const FoundTile& tile, osg::Node& culled) {
     return transform ? frameInside(*transform, tile.frame) : tile.frame.localToEcef;
 }
 
-void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& callback,
-                   InstalledDatabase& database) {
-    const osg::ref_ptr<InstalledTile> installed = new InstalledTile(culled, database);
-    callback.setInstalledTile(installed);
+void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& callback, InstalledTile& record) {
+    record.setNode(&culled);
+    callback.setInstalledTile(&record);
     // In front: what is nested runs when the tile is kept.
     putInFront(culled, callback);
     if (&culled != tile.node) ContentWatch::place(culled, {});

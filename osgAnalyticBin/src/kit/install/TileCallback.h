@@ -17,7 +17,7 @@
 namespace osgAnalyticBin {
 
 class AnalyticBinCullCallback;
-class InstalledDatabase;
+class InstalledTile;
 
 /// Whether a tile is drawn in several places of its globe: no bin holds for all of them.
 [[nodiscard]] bool isInstanced(const osg::Node& node, const TileFrame& frame);
@@ -34,8 +34,7 @@ class InstalledDatabase;
 [[nodiscard]] osg::Matrixd culledFrame(const FoundTile& tile, osg::Node& culled);
 
 /// Puts the callback in front of those of `culled`. From then on the tile notices what is added below it.
-void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& callback,
-                   InstalledDatabase& database);
+void placeCallback(const FoundTile& tile, osg::Node& culled, AnalyticBinCullCallback& callback, InstalledTile& record);
 
 /// Nodes whose callback of a bin is nested in an application's. Clones of the node may share the application's
 /// callback, and are known as tiles with bins by what is nested in it: it is taken off when all nodes have been

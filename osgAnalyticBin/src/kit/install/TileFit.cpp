@@ -179,7 +179,7 @@ TileSurface Fitting::meshSurface() const {
 }
 
 void Fitting::standIn(const core::GeodeticBin& extents) {
-    const TileExtents* const above = _from.parent ? &_from.parent->extents : nullptr;
+    const InstalledTile::Extents* const above = _from.parent ? &_from.parent->extents : nullptr;
     _fit.extents.bin = extents;
     _fit.extents.edges = core::TileEdges::of(extents, above ? &above->bin : nullptr, above ? &above->edges : nullptr);
 }
@@ -345,8 +345,8 @@ bool Fitting::leavesHeights() const {
 
 // Whether a tile leaves the extents of the mesh above it, by more than vertices are rounded.
 bool Fitting::leavesExtents() const {
-    const ParentTile* above = _from.parent;
-    while (above && !above->isTile) above = above->parent.get();
+    const InstalledTile* above = _from.parent;
+    while (above && !above->ordinal) above = above->parent.get();
     const core::GeodeticBin& own = (_fit.extents.isMeasured ? _fit.surface : _fit.bin).bin();
     if (!above || !above->extents.isMeasured || own.empty()) return false;
     const core::Interval &latitude = above->extents.bin.latitude(), &longitude = above->extents.bin.longitude();
@@ -426,7 +426,7 @@ core::MeshCover coverBy(const FoundTile& tile, const FitSources& from, const Ter
     return coverOf({tile.meshes, from.ellipsoid, tile.frame.localToEcef, shape});
 }
 
-bool isGround(const FoundTile& tile, const ParentTile* parent, const TileFit& fit) {
+bool isGround(const FoundTile& tile, const InstalledTile* parent, const TileFit& fit) {
     const osg::Node& node = *tile.node;
     const bool isLeaf = tile.frame.isBelowTile && !hasStoredBin(node) && !dynamic_cast<const osg::PagedLOD*>(&node) &&
                         !dynamic_cast<const osgTerrain::TerrainTile*>(&node);

@@ -19,11 +19,11 @@ namespace osgAnalyticBin {
 /// What a tile's bounds are made of, besides the tile.
 struct FitSources {
     CullOptions options;
-    const osg::EllipsoidModel& ellipsoid;  ///< of the tile's ground
-    osg::ref_ptr<const BinIndex> index;    ///< null: none
-    const ParentTile* parent = nullptr;    ///< null: none
-    Widening correction;                   ///< what was found of the tile before, perhaps in another place
-    bool hasNewContent = false;            ///< since bins were last installed on it
+    const osg::EllipsoidModel& ellipsoid;   ///< of the tile's ground
+    osg::ref_ptr<const BinIndex> index;     ///< null: none
+    const InstalledTile* parent = nullptr;  ///< null: none
+    Widening correction;                    ///< what was found of the tile before, perhaps in another place
+    bool hasNewContent = false;             ///< since bins were last installed on it
 };
 
 /// What a tile is culled by, at vertical scale 1.
@@ -41,7 +41,7 @@ struct TileFit {
     bool isInPlace = true;
     /// False: the node is not terrain, and left as it is. True with a bin that is not valid: never culled.
     bool isTerrain = false;
-    TileExtents extents;
+    InstalledTile::Extents extents;
     /// The bin that is stored with the tile, as it is used, or with the nearest ancestor that has one.
     AnalyticBin stored;
     /// What is to be reported, with what the tile draws.
@@ -61,6 +61,6 @@ struct TileFit {
 
 /// Whether a tile is ground, as its mesh tells: one of its drawables spans at least a 16th of the tile above in both
 /// directions. Leaves that hold objects on the ground alone, such as houses, do not; OSG culls them better.
-[[nodiscard]] bool isGround(const FoundTile& tile, const ParentTile* parent, const TileFit& fit);
+[[nodiscard]] bool isGround(const FoundTile& tile, const InstalledTile* parent, const TileFit& fit);
 
 }  // namespace osgAnalyticBin

@@ -5,19 +5,25 @@
 
 namespace osgAnalyticBin {
 
-InstalledTile::InstalledTile(const InstalledTile& other)
-    : osg::Referenced(other), _culled(nullptr), _database(other._database) {}
+InstalledTile::InstalledTile(const InstalledTile& other) : osg::Referenced(other), _database(other._database) {}
 
 InstalledTile::~InstalledTile() = default;
 
-void InstalledTile::keepVisible(bool kept) {
-    _isKeptVisible.store(kept, std::memory_order_relaxed);
+void InstalledTile::doubt(unsigned int reasons) {
+    _reasons.fetch_or(reasons, std::memory_order_relaxed);
     tellFamily();
 }
 
-void InstalledTile::needSphere() {
-    _needsSphere.store(true, std::memory_order_relaxed);
+void InstalledTile::settle(unsigned int reasons) {
+    _reasons.fetch_and(~reasons, std::memory_order_relaxed);
     tellFamily();
+}
+
+void InstalledTile::tellFamily() {
+    if (!_block) return;
+    _block->believe(_slot, _isSlotFilled && !has(Outgrown | MeshUnread | NeedsSphere));
+    _block->allowHiding(_slot, !has(IgnoresDepth));
+    _block->trust(_slot, isCertain());
 }
 
 void InstalledTile::switchOffSphere(osg::Node& node) {
@@ -35,35 +41,9 @@ void InstalledTile::setPlates(std::unique_ptr<const core::GroundPlates> plates) 
     _numberOfPlates = ++last;
 }
 
-void InstalledTile::doubtMesh(bool isMoved) {
-    if (isMoved) _isMoved.store(true, std::memory_order_relaxed);
-    _isMeshDoubted.store(true, std::memory_order_relaxed);
-    _isMeshChanged.store(true, std::memory_order_relaxed);
-    _isFilled.store(false, std::memory_order_relaxed);
-    tellFamily();
-}
-
-void InstalledTile::ignoreDepth() {
-    _ignoresDepth.store(true, std::memory_order_relaxed);
-    tellFamily();
-}
-
 void InstalledTile::setCover(const core::MeshCover& cover) {
     _place = cover.place;
-    _isFilled.store(cover.isFilled, std::memory_order_relaxed);
-    tellFamily();
-}
-
-void InstalledTile::trustMesh() {
-    _isMeshDoubted.store(false, std::memory_order_relaxed);
-    tellFamily();
-}
-
-void InstalledTile::tellFamily() {
-    if (!_block) return;
-    _block->believe(_slot, _isSlotFilled && !isKeptVisible() && !isMeshDoubted() && !needsSphere());
-    _block->allowHiding(_slot, obeysDepth());
-    _block->trust(_slot, isCertain());
+    cover.isFilled ? settle(NotFilled) : doubt(NotFilled);
 }
 
 void InstalledTile::joinFamily(TileBlock& block, std::size_t slot) {

@@ -5,56 +5,118 @@
 
 #include "InstalledDatabase.h"
 #include "TileBlock.h"
+#include "Widening.h"
 
+#include <osgAnalyticBin/AnalyticBin.h>
+#include <osgAnalyticBin/core/mesh/CrackBounds.h>
 #include <osgAnalyticBin/core/mesh/MeshCover.h>
 #include <osgAnalyticBin/core/occlusion/GroundPlates.h>
 
 #include <osg/Node>
+#include <osg/NodeCallback>
 #include <osg/Referenced>
+#include <osg/observer_ptr>
 #include <osg/ref_ptr>
 
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace osgAnalyticBin {
 
-/// The installer's record of a tile, owned by the tile's cull callback: the node that the bin was made for, and
-/// whether the bin contains everything below that node.
-/// Threads: mayCull() and keepVisible() at any time; the rest only while no cull traversal runs.
-class InstalledTile final : public osg::Referenced {
+/// The installer's record of a tile. The tile's cull callback owns it, and the tiles of files that the tile pages refer
+/// to it.
+/// Threads: doubt(), settle() and has() at any time; what says so by its guard; the rest only while no cull traversal
+/// runs.
+class InstalledTile : public osg::Referenced {
 public:
-    /// `culled`: the node that carries the callback.
-    InstalledTile(const osg::Node& culled, InstalledDatabase& database) : _culled(&culled), _database(&database) {}
+    /// Why a tile is not culled, or hides nothing.
+    enum Reason : unsigned int {
+        /// Content below it is not in its bin: it is not culled, until the bin is expanded.
+        Outgrown = 1u << 0,
+        /// The bin holds heights that were declared alone, and OSG's sphere bounds what is loaded: both cull the tile.
+        Declared = 1u << 1,
+        /// The bin holds what is loaded alone, and OSG's sphere of the node what is not: the tile is culled where both
+        /// are out of view, by its own callback.
+        NeedsSphere = 1u << 2,
+        /// The mesh has changed and has not been looked at since: the tile's own callback tests it, not its family.
+        MeshUnread = 1u << 3,
+        /// The mesh has changed since bins were installed.
+        MeshChanged = 1u << 4,
+        /// The mesh has moved since then: its former place may be empty.
+        MeshMoved = 1u << 5,
+        /// The mesh is not known to fill its place.
+        NotFilled = 1u << 6,
+        /// The tiles of a file that is paged below are not known to fill the place.
+        GapBelow = 1u << 7,
+        /// The tile draws something that is not known to hide what is behind it.
+        SeeThrough = 1u << 8,
+        /// The tile, or something below it, may be drawn in front of what is nearer: nothing hides the tile.
+        IgnoresDepth = 1u << 9,
+    };
+
+    /// Where a tile lies, for the tiles below it.
+    struct Extents {
+        core::GeodeticBin bin;
+        bool isMeasured = false;  ///< they are those of its mesh, and finer tiles may leave them
+        core::TileEdges edges;
+    };
+
+    /// `above`, `number`: see parent and ordinal.
+    InstalledTile(InstalledDatabase& database, InstalledTile* above, const std::string& fileName,
+                  std::optional<std::size_t> number)
+        : file(fileName), ordinal(number), parent(above), _database(&database) {}
 
     /// For a copied callback: it belongs to no node.
     InstalledTile(const InstalledTile& other);
 
+    const std::string file;
+    /// Of the tile in its file; nullopt: the record is for a node without a bin, between tiles, and has no extents.
+    const std::optional<std::size_t> ordinal;
+    /// The tile that pages the file, or that the tile stands below; null: none.
+    const osg::ref_ptr<InstalledTile> parent;
+    Extents extents;
+    /// The tile's stored bin, or that of the nearest ancestor with one. Not valid: there is none.
+    AnalyticBin stored;
+    /// What the bin has been expanded by since; null: nothing. Guarded by the database.
+    std::unique_ptr<Widening> widening;
+
+    /// A globe inside another globe has its own.
     [[nodiscard]] InstalledDatabase& database() const { return *_database; }
 
+    /// Sets the node that carries the callback; null: from now on the record is for no node.
+    void setNode(const osg::Node* culled) { _culled = culled; }
     /// Whether `node` is the one that the bin was made for. A clone of a scene may share the callback.
     [[nodiscard]] bool isFor(const osg::Node* node) const { return node == _culled; }
+    /// Sets the callback that owns the record.
+    void setCallback(osg::NodeCallback* callback) { _callback = callback; }
+    /// Returns: null when it is gone. At any time.
+    [[nodiscard]] osg::ref_ptr<osg::NodeCallback> callback() const {
+        osg::ref_ptr<osg::NodeCallback> callback;
+        (void)_callback.lock(callback);
+        return callback;
+    }
+
+    /// Call when one of these reasons, or several, hold for the tile.
+    void doubt(unsigned int reasons);
+    /// Call when they do not hold any more.
+    void settle(unsigned int reasons);
+    /// Whether one of these reasons holds.
+    [[nodiscard]] bool has(unsigned int reasons) const {
+        return (_reasons.load(std::memory_order_relaxed) & reasons) != 0;
+    }
 
     /// Whether the callback may cull this node: the bin was made for it and contains everything below it.
     [[nodiscard]] bool mayCull(const osg::Node* node) const {
-        return isFor(node) && !_isKeptVisible.load(std::memory_order_relaxed) && !_database->isRemoved();
+        return isFor(node) && !has(Outgrown) && !_database->isRemoved();
     }
-
-    /// While true, the tile is not culled.
-    void keepVisible(bool kept);
-
-    [[nodiscard]] bool isKeptVisible() const { return _isKeptVisible.load(std::memory_order_relaxed); }
-
-    /// Whether the bin holds heights that were declared alone. OSG's sphere bounds what is loaded below the tile then,
-    /// and the tile is culled by both.
-    [[nodiscard]] bool testsSphere() const { return _testsSphere; }
-    void setTestsSphere(bool does) { _testsSphere = does; }
-
-    /// Call when the bin holds what is loaded alone, and OSG's sphere of the node what is not: the tile is culled where
-    /// both are out of view, by its own callback. At any time.
-    void needSphere();
-    [[nodiscard]] bool needsSphere() const { return _needsSphere.load(std::memory_order_relaxed); }
+    /// Whether the horizon must not rely on the tile.
+    [[nodiscard]] bool isSeeThrough() const { return has(SeeThrough | MeshMoved); }
+    /// Whether the mesh fills its place and cannot be seen through, is as it was, and levels below leave no gap.
+    [[nodiscard]] bool isCertain() const { return !has(NotFilled | SeeThrough | MeshMoved | MeshChanged | GapBelow); }
 
     /// Has OSG test no sphere of the node before its callbacks, until restoreSphere(): what the sphere does not hold
     /// may be in view.
@@ -66,60 +128,26 @@ public:
     [[nodiscard]] bool hasFamily() const { return _block.valid(); }
     /// The tile is culled by its own callback alone from now on.
     void leaveFamily();
-    /// Call when the mesh has changed since the bin was fitted. Until trustMesh() the tile is tested by its own
-    /// callback, not by the family. `isMoved`: the mesh has moved, and its former place may be empty.
-    void doubtMesh(bool isMoved);
-    void trustMesh();
-    [[nodiscard]] bool isMeshDoubted() const { return _isMeshDoubted.load(std::memory_order_relaxed); }
     /// Copies the tile's bin and bounds into its family's slot, if it has a family.
     void fillSlot(const TileBlock::Slot& tile, const TileBlock::Bins& bins);
     /// Until the slot is filled again, the tile is tested by its own callback.
     void emptySlot();
 
-    /// Call when the tile draws something that is not known to hide what is behind it. At any time.
-    void setSeeThrough() {
-        _isSeeThrough.store(true, std::memory_order_relaxed);
-        tellFamily();
-    }
-    /// Whether the horizon must not rely on the tile: it can be seen through, or its place may be empty.
-    [[nodiscard]] bool isSeeThrough() const { return _isSeeThrough.load(std::memory_order_relaxed) || isMoved(); }
-    /// Call when the tile, or something below it, may be drawn in front of what is nearer: nothing hides the tile from
-    /// then on. At any time.
-    void ignoreDepth();
-    [[nodiscard]] bool obeysDepth() const { return !_ignoresDepth.load(std::memory_order_relaxed); }
     /// What the tile's own mesh covers. It holds until the mesh changes.
     void setCover(const core::MeshCover& cover);
-    /// Where the tile belongs: the rectangle of its mesh when it was installed.
+    /// Where the tile belongs: the rectangle of its mesh when it was installed. Empty: not known.
     [[nodiscard]] const core::GeodeticBin& place() const { return _place; }
-    /// Whether the mesh is known to fill its place.
-    [[nodiscard]] bool isFilled() const { return _isFilled.load(std::memory_order_relaxed); }
-    /// Call when the tiles of a file that is paged below are not known to fill the place. At any time.
-    void noteGapBelow() {
-        _hasGapBelow.store(true, std::memory_order_relaxed);
-        tellFamily();
-    }
-    [[nodiscard]] bool hasGapBelow() const { return _hasGapBelow.load(std::memory_order_relaxed); }
-    /// Whether the mesh has moved since bins were installed.
-    [[nodiscard]] bool isMoved() const { return _isMoved.load(std::memory_order_relaxed); }
 
     /// Sets the lowest altitudes of the tile's own mesh, by cells; null: they cannot be found.
     void setPlates(std::unique_ptr<const core::GroundPlates> plates);
     /// Returns: nullptr when they are unknown or the mesh has changed since.
-    [[nodiscard]] const core::GroundPlates* plates() const { return isMeshChanged() ? nullptr : _plates.get(); }
+    [[nodiscard]] const core::GroundPlates* plates() const { return has(MeshChanged) ? nullptr : _plates.get(); }
     /// Returns: true the first time, unless setPlates() was called before.
     [[nodiscard]] bool askForPlates() {
         return _numberOfPlates == 0 && !_isAskedForPlates.exchange(true, std::memory_order_relaxed);
     }
     /// An identifier of the plates, never used twice. 0: none were set.
     [[nodiscard]] std::uint64_t numberOfPlates() const { return _numberOfPlates; }
-    /// Whether a change of the mesh was noticed since bins were installed.
-    [[nodiscard]] bool isMeshChanged() const { return _isMeshChanged.load(std::memory_order_relaxed); }
-
-    /// Whether the mesh fills its place and cannot be seen through, is as it was, and levels below leave no gap.
-    [[nodiscard]] bool isCertain() const { return isFilled() && !isSeeThrough() && !isMeshChanged() && !hasGapBelow(); }
-
-    /// From now on the record is for no node.
-    void forgetNode() { _culled = nullptr; }
 
 protected:
     ~InstalledTile() override;
@@ -127,26 +155,18 @@ protected:
 private:
     void tellFamily();
 
-    const osg::Node* _culled;
     const osg::ref_ptr<InstalledDatabase> _database;
-    std::atomic<bool> _isKeptVisible{false};
-    std::atomic<bool> _isMeshDoubted{false};
-    std::atomic<bool> _isMeshChanged{false};  // since bins were installed
-    std::unique_ptr<const core::GroundPlates> _plates;
-    std::uint64_t _numberOfPlates = 0;
+    const osg::Node* _culled = nullptr;
+    osg::observer_ptr<osg::NodeCallback> _callback;
+    std::atomic<unsigned int> _reasons{NotFilled};
+    bool _isSlotFilled = false;
+    bool _hasSwitchedOffSphere = false;
     std::atomic<bool> _isAskedForPlates{false};
     osg::ref_ptr<TileBlock> _block;
     std::size_t _slot = 0;
-    bool _isSlotFilled = false;
-    bool _testsSphere = false;
-    bool _hasSwitchedOffSphere = false;
-    std::atomic<bool> _needsSphere{false};
-    std::atomic<bool> _isSeeThrough{false};
-    std::atomic<bool> _ignoresDepth{false};
-    std::atomic<bool> _isFilled{false};
-    std::atomic<bool> _hasGapBelow{false};
+    std::unique_ptr<const core::GroundPlates> _plates;
+    std::uint64_t _numberOfPlates = 0;
     core::GeodeticBin _place;
-    std::atomic<bool> _isMoved{false};
 };
 
 }  // namespace osgAnalyticBin
