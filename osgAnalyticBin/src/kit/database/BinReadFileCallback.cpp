@@ -6,10 +6,12 @@
 #include "../Text.h"
 #include "../tile/Carrier.h"
 #include "CachedContent.h"
-#include "CarefulRead.h"
 #include "DatabaseCallbacks.h"
 
+#include <osgAnalyticBin/TileFile.h>
+
 #include <osg/NodeVisitor>
+#include <osg/Notify>
 #include <osg/observer_ptr>
 #include <osgDB/FileCache>
 #include <osgDB/Registry>
@@ -17,7 +19,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
 #include <functional>
+#include <ios>
 #include <iterator>
 #include <map>
 #include <mutex>
@@ -27,6 +31,57 @@
 namespace osgAnalyticBin {
 
 namespace {
+
+using ReadResult = osgDB::ReaderWriter::ReadResult;
+
+// A read that failed, with a line that says why.
+ReadResult unreadable(const std::string& fileName, const char* why) {
+    OSG_WARN << "osgAnalyticBin: \"" << fileName << "\" could not be read: " << why
+             << "; its parent tile stays visible." << std::endl;
+    return ReadResult(ReadResult::ERROR_IN_READING_FILE);
+}
+
+// Reads by the callback that was there before, if any, else by the Registry's, else by OSG.
+ReadResult readPlain(const std::string& fileName, const osgDB::Options* options, osgDB::ReadFileCallback* previous) {
+    if (previous) return previous->readNode(fileName, options);
+    osgDB::ReadFileCallback* const global = osgDB::Registry::instance()->getReadFileCallback();
+    return global ? global->readNode(fileName, options) : readTileFile(fileName, options);
+}
+
+// Runs `read`, unless the file failed lately. What it throws becomes unreadable(): a corrupt file may ask for absurd
+// amounts of memory, and the pager's thread must outlive that.
+ReadResult readCarefully(const std::string& fileName, FailedReads& failures, const std::function<ReadResult()>& read) {
+    // No node and no error: the pager prints nothing, and requests the file again in the next frame.
+    if (!failures.mayRead(fileName, FailedReads::Clock::now())) return ReadResult::FILE_LOADED;
+    ReadResult result;
+    try {
+        result = read();
+    } catch (const std::ios_base::failure&) {
+        result = unreadable(fileName, "it ends too early");
+    } catch (const std::exception& error) {
+        result = unreadable(fileName, error.what());
+    }
+    failures.note(fileName, result.validNode(), FailedReads::Clock::now());
+    return result;
+}
+
+// A file that a PagedLOD requests from the DatabasePager.
+struct PagedFile {
+    std::string name;  // as the pager asks for it
+    TileFrame frame;   // where its content stands
+};
+
+std::vector<PagedFile> filesPagedBy(const osg::PagedLOD& node, const TileFrame& frame, bool isTile) {
+    std::vector<PagedFile> files;
+    for (unsigned int i = 0; i < node.getNumFileNames(); ++i) {
+        if (node.getFileName(i).empty()) continue;
+        TileFrame inside = frame;
+        inside.file = pagedFilePath(frame.file, node.getFileName(i));
+        inside.isBelowTile = inside.isBelowTile || isTile;
+        files.push_back({node.getDatabasePath() + node.getFileName(i), inside});
+    }
+    return files;
+}
 
 // Nodes that a user's read callback keeps, and so may hand out more than once, to several threads, or while they are
 // being drawn: bins are installed on each only once.
@@ -193,18 +248,6 @@ osgDB::ReaderWriter::ReadResult BinReadFileCallback::readAndInstall(const std::s
 
 void BinReadFileCallback::install(osg::Node& node, const Expected& expected) const {
     if (!_database->isRemoved()) _database->install(node, expected.frame, expected.parent.get());
-}
-
-std::vector<PagedFile> filesPagedBy(const osg::PagedLOD& node, const TileFrame& frame, bool isTile) {
-    std::vector<PagedFile> files;
-    for (unsigned int i = 0; i < node.getNumFileNames(); ++i) {
-        if (node.getFileName(i).empty()) continue;
-        TileFrame inside = frame;
-        inside.file = pagedFilePath(frame.file, node.getFileName(i));
-        inside.isBelowTile = inside.isBelowTile || isTile;
-        files.push_back({node.getDatabasePath() + node.getFileName(i), inside});
-    }
-    return files;
 }
 
 void PagedReads::follow(osg::PagedLOD& node, const TileFrame& frame, Database& database, InstalledTile* parent,

@@ -71,15 +71,6 @@ private:
     FailedReads _failures;
 };
 
-/// A file that a PagedLOD requests from the DatabasePager.
-struct PagedFile {
-    std::string name;  ///< as the pager asks for it
-    TileFrame frame;   ///< where its content stands
-};
-
-/// The files of a PagedLOD that stands in `frame`; `isTile`: and is a tile.
-[[nodiscard]] std::vector<PagedFile> filesPagedBy(const osg::PagedLOD& node, const TileFrame& frame, bool isTile);
-
 /// The database options that replace those which PagedLODs came with (or none), so that bins are installed on what they
 /// read.
 class PagedReads final {
