@@ -17,6 +17,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -111,18 +112,18 @@ public:
 
     /// A lower bound in metres of the altitudes of the tile's own surface in its present shape; minus infinity when not
     /// known.
-    [[nodiscard]] double getSurfaceLow() const { return _surfaceLow; }
+    [[nodiscard]] double getSurfaceLow() const { return _surfaceAltitude.lower; }
 
     /// An upper bound in metres of the altitudes of the tile's own surface in its present shape; infinity when not
     /// known.
-    [[nodiscard]] double getSurfaceHigh() const { return _surfaceHigh; }
+    [[nodiscard]] double getSurfaceHigh() const { return _surfaceAltitude.upper; }
 
     /// An upper bound in metres of the altitudes that the tile and its descendants draw; infinity when not known.
-    [[nodiscard]] double getBinHigh() const { return _binHigh; }
+    [[nodiscard]] double getBinHigh() const { return _altitude.upper; }
 
     /// A lower bound in metres of the altitudes that the tile and its descendants draw, with the parts of skirts that
     /// the bin holds; minus infinity when not known.
-    [[nodiscard]] double getBinLow() const { return _binLow; }
+    [[nodiscard]] double getBinLow() const { return _altitude.lower; }
 
     /// A sphere in ECEF, for a quick first test. It holds the bin's column: the bin and, where the bin lies below the
     /// ellipsoid, the space above it up to the ellipsoid. Returns: nullptr when none is prepared.
@@ -172,6 +173,9 @@ protected:
 private:
     friend class TileFamily;
 
+    static constexpr core::Interval kUnknown{-std::numeric_limits<double>::infinity(),
+                                             std::numeric_limits<double>::infinity()};
+
     // What a test of this tile alone reads.
     struct Prepared {
         core::QuadraticOrExact bin;
@@ -198,6 +202,7 @@ private:
     [[nodiscard]] static std::shared_ptr<const Setup> shared(const Setup& setup);
     template <class Change>
     void changeSetup(const Change& change);
+    [[nodiscard]] static core::Interval altitudeOf(const AnalyticBin& shown);
     void changeBin();
     void discardPrepared();
     [[nodiscard]] const Prepared& prepared() const;
@@ -230,10 +235,8 @@ private:
     std::unique_ptr<const LocalFrame> _frame;  // null: ECEF
     AnalyticBin _bin;
     AnalyticBin _surface;
-    double _surfaceLow;
-    double _surfaceHigh;
-    double _binLow;
-    double _binHigh;
+    core::Interval _altitude = kUnknown;  // of the bin
+    core::Interval _surfaceAltitude = kUnknown;
     double _skirt = 0.0;
 };
 

@@ -27,8 +27,6 @@ namespace osgAnalyticBin {
 
 namespace {
 
-constexpr double kUnknown = -std::numeric_limits<double>::infinity();
-
 // The planes of a frustum, moved to ECEF.
 core::PlaneSet ecefPlanes(const osg::Polytope& frustum, const osg::Matrixd& ecefToLocal) {
     core::PlaneSet planes;
@@ -43,20 +41,11 @@ core::PlaneSet ecefPlanes(const osg::Polytope& frustum, const osg::Matrixd& ecef
 }  // namespace
 
 AnalyticBinCullCallback::AnalyticBinCullCallback()
-    : _setup(shared({{}, osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR, {}})),
-      _surfaceLow(kUnknown),
-      _surfaceHigh(-kUnknown),
-      _binLow(kUnknown),
-      _binHigh(-kUnknown) {}
+    : _setup(shared({{}, osg::WGS_84_RADIUS_EQUATOR, osg::WGS_84_RADIUS_POLAR, {}})) {}
 
 AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBin& bin, const osg::EllipsoidModel& ellipsoid,
                                                  const CullOptions& options)
-    : _setup(shared({options, ellipsoid.getRadiusEquator(), ellipsoid.getRadiusPolar(), {}})),
-      _bin(bin),
-      _surfaceLow(kUnknown),
-      _surfaceHigh(-kUnknown),
-      _binLow(kUnknown),
-      _binHigh(-kUnknown) {
+    : _setup(shared({options, ellipsoid.getRadiusEquator(), ellipsoid.getRadiusPolar(), {}})), _bin(bin) {
     changeBin();
 }
 
@@ -71,10 +60,8 @@ AnalyticBinCullCallback::AnalyticBinCullCallback(const AnalyticBinCullCallback& 
       _frame(other._frame ? std::make_unique<const LocalFrame>(*other._frame) : nullptr),
       _bin(other._bin),
       _surface(other._surface),
-      _surfaceLow(other._surfaceLow),
-      _surfaceHigh(other._surfaceHigh),
-      _binLow(other._binLow),
-      _binHigh(other._binHigh),
+      _altitude(other._altitude),
+      _surfaceAltitude(other._surfaceAltitude),
       _skirt(other._skirt) {}
 
 bool AnalyticBinCullCallback::Setup::operator==(const Setup& other) const {
@@ -106,11 +93,16 @@ core::QuadraticOrExact AnalyticBinCullCallback::preparedBin(const AnalyticBin& s
     return core::quadraticOrExact(ellipsoid, shown.bin(), shown.margin());
 }
 
+core::Interval AnalyticBinCullCallback::altitudeOf(const AnalyticBin& shown) {
+    if (!shown.valid()) return kUnknown;
+    const core::Interval& altitude = shown.bin().altitude();
+    return {altitude.lower - shown.margin(), altitude.upper + shown.margin()};
+}
+
 // Called when the shown bin, the globe, the frame or the options have changed.
 void AnalyticBinCullCallback::changeBin() {
     const AnalyticBin shown = shownBin();
-    _binLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
-    _binHigh = shown.valid() ? shown.bin().altitude().upper + shown.margin() : -kUnknown;
+    _altitude = altitudeOf(shown);
     const bool hasMethod = _setup->options.method != Method::None && _setup->options.method != Method::Sphere;
     _isTested =
         hasMethod && shown.valid() && (areValidRadii(_setup->equatorialRadius, _setup->polarRadius) || isInMap());
@@ -174,7 +166,7 @@ void AnalyticBinCullCallback::fillSlot() const {
                          std::get_if<core::ExactGeodeticBin>(&prepared.bin)};
     if (prepared.horizon) bins.horizon = &*prepared.horizon;
     bins.column = prepared.columnHorizon ? &*prepared.columnHorizon : bins.horizon;
-    _installed->fillSlot({prepared.sphere, prepared.columnSphere, _binHigh, _binLow, _surfaceHigh, _surfaceLow,
+    _installed->fillSlot({prepared.sphere, prepared.columnSphere, _altitude, _surfaceAltitude,
                           prepared.columnHorizon.has_value(), _installed->has(InstalledTile::Declared)},
                          bins);
 }
@@ -206,8 +198,7 @@ void AnalyticBinCullCallback::setSkirt(double metres) {
 void AnalyticBinCullCallback::setSurface(const AnalyticBin& surface) {
     _surface = surface;
     const AnalyticBin shown = _setup->shape ? surface.exaggerated(_setup->shape->verticalScale) : surface;
-    _surfaceLow = shown.valid() ? shown.bin().altitude().lower - shown.margin() : kUnknown;
-    _surfaceHigh = shown.valid() ? shown.bin().altitude().upper + shown.margin() : -kUnknown;
+    _surfaceAltitude = altitudeOf(shown);
     fillSlot();
 }
 

@@ -87,10 +87,8 @@ void SelectionWalk::searchTileWithoutFamily(osg::Node& node, const AnalyticBinCu
     if (installed && installed->has(InstalledTile::MeshChanged) && installed->has(InstalledTile::Outgrown)) doubt();
     TileBlock::Slot numbers;
     if (const osg::BoundingSphere* const column = bin.ecefColumnSphere()) numbers.column = *column;
-    numbers.binLow = bin.getBinLow();
-    numbers.binHigh = bin.getBinHigh();
-    numbers.surfaceLow = bin.getSurfaceLow();
-    numbers.surfaceHigh = bin.getSurfaceHigh();
+    numbers.altitude = {bin.getBinLow(), bin.getBinHigh()};
+    numbers.surface = {bin.getSurfaceLow(), bin.getSurfaceHigh()};
     const bool isFitted = !bin.getTerrainShape() || *bin.getTerrainShape() == _selected.view.shape;
     const Tile tile{bin, numbers, isFitted, nullptr, true, isAbout(bin)};
     const bool isHidden = _hiding.eye && bin.isColumnHiddenFrom(*_hiding.eye);
@@ -146,8 +144,8 @@ void SelectionWalk::searchChild(osg::PagedLOD& node, unsigned int i, const Tile&
 // The altitudes of what a tile draws by itself. Its bin alone follows changes of the mesh.
 core::Interval SelectionWalk::surfaceOf(const Tile& tile) {
     const InstalledTile* const installed = tile.isCertain ? nullptr : tile.callback.getInstalledTile();
-    if (installed && installed->has(InstalledTile::MeshChanged)) return {tile.numbers.binLow, tile.numbers.binHigh};
-    return {tile.numbers.surfaceLow, tile.numbers.surfaceHigh};
+    if (installed && installed->has(InstalledTile::MeshChanged)) return tile.numbers.altitude;
+    return tile.numbers.surface;
 }
 
 void SelectionWalk::show(const Tile& tile, osg::Node& mesh, bool isOnlyLevel) {
@@ -163,7 +161,7 @@ void SelectionWalk::show(const Tile& tile, osg::Node& mesh, bool isOnlyLevel) {
     _selection.addShown(
         {&tile.callback, &mesh, tile.member, isSure, isOnlyLevel, tile.isOutOfView, tile.kept, _segment});
     // what a tile draws by itself is in its bin
-    if (tile.isFitted && tile.numbers.binLow >= -_depth) return;
+    if (tile.isFitted && tile.numbers.altitude.lower >= -_depth) return;
     const double own = tile.isFitted ? -surfaceOf(tile).lower : std::numeric_limits<double>::infinity();
     _depth = std::max(_depth, std::min(own, _deepest));
 }

@@ -207,7 +207,7 @@ bool SelectionWalk::isSearched(const Tile& tile, const TileFamily& family, const
     const bool isInView = hasBit(verdicts.tested, number) && !hasBit(verdicts.outOfView() | verdicts.beyond, number);
     if (isInView || tile.isAboutEye) return true;
     const bool isBin = !hasBit(family.block().partFrom(slot).withOwnColumns, number);
-    if (isBin || tile.numbers.binLow >= -_occluder || isBesideFrustum(tile.numbers.column)) return false;
+    if (isBin || tile.numbers.altitude.lower >= -_occluder || isBesideFrustum(tile.numbers.column)) return false;
     return !_hiding.eye || !family.block().isColumnHidden(slot, *_hiding.eye);
 }
 
@@ -216,7 +216,8 @@ void SelectionWalk::selectMember(osg::Node& node, const TileFamily& family, cons
     const unsigned int number = slot % TileBlock::Part::kMost;
     const FamilyTile& member = family.tile(slot);
     const TileBlock::Slot& numbers = family.block()[slot];
-    const bool isAboutEye = _searches && _place && _place->altitude <= numbers.binHigh && isAbout(*member.callback());
+    const bool isAboutEye =
+        _searches && _place && _place->altitude <= numbers.altitude.upper && isAbout(*member.callback());
     const bool isAlone = member.isAlone(node);
     Tile tile{*member.callback(), numbers, true, &member, !_isPlainVisitor || !isAlone, isAboutEye};
     tile.isOutOfView = hasBit(verdicts.outOfView(), number);

@@ -43,8 +43,8 @@ void TileBlock::set(std::size_t slot, const Slot& tile, const Bins& bins) {
     const std::uint64_t bit = std::uint64_t{1} << i;
     part.withOwnColumns = tile.hasOwnColumn ? part.withOwnColumns | bit : part.withOwnColumns & ~bit;
     part.withSpheres = tile.testsSphere ? part.withSpheres | bit : part.withSpheres & ~bit;
-    part.highest = std::max(part.highest, tile.binHigh);
-    part.lowest = std::min(part.lowest, tile.binLow);
+    part.highest = std::max(part.highest, tile.altitude.upper);
+    part.lowest = std::min(part.lowest, tile.altitude.lower);
     if (tile.column.valid()) {
         const osg::BoundingSphered column(tile.column.center(), tile.column.radius());
         _columnUnion->expandBy(column);

@@ -29,10 +29,8 @@ public:
     struct Slot {
         osg::BoundingSphere bound;   ///< what OSG's test of small features takes
         osg::BoundingSphere column;  ///< about the bin, and what is above it up to the ellipsoid
-        double binHigh = 0.0;        ///< see AnalyticBinCullCallback
-        double binLow = 0.0;         ///< likewise
-        double surfaceHigh = 0.0;    ///< likewise
-        double surfaceLow = 0.0;     ///< likewise
+        core::Interval altitude{};   ///< metres, of all that the tile and its descendants draw
+        core::Interval surface{};    ///< metres, of what the tile draws by itself
         bool hasOwnColumn = true;    ///< the column is more than the bin
         bool testsSphere = false;    ///< see InstalledTile
     };
@@ -58,8 +56,8 @@ public:
         std::atomic<std::uint64_t> certain{0};   ///< tiles of which nothing is in doubt: see InstalledTile::isCertain
         std::uint64_t withOwnColumns = 0;        ///< see Slot::hasOwnColumn
         std::uint64_t withSpheres = 0;           ///< see Slot::testsSphere
-        double highest = -std::numeric_limits<double>::infinity();  ///< no binHigh is above
-        double lowest = std::numeric_limits<double>::infinity();    ///< no binLow is below
+        double highest = -std::numeric_limits<double>::infinity();  ///< no tile is above
+        double lowest = std::numeric_limits<double>::infinity();    ///< no tile is below
         osg::BoundingSphered columns;                               ///< about all columns
     };
 
