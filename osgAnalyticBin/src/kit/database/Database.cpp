@@ -168,9 +168,8 @@ bool Database::takeShapeChange() {
 void Database::report(Finding finding, const std::string& file) {
     if ((_found.fetch_or(bitOf(finding), std::memory_order_relaxed) & bitOf(finding)) != 0) return;
     tell(finding, file, isMap());
-    if (finding != Finding::MovedTile) return;
-    report(Finding::Gap, file);
-    report(Finding::StrayTile, file);
+    if (finding == Finding::MovedTile || finding == Finding::TooDeep) report(Finding::Gap, file);
+    if (finding == Finding::MovedTile) report(Finding::StrayTile, file);
 }
 
 // Told once for a database, whatever globes are inside it. The tile itself has been fitted to what is reported.
@@ -181,7 +180,9 @@ void Database::report(InstalledTile& tile, Finding finding, const AnalyticBin& d
     of(*outermost).report(finding, tile.file);
     const Widening by{drawn, finding == Finding::Unverifiable};
     for (InstalledTile* at = &tile; at; at = at->parent.get()) {
-        if (at->ordinal) of(*at).widen(*at, by, at == &tile);
+        if (!at->ordinal) continue;
+        of(*at).correct(*at, by);
+        if (at != &tile) of(*at).widen(*at, by);
     }
 }
 
@@ -227,24 +228,22 @@ void Database::makePlates() {
     requestUpdate();
 }
 
-void Database::widen(InstalledTile& tile, const Widening& by, bool isFitted) {
+void Database::widen(InstalledTile& tile, const Widening& by) {
     const std::lock_guard<std::mutex> lock(_mutex);
-    _corrections[{tile.file, *tile.ordinal}].expandBy(by);
     // one file may be paged in several places, and below itself
-    if (isFitted || (tile.widening ? tile.widening->contains(by) : !by.any())) return;
-    if (!tile.widening) tile.widening = std::make_unique<Widening>();
-    tile.widening->expandBy(by);
-    _toWiden.emplace_back(&tile, by);
-    requestUpdate();
-    // until the next update
+    if (tile.widening ? tile.widening->contains(by) : !by.any()) return;
     tile.doubt(InstalledTile::Outgrown);
-}
-
-void Database::noteContent(InstalledTile& tile, const Widening& by) {
-    const std::lock_guard<std::mutex> lock(_mutex);
     requestUpdate();
     // where no update traversal ever comes, tiles stay visible
-    if (_toWiden.size() < kMostToWiden) _toWiden.emplace_back(&tile, by);
+    if (_toWiden.size() >= kMostToWiden) return;
+    if (!tile.widening) tile.widening = std::make_unique<Widening>();
+    tile.widening->expandBy(by);
+    _toWiden.emplace_back(&tile);
+}
+
+void Database::correct(const InstalledTile& tile, const Widening& by) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    _corrections[{tile.file, *tile.ordinal}].expandBy(by);
 }
 
 Widening Database::correction(const std::string& file, std::size_t ordinal) const {
@@ -288,7 +287,7 @@ void Database::widenLoaded() {
         const std::lock_guard<std::mutex> lock(_mutex);
         toWiden.swap(_toWiden);
     }
-    for (const auto& [observed, widening] : toWiden) {
+    for (const auto& observed : toWiden) {
         osg::ref_ptr<InstalledTile> tile;
         const osg::ref_ptr<osg::NodeCallback> callback = observed.lock(tile) ? tile->callback() : nullptr;
         if (!callback) {
@@ -297,7 +296,8 @@ void Database::widenLoaded() {
             continue;
         }
         auto& bin = static_cast<AnalyticBinCullCallback&>(*callback);
-        bin.setBin(widening.widened(bin.getBin()));
+        const std::lock_guard<std::mutex> lock(_mutex);
+        bin.setBin(tile->widening->widened(bin.getBin()));
         tile->settle(InstalledTile::Outgrown);
     }
 }

@@ -121,9 +121,8 @@ public:
     /// on get them at once. `mesh`: the tile's own mesh.
     void askForPlates(const AnalyticBinCullCallback& tile, osg::Node& mesh);
 
-    /// Records content below a tile that its bin does not contain. The tile stays visible until the next update expands
-    /// the bin.
-    void noteContent(InstalledTile& tile, const Widening& by);
+    /// Has the next update expand a tile's bin by what was found below it. The tile stays visible until then.
+    void widen(InstalledTile& tile, const Widening& by);
 
     /// Call when a family was placed on a group or made anew: meshes of its tiles that have changed since bins were
     /// installed are trusted again, by new evidence. osgUtil::Optimizer may have changed their form: the new form is as
@@ -148,14 +147,11 @@ public:
 protected:
     ~Database() override = default;
 
-    /// Has the next update expand the bin of a tile, which stays visible until then. `isFitted`: the tile has been
-    /// fitted to that already.
-    void widen(InstalledTile& tile, const Widening& by, bool isFitted);
-
 private:
     using TileKey = std::pair<std::string, std::size_t>;
 
     [[nodiscard]] static constexpr unsigned int bitOf(Finding finding) { return 1u << static_cast<unsigned>(finding); }
+    void correct(const InstalledTile& tile, const Widening& by);
     void adoptIndex();
     void renewOnTheirWay();
     void findLateComers();
@@ -179,7 +175,7 @@ private:
     std::vector<osg::observer_ptr<osg::Node>> _onTheirWay;  // not merged yet, of this generation
     std::vector<osg::observer_ptr<osg::Node>> _lateComers;  // the same, of earlier ones
     std::map<TileKey, Widening> _corrections;
-    std::vector<std::pair<osg::observer_ptr<InstalledTile>, Widening>> _toWiden;
+    std::vector<osg::observer_ptr<InstalledTile>> _toWiden;
     std::vector<std::pair<osg::observer_ptr<const AnalyticBinCullCallback>, osg::observer_ptr<osg::Node>>> _awaitPlates;
 };
 

@@ -34,6 +34,9 @@ Message messageOf(Finding finding, bool isInMap) {
             return {osg::INFO,
                     "% has tiles that stand in several places, below a transform that moves, or elsewhere than where "
                     "they belong; where they leave a gap, the horizon is not used."};
+        case Finding::TooDeep:
+            return {osg::WARN,
+                    "% has tiles nested hundreds deep; the innermost get no bins, and the horizon is not used."};
         case Finding::UnknownTechnique:
             return {osg::INFO,
                     "the Terrain has a technique that is not osgTerrain::GeometryTechnique; its tiles are not culled, "

@@ -18,6 +18,8 @@ enum class Finding {
     StrayTile,
     /// A tile is not where its bin was stored or installed: a gap and a stray tile.
     MovedTile,
+    /// Tiles are nested too deep: the innermost have no bins, and count as a gap.
+    TooDeep,
     /// The technique of osgTerrain tiles is not known.
     UnknownTechnique,
     /// Occlusion is wanted for a camera whose near plane OSG computes only after the cull traversal.

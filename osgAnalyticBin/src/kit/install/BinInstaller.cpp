@@ -311,13 +311,7 @@ void BinInstaller::visitMoving(osg::Transform& node) {
 
 // It keeps OSG's own culling; how deep it lies is not known.
 void BinInstaller::visitTooDeep(osg::Node&) {
-    if (!installsBins()) return;
-    if (!database().has(Finding::Gap)) {
-        OSG_WARN << "osgAnalyticBin: \"" << frame().file
-                 << "\" has tiles nested hundreds deep; the innermost get no bins, and the horizon is not used."
-                 << std::endl;
-    }
-    database().report(Finding::Gap, frame().file);
+    if (installsBins()) database().report(Finding::TooDeep, frame().file);
 }
 
 void BinInstaller::install(FoundTile& tile, bool hasNewContent) {

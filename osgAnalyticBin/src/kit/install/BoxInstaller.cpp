@@ -261,7 +261,7 @@ void BoxSet::grow(BoxTile& tile, const FileContent& content) {
             continue;
         }
         at->doubt(InstalledTile::NeedsSphere);
-        widen(*at, by, false);
+        widen(*at, by);
     }
 }
 

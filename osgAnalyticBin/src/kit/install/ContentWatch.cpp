@@ -83,29 +83,25 @@ std::uint64_t frameOf(const osg::Node& node) {
     return hash;
 }
 
-// What changes when vertices or triangles are said to have changed, and with heights.
-std::uint64_t revisionOf(const osg::Node& mesh) {
-    std::uint64_t hash = 1;
-    forEachPart(mesh, [&hash](const osg::Node& part) {
-        if (const auto* const terrain = asTerrain(part)) {
-            mix(hash, surfaceFingerprint(const_cast<osg::Node&>(part), osg::Matrixd()));
-            mix(hash, std::uint64_t{isDrawnByOsg(*terrain)});
-        }
-        const osg::Geometry* const geometry = part.asGeometry();
-        const osg::Array* const vertices = geometry ? geometry->getVertexArray() : nullptr;
-        if (!vertices) return;
-        mix(hash, reinterpret_cast<std::uintptr_t>(vertices));
-        mix(hash, std::uint64_t{vertices->getNumElements()});
-        mix(hash, std::uint64_t{vertices->getModifiedCount()});
-        for (const auto& primitives : geometry->getPrimitiveSetList()) {
-            mix(hash, reinterpret_cast<std::uintptr_t>(primitives.get()));
-            if (!primitives) continue;
-            mix(hash, std::uint64_t{primitives->getMode()});
-            mix(hash, std::uint64_t{primitives->getNumIndices()});
-            mix(hash, std::uint64_t{primitives->getModifiedCount()});
-        }
-    });
-    return hash;
+// By what OSG tells that vertices and triangles have changed; of osgTerrain tiles, the heights.
+void mixSurface(std::uint64_t& hash, const osg::Node& part) {
+    if (const auto* const terrain = asTerrain(part)) {
+        mix(hash, surfaceFingerprint(const_cast<osg::Node&>(part), osg::Matrixd()));
+        mix(hash, std::uint64_t{isDrawnByOsg(*terrain)});
+    }
+    const osg::Geometry* const geometry = part.asGeometry();
+    const osg::Array* const vertices = geometry ? geometry->getVertexArray() : nullptr;
+    if (!vertices) return;
+    mix(hash, reinterpret_cast<std::uintptr_t>(vertices));
+    mix(hash, std::uint64_t{vertices->getNumElements()});
+    mix(hash, std::uint64_t{vertices->getModifiedCount()});
+    for (const auto& primitives : geometry->getPrimitiveSetList()) {
+        mix(hash, reinterpret_cast<std::uintptr_t>(primitives.get()));
+        if (!primitives) continue;
+        mix(hash, std::uint64_t{primitives->getMode()});
+        mix(hash, std::uint64_t{primitives->getNumIndices()});
+        mix(hash, std::uint64_t{primitives->getModifiedCount()});
+    }
 }
 
 // Of the bounds of drawables, for vertices that moved without a word. Never 0.
@@ -175,7 +171,7 @@ public:
         if (!isOther && (_isTerrain ? callback.getBin().contains(own) : isHeld(own, callback.getBin()))) return;
         const AnalyticBin& content = own.valid() ? own : about;
         tile->doubt(InstalledTile::Outgrown);
-        if (_isMerged) Database::of(*tile).noteContent(*tile, {content, isOther || !content.valid()});
+        if (_isMerged) Database::of(*tile).widen(*tile, {content, isOther || !content.valid()});
     }
 
 private:
@@ -275,28 +271,25 @@ void ContentWatch::place(osg::Node& node, const std::vector<osg::ref_ptr<osg::No
     watch->_node = &node;
     watch->_frame = frameOf(node);
     watch->_previous = node.getComputeBoundingSphereCallback();
+    const auto add = [&watch](const osg::Node& mesh) { watch->_fitted.push_back({&mesh, stateOf(mesh), 0}); };
     for (const auto& mesh : fitted) {
-        if (mesh != &node || asTerrain(node))
-            watch->_fitted.push_back({mesh, structureOf(*mesh), revisionOf(*mesh), 0});
-    }
-    const bool isMesh = std::find(fitted.begin(), fitted.end(), &node) != fitted.end();
-    const osg::Group* const group = isMesh && !asTerrain(node) ? node.asGroup() : nullptr;
-    for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
-        const osg::Node& child = *group->getChild(i);
-        watch->_fitted.push_back({&child, structureOf(child), revisionOf(child), 0});
+        const osg::Group* const group = mesh == &node && !asTerrain(node) ? node.asGroup() : nullptr;
+        if (mesh != &node || asTerrain(node)) add(*mesh);
+        for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) add(*group->getChild(i));
     }
     node.setComputeBoundingSphereCallback(watch);
     // what is there already, beside meshes, is looked at with the next bound
     node.dirtyBound();
 }
 
-ContentWatch::Structure ContentWatch::structureOf(const osg::Node& mesh) {
-    Structure structure;
-    forEachPart(mesh, [&structure](const osg::Node& part) {
-        mix(structure.parts, reinterpret_cast<std::uintptr_t>(&part));
-        if (part.asTransform()) mixFrame(structure.frames, *part.asTransform());
+ContentWatch::State ContentWatch::stateOf(const osg::Node& mesh) {
+    State state;
+    forEachPart(mesh, [&state](const osg::Node& part) {
+        mix(state.parts, reinterpret_cast<std::uintptr_t>(&part));
+        if (part.asTransform()) mixFrame(state.frames, *part.asTransform());
+        mixSurface(state.surfaces, part);
     });
-    return structure;
+    return state;
 }
 
 void ContentWatch::remove(osg::Node& node) {
@@ -337,8 +330,7 @@ const ContentWatch* ContentWatch::ownWatchOf(const osg::Node& node) {
 bool ContentWatch::isFitted(const osg::Node& child, bool withBounds) const {
     const auto known =
         std::find_if(_fitted.begin(), _fitted.end(), [&](const Fitted& fitted) { return fitted.node == &child; });
-    if (known == _fitted.end() || !(known->structure == structureOf(child))) return false;
-    if (known->revision != revisionOf(child)) return false;
+    if (known == _fitted.end() || !(known->state == stateOf(child))) return false;
     if (!withBounds && known->bounds == 0) return true;
     const std::uint64_t bounds = boundsOf(child);
     if (known->bounds == 0) known->bounds = bounds;
@@ -348,8 +340,8 @@ bool ContentWatch::isFitted(const osg::Node& child, bool withBounds) const {
 bool ContentWatch::isPartMoved(const osg::Group& group) const {
     return std::any_of(_fitted.begin(), _fitted.end(), [&](const Fitted& fitted) {
         if (!group.containsNode(fitted.node)) return false;
-        const Structure now = structureOf(*fitted.node);
-        return now.parts == fitted.structure.parts && now.frames != fitted.structure.frames;
+        const State now = stateOf(*fitted.node);
+        return now.parts == fitted.state.parts && now.frames != fitted.state.frames;
     });
 }
 

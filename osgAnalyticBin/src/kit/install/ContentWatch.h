@@ -50,21 +50,21 @@ protected:
 
 private:
     // Hashes of a mesh.
-    struct Structure {
-        std::uint64_t parts = 1;   // changes when a part is added, removed or replaced
-        std::uint64_t frames = 1;  // changes when a part is moved
-        [[nodiscard]] bool operator==(const Structure& other) const {
-            return parts == other.parts && frames == other.frames;
+    struct State {
+        std::uint64_t parts = 1;     // changes when a part is added, removed or replaced
+        std::uint64_t frames = 1;    // changes when a part is moved
+        std::uint64_t surfaces = 1;  // changes when vertices or triangles are said to have changed
+        [[nodiscard]] bool operator==(const State& other) const {
+            return parts == other.parts && frames == other.frames && surfaces == other.surfaces;
         }
     };
     struct Fitted {
         const osg::Node* node;
-        Structure structure;
-        std::uint64_t revision;        // hash of the counts by which OSG tells that vertices and triangles have changed
+        State state;
         mutable std::uint64_t bounds;  // 0: not known yet
     };
 
-    [[nodiscard]] static Structure structureOf(const osg::Node& mesh);
+    [[nodiscard]] static State stateOf(const osg::Node& mesh);
 
     // The watch of a node that has one parent.
     [[nodiscard]] static const ContentWatch* ownWatchOf(const osg::Node& node);

@@ -81,7 +81,7 @@ public:
     Extents extents;
     /// The tile's stored bin, or that of the nearest ancestor with one. Not valid: there is none.
     AnalyticBin stored;
-    /// What the bin has been expanded by since; null: nothing. Guarded by the database.
+    /// What was found below that the bin did not hold; null: nothing. Guarded by the database.
     std::unique_ptr<Widening> widening;
 
     /// A globe inside another globe has its own.
