@@ -147,9 +147,8 @@ bool isBelowDatabase(const osg::Node& node) {
 // Content below tiles, as it is passed up from one tile to the next.
 class Content {
 public:
-    // `isMerged`: it is in the scene, and what it does not fit into may be widened.
-    Content(osg::Node& node, const osg::BoundingSphere& sphere, bool isMerged)
-        : _node(node), _isTerrain(asTerrain(node)), _sphere(sphere), _isMerged(isMerged) {}
+    Content(osg::Node& node, const osg::BoundingSphere& sphere)
+        : _node(node), _isTerrain(asTerrain(node)), _sphere(sphere) {}
 
     // Goes from the frame inside a transform to the one outside.
     void leave(const osg::Transform& transform) {
@@ -170,8 +169,7 @@ public:
         const AnalyticBin& own = surfaceOn(model, callback.getLocalToEcef());
         if (!isOther && (_isTerrain ? callback.getBin().contains(own) : isHeld(own, callback.getBin()))) return;
         const AnalyticBin& content = own.valid() ? own : about;
-        tile->doubt(InstalledTile::Outgrown);
-        if (_isMerged) Database::of(*tile).widen(*tile, {content, isOther || !content.valid()});
+        Database::of(*tile).widen(*tile, {content, isOther || !content.valid()});
     }
 
 private:
@@ -208,7 +206,6 @@ private:
     osg::Node& _node;
     bool _isTerrain;
     osg::BoundingSphere _sphere;
-    bool _isMerged;
     osg::Matrixd _toHere;
     std::optional<AnalyticBin> _surface;
     std::optional<bool> _obeysDepth;
@@ -345,6 +342,13 @@ bool ContentWatch::isPartMoved(const osg::Group& group) const {
     });
 }
 
+// What is not merged yet is looked at again then: bins must not be expanded before.
+void ContentWatch::fitIntoTiles(const osg::Node& node, const osg::Node& content,
+                                const osg::BoundingSphere& sphere) const {
+    if (isBelowDatabase(node)) return fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(content), sphere));
+    _isPending = true;
+}
+
 void ContentWatch::check(const osg::Node& node) const {
     _isPending = false;
     TileFamily::look(node);
@@ -362,16 +366,13 @@ void ContentWatch::check(const osg::Node& node) const {
         } else if (isOwnFrame && isFitted(child, true)) {
             ++fitted;
         } else if (sphere.valid() && !isAbsolute(child)) {
-            const bool isMerged = isBelowDatabase(node);
-            fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere, isMerged));
-            _isPending = _isPending || !isMerged;
+            fitIntoTiles(node, child, sphere);
         }
     }
     if (group && fitted < _fitted.size()) doubtMeshOf(node, !isOwnFrame || isPartMoved(*group));
     if (group || _fitted.empty() || isFitted(node, true)) return;
     // an osgTerrain tile that has other heights
-    _isPending = !isBelowDatabase(node);
-    fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(node), boundOf(node), !_isPending));
+    fitIntoTiles(node, node, boundOf(node));
     doubtMeshOf(node, false);
 }
 

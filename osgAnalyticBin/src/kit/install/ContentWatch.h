@@ -69,6 +69,8 @@ private:
     // The watch of a node that has one parent.
     [[nodiscard]] static const ContentWatch* ownWatchOf(const osg::Node& node);
     [[nodiscard]] bool isFitted(const osg::Node& child, bool withBounds) const;
+    // Looks whether the bins of tiles from the node upwards hold what stands among its children.
+    void fitIntoTiles(const osg::Node& node, const osg::Node& content, const osg::BoundingSphere& sphere) const;
     void check(const osg::Node& node) const;
     // Whether a transform in a fitted mesh has another matrix now, while the mesh still has the same parts.
     [[nodiscard]] bool isPartMoved(const osg::Group& group) const;
