@@ -6,11 +6,9 @@
 #include "BackgroundIndex.h"
 
 #include <osgAnalyticBin/BinIndex.h>
-#include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/index/DatabaseFiles.h>
 
 #include <osg/ref_ptr>
-#include <osgDB/Options>
 
 #include <cstddef>
 #include <string>
@@ -25,8 +23,7 @@ public:
     AutoIndex(const std::string& rootFile, osg::ref_ptr<const BinIndex> kept)
         : BackgroundIndex(rootFile), _kept(std::move(kept)) {}
 
-    /// Returns: null until it is complete.
-    [[nodiscard]] osg::ref_ptr<const BinIndex> whole() const {
+    [[nodiscard]] osg::ref_ptr<const BinIndex> whole() const override {
         const auto guard = lock();
         return _whole;
     }
@@ -49,15 +46,5 @@ private:
     osg::ref_ptr<const BinIndex> _kept;
     osg::ref_ptr<const BinIndex> _whole;  // guarded by lock()
 };
-
-/// The index that a database is opened with.
-struct ChosenIndex {
-    osg::ref_ptr<const BinIndex> index;  ///< null: none that can be used at once
-    osg::ref_ptr<AutoIndex> making;      ///< makes one, once it is started; null: none is made
-};
-
-/// Looks for an index beside the database, and in the user's cache folder. One that cannot be used gives one warning.
-[[nodiscard]] ChosenIndex chooseIndex(const std::string& databaseFileName, const osgDB::Options* readOptions,
-                                      IndexUse use);
 
 }  // namespace osgAnalyticBin

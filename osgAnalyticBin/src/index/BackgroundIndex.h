@@ -3,10 +3,9 @@
 
 #pragma once
 
-#include <osgAnalyticBin/BinIndex.h>
+#include "../kit/tile/TileBoundsSource.h"
 
-#include <osg/Referenced>
-#include <osg/ref_ptr>
+#include <osgAnalyticBin/BinIndex.h>
 
 #include <atomic>
 #include <chrono>
@@ -15,7 +14,6 @@
 #include <mutex>
 #include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -23,22 +21,14 @@ namespace osgAnalyticBin {
 /// Makes an index in a thread of low priority, which waits while the DatabasePager reads.
 /// Threads: everything may be called at any time, start() once. The destructors of derived classes, and stop(), wait
 /// for the thread, which ends after the file that it reads.
-class BackgroundIndex : public osg::Referenced {
+class BackgroundIndex : public TileBoundsSource {
 public:
-    void start();
+    void start() override;
     void stop();
-
-    /// Whether the index is complete.
-    [[nodiscard]] bool isWhole() const { return _isWhole.load(std::memory_order_acquire); }
-
-    /// Waits until the index is complete or has failed. Returns: whether it is complete.
-    bool waitUntilWhole(std::chrono::duration<double> most) const;
-
-    /// Call when the DatabasePager begins (1) and ends (-1) to read a file.
-    void noteRead(int change) { _reads.fetch_add(change, std::memory_order_relaxed); }
-
-    /// Prints the thread's messages to the user, each once.
-    void showNotes();
+    [[nodiscard]] bool isWhole() const override { return _isWhole.load(std::memory_order_acquire); }
+    bool waitUntilWhole(std::chrono::duration<double> most) const override;
+    void noteRead(int change) override { _reads.fetch_add(change, std::memory_order_relaxed); }
+    void showNotes() override;
 
 protected:
     explicit BackgroundIndex(const std::string& rootFile) : _rootFile(rootFile) {}
@@ -75,22 +65,6 @@ private:
     mutable std::condition_variable _changed;
     bool _hasEnded = false;
     std::vector<std::string> _notes;
-};
-
-/// Makes the thread that makes an index wait while a file is read. `index` may be null.
-class BusyPager final {
-public:
-    explicit BusyPager(osg::ref_ptr<BackgroundIndex> index) : _index(std::move(index)) {
-        if (_index) _index->noteRead(1);
-    }
-    ~BusyPager() {
-        if (_index) _index->noteRead(-1);
-    }
-    BusyPager(const BusyPager&) = delete;
-    BusyPager& operator=(const BusyPager&) = delete;
-
-private:
-    const osg::ref_ptr<BackgroundIndex> _index;
 };
 
 }  // namespace osgAnalyticBin

@@ -3,9 +3,6 @@
 
 #include "OcclusionSearch.h"
 
-#include "../kit/cull/CullTraversal.h"
-#include "../kit/cull/SearchMemory.h"
-#include "../kit/cull/TileSelection.h"
 #include "../kit/tile/InstalledTile.h"
 
 #include <osgAnalyticBin/core/occlusion/HorizonBuffer.h>
@@ -32,7 +29,7 @@ using core::HorizonBuffer;
 
 // A shown tile.
 struct Candidate {
-    const TileSelection::ShownTile* tile;
+    const ShownTile* tile;
     double distance;   // metres from the eye to a corner of the bin, the nearest one
     double size;       // metres from corner to corner
     bool isHidden;     // as far as is known
@@ -49,9 +46,12 @@ struct Quarter {
 
 class OcclusionSearch {
 public:
-    OcclusionSearch(const ShownDatabase& database, FoundOcclusion& found)
-        : _database(database),
-          _ellipsoid(database.selected.view.ellipsoid),
+    OcclusionSearch(const TerrainHider::View& view, const std::vector<ShownTile>& shown, NearMeshes& meshes,
+                    FoundOcclusion& found)
+        : _region(view.region),
+          _shown(shown),
+          _ellipsoid(view.ellipsoid),
+          _meshes(meshes),
           _found(found),
           _frame(found.eye),
           _buffer(glm::length(found.eye.origin), found.span.across, found.span.drawing, found.span.depthStep,
@@ -59,11 +59,11 @@ public:
 
     // Returns: whether something was found.
     [[nodiscard]] bool run() {
-        const std::size_t tiles = _database.selected.view.selection->shown().size();
+        const std::size_t tiles = _shown.size();
         _candidates.reserve(tiles);
         _quarters.reserve(2 * tiles);
         _order.reserve(2 * tiles);
-        for (const TileSelection::ShownTile& tile : _database.selected.view.selection->shown()) {
+        for (const ShownTile& tile : _shown) {
             if (!add(tile)) return false;
         }
         std::sort(_order.begin(), _order.end());
@@ -95,7 +95,7 @@ public:
 
 private:
     // Returns: false where the place of the tile is not known.
-    [[nodiscard]] bool add(const TileSelection::ShownTile& shown) {
+    [[nodiscard]] bool add(const ShownTile& shown) {
         const AnalyticBinCullCallback& tile = *shown.tile;
         const GeodeticBin& bin = tile.getBin().bin();
         const core::Interval altitude{tile.getBinLow(), tile.getBinHigh()};
@@ -130,7 +130,6 @@ private:
     // Metres above the eye of the highest point of the terrain that is in the picture and within `reach` of the eye.
     // Returns: nullopt where that is not known.
     [[nodiscard]] std::optional<double> highestWithin(double reach) const {
-        NearMeshes& meshes = SearchMemory::of(_database.selected.visitor).nearMeshes;
         const core::Interval& across = _found.span.across;
         const double widest = std::max(std::abs(across.lower), std::abs(across.upper));
         double highest = -HUGE_VAL;
@@ -142,10 +141,10 @@ private:
             if (isKnown) continue;
             if (tiles.size() == NearMeshes::kMostTiles) return std::nullopt;
             tiles.push_back(quarter.candidate);
-            const TileSelection::ShownTile& tile = *_candidates[quarter.candidate].tile;
+            const ShownTile& tile = *_candidates[quarter.candidate].tile;
             const glm::dvec3 margin = _found.eyes + tile.tile->getBin().margin();
             const double radius = (reach + 2.0 * std::max(margin.x, margin.y)) * (1.0 + widest);
-            const core::EcefMesh* const mesh = meshes.trianglesNear(*tile.tile, *tile.mesh, _found.eye, radius);
+            const core::EcefMesh* const mesh = _meshes.trianglesNear(*tile.tile, *tile.mesh, _found.eye, radius);
             if (!mesh) return std::nullopt;
             highest = std::max(highest, highestOf(*mesh, reach, margin));
         }
@@ -201,9 +200,7 @@ private:
     }
 
     // Lines of sight that meet earth there come from above the terrain, not from beside it.
-    [[nodiscard]] bool isOverRegion(const GeodeticBin& bin) const {
-        return !_database.region || _database.region->contains(bin);
-    }
+    [[nodiscard]] bool isOverRegion(const GeodeticBin& bin) const { return !_region || _region->contains(bin); }
     [[nodiscard]] bool isQuarterOverRegion(const Quarter& quarter) const {
         return isOverRegion(_candidates[quarter.candidate].tile->tile->getBin().bin().quarters()[quarter.number]);
     }
@@ -233,8 +230,10 @@ private:
         _buffer.add(_columns);
     }
 
-    const ShownDatabase& _database;
+    const core::CoveredRegion* const _region;
+    const std::vector<ShownTile>& _shown;
     const core::Ellipsoid& _ellipsoid;
+    NearMeshes& _meshes;
     FoundOcclusion& _found;
     const core::InverseFrame _frame;
     HorizonBuffer _buffer;
@@ -316,8 +315,9 @@ bool FoundOcclusion::isJump(const glm::dvec3& step) const {
     return glm::length(step) >= kJump * lastClearance;
 }
 
-bool findOccluded(const ShownDatabase& database, FoundOcclusion& found) {
-    return OcclusionSearch(database, found).run();
+bool findOccluded(const TerrainHider::View& view, const std::vector<ShownTile>& shown, NearMeshes& meshes,
+                  FoundOcclusion& found) {
+    return OcclusionSearch(view, shown, meshes, found).run();
 }
 
 }  // namespace osgAnalyticBin

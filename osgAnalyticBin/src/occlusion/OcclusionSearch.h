@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include "../kit/cull/ShownDepth.h"
-#include "../kit/cull/TileSelection.h"
+#include "../kit/tile/TerrainHider.h"
 #include "LevelPicture.h"
+#include "NearMeshes.h"
 
 #include <osgAnalyticBin/CoveredPicture.h>
 #include <osgAnalyticBin/Export.h>
@@ -29,7 +29,7 @@ struct FoundOcclusion {
     struct Tile {
         const AnalyticBinCullCallback* tile;
         const osg::Node* mesh;
-        bool isSure;           ///< see TileSelection::ShownTile
+        bool isSure;           ///< see ShownTile
         std::uint64_t plates;  ///< see InstalledTile::numberOfPlates()
         core::GeodeticBin bin;
         double margin, low, high;
@@ -71,7 +71,7 @@ struct FoundOcclusion {
     [[nodiscard]] bool holds(const glm::dvec3& place) const;
 
     /// Whether a tile is hidden. `tile`: as it is shown in the present view. Requires: i < findings.size().
-    [[nodiscard]] bool hides(std::size_t i, const TileSelection::ShownTile& tile) const {
+    [[nodiscard]] bool hides(std::size_t i, const ShownTile& tile) const {
         return findings[i] == Finding::Hidden || (findings[i] == Finding::MeshHidden && tile.isOnlyLevel);
     }
 
@@ -80,11 +80,12 @@ struct FoundOcclusion {
 };
 
 /// Finds shown tiles that are hidden behind the terrain of others.
-/// Requires: a plan with the shown tiles; in `found` everything is set except the findings.
+/// Requires: all tiles that are shown; in `found` everything is set except the findings.
 /// Guarantee: every line of sight to a tile that is found hidden meets the mesh of another shown tile before, for all
 /// of the eyes; source: doc/theory/occlusion.md, sections 4 and 5. Returns: false where the near plane may cut into
 /// terrain, or where the place of a tile is not known. Cost: a sort of the shown tiles, and a few microseconds for each
 /// that is not hidden.
-[[nodiscard]] bool findOccluded(const ShownDatabase& database, FoundOcclusion& found);
+[[nodiscard]] bool findOccluded(const TerrainHider::View& view, const std::vector<ShownTile>& shown, NearMeshes& meshes,
+                                FoundOcclusion& found);
 
 }  // namespace osgAnalyticBin

@@ -3,21 +3,15 @@
 
 #include "TerrainOcclusion.h"
 
-#include "../kit/cull/BinCulling.h"
-#include "../kit/cull/CullTraversal.h"
-#include "../kit/cull/TileSelection.h"
+#include "../kit/SmallFeature.h"
 #include "../kit/tile/InstalledTile.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <optional>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
@@ -33,18 +27,18 @@ enum class Ground {
 };
 
 // Notes the tiles that are shown.
-Ground describe(const ShownDatabase& database, std::vector<FoundOcclusion::Tile>& tiles,
-                std::vector<TileSelection::ShownTile>& withoutPlates) {
-    osg::CullingSet& cullingSet = database.selected.cullStack.getCurrentCullingSet();
+Ground describe(const TerrainHider::View& view, const std::vector<ShownTile>& allShown,
+                std::vector<FoundOcclusion::Tile>& tiles, std::vector<std::size_t>& withoutPlates) {
+    osg::CullingSet& cullingSet = view.cullStack.getCurrentCullingSet();
     tiles.clear();
     Ground ground = Ground::Known;
-    for (const TileSelection::ShownTile& shown : database.selected.view.selection->shown()) {
+    for (const ShownTile& shown : allShown) {
         const AnalyticBinCullCallback& tile = *shown.tile;
         const InstalledTile* const installed = tile.getInstalledTile();
-        const bool isFitted = !tile.getTerrainShape() || *tile.getTerrainShape() == database.selected.view.shape;
+        const bool isFitted = !tile.getTerrainShape() || *tile.getTerrainShape() == view.shape;
         if (!installed || !isFitted) return Ground::Unknown;
         if (installed->numberOfPlates() == 0) {
-            withoutPlates.push_back(shown);
+            withoutPlates.push_back(static_cast<std::size_t>(&shown - allShown.data()));
             ground = Ground::Awaited;
             continue;
         }
@@ -62,9 +56,9 @@ Ground describe(const ShownDatabase& database, std::vector<FoundOcclusion::Tile>
     return ground;
 }
 
-std::optional<GeodeticBin> regionOf(const ShownDatabase& database) {
-    if (!database.region) return std::nullopt;
-    return database.region->extents();
+std::optional<GeodeticBin> regionOf(const TerrainHider::View& view) {
+    if (!view.region) return std::nullopt;
+    return view.region->extents();
 }
 
 bool isWithin(const core::Interval& inner, const core::Interval& outer) {
@@ -72,13 +66,12 @@ bool isWithin(const core::Interval& inner, const core::Interval& outer) {
 }
 
 // Whether what was found holds for a view of these tiles.
-bool serves(FoundOcclusion& found, const ShownDatabase& database, const glm::dvec3& eye,
-            const std::optional<PictureSpan>& span, double nearReach) {
+bool serves(FoundOcclusion& found, const TerrainHider::View& view, const std::optional<PictureSpan>& span) {
     // meshes around the eye may change
     constexpr int kMostUses = 64;
-    return found.uses++ < kMostUses && found.holds(eye) && span && isWithin(span->across, found.span.across) &&
+    return found.uses++ < kMostUses && found.holds(view.eye) && span && isWithin(span->across, found.span.across) &&
            span->drawing <= found.span.drawing && span->depthStep <= found.span.depthStep &&
-           nearReach <= found.nearReach && found.region == regionOf(database) && found.tiles == found.shown;
+           view.nearReach <= found.nearReach && found.region == regionOf(view) && found.tiles == found.shown;
 }
 
 // Prepares a search that serves as many of the next views as it can, if the camera goes on as it does.
@@ -103,58 +96,58 @@ void aim(FoundOcclusion& found, const LevelView& view, const glm::dvec3& eye, co
     found.span.across.upper += room(spanThen->across.upper - found.lastAcross.upper);
 }
 
-OccludedTiles noteIn(TileSelection& selection, const FoundOcclusion& found) {
-    OccludedTiles tiles;
+void note(const FoundOcclusion& found, const std::vector<ShownTile>& shown, TerrainHider::Hidden& hidden) {
+    hidden.tiles.reserve(found.findings.size());
     for (std::size_t i = 0; i < found.findings.size(); ++i) {
-        const TileSelection::ShownTile& tile = selection.shown()[i];
+        const ShownTile& tile = shown[i];
         if (found.findings[i] == FoundOcclusion::Finding::Beside || tile.isOutOfView) continue;
-        ++tiles.inView;
+        ++hidden.inView;
         if (!found.hides(i, tile) || tile.tile->getInstalledTile()->has(InstalledTile::IgnoresDepth)) continue;
-        ++tiles.hidden;
-        selection.addOccluded(tile);
+        hidden.tiles.push_back(i);
     }
-    return tiles;
 }
 
 }  // namespace
 
-OccludedTiles cullBehindTerrain(const ShownDatabase& database, const Viewpoint& viewpoint,
-                                std::shared_ptr<FoundOcclusion>& kept) {
-    if (!viewpoint.eye() || !std::isfinite(viewpoint.nearReach())) return {};
+TerrainHider::Hidden TerrainOcclusion::find(const View& view, const std::vector<ShownTile>& shown) {
+    if (!std::isfinite(view.nearReach)) return {};
     // tiles in front of the near plane are not looked for then
     constexpr osg::CullingSet::Mask kNear = osg::CullingSet::NEAR_PLANE_CULLING;
-    if (database.selected.cullStack.getCurrentCullingSet().getCullingMask() & kNear) return {};
-    const glm::dvec3& eye = *viewpoint.eye();
-    if (database.region && !database.region->holdsSegmentsFrom(eye)) return {};
-    const auto view = LevelView::of(database.selected.cullStack, database.selected.view.ellipsoid, eye);
-    if (!view) return {};
-    if (!kept) kept = std::make_shared<FoundOcclusion>();
-    FoundOcclusion& found = *kept;
-    OccludedTiles none;
-    const Ground ground = describe(database, found.shown, none.withoutPlates);
-    none.isAwaited = ground == Ground::Awaited;
-    if (ground != Ground::Known) return none;
-    const auto spanThen = PictureSpan::of(*view, found.eye);
-    found.leaveOut(database.selected.view.planes, database.selected.view.ellipsoid);
-    if (!serves(found, database, eye, spanThen, viewpoint.nearReach())) {
-        const auto span = PictureSpan::of(*view, view->frameAt(eye));
+    if (view.cullStack.getCurrentCullingSet().getCullingMask() & kNear) return {};
+    if (view.region && !view.region->holdsSegmentsFrom(view.eye)) return {};
+    const auto lines = LevelView::of(view.cullStack, view.ellipsoid, view.eye);
+    if (!lines) return {};
+    if (!_found) _found.emplace();
+    FoundOcclusion& found = *_found;
+    Hidden hidden;
+    const Ground ground = describe(view, shown, found.shown, hidden.withoutPlates);
+    hidden.isAwaited = ground == Ground::Awaited;
+    if (ground != Ground::Known) return hidden;
+    const auto spanThen = PictureSpan::of(*lines, found.eye);
+    found.leaveOut(view.planes, view.ellipsoid);
+    if (!serves(found, view, spanThen)) {
+        const auto span = PictureSpan::of(*lines, lines->frameAt(view.eye));
         if (!span) return {};
-        aim(found, *view, eye, *span, spanThen);
+        aim(found, *lines, view.eye, *span, spanThen);
         found.tiles = found.shown;
         // it is rounded anew in each view
-        found.nearReach = 1.001 * viewpoint.nearReach();
-        found.region = regionOf(database);
-        if (!findOccluded(database, found)) {
-            kept = nullptr;
+        found.nearReach = 1.001 * view.nearReach;
+        found.region = regionOf(view);
+        if (!findOccluded(view, shown, _nearMeshes, found)) {
+            _found.reset();
             return {};
         }
         found.uses = 1;
     }
-    BinStatistics::of(database.selected.visitor)
-        .setCovered(found.covered, static_cast<unsigned int>(database.selected.visitor.getTraversalNumber()));
-    found.lastEye = eye;
-    found.lastAcross = PictureSpan::of(*view, found.eye).value_or(found.span).across;
-    return noteIn(*database.selected.view.selection, found);
+    hidden.covered = found.covered;
+    found.lastEye = view.eye;
+    found.lastAcross = PictureSpan::of(*lines, found.eye).value_or(found.span).across;
+    note(found, shown, hidden);
+    return hidden;
+}
+
+osg::ref_ptr<TerrainHider> makeTerrainHider() {
+    return new TerrainOcclusion;
 }
 
 }  // namespace osgAnalyticBin

@@ -4,19 +4,19 @@
 Argument: the source folder.
 
 A unit is a header with its sources: those of the same name, and those without a header of their own whose names begin
-with that name, such as BinIndexFile.cpp. A public header belongs to the folder of its source."""
+with that name, such as BinInstallerPaging.cpp. A public header belongs to the folder of its source."""
 
 import pathlib
 import re
 import sys
 
-# The folders below src, and what each may include besides itself: other folders, and other libraries' headers.
+# The folders below src, and what each may include besides itself: other folders (with *: their public headers), and other
+# libraries' headers.
 GLM, OSG = {"glm"}, {"glm", "osg", "osgTerrain"}
 CORE = ["core"]
 BASE = CORE + ["kit"]
 TILE = BASE + ["kit/surface", "kit/tile"]
-CULL = TILE + ["kit/cull"]
-DATABASE = CULL + ["index", "occlusion", "kit/database"]
+DATABASE = TILE + ["kit/cull", "kit/database"]
 KIT = DATABASE + ["kit/install"]
 LAYERS = {
     "core": ([], GLM | {"hwy"}),
@@ -24,10 +24,10 @@ LAYERS = {
     "kit/surface": (BASE, OSG),
     "kit/tile": (TILE, OSG),
     "kit/cull": (TILE, OSG | {"osgUtil"}),
-    "index": (TILE, OSG | {"osgDB"}),
-    "occlusion": (CULL, OSG),
     "kit/database": (DATABASE, OSG | {"osgDB", "osgUtil"}),
     "kit/install": (KIT, OSG | {"osgDB"}),
+    "index": (TILE, OSG | {"osgDB"}),
+    "occlusion": (TILE + ["kit/cull*"], OSG),
     "mappings": (BASE + ["kit/cull"], GLM | {"boost", "osg"}),
     "serializers": (KIT, OSG | {"osgDB"}),
     "plugin": (KIT, OSG | {"osgDB", "proj"}),
@@ -87,7 +87,8 @@ def upward(library):
         for found, name in library.included(file):
             if found:
                 other = library.layer[library.unit[found]]
-                if other != layer and other not in layers:
+                isPublic = library.public in found.parents
+                if other != layer and other not in layers and not (isPublic and other + "*" in layers):
                     yield f"{file.relative_to(library.src.parent)} ({layer}) includes {name} ({other})"
                 continue
             of = name.split("/")[0].split(".")[0]

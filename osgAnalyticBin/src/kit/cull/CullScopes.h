@@ -5,6 +5,8 @@
 
 #pragma once
 
+#include "../SmallFeature.h"
+
 #include <osgAnalyticBin/core/Plane.h>
 
 #include <osg/BoundingSphere>
@@ -25,16 +27,6 @@ namespace osgAnalyticBin {
     return (cullStack.getCullingMode() & osg::CullSettings::SHADOW_OCCLUSION_CULLING) &&
            !cullStack.getOccluderList().empty() &&
            (cullStack.getCurrentCullingSet().getCullingMask() & osg::CullingSet::SHADOW_OCCLUSION_CULLING);
-}
-
-/// OSG's own small-feature test, and nothing else of CullingSet::isCulled(BoundingSphere).
-[[nodiscard]] inline bool isSmall(osg::CullingSet& cullingSet, const osg::BoundingSphere& sphere) {
-    const osg::CullingSet::Mask mask = cullingSet.getCullingMask();
-    if (!(mask & osg::CullingSet::SMALL_FEATURE_CULLING) || !sphere.valid()) return false;
-    cullingSet.setCullingMask(osg::CullingSet::SMALL_FEATURE_CULLING);
-    const bool culled = cullingSet.isCulled(sphere);
-    cullingSet.setCullingMask(mask);
-    return culled;
 }
 
 /// Sets the planes that are tested from here on. The result mask is what a child with a sphere test begins with when no

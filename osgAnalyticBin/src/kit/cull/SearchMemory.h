@@ -3,21 +3,20 @@
 
 #pragma once
 
+#include "../tile/TerrainHider.h"
 #include "CullTraversal.h"
 #include "GroundBelow.h"
-#include "NearMeshes.h"
 
 #include <osg/NodeVisitor>
 #include <osg/Referenced>
+#include <osg/ref_ptr>
 
-#include <memory>
 #include <utility>
 #include <vector>
 
 namespace osgAnalyticBin {
 
 class InstalledDatabase;
-struct FoundOcclusion;
 
 /// What a cull visitor keeps from view to view for searches among the tiles that are shown.
 class SearchMemory final : public osg::Referenced {
@@ -31,11 +30,11 @@ public:
 
     /// Results about a database.
     struct LastView {
-        double depth = 0.0;        ///< metres, of the lowest surface shown; the next search starts there
-        bool hadHole = false;      ///< the search came to nothing
-        unsigned int rest = 0;     ///< views without occlusion that follow a view in which it hid too little
-        unsigned int resting = 0;  ///< how many of them are left
-        std::shared_ptr<FoundOcclusion> occlusion;
+        double depth = 0.0;                ///< metres, of the lowest surface shown; the next search starts there
+        bool hadHole = false;              ///< the search came to nothing
+        unsigned int rest = 0;             ///< views without occlusion that follow a view in which it hid too little
+        unsigned int resting = 0;          ///< how many of them are left
+        osg::ref_ptr<TerrainHider> hider;  ///< null: none was needed yet
     };
     [[nodiscard]] LastView& lastView(const InstalledDatabase& database) {
         for (auto& [known, view] : _lastViews) {
@@ -46,8 +45,7 @@ public:
         return _lastViews.emplace_back(&database, LastView()).second;
     }
 
-    GroundBelow ground;     ///< last found below the eye
-    NearMeshes nearMeshes;  ///< last read around the eye
+    GroundBelow ground;  ///< last found below the eye
 
 protected:
     ~SearchMemory() override = default;

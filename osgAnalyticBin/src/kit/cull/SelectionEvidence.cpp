@@ -168,7 +168,7 @@ void SelectionWalk::show(const Tile& tile, osg::Node& mesh, bool isOnlyLevel) {
 
 bool SelectionWalk::areMeshesDrawn() const {
     constexpr std::size_t kAhead = 8;
-    const std::vector<TileSelection::ShownTile>& shown = _selection.shown();
+    const std::vector<ShownTile>& shown = _selection.shown();
     for (std::size_t i = 0; i < shown.size() && !_isEager; ++i) {
         const FamilyTile* const next = i + kAhead < shown.size() ? shown[i + kAhead].member : nullptr;
         if (next) next->prefetchMesh();

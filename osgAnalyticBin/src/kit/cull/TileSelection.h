@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include "../tile/TerrainHider.h"
+
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/core/Plane.h>
 
@@ -20,8 +22,6 @@
 
 namespace osgAnalyticBin {
 
-class AnalyticBinCullCallback;
-class FamilyTile;
 class TileFamily;
 
 /// What one cull traversal draws of a database, in the order of the traversal: made by SelectionWalk, and then drawn by
@@ -66,18 +66,6 @@ public:
         Number firstKept, endOfKept, firstPlace, endOfPlaces;
         BinCounts counts;
         bool hides;  ///< something is left out because it is hidden
-    };
-
-    /// A tile that a camera's levels of detail show, whether in view or not.
-    struct ShownTile {
-        const AnalyticBinCullCallback* tile;
-        osg::Node* mesh;
-        const FamilyTile* member;  ///< null: of no family
-        bool isSure;               ///< false: it may be shown, or another level in its place
-        bool isOnlyLevel;          ///< of the tile, that is shown or waited for
-        bool isOutOfView;
-        Number kept;  ///< kNone: the tile is tested alone
-        Number segment;
     };
 
     /// What a visitor goes by on its way through nodes. Callbacks of an application may change it.

@@ -91,19 +91,19 @@ osg::ref_ptr<const BinIndex> Database::index() const {
 }
 
 // The one before ends, and is waited for, without the lock.
-void Database::setMaking(AutoIndex* making) {
-    osg::ref_ptr<AutoIndex> replaced = making;
+void Database::setMaking(TileBoundsSource* making) {
+    osg::ref_ptr<TileBoundsSource> replaced = making;
     const std::lock_guard<std::mutex> lock(_mutex);
     _making.swap(replaced);
 }
 
-osg::ref_ptr<AutoIndex> Database::making() const {
+osg::ref_ptr<TileBoundsSource> Database::making() const {
     const std::lock_guard<std::mutex> lock(_mutex);
     return _making;
 }
 
 void Database::adoptIndex() {
-    const osg::ref_ptr<AutoIndex> making = this->making();
+    const osg::ref_ptr<TileBoundsSource> making = this->making();
     if (!making) return;
     making->showNotes();
     const osg::ref_ptr<const BinIndex> whole = making->whole();
@@ -137,7 +137,7 @@ void Database::findLateComers() {
 
 bool Database::needsUpdate() {
     findLateComers();
-    const osg::ref_ptr<AutoIndex> making = this->making();
+    const osg::ref_ptr<TileBoundsSource> making = this->making();
     return isUpdateWanted() || (making && making->isWhole() && !index()) || !(shape(options()) == fittedShape());
 }
 

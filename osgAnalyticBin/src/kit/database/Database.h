@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "../../index/AutoIndex.h"
 #include "../tile/InstalledTile.h"
+#include "../tile/TileBoundsSource.h"
 #include "Finding.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -82,8 +82,8 @@ public:
     [[nodiscard]] osg::ref_ptr<const BinIndex> index() const;
     /// Sets an index that is being made. When it is complete, an update adopts it: the tiles in the scene are fitted
     /// again. Null: none is made.
-    void setMaking(AutoIndex* making);
-    [[nodiscard]] osg::ref_ptr<AutoIndex> making() const;
+    void setMaking(TileBoundsSource* making);
+    [[nodiscard]] osg::ref_ptr<TileBoundsSource> making() const;
 
     /// The present shape (vertical scale, skirts) from the Terrain, if any, and these options. Not for pager threads,
     /// because the application may change the Terrain at the same time.
@@ -168,7 +168,7 @@ private:
     mutable std::mutex _mutex;            // guards the members below
     CullOptions _options;
     osg::ref_ptr<const BinIndex> _index;
-    osg::ref_ptr<AutoIndex> _making;
+    osg::ref_ptr<TileBoundsSource> _making;
     std::optional<core::CoveredRegion> _region;
     TerrainShape _fittedShape;
     unsigned int _generation = 0;

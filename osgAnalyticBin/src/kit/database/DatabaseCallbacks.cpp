@@ -3,7 +3,6 @@
 
 #include "DatabaseCallbacks.h"
 
-#include "../../occlusion/TerrainOcclusion.h"
 #include "../CallbackChain.h"
 #include "../Classes.h"
 #include "../GlmBridge.h"
@@ -43,10 +42,10 @@ bool isOcclusionDue(OcclusionUse use, SearchMemory::LastView& last) {
 // After a view in which occlusion did not pay, it rests, for longer each time. A hidden tile saves at least some
 // microseconds of drawing; looking for hidden tiles takes three to seven microseconds for each tile in view, and serves
 // some views.
-void noteOccluded(const OccludedTiles& tiles, SearchMemory::LastView& last) {
-    if (tiles.isAwaited) return;
+void noteHidden(const TerrainHider::Hidden& hidden, SearchMemory::LastView& last) {
+    if (hidden.isAwaited) return;
     constexpr unsigned int kLongestRest = 256;
-    const bool pays = 4 * tiles.hidden >= tiles.inView && tiles.hidden > 0;
+    const bool pays = 4 * hidden.tiles.size() >= hidden.inView && !hidden.tiles.empty();
     last.rest = pays ? 0 : std::clamp(2 * last.rest, kShortestRest, kLongestRest);
     last.resting = last.rest;
 }
@@ -100,10 +99,20 @@ bool mayHide(const ShownDatabase& shown, Database& database, const CullOptions& 
 
 // Marks what terrain hides in the selection.
 void selectBehindTerrain(const ShownDatabase& shown, const Viewpoint& viewpoint, SearchMemory::LastView& last) {
-    const OccludedTiles tiles = cullBehindTerrain(shown, viewpoint, last.occlusion);
-    for (const TileSelection::ShownTile& tile : tiles.withoutPlates)
+    if (!last.hider) last.hider = makeTerrainHider();
+    if (!last.hider) return;
+    const auto& [visitor, cullStack, view] = shown.selected;
+    TileSelection& selection = *view.selection;
+    const TerrainHider::Hidden hidden = last.hider->find(
+        {cullStack, view.ellipsoid, view.planes, view.shape, shown.region, *viewpoint.eye(), viewpoint.nearReach()},
+        selection.shown());
+    for (const std::size_t i : hidden.withoutPlates) {
+        const ShownTile& tile = selection.shown()[i];
         Database::of(*tile.tile->getInstalledTile()).askForPlates(*tile.tile, *tile.mesh);
-    noteOccluded(tiles, last);
+    }
+    for (const std::size_t i : hidden.tiles) selection.addOccluded(selection.shown()[i]);
+    if (hidden.covered) BinStatistics::of(visitor).setCovered(hidden.covered, visitor.getTraversalNumber());
+    noteHidden(hidden, last);
 }
 
 Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& options) {
@@ -145,7 +154,7 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
     const bool isSelected = eye || (findsOccluded && region && selectWithoutHorizon(shown, *viewpoint));
     if (isSelected && findsOccluded) selectBehindTerrain(shown, *viewpoint, last);
     // a hole leaves nothing to pay for
-    if (!isSelected && findsOccluded) noteOccluded({}, last);
+    if (!isSelected && findsOccluded) noteHidden({}, last);
     return note({eye, region, isSelected});
 }
 

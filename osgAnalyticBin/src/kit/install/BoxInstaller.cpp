@@ -3,7 +3,6 @@
 
 #include "BoxInstaller.h"
 
-#include "../../index/AutoIndex.h"
 #include "../CallbackChain.h"
 #include "../cull/BinCulling.h"
 #include "../cull/InstalledBin.h"
@@ -13,6 +12,7 @@
 #include "../database/DatabaseCallbacks.h"
 #include "../database/PagingExpiry.h"
 #include "../surface/LodContent.h"
+#include "../tile/TileBoundsSource.h"
 #include "TileCallback.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -311,7 +311,7 @@ void BoxSet::refit(osg::Node& root) {
 
 // `before`: the bins that the set has; null: none. An index that is being made for them goes on.
 ChosenIndex indexFor(const osg::Node& set, const CullOptions& options, const Database* before) {
-    const osg::ref_ptr<AutoIndex> making = before ? before->making() : nullptr;
+    const osg::ref_ptr<TileBoundsSource> making = before ? before->making() : nullptr;
     if (making && options.index == IndexUse::Auto) return {making->whole(), making};
     ChosenIndex chosen = chooseIndex(metadataFileOf(set), nullptr, options.index);
     if (chosen.making) chosen.making->start();

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
 // SPDX-License-Identifier: MIT
 
-#include "../../index/AutoIndex.h"
 #include "../database/Database.h"
 #include "../database/DatabaseCallbacks.h"
 #include "../tile/MeshCulling.h"
+#include "../tile/TileBoundsSource.h"
 #include "BinInstaller.h"
 
 #include <osgAnalyticBin/InstallBins.h>
@@ -74,7 +74,7 @@ void forEachDatabase(osg::Node& node, const std::function<void(osg::Node&, Datab
 }
 
 // Starts to make an index, if tiles want one.
-void makeIndex(osg::Node& node, AutoIndex* index) {
+void makeIndex(osg::Node& node, TileBoundsSource* index) {
     bool isWanted = false;
     forEachDatabase(node, [&](osg::Node& at, Database& database) {
         if (isPhotogrammetrySet(at)) return;
@@ -111,7 +111,7 @@ std::size_t installBins(osg::Node& node, const CullOptions& options, const std::
 bool isIndexAwaited(osg::Node& node) {
     bool isAwaited = false;
     forEachDatabase(node, [&isAwaited](osg::Node&, Database& database) {
-        const osg::ref_ptr<AutoIndex> index = database.making();
+        const osg::ref_ptr<TileBoundsSource> index = database.making();
         isAwaited = isAwaited || (index && !index->isWhole());
     });
     return isAwaited;
@@ -120,7 +120,7 @@ bool isIndexAwaited(osg::Node& node) {
 bool waitForIndex(osg::Node& node, double seconds) {
     bool isWhole = true;
     forEachDatabase(node, [&](osg::Node& at, Database& database) {
-        const osg::ref_ptr<AutoIndex> index = database.making();
+        const osg::ref_ptr<TileBoundsSource> index = database.making();
         if (!index) return;
         isWhole = index->waitUntilWhole(std::chrono::duration<double>(seconds)) && isWhole;
         bringUpToDate(at, database);

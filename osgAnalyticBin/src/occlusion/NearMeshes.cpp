@@ -3,9 +3,8 @@
 
 #include "NearMeshes.h"
 
-#include "../surface/TilePlates.h"
-#include "../tile/InstalledTile.h"
-#include "InstalledBin.h"
+#include "../kit/surface/TilePlates.h"
+#include "../kit/tile/InstalledTile.h"
 
 #include <glm/geometric.hpp>
 
@@ -75,7 +74,7 @@ NearMeshes::Known* NearMeshes::meshOf(const AnalyticBinCullCallback& tile, osg::
     const auto early = static_cast<int>(known - _known.data()) * kMostUses / static_cast<int>(kMostTiles);
     *known = {nullptr, nullptr, tile.getLocalToEcef(), early, {}, {}, -1.0, {}};
     // the frame of a transform that is culled itself is that of what is below it
-    const bool isInOwnFrame = mesh.asTransform() && installedBinOf(mesh) == &tile;
+    const bool isInOwnFrame = mesh.asTransform() && tile.getInstalledTile() && tile.getInstalledTile()->isFor(&mesh);
     if (isInOwnFrame || !tile.getInstalledTile()) return nullptr;
     const osg::EllipsoidModel* const ellipsoid = tile.getInstalledTile()->database().ellipsoid();
     const TerrainShape shape = tile.getTerrainShape().value_or(TerrainShape());

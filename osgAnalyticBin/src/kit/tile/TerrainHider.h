@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 osgAnalyticBin contributors
+// SPDX-License-Identifier: MIT
+
+#pragma once
+
+#include <osgAnalyticBin/CoveredPicture.h>
+#include <osgAnalyticBin/TerrainShape.h>
+#include <osgAnalyticBin/core/Ellipsoid.h>
+#include <osgAnalyticBin/core/PlaneSet.h>
+#include <osgAnalyticBin/core/horizon/CoveredRegion.h>
+
+#include <glm/vec3.hpp>
+#include <osg/CullStack>
+#include <osg/Node>
+#include <osg/Referenced>
+#include <osg/ref_ptr>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace osgAnalyticBin {
+
+class AnalyticBinCullCallback;
+class FamilyTile;
+
+/// A tile that a camera's levels of detail show, whether in view or not.
+struct ShownTile {
+    const AnalyticBinCullCallback* tile;
+    osg::Node* mesh;
+    const FamilyTile* member;  ///< null: of no family
+    bool isSure;               ///< false: it may be shown, or another level in its place
+    bool isOnlyLevel;          ///< of the tile, that is shown or waited for
+    bool isOutOfView;
+    std::uint32_t kept, segment;  ///< where it is in the selection, see TileSelection
+};
+
+/// Finds the shown tiles that the terrain of others hides. One of these serves one cull visitor and one database; it
+/// may keep results from view to view.
+class TerrainHider : public osg::Referenced {
+public:
+    struct View {
+        osg::CullStack& cullStack;
+        const core::Ellipsoid& ellipsoid;
+        const core::PlaneSet& planes;
+        const TerrainShape& shape;          ///< in which the terrain is shown
+        const core::CoveredRegion* region;  ///< that is covered; null: the globe
+        glm::dvec3 eye;
+        double nearReach;  ///< see Viewpoint
+    };
+    /// Tiles by their positions among those that are shown.
+    struct Hidden {
+        std::vector<std::size_t> tiles;
+        std::size_t inView = 0;  ///< number of tiles in view, hidden ones included
+        bool isAwaited = false;  ///< no result yet, because tiles have no plates yet
+        std::vector<std::size_t> withoutPlates;
+        std::shared_ptr<const CoveredPicture> covered;  ///< null: there was no search
+    };
+
+    /// Requires: all tiles that are shown, without holes, and an eye above the ground (eyeAboveWhatIsShown()).
+    /// Guarantee: every line of sight to a tile that is hidden meets the mesh of another shown tile before.
+    [[nodiscard]] virtual Hidden find(const View& view, const std::vector<ShownTile>& shown) = 0;
+
+protected:
+    ~TerrainHider() override = default;
+};
+
+/// Defined by the part `occlusion`, not by the kit. Returns: null in programs without that part.
+[[nodiscard]] osg::ref_ptr<TerrainHider> makeTerrainHider();
+
+}  // namespace osgAnalyticBin
