@@ -378,7 +378,7 @@ FAULTS = [
     Fault("family: callbacks behind it are not run", "src/kit/cull/TileFamily.cpp",
           "&group == _group && !getNestedCallback() && ", "&group == _group && ", NODE, "TileFamily.*"),
     Fault("family: meshes that are taken away leave no hole", "src/kit/install/ContentWatch.cpp",
-          "if (group && fitted < _fitted.size())", "if (group && fitted > _fitted.size())", NODE, "HoledGlobe.*"),
+          "if (group && fitted < _fitted.size() &&", "if (group && fitted > _fitted.size() &&", NODE, "HoledGlobe.*"),
     Fault("family: bins that grow do not grow in it", "src/kit/cull/AnalyticBinCullCallback.cpp", "    discardPrepared();\n    fillSlot();",
           "    discardPrepared();", NODE, "AddedContent.*:FalseBin*:TerrainShape*"),
 

@@ -240,7 +240,7 @@ void BinInstaller::visitTile(FoundTile& tile) {
         if (!isOnGlobe && isBelowStored()) Database::report(*recordBetween(), Finding::Unverifiable);
         if (!tile.frame.ellipsoid) return visitWithoutBin(*tile.node, true);
     }
-    const bool hasGround = !tile.frame.ellipsoid || !installsBins() || database().takes(*tile.frame.ellipsoid);
+    const bool hasGround = !tile.frame.ellipsoid || !installsBins() || database().decideGround(*tile.frame.ellipsoid);
     if (installsBins() && hasGround) return install(tile, hasNewContent);
     if (_options.method == Method::None) {
         for (const auto& mesh : tile.meshes) suspendClusterCulling(*mesh);

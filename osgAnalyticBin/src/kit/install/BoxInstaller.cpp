@@ -94,7 +94,7 @@ class BoxSet final : public Database {
 public:
     BoxSet(const CullOptions& options, const ChosenIndex& index)
         : Database(withoutHiding(options), mapPlane(), nullptr, index.index.get()) {
-        (void)takes(*mapPlane());
+        (void)decideGround(*mapPlane());
         setMaking(index.making.get());
     }
 

@@ -240,8 +240,6 @@ void doubtMeshOf(const osg::Node& node, bool isMoved) {
     if (!tile) return;
     using Tile = InstalledTile;
     tile->doubt(Tile::MeshUnread | Tile::MeshChanged | Tile::NotFilled | (isMoved ? Tile::MeshMoved : 0u));
-    // the update traversal must not touch what is not merged into the scene yet
-    if (!isBelowDatabase(*culled)) return;
     for (osg::Group* const parent : culled->getParents()) tile->database().noteChanged(*parent);
 }
 
@@ -342,11 +340,10 @@ bool ContentWatch::isPartMoved(const osg::Group& group) const {
     });
 }
 
-// What is not merged yet is looked at again then: bins must not be expanded before.
-void ContentWatch::fitIntoTiles(const osg::Node& node, const osg::Node& content,
-                                const osg::BoundingSphere& sphere) const {
-    if (isBelowDatabase(node)) return fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(content), sphere));
-    _isPending = true;
+bool ContentWatch::isMerged(const osg::Node& node) const {
+    const bool is = isBelowDatabase(node);
+    _isPending = _isPending || !is;
+    return is;
 }
 
 void ContentWatch::check(const osg::Node& node) const {
@@ -365,14 +362,14 @@ void ContentWatch::check(const osg::Node& node) const {
             _isPending = _isPending || watch->_isPending;
         } else if (isOwnFrame && isFitted(child, true)) {
             ++fitted;
-        } else if (sphere.valid() && !isAbsolute(child)) {
-            fitIntoTiles(node, child, sphere);
+        } else if (sphere.valid() && !isAbsolute(child) && isMerged(node)) {
+            fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere));
         }
     }
-    if (group && fitted < _fitted.size()) doubtMeshOf(node, !isOwnFrame || isPartMoved(*group));
-    if (group || _fitted.empty() || isFitted(node, true)) return;
+    if (group && fitted < _fitted.size() && isMerged(node)) doubtMeshOf(node, !isOwnFrame || isPartMoved(*group));
+    if (group || _fitted.empty() || isFitted(node, true) || !isMerged(node)) return;
     // an osgTerrain tile that has other heights
-    fitIntoTiles(node, node, boundOf(node));
+    fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(node), boundOf(node)));
     doubtMeshOf(node, false);
 }
 

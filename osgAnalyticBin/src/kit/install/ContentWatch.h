@@ -69,8 +69,9 @@ private:
     // The watch of a node that has one parent.
     [[nodiscard]] static const ContentWatch* ownWatchOf(const osg::Node& node);
     [[nodiscard]] bool isFitted(const osg::Node& child, bool withBounds) const;
-    // Looks whether the bins of tiles from the node upwards hold what stands among its children.
-    void fitIntoTiles(const osg::Node& node, const osg::Node& content, const osg::BoundingSphere& sphere) const;
+    // Whether the watched node is in the scene. If not, it is looked at again when it is: until then nothing that is
+    // found may be acted on.
+    [[nodiscard]] bool isMerged(const osg::Node& node) const;
     void check(const osg::Node& node) const;
     // Whether a transform in a fitted mesh has another matrix now, while the mesh still has the same parts.
     [[nodiscard]] bool isPartMoved(const osg::Group& group) const;
@@ -78,8 +79,7 @@ private:
     const osg::Node* _node = nullptr;  // the watched one
     std::uint64_t _frame = 0;          // hash of the node's matrix; 0: it is no transform
     std::vector<Fitted> _fitted;
-    mutable bool _isPending = false;  // not all ancestors' bins have been checked: the file is not merged
-                                      // yet
+    mutable bool _isPending = false;  // something was found before the file was merged
 };
 
 }  // namespace osgAnalyticBin

@@ -28,9 +28,9 @@ public:
 
     /// The database's ellipsoid, or mapPlane() once a tile of a map has a bin.
     [[nodiscard]] const osg::EllipsoidModel* ellipsoid() const { return isMap() ? mapPlane() : _ellipsoid.get(); }
-    /// Whether a tile on this ellipsoid (for maps: mapPlane()) may have a bin. A database is either a globe or a map;
-    /// the first call decides which.
-    [[nodiscard]] bool takes(const osg::EllipsoidModel& ellipsoid) {
+    /// A database is either a globe or a map (mapPlane()): the first call decides which. Returns: whether a tile on
+    /// this ellipsoid may have a bin.
+    [[nodiscard]] bool decideGround(const osg::EllipsoidModel& ellipsoid) {
         const Ground wanted = isMapPlane(ellipsoid) ? Ground::Map : Ground::Globe;
         Ground known = Ground::Open;
         return _ground.compare_exchange_strong(known, wanted, std::memory_order_relaxed) || known == wanted;
