@@ -51,11 +51,11 @@ enum class SkirtUse {
     All
 };
 
-/// What happens to the osg::ClusterCullingCallbacks of a database, which may cull visible tiles of an ellipsoid. Those
-/// of a map stay.
+/// What the osg::ClusterCullingCallbacks of a database do, which may cull visible tiles of an ellipsoid. Those of a map
+/// cull.
 enum class ClusterUse {
-    Replace,  ///< removed while bins are installed; the horizon replaces them; the default
-    Keep      ///< kept; they cull in addition to the bins
+    Replace,  ///< nothing while bins are installed; the horizon replaces them; the default
+    Keep      ///< they cull in addition to the bins
 };
 
 /// Whether an index of the bins of a whole database is used.

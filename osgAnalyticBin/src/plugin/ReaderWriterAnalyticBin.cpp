@@ -80,7 +80,7 @@ public:
                        "What bins hold of skirts: what an eye above the terrain can see (default), or all, for cameras "
                        "below it.");
         supportsOption("cluster=replace|keep",
-                       "Whether the database's ClusterCullingCallbacks are taken off (default) or left in charge.");
+                       "Whether the database's ClusterCullingCallbacks cull nothing (default) or are left in charge.");
     }
 
     const char* className() const override { return "analytic bin pseudo-loader"; }

@@ -398,7 +398,7 @@ FAULTS = [
     Fault("entry: cull callbacks in a mesh are not run", "src/kit/cull/FamilyTile.cpp",
           "if (!isTile && !isPassive(*known.node, visitor)) return false;", "", NODE, "*MapEntry.*"),
     Fault("family: other callbacks of a tile are passed over", "src/kit/cull/FamilyTile.cpp",
-          "return !nested || (isSuspendedCluster(*nested) && !nested->getNestedCallback());", "return true;", NODE, "TileFamily.*"),
+          "return !nested || isIdle(*nested, settings);", "return true;", NODE, "TileFamily.*"),
     Fault("family: tiles beyond an edge are kept", "src/kit/cull/TileFamily.cpp",
           "if (isBeyond) verdicts.separated |=", "if (false) verdicts.separated |=", NODE, "TileFamily.*"),
     Fault("family: an edge is no edge in the slots", "src/core/bin/BinFamily.cpp",
@@ -406,7 +406,7 @@ FAULTS = [
 
     # files and frames
     Fault("bins are installed on what OSG's cache keeps", "src/kit/database/CachedContent.cpp",
-          "osg::clone(&content, CopyOfNodes());", "const_cast<osg::Node*>(&content);", NODE, "ObjectCache.*"),
+          "osg::clone(&content, osg::CopyOp(osg::CopyOp::DEEP_COPY_NODES));", "const_cast<osg::Node*>(&content);", NODE, "ObjectCache.*"),
     Fault("OSG's cache keeps our read callback", "src/kit/database/BinReadFileCallback.cpp",
           "if (plain) plain->setReadFileCallback(_previous.get());", "", NODE, "ObjectCache.*"),
     Fault("a database never rests", "src/kit/database/DatabaseCallbacks.cpp",
@@ -419,7 +419,8 @@ FAULTS = [
     # found by the generator of scenes, and in databases of others
     Fault("stored bins are believed by a quarter of the sag", "src/kit/install/TileFit.cpp", "{least + sag, least, least",
           "{least + sag, least + 0.25 * sag, least", NODE, "FalseBins.*"),
-    Fault("clusters in the mesh of a leaf cull", "src/kit/install/BinInstaller.cpp", "} else if (!_isInMesh) {", "} else {", NODE,
+    Fault("clusters cull below a database with bins", "src/kit/database/DatabaseCallbacks.cpp",
+          "_database->replacesClusters()) clusters.emplace(*cullStack);", "false) clusters.emplace(*cullStack);", NODE,
           "ClusterCulling.*"),
 
     Fault("clones that share a callback are restored one at a time", "src/kit/install/TileCallback.cpp",
@@ -490,7 +491,7 @@ FAULTS = [
           "ReadResult result = readPlain(fileName, plain.get(), _previous.get());",
           "const osg::ref_ptr<osg::Node> early = plain ? cachedNode(fileName, *plain) : nullptr;\n    ReadResult result = early ? ReadResult(early.get()) : readPlain(fileName, plain.get(), _previous.get());", NODE,
           "ObjectCache.*"),
-    Fault("requests: a visitor of ours says that it culls", "src/kit/tile/MeshCulling.cpp",
+    Fault("requests: a visitor of ours says that it culls", "src/kit/tile/EachNode.cpp",
           ": osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _action(std::move(action)) {",
           ": osg::NodeVisitor(CULL_VISITOR, TRAVERSE_ALL_CHILDREN), _action(std::move(action)) {", NODE,
           "Requests.*"),

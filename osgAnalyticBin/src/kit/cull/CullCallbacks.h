@@ -4,7 +4,7 @@
 #pragma once
 
 #include "../Classes.h"
-#include "../tile/MeshCulling.h"
+#include "../tile/EachNode.h"
 #include "DrawnState.h"
 #include "TileFamily.h"
 
@@ -29,7 +29,7 @@ struct CullCallbacks {
                 bin = static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback());
             } else if (isExactly<TileFamily>(*at)) {
                 family = static_cast<const TileFamily*>(at->asNodeCallback());
-            } else if (!isClusterCulling(*at) && !isHarmless(*at) && !traversesAlways(*at)) {
+            } else if (!isExactly<osg::ClusterCullingCallback>(*at) && !isHarmless(*at) && !traversesAlways(*at)) {
                 mayLeaveOut = true;
             }
         }

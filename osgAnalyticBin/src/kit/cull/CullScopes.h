@@ -5,11 +5,14 @@
 
 #pragma once
 
+#include "../Classes.h"
 #include "../SmallFeature.h"
 
 #include <osgAnalyticBin/core/Plane.h>
 
 #include <osg/BoundingSphere>
+#include <osg/Callback>
+#include <osg/ClusterCullingCallback>
 #include <osg/CullSettings>
 #include <osg/CullStack>
 #include <osg/CullingSet>
@@ -27,6 +30,35 @@ namespace osgAnalyticBin {
     return (cullStack.getCullingMode() & osg::CullSettings::SHADOW_OCCLUSION_CULLING) &&
            !cullStack.getOccluderList().empty() &&
            (cullStack.getCurrentCullingSet().getCullingMask() & osg::CullingSet::SHADOW_OCCLUSION_CULLING);
+}
+
+/// While it exists, osg::ClusterCullingCallbacks cull nothing in the traversal.
+class WithoutClusterCulling {
+public:
+    explicit WithoutClusterCulling(osg::CullSettings& settings)
+        : _settings(settings), _mode(settings.getCullingMode()) {
+        set(_mode & ~osg::CullSettings::CLUSTER_CULLING);
+    }
+    ~WithoutClusterCulling() { set(_mode); }
+    WithoutClusterCulling(const WithoutClusterCulling&) = delete;
+    WithoutClusterCulling& operator=(const WithoutClusterCulling&) = delete;
+
+private:
+    // cameras below have their own modes as before
+    void set(osg::CullSettings::CullingMode mode) {
+        const auto inherited = _settings.getInheritanceMask();
+        _settings.setCullingMode(mode);
+        _settings.setInheritanceMask(inherited);
+    }
+
+    osg::CullSettings& _settings;
+    const osg::CullSettings::CullingMode _mode;
+};
+
+/// Whether a callback culls nothing in the traversal, because it is for clusters, and stands alone.
+[[nodiscard]] inline bool isIdle(const osg::Callback& callback, const osg::CullSettings& settings) {
+    return isExactly<osg::ClusterCullingCallback>(callback) && !callback.getNestedCallback() &&
+           !(settings.getCullingMode() & osg::CullSettings::CLUSTER_CULLING);
 }
 
 /// Sets the planes that are tested from here on. The result mask is what a child with a sphere test begins with when no

@@ -6,8 +6,8 @@
 #include "../Classes.h"
 #include "../Spheres.h"
 #include "../tile/Carrier.h"
-#include "../tile/MeshCulling.h"
 #include "BinCulling.h"
+#include "CullScopes.h"
 #include "DrawnState.h"
 
 #include <osg/Geode>
@@ -66,8 +66,7 @@ bool isRelative(const osg::Transform& transform) {
 // Whether a traversal goes through the node as if it had no cull callback.
 bool isPassive(const osg::Node& node, const osgUtil::CullVisitor& visitor) {
     const osg::Callback* const callback = node.getCullCallback();
-    return visitor.validNodeMask(node) &&
-           (!callback || (isSuspendedCluster(*callback) && !callback->getNestedCallback()));
+    return visitor.validNodeMask(node) && (!callback || isIdle(*callback, visitor));
 }
 
 // Whether all of a box is outside of the plane, by more than rounding. `toPlane`: from the box's frame.
@@ -278,10 +277,10 @@ bool FamilyTile::canBeDrawn() {
     return true;
 }
 
-bool FamilyTile::isAlone(const osg::Node& tile) const {
+bool FamilyTile::isAlone(const osg::Node& tile, const osg::CullSettings& settings) const {
     if (!isFirst(tile)) return false;
     const osg::Callback* const nested = _anyCallback->getNestedCallback();
-    return !nested || (isSuspendedCluster(*nested) && !nested->getNestedCallback());
+    return !nested || isIdle(*nested, settings);
 }
 
 bool FamilyTile::isBareMesh(const osg::NodeVisitor& visitor) const {

@@ -39,8 +39,8 @@ public:
 
     /// Whether the bin's callback is the first of the tile's cull callbacks.
     [[nodiscard]] bool isFirst(const osg::Node& tile) const { return tile.getCullCallback() == _anyCallback; }
-    /// Whether the tile has no cull callbacks other than that of its bin, and a suspended one for clusters.
-    [[nodiscard]] bool isAlone(const osg::Node& tile) const;
+    /// Whether the tile has no cull callbacks that do something in the traversal, other than that of its bin.
+    [[nodiscard]] bool isAlone(const osg::Node& tile, const osg::CullSettings& settings) const;
     /// Whether a traversal may pass by the tile's own callback and OSG's test of its sphere. It requires, besides: a
     /// visitor of exactly the class osgUtil::CullVisitor, and a tile with the bin's callback in front.
     [[nodiscard]] bool isPossible() const { return _isPossible; }

@@ -6,8 +6,8 @@
 #include "../../core/EarthScale.h"
 #include "../GlmBridge.h"
 #include "../Inverse.h"
+#include "../tile/EachNode.h"
 #include "../tile/InstalledTile.h"
-#include "../tile/MeshCulling.h"
 
 #include <glm/geometric.hpp>
 #include <osg/Geode>

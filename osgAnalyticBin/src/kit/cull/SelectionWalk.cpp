@@ -218,7 +218,7 @@ void SelectionWalk::selectMember(osg::Node& node, const TileFamily& family, cons
     const TileBlock::Slot& numbers = family.block()[slot];
     const bool isAboutEye =
         _searches && _place && _place->altitude <= numbers.altitude.upper && isAbout(*member.callback());
-    const bool isAlone = member.isAlone(node);
+    const bool isAlone = member.isAlone(node, _selected.cullStack);
     Tile tile{*member.callback(), numbers, true, &member, !_isPlainVisitor || !isAlone, isAboutEye};
     tile.isOutOfView = hasBit(verdicts.outOfView(), number);
     const Scoped searches(_searches, _searches && isSearched(tile, family, verdicts, slot));

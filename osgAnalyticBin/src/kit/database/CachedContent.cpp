@@ -3,8 +3,10 @@
 
 #include "CachedContent.h"
 
-#include "../tile/MeshCulling.h"
+#include "../Classes.h"
+#include "../tile/EachNode.h"
 
+#include <osg/ClusterCullingCallback>
 #include <osg/CopyOp>
 #include <osg/Drawable>
 #include <osg/Group>
@@ -17,21 +19,10 @@ namespace osgAnalyticBin {
 
 namespace {
 
-// Copies nodes, and of drawables those with callbacks, which may be exchanged.
-class CopyOfNodes : public osg::CopyOp {
-public:
-    CopyOfNodes() : osg::CopyOp(DEEP_COPY_NODES) {}
-    using osg::CopyOp::operator();
-    osg::Drawable* operator()(const osg::Drawable* drawable) const override {
-        const bool isShared = !drawable || !drawable->getCullCallback();
-        return isShared ? const_cast<osg::Drawable*>(drawable) : osg::clone(drawable, *this);
-    }
-};
-
 // A group's family of tiles is put behind its callbacks, which are shared.
 bool hasForeignCallback(const osg::Node& node) {
     const osg::Callback* const callback = node.getCullCallback();
-    return callback && !isClusterCulling(*callback);
+    return callback && !isExactly<osg::ClusterCullingCallback>(*callback);
 }
 
 // Whether all nodes were copied as what they are.
@@ -61,7 +52,7 @@ osg::ref_ptr<osg::Node> cachedNode(const std::string& fileName, const osgDB::Opt
 }
 
 osg::ref_ptr<osg::Node> copyForBins(const osg::Node& content) {
-    const osg::ref_ptr<osg::Node> copy = osg::clone(&content, CopyOfNodes());
+    const osg::ref_ptr<osg::Node> copy = osg::clone(&content, osg::CopyOp(osg::CopyOp::DEEP_COPY_NODES));
     return copy && isFaithful(content, *copy) ? copy : nullptr;
 }
 

@@ -72,6 +72,11 @@ void Database::setOptions(const CullOptions& options) {
     renewOnTheirWay();
 }
 
+bool Database::replacesClusters() const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return _options.cluster == ClusterUse::Replace && _options.method != Method::Sphere && !isMap();
+}
+
 // Requires: the lock.
 void Database::renewOnTheirWay() {
     ++_generation;

@@ -69,6 +69,9 @@ public:
     /// fitted again in the first update traversal that finds them there. Requires: no cull traversal runs.
     void setOptions(const CullOptions& options);
 
+    /// Whether the horizon culls in place of osg::ClusterCullingCallbacks. A map has none.
+    [[nodiscard]] bool replacesClusters() const;
+
     /// How often setOptions() was called or an index was adopted.
     [[nodiscard]] unsigned int generation() const;
 

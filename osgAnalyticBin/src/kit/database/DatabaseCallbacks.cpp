@@ -198,6 +198,8 @@ DatabaseCullCallback::DatabaseCullCallback(const DatabaseCullCallback& other, co
 void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     osg::CullStack* cullStack = nv->asCullStack();
     osg::Group* group = node->asGroup();
+    std::optional<WithoutClusterCulling> clusters;
+    if (cullStack && node == _node && _database->replacesClusters()) clusters.emplace(*cullStack);
     if (cullStack && group && _isCulling && node == _node) {
         cull(*group, *nv, *cullStack);
     } else {

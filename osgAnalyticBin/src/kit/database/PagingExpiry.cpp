@@ -4,7 +4,6 @@
 #include "PagingExpiry.h"
 
 #include "../PagedChildren.h"
-#include "../tile/MeshCulling.h"
 
 #include <osg/PagedLOD>
 #include <osg/UserDataContainer>
@@ -19,6 +18,22 @@ namespace {
 // Nearly every child's time is 0 at first and is restored to 0: only other times are recorded.
 std::string keyOf(unsigned int child) {
     return "osgAnalyticBin expiry " + std::to_string(child);
+}
+
+// Gives a node that shares its user data, as clones do, a copy of its own.
+void ownValues(osg::Node& node) {
+    const osg::UserDataContainer* const values = node.getUserDataContainer();
+    if (!values || values->referenceCount() == 1) return;
+    const osg::ref_ptr<osg::UserDataContainer> own = osg::clone(values, osg::CopyOp::SHALLOW_COPY);
+    node.setUserDataContainer(own);
+}
+
+// Removes user data if they are empty without our last value.
+void forgetEmptyValues(osg::Node& node) {
+    const osg::UserDataContainer* const values = node.getUserDataContainer();
+    const bool isEmpty =
+        values && values->getNumUserObjects() == 0 && !values->getUserData() && values->getNumDescriptions() == 0;
+    if (isEmpty) node.setUserDataContainer(nullptr);
 }
 
 void forget(osg::PagedLOD& node, const std::string& key) {

@@ -14,8 +14,8 @@
 #include "../database/PagingExpiry.h"
 #include "../surface/TilePlates.h"
 #include "../tile/Carrier.h"
+#include "../tile/EachNode.h"
 #include "../tile/InstalledTile.h"
-#include "../tile/MeshCulling.h"
 #include "BoxInstaller.h"
 #include "ContentWatch.h"
 #include "Coverage.h"
@@ -242,9 +242,6 @@ void BinInstaller::visitTile(FoundTile& tile) {
     }
     const bool hasGround = !tile.frame.ellipsoid || !installsBins() || database().decideGround(*tile.frame.ellipsoid);
     if (installsBins() && hasGround) return install(tile, hasNewContent);
-    if (_options.method == Method::None) {
-        for (const auto& mesh : tile.meshes) suspendClusterCulling(*mesh);
-    }
     visitWithoutBin(*tile.node, true);
 }
 
@@ -276,11 +273,6 @@ void BinInstaller::visitWithoutBin(osg::Node& node, bool isTile) {
     if (auto* paged = dynamic_cast<osg::PagedLOD*>(&node))
         _paging.follow(*paged, frame(), database(), isBelowStored() ? recordBetween().get() : nullptr, isTile);
     NoCulling::remove(node);
-    if (_options.method == Method::None) {
-        suspendClusterCullingOf(node);
-    } else if (!_isInMesh) {
-        resumeClusterCullingOf(node);
-    }
     // a tile's own meshes are not visited
     if (isTile && installsBins() && !drawnStateOfTile(node).obeysDepth) ignoreDepth();
     const Scoped selective(_isBelowSelection, _isBelowSelection || (!isTile && !drawsAllChildren(node)));
@@ -340,11 +332,6 @@ void BinInstaller::install(FoundTile& tile, bool hasNewContent) {
     if (!canWait || _options.occlusion == OcclusionUse::On || database().has(Finding::PlatesWanted))
         installed->setPlates(tilePlates({tile.meshes, ellipsoid, tile.frame.localToEcef, shape}));
     ++_installed;
-    // a map has no horizon in its place
-    if (_options.cluster == ClusterUse::Replace && !isMapPlane(ellipsoid)) {
-        suspendClusterCullingOf(*tile.node);
-        for (const auto& mesh : tile.meshes) suspendClusterCulling(*mesh);
-    }
     noteDrawn(tile, *installed);
     const core::MeshCover cover = coverBy(tile, sources, shape, fit);
     installed->setCover(cover);
@@ -405,8 +392,6 @@ void BinInstaller::visitChildren(const FoundTile& tile, InstalledTile& installed
 void BinInstaller::uninstall(FoundTile& tile) {
     removeCallbacks(tile, _nested);
     NoCulling::remove(*tile.node);
-    resumeClusterCullingOf(*tile.node);
-    for (const auto& mesh : tile.meshes) resumeClusterCulling(*mesh);
 }
 
 }  // namespace osgAnalyticBin

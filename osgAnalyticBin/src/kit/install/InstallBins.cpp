@@ -3,7 +3,7 @@
 
 #include "../database/Database.h"
 #include "../database/DatabaseCallbacks.h"
-#include "../tile/MeshCulling.h"
+#include "../tile/EachNode.h"
 #include "../tile/TileBoundsSource.h"
 #include "BinInstaller.h"
 

@@ -32,6 +32,7 @@ void NoCulling::operator()(osg::Node* node, osg::NodeVisitor* nv) {
         return;
     }
     const CullingMaskScope scope(*cullStack, osg::CullingSet::NO_CULLING);
+    const WithoutClusterCulling clusters(*cullStack);
     traverse(node, nv);
 }
 

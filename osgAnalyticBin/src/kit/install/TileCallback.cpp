@@ -9,8 +9,8 @@
 #include "../cull/TileFamily.h"
 #include "../database/PagingExpiry.h"
 #include "../tile/Carrier.h"
+#include "../tile/EachNode.h"
 #include "../tile/InstalledTile.h"
-#include "../tile/MeshCulling.h"
 #include "ContentWatch.h"
 #include "NoCulling.h"
 
