@@ -220,6 +220,7 @@ private:
                                                              CullTraversal& traversal) const;
     [[nodiscard]] bool standsAsInstalled(osg::CullStack& cullStack, const DatabaseView& database) const;
     [[nodiscard]] bool isCulled(const osg::Node& node, osg::CullStack& cullStack, osg::NodeVisitor& nv) const;
+    [[nodiscard]] bool isSurelyInside(osg::CullStack& cullStack) const;
     [[nodiscard]] bool isSphereInView(const osg::Node& node, osg::CullStack& cullStack,
                                       core::PlaneMask undecided) const;
     [[nodiscard]] std::optional<Verdict> hiddenVerdict(const osg::Node& node, osg::NodeVisitor& nv,

@@ -206,6 +206,8 @@ FAULTS = [
           "        Database::of(*tile).widen(", "        if (false) Database::of(*tile).widen(", NODE, "AddedContent.*"),
     Fault("content of files is not looked at when they are merged", "src/kit/install/ContentWatch.cpp",
           "if (watch->_isPending) watch->check(child);", "", NODE, "AddedContent.*"),
+    Fault("sets do not notice new content", "src/kit/install/BoxInstaller.cpp", "watch(content, tiles);", "", PLUGIN,
+          "BoxSets.*"),
     Fault("tiles are believed wherever they stand", "src/kit/cull/AnalyticBinCullCallback.cpp",
           "standsAsInstalled(cullStack, *database);", "true;", NODE, "Instances.*"),
     Fault("instances get bins", "src/kit/install/BinInstaller.cpp",

@@ -350,6 +350,29 @@ TEST_F(BoxSets, KeepBrokenFilesApart) {
     EXPECT_LE(notes.count("could not be read"), 36U);
 }
 
+// A mast that stands out of the tile's box, though not of its sphere, below a view that looks over the box.
+TEST_F(BoxSets, ShowWhatAnApplicationAddsBelowATile) {
+    makeIndex();
+    Flown boxes(read());
+    osg::MatrixTransform& set = *setIn(*boxes.scene);
+    auto& tile = dynamic_cast<osg::PagedLOD&>(*set.getChild(0));
+    const osg::Vec3d top(tile.getCenter() + osg::Vec3(0, 0, 0.9F * tile.getRadius()));
+    const osg::Vec3d eye(top - osg::Vec3d(3000, 0, 0));
+    const osg::Vec3d up = osg::Matrixd::transform3x3(osg::Vec3d(0, 0, 1), set.getMatrix());
+    const CullView view =
+        CullView::lookAt(eye * set.getMatrix(), (top + osg::Vec3d(0, 0, 510)) * set.getMatrix(), up, 20.0);
+    ASSERT_TRUE(boxes.drawn(view).empty());
+    const osg::ref_ptr<osg::Geometry> mast = new osg::Geometry;
+    const osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    vertices->push_back(osg::Vec3(top) - osg::Vec3(0, 0, 9));
+    vertices->push_back(osg::Vec3(top));
+    mast->setVertexArray(vertices);
+    mast->addPrimitiveSet(new osg::DrawArrays(GL_LINES, 0, 2));
+    ASSERT_TRUE(tile.getChild(0)->asGroup()->addChild(mast));
+    EXPECT_EQ(boxes.drawn(view).count(mast), 1U);
+    EXPECT_EQ(boxes.drawn(view).count(mast), 1U);
+}
+
 // A wall before the eye, which hides no box: OSG tests occluders by spheres.
 TEST_F(BoxSets, AreCulledByBoxesWhereThereAreOccluders) {
     Flown boxes(read("index=off"));

@@ -246,15 +246,23 @@ const osg::Matrixd& AnalyticBinCullCallback::getLocalToEcef() const {
 }
 
 void AnalyticBinCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
-    const CullTraversal* const traversal = nv->asCullStack() ? &CullTraversal::of(*nv) : nullptr;
+    osg::CullStack* const cullStack = nv->asCullStack();
+    if (cullStack && isSurelyInside(*cullStack)) return static_cast<void>(traverse(node, nv));
+    const CullTraversal* const traversal = cullStack ? &CullTraversal::of(*nv) : nullptr;
     if (traversal && traversal->isKept(*node)) {
         // its family has tested it
-        nv->asCullStack()->getCurrentCullingSet().setCullingMask(traversal->maskBelowKept());
+        cullStack->getCurrentCullingSet().setCullingMask(traversal->maskBelowKept());
         traverse(node, nv);
         return;
     }
     cullOrTraverse(
-        *nv, [&](osg::CullStack& cullStack) { return isCulled(*node, cullStack, *nv); }, [&] { traverse(node, nv); });
+        *nv, [&](osg::CullStack& stack) { return isCulled(*node, stack, *nv); }, [&] { traverse(node, nv); });
+}
+
+// Whether no test is left: the tile's sphere, or what is above, is inside all planes, and nothing is hidden here.
+bool AnalyticBinCullCallback::isSurelyInside(osg::CullStack& cullStack) const {
+    return cullStack.getCurrentCullingSet().getFrustum().getCurrentMask() == 0 && isInMap() &&
+           _setup->options.occlusion == OcclusionUse::Off;
 }
 
 const core::HorizonEye* AnalyticBinCullCallback::horizonEye(osg::NodeVisitor& visitor) {
@@ -285,7 +293,7 @@ bool AnalyticBinCullCallback::isCulled(const osg::Node& node, osg::CullStack& cu
         const core::Side side = core::classify(prepared().bin, planes, undecided);
         if (side == core::Side::Outside) return Verdict{side, Verdict::Plane};
         // what else is known of the view takes time to find
-        if (prepared().horizon || isInMap()) {
+        if (prepared().horizon || (isInMap() && _setup->options.occlusion != OcclusionUse::Off)) {
             if (const auto hidden = hiddenVerdict(node, nv, cullStack, traversal)) return *hidden;
         }
         const bool isBeyond =

@@ -13,10 +13,7 @@
 #include "InstalledBin.h"
 #include "SightOverRegion.h"
 
-#include <osgAnalyticBin/PhotogrammetrySet.h>
-
 #include <osg/CoordinateSystemNode>
-#include <osg/MatrixTransform>
 
 #include <algorithm>
 #include <cstdint>
@@ -30,8 +27,7 @@ TileFamily::TileFamily(const TileFamily& other, const osg::CopyOp& copyop)
 TileFamily::~TileFamily() = default;
 
 bool TileFamily::isPossibleOn(const osg::Node& node) {
-    return typeid(node) == typeid(osg::Group) || typeid(node) == typeid(osg::CoordinateSystemNode) ||
-           (typeid(node) == typeid(osg::MatrixTransform) && isPhotogrammetrySet(node));
+    return typeid(node) == typeid(osg::Group) || typeid(node) == typeid(osg::CoordinateSystemNode);
 }
 
 TileFamily::TileFamily(osg::Group& group)

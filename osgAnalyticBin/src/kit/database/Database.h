@@ -56,6 +56,9 @@ public:
 
     /// The node that the database is attached to: the CoordinateSystemNode, or, without one, the root of the scene.
     void setRoot(const osg::Node& node) { _root = &node; }
+    /// Whether bins cull at present. If not, cull traversals only look for work. Requires: no cull traversal runs.
+    void setCulling(bool is) { _isCulling = is; }
+    [[nodiscard]] bool isCulling() const { return _isCulling; }
     /// Whether the database is attached to this node and follows its Terrain. A cloned scene may refer to the database
     /// of the original.
     [[nodiscard]] bool isAttachedTo(const osg::Node& node) const;
@@ -166,6 +169,7 @@ private:
     const unsigned long _number = ++_count;
     const osg::observer_ptr<osgTerrain::Terrain> _terrain;
     const osg::Node* _root = nullptr;
+    bool _isCulling = false;
     std::atomic<bool> _wasCulled{false};
     std::atomic<unsigned int> _found{0};  // a bit for each Finding
     mutable std::mutex _mutex;            // guards the members below

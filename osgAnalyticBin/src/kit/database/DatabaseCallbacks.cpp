@@ -184,23 +184,19 @@ void takeOffUpdate(osg::Node& node, const osg::ref_ptr<osg::Callback>& update) {
 
 }  // namespace
 
-DatabaseCullCallback::DatabaseCullCallback(Database* database, const osg::Node* node, bool isCulling)
-    : _database(database), _node(node), _isCulling(isCulling) {}
-
 DatabaseCullCallback::DatabaseCullCallback(const DatabaseCullCallback& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop),
       osg::Callback(other, copyop),
       osg::NodeCallback(other, copyop),
       _database(other._database),
-      _node(nullptr),
-      _isCulling(other._isCulling) {}
+      _node(nullptr) {}
 
 void DatabaseCullCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
     osg::CullStack* cullStack = nv->asCullStack();
     osg::Group* group = node->asGroup();
     std::optional<WithoutClusterCulling> clusters;
     if (cullStack && node == _node && _database->replacesClusters()) clusters.emplace(*cullStack);
-    if (cullStack && group && _isCulling && node == _node) {
+    if (cullStack && group && _database->isCulling() && node == _node) {
         cull(*group, *nv, *cullStack);
     } else {
         traverse(node, nv);
@@ -278,8 +274,9 @@ void DatabaseUpdateCallback::operator()(osg::Node* node, osg::NodeVisitor* nv) {
 void attachDatabase(osg::Node& node, Database& database, bool isCulling) {
     detachDatabase(node);
     database.setRoot(node);
+    database.setCulling(isCulling);
     // in front: what is nested runs in the scope of the database
-    const osg::ref_ptr<DatabaseCullCallback> cull = new DatabaseCullCallback(&database, &node, isCulling);
+    const osg::ref_ptr<DatabaseCullCallback> cull = new DatabaseCullCallback(&database, &node);
     putInFront(node, *cull);
     node.addUpdateCallback(new DatabaseUpdateCallback(&database, &node));
 }

@@ -21,8 +21,7 @@ namespace osgAnalyticBin {
 /// puts the update callback on the node if the database has work for it.
 class DatabaseCullCallback : public osg::NodeCallback {
 public:
-    /// `isCulling`: false for a database that bins do not cull at present; it only looks for work then.
-    DatabaseCullCallback(Database* database, const osg::Node* node, bool isCulling);
+    DatabaseCullCallback(Database* database, const osg::Node* node) : _database(database), _node(node) {}
     DatabaseCullCallback(const DatabaseCullCallback& other, const osg::CopyOp& copyop);
     osg::Object* clone(const osg::CopyOp& copyop) const override { return new DatabaseCullCallback(*this, copyop); }
 
@@ -38,7 +37,6 @@ private:
 
     const osg::ref_ptr<Database> _database;
     const osg::Node* const _node;  // that it was attached to
-    const bool _isCulling;
 };
 
 /// Does what a database was asked for, in the update traversal: loaded tiles are fitted again when the Terrain's shape
@@ -65,7 +63,7 @@ private:
     const osg::Node* const _node;  // that it was attached to
 };
 
-/// Attaches a database to the node, in place of one that is there. `isCulling`: see DatabaseCullCallback.
+/// Attaches a database to the node, in place of one that is there. `isCulling`: see Database.
 void attachDatabase(osg::Node& node, Database& database, bool isCulling);
 
 /// Returns: nullptr when none is attached.

@@ -6,13 +6,13 @@
 #include "../CallbackChain.h"
 #include "../cull/BinCulling.h"
 #include "../cull/InstalledBin.h"
-#include "../cull/TileFamily.h"
 #include "../database/BinReadFileCallback.h"
 #include "../database/Database.h"
 #include "../database/DatabaseCallbacks.h"
 #include "../database/PagingExpiry.h"
 #include "../surface/LodContent.h"
 #include "../tile/TileBoundsSource.h"
+#include "ContentWatch.h"
 #include "TileCallback.h"
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
@@ -49,12 +49,13 @@ bool holdsBox(const osg::BoundingSphere& sphere, const MeshBox& box) {
 struct BoxTile final : public InstalledTile {
     using InstalledTile::InstalledTile;
 
-    // What culls the node, guarded by the set: a bin of all that the index knows below it; or else OSG's sphere of the
-    // node, as long as that holds what is loaded; or that sphere and a bin of what is loaded.
-    enum class Kind { Whole, Sphere, Both };
-    Kind kind = Kind::Whole;
-    MeshBox box;  // of the bin; with a sphere alone, of what is loaded
+    // What culls the node besides OSG's test of its sphere, guarded by the set: nothing; a bin of all that the index
+    // knows below it; a bin of what is loaded, where the sphere, which stands for the rest, is out of view as well.
+    enum class Bin { None, Whole, Loaded };
+    Bin bin = Bin::None;
+    MeshBox box;  // of the bin; without one, of what is known
     osg::BoundingSphere sphere;
+    bool isSphereTested = true;  // by OSG; it holds what is below
     osg::observer_ptr<osg::LOD> node;
 
     [[nodiscard]] BoxTile* above() const { return static_cast<BoxTile*>(parent.get()); }
@@ -105,8 +106,6 @@ public:
     // Installs bins on all that is loaded. Returns: the number of LODs.
     std::size_t installBelow(osg::Group& root);
     void cullByBin(osg::LOD& node, BoxTile& tile);
-    // Has cull traversals prepare what families need. OSG's tests of occluders need the spheres that are switched off.
-    void prepareCulling(osg::Node& root);
 
 protected:
     ~BoxSet() override = default;
@@ -182,22 +181,54 @@ private:
             fits[i] = fits[i] && !below[i].isMisfit && whole.contains(boxes[i]);
             if (!fits[i] && content.lods[i].parent) fits[*content.lods[i].parent] = false;
             all.isMisfit = all.isMisfit || (_index && !fits[i]);
-            fit(*content.lods[i].node, *tiles[i], fits[i] ? whole : boxes[i], fits[i]);
         }
-        // without an index all tiles are tested by their own callbacks, or by OSG
-        for (osg::Group* const group : content.groups) {
-            if (_index) (void)TileFamily::place(*group);
-        }
+        for (std::size_t i = 0; i < tiles.size(); ++i)
+            fit(*content.lods[i].node, *tiles[i], fits[i] ? MeshBox((*known)[i].bin) : boxes[i], fits[i]);
+        watch(content, tiles);
         return all;
+    }
+
+    // All that the index knows below a tile; empty: it does not know the tile.
+    [[nodiscard]] MeshBox wholeBelow(const BoxTile* tile) const {
+        const std::vector<BinIndex::Entry>* const known = tile && _index ? _index->tilesOf(tile->file) : nullptr;
+        return known && *tile->ordinal < known->size() ? MeshBox((*known)[*tile->ordinal].bin) : MeshBox();
+    }
+
+    // Whether a bin that is not needed is worth its test: it is much smaller than that above, and keeps files from
+    // being loaded. OSG tests the boxes of drawables by itself.
+    [[nodiscard]] bool isWorthABin(const osg::LOD& node, const BoxTile& tile) const {
+        constexpr double kMuch = 0.9;
+        const auto* const paged = dynamic_cast<const osg::PagedLOD*>(&node);
+        bool hasFile = false;
+        for (unsigned int i = 0; paged && i < paged->getNumFileNames(); ++i)
+            hasFile = hasFile || !paged->getFileName(i).empty();
+        const MeshBox above = wholeBelow(tile.above());
+        return hasFile && (above.isEmpty() || tile.box.box().radius() < kMuch * above.box().radius());
     }
 
     void fit(osg::LOD& node, BoxTile& tile, const MeshBox& box, bool isWhole) {
         tile.node = &node;
         tile.sphere = node.getBound();
+        tile.isSphereTested = holdsBox(tile.sphere, box);
         tile.box = box;
-        if (!isWhole) tile.kind = holdsBox(tile.sphere, box) ? BoxTile::Kind::Sphere : BoxTile::Kind::Both;
-        if (tile.kind != BoxTile::Kind::Sphere) _set.cullByBin(node, tile);
+        if (!tile.isSphereTested) tile.bin = BoxTile::Bin::Loaded;
+        if (isWhole && (!tile.isSphereTested || isWorthABin(node, tile))) tile.bin = BoxTile::Bin::Whole;
+        if (tile.bin != BoxTile::Bin::None) _set.cullByBin(node, tile);
         ++_installed;
+    }
+
+    // What an application adds where bins cull is noticed.
+    void watch(const LodContent& content, const std::vector<osg::ref_ptr<BoxTile>>& tiles) const {
+        const auto hasBin = [](const auto& tile) { return tile->bin != BoxTile::Bin::None; };
+        if (!_index && std::none_of(tiles.begin(), tiles.end(), hasBin)) return;
+        for (osg::Group* const group : content.groups) ContentWatch::place(*group, {});
+        for (const FoundLod& lod : content.lods) {
+            std::vector<osg::ref_ptr<osg::Node>> meshes;
+            for (unsigned int i = 0; i < lod.node->getNumChildren(); ++i) {
+                if (!isPagedChildOf(*lod.node, i)) meshes.emplace_back(lod.node->getChild(i));
+            }
+            ContentWatch::place(*lod.node, meshes);
+        }
     }
 
     BoxSet& _set;
@@ -238,8 +269,8 @@ void BoxSet::cullByBin(osg::LOD& node, BoxTile& tile) {
     const osg::ref_ptr<AnalyticBinCullCallback> callback =
         new AnalyticBinCullCallback(tile.box.bin(), *mapPlane(), options());
     tile.setNode(&node);
-    if (tile.kind == BoxTile::Kind::Both) tile.doubt(InstalledTile::NeedsSphere);
-    tile.switchOffSphere(node);
+    if (tile.bin == BoxTile::Bin::Loaded) tile.doubt(InstalledTile::NeedsSphere);
+    if (!tile.isSphereTested) tile.switchOffSphere(node);
     callback->setInstalledTile(&tile);
     putInFront(node, *callback);
 }
@@ -250,16 +281,17 @@ void BoxSet::grow(BoxTile& tile, const FileContent& content) {
     const Widening by{bin, !bin.valid() && !content.box.isEmpty()};
     const std::lock_guard<std::mutex> lock(_boxes);
     for (BoxTile* at = &tile; at; at = at->above()) {
-        const bool isSphere = at->kind == BoxTile::Kind::Sphere;
-        const bool isHeld = isSphere ? holdsBox(at->sphere, content.box) : at->box.contains(content.box);
+        const bool isHeld = at->box.contains(content.box);
         at->box.expandBy(content.box);
-        if (isHeld && !(content.isMisfit && at->kind == BoxTile::Kind::Whole)) continue;
-        at->kind = BoxTile::Kind::Both;
-        if (isSphere) {
+        if (at->isSphereTested && !holdsBox(at->sphere, content.box)) {
+            at->isSphereTested = false;
+            if (at->bin == BoxTile::Bin::None) at->bin = BoxTile::Bin::Loaded;
             _outgrown.emplace_back(at);
             requestRefit();
-            continue;
         }
+        if (at->bin == BoxTile::Bin::None || (isHeld && !(content.isMisfit && at->bin == BoxTile::Bin::Whole)))
+            continue;
+        at->bin = BoxTile::Bin::Loaded;
         at->doubt(InstalledTile::NeedsSphere);
         widen(*at, by);
     }
@@ -272,17 +304,8 @@ std::size_t BoxSet::installBelow(osg::Group& root) {
         osg::Node& tile = *root.getChild(i);
         (void)installer.install(tile, photogrammetryFileOf(tile), nullptr);
     }
-    if (_fittedTo) (void)TileFamily::place(root);
+    setCulling(_fittedTo.valid());
     return installer.installed();
-}
-
-void BoxSet::prepareCulling(osg::Node& root) {
-    takeOffFirst<WithoutOccluders>(root);
-    takeOffFirst<DatabaseCullCallback>(root);
-    const osg::ref_ptr<osg::Callback> cull = new DatabaseCullCallback(this, &root, _fittedTo.valid());
-    putInFront(root, *cull);
-    const osg::ref_ptr<osg::Callback> withoutOccluders = new WithoutOccluders;
-    putInFront(root, *withoutOccluders);
 }
 
 void BoxSet::refit(osg::Node& root) {
@@ -299,7 +322,7 @@ void BoxSet::refit(osg::Node& root) {
     if (outgrown.empty() || _fittedTo != index() || std::any_of(outgrown.begin(), outgrown.end(), hasBin)) {
         removeBelow(*root.asGroup());
         (void)installBelow(*root.asGroup());
-        return prepareCulling(root);
+        return;
     }
     for (const osg::ref_ptr<BoxTile>& tile : outgrown) {
         osg::ref_ptr<osg::LOD> node;
@@ -324,8 +347,10 @@ std::size_t installBoxes(osg::Group& root, const CullOptions& options) {
     const osg::ref_ptr<BoxSet> set = new BoxSet(options, indexFor(root, options, attachedDatabase(root)));
     removeBoxes(root);
     const std::size_t installed = set->installBelow(root);
-    attachDatabase(root, *set, false);
-    set->prepareCulling(root);
+    attachDatabase(root, *set, set->isCulling());
+    // OSG's tests of occluders need the spheres that are switched off
+    const osg::ref_ptr<osg::Callback> withoutOccluders = new WithoutOccluders;
+    putInFront(root, *withoutOccluders);
     return installed;
 }
 
