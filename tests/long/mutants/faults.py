@@ -217,7 +217,7 @@ FAULTS = [
     Fault("masked tiles hide", "src/kit/cull/SelectionEvidence.cpp", "return _visitor.validNodeMask(node) && ", "return ", NODE,
           "HoledGlobe.*"),
     Fault("tiles that stand in several places hide whatever they are drawn as", "src/kit/install/BinInstaller.cpp",
-          "if (installsBins()) database().report(Finding::StrayTile, tile.frame.file);", "", NODE, "TilesWithoutBins.*"),
+          "        database().report(Finding::StrayTile, tile.frame.file);\n", "", NODE, "TilesWithoutBins.*"),
     Fault("tiles that move hide whatever they are drawn as", "src/kit/install/BinInstaller.cpp",
           "if (installsBins() && hasTileBelow(node)) database().report(Finding::StrayTile, frame().file);", "(void)hasTileBelow(node);", NODE, "TilesWithoutBins.*"),
     Fault("tiles that are moved away leave no hole", "src/kit/cull/SelectionEvidence.cpp",

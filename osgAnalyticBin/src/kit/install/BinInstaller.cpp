@@ -230,19 +230,22 @@ void BinInstaller::visitTile(FoundTile& tile) {
     const bool hasNewContent = ContentWatch::hasNewContent(*tile.node);
     // the new bin is where the tile stands now; there is a gap where it stood
     if (hasMoved(*tile.node)) database().report(Finding::MovedTile, tile.frame.file);
-    uninstall(tile);
-    if (isInstanced(*tile.node, tile.frame)) {
-        if (installsBins()) database().report(Finding::StrayTile, tile.frame.file);
-        return visitWithoutBin(*tile.node, true);
-    }
-    if (installsBins() && !hasStoredBin(*tile.node)) {
-        const bool isOnGlobe = tile.frame.ellipsoid && !isMapPlane(*tile.frame.ellipsoid);
-        if (!isOnGlobe && isBelowStored()) Database::report(*recordBetween(), Finding::Unverifiable);
-        if (!tile.frame.ellipsoid) return visitWithoutBin(*tile.node, true);
-    }
-    const bool hasGround = !tile.frame.ellipsoid || !installsBins() || database().decideGround(*tile.frame.ellipsoid);
-    if (installsBins() && hasGround) return install(tile, hasNewContent);
+    removeCallbacks(tile, _nested);
+    NoCulling::remove(*tile.node);
+    if (installsBins() && mayHaveBin(tile)) return install(tile, hasNewContent);
     visitWithoutBin(*tile.node, true);
+}
+
+bool BinInstaller::mayHaveBin(const FoundTile& tile) {
+    if (isInstanced(*tile.node, tile.frame)) {
+        database().report(Finding::StrayTile, tile.frame.file);
+        return false;
+    }
+    const osg::EllipsoidModel* const ground = tile.frame.ellipsoid.get();
+    if (hasStoredBin(*tile.node)) return !ground || database().decideGround(*ground);
+    const bool isOnGlobe = ground && !isMapPlane(*ground);
+    if (!isOnGlobe && isBelowStored()) Database::report(*recordBetween(), Finding::Unverifiable);
+    return ground && database().decideGround(*ground);
 }
 
 void BinInstaller::visitOther(osg::Node& node) {
@@ -387,11 +390,6 @@ void BinInstaller::visitChildren(const FoundTile& tile, InstalledTile& installed
     const Scoped inMesh(_isInMesh, !dynamic_cast<osg::PagedLOD*>(tile.node.get()));
     const Scoped below(_parent, osg::ref_ptr<InstalledTile>(&installed));
     traverseBelow(*tile.node);
-}
-
-void BinInstaller::uninstall(FoundTile& tile) {
-    removeCallbacks(tile, _nested);
-    NoCulling::remove(*tile.node);
 }
 
 }  // namespace osgAnalyticBin

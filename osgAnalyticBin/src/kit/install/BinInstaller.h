@@ -99,7 +99,8 @@ private:
     void ignoreDepth();
     [[nodiscard]] StateRules stateRules() const { return {_options.plainShaders}; }
     void visitChildren(const FoundTile& tile, InstalledTile& installed);
-    void uninstall(FoundTile& tile);
+    // Tells the database why not.
+    [[nodiscard]] bool mayHaveBin(const FoundTile& tile);
     // Whether an ancestor of the visited node has a stored bin, which must contain it.
     [[nodiscard]] bool isBelowStored() const;
     // A record for nodes below one without a bin: the stored bin of an ancestor must contain them as well. Requires:
