@@ -5,17 +5,16 @@
 
 #include "../Text.h"
 #include "../tile/Carrier.h"
+#include "../tile/EachNode.h"
 #include "CachedContent.h"
 #include "DatabaseCallbacks.h"
 
 #include <osgAnalyticBin/TileFile.h>
 
-#include <osg/NodeVisitor>
 #include <osg/Notify>
 #include <osg/observer_ptr>
 #include <osgDB/FileCache>
 #include <osgDB/Registry>
-#include <osgTerrain/TerrainTile>
 
 #include <algorithm>
 #include <cstddef>
@@ -146,26 +145,6 @@ std::string placeText(const Database& database, const TileFrame& frame) {
     return std::to_string(database.number()) + ' ' + numbersToText(numbers);
 }
 
-// Looks for the database that the pages below a node belong to.
-class DatabaseFinder : public osg::NodeVisitor {
-public:
-    DatabaseFinder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-
-    void apply(osg::Node& node) override {
-        if (!_found && !dynamic_cast<osgTerrain::TerrainTile*>(&node)) traverse(node);
-    }
-    void apply(osg::PagedLOD& node) override {
-        BinReadFileCallback* callback = readCallbackOf(node);
-        if (callback && !_found) _found = callback->database();
-        apply(static_cast<osg::Node&>(node));
-    }
-
-    [[nodiscard]] Database* found() const { return _found.get(); }
-
-private:
-    osg::ref_ptr<Database> _found;
-};
-
 }  // namespace
 
 BinReadFileCallback::BinReadFileCallback(Database* database, const TileFrame& frame, osgDB::ReadFileCallback* previous)
@@ -287,10 +266,14 @@ osgDB::Options* optionsWithoutBins(osgDB::Options* options) {
 }
 
 osg::ref_ptr<Database> databaseOf(osg::Node& node) {
-    if (Database* attached = attachedDatabase(node)) return attached;
-    DatabaseFinder finder;
-    node.accept(finder);
-    return finder.found();
+    osg::ref_ptr<Database> found = attachedDatabase(node);
+    if (found) return found;
+    forEachNode(node, [&found](osg::Node& at) {
+        auto* const paged = found ? nullptr : dynamic_cast<osg::PagedLOD*>(&at);
+        if (BinReadFileCallback* const callback = paged ? readCallbackOf(*paged) : nullptr)
+            found = callback->database();
+    });
+    return found;
 }
 
 }  // namespace osgAnalyticBin

@@ -11,49 +11,38 @@
 #include <osgAnalyticBin/PhotogrammetrySet.h>
 
 #include <osg/CoordinateSystemNode>
-#include <osg/NodeVisitor>
 #include <osg/Notify>
 #include <osg/PagedLOD>
 #include <osgTerrain/TerrainTile>
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
 
 namespace osgAnalyticBin {
 
 namespace {
 
-// What an installer looks for.
-class TileSigns : public osg::NodeVisitor {
-public:
-    TileSigns() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
-    void apply(osg::Node& node) override {
-        hasGlobe = hasGlobe || dynamic_cast<osg::CoordinateSystemNode*>(&node);
-        const bool isTerrain = dynamic_cast<osgTerrain::TerrainTile*>(&node);
-        if (isTerrain || dynamic_cast<osg::PagedLOD*>(&node)) ++tiles;
-        if (hasStoredBin(node)) ++stored;
-        if (!isTerrain) traverse(node);
-    }
-    bool hasGlobe = false;
-    std::size_t tiles = 0;
-    std::size_t stored = 0;
-};
-
 void reportMissing(osg::Node& node) {
-    TileSigns signs;
-    node.accept(signs);
-    const auto missing = [&signs]() -> const char* {
-        if (signs.stored > 0) return "the bins stored there are not valid, or cannot be compared with what is drawn";
-        if (signs.tiles == 0)
+    bool hasGlobe = false;
+    std::size_t tiles = 0, stored = 0;
+    forEachNode(node, [&](osg::Node& at) {
+        hasGlobe = hasGlobe || dynamic_cast<osg::CoordinateSystemNode*>(&at);
+        if (dynamic_cast<osgTerrain::TerrainTile*>(&at) || dynamic_cast<osg::PagedLOD*>(&at)) ++tiles;
+        if (hasStoredBin(at)) ++stored;
+    });
+    const auto missing = [&]() -> const char* {
+        if (stored > 0) return "the bins stored there are not valid, or cannot be compared with what is drawn";
+        if (tiles == 0)
             return "tiles are PagedLODs with a mesh, osgTerrain tiles, and nodes with setStoredBin(). Install bins "
                    "again "
                    "when there are some";
-        if (signs.hasGlobe) return "none of them has a mesh that is known to be ground";
+        if (hasGlobe) return "none of them has a mesh that is known to be ground";
         return "no osg::CoordinateSystemNode stands above them. Put one above them; one without an ellipsoid or a text "
                "says that they are in earth-centred coordinates of WGS 84";
     };
-    OSG_NOTICE << "osgAnalyticBin: 0 tiles got bins, of " << signs.tiles
-               << " PagedLODs and osgTerrain tiles: " << missing() << ". OSG's own culling is used." << std::endl;
+    OSG_NOTICE << "osgAnalyticBin: 0 tiles got bins, of " << tiles << " PagedLODs and osgTerrain tiles: " << missing()
+               << ". OSG's own culling is used." << std::endl;
 }
 
 std::size_t install(osg::Node& node, const CullOptions& options, const BinIndex* index) {
