@@ -26,10 +26,8 @@ namespace osgAnalyticBin {
 /// in several places, and drawables with a stored bin are left to OSG. Method::Sphere installs no bins, but follows
 /// what is paged in, so that setCullOptions() can switch to another method.
 ///
-/// What the application adds below a tile later is noticed with the next frame, whether it moves or not: the tile and
-/// the tiles above it are kept visible, and the next update traversal widens their bins. The kit notices it by OSG's
-/// bounds: after a change of vertices, call dirty() of the vertex array and dirtyBound() of the drawable. After
-/// replacing a tile's mesh, call installBins() again. Content that is independent of tiles belongs beside them, on the
+/// What the application adds below a tile later is drawn. Which changes are noticed, and which the application
+/// announces: doc/guide.md, section 5. Content that is independent of tiles belongs beside them, on the
 /// CoordinateSystemNode or above it.
 ///
 /// Returns: the number of callbacks installed.
