@@ -212,6 +212,8 @@ FAULTS = [
           "standsAsInstalled(cullStack, *database);", "true;", NODE, "Instances.*"),
     Fault("instances get bins", "src/kit/install/BinInstaller.cpp",
           "if (isInstanced(*tile.node, tile.frame)) {", "if (false) {", NODE, "Instances.*"),
+    Fault("holes are not looked at again", "src/kit/database/DatabaseCallbacks.cpp", " || last.holes % kSeldom == 0", "", NODE,
+          "HoledGlobe.*"),
     Fault("wireframe hides", "src/kit/cull/DrawnState.cpp", "return isFilled ? kHarmless : kHidesNothing;",
           "return isFilled ? kHarmless : kHarmless;", NODE, "Evidence.*:SeeThroughTerrain.*"),
     Fault("masked tiles hide", "src/kit/cull/SelectionEvidence.cpp", "return _visitor.validNodeMask(node) && ", "return ", NODE,

@@ -149,6 +149,21 @@ TEST(HoledGlobe, IsSeenThrough) {
     }
 }
 
+TEST(HoledGlobe, IsLookedAtSeldomWhereItStaysOne) {
+    MeshGlobe globe;
+    installBins(*globe.root);
+    globe.tiles[19]->setNodeMask(0);
+    for (int i = 0; i < 35; ++i) EXPECT_TRUE(globe.drawsAntipode()) << i;
+    globe.tiles[19]->setNodeMask(~0u);
+    int late = 0;
+    while (late < 100 && globe.drawsAntipode()) ++late;
+    EXPECT_EQ(late, 5);
+    globe.tiles[19]->setNodeMask(0);
+    EXPECT_TRUE(globe.drawsAntipode());
+    globe.tiles[19]->setNodeMask(~0u);
+    EXPECT_FALSE(globe.drawsAntipode());
+}
+
 TEST(HoledGlobe, IsOneFromThenOnWhereAGroupLosesItsTiles) {
     for (const bool isReplaced : {false, true}) {
         MeshGlobe globe;

@@ -31,7 +31,7 @@ public:
     /// Results about a database.
     struct LastView {
         double depth = 0.0;                ///< metres, of the lowest surface shown; the next search starts there
-        bool hadHole = false;              ///< the search came to nothing
+        unsigned int holes = 0;            ///< views since a search last did not come to nothing
         unsigned int rest = 0;             ///< views without occlusion that follow a view in which it hid too little
         unsigned int resting = 0;          ///< how many of them are left
         osg::ref_ptr<TerrainHider> hider;  ///< null: none was needed yet

@@ -50,6 +50,14 @@ void noteHidden(const TerrainHider::Hidden& hidden, SearchMemory::LastView& last
     last.resting = last.rest;
 }
 
+// Where searches have come to nothing for long, as with callbacks on all tiles, some views are enough to look again.
+bool isHoleTakenForGranted(OcclusionUse use, SearchMemory::LastView& last) {
+    constexpr unsigned int kLong = 16, kSeldom = 8;
+    if (use == OcclusionUse::On || last.holes < kLong || last.holes % kSeldom == 0) return false;
+    ++last.holes;
+    return true;
+}
+
 // What is hidden by the horizon in a view.
 struct Horizon {
     std::optional<core::HorizonEye> eye;
@@ -126,9 +134,10 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
     const bool isGiven = isDepthGiven(view, options);
     const double deepest = isGiven ? std::max(0.0, -options.horizon) : std::numeric_limits<double>::infinity();
     SearchMemory::LastView& last = SearchMemory::of(visitor).lastView(database);
-    shown.expectsHole = last.hadHole;
+    if (isHoleTakenForGranted(options.occlusion, last)) return {};
+    shown.expectsHole = last.holes > 0;
     const auto note = [&](Horizon found) {
-        last.hadHole = !found.isSelected;
+        last.holes = found.isSelected ? 0 : last.holes + 1;
         return found;
     };
     if (isGiven && (!isAboveTerrain(options) || database.has(Finding::Gap) || region)) {
@@ -155,7 +164,8 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
     if (isSelected && findsOccluded) selectBehindTerrain(shown, *viewpoint, last);
     // a hole leaves nothing to pay for
     if (!isSelected && findsOccluded) noteHidden({}, last);
-    return note({eye, region, isSelected});
+    // a map in which occlusion rests was not searched
+    return isMap && !findsOccluded ? Horizon() : note({eye, region, isSelected});
 }
 
 // Culled or kept siblings before the database leave a part of the planes behind.
