@@ -191,10 +191,6 @@ void Database::report(InstalledTile& tile, Finding finding, const AnalyticBin& d
     }
 }
 
-void Database::ignoreDepth(InstalledTile& tile) {
-    for (InstalledTile* at = &tile; at; at = at->parent.get()) at->doubt(InstalledTile::IgnoresDepth);
-}
-
 void Database::setRegion(const core::GeodeticBin& region) {
     const std::lock_guard<std::mutex> lock(_mutex);
     _region.reset();

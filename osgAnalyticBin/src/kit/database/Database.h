@@ -114,10 +114,6 @@ public:
         return (_found.load(std::memory_order_relaxed) & bitOf(finding)) != 0;
     }
 
-    /// Call when something below a tile may be drawn in front of what is nearer: neither the tile nor its ancestors are
-    /// hidden from then on.
-    static void ignoreDepth(InstalledTile& tile);
-
     /// Says which region a regional database covers; empty: it covers the globe or has a gap.
     void setRegion(const core::GeodeticBin& region);
     /// Returns: nullopt if it covers the globe or has a gap.

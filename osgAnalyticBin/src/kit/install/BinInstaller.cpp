@@ -373,13 +373,11 @@ void BinInstaller::noteDrawn(const FoundTile& tile, InstalledTile& installed) {
     DrawnState drawn = drawnStateOf(*tile.node, stateRules());
     for (const auto& mesh : tile.meshes) drawn &= drawnStateBelow(*mesh, stateRules());
     if (!drawn.hides) installed.doubt(InstalledTile::SeeThrough);
-    if (drawn.obeysDepth) return;
-    installed.doubt(InstalledTile::IgnoresDepth);
-    ignoreDepth();
+    if (!drawn.obeysDepth) installed.ignoreDepth();
 }
 
 void BinInstaller::ignoreDepth() {
-    if (_parent) Database::ignoreDepth(*_parent);
+    if (_parent) _parent->ignoreDepth();
 }
 
 void BinInstaller::visitChildren(const FoundTile& tile, InstalledTile& installed) {

@@ -104,6 +104,10 @@ public:
     void doubt(unsigned int reasons);
     /// Call when they do not hold any more.
     void settle(unsigned int reasons);
+    /// Call when the tile, or something below it, ignores depth: nothing hides the tile, nor those above it.
+    void ignoreDepth() {
+        for (InstalledTile* at = this; at; at = at->parent.get()) at->doubt(IgnoresDepth);
+    }
     /// Whether one of these reasons holds.
     [[nodiscard]] bool has(unsigned int reasons) const {
         return (_reasons.load(std::memory_order_relaxed) & reasons) != 0;

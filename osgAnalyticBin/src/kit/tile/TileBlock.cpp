@@ -14,10 +14,6 @@ const core::HorizonBin& neverHidden() {
     return bin;
 }
 
-}  // namespace
-
-namespace {
-
 // Returns: whether it was set otherwise.
 bool setBit(std::atomic<std::uint64_t>& bits, std::size_t number, bool is) {
     const std::uint64_t bit = std::uint64_t{1} << number;
