@@ -5,6 +5,7 @@
 # Takes the pictures of osgbinviewer in README and the guide into osgAnalyticBin/doc, on a virtual display:
 #     sh applications/pictures.sh [DATABASE]
 # DATABASE: that of applications/demo.sh by default, which has to be there; builds what it needs.
+# PICTURES_FRAMES: of README's animation; default: 40.
 
 set -eu
 cd "$(dirname "$0")/.."
@@ -56,7 +57,7 @@ view 800 450 occlusion=on at=valley press=l picture="$doc/valley_view.jpg" \
 near_far=
 frames=$(mktemp -d)
 trap 'rm -rf "$frames"' EXIT
-awk -v frames=40 'BEGIN {
+awk -v frames="${PICTURES_FRAMES:-40}" 'BEGIN {
     print "name, eyeLatDeg, eyeLonDeg, eyeAlt, lookLatDeg, lookLonDeg, lookAlt, fovDeg, near, far"
     for (i = 0; i < frames; ++i) {
         t = i / (frames - 1)

@@ -22,6 +22,8 @@ esac
 
 cd "$(dirname "$0")/.."
 jobs=$(nproc 2>/dev/null || echo 2)
+# Tests wait for servers, displays and pagers.
+test_jobs=$((jobs + 1))
 
 step() { echo "== $*"; }
 
@@ -38,7 +40,7 @@ test_preset() { # preset, then more arguments of ctest
     preset=$1
     shift
     step "test $preset"
-    ctest --preset "$preset" -j "$jobs" --timeout 600 --no-tests=error --progress "$@"
+    ctest --preset "$preset" -j "$test_jobs" --timeout 600 --no-tests=error --progress "$@"
 }
 
 sh applications/packages.sh

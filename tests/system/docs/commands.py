@@ -95,7 +95,7 @@ def main():
     page = sys.argv[4]
     environment = {k: v for k, v in os.environ.items() if k not in ("OSG_LIBRARY_PATH", "LD_LIBRARY_PATH")}
     environment |= {"PATH": f"{build}/bin:{environment['PATH']}", "OSG_LIBRARY_PATH": f"{build}/lib",
-                    "OSG_WINDOW": "0 0 160 90", "LIBGL_ALWAYS_SOFTWARE": "1"}
+                    "OSG_WINDOW": "0 0 160 90", "LIBGL_ALWAYS_SOFTWARE": "1", "PICTURES_FRAMES": "2"}
     known = exceptions(pathlib.Path(__file__).parent)
     prepare(source, build, scratch, environment)
     lines = list(shell_lines((source / page).read_text(encoding="utf-8")))
