@@ -76,9 +76,11 @@ void BenchViewer::show(osg::Node& root, osg::CullSettings::CullingMode culling) 
     if (!_viewer.isRealized()) _viewer.realize();
 }
 
-void BenchViewer::setView(const osg::Matrixd& view, const osg::Matrixd& projection) {
-    _viewer.getCamera()->setViewMatrix(view);
-    _viewer.getCamera()->setProjectionMatrix(projection);
+void BenchViewer::setView(const osg::Camera& other) {
+    osg::Camera& camera = *_viewer.getCamera();
+    camera.setViewMatrix(other.getViewMatrix());
+    camera.setProjectionMatrix(other.getProjectionMatrix());
+    camera.setComputeNearFarMode(other.getComputeNearFarMode());
 }
 
 void BenchViewer::drawFrame() {

@@ -35,7 +35,7 @@ public:
     /// Draws this scene from now on, with the pager that it has already, if any.
     void show(osg::Node& root, osg::CullSettings::CullingMode culling);
 
-    void setView(const osg::Matrixd& view, const osg::Matrixd& projection);
+    void setView(const osg::Camera& other);
 
     /// Draws frames until the picture of one that begins now is there.
     /// Throws: Failure when it does not come.

@@ -28,7 +28,7 @@ public:
         viewer.startTimes();
         for (const flight::CameraPose& pose : frames) {
             _scene.setPose(pose);
-            viewer.setView(_scene.camera().getViewMatrix(), _scene.camera().getProjectionMatrix());
+            viewer.setView(_scene.camera());
             viewer.timeFrame();
         }
         const std::vector<FrameTimes> times = viewer.takeTimes();

@@ -64,7 +64,6 @@ osg::CullSettings::CullingMode cullingOf(const CullMethod& method) {
 MethodScene::MethodScene(const CullMethod& method, const Settings& settings, FileWatch& watch)
     : _method(method), _settings(settings), _watch(watch), _camera(new osg::Camera) {
     _camera->setViewport(new osg::Viewport(0, 0, settings.width, settings.height));
-    _camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
     _camera->setCullingMode(cullingOf(method));
     _camera->setLODScale(1.0F);
 }
@@ -134,8 +133,7 @@ void MethodScene::awaitFiles(const flight::CameraPose& pose, std::chrono::steady
 }
 
 void MethodScene::setPose(const flight::CameraPose& pose) {
-    _camera->setViewMatrix(flight::viewMatrixOf(pose, _globe));
-    _camera->setProjectionMatrix(flight::projectionMatrixOf(pose, _globe, _camera->getViewport()->aspectRatio()));
+    flight::placeCamera(*_camera, pose, _globe);
 }
 
 PagedScene::Frame MethodScene::flyFrame(const flight::CameraPose& pose, double seconds) {

@@ -123,7 +123,7 @@ void PoseBench::checkReplays(const std::vector<Visit>& visits, const std::string
 
 osg::ref_ptr<osg::Image> PoseBench::pictureOf(MethodScene& scene) {
     _viewer.show(scene.root(), scene.camera().getCullingMode());
-    _viewer.setView(scene.camera().getViewMatrix(), scene.camera().getProjectionMatrix());
+    _viewer.setView(scene.camera());
     osg::ref_ptr<osg::Image> picture = _viewer.picture();
     _viewer.rest();
     return picture;

@@ -37,7 +37,7 @@ std::map<std::string, std::uint64_t> TilePainter::visiblePixels(const std::vecto
                                                                 const osg::Camera& view) {
     const osg::ref_ptr<osg::Group> scene = paintedScene(tiles);
     _viewer.show(*scene, osg::CullSettings::NO_CULLING);
-    _viewer.setView(view.getViewMatrix(), view.getProjectionMatrix());
+    _viewer.setView(view);
     const osg::ref_ptr<osg::Image> picture = _viewer.picture();
     _viewer.rest();
     std::map<std::string, std::uint64_t> pixels;

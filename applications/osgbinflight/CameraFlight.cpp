@@ -110,8 +110,7 @@ void CameraFlight::prepareCamera(osg::Camera& camera) {
 
 // Every frame, because a window manager may change the window's size.
 void CameraFlight::setPose(osg::Camera& camera) const {
-    camera.setViewMatrix(viewMatrixOf(pose(), _globe));
-    camera.setProjectionMatrix(projectionMatrixOf(pose(), _globe, camera.getViewport()->aspectRatio()));
+    placeCamera(camera, pose(), _globe);
 }
 
 void CameraFlight::arrive() {

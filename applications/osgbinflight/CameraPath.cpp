@@ -43,8 +43,8 @@ constexpr std::array<NumberColumn, NumberCount> kNumbers{{{"eyeLatDeg", -90.0, 9
                                                           {"lookLonDeg", -360.0, 360.0},
                                                           {"lookAlt", kLowestAltitude, kLargestDistance},
                                                           {"fovDeg", 0.001, 179.0},
-                                                          {"near", 1e-6, kLargestDistance},
-                                                          {"far", 1e-6, kLargestDistance},
+                                                          {"near", 1e-6, kLargestDistance, true},
+                                                          {"far", 1e-6, kLargestDistance, true},
                                                           {"time", 0.0, kLongestTime, true},
                                                           {"rollDeg", -360.0, 360.0, true},
                                                           {"eyeRight", -kLargestDistance, kLargestDistance, true}}};
@@ -95,6 +95,12 @@ std::optional<Columns> columnsOf(const CsvTable& table, std::string& error) {
         if (!columns.numbers[i] && !number.isOptional) return std::nullopt;
         known.emplace_back(number.name);
     }
+    if (columns.numbers[Near].has_value() != columns.numbers[Far].has_value()) {
+        error = table.fileName +
+                ": of the columns \"near\" and \"far\" one is missing; leave out both, and OSG computes "
+                "the planes";
+        return std::nullopt;
+    }
     const auto unknown = std::find_if(table.columns.begin(), table.columns.end(), [&](const std::string& column) {
         return std::find(known.begin(), known.end(), column) == known.end();
     });
@@ -117,7 +123,8 @@ core::Geodetic positionOf(double latitude, double longitude, double altitude, bo
 
 // Why the numbers contradict each other; empty when they do not.
 std::string contradiction(const std::array<double, NumberCount>& n) {
-    if (!(n[Near] < n[Far])) return "near has to be smaller than far";
+    const bool hasPlanes = n[Near] != 0.0;
+    if (hasPlanes && !(n[Near] < n[Far])) return "near has to be smaller than far";
     if (n[EyeLat] == n[LookLat] && n[EyeLon] == n[LookLon] && n[EyeAlt] == n[LookAlt])
         return "eye and look are the same point";
     return {};
@@ -223,9 +230,11 @@ std::optional<std::vector<CameraPose>> readCameraPathFiles(const std::vector<std
 
 void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path, PathColumns columns) {
     const bool isInTime = columns == PathColumns::PosesInTime;
+    const bool havePlanes =
+        std::any_of(path.begin(), path.end(), [](const CameraPose& pose) { return pose.hasPlanes(); });
     out.precision(std::numeric_limits<double>::max_digits10);
     out << kNameColumn;
-    for (std::size_t i = EyeLat; i <= Far; ++i) out << ',' << kNumbers[i].name;
+    for (std::size_t i = EyeLat; i <= (havePlanes ? Far : Fov); ++i) out << ',' << kNumbers[i].name;
     if (isInTime) out << ',' << kNumbers[Time].name << ',' << kNumbers[Roll].name;
     out << '\n';
     std::size_t number = 0;
@@ -236,7 +245,8 @@ void writeCameraPath(std::ostream& out, const std::vector<CameraPose>& path, Pat
             out << ',' << point.latitude * kDegreesPerRadian << ',' << point.longitude * kDegreesPerRadian << ','
                 << point.altitude;
         }
-        out << ',' << pose.verticalFov * kDegreesPerRadian << ',' << pose.nearPlane << ',' << pose.farPlane;
+        out << ',' << pose.verticalFov * kDegreesPerRadian;
+        if (havePlanes) out << ',' << pose.nearPlane << ',' << pose.farPlane;
         if (isInTime) out << ',' << pose.time << ',' << pose.roll * kDegreesPerRadian;
         out << '\n';
     }

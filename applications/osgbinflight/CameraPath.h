@@ -18,23 +18,25 @@ struct CameraPose {
     core::Geodetic eye;  ///< where the camera stands
     core::Geodetic look;       ///< a point on the line of sight
     double verticalFov = 0.0;  ///< the whole angle
-    double nearPlane = 0.0;    ///< from the eye along the line of sight
+    double nearPlane = 0.0;    ///< from the eye along the line of sight; 0: OSG computes near and far planes
     double farPlane = 0.0;     ///< as nearPlane
     double time = 0.0;         ///< seconds
     double roll = 0.0;         ///< of up, clockwise about the line of sight, from the local vertical
     /// How far the eye stands to the right of `eye`: the view's direction stays, the frustum is sheared so that the
     /// plane through the look point is shown unchanged. Plus and minus half a base make a stereo pair.
     double eyeRight = 0.0;
+
+    [[nodiscard]] bool hasPlanes() const { return farPlane > 0.0; }
 };
 
 /// Reads a camera path: comma-separated values with the columns name, eyeLatDeg, eyeLonDeg, eyeAlt, lookLatDeg,
-/// lookLonDeg, lookAlt, fovDeg, near, far in any order, and, where wanted, time (seconds, growing; without it each pose
-/// is one second after the one before, from 0), rollDeg and eyeRight (both 0 without). Angles are in degrees, the rest
-/// in metres, altitudes above the ellipsoid. For a map eyeX, eyeY, lookX and lookY, in map units, stand for longitudes
-/// and latitudes (core::Ellipsoid::plane()). `#` starts a comment line. The file name is used in messages only.
-/// Returns: at least one pose; nullopt, with one line in `error` that names the file and the line, when a column is
-/// missing or unknown, a number is malformed or out of range, time does not grow, a name is used twice, or there is no
-/// pose.
+/// lookLonDeg, lookAlt, fovDeg in any order, and, where wanted, near and far (without both OSG computes these planes),
+/// time (seconds, growing; without it each pose is one second after the one before, from 0), rollDeg and eyeRight (both
+/// 0 without). Angles are in degrees, the rest in metres, altitudes above the ellipsoid. For a map eyeX, eyeY, lookX
+/// and lookY, in map units, stand for longitudes and latitudes (core::Ellipsoid::plane()). `#` starts a comment line.
+/// The file name is used in messages only. Returns: at least one pose; nullopt, with one line in `error` that names the
+/// file and the line, when a column is missing or unknown, a number is malformed or out of range, time does not grow, a
+/// name is used twice, or there is no pose.
 [[nodiscard]] std::optional<std::vector<CameraPose>> readCameraPath(std::istream& input, const std::string& fileName,
                                                                     std::string& error);
 
@@ -50,7 +52,7 @@ struct CameraPose {
 
 /// Which columns a camera path has.
 enum class PathColumns {
-    Poses,       ///< name, eyeLatDeg, eyeLonDeg, eyeAlt, lookLatDeg, lookLonDeg, lookAlt, fovDeg, near, far
+    Poses,       ///< name, eyeLatDeg, eyeLonDeg, eyeAlt, lookLatDeg, lookLonDeg, lookAlt, fovDeg, and near and far
     PosesInTime  ///< and time, rollDeg
 };
 

@@ -105,11 +105,21 @@ osg::Matrixd viewMatrixOf(const CameraPose& pose, const Globe& globe) {
 }
 
 osg::Matrixd projectionMatrixOf(const CameraPose& pose, const Globe& globe, double aspect) {
+    constexpr double kNear = 1.0, kFar = 1e7;  // until OSG computes them
+    const double nearPlane = pose.hasPlanes() ? pose.nearPlane : kNear,
+                 farPlane = pose.hasPlanes() ? pose.farPlane : kFar;
     const double lookDistance = (toWorld(pose.look, globe) - toWorld(pose.eye, globe)).length();
-    const double top = pose.nearPlane * std::tan(pose.verticalFov / 2.0);
+    const double top = nearPlane * std::tan(pose.verticalFov / 2.0);
     const double right = top * aspect;
-    const double aside = pose.eyeRight * pose.nearPlane / lookDistance;
-    return osg::Matrixd::frustum(-right - aside, right - aside, -top, top, pose.nearPlane, pose.farPlane);
+    const double aside = pose.eyeRight * nearPlane / lookDistance;
+    return osg::Matrixd::frustum(-right - aside, right - aside, -top, top, nearPlane, farPlane);
+}
+
+void placeCamera(osg::Camera& camera, const CameraPose& pose, const Globe& globe) {
+    camera.setViewMatrix(viewMatrixOf(pose, globe));
+    camera.setProjectionMatrix(projectionMatrixOf(pose, globe, camera.getViewport()->aspectRatio()));
+    camera.setComputeNearFarMode(pose.hasPlanes() ? osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR
+                                                  : osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES);
 }
 
 }  // namespace osgAnalyticBin::flight

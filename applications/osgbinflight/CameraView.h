@@ -5,6 +5,7 @@
 
 #include "CameraPath.h"
 
+#include <osg/Camera>
 #include <osg/CoordinateSystemNode>
 #include <osg/Matrixd>
 
@@ -35,5 +36,8 @@ struct Globe {
 /// Perspective with the pose's vertical field of view, near and far plane, sheared when `eyeRight` is not 0.
 /// `aspect` is width / height.
 [[nodiscard]] osg::Matrixd projectionMatrixOf(const CameraPose& pose, const Globe& globe, double aspect);
+
+/// Gives a camera the view and the projection of a pose; OSG computes near and far planes where the pose has none.
+void placeCamera(osg::Camera& camera, const CameraPose& pose, const Globe& globe);
 
 }  // namespace osgAnalyticBin::flight

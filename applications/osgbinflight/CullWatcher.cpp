@@ -4,6 +4,7 @@
 #include "CullWatcher.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/Declarations.h>
 
 #include <osg/TriangleIndexFunctor>
 
@@ -24,6 +25,7 @@ void cullScene(osgUtil::CullVisitor& visitor, osg::Camera& camera, osg::FrameSta
     stage.setCamera(&camera);
     visitor.setStateGraph(&stateGraph);
     visitor.setRenderStage(&stage);
+    stage.setCamera(&camera);
     visitor.setFrameStamp(&frameStamp);
     visitor.setTraversalNumber(frameStamp.getFrameNumber());
     visitor.inheritCullSettings(camera);
@@ -42,6 +44,7 @@ void cullScene(osgUtil::CullVisitor& visitor, osg::Camera& camera, osg::FrameSta
 
 CullWatcher::CullWatcher() : _wanted(new RequestCounter) {
     BinStatistics::of(*this).setTileByTile(true);
+    setDrawsAsCullVisitor(*this);
     setDatabaseRequestHandler(_wanted);
 }
 

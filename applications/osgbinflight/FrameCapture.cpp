@@ -26,7 +26,6 @@ osg::ref_ptr<osg::Image> readPicture(const osg::Camera& camera) {
 }  // namespace
 
 void makeComparable(osg::Camera& camera) {
-    camera.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
     camera.setLODScale(1.0F);
     camera.setProjectionResizePolicy(osg::Camera::FIXED);
     osg::StateSet& state = *camera.getOrCreateStateSet();

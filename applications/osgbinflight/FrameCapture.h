@@ -10,8 +10,8 @@
 
 namespace osgAnalyticBin::flight {
 
-/// Makes pictures of a camera comparable to the pixel: near and far stay as they are set, nothing is smoothed, and
-/// drawing goes in traversal order (coplanar surfaces then come out alike).
+/// Makes pictures of a camera comparable to the pixel: nothing is smoothed, and drawing goes in traversal order
+/// (coplanar surfaces then come out alike).
 void makeComparable(osg::Camera& camera);
 
 /// A final draw callback that reads the picture of one frame back, right before the buffers are swapped.

@@ -114,7 +114,6 @@ ScaleScene::ScaleScene(const ScaleMethod& method, const globe::GlobeOptions& opt
       _deaf(new flight::RequestCounter),
       _stage(*_loader) {
     _camera->setViewport(0, 0, kWidth, kHeight);
-    _camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
     if (method.cullsNothing) _camera->setCullingMode(osg::CullSettings::NO_CULLING);
     readRoot();
     nextFrame();
@@ -144,8 +143,7 @@ void ScaleScene::nextFrame() {
 
 void ScaleScene::settle(const flight::CameraPose& pose) {
     if (_isReplaying) readRoot();
-    _camera->setViewMatrix(flight::viewMatrixOf(pose, _globe));
-    _camera->setProjectionMatrix(flight::projectionMatrixOf(pose, _globe, _camera->getViewport()->aspectRatio()));
+    flight::placeCamera(*_camera, pose, _globe);
     _globe.ellipsoid->convertLatLongHeightToXYZ(pose.eye.latitude, pose.eye.longitude, pose.eye.altitude, _eyeEcef.x(),
                                                 _eyeEcef.y(), _eyeEcef.z());
     do {

@@ -60,6 +60,19 @@ TEST(CameraPath, TakesColumnsInAnyOrder) {
     EXPECT_DOUBLE_EQ(path->front().eye.latitude, kPi / 180.0);
 }
 
+TEST(CameraPath, LeavesNearAndFarPlanesToOsg) {
+    const std::string header = "name,eyeLatDeg,eyeLonDeg,eyeAlt,lookLatDeg,lookLonDeg,lookAlt,fovDeg";
+    std::istringstream input(header + "\np,1,2,300,1,3,300,60\n");
+    std::string error;
+    const auto path = readCameraPath(input, "path.csv", error);
+    ASSERT_TRUE(path.has_value()) << error;
+    EXPECT_FALSE(path->front().hasPlanes());
+    std::ostringstream written;
+    writeCameraPath(written, *path, PathColumns::Poses);
+    EXPECT_EQ(written.str().substr(0, header.size() + 1), header + "\n");
+    EXPECT_TRUE(contains(errorOf(header + ",far\np,1,2,300,1,3,300,60,9\n"), "one is missing"));
+}
+
 TEST(CameraPath, OverAMapHasCoordinatesInPlaceOfAngles) {
     const std::string header = "name,eyeX,eyeY,eyeAlt,lookX,lookY,lookAlt,fovDeg,near,far\n";
     std::string error;
