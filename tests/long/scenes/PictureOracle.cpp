@@ -35,6 +35,12 @@ struct Place {
     [[nodiscard]] bool isAtBorder() const { return std::min(column, row) < 2 || std::max(column, row) >= size - 2; }
 };
 
+// The name of the state that a part sets; empty: none.
+std::string stateOf(const Part& part) {
+    const bool isState = part.kind == PartKind::State || part.kind == PartKind::PushesState;
+    return isState ? stateName(part.variant) : std::string();
+}
+
 // Whether the application takes terrain away, or draws it as lines.
 bool hasHoles(const Description& description) {
     return std::any_of(description.parts.begin(), description.parts.end(), [](const Part& part) {
@@ -63,6 +69,7 @@ public:
     /// Whether the documentation, or OSG, explains the difference.
     [[nodiscard]] bool isAllowed(std::size_t pixel) const {
         if (areBothPlain(pixel) && isTie(pixel, 0)) return true;
+        if (_with.arePlanesComputed && isAtNearPlane(pixel)) return true;
         const std::string now = keyAt(_with.painting, pixel);
         if (!now.empty() && _without.drawables.count(now) == 0) return hasScaledTerrain(_description);
         const std::string key = keyAt(_without.painting, pixel);
@@ -86,6 +93,15 @@ private:
             return found != delivery.drawables.end() && found->second.isPlain;
         };
         return isPlain(_without) && isPlain(_with);
+    }
+
+    // Where a near plane cuts, in projections of single precision that differ by their far planes.
+    [[nodiscard]] bool isAtNearPlane(std::size_t pixel) const {
+        constexpr double kRounding = 2e-4;  // of the plane's distance
+        double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0, near = 0.0, far = 0.0;
+        const float depth = std::min(_without.painting.depths[pixel], _with.painting.depths[pixel]);
+        return _with.projection.getFrustum(left, right, bottom, top, near, far) &&
+               std::abs(Painter::distance(depth) - near) <= kRounding * near;
     }
 
     // Where surfaces coincide, such as the skirts of neighbours, one that is left shows what both did. Lines that
@@ -229,17 +245,27 @@ private:
 }  // namespace
 
 Description picturable(Description description) {
+    std::vector<Part>& parts = description.parts;
+    // cameras in the scene may build on the view's projection, and depths without the painter's program depend on it
+    const bool isProjectionUsed = std::any_of(parts.begin(), parts.end(), [](const Part& part) {
+        return part.kind == PartKind::Camera || stateOf(part).find("program") != std::string::npos;
+    });
     for (ViewSpec& view : description.views) {
-        view.computeNearFar = osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
+        const bool isOrthographic = view.projection(3, 3) != 0.0;
+        if (isProjectionUsed || isOrthographic) view.computeNearFar = osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
         view.cullingMode &= ~static_cast<int>(osg::CullSettings::SMALL_FEATURE_CULLING);
     }
     const auto dependsOnOrder = [](const Part& part) {
-        const bool isState = part.kind == PartKind::State || part.kind == PartKind::PushesState;
-        const std::string name = isState ? stateName(part.variant) : std::string();
-        return name == "clip plane" || name == "primitive restart";
+        return stateOf(part) == "clip plane" || stateOf(part) == "primitive restart";
     };
-    std::vector<Part>& parts = description.parts;
+    // doc/limits.md: "sees skirts through blended terrain"
+    const bool isBlended =
+        std::any_of(parts.begin(), parts.end(), [](const Part& part) { return stateOf(part).find("blend") == 0; });
+    for (DatabaseSpec& database : description.databases) {
+        if (isBlended) database.options.skirts = SkirtUse::All;
+    }
     for (Part& part : parts) {
+        if (isBlended) part.options.skirts = SkirtUse::All;
         if (part.kind == PartKind::Camera) part.variant %= kFixedCameras;
     }
     parts.erase(std::remove_if(parts.begin(), parts.end(), dependsOnOrder), parts.end());

@@ -6,6 +6,7 @@
 #include "States.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
+#include <osgAnalyticBin/Declarations.h>
 
 #include <osg/Billboard>
 #include <osg/Camera>
@@ -69,6 +70,7 @@ void Requests::requestNodeFile(const std::string& fileName, osg::NodePath& path,
 
 Recorder::Recorder() {
     setDatabaseRequestHandler(_requests);
+    setDrawsAsCullVisitor(*this);
 }
 
 void Recorder::apply(osg::Drawable& drawable) {

@@ -45,6 +45,8 @@ struct Delivery {
     /// By names of nodes on the way to the drawable: nodes that the kit puts in have none.
     std::map<std::string, Delivered> drawables;
     std::vector<MetDatabase> databases;
+    osg::Matrixd projection;         ///< of the view, with its near and far planes
+    bool arePlanesComputed = false;  ///< by OSG
     /// Where there is a painter.
     Painting painting;
 };

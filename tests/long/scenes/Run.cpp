@@ -14,6 +14,7 @@
 #include "Recorder.h"
 #include "States.h"
 
+#include <osgAnalyticBin/Declarations.h>
 #include <osgAnalyticBin/InstallBins.h>
 #include <osgAnalyticBin/InstallBinsCallback.h>
 
@@ -114,7 +115,7 @@ public:
 /// One of the two scenes, and the visitors that go with it.
 class Scene {
 public:
-    explicit Scene(const Builder& builder) : root(builder.scene()) {}
+    explicit Scene(const Builder& builder) : root(builder.scene()) { _camera->addChild(root); }
 
     void update(osg::FrameStamp& stamp) {
         _update->setFrameStamp(&stamp);
@@ -131,6 +132,8 @@ public:
         _recorder->isViewPlain = isHarmless(*_ownStates);
         const CullResult culled = cull(*root, view, *_recorder, stamp.getFrameNumber(), stamp.getReferenceTime());
         Delivery delivery = _recorder->takeDelivery();
+        delivery.projection = culled.projection;
+        delivery.arePlanesComputed = spec.computeNearFar != osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
         if (painter) delivery.painting = painter->paint(*culled.stage, stamp);
         return delivery;
     }
@@ -166,7 +169,9 @@ public:
     osg::ref_ptr<osg::Group> root;
 
 private:
-    struct DerivedVisitor : osgUtil::CullVisitor {};
+    struct DerivedVisitor : osgUtil::CullVisitor {
+        DerivedVisitor() { setDrawsAsCullVisitor(*this); }
+    };
 
     // Those of drawables that are delivered as often to the other visitor.
     static std::vector<Leaf> withoutOthers(const std::vector<Leaf>& leaves, const std::vector<Leaf>& other) {
@@ -187,8 +192,9 @@ private:
         return states;
     }
 
-    static CullView viewOf(const ViewSpec& spec) {
+    [[nodiscard]] CullView viewOf(const ViewSpec& spec) const {
         CullView view;
+        view.camera = _camera;
         view.modelView = spec.view;
         view.projection = spec.projection;
         view.cullingMode = spec.cullingMode;
@@ -196,6 +202,7 @@ private:
         return view;
     }
 
+    const osg::ref_ptr<osg::Camera> _camera = new osg::Camera;
     const osg::ref_ptr<Recorder> _recorder = new Recorder;
     const osg::ref_ptr<osg::StateSet> _ownStates = new osg::StateSet;
     const osg::ref_ptr<osgUtil::CullVisitor> _plain = new osgUtil::CullVisitor, _derived = new DerivedVisitor;
@@ -264,8 +271,8 @@ private:
         _without.update(*_stamp);
         _with.update(*_stamp);
         if (!view.isActive) return std::nullopt;
-        const Delivery without = _without.deliver(view, *_stamp, _painter);
         const Delivery with = _with.deliver(view, *_stamp, _painter);
+        const Delivery without = _without.deliver(_painter ? withNearPlaneOf(with, view) : view, *_stamp, _painter);
         count(without, with);
         if (auto failure = _painter ? comparePictures(without, with, frame) : compare(without, with, view, frame))
             return failure;
@@ -274,6 +281,17 @@ private:
             return Failure{frame, "OSG's own visitor gets something else than a derived one", ""};
         page();
         return checkApplication(frame);
+    }
+
+    // OSG computes other planes where more is drawn. With the same near plane pictures are the same.
+    static ViewSpec withNearPlaneOf(const Delivery& delivery, ViewSpec view) {
+        double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0, nearest = 0.0, farthest = 0.0;
+        const bool isComputed = view.computeNearFar != osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
+        if (!isComputed || !delivery.projection.getFrustum(left, right, bottom, top, nearest, farthest)) return view;
+        constexpr double kFarther = 1e3;
+        view.projection = osg::Matrixd::frustum(left, right, bottom, top, nearest, kFarther * farthest);
+        view.computeNearFar = osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
+        return view;
     }
 
     // What the application meets apart from pictures.
