@@ -6,14 +6,16 @@
 #include <osgAnalyticBin/Export.h>
 
 #include <osg/Callback>
+#include <osg/NodeVisitor>
 #include <osg/Program>
 
 namespace osgAnalyticBin {
 
 /// Declares that a cull callback of the application always traverses its nested callback or its node and changes
-/// neither state nor masks nor the scale of levels of detail, by the user value "osgAnalyticBin.traversesAlways" of the
-/// callback. A callback without this declaration may leave out terrain; the horizon is not used while such a callback
-/// is on a tile in view or above one, the CoordinateSystemNode and its ancestors included.
+/// neither state nor masks nor the scale of levels of detail nor near and far planes, by the user value
+/// "osgAnalyticBin.traversesAlways" of the callback. A callback without this declaration may leave out terrain; the
+/// horizon is not used while such a callback is on a tile in view or above one, the CoordinateSystemNode and its
+/// ancestors included.
 OSGANALYTICBIN_EXPORT void setTraversesAlways(osg::Callback& callback);
 
 /// Returns: whether setTraversesAlways() was called for the callback, or it is a plain osg::NodeCallback.
@@ -25,5 +27,12 @@ OSGANALYTICBIN_EXPORT void setTraversesAlways(osg::Callback& callback);
 OSGANALYTICBIN_EXPORT void setDrawsTriangles(osg::Program& program);
 /// Returns: whether setDrawsTriangles() was called for the program.
 [[nodiscard]] OSGANALYTICBIN_EXPORT bool drawsTriangles(const osg::Program& program);
+
+/// Declares that a visitor of a class derived from osgUtil::CullVisitor draws what that would draw, and leaves near and
+/// far planes to it; by the user value "osgAnalyticBin.drawsAsCullVisitor" of the visitor. Without this declaration
+/// nothing is hidden behind terrain where OSG computes these planes.
+OSGANALYTICBIN_EXPORT void setDrawsAsCullVisitor(osg::NodeVisitor& visitor);
+/// Returns: whether setDrawsAsCullVisitor() was called for the visitor.
+[[nodiscard]] OSGANALYTICBIN_EXPORT bool drawsAsCullVisitor(const osg::NodeVisitor& visitor);
 
 }  // namespace osgAnalyticBin

@@ -14,6 +14,7 @@ namespace osgAnalyticBin {
 namespace {
 
 constexpr const char* kTraversesAlways = "osgAnalyticBin.traversesAlways";
+constexpr const char* kDrawsAsCullVisitor = "osgAnalyticBin.drawsAsCullVisitor";
 constexpr const char* kDrawsTriangles = "osgAnalyticBin.drawsTriangles";
 
 }  // namespace
@@ -35,6 +36,16 @@ void setDrawsTriangles(osg::Program& program) {
 bool drawsTriangles(const osg::Program& program) {
     bool does = false;
     if (program.getUserDataContainer()) (void)program.getUserValue(kDrawsTriangles, does);
+    return does;
+}
+
+void setDrawsAsCullVisitor(osg::NodeVisitor& visitor) {
+    visitor.setUserValue(kDrawsAsCullVisitor, true);
+}
+
+bool drawsAsCullVisitor(const osg::NodeVisitor& visitor) {
+    bool does = false;
+    if (visitor.getUserDataContainer()) (void)visitor.getUserValue(kDrawsAsCullVisitor, does);
     return does;
 }
 

@@ -26,7 +26,7 @@ constexpr double kDepthStep = 0x1p-20;
 }  // namespace
 
 std::optional<LevelView> LevelView::of(osg::CullStack& cullStack, const core::Ellipsoid& ellipsoid,
-                                       const glm::dvec3& eye) {
+                                       const glm::dvec3& eye, std::optional<double> leastNear) {
     const osg::Matrixd& projection = *cullStack.getProjectionMatrix();
     const osg::Viewport* const viewport = cullStack.getViewport();
     const auto eyeToWorld = affineInverse(*cullStack.getModelViewMatrix());
@@ -42,7 +42,8 @@ std::optional<LevelView> LevelView::of(osg::CullStack& cullStack, const core::El
     if (!(view.pixels > 0.0 && glm::length(level) > kLevel)) return std::nullopt;
     view.forward = glm::normalize(level);
     // The buffer stores a + b / z. For projections to depths from 0 to 1 the true b is twice as large.
-    const double b = 0.5 * std::abs(projection(3, 2) / projection(2, 3));
+    // With near and far planes at n and f it is n f / (f - n), above n.
+    const double b = leastNear ? *leastNear : 0.5 * std::abs(projection(3, 2) / projection(2, 3));
     view.depthStep = kDepthStep / b;
     for (std::size_t i = 0; i < view.corners.size(); ++i) {
         const osg::Vec4d clip(i & 1U ? 1.0 : -1.0, i & 2U ? 1.0 : -1.0, 0.5, 1.0);

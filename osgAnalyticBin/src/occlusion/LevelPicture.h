@@ -23,9 +23,10 @@ struct LevelView {
     /// A depth buffer distinguishes two depths in eye space if their reciprocals differ by more than this.
     double depthStep;
 
-    /// Returns: nullopt for cameras that look up or down by more than 78 degrees, and those without a viewport.
+    /// `leastNear`: where OSG computes the near plane later, no more than its depth is. Returns: nullopt for cameras
+    /// that look up or down by more than 78 degrees, and those without a viewport.
     [[nodiscard]] static std::optional<LevelView> of(osg::CullStack& cullStack, const core::Ellipsoid& ellipsoid,
-                                                     const glm::dvec3& eye);
+                                                     const glm::dvec3& eye, std::optional<double> leastNear);
 
     /// The axes of a picture of this view, with its eye at `place`.
     [[nodiscard]] core::Frame frameAt(const glm::dvec3& place) const;

@@ -70,10 +70,10 @@ public:
         double clearance = HUGE_VAL;
         if (_found.nearReach > 0.0) {
             const double nearReach = 1.01 * _found.nearReach;
-            const std::optional<double> highest = highestWithin(nearReach);
-            if (!highest || !(*highest < 0.0)) return false;
-            clearance = -*highest;
-            _buffer.setLowest(*highest / nearReach);
+            const std::optional<NearTerrain> terrain = terrainWithin(nearReach);
+            if (!terrain || !(terrain->top < HUGE_VAL)) return false;
+            clearance = terrain->nearest;
+            _buffer.setLowest(terrain->top);
         }
         for (const auto& [nearest, number] : _order) {
             const Quarter& quarter = _quarters[number];
@@ -127,12 +127,18 @@ private:
         return true;
     }
 
-    // Metres above the eye of the highest point of the terrain that is in the picture and within `reach` of the eye.
-    // Returns: nullopt where that is not known.
-    [[nodiscard]] std::optional<double> highestWithin(double reach) const {
+    // Terrain that the near plane may cut.
+    struct NearTerrain {
+        double top = -HUGE_VAL;     // of its picture; infinite where it may be at the eye
+        double nearest = HUGE_VAL;  // metres from the eye, roughly
+    };
+
+    // All that is between the sides of the picture and within `reach` of the eye. Returns: nullopt where that is not
+    // known.
+    [[nodiscard]] std::optional<NearTerrain> terrainWithin(double reach) const {
         const core::Interval& across = _found.span.across;
         const double widest = std::max(std::abs(across.lower), std::abs(across.upper));
-        double highest = -HUGE_VAL;
+        NearTerrain terrain;
         std::vector<std::size_t> tiles;
         for (const auto& [nearest, number] : _order) {
             if (nearest - _found.eyes.y > reach) break;
@@ -146,13 +152,13 @@ private:
             const double radius = (reach + 2.0 * std::max(margin.x, margin.y)) * (1.0 + widest);
             const core::EcefMesh* const mesh = _meshes.trianglesNear(*tile.tile, *tile.mesh, _found.eye, radius);
             if (!mesh) return std::nullopt;
-            highest = std::max(highest, highestOf(*mesh, reach, margin));
+            add(*mesh, reach, margin, terrain);
         }
-        return highest;
+        return terrain;
     }
 
-    // The same of triangles that may be `margin` metres away from their place, along each axis.
-    [[nodiscard]] double highestOf(const core::EcefMesh& mesh, double reach, const glm::dvec3& margin) const {
+    // Triangles that may be `margin` metres away from their place, along each axis.
+    void add(const core::EcefMesh& mesh, double reach, const glm::dvec3& margin, NearTerrain& terrain) const {
         const auto& [eye, right, ahead, up] = _found.eye;
         // inside is where p.normal >= offset
         struct HalfSpace {
@@ -163,7 +169,6 @@ private:
         const std::array<HalfSpace, 4> wedge{HalfSpace{ahead, -margin.y}, HalfSpace{-ahead, -reach - margin.y},
                                              HalfSpace{right - left * ahead, -margin.x - margin.y * std::abs(left)},
                                              HalfSpace{most * ahead - right, -margin.x - margin.y * std::abs(most)}};
-        double highest = -HUGE_VAL;
         std::vector<double> forward(mesh.size());
         for (std::size_t i = 0; i < mesh.size(); ++i) forward[i] = glm::dot(mesh.vertex(i) - eye, ahead);
         std::vector<glm::dvec3> polygon, clipped;
@@ -184,9 +189,23 @@ private:
                 }
                 polygon.swap(clipped);
             }
-            for (const glm::dvec3& point : polygon) highest = std::max(highest, glm::dot(point, up) + margin.z);
+            terrain.top = std::max(terrain.top, topOf(polygon, margin));
+            for (const glm::dvec3& point : polygon) terrain.nearest = std::min(terrain.nearest, glm::length(point));
         }
-        return highest;
+    }
+
+    // The greatest y = up / forward of a polygon's points in front of the eye, which are seen from the eye. It is at a
+    // corner: along a segment y rises or falls.
+    [[nodiscard]] double topOf(const std::vector<glm::dvec3>& polygon, const glm::dvec3& margin) const {
+        double top = -HUGE_VAL, highest = -HUGE_VAL, nearest = HUGE_VAL;
+        for (const glm::dvec3& point : polygon) {
+            const double height = glm::dot(point, _found.eye.z) + margin.z, ahead = glm::dot(point, _found.eye.y);
+            highest = std::max(highest, height);
+            nearest = std::min(nearest, ahead - margin.y);
+            const double distance = height < 0.0 ? ahead + margin.y : ahead - margin.y;
+            if (distance > 0.0) top = std::max(top, height / distance);
+        }
+        return highest >= 0.0 && !(nearest > 0.0) ? HUGE_VAL : top;
     }
 
     [[nodiscard]] std::shared_ptr<const CoveredPicture> covered() const {

@@ -48,7 +48,8 @@ struct FoundOcclusion {
     core::Frame eye{};              ///< origin: the place; axes: those of the picture
     glm::dvec3 eyes{0.0};           ///< metres from the place to the farthest eyes, along each axis of the picture
     PictureSpan span{};             ///< of the picture
-    double nearReach = 0.0;         ///< metres from the eye to the farthest point of the near plane; 0: not considered
+    double nearReach = 0.0;         ///< metres ahead of the eye that the near plane may cut at most; 0: not considered
+    double neededReach = 0.0;       ///< where OSG computes that plane: the same of the last view
     std::optional<core::GeodeticBin> region;
     std::shared_ptr<const CoveredPicture> covered;
     int uses = 0;  ///< views since the search

@@ -71,7 +71,7 @@ bool serves(FoundOcclusion& found, const TerrainHider::View& view, const std::op
     constexpr int kMostUses = 64;
     return found.uses++ < kMostUses && found.holds(view.eye) && span && isWithin(span->across, found.span.across) &&
            span->drawing <= found.span.drawing && span->depthStep <= found.span.depthStep &&
-           view.nearReach <= found.nearReach && found.region == regionOf(view) && found.tiles == found.shown;
+           found.region == regionOf(view) && found.tiles == found.shown;
 }
 
 // Prepares a search that serves as many of the next views as it can, if the camera goes on as it does.
@@ -96,26 +96,75 @@ void aim(FoundOcclusion& found, const LevelView& view, const glm::dvec3& eye, co
     found.span.across.upper += room(spanThen->across.upper - found.lastAcross.upper);
 }
 
-void note(const FoundOcclusion& found, const std::vector<ShownTile>& shown, TerrainHider::Hidden& hidden) {
-    hidden.tiles.reserve(found.findings.size());
+// The shown tiles in view that are hidden.
+std::vector<std::size_t> hiddenIn(const FoundOcclusion& found, const std::vector<ShownTile>& shown) {
+    std::vector<std::size_t> hidden;
+    hidden.reserve(found.findings.size());
     for (std::size_t i = 0; i < found.findings.size(); ++i) {
         const ShownTile& tile = shown[i];
-        if (found.findings[i] == FoundOcclusion::Finding::Beside || tile.isOutOfView) continue;
-        ++hidden.inView;
-        if (!found.hides(i, tile) || tile.tile->getInstalledTile()->has(InstalledTile::IgnoresDepth)) continue;
-        hidden.tiles.push_back(i);
+        const bool obeysDepth = !tile.tile->getInstalledTile()->has(InstalledTile::IgnoresDepth);
+        if (!tile.isOutOfView && found.hides(i, tile) && obeysDepth) hidden.push_back(i);
     }
+    return hidden;
+}
+
+std::size_t countInView(const FoundOcclusion& found, const std::vector<ShownTile>& shown) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < found.findings.size(); ++i) {
+        if (found.findings[i] != FoundOcclusion::Finding::Beside && !shown[i].isOutOfView) ++count;
+    }
+    return count;
+}
+
+// How far ahead of the eye the near plane cuts something that is drawn at most, in metres along the forward axis of a
+// picture, if these tiles are left out.
+double reachOfNear(const TerrainHider::View& view, const LevelView& lines, const core::Frame& picture,
+                   const std::vector<std::size_t>& hidden) {
+    double ahead = 0.0, toCorner = 0.0;  // of the corners of a plane at depth 1
+    for (const glm::dvec3& corner : lines.corners) {
+        ahead = std::max(ahead, glm::dot(corner, picture.y));
+        toCorner = std::max(toCorner, glm::length(corner));
+    }
+    return ahead * (view.laterNear ? view.laterNear->most(hidden) : view.nearReach / toCorner);
+}
+
+// Whether more may be found where the near plane reaches no farther than this.
+bool isMuchNearer(double reach, const FoundOcclusion& found) {
+    return reach < 0.5 * found.nearReach;
+}
+
+// Searches, supposing how far the near plane reaches. Where OSG computes the plane it follows from what is drawn, and
+// so from what is found: if it turns out no farther, the supposition is right. The farther it reaches the less is
+// found, so that the search begins with less than it may be. Returns: false where nothing is known.
+bool search(const TerrainHider::View& view, const LevelView& lines, const std::vector<ShownTile>& shown,
+            NearMeshes& nearMeshes, FoundOcclusion& found) {
+    // it is rounded anew in each view
+    const double farthest = 1.001 * reachOfNear(view, lines, found.eye, {});
+    found.nearReach = farthest;
+    if (!view.laterNear) return findOccluded(view, shown, nearMeshes, found);
+    constexpr int kMostSearches = 4;
+    constexpr double kRoom = 1.03;  // for the views to come
+    constexpr double kLeast = 1.0 / 64.0;
+    double needed = found.neededReach > 0.0 ? found.neededReach : kLeast * farthest;
+    for (int i = 0; i < kMostSearches; ++i) {
+        found.nearReach = std::min(farthest, kRoom * needed);
+        if (!findOccluded(view, shown, nearMeshes, found)) return false;
+        needed = reachOfNear(view, lines, found.eye, hiddenIn(found, shown));
+        if (needed <= found.nearReach && (i > 0 || !isMuchNearer(needed, found))) return true;
+    }
+    return false;
 }
 
 }  // namespace
 
 TerrainHider::Hidden TerrainOcclusion::find(const View& view, const std::vector<ShownTile>& shown) {
-    if (!std::isfinite(view.nearReach)) return {};
+    if (!view.laterNear && !std::isfinite(view.nearReach)) return {};
     // tiles in front of the near plane are not looked for then
     constexpr osg::CullingSet::Mask kNear = osg::CullingSet::NEAR_PLANE_CULLING;
     if (view.cullStack.getCurrentCullingSet().getCullingMask() & kNear) return {};
     if (view.region && !view.region->holdsSegmentsFrom(view.eye)) return {};
-    const auto lines = LevelView::of(view.cullStack, view.ellipsoid, view.eye);
+    const auto leastNear = view.laterNear ? std::optional(view.laterNear->least()) : std::nullopt;
+    const auto lines = LevelView::of(view.cullStack, view.ellipsoid, view.eye, leastNear);
     if (!lines) return {};
     if (!_found) _found.emplace();
     FoundOcclusion& found = *_found;
@@ -125,24 +174,30 @@ TerrainHider::Hidden TerrainOcclusion::find(const View& view, const std::vector<
     if (ground != Ground::Known) return hidden;
     const auto spanThen = PictureSpan::of(*lines, found.eye);
     found.leaveOut(view.planes, view.ellipsoid);
-    if (!serves(found, view, spanThen)) {
+    double reach = 0.0;
+    const auto isRight = [&] {
+        hidden.tiles = hiddenIn(found, shown);
+        reach = reachOfNear(view, *lines, found.eye, hidden.tiles);
+        return reach <= found.nearReach;
+    };
+    if (!serves(found, view, spanThen) || !isRight() || (view.laterNear && isMuchNearer(reach, found))) {
+        hidden.tiles.clear();
         const auto span = PictureSpan::of(*lines, lines->frameAt(view.eye));
         if (!span) return {};
         aim(found, *lines, view.eye, *span, spanThen);
         found.tiles = found.shown;
-        // it is rounded anew in each view
-        found.nearReach = 1.001 * view.nearReach;
         found.region = regionOf(view);
-        if (!findOccluded(view, shown, _nearMeshes, found)) {
+        if (!search(view, *lines, shown, _nearMeshes, found) || !isRight()) {
             _found.reset();
             return {};
         }
         found.uses = 1;
     }
+    found.neededReach = reach;
+    hidden.inView = countInView(found, shown);
     hidden.covered = found.covered;
     found.lastEye = view.eye;
     found.lastAcross = PictureSpan::of(*lines, found.eye).value_or(found.span).across;
-    note(found, shown, hidden);
     return hidden;
 }
 

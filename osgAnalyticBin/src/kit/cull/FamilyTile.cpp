@@ -8,6 +8,7 @@
 #include "../tile/Carrier.h"
 #include "BinCulling.h"
 #include "CullScopes.h"
+#include "DrawnDepth.h"
 #include "DrawnState.h"
 
 #include <osg/Geode>
@@ -16,7 +17,9 @@
 #include <osgTerrain/GeometryTechnique>
 #include <osgTerrain/TerrainTile>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 namespace osgAnalyticBin {
@@ -25,6 +28,7 @@ namespace {
 
 // What OSG keeps for derived classes.
 struct OpenTechnique : public osgTerrain::GeometryTechnique {
+    using osgTerrain::GeometryTechnique::BufferData;
     [[nodiscard]] static const BufferData* meshOf(const osgTerrain::GeometryTechnique& technique) {
         return (technique.*(&OpenTechnique::_currentBufferData)).get();
     }
@@ -67,6 +71,25 @@ bool isRelative(const osg::Transform& transform) {
 bool isPassive(const osg::Node& node, const osgUtil::CullVisitor& visitor) {
     const osg::Callback* const callback = node.getCullCallback();
     return visitor.validNodeMask(node) && (!callback || isIdle(*callback, visitor));
+}
+
+// The mesh of an osgTerrain tile, which is drawn whole. Returns: nullptr where the tile has none yet, or another than
+// osgTerrain::GeometryTechnique makes.
+const OpenTechnique::BufferData* madeMesh(osgTerrain::TerrainTile& tile, const osgUtil::CullVisitor& visitor) {
+    auto* const technique = tile.getTerrainTechnique();
+    if (!technique || technique->getTerrainTile() != &tile || !hasBeenTraversed(tile) ||
+        !isExactly<osgTerrain::GeometryTechnique>(*technique))
+        return nullptr;
+    const auto* const mesh = OpenTechnique::meshOf(static_cast<osgTerrain::GeometryTechnique&>(*technique));
+    if (!mesh || !mesh->_transform || !mesh->_geode || !mesh->_geometry) return nullptr;
+    const osg::MatrixTransform& transform = *mesh->_transform;
+    const osg::Geode& geode = *mesh->_geode;
+    const osg::Geometry& geometry = *mesh->_geometry;
+    const bool isWhole = transform.getNumChildren() == 1 && transform.getChild(0) == &geode &&
+                         geode.getNumChildren() == 1 && geode.getChild(0) == &geometry;
+    const bool isPlain = isRelative(transform) && isExactly<osg::Geometry>(geometry) && isPassive(transform, visitor) &&
+                         isPassive(geode, visitor) && isPassive(geometry, visitor);
+    return isWhole && isPlain ? mesh : nullptr;
 }
 
 // Whether all of a box is outside of the plane, by more than rounding. `toPlane`: from the box's frame.
@@ -113,20 +136,11 @@ public:
 
     // Returns: false where the tile has no mesh yet, or another than osgTerrain::GeometryTechnique makes.
     [[nodiscard]] bool draw(osgTerrain::TerrainTile& tile, bool mayBeSmall) {
-        auto* const technique = tile.getTerrainTechnique();
-        if (!technique || technique->getTerrainTile() != &tile || !hasBeenTraversed(tile) ||
-            !isExactly<osgTerrain::GeometryTechnique>(*technique))
-            return false;
-        const auto* const mesh = OpenTechnique::meshOf(static_cast<osgTerrain::GeometryTechnique&>(*technique));
-        if (!mesh || !mesh->_transform || !mesh->_geode || !mesh->_geometry) return false;
+        const auto* const mesh = madeMesh(tile, _visitor);
+        if (!mesh) return false;
         osg::MatrixTransform& transform = *mesh->_transform;
         osg::Geode& geode = *mesh->_geode;
         osg::Geometry& geometry = *mesh->_geometry;
-        const bool isWhole = transform.getNumChildren() == 1 && transform.getChild(0) == &geode &&
-                             geode.getNumChildren() == 1 && geode.getChild(0) == &geometry;
-        if (!isWhole || !isRelative(transform) || !isExactly<osg::Geometry>(geometry) ||
-            !isPassive(transform, _visitor) || !isPassive(geode, _visitor) || !isPassive(geometry, _visitor))
-            return false;
         _bounded.computeBoundOf(transform);
         if ((mayBeSmall && isDroppedAsSmall(tile)) || isDroppedAsSmall(transform)) return true;
         const StateScope ofTile(_visitor, tile.getStateSet()), ofTransform(_visitor, transform.getStateSet()),
@@ -312,6 +326,35 @@ bool FamilyTile::draw(osgUtil::CullVisitor& visitor, core::PlaneMask undecided) 
         return delivery.draw(static_cast<osgTerrain::TerrainTile&>(*_parts.front().node), !_isOwnMesh);
     delivery.draw(_parts, 0, !_isOwnMesh);
     return true;
+}
+
+std::optional<double> FamilyTile::farthest(const osgUtil::CullVisitor& visitor) const {
+    if (!_isDrawn || !isMeshAsKnown(visitor)) return std::nullopt;
+    const osg::Matrixd& modelView = *visitor.getModelViewMatrix();
+    double farthest = -std::numeric_limits<double>::infinity();
+    const auto add = [&](const osg::Drawable& drawable, const osg::MatrixTransform* transform) {
+        const osg::BoundingBox& box = drawable.getBoundingBox();
+        if (!box.valid()) return;
+        const double depth = farthestDepth(box, transform ? transform->getMatrix() * modelView : modelView);
+        farthest = std::max(farthest, depth);
+    };
+    if (_parts.front().kind == Kind::Terrain) {
+        const auto* const mesh = madeMesh(static_cast<osgTerrain::TerrainTile&>(*_parts.front().node), visitor);
+        if (!mesh) return std::nullopt;
+        _bounded.computeBoundOf(*mesh->_transform);
+        add(*mesh->_geometry, mesh->_transform.get());
+        return farthest;
+    }
+    for (std::size_t i = 0; part(i); ++i) {
+        if (_parts[i].kind != Kind::Geometry) continue;
+        const osg::MatrixTransform* transform = nullptr;
+        for (std::size_t at = i; at > 0 && !transform;) {
+            at = _parts[at].above;
+            if (_parts[at].kind == Kind::Transform) transform = static_cast<osg::MatrixTransform*>(part(at));
+        }
+        add(static_cast<const osg::Drawable&>(*part(i)), transform);
+    }
+    return farthest;
 }
 
 bool FamilyTile::isEnteredUntested(const osgUtil::CullVisitor& visitor) const {

@@ -18,6 +18,7 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <optional>
 
 namespace osgAnalyticBin {
 
@@ -59,6 +60,9 @@ public:
     [[nodiscard]] static bool canDraw(osgUtil::CullVisitor& visitor);
     /// Draws the mesh; boxes are tested against the undecided planes. Returns: false where the mesh is left to OSG.
     [[nodiscard]] bool draw(osgUtil::CullVisitor& visitor, core::PlaneMask undecided) const;
+    /// How far from the plane of the eye the mesh is drawn: farthestDepth() of its boxes. Returns: nullopt where draw()
+    /// leaves the mesh to OSG; minus infinity where it has no box.
+    [[nodiscard]] std::optional<double> farthest(const osgUtil::CullVisitor& visitor) const;
     /// Whether OSG's test of the mesh's sphere has to be left out: OSG makes that of an osgTerrain tile without the
     /// vertical scale. Requires: a mesh.
     [[nodiscard]] bool isEnteredUntested(const osgUtil::CullVisitor& visitor) const;

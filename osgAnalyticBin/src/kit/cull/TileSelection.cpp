@@ -60,6 +60,11 @@ TileSelection::Number TileSelection::keep(const Kept& kept) {
     return static_cast<Number>(_kept.size() - 1);
 }
 
+bool TileSelection::hasSegment(const TileFamily& family) const {
+    return std::any_of(_segments.begin(), _segments.end(),
+                       [&](const Segment& segment) { return segment.family == &family; });
+}
+
 void TileSelection::addOccluded(const ShownTile& tile) {
     _occluded.push_back(tile.tile);
     _isSorted = false;

@@ -104,6 +104,9 @@ public:
     [[nodiscard]] const std::vector<Kept>& kept() const { return _kept; }
     [[nodiscard]] const std::vector<Place>& places() const { return _places; }
 
+    /// Whether what is drawn below a family is selected.
+    [[nodiscard]] bool hasSegment(const TileFamily& family) const;
+
     /// Says that terrain hides one of the shown tiles.
     void addOccluded(const ShownTile& tile);
     /// Whether it hides a tile that is tested alone.

@@ -7,6 +7,7 @@
 #include "../Classes.h"
 #include "../GlmBridge.h"
 #include "../cull/BinCulling.h"
+#include "../cull/ComputedNear.h"
 #include "../cull/CullCallbacks.h"
 #include "../cull/CullTraversal.h"
 #include "../cull/DrawnState.h"
@@ -106,14 +107,26 @@ bool mayHide(const ShownDatabase& shown, Database& database, const CullOptions& 
 }
 
 // Marks what terrain hides in the selection.
-void selectBehindTerrain(const ShownDatabase& shown, const Viewpoint& viewpoint, SearchMemory::LastView& last) {
+void selectBehindTerrain(const ShownDatabase& shown, Database& database, const Viewpoint& viewpoint,
+                         SearchMemory::LastView& last) {
     if (!last.hider) last.hider = makeTerrainHider();
     if (!last.hider) return;
     const auto& [visitor, cullStack, view] = shown.selected;
     TileSelection& selection = *view.selection;
-    const TerrainHider::Hidden hidden = last.hider->find(
-        {cullStack, view.ellipsoid, view.planes, view.shape, shown.region, *viewpoint.eye(), viewpoint.nearReach()},
-        selection.shown());
+    std::optional<ComputedNear> computed;
+    if (!isFinalProjection(cullStack)) {
+        const osg::Node* unknown = nullptr;
+        computed = ComputedNear::of(*visitor.asCullVisitor(), selection, unknown);
+        if (unknown) {
+            const std::string& name = unknown->getName();
+            database.report(Finding::UnknownNearPlane, unknown->className() + (name.empty() ? "" : " " + name));
+        }
+        if (!computed || !(computed->least() > 0.0)) return noteHidden({}, last);
+    }
+    const TerrainHider::Hidden hidden =
+        last.hider->find({cullStack, view.ellipsoid, view.planes, view.shape, shown.region, *viewpoint.eye(),
+                          viewpoint.nearReach(), computed ? &*computed : nullptr},
+                         selection.shown());
     for (const std::size_t i : hidden.withoutPlates) {
         const ShownTile& tile = selection.shown()[i];
         Database::of(*tile.tile->getInstalledTile()).askForPlates(*tile.tile, *tile.mesh);
@@ -150,10 +163,10 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
         return {};
     }
     const bool mayFindOccluded = viewpoint->eye() && isAboveTerrain(options);
-    if (mayFindOccluded && options.occlusion == OcclusionUse::On && !isFinalProjection(cullStack))
-        database.report(Finding::UnknownNearPlane);
-    const bool findsOccluded =
-        mayFindOccluded && isFinalProjection(cullStack) && isOcclusionDue(options.occlusion, last);
+    const bool isNearPlaneBounded = isFinalProjection(cullStack) || ComputedNear::isPossible(visitor, cullStack);
+    if (mayFindOccluded && options.occlusion != OcclusionUse::Off && !isNearPlaneBounded)
+        database.report(Finding::UnknownNearPlane, "the camera's settings");
+    const bool findsOccluded = mayFindOccluded && isNearPlaneBounded && isOcclusionDue(options.occlusion, last);
     // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: the horizon
     // shall not depend on where the camera has been.
     constexpr unsigned int kFreshStart = 16;
@@ -161,7 +174,7 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
     const auto eye = isMap ? std::nullopt : eyeAboveWhatIsShown(shown, *viewpoint, deepest, last.depth);
     // coarse meshes, while finer ones are awaited, may be too deep for a horizon
     const bool isSelected = eye || (findsOccluded && region && selectWithoutHorizon(shown, *viewpoint));
-    if (isSelected && findsOccluded) selectBehindTerrain(shown, *viewpoint, last);
+    if (isSelected && findsOccluded) selectBehindTerrain(shown, database, *viewpoint, last);
     // a hole leaves nothing to pay for
     if (!isSelected && findsOccluded) noteHidden({}, last);
     // a map in which occlusion rests was not searched

@@ -42,9 +42,9 @@ Message messageOf(Finding finding, bool isInMap) {
                     "the Terrain has a technique that is not osgTerrain::GeometryTechnique; its tiles are not culled, "
                     "unless techniquemargin= says how far from the heights it draws."};
         case Finding::UnknownNearPlane:
-            return {osg::WARN,
-                    "occlusion= has no effect while OSG computes the camera's near plane. Set DO_NOT_COMPUTE_NEAR_FAR, "
-                    "and near and far planes of your own."};
+            return {osg::INFO,
+                    "OSG computes the near plane, and it is not known before how far, because of %: nothing is hidden "
+                    "behind terrain. Set DO_NOT_COMPUTE_NEAR_FAR, and near and far planes of your own."};
         case Finding::EyeBesideRegion:
             return {osg::NOTICE,
                     "the camera is not over the regional database. The horizon is not used in such views."};

@@ -22,7 +22,7 @@ enum class Finding {
     TooDeep,
     /// The technique of osgTerrain tiles is not known.
     UnknownTechnique,
-    /// Occlusion is wanted for a camera whose near plane OSG computes only after the cull traversal.
+    /// OSG computes the near plane of a camera only after the cull traversal, and it has no bound before.
     UnknownNearPlane,
     /// The eye is not over the region that the database covers: the horizon hides nothing.
     EyeBesideRegion,

@@ -36,6 +36,20 @@ struct ShownTile {
     std::uint32_t kept, segment;  ///< where it is in the selection, see TileSelection
 };
 
+/// The near plane that OSG computes when all is culled. Depths are distances from the plane of the eye, in the unit of
+/// eye space.
+class LaterNearPlane {
+public:
+    /// The plane's largest depth where it cuts something that is drawn. `hidden`: shown tiles that are left out, with
+    /// all that is below them, by their positions among those that are shown.
+    [[nodiscard]] virtual double most(const std::vector<std::size_t>& hidden) const = 0;
+    /// The plane's least depth, if nothing is left out. Returns: 0 where none is known.
+    [[nodiscard]] virtual double least() const = 0;
+
+protected:
+    ~LaterNearPlane() = default;
+};
+
 /// Finds the shown tiles that the terrain of others hides. One of these serves one cull visitor and one database; it
 /// may keep results from view to view.
 class TerrainHider : public osg::Referenced {
@@ -47,7 +61,8 @@ public:
         const TerrainShape& shape;          ///< in which the terrain is shown
         const core::CoveredRegion* region;  ///< that is covered; null: the globe
         glm::dvec3 eye;
-        double nearReach;  ///< see Viewpoint
+        double nearReach;                 ///< see Viewpoint
+        const LaterNearPlane* laterNear;  ///< where OSG computes the near plane; null: it does not
     };
     /// Tiles by their positions among those that are shown.
     struct Hidden {
