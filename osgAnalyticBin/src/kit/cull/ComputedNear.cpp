@@ -187,7 +187,8 @@ bool ComputedNear::addKept(osgUtil::CullVisitor& visitor, DepthSearch& search) {
         search.begin(mesh ? kept.member : nullptr);
         const bool isAll = mesh && kept.way == TileSelection::Way::Mesh;
         if (!isAll && !search.add(*kept.node, toEye)) return false;
-        _depths.push_back(mesh && mayShow[i] ? std::max(*mesh, search.farthest()) : search.farthest());
+        const bool isMeshDrawn = mesh && (mayShow[i] || !kept.isSearched);
+        _depths.push_back(isMeshDrawn ? std::max(*mesh, search.farthest()) : search.farthest());
         if (mesh && shows[i]) _drawn = std::max(_drawn, *mesh);
     }
     return true;

@@ -246,7 +246,7 @@ void SelectionWalk::selectMember(osg::Node& node, const TileFamily& family, cons
 
 TileSelection::Number SelectionWalk::keep(osg::Node& node, const FamilyTile* member, Way way) {
     const auto end = static_cast<Number>(_selection.kept().size() + 1);
-    return _selection.keep({&node, member, _in, end, _undecided, way, false});
+    return _selection.keep({&node, member, _in, end, _undecided, way, _searches, false});
 }
 
 // As osg::PagedLOD::traverse() where one child is shown and no file is asked for. Returns: false where it is not so.

@@ -57,6 +57,7 @@ public:
         Number end;                ///< what comes before this number is below the node
         core::PlaneMask undecided;
         Way way;
+        bool isSearched;  ///< what it shows is among the shown tiles
         bool isOccluded;  ///< behind terrain
     };
 
