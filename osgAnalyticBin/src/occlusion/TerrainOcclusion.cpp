@@ -125,7 +125,20 @@ double reachOfNear(const TerrainHider::View& view, const LevelView& lines, const
         ahead = std::max(ahead, glm::dot(corner, picture.y));
         toCorner = std::max(toCorner, glm::length(corner));
     }
-    return ahead * (view.laterNear ? view.laterNear->most(hidden) : view.nearReach / toCorner);
+    return ahead * (view.nearBound ? view.nearBound->most(hidden) : view.nearReach / toCorner);
+}
+
+// What is hidden, and how far ahead the near plane reaches without it.
+struct LeftOut {
+    std::vector<std::size_t> tiles;
+    double reach;
+};
+
+LeftOut leftOut(const TerrainHider::View& view, const LevelView& lines, const std::vector<ShownTile>& shown,
+                const FoundOcclusion& found) {
+    LeftOut left{hiddenIn(found, shown), 0.0};
+    left.reach = reachOfNear(view, lines, found.eye, left.tiles);
+    return left;
 }
 
 // Whether more may be found where the near plane reaches no farther than this.
@@ -135,35 +148,35 @@ bool isMuchNearer(double reach, const FoundOcclusion& found) {
 
 // Searches, supposing how far the near plane reaches. Where OSG computes the plane it follows from what is drawn, and
 // so from what is found: if it turns out no farther, the supposition is right. The farther it reaches the less is
-// found, so that the search begins with less than it may be. Returns: false where nothing is known.
-bool search(const TerrainHider::View& view, const LevelView& lines, const std::vector<ShownTile>& shown,
-            NearMeshes& nearMeshes, FoundOcclusion& found) {
+// found, so that the search begins with less than it may be. Returns: nullopt where nothing is known.
+std::optional<LeftOut> search(const TerrainHider::View& view, const LevelView& lines,
+                              const std::vector<ShownTile>& shown, NearMeshes& nearMeshes, FoundOcclusion& found) {
     // it is rounded anew in each view
     const double farthest = 1.001 * reachOfNear(view, lines, found.eye, {});
-    found.nearReach = farthest;
-    if (!view.laterNear) return findOccluded(view, shown, nearMeshes, found);
     constexpr int kMostSearches = 4;
     constexpr double kRoom = 1.03;  // for the views to come
     constexpr double kLeast = 1.0 / 64.0;
     double needed = found.neededReach > 0.0 ? found.neededReach : kLeast * farthest;
     for (int i = 0; i < kMostSearches; ++i) {
-        found.nearReach = std::min(farthest, kRoom * needed);
-        if (!findOccluded(view, shown, nearMeshes, found)) return false;
-        needed = reachOfNear(view, lines, found.eye, hiddenIn(found, shown));
-        if (needed <= found.nearReach && (i > 0 || !isMuchNearer(needed, found))) return true;
+        found.nearReach = view.nearBound ? std::min(farthest, kRoom * needed) : farthest;
+        if (!findOccluded(view, shown, nearMeshes, found)) return std::nullopt;
+        LeftOut left = leftOut(view, lines, shown, found);
+        needed = left.reach;
+        const bool isNearEnough = i > 0 || !view.nearBound || !isMuchNearer(needed, found);
+        if (needed <= found.nearReach && isNearEnough) return left;
     }
-    return false;
+    return std::nullopt;
 }
 
 }  // namespace
 
 TerrainHider::Hidden TerrainOcclusion::find(const View& view, const std::vector<ShownTile>& shown) {
-    if (!view.laterNear && !std::isfinite(view.nearReach)) return {};
+    if (!view.nearBound && !std::isfinite(view.nearReach)) return {};
     // tiles in front of the near plane are not looked for then
     constexpr osg::CullingSet::Mask kNear = osg::CullingSet::NEAR_PLANE_CULLING;
     if (view.cullStack.getCurrentCullingSet().getCullingMask() & kNear) return {};
     if (view.region && !view.region->holdsSegmentsFrom(view.eye)) return {};
-    const auto leastNear = view.laterNear ? std::optional(view.laterNear->least()) : std::nullopt;
+    const auto leastNear = view.nearBound ? std::optional(view.nearBound->least()) : std::nullopt;
     const auto lines = LevelView::of(view.cullStack, view.ellipsoid, view.eye, leastNear);
     if (!lines) return {};
     if (!_found) _found.emplace();
@@ -174,26 +187,25 @@ TerrainHider::Hidden TerrainOcclusion::find(const View& view, const std::vector<
     if (ground != Ground::Known) return hidden;
     const auto spanThen = PictureSpan::of(*lines, found.eye);
     found.leaveOut(view.planes, view.ellipsoid);
-    double reach = 0.0;
-    const auto isRight = [&] {
-        hidden.tiles = hiddenIn(found, shown);
-        reach = reachOfNear(view, *lines, found.eye, hidden.tiles);
-        return reach <= found.nearReach;
-    };
-    if (!serves(found, view, spanThen) || !isRight() || (view.laterNear && isMuchNearer(reach, found))) {
-        hidden.tiles.clear();
+    std::optional<LeftOut> left;
+    if (serves(found, view, spanThen)) left = leftOut(view, *lines, shown, found);
+    const bool isServed =
+        left && left->reach <= found.nearReach && !(view.nearBound && isMuchNearer(left->reach, found));
+    if (!isServed) {
         const auto span = PictureSpan::of(*lines, lines->frameAt(view.eye));
         if (!span) return {};
         aim(found, *lines, view.eye, *span, spanThen);
         found.tiles = found.shown;
         found.region = regionOf(view);
-        if (!search(view, *lines, shown, _nearMeshes, found) || !isRight()) {
+        left = search(view, *lines, shown, _nearMeshes, found);
+        if (!left) {
             _found.reset();
             return {};
         }
         found.uses = 1;
     }
-    found.neededReach = reach;
+    hidden.tiles = std::move(left->tiles);
+    found.neededReach = left->reach;
     hidden.inView = countInView(found, shown);
     hidden.covered = found.covered;
     found.lastEye = view.eye;

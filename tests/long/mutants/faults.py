@@ -358,7 +358,7 @@ FAULTS = [
     Fault("near plane: transforms beside the database do nothing", "src/kit/cull/ComputedNear.cpp",
           "transform->computeLocalToWorldMatrix(inside, &_visitor);", "(void)transform;", NODE, "ComputedNear.*"),
     Fault("near plane: what was supposed is right", "src/occlusion/TerrainOcclusion.cpp",
-          "return reach <= found.nearReach;", "return true;", NODE, "ComputedNear.*"),
+          "if (needed <= found.nearReach && isNearEnough) return left;", "if (isNearEnough) return left;", NODE, "ComputedNear.*"),
     Fault("near plane: callbacks beside the database do nothing", "src/kit/cull/ComputedNear.cpp",
           "if (callbacks.mayLeaveOut || ", "if (", NODE, "ComputedNear.*"),
     Fault("near plane: an application's callback leaves it where it is", "src/kit/cull/ComputedNear.cpp",

@@ -5,25 +5,20 @@
 
 #include "../Classes.h"
 #include "../Inverse.h"
-#include "../tile/Carrier.h"
 #include "CullCallbacks.h"
 #include "DrawnDepth.h"
+#include "DrawnState.h"
 #include "FamilyTile.h"
 
 #include <osgAnalyticBin/Declarations.h>
 
 #include <osg/Camera>
-#include <osg/CoordinateSystemNode>
-#include <osg/Geode>
 #include <osg/Geometry>
 #include <osg/LightSource>
-#include <osg/MatrixTransform>
 #include <osg/PagedLOD>
-#include <osg/PositionAttitudeTransform>
 #include <osg/Projection>
 #include <osg/ShapeDrawable>
 #include <osg/Switch>
-#include <osgTerrain/Terrain>
 
 #include <algorithm>
 #include <limits>
@@ -34,11 +29,10 @@ namespace {
 
 constexpr double kNowhere = -std::numeric_limits<double>::infinity();
 
-// What osgUtil::CullVisitor traverses without drawing anything else: all children, or some of them.
+// Groups of which osgUtil::CullVisitor draws the children, all or some, and nothing else.
 bool isPlainGroup(const osg::Node& node) {
-    return isOneOf<osg::Group, osg::Geode, osg::MatrixTransform, osg::PagedLOD, osg::LOD, Carrier, osg::Switch,
-                   osg::LightSource, osg::CoordinateSystemNode, osg::PositionAttitudeTransform, osgTerrain::Terrain>(
-        node);
+    return node.asGroup() &&
+           (isOneOf<osg::PagedLOD, osg::LOD, osg::Switch, osg::LightSource>(node) || drawsAllChildren(node));
 }
 
 }  // namespace

@@ -22,15 +22,15 @@ namespace osgAnalyticBin {
 /// drawn, except where it is moved away from the eye to CullSettings::getNearFarRatio() of the farthest depth: there it
 /// is no farther than that share.
 /// Source: doc/theory/occlusion.md, section 5.
-class ComputedNear final : public LaterNearPlane {
+class ComputedNear final : public NearPlaneBound {
 public:
     /// Whether OSG computes the planes in a way that has a bound: from the boxes of drawables, without a callback of
     /// the application's.
     [[nodiscard]] static bool isPossible(osg::NodeVisitor& visitor, const osg::CullStack& cullStack);
 
-    /// For a database at the visitor's present node, of which this is selected. Looks through everything that is drawn
-    /// with the same projection. Requires: isPossible(). Returns: nullopt where its depth is not known, because of the
-    /// node `unknown`; null: because of the database itself.
+    /// Looks through everything that is drawn with the visitor's present projection. `selection`: of the database at
+    /// the visitor's present node. Requires: isPossible(). Returns: nullopt where a depth is not known. `unknown`
+    /// returns the node that it is not known of; null: there is none, or it is not known what else the camera draws.
     /// Cost: some ten nanoseconds for each kept node, and for each node beside the database, 1024 at most.
     [[nodiscard]] static std::optional<ComputedNear> of(osgUtil::CullVisitor& visitor, const TileSelection& selection,
                                                         const osg::Node*& unknown);

@@ -36,9 +36,9 @@ struct ShownTile {
     std::uint32_t kept, segment;  ///< where it is in the selection, see TileSelection
 };
 
-/// The near plane that OSG computes when all is culled. Depths are distances from the plane of the eye, in the unit of
-/// eye space.
-class LaterNearPlane {
+/// Bounds of the near plane that OSG computes when all is culled. Depths are distances from the plane of the eye, in
+/// the unit of eye space.
+class NearPlaneBound {
 public:
     /// The plane's largest depth where it cuts something that is drawn. `hidden`: shown tiles that are left out, with
     /// all that is below them, by their positions among those that are shown.
@@ -47,7 +47,7 @@ public:
     [[nodiscard]] virtual double least() const = 0;
 
 protected:
-    ~LaterNearPlane() = default;
+    ~NearPlaneBound() = default;
 };
 
 /// Finds the shown tiles that the terrain of others hides. One of these serves one cull visitor and one database; it
@@ -62,7 +62,7 @@ public:
         const core::CoveredRegion* region;  ///< that is covered; null: the globe
         glm::dvec3 eye;
         double nearReach;                 ///< see Viewpoint
-        const LaterNearPlane* laterNear;  ///< where OSG computes the near plane; null: it does not
+        const NearPlaneBound* nearBound;  ///< where OSG computes the near plane; null: it does not
     };
     /// Tiles by their positions among those that are shown.
     struct Hidden {
