@@ -119,8 +119,8 @@ public:
     /// Returns: nullopt if it covers the globe or has a gap.
     [[nodiscard]] std::optional<core::CoveredRegion> region() const;
 
-    /// Call when a camera uses occlusion: the tile gets plates in one of the next updates, those that are read from now
-    /// on get them at once. `mesh`: the tile's own mesh.
+    /// Has one of the next updates give the tile plates. Tiles that are read from now on get theirs while they are
+    /// read. `mesh`: the tile's own mesh.
     void askForPlates(const AnalyticBinCullCallback& tile, osg::Node& mesh);
 
     /// Has the next update expand a tile's bin by what was found below it. The tile stays visible until then.

@@ -106,6 +106,15 @@ bool mayHide(const ShownDatabase& shown, Database& database, const CullOptions& 
            drawnStateAbove(visitor, view.rules).hides;
 }
 
+// `unknown`: of unknown depth; null: the camera's settings are the reason.
+void reportUnknownNearPlane(Database& database, const osg::Node* unknown) {
+    // views that follow make no text
+    if (database.has(Finding::UnknownNearPlane)) return;
+    std::string reason = unknown ? unknown->className() : "the camera's settings";
+    if (unknown && !unknown->getName().empty()) reason += " " + unknown->getName();
+    database.report(Finding::UnknownNearPlane, reason);
+}
+
 // Marks what terrain hides in the selection.
 void selectBehindTerrain(const ShownDatabase& shown, Database& database, const Viewpoint& viewpoint,
                          SearchMemory::LastView& last) {
@@ -117,10 +126,7 @@ void selectBehindTerrain(const ShownDatabase& shown, Database& database, const V
     if (!isFinalProjection(cullStack)) {
         const osg::Node* unknown = nullptr;
         computed = ComputedNear::of(*visitor.asCullVisitor(), selection, unknown);
-        if (unknown) {
-            const std::string& name = unknown->getName();
-            database.report(Finding::UnknownNearPlane, unknown->className() + (name.empty() ? "" : " " + name));
-        }
+        if (unknown) reportUnknownNearPlane(database, unknown);
         if (!computed || !(computed->least() > 0.0)) return noteHidden({}, last);
     }
     const TerrainHider::Hidden hidden =
@@ -165,7 +171,7 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
     const bool mayFindOccluded = viewpoint->eye() && isAboveTerrain(options);
     const bool isNearPlaneBounded = isFinalProjection(cullStack) || ComputedNear::isPossible(visitor, cullStack);
     if (mayFindOccluded && options.occlusion != OcclusionUse::Off && !isNearPlaneBounded)
-        database.report(Finding::UnknownNearPlane, "the camera's settings");
+        reportUnknownNearPlane(database, nullptr);
     const bool findsOccluded = mayFindOccluded && isNearPlaneBounded && isOcclusionDue(options.occlusion, last);
     // Starting from the last frame's depth is quick, and sound, but may stay deeper than a fresh start: the horizon
     // shall not depend on where the camera has been.

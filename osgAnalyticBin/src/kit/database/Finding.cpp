@@ -42,9 +42,10 @@ Message messageOf(Finding finding, bool isInMap) {
                     "the Terrain has a technique that is not osgTerrain::GeometryTechnique; its tiles are not culled, "
                     "unless techniquemargin= says how far from the heights it draws."};
         case Finding::UnknownNearPlane:
-            return {osg::INFO,
-                    "OSG computes the near plane, and it is not known before how far, because of %: nothing is hidden "
-                    "behind terrain. Set DO_NOT_COMPUTE_NEAR_FAR, and near and far planes of your own."};
+            return {
+                osg::INFO,
+                "the near plane that OSG computes has no known bound because of %: nothing is hidden behind terrain. "
+                "Set DO_NOT_COMPUTE_NEAR_FAR, and near and far planes of your own."};
         case Finding::EyeBesideRegion:
             return {osg::NOTICE,
                     "the camera is not over the regional database. The horizon is not used in such views."};

@@ -31,7 +31,7 @@ enum class Finding {
     /// A camera uses occlusion: tiles that are read from now on get their plates while they are read.
     PlatesWanted,
 
-    // of a tile, for the bins of the tiles above it
+    // Findings of a tile that concern the bins of the tiles above it:
     /// The tile is not as the index knows it.
     OtherThanIndexed,
     /// The tile is larger than the bin that is stored with it or above it.

@@ -42,7 +42,7 @@ struct TileFit {
     /// False: the node is not terrain, and left as it is. True with a bin that is not valid: never culled.
     bool isTerrain = false;
     InstalledTile::Extents extents;
-    /// The bin that is stored with the tile, as it is used, or with the nearest ancestor that has one.
+    /// The tile's stored bin, corrected, or that of the nearest ancestor with one.
     AnalyticBin stored;
     /// What is to be reported, with what the tile draws.
     std::vector<std::pair<Finding, AnalyticBin>> findings;
