@@ -6,6 +6,7 @@
 #include "../../../osgAnalyticBin/src/occlusion/OcclusionSearch.h"
 #include "ApplicationGlobe.h"
 #include "CullFixture.h"
+#include "RidgeGlobe.h"
 
 #include <osgAnalyticBin/BinStatistics.h>
 #include <osgAnalyticBin/CoveredPicture.h>
@@ -34,38 +35,6 @@
 
 namespace osgAnalyticBin::test {
 namespace {
-
-CullOptions withOcclusion() {
-    CullOptions options;
-    options.occlusion = OcclusionUse::On;
-    return options;
-}
-
-// A globe of 32 tiles, of which one has a row of tiles of 0.2 degrees along the equator: a plain, and in the third tile
-// a ridge, which tile 4 lies behind. The eye is above the middle of tile 0.
-struct RidgeGlobe : MeshGlobe {
-    explicit RidgeGlobe(double ridgeHeight = 8000.0, int tilesInRow = 10) {
-        root->removeChild(tiles[20]);
-        const auto add = [this](double south, double north, double west, double east, double height) {
-            row.push_back(makePaged(makeMeshTile(extentsDeg(south, north, west, east), height), "no.osgb"));
-            // what is below the tiles may have any height
-            setStoredBin(*row.back(),
-                         AnalyticBin(extentsDeg(south, north, west, east).withAltitude({-12000.0, 9000.0}), 10.0));
-            root->addChild(row.back());
-        };
-        for (int i = 0; i < tilesInRow; ++i) add(0, 0.2, 0.2 * i, 0.2 * i + 0.2, i == 2 ? ridgeHeight : 0.0);
-        add(0, 0.2, 0.2 * tilesInRow, 45, 0.0);
-        add(0.2, 45, 0, 45, 0.0);
-    }
-
-    [[nodiscard]] static CullView alongRow(double altitude = 1000.0) {
-        return CullView::lookAt(ecefDeg(0.1, 0.1, altitude), ecefDeg(0.1, 1.0, altitude), {1, 0, 0}, 30.0);
-    }
-    [[nodiscard]] bool drawsFarTile(const CullView& view = alongRow()) { return draws(*row[4], view); }
-    [[nodiscard]] BinCounts counts() const { return BinStatistics::of(*visitor).getCounts(); }
-
-    std::vector<osg::ref_ptr<osg::PagedLOD>> row;
-};
 
 TEST(TerrainOcclusion, HidesWhatIsBehindARidge) {
     RidgeGlobe globe;
@@ -573,122 +542,6 @@ TEST(TerrainOcclusion, NeedsAnEyeThatSeesTheGroundInFront) {
                            osg::Matrixd::translate(0, 0, 0.5);
     EXPECT_TRUE(globe.drawsFarTile(zeroToOne));
     EXPECT_FALSE(globe.drawsFarTile());
-}
-
-// A camera whose near and far planes OSG computes, with a scene of a globe and something beside it.
-struct ComputedPlanes {
-    explicit ComputedPlanes(const CullOptions& options = withOcclusion()) {
-        scene->addChild(globe.root);
-        globe.scene = scene;
-        view.camera = new osg::Camera;
-        view.camera->addChild(scene);
-        view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES;
-        globe.visitor->setNearFarRatio(1e-5);
-        installBins(*globe.root, options);
-    }
-
-    [[nodiscard]] bool hidesFarTile() { return !globe.drawsFarTile(view); }
-
-    // A point in the frame of the scene.
-    static osg::ref_ptr<osg::Geometry> drawableAt(const osg::Vec3& point) {
-        osg::ref_ptr<osg::Geometry> drawable = new osg::Geometry;
-        drawable->setVertexArray(new osg::Vec3Array(1, &point));
-        drawable->addPrimitiveSet(new osg::DrawArrays(GL_POINTS, 0, 1));
-        return drawable;
-    }
-    // At a distance ahead of the eye, in metres.
-    [[nodiscard]] osg::ref_ptr<osg::Geometry> drawableAhead(double distance) const {
-        return drawableAt(osg::Vec3d(0.0, 0.0, -distance) * osg::Matrixd::inverse(view.modelView));
-    }
-
-    RidgeGlobe globe;
-    osg::ref_ptr<osg::Group> scene = new osg::Group;
-    CullView view = RidgeGlobe::alongRow();
-};
-
-TEST(ComputedNear, LeavesWhatIsHiddenWhereThePlaneIsNear) {
-    ComputedPlanes planes;
-    EXPECT_TRUE(planes.hidesFarTile());
-    planes.scene->addChild(planes.drawableAhead(1e6));
-    EXPECT_TRUE(planes.hidesFarTile());
-    // planes of their own
-    const osg::ref_ptr<osg::Camera> overlay = new osg::Camera;
-    overlay->addChild(planes.drawableAhead(1e10));
-    planes.scene->addChild(overlay);
-    EXPECT_TRUE(planes.hidesFarTile());
-}
-
-TEST(ComputedNear, IsAsFarAsWhatIsBesideTheDatabase) {
-    for (const bool isBefore : {false, true}) {
-        ComputedPlanes planes;
-        planes.scene->insertChild(isBefore ? 0 : 1, planes.drawableAhead(1e10));  // the plane at 100 km
-        EXPECT_FALSE(planes.hidesFarTile());
-        planes.scene->getChild(isBefore ? 0 : 1)->setNodeMask(0);
-        EXPECT_TRUE(planes.hidesFarTile());
-    }
-    ComputedPlanes planes;
-    const osg::ref_ptr<osg::MatrixTransform> absolute = new osg::MatrixTransform;
-    absolute->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
-    absolute->addChild(ComputedPlanes::drawableAt(osg::Vec3(0.0f, 0.0f, -1e10f)));
-    planes.scene->addChild(absolute);
-    EXPECT_FALSE(planes.hidesFarTile());
-}
-
-TEST(ComputedNear, IsFoundBelowTransforms) {
-    ComputedPlanes planes;
-    const osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform(osg::Matrixd::translate(0.0, 0.0, 1e3));
-    planes.scene->removeChild(planes.globe.root);
-    moved->addChild(planes.globe.root);
-    planes.scene->addChild(moved);
-    planes.view.modelView = osg::Matrixd::translate(0.0, 0.0, -1e3) * planes.view.modelView;
-    EXPECT_TRUE(planes.hidesFarTile());
-    moved->addChild(planes.drawableAhead(1e10));
-    EXPECT_FALSE(planes.hidesFarTile());
-}
-
-TEST(ComputedNear, IsUnknownBesideWhatIsUnknown) {
-    struct Unknown : osg::Group {};
-    struct Callback : osg::NodeCallback {
-        void operator()(osg::Node* node, osg::NodeVisitor* visitor) override { traverse(node, visitor); }
-    };
-    for (const bool isClass : {true, false}) {
-        ComputedPlanes planes;
-        const osg::ref_ptr<osg::Group> beside = isClass ? new Unknown : new osg::Group;
-        beside->setName("the stranger");
-        if (!isClass) beside->setCullCallback(new Callback);
-        planes.scene->addChild(beside);
-        const CapturedNotes notes(osg::INFO);
-        for (int i = 0; i < 3; ++i) EXPECT_FALSE(planes.hidesFarTile());
-        EXPECT_EQ(notes.count("the stranger"), 1u);
-    }
-    // as it may be moved by the application
-    struct Clamp : osg::CullSettings::ClampProjectionMatrixCallback {
-        bool clampProjectionMatrixImplementation(osg::Matrixf&, double&, double&) const override { return false; }
-        bool clampProjectionMatrixImplementation(osg::Matrixd&, double&, double&) const override { return false; }
-    };
-    ComputedPlanes clamped;
-    clamped.globe.visitor->setClampProjectionMatrixCallback(new Clamp);
-    EXPECT_FALSE(clamped.hidesFarTile());
-    ComputedPlanes byPrimitives;
-    byPrimitives.view.computeNearFar = osg::CullSettings::COMPUTE_NEAR_FAR_USING_PRIMITIVES;
-    EXPECT_FALSE(byPrimitives.hidesFarTile());
-    struct Derived : osgUtil::CullVisitor {};
-    ComputedPlanes derived;
-    derived.globe.visitor = new Derived;
-    derived.globe.visitor->setNearFarRatio(1e-5);
-    EXPECT_FALSE(derived.hidesFarTile());
-    setDrawsAsCullVisitor(*derived.globe.visitor);
-    EXPECT_TRUE(derived.hidesFarTile());
-}
-
-// The plane is where OSG puts it when all is drawn that is not hidden, not where it would be with less.
-TEST(ComputedNear, CutsAwayWhatItReaches) {
-    ComputedPlanes planes;
-    EXPECT_TRUE(planes.hidesFarTile());
-    planes.globe.visitor->setNearFarRatio(0.05);  // the ridge is in front of it
-    EXPECT_FALSE(planes.hidesFarTile());
-    planes.globe.visitor->setNearFarRatio(1e-5);
-    EXPECT_TRUE(planes.hidesFarTile());
 }
 
 // A hundredth of the depth buffer's range has as many steps as the whole with the near plane a hundred times as near.
