@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: MIT
 #
 # Installs what is missing, builds, and runs all tests: release (with each public header by itself, and the installed
-# package, as others use it), dev (assertions and sanitizers), tsan (those of threads), scalar, and a program with static
-# libraries. `sh tests/run.sh quick` runs the release build alone.
+# package, as others use it), dev (unit tests, with assertions and sanitizers), tsan (those of threads), scalar, and a
+# program with static libraries. `sh tests/run.sh quick` runs the release build alone, with the unit tests.
 # Tests are skipped, and listed, when something that they need is missing. With OSGANALYTICBIN_REQUIRE_ALL=ON they fail.
 set -eu
 
@@ -31,7 +31,8 @@ build() { # preset, then more arguments of cmake --build
     preset=$1
     shift
     step "build $preset"
-    cmake --preset "$preset" -DOSGANALYTICBIN_REQUIRE_ALL="${OSGANALYTICBIN_REQUIRE_ALL:-OFF}" >"build/$preset.configure.log" 2>&1 || { cat "build/$preset.configure.log" >&2; exit 1; }
+    cmake --preset "$preset" -DOSGANALYTICBIN_REQUIRE_ALL="${OSGANALYTICBIN_REQUIRE_ALL:-OFF}" \
+        -DOSGANALYTICBIN_SANITIZED_TESTS="$sanitized_tests" >"build/$preset.configure.log" 2>&1 || { cat "build/$preset.configure.log" >&2; exit 1; }
     cmake --build --preset "$preset" "$@" -- -j "$jobs" >"build/$preset.build.log" 2>&1 ||
         { tail -n 60 "build/$preset.build.log" >&2; exit 1; }
 }
@@ -52,16 +53,15 @@ git ls-files '*.cpp' '*.h' 2>/dev/null | xargs -r clang-format --dry-run --Werro
 step "layers"
 python3 tests/system/layers/layers.py .
 
+sanitized_tests=OFF
+if [ "${1:-}" = quick ]; then sanitized_tests=ON; fi
 build release
 step "each public header by itself"
 build release --target all_verify_interface_header_sets
-# Tests of threads follow with the thread sanitizer.
-if [ "${1:-}" = quick ]; then
-    test_preset release
-    exit 0
-fi
-test_preset release -LE threads
+test_preset release
+if [ "${1:-}" = quick ]; then exit 0; fi
 
+sanitized_tests=ON
 build dev
 test_preset dev -LE 'soundness|pictures|threads|http'
 build tsan --target osganalyticbin_threads_tests osgdb_serializers_osganalyticbin

@@ -192,7 +192,7 @@ TEST_P(Threads, ChangeEverythingWhilePagingIsLive) {
 
 INSTANTIATE_TEST_SUITE_P(Views, Threads,
                          testing::Combine(testing::ValuesIn(kThreadingModels), testing::Values(Layout::Views),
-                                          testing::Values(1, 4)),
+                                          testing::Values(4)),
                          caseName);
 INSTANTIATE_TEST_SUITE_P(Slaves, Threads,
                          testing::Combine(testing::ValuesIn(kThreadingModels), testing::Values(Layout::Slaves),
