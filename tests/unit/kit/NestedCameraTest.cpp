@@ -11,11 +11,14 @@
 #include <osgAnalyticBin/InstallBins.h>
 
 #include <gtest/gtest.h>
+#include <osg/GraphicsContext>
 #include <osg/MatrixTransform>
 #include <osg/Projection>
+#include <osg/State>
 #include <osg/Texture2D>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -67,6 +70,72 @@ std::vector<Look> looksAt(osg::Node& scene, const CullView& view, CameraGlobe& g
 bool areAlike(const osg::Matrixd& a, const osg::Matrixd& b) {
     return std::equal(a.ptr(), a.ptr() + 16, b.ptr(),
                       [](double x, double y) { return std::abs(x - y) <= 1e-9 * (std::abs(x) + std::abs(y)) + 1e-9; });
+}
+
+// A window that is never opened.
+class NoWindow : public osg::GraphicsContext {
+public:
+    explicit NoWindow(unsigned int depthBits) {
+        _traits = new Traits;
+        _traits->depth = depthBits;
+    }
+    bool valid() const override { return true; }
+    bool realizeImplementation() override { return true; }
+    bool isRealizedImplementation() const override { return true; }
+    void closeImplementation() override {}
+    bool makeCurrentImplementation() override { return true; }
+    bool makeContextCurrentImplementation(osg::GraphicsContext*) override { return true; }
+    bool releaseContextImplementation() override { return true; }
+    void bindPBufferToTextureImplementation(GLenum) override {}
+    void swapBuffersImplementation() override {}
+};
+
+std::size_t reachedBy(osg::Node& scene, CameraGlobe& globe, osg::State* state = nullptr) {
+    const osg::ref_ptr<osgUtil::CullVisitor> visitor = new osgUtil::CullVisitor;
+    visitor->setState(state);
+    test::cull(scene, fromAfar(), *visitor);
+    const std::vector<Look> looks = globe.takeLooks();
+    return looks.empty() ? 0 : looks.back().reached.size();
+}
+
+TEST(DepthBuffers, OfTexturesHaveToBeFineForAHorizon) {
+    CameraGlobe globe(test::horizonOptions());
+    const std::size_t hidden = reachedBy(globe.root(), globe);
+    const auto reachedWith = [&](const auto& setUp) {
+        const osg::ref_ptr<Camera> camera = test::makeCamera("texture", globe, Transform::RELATIVE_RF,
+                                                             Camera::PRE_RENDER, osg::Matrixd(), osg::Matrixd());
+        camera->setRenderTargetImplementation(Camera::FRAME_BUFFER_OBJECT);
+        camera->attach(Camera::COLOR_BUFFER, new osg::Texture2D);
+        setUp(*camera);
+        return reachedBy(*camera, globe);
+    };
+    for (const GLenum format : std::array<GLenum, 3>{GL_DEPTH_COMPONENT, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32F}) {
+        EXPECT_EQ(reachedWith([&](Camera& camera) { camera.attach(Camera::DEPTH_BUFFER, format); }), hidden) << format;
+    }
+    EXPECT_EQ(reachedWith([](Camera&) {}), hidden) << "OSG adds one of 24 bits";
+    EXPECT_GT(reachedWith([](Camera& camera) { camera.attach(Camera::DEPTH_BUFFER, GL_DEPTH_COMPONENT16); }), hidden);
+    EXPECT_GT(reachedWith([](Camera& camera) { camera.setImplicitBufferAttachmentMask(0, 0); }), hidden);
+    EXPECT_GT(reachedWith([](Camera& camera) {
+                  const osg::ref_ptr<osg::Texture2D> depth = new osg::Texture2D;
+                  depth->setInternalFormat(GL_DEPTH_COMPONENT16);
+                  camera.attach(Camera::DEPTH_BUFFER, depth);
+              }),
+              hidden);
+}
+
+TEST(DepthBuffers, OfWindowsHaveToBeFineForAHorizon) {
+    CameraGlobe globe(test::horizonOptions());
+    const std::size_t hidden = reachedBy(globe.root(), globe);
+    for (const unsigned int bits : {16u, 24u, 32u}) {
+        const osg::ref_ptr<osg::GraphicsContext> window = new NoWindow(bits);
+        const osg::ref_ptr<osg::State> state = new osg::State;
+        state->setGraphicsContext(window);
+        if (bits < 24) {
+            EXPECT_GT(reachedBy(globe.root(), globe, state), hidden);
+        } else {
+            EXPECT_EQ(reachedBy(globe.root(), globe, state), hidden);
+        }
+    }
 }
 
 TEST(NestedCameras, EveryFrameAndOrderCullsForItsOwnPicture) {

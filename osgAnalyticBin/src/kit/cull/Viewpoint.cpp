@@ -7,6 +7,9 @@
 #include "../Inverse.h"
 
 #include <osg/Camera>
+#include <osg/GraphicsContext>
+#include <osg/State>
+#include <osg/Texture>
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
@@ -25,10 +28,46 @@ bool drawsShadows(const osg::Camera& camera) {
     });
 }
 
+// The camera that is culled for, or whose buffers it draws into.
+const osg::Camera* stageCamera(osg::NodeVisitor& visitor) {
+    osgUtil::CullVisitor* const cullVisitor = visitor.asCullVisitor();
+    return cullVisitor && cullVisitor->getRenderStage() ? cullVisitor->getCurrentCamera() : nullptr;
+}
+
+constexpr unsigned int kLeastDepthBits = 24;
+
+unsigned int depthBits(GLenum format) {
+    if (format == GL_DEPTH_COMPONENT16) return 16;
+    const bool isFine = format == GL_DEPTH_COMPONENT || format == GL_DEPTH_COMPONENT24 ||
+                        format == GL_DEPTH_COMPONENT32 || format == GL_DEPTH_COMPONENT32F ||
+                        format == GL_DEPTH_STENCIL_EXT || format == GL_DEPTH24_STENCIL8_EXT ||
+                        format == GL_DEPTH32F_STENCIL8;
+    return isFine ? kLeastDepthBits : 0;
+}
+
+// Whether the depth buffer that is drawn into tells apart what horizons and occlusion tell apart. Where OSG leaves its
+// size to the driver it is taken for fine enough, and so is one that OSG does not know.
+bool hasFineDepthBuffer(osg::NodeVisitor& visitor) {
+    const osg::Camera* const camera = stageCamera(visitor);
+    if (camera && camera->getRenderTargetImplementation() == osg::Camera::FRAME_BUFFER_OBJECT) {
+        for (const auto& [buffer, attachment] : camera->getBufferAttachmentMap()) {
+            if (buffer != osg::Camera::DEPTH_BUFFER && buffer != osg::Camera::PACKED_DEPTH_STENCIL_BUFFER) continue;
+            const osg::Texture* const texture = attachment._texture.get();
+            const GLint format =
+                texture ? texture->getInternalFormat() : static_cast<GLint>(attachment._internalFormat);
+            return depthBits(static_cast<GLenum>(format)) >= kLeastDepthBits;
+        }
+        return (camera->getImplicitBufferAttachmentRenderMask(true) & osg::Camera::IMPLICIT_DEPTH_BUFFER_ATTACHMENT) !=
+               0;
+    }
+    const osg::State* const state = visitor.asCullVisitor() ? visitor.asCullVisitor()->getState() : nullptr;
+    const osg::GraphicsContext* const context = state ? state->getGraphicsContext() : nullptr;
+    return !context || !context->getTraits() || context->getTraits()->depth >= kLeastDepthBits;
+}
+
 // Whether the camera that is culled for draws shadows, or one does that it is relative to.
 bool isShadowPass(osg::NodeVisitor& visitor) {
-    osgUtil::CullVisitor* cullVisitor = visitor.asCullVisitor();
-    const osg::Camera* stage = cullVisitor && cullVisitor->getRenderStage() ? cullVisitor->getCurrentCamera() : nullptr;
+    const osg::Camera* const stage = stageCamera(visitor);
     if (stage && drawsShadows(*stage)) return true;
     const osg::NodePath& path = visitor.getNodePath();
     for (auto node = path.rbegin(); node != path.rend(); ++node) {
@@ -84,7 +123,7 @@ bool isFinalProjection(const osg::CullStack& cullStack) {
 }
 
 std::optional<Viewpoint> Viewpoint::of(osg::CullStack& cullStack, osg::NodeVisitor& visitor, bool inShadowPasses) {
-    if (!inShadowPasses && isShadowPass(visitor)) return std::nullopt;
+    if (!hasFineDepthBuffer(visitor) || (!inShadowPasses && isShadowPass(visitor))) return std::nullopt;
     const osg::Matrixd& projection = *cullStack.getProjectionMatrix();
     const auto inverse = affineInverse(*cullStack.getModelViewMatrix());
     // near and far planes in one place make numbers that are not finite

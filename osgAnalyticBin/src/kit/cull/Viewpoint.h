@@ -19,8 +19,9 @@ namespace osgAnalyticBin {
 /// Where a cull visitor looks from, in the frame of its current planes: what horizons are made for.
 class OSGANALYTICBIN_EXPORT Viewpoint final {
 public:
-    /// Returns: nullopt for projections that have no horizon, and, unless `inShadowPasses`, for cameras that inherit
-    /// their view point or draw depth alone: what casts a shadow may lie behind it.
+    /// Returns: nullopt for projections that have no horizon, and where the camera is known to have no depth buffer of
+    /// 24 bits; unless `inShadowPasses`, also for cameras that inherit their view point or draw depth alone: what casts
+    /// a shadow may lie behind it.
     [[nodiscard]] static std::optional<Viewpoint> of(osg::CullStack& cullStack, osg::NodeVisitor& visitor,
                                                      bool inShadowPasses);
 
