@@ -388,7 +388,7 @@ FAULTS = [
     Fault("family: decided planes are left to siblings", "src/kit/cull/SelectionDrawing.cpp", "setUndecided(frustum(), _limit);", "", NODE,
           "Selection.*"),
     Fault("family: tiles that are kept visible are culled", "src/kit/tile/InstalledTile.cpp",
-          "has(Outgrown | MeshUnread | NeedsSphere)", "has(MeshUnread | NeedsSphere)", NODE, "AddedContent.*"),
+          "has(Outgrown | NeverCulled |", "has(NeverCulled |", NODE, "AddedContent.*"),
     Fault("family: callbacks behind it are not run", "src/kit/cull/TileFamily.cpp",
           "&group == _group && !getNestedCallback() && ", "&group == _group && ", NODE, "TileFamily.*"),
     Fault("family: meshes that are taken away leave no hole", "src/kit/install/ContentWatch.cpp",
@@ -534,12 +534,12 @@ FAULTS = [
           "found.hides(i, tile) && (obeysDepth || true)", NODE,
           "TerrainOcclusion.*:WhatIgnoresDepth.*"),
     Fault("depth: content that is added does not matter", "src/kit/install/ContentWatch.cpp",
-          "if (!obeysDepth(callback)) tile->doubt(InstalledTile::IgnoresDepth);",
-          "(void)&Content::obeysDepth;", NODE,
+          "tile->doubt(reasons);",
+          "tile->doubt(reasons & ~InstalledTile::IgnoresDepth);", NODE,
           "WhatIgnoresDepth.*"),
     Fault("depth: tiles above do not hear of content of a file", "src/kit/install/BinInstaller.cpp",
-          "    if (isUnruly(node)) ignoreDepth();\n",
-          "    (void)&BinInstaller::isUnruly;\n", NODE,
+          "    noteBetween(node);\n",
+          "", NODE,
           "WhatIgnoresDepth.*"),
     Fault("evidence: meshes with holes hide", "src/kit/cull/SelectionEvidence.cpp",
           "if (installed && installed->has(InstalledTile::NotFilled)) doubt();",
@@ -641,6 +641,20 @@ FAULTS = [
           NODE, "*MapEntry.*"),
     Fault("drawing: planes that are decided above a group are tested in it", "src/kit/cull/SelectionDrawing.cpp",
           "kept.undecided & _limit", "kept.undecided | _limit", NODE, "*MapEntry.*:DecidedPlanes.*"),
+
+    # what OSG never culls
+    Fault("culling that is switched off: not asked", "src/kit/cull/CullCallbacks.h", "drawn.isCulled = node.getCullingActive();",
+          "drawn.isCulled = true;", NODE, "*NeverCulled.*"),
+    Fault("culling that is switched off: counts for the tile alone", "src/kit/install/BinInstaller.cpp",
+          "if (_parent) _parent->doubtUpwards(reasonsAbove(drawn));", "if (_parent) _parent->doubt(reasonsAbove(drawn));", NODE,
+          "*NeverCulled.*"),
+    Fault("culling that is switched off: not looked for in what is added", "src/kit/install/ContentWatch.cpp",
+          "if ((sphere.valid() || isNeverCulled(child)) && isMerged(node))", "if (sphere.valid() && isMerged(node))", NODE,
+          "*NeverCulled.*"),
+
+    # depth buffers
+    Fault("depth buffer: 16 bits will do", "src/kit/cull/Viewpoint.cpp", "kLeastDepthBits = 24", "kLeastDepthBits = 16", NODE,
+          "DepthBuffers.*"),
 
     # colours of heights
     Fault("relief: light from the south-east", "applications/packed/Relief.cpp", "kLight * (north - east) + up", "kLight * (east - north) + up",

@@ -98,6 +98,8 @@ const char* kindName(PartKind kind) {
             return "a moving vehicle in";
         case PartKind::Sign:
             return "a sign that ignores depth in";
+        case PartKind::Unculled:
+            return "a model that stands elsewhere and is never culled in";
         case PartKind::Camera:
             return "a camera in the scene";
         case PartKind::VisitorLeavesOut:
@@ -266,7 +268,7 @@ bool isStateWithinMesh(const Part& part) {
 }
 
 bool isModel(PartKind kind) {
-    return kind == PartKind::Tower || kind == PartKind::Vehicle || kind == PartKind::Sign;
+    return kind == PartKind::Tower || kind == PartKind::Vehicle || kind == PartKind::Sign || kind == PartKind::Unculled;
 }
 
 bool altersDrawing(PartKind kind) {

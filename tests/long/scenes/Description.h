@@ -134,7 +134,8 @@ enum class PartKind {
     // models
     Tower,
     Vehicle,
-    Sign,  // is drawn in front of all
+    Sign,      // is drawn in front of all
+    Unculled,  // stands elsewhere, and says so
     // cameras, visitors
     Camera,
     VisitorLeavesOut,

@@ -350,6 +350,7 @@ osg::ref_ptr<osg::Node> makeModel(const DatabaseSpec& database, const Part& part
     model->setName("#model " + std::to_string(part.id));
     model->addChild(geode);
     if (isSign) ignoreDepth(part.variant, *model->getOrCreateStateSet());
+    if (part.kind == PartKind::Unculled) model->setCullingActive(false);
     const bool isMoving = part.kind == PartKind::Vehicle;
     model->setDataVariance(isMoving ? osg::Object::DYNAMIC : osg::Object::STATIC);
     if (isMoving) model->setUpdateCallback(new Mover(here, osg::Vec3d(part.amount, 0.0, 0.0), part.frame));

@@ -262,6 +262,7 @@ void applyPart(const Part& part, const Description& description, osg::Node& subg
         case PartKind::Tower:
         case PartKind::Vehicle:
         case PartKind::Sign:
+        case PartKind::Unculled:
             return addModel(part, description, *node);
         case PartKind::Toggle:
             return toggle(*node);

@@ -27,12 +27,12 @@ public:
 
     void addSubject() {
         using Subject = void (ApplicationMaker::*)();
-        static constexpr std::array<Subject, 14> kSubjects{
+        static constexpr std::array<Subject, 15> kSubjects{
             &ApplicationMaker::addMeshes,    &ApplicationMaker::addMeshes,   &ApplicationMaker::addStates,
             &ApplicationMaker::addStates,    &ApplicationMaker::addFacing,   &ApplicationMaker::addCullCallbacks,
             &ApplicationMaker::addBounds,    &ApplicationMaker::addDrawable, &ApplicationMaker::addCasters,
             &ApplicationMaker::addFiles,     &ApplicationMaker::addSigns,    &ApplicationMaker::addRaise,
-            &ApplicationMaker::addGroupTree, &ApplicationMaker::addVisitor};
+            &ApplicationMaker::addGroupTree, &ApplicationMaker::addVisitor,  &ApplicationMaker::addUnculled};
         _number = _random.integer(0, static_cast<int>(_description.databases.size()) - 1);
         _tile = randomTile(_random, database(), _number, anyLevel());
         (this->*_random.pick(kSubjects))();
@@ -251,6 +251,19 @@ private:
             part.amount = std::min(0.1 * width, std::sqrt(0.3 * part.high * database().size()));
             if (hasTerrain() && (part.hook != Hook::Own || part.tile.level > 0)) _description.parts.pop_back();
         }
+    }
+
+    // Below one tile, on another.
+    void addUnculled() {
+        static constexpr std::array<Hook, 5> kHooks{Hook::Own, Hook::Mesh, Hook::Geode, Hook::Slot, Hook::File};
+        Part& part = add(PartKind::Unculled, _random.pick(kHooks));
+        if (part.hook == Hook::Slot) part.tile = randomTile(_random, database(), _number, 1);
+        part.frame = anyFrame();
+        _tile = randomTile(_random, database(), _number, anyLevel());
+        placeInTile(part);
+        part.high = highestWithinBins(database()) + 6e4 * (database().isMap ? 0.1 : database().scale());
+        part.low = 0.0;
+        if (hasTerrain() && (part.hook != Hook::Own || part.tile.level > 0)) _description.parts.pop_back();
     }
 
     void addRaise() {

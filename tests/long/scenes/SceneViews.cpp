@@ -179,7 +179,7 @@ Look lookAtSign(Random& random, const Description& description, const Part& part
 }
 
 bool isOfApplication(PartKind kind) {
-    return altersDrawing(kind) || kind == PartKind::Adding || kind == PartKind::Sign;
+    return altersDrawing(kind) || kind == PartKind::Adding || kind == PartKind::Sign || kind == PartKind::Unculled;
 }
 
 /// At what the application has done to a tile.
@@ -190,7 +190,8 @@ std::optional<Look> lookAtApplication(Random& random, const Description& descrip
     }
     const Part* const part = pickPart(random, parts);
     if (!part || random.chance(0.3)) return std::nullopt;
-    if (part->kind == PartKind::Sign) return lookAtSign(random, description, *part, frame);
+    if (part->kind == PartKind::Sign || part->kind == PartKind::Unculled)
+        return lookAtSign(random, description, *part, frame);
     TileKey tile = part->tile;
     if (tile.level < 0) tile = {tile.database, 0, 2 * tile.column, 2 * tile.row};
     return lookThrough(random, description, tile, frame);

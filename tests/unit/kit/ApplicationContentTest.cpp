@@ -12,8 +12,11 @@
 #include <gtest/gtest.h>
 #include <osg/Geometry>
 #include <osg/LOD>
+#include <osg/LightSource>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
+#include <osgUtil/PositionalStateContainer>
+#include <osgUtil/RenderStage>
 
 #include <algorithm>
 #include <array>
@@ -357,6 +360,57 @@ std::size_t tilesDrawn(osg::Node& scene, const CullView& view) {
     return cull(scene, view, *visitor).drawn.size();
 }
 
+// What OSG does not cull below a tile keeps the tile and those above it, too: a light shines on everything beside it.
+class NeverCulled : public testing::TestWithParam<bool> {
+protected:
+    // Away from the tile.
+    static CullView beyond() { return downTo(20, 100.0); }
+    [[nodiscard]] static bool shines(FiledGlobe& globe, const osg::Light& light) {
+        (void)globe.draws(*globe.tile, beyond());
+        const auto& lights = globe.visitor->getRenderStage()->getPositionalStateContainer()->getAttrMatrixList();
+        return std::any_of(lights.begin(), lights.end(), [&](const auto& at) { return at.first == &light; });
+    }
+    // Adds it beside the ground of the leaf, or beside the leaf.
+    static void add(FiledGlobe& globe, osg::Node& content) {
+        osg::Group* const leaf = globe.group->getChild(0)->asGroup();
+        (GetParam() ? leaf->getChild(0)->asGroup() : globe.group.get())->addChild(&content);
+    }
+};
+
+TEST_P(NeverCulled, IsALightSource) {
+    FiledGlobe globe;
+    const osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
+    EXPECT_FALSE(shines(globe, *source->getLight()));
+    add(globe, *source);
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_TRUE(shines(globe, *source->getLight())) << i;
+        update(*globe.root);
+    }
+    installBins(*globe.root);
+    EXPECT_TRUE(shines(globe, *source->getLight()));
+}
+
+TEST_P(NeverCulled, IsAModelThatStandsElsewhereByItsFrameOrItsShader) {
+    for (const bool isAbsolute : {false, true}) {
+        FiledGlobe globe;
+        const osg::ref_ptr<osg::MatrixTransform> model = makeTower(ecefDeg(20, 20, 100.0));
+        if (isAbsolute) model->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+        model->setCullingActive(false);
+        model->getChild(0)->setCullingActive(false);
+        drawableOf(*model)->setCullingActive(false);
+        EXPECT_FALSE(globe.draws(*globe.group, beyond()));
+        add(globe, *model);
+        for (int i = 0; i < 2; ++i) {
+            EXPECT_TRUE(globe.draws(*model, beyond())) << isAbsolute << i;
+            update(*globe.root);
+        }
+        installBins(*globe.root);
+        EXPECT_TRUE(globe.draws(*model, beyond())) << isAbsolute;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(BesideALeafAndWithin, NeverCulled, testing::Bool());
+
 TEST(Clones, OfADatabaseAreCulledByTheirOwnShape) {
     const osg::ref_ptr<osgTerrain::Terrain> terrain = makeTerrain();
     // looks over the tile at 3 km, up to where it is at scale 10
@@ -402,15 +456,20 @@ TEST(Clones, ThatShareCallbacksGetADatabaseOfTheirOwn) {
 
 TEST(Clones, ThatShareCallbacksStayVisible) {
     MeshGlobe globe;
-    // what is drawn is told by bins alone
-    for (const auto& tile : globe.tiles) drawableOf(*tile)->setCullingActive(false);
+    // OSG tells nothing of what is drawn: bins alone do
+    const auto letOsgCull = [&globe](bool culls) {
+        for (const auto& tile : globe.tiles) drawableOf(*tile)->setCullingActive(culls);
+    };
     installBins(*globe.root);
+    letOsgCull(false);
     const osg::ref_ptr<osg::Group> clone = osg::clone(globe.root.get(), osg::CopyOp::DEEP_COPY_NODES);
     EXPECT_LT(tilesDrawn(*globe.root, downTo(22.5, -22.5)), 8u);
     EXPECT_EQ(tilesDrawn(*clone, downTo(22.5, -22.5)), 32u);
     update(*clone);
     update(*globe.root);
+    letOsgCull(true);
     EXPECT_EQ(installBins(*clone, CullOptions()), 32u);
+    letOsgCull(false);
     EXPECT_LT(tilesDrawn(*clone, downTo(22.5, -22.5)), 8u);
 }
 

@@ -147,6 +147,15 @@ TEST(Changes, OfDepthWithinMeshesCountWhenBinsAreInstalledAgain) {
     EXPECT_TRUE(other.drawsAntipode());
 }
 
+TEST(Changes, OfCullingBelowTilesCountWhenBinsAreInstalledAgain) {
+    MeshGlobe globe;
+    installBins(*globe.root);
+    drawableOf(*globe.tiles[15])->setCullingActive(false);
+    EXPECT_FALSE(globe.drawsAntipode());
+    installBins(*globe.root);
+    EXPECT_TRUE(globe.drawsAntipode());
+}
+
 TEST(Changes, OfRadiiCountWhenBinsAreInstalledAgain) {
     MeshGlobe globe;
     installBins(*globe.root);

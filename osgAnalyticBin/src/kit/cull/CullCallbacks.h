@@ -43,7 +43,9 @@ struct CullCallbacks {
 /// Of a node without what is below it: its state, its class, its callbacks.
 [[nodiscard]] inline DrawnState drawnStateAt(const osg::Node& node, const StateRules& rules) {
     const bool mayBeLeftOut = node.getCullCallback() && CullCallbacks(node).mayLeaveOut;
-    return mayBeLeftOut ? DrawnState{false, false} : drawnStateByClass(node, rules);
+    DrawnState drawn = mayBeLeftOut ? DrawnState{false, false} : drawnStateByClass(node, rules);
+    drawn.isCulled = node.getCullingActive();
+    return drawn;
 }
 
 /// Of a node with all that is below it; nothing is below osgTerrain tiles. `hides` is for meshes, all of whose

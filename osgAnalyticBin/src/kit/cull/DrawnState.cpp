@@ -5,6 +5,7 @@
 
 #include "../Classes.h"
 #include "../tile/Carrier.h"
+#include "../tile/InstalledTile.h"
 
 #include <osgAnalyticBin/Declarations.h>
 
@@ -240,6 +241,10 @@ DrawnState ofClass(const osg::Node& node) {
 }
 
 }  // namespace
+
+unsigned int reasonsAbove(const DrawnState& drawn) {
+    return (drawn.obeysDepth ? 0u : InstalledTile::IgnoresDepth) | (drawn.isCulled ? 0u : InstalledTile::NeverCulled);
+}
 
 DrawnState drawnState(const osg::StateSet& state, const StateRules& rules) {
     DrawnState drawn = ofRenderBin(state);

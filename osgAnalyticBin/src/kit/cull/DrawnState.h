@@ -18,19 +18,26 @@ class StateGraph;
 
 namespace osgAnalyticBin {
 
-/// What is known of the way in which something is drawn.
+/// What is known of the way in which something is drawn and culled.
 struct DrawnState {
     /// Front faces are drawn whole and opaque, back faces too or not, at the depths of their vertices.
     bool hides = true;
     /// Nothing is drawn where something nearer is.
     bool obeysDepth = true;
+    /// OSG may cull it: osg::Node::setCullingActive() has not switched that off, as it is for light sources and
+    /// absolute transforms.
+    bool isCulled = true;
 
     DrawnState& operator&=(const DrawnState& other) {
         hides = hides && other.hides;
         obeysDepth = obeysDepth && other.obeysDepth;
+        isCulled = isCulled && other.isCulled;
         return *this;
     }
 };
+
+/// Of this, what concerns the tiles above, too: reasons of InstalledTile.
+[[nodiscard]] unsigned int reasonsAbove(const DrawnState& drawn);
 
 /// What else is known. By itself: in a frame that does not mirror, whatever the camera.
 struct StateRules {

@@ -48,7 +48,7 @@ void renewEvidence(osg::Node& mesh, const AnalyticBinCullCallback& tile, Install
     installed.setCover(cover);
     const DrawnState drawn = drawnStateBelow(mesh, {tile.getCullOptions().plainShaders});
     if (!drawn.hides) installed.doubt(InstalledTile::SeeThrough);
-    if (!drawn.obeysDepth) installed.doubt(InstalledTile::IgnoresDepth);
+    installed.doubtUpwards(reasonsAbove(drawn));
 }
 
 }  // namespace

@@ -262,14 +262,17 @@ void BinInstaller::visitOther(osg::Node& node) {
     }
     TileFamily::remove(node);
     if (installsBins() && TileFamily::isPossibleOn(node)) _groups.emplace_back(&node);
-    if (isUnruly(node)) ignoreDepth();
+    noteBetween(node);
     visitWithoutBin(node, false);
 }
 
-// The root of the database is asked in every cull traversal.
-bool BinInstaller::isUnruly(const osg::Node& node) const {
-    const bool isRoot = !_parent && dynamic_cast<const osg::CoordinateSystemNode*>(&node);
-    return installsBins() && !isRoot && !_isInMesh && !drawnStateAt(node, stateRules()).obeysDepth;
+void BinInstaller::noteBetween(const osg::Node& node) const {
+    if (installsBins() && !_isInMesh) tellAbove(drawnStateAt(node, stateRules()));
+}
+
+// What stands above all tiles is asked in every cull traversal.
+void BinInstaller::tellAbove(const DrawnState& drawn) const {
+    if (_parent) _parent->doubtUpwards(reasonsAbove(drawn));
 }
 
 void BinInstaller::visitWithoutBin(osg::Node& node, bool isTile) {
@@ -277,7 +280,7 @@ void BinInstaller::visitWithoutBin(osg::Node& node, bool isTile) {
         _paging.follow(*paged, frame(), database(), isBelowStored() ? recordBetween().get() : nullptr, isTile);
     NoCulling::remove(node);
     // a tile's own meshes are not visited
-    if (isTile && installsBins() && !drawnStateOfTile(node).obeysDepth) ignoreDepth();
+    if (isTile && installsBins()) tellAbove(drawnStateOfTile(node));
     const Scoped selective(_isBelowSelection, _isBelowSelection || (!isTile && !drawsAllChildren(node)));
     traverseBelow(node);
 }
@@ -300,7 +303,7 @@ void BinInstaller::visitSet(osg::Group& set) {
 void BinInstaller::visitMoving(osg::Transform& node) {
     if (isPhotogrammetrySet(node)) return visitSet(node);
     removeCallbacksBelow(node, _nested);
-    if (installsBins() && !drawnStateBelow(node, stateRules()).obeysDepth) ignoreDepth();
+    if (installsBins()) tellAbove(drawnStateBelow(node, stateRules()));
     if (installsBins() && hasTileBelow(node)) database().report(Finding::StrayTile, frame().file);
 }
 
@@ -373,11 +376,7 @@ void BinInstaller::noteDrawn(const FoundTile& tile, InstalledTile& installed) {
     DrawnState drawn = drawnStateOf(*tile.node, stateRules());
     for (const auto& mesh : tile.meshes) drawn &= drawnStateBelow(*mesh, stateRules());
     if (!drawn.hides) installed.doubt(InstalledTile::SeeThrough);
-    if (!drawn.obeysDepth) installed.ignoreDepth();
-}
-
-void BinInstaller::ignoreDepth() {
-    if (_parent) _parent->ignoreDepth();
+    installed.doubtUpwards(reasonsAbove(drawn));
 }
 
 void BinInstaller::visitChildren(const FoundTile& tile, InstalledTile& installed) {

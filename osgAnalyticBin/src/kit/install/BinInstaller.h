@@ -92,11 +92,10 @@ private:
     void noteCovered(const FoundTile& tile, const TileFit& fit, InstalledTile& installed);
     void noteDrawn(const FoundTile& tile, InstalledTile& installed);
     [[nodiscard]] DrawnState drawnStateOfTile(osg::Node& node) const;
-    // Whether a node that is no tile may have what is below it drawn in front of what is nearer.
-    // Not inlined, to leave stack for scenes that are nested deep.
-    [[nodiscard, gnu::noinline]] bool isUnruly(const osg::Node& node) const;
-    // Says that something below the present parent tile may be drawn in front of what is nearer.
-    void ignoreDepth();
+    // Of a node that is no tile. Not inlined, to leave stack for scenes that are nested deep.
+    [[gnu::noinline]] void noteBetween(const osg::Node& node) const;
+    // Tells the tiles above of something below them.
+    void tellAbove(const DrawnState& drawn) const;
     [[nodiscard]] StateRules stateRules() const { return {_options.plainShaders}; }
     void visitChildren(const FoundTile& tile, InstalledTile& installed);
     // Tells the database why not.

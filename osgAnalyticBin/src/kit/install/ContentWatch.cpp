@@ -161,7 +161,9 @@ public:
     void fitInto(const AnalyticBinCullCallback& callback) {
         InstalledTile* const tile = callback.getInstalledTile();
         if (!tile || !callback.getBin().valid()) return;
-        if (!obeysDepth(callback)) tile->doubt(InstalledTile::IgnoresDepth);
+        const unsigned int reasons = reasonsAbove(drawn(callback));
+        tile->doubt(reasons);
+        if (reasons & InstalledTile::NeverCulled) return;
         const bool isOther = !isOfSameShape(callback.getTerrainShape());
         const osg::EllipsoidModel& model = *tile->database().ellipsoid();
         const AnalyticBin about = binAbout(movedSphere(_sphere, callback.getLocalToEcef()), toCore(model));
@@ -183,9 +185,9 @@ private:
         return *shape == whole;
     }
 
-    [[nodiscard]] bool obeysDepth(const AnalyticBinCullCallback& tile) {
-        if (!_obeysDepth) _obeysDepth = drawnStateBelow(_node, {tile.getCullOptions().plainShaders}).obeysDepth;
-        return *_obeysDepth;
+    [[nodiscard]] const DrawnState& drawn(const AnalyticBinCullCallback& tile) {
+        if (!_drawn) _drawn = drawnStateBelow(_node, {tile.getCullOptions().plainShaders});
+        return *_drawn;
     }
 
     // A fitted mesh may have another form by now, as after osgUtil::Optimizer: it is recognised by its posts.
@@ -208,7 +210,7 @@ private:
     osg::BoundingSphere _sphere;
     osg::Matrixd _toHere;
     std::optional<AnalyticBin> _surface;
-    std::optional<bool> _obeysDepth;
+    std::optional<DrawnState> _drawn;
 };
 
 // Looks whether all tiles from the node upwards hold what stands among the node's children.
@@ -251,9 +253,9 @@ void keepUnwatchedVisible(const osg::Node& node) {
     if (isBelowDatabase(node)) tile->getInstalledTile()->database().requestRefit();
 }
 
-bool isAbsolute(const osg::Node& node) {
-    const osg::Transform* const transform = node.asTransform();
-    return transform && transform->getReferenceFrame() != osg::Transform::RELATIVE_RF;
+// Whether OSG culls neither the node nor anything above it, as with light sources and absolute transforms.
+bool isNeverCulled(const osg::Node& node) {
+    return !node.getCullingActive() || node.getNumChildrenWithCullingDisabled() > 0;
 }
 
 }  // namespace
@@ -362,7 +364,7 @@ void ContentWatch::check(const osg::Node& node) const {
             _isPending = _isPending || watch->_isPending;
         } else if (isOwnFrame && isFitted(child, true)) {
             ++fitted;
-        } else if (sphere.valid() && !isAbsolute(child) && isMerged(node)) {
+        } else if ((sphere.valid() || isNeverCulled(child)) && isMerged(node)) {
             fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere));
         }
     }

@@ -21,7 +21,7 @@ void InstalledTile::settle(unsigned int reasons) {
 
 void InstalledTile::tellFamily() {
     if (!_block) return;
-    _block->believe(_slot, _isSlotFilled && !has(Outgrown | MeshUnread | NeedsSphere));
+    _block->believe(_slot, _isSlotFilled && !has(Outgrown | NeverCulled | MeshUnread | NeedsSphere));
     _block->allowHiding(_slot, !has(IgnoresDepth));
     _block->trust(_slot, isCertain());
 }

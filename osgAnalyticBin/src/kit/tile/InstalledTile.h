@@ -56,6 +56,8 @@ public:
         SeeThrough = 1u << 8,
         /// The tile, or something below it, may be drawn in front of what is nearer: nothing hides the tile.
         IgnoresDepth = 1u << 9,
+        /// The application has switched off culling for the tile's mesh, or for something below it: never culled.
+        NeverCulled = 1u << 10,
     };
 
     /// Where a tile lies, for the tiles below it.
@@ -104,9 +106,9 @@ public:
     void doubt(unsigned int reasons);
     /// Call when they do not hold any more.
     void settle(unsigned int reasons);
-    /// Call when the tile, or something below it, ignores depth: nothing hides the tile, nor those above it.
-    void ignoreDepth() {
-        for (InstalledTile* at = this; at; at = at->parent.get()) at->doubt(IgnoresDepth);
+    /// Call when these reasons hold for the tile, or for something below it, and for all tiles above.
+    void doubtUpwards(unsigned int reasons) {
+        for (InstalledTile* at = this; reasons != 0 && at; at = at->parent.get()) at->doubt(reasons);
     }
     /// Whether one of these reasons holds.
     [[nodiscard]] bool has(unsigned int reasons) const {
@@ -115,7 +117,7 @@ public:
 
     /// Whether the callback may cull this node: the bin was made for it and contains everything below it.
     [[nodiscard]] bool mayCull(const osg::Node* node) const {
-        return isFor(node) && !has(Outgrown) && !_database->isRemoved();
+        return isFor(node) && !has(Outgrown | NeverCulled) && !_database->isRemoved();
     }
     /// Whether the horizon must not rely on the tile.
     [[nodiscard]] bool isSeeThrough() const { return has(SeeThrough | MeshMoved); }
