@@ -143,7 +143,7 @@ FAULTS = [
     Fault("tiles are culled by bins while there are occluders", "src/kit/cull/CullScopes.h",
           "if (!cullStack || hasActiveOccluders(*cullStack)) {", "if (!cullStack) {", NODE, "Occluders*"),
     Fault("horizon in shadow passes", "src/kit/cull/Viewpoint.cpp",
-          "if (!inShadowPasses && isShadowPass(visitor)) return std::nullopt;", "(void)visitor, (void)inShadowPasses, (void)&isShadowPass;",
+          "(!inShadowPasses && isShadowPass(visitor))", "(false && !inShadowPasses && isShadowPass(visitor))",
           NODE, "*Shadow*:NestedCameras*"),
     Fault("a near plane behind the horizon's eye", "src/kit/cull/Viewpoint.cpp",
           "if (_nearReach > 0.0 && !(_nearReach < distanceTo(ellipsoid, depth, _point))) return std::nullopt;",
@@ -649,7 +649,7 @@ FAULTS = [
           "if (_parent) _parent->doubtUpwards(reasonsAbove(drawn));", "if (_parent) _parent->doubt(reasonsAbove(drawn));", NODE,
           "*NeverCulled.*"),
     Fault("culling that is switched off: not looked for in what is added", "src/kit/install/ContentWatch.cpp",
-          "if ((sphere.valid() || isNeverCulled(child)) && isMerged(node))", "if (sphere.valid() && isMerged(node))", NODE,
+          "if ((sphere.valid() || isNeverCulled(child)) && isMergedNow())", "if (sphere.valid() && isMergedNow())", NODE,
           "*NeverCulled.*"),
 
     # depth buffers

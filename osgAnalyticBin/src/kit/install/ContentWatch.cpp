@@ -354,6 +354,11 @@ void ContentWatch::check(const osg::Node& node) const {
     const bool isOwnFrame = frameOf(node) == _frame;
     // osgTerrain draws nothing of what is below its tiles
     const osg::Group* const group = asTerrain(node) ? nullptr : node.asGroup();
+    std::optional<bool> isInScene;
+    const auto isMergedNow = [&] {
+        if (!isInScene) isInScene = isMerged(node);
+        return *isInScene;
+    };
     std::size_t fitted = 0;
     for (unsigned int i = 0; group && i < group->getNumChildren(); ++i) {
         const osg::Node& child = *group->getChild(i);
@@ -364,11 +369,11 @@ void ContentWatch::check(const osg::Node& node) const {
             _isPending = _isPending || watch->_isPending;
         } else if (isOwnFrame && isFitted(child, true)) {
             ++fitted;
-        } else if ((sphere.valid() || isNeverCulled(child)) && isMerged(node)) {
+        } else if ((sphere.valid() || isNeverCulled(child)) && isMergedNow()) {
             fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(child), sphere));
         }
     }
-    if (group && fitted < _fitted.size() && isMerged(node)) doubtMeshOf(node, !isOwnFrame || isPartMoved(*group));
+    if (group && fitted < _fitted.size() && isMergedNow()) doubtMeshOf(node, !isOwnFrame || isPartMoved(*group));
     if (group || _fitted.empty() || isFitted(node, true) || !isMerged(node)) return;
     // an osgTerrain tile that has other heights
     fitIntoTilesFrom(node, Content(const_cast<osg::Node&>(node), boundOf(node)));
