@@ -227,6 +227,35 @@ TEST(TileFamily, FollowsMeshesThatOsgOptimizes) {
     }
 }
 
+// Bins that are stored hold skirts, which lean outwards; the meshes themselves end before.
+TEST(TileFamily, FollowsMeshesThatOsgOptimizesWhereAHorizonIsDeclared) {
+    MeshGlobe globe;
+    constexpr double kLean = 0.0005;
+    for (int i = 0; i < 32; ++i) {
+        const double south = -90.0 + 45.0 * (i / 8), west = -180.0 + 45.0 * (i % 8);
+        setStoredBin(*globe.tiles[static_cast<std::size_t>(i)],
+                     AnalyticBin(core::GeodeticBin::fromDegrees(
+                         {std::max(south - kLean, -90.0), std::min(south + 45.0 + kLean, 90.0)}, {west, west + 45.0},
+                         {-49000.0, 1000.0})));
+    }
+    installBins(*globe.root, declaredHorizon());
+    osgUtil::Optimizer optimizer;
+    optimizer.optimize(globe.root.get());
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_FALSE(globe.drawsAntipode()) << i;
+        update(*globe.root);
+    }
+    // and one that becomes narrower leaves a gap
+    auto& vertices = dynamic_cast<osg::Vec3Array&>(*drawableOf(*globe.tiles[19])->asGeometry()->getVertexArray());
+    for (osg::Vec3& vertex : vertices) vertex = vertices.front() + (vertex - vertices.front()) * 0.9F;
+    vertices.dirty();
+    drawableOf(*globe.tiles[19])->dirtyBound();
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(globe.drawsAntipode()) << i;
+        update(*globe.root);
+    }
+}
+
 // Their numbers are others than those that the family was made with, until the next update.
 TEST(TileFamily, FollowsTilesThatMove) {
     MeshGlobe globe;

@@ -22,8 +22,7 @@ namespace {
 
 // Triangles whose normal is this far from level at least are surface for sure.
 constexpr double kGentle = 0.2;
-// Skirts hang within this share of the place's width from its border.
-constexpr double kSkirtRoom = 1.0 / 256.0;
+constexpr double kSkirtRoom = MeshCover::kSkirtRoom;
 
 class CoverSearch {
 public:

@@ -42,8 +42,13 @@ bool takeMerged(Contents& contents) {
 void renewEvidence(osg::Node& mesh, const AnalyticBinCullCallback& tile, InstalledTile& installed) {
     const osg::ref_ptr<osg::Node> kept(&mesh);
     const TerrainShape shape = tile.getTerrainShape().value_or(TerrainShape());
-    core::MeshCover cover = coverOf({{kept}, *installed.database().ellipsoid(), tile.getLocalToEcef(), shape});
-    if (!isSamePlace(cover.place, installed.place())) cover.isFilled = false;
+    const osg::EllipsoidModel& ellipsoid = *installed.database().ellipsoid();
+    core::MeshCover cover = coverOf({{kept}, ellipsoid, tile.getLocalToEcef(), shape});
+    // the place of a tile that is vouched for is that of its bin, with its skirts
+    const bool isSame = areVouchedFor(tile.getCullOptions(), ellipsoid)
+                            ? isSamePlace(cover.place, installed.place(), core::MeshCover::kSkirtRoom)
+                            : isSamePlace(cover.place, installed.place());
+    cover.isFilled = cover.isFilled && isSame;
     cover.place = installed.place();
     installed.setCover(cover);
     const DrawnState drawn = drawnStateBelow(mesh, {tile.getCullOptions().plainShaders});

@@ -4,6 +4,7 @@
 #include "Coverage.h"
 
 #include "../database/Database.h"
+#include "../surface/TilePlates.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,9 +79,7 @@ void Coverage::report(const std::string& file, Database& database) const {
         if (isWithGap && covered.empty()) database.report(Finding::Gap, file);
         return database.setRegion(covered);
     }
-    // who declares a horizon says that there are none
-    const bool isVouchedFor = database.options().horizonUse == HorizonUse::Given && !isMapPlane(*database.ellipsoid());
-    if (isWithGap && !isVouchedFor) _tile->doubt(InstalledTile::GapBelow);
+    if (isWithGap && !areVouchedFor(database.options(), *database.ellipsoid())) _tile->doubt(InstalledTile::GapBelow);
 }
 
 void Coverage::expectGlobe() {

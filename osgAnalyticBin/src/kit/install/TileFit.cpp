@@ -104,11 +104,6 @@ bool nearlyHolds(const AnalyticBin& outer, const AnalyticBin& inner, double sag,
         .contains(inner.bin());
 }
 
-// Who declares a horizon says that the tiles of the globe have no holes.
-bool isVouchedFor(const FitSources& from) {
-    return from.options.horizonUse == HorizonUse::Given && !isMapPlane(from.ellipsoid);
-}
-
 class Fitting {
 public:
     Fitting(const FoundTile& tile, const FitSources& from, const TerrainShape& shape)
@@ -421,7 +416,7 @@ TileFit fitTile(const FoundTile& tile, const FitSources& from, const TerrainShap
 }
 
 core::MeshCover coverBy(const FoundTile& tile, const FitSources& from, const TerrainShape& shape, const TileFit& fit) {
-    if (isVouchedFor(from)) return {fit.extents.bin, true};
+    if (areVouchedFor(from.options, from.ellipsoid)) return {fit.extents.bin, true};
     if (from.options.horizonUse == HorizonUse::Off && from.options.occlusion == OcclusionUse::Off) return {};
     return coverOf({tile.meshes, from.ellipsoid, tile.frame.localToEcef, shape});
 }

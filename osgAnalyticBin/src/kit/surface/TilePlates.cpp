@@ -158,10 +158,6 @@ core::MeshCover coverOf(const TileMeshes& meshes, osg::Node& node) {
     return parts.isMesh() ? core::MeshCover::of(globe, mesh, parts.rounding()) : core::MeshCover();
 }
 
-bool isNear(double a, double b, const core::Interval& of) {
-    return std::abs(a - b) <= 4.0 * core::MeshCover::kTolerance * of.width();
-}
-
 }  // namespace
 
 std::unique_ptr<const core::GroundPlates> tilePlates(const TileMeshes& meshes) {
@@ -195,14 +191,18 @@ core::MeshCover coverOf(const TileMeshes& meshes) {
     return cover;
 }
 
-bool isSamePlace(const core::GeodeticBin& a, const core::GeodeticBin& b) {
+bool isSamePlace(const core::GeodeticBin& a, const core::GeodeticBin& b, double share) {
     if (a.empty() || b.empty()) return false;
+    const double along = share * b.latitude().width(), across = share * b.longitude().width();
     const double turn = std::remainder(a.longitude().lower - b.longitude().lower, 2.0 * osg::PI);
-    const bool isTurned =
-        a.isFullCircle() || std::abs(turn) <= 4.0 * core::MeshCover::kTolerance * b.longitude().width();
-    return isTurned && isNear(a.longitude().width(), b.longitude().width(), b.longitude()) &&
-           isNear(a.latitude().lower, b.latitude().lower, b.latitude()) &&
-           isNear(a.latitude().upper, b.latitude().upper, b.latitude());
+    return (a.isFullCircle() || std::abs(turn) <= across) &&
+           std::abs(a.longitude().width() - b.longitude().width()) <= across &&
+           std::abs(a.latitude().lower - b.latitude().lower) <= along &&
+           std::abs(a.latitude().upper - b.latitude().upper) <= along;
+}
+
+bool areVouchedFor(const CullOptions& options, const osg::EllipsoidModel& ellipsoid) {
+    return options.horizonUse == HorizonUse::Given && !isMapPlane(ellipsoid);
 }
 
 bool readTileMesh(const TileMeshes& meshes, core::EcefMesh& mesh) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <osgAnalyticBin/CullOptions.h>
 #include <osgAnalyticBin/Export.h>
 #include <osgAnalyticBin/TerrainShape.h>
 #include <osgAnalyticBin/core/mesh/MeshCover.h>
@@ -34,8 +35,11 @@ struct TileMeshes {
 /// What a tile's own meshes cover, skirts left out. Several levels of detail have to fill the same place each. Of
 /// osgTerrain tiles: the whole grid, by any technique that is vouched for.
 [[nodiscard]] core::MeshCover coverOf(const TileMeshes& meshes);
-/// Whether two places are the same, up to the rounding of float vertices.
-[[nodiscard]] bool isSamePlace(const core::GeodeticBin& a, const core::GeodeticBin& b);
+/// Whether two places are the same, up to a share of their width; by default the rounding of float vertices.
+[[nodiscard]] bool isSamePlace(const core::GeodeticBin& a, const core::GeodeticBin& b,
+                               double share = 4.0 * core::MeshCover::kTolerance);
+/// Who declares a horizon says that the tiles of the globe have no holes: their meshes are not looked at.
+[[nodiscard]] bool areVouchedFor(const CullOptions& options, const osg::EllipsoidModel& ellipsoid);
 
 /// Reads all triangles of a tile's only mesh, skirts included, into an empty mesh; of osgTerrain tiles those with
 /// either diagonal, and no skirts. Returns: false where they are not known, as above.

@@ -21,6 +21,8 @@ struct MeshCover {
 
     /// The share of a rectangle's width by which places that are the same may differ, for the rounding of vertices.
     static constexpr double kTolerance = 1e-6;
+    /// Skirts hang within this share of the rectangle's width from its border.
+    static constexpr double kSkirtRoom = 1.0 / 256.0;
 
     /// Of a mesh, where triangles count with their front faces. `error`: metres by which vertices are rounded; it adds
     /// to kTolerance. Steep triangles at the border count as skirts, and cover nothing. In doubt the rectangle is not
