@@ -89,18 +89,22 @@ bool isOrthographic(const osg::Matrixd& p) {
     return p(0, 3) == 0.0 && p(1, 3) == 0.0 && p(2, 3) == 0.0 && p(3, 3) != 0.0;
 }
 
-// How far the near plane is from the eye at most; infinite when in doubt. Depths of 0 and 1 in clip space are at the
-// near plane or beyond it, whether depth is reversed or not and from -1 or from 0.
-double reachOfNearPlane(const osg::Matrixd& projection, const osg::Matrixd& eyeToWorld, const osg::Vec3d& eye) {
+// How far the near plane of a perspective projection is from the eye at most; infinite when in doubt. Depths of 0 and 1
+// in clip space are at the near plane or beyond it, whether depth is reversed or not and from -1 or from 0.
+double reachOfNearPlane(const osg::Matrixd& p, const osg::Matrixd& eyeToWorld) {
+    const double determinant = p(0, 0) * p(1, 1) - p(1, 0) * p(0, 1);
     double nearest = std::numeric_limits<double>::infinity();
-    osg::Matrixd unproject;
-    if (!unproject.invert(projection)) return nearest;
     for (const double depth : {0.0, 1.0}) {
         double farthest = 0.0;
         for (int corner = 0; corner < 4; ++corner) {
-            const osg::Vec3d p = osg::Vec3d(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, depth) * unproject;
-            const double distance = p.z() * projection(2, 3) > 0.0 ? (p * eyeToWorld - eye).length()
-                                                                   : std::numeric_limits<double>::infinity();
+            // on the line of sight (a, b, 1) z through the corner, as it is projected
+            const double x = (corner & 1 ? 1.0 : -1.0) * p(2, 3) - p(2, 0);
+            const double y = (corner & 2 ? 1.0 : -1.0) * p(2, 3) - p(2, 1);
+            const double a = (x * p(1, 1) - y * p(1, 0)) / determinant, b = (y * p(0, 0) - x * p(0, 1)) / determinant;
+            const double z = p(3, 2) / (depth * p(2, 3) - p(2, 2) - a * p(0, 2) - b * p(1, 2));
+            const double distance = z * p(2, 3) > 0.0
+                                        ? osg::Matrixd::transform3x3(osg::Vec3d(a, b, 1.0) * z, eyeToWorld).length()
+                                        : std::numeric_limits<double>::infinity();
             if (!(distance <= farthest)) farthest = distance;
         }
         nearest = std::min(nearest, farthest);
@@ -135,7 +139,7 @@ std::optional<Viewpoint> Viewpoint::of(osg::CullStack& cullStack, osg::NodeVisit
         const osg::Vec3d eye = osg::Vec3d() * eyeToWorld;
         viewpoint._point = toGlm(eye);
         // a computed near plane is not known before all is culled
-        if (isFinalProjection(cullStack)) viewpoint._nearReach = reachOfNearPlane(projection, eyeToWorld, eye);
+        if (isFinalProjection(cullStack)) viewpoint._nearReach = reachOfNearPlane(projection, eyeToWorld);
         return viewpoint;
     }
     osg::Matrixd unproject;
