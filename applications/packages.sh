@@ -19,7 +19,7 @@ demo | xvfb xauth | a virtual display
 all | ccache | keeps what was compiled for the next build
 all | libopenmpi-dev openmpi-bin | osgbindem on several machines
 all | libgtest-dev librapidcheck-dev libccd-dev libbenchmark-dev | tests and benchmarks
-all | gdal-bin nginx pkg-config python3 | programs that tests run
+all | gdal-bin nginx pkg-config python3 xdotool | programs that tests run
 all | ca-certificates clang-format doxygen git help2man | format, documents, man pages
 all | libproj-dev | reference systems of photogrammetry sets
 all | gnuplot-nox | diagrams

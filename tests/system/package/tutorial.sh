@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: MIT
 #
 # Does what osgAnalyticBin/doc/tutorial.md says, word for word: takes its CMakeLists.txt and its shell commands, installs
-# the build, and runs them in an empty folder, a viewer for some frames. Every line of C++ that the text quotes has to
+# the build, and runs them in an empty folder. A viewer is ended by Escape when its window has been there for a while, as
+# a user ends it. Every line of C++ that the text quotes has to
 # stand in tutorial.cpp, and that has to stay within sixty lines.
 # Arguments: source folder, build folder, scratch folder (emptied), library folder below a prefix.
 set -eu
@@ -43,11 +44,16 @@ blocks sh >"$scratch/commands"
 
 unset LD_LIBRARY_PATH || true
 export PATH="$scratch/prefix/bin:$PATH" CMAKE_PREFIX_PATH="$scratch/prefix" OSG_LIBRARY_PATH="$scratch/prefix/$libdir"
-export OSG_RUN_FRAME_COUNT=40 OSG_WINDOW="0 0 320 240" LIBGL_ALWAYS_SOFTWARE=1
+export OSG_WINDOW="0 0 320 240" LIBGL_ALWAYS_SOFTWARE=1
 cd "$scratch/work"
+cat >"$scratch/display" <<'EOF'
+while :; do xdotool search --sync --onlyvisible --name "" >/dev/null 2>&1 && sleep 3 && xdotool mousemove 100 100 key Escape; done &
+trap 'kill $!' EXIT
+sh -eux "$1"
+EOF
 # A display number by process, for tests run side by side. A display that resets when the last window closes may miss
 # the next.
-timeout 300 xvfb-run -a -n $((6000 + $$ % 3000)) -s "-screen 0 640x480x24 -noreset" sh -eux "$scratch/commands" >"$scratch/log" 2>&1 || {
+timeout 300 xvfb-run -a -n $((6000 + $$ % 3000)) -s "-screen 0 640x480x24 -noreset" sh "$scratch/display" "$scratch/commands" >"$scratch/log" 2>&1 || {
     cat "$scratch/log" >&2
     fail "a command of tutorial.md failed"
 }

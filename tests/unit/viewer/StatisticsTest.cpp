@@ -72,5 +72,16 @@ TEST_F(Statistics, CountWhatBinsDecidedOverAllCameras) {
     EXPECT_EQ(binCounts(*osg::ref_ptr<osg::Camera>(new osg::Camera), last).tested, 0u);
 }
 
+TEST_F(Statistics, AreThoseOfTheLastCulledFrameWhenEscapeHasEndedTheViewer) {
+    drawUntilIdle(_viewer);
+    _viewer.setKeyEventSetsDone(osgGA::GUIEventAdapter::KEY_Escape);
+    _viewer.getEventQueue()->keyPress(osgGA::GUIEventAdapter::KEY_Escape);
+    _viewer.getEventQueue()->keyRelease(osgGA::GUIEventAdapter::KEY_Escape);
+    for (int i = 0; i < 100 && !_viewer.done(); ++i) _viewer.frame();
+    ASSERT_TRUE(_viewer.done());
+    EXPECT_GT(binCounts(_viewer).tested, 0u);
+    EXPECT_LT(binCounts(_viewer).frame, _viewer.getFrameStamp()->getFrameNumber());
+}
+
 }  // namespace
 }  // namespace osgAnalyticBin

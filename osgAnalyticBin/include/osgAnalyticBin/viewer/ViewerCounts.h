@@ -20,7 +20,8 @@ namespace osgAnalyticBin {
 /// Returns: sums; zeros where nothing was tested in that frame, and for cameras that no viewer draws.
 [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT BinCounts binCounts(osg::Camera& camera, unsigned int frame);
 
-/// The same over all cameras of a viewer, for the last frame.
+/// The same over all cameras of a viewer, for the last frame that was culled: a viewer that is told to end culls none
+/// any more.
 [[nodiscard]] OSGANALYTICBINVIEWER_EXPORT BinCounts binCounts(osgViewer::ViewerBase& viewer);
 
 }  // namespace osgAnalyticBin
