@@ -62,8 +62,8 @@ enum class ClusterUse {
 enum class IndexUse {
     Off,  ///< never
     On,   ///< where there is one beside the database
-    Auto  ///< the default: where there is none, one is made in the background, and kept beside the database or in the
-          ///< user's cache folder; for databases in local files, whose tiles have no stored bins
+    Auto  ///< the default: where there is none, one is made in the background, and kept in the user's cache folder; for
+          ///< databases in local files, whose tiles have no stored bins
 };
 
 /// The options of culling, from an installer, a plugin option string or a stored database.

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <random>
 
 namespace osgAnalyticBin::indexing {
@@ -16,35 +15,6 @@ namespace osgAnalyticBin::indexing {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Whether a file may be replaced: there is none, or it is such an index, whole or broken at its end.
-bool isOurs(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    if (!in) {
-        std::error_code ignored;
-        return !fs::exists(path, ignored);
-    }
-    std::string magic(BinIndex::kMagic.size(), '\0');
-    in.read(magic.data(), static_cast<std::streamsize>(magic.size()));
-    return in.gcount() == 0 || magic == BinIndex::kMagic;
-}
-
-bool keepAt(const BinIndex& index, const std::string& path, std::string& error) {
-    if (!isOurs(path)) {
-        error = "\"" + path + "\" is no index";
-        return false;
-    }
-    // others may be keeping the same index
-    std::random_device random;
-    const std::string own = path + "." + std::to_string(random());
-    if (!index.write(own, error)) return false;
-    std::error_code failure;
-    fs::rename(own, path, failure);
-    if (!failure) return true;
-    error = "cannot write \"" + path + "\": " + failure.message();
-    fs::remove(own, failure);
-    return false;
-}
 
 std::string cacheFolder() {
 #if defined(_WIN32)
@@ -80,13 +50,22 @@ std::string cachedIndexName(const std::string& rootFile) {
 }
 
 std::string keepIndex(const BinIndex& index, const std::string& rootFile, std::string& error) {
-    const std::string beside = binIndexName(rootFile);
-    if (keepAt(index, beside, error)) return beside;
-    const std::string cached = cachedIndexName(rootFile);
-    if (cached.empty()) return {};
+    const std::string path = cachedIndexName(rootFile);
+    if (path.empty()) {
+        error = "there is no cache folder";
+        return {};
+    }
     std::error_code failure;
-    fs::create_directories(fs::path(cached).parent_path(), failure);
-    return keepAt(index, cached, error) ? cached : std::string();
+    fs::create_directories(fs::path(path).parent_path(), failure);
+    // others may be keeping the same index
+    std::random_device random;
+    const std::string own = path + "." + std::to_string(random());
+    if (!index.write(own, error)) return {};
+    fs::rename(own, path, failure);
+    if (!failure) return path;
+    error = "cannot write \"" + path + "\": " + failure.message();
+    fs::remove(own, failure);
+    return {};
 }
 
 }  // namespace osgAnalyticBin::indexing

@@ -21,9 +21,9 @@ namespace osgAnalyticBin::indexing {
 /// a checksum of the absolute path of the root file. Returns: empty where there is no such folder.
 [[nodiscard]] std::string cachedIndexName(const std::string& rootFile);
 
-/// Keeps an index: beside the database, or, where that cannot be written or another file has its name, in the cache
-/// folder. A file is replaced when the new one is complete. Of several processes that write the same file, the last one
-/// keeps its own. Returns: the path; empty, with the reason in `error`, when the index could not be kept.
+/// Keeps an index in the cache folder. A file is replaced when the new one is complete. Of several processes that write
+/// the same file, the last one keeps its own. Returns: the path; empty, with the reason in `error`, when the index
+/// could not be kept.
 [[nodiscard]] std::string keepIndex(const BinIndex& index, const std::string& rootFile, std::string& error);
 
 }  // namespace osgAnalyticBin::indexing

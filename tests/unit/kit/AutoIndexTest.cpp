@@ -21,11 +21,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <string>
 #include <support/CapturedNotes.h>
 #include <support/TemporaryFolder.h>
+#include <vector>
 
 namespace osgAnalyticBin::test {
 namespace {
@@ -52,18 +52,17 @@ protected:
     }
     [[nodiscard]] bool isRootWhole() const { return highOfRoot() < CullOptions::kTerrainOnEarth.upper; }
     [[nodiscard]] double highOfRoot() const { return installedOn(*_root)->getBin().bin().altitude().upper; }
-    // The index and what else has its name.
-    [[nodiscard]] std::size_t filesBeside() const {
-        std::size_t count = 0;
-        for (const auto& entry : std::filesystem::directory_iterator(_folder.path()))
-            count += entry.path().string().rfind(binIndexName(_file), 0) == 0 ? 1U : 0U;
-        return count;
-    }
-    [[nodiscard]] std::size_t cachedFiles() const {
-        std::size_t count = 0;
+    // What the kit has written into the cache folder.
+    [[nodiscard]] std::vector<std::string> keptFiles() const {
+        std::vector<std::string> files;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(_cache.path()))
-            count += entry.is_regular_file() ? 1U : 0U;
-        return count;
+            if (entry.is_regular_file()) files.push_back(entry.path().string());
+        return files;
+    }
+    void expectOneWholeIndex() const {
+        ASSERT_EQ(keptFiles().size(), 1u);
+        std::string error;
+        EXPECT_TRUE(BinIndex::read(keptFiles().front(), error)) << error;
     }
 
     TemporaryFolder _folder, _cache;
@@ -78,12 +77,10 @@ TEST_F(AutoIndex, IsMadeInTheBackgroundAndUsedAtOnceTheNextTime) {
     EXPECT_FALSE(isIndexAwaited(*_scene));
     EXPECT_TRUE(isRootWhole());
     EXPECT_NEAR(highOfRoot(), 900.0, 1.0);  // of a tile that is not loaded
+    expectOneWholeIndex();
     std::string error;
-    const osg::ref_ptr<BinIndex> kept = BinIndex::read(binIndexName(_file), error);
-    ASSERT_TRUE(kept) << error;
-    EXPECT_EQ(kept->stamps().size(), 3u);
-    EXPECT_EQ(cachedFiles(), 0u);
-    EXPECT_EQ(filesBeside(), 1u);
+    EXPECT_EQ(BinIndex::read(keptFiles().front(), error)->stamps().size(), 3u);
+    EXPECT_FALSE(std::filesystem::exists(binIndexName(_file))) << "the database's folder is the user's";
 
     const CapturedNotes notes;
     open();
@@ -143,18 +140,15 @@ TEST_F(AutoIndex, IsMadeAnewWhenAFileHasChanged) {
     EXPECT_NEAR(highOfRoot(), 2000.0, 1.0);
 }
 
-TEST_F(AutoIndex, IsKeptInTheCacheFolderWhereItCannotStandBesideTheDatabase) {
+TEST_F(AutoIndex, IsMadeWhereSomethingElseHasTheNameOfOneBesideTheDatabase) {
     (void)_folder.write("root.osgb.bins", "of another program");
     const CapturedNotes notes;
     open();
     ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
     _scene = nullptr;
     EXPECT_EQ(notes.count("is no such thing"), 1u);
-    EXPECT_EQ(cachedFiles(), 1u);
-    std::ifstream in(binIndexName(_file));
-    std::string text;
-    std::getline(in, text);
-    EXPECT_EQ(text, "of another program");
+    expectOneWholeIndex();
+    EXPECT_EQ(textOfFile(binIndexName(_file)), "of another program");
     open();
     EXPECT_FALSE(isIndexAwaited(*_scene));
     EXPECT_NEAR(highOfRoot(), 900.0, 1.0);
@@ -164,14 +158,14 @@ TEST_F(AutoIndex, ABrokenOneGivesOneWarningAndIsMadeAnew) {
     open();
     ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
     _scene = nullptr;
-    std::filesystem::resize_file(binIndexName(_file), std::filesystem::file_size(binIndexName(_file)) - 20);
+    const std::string kept = keptFiles().front();
+    std::filesystem::resize_file(kept, std::filesystem::file_size(kept) - 20);
     const CapturedNotes notes;
     open();
     ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
     _scene = nullptr;
     EXPECT_EQ(notes.count("index of bins ends too early"), 1u);
-    std::string error;
-    EXPECT_TRUE(BinIndex::read(binIndexName(_file), error)) << error;
+    expectOneWholeIndex();
 }
 
 TEST_F(AutoIndex, EndsWithItsBinsOrItsSceneAndLeavesNothingHalfWritten) {
@@ -184,27 +178,22 @@ TEST_F(AutoIndex, EndsWithItsBinsOrItsSceneAndLeavesNothingHalfWritten) {
             }
             _scene = nullptr;
             _root = nullptr;
-            EXPECT_LE(filesBeside(), 1u);
-            std::string error;
-            if (!std::filesystem::exists(binIndexName(_file))) continue;
-            EXPECT_TRUE(BinIndex::read(binIndexName(_file), error)) << error;
-            std::filesystem::remove(binIndexName(_file));
+            if (keptFiles().empty()) continue;
+            expectOneWholeIndex();
+            std::filesystem::remove(keptFiles().front());
         }
     }
 }
 
 TEST_F(AutoIndex, TwoAtOnceKeepOneWholeIndex) {
     for (int i = 0; i < 10; ++i) {
-        std::filesystem::remove(binIndexName(_file));
+        for (const std::string& kept : keptFiles()) std::filesystem::remove(kept);
         open();
         const osg::ref_ptr<osg::Node> first = _scene;
         open();
         EXPECT_TRUE(waitForIndex(*first, kSeconds));
         EXPECT_TRUE(waitForIndex(*_scene, kSeconds));
-        std::string error;
-        EXPECT_TRUE(BinIndex::read(binIndexName(_file), error)) << error;
-        EXPECT_EQ(cachedFiles(), 0u);
-        EXPECT_EQ(filesBeside(), 1u);
+        expectOneWholeIndex();
     }
 }
 
