@@ -40,8 +40,8 @@ struct WalkOptions {
 /// have changed. Throws Failure or Interrupted.
 void writeIndex(const DatabaseFiles& files, const WalkOptions& options, bool keepsRecords);
 
-/// Prints what is in an index, in a few lines. Throws Failure when it cannot be read.
-void printIndex(const std::string& path);
+/// Prints what is in an index, or in that of a database, in a few lines. Throws Failure when it cannot be read.
+void printIndex(const std::string& file);
 
 /// Makes the index of a database anew, in memory, and compares the one beside it. Says in a line that they agree.
 /// Throws Failure where they do not.

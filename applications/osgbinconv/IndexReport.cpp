@@ -31,6 +31,8 @@ struct Statistics {
     std::size_t unknown = 0;
     double low = HUGE_VAL;
     double high = -HUGE_VAL;
+    double lowest = HUGE_VAL;  // in the finest tiles
+    double highest = -HUGE_VAL;
     double narrowest = HUGE_VAL;  // radians of longitude, or of a map's x
     double widest = 0.0;
 
@@ -43,8 +45,18 @@ struct Statistics {
         const osgAnalyticBin::core::GeodeticBin& bin = entry.bin.bin();
         low = std::min(low, bin.altitude().lower);
         high = std::max(high, bin.altitude().upper);
-        narrowest = std::min(narrowest, bin.longitude().width());
-        widest = std::max(widest, bin.longitude().width());
+        const double width = bin.longitude().width();
+        constexpr double kMuchNarrower = 0.75;
+        if (width < kMuchNarrower * narrowest) {
+            lowest = HUGE_VAL;
+            highest = -HUGE_VAL;
+        }
+        narrowest = std::min(narrowest, width);
+        if (kMuchNarrower * width < narrowest) {
+            lowest = std::min(lowest, entry.ownLow);
+            highest = std::max(highest, bin.altitude().upper);
+        }
+        widest = std::max(widest, width);
     }
 };
 
@@ -83,6 +95,10 @@ std::optional<bool> isOfMap(const std::string& indexFile, const BinIndex& index)
     return osgAnalyticBin::isMapPlane(*tiles.front().frame.ellipsoid);
 }
 
+std::string noIndexOf(const std::string& database) {
+    return "\"" + database + "\" has no index; make one with osgbinconv --index";
+}
+
 void printWidths(const Statistics& all, bool isMap) {
     constexpr double kDegreesPerRadian = 57.29577951308232087680;
     const double unit = isMap ? osgAnalyticBin::core::Ellipsoid::kMapUnitsInRadian : kDegreesPerRadian;
@@ -94,12 +110,16 @@ void printWidths(const Statistics& all, bool isMap) {
 
 }  // namespace
 
-void printIndex(const std::string& path) {
+void printIndex(const std::string& file) {
+    const std::string beside = osgAnalyticBin::binIndexName(file);
+    const std::string path = std::filesystem::exists(beside) ? beside : file;
     std::string error;
     const osg::ref_ptr<BinIndex> index = BinIndex::read(path, error);
+    const bool isDatabase = std::filesystem::exists(file) && std::filesystem::path(file).extension() != ".bins";
+    if (!index && path == file && isDatabase) throw Failure(noIndexOf(file));
     if (!index) throw Failure(error);
     Statistics all;
-    for (const auto& [file, tiles] : index->files()) {
+    for (const auto& [name, tiles] : index->files()) {
         for (const Entry& entry : tiles) all.add(entry);
     }
     const auto bytes = std::filesystem::file_size(path);
@@ -108,7 +128,9 @@ void printIndex(const std::string& path) {
     std::printf("tiles        %zu in %zu files\n", all.tiles, index->fileCount());
     std::printf("without bounds %zu\n", all.unknown);
     if (all.unknown < all.tiles) {
-        std::printf("altitudes    %.0f .. %.0f m\n", all.low, all.high);
+        std::printf("heights      %.0f .. %.0f m in the finest tiles\n", all.lowest, all.highest);
+        std::printf("bins         %.0f .. %.0f m: coarse tiles are flat, and sag below the ground\n", all.low,
+                    all.high);
         if (const std::optional<bool> isMap = isOfMap(path, *index)) {
             printWidths(all, *isMap);
         } else {
@@ -121,6 +143,7 @@ void printIndex(const std::string& path) {
 
 void checkIndex(const DatabaseFiles& files, const WalkOptions& options) {
     const std::string name = osgAnalyticBin::binIndexName(files.rootFile());
+    if (!std::filesystem::exists(name)) throw Failure(noIndexOf(files.rootFile()));
     std::string error;
     const osg::ref_ptr<BinIndex> found = BinIndex::read(name, error);
     if (!found) throw Failure(error);

@@ -62,7 +62,7 @@ void declare(CLI::App& app, Arguments& arguments) {
     arguments.walk.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     app.footer(kExamples);
     auto* index = app.add_flag("--index", arguments.isIndex, "write DATABASE.bins, the bins of all tiles");
-    auto* print = app.add_flag("--print", arguments.isPrint, "print the statistics of an index, in metres and degrees");
+    auto* print = app.add_flag("--print", arguments.isPrint, "print what is in DATABASE.bins, in metres and degrees");
     auto* check = app.add_flag("--check", arguments.isCheck, "compare DATABASE.bins with the database");
     index->excludes(print)->excludes(check);
     print->excludes(check);
@@ -70,9 +70,10 @@ void declare(CLI::App& app, Arguments& arguments) {
                  "with --index: keep DATABASE.bins.part, so that the next --index reads\nonly the files that have "
                  "changed since")
         ->needs(index);
-    app.add_option("FILE", arguments.files,
-                   "the root file of a database, or the metadata.xml of a photogrammetry\nset; with --print an index; "
-                   "then the root file of a copy, *.osgb")
+    app.add_option(
+           "FILE", arguments.files,
+           "the root file of a database, or the metadata.xml of a photogrammetry\nset; with --print also an index; "
+           "then the root file of a copy, *.osgb")
         ->required();
     app.add_flag("--overwrite", arguments.copy.overwrite, "replace the files of an older copy");
     app.add_option("--cluster", arguments.cluster,

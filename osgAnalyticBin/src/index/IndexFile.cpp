@@ -236,7 +236,7 @@ std::vector<FileHead> readFileHeads(Reader& in, std::uint64_t files, std::uint64
 
 void requireMagic(Reader& in) {
     for (const char byte : BinIndex::kMagic) {
-        if (static_cast<char>(in.number<std::uint8_t>()) != byte) throw Refusal{"is no such thing"};
+        if (static_cast<char>(in.number<std::uint8_t>()) != byte) throw Refusal{"is another kind of file"};
     }
 }
 

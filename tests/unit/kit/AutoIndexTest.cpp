@@ -146,7 +146,7 @@ TEST_F(AutoIndex, IsMadeWhereSomethingElseHasTheNameOfOneBesideTheDatabase) {
     open();
     ASSERT_TRUE(waitForIndex(*_scene, kSeconds));
     _scene = nullptr;
-    EXPECT_EQ(notes.count("is no such thing"), 1u);
+    EXPECT_EQ(notes.count("is another kind of file"), 1u);
     expectOneWholeIndex();
     EXPECT_EQ(textOfFile(binIndexName(_file)), "of another program");
     open();

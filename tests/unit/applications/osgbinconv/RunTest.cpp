@@ -180,18 +180,20 @@ TEST_F(Run, CheckFindsWhatHasChanged) {
     writeSmallFile(_folder / "tiles_1_3_3.osgb", *makeSmallTile(""));
     expectFailure(runBinconv("--quiet --check " + test::quoted(_database)), "does not agree");
     fs::remove(indexFile());
-    expectFailure(runBinconv("--quiet --check " + test::quoted(_database)), ".bins");
+    expectFailure(runBinconv("--quiet --check " + test::quoted(_database)), "has no index; make one with");
 }
 
 TEST_F(Run, PrintTellsWhatIsInAnIndex) {
     (void)indexed();
     const Outcome printed = runBinconv("--print " + test::quoted(indexFile()));
     EXPECT_EQ(printed.code, 0);
-    for (const char* part :
-         {"globe.osgb", "672 in 161 files", "without bounds 0", "degrees", "some 3 levels", "per tile"}) {
+    for (const char* part : {"globe.osgb", "672 in 161 files", "without bounds 0", "m in the finest tiles", "degrees",
+                             "some 3 levels", "per tile"}) {
         EXPECT_NE(printed.text.find(part), std::string::npos) << printed.text;
     }
-    expectFailure(runBinconv("--print " + test::quoted(_database)), "no such thing");
+    EXPECT_EQ(runBinconv("--print " + test::quoted(_database)).text, printed.text);
+    fs::remove(indexFile());
+    expectFailure(runBinconv("--print " + test::quoted(_database)), "has no index; make one with");
     expectFailure(runBinconv("--print " + test::quoted(_folder / "absent.bins")), "absent.bins");
 }
 
