@@ -150,7 +150,9 @@ public:
             return leavesIn(*cull(*root, view, visitor, stamp.getFrameNumber(), stamp.getReferenceTime()).stage);
         };
         const std::vector<Leaf> plain = leavesFor(*_plain), derived = leavesFor(*_derived);
-        if (!isTerrainScaled) return plain == derived;
+        // where OSG computes the near plane, less is known of how far a derived visitor draws, and so of what is hidden
+        const bool isNearComputed = spec.computeNearFar != osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR;
+        if (!isTerrainScaled && !isNearComputed) return plain == derived;
         return withoutOthers(plain, derived) == withoutOthers(derived, plain);
     }
 
