@@ -98,6 +98,8 @@ const char* kindName(PartKind kind) {
             return "a moving vehicle in";
         case PartKind::Sign:
             return "a sign that ignores depth in";
+        case PartKind::Traffic:
+            return "models that ask for terrain in";
         case PartKind::Camera:
             return "a camera in the scene";
         case PartKind::VisitorLeavesOut:

@@ -134,7 +134,8 @@ enum class PartKind {
     // models
     Tower,
     Vehicle,
-    Sign,  // is drawn in front of all
+    Sign,     // is drawn in front of all
+    Traffic,  // many small towers that ask whether terrain hides them
     // cameras, visitors
     Camera,
     VisitorLeavesOut,

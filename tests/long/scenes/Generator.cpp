@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::uint64_t kStream = 15;
 constexpr std::uint64_t kApplicationStream = 16;
+constexpr std::uint64_t kTrafficStream = 19;
 constexpr double kTwoPi = 6.28318530717958647692;
 
 /// Adds random parts to a description that has databases.
@@ -304,6 +305,24 @@ void chooseTheme(Random& random, Description& description) {
 
 }  // namespace
 
+namespace {
+
+void addTraffic(Random& random, Description& description, int frames) {
+    if (!random.chance(description.theme == Theme::Hills ? 0.7 : 0.15)) return;
+    static constexpr std::array<Hook, 3> kHooks{Hook::Globe, Hook::Root, Hook::Root};
+    const DatabaseSpec& database = description.databases.front();
+    Part part;
+    part.kind = PartKind::Traffic;
+    part.id = static_cast<int>(description.parts.size());
+    part.hook = random.pick(kHooks);
+    part.variant = random.integer(1, 1 << 20);
+    part.amount = random.logUniform(0.02, 1.0) * std::max(database.relief, 1e-4 * database.size());
+    if (random.chance(0.5)) part.frame = random.integer(1, frames);
+    description.parts.push_back(part);
+}
+
+}  // namespace
+
 Description randomDescription(std::uint64_t seed) {
     Random random(kStream, seed);
     Description description;
@@ -317,6 +336,8 @@ Description randomDescription(std::uint64_t seed) {
     Random ofApplication(kApplicationStream, seed);
     if (ofApplication.chance(0.5)) addApplication(ofApplication, description, frames);
     addPick(ofApplication, description, frames);
+    Random ofTraffic(kTrafficStream, seed);
+    addTraffic(ofTraffic, description, frames);
     for (int frame = 1; frame <= frames; ++frame) {
         // what terrain hides is kept from view to view
         const bool isFlight = frame > 1 && description.theme == Theme::Hills && random.chance(0.6);

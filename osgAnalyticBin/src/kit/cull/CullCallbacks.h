@@ -10,8 +10,10 @@
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/Declarations.h>
+#include <osgAnalyticBin/HiddenByTerrainCallback.h>
 
 #include <osg/Callback>
+#include <osg/ClusterCullingCallback>
 #include <osg/Node>
 
 namespace osgAnalyticBin {
@@ -31,6 +33,7 @@ struct CullCallbacks {
                 family = static_cast<const TileFamily*>(at->asNodeCallback());
             } else if (!isExactly<osg::ClusterCullingCallback>(*at) && !isHarmless(*at) && !traversesAlways(*at)) {
                 mayLeaveOut = true;
+                isUnknown = isUnknown || !isExactly<HiddenByTerrainCallback>(*at);
             }
         }
     }
@@ -38,12 +41,17 @@ struct CullCallbacks {
     const AnalyticBinCullCallback* bin = nullptr;
     const TileFamily* family = nullptr;
     bool mayLeaveOut = false;
+    bool isUnknown = false;  ///< one that may leave out may also draw otherwise
 };
 
 /// Of a node without what is below it: its state, its class, its callbacks.
 [[nodiscard]] inline DrawnState drawnStateAt(const osg::Node& node, const StateRules& rules) {
-    const bool mayBeLeftOut = node.getCullCallback() && CullCallbacks(node).mayLeaveOut;
-    return mayBeLeftOut ? DrawnState{false, false} : drawnStateByClass(node, rules);
+    DrawnState drawn = drawnStateByClass(node, rules);
+    if (!node.getCullCallback()) return drawn;
+    const CullCallbacks callbacks(node);
+    if (callbacks.isUnknown) return {false, false, false};
+    drawn.hides = drawn.hides && !callbacks.mayLeaveOut;
+    return drawn;
 }
 
 /// Of a node with all that is below it; nothing is below osgTerrain tiles. `hides` is for meshes, all of whose

@@ -70,7 +70,7 @@ namespace {
 using Attribute = osg::StateAttribute;
 
 constexpr GLenum kSeamlessCubeMaps = 0x884F;  // GL_TEXTURE_CUBE_MAP_SEAMLESS
-constexpr DrawnState kHarmless{true, true}, kUnknown{false, false}, kHidesNothing{false, true};
+constexpr DrawnState kHarmless{true, true, true}, kUnknown{false, false, false}, kHidesNothing{false, true, true};
 
 DrawnState ofDepth(const osg::Depth& depth) {
     const bool isNearest = depth.getFunction() == osg::Depth::LESS || depth.getFunction() == osg::Depth::LEQUAL;
@@ -81,7 +81,7 @@ DrawnState ofDepth(const osg::Depth& depth) {
 DrawnState ofPolygonMode(const osg::PolygonMode& mode) {
     const bool isFilled = mode.getMode(osg::PolygonMode::FRONT) == osg::PolygonMode::FILL &&
                           mode.getMode(osg::PolygonMode::BACK) == osg::PolygonMode::FILL;
-    return isFilled ? kHarmless : kHidesNothing;
+    return isFilled ? kHarmless : DrawnState{false, true, false};
 }
 
 DrawnState ofColorMask(const osg::ColorMask& mask) {

@@ -24,10 +24,13 @@ struct DrawnState {
     bool hides = true;
     /// Nothing is drawn where something nearer is.
     bool obeysDepth = true;
+    /// Nothing is drawn beside the triangles of the vertices, as wide lines and points are.
+    bool isFilled = true;
 
     DrawnState& operator&=(const DrawnState& other) {
         hides = hides && other.hides;
         obeysDepth = obeysDepth && other.obeysDepth;
+        isFilled = isFilled && other.isFilled;
         return *this;
     }
 };
