@@ -250,7 +250,8 @@ int main(int argc, char** argv) {
     osgAnalyticBin::test::Suite suite;
     if (!suite.add() || !osgAnalyticBin::test::addFamilyBenchmarks() ||
         !osgAnalyticBin::test::addOcclusionBenchmark() || !osgAnalyticBin::test::addTrafficBenchmark()) {
-        std::fprintf(stderr, "osganalyticbin_benchmark: a method culls what it must keep, or keeps all; nothing is timed\n");
+        std::fprintf(stderr,
+                     "osganalyticbin_benchmark: a method culls what it must keep, or keeps all; nothing is timed\n");
         return EXIT_FAILURE;
     }
     benchmark::RunSpecifiedBenchmarks();

@@ -115,7 +115,7 @@ private:
     };
 
     void drawUntilIdle() {
-        constexpr int kIdleFrames = 5;
+        constexpr int kIdleFrames = 20;
         for (int idle = 0; idle < kIdleFrames;) {
             _viewer.frame();
             const osgDB::DatabasePager& pager = *_viewer.getDatabasePager();

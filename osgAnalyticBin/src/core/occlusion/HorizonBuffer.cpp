@@ -136,8 +136,10 @@ HorizonBuffer::Outline HorizonBuffer::outlineOf(const BinBall& ball) const noexc
     // written so that NaN and infinite numbers tell nothing
     if (!(radius >= 0.0 && length <= kernels::kLargest && radius <= kernels::kLargest)) return outline;
     outline.nearest = ball.centre.y - radius;
-    outline.isBeside = isBeside(ball);
-    if (outline.isBeside || !(outline.nearest > _picture.eyes[1])) return outline;
+    if (!(outline.nearest > _picture.eyes[1])) {
+        outline.isBeside = isBeside(ball);
+        return outline;
+    }
     const double inverse = 1.0 / (ball.centre.y - radius - _picture.eyes[1]);
     const auto around = [&](double across, double eyes) {
         const double at = across / ball.centre.y, size = std::abs(at);
@@ -147,6 +149,7 @@ HorizonBuffer::Outline HorizonBuffer::outlineOf(const BinBall& ball) const noexc
     };
     outline.across = around(ball.centre.x, _picture.eyes[0]);
     outline.heights = around(ball.centre.z, _picture.eyes[2]);
+    outline.isBeside = outline.across.upper < _picture.left || outline.across.lower > _picture.right;
     return outline;
 }
 

@@ -31,9 +31,10 @@ struct CullCallbacks {
                 bin = static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback());
             } else if (isExactly<TileFamily>(*at)) {
                 family = static_cast<const TileFamily*>(at->asNodeCallback());
-            } else if (!isExactly<osg::ClusterCullingCallback>(*at) && !isHarmless(*at) && !traversesAlways(*at)) {
+            } else if (isExactly<HiddenByTerrainCallback>(*at)) {
                 mayLeaveOut = true;
-                isUnknown = isUnknown || !isExactly<HiddenByTerrainCallback>(*at);
+            } else if (!isExactly<osg::ClusterCullingCallback>(*at) && !isHarmless(*at) && !traversesAlways(*at)) {
+                mayLeaveOut = isUnknown = true;
             }
         }
     }

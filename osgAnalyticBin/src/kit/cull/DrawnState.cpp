@@ -232,6 +232,7 @@ DrawnState ofDrawable(const osg::Drawable& drawable) {
 }
 
 DrawnState ofClass(const osg::Node& node) {
+    if (isExactly<osg::Group>(node) || isExactly<osg::Geode>(node)) return kHarmless;
     if (const osg::Drawable* const drawable = node.asDrawable()) return ofDrawable(*drawable);
     if (isOneOf<osgTerrain::TerrainTile>(node))
         return isBlended(static_cast<const osgTerrain::TerrainTile&>(node)) ? kHidesNothing : kHarmless;

@@ -225,7 +225,9 @@ Horizon horizonOver(ShownDatabase shown, Database& database, const CullOptions& 
     if (isHoleTakenForGranted(options.occlusion, last)) return {};
     shown.expectsHole = last.holes > 0;
     // what is hidden among other nodes may be worth a search, too
-    if (SearchMemory::of(visitor).hiding.takeWorth()) last.rest = last.resting = 0;
+    HidingView& hiding = SearchMemory::of(visitor).hiding;
+    if (hiding.isInUse(visitor)) last.resting = std::min(last.resting, kShortestRest);
+    if (hiding.takeWorth()) last.rest = last.resting = 0;
     const auto note = [&](Horizon found) {
         last.holes = found.isSelected ? 0 : last.holes + 1;
         if (viewpoint->eye()) found.nearReach = viewpoint->nearReach();
