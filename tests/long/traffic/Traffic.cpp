@@ -12,8 +12,10 @@
 
 #include <osgAnalyticBin/InstallBins.h>
 
+#include <osg/Geode>
 #include <osg/Material>
 #include <osg/MatrixTransform>
+#include <osg/ShapeDrawable>
 #include <osg/Timer>
 #include <osgDB/DatabasePager>
 #include <osgDB/ReadFile>
@@ -90,20 +92,22 @@ public:
         for (const unsigned int model : without.models) lost += with.models.count(model) == 0;
         const bool isSame =
             std::memcmp(without.image->data(), with.image->data(), without.image->getTotalSizeInBytes()) == 0;
-        std::printf("%-14s %6u %6zu %6u %8.1f %8.1f %6.2f", pose.name.c_str(), without.drawn, without.models.size(),
-                    with.drawn, without.milliseconds, with.milliseconds, with.milliseconds / without.milliseconds);
+        const std::size_t spheres = countSpheres();
+        std::printf("%-14s %6u %6zu %6zu %6u %8.1f %8.1f %6.2f", pose.name.c_str(), without.drawn,
+                    without.models.size(), spheres, with.drawn, without.milliseconds, with.milliseconds,
+                    with.milliseconds / without.milliseconds);
         if (lost > 0) std::printf("  %zu models lost", lost);
         if (!isSame) std::printf("  pictures differ");
         std::printf("\n");
         std::fflush(stdout);
-        _inView += without.drawn, _withPixel += without.models.size(), _drawn += with.drawn;
+        _inView += without.drawn, _withPixel += without.models.size(), _spheres += spheres, _drawn += with.drawn;
         _timeWithout += without.milliseconds, _timeWith += with.milliseconds;
         return lost == 0 && (isSame || _computesNear);
     }
 
     void printSum() const {
-        std::printf("%-14s %6zu %6zu %6zu %8.1f %8.1f %6.2f\n", "sum", _inView, _withPixel, _drawn, _timeWithout,
-                    _timeWith, _timeWith / _timeWithout);
+        std::printf("%-14s %6zu %6zu %6zu %6zu %8.1f %8.1f %6.2f\n", "sum", _inView, _withPixel, _spheres, _drawn,
+                    _timeWithout, _timeWith, _timeWith / _timeWithout);
     }
 
 private:
@@ -129,6 +133,47 @@ private:
         return _capture->take();
     }
 
+    void setPainted(bool isPainted) {
+        const auto set = [&](osg::Node& node, unsigned int colour) {
+            node.setStateSet(nullptr);
+            if (isPainted) paint(node, colour);
+        };
+        set(*_database, 0);
+        for (unsigned int i = 0; i < _traffic.models().getNumChildren(); ++i)
+            set(*_traffic.models().getChild(i), i + 1);
+    }
+
+    static std::set<unsigned int> modelsIn(const osg::Image* image) {
+        if (!image) throw std::runtime_error("a picture was never drawn");
+        std::set<unsigned int> models;
+        for (int row = 0; row < image->t(); ++row) {
+            for (int column = 0; column < image->s(); ++column) {
+                const unsigned char* const p =
+                    image->data(static_cast<unsigned int>(column), static_cast<unsigned int>(row));
+                const unsigned int model = p[0] << 16U | p[1] << 8U | p[2];
+                if (model > 0) models.insert(model);
+            }
+        }
+        return models;
+    }
+
+    // How many models would have a pixel if they filled their spheres.
+    std::size_t countSpheres() {
+        const osg::ref_ptr<osg::Geode> ball = new osg::Geode;
+        osg::Group& models = _traffic.models();
+        if (models.getNumChildren() == 0) return 0;
+        const osg::BoundingSphere bound = models.getChild(0)->asGroup()->getChild(0)->getBound();
+        ball->addDrawable(new osg::ShapeDrawable(new osg::Sphere(bound.center(), bound.radius())));
+        _traffic.setAsking(false);
+        for (unsigned int i = 0; i < models.getNumChildren(); ++i) models.getChild(i)->asGroup()->addChild(ball);
+        setPainted(true);
+        (void)drawOnce();
+        const osg::ref_ptr<osg::Image> image = drawOnce();
+        setPainted(false);
+        for (unsigned int i = 0; i < models.getNumChildren(); ++i) models.getChild(i)->asGroup()->removeChild(ball);
+        return modelsIn(image.get()).size();
+    }
+
     Picture look(bool asks) {
         _traffic.setAsking(asks);
         drawUntilIdle();
@@ -138,24 +183,12 @@ private:
         // reading a picture back waits for it
         for (int i = 0; i < kTimed; ++i) (void)drawOnce();
         picture.milliseconds = osg::Timer::instance()->delta_m(begin, osg::Timer::instance()->tick()) / kTimed;
-        paint(*_database, 0);
-        for (unsigned int i = 0; i < _traffic.models().getNumChildren(); ++i)
-            paint(*_traffic.models().getChild(i), i + 1);
+        setPainted(true);
         (void)_traffic.takeDrawn();
         picture.image = drawOnce();
         picture.drawn = _traffic.takeDrawn();
-        _database->setStateSet(nullptr);
-        for (unsigned int i = 0; i < _traffic.models().getNumChildren(); ++i)
-            _traffic.models().getChild(i)->setStateSet(nullptr);
-        if (!picture.image) throw std::runtime_error("a picture was never drawn");
-        for (int row = 0; row < picture.image->t(); ++row) {
-            for (int column = 0; column < picture.image->s(); ++column) {
-                const unsigned char* const p =
-                    picture.image->data(static_cast<unsigned int>(column), static_cast<unsigned int>(row));
-                const unsigned int model = p[0] << 16U | p[1] << 8U | p[2];
-                if (model > 0) picture.models.insert(model);
-            }
-        }
+        picture.models = modelsIn(picture.image.get());
+        setPainted(false);
         return picture;
     }
 
@@ -165,7 +198,7 @@ private:
     const bool _computesNear;
     osgViewer::Viewer _viewer;
     const osg::ref_ptr<flight::FrameCapture> _capture = new flight::FrameCapture;
-    std::size_t _inView = 0, _withPixel = 0, _drawn = 0;
+    std::size_t _inView = 0, _withPixel = 0, _spheres = 0, _drawn = 0;
     double _timeWithout = 0.0, _timeWith = 0.0;
 };
 

@@ -10,13 +10,17 @@
 
 #include <osgAnalyticBin/AnalyticBinCullCallback.h>
 #include <osgAnalyticBin/Declarations.h>
-#include <osgAnalyticBin/HiddenByTerrainCallback.h>
+#include <osgAnalyticBin/Export.h>
 
 #include <osg/Callback>
 #include <osg/ClusterCullingCallback>
 #include <osg/Node>
 
 namespace osgAnalyticBin {
+
+/// Whether a callback leaves its node out while terrain hides it, and does nothing else. Defined with
+/// HiddenByTerrainCallback, which is the only one.
+[[nodiscard]] OSGANALYTICBIN_EXPORT bool asksForTerrain(const osg::Callback& callback);
 
 /// The cull callbacks of a node: the bin's, and whether others may leave out what is below them.
 struct CullCallbacks {
@@ -31,7 +35,7 @@ struct CullCallbacks {
                 bin = static_cast<const AnalyticBinCullCallback*>(at->asNodeCallback());
             } else if (isExactly<TileFamily>(*at)) {
                 family = static_cast<const TileFamily*>(at->asNodeCallback());
-            } else if (isExactly<HiddenByTerrainCallback>(*at)) {
+            } else if (asksForTerrain(*at)) {
                 mayLeaveOut = true;
             } else if (!isExactly<osg::ClusterCullingCallback>(*at) && !isHarmless(*at) && !traversesAlways(*at)) {
                 mayLeaveOut = isUnknown = true;

@@ -96,6 +96,10 @@ bool isHidden(const osg::Node& node, osgUtil::CullVisitor& visitor) {
 
 }  // namespace
 
+bool asksForTerrain(const osg::Callback& callback) {
+    return isExactly<HiddenByTerrainCallback>(callback);
+}
+
 HiddenByTerrainCallback::HiddenByTerrainCallback(const HiddenByTerrainCallback& other, const osg::CopyOp& copyop)
     : osg::Object(other, copyop), osg::Callback(other, copyop), osg::NodeCallback(other, copyop) {}
 
