@@ -21,7 +21,7 @@
 #include <osgDB/ReadFile>
 #include <osgViewer/Viewer>
 
-#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -167,8 +167,13 @@ private:
         _traffic.setAsking(false);
         for (unsigned int i = 0; i < models.getNumChildren(); ++i) models.getChild(i)->asGroup()->addChild(ball);
         setPainted(true);
+        // the sphere about a ball's box is larger
+        osg::Camera& camera = *_viewer.getCamera();
+        const float smallest = camera.getSmallFeatureCullingPixelSize();
+        camera.setSmallFeatureCullingPixelSize(smallest * std::sqrt(3.0f));
         (void)drawOnce();
         const osg::ref_ptr<osg::Image> image = drawOnce();
+        camera.setSmallFeatureCullingPixelSize(smallest);
         setPainted(false);
         for (unsigned int i = 0; i < models.getNumChildren(); ++i) models.getChild(i)->asGroup()->removeChild(ball);
         return modelsIn(image.get()).size();

@@ -113,12 +113,14 @@ TEST(HorizonProfile, HidesWhatTheBufferHides) {
     EXPECT_GT(hidden, 30);
 }
 
-// Points of the ball are in its outline, and the outline is no wider than that of a cube.
+// Points of the ball are in its outline, for all eyes, and the outline is no wider than that of a cube.
 TEST(HorizonProfile, OutlinesOfBallsAreTightAndHoldThem) {
     Random random(1733);
-    const HorizonBuffer buffer(6.4e6, {-1.0, 1.0});
     for (int i = 0; i < 2000; ++i) {
-        const double ahead = random.logUniform(10.0, 1e5), radius = ahead * random.logUniform(1e-4, 0.9);
+        const double size = random.chance(0.5) ? 0.0 : 5.0;
+        const glm::dvec3 eyes(random.uniform(0.0, size), random.uniform(0.0, size), random.uniform(0.0, size));
+        const HorizonBuffer buffer(6.4e6, {-1.0, 1.0}, 0.0, 0.0, eyes);
+        const double ahead = random.logUniform(60.0, 1e5), radius = ahead * random.logUniform(1e-4, 0.9);
         const BinBall ball{{ahead * random.uniform(-1.2, 1.2), ahead, ahead * random.uniform(-1.2, 1.2)}, radius};
         const HorizonBuffer::Outline outline = buffer.outlineOf(ball);
         if (outline.isBeside) continue;
@@ -127,8 +129,9 @@ TEST(HorizonProfile, OutlinesOfBallsAreTightAndHoldThem) {
         cube.reach = radius;
         EXPECT_LE(outline.across.width(), 1.5 * buffer.outlineOf(cube).across.width());
         for (int k = 0; k < 20; ++k) {
-            const glm::dvec3 point = ball.centre + radius * random.direction();
-            EXPECT_GE(point.y, outline.nearest);
+            const glm::dvec3 eye(eyes.x * random.sign(), eyes.y * random.sign(), eyes.z * random.sign());
+            const glm::dvec3 onBall = ball.centre + radius * random.direction(), point = onBall - eye;
+            EXPECT_GE(onBall.y, outline.nearest);
             EXPECT_TRUE(outline.across.contains(point.x / point.y));
             EXPECT_TRUE(outline.heights.contains(point.z / point.y));
         }

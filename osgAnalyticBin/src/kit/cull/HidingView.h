@@ -45,7 +45,7 @@ public:
 
     /// Whether nodes have asked in one of the last views.
     [[nodiscard]] bool isInUse(const osg::NodeVisitor& visitor) const;
-    /// Whether terrain hid at least a quarter of what was asked for since this was called last.
+    /// Whether terrain hid many, or at least a quarter, of those that have asked since this was called last.
     [[nodiscard]] bool takeWorth();
 
     /// Whether a sphere is hidden. `localToEye`: from its frame to eye space.
