@@ -404,7 +404,7 @@ FAULTS = [
     Fault("models: depth buffers are exact", "src/kit/cull/HidingView.cpp",
           "return 1.0 - share > step", "return 1.0 - share > 0.0 * step", NODE, "HiddenByTerrain.*"),
     Fault("models: one search is not worth another", "src/kit/cull/HidingView.cpp",
-          "_hidden >= kMany || (_hidden > 0 && 4 * _hidden >= _asked)", "_hidden > _asked", NODE, "HiddenByTerrain.*"),
+          "_hidden >= kMany || (_hidden > 0 && 4 * _hidden >= _asked)", "_hidden > _asked + kMany", NODE, "HiddenByTerrain.*"),
     Fault("models: states above are not looked at", "src/kit/cull/HiddenByTerrainCallback.cpp",
           "above.obeysDepth && above.isFilled && ", "", NODE, "HiddenByTerrain.*"),
     Fault("models: states of the first node are those of all", "src/kit/cull/HidingView.cpp",
