@@ -126,7 +126,7 @@ bool HidingView::isBehindHorizon(const glm::dvec3& centre, double radius, double
     const double share = _known->eye->shareBefore(_known->ellipsoid, centre, radius);
     // 1 / z of what is drawn less that of the sphere
     const double step = _isStepRelative ? _depthStep : _depthStep * share * (distance + radius) / _scale;
-    return 1.0 - share > 0.0 * step && staysOverRegion();
+    return 1.0 - share > step && staysOverRegion();
 }
 
 // Whether all lines of sight do.
