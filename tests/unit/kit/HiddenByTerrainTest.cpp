@@ -65,6 +65,16 @@ TEST(HiddenByTerrain, LeavesOutWhatIsBehindARidge) {
     }
 }
 
+// The middle of a large one is behind the ridge.
+TEST(HiddenByTerrain, DrawsWhatReachesOverARidge) {
+    for (const bool isLarge : {false, true}) {
+        ModelsOnGlobe globe;
+        const auto model = globe.add(kBehindRidge);
+        if (isLarge) model->preMult(osg::Matrixd::scale(240.0, 240.0, 240.0));
+        EXPECT_EQ(globe.draws(*model, RidgeGlobe::alongRow()), isLarge);
+    }
+}
+
 TEST(HiddenByTerrain, AsksForAMovingModelWhereItIs) {
     ModelsOnGlobe globe;
     const auto model = globe.add(kBehindRidge);
