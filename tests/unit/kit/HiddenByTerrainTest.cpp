@@ -70,7 +70,7 @@ TEST(HiddenByTerrain, DrawsWhatReachesOverARidge) {
     for (const bool isLarge : {false, true}) {
         ModelsOnGlobe globe;
         const auto model = globe.add(kBehindRidge);
-        if (isLarge) model->preMult(osg::Matrixd::scale(240.0, 240.0, 240.0));
+        if (isLarge) model->preMult(osg::Matrixd::scale(600.0, 600.0, 600.0));
         EXPECT_EQ(globe.draws(*model, RidgeGlobe::alongRow()), isLarge);
     }
 }
