@@ -336,14 +336,15 @@ Description randomDescription(std::uint64_t seed) {
     Random ofApplication(kApplicationStream, seed);
     if (ofApplication.chance(0.5)) addApplication(ofApplication, description, frames);
     addPick(ofApplication, description, frames);
-    Random ofTraffic(kTrafficStream, seed);
-    addTraffic(ofTraffic, description, frames);
     for (int frame = 1; frame <= frames; ++frame) {
         // what terrain hides is kept from view to view
         const bool isFlight = frame > 1 && description.theme == Theme::Hills && random.chance(0.6);
         description.views.push_back(isFlight ? nextView(random, description.views.back())
                                              : randomView(random, description, frame));
     }
+    // views do not depend on it
+    Random ofTraffic(kTrafficStream, seed);
+    addTraffic(ofTraffic, description, frames);
     return description;
 }
 
