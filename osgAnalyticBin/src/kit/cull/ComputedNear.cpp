@@ -117,7 +117,7 @@ osg::NodePath pathBelowProjection(osgUtil::CullVisitor& visitor) {
     if (last != path.rend()) return {last.base() - 1, path.end()};
     // osgUtil::SceneView traverses the children of its camera
     osg::Camera* const camera = visitor.getRenderStage() ? visitor.getCurrentCamera() : nullptr;
-    if (!camera || path.empty() || !camera->containsNode(path.front()) || camera->getCullCallback()) return {};
+    if (!camera || path.empty() || !camera->containsNode(path.front()) || CullCallbacks(*camera).mayLeaveOut) return {};
     osg::NodePath whole{camera};
     whole.insert(whole.end(), path.begin(), path.end());
     return whole;
